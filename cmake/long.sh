@@ -43,6 +43,7 @@ build/bin/bench_safety >build/check/safety.md
 build/bin/bench_landing --jobs 2 >build/check/landing.md
 build/bin/bench_attitude >build/check/attitude.md
 build/bin/bench_autotune >build/check/autotune.md
+build/bin/bench_aero >build/check/aero.txt
 build/bin/bench_missions --seeds 50
 build/bin/bench_tracking >build/check/tracking.md
 build/bin/bench_laws >build/check/laws.txt

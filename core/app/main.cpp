@@ -188,7 +188,7 @@ struct Commands {
     const std::string word = words[0];
     std::fprintf(stderr, "fulmar: there is no command '%s'.%s\n", for_terminal(word).c_str(),
                  choices_text(word, valid).c_str());
-    if (word == "fcu" || word == "ros2" || word == "aero")
+    if (word == "fcu" || word == "ros2" || word == "aero" || word == "import")
       std::fprintf(stderr,
                    "The program fulmar-%s is not there: ./fly leaves it out, `cmake --build build --target "
                    "tools` makes it.\n",

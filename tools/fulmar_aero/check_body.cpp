@@ -78,7 +78,7 @@ void check_wing(Findings& f) {
                 "of the three is wrong or in another unit");
   if (const double AR = b * b / S; AR < 2 || AR > 40)
     f.warn("wing.span_m", b, "the aspect ratio b^2/S is " + figures(AR) + "; wings have 2 to 40");
-  if (a.wing.oswald_ratio > 1.1 || a.wing.oswald_ratio < 0.4)
+  if ((a.wing.oswald_ratio > 1.1 && has_induced_drag(a.wing)) || a.wing.oswald_ratio < 0.4)
     f.warn("wing.oswald_ratio", a.wing.oswald_ratio,
            "Oswald's factor is " + figures(a.wing.oswald_ratio) + "; wings have 0.6 to 1");
 }

@@ -98,12 +98,19 @@ std::string likely_mistake(const Rule& rule, const Airframe& a, double value) {
   return "";
 }
 
-/// Far from what any aircraft has: five times, or three where a degree explains it.
+bool of_control(const Rule& rule) {
+  return rule.of == &D::aileron_ratio || rule.of == &D::elevator_ratio || rule.of == &D::rudder_ratio;
+}
+
+/// Far from what any aircraft has: five times, or 1.5 times where a degree explains it. A stability
+/// derivative that is nothing but doubtful with the other sign may be as small as it likes: the dihedral
+/// effect of an Anaconda is -0.002.
 bool absurd(const Rule& rule, double value, bool explained) {
   const double most = std::max(std::abs(rule.low), std::abs(rule.high));
   const double least = rule.low * rule.high > 0 ? std::min(std::abs(rule.low), std::abs(rule.high)) : 0;
   const double times = explained ? 1.5 : 5;
-  return std::abs(value) > times * most || std::abs(value) < least / times;
+  const bool may_be_small = rule.wrong_sign == warning && !of_control(rule);
+  return std::abs(value) > times * most || (!may_be_small && std::abs(value) < least / times);
 }
 
 std::string no_rudder(const Airframe& a) {

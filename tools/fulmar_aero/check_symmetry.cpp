@@ -67,7 +67,7 @@ void check_drag(Findings& f) {
     f.warn("aero.drag.zero_ratio", aero.drag.zero_ratio,
            "parasite drag is counted twice, here and as parasite_drag " + figures(aero.parasite_drag_ratio) +
                ": C_D_0 and C_D_p are of two different polars; keep one");
-  if (aero.drag.alpha_ratio != 0)
+  if (aero.drag.alpha_ratio != 0 && has_induced_drag(a.wing))
     f.warn("aero.drag.alpha_ratio", aero.drag.alpha_ratio,
            "it adds to the induced drag CL^2/(pi e AR), which is always counted: C_D_alpha is of a linear "
            "polar; "

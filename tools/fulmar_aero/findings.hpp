@@ -64,6 +64,10 @@ class Findings {
   int looked_at_ = 0;
 };
 
+/// Oswald's factor is beyond all bounds where the drag over the angle of attack has the induced one in it:
+/// sets of JSBSim.
+inline bool has_induced_drag(const Wing& wing) { return wing.oswald_ratio < 1e5; }
+
 // Each looks at one side of the airframe.
 void check_body(Findings& findings);                       ///< mass, inertia, wing
 void check_derivatives(Findings& findings);                ///< signs and sizes

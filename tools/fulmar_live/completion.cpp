@@ -42,7 +42,8 @@ const std::map<std::string, Places> places{
     {"aero trim", {"mission", 0}},    {"aero linearize", {"mission", 0}},
     {"aero modes", {"mission", 0}},   {"aero check", {"mission", 0}},
     {"aero tune", {"mission", 0}},    {"aero vlm", {"mission", 0}},
-    {"aero fly", {"mission", 0}}};
+    {"aero fly", {"mission", 0}},     {"aero import", {"file", 1}},
+    {"import rosplane", {"file", 0}}};
 
 /// Of options that take a value: a kind as above.
 const std::map<std::string, std::string> option_kinds{
@@ -65,37 +66,41 @@ std::string rows_of(const char* name) {
   return text;
 }
 
-/// A program beside the host that a build may leave out, and whose words are completed when it is there.
+/// Programs beside the host that a build may leave out, and whose words are completed when they are there.
 struct OptionalProgram {
   const char *name, *word;
 };
-constexpr OptionalProgram aero{"fulmar-aero", "aero"};
+constexpr OptionalProgram optional_programs[]{{"fulmar-aero", "aero"}, {"fulmar-import", "import"}};
+
+void add_rows(const char* program, const std::string& word, const std::string& more_words,
+              std::string& text) {
+  const bool is_host = program == std::string_view("fulmar");
+  std::istringstream rows(rows_of(program));
+  std::string command, options, valued, subcommands;
+  while (std::getline(rows, command, '\t') && std::getline(rows, options, '\t') &&
+         std::getline(rows, valued, '\t') && std::getline(rows, subcommands)) {
+    if (!word.empty())  // it does not know the word that starts it
+      command = word + (command.empty() ? "" : " " + command);
+    else if (command.empty() && !is_host)
+      continue;  // only the host knows all commands
+    if (command.empty()) subcommands += more_words;
+    const auto place = places.find(command);
+    const bool placed = place != places.end();
+    text += "    '" + command + "') options='" + options + "' valued='" + valued + " ' subcommands='" +
+            subcommands + "' kinds='" + (placed ? place->second.kinds : "") +
+            "' repeat=" + std::to_string(placed ? place->second.repeat : 0) + " ;;\n";
+  }
+}
 
 /// The same in both shells: the lines of a `case` by command.
 std::string table() {
-  std::string text;
-  const bool with_aero = !own_program(aero.name).empty();
-  for (const char* program :
-       {"fulmar", "fulmar-inspect", "fulmar-log", "fulmar-new", "fulmar-live", aero.name}) {
-    const bool is_aero = program == std::string_view(aero.name),
-               is_host = program == std::string_view("fulmar");
-    if (is_aero && !with_aero) continue;
-    std::istringstream rows(rows_of(program));
-    std::string command, options, valued, subcommands;
-    while (std::getline(rows, command, '\t') && std::getline(rows, options, '\t') &&
-           std::getline(rows, valued, '\t') && std::getline(rows, subcommands)) {
-      if (is_aero)  // it does not know the word that starts it
-        command = aero.word + (command.empty() ? "" : " " + command);
-      else if (command.empty() && !is_host)
-        continue;  // only the host knows all commands
-      if (is_host && command.empty() && with_aero) subcommands += std::string(" ") + aero.word;
-      const auto place = places.find(command);
-      const bool placed = place != places.end();
-      text += "    '" + command + "') options='" + options + "' valued='" + valued + " ' subcommands='" +
-              subcommands + "' kinds='" + (placed ? place->second.kinds : "") +
-              "' repeat=" + std::to_string(placed ? place->second.repeat : 0) + " ;;\n";
-    }
-  }
+  std::string text, words;
+  for (const OptionalProgram& one : optional_programs)
+    if (!own_program(one.name).empty()) words += std::string(" ") + one.word;
+  for (const char* program : {"fulmar", "fulmar-inspect", "fulmar-log", "fulmar-new", "fulmar-live"})
+    add_rows(program, "", words, text);
+  for (const OptionalProgram& one : optional_programs)
+    if (!own_program(one.name).empty()) add_rows(one.name, one.word, "", text);
   return text;
 }
 

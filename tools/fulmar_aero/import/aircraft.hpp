@@ -67,8 +67,8 @@ struct ControlColumns {
 ControlColumns control_columns(const std::vector<Control>& controls);
 Role role_of(const Control& control);
 
-/// Moments and their slopes about a point `dx_m` further aft and `dz_m` further up, to first order (rates
-/// stay): Etkin & Reid, section 2.1.
+/// Moments about a point `dx_m` further aft and `dz_m` further up, and rates about it. A rate at the new
+/// point is that rate, another angle of attack, sideslip and speed at the old one.
 void move_reference(Analysis& analysis, double dx_m, double dz_m);
 
 }  // namespace fulmar::aero::imports

@@ -87,6 +87,7 @@ struct Input {
   double airspeed_mps = 0;
   std::vector<std::pair<std::string, double>> gains;  ///< of control groups, mean size of their surfaces'
   std::vector<std::string> notes;                     ///< for people
+  std::vector<std::string> doubts;                    ///< what may make another aircraft
   std::string unused;                                 ///< why nothing is taken from it, "" when something is
 };
 

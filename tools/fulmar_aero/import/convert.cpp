@@ -168,14 +168,13 @@ void move_to_gravity(Analysis& a, const Body& body, const Input& input, Aircraft
   if (std::hypot(dx, dz) < 1e-4 * a.chord_m.x) return;
   move_reference(a, dx, dz);
   const std::string shift = short_name(input) +
-                            ": moments moved from its reference to the centre of gravity, " + figures(dx) +
-                            " m aft and " + figures(dz) + " m up";
-  if (std::hypot(dx, dz) > 0.1 * a.chord_m.x)
+                            ": moments and rates moved from its reference to the centre of gravity, " +
+                            figures(dx) + " m aft and " + figures(dz) + " m up";
+  if (std::hypot(dx, dz) > 0.5 * a.chord_m.x)
     out.warnings.push_back(shift + ", " + figures(std::hypot(dx, dz) / a.chord_m.x) +
-                           " of the chord: derivatives by rates stay as they are; run the tool again about "
-                           "the centre of gravity");
+                           " of the chord: is that the unit of length of the files, and their origin?");
   else
-    out.notes.push_back(shift + "; derivatives by rates stay as they are");
+    out.notes.push_back(shift);
 }
 
 /// CD_p + CL^2/(pi e AR) = CD
@@ -186,6 +185,10 @@ double parasite_of(double CD, double CL, const Aircraft& a) {
 
 /// What a potential flow has of parasite drag is what is left of the rounding.
 constexpr double no_friction = 0.002, assumed_friction = 0.03;
+/// A smooth plate's two sides at a million of Reynolds number: no aircraft has less.
+constexpr double least_friction = 0.008;
+
+constexpr double polar_reach = 3 * degree;
 
 const PolarPoint* nearest_point(const std::vector<PolarPoint>& polar, double alpha) {
   const PolarPoint* best = nullptr;
@@ -206,6 +209,9 @@ void set_drag(const Analysis& a, const std::vector<Input>& inputs, const ImportO
     std::string from;
     if (const PolarPoint* const point = nearest_point(input.polar, a.alpha_rad.x)) {
       CD = point->CD.x, CL = point->CL, from = point->CD.from;
+      if (const double far = std::abs(point->alpha_rad - a.alpha_rad.x); CL != 0 && far > polar_reach)
+        out.warnings.push_back(short_name(input) + ": its nearest point is " + degrees(far, 1) +
+                               " from the angle that was analysed: is it of another sweep, or cut off?");
     } else if (wins && !input.analyses.empty()) {
       const Analysis& other = input.analyses[0];
       CD = other.base[drag].x, CL = other.base[lift].x, from = other.base[drag].from;
@@ -218,6 +224,11 @@ void set_drag(const Analysis& a, const std::vector<Input>& inputs, const ImportO
     }
   }
   if (options.parasite_drag > 0) out.parasite = {options.parasite_drag, "--parasite-drag"};
+  if (out.parasite.x >= no_friction && out.parasite.x < least_friction)
+    out.warnings.push_back(
+        "CD_p is " + figures(out.parasite.x) + " (" + out.parasite.from +
+        "), less than the friction of a smooth plate: the analysis has too little induced drag "
+        "for this span (a coarse mesh?); say yours with --parasite-drag, or give a polar");
   if (out.parasite.x >= no_friction) return;
   out.warnings.push_back(
       "the analysis is without friction: CD - CL^2/(pi e AR) is " + figures(out.parasite.x) +
@@ -313,6 +324,7 @@ std::vector<Chosen> all_chosen(const std::vector<Input>& inputs, const ImportOpt
   std::vector<Chosen> all;
   for (const Input& input : inputs) {
     for (const std::string& note : input.notes) out.notes.push_back(short_name(input) + ": " + note);
+    for (const std::string& one : input.doubts) out.warnings.push_back(short_name(input) + ": " + one);
     if (!input.unused.empty()) out.notes.push_back(short_name(input) + ": not used, " + input.unused);
     if (!input.analyses.empty()) all.push_back({&input, chosen_of(input, options, mass, out.notes)});
   }
@@ -341,39 +353,6 @@ void divide_by_gains(std::vector<Control>& controls, const std::vector<Input>& i
 }
 
 }  // namespace
-
-void move_reference(Analysis& a, double dx, double dz) {
-  const double rad = a.alpha_rad.x, cs = std::cos(rad), sn = std::sin(rad);
-  const double c = a.chord_m.x, b = a.span_m.x, AR = b * b / a.area_m2.x;
-  // what has no moment in the tool must not get one here
-  const double CL = a.base[lift].x, CD = a.base[drag].x - a.drag_without_moment;
-  const double CL_a = a.slope[alpha][lift].x;
-  const Value& given = a.slope[alpha][drag];
-  const double CD_a = given.known ? given.x : 2 * CL * CL_a / (std::numbers::pi * usual_oswald * AR);
-  const std::string moved = ", moved to the centre of gravity";
-  const auto add_to = [&](Value& value, double x) {
-    if (!value.known) return;
-    value.x += x;
-    value.from += moved;
-  };
-  const double N = CL * cs + CD * sn, A = -CL * sn + CD * cs;  // normal to the body axis, and along it
-  const double N_a = CL_a * cs - CL * sn + CD_a * sn + CD * cs,
-               A_a = -CL_a * sn - CL * cs + CD_a * cs - CD * sn;
-  add_to(a.base[pitch], (N * dx - A * dz) / c);
-  add_to(a.slope[alpha][pitch], (N_a * dx - A_a * dz) / c);
-  const double CY_b = a.slope[beta][side].x + a.drag_without_moment;
-  add_to(a.slope[beta][yaw], CY_b * dx / b);
-  add_to(a.slope[beta][roll], -CY_b * dz / b);
-  for (Control& control : a.controls) {
-    const double Nd = control.of[lift].x * cs + control.of[drag].x * sn,
-                 Ad = -control.of[lift].x * sn + control.of[drag].x * cs;
-    add_to(control.of[pitch], (Nd * dx - Ad * dz) / c);
-    add_to(control.of[yaw], control.of[side].x * dx / b);
-    add_to(control.of[roll], -control.of[side].x * dz / b);
-  }
-  a.reference_m[0] += dx;
-  a.reference_m[2] += dz;
-}
 
 Aircraft aircraft_of(const std::vector<Input>& inputs, const ImportOptions& options) {
   Aircraft out;

@@ -83,8 +83,14 @@ std::string report_text(const Imported& imported, const ModeComparison& modes) {
   for (const std::string& source : a.sources) text += "read     " + source + "\n";
   for (const std::string& note : a.notes) text += "note     " + note + "\n";
   for (const std::string& one : imported.assumptions) text += "assumed  " + one + "\n";
-  for (const std::string& warning : a.warnings) text += "DOUBTFUL " + warning + "\n";
   return text + modes_text(modes, a.modes);
+}
+
+/// Last, where they are seen: what may make it another aircraft.
+std::string doubts_text(const Imported& imported) {
+  std::string text;
+  for (const std::string& warning : imported.aircraft.warnings) text += "DOUBTFUL " + warning + "\n";
+  return text;
 }
 
 nlohmann::json import_json(const Imported& imported, const ModeComparison& modes,
@@ -129,7 +135,8 @@ int run_import(const ImportWords& words) {
   if (words.json) {
     print_object(import_json(imported, modes, findings_json(findings, 0)));
   } else {
-    const std::string report = report_text(imported, modes) + findings_text(findings, 0);
+    const std::string report =
+        report_text(imported, modes) + findings_text(findings, 0) + doubts_text(imported);
     if (words.out.empty()) {
       print_text(imported.text);
       std::fputs(report.c_str(), stderr);
@@ -149,7 +156,7 @@ int run_rosplane(const std::string& folder, const std::string& out) {
   std::string text = report_text(set.airframe, {});
   for (const std::string& note : set.notes) text += "note     " + note + "\n";
   for (const std::string& doubt : set.doubts) text += "DOUBTFUL " + doubt + "\n";
-  text += findings_text(findings, 0);
+  text += findings_text(findings, 0) + doubts_text(set.airframe);
   for (const OutFile& file : set.files) {
     const std::string path = (std::filesystem::path(out) / file.name).string();
     write_file(path, file.text);

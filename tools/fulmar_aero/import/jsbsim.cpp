@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// JSBSim's XML, as far as it is a linear set: functions that are one product of a number, the dynamic
-// pressure, S, b or c, and at most one state. Axes LIFT, DRAG, SIDE of the airflow, ROLL, PITCH, YAW of the
-// body; US units. Source: JSBSim reference manual, section 3.1 (aerodynamics). All else is refused by its
-// name.
+// JSBSim's XML, as far as Fulmar's model has it: functions that are one product of numbers, the dynamic
+// pressure, S, b or c, and at most one state or one table over states. Axes LIFT, DRAG, SIDE of the airflow,
+// ROLL, PITCH, YAW of the body; US units. Source: JSBSim reference manual, section 3.1 (aerodynamics). All
+// else is refused by its name.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tools/fulmar_aero/import/rosflight.hpp"
 #include "tools/fulmar_aero/words.hpp"
@@ -140,12 +141,125 @@ constexpr std::array<State, 12> states{{{"aero/alpha-rad", t_alpha},
                                         {"fcs/aileron-pos-rad", t_aileron},
                                         {"fcs/rudder-pos-rad", t_rudder}}};
 
+/// What a table may be over: Fulmar's name, and radians of one unit.
+struct Axis {
+  const char *property, *name;
+  double unit;
+};
+constexpr double table_degree_rad = std::numbers::pi / 180;
+constexpr std::array<Axis, 12> axes_of_tables{{{"aero/alpha-rad", "alpha", 1},
+                                               {"aero/alpha-deg", "alpha", table_degree_rad},
+                                               {"aero/beta-rad", "beta", 1},
+                                               {"aero/beta-deg", "beta", table_degree_rad},
+                                               {"velocities/mach", "mach", 1},
+                                               {"fcs/elevator-pos-rad", "elevator", 1},
+                                               {"fcs/elevator-pos-deg", "elevator", table_degree_rad},
+                                               {"fcs/left-aileron-pos-rad", "aileron", 1},
+                                               {"fcs/left-aileron-pos-deg", "aileron", table_degree_rad},
+                                               {"fcs/aileron-pos-rad", "aileron", 1},
+                                               {"fcs/rudder-pos-rad", "rudder", 1},
+                                               {"fcs/rudder-pos-deg", "rudder", table_degree_rad}}};
+constexpr std::size_t most_tables = 8, most_rows = 32, most_columns = 16, most_cells = 256;
+
+/// Over one state, or over two: values by rows.
+struct LookUp {
+  const Axis *over = nullptr, *and_over = nullptr;
+  std::vector<double> at, and_at, values;
+};
+
+const Axis& axis_of(const Lines& lines, const Element& variable, const std::string& who) {
+  const std::string property = trimmed(variable.text);
+  std::string valid;
+  for (const Axis& axis : axes_of_tables) {
+    if (property == axis.property) return axis;
+    valid += std::string(valid.empty() ? "" : ", ") + axis.property;
+  }
+  refuse(lines.where(variable.line), who + ": a table over '" + property + "' is not read; valid: " + valid);
+}
+
+void refuse_points(const Lines& lines, const Element& table, const std::string& who,
+                   const std::vector<double>& at) {
+  for (std::size_t i = 1; i < at.size(); ++i)
+    if (!(at[i] > at[i - 1]))
+      refuse(lines.where(table.line), who + ": the points of a table must rise; " + figures(at[i - 1]) +
+                                          " is followed by " + figures(at[i]));
+}
+
+LookUp table_of(const Lines& lines, const Element& table, const std::string& who) {
+  LookUp out;
+  for (const Element& part : table.children) {
+    if (part.name == "tableData") continue;
+    if (part.name != "independentVar")
+      refuse(lines.where(part.line), who + ": <" + part.name + "> in a table is not read");
+    const std::string lookup = part.attribute("lookup");
+    if (lookup == "table") refuse(lines.where(part.line), who + ": a table over three states is not read");
+    (lookup == "column" ? out.and_over : out.over) = &axis_of(lines, part, who);
+  }
+  if (!out.over) refuse(lines.where(table.line), who + ": expected <independentVar> in the table");
+  const Element& data = needed_child(lines, table, "tableData");
+  const Lines rows = lines_of(lines.file, data.text);
+  for (std::size_t i = 0; i < rows.all.size(); ++i) {
+    if (trimmed(rows.all[i]).empty()) continue;
+    const Lines row = lines_of(lines.where(data.line + i).text(), rows.all[i]);
+    std::vector<double> numbers = numbers_at(row, 0, 0);
+    const bool heading = out.and_over && out.and_at.empty();
+    const std::size_t wanted = heading ? 0 : 1 + std::max<std::size_t>(1, out.and_at.size());
+    if (numbers.empty() || numbers.size() != words_of(rows.all[i]).size() ||
+        (wanted > 0 && numbers.size() != wanted))
+      refuse(lines.where(data.line + i),
+             who + ": expected " + (wanted > 0 ? std::to_string(wanted) + " numbers" : "points") +
+                 " in this row of the table; found '" + trimmed(rows.all[i]) + "'");
+    if (heading) {
+      for (const double x : numbers) out.and_at.push_back(x * out.and_over->unit);
+      continue;
+    }
+    out.at.push_back(numbers[0] * out.over->unit);
+    out.values.insert(out.values.end(), numbers.begin() + 1, numbers.end());
+  }
+  if (out.at.empty()) refuse(lines.where(data.line), who + ": the table is empty");
+  if (out.at.size() > most_rows || out.and_at.size() > most_columns || out.values.size() > most_cells)
+    refuse(lines.where(data.line), who + ": the table has " + std::to_string(out.at.size()) + " by " +
+                                       std::to_string(std::max<std::size_t>(1, out.and_at.size())) +
+                                       " points; at most 32 by 16 and 256 values are read");
+  refuse_points(lines, table, who, out.at);
+  refuse_points(lines, table, who, out.and_at);
+  return out;
+}
+
 /// The factors of one product.
 struct Product {
   double number = 1;
-  int states_in = 0, pressure = 0, area = 0, chord = 0, span = 0, by_chord = 0, by_span = 0;
+  int states_in = 0, pressure = 0, area = 0, chord = 0, span = 0, by_chord = 0, by_span = 0, lift_squared = 0;
   Term term = t_zero;
+  std::vector<LookUp> tables;
 };
+
+void take_property(std::string property, Product& out, std::string& unknown) {
+  if (begins(property, "-")) out.number = -out.number, property = property.substr(1);
+  for (const State& one : states)
+    if (property == one.property) {
+      ++out.states_in, out.term = one.term;
+      return;
+    }
+  if (property == "aero/qbar-psf")
+    ++out.pressure;
+  else if (property == "metrics/Sw-sqft")
+    ++out.area;
+  else if (property == "aero/qbar-area")
+    ++out.pressure, ++out.area;
+  else if (property == "metrics/bw-ft")
+    ++out.span;
+  else if (property == "metrics/cbarw-ft")
+    ++out.chord;
+  else if (property == "aero/bi2vel")
+    ++out.by_span;
+  else if (property == "aero/ci2vel")
+    ++out.by_chord;
+  else if (property == "aero/cl-squared")
+    ++out.lift_squared;
+  else
+    unknown = "the property '" + property + "'";
+}
 
 Product product_of(const Lines& lines, const Element& function) {
   const std::string who = "function '" + function.attribute("name") + "'";
@@ -153,7 +267,7 @@ Product product_of(const Lines& lines, const Element& function) {
     refuse(lines.where(line),
            who + ": " + what +
                " is not read; expected one <product> of a <value>, aero/qbar-psf, metrics/Sw-sqft, "
-               "metrics/bw-ft or cbarw-ft, aero/bi2vel or ci2vel, and a state");
+               "metrics/bw-ft or cbarw-ft, aero/bi2vel or ci2vel, and a state or a <table>");
   };
   Product out;
   for (const Element& part : function.children)
@@ -165,60 +279,97 @@ Product product_of(const Lines& lines, const Element& function) {
       out.number *= number_in(lines, factor);
       continue;
     }
+    if (factor.name == "table") {
+      out.tables.push_back(table_of(lines, factor, who));
+      continue;
+    }
     if (factor.name != "property" && factor.name != "p") no(factor.line, "<" + factor.name + ">");
-    const std::string property = trimmed(factor.text);
-    const State* state = nullptr;
-    for (const State& one : states)
-      if (property == one.property) state = &one;
-    if (state)
-      ++out.states_in, out.term = state->term;
-    else if (property == "aero/qbar-psf")
-      ++out.pressure;
-    else if (property == "metrics/Sw-sqft")
-      ++out.area;
-    else if (property == "metrics/bw-ft")
-      ++out.span;
-    else if (property == "metrics/cbarw-ft")
-      ++out.chord;
-    else if (property == "aero/bi2vel")
-      ++out.by_span;
-    else if (property == "aero/ci2vel")
-      ++out.by_chord;
-    else
-      no(factor.line, "the property '" + property + "'");
+    std::string unknown;
+    take_property(trimmed(factor.text), out, unknown);
+    if (!unknown.empty()) no(factor.line, unknown);
   }
   return out;
 }
 
-void take_function(const Lines& lines, const Element& function, Force force, Aircraft& a) {
+std::string list_text(const std::vector<double>& numbers, double factor = 1) {
+  std::string text;
+  for (const double x : numbers) text += (text.empty() ? "" : ", ") + figures(x * factor, 7);
+  return "[" + text + "]";
+}
+
+std::string table_line(const LookUp& table, const char* coefficient, double factor, const std::string& from) {
+  std::string text = std::string("    - {coefficient: ") + coefficient + ", over: " + table.over->name +
+                     ", at: " + list_text(table.at);
+  if (table.and_over)
+    text += std::string(", and_over: ") + table.and_over->name + ", and_at: " + list_text(table.and_at);
+  return text + ", values: " + list_text(table.values, factor) + "}  # " + from + "\n";
+}
+
+/// What of the drag has the induced one in it already.
+struct Drag {
+  bool over_alpha = false, squared = false;
+};
+
+void take_function(const Lines& lines, const Element& function, Force force, Aircraft& a,
+                   std::vector<std::string>& tables, Drag& of_drag) {
   const Product product = product_of(lines, function);
   const bool moment = force == roll || force == pitch || force == yaw;
   const bool by_rate = product.term == t_p || product.term == t_q || product.term == t_r;
   const int lengths = product.chord + product.span;
   const std::string who = "function '" + function.attribute("name") + "'";
-  if (product.pressure != 1 || product.area != 1 || lengths != (moment ? 1 : 0) || product.states_in > 1 ||
+  if (product.pressure != 1 || product.area != 1 || lengths != (moment ? 1 : 0) ||
       product.by_span + product.by_chord != (by_rate ? 1 : 0))
     refuse(lines.where(function.line), who +
                                            ": expected the dynamic pressure and S once, b or c once in "
-                                           "moments alone, one state at most, and "
-                                           "bi2vel or ci2vel with rates alone");
+                                           "moments alone, and bi2vel or ci2vel with rates alone");
+  if (product.states_in + int(product.tables.size()) + product.lift_squared > 1)
+    refuse(lines.where(function.line),
+           who + ": expected one state or one table at most; a product of two is not read");
   const double own = force == pitch ? a.chord_m.x : a.span_m.x,
                given = product.chord ? a.chord_m.x : a.span_m.x;
   double value = product.number * (moment ? given / own : 1);
   if (by_rate)
     value *= (product.by_chord ? a.chord_m.x : a.span_m.x) / (product.term == t_q ? a.chord_m.x : a.span_m.x);
   const std::string from = lines.place(function.line, function.attribute("name"));
+  if (!product.tables.empty()) {
+    constexpr std::array<const char*, forces> names{"lift", "drag", "side", "roll", "pitch", "yaw"};
+    const LookUp& table = product.tables[0];
+    if (tables.size() == most_tables)
+      refuse(lines.where(function.line), who + ": it is the ninth table, and an airframe has at most 8");
+    tables.push_back(table_line(table, names[force], value, from));
+    for (const Axis* const axis : {table.over, table.and_over})
+      if (axis && force == drag && std::string(axis->name) == "alpha") of_drag.over_alpha = true;
+    return;
+  }
+  if (product.lift_squared == 1) {
+    const double AR = a.span_m.x * a.span_m.x / a.area_m2.x;
+    if (force != drag || !(value > 0) || of_drag.squared)
+      refuse(lines.where(function.line),
+             who + ": aero/cl-squared is read once, in drag, with a positive factor");
+    of_drag.squared = true;
+    a.oswald = {1 / (std::numbers::pi * value * AR), from + ", 1/(pi AR factor)"};
+    return;
+  }
   if (force == drag && product.term == t_zero) {
     a.parasite = {a.parasite.x + value, from};
     return;
   }
-  if (force == drag && product.term == t_alpha && value != 0)
-    refuse(
-        lines.where(function.line),
-        who +
-            ": drag that grows with alpha is of a linear polar; Fulmar counts CL^2/(pi e AR) in place of it");
+  if (force == drag && product.term == t_alpha && value != 0) of_drag.over_alpha = true;
   Value& to = a.c[force][product.term];
   to = {to.x + value, to.known ? to.from + " and " + function.attribute("name") : from};
+}
+
+/// An induced drag that cannot be told from 0.
+constexpr double no_induced_drag = 1e6;
+
+void finish_drag(const std::vector<std::string>& tables, const Drag& of_drag, Aircraft& a) {
+  if (!tables.empty()) {
+    a.more_aero += "  tables:  # a flight that leaves them ends\n";
+    for (const std::string& table : tables) a.more_aero += table;
+  }
+  a.converted_parasite = a.parasite.x;
+  if (!of_drag.over_alpha || of_drag.squared) return;
+  a.oswald = {no_induced_drag, "none: the file's drag over alpha has the induced one in it"};
 }
 
 }  // namespace
@@ -253,6 +404,8 @@ Aircraft jsbsim_aircraft(const Lines& lines) {
   a.parasite = {0, "not in the file"};
   const std::map<std::string, Force> axes{{"LIFT", lift}, {"DRAG", drag},   {"SIDE", side},
                                           {"ROLL", roll}, {"PITCH", pitch}, {"YAW", yaw}};
+  std::vector<std::string> tables;
+  Drag of_drag;
   for (const Element& part : needed_child(lines, root, "aerodynamics").children) {
     if (part.name != "axis")
       refuse(lines.where(part.line),
@@ -265,10 +418,10 @@ Aircraft jsbsim_aircraft(const Lines& lines) {
       if (function.name != "function")
         refuse(lines.where(function.line),
                "<axis>: <" + function.name + "> is not read; expected <function>");
-      take_function(lines, function, force->second, a);
+      take_function(lines, function, force->second, a, tables, of_drag);
     }
   }
-  a.converted_parasite = a.parasite.x;
+  finish_drag(tables, of_drag, a);
   return a;
 }
 

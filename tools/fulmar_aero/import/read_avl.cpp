@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// AVL's stability (.st) and body (.sb) derivatives. Axes and signs: AVL 3.32 doc and source (aoutput.f), with
-// one exception of its own: the control columns Cld, Cnd of the .st are in body axes although their row says
-// x', z'; versions that number controls with two digits ("d01") turn them.
+// AVL's derivatives: stability (ST, .st), body (SB, .sb) and mixed axes (SM). Axes and signs: AVL 3.32 doc
+// and source (aoutput.f), with one exception of its own: the control columns Cld, Cnd of the .st are in body
+// axes although their row says x', z'; versions that number controls with two digits ("d01") turn them.
 #include <cmath>
 #include <numbers>
 
@@ -78,8 +78,9 @@ void read_avl_header(const Lines& lines, const Pairs& pairs, double length, doub
   if (pairs.has("CDvis")) a.drag_without_moment = pairs.value("CDvis").x;
 }
 
+/// ST, and SM (`body_rates`), whose moments and rates are about the body's axes.
 void read_avl_st(const Lines& lines, const Pairs& pairs, double sign, const std::vector<AvlControl>& controls,
-                 Analysis& a) {
+                 bool body_rates, Analysis& a) {
   const double rad = a.alpha_rad.x;
   const auto column = [&](Column& to, const char* by, double of_column, bool longitudinal) {
     const std::string b = by;
@@ -95,11 +96,12 @@ void read_avl_st(const Lines& lines, const Pairs& pairs, double sign, const std:
   column(a.slope[p], "p", sign, false);
   column(a.slope[q], "q", 1, true);
   column(a.slope[r], "r", sign, false);
-  turn_moments(a.slope[beta], rad);
-  turn_moments(a.slope[alpha], rad);
-  turn_moments(a.slope[q], rad);
-  turn_rates(a.slope, rad);
-  const bool turned = lines.has("force CD") && !controls.empty() && controls[0].index.size() >= 3;
+  if (!body_rates) {
+    for (const By by : {alpha, beta, q}) turn_moments(a.slope[by], rad);
+    turn_rates(a.slope, rad);
+  }
+  const bool turned =
+      !body_rates && lines.has("force CD") && !controls.empty() && controls[0].index.size() >= 3;
   for (const AvlControl& one : controls) {
     Control control;
     control.name = one.name;
@@ -175,10 +177,13 @@ void read_avl_sb(const Lines& lines, const Pairs& pairs, double sign, const std:
 Input read_avl_derivatives(const Lines& lines, const ReadOptions& options) {
   Input input;
   const bool stability = lines.has("Stability-axis derivatives"),
-             body = lines.has("Geometry-axis derivatives");
+             body = lines.has("Geometry-axis derivatives"),
+             mixed = lines.has(" Derivatives...") || lines.has("\nDerivatives...");
   input.file = lines.file;
-  input.what = stability ? "AVL stability derivatives" : "AVL body derivatives";
-  if (!stability && !body) {
+  input.what = stability ? "AVL stability derivatives"
+               : body    ? "AVL body derivatives"
+                         : "AVL derivatives (SM)";
+  if (!stability && !body && !mixed) {
     input.what = "AVL forces";
     if (const auto line = lines.find("Neutral point"); line || lines.has("derivatives"))
       refuse(
@@ -192,8 +197,9 @@ Input read_avl_derivatives(const Lines& lines, const ReadOptions& options) {
   const double length = options.length_m > 0 ? options.length_m : 1;
   const Pairs pairs(lines, 0, lines.all.size());
   const double sign = avl_sign(lines);
-  const std::size_t first =
-      *lines.find(stability ? "Stability-axis derivatives" : "Geometry-axis derivatives");
+  const std::size_t first = *lines.find(stability ? "Stability-axis derivatives"
+                                        : body    ? "Geometry-axis derivatives"
+                                                  : "Derivatives...");
   const std::vector<AvlControl> controls = avl_controls(lines, first);
   if (controls.empty() && deflected(lines))
     refuse({lines.file, int(lines.all.size())},
@@ -201,11 +207,16 @@ Input read_avl_derivatives(const Lines& lines, const ReadOptions& options) {
            "the file cut off?");
   Analysis a;
   read_avl_header(lines, pairs, length, sign, a);
-  if (stability)
-    read_avl_st(lines, pairs, sign, controls, a);
-  else
+  if (body)
     read_avl_sb(lines, pairs, sign, controls, a);
+  else
+    read_avl_st(lines, pairs, sign, controls, mixed, a);
   if (controls.empty()) input.notes.push_back("it has no control surfaces");
+  if (stability && !controls.empty() && controls[0].index.size() >= 3 && !lines.has("force CD"))
+    input.doubts.push_back(
+        "of this version of AVL it is not known about which axes Cld and Cnd are; taken are the body's. Give "
+        "its "
+        "SB, too, with --controls-from");
   if (lines.has("Symmetry:"))
     input.notes.push_back(
         "half of the aircraft was analysed with a plane of symmetry: forces to the side are AVL's");

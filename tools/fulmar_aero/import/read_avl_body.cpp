@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // AVL's mass table (.mass), run cases (.run) and eigenvalues (.eig).
 #include <cmath>
+#include <complex>
 
 #include "tools/fulmar_aero/import/readers.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
+
+constexpr std::size_t avl_modes = 8;
 
 struct MassUnits {
   double length = 1, mass = 1;
@@ -205,6 +208,12 @@ Input read_avl_modes(const Lines& lines) {
     run = values[0];
     if (values[2] >= 0) input.modes.unsorted.push_back({values[1], values[2]});
   }
+  std::size_t all = 0;
+  for (const std::complex<double>& one : input.modes.unsorted) all += one.imag() > 0 ? 2 : 1;
+  if (all != avl_modes && all > 0)
+    input.doubts.push_back("it has " + std::to_string(all) +
+                           " eigenvalues of the first case, and AVL writes 8: "
+                           "is it cut off?");
   input.modes.from = lines.place(0);
   input.modes.apparent_mass = true;
   if (input.modes.unsorted.empty()) input.unused = "it has no eigenvalues";

@@ -168,6 +168,9 @@ Input read_xflr5_polar(const Lines& lines) {
 
 Input read_xflr5_xml(const Lines& lines) {
   const bool polar = lines.has("<Plane_Polar");
+  if (const char* const end = polar ? "</Plane_Polar>" : "</explane>"; !lines.has(end))
+    refuse({lines.file, int(lines.all.size())},
+           std::string("expected '") + end + "' up to here and did not find it; is the file cut off?");
   Input input = started(lines, polar ? "XFLR5 settings of a polar" : "XFLR5 plane");
   const double length = element_value(lines, "length_unit_to_meter").value_or(1);
   const double mass = element_value(lines, "mass_unit_to_kg").value_or(1);
@@ -286,6 +289,12 @@ Input read_vspaero_setup(const Lines& lines) {
       refuse({lines.file, int(lines.all.size())},
              "expected " + figures(count) + " groups of controls, four lines each; is the file cut off?");
     const std::vector<double> gains = numbers_among(lines, at + 2);
+    const std::string& surfaces = lines.all[at + 1];
+    const std::size_t count_of = 1 + std::size_t(std::count(surfaces.begin(), surfaces.end(), ','));
+    if (gains.size() != count_of)
+      refuse(lines.where(at + 2), "expected " + std::to_string(count_of) +
+                                      " gains, one for each surface of '" + trimmed(surfaces) + "'; found " +
+                                      std::to_string(gains.size()));
     double sum = 0;
     for (const double gain : gains) sum += std::abs(gain);
     if (!gains.empty()) input.gains.push_back({trimmed(lines.all[at]), sum / double(gains.size())});
@@ -342,7 +351,11 @@ Input read_vsp_drag(const Lines& lines) {
       }
     const bool totals = std::any_of(cells.begin(), cells.end(),
                                     [](const std::string& cell) { return begins(lower(cell), "total"); });
-    if (heading.empty() || !totals || column >= cells.size()) continue;
+    if (heading.empty() || !totals) continue;
+    if (cells.size() != heading.size())
+      refuse(lines.where(i), "expected " + std::to_string(heading.size()) +
+                                 " cells, as many as the heading has; found " + std::to_string(cells.size()) +
+                                 "; decimal commas, or is the file cut off?");
     const Lines cell = lines_of(lines.file, cells[column].empty() ? "-" : cells[column]);
     const double CD = number_at(cell, 0, 0, "Totals, Cd");
     input.polar.push_back({0, 0, {CD, lines.place(i, "Totals, Cd")}});

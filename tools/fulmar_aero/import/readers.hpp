@@ -13,9 +13,11 @@ struct ReadOptions {
 
 // Each throws core::Error with file and line.
 Input read_avl_derivatives(const Lines& lines, const ReadOptions& options);  ///< .st and .sb
-Input read_avl_masses(const Lines& lines);                                   ///< .mass
-Input read_avl_run(const Lines& lines);                                      ///< .run
-Input read_avl_modes(const Lines& lines);                                    ///< .eig
+bool is_avl_mrf(const Lines& lines);
+Lines avl_plain_of_mrf(const Lines& lines);  ///< the same derivatives in the form for people
+Input read_avl_masses(const Lines& lines);   ///< .mass
+Input read_avl_run(const Lines& lines);      ///< .run
+Input read_avl_modes(const Lines& lines);    ///< .eig
 Input read_xflr5_log(const Lines& lines);
 Input read_xflr5_polar(const Lines& lines);  ///< of a plane, as text
 Input read_xflr5_xml(const Lines& lines);    ///< plane or polar
@@ -25,7 +27,8 @@ Input read_vspaero_polar(const Lines& lines);
 Input read_vspaero_history(const Lines& lines);
 Input read_vspaero_setup(const Lines& lines);  ///< .vspaero
 Input read_vsp_masses(const Lines& lines, const ReadOptions& options);
-Input read_vsp_drag(const Lines& lines);  ///< the parasite drag tool's CSV
+Input read_vsp_drag(const Lines& lines);                                 ///< the parasite drag tool's CSV
+Input read_vsp_results(const Lines& lines, const ReadOptions& options);  ///< "Results_Name,..." blocks
 
 /// The length in m that `Lunit` of a .mass or the units of a .run say; nothing when it is no such file.
 std::optional<double> length_in(const Lines& lines);

@@ -35,12 +35,16 @@ bool avl_masses(const Lines& lines) {
 
 }  // namespace
 
-Input read_any(const Lines& lines, const ReadOptions& options) {
+namespace {
+
+Input read_known(const Lines& lines, const ReadOptions& options) {
   const auto has = [&](const char* text) { return lines.has(text); };
   // AVL
+  if (is_avl_mrf(lines)) return read_avl_derivatives(avl_plain_of_mrf(lines), options);
+  if (lines.has("VERSION 1.0") && (has("| # surfaces") || has("| surfaces") || has("| # bodies")))
+    return unused(lines, "AVL's machine-readable forces",
+                  "an airframe needs the total derivatives, AVL's ST, SB or SM");
   if (has("Vortex Lattice Output")) return read_avl_derivatives(lines, options);
-  if (has("DERMAT"))
-    return unused(lines, "AVL's machine-readable derivatives", "write them with ST and without MRF");
   if (has("Run case") && has("->") && has("X_cg")) return read_avl_run(lines);
   if (has("Run case") && has("Eigenvalue")) return read_avl_modes(lines);
   if (has("Control Hinge Moments")) return unused(lines, "AVL hinge moments", "an airframe has none");
@@ -57,6 +61,7 @@ Input read_any(const Lines& lines, const ReadOptions& options) {
     return unused(lines, "polar of an airfoil",
                   "it is of an airfoil, not of an aircraft; the plane's polar has the drag");
   // OpenVSP
+  if (has("Results_Name,")) return read_vsp_results(lines, options);
   if (has("Solver Case") || (has("Sref_") && has("Iter "))) return read_vspaero_history(lines);
   if (has("Sref_") || (has("Base Aero") && has("CFx")) || has("Base_Aero"))
     return read_vspaero_stab(lines, options);
@@ -65,8 +70,6 @@ Input read_any(const Lines& lines, const ReadOptions& options) {
   if (has("Beta") && has("Mach") && has("AoA") && has("CDtot")) return read_vspaero_polar(lines);
   if (has("PARASITE DRAG")) return read_vsp_drag(lines);
   if (has("Total Mass")) return read_vsp_masses(lines, options);
-  if (has("Results_Name"))
-    return unused(lines, "OpenVSP results CSV", "it is not read yet; the .stab of the same run is");
   if (avl_masses(lines)) return read_avl_masses(lines);
   if (avl_geometry(lines))
     return unused(lines, "AVL geometry",
@@ -75,7 +78,17 @@ Input read_any(const Lines& lines, const ReadOptions& options) {
       lines.file +
       ":1: nobody knows this file; expected one of AVL (.st .sb .mass .run .eig), XFLR5 (stability log, "
       "plane polar, plane or polar XML), VSPAERO (.stab .polar .flt .history .vspaero, mass properties, "
-      "parasite drag)");
+      "parasite drag, results as CSV)");
+}
+
+}  // namespace
+
+Input read_any(const Lines& lines, const ReadOptions& options) {
+  Input input = read_known(lines, options);
+  // every one of these tools ends its last line
+  if (!lines.text.empty() && lines.text.back() != '\n' && input.unused.empty())
+    input.doubts.push_back("its last line has no end: is it cut off?");
+  return input;
 }
 
 }  // namespace fulmar::aero::imports

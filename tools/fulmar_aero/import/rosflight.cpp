@@ -31,7 +31,10 @@ void gather(const Lines& lines, const core::Node& map, const std::string& node, 
     const std::size_t line = std::size_t(std::max(1, entry.line)) - 1;
     const std::string text = trimmed(entry.value.text);
     if (text.find_first_not_of("0123456789.+-eE") != std::string::npos || text.empty()) {
-      if (begins(entry.key, "C_") || begins(entry.key, "wing_"))
+      const std::size_t comma = text.find(',');
+      const bool decimal_comma =
+          comma != std::string::npos && text.find_first_not_of("0123456789.+-eE,") == std::string::npos;
+      if (begins(entry.key, "C_") || begins(entry.key, "wing_") || decimal_comma)
         refuse(lines.where(line), entry.key + ": expected a number; found '" + text + "'");
       continue;
     }
@@ -83,7 +86,22 @@ constexpr std::array<const char*, forces> ros_names{"L", "D", "Y", "ell", "m", "
 constexpr std::array<const char*, 9> ros_terms{"O", "alpha",   "beta",    "p",      "q",
                                                "r", "delta_a", "delta_e", "delta_r"};
 
+/// What rosflight_sim reads and is not there counts as 0.
+void tell_missing(const Parameters& all, Aircraft& out) {
+  std::string missing;
+  for (const char* name : {"C_L_O", "C_L_alpha", "C_L_q", "C_L_delta_e", "C_m_O", "C_m_alpha", "C_m_q",
+                           "C_m_delta_e", "C_Y_beta", "C_ell_beta", "C_ell_p", "C_ell_r", "C_ell_delta_a",
+                           "C_n_beta", "C_n_p", "C_n_r", "C_n_delta_a", "C_n_delta_r", "C_Y_delta_r"}) {
+    std::string other = name;  // some write zero with a digit
+    if (other.back() == 'O') other.back() = '0';
+    if (!find(all, name) && !find(all, other)) missing += std::string(missing.empty() ? "" : ", ") + name;
+  }
+  if (!missing.empty())
+    out.warnings.push_back("not in the file, and counted as 0: " + missing + "; is it cut off?");
+}
+
 void take_coefficients(const Lines& lines, const Parameters& all, Aircraft& out) {
+  tell_missing(all, out);
   for (std::size_t force = 0; force < forces; ++force)
     for (std::size_t term = 0; term < ros_terms.size(); ++term) {
       const Parameter* found = find(all, std::string("C_") + ros_names[force] + "_" + ros_terms[term]);
@@ -227,6 +245,12 @@ Aircraft rosflight_aircraft(const Lines& lines, bool mend) {
   a.zz = inertia_of(lines, all, {"Jzz", "Jz"});
   a.xz = inertia_of(lines, all, {"Jxz"});
   if (!a.yy.known || !a.zz.known) a.xx.known = false;
+  if (a.xx.known && !a.xz.known) {
+    a.xz = {0, "not in the file"};
+    a.warnings.push_back("Jxz is not in the file, and counted as 0");
+  }
+  if (!lines.text.empty() && lines.text.back() != '\n')
+    a.warnings.push_back("its last line has no end: is it cut off?");
   a.stall_alpha = {15 * degree, "assumption; wing_alpha0 is not read by rosflight_sim, which does not stall"};
   if (const Parameter* const M = find(all, "wing_M"))
     a.stall_sharpness = M->of;

@@ -69,6 +69,7 @@ TEST_CASE("a derivative of the wrong sign is found, with what it would do" * doc
         {"rudder: -0.069", "rudder: 0.069", "faults", "aero.yaw.rudder", "takes it right"},
         {"rudder: 0.19", "rudder: -0.19", "warnings", "aero.side.rudder", "hinge convention"},
         {"elevator: 0.13}", "elevator: -0.47351}", "warnings", "aero.lift.elevator", "XFLR5"},
+        {"beta: -0.13,", "beta: -0.00195,", "warnings", "aero.roll.beta", "-0.28 to -0.005"},
         {"aileron: -0.011", "aileron: 0.011", "warnings", "aero.yaw.aileron",
          "adverse yaw (negative) is usual"},
         {"aileron: -0.011", "aileron: -0.06", "warnings", "aero.yaw.aileron", "very much adverse yaw"}})
@@ -80,6 +81,7 @@ TEST_CASE("degrees for radians and other units are found, with what was likely m
   for (const Mistake& mistake :
        {Mistake{"elevator: -0.99", "elevator: -0.0173", "faults", "aero.pitch.elevator",
                 "per degree? Then it would be -0.991 per rad"},
+        {"elevator: 0.13}", "elevator: 0.0023}", "faults", "aero.lift.elevator", "per degree?"},
         {"lift:  {zero: 0.506, alpha: 5.61", "lift:  {zero: 0.506, alpha: 0.0979", "faults",
          "aero.lift.alpha", "per degree? Then it would be 5.61"},
         {"aileron: 0.17", "aileron: 9.74", "faults", "aero.roll.aileron",

@@ -519,6 +519,10 @@ TEST_CASE("bash completes commands, options, and names of the running flight") {
   CHECK(completed(flight, "fulmar aero modes --s") == Words{"--step", "--svg"});
   CHECK(completed(flight, "fulmar aero trim configs/airframes/an") ==
         Words{"configs/airframes/anaconda.yaml"});
+  CHECK(completed(flight, "fulmar aero import README.md --mas") == Words{"--mass"});
+  CHECK(completed(flight, "fulmar aero import README.md configs/airframes/an") ==
+        Words{"configs/airframes/anaconda.yaml"});
+  CHECK(completed(flight, "fulmar import ") == Words{"rosplane"});
   CHECK(completed(flight, "fulmar run configs/missions/hourg") == Words{"configs/missions/hourglass.yaml"});
   CHECK(completed(flight, "fulmar echo s --at 127.0.0.1:1 sl") == Words{});
   CHECK(completed(flight, "fulmar fcu ") == Words{});

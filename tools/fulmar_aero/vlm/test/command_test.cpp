@@ -165,6 +165,14 @@ TEST_CASE("more panels change little, and few are told when they do") {
       "vlm " + folder.write("few.yaml", with(text, "  - name: tailplane", second + "  - name: tailplane")));
   CHECK(answer.code == 0);
   CHECK_MESSAGE(answer.says("warning  not converged"), answer.out);
+  // a hinge among few panels: the lift is right, the power of the control is not
+  const Answer coarse =
+      call("vlm " + folder.write("coarse.yaml", with(with(text, "chordwise: 6", "chordwise: 2"),
+                                                     "chordwise: 8", "chordwise: 3")));
+  CHECK_MESSAGE(coarse.says("panels Cm_elevator is"), coarse.out);
+  CHECK_MESSAGE(coarse.says("give its surface more panels"), coarse.out);
+  CHECK(!coarse.says("the static margin 0"));
+  CHECK(!call("vlm " + petrel).says("not converged"));
 }
 
 TEST_CASE("surfaces of an AVL file: the same flow as drawn") {

@@ -92,6 +92,14 @@ TEST_CASE("the cases of VortexLattice.jl: forces near by and far behind") {
   CHECK(near(f.CD, 0.01058, 0.003));
   CHECK(near(f.Cm, -0.02778, 0.01));
   CHECK(near(whole.far_field({.alpha = 5 * degree}).CD, 0.01038, 0.003));
+  // AVL's run with components of their own gives the vortices of other surfaces a core
+  CHECK(near(f.CL, 0.60562, 0.01));
+  CHECK(near(f.CD, 0.01058, 0.01));
+  const SixDerivatives d = whole.derivatives({.alpha = 5 * degree});
+  CHECK(near(d.alpha.CL, 5.098484, 0.01));
+  CHECK(near(d.q.Cm, -21.93362, 0.01));
+  CHECK(near(d.q.CL, 7.124317, 0.01));
+  CHECK(near(d.p.Cl, -0.592713, 0.01));
 }
 
 TEST_CASE("body-axis derivatives of the wing with dihedral") {

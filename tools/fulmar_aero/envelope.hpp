@@ -16,8 +16,9 @@ struct LevelSpeeds {
 };
 LevelSpeeds level_speeds(const AircraftModel& model, double inside);
 
-/// Rate of climb at full throttle and without throttle (the propeller turns in the wind), m/s up. NaN where
-/// something else than the throttle ends the climb or the descent.
+/// Rate of climb at full throttle and without throttle (the propeller turns in the wind), m/s up, straight
+/// and with level wings; what the propeller's torque takes of aileron and rudder is left out. NaN where the
+/// wing stalls, the elevator is at its stop, or it climbs straight up.
 double climb_rate(const AircraftModel& model, double airspeed);
 double glide_rate(const AircraftModel& model, double airspeed);
 

@@ -38,7 +38,7 @@ struct AxisRange {
 double step_of(double span) {
   const double power = std::pow(10.0, std::floor(std::log10(span / 5)));
   for (const double step : {1.0, 2.0, 5.0})
-    if (span / (step * power) <= 7) return step * power;
+    if (span / (step * power) <= 8) return step * power;
   return 10 * power;
 }
 
@@ -152,7 +152,7 @@ class ChartDrawing {
     for (std::size_t i = 0; i < line.points.size(); ++i) {
       const ChartPoint& p = line.points[i];
       const bool there = is_there(p);
-      const double size = line.growing ? 0.5 + double(i) / double(line.points.size()) : 1;
+      const double size = line.growing ? 0.4 + 0.8 * double(i) / double(line.points.size()) : line.size;
       if (!there && drawing && line.closed) d += "Z";
       if (there) {
         d += (drawing ? "L" : "M") + tenth(px(p.x)) + " " + tenth(py(p.y));

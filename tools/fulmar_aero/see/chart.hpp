@@ -22,6 +22,7 @@ struct ChartLine {
   bool closed = false;     ///< each part ends where it began
   bool thin = false;       ///< behind the others, pale
   bool growing = false;    ///< marks, from the first point to the last
+  double size = 1;         ///< of marks
 };
 inline constexpr int no_style = -1, styles = 6;
 

@@ -178,7 +178,8 @@ std::vector<Chart> trim_charts(const std::vector<AircraftCurves>& sets) {
         chart.lines.push_back({.name = "",
                                .style = int(i),
                                .points = {{sets[i].cruise->airspeed_mps, row.value(*sets[i].cruise)}},
-                               .mark = Mark::circle});
+                               .mark = Mark::circle,
+                               .joined = false});
     }
     chart.keys.push_back(
         {.name = "cruise", .style = no_style, .points = {}, .mark = Mark::circle, .joined = false});
@@ -203,8 +204,11 @@ Chart envelope_chart(const std::vector<AircraftCurves>& sets) {
              [](const EnvelopePoint& p) { return p.glide_mps; });
     chart.lines.back().name = "";
     if (sets[i].stall_mps > 0 && sets[i].level)
-      chart.lines.push_back(
-          {.name = "", .style = int(i), .points = {{sets[i].stall_mps, 0}}, .mark = Mark::diamond});
+      chart.lines.push_back({.name = "",
+                             .style = int(i),
+                             .points = {{sets[i].stall_mps, 0}},
+                             .mark = Mark::diamond,
+                             .joined = false});
   }
   chart.keys.push_back(
       {.name = "stall", .style = no_style, .points = {}, .mark = Mark::diamond, .joined = false});

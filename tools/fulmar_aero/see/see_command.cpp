@@ -211,12 +211,14 @@ Chart lattice_chart(const Seen& s, int style) {
                          .style = no_style,
                          .points = {{0, -centre}},
                          .mark = Mark::circle,
-                         .joined = false});
+                         .joined = false,
+                         .size = 1.8});
   chart.lines.push_back({.name = "neutral point",
                          .style = no_style,
                          .points = {{0, -neutral}},
                          .mark = Mark::cross,
-                         .joined = false});
+                         .joined = false,
+                         .size = 1.8});
   return chart;
 }
 

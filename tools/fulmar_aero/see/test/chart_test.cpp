@@ -31,7 +31,7 @@ TEST_CASE("a point is drawn where the marks of the axes say") {
     CHECK(chart.y_words == "y [s]");
     for (const std::vector<double>& marks : {chart.x_marks, chart.y_marks}) {
       CHECK(marks.size() >= 3);
-      CHECK(marks.size() <= 8);
+      CHECK(marks.size() <= 9);
       // round numbers, evenly
       const double step = marks[1] - marks[0];
       const double lead = step / std::pow(10, std::floor(std::log10(step * (1 + 1e-6))));

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <regex>
 #include <string>
 #include <vector>
@@ -77,16 +78,16 @@ inline ReadChart read_chart(const std::string& figure) {
   }
   const AxisScale x = scale_of(x_px, chart.x_marks), y = scale_of(y_px, chart.y_marks);
   chart.x_per_px = std::abs(x.per_px), chart.y_per_px = std::abs(y.per_px);
-  static const std::regex path("class=\"((line|mark) [^\"]*)\" d=\"([^\"]*)\""),
-      place("([ML])([-0-9.]+) ([-0-9.]+)");
-  for (const std::string& one : between(svg, "<path ", "/>")) {
-    std::smatch m;
-    if (!std::regex_search(one, m, path)) continue;
-    ReadCurve curve{m[1], {}};
-    const std::string d = m[3];
-    for (std::sregex_iterator it(d.begin(), d.end(), place), end; it != end; ++it) {
-      if ((*it)[1] == "M") curve.parts.emplace_back();
-      curve.parts.back().push_back({x.at(std::stod((*it)[2])), y.at(std::stod((*it)[3]))});
+  for (const std::string& one : between(svg, "<path ", "/>")) {  // long: no regular expression
+    const std::string kind = between(one, "class=\"", "\"").at(0), d = between(one, " d=\"", "\"").at(0);
+    if (!kind.starts_with("line ") && !kind.starts_with("mark ")) continue;
+    ReadCurve curve{kind, {}};
+    for (std::size_t at = 0; (at = d.find_first_of("ML", at)) != std::string::npos; ++at) {
+      char* next = nullptr;
+      const double px = std::strtod(d.c_str() + at + 1, &next), py = std::strtod(next, nullptr);
+      if (d[at] == 'M') curve.parts.emplace_back();
+      REQUIRE(!curve.parts.empty());
+      curve.parts.back().push_back({x.at(px), y.at(py)});
     }
     chart.curves.push_back(curve);
   }
@@ -102,11 +103,14 @@ inline std::vector<ReadChart> read_charts(const std::string& page) {
   return charts;
 }
 
-inline const ReadChart& chart_named(const std::vector<ReadChart>& charts, const std::string& words) {
+/// The chart of that title, or the first whose title has these words.
+inline ReadChart chart_named(const std::vector<ReadChart>& charts, const std::string& words) {
+  for (const ReadChart& chart : charts)
+    if (chart.title == words) return chart;
   for (const ReadChart& chart : charts)
     if (chart.title.find(words) != std::string::npos) return chart;
   FAIL("no chart '" << words << "'");
-  return charts.front();
+  return {};
 }
 
 /// The value of a curve at x, between its points.
@@ -121,15 +125,17 @@ inline double value_at(const std::vector<ChartPoint>& points, double x) {
 /// The first tag that is not closed where it should be; "": all are.
 inline std::string unbalanced(const std::string& page) {
   std::vector<std::string> open;
-  static const std::regex tag("<(/?)([a-zA-Z0-9]+)([^<>]*)>");
-  for (std::sregex_iterator it(page.begin(), page.end(), tag), end; it != end; ++it) {
-    const std::string name = (*it)[2], rest = (*it)[3];
-    if (name == "meta" || rest.ends_with("/")) continue;
-    if ((*it)[1] == "") {
+  for (std::size_t at = 0; (at = page.find('<', at)) != std::string::npos; ++at) {
+    if (page.compare(at, 2, "<!") == 0) continue;
+    const bool closes = page.compare(at, 2, "</") == 0;
+    const std::size_t begin = at + (closes ? 2 : 1), end = page.find('>', at);
+    const std::string name = page.substr(begin, page.find_first_of(" />", begin) - begin);
+    if (name == "meta" || page[end - 1] == '/') continue;
+    if (!closes) {
       open.push_back(name);
       continue;
     }
-    if (open.empty() || open.back() != name) return "</" + name + "> at " + std::to_string(it->position());
+    if (open.empty() || open.back() != name) return "</" + name + "> at " + std::to_string(at);
     open.pop_back();
   }
   return open.empty() ? "" : "<" + open.back() + ">";

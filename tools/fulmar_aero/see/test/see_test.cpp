@@ -34,7 +34,7 @@ TEST_CASE("the page keeps what pages keep, and has both sets in every chart of f
   for (const char* title :
        {"Lift", "Drag", "Pitching moment", "Lift to drag", "Polar", "Angle of attack in level flight",
         "Elevator in level flight", "Throttle in level flight", "Climb at full throttle"}) {
-    const ReadChart& chart = chart_named(charts, title);
+    const ReadChart chart = chart_named(charts, title);
     INFO(title);
     CHECK(chart.all("line s0").size() >= 1);
     CHECK(chart.all("line s1").size() >= 1);
@@ -57,7 +57,7 @@ TEST_CASE("trim curves lie where `trim --json` says") {
          {Row{"Angle of attack in level", "alpha_deg"}, Row{"Elevator in level", "elevator_deg"},
           Row{"Throttle in level", "throttle_frac"}}) {
       INFO(row.title << " at " << speed);
-      const ReadChart& chart = chart_named(charts, row.title);
+      const ReadChart chart = chart_named(charts, row.title);
       const double wanted = trim.at(row.key).get<double>();
       // there is a point at that speed itself, but for half a pixel
       double nearest = 1e9, value = 0;
@@ -66,7 +66,7 @@ TEST_CASE("trim curves lie where `trim --json` says") {
       CHECK(nearest < 0.5 * chart.x_per_px);
       CHECK(std::abs(value - wanted) < 0.5 * chart.y_per_px);
     }
-    const ReadChart& glide = chart_named(charts, "Lift to drag in level");
+    const ReadChart glide = chart_named(charts, "Lift to drag in level");
     const double ratio = trim.at("lift_newton").get<double>() / trim.at("drag_newton").get<double>();
     CHECK(std::abs(value_at(glide.all("line s0").at(0).points(), speed) - ratio) < glide.y_per_px);
   }
@@ -75,7 +75,7 @@ TEST_CASE("trim curves lie where `trim --json` says") {
 TEST_CASE("modes lie where `modes --json` says") {
   const ReadChart all = chart_named(read_charts(both()), "Modes in level flight");
   const ReadChart slow = chart_named(read_charts(both()), "Phugoid and spiral");
-  const auto is_drawn = [](const ReadChart& chart, double real, double imag) {
+  const auto is_drawn = [](const ReadChart chart, double real, double imag) {
     for (const ReadCurve& line : chart.all("line s0"))
       for (const ChartPoint& p : line.points())
         if (std::abs(p.x - real) < 0.5 * chart.x_per_px && std::abs(p.y - imag) < 0.5 * chart.y_per_px)
@@ -104,7 +104,7 @@ TEST_CASE("polars are those of the file's coefficients") {
     const double CL = 0.506 + 5.61 * alpha * degree, AR = 2.08 * 2.08 / 0.52,
                  CD = 0.043 + CL * CL / (3.14159265358979 * 0.9 * AR), Cm = 0.135 - 2.74 * alpha * degree;
     const auto near = [&](const char* title, double wanted) {
-      const ReadChart& chart = chart_named(charts, title);
+      const ReadChart chart = chart_named(charts, title);
       CHECK(std::abs(value_at(chart.all("line s0").at(0).points(), alpha) - wanted) < chart.y_per_px);
     };
     near("Lift", CL);
@@ -115,7 +115,7 @@ TEST_CASE("polars are those of the file's coefficients") {
 }
 
 TEST_CASE("the envelope ends where trim ends") {
-  const ReadChart& chart = chart_named(read_charts(both()), "Climb at full throttle");
+  const ReadChart chart = chart_named(read_charts(both()), "Climb at full throttle");
   const std::vector<ReadCurve> lines = chart.all("line s0");
   REQUIRE(lines.size() == 2);
   const std::string trim = "trim " + airframes + "anaconda.yaml --airspeed '20 m/s' --climb '";
@@ -137,7 +137,7 @@ TEST_CASE("the envelope ends where trim ends") {
 
 TEST_CASE("lift over the span adds up to the lattice's lift, and stalls where vlm says") {
   const std::vector<ReadChart> charts = read_charts(both());
-  const ReadChart& load = chart_named(charts, "Lift over the span");
+  const ReadChart load = chart_named(charts, "Lift over the span");
   const nlohmann::json vlm = json_of("vlm " + petrel_drawing);
   double lift = 0;
   for (const ReadCurve& line : load.all("line s1")) {
@@ -149,7 +149,7 @@ TEST_CASE("lift over the span adds up to the lattice's lift, and stalls where vl
   const double CL = vlm.at("lattice").at("value").at("CL").get<double>();
   CHECK(lift * 0.2228 / 0.3969 == doctest::Approx(CL).epsilon(0.02));
   // at the stall one section has its most lift, and none has more by a step of angle
-  const ReadChart& stall = chart_named(charts, "Sections where");
+  const ReadChart stall = chart_named(charts, "Sections where");
   const std::vector<ChartPoint> cl = stall.all("line s1").at(0).points(),
                                 most = stall.all("line s1 thin").at(0).points();
   double nearest = 1e9;

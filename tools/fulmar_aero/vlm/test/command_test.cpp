@@ -309,7 +309,7 @@ void check_report(const std::string& page, const std::string& printed) {
   CHECK(page.find("<th>control_slc/Inner.roll_kp</th>") != std::string::npos);
   CHECK(page.find("<th>TECS height</th>") != std::string::npos);
   const std::vector<ReadChart> charts = read_charts(page);
-  const ReadChart& ground = chart_named(charts, "Ground track");
+  const ReadChart ground = chart_named(charts, "Ground track");
   CHECK(std::abs(ground.x_per_px / ground.y_per_px - 1) < 0.01);
   const std::vector<ChartPoint> flown = ground.all("line s0").at(0).points();
   const double k = (15.0 * 15) / (17 * 17);  // the plan for 15 m/s
@@ -322,7 +322,7 @@ void check_report(const std::string& page, const std::string& printed) {
   }
   // cruise: where it was commanded to be
   for (const char* title : {"Height", "Airspeed"}) {
-    const ReadChart& chart = chart_named(charts, title);
+    const ReadChart chart = chart_named(charts, title);
     const double t = 100, off = value_at(chart.all("line s0").at(0).points(), t) -
                                 value_at(chart.all("line s1").at(0).points(), t);
     CHECK_MESSAGE(std::abs(off) < 2, title);

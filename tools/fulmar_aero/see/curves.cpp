@@ -228,6 +228,7 @@ std::vector<Chart> mode_charts(const std::vector<AircraftCurves>& sets) {
   slow.title = "Phugoid and spiral";
   for (const ModeKind kind : mode_kinds) {
     bool there = false;
+    const bool is_slow = kind == ModeKind::phugoid || kind == ModeKind::spiral;
     for (std::size_t i = 0; i < sets.size(); ++i)
       for (const bool faster : {false, true}) {
         const ChartLine line = locus(sets[i], int(i), kind, faster);
@@ -236,7 +237,7 @@ std::vector<Chart> mode_charts(const std::vector<AircraftCurves>& sets) {
         if (!any) continue;
         there = true;
         all.lines.push_back(line);
-        if (kind == ModeKind::phugoid || kind == ModeKind::spiral) slow.lines.push_back(line);
+        if (is_slow) slow.lines.push_back(line);
       }
     if (!there) continue;
     const ChartLine key{.name = mode_name(kind),
@@ -245,7 +246,7 @@ std::vector<Chart> mode_charts(const std::vector<AircraftCurves>& sets) {
                         .mark = Mark(int(kind) + 1),
                         .joined = false};
     all.keys.push_back(key);
-    if (kind == ModeKind::phugoid || kind == ModeKind::spiral) slow.keys.push_back(key);
+    if (is_slow) slow.keys.push_back(key);
   }
   for (std::size_t i = 0; i < sets.size(); ++i)
     for (Chart* chart : {&all, &slow})

@@ -17,8 +17,7 @@ int steps_of_fly(const FlightOptions& options, bool write, FlyRecord& record) {
     record.verdict = std::string("not flown: `fulmar aero ") + name + "` has failed";
     return false;
   };
-  const int checked = check_command(options);
-  if (!step("check", checked)) return core::ExitCode::failed;
+  if (!step("check", check_command(options))) return core::ExitCode::failed;
   print_text("\n");
   if (!step("trim", trim_command(options))) return core::ExitCode::failed;
   print_text("\n");
@@ -40,6 +39,7 @@ int steps_of_fly(const FlightOptions& options, bool write, FlyRecord& record) {
 }  // namespace
 
 int fly_command(const FlightOptions& options, bool write, const std::string& report) {
+  refuse_as_page(report, {options.airframe});
   // what is written below counts for the page too: gains change nothing of it but themselves
   const AirframeFile file = read_airframe_file(options.airframe);
   Findings findings(file);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/fulmar_aero/see/page.hpp"
 
+#include <filesystem>
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/graph/shipped.hpp"
 #include "tools/fulmar_aero/see/chart.hpp"
 
 namespace fulmar::aero {
@@ -66,6 +68,14 @@ std::string table_html(const std::vector<std::vector<std::string>>& rows) {
 }
 
 std::string sentence_html(const std::string& text) { return "<p>" + in_html(text) + "</p>\n"; }
+
+void refuse_as_page(const std::string& page, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code none;
+    if (std::filesystem::equivalent(page, core::named_file({}, input), none))
+      throw core::Error("'" + page + "' is a file that the page is made from; name another one behind -o");
+  }
+}
 
 void write_page(const std::string& file, const std::string& html) {
   std::ofstream out(file, std::ios::binary);

@@ -14,6 +14,9 @@ std::string table_html(const std::vector<std::vector<std::string>>& rows);
 
 std::string sentence_html(const std::string& text);
 
+/// Throws core::Error when the page would replace one of the files that it is made from.
+void refuse_as_page(const std::string& page, const std::vector<std::string>& inputs);
+
 /// Throws core::Error when the file cannot be written.
 void write_page(const std::string& file, const std::string& html);
 

@@ -312,6 +312,7 @@ std::string body_of(const std::vector<Seen>& all, double altitude_m) {
 
 int see_command(const std::vector<std::string>& files, const FlightOptions& options, const std::string& out) {
   const double altitude_m = options.altitude_m();
+  refuse_as_page(out, files);
   std::vector<Seen> all;
   for (const std::string& file : files) all.push_back(look_at(file, altitude_m));
   tell_apart(all);

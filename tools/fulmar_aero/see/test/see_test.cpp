@@ -202,6 +202,14 @@ TEST_CASE("what cannot be seen is refused in a sentence") {
   const std::string drawing = folder.write("d.yaml", "name: a\nsurfaces: []\n");
   CHECK(call("see " + drawing + " -o " + folder.path.string() + "/p.html").code == 4);
   CHECK_FALSE(std::filesystem::exists(folder.path / "p.html"));
+  // an airframe is not replaced by its own page
+  const std::string mine = folder.write("mine.yaml", text_of(airframes + "x8.yaml")), before = text_of(mine);
+  for (const std::string word : {"see ", "fly "}) {
+    const Answer own = call(word + mine + " -o " + folder.path.string() + "/./mine.yaml");
+    CHECK(own.code == 4);
+    CHECK(own.says("mine.yaml' is a file that the page is made from"));
+    CHECK(text_of(mine) == before);
+  }
   const Answer unwritten = call("see " + airframes + "x8.yaml -o " + folder.path.string() + "/no/p.html");
   CHECK(unwritten.code != 0);
   CHECK(unwritten.says("/no/p.html' cannot be written"));

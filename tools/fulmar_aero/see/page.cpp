@@ -20,7 +20,7 @@ constexpr const char* style_sheet = R"(
 --bad:#3a2326;--c0:#56b4e9;--c1:#ff8f3f;--c2:#2fc79b;--c3:#e29cc4;--c4:#f0c040;--c5:#9ad0f5}}
 body{background:var(--page);color:var(--text);font:15px/1.45 system-ui,sans-serif;max-width:90em;margin:1.5em auto;padding:0 1em}
 h1{font-size:1.5em}h2{font-size:1.2em;margin-top:1.8em;border-bottom:1px solid var(--grid)}h1,h2,td,th,li,p{overflow-wrap:anywhere}
-.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,26em),1fr));gap:1em 1.5em}
+.charts{margin:.8em 0;display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,26em),1fr));gap:1em 1.5em}
 figure{margin:0;break-inside:avoid}figcaption{font-weight:600;padding-left:1em}figure>svg{width:100%;height:auto;display:block}
 svg text{font:11px system-ui,sans-serif;fill:var(--text)}text.x,text.xaxis,text.yaxis{text-anchor:middle}text.y{text-anchor:end}
 text.xaxis,text.yaxis{font-size:12px}path{fill:none}.grid{stroke:var(--grid)}.zero{stroke:var(--zero)}.frame{stroke:var(--zero)}

@@ -156,7 +156,7 @@ inline void check_page(const std::string& page) {
                            " src=", " href=", "nan", "inf\""})
     CHECK_MESSAGE(page.find(word) == std::string::npos, word);
   const std::vector<ReadChart> charts = read_charts(page);
-  CHECK(charts.size() >= 10);
+  CHECK(charts.size() >= 7);
   for (const ReadChart& chart : charts) {
     INFO(chart.title);
     if (chart.curves.empty()) continue;

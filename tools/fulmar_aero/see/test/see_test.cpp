@@ -75,15 +75,17 @@ TEST_CASE("trim curves lie where `trim --json` says") {
 TEST_CASE("modes lie where `modes --json` says") {
   const ReadChart all = chart_named(read_charts(both()), "Modes in level flight");
   const ReadChart slow = chart_named(read_charts(both()), "Phugoid and spiral");
-  const auto is_drawn = [](const ReadChart chart, double real, double imag) {
+  const auto is_drawn = [](const ReadChart& chart, double real, double imag) {
     for (const ReadCurve& line : chart.all("line s0"))
       for (const ChartPoint& p : line.points())
         if (std::abs(p.x - real) < 0.5 * chart.x_per_px && std::abs(p.y - imag) < 0.5 * chart.y_per_px)
           return true;
     return false;
   };
-  for (const nlohmann::json& at :
-       json_of("modes " + airframes + "anaconda.yaml --airspeed '12..27 m/s' --step '5 m/s'").at("speeds"))
+  const nlohmann::json modes =
+      json_of("modes " + airframes + "anaconda.yaml --airspeed '12..27 m/s' --step '5 m/s'");
+  REQUIRE(modes.at("speeds").size() == 4);
+  for (const nlohmann::json& at : modes.at("speeds"))
     for (const nlohmann::json& mode : at.at("modes")) {
       const double real = mode.at("real_per_s").get<double>(), imag = mode.at("imag_radps").get<double>();
       INFO(at.at("airspeed_mps") << " m/s " << mode.at("mode"));
@@ -148,6 +150,21 @@ TEST_CASE("lift over the span adds up to the lattice's lift, and stalls where vl
   }
   const double CL = vlm.at("lattice").at("value").at("CL").get<double>();
   CHECK(lift * 0.2228 / 0.3969 == doctest::Approx(CL).epsilon(0.02));
+  // whatever the chord is to which it refers
+  const Folder folder;
+  std::string text = text_of(petrel_drawing);
+  const std::string chord = "chord: 0.2228 m}";
+  REQUIRE(text.find(chord) != std::string::npos);
+  text.replace(text.find(chord), chord.size(), "chord: 0.26 m}");
+  const std::string other = folder.write("other.yaml", text), page = (folder.path / "p.html").string();
+  REQUIRE(call("see " + other + " -o " + page).code == 0);
+  double same = 0;
+  for (const ReadCurve& line : chart_named(read_charts(text_of(page)), "Lift over the span").all("line s0")) {
+    const std::vector<ChartPoint> points = line.points();
+    for (std::size_t i = 1; i < points.size(); ++i)
+      same += 0.5 * (points[i].y + points[i - 1].y) * (points[i].x - points[i - 1].x);
+  }
+  CHECK(same * 0.26 == doctest::Approx(lift * 0.2228).epsilon(0.01));
   // at the stall one section has its most lift, and none has more by a step of angle
   const ReadChart stall = chart_named(charts, "Sections where");
   const std::vector<ChartPoint> cl = stall.all("line s1").at(0).points(),

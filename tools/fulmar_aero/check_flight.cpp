@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/fulmar_aero/envelope.hpp"
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/flight_model.hpp"
 #include "tools/fulmar_aero/flight_words.hpp"
@@ -12,26 +13,12 @@
 namespace fulmar::aero {
 namespace {
 
-double stall_speed(const Airframe& a, double rho) {
-  const double CL = most_lift(a).coefficient;
-  return CL > 0 ? std::sqrt(2 * a.mass_kg * isa::g0 / (rho * a.wing.area_m2 * CL)) : 0;
-}
-
 bool flies(const AircraftModel& m, double airspeed) { return fly(m, {airspeed}).found(); }
 
-/// The airspeed at which level flight ends, on the way from `inside` to `outside`.
-double end_of_flight(const AircraftModel& m, double inside, double outside) {
-  for (int i = 0; i < 30; ++i) {
-    const double middle = 0.5 * (inside + outside);
-    (flies(m, middle) ? inside : outside) = middle;
-  }
-  return inside;
-}
-
-void check_speeds(Findings& f, const AircraftModel& m, double rho) {
+void check_speeds(Findings& f, const AircraftModel& m) {
   const Airframe& a = f.file().airframe;
   const FlightLimits& l = a.limits;
-  const double stall = stall_speed(a, rho);
+  const double stall = stall_speed(m);
   f.looked_at(4);
   if (stall > 0) f.figure("stall_airspeed_mps", stall, "stall", fixed(stall, 1) + " m/s");
   if (stall > 0 && l.airspeed_min_mps < 1.05 * stall)
@@ -39,10 +26,11 @@ void check_speeds(Findings& f, const AircraftModel& m, double rho) {
            "it is " + figures(l.airspeed_min_mps) + " m/s, and the wing stalls at " + fixed(stall, 1) +
                " m/s; 1.2 times that is usual");
   if (!flies(m, l.airspeed_cruise_mps)) return;
-  const double slowest = end_of_flight(m, l.airspeed_cruise_mps, 0.3 * l.airspeed_cruise_mps);
-  const double fastest = end_of_flight(m, l.airspeed_cruise_mps, 4 * l.airspeed_cruise_mps);
-  f.figure("slowest_airspeed_mps", slowest, "slowest level flight", fixed(slowest, 1) + " m/s");
-  f.figure("fastest_airspeed_mps", fastest, "fastest level flight", fixed(fastest, 1) + " m/s");
+  const LevelSpeeds level = level_speeds(m, l.airspeed_cruise_mps);
+  f.figure("slowest_airspeed_mps", level.slowest_mps, "slowest level flight",
+           fixed(level.slowest_mps, 1) + " m/s");
+  f.figure("fastest_airspeed_mps", level.fastest_mps, "fastest level flight",
+           fixed(level.fastest_mps, 1) + " m/s");
 }
 
 void check_trim(Findings& f, const AircraftModel& m) {
@@ -135,7 +123,7 @@ void check_mode(Findings& f, const Mode& mode) {
 
 void check_flight(Findings& f, double altitude_m) {
   const AircraftModel m(f.file().airframe, altitude_m);
-  check_speeds(f, m, standard_air(altitude_m).density_kgm3);
+  check_speeds(f, m);
   check_trim(f, m);
   const SteadyFlight cruise = fly(m, {f.file().airframe.limits.airspeed_cruise_mps});
   if (!cruise.found()) return;

@@ -2,6 +2,7 @@
 // The commands of `fulmar aero`. Each returns an exit code: 0 done, 1 no such flight or faults found.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "tools/fulmar_aero/options.hpp"
 
@@ -24,8 +25,11 @@ struct VlmCommand {
   bool convergence = false, json = false;
 };
 int vlm_command(const VlmCommand& options);
-/// Check, trim, modes, gains and a flight with them, up to the first that fails.
-int fly_command(const FlightOptions& options, bool write);
+/// A page of airframes and drawings, `out`. 1: one of them has no level flight in cruise; the page tells why.
+int see_command(const std::vector<std::string>& files, const FlightOptions& options, const std::string& out);
+/// Check, trim, modes, gains and a flight with them, up to the first that fails. `report`: a page of them, or
+/// "".
+int fly_command(const FlightOptions& options, bool write, const std::string& report);
 /// Texts of the command line; "" where nothing was said.
 struct ImportWords {
   std::vector<std::string> files;

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `fulmar aero fly`: from an airframe file to a flight, in one.
 #include "core/app/program.hpp"
+#include "core/types/text.hpp"
 #include "tools/fulmar_aero/commands.hpp"
+#include "tools/fulmar_aero/see/fly_report.hpp"
+#include "tools/fulmar_aero/see/page.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
+namespace {
 
-int fly_command(const FlightOptions& options, bool write) {
-  TuneOptions tuning;
-  tuning.verify = true;
-  tuning.write = write;
-  const auto step = [](const char* name, int code) {
+/// Returns the exit code; `record` tells how far it came.
+int steps_of_fly(const FlightOptions& options, bool write, FlyRecord& record) {
+  const auto step = [&](const char* name, int code) {
     if (code == core::ExitCode::done) return true;
-    std::fprintf(stderr, "not flown: `fulmar aero %s` has failed\n", name);
+    record.verdict = std::string("not flown: `fulmar aero ") + name + "` has failed";
     return false;
   };
   if (!step("check", check_command(options))) return core::ExitCode::failed;
@@ -21,7 +23,34 @@ int fly_command(const FlightOptions& options, bool write) {
   print_text("\n");
   if (!step("modes", modes_command(options, "", ""))) return core::ExitCode::failed;
   print_text("\n");
-  return tune_command(options, tuning);
+  TuneOptions tuning;
+  tuning.verify = true;
+  tuning.write = write;
+  record.tuned = tune_outcome(options, tuning);
+  for (const std::string& sentence : record.tuned->faults)
+    std::fprintf(stderr, "%s\n", core::for_terminal(sentence).c_str());
+  record.verdict = record.tuned->code != core::ExitCode::done ? "flown, and not good enough"
+                   : write                                    ? "flown; the gains stand in the file"
+                                                              : "flown";
+  if (!record.tuned->flown || record.tuned->flown->result != "flown") record.verdict = "not flown";
+  return record.tuned->code;
+}
+
+}  // namespace
+
+int fly_command(const FlightOptions& options, bool write, const std::string& report) {
+  refuse_as_page(report, {options.airframe});
+  // what is written below counts for the page too: gains change nothing of it but themselves
+  const AirframeFile file = read_airframe_file(options.airframe);
+  Findings findings(file);
+  FlyRecord record{&file, &findings, options.altitude_m(), {}, ""};
+  const int code = steps_of_fly(options, write, record);
+  if (record.verdict.starts_with("not flown: `")) std::fprintf(stderr, "%s\n", record.verdict.c_str());
+  if (report.empty()) return code;
+  check_all(findings, record.altitude_m);
+  write_page(report, fly_report_html(record));
+  print_text("written: " + core::for_terminal(report) + "\n");
+  return code;
 }
 
 }  // namespace fulmar::aero

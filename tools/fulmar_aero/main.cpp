@@ -19,12 +19,13 @@ namespace core = fulmar::core;
 struct CommandLine {
   CLI::App app{"Looks at an airframe before it flies.", "fulmar aero"};
   FlightOptions flight;
-  std::string step, svg;
+  std::string step, svg, page = "aircraft.html", report;
+  std::vector<std::string> seen;
   bool csv = false;
   TuneOptions tuning;
   VlmCommand drawing;
   ImportWords importing;
-  CLI::App *trim, *linearize, *modes, *check, *tune, *vlm, *fly, *importer;
+  CLI::App *trim, *linearize, *modes, *check, *tune, *vlm, *see, *fly, *importer;
 
   CommandLine() {
     app.require_subcommand(1);
@@ -53,13 +54,15 @@ struct CommandLine {
     check->footer("Example: fulmar aero check fulmar:airframes/anaconda.yaml");
     add_tune();
     add_vlm();
+    add_see();
     add_import();
     fly = app.add_subcommand("fly", "check, trim, modes, gains and a flight with them, in one");
     fly->add_option("AIRFRAME", flight.airframe, "airframe file, or fulmar:airframes/anaconda.yaml")
         ->required();
     fly->add_option("--altitude", flight.altitude, "above mean sea level, of the standard air; else 0 m");
     fly->add_flag("--write", tuning.write, "put the gains into the file; all else of it stays");
-    fly->footer("Example: fulmar aero fly mine.yaml --write");
+    fly->add_option("-o,--output", report, "a page of all that; replaces the file");
+    fly->footer("Example: fulmar aero fly mine.yaml --write -o mine.html");
   }
 
   void add_vlm() {
@@ -69,6 +72,16 @@ struct CommandLine {
     vlm->add_flag("--convergence", drawing.convergence, "the same with fewer and more panels");
     vlm->add_flag("--json", drawing.json, "print one JSON object");
     vlm->footer("Example: fulmar aero vlm fulmar:drawings/petrel.yaml -o petrel.yaml");
+  }
+
+  void add_see() {
+    see = app.add_subcommand(
+        "see", "aircraft side by side on a page: planform, lift, polars, trim, envelope, modes");
+    see->add_option("FILE", seen, "airframe files or drawings, up to six")->required()->expected(1, 6);
+    see->add_option("-o,--output", page, "the page; replaces the file; else aircraft.html");
+    see->add_option("--altitude", flight.altitude, "above mean sea level, of the standard air; else 0 m");
+    see->footer(
+        "Example: fulmar aero see fulmar:drawings/petrel.yaml fulmar:airframes/anaconda.yaml -o both.html");
   }
 
   void add_tune() {
@@ -109,7 +122,7 @@ struct CommandLine {
   /// Of the first word, when it is no command: the sentence, else "".
   std::string unknown(int argc, char** argv) const {
     std::vector<std::string> names;
-    for (const CLI::App* one : {trim, linearize, modes, check, tune, vlm, fly, importer})
+    for (const CLI::App* one : {trim, linearize, modes, check, tune, vlm, see, fly, importer})
       names.push_back(one->get_name());
     if (argc < 2 || argv[1][0] == '-' || std::find(names.begin(), names.end(), argv[1]) != names.end())
       return "";
@@ -122,7 +135,8 @@ struct CommandLine {
     if (linearize->parsed()) return linearize_command(flight, csv);
     if (tune->parsed()) return tune_command(flight, tuning);
     if (vlm->parsed()) return vlm_command(drawing);
-    if (fly->parsed()) return fly_command(flight, tuning.write);
+    if (see->parsed()) return see_command(seen, flight, page);
+    if (fly->parsed()) return fly_command(flight, tuning.write, report);
     if (importer->parsed()) return import_command(importing);
     return modes->parsed() ? modes_command(flight, step, svg) : check_command(flight);
   }

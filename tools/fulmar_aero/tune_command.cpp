@@ -11,8 +11,7 @@
 #include "tools/fulmar_aero/flight_words.hpp"
 #include "tools/fulmar_aero/gains.hpp"
 #include "tools/fulmar_aero/gains_file.hpp"
-#include "tools/fulmar_aero/tune_flight.hpp"
-#include "tools/fulmar_aero/tune_words.hpp"
+#include "tools/fulmar_aero/tune_outcome.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -128,15 +127,17 @@ std::string text_with(const AirframeFile& file, const std::vector<Gain>& gains) 
 
 }  // namespace
 
-int tune_command(const FlightOptions& options, const TuneOptions& tune_options) {
+TuneOutcome tune_outcome(const FlightOptions& options, const TuneOptions& tune_options) {
   const AirframeFile file = read_airframe_file(options.airframe);
   const FileLaws shipped = laws_in(file);
   const Bandwidths given = bandwidths(tune_options);
   const AircraftModel m(file.airframe, options.altitude_m());
   const SteadyFlight flight = fly(m, options.condition(file.airframe));
-  const auto failed = [](const std::string& sentence) {
-    std::fprintf(stderr, "%s\n", core::for_terminal(sentence).c_str());
-    return int(core::ExitCode::failed);
+  TuneOutcome outcome;
+  const auto failed = [&](const std::string& sentence) {
+    outcome.code = core::ExitCode::failed;
+    outcome.faults.push_back(sentence);
+    return outcome;
   };
   if (!flight.found()) return failed(no_flight(file, m, flight));
   Plant plant{file.airframe, linearised(m, flight), flight, m.altitude_m()};
@@ -146,39 +147,47 @@ int tune_command(const FlightOptions& options, const TuneOptions& tune_options) 
     return failed(sentence);
 
   const Tuning tuning = tune(plant, shipped.laws, given);
-  const std::vector<Gain> gains = computed_gains(tuning.laws, tuning.yaw_damper),
-                          old = shipped.given ? computed_gains(shipped.laws, tuning.yaw_damper)
-                                              : std::vector<Gain>{};
-  const Judged computed = judge(plant, tuning.laws),
-               before = shipped.given ? judge(plant, shipped.laws) : Judged{};
-  std::vector<std::string> faults = computed.faults(file.title());
-  for (const std::string& sentence : tuning.beyond) faults.push_back(file.title() + ": " + sentence);
-  const std::string text = tune_options.write || tune_options.verify ? text_with(file, gains) : "";
-  TuneFlight flown;
+  outcome.gains = computed_gains(tuning.laws, tuning.yaw_damper);
+  if (shipped.given) outcome.shipped_gains = computed_gains(shipped.laws, tuning.yaw_damper);
+  outcome.computed = judge(plant, tuning.laws);
+  if (shipped.given) outcome.shipped = judge(plant, shipped.laws);
+  outcome.faults = outcome.computed.faults(file.title());
+  for (const std::string& sentence : tuning.beyond) outcome.faults.push_back(file.title() + ": " + sentence);
+  const std::string text = tune_options.write || tune_options.verify ? text_with(file, outcome.gains) : "";
   if (tune_options.verify) {
-    flown = fly_hourglass(file.airframe, text, plant.flight.condition.airspeed_mps);
-    for (const std::string& sentence : flight_faults(flown, file.title())) faults.push_back(sentence);
+    outcome.flown = fly_hourglass(file.airframe, text, plant.flight.condition.airspeed_mps);
+    for (const std::string& sentence : flight_faults(*outcome.flown, file.title()))
+      outcome.faults.push_back(sentence);
   }
   if (options.json) {
     print_object({{"airframe", file.title()},
                   {"trim", flight_json(m, flight)},
                   {"step_s", plant.step_s},
                   {"delay_s", plant.delay_s},
-                  {"gains", gains_json(gains, old)},
-                  {"computed", loops_json(computed)},
-                  {"shipped", shipped.given ? loops_json(before) : nlohmann::json(nullptr)},
-                  {"flight", tune_options.verify ? tune_flight_json(flown) : nlohmann::json(nullptr)},
-                  {"faults", faults}});
+                  {"gains", gains_json(outcome.gains, outcome.shipped_gains)},
+                  {"computed", loops_json(outcome.computed)},
+                  {"shipped", outcome.shipped ? loops_json(*outcome.shipped) : nlohmann::json(nullptr)},
+                  {"flight", outcome.flown ? tune_flight_json(*outcome.flown) : nlohmann::json(nullptr)},
+                  {"faults", outcome.faults}});
   } else {
-    print_text(heading(file, plant, tuning.chosen) + loops_text("computed", computed));
-    if (shipped.given) print_text(loops_text("shipped", before));
-    print_text("\n" + gains_text(gains, old));
-    if (tune_options.verify) print_text(flight_text(flown));
+    print_text(heading(file, plant, tuning.chosen) + loops_text("computed", outcome.computed));
+    if (outcome.shipped) print_text(loops_text("shipped", *outcome.shipped));
+    print_text("\n" + gains_text(outcome.gains, outcome.shipped_gains));
+    if (outcome.flown) print_text(flight_text(*outcome.flown));
   }
-  for (const std::string& sentence : faults) failed(sentence);
-  if (!faults.empty()) return core::ExitCode::failed;  // gains that are not good enough are not written
-  if (tune_options.write) write_file(file, text);
-  return core::ExitCode::done;
+  // gains that are not good enough are not written
+  if (!outcome.faults.empty())
+    outcome.code = core::ExitCode::failed;
+  else if (tune_options.write)
+    write_file(file, text);
+  return outcome;
+}
+
+int tune_command(const FlightOptions& options, const TuneOptions& tune_options) {
+  const TuneOutcome outcome = tune_outcome(options, tune_options);
+  for (const std::string& sentence : outcome.faults)
+    std::fprintf(stderr, "%s\n", core::for_terminal(sentence).c_str());
+  return outcome.code;
 }
 
 }  // namespace fulmar::aero

@@ -37,12 +37,22 @@ struct FlightFolder {
   void write(const char* name, const std::string& text) const { std::ofstream(path / name) << text; }
 };
 
+constexpr double shipped_speed_mps = 17;
+/// Whether the shipped plan is flown, which is made for 17 m/s.
+bool is_shipped_speed(double airspeed_mps) { return std::abs(airspeed_mps - shipped_speed_mps) <= 1.5; }
+/// North and east, m, of the shipped plan.
+constexpr std::array<std::array<double, 2>, 4> shipped_corners{
+    {{400, -250}, {-400, -50}, {-400, -250}, {400, -50}}};
+
+double plan_scale(double airspeed_mps) {
+  return is_shipped_speed(airspeed_mps) ? 1 : std::pow(airspeed_mps / shipped_speed_mps, 2);
+}
+
 std::string plan_text(double airspeed_mps) {
-  constexpr double shipped_speed = 17;
-  const double k = std::pow(airspeed_mps / shipped_speed, 2);
+  const double k = plan_scale(airspeed_mps);
   std::string text = "name: hourglass\nend: circuit\nairspeed: " + fixed(airspeed_mps, 3) +
                      " m/s\nturn_radius: " + fixed(50 * k, 3) + " m\nwaypoints:\n";
-  for (const auto& [north, east] : {std::pair{400, -250}, {-400, -50}, {-400, -250}, {400, -50}})
+  for (const auto& [north, east] : shipped_corners)
     text += "  - {north: " + fixed(north * k, 1) + " m, east: " + fixed(east * k, 1) + " m, up: 70 m}\n";
   return text;
 }
@@ -81,7 +91,7 @@ TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, doub
   const FlightFolder folder;
   folder.write("airframe.yaml", text);
   std::string mission = "extends: fulmar:missions/hourglass.yaml\nmission: tune\nairframe: airframe.yaml\n";
-  if (std::abs(airspeed_mps - 17) > 1.5) {
+  if (!is_shipped_speed(airspeed_mps)) {
     folder.write("plan.yaml", plan_text(airspeed_mps));
     mission += "components: {plan: {params: {plan: plan.yaml}}}\n";
   }
@@ -109,6 +119,9 @@ TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, doub
   }
   flight.result = o["result"].get<std::string>();
   flight.figures = figures_of(o, airframe);
+  flight.track = track_of(folder.path / "flight.mcap");
+  for (const auto& [north, east] : shipped_corners)
+    flight.corners_m.push_back({plan_scale(airspeed_mps) * north, plan_scale(airspeed_mps) * east});
   return flight;
 }
 

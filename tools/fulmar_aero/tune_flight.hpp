@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The hourglass, flown by `fulmar run` with gains that stand in no file yet.
 #pragma once
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "tools/fulmar_aero/airframe_file.hpp"
+#include "tools/fulmar_aero/flight_track.hpp"
 
 namespace fulmar::aero {
 
@@ -18,6 +20,8 @@ struct FlownFigure {
 struct TuneFlight {
   std::string result;  ///< "flown", or what became of it
   std::vector<FlownFigure> figures;
+  FlightTrack track;
+  std::vector<std::array<double, 2>> corners_m;  ///< of the plan: north, east
 };
 
 /// `text`: of the airframe's file, with the gains. The plan is the shipped one near its 17 m/s, else the same

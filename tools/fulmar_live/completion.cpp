@@ -42,8 +42,8 @@ const std::map<std::string, Places> places{
     {"aero trim", {"mission", 0}},    {"aero linearize", {"mission", 0}},
     {"aero modes", {"mission", 0}},   {"aero check", {"mission", 0}},
     {"aero tune", {"mission", 0}},    {"aero vlm", {"mission", 0}},
-    {"aero fly", {"mission", 0}},     {"aero import", {"file", 1}},
-    {"import rosplane", {"file", 0}}};
+    {"aero fly", {"mission", 0}},     {"aero see", {"mission", 0}},
+    {"aero import", {"file", 1}},     {"import rosplane", {"file", 0}}};
 
 /// Of options that take a value: a kind as above.
 const std::map<std::string, std::string> option_kinds{

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a flight went and what it was commanded, from its log.
+#pragma once
+#include <filesystem>
+#include <vector>
+
+namespace fulmar::aero {
+
+/// SI units, rad; from the mission's origin. `time_s`: flight time.
+struct TrackPoint {
+  double time_s = 0, north_m = 0, east_m = 0, height_m = 0, airspeed_mps = 0, roll_rad = 0, pitch_rad = 0;
+};
+struct CommandPoint {
+  double time_s = 0, height_m = 0, airspeed_mps = 0;
+};
+struct AttitudePoint {
+  double time_s = 0, roll_rad = 0, pitch_rad = 0;
+};
+
+/// Every `track_step_s` one of each.
+struct FlightTrack {
+  std::vector<TrackPoint> truth;
+  std::vector<CommandPoint> commands;
+  std::vector<AttitudePoint> attitudes;
+};
+inline constexpr double track_step_s = 0.25;
+
+/// Of a log that the host of this installation wrote: topics /vehicle/truth, /guide/command, /outer/attitude.
+/// A topic that is not there leaves its list empty. Throws core::Error when there is no log.
+FlightTrack track_of(const std::filesystem::path& log);
+
+}  // namespace fulmar::aero

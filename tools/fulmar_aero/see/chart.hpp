@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Charts as HTML figures with inline SVG: the same numbers give the same bytes.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace fulmar::aero {
+
+struct ChartPoint {
+  double x = 0, y = 0;
+};
+
+enum class Mark { none, circle, square, triangle, diamond, cross, plus };
+
+/// A curve, or marks alone. A point that is not finite parts it.
+struct ChartLine {
+  std::string name;  ///< in the legend; "": not there
+  int style = 0;     ///< colour and dashes; no_style: those of the text
+  std::vector<ChartPoint> points;
+  Mark mark = Mark::none;  ///< at each point
+  bool joined = true;      ///< else the marks alone
+  bool closed = false;     ///< each part ends where it began
+  bool thin = false;       ///< behind the others, pale
+  bool growing = false;    ///< marks, from the first point to the last
+  double size = 1;         ///< of marks
+};
+inline constexpr int no_style = -1, styles = 6;
+
+/// Words and unit: "airspeed", "m/s"; "-" without a dimension.
+struct ChartAxis {
+  std::string words, unit;
+};
+
+struct Chart {
+  std::string title;
+  ChartAxis x, y;
+  std::vector<ChartLine> lines;
+  std::vector<ChartLine> keys;      ///< more for the legend
+  bool even = false;                ///< both axes in one scale
+  bool unstable = false;            ///< what lies right of zero is shaded
+  bool with_zero = false;           ///< the axis of y shows 0
+  std::string empty = "no values";  ///< the sentence in its place when there is nothing to draw
+};
+
+std::string chart_html(const Chart& chart);
+
+/// Text as it is written in HTML and in its attributes; control characters become spaces.
+std::string in_html(const std::string& text);
+
+/// A legend's sample of a style: a short line.
+std::string style_sample(int style);
+
+}  // namespace fulmar::aero

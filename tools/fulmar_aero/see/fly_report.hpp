@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What `fulmar aero fly` has done, as a page.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/tune_outcome.hpp"
+
+namespace fulmar::aero {
+
+/// As far as it came.
+struct FlyRecord {
+  const AirframeFile* file = nullptr;
+  const Findings* findings = nullptr;
+  double altitude_m = 0;
+  std::optional<TuneOutcome> tuned;
+  std::string verdict;  ///< "flown", or what it ended at
+};
+std::string fly_report_html(const FlyRecord& record);
+
+}  // namespace fulmar::aero

@@ -21,7 +21,7 @@ export function plain(value: number): string {
 export function fixed(value: number | undefined, places: number, unit: string): string {
   if (value === undefined || !Number.isFinite(value)) return none;
   const text = value.toFixed(places);
-  return (Number(text) === 0 ? text.replace("-", "") : text) + (unit === "°" || unit === "" ? unit : " " + unit);
+  return (Number(text) === 0 ? text.replace("-", "") : text) + (unit === "" || unit.startsWith("°") ? unit : " " + unit);
 }
 
 /** What a parameter or field is shown in: its unit and how much of it one of the original is. */
@@ -29,6 +29,11 @@ export function shown_unit(unit: string): { unit: string; scale: number; typed: 
   if (unit === "rad") return { unit: "°", scale: degrees, typed: "deg" };
   if (unit === "rad/s") return { unit: "°/s", scale: degrees, typed: "deg/s" };
   return { unit: unit.replace("m/s2", "m/s²"), scale: 1, typed: "" };
+}
+
+/** "70 m", "12°" */
+export function with_unit(value: number, unit: string): string {
+  return digits(value) + (unit === "" || unit.startsWith("°") ? unit : " " + unit);
 }
 
 /** 0 to 360 degrees, clockwise from north. */

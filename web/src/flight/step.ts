@@ -12,6 +12,8 @@ export interface StepResponse {
   settling_s: number | null; // null: not yet
 }
 
+const held_s = 0.5;
+
 /** The value that holds at time `t`; the first one before all. */
 export function value_at(s: Series, t: number): number {
   let low = 0, high = s.t.length;
@@ -43,7 +45,8 @@ export function last_step(asked: Series, got: Series, since: number, least: numb
     if ((asked.t[first] as number) - (asked.t[i] as number) > within_s) break;
     if (Math.abs(away) > Math.abs(size)) size = away;
   }
-  if (Math.abs(size) < least) return null;
+  // what goes on changing is no step
+  if (Math.abs(size) < least || (asked.t[n - 1] as number) - (asked.t[first] as number) < held_s) return null;
   // where it began: the newest sample that is away by the whole of it
   let begin = first;
   while (begin > 0 && Math.abs(off((asked.v[begin] as number) - to)) < Math.abs(size) * 0.95) --begin;

@@ -23,9 +23,14 @@ export class EventList {
       const severity = String(m.severity);
       if (this.empty) fill(this.list);
       this.empty = false;
+      // a slider or a stick sets a parameter many times: its last value is enough
+      const of = m.code === "parameter_set" ? `${m.component}.${m.name}` : "";
+      if (of !== "") [...this.list.children].slice(0, 6).find((e) => (e as HTMLElement).dataset.of === of)?.remove();
       const words = String(m.words) || [m.code, m.component, m.name, m.cause].filter(Boolean).join(" ");
-      this.list.prepend(el("li", { class: severity }, el("time", {}, clock(t)),
-        el("b", { title: severity }, signs[severity] ?? "·"), el("span", {}, words)));
+      const line = el("li", { class: severity }, el("time", {}, clock(t)),
+        el("b", { title: severity }, signs[severity] ?? "·"), el("span", {}, words));
+      line.dataset.of = of;
+      this.list.prepend(line);
       while (this.list.childElementCount > most) this.list.lastElementChild?.remove();
     });
   }

@@ -188,7 +188,8 @@ export class MapView {
     g.textBaseline = "bottom";
     g.fillText(step >= 1000 ? step / 1000 + " km" : step + " m", x + length / 2, y - 3);
     g.textAlign = "left";
-    g.fillText("N ↑", 10, this.height - 8);
+    g.textBaseline = "middle";
+    g.fillText("N ↑", 12, this.height - 46);
   }
   private line(g: CanvasRenderingContext2D, points: Point[]): void {
     g.beginPath();
@@ -287,13 +288,13 @@ export class MapView {
     g.font = "12px system-ui";
     g.textAlign = "left";
     g.textBaseline = "middle";
-    const width = g.measureText(words).width + 52;
+    const width = g.measureText(words).width + 52, y = this.height - 22;
     g.fillStyle = colours.get("panel");
-    g.fillRect(8, 8, width, 30);
+    g.fillRect(8, y - 15, width, 30);
     g.fillStyle = g.strokeStyle = colours.get("text");
-    g.fillText(words, 44, 23);
+    g.fillText(words, 44, y);
     g.save();
-    g.translate(26, 23);
+    g.translate(26, y);
     g.rotate((Math.round(to * degrees) / degrees) || 0);
     g.lineWidth = 2;
     g.beginPath();

@@ -3,7 +3,7 @@
 // when the page began to look. Angles in degrees.
 import { el, mark, say } from "../dom";
 import type { Flight, Param } from "../protocol/flight";
-import { digits, plain, shown_unit } from "../units";
+import { digits, plain, shown_unit, with_unit } from "../units";
 
 const send_gap_ms = 80;
 
@@ -11,7 +11,7 @@ const send_gap_ms = 80;
 function range_of(p: Param): string {
   const { unit, scale } = shown_unit(p.unit);
   if (p.min === null || p.max === null || (p.min === 0 && p.max === 0) || p.kind === "choice" || p.kind === "flag") return "";
-  return `${digits(p.min * scale)} .. ${digits(p.max * scale)}${unit ? " " + unit : ""}`;
+  return `${digits(p.min * scale)} .. ${with_unit(p.max * scale, unit)}`;
 }
 function words_of(p: Param, value: unknown): string {
   const { scale } = shown_unit(p.unit);

@@ -25,7 +25,7 @@ export class PlanTable {
   private readonly settings = el("div", { class: "row settings" });
   readonly element = el("section", { class: "grow" }, this.settings,
     el("div", { class: "scroll" }, el("table", { class: "waypoints" },
-      el("thead", {}, el("tr", {}, el("th", {}, "#"), ...columns.map((c) => el("th", {}, `${c.name}, ${c.unit}`)), el("th", {}, ""))), this.body)));
+      el("thead", {}, el("tr", {}, el("th", {}, "#"), ...columns.map((c) => el("th", {}, c.name, el("small", {}, c.unit))), el("th", {}, ""))), this.body)));
   private plan: Plan | null = null;
   private shown = "";
   private refused = -1;

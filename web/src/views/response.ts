@@ -5,7 +5,7 @@ import { colours, el, fill, say } from "../dom";
 import { last_step, value_at } from "../flight/step";
 import { type Names, names_of } from "../names";
 import type { Series, Source } from "../source";
-import { digits, fixed, shown_unit } from "../units";
+import { digits, fixed, shown_unit, with_unit } from "../units";
 
 interface Pair {
   name: string; asked: [string, string]; got: [string, string]; unit: string; least: number; turn: number;
@@ -61,7 +61,7 @@ export class Response {
       this.plot = new uPlot({
         width, height, pxAlign: 0, cursor: { drag: { x: false, y: false } },
         scales: { x: { time: false } },
-        axes: [{ ...axis, values: (_u, list) => list.map((v) => digits(v) + " s") }, { ...axis, size: 64, values: (_u, list) => list.map((v) => digits(v) + " " + unit) }],
+        axes: [{ ...axis, values: (_u, list) => list.map((v) => digits(v) + " s") }, { ...axis, size: 64, values: (_u, list) => list.map((v) => with_unit(v, unit)) }],
         series: [{ label: "time", value: (_u, v) => fixed(v, 2, "s") },
           { label: "asked", stroke: colours.get("line2"), width: 2, dash: [8, 4], value: (_u, v) => fixed(v, 2, unit) },
           { label: "flown", stroke: colours.get("line1"), width: 2, value: (_u, v) => fixed(v, 2, unit) }],

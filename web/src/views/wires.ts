@@ -6,7 +6,7 @@ import type { Component, Flight, Port, View } from "../protocol/flight";
 import { digits, fixed, none } from "../units";
 import type { Page } from "./page";
 
-const count_ms = 1000;
+const count_ms = 1000, steps_over_s = 4;
 const short = (type: string) => type.slice(type.lastIndexOf("/") + 1) || "probe";
 const rate_of = (hz: number | undefined) => (hz === undefined ? none : digits(Math.round(hz * 10) / 10) + " Hz");
 const age_of = (s: number) => (Number.isFinite(s) ? (s < 10 ? fixed(s * 1000, 0, "ms") : fixed(s, 0, "s")) : "never");
@@ -41,6 +41,8 @@ export class Wires implements Page {
 
   show(): void {
     this.counted_ms = 0;
+    this.steps = new Map();
+    this.steps_s = -1e9;
     this.flight.want_all(true);
   }
   hide(): void {
@@ -162,17 +164,18 @@ export class Wires implements Page {
       this.counts.set(key, count);
     };
     for (const t of this.flight.topics()) note(t.name, this.flight.count(t.name));
-    const since = view.now_ns * 1e-9 - this.view_s; // the view is some time old: by its own time
+    // The host notes its steps now and then: over a longer time.
+    const since = view.now_ns * 1e-9 - this.steps_s, anew = since < 0 || since > steps_over_s;
     for (const c of view.components) {
       const before = this.steps.get(c.name);
-      if (before !== undefined && since > 0) say(this.rows.get(c.name)?.rate as HTMLElement, rate_of((c.steps - before) / since));
-      if (since !== 0) this.steps.set(c.name, c.steps);
+      if (before !== undefined && since > 1) say(this.rows.get(c.name)?.rate as HTMLElement, rate_of((c.steps - before) / since));
+      if (anew || before === undefined) this.steps.set(c.name, c.steps);
     }
-    if (since !== 0) this.view_s = view.now_ns * 1e-9;
+    if (anew) this.steps_s = view.now_ns * 1e-9;
     this.show_rates();
   }
   private steps = new Map<string, number>();
-  private view_s = 0;
+  private steps_s = 0; // flight time of these
 
   private show_rates(): void {
     for (const p of this.ports) {

@@ -349,11 +349,8 @@ FlightView FlightControl::view() const {
   for (std::size_t i = 0; i < v.components.size(); ++i) {
     ComponentView& c = v.components[i];
     const Seen::Component& seen = seen_.components[i];
-    c.active = seen.active.load(std::memory_order_relaxed);
-    c.stopped = seen.stopped.load(std::memory_order_relaxed);
-    c.steps = seen.steps.load(std::memory_order_relaxed);
-    c.step_us = seen.step_us.load(std::memory_order_relaxed);
-    c.step_max_us = seen.step_max_us.load(std::memory_order_relaxed);
+    c.active = seen.active, c.stopped = seen.stopped;
+    c.steps = seen.steps, c.step_us = seen.step_us, c.step_max_us = seen.step_max_us;
     for (std::size_t k = 0; k < c.params.size(); ++k) c.params[k].base = base_[i][k];
   }
   for (const auto& [component, param] : directory_->overlaid[phase])

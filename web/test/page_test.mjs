@@ -37,7 +37,7 @@ const seen = (what, selector, holds, patience) => until(what, async () => holds(
 /** Nothing may be wider than its box, and the page not than its window. */
 async function whole(name) {
   const cut = await page.evaluate(() => {
-    const hidden = (e) => !["auto", "scroll", "visible"].includes(getComputedStyle(e).overflowX);
+    const hidden = (e) => getComputedStyle(e).overflowX !== "visible"; // nobody scrolls to the right to read a number
     const list = [...document.querySelectorAll("body *")].filter((e) => e.tagName !== "CANVAS" && e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1 && hidden(e));
     if (document.documentElement.scrollWidth > innerWidth) list.push(document.documentElement);
     return list.map((e) => `${e.tagName}.${e.className} ${(e.value ?? e.textContent ?? "").slice(0, 40)}`);
@@ -92,6 +92,7 @@ const steps = {
   },
   async "Fly: what there is to see"() {
     await tab("Fly");
+    await seen("what happened before it was opened, too", ".events", (t) => t.includes("phase hold") && t.includes("phase takeoff") && t.includes("phase cruise"));
     await seen("a height", ".figures", (t) => /ground speed\d+\.\d m\/s/.test(t));
     await seen("who flies", ".side .pairs", (t) => t.includes("outerslc") && t.includes("navekf") && t.includes("GNSS position✓ ok"));
     await until("a picture of the aircraft", () => page.evaluate(() => document.querySelector(".chase canvas")?.width > 300));

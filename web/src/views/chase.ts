@@ -95,7 +95,7 @@ export class Chase {
     const plane = new Mesh(new PlaneGeometry(12000, 12000), new MeshLambertMaterial({ color: 0x5b7a4a }));
     plane.rotation.x = -Math.PI / 2;
     plane.position.y = -0.4;
-    this.ground.add(plane, new GridHelper(4000, 80, 0x2f4427, 0x47633a));
+    this.ground.add(plane, new GridHelper(4000, 80, 0x2b3d24, 0x34492b));
     this.scene.add(this.ground);
     this.trail.setAttribute("position", new BufferAttribute(this.trail_points, 3));
     const line = new Line(this.trail, new LineBasicMaterial({ color: 0x56b4e9 }));

@@ -15,10 +15,11 @@ export class EventList {
 
   constructor(private readonly source: Source) {}
 
-  /** Anew, when the topics are known. */
+  /** Anew, when the topics are known: the host tells its last hundred again. */
   begin(): void {
     this.stop();
-    if (this.empty) fill(this.list, el("li", { class: "faint" }, "None since this page was opened."));
+    this.empty = true;
+    fill(this.list, el("li", { class: "faint" }, "None yet."));
     this.stop = this.source.listen("/fulmar/event", (m, t) => {
       const severity = String(m.severity);
       if (this.empty) fill(this.list);

@@ -95,9 +95,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   }
 
   void begin() {
-    timer_.start(handshake_limit, [weak = weak_from_this()](bool due) {
-      if (const auto self = weak.lock(); self && due) self->cut();
-    });
+    cut_after(handshake_limit);
     parser_.header_limit(most_header_bytes);
     http::async_read_header(corked(), buffer_, parser_,
                             OnBytes([self = shared_from_this()](error_code ec, std::size_t) {
@@ -147,8 +145,9 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   }
 
  private:
-  static constexpr seconds handshake_limit{5}, idle_limit{120}, farewell_limit{1};
+  static constexpr seconds handshake_limit{5}, idle_limit{120}, farewell_limit{1}, page_limit{60};
   static constexpr std::uint32_t most_header_bytes = 8192;
+  static constexpr std::size_t small_body_bytes = 64u << 10;
   static constexpr std::size_t most_message_bytes = 1u << 20;
   static constexpr std::size_t most_clients = 16;
   static constexpr int kernel_bytes = 512 << 10;  // that the system holds for a client: it is late already
@@ -161,6 +160,11 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   Corked& corked() { return stream_.next_layer(); }
   /// Ends at once.
   void cut() { corked().close(); }
+  void cut_after(seconds limit) {
+    timer_.start(limit, [weak = weak_from_this()](bool due) {
+      if (const auto self = weak.lock(); self && due) self->cut();
+    });
+  }
 
   // ---- HTTP
   void answer() {
@@ -220,6 +224,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
               further;
     answer_ += "Connection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n";
     if (parser_.get().method() != http::verb::head) answer_ += body;
+    if (body.size() > small_body_bytes) cut_after(page_limit);  // a slow link takes its time
     net::async_write(corked().socket(), net::buffer(answer_),
                      OnBytes([self = shared_from_this()](error_code, std::size_t) {
                        error_code ignored;

@@ -41,13 +41,14 @@ Pages::Pages(const fs::path& folder) {
     const std::string type = content_type(at->path());
     if (type.empty()) continue;
     PageFile file{type, content(at->path()), content(at->path().string() + ".gz")};
-    if (!file.body.empty()) files_.emplace("/" + at->path().filename().string(), std::move(file));
+    const std::string name = at->path().filename().string();
+    if (!file.body.empty()) files_.emplace(name == "index.html" ? "/" : "/" + name, std::move(file));
   }
-  if (!files_.contains("/index.html")) files_.clear();
+  if (!files_.contains("/")) files_.clear();
 }
 
 const PageFile* Pages::find(std::string_view path) const {
-  const auto at = files_.find(path == "/" ? std::string_view("/index.html") : path);
+  const auto at = files_.find(path);
   return at == files_.end() ? nullptr : &at->second;
 }
 

@@ -24,7 +24,7 @@ class Pages {
   explicit Pages(const std::filesystem::path& folder);
 
   bool empty() const { return files_.empty(); }
-  /// "/" is index.html; nullptr when there is no such file.
+  /// "/" is index.html, and that alone; nullptr when there is no such file.
   const PageFile* find(std::string_view path) const;
 
  private:

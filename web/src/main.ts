@@ -66,7 +66,8 @@ function link(now_ms: number): void {
   const seconds = Math.max(0, Math.floor((now_ms - since_ms) / 1000));
   const ended = why.includes("ended");
   const what = flight.view === null ? "No answer from the flight" : ended ? "The flight has ended" : "Connection lost";
-  if (down) say(banner, `✕ ${what}, ${seconds} s ago. ${flight.view === null ? "" : "What is shown is old. "}Trying again.`);
+  const shown = flight.view === null ? "" : ended ? " What is shown is its last moment." : " What is shown is old.";
+  if (down) say(banner, `✕ ${what}, ${seconds} s ago.${shown} ${ended ? "Waiting for another one." : "Trying again."}`);
 }
 
 function head(): void {

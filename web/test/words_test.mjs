@@ -28,6 +28,7 @@ const { Route, dubins, wrap } = await load("flight/route.ts");
 const { as_group, edits_between } = await load("flight/plan_edits.ts");
 const { read_plan_file, write_plan_file } = await load("flight/plan_file.ts");
 const { last_step, value_at } = await load("flight/step.ts");
+const { piece_ahead } = await load("flight/piece.ts");
 const { bearing, clock, digits, fixed, shown_unit, with_unit } = await load("units.ts");
 
 const point = (north, east, up = 70, id = 0) => ({ north, east, up, course: null, airspeed: 0, id, geodetic: null });
@@ -119,6 +120,21 @@ const tests = {
     for (const p of legs[1].points) near(Math.hypot(p.n - 500, p.e), 50, 1e-9);
     assert.equal(new Route(plan_of([point(5, 5)])).legs()[0].points.length, 73);
     assert.deepEqual(new Route(plan_of([])).legs(), []);
+  },
+  "the piece that is followed goes on from beside the aircraft"() {
+    const path = (more) => ({ kind: "line", turn: "right", origin_m: { north: 10, east: 20 }, direction_ratio: { north: 0, east: 0.6, down: -0.8 }, radius_m: 50, remaining_m: 30, ...more });
+    const far = 1e9, at = { n: 13, e: 60 };
+    assert.deepEqual(piece_ahead(path({}), at), [{ n: 10, e: 60 }, { n: 10, e: 90 }]);
+    assert.deepEqual(piece_ahead(path({ remaining_m: far }), at)[1], { n: 10, e: 460 });
+    assert.deepEqual(piece_ahead(path({ direction_ratio: { north: 0, east: 0, down: 1 } }), at), []);
+    assert.deepEqual(piece_ahead(undefined, at), []);
+    for (const [turn, east] of [["right", 70], ["left", -30]]) {  // north of the centre, a quarter on
+      const arc = piece_ahead(path({ kind: "orbit", turn, remaining_m: 25 * Math.PI }), { n: 100, e: 20 });
+      near(arc[0].n, 60, 1e-9); near(arc[0].e, 20, 1e-9);
+      near(arc[arc.length - 1].n, 10, 1e-9); near(arc[arc.length - 1].e, east, 1e-9);
+    }
+    const round = piece_ahead(path({ kind: "orbit", remaining_m: far }), { n: 100, e: 20 });
+    near(round[round.length - 1].n, round[0].n, 1e-9);
   },
   "the fewest edits: what stays keeps its id"() {
     const now = plan_of([point(0, 0, 70, 1), point(100, 0, 70, 2), point(200, 0, 70, 3), point(300, 0, 70, 4)]);

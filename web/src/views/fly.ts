@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The flight at a glance: from behind, on the map, instruments, who flies, how the sensors are, what happened.
 import { el, fill, mark, say } from "../dom";
+import { piece_ahead } from "../flight/piece";
 import { type Names, names_of, plan_of, state_of } from "../names";
 import type { Flight } from "../protocol/flight";
 import { type Message, number_at } from "../protocol/schema";
@@ -70,7 +71,7 @@ export class Fly implements Page {
     this.track.update();
     const progress = f.latest(names.progress), command = f.latest(names.command), attitude = f.latest(names.attitude);
     const item = number_at(progress, "item") ?? -1;
-    this.map.draw({ plan: this.plan, draft: false, state, track: this.track, item, chosen: -1, refused: -1, target: null });
+    this.map.draw({ plan: this.plan, draft: false, state, track: this.track, item, chosen: -1, refused: -1, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [] });
     draw_instruments(this.instruments, state, {
       air: number_at(command, "airspeed_mps"), up: number_at(command, "height_m"), course: number_at(command, "course_rad"),
       roll: number_at(attitude, "roll_rad"), pitch: number_at(attitude, "pitch_rad"),

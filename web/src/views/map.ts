@@ -17,7 +17,7 @@ export interface Scene {
   item: number; // waypoint that is flown to, from 0; -1: none
   chosen: number; // waypoint that is being edited; -1: none
   refused: number; // waypoint whose last edit was refused; -1: none
-  target: Point | null; // what guidance steers for now
+  piece: Point[]; // of the path that is followed now
 }
 export interface Hooks {
   press?(at: Point, waypoint: number): boolean; // true: the press is not for the map
@@ -26,7 +26,7 @@ export interface Hooks {
 }
 
 const steps = [1, 2, 5];
-const click_px = 4, reach_px = 14, margin_px = 56;
+const click_px = 4, reach_px = 14, margin_px = 56, most_labels = 100;
 
 export class MapView {
   readonly canvas = el("canvas", { class: "map", tabIndex: 0, role: "img", "aria-label": "Map: plan, track and aircraft" });
@@ -151,6 +151,11 @@ export class MapView {
     this.grid(g);
     this.trail(g, scene.track);
     this.route(g, scene);
+    g.strokeStyle = colours.get("track");
+    g.lineWidth = 3;
+    g.setLineDash([1, 6]);
+    this.line(g, scene.piece);
+    g.setLineDash([]);
     this.home(g);
     if (scene.state?.valid.position) this.aircraft(g, scene.state);
     if (scene.state?.valid.wind) this.wind(g, scene.state);
@@ -243,7 +248,12 @@ export class MapView {
       g.fillText(String(i), at.x, at.y + 0.5);
       g.textAlign = "left";
       g.fillStyle = colours.get("text");
-      g.fillText(digits(w.up) + " m", at.x + 15, at.y);
+      const words = digits(w.up) + " m", end = at.x + 15 + g.measureText(words).width;
+      const free = plan.waypoints.length <= most_labels && plan.waypoints.every((other, k) => {
+        const p = this.to_screen({ n: other.north, e: other.east });
+        return k === i || Math.abs(p.y - at.y) > 16 || p.x < at.x - 30 || p.x > end + 12;
+      });
+      if (free || i === scene.chosen) g.fillText(words, at.x + 15, at.y);
       if (w.course === null) return;
       g.beginPath();
       g.moveTo(at.x + 12 * Math.sin(w.course), at.y - 12 * Math.cos(w.course));

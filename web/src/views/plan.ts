@@ -2,6 +2,7 @@
 // The plan, on the map and as a table. Every change goes into a draft; it is sent at once, or when it is asked for.
 import { el, mark, say } from "../dom";
 import { as_group, edits_between } from "../flight/plan_edits";
+import { piece_ahead } from "../flight/piece";
 import { type Origin, read_plan_file, write_plan_file } from "../flight/plan_file";
 import type { Plan, Point, Waypoint } from "../flight/route";
 import { names_of, plan_of, state_of } from "../names";
@@ -191,11 +192,12 @@ export class PlanPage implements Page {
       this.at_once.checked = f.view.io === "sim"; // an aircraft waits until it is meant
     }
     this.track.update();
+    const state = state_of(f.latest(names.state));
     const item = number_at(f.latest(names.progress), "item") ?? -1;
     const draft = this.draft !== null && this.awaited < 0;
     this.map.draw({
-      plan: this.plan, draft: this.draft !== null, state: state_of(f.latest(names.state)), track: this.track,
-      item: this.draft ? -1 : item, chosen: this.chosen, refused: this.refused, target: null,
+      plan: this.plan, draft: this.draft !== null, state, track: this.track,
+      item: this.draft ? -1 : item, chosen: this.chosen, refused: this.refused, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [],
     });
     this.table.update(this.plan, this.chosen, this.draft ? -1 : item);
     this.upload.disabled = !draft || this.sending;

@@ -20,7 +20,7 @@
 
 namespace fulmar::core {
 
-struct Unit;
+class Unit;
 
 /// One producer, one consumer, pointers; full: refused.
 template <class T, std::size_t N>

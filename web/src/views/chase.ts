@@ -13,7 +13,7 @@ import type { State } from "../names";
 // A picture takes at most so much of the time, measured now and then: a computer without a graphics card has other
 // things to do.
 const share = 0.12, measure_every = 20, shortest_ms = 33, longest_ms = 1000;
-const most_trail = 3000, behind_m = 9, above_m = 3;
+const most_trail = 3000, jump_m = 100, behind_m = 9, above_m = 3;
 
 export interface Surfaces {
   aileron: number; elevator: number; rudder: number; throttle: number; // rad; 0 to 1
@@ -112,6 +112,8 @@ export class Chase {
   }
 
   private add_trail(s: State): void {
+    const last = 3 * (this.trail_count - 1), [x = s.e, , z = -s.n] = this.trail_points.subarray(Math.max(0, last), Math.max(0, last) + 3);
+    if (this.trail_count > 0 && Math.hypot(x - s.e, z + s.n) > jump_m) this.trail_count = 0; // another moment, or another place
     if (this.trail_count === most_trail) {
       this.trail_points.copyWithin(0, 3 * 500);
       this.trail_count -= 500;

@@ -35,7 +35,7 @@ json metadata_of(const core::McapFile& log) {
 
 double seconds(std::uint64_t ns, std::uint64_t epoch_ns) {
   const auto since = static_cast<std::int64_t>(ns - epoch_ns);
-  return std::round(static_cast<double>(since) * 1e-5) * 1e-4;  // tenths of a millisecond
+  return std::round(static_cast<double>(since) * 1e-5) / 1e4;  // tenths of a millisecond
 }
 
 void append(std::string& to, std::span<const std::byte> message) {
@@ -46,7 +46,7 @@ void append(std::string& to, std::span<const std::byte> message) {
 
 struct Topic {
   std::size_t count = 0;
-  std::uint64_t first_ns = 0, last_ns = 0, kept_ns = 0;
+  std::uint64_t kept_ns = 0;
   json t = json::array();
   std::string data;
 };
@@ -82,16 +82,16 @@ std::string log_json(const core::McapFile& log, const std::string& name, double 
   std::map<std::uint16_t, Topic> topics;
   std::uint64_t first_ns = ~std::uint64_t{0}, last_ns = 0;
   for (const auto& m : log.messages) {
-    Topic& topic = topics[m.channel];
-    if (topic.count++ == 0) topic.first_ns = m.log_ns;
-    topic.last_ns = m.log_ns;
+    ++topics[m.channel].count;
     first_ns = std::min(first_ns, m.log_ns), last_ns = std::max(last_ns, m.log_ns);
   }
+  // Of the whole log: what came in one burst and then no more is no stream.
+  const double most =
+      1.05 * (1 + rate_hz * 1e-9 * static_cast<double>(last_ns - std::min(first_ns, last_ns)));
+  const double gap_ns = 0.99e9 / rate_hz;
   for (const auto& m : log.messages) {
     Topic& topic = topics[m.channel];
-    const double most = 1 + rate_hz * 1e-9 * static_cast<double>(topic.last_ns - topic.first_ns);
-    const double gap_ns = 0.99e9 / rate_hz;
-    const bool thinned = static_cast<double>(topic.count) > most * 1.05;
+    const bool thinned = static_cast<double>(topic.count) > most;
     if (thinned && !topic.t.empty() && static_cast<double>(m.log_ns - topic.kept_ns) < gap_ns) continue;
     topic.kept_ns = m.log_ns;
     topic.t.push_back(seconds(m.log_ns, epoch_ns));

@@ -12,7 +12,8 @@ namespace fulmar::report {
 /// What the page reads, JSON: {name, mission, epoch_ns, duration_s, fault, metadata: {name: {key: value}},
 /// topics: [{topic, type, schema, count, t: [seconds of flight], data}]}. `data` holds the messages as they
 /// are in the log, each behind its length (4 bytes, little endian), together compressed (zlib), in base64. A
-/// topic that came more often than `rate_hz` on the average is thinned out to that; others are whole.
+/// topic that came more often than `rate_hz` on the average of the log is thinned out to that; others are
+/// whole.
 std::string log_json(const core::McapFile& log, const std::string& name, double rate_hz);
 
 /// `page` with the JSON in it. Throws Error when the page has no place for it.

@@ -15,7 +15,7 @@ if (skipped) {
   process.exit(77);
 }
 const folder = mkdtempSync(join(tmpdir(), "fulmar-report-"));
-const hostile = "</script><script>document.body.remove()</script>";
+const hostile = "<!--<script><img src=x onerror=document.body.remove()>";
 let browser;
 try {
   writeFileSync(join(folder, "hostile.yaml"), `mission: "${hostile}"\nextends: ${resolve("configs/missions/hourglass.yaml")}\n`);

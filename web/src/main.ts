@@ -84,6 +84,8 @@ function head(): void {
   mark(byId("pace"), "warn", view.paused);
 }
 
+flight.on_link = () => link(performance.now());
+
 let toast_timer = 0;
 flight.on_status = (level, words) => {
   const toast = byId("toast");

@@ -198,18 +198,23 @@ const steps = {
     await tab("Fly");
     const hidden = () => page.locator("#banner").isHidden();
     assert.ok(await hidden());
+    // what the bar says when it comes up: how long ago the flight was heard
+    await page.evaluate(() => {
+      const bar = document.getElementById("banner");
+      new MutationObserver(() => {
+        if (!bar.hidden && !bar.dataset.first) bar.dataset.first = bar.textContent;
+      }).observe(bar, { attributes: true, childList: true });
+    });
     flight.child.kill("SIGSTOP"); // silent, and no connection is closed
-    const begun = Date.now();
-    await until("the banner", async () => !(await hidden()), 3);
-    const took = Date.now() - begun;
+    await until("the banner", async () => !(await hidden()));
+    assert.match(await page.locator("#banner").getAttribute("data-first"), /Connection lost, [01] s ago/);
     await shoot("lost");
     flight.child.kill("SIGCONT");
-    await until("it is back", hidden, 5);
+    await until("it is back", hidden);
     await flight.end();
-    await seen("the banner again", "#banner", (t) => t.includes("Connection lost"), 3);
+    await seen("the banner again", "#banner", (t) => t.includes("Connection lost"));
     flight = await fly(fulmar, port, join(folder, "hostile.yaml"));
-    await until("the next flight", hidden, 8);
-    assert.ok(took < 1500, `told after ${took} ms`);
+    await until("the next flight", hidden);
   },
 };
 

@@ -336,7 +336,7 @@ TEST_CASE("a flood of one import takes no room of another's, and what it loses i
 
 TEST_CASE("onlookers see how often each component was stepped, and how long that took") {
   const Graph g =
-      mission("  two: {fills: law, use: lab/Law, budget: 5 s, params: {id: 2}}\n" + watched + one_phase);
+      mission("  two: {fills: law, use: lab/Law, budget: 5 s, params: {id: 2}}\n" + watched + with_fallback);
   Flight flight(g, quick());
   const auto seen = [&](const std::string& name) {
     for (const ComponentView& c : flight.control()->view().components)
@@ -350,6 +350,7 @@ TEST_CASE("onlookers see how often each component was stepped, and how long that
   CHECK(seen("one").step_max_us >= seen("one").step_us);
   CHECK(seen("one").budget_us == 0);
   CHECK(seen("one").active);
+  CHECK(seen("two").name == "two");
   CHECK(seen("two").steps == 0);  // waits
   CHECK(seen("two").budget_us == 5e6);
   CHECK_FALSE(seen("two").active);

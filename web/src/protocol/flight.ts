@@ -48,6 +48,7 @@ export class Flight implements Source {
   /** What the flight said about requests of ours that have no answer of their own. */
   on_status: (level: number, words: string) => void = () => {};
   on_view: (view: View) => void = () => {};
+  on_link: () => void = () => {};
   on_channels: () => void = () => {};
   private readonly socket: Socket;
   private heard = new Map<string, Heard>();
@@ -76,7 +77,10 @@ export class Flight implements Source {
       },
       parameters: () => void this.refresh(),
       status: (level, words) => this.on_status(level, words),
-      link: (state) => (this.link = state),
+      link: (state) => {
+        this.link = state;
+        this.on_link();
+      },
     });
     setInterval(() => {
       if (this.link.up && !document.hidden) void this.refresh();

@@ -30,7 +30,7 @@ export interface LinkState {
 }
 
 const quiet_ms = 250; // then we ask whether somebody is there
-const lost_ms = 800; // then nobody is
+const lost_ms = 750; // then nobody is
 const again_ms = 500; // between two attempts
 const op_data = 1, op_time = 2, op_call = 2, op_answer = 3;
 const encoding = new TextEncoder().encode("json");

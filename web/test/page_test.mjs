@@ -103,20 +103,24 @@ const steps = {
     await seen("the waypoints", ".waypoints tbody th", (t) => t.split("\n").length === 4);
     await shoot("plan");
     const item = await value_of("manage.progress.item");
-    const before = { north: await north_of(item), distance: await value_of("manage.progress.distance_m") };
+    const before = await value_of("manage.progress.distance_m");
     const box = await page.locator(".plan canvas.map").boundingBox();
     const [n, e, px] = (await page.locator(".plan canvas.map").getAttribute("data-view")).split(",").map(Number);
-    const at_m = (await plan()).waypoints[item].position_m;
+    const at_m = await position_of(item);
     const x = box.width / 2 + (at_m.east - e) * px, y = box.height / 2 - (at_m.north - n) * px;
+    // away from the aircraft, so that it is farther whatever the aircraft flies meanwhile
+    const from = { north: await value_of("nav.state.position_m.north"), east: await value_of("nav.state.position_m.east") };
+    const way = Math.hypot(at_m.north - from.north, at_m.east - from.east), far_px = 110;
+    const to = [x + (far_px * (at_m.east - from.east)) / way, y - (far_px * (at_m.north - from.north)) / way];
     await page.mouse.move(box.x + x, box.y + y);
     await page.mouse.down();
-    await page.mouse.move(box.x + x + 60, box.y + y - 10, { steps: 4 });
-    await page.mouse.move(box.x + x + 90, box.y + y - 20, { steps: 4 });
+    await page.mouse.move(box.x + (x + to[0]) / 2, box.y + (y + to[1]) / 2, { steps: 4 });
+    await page.mouse.move(box.x + to[0], box.y + to[1], { steps: 4 });
     await page.mouse.up();
-    await until("the flight's waypoint has moved", async () => Math.abs((await north_of(item)) - before.north) > 5);
+    await until("the flight's waypoint has moved", async () => (await position_of(item)).north !== at_m.north);
     await seen("what is drawn flies", ".plan .faint", (t) => t.includes("This is what flies"));
     const moved = await value_of("manage.progress.distance_m");
-    assert.ok(Math.abs(moved - before.distance) > 25, `the aircraft flies to it: ${before.distance} m became ${moved} m`);
+    assert.ok(moved > before + 0.3 * (far_px / px), `the aircraft flies to it: ${before} m became ${moved} m`);
   },
   async "Plan: what is refused says why, in its row, and what flies stays"() {
     const field = page.getByLabel("up of waypoint 2, m");
@@ -219,7 +223,7 @@ const steps = {
 };
 
 const plan = async () => JSON.parse((await ask("echo", "plan.plan", "--count", "1", "--json")).split("\n")[0]).value;
-const north_of = async (i) => (await plan()).waypoints[i].position_m.north;
+const position_of = async (i) => (await plan()).waypoints[i].position_m;
 
 const browser = await browse(modules, chromium);
 let failed = 0;

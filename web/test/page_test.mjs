@@ -191,6 +191,7 @@ const steps = {
   async "By hand: keys move the sticks, until they are given back"() {
     await page.click("text=Take the sticks");
     await until("the pilot flies", async () => (await ask("param", "get", "sim.pilot_flies")) === "true");
+    await until("the sticks have the keys", () => page.locator(".sticks").evaluate((e) => e === document.activeElement));
     await page.keyboard.down("ArrowRight");
     await until("the stick", async () => Number(await ask("param", "get", "sim.stick_roll")) > 0.5);
     await page.keyboard.up("ArrowRight");

@@ -105,6 +105,7 @@ function frame(now_ms: number): void {
   last_ms = now_ms;
   link(performance.now());
   head();
+  fly.track.update(); // whatever is shown
   shown?.update(now_ms);
 }
 requestAnimationFrame(frame);

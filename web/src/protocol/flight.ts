@@ -149,7 +149,7 @@ export class Flight implements Source {
   }
   private want(topic: string): Heard | undefined {
     const heard = this.heard.get(topic);
-    if (heard) this.socket.want(heard.id, true);
+    if (heard && this.epoch !== null) this.socket.want(heard.id, true); // before, nobody knows when its samples are
     return heard;
   }
   latest(topic: string): Message | undefined {
@@ -201,8 +201,10 @@ export class Flight implements Source {
     this.asked_view = true;
     try {
       const view = (await this.socket.call(service.id, {})) as View;
+      const first_time = this.epoch === null;
       this.view = view;
       this.epoch = BigInt(view.epoch_ns);
+      if (first_time) this.on_channels();
       if (view.paused || Number.isNaN(this.now)) this.now = view.now_ns * 1e-9;
       const first = view.components.find((c) => c.params.length > 0);
       if (first) this.socket.sign_of_life = [first.name + "." + first.params[0]?.name];

@@ -15,6 +15,9 @@ import { EventList } from "./events";
 import { HealthPanel } from "./health";
 import { RolesPanel } from "./roles";
 
+/** A number stays with its unit, wherever the line is broken. */
+const whole = (words: string) => words.replace(/ /g, "\u00a0");
+
 export class Fly implements Page {
   readonly name = "Fly";
   readonly element: HTMLElement;
@@ -68,7 +71,6 @@ export class Fly implements Page {
       this.plan_message = plan_message;
       this.plan = plan_of(plan_message);
     }
-    this.track.update();
     const progress = f.latest(names.progress), command = f.latest(names.command), attitude = f.latest(names.attitude);
     const item = number_at(progress, "item") ?? -1;
     this.map.draw({ plan: this.plan, draft: false, state, track: this.track, item, chosen: -1, refused: -1, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [] });
@@ -101,7 +103,7 @@ export class Fly implements Page {
       ["distance to it", items ? digits(number_at(progress, "distance_m") ?? NaN) + " m" : "–"],
       ["circuits", items ? String(number_at(progress, "circuits") ?? "–") : "–"],
       ["from origin", s?.valid.position ? digits(Math.hypot(s.n, s.e)) + " m" : "–"],
-      ["battery", status ? `${fixed(number_at(status, "battery_volt"), 1, "V")} ${fixed((number_at(status, "battery_frac") ?? NaN) * 100, 0, "%")}` : "–",
+      ["battery", status ? `${whole(fixed(number_at(status, "battery_volt"), 1, "V"))} ${whole(fixed((number_at(status, "battery_frac") ?? NaN) * 100, 0, "%"))}` : "–",
         (number_at(status, "battery_frac") ?? 1) < 0.2],
       ["current", fixed(number_at(status, "battery_amp"), 1, "A")],
     ];

@@ -53,9 +53,9 @@ export class HealthPanel {
     if (rc) rows.push(["radio link", rc.link === true ? "there" : "none", rc.link === true]);
     if (!status) return rows;
     rows.push(["vehicle", String(status.health), status.health === "ok"]);
-    const who = status.crashed === true ? "crashed" : status.failsafe === true ? "its own failsafe" : status.override === true ? "the pilot"
-      : status.in_control === true ? "the autopilot" : "nobody";
-    rows.push(["in control", who, who === "the autopilot" ? true : who === "the pilot" || who === "nobody" ? null : false]);
+    const who = status.crashed === true ? "crashed" : status.failsafe === true ? "its own failsafe" : status.override === true ? "pilot"
+      : status.in_control === true ? "autopilot" : "nobody";
+    rows.push(["in control", who, who === "autopilot" ? true : who === "pilot" || who === "nobody" ? null : false]);
     return rows;
   }
 }

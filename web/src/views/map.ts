@@ -35,6 +35,7 @@ export class MapView {
   private centre: Point = { n: 0, e: 0 };
   private px_per_m = 0;
   private follows = false;
+  private touched = false;
   private plan_drawn: { plan: Plan; legs: { to: number; points: Point[] }[] } | null = null;
   private seen: Scene | null = null;
 
@@ -66,6 +67,7 @@ export class MapView {
              e: this.centre.e + (x - this.width / 2) / this.px_per_m };
   }
   private zoom(factor: number, at = { x: this.width / 2, y: this.height / 2 }): void {
+    this.touched = true;
     const fixed_point = this.to_ground(at.x, at.y);
     this.px_per_m = Math.min(50, Math.max(0.002, this.px_per_m * factor));
     const moved = this.to_ground(at.x, at.y);
@@ -107,6 +109,7 @@ export class MapView {
       if (!moved) return;
       if (taken) return this.hooks.move?.(this.to_ground(now.x, now.y));
       this.follows = false;
+      this.touched = true;
       this.centre = { n: centre.n + (now.y - begin.y) / this.px_per_m, e: centre.e - (now.x - begin.x) / this.px_per_m };
     };
     const up = (event: PointerEvent) => {
@@ -130,16 +133,17 @@ export class MapView {
     const move = moves[e.key];
     if (!move || e.ctrlKey || e.metaKey || e.altKey) return;
     e.preventDefault();
+    this.touched = true;
     this.follows = this.follows && !e.key.startsWith("Arrow");
     move();
   }
 
   // ---- the picture
   draw(scene: Scene): void {
-    const first = this.px_per_m === 0;
+    const news = this.px_per_m === 0 || (!this.touched && !this.seen?.plan && scene.plan !== null);
     this.seen = scene;
     if (this.width === 0) return;
-    if (first && (scene.plan || scene.state)) this.fit();
+    if (news && (scene.plan || scene.state)) this.fit(); // until a hand chooses what is shown
     if (this.px_per_m === 0) return;
     if (this.follows && scene.state) this.centre = { n: scene.state.n, e: scene.state.e };
     // where the picture is, for who cannot see it: north and east of its middle in m, pixels per metre

@@ -191,7 +191,6 @@ export class PlanPage implements Page {
       this.decided = true;
       this.at_once.checked = f.view.io === "sim"; // an aircraft waits until it is meant
     }
-    this.track.update();
     const state = state_of(f.latest(names.state));
     const item = number_at(f.latest(names.progress), "item") ?? -1;
     const draft = this.draft !== null && this.awaited < 0;

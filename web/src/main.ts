@@ -17,8 +17,8 @@ function byId(id: string): HTMLElement {
   return document.getElementById(id) as HTMLElement;
 }
 
-const fly = new Fly(flight);
-const pages: Page[] = [fly, new PlanPage(flight, fly.track), new Tune(flight), new Wires(flight), new Simulation(flight)];
+const fly = new Fly(flight), tune = new Tune(flight);
+const pages: Page[] = [fly, new PlanPage(flight, fly.track), tune, new Wires(flight), new Simulation(flight)];
 let shown: Page | null = null;
 
 function show(page: Page): void {
@@ -109,4 +109,5 @@ function frame(now_ms: number): void {
   shown?.update(now_ms);
 }
 requestAnimationFrame(frame);
+setInterval(() => tune.record(), 1000);
 setInterval(() => link(performance.now()), 200); // also where no pictures are asked for

@@ -37,6 +37,11 @@ export class Response {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => (this.plotted = ""));
   }
 
+  /** So that what went before is there when it is looked at. */
+  record(): void {
+    for (const p of pairs_of(names_of(this.source))) [this.source.series(...p.asked), this.source.series(...p.got)];
+  }
+
   update(now_ms: number): void {
     if (now_ms - this.last_ms < 80) return;
     this.last_ms = now_ms;
@@ -44,7 +49,6 @@ export class Response {
     if (this.choice.childElementCount !== pairs.length) fill(this.choice, ...pairs.map((p) => el("option", { value: p.name }, p.name)));
     const pair = pairs.find((p) => p.name === this.choice.value) ?? pairs[0];
     if (!pair) return say(this.figures, "Nothing in this flight commands an attitude or a course.");
-    for (const p of pairs) [this.source.series(...p.asked), this.source.series(...p.got)]; // so that they are there when they are chosen
     const asked = this.source.series(...pair.asked), got = this.source.series(...pair.got);
     const seconds = Number(this.span.value), now = this.source.now;
     this.draw(pair, asked, got, now, seconds);

@@ -28,6 +28,11 @@ export class Tune implements Page {
       el("aside", { class: "side" }, this.response.element, el("section", {}, el("h2", {}, "Changed since this page was opened"), this.changed)));
   }
 
+  /** Once in a while, whatever is shown. */
+  record(): void {
+    this.response.record();
+  }
+
   private live(c: Component): ParamRow[] {
     let rows = this.rows.get(c.name);
     if (!rows) this.rows.set(c.name, (rows = c.params.filter((p) => p.live && p.kind !== "record" && p.kind !== "blob").map((p) => new ParamRow(this.flight, c.name, p))));

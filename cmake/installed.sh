@@ -176,7 +176,22 @@ usable() {
   in_debugger "$prefix" my_outer
   other_law my_outer outer
   systemd_unit "$prefix"
+  page "$prefix"
   "$prefix/bin/fulmar" run "$prefix/share/fulmar/missions/hourglass.yaml" --duration 60 --no-log >/dev/null 2>&1 || fail "the installed hourglass does not fly"
+}
+
+# page PREFIX: a browser gets the page from what is installed, if this was built with it
+page() {
+  [ -e "$build/share/fulmar/web/index.html" ] || { echo "  built without Node.js and npm: no page of the flight"; return; }
+  "$1/bin/fulmar" run "$1/share/fulmar/missions/hourglass.yaml" --speed real --live 127.0.0.1:8774 --duration 30 --no-log >/dev/null 2>&1 &
+  local flight=$! got=""
+  for _ in $(seq 50); do
+    got=$(python3 -c 'import urllib.request as u; print(u.urlopen("http://127.0.0.1:8774/").read().decode())' 2>/dev/null) && break
+    sleep 0.2
+  done
+  kill "$flight"
+  wait "$flight" 2>/dev/null || true
+  [[ "$got" == *page.js* ]] || fail "the installed host does not serve the page"
 }
 
 echo "hardening"

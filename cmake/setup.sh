@@ -7,6 +7,12 @@ packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libyaml-cpp-de
 # Without these the plugin for Python and its module are left out.
 python_packages=(python3 python3-dev pybind11-dev python3-numpy)
 
+# The page of a running flight is made with these; without them all else is there.
+install_page_packages() {
+  command -v npm >/dev/null || command -v apt-get >/dev/null || return 0
+  command -v npm >/dev/null || ( install_missing nodejs npm ) || echo "No nodejs and npm: Fulmar is built without the page of a flight." >&2
+}
+
 # Installs those of the named packages that are missing. Needs root or sudo only when there is something to install.
 install_missing() {
   local missing=()
@@ -27,6 +33,7 @@ install_missing() {
 install_packages() {
   command -v apt-get >/dev/null || { echo "No apt-get here: install ${packages[*]} by hand." >&2; return 0; }
   install_missing "${packages[@]}"
+  install_page_packages
 }
 
 # configure_and_build FOLDER [cmake option...] -- [ninja target...]

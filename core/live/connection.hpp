@@ -28,6 +28,7 @@
 #include "core/live/corked.hpp"
 #include "core/live/gate.hpp"
 #include "core/live/hub.hpp"
+#include "core/live/pages.hpp"
 
 namespace fulmar::core::live {
 
@@ -71,7 +72,8 @@ struct Context {
   const LiveOptions& options;
   Hub& hub;
   Counters& counters;
-  std::string page;              // GET /
+  Pages pages;                   // GET /
+  std::string table;             // GET /topics, and GET / where there is no page
   std::function<void()> joined;  // a client has come
   std::set<Connection*> connections;
   Guesses guesses{};
@@ -93,9 +95,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   }
 
   void begin() {
-    timer_.start(handshake_limit, [weak = weak_from_this()](bool due) {
-      if (const auto self = weak.lock(); self && due) self->cut();
-    });
+    cut_after(handshake_limit);
     parser_.header_limit(most_header_bytes);
     http::async_read_header(corked(), buffer_, parser_,
                             OnBytes([self = shared_from_this()](error_code ec, std::size_t) {
@@ -145,8 +145,9 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   }
 
  private:
-  static constexpr seconds handshake_limit{5}, idle_limit{120}, farewell_limit{1};
+  static constexpr seconds handshake_limit{5}, idle_limit{120}, farewell_limit{1}, page_limit{60};
   static constexpr std::uint32_t most_header_bytes = 8192;
+  static constexpr std::size_t small_body_bytes = 64u << 10;
   static constexpr std::size_t most_message_bytes = 1u << 20;
   static constexpr std::size_t most_clients = 16;
   static constexpr int kernel_bytes = 512 << 10;  // that the system holds for a client: it is late already
@@ -159,6 +160,11 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   Corked& corked() { return stream_.next_layer(); }
   /// Ends at once.
   void cut() { corked().close(); }
+  void cut_after(seconds limit) {
+    timer_.start(limit, [weak = weak_from_this()](bool due) {
+      if (const auto self = weak.lock(); self && due) self->cut();
+    });
+  }
 
   // ---- HTTP
   void answer() {
@@ -179,31 +185,46 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
       context_.guesses.wrong(from, now);
       ++context_.counters.wrong_tokens;
     }
-    if (verdict.status != 200) return respond(verdict.status, verdict.why);
-    if (path_of(target) != "/") return respond(404, "There is nothing here. The page of the flight is at /.");
-    if (websocket::is_upgrade(head)) return upgrade();
+    const std::string_view path = path_of(target);
+    const PageFile* const file = context_.pages.find(path);
+    // The page's parts hold nothing of the flight, and a browser that loads them shows no token.
+    const bool open_to_all = file != nullptr && path != "/" && verdict.status == 401 && !verdict.wrong_token;
+    if (verdict.status != 200 && !open_to_all) return respond(verdict.status, verdict.why);
+    const bool topics = path == "/topics" || (path == "/" && file == nullptr);
+    if (!topics && file == nullptr)
+      return respond(404, "There is nothing here. The page of the flight is at /.");
+    if (path == "/" && websocket::is_upgrade(head)) return upgrade();
     if (head.method() != http::verb::get && head.method() != http::verb::head)
       return respond(405, "Only GET and HEAD are answered.");
-    respond(200, context_.page);
+    if (topics) return respond(200, context_.table);
+    const bool small = !file->gzipped.empty() && takes_gzip(field(http::field::accept_encoding));
+    send_answer(200, file->type, page_policy, small ? file->gzipped : file->body,
+                small ? "Content-Encoding: gzip\r\n" : "");
   }
 
-  /// The only answer to the request. The body of an answer to HEAD is not sent.
+  /// The only answer to the request: the table of topics, or why there is none.
   void respond(unsigned status, const std::string& text) {
     const bool good = status == 200;
     if (!good) ++context_.counters.refused;
-    const std::string body = good ? text : text + "\n";
+    send_answer(status, good ? "text/html; charset=utf-8" : "text/plain; charset=utf-8",
+                "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'",
+                good ? text : text + "\n", status == 401 ? "WWW-Authenticate: Bearer\r\n" : "");
+  }
+
+  /// The body of an answer to HEAD is not sent.
+  void send_answer(unsigned status, const std::string& type, std::string_view policy, const std::string& body,
+                   const char* further) {
     answer_ = "HTTP/1.1 " + std::to_string(status) + " " +
-              text_of(http::obsolete_reason(http::status(status))) +
-              "\r\nContent-Type: " + (good ? "text/html" : "text/plain") +
-              "; charset=utf-8\r\n"
-              "Content-Security-Policy: default-src 'none'; style-src 'unsafe-inline'; "
-              "frame-ancestors 'none'\r\n"
-              "X-Content-Type-Options: nosniff\r\n"
+              text_of(http::obsolete_reason(http::status(status))) + "\r\nContent-Type: " + type +
+              "\r\nContent-Security-Policy: " + std::string(policy) +
+              "\r\nX-Content-Type-Options: nosniff\r\n"
+              "Cross-Origin-Resource-Policy: same-origin\r\n"
               "Referrer-Policy: no-referrer\r\n"
-              "Cache-Control: no-store\r\n";
-    if (status == 401) answer_ += "WWW-Authenticate: Bearer\r\n";
+              "Cache-Control: no-store\r\n" +
+              further;
     answer_ += "Connection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n";
     if (parser_.get().method() != http::verb::head) answer_ += body;
+    if (body.size() > small_body_bytes) cut_after(page_limit);  // a slow link takes its time
     net::async_write(corked().socket(), net::buffer(answer_),
                      OnBytes([self = shared_from_this()](error_code, std::size_t) {
                        error_code ignored;

@@ -98,11 +98,20 @@ json component_json(const ComponentView& component, const Tap& tap) {
   for (const ParameterView& p : component.params) params.push_back(param_json(p));
   for (const PortView& p : component.inputs) inputs.push_back(port_json(tap, component, p, true));
   for (const PortView& p : component.outputs) outputs.push_back(port_json(tap, component, p, false));
-  return {{"name", component.name},     {"use", component.use},
-          {"role", component.role},     {"doc", component.doc},
-          {"run", component.run},       {"swapped", component.swapped},
-          {"active", component.active}, {"stopped", component.stopped},
-          {"params", params},           {"inputs", inputs},
+  return {{"name", component.name},
+          {"use", component.use},
+          {"role", component.role},
+          {"doc", component.doc},
+          {"run", component.run},
+          {"swapped", component.swapped},
+          {"active", component.active},
+          {"stopped", component.stopped},
+          {"steps", component.steps},
+          {"step_us", component.step_us},
+          {"step_max_us", component.step_max_us},
+          {"budget_us", component.budget_us},
+          {"params", params},
+          {"inputs", inputs},
           {"outputs", outputs}};
 }
 
@@ -142,7 +151,10 @@ constexpr const char* page_how =
     "<em>Foxglove WebSocket</em> in "
     "Foxglove, Lichtblick or PlotJuggler, and give it this page's address with <code>ws://</code> in front. "
     "In a terminal: <code>fulmar "
-    "list</code>, <code>fulmar echo PORT</code>, <code>fulmar param list</code>.</p>\n";
+    "list</code>, <code>fulmar echo PORT</code>, <code>fulmar param list</code>.</p>\n"
+    "<p>The page on which the flight is seen and flown is at <code>/</code>, if this Fulmar was built with "
+    "it: "
+    "install <code>nodejs</code> and <code>npm</code>, then configure and build again.</p>\n";
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -252,7 +264,7 @@ json parameter_json(const std::string& name, const ParameterView& parameter) {
   return result;
 }
 
-std::string page(const std::string& mission, const Tap& tap) {
+std::string topics_page(const std::string& mission, const Tap& tap) {
   std::string html = page_head;
   html += "<title>" + escaped(mission) + " - Fulmar</title>\n<h1>" + escaped(mission) + "</h1>\n" + page_how;
   html += "<table>\n<tr><th>topic<th>type\n";

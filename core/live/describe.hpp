@@ -5,14 +5,14 @@
 // The view, answer of the service /fulmar/view:
 //   {mission, file, io, phase, phases: [..], now_ns, epoch_ns, armed, over, paused, speed,
 //    components: [
-//     {name, use, role, doc, run, active, stopped,
+//     {name, use, role, doc, run, swapped, active, stopped, steps, step_us, step_max_us, budget_us,
 //      params: [{name, kind, unit, doc, value, text, initial, min, max, choices, live, required, overlaid,
 //                file}],
 //      inputs: [{name, type, source, request, imported, topic}],
 //      outputs: [{name, type, topic}]}]}
 // `value` is in the parameter's unit, `text` as people write it ("0.55 rad/rad"); `type` is a ROS 2 name, ""
 // for a probe; `topic` is that of the channel, of the service for a request, or that an imported input is
-// published on.
+// published on. `step_us` is the mean since the start, by the clock on the wall; `budget_us` 0: none.
 #pragma once
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -59,8 +59,8 @@ nlohmann::json parameter_json(const std::string& name, const ParameterView& para
 /// A value as a mission file would have it. Texts stay as they are ("20 deg"), unless the parameter is one.
 std::string mission_text(const nlohmann::json& value, bool text_parameter);
 
-/// For a browser: one HTML file that asks for nothing else.
-std::string page(const std::string& mission, const Tap& tap);
+/// For a browser: the topics, one HTML file that asks for nothing else.
+std::string topics_page(const std::string& mission, const Tap& tap);
 
 /// JSON as text; bytes that are not UTF-8 are replaced.
 std::string dumped(const nlohmann::json& value);

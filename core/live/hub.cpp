@@ -64,7 +64,8 @@ Hub::Hub(Tap& tap, Control& control, Counters& counters) : tap_(tap), control_(c
     if (find_parameter(now, name)->info.kind == FULMAR_STRING) text_parameters_.insert(name);
   std::size_t largest = 0;
   for (const TapChannel& c : tap_.channels()) {
-    channels_.push_back({CdrEncoder(*c.type), {}, c.may_stay_silent});
+    channels_.push_back(
+        {CdrEncoder(*c.type), {}, c.may_stay_silent || c.past > 0, std::max<std::size_t>(c.past, 1)});
     largest = std::max(largest, channels_.back().encoder.max_size());
   }
   scratch_.resize(largest);
@@ -277,12 +278,14 @@ void Hub::offer(Client& client, Message& message, std::uint32_t subscription, st
 
 void Hub::keep(std::size_t index, std::int64_t now_ns, std::shared_ptr<const std::string> body) {
   Channel& channel = channels_[index];
-  channel.in_a_row = channel.last && now_ns - channel.last_ns <= stream_gap_ns ? channel.in_a_row + 1 : 0;
-  channel.last_ns = now_ns;
-  channel.last = std::move(body);
-  if (channel.in_a_row < stream_samples) return;
+  std::deque<Kept>& past = channel.past;
+  const bool soon = !past.empty() && now_ns - past.back().now_ns <= stream_gap_ns;
+  channel.in_a_row = soon ? channel.in_a_row + 1 : 0;
+  past.push_back({now_ns, std::move(body)});
+  if (past.size() > channel.most_past) past.pop_front();
+  if (tap_.channels()[index].past > 0 || channel.in_a_row < stream_samples) return;
   channel.keeps = false;
-  channel.last = nullptr;
+  past.clear();
   if (channel.listeners.empty()) cursor_->want(index, -1);
 }
 

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -83,13 +84,17 @@ class Hub {
   struct Client;
   struct Import;
   struct Pending;
+  struct Kept {
+    std::int64_t now_ns;
+    std::shared_ptr<const std::string> body;
+  };
   struct Channel {
     CdrEncoder encoder;
     std::vector<std::pair<Client*, std::uint32_t>> listeners;  // and their subscription
-    bool keeps = false;                                        // the last sample, for who subscribes later
+    bool keeps = false;                                        // the last samples, for who subscribes later
+    std::size_t most_past = 1;                                 // so many of them
     std::size_t in_a_row = 0;                                  // samples that came soon after the one before
-    std::int64_t last_ns = 0;
-    std::shared_ptr<const std::string> last = nullptr;
+    std::deque<Kept> past{};                                   // the oldest first
   };
   using json = nlohmann::json;
   using Op = void (Hub::*)(Client&, const json&);

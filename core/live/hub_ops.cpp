@@ -72,10 +72,11 @@ void Hub::subscribe(Client& client, const json& message) {
     client.subscriptions[id] = index;
     channel.listeners.emplace_back(&client, id);
     cursor_->want(index, 0);
-    if (!channel.last) continue;
-    Message sample;
-    sample.body = channel.last;
-    offer(client, sample, id, channel.last_ns);
+    for (const Kept& kept : channel.past) {
+      Message sample;
+      sample.body = kept.body;
+      offer(client, sample, id, kept.now_ns);
+    }
   }
 }
 

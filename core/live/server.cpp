@@ -44,10 +44,16 @@ struct LiveServer::Impl {
   std::uint16_t port = 0;
   std::thread thread;
 
-  Impl(Tap& tap, Control& control, const LiveOptions& o)
+  Impl(Tap& tap, Control& control, const LiveOptions& o, const std::filesystem::path& folder)
       : options((live::check_options(o), o)),
         hub(tap, control, counters),
-        context{options, hub, counters, live::page(hub.mission(), tap), [this] { pump(); }, {}} {
+        context{options,
+                hub,
+                counters,
+                live::Pages(folder),
+                live::topics_page(hub.mission(), tap),
+                [this] { pump(); },
+                {}} {
     hub.begin([this] { net::post(io, [this] { hub.answers(); }); });
     listen();
     accept();
@@ -144,8 +150,9 @@ struct LiveServer::Impl {
   }
 };
 
-LiveServer::LiveServer(Tap& tap, Control& control, const LiveOptions& options)
-    : impl_(std::make_unique<Impl>(tap, control, options)) {}
+LiveServer::LiveServer(Tap& tap, Control& control, const LiveOptions& options,
+                       const std::filesystem::path& page)
+    : impl_(std::make_unique<Impl>(tap, control, options, page)) {}
 LiveServer::~LiveServer() = default;
 std::uint16_t LiveServer::port() const { return impl_->port; }
 LiveStats LiveServer::stats() const {

@@ -2,6 +2,7 @@
 // The live view: the Foxglove WebSocket protocol and plain HTTP on one port, in a thread of its own.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 
 #include "core/graph/graph.hpp"
@@ -22,8 +23,9 @@ struct LiveStats {
 
 class LiveServer {
  public:
+  /// `page`: the folder of the page that a browser gets; where there is none it gets the table of topics.
   /// Throws Error when it cannot listen there: says who to ask and what to do.
-  LiveServer(Tap& tap, Control& control, const LiveOptions& options);
+  LiveServer(Tap& tap, Control& control, const LiveOptions& options, const std::filesystem::path& page = {});
   ~LiveServer();
   std::uint16_t port() const;
   LiveStats stats() const;

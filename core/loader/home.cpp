@@ -62,6 +62,14 @@ fs::path own_program(const std::string& name, const char* variable) {
   return {};
 }
 
+fs::path page_folder() {
+  std::error_code fault;
+  for (const fs::path& home : home_folders())
+    if (fs::is_regular_file(home / "share" / "fulmar" / "web" / "index.html", fault))
+      return home / "share" / "fulmar" / "web";
+  return {};
+}
+
 std::vector<fs::path> plugin_folders() {
   std::vector<fs::path> folders;
   if (const char* list = std::getenv("FULMAR_PLUGIN_PATH")) {

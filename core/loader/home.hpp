@@ -18,6 +18,10 @@ bool can_run(const std::filesystem::path& file);
 /// the running program, or in bin/ of a home folder. Empty when it is missing.
 std::filesystem::path own_program(const std::string& name, const char* variable = "");
 
+/// The folder of the page that a browser gets from a flight, share/fulmar/web of a home folder. Empty when
+/// Fulmar was built without it.
+std::filesystem::path page_folder();
+
 /// The folders of FULMAR_PLUGIN_PATH (separated by ':'), then lib/fulmar of each home folder.
 std::vector<std::filesystem::path> plugin_folders();
 

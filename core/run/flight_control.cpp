@@ -65,6 +65,7 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
   const Component& c = *unit.component;
   ComponentView v;
   v.name = c.name, v.use = c.use, v.doc = c.info().doc, v.run = modes[static_cast<std::size_t>(c.run)];
+  v.budget_us = 1e-3 * static_cast<double>(c.budget_ns);
   for (const int role : c.roles)
     v.role += (v.role.empty() ? "" : ", ") + nth(flight.state.graph.roles, role).name;
   for (std::size_t i = 0; i < c.info().params.size(); ++i)
@@ -124,9 +125,14 @@ void FlightControl::note(int phase, std::int64_t now_ns, bool armed) noexcept {
   seen_.armed.store(armed, std::memory_order_relaxed);
 }
 
-void FlightControl::note_stopped(std::size_t component, bool active, bool stopped) noexcept {
-  seen_.states[component].store(static_cast<std::uint8_t>((active ? 1 : 0) | (stopped ? 2 : 0)),
-                                std::memory_order_relaxed);
+void FlightControl::note_unit(std::size_t component, const Unit& unit) noexcept {
+  constexpr auto relaxed = std::memory_order_relaxed;
+  Seen::Component& seen = seen_.components[component];
+  seen.active.store(unit.active, relaxed);
+  seen.stopped.store(unit.stopped, relaxed);
+  seen.steps.store(unit.stats.steps, relaxed);
+  seen.step_us.store(unit.stats.time.mean_us(), relaxed);
+  seen.step_max_us.store(unit.stats.time.max_us(), relaxed);
 }
 
 void FlightControl::done(Waiting& waiting) noexcept {
@@ -341,10 +347,11 @@ FlightView FlightControl::view() const {
   v.paused = seen_.paused.load(std::memory_order_relaxed);
   v.speed = seen_.speed.load(std::memory_order_relaxed);
   for (std::size_t i = 0; i < v.components.size(); ++i) {
-    const std::uint8_t state = seen_.states[i].load(std::memory_order_relaxed);
-    v.components[i].active = state & 1, v.components[i].stopped = state & 2;
-    for (std::size_t k = 0; k < v.components[i].params.size(); ++k)
-      v.components[i].params[k].base = base_[i][k];
+    ComponentView& c = v.components[i];
+    const Seen::Component& seen = seen_.components[i];
+    c.active = seen.active, c.stopped = seen.stopped;
+    c.steps = seen.steps, c.step_us = seen.step_us, c.step_max_us = seen.step_max_us;
+    for (std::size_t k = 0; k < c.params.size(); ++k) c.params[k].base = base_[i][k];
   }
   for (const auto& [component, param] : directory_->overlaid[phase])
     v.components[component].params[param].overlaid = true;

@@ -20,6 +20,8 @@
 
 namespace fulmar::core {
 
+class Unit;
+
 /// One producer, one consumer, pointers; full: refused.
 template <class T, std::size_t N>
 class PointerQueue {
@@ -61,7 +63,7 @@ class FlightControl final : public Control {
   void ticked() noexcept;
   /// [tick] What `view` tells of the flight.
   void note(int phase, std::int64_t now_ns, bool armed) noexcept;
-  void note_stopped(std::size_t component, bool active, bool stopped) noexcept;
+  void note_unit(std::size_t component, const Unit& unit) noexcept;
   /// The flight is over: nothing is taken any more, what waits is answered.
   void end();
 
@@ -111,13 +113,17 @@ class FlightControl final : public Control {
   };
   /// What the loop tells of the flight.
   struct Seen {
-    explicit Seen(std::size_t components)
-        : states(std::make_unique<std::atomic<std::uint8_t>[]>(components)) {}
+    explicit Seen(std::size_t count) : components(std::make_unique<Component[]>(count)) {}
     std::atomic<int> phase{0};
     std::atomic<std::int64_t> now_ns{0};
     std::atomic<bool> armed{false}, paused{false};
     std::atomic<double> speed{1};
-    std::unique_ptr<std::atomic<std::uint8_t>[]> states;  // per component: 1 active, 2 stopped
+    struct Component {
+      std::atomic<bool> active{false}, stopped{false};
+      std::atomic<std::uint64_t> steps{0};
+      std::atomic<double> step_us{0}, step_max_us{0};
+    };
+    std::unique_ptr<Component[]> components;
   };
   /// The loop's: whether time stands still.
   struct Clock {

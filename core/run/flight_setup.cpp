@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/live/gate.hpp"
+#include "core/loader/home.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/types/named.hpp"
 
@@ -87,7 +88,8 @@ void Flight::Impl::open_to_others() {
     onlookers.dds = std::make_unique<DdsBridge>(*recorder.tap(), *onlookers.control, graph.dds);
   if (!graph.live.on) return;
   try {
-    onlookers.live = std::make_unique<LiveServer>(*recorder.tap(), *onlookers.control, graph.live);
+    onlookers.live =
+        std::make_unique<LiveServer>(*recorder.tap(), *onlookers.control, graph.live, page_folder());
   } catch (const Error& fault) {  // another flight on this computer is no reason not to fly
     if (state.options.say)
       state.options.say(std::string("nobody can watch this flight: ") + fault.what(), true);

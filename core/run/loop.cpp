@@ -67,8 +67,7 @@ void Flight::Impl::tell_control() noexcept {
   onlookers.control->note(roles.phase(), state.now_ns, protection.armed());
   onlookers.control->ticked();
   if (state.index % every != 0) return;
-  for (std::size_t i = 0; i < wiring.units.size(); ++i)
-    onlookers.control->note_stopped(i, wiring.units[i]->active, wiring.units[i]->stopped);
+  for (std::size_t i = 0; i < wiring.units.size(); ++i) onlookers.control->note_unit(i, *wiring.units[i]);
 }
 
 /// A program that stood still, as one that was stopped or a machine that slept, catches up: nobody shall take

@@ -15,6 +15,7 @@
 namespace fulmar::core {
 namespace {
 
+constexpr std::size_t events_for_latecomers = 100;
 constexpr std::int64_t default_period_ns = 100'000'000;  // 10 Hz for what a replay computes anew
 
 }  // namespace
@@ -45,6 +46,7 @@ void Recorder::open(const Units& units, bool with_log) {
 std::vector<TapChannel> Recorder::channels(const Units& units) {
   ChannelList list;
   channels_.event = list.add("fulmar.event", host_type<Event>());
+  list.list[channels_.event].past = events_for_latecomers;
   channels_.ticks = list.add("fulmar.ticks", host_type<Ticks>());
   channels_.parameter = list.add("fulmar.parameter", host_type<CommandNote>());
   channels_.command = list.add("fulmar.command", host_type<CommandNote>());

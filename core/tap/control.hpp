@@ -32,6 +32,9 @@ struct ComponentView {
   std::string role;     // "outer, inner": all that it fills
   std::string swapped;  // what its last swap did to its parameters; "": nothing that a user would not expect
   bool active = false, stopped = false;  // flies now; stopped by a guard
+  std::uint64_t steps = 0;
+  double step_us = 0, step_max_us = 0,
+         budget_us = 0;  // by the clock on the wall: mean, largest; 0: no budget
   std::vector<ParameterView> params;
   std::vector<PortView> inputs, outputs;
 };

@@ -20,6 +20,7 @@ struct TapChannel {
   TypePtr type;
   bool may_stay_silent = false;  // of a port that need not publish in every step: its last sample is for
                                  // those who come later, too
+  std::size_t past = 0;          // so many last samples are for those who come later, too, however fast
 };
 
 class Tap {

@@ -94,6 +94,10 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
   CHECK(view["phases"] == json({"hold", "cruise"}));
   CHECK(view["components"][0]["params"][0]["text"] == "0.8 rad/rad");
   CHECK(view["components"][0]["params"][0]["max"] == 2.0);
+  CHECK(view["components"][0]["steps"] == 42);
+  CHECK(view["components"][0]["step_us"] == 3.5);
+  CHECK(view["components"][0]["step_max_us"] == 9.0);
+  CHECK(view["components"][0]["budget_us"] == 250.0);
   CHECK(view["components"][0]["outputs"][0] ==
         json({{"name", "leg"}, {"type", "fulmar_msgs/msg/Leg"}, {"topic", "/slc/leg"}}));
   CHECK(view["components"][1]["inputs"][0]["topic"] == "/plan/add_leg");

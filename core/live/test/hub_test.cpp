@@ -149,6 +149,31 @@ TEST_CASE(
   CHECK(tap.wanted(1, 30'000'000'000));
 }
 
+TEST_CASE("who subscribes late gets as many of the last samples as a channel keeps, in their order") {
+  std::vector<TapChannel> channels = mock_channels();
+  channels[1].past = 3;
+  Tap tap(channels);
+  MockControl control;
+  Counters counters;
+  Hub hub(tap, control, counters);
+  hub.begin([] {});
+  for (int i = 0; i < 1000; ++i) {  // however fast they come
+    REQUIRE(tap.wanted(1, i * 1'000'000LL));
+    const Leg leg{1, true, i * 0.001, {1, 2, 3}};
+    tap.write(1, i * 1'000'000LL, 0, bytes_of(leg), false);
+    hub.tick();
+  }
+  TestPeer peer;
+  const Hub::ClientId id = hub.add(peer);
+  hub.text(id, R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 2}]})");
+  REQUIRE(peer.binaries.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(u64(peer.binaries[k], 5) == 1'767'225'600'000'000'000u + 997'000'000u + k * 1'000'000u);
+    CHECK(peer.binaries[k].substr(13) ==
+          cdr_of(*leg_type(), Leg{1, true, static_cast<double>(997 + k) * 0.001, {1, 2, 3}}));
+  }
+}
+
 TEST_CASE_FIXTURE(Fixture, "a slow client goes without, is told so, and delays nobody") {
   TestPeer quick;
   const Hub::ClientId second = hub.add(quick);

@@ -145,6 +145,7 @@ class MockControl : public Control {
     c.role = "outer";
     c.run = "tick";
     c.active = true;
+    c.steps = 42, c.step_us = 3.5, c.step_max_us = 9, c.budget_us = 250;
     c.params = {number("roll_kp", values_.contains("roll_kp") ? std::stod(values_.at("roll_kp")) : 0.55),
                 number("law", 0),
                 number("note", 0),

@@ -334,6 +334,28 @@ TEST_CASE("a flood of one import takes no room of another's, and what it loses i
   CHECK(control.publish("ear", "signal", message));  // the flood has passed
 }
 
+TEST_CASE("onlookers see how often each component was stepped, and how long that took") {
+  const Graph g =
+      mission("  two: {fills: law, use: lab/Law, budget: 5 s, params: {id: 2}}\n" + watched + with_fallback);
+  Flight flight(g, quick());
+  const auto seen = [&](const std::string& name) {
+    for (const ComponentView& c : flight.control()->view().components)
+      if (c.name == name) return c;
+    return ComponentView();
+  };
+  for (int n = 0; n < 17; ++n) REQUIRE(flight.step());  // they are told with every 16th tick
+  CHECK(seen("one").steps >= 15);
+  CHECK(seen("one").steps <= 17);
+  CHECK(seen("one").step_us > 0);
+  CHECK(seen("one").step_max_us >= seen("one").step_us);
+  CHECK(seen("one").budget_us == 0);
+  CHECK(seen("one").active);
+  CHECK(seen("two").name == "two");
+  CHECK(seen("two").steps == 0);  // waits
+  CHECK(seen("two").budget_us == 5e6);
+  CHECK_FALSE(seen("two").active);
+}
+
 TEST_CASE("a phase is entered between two ticks, and onlookers see it") {
   const Graph g = mission(watched +
                           "phases:\n  fly: {law: one, next: [{to: rest, when: \"vehicle.signal.x_m < "

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A plan file, as plugins/path/README.md has it: read, with every fault told at once, and written.
+import { load } from "js-yaml";
+import type { Plan, Waypoint } from "./route";
+import { plain } from "../units";
+
+const to_rad = Math.PI / 180;
+const units: Record<string, Record<string, number>> = {
+  length: { m: 1, km: 1000, ft: 0.3048 },
+  speed: { "m/s": 1, "km/h": 1 / 3.6, kt: 1852 / 3600 },
+  angle: { rad: 1, deg: to_rad },
+};
+const keys = ["name", "end", "airspeed", "turn_radius", "waypoints", "runway"];
+const waypoint_keys = ["north", "east", "up", "lat", "lon", "alt_msl", "course", "airspeed"];
+
+export interface Origin {
+  latitude: number; longitude: number; altitude: number; // degrees, m above mean sea level
+}
+
+class Faults {
+  readonly list: string[] = [];
+  number(value: unknown, kind: string, where: string): number {
+    const table = units[kind] ?? {};
+    if (typeof value === "number" && Number.isFinite(value)) return value;
+    const match = /^\s*([-+]?[0-9.]+(?:e[-+]?\d+)?)\s*(\S*)\s*$/i.exec(typeof value === "string" ? value : "");
+    const factor = match && match[2] ? table[match[2]] : match ? 1 : undefined;
+    const result = match && factor !== undefined ? Number(match[1]) * factor : NaN;
+    if (Number.isFinite(result)) return result;
+    this.list.push(`${where}: '${String(value)}' is no ${kind}${Object.keys(table).length ? ". Valid units: " + Object.keys(table).join(", ") : ""}`);
+    return 0;
+  }
+  known(object: Record<string, unknown>, valid: string[], where: string): void {
+    for (const key of Object.keys(object))
+      if (!valid.includes(key)) this.list.push(`${where}there is no '${key}'. Valid: ${valid.join(", ")}`);
+  }
+}
+
+/** Metres from the origin, good enough to draw: the planner computes it anew. WGS-84 radii of curvature. */
+function local(at: Origin, origin: Origin): { north: number; east: number; up: number } {
+  const a = 6378137, e2 = 6.69437999014e-3, s = Math.sin(origin.latitude * to_rad), w = Math.sqrt(1 - e2 * s * s);
+  const meridian = (a * (1 - e2)) / (w * w * w), normal = a / w;
+  return {
+    north: (at.latitude - origin.latitude) * to_rad * (meridian + origin.altitude),
+    east: (at.longitude - origin.longitude) * to_rad * (normal + origin.altitude) * Math.cos(origin.latitude * to_rad),
+    up: at.altitude - origin.altitude,
+  };
+}
+
+function read_waypoint(entry: unknown, i: number, origin: Origin | null, faults: Faults): Waypoint {
+  const where = `waypoint ${i}: `;
+  const w: Waypoint = { north: 0, east: 0, up: 0, course: null, airspeed: 0, id: 0, geodetic: null };
+  if (typeof entry !== "object" || entry === null || Array.isArray(entry)) {
+    faults.list.push(where + "has to be a map, {north: 400 m, east: -250 m, up: 70 m}");
+    return w;
+  }
+  const map = entry as Record<string, unknown>;
+  faults.known(map, waypoint_keys, where);
+  const at = (key: string, kind: string) => {
+    if (map[key] === undefined) faults.list.push(where + `'${key}' is missing`);
+    return map[key] === undefined ? 0 : faults.number(map[key], kind, where + key);
+  };
+  if (map.lat !== undefined || map.lon !== undefined) {
+    const degrees = (key: string) => {
+      const text = String(map[key] ?? "").replace(/\s*deg\s*$/, "");
+      const value = Number(text);
+      if (text === "" || !Number.isFinite(value)) faults.list.push(where + `${key}: '${String(map[key])}' is no latitude or longitude in degrees`);
+      return value;
+    };
+    w.geodetic = { latitude: degrees("lat"), longitude: degrees("lon"), altitude: at("alt_msl", "length") };
+    if (origin) Object.assign(w, local(w.geodetic, origin));
+    else faults.list.push(where + "is geodetic, and the flight does not know its origin yet");
+  } else {
+    w.north = at("north", "length");
+    w.east = at("east", "length");
+    w.up = at("up", "length");
+  }
+  if (map.course !== undefined) w.course = faults.number(map.course, "angle", where + "course");
+  if (map.airspeed !== undefined) w.airspeed = faults.number(map.airspeed, "speed", where + "airspeed");
+  return w;
+}
+
+/** What is not in the file is as in `now`. Throws Error with every fault, one a line. */
+export function read_plan_file(text: string, now: Plan, origin: Origin | null): Plan {
+  const faults = new Faults();
+  const file = load(text) as unknown;
+  if (typeof file !== "object" || file === null || Array.isArray(file)) throw new Error("This is no plan: it has to be a map with 'waypoints'.");
+  const map = file as Record<string, unknown>;
+  faults.known(map, keys, "");
+  const plan: Plan = { end: now.end, radius: now.radius, airspeed: now.airspeed, waypoints: [] };
+  if (map.end !== undefined) {
+    if (map.end === "circuit" || map.end === "orbit") plan.end = map.end;
+    else faults.list.push(`end: '${String(map.end)}' is none. Valid: circuit, orbit`);
+  }
+  if (map.turn_radius !== undefined) plan.radius = faults.number(map.turn_radius, "length", "turn_radius");
+  if (map.airspeed !== undefined) plan.airspeed = faults.number(map.airspeed, "speed", "airspeed");
+  if (!Array.isArray(map.waypoints)) faults.list.push("'waypoints' has to be a list");
+  else plan.waypoints = map.waypoints.map((w, i) => read_waypoint(w, i, origin, faults));
+  if (faults.list.length > 0) throw new Error(faults.list.join("\n"));
+  return plan;
+}
+
+export function write_plan_file(plan: Plan, name: string): string {
+  const lines = [`name: ${JSON.stringify(name)}`, `end: ${plan.end}`, `airspeed: ${plain(plan.airspeed)} m/s`, `turn_radius: ${plain(plan.radius)} m`,
+    plan.waypoints.length > 0 ? "waypoints:" : "waypoints: []"];
+  for (const w of plan.waypoints) {
+    const further = (w.course === null ? "" : `, course: ${plain(w.course / to_rad)} deg`) + (w.airspeed > 0 ? `, airspeed: ${plain(w.airspeed)} m/s` : "");
+    lines.push(`  - {north: ${plain(w.north)} m, east: ${plain(w.east)} m, up: ${plain(w.up)} m${further}}`);
+  }
+  return lines.join("\n") + "\n";
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page of a running flight: connects to where it came from, shows one view at a time.
+import { el, fill, mark, say } from "./dom";
+import { Flight } from "./protocol/flight";
+import { clock } from "./units";
+import { Fly } from "./views/fly";
+import type { Page } from "./views/page";
+import { PlanPage } from "./views/plan";
+import { Simulation } from "./views/sim";
+import { Tune } from "./views/tune";
+import { Wires } from "./views/wires";
+
+const flight = new Flight(location.href.replace(/^http/, "ws").replace(/#.*$/, ""));
+const lost_for_ms = 300;
+
+function byId(id: string): HTMLElement {
+  return document.getElementById(id) as HTMLElement;
+}
+
+const fly = new Fly(flight), tune = new Tune(flight);
+const pages: Page[] = [fly, new PlanPage(flight, fly.track), tune, new Wires(flight), new Simulation(flight)];
+let shown: Page | null = null;
+
+function show(page: Page): void {
+  if (page === shown) return;
+  shown?.hide?.();
+  shown = page;
+  fill(byId("view"), page.element);
+  page.show?.();
+  for (const button of byId("tabs").querySelectorAll("button")) {
+    const here = button.dataset.page === page.name;
+    button.setAttribute("aria-selected", String(here));
+    button.tabIndex = here ? 0 : -1;
+  }
+  byId("view").setAttribute("aria-label", page.name);
+  history.replaceState(null, "", "#" + page.name.toLowerCase().replace(/ /g, "_"));
+}
+
+function tabs(): void {
+  const bar = byId("tabs");
+  pages.forEach((page, i) => {
+    const button = el("button", { role: "tab", title: `Key ${i + 1}`, onclick: () => show(page) }, page.name);
+    button.dataset.page = page.name;
+    bar.append(button);
+  });
+  bar.addEventListener("keydown", (e) => {
+    const step = e.key === "ArrowRight" ? 1 : e.key === "ArrowLeft" ? -1 : 0;
+    if (step === 0 || !shown) return;
+    show(pages[(pages.indexOf(shown) + step + pages.length) % pages.length] as Page);
+    bar.querySelector<HTMLElement>("[aria-selected=true]")?.focus();
+  });
+  document.addEventListener("keydown", (e) => {
+    if (e.ctrlKey || e.metaKey || e.altKey || (e.target as HTMLElement).closest("input, select, textarea")) return;
+    const page = pages[Number(e.key) - 1];
+    if (page) show(page);
+  });
+}
+
+/** Whether the flight is there; and if not, so that nobody overlooks it. */
+function link(now_ms: number): void {
+  const { up, since_ms, why } = flight.link;
+  const down = !up && now_ms - since_ms > lost_for_ms;
+  mark(document.body, "lost", down);
+  const banner = byId("banner");
+  banner.hidden = !down;
+  const seconds = Math.max(0, Math.floor((now_ms - since_ms) / 1000));
+  const ended = why.includes("ended");
+  const what = flight.view === null ? "No answer from the flight" : ended ? "The flight has ended" : "Connection lost";
+  const shown = flight.view === null ? "" : ended ? " What is shown is its last moment." : " What is shown is old.";
+  if (down) say(banner, `✕ ${what}, ${seconds} s ago.${shown} ${ended ? "Waiting for another one." : "Trying again."}`);
+}
+
+function head(): void {
+  const view = flight.view;
+  if (!view) return;
+  say(byId("mission"), view.mission);
+  document.title = view.mission + " – Fulmar";
+  say(byId("phase"), view.phase);
+  say(byId("clock"), clock(flight.now));
+  say(byId("armed"), view.armed ? "armed" : "disarmed");
+  mark(byId("armed"), "warn", view.armed && view.io !== "sim");
+  const pace = view.paused ? "paused" : view.io !== "sim" ? "hardware" : view.speed === 0 ? "max speed" : view.speed === 1 ? "real time" : view.speed + " ×";
+  say(byId("pace"), pace);
+  mark(byId("pace"), "warn", view.paused);
+}
+
+flight.on_link = () => link(performance.now());
+
+let toast_timer = 0;
+flight.on_status = (level, words) => {
+  const toast = byId("toast");
+  say(toast, (level >= 2 ? "✕ " : "⚠ ") + words);
+  toast.hidden = false;
+  clearTimeout(toast_timer);
+  toast_timer = window.setTimeout(() => (toast.hidden = true), 6000);
+};
+
+tabs();
+const wanted = location.hash.slice(1);
+show(pages.find((p) => p.name.toLowerCase().replace(/ /g, "_") === wanted) ?? (pages[0] as Page));
+let last_ms = 0;
+function frame(now_ms: number): void {
+  requestAnimationFrame(frame);
+  if (now_ms - last_ms < 30) return; // some 30 pictures a second
+  last_ms = now_ms;
+  link(performance.now());
+  head();
+  fly.track.update(); // whatever is shown
+  shown?.update(now_ms);
+}
+requestAnimationFrame(frame);
+setInterval(() => tune.record(), 1000);
+setInterval(() => link(performance.now()), 200); // also where no pictures are asked for

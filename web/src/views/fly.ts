@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The flight at a glance: from behind, on the map, instruments, who flies, how the sensors are, what happened.
+import { el, fill, mark, say } from "../dom";
+import { piece_ahead } from "../flight/piece";
+import { type Names, names_of, plan_of, state_of } from "../names";
+import type { Flight } from "../protocol/flight";
+import { type Message, number_at } from "../protocol/schema";
+import { TrackRecorder } from "../track";
+import { degrees, digits, fixed } from "../units";
+import type { Chase } from "./chase";
+import { draw_instruments } from "./instruments";
+import { MapView } from "./map";
+import type { Page } from "./page";
+import { EventList } from "./events";
+import { HealthPanel } from "./health";
+import { RolesPanel } from "./roles";
+
+/** A number stays with its unit, wherever the line is broken. */
+const whole = (words: string) => words.replace(/ /g, "\u00a0");
+
+export class Fly implements Page {
+  readonly name = "Fly";
+  readonly element: HTMLElement;
+  readonly track: TrackRecorder;
+  private names: Names;
+  private readonly map = new MapView();
+  private readonly chase_canvas = el("canvas", { role: "img", "aria-label": "The aircraft from behind" });
+  private readonly chase_box = el("div", { class: "chase" }, this.chase_canvas);
+  private readonly instruments = el("canvas", { role: "img", "aria-label": "Attitude, airspeed, height, heading" });
+  private readonly figures = el("div", { class: "figures" });
+  private readonly events: EventList;
+  private readonly health: HealthPanel;
+  private readonly roles: RolesPanel;
+  private chase: Chase | null = null;
+  private loading = false;
+  private plan_message: Message | undefined;
+  private plan: ReturnType<typeof plan_of> = null;
+
+  constructor(private readonly flight: Flight) {
+    this.names = names_of(flight);
+    this.track = new TrackRecorder(flight, () => this.names);
+    this.events = new EventList(flight);
+    this.health = new HealthPanel(flight);
+    this.roles = new RolesPanel(flight);
+    flight.on_channels = () => {
+      this.names = names_of(flight);
+      this.events.begin();
+    };
+    this.element = el("div", { class: "fly" }, this.chase_box, this.map.element,
+      el("div", { class: "pfd" }, this.instruments), this.figures,
+      el("aside", { class: "side" }, this.roles.element, this.health.element, this.events.element));
+  }
+
+  /** three is most of the page: what is seen first does not wait for it. */
+  private async load_chase(): Promise<void> {
+    if (this.loading) return;
+    this.loading = true;
+    try {
+      const { Chase } = await import("./chase");
+      this.chase = new Chase(this.chase_canvas);
+    } catch {
+      fill(this.chase_box, el("p", { class: "absent" }, "This browser shows no 3-D view: it has no WebGL."));
+    }
+  }
+
+  update(): void {
+    const f = this.flight, names = this.names;
+    const state = state_of(f.latest(names.state));
+    const plan_message = f.latest(names.plan);
+    if (plan_message !== this.plan_message) {
+      this.plan_message = plan_message;
+      this.plan = plan_of(plan_message);
+    }
+    const progress = f.latest(names.progress), command = f.latest(names.command), attitude = f.latest(names.attitude);
+    const item = number_at(progress, "item") ?? -1;
+    this.map.draw({ plan: this.plan, draft: false, state, track: this.track, item, chosen: -1, refused: -1, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [] });
+    draw_instruments(this.instruments, state, {
+      air: number_at(command, "airspeed_mps"), up: number_at(command, "height_m"), course: number_at(command, "course_rad"),
+      roll: number_at(attitude, "roll_rad"), pitch: number_at(attitude, "pitch_rad"),
+    });
+    const actuators = f.latest(names.actuators);
+    if (this.chase) {
+      const x = (path: string) => number_at(actuators, path) ?? 0;
+      this.chase.draw(state, actuators ? { aileron: x("aileron_rad"), elevator: x("elevator_rad"), rudder: x("rudder_rad"), throttle: x("throttle_frac") } : null, this.plan);
+    } else if (state) {
+      void this.load_chase();
+    }
+    this.show_figures(state, actuators, progress);
+    this.roles.update();
+    this.health.update(names);
+  }
+
+  private show_figures(s: ReturnType<typeof state_of>, actuators: Message | undefined, progress: Message | undefined): void {
+    const status = this.flight.latest(this.names.status);
+    const angle = (path: string) => fixed((number_at(actuators, path) ?? NaN) * degrees, 1, "°");
+    const items = number_at(progress, "items");
+    const list: [string, string, boolean?][] = [
+      ["ground speed", s?.valid.velocity ? fixed(s.ground, 1, "m/s") : "–"],
+      ["climb rate", s?.valid.velocity ? fixed(s.climb, 1, "m/s") : "–"],
+      ["throttle", fixed((number_at(actuators, "throttle_frac") ?? NaN) * 100, 0, "%")],
+      ["aileron", angle("aileron_rad")], ["elevator", angle("elevator_rad")], ["rudder", angle("rudder_rad")],
+      ["waypoint", items ? `${number_at(progress, "item")} of ${items}` : "–"],
+      ["distance to it", items ? digits(number_at(progress, "distance_m") ?? NaN) + " m" : "–"],
+      ["circuits", items ? String(number_at(progress, "circuits") ?? "–") : "–"],
+      ["from origin", s?.valid.position ? digits(Math.hypot(s.n, s.e)) + " m" : "–"],
+      ["battery", status ? `${whole(fixed(number_at(status, "battery_volt"), 1, "V"))} ${whole(fixed((number_at(status, "battery_frac") ?? NaN) * 100, 0, "%"))}` : "–",
+        (number_at(status, "battery_frac") ?? 1) < 0.2],
+      ["current", fixed(number_at(status, "battery_amp"), 1, "A")],
+    ];
+    if (this.figures.childElementCount === 0)
+      fill(this.figures, ...list.map(([name]) => el("div", {}, el("span", {}, name), el("b", {}))));
+    list.forEach(([, value, bad], i) => {
+      const cell = this.figures.children[i] as HTMLElement;
+      say(cell.lastElementChild as HTMLElement, value);
+      mark(cell, "bad", bad === true);
+    });
+  }
+}

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A map without tiles: north up, metres from the origin, on a canvas. Dragging moves it, the wheel and + - zoom.
+import { colours, el, sharp } from "../dom";
+import { type Plan, type Point, Route } from "../flight/route";
+import type { State } from "../names";
+import { bearing, degrees, digits, fixed } from "../units";
+
+export interface Track {
+  n: number[];
+  e: number[];
+}
+export interface Scene {
+  plan: Plan | null;
+  draft: boolean; // the plan is not what the aircraft flies
+  state: State | null;
+  track: Track;
+  item: number; // waypoint that is flown to, from 0; -1: none
+  chosen: number; // waypoint that is being edited; -1: none
+  refused: number; // waypoint whose last edit was refused; -1: none
+  piece: Point[]; // of the path that is followed now
+}
+export interface Hooks {
+  press?(at: Point, waypoint: number): boolean; // true: the press is not for the map
+  move?(at: Point): void;
+  release?(at: Point, moved: boolean): void;
+}
+
+const steps = [1, 2, 5];
+const click_px = 4, reach_px = 14, margin_px = 56, most_labels = 100;
+
+export class MapView {
+  readonly canvas = el("canvas", { class: "map", tabIndex: 0, role: "img", "aria-label": "Map: plan, track and aircraft" });
+  readonly element: HTMLElement;
+  hooks: Hooks = {};
+  private centre: Point = { n: 0, e: 0 };
+  private px_per_m = 0;
+  private follows = false;
+  private touched = false;
+  private plan_drawn: { plan: Plan; legs: { to: number; points: Point[] }[] } | null = null;
+  private seen: Scene | null = null;
+
+  constructor() {
+    const button = (words: string, label: string, onclick: () => void) =>
+      el("button", { class: "small", onclick, "aria-label": label, title: label }, words);
+    this.element = el("div", { class: "mapbox" }, this.canvas,
+      el("div", { class: "mapkeys" },
+        button("+", "Zoom in", () => this.zoom(1.4)), button("−", "Zoom out", () => this.zoom(1 / 1.4)),
+        button("Fit", "Show the plan whole", () => this.fit()),
+        button("Follow", "Keep the aircraft in the middle", () => (this.follows = !this.follows))));
+    this.canvas.addEventListener("pointerdown", (e) => this.press(e));
+    this.canvas.addEventListener("wheel", (e) => {
+      e.preventDefault();
+      this.zoom(Math.exp(-e.deltaY * 0.0015), { x: e.offsetX, y: e.offsetY });
+    }, { passive: false });
+    this.canvas.addEventListener("keydown", (e) => this.key(e));
+  }
+
+  // ---- where things are
+  private get width(): number { return this.canvas.clientWidth; }
+  private get height(): number { return this.canvas.clientHeight; }
+  to_screen(p: Point): { x: number; y: number } {
+    return { x: this.width / 2 + (p.e - this.centre.e) * this.px_per_m,
+             y: this.height / 2 - (p.n - this.centre.n) * this.px_per_m };
+  }
+  to_ground(x: number, y: number): Point {
+    return { n: this.centre.n - (y - this.height / 2) / this.px_per_m,
+             e: this.centre.e + (x - this.width / 2) / this.px_per_m };
+  }
+  private zoom(factor: number, at = { x: this.width / 2, y: this.height / 2 }): void {
+    this.touched = true;
+    const fixed_point = this.to_ground(at.x, at.y);
+    this.px_per_m = Math.min(50, Math.max(0.002, this.px_per_m * factor));
+    const moved = this.to_ground(at.x, at.y);
+    this.centre = { n: this.centre.n + fixed_point.n - moved.n, e: this.centre.e + fixed_point.e - moved.e };
+  }
+  fit(): void {
+    this.follows = false;
+    const points: Point[] = [{ n: 0, e: 0 }];
+    for (const w of this.seen?.plan?.waypoints ?? []) points.push({ n: w.north, e: w.east });
+    if (this.seen?.state) points.push(this.seen.state);
+    const n = points.map((p) => p.n), e = points.map((p) => p.e);
+    const [n0, n1, e0, e1] = [Math.min(...n), Math.max(...n), Math.min(...e), Math.max(...e)];
+    this.centre = { n: (n0 + n1) / 2, e: (e0 + e1) / 2 };
+    const room = (px: number, m: number) => Math.max(1, px - 2 * margin_px) / Math.max(m, 100);
+    this.px_per_m = Math.min(room(this.height, n1 - n0), room(this.width, e1 - e0));
+  }
+
+  // ---- hands
+  private waypoint_at(x: number, y: number): number {
+    let best = -1, nearest = reach_px;
+    this.seen?.plan?.waypoints.forEach((w, i) => {
+      const at = this.to_screen({ n: w.north, e: w.east });
+      const distance = Math.hypot(at.x - x, at.y - y);
+      if (distance < nearest) [best, nearest] = [i, distance];
+    });
+    return best;
+  }
+  private press(e: PointerEvent): void {
+    if (e.button !== 0) return;
+    this.canvas.setPointerCapture(e.pointerId);
+    const box = this.canvas.getBoundingClientRect();
+    const at = (event: PointerEvent) => ({ x: event.clientX - box.left, y: event.clientY - box.top });
+    const begin = at(e), centre = { ...this.centre };
+    const taken = this.hooks.press?.(this.to_ground(begin.x, begin.y), this.waypoint_at(begin.x, begin.y)) ?? false;
+    let moved = false;
+    const move = (event: PointerEvent) => {
+      const now = at(event);
+      moved = moved || Math.hypot(now.x - begin.x, now.y - begin.y) > click_px;
+      if (!moved) return;
+      if (taken) return this.hooks.move?.(this.to_ground(now.x, now.y));
+      this.follows = false;
+      this.touched = true;
+      this.centre = { n: centre.n + (now.y - begin.y) / this.px_per_m, e: centre.e - (now.x - begin.x) / this.px_per_m };
+    };
+    const up = (event: PointerEvent) => {
+      this.canvas.removeEventListener("pointermove", move);
+      this.canvas.removeEventListener("pointerup", up);
+      this.canvas.removeEventListener("pointercancel", up);
+      const now = at(event);
+      if (taken || !moved) this.hooks.release?.(this.to_ground(now.x, now.y), moved);
+    };
+    this.canvas.addEventListener("pointermove", move);
+    this.canvas.addEventListener("pointerup", up);
+    this.canvas.addEventListener("pointercancel", up);
+  }
+  private key(e: KeyboardEvent): void {
+    const step = 60 / this.px_per_m;
+    const moves: Record<string, () => void> = {
+      ArrowUp: () => (this.centre.n += step), ArrowDown: () => (this.centre.n -= step),
+      ArrowLeft: () => (this.centre.e -= step), ArrowRight: () => (this.centre.e += step),
+      "+": () => this.zoom(1.4), "-": () => this.zoom(1 / 1.4), f: () => this.fit(),
+    };
+    const move = moves[e.key];
+    if (!move || e.ctrlKey || e.metaKey || e.altKey) return;
+    e.preventDefault();
+    this.touched = true;
+    this.follows = this.follows && !e.key.startsWith("Arrow");
+    move();
+  }
+
+  // ---- the picture
+  draw(scene: Scene): void {
+    const news = this.px_per_m === 0 || (!this.touched && !this.seen?.plan && scene.plan !== null);
+    this.seen = scene;
+    if (this.width === 0) return;
+    if (news && (scene.plan || scene.state)) this.fit(); // until a hand chooses what is shown
+    if (this.px_per_m === 0) return;
+    if (this.follows && scene.state) this.centre = { n: scene.state.n, e: scene.state.e };
+    // where the picture is, for who cannot see it: north and east of its middle in m, pixels per metre
+    this.canvas.dataset.view = [this.centre.n, this.centre.e, this.px_per_m].join();
+    const g = sharp(this.canvas);
+    g.fillStyle = colours.get("ground");
+    g.fillRect(0, 0, this.width, this.height);
+    g.lineJoin = g.lineCap = "round";
+    this.grid(g);
+    this.trail(g, scene.track);
+    this.route(g, scene);
+    g.strokeStyle = colours.get("track");
+    g.lineWidth = 3;
+    g.setLineDash([1, 6]);
+    this.line(g, scene.piece);
+    g.setLineDash([]);
+    this.home(g);
+    if (scene.state?.valid.position) this.aircraft(g, scene.state);
+    if (scene.state?.valid.wind) this.wind(g, scene.state);
+  }
+  private grid(g: CanvasRenderingContext2D): void {
+    let step = 1;
+    for (let i = 0; step * this.px_per_m < 55; ++i) step = (steps[i % 3] as number) * 10 ** Math.floor(i / 3);
+    const low = this.to_ground(0, this.height), high = this.to_ground(this.width, 0);
+    g.strokeStyle = colours.get("grid");
+    g.fillStyle = colours.get("faint");
+    g.lineWidth = 1;
+    g.font = "11px system-ui";
+    g.beginPath();
+    for (let e = Math.ceil(low.e / step) * step; e < high.e; e += step) {
+      const x = Math.round(this.to_screen({ n: 0, e }).x) + 0.5;
+      g.moveTo(x, 0);
+      g.lineTo(x, this.height);
+    }
+    for (let n = Math.ceil(low.n / step) * step; n < high.n; n += step) {
+      const y = Math.round(this.to_screen({ n, e: 0 }).y) + 0.5;
+      g.moveTo(0, y);
+      g.lineTo(this.width, y);
+    }
+    g.stroke();
+    const length = step * this.px_per_m, x = this.width - 14 - length, y = this.height - 12;
+    g.strokeStyle = g.fillStyle = colours.get("text");
+    g.lineWidth = 2;
+    g.beginPath();
+    g.moveTo(x, y - 5);
+    g.lineTo(x, y);
+    g.lineTo(x + length, y);
+    g.lineTo(x + length, y - 5);
+    g.stroke();
+    g.textAlign = "center";
+    g.textBaseline = "bottom";
+    g.fillText(step >= 1000 ? step / 1000 + " km" : step + " m", x + length / 2, y - 3);
+    g.textAlign = "left";
+    g.textBaseline = "middle";
+    g.fillText("N ↑", 12, this.height - 46);
+  }
+  private line(g: CanvasRenderingContext2D, points: Point[]): void {
+    g.beginPath();
+    points.forEach((p, i) => {
+      const at = this.to_screen(p);
+      if (i === 0) g.moveTo(at.x, at.y);
+      else g.lineTo(at.x, at.y);
+    });
+    g.stroke();
+  }
+  private trail(g: CanvasRenderingContext2D, track: Track): void {
+    g.strokeStyle = colours.get("track");
+    g.lineWidth = 2;
+    g.beginPath();
+    let last = { x: 1e9, y: 1e9 };
+    for (let i = 0; i < track.n.length; ++i) {
+      const at = this.to_screen({ n: track.n[i] as number, e: track.e[i] as number });
+      if (Math.abs(at.x - last.x) + Math.abs(at.y - last.y) < 1.5 && i + 1 < track.n.length) continue;
+      if (i === 0) g.moveTo(at.x, at.y);
+      else g.lineTo(at.x, at.y);
+      last = at;
+    }
+    g.stroke();
+  }
+  private route(g: CanvasRenderingContext2D, scene: Scene): void {
+    const plan = scene.plan;
+    if (!plan) return;
+    if (this.plan_drawn?.plan !== plan) this.plan_drawn = { plan, legs: new Route(plan).legs() };
+    g.setLineDash(scene.draft ? [7, 5] : []);
+    for (const leg of this.plan_drawn.legs) {
+      g.strokeStyle = colours.get("route");
+      g.lineWidth = leg.to === scene.item && !scene.draft ? 4 : 2;
+      this.line(g, leg.points);
+    }
+    g.setLineDash([]);
+    g.font = "bold 12px system-ui";
+    g.textBaseline = "middle";
+    plan.waypoints.forEach((w, i) => {
+      const at = this.to_screen({ n: w.north, e: w.east });
+      if (at.x < -50 || at.y < -50 || at.x > this.width + 50 || at.y > this.height + 50) return;
+      const radius = i === scene.chosen ? 12 : 10;
+      g.beginPath();
+      g.arc(at.x, at.y, radius, 0, 2 * Math.PI);
+      g.fillStyle = i === scene.refused ? colours.get("bad") : i === scene.item ? colours.get("route") : colours.get("panel");
+      g.fill();
+      g.strokeStyle = i === scene.chosen ? colours.get("text") : colours.get("route");
+      g.lineWidth = i === scene.chosen ? 3 : 2;
+      g.stroke();
+      g.fillStyle = i === scene.refused || i === scene.item ? colours.get("on_colour") : colours.get("text");
+      g.textAlign = "center";
+      g.fillText(String(i), at.x, at.y + 0.5);
+      g.textAlign = "left";
+      g.fillStyle = colours.get("text");
+      const words = digits(w.up) + " m", end = at.x + 15 + g.measureText(words).width;
+      const free = plan.waypoints.length <= most_labels && plan.waypoints.every((other, k) => {
+        const p = this.to_screen({ n: other.north, e: other.east });
+        return k === i || Math.abs(p.y - at.y) > 16 || p.x < at.x - 30 || p.x > end + 12;
+      });
+      if (free || i === scene.chosen) g.fillText(words, at.x + 15, at.y);
+      if (w.course === null) return;
+      g.beginPath();
+      g.moveTo(at.x + 12 * Math.sin(w.course), at.y - 12 * Math.cos(w.course));
+      g.lineTo(at.x + 26 * Math.sin(w.course), at.y - 26 * Math.cos(w.course));
+      g.stroke();
+    });
+  }
+  private home(g: CanvasRenderingContext2D): void {
+    const { x, y } = this.to_screen({ n: 0, e: 0 });
+    g.strokeStyle = g.fillStyle = colours.get("text");
+    g.lineWidth = 2;
+    g.strokeRect(x - 5, y - 3, 10, 8);
+    g.beginPath();
+    g.moveTo(x - 8, y - 3);
+    g.lineTo(x, y - 10);
+    g.lineTo(x + 8, y - 3);
+    g.stroke();
+    g.font = "11px system-ui";
+    g.textAlign = "center";
+    g.textBaseline = "top";
+    g.fillText("origin", x, y + 8);
+  }
+  private aircraft(g: CanvasRenderingContext2D, s: State): void {
+    const { x, y } = this.to_screen(s);
+    g.save();
+    g.translate(x, y);
+    g.rotate(s.yaw);
+    g.beginPath();
+    for (const [a, b] of [[0, -15], [3, -4], [16, 2], [16, 5], [3, 3], [2, 11], [6, 14], [6, 16], [0, 15]] as const) g.lineTo(a, b);
+    for (const [a, b] of [[6, 16], [6, 14], [2, 11], [3, 3], [16, 5], [16, 2], [3, -4]] as const) g.lineTo(-a, b);
+    g.closePath();
+    g.fillStyle = colours.get("aircraft");
+    g.strokeStyle = colours.get("ground");
+    g.lineWidth = 1.5;
+    g.fill();
+    g.stroke();
+    g.restore();
+  }
+  private wind(g: CanvasRenderingContext2D, s: State): void {
+    const speed = Math.hypot(s.wind_n, s.wind_e), to = Math.atan2(s.wind_e, s.wind_n);
+    const words = "wind " + fixed(speed, 1, "m/s") + " from " + bearing(to + Math.PI);
+    g.font = "12px system-ui";
+    g.textAlign = "left";
+    g.textBaseline = "middle";
+    const width = g.measureText(words).width + 52, y = this.height - 22;
+    g.fillStyle = colours.get("panel");
+    g.fillRect(8, y - 15, width, 30);
+    g.fillStyle = g.strokeStyle = colours.get("text");
+    g.fillText(words, 44, y);
+    g.save();
+    g.translate(26, y);
+    g.rotate((Math.round(to * degrees) / degrees) || 0);
+    g.lineWidth = 2;
+    g.beginPath();
+    for (const [a, b] of [[0, 10], [0, -10], [-4, -4], [0, -10], [4, -4]] as const) g.lineTo(a, b);
+    g.stroke();
+    g.restore();
+  }
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What can be asked of a simulation: its clock, its air, its faults, and a pilot's hand.
+import { el, fill, mark, say } from "../dom";
+import type { Answer, Component, Flight } from "../protocol/flight";
+import type { Field } from "../protocol/schema";
+import { clock } from "../units";
+import { HandPanel } from "./hand";
+import type { Page } from "./page";
+import { ParamRow } from "./params";
+
+const groups: [string, RegExp][] = [
+  ["Wind and gusts", /^(wind|turbulence|gust|thermal|shear)/],
+  ["Faults", /(fault|_works$|^motor$|^rc_link$|icing)/],
+];
+
+export class Simulation implements Page {
+  readonly name = "Simulation";
+  readonly element: HTMLElement;
+  private readonly box = el("div", { class: "sim" });
+  private readonly said = el("p", { role: "alert", hidden: true });
+  private readonly pause = el("button", { class: "main", onclick: () => void this.toggle() }, "Pause");
+  private readonly ticks = el("input", { type: "number", min: "1", value: "40", "aria-label": "Ticks to step" });
+  private readonly step = el("button", { onclick: () => void this.do_step() }, "Step");
+  private readonly speed = el("div", { class: "chips", role: "group", "aria-label": "Speed" });
+  private readonly time = el("b", { class: "big" });
+  private readonly rows: ParamRow[] = [];
+  private readonly hand: HandPanel;
+  private made_for = "";
+
+  constructor(private readonly flight: Flight) {
+    this.hand = new HandPanel(flight);
+    this.element = this.box;
+  }
+
+  private tell(answer: Answer, good: string): void {
+    this.said.hidden = false;
+    this.said.className = answer.accepted ? "taken" : "refusal";
+    say(this.said, answer.accepted ? good : "Refused: " + answer.reason);
+  }
+  private async toggle(): Promise<void> {
+    const paused = this.flight.view?.paused === true;
+    const answer = await this.flight.ask(paused ? "/fulmar/resume" : "/fulmar/pause", {});
+    await this.flight.refresh();
+    this.tell(answer, paused ? "The flight goes on." : "Time stands still. Parameters and requests can be set meanwhile.");
+  }
+  private async do_step(): Promise<void> {
+    const ticks = this.ticks.value.trim();
+    const answer = await this.flight.ask("/fulmar/step", { ticks });
+    await this.flight.refresh();
+    this.tell(answer, `Flew ${ticks} ticks.`);
+  }
+  private async set_speed(speed: string): Promise<void> {
+    this.tell(await this.flight.ask("/fulmar/speed", { speed }), `Flies at ${speed === "real" ? "real time" : speed + " times real time"}.`);
+  }
+
+  private make(): void {
+    const view = this.flight.view;
+    if (!view) return;
+    if (view.io !== "sim") {
+      fill(this.box, el("section", {}, el("h2", {}, "Simulation"), el("p", {}, "This is an aircraft: its time cannot be stopped, and nothing of it fails on request.")));
+      return;
+    }
+    fill(this.speed, ...["0.1", "0.5", "real", "2", "5", "10"].map((s) => {
+      const chip = el("button", { class: "chip", onclick: () => void this.set_speed(s) }, s === "real" ? "real time" : s + " ×");
+      chip.dataset.speed = s === "real" ? "1" : s;
+      return chip;
+    }));
+    const vehicle = view.components.find((c) => c.role.split(", ").includes("vehicle") && c.active);
+    this.rows.length = 0;
+    const sections = vehicle ? groups.map(([name, which]) => this.section(vehicle, name, which)) : [];
+    const requests = view.components.flatMap((c) => c.inputs.filter((p) => p.request && !p.type.endsWith("/PlanEdit")).map((p) => `/${c.name}/${p.name}`));
+    fill(this.box,
+      el("div", { class: "column" },
+        el("section", {}, el("h2", {}, "Clock"), this.time, el("div", { class: "row" }, this.pause, this.step, this.ticks, " ticks"), this.speed, this.said),
+        this.hand.element,
+        ...requests.map((r) => this.request(r))),
+      ...sections);
+  }
+
+  private section(c: Component, name: string, which: RegExp): HTMLElement {
+    const rows = c.params.filter((p) => p.live && which.test(p.name)).map((p) => new ParamRow(this.flight, c.name, p));
+    this.rows.push(...rows);
+    return el("section", { class: "params" }, el("h2", {}, `${name}, of ${c.name}`), el("div", { class: "scroll rows" }, ...rows.map((r) => r.element)));
+  }
+
+  /** A form of a request's fields, as its message has them. */
+  private request(service: string): HTMLElement {
+    const said = el("p", { role: "alert", hidden: true });
+    const inputs: [Field, HTMLInputElement | HTMLSelectElement][] = [];
+    const fields = this.flight.fields_of_request(service).filter((f) => f.fields.length === 0 && f.count === 0);
+    const labels = fields.map((f) => {
+      const input = f.labels.length > 0 ? el("select", {}, ...f.labels.map((l) => el("option", { value: l }, l)))
+        : f.type === "bool" ? el("input", { type: "checkbox" }) : el("input", { type: "text", size: 6, value: "0" });
+      inputs.push([f, input]);
+      const name = f.name.replace(/_(ratio|s|m|mps|rad)$/, "").replace(/_/g, " ");
+      return el("label", {}, name + " ", input, f.unit ? " " + f.unit : "");
+    });
+    const ask = async () => {
+      const message: Record<string, unknown> = {};
+      for (const [f, input] of inputs)
+        message[f.name] = f.type === "bool" ? (input as HTMLInputElement).checked : f.labels.length > 0 ? input.value : Number(input.value);
+      const answer = await this.flight.ask(service, message);
+      said.hidden = false;
+      said.className = answer.accepted ? "taken" : "refusal";
+      say(said, answer.accepted ? "Accepted." : "Refused: " + answer.reason);
+    };
+    const name = service.slice(1).replace("/", ".");
+    const form = el("form", { class: "row" }, ...labels, el("button", { type: "submit" }, "Ask"));
+    form.addEventListener("submit", (e) => {
+      e.preventDefault();
+      void ask();
+    });
+    return el("section", {}, el("h2", {}, `Request ${name}`), form, said);
+  }
+
+  update(): void {
+    const view = this.flight.view;
+    if (!view) return;
+    const made_for = view.io + view.components.map((c) => c.name + c.use).join();
+    if (made_for !== this.made_for) {
+      this.made_for = made_for;
+      this.make();
+    }
+    say(this.time, clock(view.paused ? view.now_ns * 1e-9 : this.flight.now));
+    say(this.pause, view.paused ? "Resume" : "Pause");
+    this.step.disabled = !view.paused;
+    for (const chip of this.speed.querySelectorAll("button")) mark(chip, "on", Number(chip.dataset.speed) === view.speed && !view.paused);
+    const vehicle = view.components.find((c) => c.name === this.rows[0]?.component);
+    for (const row of this.rows) {
+      const p = vehicle?.params.find((q) => q.name === row.name);
+      if (p) row.show(p);
+    }
+    this.hand.update();
+  }
+}

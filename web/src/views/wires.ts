@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Components, their ports and wires, as they are at work: rates, ages, step times, guards. A component is swapped
+// from here, if the host lets it.
+import { el, fill, mark, say } from "../dom";
+import type { Component, Flight, Port, View } from "../protocol/flight";
+import { digits, fixed, none } from "../units";
+import type { Page } from "./page";
+
+const count_ms = 1000, steps_over_s = 4;
+const short = (type: string) => type.slice(type.lastIndexOf("/") + 1) || "probe";
+const rate_of = (hz: number | undefined) => (hz === undefined ? none : digits(Math.round(hz * 10) / 10) + " Hz");
+const age_of = (s: number) => (Number.isFinite(s) ? (s < 10 ? fixed(s * 1000, 0, "ms") : fixed(s, 0, "s")) : "never");
+
+interface Row {
+  row: HTMLElement; state: HTMLElement; rate: HTMLElement; mean: HTMLElement; most: HTMLElement;
+}
+
+export class Wires implements Page {
+  readonly name = "Wires";
+  readonly element: HTMLElement;
+  private readonly body = el("tbody");
+  private readonly details = el("div", { class: "scroll" });
+  private readonly said = el("p", { role: "alert", hidden: true });
+  private readonly reset = el("button", { onclick: () => void this.reset_guards() }, "Reset guards");
+  private rows = new Map<string, Row>();
+  private ports: { topic: string; rate: HTMLElement; age: HTMLElement }[] = [];
+  private listed = "";
+  private chosen = "";
+  private counted_ms = 0;
+  private counted_s = 0; // of flight
+  private counts = new Map<string, number>();
+  private rates = new Map<string, number>();
+
+  constructor(private readonly flight: Flight) {
+    const head = ["component", "fills", "plugin", "state", "runs as", "steps a second", "step, mean", "step, longest", "budget"];
+    this.element = el("div", { class: "wires" },
+      el("section", {}, el("div", { class: "row" }, el("h2", {}, "Components, in the order of the mission"), this.reset), this.said,
+        el("div", { class: "scroll" }, el("table", {}, el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", { class: i > 4 ? "right" : "" }, h)))), this.body))),
+      el("section", { class: "grow" }, this.details));
+  }
+
+  show(): void {
+    this.counted_ms = 0;
+    this.steps = new Map();
+    this.steps_s = -1e9;
+    this.flight.want_all(true);
+  }
+  hide(): void {
+    this.flight.want_all(false);
+  }
+
+  private async reset_guards(): Promise<void> {
+    this.tell(await this.flight.ask("/fulmar/reset_guards", {}), "Guards are reset: who was stopped may fly again.");
+  }
+  private tell(answer: { accepted: boolean; reason: string }, good: string): void {
+    this.said.hidden = false;
+    this.said.className = answer.accepted ? "taken" : "refusal";
+    say(this.said, answer.accepted ? good : "Refused: " + answer.reason);
+  }
+
+  private list(view: View): void {
+    this.rows = new Map();
+    fill(this.body, ...view.components.map((c) => {
+      const cell = () => el("td", { class: "number" });
+      const r: Row = { row: el("tr"), state: el("td"), rate: cell(), mean: cell(), most: cell() };
+      this.rows.set(c.name, r);
+      const name = el("button", { class: "link", onclick: () => this.choose(c.name) }, c.name);
+      r.row.append(el("th", { scope: "row" }, name), el("td", {}, c.role || none), el("td", {}, c.use), r.state, el("td", {}, c.run), r.rate, r.mean, r.most,
+        el("td", { class: "number" }, c.budget_us > 0 ? fixed(c.budget_us, 0, "µs") : "none"));
+      return r.row;
+    }));
+    this.choose(view.components.some((c) => c.name === this.chosen) ? this.chosen : (view.components[0]?.name ?? ""));
+  }
+
+  private choose(name: string): void {
+    this.chosen = name;
+    const c = this.flight.component(name);
+    if (!c) return;
+    for (const [other, r] of this.rows) mark(r.row, "chosen", other === name);
+    this.ports = [];
+    fill(this.details, el("h2", {}, `${c.name}: ${c.doc}`), c.swapped ? el("p", { class: "faint" }, c.swapped) : "", this.swap_form(c),
+      el("div", { class: "twotables" }, this.inputs(c), this.outputs(c)));
+    this.show_rates();
+  }
+  private port_row(port: Port, words: string, topic: string): HTMLElement {
+    const rate = el("td", { class: "number" }), age = el("td", { class: "number" });
+    this.ports.push({ topic, rate, age });
+    return el("tr", {}, el("th", { scope: "row" }, port.name), el("td", {}, short(port.type)), el("td", {}, words), rate, age);
+  }
+  private inputs(c: Component): HTMLElement {
+    const rows = c.inputs.map((p) => {
+      const topic = p.topic ?? (p.source ? this.topic_of(p.source) : "");
+      const words = p.request ? "requests, on " + p.topic : p.imported ? "imported, from " + p.topic : p.source ? "← " + p.source : "not wired";
+      return this.port_row(p, words, topic);
+    });
+    return this.table("Inputs", rows);
+  }
+  private outputs(c: Component): HTMLElement {
+    const readers = (port: string) => {
+      const names: string[] = [];
+      const owners = [c.name, ...c.role.split(", ")].map((owner) => `${owner}.${port}`);
+      for (const other of this.flight.view?.components ?? [])
+        for (const p of other.inputs) if (p.source && owners.includes(p.source)) names.push(`${other.name}.${p.name}`);
+      return names.length > 0 ? "→ " + names.join(", ") : "nobody reads it";
+    };
+    return this.table("Outputs", c.outputs.map((p) => this.port_row(p, p.type ? readers(p.name) : "to look at", p.topic ?? "")));
+  }
+  private table(name: string, rows: HTMLElement[]): HTMLElement {
+    return el("table", {}, el("thead", {}, el("tr", {}, ...[name, "message", "wire", "rate", "age"].map((h, i) => el("th", { class: i > 2 ? "right" : "" }, h)))), el("tbody", {}, ...rows));
+  }
+  /** "nav.state" -> "/nav/state": of a role, or of the component that has its own. */
+  private topic_of(source: string): string {
+    const [owner = "", port = ""] = source.split(/\.(.*)/);
+    for (const c of this.flight.view?.components ?? [])
+      if (c.name === owner || c.role.split(", ").includes(owner))
+        for (const p of c.outputs) if (p.name === port && p.topic) return p.topic;
+    return "";
+  }
+
+  private swap_form(c: Component): HTMLElement {
+    const input = el("input", { type: "text", size: 44, placeholder: "build/my_law.so, or control_tecs/Outer", "aria-label": `Plugin in place of ${c.name}` });
+    const swap = async () => {
+      const answer = await this.flight.ask("/fulmar/swap", { component: c.name, file: input.value.trim() });
+      this.tell(answer, `${c.name} is swapped.`);
+      this.listed = "";
+    };
+    const form = el("form", { class: "row swap" }, el("label", {}, "swap for ", input), el("button", { type: "submit" }, "Swap"));
+    form.addEventListener("submit", (e) => {
+      e.preventDefault();
+      void swap();
+    });
+    return form;
+  }
+
+  update(now_ms: number): void {
+    const view = this.flight.view;
+    if (!view) return;
+    const listed = JSON.stringify(view.components.map((c) => [c.name, c.use]));
+    if (listed !== this.listed) {
+      this.listed = listed;
+      this.list(view);
+    }
+    for (const c of view.components) {
+      const r = this.rows.get(c.name);
+      if (!r) continue;
+      say(r.state, c.stopped ? "✕ stopped by a guard" : c.active ? "✓ flies" : "waits");
+      r.state.className = c.stopped ? "bad" : c.active ? "good" : "faint";
+      say(r.mean, c.steps > 0 ? fixed(c.step_us, 1, "µs") : none);
+      say(r.most, c.steps > 0 ? fixed(c.step_max_us, 0, "µs") : none);
+      mark(r.most, "bad", c.budget_us > 0 && c.step_max_us > c.budget_us);
+    }
+    mark(this.reset, "main", view.components.some((c) => c.stopped));
+    if (now_ms - this.counted_ms > count_ms) this.count(view, now_ms);
+  }
+
+  /** By flight time: a simulation may be quicker than the clock. */
+  private count(view: View, now_ms: number): void {
+    const seconds = this.flight.now - this.counted_s, first = this.counted_ms === 0;
+    this.counted_ms = now_ms;
+    this.counted_s = this.flight.now;
+    const note = (key: string, count: number) => {
+      if (!first && seconds > 0) this.rates.set(key, (count - (this.counts.get(key) ?? count)) / seconds);
+      else this.rates.delete(key);
+      this.counts.set(key, count);
+    };
+    for (const t of this.flight.topics()) note(t.name, this.flight.count(t.name));
+    // The host notes its steps now and then: over a longer time.
+    const since = view.now_ns * 1e-9 - this.steps_s, anew = since < 0 || since > steps_over_s;
+    for (const c of view.components) {
+      const before = this.steps.get(c.name);
+      if (before !== undefined && since > 1) say(this.rows.get(c.name)?.rate as HTMLElement, rate_of((c.steps - before) / since));
+      if (anew || before === undefined) this.steps.set(c.name, c.steps);
+    }
+    if (anew) this.steps_s = view.now_ns * 1e-9;
+    this.show_rates();
+  }
+  private steps = new Map<string, number>();
+  private steps_s = 0; // flight time of these
+
+  private show_rates(): void {
+    for (const p of this.ports) {
+      say(p.rate, p.topic ? rate_of(this.rates.get(p.topic)) : none);
+      say(p.age, p.topic ? age_of(this.flight.age(p.topic)) : none);
+    }
+  }
+}

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// node page_test.mjs FULMAR NODE_MODULES CHROMIUM: flies in real time, and drives the page as a person would. What it changed is asked
+// of the flight by the command line.
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { promisify } from "node:util";
+import { absent, browse, fly, free_port, shots_folder, until } from "./fixture.mjs";
+
+const [fulmar, modules, chromium] = process.argv.slice(2).map((p) => p && resolve(p));
+const skipped = absent(modules, chromium);
+if (skipped) {
+  console.log("skipped: " + skipped);
+  process.exit(77);
+}
+const run = promisify(execFile);
+const port = await free_port();
+const at = ["--at", `127.0.0.1:${port}`];
+/** The command line's word for it. */
+const ask = async (...words) => (await run(fulmar, [...words, ...at])).stdout.trim();
+const value_of = async (field) => Number((await ask("echo", field, "--count", "1", "--csv")).split("\n")[1].split(",")[1]);
+
+// Names that would be markup, if a page took them for it.
+const folder = mkdtempSync(join(tmpdir(), "fulmar-page-"));
+const hostile = "<img src=x onerror=document.body.remove()>";
+writeFileSync(join(folder, "hostile.yaml"), `mission: "${hostile}"\nextends: ${resolve("configs/missions/hourglass.yaml")}\n`);
+
+let page, flight;
+const faults = [], foreign = [];
+const shots = shots_folder(modules);
+const text = (selector) => page.locator(selector).first().textContent();
+const tab = (name) => page.click(`#tabs button[data-page="${name}"]`);
+const seen = (what, selector, holds, patience) => until(what, async () => holds((await page.locator(selector).allTextContents()).join("\n")), patience);
+
+/** Nothing may be wider than its box, and the page not than its window. */
+async function whole(name) {
+  const cut = await page.evaluate(() => {
+    const hidden = (e) => getComputedStyle(e).overflowX !== "visible"; // nobody scrolls to the right to read a number
+    const list = [...document.querySelectorAll("body *")].filter((e) => e.tagName !== "CANVAS" && e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1 && hidden(e));
+    if (document.documentElement.scrollWidth > innerWidth) list.push(document.documentElement);
+    return list.map((e) => `${e.tagName}.${e.className} ${(e.value ?? e.textContent ?? "").slice(0, 40)}`);
+  });
+  assert.deepEqual(cut, [], name + ": cut off");
+}
+async function shoot(name) {
+  for (const [width, height] of [[1280, 720], [1024, 768]]) {
+    await page.setViewportSize({ width, height });
+    await page.waitForTimeout(250);
+    await whole(`${name} ${width}`);
+    await page.screenshot({ path: join(shots, `${name}_${width}.png`) });
+  }
+  await page.setViewportSize({ width: 1280, height: 720 });
+}
+
+const steps = {
+  async "the page comes from the flight alone, and soon"() {
+    const begun = Date.now();
+    await page.goto(`http://127.0.0.1:${port}/`);
+    await seen("the phase", "#phase", (t) => t !== "–");
+    assert.ok(Date.now() - begun < 10_000);
+    assert.equal(await text("#mission"), hostile);
+    assert.equal(await page.locator("#mission img").count(), 0);
+    assert.equal(await page.title(), hostile + " – Fulmar");
+  },
+  async "names that are markup stay text"() {
+    const other = await browser.newPage();
+    await other.routeWebSocket(/./, (ws) => {
+      const server = ws.connectToServer();
+      // Words alone, and of the view, the answer of a service, a component of another name.
+      server.onMessage((m) => {
+        if (typeof m === "string") ws.send(m);
+        else if (m[0] === 3) ws.send(Buffer.from(m.toString("latin1").replaceAll('"name":"slc"', `"name":"${hostile}"`), "latin1"));
+      });
+    });
+    other.on("pageerror", (e) => faults.push(e.message));
+    await other.goto(`http://127.0.0.1:${port}/#wires`);
+    for (const key of ["3", "4", "1"]) {
+      await other.keyboard.press(key); // Tune, Wires, Fly
+      await until("its name", async () => (await other.locator("#view").textContent()).includes(hostile));
+      assert.equal(await other.locator("img").count(), 0);
+    }
+    await other.close();
+  },
+  async "speed: ten times as fast until it is in the air"() {
+    await tab("Simulation");
+    await page.click('button[data-speed="10"]');
+    await seen("cruise", "#phase", (t) => t === "cruise", 15);
+    await page.click('button[data-speed="1"]');
+    await until("real time", async () => (await ask("list")).includes("speed real") || !(await ask("list")).includes("speed 10"));
+  },
+  async "Fly: what there is to see"() {
+    await tab("Fly");
+    await seen("what happened before it was opened, too", ".events", (t) => /−0:05\.0.phase hold/.test(t) && t.includes("0:00.0·phase takeoff") && t.includes("phase cruise"));
+    await seen("a height", ".figures", (t) => /ground speed\d+\.\d m\/s/.test(t));
+    await seen("who flies", ".side .pairs", (t) => t.includes("outerslc") && t.includes("navekf") && t.includes("GNSS position✓ ok"));
+    await until("a picture of the aircraft", () => page.evaluate(() => document.querySelector(".chase canvas")?.width > 300));
+    await shoot("fly");
+  },
+  async "Plan: a waypoint that is dragged is dragged in the flight, and so is the target"() {
+    await tab("Plan");
+    await seen("the waypoints", ".waypoints tbody th", (t) => t.split("\n").length === 4);
+    await shoot("plan");
+    const item = await value_of("manage.progress.item");
+    const before = await value_of("manage.progress.distance_m");
+    const box = await page.locator(".plan canvas.map").boundingBox();
+    const [n, e, px] = (await page.locator(".plan canvas.map").getAttribute("data-view")).split(",").map(Number);
+    const at_m = await position_of(item);
+    const x = box.width / 2 + (at_m.east - e) * px, y = box.height / 2 - (at_m.north - n) * px;
+    // away from the aircraft, so that it is farther whatever the aircraft flies meanwhile
+    const from = { north: await value_of("nav.state.position_m.north"), east: await value_of("nav.state.position_m.east") };
+    const way = Math.hypot(at_m.north - from.north, at_m.east - from.east), far_px = 110;
+    const to = [x + (far_px * (at_m.east - from.east)) / way, y - (far_px * (at_m.north - from.north)) / way];
+    await page.mouse.move(box.x + x, box.y + y);
+    await page.mouse.down();
+    await page.mouse.move(box.x + (x + to[0]) / 2, box.y + (y + to[1]) / 2, { steps: 4 });
+    await page.mouse.move(box.x + to[0], box.y + to[1], { steps: 4 });
+    await page.mouse.up();
+    await until("the flight's waypoint has moved", async () => (await position_of(item)).north !== at_m.north);
+    await seen("what is drawn flies", ".plan .faint", (t) => t.includes("This is what flies"));
+    const moved = await value_of("manage.progress.distance_m");
+    assert.ok(moved > before + 0.3 * (far_px / px), `the aircraft flies to it: ${before} m became ${moved} m`);
+  },
+  async "Plan: what is refused says why, in its row, and what flies stays"() {
+    const field = page.getByLabel("up of waypoint 2, m");
+    await field.fill("-30");
+    await field.press("Enter");
+    await seen("the reason", ".waypoints .refusal", (t) => t === "Refused: lower than the planner allows: its parameter 'lowest'");
+    assert.equal(await page.locator(".waypoints tbody tr:has(.refusal)").evaluate((row) => row.previousElementSibling.dataset.at), "2");
+    await shoot("plan_refused");
+    await page.click("text=Back to what flies");
+    await until("the old height", async () => (await field.inputValue()) === "70");
+  },
+  async "Plan: added, moved up, removed"() {
+    const box = await page.locator(".plan canvas.map").boundingBox();
+    await page.mouse.click(box.x + box.width - 120, box.y + box.height / 2);
+    await until("five waypoints in the flight", async () => (await plan()).waypoints.length === 5);
+    await seen("and on the page", ".waypoints tbody th", (t) => t.split("\n").length === 5);
+    const before = (await plan()).waypoints;
+    await page.click('[aria-label="Earlier, waypoint 4"]');
+    await until("its place is another", async () => {
+      const now = (await plan()).waypoints;
+      const same = (i, k) => JSON.stringify(now[i].position_m) === JSON.stringify(before[k].position_m);
+      return now.length === 5 && same(3, 4) && same(4, 3) && [0, 1, 2].every((i) => now[i].id === before[i].id);
+    });
+    await page.click('[aria-label="Remove, waypoint 3"]');
+    await until("four again", async () => (await plan()).waypoints.length === 4);
+  },
+  async "Tune: a slider sets the parameter of the flight, and the way back"() {
+    await tab("Tune");
+    const row = page.locator('[data-param="roll_kp"]');
+    const before = await ask("param", "get", "attitude.roll_kp");
+    await row.locator("input[type=range]").focus();
+    for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowRight");
+    await until("the flight's value", async () => (await ask("param", "get", "attitude.roll_kp")) !== before);
+    await seen("the command that saves it", ".changed_list code", (t) => t === `fulmar param save attitude --at 127.0.0.1:${port}`);
+    await row.locator("input[type=text]").fill("900");
+    await row.locator("input[type=text]").press("Enter");
+    await seen("the range", '[data-param="roll_kp"] .refusal', (t) => t === "Refused: attitude.roll_kp: 900 is outside 0 .. 20 rad/rad" || t.includes("outside 0 .. 20"));
+    await shoot("tune");
+    await row.locator("button").click();
+    await until("as it was", async () => (await ask("param", "get", "attitude.roll_kp")) === before);
+  },
+  async "Wires: rates, step times, and a swap that is refused in the air by the host's sentence"() {
+    await tab("Wires");
+    await page.click("button.link >> text=slc");
+    await seen("a step time", ".wires tbody tr", (t) => /slc.*\d µs/.test(t));
+    await seen("the rate of what it publishes", ".twotables", (t) => /→ attitude\.attitude, score\.attitude(9\d|10\d)(\.\d)? Hz/.test(t));
+    await page.getByLabel("Plugin in place of slc").fill("control_tecs/Outer");
+    await page.keyboard.press("Enter");
+    await seen("the sentence", ".wires .refusal", (t) => /slc cannot be swapped: the aircraft is .*A component is swapped on the ground, disarmed/.test(t));
+    await shoot("wires");
+  },
+  async "Simulation: paused, time stands; a step moves it by its ticks"() {
+    await tab("Simulation");
+    await page.click("text=Pause");
+    await seen("paused", "#pace", (t) => t === "paused");
+    const time = async () => Number(/([-\d.]+) s,/.exec(await ask("list"))[1]);
+    const stands = await time();
+    await page.waitForTimeout(300);
+    assert.equal(await time(), stands);
+    await page.getByLabel("Ticks to step").fill("200");
+    await page.click("button >> text=Step");
+    await seen("done", ".sim .taken", (t) => t.includes("Flew 200 ticks"));
+    assert.ok(Math.abs((await time()) - stands - 0.5) < 0.051, "200 ticks of 400 Hz");
+    await shoot("simulation");
+    await page.click("text=Resume");
+    await until("time goes on", async () => (await time()) > stands + 0.7);
+  },
+  async "By hand: keys move the sticks, until they are given back"() {
+    await page.click("text=Take the sticks");
+    await until("the pilot flies", async () => (await ask("param", "get", "sim.pilot_flies")) === "true");
+    await until("the sticks have the keys", () => page.locator(".sticks").evaluate((e) => e === document.activeElement));
+    await page.keyboard.down("ArrowRight");
+    await until("the stick", async () => Number(await ask("param", "get", "sim.stick_roll")) > 0.5);
+    await page.keyboard.up("ArrowRight");
+    await until("let go, in the middle", async () => Math.abs(Number(await ask("param", "get", "sim.stick_roll"))) < 0.01);
+    await page.click("text=Give them back");
+    await until("the autopilot flies", async () => (await ask("param", "get", "sim.pilot_flies")) === "false");
+  },
+  async "a flight that is gone is missed within a second, and found again"() {
+    await tab("Fly");
+    const hidden = () => page.locator("#banner").isHidden();
+    assert.ok(await hidden());
+    // what the bar says when it comes up: how long ago the flight was heard
+    await page.evaluate(() => {
+      const bar = document.getElementById("banner");
+      new MutationObserver(() => {
+        if (!bar.hidden && !bar.dataset.first) bar.dataset.first = bar.textContent;
+      }).observe(bar, { attributes: true, childList: true });
+    });
+    flight.child.kill("SIGSTOP"); // silent, and no connection is closed
+    await until("the banner", async () => !(await hidden()));
+    assert.match(await page.locator("#banner").getAttribute("data-first"), /Connection lost, [01] s ago/);
+    await shoot("lost");
+    flight.child.kill("SIGCONT");
+    await until("it is back", hidden);
+    await flight.end();
+    await seen("the banner again", "#banner", (t) => t.includes("Connection lost"));
+    flight = await fly(fulmar, port, join(folder, "hostile.yaml"));
+    await until("the next flight", hidden);
+  },
+};
+
+const plan = async () => JSON.parse((await ask("echo", "plan.plan", "--count", "1", "--json")).split("\n")[0]).value;
+const position_of = async (i) => (await plan()).waypoints[i].position_m;
+
+const browser = await browse(modules, chromium);
+let failed = 0;
+try {
+  flight = await fly(fulmar, port, join(folder, "hostile.yaml"));
+  page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
+  page.setDefaultTimeout(15_000);
+  page.on("pageerror", (e) => faults.push(e.message));
+  page.on("console", (m) => m.type() === "error" && !m.text().includes("WebSocket") && faults.push(m.text()));
+  page.on("request", (r) => new URL(r.url()).host !== `127.0.0.1:${port}` && !r.url().startsWith("data:") && foreign.push(r.url()));
+  for (const [name, step] of Object.entries(steps)) {
+    const begun = Date.now();
+    try {
+      await step();
+      console.log(`ok     ${((Date.now() - begun) / 1000).toFixed(1)} s  ${name}`);
+    } catch (fault) {
+      ++failed;
+      console.log(`FAILED ${name}\n${fault.stack}`);
+      await page.screenshot({ path: join(shots, "failed.png") }).catch(() => {});
+    }
+  }
+  assert.deepEqual(foreign, [], "asked of others");
+  assert.deepEqual(faults, [], "faults of the page");
+} finally {
+  await browser.close();
+  await flight?.end();
+  rmSync(folder, { recursive: true, force: true });
+}
+process.exit(failed === 0 ? 0 : 1);

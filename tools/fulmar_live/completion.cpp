@@ -34,7 +34,7 @@ const std::map<std::string, Places> places{
     {"log recover", {"log", 0}},      {"log export", {"log", 0}},
     {"log diff", {"log log", 0}},     {"log compare", {"log", 0}},
     {"response", {"log", 0}},         {"echo", {"port", 1}},
-    {"plot", {"field", 1}},           {"param list", {"param", 0}},
+    {"plot", {"drawn", 1}},           {"param list", {"param", 0}},
     {"param get", {"param", 1}},      {"param set", {"param none", 2}},
     {"param save", {"component", 0}}, {"call", {"request none", 1}},
     {"phase", {"phase", 0}},          {"swap", {"component plugin", 0}},
@@ -48,7 +48,8 @@ const std::map<std::string, Places> places{
 const std::map<std::string, std::string> option_kinds{
     {"--io", "io"},           {"--format", "format"},    {"--speed", "speed"},
     {"--log", "file"},        {"--drivers-from", "log"}, {"--resume", "log"},
-    {"--mission", "mission"}, {"--with", "file"}};
+    {"--mission", "mission"}, {"--with", "file"},        {"--out", "file"},
+    {"--over", "drawn"},      {"--panel", "drawn"}};
 
 /// What a program beside this one prints of its commands. Throws Error.
 std::string rows_of(const char* name) {
@@ -157,6 +158,9 @@ _fulmar() {
     format) COMPREPLY=($(compgen -W 'text dot mermaid' -- "$cur")) ;;
     speed) COMPREPLY=($(compgen -W 'real max' -- "$cur")) ;;
     shell) COMPREPLY=($(compgen -W 'bash zsh' -- "$cur")) ;;
+    drawn)
+      mapfile -t COMPREPLY < <(compgen -f -X '!*.mcap' -- "$cur"; "${COMP_WORDS[0]}" complete "${flight[@]}" field "$cur" 2>/dev/null)
+      [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *. ]] && compopt -o nospace 2>/dev/null ;;
     mission | plugin | log | file)
       local pattern='*'
       case "$kind" in mission) pattern='*.yaml' ;; plugin) pattern='*.so' ;; log) pattern='*.mcap' ;; esac
@@ -218,6 +222,10 @@ _fulmar() {
     plugin) _files -g '*.so' ;;
     log) _files -g '*.mcap' ;;
     file) _files ;;
+    drawn)
+      _files -g '*.mcap'
+      found=("${(@f)$(${words[1]} complete $flight field "$cur" 2>/dev/null)}")
+      compadd -S '' -- ${found:#} ;;
     *)
       found=("${(@f)$(${words[1]} complete $flight "$kind" "$cur" 2>/dev/null)}")
       compadd -S '' -- ${found:#} ;;

@@ -13,6 +13,7 @@
 #include "tools/fulmar_live/client.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/completion.hpp"
+#include "tools/fulmar_log/plot_log.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -50,7 +51,10 @@ struct RemoteCommands::Impl {
   std::vector<std::string> words;
   std::string name;
   EchoOptions echo;
-  PlotOptions plot;
+  PlotOptions curves;
+  plot::LogPlotWords figure;
+  CLI::Option* live_seconds = nullptr;          // of plot
+  std::vector<const CLI::Option*> log_options;  // of plot
   SaveOptions save;
   bool json = false, rates = false;
   std::vector<std::pair<CLI::App*, std::function<int()>>> actions;
@@ -100,11 +104,58 @@ struct RemoteCommands::Impl {
     CLI::Option* as_json = show->add_flag("--json", echo.json, "one JSON object per line");
     show->add_flag("--csv", echo.csv, "a table; of one port")->excludes(as_json);
 
+    add_plot();
+  }
+
+  /// Of a running flight, or of logs when the first word is one.
+  void add_plot() {
     CLI::App* draw =
-        add(app, "plot", "plot fields of a running flight in the terminal",
-            "plot nav.state.roll_deg slc.attitude.roll_deg", [this] { return plot_command(target(), plot); });
-    draw->add_option("FIELD", plot.fields, "PORT.FIELD, or a component's probe")->required()->type_name("");
-    draw->add_option("--seconds", plot.seconds, "so much of the flight")->check(CLI::Range(0.1, 36000.0));
+        add(app, "plot", "plot fields of a running flight in the terminal; of logs as a figure",
+            "plot nav.state.roll_deg slc.attitude.roll_deg\n"
+            "Example: fulmar plot flight.mcap nav.state.height_m nav.state.roll_deg -o flight.svg",
+            [this] { return draws_logs() ? plot::plot_log_command(figure) : plot_live(); });
+    draw->add_option("FIELD", curves.fields,
+                     "PORT.FIELD, or a component's probe; logs before them draw those")
+        ->required()
+        ->type_name("[LOG...] FIELD...");
+    live_seconds = draw->add_option("--seconds", curves.seconds, "so much of a running flight");
+    live_seconds->check(CLI::Range(0.1, 36000.0));
+    const auto of_logs = [&](CLI::Option* option) {
+      log_options.push_back(option->group("Of logs"));
+      return option;
+    };
+    of_logs(draw->add_option("-o,--out", figure.out, "the figure: .svg, .png or .pdf"))->type_name("FILE");
+    of_logs(draw->add_option("--over", figure.over, "a field in place of time, as for a track"))
+        ->type_name("FIELD");
+    of_logs(draw->add_option("--panel", figure.panels,
+                             "a panel of these fields, commas between them; may be given again. Other fields "
+                             "have a panel per unit"))
+        ->allow_extra_args(false)
+        ->type_name("FIELD,FIELD");
+    const auto seconds = CLI::Range(-1e7, 1e7);
+    of_logs(draw->add_option("--from", figure.from_s, "only from so many seconds of flight on"))
+        ->check(seconds);
+    of_logs(draw->add_option("--to", figure.to_s, "only up to so many seconds of flight"))->check(seconds);
+    of_logs(draw->add_option("--size", figure.size, "width and height, as in 160x90mm; default 160 mm wide"))
+        ->type_name("SIZE");
+    of_logs(draw->add_option("--names", figure.names, "what the logs are called, as in --names old,new"))
+        ->type_name("NAMES");
+    of_logs(draw->add_flag("--no-phases", figure.no_phases, "no bands of the flight's phases"));
+  }
+
+  bool draws_logs() {
+    figure.words = curves.fields;
+    const bool logs = plot::names_a_log(figure.words[0]);
+    if (logs && live_seconds->count() > 0)
+      throw WrongUsage("--seconds is of a running flight; of a log name --from and --to");
+    return logs;
+  }
+  int plot_live() const {
+    for (const CLI::Option* option : log_options)
+      if (option->count() > 0)
+        throw WrongUsage(option->get_name(false, true) +
+                         " is of logs: give a log first, as in fulmar plot flight.mcap " + curves.fields[0]);
+    return plot_command(target(), curves);
   }
 
   void parameters() {
@@ -223,6 +274,9 @@ int RemoteCommands::run() const {
   try {
     for (const auto& [command, action] : impl_->actions)
       if (command->parsed()) return action();
+    return 2;
+  } catch (const plot::WrongWords& wrong) {
+    std::fprintf(stderr, "%s\n", for_terminal(wrong.what()).c_str());
     return 2;
   } catch (const WrongUsage& wrong) {
     std::fprintf(stderr, "%s\n", for_terminal(wrong.what()).c_str());

@@ -192,7 +192,7 @@ class Drawing {
 
  private:
   void set_ranges() {
-    AxisRange all;
+    AxisRange all = figure_.shown;
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       for (const FigureCurve& curve : figure_.panels[i].curves)
         for (const ChartPoint& p : curve.points)

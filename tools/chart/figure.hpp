@@ -33,6 +33,7 @@ struct Figure {
   std::string x;       ///< what stands beside the axis, unit and all
   bool track = false;  ///< x is no time: points are drawn in their order, and may go back
   bool even = false;   ///< both axes in one scale
+  AxisRange shown;     ///< of x, beside what is drawn
   std::vector<FigurePanel> panels;
   std::vector<FigureBand> bands;
 };

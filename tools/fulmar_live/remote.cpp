@@ -125,7 +125,8 @@ struct RemoteCommands::Impl {
       return option;
     };
     of_logs(draw->add_option("-o,--out", figure.out, "the figure: .svg, .png or .pdf"))->type_name("FILE");
-    of_logs(draw->add_option("--over", figure.over, "a field in place of time, as for a track"))
+    of_logs(draw->add_option("--over", figure.over,
+                             "a field in place of time, as for a track; .FIELD: of each curve's own port"))
         ->type_name("FIELD");
     of_logs(draw->add_option("--panel", figure.panels,
                              "a panel of these fields, commas between them; may be given again. Other fields "

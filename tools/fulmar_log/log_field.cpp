@@ -145,8 +145,8 @@ LogPlace place_in_log(const LogInfo& info, const std::string& log, const std::st
   std::vector<std::string> ports;
   LogPlace found;
   const auto consider = [&](const std::string& topic, const std::string& port) {
-    if (field.starts_with(port + ".") && topic.size() > found.topic.size())
-      found = {topic, field.substr(port.size() + 1)};
+    if ((field == port || field.starts_with(port + ".")) && topic.size() > found.topic.size())
+      found = {topic, field.substr(std::min(field.size(), port.size() + 1))};
   };
   for (const LogInfo::Topic& t : info.topics) {
     ports.push_back(dotted_topic(t.topic));

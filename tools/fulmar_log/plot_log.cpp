@@ -38,10 +38,14 @@ struct OpenLog {
   std::string file, name;  // as it was given; in the legend
   core::LogInfo info;
   std::vector<Samples> fields;  // those that were asked for, in their order
+  std::vector<Samples> over;    // x of each of them; of all; or none, for time
+  const Samples* x_of(std::size_t field) const {
+    return over.empty() ? nullptr : &over[std::min(field, over.size() - 1)];
+  }
 };
 
 struct Asked {
-  std::vector<std::string> logs, fields;         // no field twice; the last one is x, when that is no time
+  std::vector<std::string> logs, fields;         // no field twice
   std::vector<std::vector<std::size_t>> panels;  // of --panel: places in `fields`
   std::size_t in_order = 0;                      // so many fields, the first ones, go to panels by their unit
 };
@@ -82,8 +86,7 @@ Asked read_words(const LogPlotWords& words) {
   }
   if (asked.fields.empty())
     throw WrongWords("give at least one field behind the log, as in fulmar plot " + asked.logs.at(0) +
-                " nav.state.height_m -o height.svg");
-  if (!words.over.empty()) asked.fields.push_back(words.over);
+                     " nav.state.height_m -o height.svg");
   return asked;
 }
 
@@ -109,7 +112,7 @@ std::vector<std::string> log_names(const Asked& asked, const std::string& given)
     names = split(given);
     if (names.size() != asked.logs.size())
       throw WrongWords("--names takes a name for each log, with commas between them: " +
-                  std::to_string(asked.logs.size()) + ", not " + std::to_string(names.size()));
+                       std::to_string(asked.logs.size()) + ", not " + std::to_string(names.size()));
     return names;
   }
   for (const std::string& log : asked.logs) {
@@ -134,41 +137,62 @@ void sort_by_time(Samples& s) {
   s = std::move(sorted);
 }
 
-/// Reads the fields of a log.
-OpenLog read_log(const std::string& file, const std::string& name, const std::vector<std::string>& fields,
-                 double from_s, double to_s) {
-  core::check_log_file(file);
-  OpenLog log{file, name, core::read_info(file), {}};
+struct Interval {
+  double from_s, to_s;
+};
+
+std::string no_number_words(const OpenLog& log, const Interval& time) {
+  const auto seconds_words = [](std::int64_t ns) {
+    return chart::fixed(1e-9 * static_cast<double>(ns), 1) + " s";
+  };
+  if (std::isinf(time.from_s) && std::isinf(time.to_s)) return " has no number in it";
+  return " has no number in that time; the flight is from " + seconds_words(log.info.begin_ns) + " to " +
+         seconds_words(log.info.end_ns);
+}
+
+/// Where the fields are, and behind them what is x: of each, or of all.
+std::vector<core::LogPlace> places_in(const OpenLog& log, const Asked& asked, const std::string& over) {
   std::vector<core::LogPlace> places;
+  for (const std::string& field : asked.fields)
+    places.push_back(core::place_in_log(log.info, log.file, field));
+  if (over.starts_with('.'))
+    for (std::size_t i = 0; i < asked.fields.size(); ++i) places.push_back({places[i].topic, over.substr(1)});
+  else if (!over.empty())
+    places.push_back(core::place_in_log(log.info, log.file, over));
+  return places;
+}
+
+OpenLog read_log(const std::string& file, const std::string& name, const Asked& asked,
+                 const std::string& over, const Interval& time) {
+  core::check_log_file(file);
+  OpenLog log{file, name, core::read_info(file), {}, {}};
   std::vector<std::string> topics;
-  for (const std::string& field : fields) {
-    places.push_back(core::place_in_log(log.info, file, field));
-    if (std::find(topics.begin(), topics.end(), places.back().topic) == topics.end())
-      topics.push_back(places.back().topic);
-  }
-  const core::Tables tables(file, topics);
+  const std::vector<core::LogPlace> places = places_in(log, asked, over);
   for (const core::LogPlace& place : places)
-    log.fields.push_back({core::number_in_log(tables, place, file), {}, {}});
+    if (std::find(topics.begin(), topics.end(), place.topic) == topics.end()) topics.push_back(place.topic);
+  const core::Tables tables(file, topics);
+  std::vector<Samples> all;
+  for (const core::LogPlace& place : places)
+    all.push_back({core::number_in_log(tables, place, file), {}, {}});
   tables.rows([](std::size_t) { return true; },
               [&](const core::Tables::Row& row) {
                 const double t = 1e-9 * static_cast<double>(row.valid_ns);
-                if (t < from_s || t > to_s) return;
-                for (Samples& s : log.fields) {
+                if (t < time.from_s || t > time.to_s) return;
+                for (Samples& s : all) {
                   if (row.table != s.number.table) continue;
                   s.t_s.push_back(t);
                   s.value.push_back(s.number.factor * core::number_of_cell((*row.cells)[s.number.column]));
                 }
               });
-  for (Samples& s : log.fields) {
+  for (Samples& s : all) {
     sort_by_time(s);
     if (std::none_of(s.value.begin(), s.value.end(), [](double x) { return std::isfinite(x); }))
-      throw Error(file + ": " + s.number.name + " has no number " +
-                  (std::isfinite(from_s) || std::isfinite(to_s)
-                       ? "in that time; the flight is from " +
-                             chart::fixed(1e-9 * double(log.info.begin_ns), 1) + " s to " +
-                             chart::fixed(1e-9 * double(log.info.end_ns), 1) + " s"
-                       : "in it"));
+      throw Error(file + ": " + s.number.name + no_number_words(log, time));
   }
+  const auto behind = all.begin() + static_cast<std::ptrdiff_t>(asked.fields.size());
+  log.over.assign(behind, all.end());
+  all.erase(behind, all.end());
+  log.fields = std::move(all);
   return log;
 }
 
@@ -207,8 +231,8 @@ std::string axis_words(const core::LogNumber& n) {
 
 class FigureMaker {
  public:
-  FigureMaker(const std::vector<OpenLog>& logs, bool over, std::vector<std::string>& notes)
-      : logs_(logs), over_(over), notes_(notes) {}
+  FigureMaker(const std::vector<OpenLog>& logs, std::vector<std::string>& notes)
+      : logs_(logs), over_(!logs[0].over.empty()), notes_(notes) {}
 
   void add_panel(const std::vector<std::size_t>& fields) {
     chart::FigurePanel panel;
@@ -226,8 +250,7 @@ class FigureMaker {
         std::string name = s.number.name;
         if (logs_.size() > 1) name = fields.size() > 1 ? log.name + ": " + name : log.name;
         if (!one_unit && !s.number.unit.empty()) name += " [" + s.number.unit + "]";
-        panel.curves.push_back(
-            {one_line(name), points_of(s, over_ ? &log.fields.back() : nullptr), s.number.held && !over_});
+        panel.curves.push_back({name, points_of(s, log.x_of(f)), s.number.held && !over_});
       }
     if (panel.curves.size() > chart::most_curves)
       throw Error("a panel would have " + std::to_string(panel.curves.size()) + " curves; " +
@@ -239,17 +262,27 @@ class FigureMaker {
     figure.track = over_;
     figure.x = "time [s]";
     if (!over_) return;
-    const core::LogNumber& x = logs_[0].fields.back().number;
+    const core::LogNumber& x = logs_[0].over[0].number;
     figure.x = axis_words(x);
-    const bool alike = std::all_of(logs_[0].fields.begin(), logs_[0].fields.end(),
-                                   [&](const Samples& s) { return s.number.unit == "m"; });
-    figure.even = alike && figure.panels.size() == 1;
+    const auto in_metres = [](const Samples& s) { return s.number.unit == "m"; };
+    figure.even = figure.panels.size() == 1 &&
+                  std::all_of(logs_[0].over.begin(), logs_[0].over.end(), in_metres) &&
+                  std::all_of(logs_[0].fields.begin(), logs_[0].fields.end(), in_metres);
+  }
+
+  /// What was asked for, as far as there was a flight.
+  void show(const Interval& time) {
+    chart::AxisRange flights;
+    for (const OpenLog& log : logs_)
+      for (const std::int64_t ns : {log.info.begin_ns, log.info.end_ns}) flights.take(1e-9 * double(ns));
+    for (const double end_s : {time.from_s, time.to_s})
+      if (end_s >= flights.min && end_s <= flights.max) figure.shown.take(end_s);
   }
 
   /// Those of the first log.
   void set_phases() {
     for (const core::LogInfo::Phase& p : logs_[0].info.phases)
-      figure.bands.push_back({one_line(p.name), 1e-9 * double(p.begin_ns), 1e-9 * double(p.end_ns)});
+      figure.bands.push_back({p.name, 1e-9 * double(p.begin_ns), 1e-9 * double(p.end_ns)});
     for (const OpenLog& log : logs_)
       if (!same_phases(log.info.phases, logs_[0].info.phases))
         return notes_.push_back("the phases are those of " + logs_[0].file + "; " + log.file +
@@ -265,16 +298,21 @@ class FigureMaker {
       return x.name == y.name && std::abs(x.begin_ns - y.begin_ns) <= seen_ns;
     });
   }
-  /// A log may hold any bytes; a figure is UTF-8.
-  static std::string one_line(std::string text) {
-    core::make_printable(text.data());
-    return text;
-  }
-
   const std::vector<OpenLog>& logs_;
   bool over_;
   std::vector<std::string>& notes_;
 };
+
+/// A log may hold any bytes; a figure is UTF-8.
+void clean_texts(chart::Figure& figure) {
+  const auto clean = [](std::string& text) { core::make_printable(text.data()); };
+  clean(figure.title), clean(figure.x);
+  for (chart::FigureBand& band : figure.bands) clean(band.name);
+  for (chart::FigurePanel& panel : figure.panels) {
+    clean(panel.y);
+    for (chart::FigureCurve& curve : panel.curves) clean(curve.name);
+  }
+}
 
 /// Panels by unit, in the order in which the units come.
 std::vector<std::vector<std::size_t>> by_unit(const OpenLog& log, std::size_t count) {
@@ -302,28 +340,31 @@ bool names_a_log(const std::string& word) {
 chart::Figure log_figure(const LogPlotWords& words, std::vector<std::string>& notes) {
   const Asked asked = read_words(words);
   constexpr double all = std::numeric_limits<double>::infinity();
-  const double from_s = words.from_s.value_or(-all), to_s = words.to_s.value_or(all);
-  if (from_s >= to_s)
-    throw WrongWords("--from " + chart::figures(from_s, 9) + " is not before --to " + chart::figures(to_s, 9));
+  const Interval time{words.from_s.value_or(-all), words.to_s.value_or(all)};
+  if (time.from_s >= time.to_s)
+    throw WrongWords("--from " + chart::figures(time.from_s, 9) + " is not before --to " +
+                     chart::figures(time.to_s, 9));
   const std::vector<std::string> names = log_names(asked, words.names);
   std::vector<OpenLog> logs;
   for (std::size_t i = 0; i < asked.logs.size(); ++i) {
-    logs.push_back(read_log(asked.logs[i], names[i], asked.fields, from_s, to_s));
+    logs.push_back(read_log(asked.logs[i], names[i], asked, words.over, time));
     if (!logs.back().info.file.fault.empty())
       notes.push_back(asked.logs[i] + " is cut off: " + logs.back().info.file.fault);
   }
-  FigureMaker maker(logs, !words.over.empty(), notes);
+  FigureMaker maker(logs, notes);
   for (const auto& panel : by_unit(logs[0], asked.in_order)) maker.add_panel(panel);
   for (const auto& panel : asked.panels) maker.add_panel(panel);
   maker.set_x();
+  if (words.over.empty()) maker.show(time);
   if (words.over.empty() && !words.no_phases) maker.set_phases();
   chart::Figure& figure = maker.figure;
   for (const std::string& name : names) figure.title += (figure.title.empty() ? "" : ", ") + name;
+  clean_texts(figure);
   figure.high_mm = 40 + 50 * static_cast<double>(figure.panels.size());
   if (!words.size.empty()) std::tie(figure.wide_mm, figure.high_mm) = read_size(words.size);
   if (const std::string why = chart::too_small(figure); !why.empty())
     throw WrongWords("--size " + chart::figures(figure.wide_mm, 6) + "x" + chart::figures(figure.high_mm, 6) +
-                "mm " + why);
+                     "mm " + why);
   return std::move(maker.figure);
 }
 

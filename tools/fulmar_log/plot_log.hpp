@@ -14,7 +14,7 @@ namespace fulmar::plot {
 struct LogPlotWords {
   std::vector<std::string> words{};    // logs, and fields behind them: a panel per unit
   std::vector<std::string> panels{};   // further panels: fields with commas between them
-  std::string over{};                  // field that is x; "": time
+  std::string over{};                  // field that is x, ".field" of each curve's own port; "": time
   std::string out{}, size{}, names{};  // "x.svg"; "160x90mm"; "old,new"
   std::optional<double> from_s{}, to_s{};
   bool no_phases = false;

@@ -40,11 +40,14 @@ double text_wide(const std::string& text) {
   return letter_wide * static_cast<double>(letters);
 }
 
+/// Where the text's room is less than it takes, its letters are smaller.
 std::string text_at(const char* kind, double x, double y, const std::string& text, const char* anchor,
-                    bool upright = false) {
+                    double room = 1e9, bool upright = false) {
+  const double wide = text_wide(text);
   return "<text class=\"" + std::string(kind) + "\"" + number("x", x) + number("y", y) + " text-anchor=\"" +
-         anchor + "\"" + (upright ? " transform=\"rotate(-90 " + mm(x) + " " + mm(y) + ")\"" : "") + ">" +
-         in_html(text) + "</text>\n";
+         anchor + "\"" + (wide > room ? number("font-size", type_size * std::max(room, 1.0) / wide) : "") +
+         (upright ? " transform=\"rotate(-90 " + mm(x) + " " + mm(y) + ")\"" : "") + ">" + in_html(text) +
+         "</text>\n";
 }
 
 std::string stroke_of(std::size_t curve) {
@@ -186,7 +189,7 @@ class Drawing {
                       "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
     for (std::size_t i = 0; i < boxes_.size(); ++i) out += panel_svg(i);
     const Box& last = boxes_.back();
-    out += text_at("x-axis", last.left + last.wide / 2, last.bottom() + 8.2, figure_.x, "middle");
+    out += text_at("x-axis", last.left + last.wide / 2, last.bottom() + 8.2, figure_.x, "middle", last.wide);
     return out + "</svg>\n";
   }
 
@@ -238,7 +241,8 @@ class Drawing {
     const FigurePanel& panel = figure_.panels[i];
     std::string out =
         "<g class=\"panel\">\n" + bands_svg(box, i == 0) + axes_svg(box, i + 1 == boxes_.size());
-    out += text_at("y-axis", edge + type_size - 0.6, box.top + box.high / 2, panel.y, "middle", true);
+    out += text_at("y-axis", edge + type_size - 0.6, box.top + box.high / 2, panel.y, "middle",
+                   box.high + gap, true);
     for (std::size_t k = 0; k < panel.curves.size(); ++k)
       out += curve_svg(panel.curves[k], k, box, figure_.track);
     out += "<rect class=\"frame\"" + rectangle(box.left, box.top, box.wide, box.high) +
@@ -264,7 +268,7 @@ class Drawing {
       if (text_wide(band.name) < to - from + 1)
         out += text_at("phase", middle, edge + 2.6, band.name, "middle");
       else if (to - from > type_size)
-        out += text_at("phase", middle + 0.35 * type_size, box.top + 1, band.name, "end", true);
+        out += text_at("phase", middle + 0.35 * type_size, box.top + 1, band.name, "end", box.high, true);
     }
     return out;
   }
@@ -300,7 +304,8 @@ class Drawing {
              mm(sample_wide - 1.5) + "\"/>\n";
       if (mark_of(k) != Mark::none)
         out += marks_path(k, mark_path(mark_of(k), x + (sample_wide - 1.5) / 2, y - 0.9, 0.28, 3));
-      out += text_at("legend", x + sample_wide, y, figure_.panels[panel].curves[k].name, "start");
+      out += text_at("legend", x + sample_wide, y, figure_.panels[panel].curves[k].name, "start",
+                     box.right() - x - sample_wide);
     }
     return out;
   }

@@ -13,6 +13,7 @@
 #include "tools/fulmar_live/parameters.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
+#include "tools/fulmar_log/log_field.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -130,6 +131,7 @@ _fulmar() {
   local previous=''
   for word in "${before[@]}"; do
     if [[ $previous == --at || $previous == --token ]]; then flight+=("$previous" "$word"); fi
+    if [[ $word == *.mcap ]]; then flight+=(--log "$word"); fi
     if ((skip)); then skip=0; previous=$word; continue; fi
     if [[ $word == --*=* ]]; then :
     elif [[ $word == -* ]]; then [[ $valued == *" $word "* ]] && skip=1
@@ -190,6 +192,7 @@ _fulmar() {
   _fulmar_command ''
   for word in "${(@)words[2,CURRENT-1]}"; do
     if [[ $previous == --at || $previous == --token ]]; then flight+=("$previous" "$word"); fi
+    if [[ $word == *.mcap ]]; then flight+=(--log "$word"); fi
     if (( skip )); then skip=0; previous=$word; continue; fi
     if [[ $word == --*=* ]]; then :
     elif [[ $word == -* ]]; then [[ $valued == *" $word "* ]] && skip=1
@@ -297,6 +300,15 @@ int complete_command(const std::string& at, const std::string& token, const std:
   try {
     Session session(parse_target(at, token), std::chrono::milliseconds(500));
     for (const std::string& word : completions(session, kind, prefix)) std::printf("%s\n", word.c_str());
+    return 0;
+  } catch (const std::exception&) {
+    return 1;
+  }
+}
+
+int complete_from_log(const std::string& log, const std::string& prefix) {
+  try {
+    for (const std::string& word : numbers_beginning(log, prefix)) std::printf("%s\n", word.c_str());
     return 0;
   } catch (const std::exception&) {
     return 1;

@@ -48,7 +48,7 @@ const CLI::Validator above_zero = number_check("a number above 0", false),
 struct RemoteCommands::Impl {
   CLI::App& app;
   std::string at, token, mission, pattern, component, file, shell, kind, prefix;
-  std::vector<std::string> words;
+  std::vector<std::string> words, typed_logs;
   std::string name;
   EchoOptions echo;
   PlotOptions curves;
@@ -249,8 +249,10 @@ struct RemoteCommands::Impl {
     CLI::App* complete = app.add_subcommand("complete", "words of a running flight, for shells")->group("");
     complete->add_option("KIND", kind)->required();
     complete->add_option("PREFIX", prefix);
+    complete->add_option("--log", typed_logs)->allow_extra_args(false);
     add_target(complete);
     actions.emplace_back(complete, [this] {
+      if (kind == "field" && !typed_logs.empty()) return complete_from_log(typed_logs.front(), prefix);
       if (kind != "program")
         return complete_command(given(at, "FULMAR_LIVE"), given(token, "FULMAR_TOKEN"), kind, prefix);
       for (const std::string& word : programs)

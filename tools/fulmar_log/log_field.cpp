@@ -187,4 +187,26 @@ LogNumber number_in_log(const Tables& tables, const LogPlace& place, const std::
   return n;
 }
 
+std::vector<std::string> numbers_beginning(const std::string& log, const std::string& prefix) {
+  std::vector<std::string> found;
+  const auto consider = [&](const std::string& word) {
+    if (word.starts_with(prefix)) found.push_back(word);
+  };
+  std::vector<std::string> topics;
+  for (const LogInfo::Topic& t : read_info(log).topics) {
+    const std::string port = port_of_topic(t.topic) + ".";
+    if (prefix.starts_with(port))
+      topics.push_back(t.topic);
+    else
+      consider(port);
+  }
+  if (topics.empty()) return found;
+  const Tables tables(log, topics);
+  for (const Table& table : tables.list())
+    for (const Column& column : table.columns)
+      if (column.field->kind != FULMAR_TEXT)
+        consider(port_of_topic(table.topic) + "." + shown_path(column.name));
+  return found;
+}
+
 }  // namespace fulmar::core

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "tools/fulmar_log/export_table.hpp"
 #include "tools/fulmar_log/info.hpp"
@@ -35,5 +36,9 @@ struct LogNumber {
 
 /// Throws Error with what there is: for a field that is not there, and for one that is no number.
 LogNumber number_in_log(const Tables& tables, const LogPlace& place, const std::string& log);
+
+/// For completion: the ports of a log, each with a dot behind it, and of a port that is typed the numbers, as
+/// far as they begin with `prefix`. Throws Error.
+std::vector<std::string> numbers_beginning(const std::string& log, const std::string& prefix);
 
 }  // namespace fulmar::core

@@ -60,7 +60,8 @@ std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::
   const std::string name = log.string();
   const core::LogInfo info = core::read_info(log);
   const auto [from_s, to_s] = bounds_of(info, name, window);
-  const std::array places{core::place_in_log(info, name, fields[0]), core::place_in_log(info, name, fields[1])};
+  const std::array places{core::place_in_log(info, name, fields[0]),
+                          core::place_in_log(info, name, fields[1])};
   std::vector<std::string> topics{places[0].topic};
   if (places[1].topic != places[0].topic) topics.push_back(places[1].topic);
   const core::Tables tables(log, topics);
@@ -73,8 +74,9 @@ std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::
     const std::vector<core::Column>& columns = tables.list()[cells[i].first].columns;
     const int column = core::index_named(columns, places[i].column);
     if (column < 0)
-      throw Error(name + ": " +
-                  core::no_such(core::dotted_topic(places[i].topic) + " has no field", places[i].column, columns));
+      throw Error(
+          name + ": " +
+          core::no_such(core::dotted_topic(places[i].topic) + " has no field", places[i].column, columns));
     cells[i].second = static_cast<std::size_t>(column);
   }
   const auto take = [&, from = from_s, to = to_s](const core::Tables::Row& row) {

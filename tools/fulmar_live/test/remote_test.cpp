@@ -16,6 +16,7 @@
 #include "core/app/program.hpp"
 #include "core/live/server.hpp"
 #include "core/live/test/mock.hpp"
+#include "core/log/test/log_kit.hpp"
 #include "tools/fulmar_live/completion.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
@@ -519,6 +520,17 @@ TEST_CASE("bash completes commands, options, and names of the running flight") {
   CHECK(completed(flight, "fulmar plot --ov") == Words{"--over"});
   CHECK(completed(flight, "fulmar plot a.mcap --over slc.leg.position_m.n") ==
         Words{"slc.leg.position_m.north"});
+  const std::string real = (folder.path / "real.mcap").string();
+  {
+    test::Sample sample({.file = real});
+    const std::uint16_t channel = sample.channel("/nav/number", *test::number_type());
+    const test::Number number{1};
+    sample.write(channel, 0, test::bytes_of(number));
+    sample.writer.close();
+  }
+  CHECK(completed(flight, "fulmar plot " + real + " n") == Words{"nav.number."});
+  CHECK(completed(flight, "fulmar plot " + real + " --from 3 nav.number.") ==
+        Words{"nav.number.value_ratio"});
   CHECK(completed(flight, "fulmar param set slc.r") == Words{"slc.roll_kp"});
   CHECK(completed(flight, "fulmar param set slc.roll_kp ") == Words{});
   CHECK(completed(flight, "fulmar param set slc.roll_kp 0.5 slc.l") == Words{"slc.law"});

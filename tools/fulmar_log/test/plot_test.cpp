@@ -12,6 +12,7 @@
 #include "core/log/events.hpp"
 #include "core/log/test/log_kit.hpp"
 #include "tools/fulmar_log/export_log.hpp"
+#include "tools/fulmar_log/log_field.hpp"
 #include "tools/fulmar_log/plot_log.hpp"
 #include "tools/fulmar_log/test/figure_kit.hpp"
 
@@ -362,6 +363,20 @@ TEST_CASE("curves can be told apart without colours; equal logs give equal figur
   CHECK(svg == chart::figure_svg(figure));
 }
 
+TEST_CASE("a name that is longer than its room is written in smaller letters") {
+  chart::Figure figure;
+  figure.wide_mm = 80, figure.x = "time [s]";
+  figure.panels.push_back(
+      {"y", {{"short", {{0, 0}, {1, 1}}, false}, {std::string(100, 'n'), {{0, 0}}, false}}});
+  const std::vector<std::string> texts =
+      between(chart::figure_svg(figure), "<text class=\"legend\"", "</text>");
+  REQUIRE(texts.size() == 2);
+  CHECK(attribute(texts[0], "font-size") == "");
+  const double size = length(texts[1], "font-size");
+  CHECK(size < 2.8);
+  CHECK(length(texts[1], "x") + 100 * 0.52 * size < 80);
+}
+
 TEST_CASE("what cannot be drawn is told in a sentence with what there is") {
   const Folder folder;
   const std::string log = Flight{}.write(folder.path / "a.mcap");
@@ -447,6 +462,19 @@ TEST_CASE("a log that was cut off is drawn as far as it goes, and told") {
   CHECK(points.size() > 50);
   CHECK(points.back().x > 5);
   CHECK(points.back().x < 55);
+}
+
+TEST_CASE("the numbers of a log are completed as they are typed") {
+  const Folder folder;
+  const std::string log = Flight{}.write(folder.path / "a.mcap");
+  using Words = std::vector<std::string>;
+  CHECK(core::numbers_beginning(log, "") == Words{"fulmar.event.", "nav.state.", "slc."});
+  CHECK(core::numbers_beginning(log, "n") == Words{"nav.state."});
+  CHECK(core::numbers_beginning(log, "nav.state.r") ==
+        Words{"nav.state.roll_deg", "nav.state.rates_degps.north", "nav.state.rates_degps.east",
+              "nav.state.rates_degps.down"});
+  CHECK(core::numbers_beginning(log, "nav.state.n").empty());
+  CHECK(core::numbers_beginning(log, "slc.e") == Words{"slc.error_m"});
 }
 
 struct Path {

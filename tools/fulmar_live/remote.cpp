@@ -113,18 +113,20 @@ struct RemoteCommands::Impl {
         add(app, "plot", "plot fields of a running flight in the terminal; of logs as a figure",
             "plot nav.state.roll_deg slc.attitude.roll_deg\n"
             "Example: fulmar plot flight.mcap nav.state.height_m nav.state.roll_deg -o flight.svg",
-            [this] { return draws_logs() ? plot::plot_log_command(figure) : plot_live(); });
+            [this] { return draws_logs() ? plot_logs() : plot_live(); });
     draw->add_option("FIELD", curves.fields,
-                     "PORT.FIELD, or a component's probe; logs before them draw those")
+                     "PORT.FIELD, or a component's probe; logs that stand before them are drawn")
         ->required()
-        ->type_name("[LOG...] FIELD...");
+        ->type_name("");
     live_seconds = draw->add_option("--seconds", curves.seconds, "so much of a running flight");
     live_seconds->check(CLI::Range(0.1, 36000.0));
     const auto of_logs = [&](CLI::Option* option) {
       log_options.push_back(option->group("Of logs"));
       return option;
     };
-    of_logs(draw->add_option("-o,--out", figure.out, "the figure: .svg, .png or .pdf"))->type_name("FILE");
+    of_logs(draw->add_option("-o,--out", figure.out,
+                             "the figure: .svg, .png or .pdf; without one it is drawn in the terminal"))
+        ->type_name("FILE");
     of_logs(draw->add_option("--over", figure.over,
                              "a field in place of time, as for a track; .FIELD: of each curve's own port"))
         ->type_name("FIELD");
@@ -150,6 +152,10 @@ struct RemoteCommands::Impl {
     if (logs && live_seconds->count() > 0)
       throw WrongUsage("--seconds is of a running flight; of a log name --from and --to");
     return logs;
+  }
+  int plot_logs() const {
+    const bool in_terminal = figure.out.empty() && figure.over.empty() && figure.size.empty();
+    return in_terminal ? picture_command(figure) : plot::plot_log_command(figure);
   }
   int plot_live() const {
     for (const CLI::Option* option : log_options)

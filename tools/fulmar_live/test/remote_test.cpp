@@ -528,6 +528,11 @@ TEST_CASE("bash completes commands, options, and names of the running flight") {
     sample.write(channel, 0, test::bytes_of(number));
     sample.writer.close();
   }
+  const Result picture = typed(flight, "plot " + real + " nav.number.value_ratio");
+  CHECK(picture.code == 0);
+  CHECK(picture.out.starts_with("\u2501\u2501 nav.number.value_ratio  1\n"));
+  CHECK(lines(picture.out).size() == 23);
+  CHECK(typed(flight, "plot " + real + " nav.number.value_ratio --over nav.number.value_ratio").code == 2);
   CHECK(completed(flight, "fulmar plot " + real + " n") == Words{"nav.number."});
   CHECK(completed(flight, "fulmar plot " + real + " --from 3 nav.number.") ==
         Words{"nav.number.value_ratio"});

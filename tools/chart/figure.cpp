@@ -93,6 +93,16 @@ Points seen_part(const Points& part, bool track) {
   return kept;
 }
 
+/// Between marks of an axis: at most so many, but two at least, since one alone tells no scale.
+double step_in(const AxisRange& range, double most) {
+  const auto marks_in = [&](double step) {
+    return std::floor(range.max / step) - std::ceil(range.min / step) + 1;
+  };
+  double step = step_of(range.span(), most);
+  for (; marks_in(step) < 2 && most < 20; most += 1) step = step_of(range.span(), most);
+  return step;
+}
+
 /// A box of the figure with its axes.
 struct Box {
   double left = 0, top = 0, wide = 0, high = 0;
@@ -201,6 +211,7 @@ class Drawing {
         for (const ChartPoint& p : curve.points)
           if (is_there(p)) all.take(p.x), boxes_[i].y.take(p.y);
       if (boxes_[i].y.empty()) boxes_[i].y.min = 0, boxes_[i].y.max = 1;
+      if (boxes_[i].y.min == 0 && boxes_[i].y.max == 0) boxes_[i].y.min = -1, boxes_[i].y.max = 1;
       boxes_[i].y.widen();
     }
     if (all.empty()) all.min = 0, all.max = 1;
@@ -211,7 +222,7 @@ class Drawing {
   void set_places() {
     double label_wide = 0;
     for (const Box& box : boxes_) {
-      const double step = step_of(box.y.span(), 6);
+      const double step = step_in(box.y, 6);
       for (double i = std::ceil(box.y.min / step); i * step <= box.y.max; ++i)
         label_wide = std::max(label_wide, text_wide(value_text(i * step, step)));
     }
@@ -278,8 +289,8 @@ class Drawing {
     const auto line = [](double x1, double y1, double x2, double y2) {
       return "M" + mm(x1) + " " + mm(y1) + "L" + mm(x2) + " " + mm(y2);
     };
-    const double dx = step_of(box.x.span(), std::clamp(std::floor(box.wide / 14), 2.0, 10.0)),
-                 dy = step_of(box.y.span(), std::clamp(std::floor(box.high / 6), 2.0, 6.0));
+    const double dx = step_in(box.x, std::clamp(std::floor(box.wide / 14), 2.0, 10.0)),
+                 dy = step_in(box.y, std::clamp(std::floor(box.high / 6), 2.0, 6.0));
     for (double i = std::ceil(box.x.min / dx); i * dx <= box.x.max; ++i) {
       lines += line(box.px(i * dx), box.top, box.px(i * dx), box.bottom());
       if (with_x_numbers)

@@ -363,6 +363,35 @@ TEST_CASE("curves can be told apart without colours; equal logs give equal figur
   CHECK(svg == chart::figure_svg(figure));
 }
 
+TEST_CASE("an axis has two numbers at least, whatever the range and however little room there is") {
+  for (const auto& [low, high] : std::vector<std::pair<double, double>>{{0, 0},
+                                                                        {7, 7},
+                                                                        {-400, 400},
+                                                                        {-0.9, 0.9},
+                                                                        {4.9, 25.1},
+                                                                        {1e-9, 2e-9},
+                                                                        {99.9, 100.1},
+                                                                        {1e6, 1.4e6},
+                                                                        {-3, 1e4}})
+    for (const double high_mm : {32.0, 38.0, 60.0, 90.0}) {
+      CAPTURE(low);
+      CAPTURE(high);
+      CAPTURE(high_mm);
+      chart::Figure figure;
+      figure.wide_mm = 50, figure.high_mm = high_mm, figure.x = "time [s]";
+      figure.panels.push_back({"y", {{"c", {{low, low}, {high, high}}, false}}});
+      CHECK(chart::too_small(figure) == "");
+      const ReadFigure f = read_figure(chart::figure_svg(figure));
+      CHECK(f.x_marks.size() >= 2);
+      CHECK(f.panels[0].y_marks.size() >= 2);
+      CHECK(f.panels[0].y_marks.size() <= 9);
+      for (const Point& p : f.panels[0].curves[0].points())
+        CHECK((std::abs(p.y - low) < 0.01 * f.panels[0].y_per_mm ||
+               std::abs(p.y - high) < 0.01 * f.panels[0].y_per_mm));
+      if (low == 0 && high == 0) CHECK(f.panels[0].y_marks.back() > 0.1);
+    }
+}
+
 TEST_CASE("a name that is longer than its room is written in smaller letters") {
   chart::Figure figure;
   figure.wide_mm = 80, figure.x = "time [s]";

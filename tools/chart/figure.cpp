@@ -14,6 +14,7 @@ namespace {
 
 // Millimetres.
 constexpr double type_size = 2.8;  // 8 point
+constexpr double least_type = 1.1;
 constexpr double letter_wide = 0.52 * type_size;
 constexpr double edge = 2, gap = 3.5, row_high = 4, band_high = 4.5, under_high = 10.5, sample_wide = 9;
 constexpr double least_plot = 8;     // of a panel's height and width
@@ -265,7 +266,8 @@ class Drawing {
     return number("x", x) + number("y", y) + number("width", wide) + number("height", high);
   }
 
-  /// Every second one is shaded; a name stands above the first panel, or upright where it is too long.
+  /// Every second one is shaded; a name stands above the first panel, upright and smaller where it is too
+  /// long, and nowhere where it could not be read.
   std::string bands_svg(const Box& box, bool with_names) const {
     std::string out;
     for (std::size_t i = 0; i < figure_.bands.size(); ++i) {
@@ -278,8 +280,9 @@ class Drawing {
       const double middle = (from + to) / 2;
       if (text_wide(band.name) < to - from + 1)
         out += text_at("phase", middle, edge + 2.6, band.name, "middle");
-      else if (to - from > type_size)
-        out += text_at("phase", middle + 0.35 * type_size, box.top + 1, band.name, "end", box.high, true);
+      else if (const double size = std::min(to - from, type_size); size > least_type)
+        out += text_at("phase", middle + 0.35 * size, box.top + 1, band.name, "end",
+                       std::min(box.high, text_wide(band.name) * size / type_size), true);
     }
     return out;
   }

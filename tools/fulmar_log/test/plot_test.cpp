@@ -270,6 +270,23 @@ TEST_CASE("phases are bands of all panels, with their names; texts of a log are 
   CHECK(part.panels[0].curves[0].points().back().x == doctest::Approx(2.999).epsilon(1e-3));
 }
 
+TEST_CASE("the name of a short phase stands upright, in smaller letters, and not where none can be read") {
+  chart::Figure figure;
+  figure.x = "time [s]";
+  figure.panels.push_back({"y", {{"c", {{0, 0}, {1000, 1}}, false}}});
+  figure.bands = {{"cruise", 0, 900}, {"flare", 900, 914}, {"touch", 914, 917}, {"roll", 917, 1000}};
+  const std::string svg = chart::figure_svg(figure);
+  std::vector<std::string> names;
+  for (const ReadText& t : texts(svg, "phase")) names.push_back(t.words);
+  CHECK(names == std::vector<std::string>{"cruise", "flare", "roll"});
+  const std::string flare = between(svg, "<text class=\"phase\"", "</text>").at(1);
+  CHECK(attribute(flare, "transform").starts_with("rotate(-90 "));
+  const ReadPanel panel = read_figure(svg).panels[0];
+  CHECK(length(flare, "font-size") == doctest::Approx(14 / panel.x_per_mm).epsilon(0.01));
+  CHECK(panel.bands.size() == 4);
+  CHECK(panel.bands[2].name == "touch");
+}
+
 TEST_CASE(
     "a track has one scale; a field of another port is interpolated; a dot names each curve's own port") {
   const Folder folder;

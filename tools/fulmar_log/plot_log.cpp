@@ -150,15 +150,22 @@ std::string no_number_words(const OpenLog& log, const Interval& time) {
          seconds_words(log.info.end_ns);
 }
 
+/// What is not in a log that was cut off may have been behind its end.
+core::LogPlace place_of(const OpenLog& log, const std::string& field) try {
+  return core::place_in_log(log.info, log.file, field);
+} catch (const Error& e) {
+  const std::string& fault = log.info.file.fault;
+  throw Error(e.what() + (fault.empty() ? "" : " The log is cut off: " + fault));
+}
+
 /// Where the fields are, and behind them what is x: of each, or of all.
 std::vector<core::LogPlace> places_in(const OpenLog& log, const Asked& asked, const std::string& over) {
   std::vector<core::LogPlace> places;
-  for (const std::string& field : asked.fields)
-    places.push_back(core::place_in_log(log.info, log.file, field));
+  for (const std::string& field : asked.fields) places.push_back(place_of(log, field));
   if (over.starts_with('.'))
     for (std::size_t i = 0; i < asked.fields.size(); ++i) places.push_back({places[i].topic, over.substr(1)});
   else if (!over.empty())
-    places.push_back(core::place_in_log(log.info, log.file, over));
+    places.push_back(place_of(log, over));
   return places;
 }
 

@@ -413,6 +413,10 @@ TEST_CASE("a log that was cut off is drawn as far as it goes, and told") {
   CHECK(points.size() > 50);
   CHECK(points.back().x > 5);
   CHECK(points.back().x < 55);
+  core::test::store(cut, bytes.substr(0, 900));
+  const std::string none = refused({.words = {cut, "nav.state.height_m"}, .out = "x.svg"});
+  CHECK(none.starts_with(cut + ": 'nav.state.height_m' is no field of a port in it."));
+  CHECK(none.find(" The log is cut off: byte ") != std::string::npos);
 }
 
 TEST_CASE("the numbers of a log are completed as they are typed") {

@@ -58,7 +58,7 @@ const std::vector<OwnCommand>& own_commands() {
       {"response", "fulmar-log", "how a field of a log answers another: step, frequency response"},
       {"list", "fulmar-live", "components of a running flight, their ports, requests and phases"},
       {"echo", "fulmar-live", "print messages of a running flight; angles in degrees"},
-      {"plot", "fulmar-live", "plot fields of a running flight in the terminal"},
+      {"plot", "fulmar-live", "plot fields of a running flight in the terminal; of logs as a figure"},
       {"view", "fulmar-live", "open a log, or the flight that runs, in a viewer"},
       {"param", "fulmar-live", "parameters of a running flight"},
       {"call", "fulmar-live", "ask a component for something: {field: value, ...} or field=value ..."},

@@ -8,6 +8,10 @@
 
 #include "tools/fulmar_live/client.hpp"
 
+namespace fulmar::plot {
+struct LogPlotWords;
+}
+
 namespace fulmar::core {
 
 /// What was typed cannot be meant: exit code 2.
@@ -30,6 +34,8 @@ struct PlotOptions {
   double seconds = 10;  // of flight that are shown
 };
 int plot_command(const LiveAddress& target, const PlotOptions& options);
+/// Of logs, over time: a picture per panel.
+int picture_command(const plot::LogPlotWords& words);
 
 int param_list_command(const LiveAddress& target, const std::string& pattern, bool json);
 int param_get_command(const LiveAddress& target, const std::vector<std::string>& names, bool json);

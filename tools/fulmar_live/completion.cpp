@@ -13,6 +13,7 @@
 #include "tools/fulmar_live/parameters.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
+#include "tools/fulmar_log/log_field.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -34,7 +35,7 @@ const std::map<std::string, Places> places{
     {"log recover", {"log", 0}},      {"log export", {"log", 0}},
     {"log diff", {"log log", 0}},     {"log compare", {"log", 0}},
     {"response", {"log", 0}},         {"echo", {"port", 1}},
-    {"plot", {"field", 1}},           {"param list", {"param", 0}},
+    {"plot", {"drawn", 1}},           {"param list", {"param", 0}},
     {"param get", {"param", 1}},      {"param set", {"param none", 2}},
     {"param save", {"component", 0}}, {"call", {"request none", 1}},
     {"phase", {"phase", 0}},          {"swap", {"component plugin", 0}},
@@ -49,7 +50,8 @@ const std::map<std::string, Places> places{
 const std::map<std::string, std::string> option_kinds{
     {"--io", "io"},           {"--format", "format"},    {"--speed", "speed"},
     {"--log", "file"},        {"--drivers-from", "log"}, {"--resume", "log"},
-    {"--mission", "mission"}, {"--with", "file"}};
+    {"--mission", "mission"}, {"--with", "file"},        {"--out", "file"},
+    {"--over", "drawn"},      {"--panel", "drawn"}};
 
 /// What a program beside this one prints of its commands. Throws Error.
 std::string rows_of(const char* name) {
@@ -134,6 +136,7 @@ _fulmar() {
   local previous=''
   for word in "${before[@]}"; do
     if [[ $previous == --at || $previous == --token ]]; then flight+=("$previous" "$word"); fi
+    if [[ $word == *.mcap ]]; then flight+=(--log "$word"); fi
     if ((skip)); then skip=0; previous=$word; continue; fi
     if [[ $word == --*=* ]]; then :
     elif [[ $word == -* ]]; then [[ $valued == *" $word "* ]] && skip=1
@@ -162,6 +165,9 @@ _fulmar() {
     format) COMPREPLY=($(compgen -W 'text dot mermaid' -- "$cur")) ;;
     speed) COMPREPLY=($(compgen -W 'real max' -- "$cur")) ;;
     shell) COMPREPLY=($(compgen -W 'bash zsh' -- "$cur")) ;;
+    drawn)
+      mapfile -t COMPREPLY < <(compgen -f -X '!*.mcap' -- "$cur"; "${COMP_WORDS[0]}" complete "${flight[@]}" field "$cur" 2>/dev/null)
+      [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *. ]] && compopt -o nospace 2>/dev/null ;;
     mission | plugin | log | file)
       local pattern='*'
       case "$kind" in mission) pattern='*.yaml' ;; plugin) pattern='*.so' ;; log) pattern='*.mcap' ;; esac
@@ -191,6 +197,7 @@ _fulmar() {
   _fulmar_command ''
   for word in "${(@)words[2,CURRENT-1]}"; do
     if [[ $previous == --at || $previous == --token ]]; then flight+=("$previous" "$word"); fi
+    if [[ $word == *.mcap ]]; then flight+=(--log "$word"); fi
     if (( skip )); then skip=0; previous=$word; continue; fi
     if [[ $word == --*=* ]]; then :
     elif [[ $word == -* ]]; then [[ $valued == *" $word "* ]] && skip=1
@@ -223,6 +230,10 @@ _fulmar() {
     plugin) _files -g '*.so' ;;
     log) _files -g '*.mcap' ;;
     file) _files ;;
+    drawn)
+      _files -g '*.mcap'
+      found=("${(@f)$(${words[1]} complete $flight field "$cur" 2>/dev/null)}")
+      compadd -S '' -- ${found:#} ;;
     *)
       found=("${(@f)$(${words[1]} complete $flight "$kind" "$cur" 2>/dev/null)}")
       compadd -S '' -- ${found:#} ;;
@@ -294,6 +305,15 @@ int complete_command(const std::string& at, const std::string& token, const std:
   try {
     Session session(parse_target(at, token), std::chrono::milliseconds(500));
     for (const std::string& word : completions(session, kind, prefix)) std::printf("%s\n", word.c_str());
+    return 0;
+  } catch (const std::exception&) {
+    return 1;
+  }
+}
+
+int complete_from_log(const std::string& log, const std::string& prefix) {
+  try {
+    for (const std::string& word : numbers_beginning(log, prefix)) std::printf("%s\n", word.c_str());
     return 0;
   } catch (const std::exception&) {
     return 1;

@@ -19,5 +19,7 @@ std::vector<std::string> completions(Session& session, const std::string& kind, 
 /// Prints them, one per line. Silent when there is no flight; never takes long.
 int complete_command(const std::string& at, const std::string& token, const std::string& kind,
                      const std::string& prefix);
+/// The same of the numbers of a log.
+int complete_from_log(const std::string& log, const std::string& prefix);
 
 }  // namespace fulmar::core

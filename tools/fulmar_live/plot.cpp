@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar plot`: numbers of a running flight over time, in the terminal.
+// `fulmar plot`: numbers of a running flight, or of logs, over time, in the terminal.
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -15,6 +15,7 @@
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
+#include "tools/fulmar_log/plot_log.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -164,6 +165,29 @@ int plot_command(const LiveAddress& target, const PlotOptions& options) {
   plot.finish();
   if (!why.empty()) std::fprintf(stderr, "%s\n", why.c_str());
   return interrupted ? 130 : 0;
+}
+
+int picture_command(const plot::LogPlotWords& words) {
+  std::vector<std::string> notes;
+  const chart::Figure figure = plot::log_figure(words, notes);
+  double begin_s = INFINITY, end_s = -INFINITY;
+  for (const chart::FigurePanel& panel : figure.panels)
+    for (const chart::FigureCurve& curve : panel.curves)
+      for (const chart::ChartPoint& p : curve.points)
+        if (std::isfinite(p.x)) begin_s = std::min(begin_s, p.x), end_s = std::max(end_s, p.x);
+  PlotSize size = terminal();
+  size.rows = std::clamp(size.rows / static_cast<int>(figure.panels.size()), 12, 24);
+  for (const chart::FigurePanel& panel : figure.panels) {
+    std::vector<Series> series;
+    for (const chart::FigureCurve& curve : panel.curves) {
+      series.push_back({for_terminal(curve.name), "", {}});
+      for (const chart::ChartPoint& p : curve.points)
+        if (std::isfinite(p.x)) series.back().points.emplace_back(p.x, p.y);
+    }
+    std::fputs(draw_plot(series, end_s, std::max(end_s - begin_s, 1e-3), size).c_str(), stdout);
+  }
+  for (const std::string& note : notes) std::fprintf(stderr, "%s\n", for_terminal(note).c_str());
+  return 0;
 }
 
 }  // namespace fulmar::core

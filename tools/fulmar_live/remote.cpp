@@ -14,6 +14,7 @@
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/completion.hpp"
 #include "tools/fulmar_live/view.hpp"
+#include "tools/fulmar_log/plot_log.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -48,10 +49,13 @@ const CLI::Validator above_zero = number_check("a number above 0", false),
 struct RemoteCommands::Impl {
   CLI::App& app;
   std::string at, token, mission, pattern, component, file, shell, kind, prefix;
-  std::vector<std::string> words;
+  std::vector<std::string> words, typed_logs;
   std::string name;
   EchoOptions echo;
-  PlotOptions plot;
+  PlotOptions curves;
+  plot::LogPlotWords figure;
+  CLI::Option* live_seconds = nullptr;          // of plot
+  std::vector<const CLI::Option*> log_options;  // of plot
   SaveOptions save;
   ViewOptions view;
   bool json = false, rates = false;
@@ -102,12 +106,6 @@ struct RemoteCommands::Impl {
     CLI::Option* as_json = show->add_flag("--json", echo.json, "one JSON object per line");
     show->add_flag("--csv", echo.csv, "a table; of one port")->excludes(as_json);
 
-    CLI::App* draw =
-        add(app, "plot", "plot fields of a running flight in the terminal",
-            "plot nav.state.roll_deg slc.attitude.roll_deg", [this] { return plot_command(target(), plot); });
-    draw->add_option("FIELD", plot.fields, "PORT.FIELD, or a component's probe")->required()->type_name("");
-    draw->add_option("--seconds", plot.seconds, "so much of the flight")->check(CLI::Range(0.1, 36000.0));
-
     CLI::App* open =
         add(app, "view", "open a log, or the flight that runs, in a viewer",
             "view logs/hourglass.mcap --in lichtblick", [this] { return view_command(target(), view); });
@@ -116,6 +114,66 @@ struct RemoteCommands::Impl {
     open->add_option("--in", view.in, "page, lichtblick, foxglove, rerun or plotjuggler")
         ->type_name("VIEWER");
     open->add_flag("--print", view.print, "print the link or the command line, and open nothing");
+
+    add_plot();
+  }
+
+  /// Of a running flight, or of logs when the first word is one.
+  void add_plot() {
+    CLI::App* draw =
+        add(app, "plot", "plot fields of a running flight in the terminal; of logs as a figure",
+            "plot nav.state.roll_deg slc.attitude.roll_deg\n"
+            "Example: fulmar plot flight.mcap nav.state.height_m nav.state.roll_deg -o flight.svg",
+            [this] { return draws_logs() ? plot_logs() : plot_live(); });
+    draw->add_option("FIELD", curves.fields,
+                     "PORT.FIELD, or a component's probe; logs that stand before them are drawn")
+        ->required()
+        ->type_name("");
+    live_seconds = draw->add_option("--seconds", curves.seconds, "so much of a running flight");
+    live_seconds->check(CLI::Range(0.1, 36000.0));
+    const auto of_logs = [&](CLI::Option* option) {
+      log_options.push_back(option->group("Of logs"));
+      return option;
+    };
+    of_logs(draw->add_option("-o,--out", figure.out,
+                             "the figure: .svg, .png or .pdf; without one it is drawn in the terminal"))
+        ->type_name("FILE");
+    of_logs(draw->add_option("--over", figure.over,
+                             "a field in place of time, as for a track; .FIELD: of each curve's own port"))
+        ->type_name("FIELD");
+    of_logs(draw->add_option("--panel", figure.panels,
+                             "a panel of these fields, commas between them; may be given again. Other fields "
+                             "have a panel per unit"))
+        ->allow_extra_args(false)
+        ->type_name("FIELD,FIELD");
+    const auto seconds = CLI::Range(-1e7, 1e7);
+    of_logs(draw->add_option("--from", figure.from_s, "only from so many seconds of flight on"))
+        ->check(seconds);
+    of_logs(draw->add_option("--to", figure.to_s, "only up to so many seconds of flight"))->check(seconds);
+    of_logs(draw->add_option("--size", figure.size, "width and height, as in 160x90mm; default 160 mm wide"))
+        ->type_name("SIZE");
+    of_logs(draw->add_option("--names", figure.names, "what the logs are called, as in --names old,new"))
+        ->type_name("NAMES");
+    of_logs(draw->add_flag("--no-phases", figure.no_phases, "no bands of the flight's phases"));
+  }
+
+  bool draws_logs() {
+    figure.words = curves.fields;
+    const bool logs = plot::names_a_log(figure.words[0]);
+    if (logs && live_seconds->count() > 0)
+      throw WrongUsage("--seconds is of a running flight; of a log name --from and --to");
+    return logs;
+  }
+  int plot_logs() const {
+    const bool in_terminal = figure.out.empty() && figure.over.empty() && figure.size.empty();
+    return in_terminal ? picture_command(figure) : plot::plot_log_command(figure);
+  }
+  int plot_live() const {
+    for (const CLI::Option* option : log_options)
+      if (option->count() > 0)
+        throw WrongUsage(option->get_name(false, true) +
+                         " is of logs: give a log first, as in fulmar plot flight.mcap " + curves.fields[0]);
+    return plot_command(target(), curves);
   }
 
   void parameters() {
@@ -208,8 +266,10 @@ struct RemoteCommands::Impl {
     CLI::App* complete = app.add_subcommand("complete", "words of a running flight, for shells")->group("");
     complete->add_option("KIND", kind)->required();
     complete->add_option("PREFIX", prefix);
+    complete->add_option("--log", typed_logs)->allow_extra_args(false);
     add_target(complete);
     actions.emplace_back(complete, [this] {
+      if (kind == "field" && !typed_logs.empty()) return complete_from_log(typed_logs.front(), prefix);
       if (kind != "program")
         return complete_command(given(at, "FULMAR_LIVE"), given(token, "FULMAR_TOKEN"), kind, prefix);
       for (const std::string& word : programs)
@@ -234,6 +294,9 @@ int RemoteCommands::run() const {
   try {
     for (const auto& [command, action] : impl_->actions)
       if (command->parsed()) return action();
+    return 2;
+  } catch (const plot::WrongWords& wrong) {
+    std::fprintf(stderr, "%s\n", for_terminal(wrong.what()).c_str());
     return 2;
   } catch (const WrongUsage& wrong) {
     std::fprintf(stderr, "%s\n", for_terminal(wrong.what()).c_str());

@@ -18,6 +18,7 @@ constexpr std::size_t most_table_fields = 20'000;  // nested ones counted each t
 RosField table_field(const Field& f, std::size_t& count) {
   if (++count > most_table_fields) throw Error("its messages have too many fields");
   RosField made{f.name, f.kind == FULMAR_ENUM ? FULMAR_U8 : f.kind, f.shape, f.count, f.constants};
+  made.unit = f.unit;
   if (f.kind != FULMAR_STRUCT) return made;
   for (const Field& inner : f.type->fields) made.fields.push_back(table_field(inner, count));
   if (made.fields.empty())

@@ -27,6 +27,7 @@ struct RosField {
   std::vector<RosField> fields{};                              // of a structure
   std::uint32_t longest = 0;  // of a list, among the messages that were measured
   std::size_t width = 1;      // cells of one element; set by `lay_out`
+  std::string unit{};         // what stands behind it in the definition
 };
 
 /// `name`: "fulmar_msgs/msg/Mixed"; `text`: of a schema with encoding ros2msg. The result is a nameless

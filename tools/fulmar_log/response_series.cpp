@@ -9,44 +9,12 @@
 
 #include "core/error.hpp"
 #include "core/types/named.hpp"
-#include "tools/fulmar_log/export_table.hpp"
-#include "tools/fulmar_log/info.hpp"
+#include "tools/fulmar_log/log_field.hpp"
 
 namespace fulmar::response {
 namespace {
 
-using core::Cell;
 using core::Error;
-
-struct Place {
-  std::string topic, column;  // "/nav/state", "velocity_mps.down"
-};
-
-std::string dotted(std::string topic) {
-  std::replace(topic.begin(), topic.end(), '/', '.');
-  return topic.starts_with('.') ? topic.substr(1) : topic;
-}
-
-Place place_of(const core::LogInfo& info, const std::string& log, const std::string& field) {
-  std::vector<std::string> ports;
-  Place found;
-  const auto consider = [&](const std::string& topic, const std::string& port) {
-    if (field.starts_with(port + ".") && topic.size() > found.topic.size())
-      found = {topic, field.substr(port.size() + 1)};
-  };
-  for (const core::LogInfo::Topic& t : info.topics) {
-    ports.push_back(dotted(t.topic));
-    consider(t.topic, ports.back());
-  }
-  const std::string_view probes = ".probes";  // a probe stands behind its component's name alone
-  for (std::size_t i = 0; found.topic.empty() && i < ports.size(); ++i)
-    if (ports[i].ends_with(probes))
-      consider(info.topics[i].topic, ports[i].substr(0, ports[i].size() - probes.size()));
-  if (found.topic.empty())
-    throw Error(log + ": '" + field + "' is no field of a port in it." +
-                core::choices_text(field.substr(0, field.rfind('.')), ports));
-  return found;
-}
 
 /// The unit at the end of the last part of a name that has one, and the name with degrees.
 void take_unit(Signal& s) {
@@ -74,16 +42,6 @@ void unwrap(std::vector<double>& degrees) {
     degrees[i] += 360 * std::round((degrees[i - 1] - degrees[i]) / 360);
 }
 
-double number_of(const Cell& cell) {
-  switch (cell.kind) {
-    case Cell::Kind::whole: return static_cast<double>(cell.whole);
-    case Cell::Kind::natural: return static_cast<double>(cell.natural);
-    case Cell::Kind::single: return static_cast<double>(cell.single);
-    case Cell::Kind::real: return cell.real;
-    default: return std::numeric_limits<double>::quiet_NaN();
-  }
-}
-
 /// From and to, s.
 std::pair<double, double> bounds_of(const core::LogInfo& info, const std::string& log, const Window& w) {
   double from_s = w.from_s.value_or(-std::numeric_limits<double>::infinity()),
@@ -102,7 +60,8 @@ std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::
   const std::string name = log.string();
   const core::LogInfo info = core::read_info(log);
   const auto [from_s, to_s] = bounds_of(info, name, window);
-  const std::array places{place_of(info, name, fields[0]), place_of(info, name, fields[1])};
+  const std::array places{core::place_in_log(info, name, fields[0]),
+                          core::place_in_log(info, name, fields[1])};
   std::vector<std::string> topics{places[0].topic};
   if (places[1].topic != places[0].topic) topics.push_back(places[1].topic);
   const core::Tables tables(log, topics);
@@ -115,8 +74,9 @@ std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::
     const std::vector<core::Column>& columns = tables.list()[cells[i].first].columns;
     const int column = core::index_named(columns, places[i].column);
     if (column < 0)
-      throw Error(name + ": " +
-                  core::no_such(dotted(places[i].topic) + " has no field", places[i].column, columns));
+      throw Error(
+          name + ": " +
+          core::no_such(core::dotted_topic(places[i].topic) + " has no field", places[i].column, columns));
     cells[i].second = static_cast<std::size_t>(column);
   }
   const auto take = [&, from = from_s, to = to_s](const core::Tables::Row& row) {
@@ -125,7 +85,7 @@ std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::
     for (std::size_t i = 0; i < 2; ++i) {
       if (row.table != cells[i].first) continue;
       Series& s = out[i].series;
-      const double x = number_of((*row.cells)[cells[i].second]);
+      const double x = core::number_of_cell((*row.cells)[cells[i].second]);
       if (!std::isfinite(x) || (!s.t_s.empty() && t <= s.t_s.back())) {
         ++out[i].left_out;
         continue;

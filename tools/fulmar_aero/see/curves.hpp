@@ -5,13 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "tools/chart/chart.hpp"
 #include "tools/fulmar_aero/airframe_file.hpp"
 #include "tools/fulmar_aero/envelope.hpp"
 #include "tools/fulmar_aero/flight_words.hpp"
 #include "tools/fulmar_aero/modes_svg.hpp"
-#include "tools/fulmar_aero/see/chart.hpp"
 
 namespace fulmar::aero {
+
+using chart::Chart;
+using chart::chart_html;
+using chart::ChartAxis;
+using chart::ChartLine;
+using chart::ChartPoint;
+using chart::in_html;
+using chart::Mark;
+using chart::no_style;
+using chart::style_sample;
 
 /// Coefficients with all surfaces in the middle, no rates, at cruise airspeed; Cm about the centre of
 /// gravity.

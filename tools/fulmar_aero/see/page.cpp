@@ -6,9 +6,12 @@
 
 #include "core/error.hpp"
 #include "core/graph/shipped.hpp"
-#include "tools/fulmar_aero/see/chart.hpp"
+#include "tools/chart/chart.hpp"
 
 namespace fulmar::aero {
+
+using chart::in_html;
+
 namespace {
 
 // Colours of Okabe & Ito, Color Universal Design (2008), darker or lighter as the background asks; dashes

@@ -16,6 +16,7 @@
 #include "core/app/program.hpp"
 #include "core/live/server.hpp"
 #include "core/live/test/mock.hpp"
+#include "core/log/test/log_kit.hpp"
 #include "tools/fulmar_live/completion.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
@@ -483,6 +484,23 @@ TEST_CASE("a plot that is no terminal's is a picture at the end") {
   CHECK(r.out.find("\xE2\xA0") != std::string::npos);  // braille
 }
 
+TEST_CASE("the first word that is a log makes a plot one of logs; options of the other are refused") {
+  const MockFlight flight;
+  const Result lost = typed(flight, "plot lost.mcap slc.leg.course_deg -o lost.svg");
+  CHECK(lost.code == 1);
+  CHECK(lost.err.find("cannot read 'lost.mcap': there is no such file") != std::string::npos);
+  const Result live = typed(flight, "plot slc.leg.course_deg --over slc.leg.course_deg");
+  CHECK(live.code == 2);
+  CHECK(live.err.find(
+            "--over is of logs: give a log first, as in fulmar plot flight.mcap slc.leg.course_deg") !=
+        std::string::npos);
+  const Result seconds = typed(flight, "plot lost.mcap slc.leg.course_deg -o lost.svg --seconds 3");
+  CHECK(seconds.code == 2);
+  CHECK(seconds.err.find("--seconds is of a running flight; of a log name --from and --to") !=
+        std::string::npos);
+  CHECK(typed(flight, "plot lost.mcap -o lost.svg").code == 2);
+}
+
 TEST_CASE("the end of a flight ends echo and is told") {
   auto flight = std::make_unique<MockFlight>();
   Session session(flight->target());
@@ -506,6 +524,28 @@ TEST_CASE("bash completes commands, options, and names of the running flight") {
   CHECK(completed(flight, "fulmar echo --rate 5 slc.leg.c") == Words{"slc.leg.course_deg"});
   CHECK(completed(flight, "fulmar plot slc.leg.position_m.n") == Words{"slc.leg.position_m.north"});
   CHECK(completed(flight, "fulmar plot plan.m") == Words{"plan.mixed."});
+  const Folder folder;
+  const std::string log = (folder.path / "seen.mcap").string();
+  std::ofstream(folder.path / "seen.txt") << "no log", std::ofstream(log) << "";
+  CHECK(completed(flight, "fulmar plot " + (folder.path / "se").string()) == Words{log});
+  CHECK(completed(flight, "fulmar plot --ov") == Words{"--over"});
+  CHECK(completed(flight, "fulmar plot x --over slc.leg.position_m.n") == Words{"slc.leg.position_m.north"});
+  const std::string real = (folder.path / "real.mcap").string();
+  {
+    test::Sample sample({.file = real});
+    const std::uint16_t channel = sample.channel("/nav/number", *test::number_type());
+    const test::Number number{1};
+    sample.write(channel, 0, test::bytes_of(number));
+    sample.writer.close();
+  }
+  const Result picture = typed(flight, "plot " + real + " nav.number.value_ratio");
+  CHECK(picture.code == 0);
+  CHECK(picture.out.starts_with("\u2501\u2501 nav.number.value_ratio  1\n"));
+  CHECK(lines(picture.out).size() == 23);
+  CHECK(typed(flight, "plot " + real + " nav.number.value_ratio --over nav.number.value_ratio").code == 2);
+  CHECK(completed(flight, "fulmar plot " + real + " n") == Words{"nav.number."});
+  CHECK(completed(flight, "fulmar plot " + real + " --from 3 nav.number.") ==
+        Words{"nav.number.value_ratio"});
   CHECK(completed(flight, "fulmar param set slc.r") == Words{"slc.roll_kp"});
   CHECK(completed(flight, "fulmar param set slc.roll_kp ") == Words{});
   CHECK(completed(flight, "fulmar param set slc.roll_kp 0.5 slc.l") == Words{"slc.law"});

@@ -9,9 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "tools/fulmar_aero/see/chart.hpp"
+#include "tools/chart/chart.hpp"
 
 namespace fulmar::aero::test {
+
+using namespace chart;
 
 struct ReadCurve {
   std::string kind;  // "line s0"

@@ -1,52 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/fulmar_aero/see/chart.hpp"
+#include "tools/chart/chart.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tools/fulmar_aero/words.hpp"
+#include "tools/chart/numbers.hpp"
 
-namespace fulmar::aero {
+namespace fulmar::chart {
 namespace {
 
 /// Of the picture, in its own units.
 constexpr double picture_wide = 460, picture_high = 300, left = 62, top = 12, inner_wide = 386,
                  inner_high = 234;
-
-struct AxisRange {
-  double min = 1e300, max = -1e300;
-  double span() const { return max - min; }
-  void take(double x) {
-    min = std::min(min, x);
-    max = std::max(max, x);
-  }
-  /// Some room at both ends; of one value alone, room on both sides of it.
-  void widen() {
-    const double least = 1e-6 * std::max({std::abs(min), std::abs(max), 1e-6});
-    const double more = span() > least ? 0.05 * span() : std::max(0.05 * std::abs(min), least);
-    min -= more;
-    max += more;
-  }
-  void grow_to(double wanted) {
-    const double more = 0.5 * (wanted - span());
-    min -= more;
-    max += more;
-  }
-};
-
-/// Between marks of an axis: 1, 2 or 5 times a power of ten.
-double step_of(double span) {
-  const double power = std::pow(10.0, std::floor(std::log10(span / 5)));
-  for (const double step : {1.0, 2.0, 5.0})
-    if (span / (step * power) <= 8) return step * power;
-  return 10 * power;
-}
-
-std::string value_text(double x, double step) {
-  if (std::abs(x) < 1e-6 * step) return "0";
-  if (std::abs(x) >= 1e6 || step < 1e-5) return figures(x, 6);
-  return fixed(x, std::max(0, int(-std::floor(std::log10(step) + 1e-9))));
-}
 
 std::string tenth(double x) { return fixed(x, 1); }
 
@@ -54,32 +19,7 @@ std::string words_at(double x, double y, const std::string& text, const std::str
   return "<text x=\"" + tenth(x) + "\" y=\"" + tenth(y) + "\" " + more + ">" + in_html(text) + "</text>\n";
 }
 
-bool is_there(const ChartPoint& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
 std::string class_of(int style) { return style < 0 ? "plain" : "s" + std::to_string(style % styles); }
-
-/// About (x, y), of one size to the eye.
-std::string mark_path(Mark mark, double x, double y, double size = 1) {
-  const auto at = [&](double dx, double dy) { return tenth(x + size * dx) + " " + tenth(y + size * dy); };
-  const auto polygon = [&](std::initializer_list<ChartPoint> corners) {
-    std::string d;
-    for (const ChartPoint& c : corners) d += (d.empty() ? "M" : "L") + at(c.x, c.y);
-    return d + "Z";
-  };
-  switch (mark) {
-    case Mark::none: break;
-    case Mark::circle: {
-      const std::string r = figures(3 * size), arc = "a" + r + " " + r + " 0 1 0 ", d = figures(6 * size);
-      return "M" + at(-3, 0) + arc + d + " 0" + arc + "-" + d + " 0Z";
-    }
-    case Mark::square: return polygon({{-2.7, -2.7}, {2.7, -2.7}, {2.7, 2.7}, {-2.7, 2.7}});
-    case Mark::triangle: return polygon({{0, -3.6}, {3.4, 2.6}, {-3.4, 2.6}});
-    case Mark::diamond: return polygon({{0, -4}, {3.4, 0}, {0, 4}, {-3.4, 0}});
-    case Mark::cross: return "M" + at(-3, -3) + "L" + at(3, 3) + "M" + at(-3, 3) + "L" + at(3, -3);
-    case Mark::plus: return "M" + at(-3.5, 0) + "L" + at(3.5, 0) + "M" + at(0, -3.5) + "L" + at(0, 3.5);
-  }
-  return "";
-}
 
 class ChartDrawing {
  public:
@@ -101,7 +41,7 @@ class ChartDrawing {
     y_.grow_to(scale * inner_high);
   }
 
-  bool empty() const { return x_.max < x_.min; }
+  bool empty() const { return x_.empty(); }
 
   std::string svg() const {
     std::string out = "<svg viewBox=\"0 0 " + fixed(picture_wide, 0) + " " + fixed(picture_high, 0) +
@@ -156,7 +96,7 @@ class ChartDrawing {
       if (!there && drawing && line.closed) d += "Z";
       if (there) {
         d += (drawing ? "L" : "M") + tenth(px(p.x)) + " " + tenth(py(p.y));
-        marks += mark_path(line.mark, px(p.x), py(p.y), size);
+        marks += mark_path(line.mark, px(p.x), py(p.y), size, 1);
       }
       drawing = there;
     }
@@ -177,7 +117,7 @@ std::string sample(const ChartLine& line) {
   const std::string style = class_of(line.style) + (line.thin ? " thin" : "");
   if (line.joined) out += "<path class=\"line " + style + "\" d=\"M1 6H33\"/>";
   if (line.mark != Mark::none)
-    out += "<path class=\"mark " + style + "\" d=\"" + mark_path(line.mark, 17, 6) + "\"/>";
+    out += "<path class=\"mark " + style + "\" d=\"" + mark_path(line.mark, 17, 6, 1, 1) + "\"/>";
   return out + "</svg>";
 }
 
@@ -215,4 +155,4 @@ std::string chart_html(const Chart& chart) {
          "</figure>\n";
 }
 
-}  // namespace fulmar::aero
+}  // namespace fulmar::chart

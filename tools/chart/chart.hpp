@@ -4,13 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace fulmar::aero {
+#include "tools/chart/axis.hpp"
 
-struct ChartPoint {
-  double x = 0, y = 0;
-};
-
-enum class Mark { none, circle, square, triangle, diamond, cross, plus };
+namespace fulmar::chart {
 
 /// A curve, or marks alone. A point that is not finite parts it.
 struct ChartLine {
@@ -50,4 +46,4 @@ std::string in_html(const std::string& text);
 /// A legend's sample of a style: a short line.
 std::string style_sample(int style);
 
-}  // namespace fulmar::aero
+}  // namespace fulmar::chart

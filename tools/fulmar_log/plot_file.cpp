@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a figure goes: an SVG file, or what a program beside Fulmar makes of it.
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "core/loader/home.hpp"
+#include "core/loader/process.hpp"
+#include "tools/fulmar_log/plot_log.hpp"
+
+namespace fulmar::plot {
+namespace {
+
+using core::Error;
+namespace fs = std::filesystem;
+
+constexpr const char* print_dpi = "300";
+constexpr std::chrono::seconds patience{60};
+
+fs::path program_in_path(const char* name) {
+  const char* list = std::getenv("PATH");
+  std::istringstream folders(list ? list : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const fs::path file = fs::path(folder) / name;
+    if (file.is_absolute() && core::can_run(file)) return file;
+  }
+  return {};
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  if (!out) throw Error("'" + file.string() + "' cannot be written");
+}
+
+/// `form`: "png" or "pdf".
+void convert(const fs::path& svg, const fs::path& out, const std::string& form) {
+  std::vector<std::string> words{"-d", print_dpi, "-p",         print_dpi,   "-f",
+                                 form, "-o",      out.string(), svg.string()};
+  fs::path program = program_in_path("rsvg-convert");
+  if (program.empty()) {
+    program = program_in_path("inkscape");
+    words = {svg.string(), "--export-type=" + form, std::string("--export-dpi=") + print_dpi,
+             "--export-filename=" + out.string()};
+  }
+  if (program.empty())
+    throw Error("'" + out.string() +
+                "' takes a program that draws SVG: apt install librsvg2-bin (rsvg-convert) "
+                "or inkscape; without one name a file that ends in .svg");
+  core::Process process(program.string(), words, {});
+  const bool ended = process.wait(patience);
+  std::error_code none;
+  if (!ended || process.signal() != 0 || process.exit_code() != 0 || fs::file_size(out, none) == 0 || none)
+    throw Error(program.string() + " has not made '" + out.string() + "' of the figure");
+}
+
+/// A file that goes with this object.
+struct Scratch {
+  fs::path file;
+  ~Scratch() {
+    std::error_code none;
+    fs::remove(file, none);
+  }
+};
+
+}  // namespace
+
+void write_figure(const fs::path& out, const std::string& svg) {
+  const std::string ending = out.extension().string();
+  if (ending == ".svg") return write_text(out, svg);
+  if (ending != ".png" && ending != ".pdf")
+    throw Error("'" + out.string() + "' ends in nothing that a figure can be. Valid: .svg, .png, .pdf.");
+  const Scratch scratch{out.string() + ".svg.part"};
+  write_text(scratch.file, svg);
+  convert(fs::absolute(scratch.file), fs::absolute(out), ending.substr(1));
+}
+
+}  // namespace fulmar::plot

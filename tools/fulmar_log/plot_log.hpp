@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar plot LOG FIELD... -o x.svg`: a figure for a paper from logs of flights.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "tools/chart/figure.hpp"
+
+namespace fulmar::plot {
+
+struct LogPlotWords {
+  std::vector<std::string> words{};    // logs, and fields behind them: a panel per unit
+  std::vector<std::string> panels{};   // further panels: fields with commas between them
+  std::string over{};                  // field that is x, ".field" of each curve's own port; "": time
+  std::string out{}, size{}, names{};  // "x.svg"; "160x90mm"; "old,new"
+  std::optional<double> from_s{}, to_s{};
+  bool no_phases = false;
+};
+
+/// What was typed cannot be meant.
+struct WrongWords : core::Error {
+  using Error::Error;
+};
+
+/// Whether a word names a log and no field of a running flight.
+bool names_a_log(const std::string& word);
+
+/// Draws it and says so; the exit code. Throws core::Error.
+int plot_log_command(const LogPlotWords& words);
+
+/// The figure alone. `notes`: what is to be told beside it.
+chart::Figure log_figure(const LogPlotWords& words, std::vector<std::string>& notes);
+
+/// A figure as SVG, or as what a program makes of it: PNG, PDF. Throws core::Error.
+void write_figure(const std::filesystem::path& out, const std::string& svg);
+
+}  // namespace fulmar::plot

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Figures for print: line styles, axes, and where names have little room.
+#include "tools/chart/figure.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+#include <utility>
+
+#include "tools/fulmar_log/test/figure_kit.hpp"
+
+namespace plot_test {
+
+using namespace fulmar;
+
+/// Its corners from the first one on, in tenths of a millimetre, and where there are arcs.
+std::string shape_of(const std::string& d) {
+  std::string shape;
+  double x0 = 0, y0 = 0;
+  for (std::size_t at = 0; (at = d.find_first_of("MLa", at)) != std::string::npos; ++at) {
+    char* next = nullptr;
+    const double x = std::strtod(d.c_str() + at + 1, &next), y = std::strtod(next, nullptr);
+    if (at == 0) x0 = x, y0 = y;
+    shape += d[at] == 'a' ? "a"
+                          : std::to_string(std::lround(10 * (x - x0))) + "," +
+                                std::to_string(std::lround(10 * (y - y0))) + " ";
+  }
+  return shape;
+}
+
+TEST_CASE("curves can be told apart without colours; equal logs give equal figures") {
+  chart::Figure figure;
+  figure.high_mm = 200, figure.x = "time [s]";
+  figure.panels.resize(1);
+  for (std::size_t i = 0; i < chart::most_curves; ++i)
+    figure.panels[0].curves.push_back(
+        {"c" + std::to_string(i), {{0, double(i)}, {10, double(i) + 1}}, false});
+  const std::string svg = chart::figure_svg(figure);
+  CHECK(ill_formed(svg) == "");
+  std::set<std::string> looks;
+  for (const std::string& tag : between(svg, "<path class=\"sample\"", "<text")) {
+    const auto mark = between(tag, "<path class=\"mark\"", "/>");
+    looks.insert(attribute(tag, "stroke-dasharray") + " " +
+                 (mark.empty() ? "" : shape_of(attribute(mark[0], "d"))));
+  }
+  CHECK(looks.size() == chart::most_curves);
+  CHECK(svg == chart::figure_svg(figure));
+}
+
+TEST_CASE("an axis has two numbers at least, whatever the range and however little room there is") {
+  const std::vector<std::pair<double, double>> ranges{{0, 0},        {7, 7},       {-400, 400},
+                                                      {-0.9, 0.9},   {4.9, 25.1},  {1e-9, 2e-9},
+                                                      {99.9, 100.1}, {1e6, 1.4e6}, {-3, 1e4}};
+  for (const auto& range : ranges)
+    for (const double high_mm : {32.0, 38.0, 60.0, 90.0}) {
+      const double low = range.first, high = range.second;
+      CAPTURE(low);
+      CAPTURE(high);
+      CAPTURE(high_mm);
+      chart::Figure figure;
+      figure.wide_mm = 50, figure.high_mm = high_mm, figure.x = "time [s]";
+      figure.panels.push_back({"y", {{"c", {{low, low}, {high, high}}, false}}});
+      CHECK(chart::too_small(figure) == "");
+      const ReadFigure f = read_figure(chart::figure_svg(figure));
+      CHECK(f.x_marks.size() >= 2);
+      CHECK(f.panels[0].y_marks.size() >= 2);
+      CHECK(f.panels[0].y_marks.size() <= 9);
+      for (const Point& p : f.panels[0].curves[0].points())
+        CHECK((std::abs(p.y - low) < 0.01 * f.panels[0].y_per_mm ||
+               std::abs(p.y - high) < 0.01 * f.panels[0].y_per_mm));
+      if (low == 0 && high == 0) CHECK(f.panels[0].y_marks.back() > 0.1);
+    }
+}
+
+TEST_CASE("a name that is longer than its room is written in smaller letters") {
+  chart::Figure figure;
+  figure.wide_mm = 80, figure.x = "time [s]";
+  figure.panels.push_back(
+      {"y", {{"short", {{0, 0}, {1, 1}}, false}, {std::string(100, 'n'), {{0, 0}}, false}}});
+  const std::vector<std::string> texts =
+      between(chart::figure_svg(figure), "<text class=\"legend\"", "</text>");
+  REQUIRE(texts.size() == 2);
+  CHECK(attribute(texts[0], "font-size") == "");
+  const double size = length(texts[1], "font-size");
+  CHECK(size < 2.8);
+  CHECK(length(texts[1], "x") + 100 * 0.52 * size < 80);
+}
+
+TEST_CASE("the name of a short phase stands upright, in smaller letters, and not where none can be read") {
+  chart::Figure figure;
+  figure.x = "time [s]";
+  figure.panels.push_back({"y", {{"c", {{0, 0}, {1000, 1}}, false}}});
+  figure.bands = {{"cruise", 0, 900}, {"flare", 900, 914}, {"touch", 914, 917}, {"roll", 917, 1000}};
+  const std::string svg = chart::figure_svg(figure);
+  std::vector<std::string> names;
+  for (const ReadText& t : texts(svg, "phase")) names.push_back(t.words);
+  CHECK(names == std::vector<std::string>{"cruise", "flare", "roll"});
+  const std::string flare = between(svg, "<text class=\"phase\"", "</text>").at(1);
+  CHECK(attribute(flare, "transform").starts_with("rotate(-90 "));
+  const ReadPanel panel = read_figure(svg).panels[0];
+  CHECK(length(flare, "font-size") == doctest::Approx(14 / panel.x_per_mm).epsilon(0.01));
+  CHECK(panel.bands.size() == 4);
+  CHECK(panel.bands[2].name == "touch");
+}
+
+}  // namespace plot_test

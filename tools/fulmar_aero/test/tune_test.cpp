@@ -35,7 +35,8 @@ TEST_CASE("the gains of all shipped aircraft have their margins, broken at the a
           for (const auto& [margin, least] :
                std::map<std::string, double>{{"gain_db", 6}, {"reduction_db", 6}, {"phase_deg", 45}})
             if (!figures[at][margin].is_null()) CHECK(figures[at][margin].get<double>() >= least);
-        CHECK(figures["bandwidth_radps"].get<double>() > 0.1);
+        // A damper that turns the Dutch roll by less than 0 dB has no crossover, and no margin to lose.
+        if (where != "yaw damper") CHECK(figures["bandwidth_radps"].get<double>() > 0.1);
       }
     }
     CHECK(o["faults"].empty());
@@ -162,7 +163,7 @@ TEST_CASE("--write changes the gains and nothing else, and says the same when it
   const std::string now = text_of(file);
   CHECK(now != old);
   CHECK(without_params(now) == without_params(old));
-  CHECK(now.find("# 11.6 rad/s, damping 1: aileron 113 rad/s2 per rad") !=
+  CHECK(now.find("# 12.6 rad/s, damping 0.9: aileron 113 rad/s2 per rad") !=
         std::string::npos);                                       // comments stay
   CHECK(now.find("takeoff_pitch: 12 deg") != std::string::npos);  // what is not computed
   CHECK(std::count(now.begin(), now.end(), '\n') ==

@@ -66,7 +66,7 @@ TEST_CASE("bandwidths become gains by the relations of the README" * doctest::te
   CHECK(value(outer, "climb_kff") ==
         Approx(4.5 * 9.80665 / (17 * value(outer, "thrust"))).epsilon(0.03).scale(0));
   CHECK(o["shipped"]["loops"]["course"]["at_sensor"]["crossover_radps"].get<double>() ==
-        Approx(1.15).epsilon(0.1).scale(0));  // the file: course_kp 2, 1.15 rad/s
+        Approx(1.21).epsilon(0.1).scale(0));  // the file: course_kp 2.1, 1.21 rad/s
 }
 
 TEST_CASE("delay takes phase, and bandwidth where nothing was asked for" * doctest::test_suite("amounts")) {

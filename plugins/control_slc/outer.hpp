@@ -42,6 +42,7 @@ struct Outer {
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
     if (!loop_.activate(*in.state, p.common, last)) altitude_.reset(), airspeed_.reset();
+    late_.reset();
     return Status::ok;
   }
 
@@ -49,7 +50,7 @@ struct Outer {
     const VehicleState& state = *in.state;
     const GuidanceCommand& command = *in.command;
     out.climb_rate_demand_mps = 0.0;
-    const auto rest = [&] { altitude_.reset(), airspeed_.reset(); };
+    const auto rest = [&] { altitude_.reset(), airspeed_.reset(), late_.reset(); };
     const auto hold = [&](const LevelTurn& turn, double dt) -> PitchThrottle {
       const double theta = height_to_pitch(state, command, p, turn, dt, out);
       const double feedforward = p.climb_kff * out.climb_rate_demand_mps.value + turn.drag_newton / p.thrust;
@@ -71,14 +72,18 @@ struct Outer {
     const double error = command.height_m - state.height_m;
     const double wanted = command.climb_rate_mps + p.altitude_kp * turn.Va_mps * error;
     const double climb_rate = std::clamp(wanted, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
-    // Far from the height wanted the climb limit governs and there is nothing to learn from the error.
-    const PidInput in{.error = climb_rate == wanted ? error : 0,
+    // Far from the height wanted the climb limit governs and there is nothing to learn from the error. What
+    // is missing of a demand counts as the height error that would demand it, in a second at the fastest.
+    const double gain = turn.Va_mps * std::max<double>({p.altitude_kp, p.altitude_ki, 1e-6});
+    const double missing = late_.missing(climb_rate != wanted, climb_rate, state.climb_rate_mps,
+                                         altitude_.integral(), -most_bias, dt);
+    const PidInput in{.error = climb_rate == wanted ? error : missing / gain,
                       .rate = state.climb_rate_mps - climb_rate,
                       .feedforward = turn.pitch_rad + climb_rate / turn.Va_mps,
                       .min = pitch.min,
                       .max = pitch.max};
     const PidGains gains{0, p.altitude_ki, p.altitude_kd};
-    if (loop_.commands.taking_up()) altitude_.reset_to(loop_.commands.last().pitch_rad, gains, in, 0.1);
+    if (loop_.commands.taking_up()) altitude_.reset_to(loop_.commands.last().pitch_rad, gains, in, most_bias);
     const double theta = altitude_.step(gains, in, dt);
     out.internals.height_error_m = error;
     out.internals.pitch_saturated = altitude_.saturated() || climb_rate != wanted;
@@ -107,8 +112,10 @@ struct Outer {
     return throttle;
   }
 
+  static constexpr double most_bias = 0.1;  // rad
   OuterLoop loop_;
   Pid altitude_, airspeed_;
+  LateDemand late_;
 };
 
 }  // namespace fulmar::slc

@@ -58,7 +58,7 @@ struct ErrorLaw {
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const auto rest = [&] {
-      pitch_.reset(), throttle_.reset(), airspeed_.reset();
+      pitch_.reset(), throttle_.reset(), airspeed_.reset(), late_climb_.reset(), late_rate_.reset();
       out.total_error_ratio = 0.0;
       out.balance_error_ratio = 0.0;
       out.underspeed_ratio = 0.0;
@@ -122,6 +122,9 @@ struct ErrorLaw {
     return e;
   }
 
+  /// Of the error that would demand a rate; with a small gain the integral moves in a second at the fastest.
+  static double gain_of(double gain, double integral) { return std::max({gain, integral, 1e-6}); }
+
   /// theta = theta_trim + hdot_path / Va + 1/(g Va) [ k B + k_i int B ],  B = w_h e_U - w_V e_K.
   double balance_to_pitch(const VehicleState& state, const Params& p, const Errors& e, const LevelTurn& turn,
                           double dt, Outputs& out) {
@@ -133,13 +136,19 @@ struct ErrorLaw {
     const double B = held.balance(w_h, w_V);
     const double per_gV = 1 / (isa::g0 * turn.Va_mps);
     const PitchLimits pitch(state, p.common.airframe->limits, p.common.pitch_limit);
-    const PidInput in{.error = B * per_gV,
-                      .rate = 0,
-                      .feedforward = turn.pitch_rad + (1 - e.underspeed) * e.climb_rate_mps / turn.Va_mps,
-                      .min = pitch.min,
-                      .max = pitch.max};
-    const PidGains gains{p.balance_gain, limited ? 0 : p.balance_integral.value, 0};
-    if (loop_.commands.taking_up()) pitch_.reset_to(loop_.commands.last().pitch_rad, gains, in, 0.1);
+    const double ahead = (1 - e.underspeed) * e.climb_rate_mps;
+    const double climb_rate = ahead + p.balance_gain * w_h * held.potential / isa::g0;
+    const double missing = late_climb_.missing(limited, climb_rate, state.climb_rate_mps, pitch_.integral(),
+                                               -most_pitch_bias, dt);
+    const PidInput in{
+        .error = limited ? missing / (gain_of(p.balance_gain, p.balance_integral) * turn.Va_mps) : B * per_gV,
+        .rate = 0,
+        .feedforward = turn.pitch_rad + ahead / turn.Va_mps + p.balance_gain * (B * per_gV),
+        .min = pitch.min,
+        .max = pitch.max};
+    const PidGains gains{0, p.balance_integral, 0};
+    if (loop_.commands.taking_up())
+      pitch_.reset_to(loop_.commands.last().pitch_rad, gains, in, most_pitch_bias);
     const double theta = pitch_.step(gains, in, dt);
     out.internals.pitch_saturated = pitch_.saturated() || limited;
     out.balance_error_ratio = B;
@@ -161,17 +170,28 @@ struct ErrorLaw {
     if (!state.airspeed_valid)  // the climb that pitch asks for, and trim
       return std::clamp(feedforward + per_rate * p.balance_gain * e.held(0, p.balance_gain).potential, 0.0,
                         1.0);
-    const PidInput in{.error = per_rate * E, .rate = 0, .feedforward = feedforward, .min = 0, .max = 1};
-    const bool learns = !limited && e.underspeed == 0;
-    const PidGains gains{p.total_gain, learns ? p.total_integral.value : 0, 0};
-    if (loop_.commands.taking_up()) throttle_.reset_to(loop_.commands.last().throttle_frac, gains, in, 0.2);
+    const double rate = isa::g0 * e.climb_rate_mps + p.total_gain * E;
+    const double flown = isa::g0 * state.climb_rate_mps + state.airspeed_mps * airspeed_rate(state);
+    const double missing =
+        late_rate_.missing(limited, rate, flown, throttle_.integral(), -most_throttle_bias, dt);
+    const double learnt = limited ? missing / gain_of(p.total_gain, p.total_integral) : E;
+    const PidInput in{.error = e.underspeed == 0 ? per_rate * learnt : 0,
+                      .rate = 0,
+                      .feedforward = feedforward + p.total_gain * (per_rate * E),
+                      .min = 0,
+                      .max = 1};
+    const PidGains gains{0, p.total_integral, 0};
+    if (loop_.commands.taking_up())
+      throttle_.reset_to(loop_.commands.last().throttle_frac, gains, in, most_throttle_bias);
     const double throttle = throttle_.step(gains, in, dt);
     out.internals.throttle_saturated = throttle_.saturated();
     return e.underspeed + (1 - e.underspeed) * throttle;
   }
 
+  static constexpr double most_pitch_bias = 0.1, most_throttle_bias = 0.2;  // rad, of 1
   OuterLoop loop_;
   Pid pitch_, throttle_;
+  LateDemand late_climb_, late_rate_;
   SteadyAirspeed airspeed_;
 };
 

@@ -230,6 +230,53 @@ TEST_CASE("a climb that is limited is told as saturated though the pitch is not 
   CHECK_FALSE(bench.out.internals.pitch_saturated);
 }
 
+namespace {
+/// Of a descent or climb that the limit of 0.6 m/s governs, two minutes on. The aircraft follows its pitch at
+/// once, and what it takes to fly level is another pitch: it comes to `before` while the law learns, and is
+/// `after` from the begin of the descent on.
+struct Limited {
+  double climb_rate_mps, integral_rad;
+};
+Limited limited(double height_step_m, double before_rad, double after_rad) {
+  Bench<slc::Outer> bench;
+  Airframe a;
+  a.limits.climb_rate_max_mps = a.limits.sink_rate_max_mps = 0.6;
+  bench.params.common.airframe.value = a;
+  bench.params.common.airframe.is_given = true;
+  bench.params.altitude_kd.value = 0;
+  VehicleState s = flying();
+  GuidanceCommand c = level(15);
+  for (int i = 0; i < 36000; ++i) {
+    if (i == 24000) c.height_m = s.height_m + height_step_m;
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.command, c);
+    bench.step(0.01);
+    const double level_pitch = i < 24000 ? before_rad * std::min(1.0, i / 18000.0) : after_rad;
+    s.climb_rate_mps = 15 * (bench.out.attitude.pitch_rad - level_pitch);
+    s.height_m += 0.01 * s.climb_rate_mps;
+  }
+  return {s.climb_rate_mps, bench.out.pitch_integral_rad.value};
+}
+}  // namespace
+
+TEST_CASE("what the height loop has learnt does not hold off a limited climb or descent for ever") {
+  for (const double sign : {1.0, -1.0}) {
+    CAPTURE(sign);
+    const double far = sign * 200;
+    // 0.08 rad of bias are 1.2 m/s the other way; half of the demand is what is vouched for
+    CHECK(sign * limited(far, -sign * 0.08, 0).climb_rate_mps > 0.29);
+    // what is true stays learnt, and the climb rate is that demanded
+    CHECK(sign * limited(far, -sign * 0.08, -sign * 0.08).climb_rate_mps == Approx(0.6).epsilon(0.02));
+    CHECK(sign * limited(far, sign * 0.08, sign * 0.08).climb_rate_mps == Approx(0.6).epsilon(0.02));
+    // what helps stays
+    CHECK(sign * limited(far, 0, -sign * 0.01).climb_rate_mps == Approx(0.75).epsilon(0.02));
+  }
+  // an engine that does not give the climb teaches nothing; a descent that does not come is flown at last
+  CHECK(limited(200, 0, 0.1).integral_rad == 0);
+  CHECK(limited(-200, 0, -0.08).climb_rate_mps < -0.29);
+  CHECK(limited(-200, 0, -0.5).integral_rad == Approx(-0.1).epsilon(0.02));  // rising air
+}
+
 TEST_CASE(
     "a lateral acceleration is flown as the bank that has it, to both sides, whatever course and speed") {
   for (const double airspeed : {11.0, 22.0}) {  // cruise is 15 m/s

@@ -93,8 +93,10 @@ TEST_CASE("far away the climb and sink limits govern, that of the path included,
       const double trim = law.settle(flying(17), level(17), 0.5).pitch_rad;
       GuidanceCommand command = level(17);
       command.height_m += 200 * side, command.climb_rate_mps = path;
-      const AttitudeCommand u = law.settle(flying(17), command, 20);
       const double rate = side > 0 ? 4 : -3;
+      VehicleState s = flying(17);
+      s.climb_rate_mps = rate;  // what is demanded is flown
+      const AttitudeCommand u = law.settle(s, command, 20);
       CHECK((u.pitch_rad - trim) * 17 / rate == Approx(1).epsilon(1e-6));
       CHECK(u.throttle_frac == Approx(0.5 + 4.5 * g * rate / (17 * 50)));
       CHECK(law.out.pitch_integral_rad.value == 0);
@@ -199,6 +201,55 @@ TEST_CASE("whatever it is told, what it says is finite and within its limits, wi
     CHECK(law.fault() == "");
     CHECK(std::abs(law.out.attitude.pitch_rad) <= 0.35 + 1e-9);
   }
+}
+
+TEST_CASE(
+    "what it has learnt does not hold off a limited climb or descent for ever, and what is true stays") {
+  // The aircraft follows its pitch at once; level flight comes to take another pitch while the law learns.
+  const auto climb_rate = [](double side, double before_rad, double after_rad) {
+    Flown law(true);
+    FlightLimits& limits = law.params.common.airframe.value.limits;
+    limits.climb_rate_max_mps = limits.sink_rate_max_mps = 0.6;
+    VehicleState s = flying(15);
+    GuidanceCommand c = level(15);
+    for (int i = 0; i < 36000; ++i) {
+      if (i == 24000) c.height_m = s.height_m + side * 200;
+      law.set(law.in.state, s), law.set(law.in.command, c);
+      law.step(0.01);
+      const double level_pitch = i < 24000 ? before_rad * std::min(1.0, i / 18000.0) : after_rad;
+      s.climb_rate_mps = 15 * (law.out.attitude.pitch_rad - level_pitch);
+      s.height_m += 0.01 * s.climb_rate_mps;
+    }
+    return s.climb_rate_mps;
+  };
+  for (const double side : {1.0, -1.0}) {
+    CHECK(side * climb_rate(side, -side * 0.08, 0) > 0.29);
+    CHECK(side * climb_rate(side, -side * 0.08, -side * 0.08) == Approx(0.6).epsilon(0.02));
+    CHECK(side * climb_rate(side, side * 0.08, side * 0.08) == Approx(0.6).epsilon(0.02));
+  }
+}
+
+TEST_CASE("a throttle that has learnt too much does not hold off a limited descent for ever") {
+  // Level at constant speed; what the throttle gives beyond its trim climbs.
+  Flown law(true);
+  FlightLimits& limits = law.params.common.airframe.value.limits;
+  limits.climb_rate_max_mps = limits.sink_rate_max_mps = 0.6;
+  VehicleState s = flying(15);
+  GuidanceCommand c = level(15);
+  const auto fly = [&](double lost_frac) {
+    for (int i = 0; i < 24000; ++i) {
+      law.set(law.in.state, s), law.set(law.in.command, c);
+      law.step(0.01);
+      const double level = 0.5 + lost_frac * std::min(1.0, i / 18000.0);
+      s.climb_rate_mps = (law.out.attitude.throttle_frac - level) * 50 / (4.5 * g) * 15;
+      s.height_m += 0.01 * s.climb_rate_mps;
+    }
+    return law.out.throttle_integral_frac.value;
+  };
+  CHECK(fly(0.1) == Approx(0.1).epsilon(0.05));
+  c.height_m -= 300;
+  fly(0);
+  CHECK(s.climb_rate_mps < -0.29);
 }
 
 }  // namespace error_law_test

@@ -84,4 +84,32 @@ TEST_CASE("a PI loop round a double integrator with rate feedback settles as its
   CHECK(x == doctest::Approx(1 - 3 * std::exp(-2.0)).epsilon(1e-3));
 }
 
+TEST_CASE("what is missing of a limited demand counts after five seconds, down to a bound and up to zero") {
+  const auto after = [](double seconds, double demanded, double flown, double integral, bool limited = true) {
+    LateDemand late;
+    double missing = 0;
+    for (double t = 0.05; t < seconds; t += 0.1)
+      missing = late.missing(limited, demanded, flown, integral, -0.1, 0.1);
+    return missing;
+  };
+  CHECK(after(4.8, -1, 0.2, 0) == 0);
+  CHECK(after(5.3, -1, 0.2, 0) == doctest::Approx(-1.2));
+  CHECK(after(5.3, -1, 0.2, 0, false) == 0);
+  CHECK(after(5.3, -1, -0.49, 0.05) == doctest::Approx(-0.51));
+  CHECK(after(5.3, -1, -0.51, 0.05) == 0);
+  CHECK(after(5.3, -1, 0.2, -0.1) == 0);
+  CHECK(after(5.3, 1, 0.2, -0.01) == doctest::Approx(0.8));
+  CHECK(after(5.3, 1, 0.2, 0) == 0);
+  // gusts: late for two thirds of the time, and for one third
+  for (const int part : {1, 2}) {
+    LateDemand late;
+    double most = 0;
+    for (int i = 0; i < 300; ++i)
+      most = std::max(most, std::abs(late.missing(true, -1, i % 3 < part ? 1 : -1, 0, -0.1, 0.1)));
+    CHECK((most > 0) == (part == 2));
+    late.reset();
+    CHECK(late.missing(true, -1, 1, 0, -0.1, 0.1) == 0);
+  }
+}
+
 }  // namespace pid_test

@@ -54,4 +54,25 @@ class Pid {
   bool saturated_ = false;
 };
 
+/// While a limit governs a demand there is nothing to learn from the error; but what was learnt before must
+/// not hold the aircraft away for ever. When less than half of the demand is flown for some seconds, this is
+/// what is missing of it, to be integrated: up as far as the integral is below 0, since an engine that does
+/// not give a climb teaches nothing, and down to `least`.
+class LateDemand {
+ public:
+  /// `demanded` and `flown` in one unit; `integral` and `least` in that of the output.
+  double missing(bool limited, double demanded, double flown, double integral, double least, double dt_s) {
+    const bool late = limited && flown * demanded < 0.5 * demanded * demanded;
+    late_s_ = std::clamp(late ? late_s_ + dt_s : late_s_ - dt_s, 0.0, patience_s);
+    if (!late || late_s_ < patience_s) return 0;
+    const bool may = demanded > 0 ? integral < 0 : integral > least;
+    return may ? demanded - flown : 0;
+  }
+  void reset() { late_s_ = 0; }
+
+ private:
+  static constexpr double patience_s = 5;  // of gusts
+  double late_s_ = 0;
+};
+
 }  // namespace fulmar

@@ -22,8 +22,8 @@ using nlohmann::json;
 
 namespace {
 
-/// A word of fulmar, with all that it says. Where it can be watched is told as soon as it is known.
-Said typed(const std::string& words, std::atomic<int>& port) {
+/// As `typed`; where it can be watched is told as soon as it is known.
+Said watched(const std::string& words, std::atomic<int>& port) {
   return shell(FULMAR_BIN_DIR "/fulmar " + words + " 2>&1", [&](const std::string& line) {
     const std::string before = "live view: ws://127.0.0.1:";
     if (line.starts_with(before)) port = std::stoi(line.substr(before.size()));
@@ -72,7 +72,8 @@ TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") 
     wait("sim.truth.height_m", [](double h) { return h > 40; });
     pipe.write(axis(2, 8000) + axis(1, -5400) + axis(0, 12000) + axis(7, 32767));  // to the right
   });
-  const Said first = typed("run " + file.string() + " --speed 4 --duration 200 --log " + log.string(), port);
+  const Said first =
+      watched("run " + file.string() + " --speed 4 --duration 200 --log " + log.string(), port);
   over = true;
   pilot.join();
   CHECK_MESSAGE(first.code == 0, first.out);

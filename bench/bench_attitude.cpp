@@ -9,10 +9,6 @@
 #include <string>
 
 #include "bench/attitude/flown.hpp"
-#include "bench/attitude/gains.hpp"
-
-#define FULMAR_COUNT_ALLOCATIONS
-#include <fulmar/testing.hpp>
 
 using namespace fulmar;
 using namespace fulmar::attitude;
@@ -78,7 +74,7 @@ void apply(Gains& gains, const std::string& text) {
   }
   if (dot == std::string::npos || equals == std::string::npos || dot > equals)
     throw Wrong("--set is " + text + " and must be COMPONENT.PARAM=NUMBER");
-  set(gains, text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), value);
+  gains.push_back({text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), value});
 }
 
 constexpr const char* page = R"(# Attitude from large upsets
@@ -101,23 +97,16 @@ The bars: success of the best learnt policy, settling and variation of the publi
 
 )";
 
-template <class MakeLaw>
-Row flown(const Options& o, std::size_t level, const MakeLaw& law, nlohmann::json& failed) {
+Row flown(const Options& o, std::size_t level, const std::string& law, const Gains& gains,
+          nlohmann::json& failed) {
+  const auto turbulence = static_cast<Turbulence>(level);
   std::vector<Result> results;
   for (std::uint64_t i = 0; i < o.episodes; ++i) {
-    results.push_back(fly(x8(), law(), episode(o.seed, i), static_cast<Turbulence>(level)));
+    const Episode e = episode(o.seed, i);
+    results.push_back(law == "pid" ? fly_published(e, turbulence) : fly_shipped(gains, e, turbulence));
     if (!results.back().success) failed.push_back(i);
   }
   return summary(results);
-}
-
-Row flown(const Options& o, std::size_t level, const std::string& law, const Gains& gains,
-          nlohmann::json& failed) {
-  if (law == "pid")
-    return flown(
-        o, level, [] { return PublishedPid{}; }, failed);
-  return flown(
-      o, level, [&] { return ShippedLaw(x8(), gains); }, failed);
 }
 
 std::string shown(const Row& r) {
@@ -130,6 +119,7 @@ std::string shown(const Row& r) {
 int run(const Options& o) {
   Gains gains = shipped_gains();
   for (const std::string& s : o.sets) apply(gains, s);
+  check(gains);
   nlohmann::json all = nlohmann::json::object();
   bool good = true;
   if (!o.json)

@@ -3,10 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "bench/attitude/flown.hpp"
-#include "bench/attitude/gains.hpp"
-
-#define FULMAR_COUNT_ALLOCATIONS
-#include <fulmar/testing.hpp>
 
 namespace attitude_test {
 
@@ -47,16 +43,16 @@ TEST_CASE("episodes begin and aim within the published ranges, and fill them") {
 
 TEST_CASE("the aircraft begins as the episode says, with a closed throttle") {
   const Episode e = episode(1, 7);
-  const sim::Simulation sim = begun(x8(), e, Turbulence::none);
-  const VehicleState s = seen(sim);
+  const Beginning b = beginning(e, Turbulence::none);
+  const VehicleState& s = b.seen;
   CHECK(s.roll_rad == Approx(e.start.roll_rad));
   CHECK(s.pitch_rad == Approx(e.start.pitch_rad));
   CHECK(s.airspeed_mps == Approx(e.start.airspeed_mps));
   CHECK(s.beta_rad == Approx(std::asin(e.start.v_mps / e.start.airspeed_mps)));
-  CHECK(sim.plant().air_velocity_b().z() == Approx(e.start.w_mps));
+  CHECK(b.w_mps == Approx(e.start.w_mps));
   CHECK(s.rate_radps.z == Approx(e.start.rate_radps[2]));
-  CHECK(sim.plant().propeller_radps() == 0);
-  CHECK(sim.plant().air().density_kgm3 == Approx(1.225));
+  CHECK(b.propeller_radps == 0);
+  CHECK(b.density_kgm3 == Approx(1.225));
 }
 
 TEST_CASE("the airspeed target falls in a climb by 1/150 of what is left") {
@@ -119,8 +115,7 @@ TEST_CASE("the shipped gains recover the X8 at each level of turbulence") {
   for (const Turbulence level :
        {Turbulence::none, Turbulence::light, Turbulence::moderate, Turbulence::severe}) {
     std::vector<Result> results;
-    for (std::uint64_t i = 0; i < 12; ++i)
-      results.push_back(fly(x8(), ShippedLaw(x8(), gains), episode(11, i), level));
+    for (std::uint64_t i = 0; i < 12; ++i) results.push_back(fly_shipped(gains, episode(11, i), level));
     const auto number = static_cast<std::size_t>(level);
     CAPTURE(number);
     CHECK(summary(results).success_percent == 100);
@@ -153,11 +148,11 @@ TEST_CASE("the published PID has its gains, signs and limits") {
 
 TEST_CASE("without the aileron against sideslip the X8 takes much longer to settle") {
   Gains gains = shipped_gains();
-  gains.inner.roll_from_sideslip.value = 0;
+  gains.push_back({"Inner", "roll_from_sideslip", 0});
   std::vector<Result> with, without;
   for (std::uint64_t i = 0; i < 12; ++i) {
-    with.push_back(fly(x8(), ShippedLaw(x8(), shipped_gains()), episode(11, i), Turbulence::none));
-    without.push_back(fly(x8(), ShippedLaw(x8(), gains), episode(11, i), Turbulence::none));
+    with.push_back(fly_shipped(shipped_gains(), episode(11, i), Turbulence::none));
+    without.push_back(fly_shipped(gains, episode(11, i), Turbulence::none));
   }
   CHECK(summary(without).settling_steps > 1.4 * summary(with).settling_steps);
 }

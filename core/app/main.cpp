@@ -71,6 +71,15 @@ struct Commands {
     }
   }
 
+  /// An empty word, as of a variable that is not set, is not taken for the default.
+  static CLI::Validator a_file(const std::string& otherwise) {
+    return CLI::Validator(
+        [otherwise](const std::string& text) {
+          return text.empty() ? "'' names no file; without the option " + otherwise : std::string();
+        },
+        "");
+  }
+
   void add_run() {
     CLI::App* command = app.add_subcommand("run", "fly a mission and tell how it went");
     mission.add(command);
@@ -84,7 +93,8 @@ struct Commands {
               return good ? std::string() : "give seconds, above 0 and up to 1e7, not '" + text + "'";
             },
             "SECONDS"));
-    command->add_option("--log", run.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap");
+    command->add_option("--log", run.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap")
+        ->check(a_file("the log gets a name of its own in logs/"));
     command->add_flag("--no-log", run.no_log, "write no log");
     command->add_flag("--json", run.json, "print one JSON object instead of a table");
     command->add_flag("--strict", run.strict,
@@ -168,7 +178,8 @@ struct Commands {
                      "all, or PORTS[@RATE] as in nav.*@100Hz: with --log, its log holds this, too")
         ->type_name("PORTS[@RATE]")
         ->allow_extra_args(false);
-    command->add_option("--log", replay.out, "where to write the log of the replay; default nowhere");
+    command->add_option("--log", replay.out, "where to write the log of the replay; default nowhere")
+        ->check(a_file("none is written"));
     command->add_flag("--json", replay.json, "print one JSON object");
   }
 

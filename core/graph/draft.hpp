@@ -72,6 +72,14 @@ bool taken_away(Draft& draft, const std::string& name, const Where& where, const
 /// A fault of its own, or one of those.
 void tell(Draft& draft, const Where& where, const std::string& path, const Error& fault);
 
+// role_contracts.cpp
+void resolve_roles(Draft& draft);
+/// Components that fill several roles: who fills which must stay clear.
+void check_groups(Draft& draft);
+/// Exactly one vehicle: the only one that fills the role, or the only vehicle of a mission without that role.
+/// After it is known who is used.
+void choose_vehicle(Draft& draft);
+
 // wires.cpp
 Target find_target(const Draft& draft, const PortName& name);  // throws Error, NoOwner
 void resolve_wires(Draft& draft);

@@ -119,8 +119,12 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
 void read_live(const Keys& mission, MissionText& text, Report& report);
 void read_dds(const Keys& mission, MissionText& text, Report& report);
 
-// record_option.cpp: before the mission's own rules, so that they hold
+// recording.cpp: `record:`, and `--record`, whose rules come before the mission's own, so that they hold
+void read_recording(const Keys& mission, MissionText& text, Report& report);
 void add_record_options(MissionText& mission, const std::vector<std::string>& options, Report& report);
+/// "64 MB" -> 64e6. Reports a fault and returns 0.
+std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path,
+                          Report& report);
 
 /// "nav.state"; nothing and a fault when it is not that.
 std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path,

@@ -11,55 +11,13 @@
 
 #include "core/error.hpp"
 #include "core/log/mcap_bytes.hpp"
+#include "core/log/mcap_summary.hpp"
 #include "core/log/out_file.hpp"
 
 namespace fulmar::core {
 namespace {
 
-using mcap::Bytes;
-
-struct Schema {
-  std::string name, encoding, text;
-  bool begun = false, stored = false;  // in this or an earlier chunk; in a chunk that is in the file
-
-  void write(Bytes& out, std::uint16_t id) const {
-    out.record(mcap::schema, [&] { out.number(id).text(name).text(encoding).text(text); });
-  }
-};
-
-struct Entry {
-  std::uint64_t log_ns, offset;  // in the chunk
-};
-
-/// A message's record, for the files to come.
-struct Kept {
-  std::uint16_t channel = 0;
-  std::uint64_t log_ns = 0;
-  std::vector<std::byte> record{};
-};
-
-struct Channel {
-  std::uint16_t schema = 0;
-  std::string topic, encoding;
-  Pairs metadata;
-  bool begun = false, stored = false;
-  std::uint64_t messages = 0;  // in the file
-  std::vector<Entry> index{};  // of the open chunk
-  Kept last{};                 // of those without a name
-
-  void write(Bytes& out, std::uint16_t id) const {
-    out.record(mcap::channel,
-               [&] { out.number(id).number(schema).text(topic).text(encoding).pairs(metadata); });
-  }
-};
-
-struct Span {
-  std::uint64_t first = std::numeric_limits<std::uint64_t>::max(), last = 0;
-  void add(std::uint64_t ns) {
-    first = std::min(first, ns);
-    last = std::max(last, ns);
-  }
-};
+using mcap::Bytes, mcap::Channel, mcap::Entry, mcap::Kept, mcap::Schema, mcap::Span;
 
 struct ZstdFree {
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
@@ -85,14 +43,8 @@ struct McapWriter::Impl {
   std::uint64_t chunk_messages = 0;
   Span chunk_span;
 
-  Bytes block;  // what goes to the file in one piece
-  struct Counts {
-    Bytes chunk_indexes, attachment_indexes, metadata_indexes;
-    std::uint32_t chunks = 0, attachments = 0, metadata_records = 0;
-    std::uint64_t messages = 0, repeated = 0, largest_chunk = 0;
-    Span span;
-  };
-  Counts file;                          // of the open file
+  Bytes block;                          // what goes to the file in one piece
+  mcap::Totals file;                    // of the open file
   std::uint64_t begin_ns = 0;           // the log time at which it was begun
   Bytes extras;                         // records of attachments and metadata, for the files to come
   std::map<std::string, Kept> lasting;  // by name
@@ -154,7 +106,8 @@ struct McapWriter::Impl {
   /// take it for a whole log.
   void end_file() {
     if (!broken()) {
-      summary();
+      block.clear();
+      mcap::write_summary(block, *out, schemas, channels, file);
       if (out->append(block.data(), block.size())) out->finish();
     }
     std::filesystem::path place = out->name();
@@ -355,67 +308,6 @@ struct McapWriter::Impl {
       c.stored = c.begun;
       if (c.begun && c.schema > 0) schemas[c.schema - 1u].stored = true;
     }
-  }
-
-  void statistics(Bytes& to) const {
-    const std::size_t start = to.begin(mcap::statistics);
-    Bytes counts;
-    std::uint16_t schema_count = 0;
-    std::uint32_t channel_count = 0;
-    for (const Schema& s : schemas) schema_count = static_cast<std::uint16_t>(schema_count + s.stored);
-    for (std::size_t id = 0; id < channels.size(); ++id) {
-      if (!channels[id].stored) continue;
-      ++channel_count;
-      counts.number(static_cast<std::uint16_t>(id)).number(channels[id].messages);
-    }
-    to.number(file.messages).number(schema_count).number(channel_count);
-    to.number(file.attachments).number(file.metadata_records).number(file.chunks);
-    to.number(file.messages > 0 ? file.span.first : std::uint64_t{0}).number(file.span.last);
-    to.number(static_cast<std::uint32_t>(counts.size())).append(counts);
-    to.end(start);
-  }
-
-  /// Data end, summary, its offsets and footer, as one block.
-  void summary() {
-    block.clear();
-    block.record(mcap::data_end, [&] { block.number(out->crc()); });
-    const std::size_t summary_start = block.size();
-
-    Bytes offsets;
-    std::size_t group = summary_start;
-    const auto end_group = [&](mcap::Code code) {
-      if (block.size() > group) {
-        offsets.record(mcap::summary_offset, [&] {
-          offsets.number(code).number(out->size() + group).number(std::uint64_t{block.size() - group});
-        });
-      }
-      group = block.size();
-    };
-    for (std::size_t i = 0; i < schemas.size(); ++i) {
-      if (schemas[i].stored) schemas[i].write(block, static_cast<std::uint16_t>(i + 1));
-    }
-    end_group(mcap::schema);
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      if (channels[i].stored) channels[i].write(block, static_cast<std::uint16_t>(i));
-    }
-    end_group(mcap::channel);
-    statistics(block);
-    end_group(mcap::statistics);
-    block.append(file.chunk_indexes);
-    end_group(mcap::chunk_index);
-    block.append(file.attachment_indexes);
-    end_group(mcap::attachment_index);
-    block.append(file.metadata_indexes);
-    end_group(mcap::metadata_index);
-    const std::size_t offset_start = block.size();
-    block.append(offsets);
-
-    const std::size_t start = block.begin(mcap::footer);
-    block.number(std::uint64_t{out->size() + summary_start})
-        .number(std::uint64_t{out->size() + offset_start});
-    block.patch(start - 8, std::uint64_t{20});  // the sum covers the footer up to itself, its length too
-    block.number(mcap::crc_of(0, {block.data() + summary_start, block.size() - summary_start}));
-    block.raw(mcap::magic.data(), mcap::magic.size());
   }
 };
 

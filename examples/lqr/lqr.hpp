@@ -123,7 +123,8 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     const Eigen::Matrix<double, X::m, X::m> R = u.cwiseAbs2().cwiseInverse().asDiagonal();
     Eigen::Matrix<double, X::n, X::n> solution;
     if (!riccati<X::n, X::m>(plant_.A, plant_.B, Q, R, solution)) return false;
-    K_ = u.cwiseAbs2().asDiagonal() * plant_.B.transpose() * solution;
+    const Gain weighed = u.cwiseAbs2().asDiagonal() * plant_.B.transpose();
+    K_ = times(weighed, solution);
     integral_limits_ = 0.5 * x.tail<3>();
     return true;
   }

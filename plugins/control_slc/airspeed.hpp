@@ -35,6 +35,8 @@ struct Airspeed {
     Param command_filter{0.2, "s", 0.005, 5, "time constant of the differentiated airspeed command"};
     Param thrust{50.0, "N", 1, 10000, "force per unit of throttle near cruise"};
     Param throttle_rate_limit{2.0, "1/s", 0.1, 100, "fastest change of the throttle"};
+    // A rate, where Inner fades: an exponential would begin as fast as the difference is large, and no inner
+    // loop follows an attitude that turns so fast. The outer laws have these rates for every command.
     Param take_over_rate{0.5, "rad/s", 0.05, 6,
                          "at which roll and pitch go from what was flown before to what is wanted"};
     Record<Airframe> airframe{"mass, trims, limits, and the drag that is fed forward"};

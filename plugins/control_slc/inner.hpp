@@ -259,7 +259,8 @@ struct Inner {
   }
 
   /// What the integrals do not take up of a hand-over fades: the rudder, the throttle, and what is beyond
-  /// their bounds.
+  /// their bounds. As an exponential, not at a rate as in Airspeed and the outer laws: what is left is known
+  /// only once this law has stepped, most of it is gone at once, and no surface is too fast for its servo.
   void fade(const Params& p, bool flying, double dt, Actuators& u) {
     constexpr double within_s = 0.5, forgotten = 1e-6;
     if (take_up_) fading_ = true;

@@ -55,6 +55,69 @@ struct Monitor {
     SafetyState safety;
     OutQueue<Notice, 12> notices;
   };
+  // The parameters by cause. In a mission they stand side by side, without the groups.
+  struct FenceLimits {
+    Param fence_margin{15, "m", 0, 1000, "that the turn back leaves to the fence"};
+    Param fence_clear{30, "m", 0, 1000, "more than that, for the fence to be forgotten"};
+    Param fence_reaction{1.5, "s", 0, 10, "straight on, until the bank is there"};
+    Param fence_bank_ratio{0.7, "ratio", 0.2, 1, "of the airframe's largest bank, in the turn back"};
+    Param fence_pull{3, "m/s2", 0.5, 20, "of the pull-out at floor and ceiling"};
+    Flag keep_fence{true, "the answer to the fence stays when the aircraft is back inside"};
+  };
+  struct GnssDelays {
+    Param gnss_raise{3, "s", 0, 600, "without a position, until it is lost"};
+    Param gnss_clear{3, "s", 0, 600, "with one, until it is back"};
+    Param wait_time{120, "s", 0, 36000, "circling without a position, until it descends"};
+  };
+  struct PitotDelays {
+    Param pitot_raise{2, "s", 0, 600, "without an airspeed, until it is lost"};
+    Param pitot_clear{5, "s", 0, 600, "with one, until it is back"};
+  };
+  struct RadioDelays {
+    Flag radio_required{false, "the radio is lost also if it was never heard"};
+    Param radio_timeout{1, "s", 0.05, 600, "without a frame, until it is not there"};
+    Param radio_raise{2, "s", 0, 600, "not there, until it is lost"};
+    Param radio_clear{2, "s", 0, 600, "there, until it is back"};
+    Param land_after{120, "s", 0, 36000, "of the answer home, until the aircraft lands"};
+  };
+  struct LinkDelays {
+    Param link_timeout{1, "s", 0.05, 600, "without a status, until the link is lost"};
+    Param link_clear{2, "s", 0, 600, "with one, until it is back"};
+  };
+  struct BatteryLimits {
+    Param battery_low{0.25, "ratio", 0, 1, "of the charge: low"};
+    Param battery_empty{0.1, "ratio", 0, 1, "of the charge: empty"};
+    Param volt_low{0.83, "ratio", 0, 1, "of the full battery's voltage: low, 3.5 V of a 4.2 V cell"};
+    Param volt_empty{0.75, "ratio", 0, 1, "of the full battery's voltage: empty"};
+    Param battery_raise{3, "s", 0, 600, "below, until it is said: a climb makes the voltage sag"};
+    Param battery_clear{30, "s", 0, 600, "above it by a tenth, until it is taken back"};
+  };
+  struct AttitudeLimits {
+    Param roll_limit{1.13, "rad", 0.2, 3.2, "of an attitude that is excessive"};
+    Param pitch_limit{0.7, "rad", 0.2, 1.6, "of an attitude that is excessive, either way"};
+    Param attitude_raise{0.3, "s", 0, 10, "beyond, until it is said"};
+    Param attitude_clear{1, "s", 0, 60, "below two thirds of it, until it is taken back"};
+  };
+  struct EngineLimits {
+    Param engine_share{0.25, "ratio", -2, 1, "of the thrust that the model expects: less has failed"};
+    Param engine_thrust{0.05, "ratio", 0, 2, "of the weight: less thrust than that says nothing"};
+    Param engine_missing{0.1, "ratio", 0, 2, "of the weight: less thrust that is missing is sinking air"};
+    Param engine_smoothing{1, "s", 0.05, 20, "time constant of thrust and drag"};
+    Param engine_raise{2, "s", 0, 600, "of a force that brakes, until it is said; of none, twice as long"};
+    Param engine_clear{5, "s", 0, 600, "of more than twice as much, until it is taken back"};
+  };
+  struct WindLimits {
+    Param wind_limit{0.6, "ratio", 0, 5,
+                     "wind over cruise airspeed that is excessive: about the stalling speed, on the ground "
+                     "nothing holds it then"};
+    Param wind_smoothing{5, "s", 0.1, 600, "time constant of the wind"};
+    Param wind_raise{10, "s", 0, 600, "above, until it is said"};
+    Param wind_clear{30, "s", 0, 600, "below nine tenths of it, until it is taken back"};
+  };
+  struct EstimatorDelays {
+    Param estimator_raise{1, "s", 0, 60, "not valid, until it is said"};
+    Param estimator_clear{2, "s", 0, 60, "valid, until it is taken back"};
+  };
   struct Params {
     Record<Airframe> airframe{"thrust, drag, limits", required};
     Record<Origin> origin{"of the local frame, for lat and lon"};
@@ -64,53 +127,16 @@ struct Monitor {
 
     Param airborne_raise{1.5, "s", 0, 60, "off the ground, until it flies: a landing may bounce"};
 
-    Param fence_margin{15, "m", 0, 1000, "that the turn back leaves to the fence"};
-    Param fence_clear{30, "m", 0, 1000, "more than that, for the fence to be forgotten"};
-    Param fence_reaction{1.5, "s", 0, 10, "straight on, until the bank is there"};
-    Param fence_bank_ratio{0.7, "ratio", 0.2, 1, "of the airframe's largest bank, in the turn back"};
-    Param fence_pull{3, "m/s2", 0.5, 20, "of the pull-out at floor and ceiling"};
-    Flag keep_fence{true, "the answer to the fence stays when the aircraft is back inside"};
-
-    Param gnss_raise{3, "s", 0, 600, "without a position, until it is lost"};
-    Param gnss_clear{3, "s", 0, 600, "with one, until it is back"};
-    Param wait_time{120, "s", 0, 36000, "circling without a position, until it descends"};
-    Param pitot_raise{2, "s", 0, 600, "without an airspeed, until it is lost"};
-    Param pitot_clear{5, "s", 0, 600, "with one, until it is back"};
-    Flag radio_required{false, "the radio is lost also if it was never heard"};
-    Param radio_timeout{1, "s", 0.05, 600, "without a frame, until it is not there"};
-    Param radio_raise{2, "s", 0, 600, "not there, until it is lost"};
-    Param radio_clear{2, "s", 0, 600, "there, until it is back"};
-    Param land_after{120, "s", 0, 36000, "of the answer home, until the aircraft lands"};
-    Param link_timeout{1, "s", 0.05, 600, "without a status, until the link is lost"};
-    Param link_clear{2, "s", 0, 600, "with one, until it is back"};
-
-    Param battery_low{0.25, "ratio", 0, 1, "of the charge: low"};
-    Param battery_empty{0.1, "ratio", 0, 1, "of the charge: empty"};
-    Param volt_low{0.83, "ratio", 0, 1, "of the full battery's voltage: low, 3.5 V of a 4.2 V cell"};
-    Param volt_empty{0.75, "ratio", 0, 1, "of the full battery's voltage: empty"};
-    Param battery_raise{3, "s", 0, 600, "below, until it is said: a climb makes the voltage sag"};
-    Param battery_clear{30, "s", 0, 600, "above it by a tenth, until it is taken back"};
-
-    Param roll_limit{1.13, "rad", 0.2, 3.2, "of an attitude that is excessive"};
-    Param pitch_limit{0.7, "rad", 0.2, 1.6, "of an attitude that is excessive, either way"};
-    Param attitude_raise{0.3, "s", 0, 10, "beyond, until it is said"};
-    Param attitude_clear{1, "s", 0, 60, "below two thirds of it, until it is taken back"};
-
-    Param engine_share{0.25, "ratio", -2, 1, "of the thrust that the model expects: less has failed"};
-    Param engine_thrust{0.05, "ratio", 0, 2, "of the weight: less thrust than that says nothing"};
-    Param engine_missing{0.1, "ratio", 0, 2, "of the weight: less thrust that is missing is sinking air"};
-    Param engine_smoothing{1, "s", 0.05, 20, "time constant of thrust and drag"};
-    Param engine_raise{2, "s", 0, 600, "of a force that brakes, until it is said; of none, twice as long"};
-    Param engine_clear{5, "s", 0, 600, "of more than twice as much, until it is taken back"};
-
-    Param wind_limit{0.6, "ratio", 0, 5,
-                     "wind over cruise airspeed that is excessive: about the stalling speed, on the ground "
-                     "nothing holds it then"};
-    Param wind_smoothing{5, "s", 0.1, 600, "time constant of the wind"};
-    Param wind_raise{10, "s", 0, 600, "above, until it is said"};
-    Param wind_clear{30, "s", 0, 600, "below nine tenths of it, until it is taken back"};
-    Param estimator_raise{1, "s", 0, 60, "not valid, until it is said"};
-    Param estimator_clear{2, "s", 0, 60, "valid, until it is taken back"};
+    FenceLimits fencing;
+    GnssDelays gnss;
+    PitotDelays pitot;
+    RadioDelays radio;
+    LinkDelays link;
+    BatteryLimits battery;
+    AttitudeLimits attitude;
+    EngineLimits engine;
+    WindLimits wind;
+    EstimatorDelays estimator;
   };
 
   void configure(const Params& p);
@@ -156,13 +182,14 @@ inline void Monitor::configure(const Params& p) {
     polygon_.set(*p.fence, *p.origin);
     floor_m_ = now_.floor_m = p.fence->floor_m, ceiling_m_ = now_.ceiling_m = p.fence->ceiling_m;
     const double room = polygon_.room_m(places_[0].north_m, places_[0].east_m);
-    if (room < p.fence_margin)
+    if (room < p.fencing.fence_margin)
       throw std::runtime_error("fence.corners: home, " + std::to_string(std::lround(places_[0].north_m)) +
                                " m north, " + std::to_string(std::lround(places_[0].east_m)) +
                                (room < 0 ? " m east, lies outside of the fence"
                                          : " m east, lies nearer to the fence than fence_margin"));
   }
-  if (p.battery_empty > p.battery_low || p.volt_empty > p.volt_low)
+  const BatteryLimits& b = p.battery;
+  if (b.battery_empty > b.battery_low || b.volt_empty > b.volt_low)
     throw std::runtime_error("battery_empty, volt_empty: above battery_low, volt_low");
 }
 
@@ -208,6 +235,7 @@ inline Status Monitor::step(const Tick& tick, const Inputs& in, const Params& p,
 }
 
 inline void Monitor::fence(const VehicleState& s, const Params& p, double dt) {
+  const FenceLimits& f = p.fencing;
   now_.fence_margin_m = now_.height_margin_m = not_given;
   now_.turn = SafetyTurn::either;
   if (!polygon_.given()) return;
@@ -217,26 +245,26 @@ inline void Monitor::fence(const VehicleState& s, const Params& p, double dt) {
     t.north_m = s.position_m.north, t.east_m = s.position_m.east;
     t.v_north_mps = s.velocity_mps.north, t.v_east_mps = s.velocity_mps.east;
     if (s.wind_valid) t.w_north_mps = s.wind_mps.north, t.w_east_mps = s.wind_mps.east;
-    t.roll_rad = p.fence_bank_ratio * p.airframe->limits.roll_max_rad;
-    t.reaction_s = p.fence_reaction;
-    const WayBack way = way_back(polygon_, t, places_[0], p.fence_margin + p.fence_clear);
+    t.roll_rad = f.fence_bank_ratio * p.airframe->limits.roll_max_rad;
+    t.reaction_s = f.fence_reaction;
+    const WayBack way = way_back(polygon_, t, places_[0], f.fence_margin + f.fence_clear);
     now_.fence_margin_m = way.room_m;
     // Where the course to home is about behind, the short way is soon the other one.
-    now_.turn = way.room_m > p.fence_margin + p.fence_clear ? SafetyTurn::either
+    now_.turn = way.room_m > f.fence_margin + f.fence_clear ? SafetyTurn::either
                 : way.side > 0                              ? SafetyTurn::right
                                                             : SafetyTurn::left;
   }
   if (s.height_valid) {
-    above_floor_ = above_floor_ || s.height_m > floor_m_ + p.fence_margin;
+    above_floor_ = above_floor_ || s.height_m > floor_m_ + f.fence_margin;
     const double floor = above_floor_ && !p.landing ? floor_m_ : -not_given;
     now_.height_margin_m = room_of_height(s.height_m, s.velocity_valid ? s.climb_rate_mps : 0, floor,
-                                          ceiling_m_, p.fence_pull, p.fence_reaction);
+                                          ceiling_m_, f.fence_pull, f.fence_reaction);
   }
   if (!known && !s.height_valid) return;
   // Height turns sooner than the track: a part of the margin will do, and no wind carries it out.
   const double height = now_.height_margin_m, level = now_.fence_margin_m;
-  const bool bad = level < p.fence_margin || height < 0;
-  const bool good = level > p.fence_margin + p.fence_clear && height > 0.2 * p.fence_clear;
+  const bool bad = level < f.fence_margin || height < 0;
+  const bool good = level > f.fence_margin + f.fence_clear && height > 0.2 * f.fence_clear;
   if (alarms_.attitude.raised()) return;  // its velocity is not that of a turn back
   alarms_.fence.step(bad, good, 0, 2, dt);
 }
@@ -248,37 +276,42 @@ inline void Monitor::sensors(const Tick&, const Inputs& in, const Params& p, dou
   };
   const bool healthy = !in.health || in.health.stale() || !gone(in.health->gnss_position);
   position_heard_ = position_heard_ || s.position_valid;
-  alarms_.gnss.step(position_heard_ && !(s.position_valid && healthy), p.gnss_raise, p.gnss_clear, dt);
+  alarms_.gnss.step(position_heard_ && !(s.position_valid && healthy), p.gnss.gnss_raise, p.gnss.gnss_clear,
+                    dt);
   now_.waiting_s = alarms_.gnss.raised() && now_.airborne ? now_.waiting_s + dt : 0;
 
   const bool tube = !in.health || in.health.stale() || in.health->pitot.state == SensorState::ok ||
                     in.health->pitot.state == SensorState::noisy;
   const bool measured = s.airspeed_valid && tube;
   airspeed_heard_ = airspeed_heard_ || (measured && now_.airborne);
-  alarms_.pitot.step(airspeed_heard_ && !measured, p.pitot_raise, p.pitot_clear, dt);
+  alarms_.pitot.step(airspeed_heard_ && !measured, p.pitot.pitot_raise, p.pitot.pitot_clear, dt);
 
   const bool valid = s.attitude_valid && s.height_valid && (s.velocity_valid || alarms_.gnss.raised());
-  alarms_.estimator.step(now_.airborne && !valid, p.estimator_raise, p.estimator_clear, dt);
+  alarms_.estimator.step(now_.airborne && !valid, p.estimator.estimator_raise, p.estimator.estimator_clear,
+                         dt);
+  const AttitudeLimits& a = p.attitude;
   const double roll = std::abs(s.roll_rad), pitch = std::abs(s.pitch_rad);
   if (s.attitude_valid)
-    alarms_.attitude.step(roll > p.roll_limit || pitch > p.pitch_limit,
-                          roll < 0.67 * p.roll_limit && pitch < 0.67 * p.pitch_limit, p.attitude_raise,
-                          p.attitude_clear, dt);
+    alarms_.attitude.step(roll > a.roll_limit || pitch > a.pitch_limit,
+                          roll < 0.67 * a.roll_limit && pitch < 0.67 * a.pitch_limit, a.attitude_raise,
+                          a.attitude_clear, dt);
 }
 
 inline void Monitor::radio_and_link(const Tick& tick, const Inputs& in, const Params& p, double dt) {
+  const RadioDelays& r = p.radio;
   double age = not_given;
   if (in.rc && in.rc->link) age = 1e-9 * static_cast<double>(tick.now_ns - in.rc.valid_at_ns());
   if (in.status) age = std::min(age, in.status->rc_age_s);
-  const bool there = age < p.radio_timeout;
+  const bool there = age < r.radio_timeout;
   radio_heard_ = radio_heard_ || there;
-  alarms_.radio.step((radio_heard_ || p.radio_required) && !there, there, p.radio_raise, p.radio_clear, dt);
+  alarms_.radio.step((radio_heard_ || r.radio_required) && !there, there, r.radio_raise, r.radio_clear, dt);
 
   const double silent = in.status ? 1e-9 * static_cast<double>(tick.now_ns - in.status.valid_at_ns()) : 0;
-  alarms_.link.step(silent > p.link_timeout, 0, p.link_clear, dt);
+  alarms_.link.step(silent > p.link.link_timeout, 0, p.link.link_clear, dt);
 }
 
 inline void Monitor::battery(const Inputs& in, const Params& p, double dt) {
+  const BatteryLimits& b = p.battery;
   if (!in.status) return;
   const double full = p.airframe->propulsion.battery_volt;
   const double volt = in.status->battery_volt > there_volt || alarms_.low.raised()
@@ -287,16 +320,17 @@ inline void Monitor::battery(const Inputs& in, const Params& p, double dt) {
   const double charge = in.status->battery_frac;
   const auto below = [&](double share, double of_volt) { return charge < share || volt < of_volt; };
   const auto watch = [&](Alarm& a, double share, double of_volt) {
-    a.step(below(share, of_volt), !below(share + 0.1, of_volt + 0.1), p.battery_raise, p.battery_clear, dt);
+    a.step(below(share, of_volt), !below(share + 0.1, of_volt + 0.1), b.battery_raise, b.battery_clear, dt);
   };
-  watch(alarms_.low, p.battery_low, p.volt_low);
-  watch(alarms_.empty, p.battery_empty, p.volt_empty);
+  watch(alarms_.low, b.battery_low, b.volt_low);
+  watch(alarms_.empty, b.battery_empty, b.volt_empty);
 }
 
 /// Force along the flight path from the rate of energy, m (g hdot / Va + Vdot), plus drag, over the thrust
 /// that the model has for this throttle. Lambregts (1983) has the rate, Beard & McLain, chapter 4, thrust and
 /// drag.
 inline void Monitor::motor(const Inputs& in, const Params& p, double dt) {
+  const EngineLimits& e = p.engine;
   const VehicleState& s = *in.state;
   if (!in.actuators || !s.attitude_valid || !s.velocity_valid) return;
   const Airframe& a = *p.airframe;
@@ -314,31 +348,32 @@ inline void Monitor::motor(const Inputs& in, const Params& p, double dt) {
                           ? std::min(in.status->battery_volt / full, 1.0)
                           : 1;  // the throttle is a share of what the battery has
   const double expected = thrust_of(a, volt * std::clamp(in.actuators->throttle_frac, 0.0, 1.0), Va, rho);
-  const double share = 1 - std::exp(-dt / p.engine_smoothing);
+  const double share = 1 - std::exp(-dt / e.engine_smoothing);
   thrust_found_ += share * (found - thrust_found_);
   thrust_expected_ += share * (expected - thrust_expected_);
-  const bool demanded = std::min(thrust_expected_, expected) > p.engine_thrust * mg;
+  const bool demanded = std::min(thrust_expected_, expected) > e.engine_thrust * mg;
   now_.thrust_ratio = demanded ? thrust_found_ / thrust_expected_ : 1;
   // Brakes as a stopped propeller does: counts whole. No thrust: by half. Sinking air does that for a while.
   constexpr double sure_ratio = 0.5;
   const double weight =
-      alarms_.engine.raised() ? 1 : std::clamp((p.engine_share - now_.thrust_ratio) / sure_ratio, 0.0, 1.0);
-  const bool missing = thrust_expected_ - thrust_found_ > p.engine_missing * mg;
-  alarms_.engine.step(demanded && missing && now_.thrust_ratio < p.engine_share,
-                      demanded && now_.thrust_ratio > 2 * std::max<double>(p.engine_share, 0.1),
-                      p.engine_raise, p.engine_clear, weight * dt);
+      alarms_.engine.raised() ? 1 : std::clamp((e.engine_share - now_.thrust_ratio) / sure_ratio, 0.0, 1.0);
+  const bool missing = thrust_expected_ - thrust_found_ > e.engine_missing * mg;
+  alarms_.engine.step(demanded && missing && now_.thrust_ratio < e.engine_share,
+                      demanded && now_.thrust_ratio > 2 * std::max<double>(e.engine_share, 0.1),
+                      e.engine_raise, e.engine_clear, weight * dt);
 }
 
 inline void Monitor::wind(const VehicleState& s, const Params& p, double dt) {
+  const WindLimits& w = p.wind;
   if (s.wind_valid) {
-    const double share = wind_known_ ? 1 - std::exp(-dt / p.wind_smoothing) : 1;
+    const double share = wind_known_ ? 1 - std::exp(-dt / w.wind_smoothing) : 1;
     wind_ = wind_ + share * (s.wind_mps - wind_);
     wind_known_ = true;
     now_.wind_ratio = std::hypot(wind_.north, wind_.east) / p.airframe->limits.airspeed_cruise_mps;
   }
   const bool known = s.wind_valid && now_.airborne;
-  alarms_.wind.step(known && now_.wind_ratio > p.wind_limit, known && now_.wind_ratio < 0.9 * p.wind_limit,
-                    p.wind_raise, p.wind_clear, dt);
+  alarms_.wind.step(known && now_.wind_ratio > w.wind_limit, known && now_.wind_ratio < 0.9 * w.wind_limit,
+                    w.wind_raise, w.wind_clear, dt);
 }
 
 inline SafetyAnswer Monitor::answer(const Params& p, double dt) {
@@ -346,13 +381,13 @@ inline SafetyAnswer Monitor::answer(const Params& p, double dt) {
   if (now_.engine_failed || now_.battery_empty) return SafetyAnswer::glide;
   if (now_.attitude_excessive || now_.estimator_failed) return SafetyAnswer::level;
   if (now_.gnss_lost)
-    return now_.waiting_s > p.wait_time || now_.battery_low ? SafetyAnswer::descend : SafetyAnswer::wait;
-  kept_fence_ = p.keep_fence && (kept_fence_ || now_.fence);
+    return now_.waiting_s > p.gnss.wait_time || now_.battery_low ? SafetyAnswer::descend : SafetyAnswer::wait;
+  kept_fence_ = p.fencing.keep_fence && (kept_fence_ || now_.fence);
   const bool returns = now_.radio_lost || now_.link_lost || now_.fence || kept_fence_;
   now_.returning_s = returns ? now_.returning_s + dt : 0;
   if (now_.battery_low || now_.pitot_lost || now_.wind_excessive) return SafetyAnswer::land;
   if (!returns) return SafetyAnswer::none;
-  return now_.returning_s > p.land_after ? SafetyAnswer::land : SafetyAnswer::home;
+  return now_.returning_s > p.radio.land_after ? SafetyAnswer::land : SafetyAnswer::home;
 }
 
 /// One line for each cause that came or went.

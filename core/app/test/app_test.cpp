@@ -89,6 +89,11 @@ TEST_CASE("wrong usage exits 2") {
   for (const char* duration : {"1e300", "nan", "-5", "0", "5x"})
     CHECK(fulmar("run " + hourglass + " --duration=" + duration).code == 2);
   CHECK(fulmar("run " + hourglass + " --seed=-1").code == 2);
+  for (const char* words : {"run m.yaml --log ''", "replay a.mcap --log ''"}) {
+    const Result r = fulmar(words);
+    CHECK(r.code == 2);
+    CHECK(r.err.starts_with("--log: '' names no file; without the option "));
+  }
   CHECK(fulmar("run " + hourglass + " --speed 0x10").code == 2);
   CHECK(fulmar("--help").code == 0);
   CHECK(fulmar("run --help").code == 0);

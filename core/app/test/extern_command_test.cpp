@@ -3,10 +3,8 @@
 // words, named when they are missing.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,7 +12,10 @@
 #include <sstream>
 #include <string>
 
+#include "sdk/test/said.hpp"
+
 namespace fs = std::filesystem;
+using namespace fulmar::test;
 
 namespace {
 
@@ -31,21 +32,9 @@ struct Home {
     std::ofstream(folder / name) << text;
     chmod((folder / name).c_str(), executable ? 0755 : 0644);
   }
-  struct Result {
-    int code = -1;
-    std::string text;  // of both outputs
-  };
-  Result fulmar(const std::string& arguments) const {
-    Result r;
-    const std::string command = "cd " + folder.string() + " && PATH=" + (folder / "path").string() +
-                                ":path:$PATH bin/fulmar " + arguments + " 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    REQUIRE(pipe != nullptr);
-    char buffer[4096];
-    for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) r.text.append(buffer, n);
-    const int status = pclose(pipe);
-    r.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return r;
+  Said fulmar(const std::string& arguments) const {
+    return shell("cd " + folder.string() + " && PATH=" + (folder / "path").string() +
+                 ":path:$PATH bin/fulmar " + arguments + " 2>&1");
   }
 };
 
@@ -54,8 +43,6 @@ std::string teller(const std::string& name, int code) {
   return "#!/bin/sh\necho " + name + "\nfor word in \"$@\"; do echo \"[$word]\"; done\nexit " +
          std::to_string(code) + "\n";
 }
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
@@ -66,25 +53,25 @@ TEST_CASE(
   home.program("bin/fulmar-tell", teller("beside", 7));
   home.program("path/fulmar-tell", teller("path", 8));
   home.program("path/fulmar-far", teller("path", 9));
-  const Home::Result beside = home.fulmar("tell --json 'two words' '' -x=1");
-  CHECK(beside.text == "beside\n[--json]\n[two words]\n[]\n[-x=1]\n");
+  const Said beside = home.fulmar("tell --json 'two words' '' -x=1");
+  CHECK(beside.out == "beside\n[--json]\n[two words]\n[]\n[-x=1]\n");
   CHECK(beside.code == 7);
-  const Home::Result far = home.fulmar("far");
-  CHECK(far.text == "path\n");
+  const Said far = home.fulmar("far");
+  CHECK(far.out == "path\n");
   CHECK(far.code == 9);
 }
 
 TEST_CASE("help lists the programs beside the host") {
   const Home home;
-  CHECK_FALSE(holds(home.fulmar("--help").text, "Programs beside"));
+  CHECK_FALSE(holds(home.fulmar("--help").out, "Programs beside"));
   home.program("bin/fulmar-zeta", teller("zeta", 0));
   home.program("bin/fulmar-aero", teller("aero", 0));
   home.program("bin/fulmar-notes.txt", "text");
   home.program("bin/fulmar-idle", teller("idle", 0), false);
   home.program("bin/fulmar-child", teller("child", 0));
-  const Home::Result help = home.fulmar("--help");
+  const Said help = home.fulmar("--help");
   CHECK(help.code == 0);
-  CHECK(holds(help.text, "Programs beside this one: aero, zeta (fulmar aero --help)"));
+  CHECK(holds(help.out, "Programs beside this one: aero, zeta (fulmar aero --help)"));
 }
 
 TEST_CASE("a command that exists nowhere is told with what there is, and a built-in one is not replaced") {
@@ -94,17 +81,17 @@ TEST_CASE("a command that exists nowhere is told with what there is, and a built
   home.program("bin/fulmar-idle", teller("idle", 0), false);
   home.program("bin/fulmar-probe", teller("probe", 0));
   home.program("other", teller("other", 0));
-  const Home::Result missing = home.fulmar("areo");
+  const Said missing = home.fulmar("areo");
   CHECK(missing.code == 2);
-  CHECK(holds(missing.text,
+  CHECK(holds(missing.out,
               "there is no command 'areo'. Did you mean 'aero'? Valid: run, check, graph, inspect, new, "));
-  CHECK(holds(missing.text, ", aero"));
-  CHECK_FALSE(holds(home.fulmar("check none.yaml").text, "\ncheck"));
+  CHECK(holds(missing.out, ", aero"));
+  CHECK_FALSE(holds(home.fulmar("check none.yaml").out, "\ncheck"));
   for (const char* word : {"idle", "probe", "/../other", "../other", "''"}) {
     CAPTURE(word);
-    const Home::Result r = home.fulmar(word);
+    const Said r = home.fulmar(word);
     CHECK(r.code == 2);
-    CHECK(holds(r.text, "there is no command '"));
+    CHECK(holds(r.out, "there is no command '"));
   }
 }
 
@@ -113,24 +100,24 @@ TEST_CASE("what is wrong with the command line is told without what a terminal o
   for (const char* const word : {"a\\033[2J", "a\\302\\2332J"})
     for (const char* const before : {"", "run --", "check x ", "check x --set ", "completion "}) {
       const std::string words = before + ("\"$(printf 'WORD')\"" + std::string());
-      const Home::Result r = home.fulmar(std::string(words).replace(words.find("WORD"), 4, word));
-      CAPTURE(r.text);
+      const Said r = home.fulmar(std::string(words).replace(words.find("WORD"), 4, word));
+      CAPTURE(r.out);
       CHECK(r.code != 0);
-      CHECK(r.text.find('\x1b') == std::string::npos);
-      CHECK(r.text.find("\xc2\x9b") == std::string::npos);
+      CHECK(r.out.find('\x1b') == std::string::npos);
+      CHECK(r.out.find("\xc2\x9b") == std::string::npos);
     }
 }
 
 TEST_CASE("a program of ours that was not built is told with how to build it") {
   const Home home;
   for (const std::string word : {"fcu", "ros2"}) {
-    const Home::Result missing = home.fulmar(word + " status");
+    const Said missing = home.fulmar(word + " status");
     CHECK(missing.code == 2);
-    CHECK(holds(missing.text,
+    CHECK(holds(missing.out,
                 "The program fulmar-" + word +
                     " is not there: ./fly leaves it out, `cmake --build build --target tools` makes it."));
   }
-  CHECK_FALSE(holds(home.fulmar("fca").text, "is not there"));
+  CHECK_FALSE(holds(home.fulmar("fca").out, "is not there"));
 }
 
 TEST_CASE("a word of the host's own whose program is missing beside it is told which one") {
@@ -139,9 +126,9 @@ TEST_CASE("a word of the host's own whose program is missing beside it is told w
       {"graph", "fulmar-inspect"}, {"log", "fulmar-log"}, {"param", "fulmar-live"}, {"new", "fulmar-new"}};
   for (const auto& entry : program_of) {
     CAPTURE(entry.first);
-    const Home::Result r = home.fulmar(entry.first + " --help");
+    const Said r = home.fulmar(entry.first + " --help");
     CHECK(r.code == 4);
-    CHECK(holds(r.text, "fulmar " + entry.first + ": the program " + entry.second + " is missing beside"));
+    CHECK(holds(r.out, "fulmar " + entry.first + ": the program " + entry.second + " is missing beside"));
   }
 }
 
@@ -179,16 +166,16 @@ TEST_CASE("what runs does not depend on the present folder: relative folders of 
   const Home home;
   fs::create_directories(home.folder / "elsewhere" / "path");
   home.program("elsewhere/path/fulmar-near", teller("near", 0));
-  const Home::Result r = home.fulmar("--version >/dev/null; cd elsewhere && ../bin/fulmar near");
+  const Said r = home.fulmar("--version >/dev/null; cd elsewhere && ../bin/fulmar near");
   CHECK(r.code == 2);
-  CHECK(holds(r.text, "there is no command 'near'"));
+  CHECK(holds(r.out, "there is no command 'near'"));
 }
 
 TEST_CASE("a program that cannot be started is named") {
   const Home home;
   home.program("bin/fulmar-broken", "#!/no/such/interpreter\n");
-  const Home::Result r = home.fulmar("broken");
+  const Said r = home.fulmar("broken");
   CHECK(r.code == 4);
-  CHECK(holds(r.text, "fulmar broken: " + (home.folder / "bin" / "fulmar-broken").string() +
-                          " cannot be started: No such file or directory"));
+  CHECK(holds(r.out, "fulmar broken: " + (home.folder / "bin" / "fulmar-broken").string() +
+                         " cannot be started: No such file or directory"));
 }

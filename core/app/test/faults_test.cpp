@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "core/app/test/fault_campaign.hpp"
+#include "core/app/test/unlogged.hpp"
 #include "core/log/reader.hpp"
 #include "core/replay/replay.hpp"
 #include "core/run/allocation.hpp"
@@ -15,28 +16,13 @@ using namespace fulmar::core::failures;
 
 namespace faults_test {
 
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("fulmar-faults-test-" + std::to_string(getpid()));
-  Folder() {
-    fs::create_directories(path);
-    setenv("FULMAR_STORE", (path / "store").c_str(), 1);
-  }
-  ~Folder() { fs::remove_all(path); }
-};
-
-FlightOptions unlogged() {
-  FlightOptions o;
-  o.log = false;
-  return o;
-}
-
 TEST_CASE("the circuit is flown with a barometer, a magnetometer or a rudder that fails") {
-  const Folder folder;
+  const test::OwnStore folder;
   using Named = std::pair<const char*, const char*>;
   for (const Named& n :
        {Named{"nothing", ""}, Named{"baro", "stuck"}, Named{"mag", "jumping"}, Named{"rudder", "lost"}}) {
     CAPTURE(n.first);
-    const After a = fly(failure(n.first, n.second), 1, folder.path, unlogged());
+    const After a = fly(failure(n.first, n.second), 1, folder.path, test::unlogged());
     CHECK(a.flown);
     CHECK(a.plan_m < 15);
     CHECK(a.lowest_m > 60);
@@ -47,12 +33,12 @@ TEST_CASE("the circuit is flown with a barometer, a magnetometer or a rudder tha
 
 TEST_CASE(
     "without motor it glides down, with an elevator hard over it falls: no guard, and no flown circuit") {
-  const Folder folder;
-  const After glide = fly(failure("engine", "off"), 1, folder.path, unlogged());
+  const test::OwnStore folder;
+  const After glide = fly(failure("engine", "off"), 1, folder.path, test::unlogged());
   CHECK(glide.down);
   CHECK_FALSE(glide.flown);
   CHECK(glide.down_s > 10);
-  const After fall = fly(failure("elevator", "hardover_positive"), 1, folder.path, unlogged());
+  const After fall = fly(failure("elevator", "hardover_positive"), 1, folder.path, test::unlogged());
   CHECK(fall.down);
   CHECK(fall.down_s < 8);
   CHECK(fall.down_s < glide.down_s);
@@ -70,11 +56,11 @@ std::string recovers() {
 }
 
 TEST_CASE("a sensor that fails and recovers is believed again: the estimate is back where it was") {
-  const Folder folder;
+  const test::OwnStore folder;
   const fs::path file = folder.path / "recovers.yaml";
   std::ofstream(file) << recovers();
   const Graph graph = load_mission(file.string(), {});
-  Flight flight(graph, unlogged());
+  Flight flight(graph, test::unlogged());
   const Source truth = output_of(graph, "sim", "truth"), state = output_of(graph, "ekf", "state");
   double off_m = 0, after_m = 0;
   bool admitted = false, valid = false;
@@ -108,11 +94,11 @@ std::string looks_at_health() {
 }
 
 TEST_CASE("a mission looks at what the navigation filter makes of a sensor") {
-  const Folder folder;
+  const test::OwnStore folder;
   const fs::path file = folder.path / "looks_at_health.yaml";
   std::ofstream(file) << looks_at_health();
   const Graph graph = load_mission(file.string(), {});
-  Flight flight(graph, unlogged());
+  Flight flight(graph, test::unlogged());
   int failing = 0, told = 0, again = 0;  // ticks at 400 Hz
   while (flight.step()) {
     failing += flight.phase() == "failing";
@@ -139,7 +125,7 @@ std::string scheduled() {
 }
 
 TEST_CASE("a failure comes and goes with the phases, and each log flies again, byte for byte") {
-  const Folder folder;
+  const test::OwnStore folder;
   const fs::path file = folder.path / "scheduled.yaml";
   std::ofstream(file) << scheduled();
   std::vector<std::string> sha;
@@ -172,7 +158,7 @@ TEST_CASE("a failure comes and goes with the phases, and each log flies again, b
 }
 
 TEST_CASE("a failure that is requested in flight is answered, logged behind all other topics, and replayed") {
-  const Folder folder;
+  const test::OwnStore folder;
   Overrides overrides;
   overrides.set = {{"sim.start_height", "70 m"}};
   const Graph graph = load_mission(FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml", overrides);

@@ -3,6 +3,7 @@
 // receiver loses its fix, in virtual time: some of what bench_link_gaps flies.
 #include <doctest/doctest.h>
 
+#include "core/app/test/unlogged.hpp"
 #include "core/app/test/virtual_controller.hpp"
 #include "core/replay/replay.hpp"
 #include "core/run/allocation.hpp"
@@ -13,21 +14,6 @@ namespace fs = std::filesystem;
 
 namespace fcu_gaps_test {
 
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("fulmar-fcu-gaps-" + std::to_string(getpid()));
-  Folder() {
-    fs::create_directories(path);
-    setenv("FULMAR_STORE", (path / "store").c_str(), 1);
-  }
-  ~Folder() { fs::remove_all(path); }
-};
-
-FlightOptions unlogged() {
-  FlightOptions o;
-  o.log = false;
-  return o;
-}
-
 /// Under the sanitizers a flight takes twenty times as long.
 bool quick() { return counts_allocations(); }
 
@@ -35,14 +21,14 @@ void check(const Gap& gap, const fs::path& folder) {
   CAPTURE(gap.length_s);
   CAPTURE(gap.gnss);
   CAPTURE(gap.height_m);
-  const AfterGap a = fly(gap, folder, unlogged());
+  const AfterGap a = fly(gap, folder, test::unlogged());
   CHECK(missed(gap, a) == "");
   CHECK(a.told_blind == (gap.length_s > 0.3));  // the estimator carries on for so long
 }
 
 TEST_CASE(
     "the link is silent in a turn: no command without a valid attitude, the pilot has it, then Fulmar") {
-  const Folder folder;
+  const test::OwnStore folder;
   check({1, false, 30, 1}, folder.path);
   if (!quick()) return;
   check({0.2, true, 30, 2}, folder.path);
@@ -53,17 +39,17 @@ TEST_CASE(
 
 TEST_CASE(
     "the link was silent for more than 2 s, and there is no fix: the pilot keeps the aircraft, and is told") {
-  const Folder folder;
+  const test::OwnStore folder;
   check({5, false, 70, 1}, folder.path);
   if (quick()) check({3, false, 30, 2}, folder.path);
 }
 
 TEST_CASE("no fix in cruise: told, the plan goes on by dead reckoning, and after 120 s a circle is flown") {
-  const Folder folder;
+  const test::OwnStore folder;
   for (const Outage outage : {Outage{100, 1, 500}, Outage{150, 2, 500}}) {
     if (!quick() && outage.length_s > 100) return;
     CAPTURE(outage.length_s);
-    const AfterOutage a = fly(outage, folder.path, unlogged());
+    const AfterOutage a = fly(outage, folder.path, test::unlogged());
     CHECK(missed(outage, a) == "");
     CHECK(a.plan_m < 150);
     CHECK(a.reckoned_m < 3 * a.std_m);
@@ -73,9 +59,9 @@ TEST_CASE("no fix in cruise: told, the plan goes on by dead reckoning, and after
 
 TEST_CASE("no fix in cruise: a circle is flown before 120 s when the stated deviation is reached") {
   if (!quick()) return;
-  const Folder folder;
+  const test::OwnStore folder;
   const Outage outage{90, 1, 15};
-  const AfterOutage a = fly(outage, folder.path, unlogged());
+  const AfterOutage a = fly(outage, folder.path, test::unlogged());
   CHECK(missed(outage, a) == "");
   CHECK(a.circle_s > 20);
   CHECK(a.circle_s < 80);
@@ -86,10 +72,10 @@ double gyro_bias(const Flown& f) { return f.state() ? f.state()->gyro_bias_radps
 TEST_CASE(
     "the inertial unit's calibration moves in cruise: the estimator learns it, and the flight goes on") {
   if (!quick()) return;
-  const Folder folder;
+  const test::OwnStore folder;
   constexpr double moved = 0.01;
   const Graph graph = mission(folder.path, 70, 1, {{"sim.moved_gyro", "[0.01, 0, 0]"}});
-  Flown f(graph, unlogged());
+  Flown f(graph, test::unlogged());
   const auto until = [&f](double t_s) {
     return f.fly_while([t_s](const Row& r) { return r.script_s < t_s; });
   };
@@ -104,7 +90,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a sensor that is not there is told before arming; without a heading no command goes out") {
-  const Folder folder;
+  const test::OwnStore folder;
   struct Missing {
     const char *param, *told;
     bool commands;
@@ -114,7 +100,7 @@ TEST_CASE("a sensor that is not there is told before arming; without a heading n
         Missing{"sim.pitot", "no pitot tube", true}}) {
     CAPTURE(std::string(m.param));
     const Graph graph = mission(folder.path, 70, 1, {{m.param, "no"}, {"sim.arm_at", "1000 s"}});
-    Flown f(graph, unlogged());
+    Flown f(graph, test::unlogged());
     REQUIRE(f.fly_while([](const Row& r) { return r.t_s < 8; }));
     CHECK(f.told_s(m.told, 0) >= 0);
     CHECK((f.row().script_s >= 0) == m.commands);  // the script begins with the first command
@@ -140,7 +126,7 @@ FlightResult trouble(const fs::path& folder, const fs::path& log, double until_s
 }
 
 TEST_CASE("a flight with a gap, without a fix and with a pilot is the same again, and its log replays") {
-  const Folder folder;
+  const test::OwnStore folder;
   const fs::path first = folder.path / "1.mcap", second = folder.path / "2.mcap";
   const FlightResult result = trouble(folder.path, first, 55);
   CHECK(result.guards.empty());

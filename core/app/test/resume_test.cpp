@@ -4,12 +4,10 @@
 #include "core/run/resume.hpp"
 
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +17,7 @@
 
 #include "core/log/reader.hpp"
 #include "core/run/flight.hpp"
+#include "sdk/test/said.hpp"
 
 using namespace fulmar::core;
 namespace fs = std::filesystem;
@@ -68,15 +67,7 @@ double field(const Graph& graph, const Flight& flight, const std::string& compon
   return message ? number_at(*ref.field, message + ref.offset) : -1;
 }
 
-std::pair<int, std::string> shell(const std::string& command) {
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::string out;
-  char buffer[4096];
-  for (std::size_t n = 0; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) out.append(buffer, n);
-  const int status = pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out};
-}
+fulmar::test::Said shell(const std::string& command) { return fulmar::test::shell(command + " 2>&1"); }
 
 }  // namespace
 
@@ -194,7 +185,7 @@ TEST_CASE(
                     run = FULMAR_BIN_DIR "/fulmar run turn.yaml ";
   const std::string killed =
       "while kill -0 $! && [ ! -e a-4.mcap.part ]; do sleep 0.02; done; kill -9 $!; wait $!";
-  CHECK(shell(here + "(" + run + "--speed 20 & " + killed + ")").first == 137);
+  CHECK(shell(here + "(" + run + "--speed 20 & " + killed + ")").code == 137);
   CHECK(fs::exists(folder.path / "a.mcap"));
   CHECK(fs::exists(folder.path / "a-2.mcap"));
   const auto [code, out] = shell(here + run + "--no-log --duration 1 --resume");
@@ -202,12 +193,12 @@ TEST_CASE(
   CHECK(out.find("resumes from ./a-") != std::string::npos);
   CHECK(out.find("resumed: phase cruise, manage.first_item = ") != std::string::npos);
   const auto later = shell(here + FULMAR_BIN_DIR "/fulmar replay a-2.mcap");
-  CHECK(later.first == 4);
-  CHECK(later.second.find("a-2.mcap: it is file 2 of a log that rotated, and a replay begins with the first "
-                          "tick: give a.mcap, ") == 0);
+  CHECK(later.code == 4);
+  CHECK(later.out.find("a-2.mcap: it is file 2 of a log that rotated, and a replay begins with the first "
+                       "tick: give a.mcap, ") == 0);
   const auto first = shell(here + FULMAR_BIN_DIR "/fulmar replay a.mcap");
-  CHECK(first.first == 0);
-  CHECK(first.second.find("\nequal: ") != std::string::npos);
+  CHECK(first.code == 0);
+  CHECK(first.out.find("\nequal: ") != std::string::npos);
 }
 
 TEST_CASE(
@@ -216,10 +207,10 @@ TEST_CASE(
   const std::string here = "cd " + folder.path.string() + " && ",
                     run = FULMAR_BIN_DIR "/fulmar run " + hourglass;
   const auto none = shell(here + run + " --no-log --resume");
-  CHECK(none.first == 4);
-  CHECK(none.second ==
+  CHECK(none.code == 4);
+  CHECK(none.out ==
         "--resume: there is no log of the mission hourglass; name one, as in --resume FILE.mcap\n");
-  CHECK(shell(here + run + " --duration 20").first == 0);
+  CHECK(shell(here + run + " --duration 20").code == 0);
   for (const std::string log : {"", " logs/hourglass-*.mcap"}) {
     const auto [code, out] = shell(here + run + " --no-log --duration 1 --resume" + log);
     CHECK(code == 0);
@@ -230,8 +221,8 @@ TEST_CASE(
   }
   const auto plain =
       shell(here + run + " --no-log --duration 1");  // simulation begins at the beginning unless asked
-  CHECK(plain.second.find("resume") == std::string::npos);
+  CHECK(plain.out.find("resume") == std::string::npos);
   const auto other = shell(here + run + " --no-log --resume " + hourglass);
-  CHECK(other.first == 4);
-  CHECK(other.second.find("hourglass.yaml: ") == hourglass.size() - 14);
+  CHECK(other.code == 4);
+  CHECK(other.out.find("hourglass.yaml: ") == hourglass.size() - 14);
 }

@@ -29,6 +29,7 @@
 #include "core/dds/test/domain.hpp"
 #include "core/loader/table.hpp"
 #include "core/log/reader.hpp"
+#include "core/types/test/hex.hpp"
 #include "core/types/wire.hpp"
 #include "fulmar/msg/plan_edit.hpp"
 #include "fulmar/schema.hpp"
@@ -254,13 +255,7 @@ std::string edit_in_hex() {
   std::vector<std::byte> bytes;
   CdrEncoder(*copy_type(*fulmar::detail::type_table<fulmar::PlanEdit>()))
       .encode(reinterpret_cast<const std::byte*>(&edit), bytes);
-  std::string text;
-  for (const std::byte b : bytes) {
-    char two[3];
-    std::snprintf(two, sizeof two, "%02x", std::to_integer<unsigned>(b));
-    text += two;
-  }
-  return text;
+  return test::hex(bytes);
 }
 
 /// A client by hand, with hardly any room in its socket: subscribes to everything and never reads again.

@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <map>
 
+#include "core/app/test/replays.hpp"
 #include "core/log/events.hpp"
 #include "core/log/mcap.hpp"
-#include "core/replay/replay.hpp"
 #include "core/run/resume.hpp"
 #include "core/run/test/commands.hpp"
-#include "core/run/test/lab.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_log/diff.hpp"
 #include "tools/fulmar_log/export_log.hpp"
@@ -21,18 +19,6 @@
 
 namespace translated_test {
 namespace {
-
-std::string contents(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-fs::path fresh(const std::string& name) {
-  const fs::path file = folder().path / name;
-  fs::remove(file);
-  fs::remove(file.string() + ".part");
-  return file;
-}
 
 /// What an event is to become: its table and a message of it.
 using Change = std::function<std::vector<std::byte>(const Event&)>;
@@ -97,14 +83,6 @@ fs::path translated(const fs::path& log, const std::string& name,
   return to;
 }
 
-ReplayResult replay_of(const fs::path& log, const fs::path& out) {
-  const Recording recording(log);
-  const Graph graph = recording.mission({}, {});
-  ReplayOptions o;
-  o.out = out;
-  return replay(recording, graph, o).second;
-}
-
 std::size_t count(const fs::path& log, Code code) {
   const McapFile file = read_mcap(log);
   const HostTopic<Event> events(file);
@@ -116,7 +94,7 @@ std::size_t count(const fs::path& log, Code code) {
 /// The flight is the same whatever its events say, to the byte of the replay's own log.
 void check_words_mean_nothing(const fs::path& log) {
   const fs::path again = fresh("again.mcap");
-  CHECK(replay_of(log, again).equal());
+  CHECK(replay_of(log, {}, again).equal());
   REQUIRE(contents(again) == contents(log));
   const std::vector<std::function<std::string(std::size_t)>> words = {
       [](std::size_t) { return std::string(); },
@@ -125,21 +103,13 @@ void check_words_mean_nothing(const fs::path& log) {
       [](std::size_t) { return std::string(511, 'w'); }};
   for (const auto& word : words) {
     const fs::path other = translated(log, "other.mcap", word), out = fresh("other-again.mcap");
-    const ReplayResult r = replay_of(other, out);
+    const ReplayResult r = replay_of(other, {}, out);
     CHECK(r.notes == std::vector<std::string>{});
     CHECK(contents(out) == contents(again));
     const LogDiff d = diff_logs(log, other);
     for (const auto& t : d.topics)
       CHECK_MESSAGE((t.first == Event::topic) == (t.second.different > 0), t.first);
   }
-}
-
-FlightOptions logged(const fs::path& file, double duration_s, double speed = 0) {
-  FlightOptions o = options(duration_s);
-  o.log = true;
-  o.log_file = file;
-  o.speed = speed;
-  return o;
 }
 
 Graph craft(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set) {
@@ -423,7 +393,7 @@ TEST_CASE(
 
   const std::string why =
       "the log's /fulmar/event has other fields than Event has here: it was written by another version";
-  CHECK_THROWS_WITH_AS(replay_of(old, fresh("never.mcap")), doctest::Contains(why.c_str()), Error);
+  CHECK_THROWS_WITH_AS(replay_of(old, {}, fresh("never.mcap")), doctest::Contains(why.c_str()), Error);
   const Recording recording(log);
   CHECK_THROWS_WITH_AS(read_resume(recording.mission({}, {}), old), doctest::Contains(why.c_str()), Error);
 }
@@ -456,7 +426,7 @@ TEST_CASE("an event of any code, its fields empty or full, is read without fault
         CHECK(static_cast<Code>(code) == Code::phase_entered);
       }
       try {
-        replay_of(odd, fresh("odd-again.mcap"));
+        replay_of(odd, {}, fresh("odd-again.mcap"));
       } catch (const Error& fault) {
         CHECK_MESSAGE(static_cast<Code>(code) == Code::resumed, fault.what());
       }

@@ -29,23 +29,6 @@ namespace {
 
 std::string component_names(const Graph& graph) { return join(names_of(graph.components)); }
 
-const ParamValue& param(const Graph& graph, const std::string& owner, const std::string& name) {
-  const Component& c = nth(graph.components, index_named(graph.components, owner));
-  return nth(c.params, c.info().param(name));
-}
-const Wire& wire(const Graph& graph, const std::string& owner, const std::string& input) {
-  const Component& c = nth(graph.components, index_named(graph.components, owner));
-  return nth(c.wires, c.info().input(input));
-}
-template <class T>
-T record_of(const Graph& graph, const std::string& owner, const std::string& name) {
-  const ParamValue& value = param(graph, owner, name);
-  REQUIRE(value.data.size() == sizeof(T));
-  T out;
-  std::memcpy(static_cast<void*>(&out), value.data.data(), sizeof out);
-  return out;
-}
-
 /// The made-up hourglass as the lowest layer of a mission that says `text`.
 struct Layered : Mission {
   explicit Layered(const std::string& top) {
@@ -211,23 +194,24 @@ TEST_CASE("a map of a few fields is no record, for whoever reads it") {
 TEST_CASE("a path leads into a record: the rest of the record stays") {
   Mission mission;
   const Graph graph = mission.load(set("sim.airframe.mass", "5 kg"));
-  const auto changed = record_of<Airframe>(graph, "sim", "airframe");
+  const auto changed = value<Airframe>(param(graph, "sim", "airframe"));
   CHECK(changed.mass_kg == 5);
   CHECK(changed.wing.area_m2 == 0.55);
   const auto wing =
-      record_of<Airframe>(mission.load(set("sim.airframe.wing.chord", "21 cm")), "sim", "airframe");
+      value<Airframe>(param(mission.load(set("sim.airframe.wing.chord", "21 cm")), "sim", "airframe"));
   CHECK(wing.wing.chord_m == 0.21);
   CHECK(wing.wing.span_m == 2.9);
   CHECK(wing.mass_kg == 4.5);
   // whoever else has the aircraft's data keeps them
-  CHECK(record_of<Origin>(graph, "sim", "origin").alt_msl_m == 1387);
+  CHECK(value<Origin>(param(graph, "sim", "origin")).alt_msl_m == 1387);
 }
 
 TEST_CASE("a path in the mission counts over the record, whichever stands first") {
   Mission mission;
   mission.replace("wind_ned: [3, -4, 0]", "airframe.mass: 6 kg, airframe: anaconda.yaml");
-  CHECK(record_of<Airframe>(mission.load(), "sim", "airframe").mass_kg == 6);
-  CHECK(record_of<Airframe>(mission.load(set("sim.airframe.mass", "7 kg")), "sim", "airframe").mass_kg == 7);
+  CHECK(value<Airframe>(param(mission.load(), "sim", "airframe")).mass_kg == 6);
+  CHECK(value<Airframe>(param(mission.load(set("sim.airframe.mass", "7 kg")), "sim", "airframe")).mass_kg ==
+        7);
 }
 
 TEST_CASE("a path of a layer counts over the record of the one below, and over a whole one of its own") {
@@ -237,12 +221,12 @@ TEST_CASE("a path of a layer counts over the record of the one below, and over a
                        "airframe.wing.span: 2 m}}}\n");
   std::string other = anaconda;
   mission.folder.write("other.yaml", other.replace(other.find("4.5 kg"), 6, "9.0 kg"));
-  const auto flown = record_of<Airframe>(mission.load(), "sim", "airframe");
+  const auto flown = value<Airframe>(param(mission.load(), "sim", "airframe"));
   CHECK(flown.mass_kg == 6);
   CHECK(flown.wing.span_m == 2);
   CHECK(flown.wing.area_m2 == 0.55);
   mission.text = "extends: middle.yaml\ncomponents: {sim: {params: {airframe: anaconda.yaml}}}\n";
-  const auto replaced = record_of<Airframe>(mission.load(), "sim", "airframe");
+  const auto replaced = value<Airframe>(param(mission.load(), "sim", "airframe"));
   CHECK(replaced.mass_kg == 4.5);
   CHECK(replaced.wing.span_m == 2);
 }
@@ -274,7 +258,7 @@ TEST_CASE("a path that leads nowhere is told with the valid fields") {
 TEST_CASE("a path into a list counts its items from 0") {
   Mission mission;
   const Graph graph = mission.load(set("plan.plan.waypoints[1].airspeed", "18 m/s"));
-  const auto plan = record_of<Plan>(graph, "plan", "plan");
+  const auto plan = value<Plan>(param(graph, "plan", "plan"));
   CHECK(plan.waypoints[1].airspeed_mps == 18);
   CHECK(plan.waypoints[0].airspeed_mps != 18);
   CHECK(mission.faults(set("plan.plan.waypoints[9].airspeed", "18 m/s")).find("counted from [0]") !=
@@ -364,7 +348,7 @@ TEST_CASE("a field alone is no record: what was never given stays missing") {
 TEST_CASE("an airframe file with gains is an airframe wherever one is wanted") {
   Mission mission;
   const Graph graph = mission.load(set("sim.airframe", mission.folder.path / "anaconda.yaml"));
-  CHECK(record_of<Airframe>(graph, "sim", "airframe").mass_kg == 4.5);
+  CHECK(value<Airframe>(param(graph, "sim", "airframe")).mass_kg == 4.5);
   CHECK(param(graph, "attitude", "roll_kp").number[0] == 0.7);
 }
 

@@ -15,18 +15,6 @@ using namespace fulmar::core::test;
 
 namespace {
 
-/// The faults of the hourglass mission with `from` replaced by `to`; "hourglass.yaml:" is left out.
-std::string changed(const std::string& from, const std::string& to) {
-  Mission mission;
-  std::string text = mission.replace(from, to).faults();
-  for (auto at = text.find("hourglass.yaml:"); at != std::string::npos; at = text.find("hourglass.yaml:", at))
-    if (at == 0 || text[at - 1] == '\n')
-      text.erase(at, 15);
-    else
-      ++at;
-  return text;
-}
-
 std::string broken(const std::string& text) {
   Mission mission;
   mission.text = text;
@@ -191,120 +179,6 @@ TEST_CASE("roles are filled by components that keep the contract") {
         "slc' at one");
 }
 
-TEST_CASE("wires end at ports that exist and fit") {
-  CHECK(changed("plan: plan.plan", "plan: plan.pln") ==
-        "26: components.manage.in.plan: plan (path/Planner) has no output 'pln'. Did you mean 'plan'? Valid: "
-        "plan.");
-  CHECK(changed("plan: plan.plan", "plan: pln.plan") ==
-        "26: components.manage.in.plan: there is no role or component 'pln'. Did you mean 'plan'? Valid: "
-        "vehicle, nav, guide, outer, "
-        "inner, sim, ekf, truth, plan, manage, "
-        "follow, slc, tecs, attitude, mine, score.");
-  CHECK(changed("plan: plan.plan", "plan: nav.stat") ==
-        "26: components.manage.in.plan: the role nav has no output 'stat'. Did you mean 'state'? Valid: "
-        "state.");
-  CHECK(changed("plan: plan.plan", "plan: plan") ==
-        "26: components.manage.in.plan: expected a port such as nav.state, found 'plan'");
-  CHECK(changed("plan: plan.plan", "plan: manage.progress") ==
-        "26: components.manage.in.plan: manage.plan takes Plan, but manage.progress is Progress");
-  CHECK(changed(", plan: plan.plan", "") ==
-        "26: components.manage: the input 'plan' is not wired; outputs of type Plan: plan.plan");
-  CHECK(changed("path: manage.path}, out: {comm", "path: attitude.roll_error_rad}, out: {comm") ==
-        "16: roles.guide.in.path: attitude.roll_error_rad is a probe: a number to look at, not a message to "
-        "wire");
-  CHECK(changed("{state: nav.state, path: manage.path}, out: {comm",
-                "{state: nav.state, pth: manage.path}, out: {comm") ==
-        "16: roles.guide.in.pth: no component that fills guide has such an input. Did you mean 'path'?\n"
-        "27: components.follow: the input 'path' is not wired; outputs of type Path: manage.path");
-  CHECK(changed("plan: plan.plan}", "plan: plan.plan, stat: nav.state}") ==
-        "26: components.manage.in.stat: path/Manager has no such input. Did you mean 'state'? Valid: state, "
-        "plan.");
-  CHECK(changed("plan: plan.plan}", "plan: {from: plan.plan, max_age: 3 m, dely: true}}") ==
-        "26: components.manage.in.plan: unknown key 'dely'. Valid: from, max_age, delayed.\n26: "
-        "components.manage.in.plan.max_age: 3 m is "
-        "a length, not a time");
-  CHECK(changed("plan: plan.plan}", "plan: {max_age: 3 s}}") ==
-        "26: components.manage.in.plan: 'from' is missing, as in {from: nav.state, max_age: 0.5 s}");
-  CHECK(changed("{state: nav.state, plan:", "{state: fcu.imu, plan:") ==
-        "26: components.manage.in.state: fcu exists only with io: fcu");
-  CHECK(changed("use: path/Planner,", "use: path/Planner, in: {edit: plan.plan},") ==
-        "25: components.plan.in.edit: plan.edit takes PlanEdit, but plan.plan is Plan");
-}
-
-TEST_CASE("a request is not fed by an output that is sent in every step") {
-  Mission mission;
-  mission.shelf.plugins["path"]->components[1].outputs.push_back(
-      mission.shelf.plugins["path"]->components[0].inputs[2]);
-  Port& port = mission.shelf.plugins["path"]->components[1].outputs.back();
-  port.name = "wish";
-  port.kind = FULMAR_OUT_VALUE;
-  mission.replace("use: path/Planner,", "use: path/Planner, in: {edit: {from: manage.wish, delayed: true}},");
-  CHECK(mission.faults() ==
-        "hourglass.yaml:25: components.plan.in.edit: plan.edit is a request, but manage.wish is sent in "
-        "every step; a request is fed by an "
-        "output that may stay silent");
-  port.kind = FULMAR_OUT_EVENT;
-  CHECK(mission.faults() == "");
-}
-
-TEST_CASE("messages of one name and another table are told apart by their first difference") {
-  Mission mission;
-  auto other = std::make_shared<Type>(*mission.shelf.plugins["path"]->components[1].inputs[1].type);
-  other->fields[0].unit = "m";
-  ++other->hash;
-  mission.shelf.plugins["path"]->components[1].inputs[1].type = other;
-  CHECK(mission.faults() ==
-        "hourglass.yaml:26: components.manage.in.plan: plan.plan is another Plan than manage.plan takes: "
-        "revision: reader has unit m, "
-        "writer none");
-}
-
-TEST_CASE("parameters exist, fit and lie in their range") {
-  CHECK(changed("turbulence: light", "turbulence: lihgt") ==
-        "21: components.sim.params.turbulence: unknown word 'lihgt'. Did you mean 'light'? Valid: none, "
-        "light, moderate.");
-  CHECK(changed("turbulence: light", "turbulnce: light") ==
-        "21: components.sim.params: sim_aero/Aircraft has no parameter 'turbulnce'. Did you mean "
-        "'turbulence'? Valid: rate, epoch, "
-        "wind_ned, turbulence, airframe, origin.");
-  CHECK(changed("[3, -4, 0]", "[3, -4]") ==
-        "21: components.sim.params.wind_ned: expected three numbers [north, east, down], found 2");
-  CHECK(changed("[3, -4, 0]", "[3 kt, -40 m/s, .inf]") ==
-        "21: components.sim.params.wind_ned.east: -40 m/s is outside -30 .. 30 m/s\n21: "
-        "components.sim.params.wind_ned.down: .inf is not a "
-        "finite number");
-  CHECK(
-      changed("use: control_slc/Inner", "params: {roll_kp: 9, roll_limit: 80 deg}, use: control_slc/Inner") ==
-      "30: components.attitude.params.roll_kp: 9 is outside 0 .. 2 rad/rad\n30: "
-      "components.attitude.params.roll_limit: 80 deg is outside "
-      "0 .. 60 deg");
-  CHECK(changed("use: estimator_ekf", "params: {use_mag: 3, skip: 1.5, gate: {}}, use: estimator_ekf") ==
-        "23: components.ekf.params.use_mag: expected true or false, found '3'\n23: "
-        "components.ekf.params.skip: 1.5 is not a whole number\n"
-        "23: components.ekf.params.gate: expected a number in rad, found a map");
-  CHECK(changed("plans/hourglass.yaml", "plans/hourglas.yaml") ==
-        "25: components.plan.params.plan: there is no file plans/hourglas.yaml. Did you mean "
-        "'plans/hourglass.yaml'?");
-  CHECK(changed("turbulence: light", "rate: 100 Hz") ==
-        "21: components.sim.params.rate: comes from the mission's 'rate'; set it there");
-  CHECK(changed("airframe: anaconda.yaml\n", "") ==
-        "20: components.sim: the parameter 'airframe' is missing; give the mission's 'airframe'\n29: "
-        "components.attitude: the parameter "
-        "'airframe' is missing; give the mission's 'airframe'");
-  CHECK(changed("airframe: anaconda.yaml", "airframe: annaconda.yaml") ==
-        "3: airframe: there is no file annaconda.yaml. Did you mean 'anaconda.yaml'?");
-  CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387, latt: 3") ==
-        "4: origin.alt_msl: 1387 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
-        "4: origin: unknown field 'latt' of Origin. Did you mean 'lat'? Valid: lat_deg, lon_deg, "
-        "alt_msl_m.");
-  CHECK(changed("alt_msl: 1387 m", "alt: 1387 m").find("'alt' of Origin. Did you mean 'alt_msl'? Valid") !=
-        std::string::npos);
-  CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387 m, given: true").find("unknown field 'given'") !=
-        std::string::npos);
-  CHECK(changed("rate: 400 Hz", "rate: 4000 Hz") ==
-        "21: components.sim: the mission's rate of 4000 Hz is outside 50 .. 2000 Hz of sim_aero/Aircraft");
-}
-
 TEST_CASE("faults of a named file tell that file and its line") {
   Mission mission;
   mission.folder.write("plans/hourglass.yaml", "airspeed: 17 m/s\nwaypoints:\n  - {position_m: [1, 2]}\n");
@@ -409,24 +283,6 @@ TEST_CASE("what is shown and decided names fields that exist") {
   CHECK(changed("seed: 7", "record: {ports: [\"nav.*\", nav.stat, \"x*\"]}") ==
         "6: record.ports: 'nav.stat' matches no port. Did you mean 'nav.state'?\n6: record.ports: 'x*' "
         "matches no port.");
-}
-
-TEST_CASE("a cycle is printed as a path, with the way out") {
-  CHECK(changed("in: {state: nav.state, path: manage.path}, out: {command",
-                "in: {state: nav.state, path: manage.path, back: inner.actuators}, out: {command") == "");
-  Mission mission;
-  auto& follow = mission.shelf.plugins["path"]->components[2];
-  follow.inputs.push_back(mission.shelf.plugins["sim_aero"]->components[0].inputs[0]);
-  follow.inputs.back().name = "back";
-  follow.inputs.back().optional = true;
-  mission.replace("fills: guide,", "fills: guide, in: {back: inner.actuators},");
-  CHECK(mission.faults() ==
-        "hourglass.yaml:27: the wires form a cycle: follow -> slc -> attitude -> follow. Mark one of them, "
-        "as in {from: nav.state, "
-        "delayed: true}: it then carries the value of the "
-        "tick before");
-  mission.replace("back: inner.actuators", "back: {from: inner.actuators, delayed: true}");
-  CHECK(mission.faults() == "");
 }
 
 TEST_CASE("ten faults give ten sentences in the order of the file") {

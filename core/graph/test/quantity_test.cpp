@@ -3,25 +3,19 @@
 
 #include <doctest/doctest.h>
 
-#include <functional>
 #include <limits>
+
+#include "core/test/refusal.hpp"
 
 namespace quantity_test {
 
 using namespace fulmar::core;
+using fulmar::core::test::refusal;
 
 namespace {
 
 double in(const char* text, const char* unit) { return quantity_in(text, unit, UnitRule::optional); }
 
-std::string refusal(const std::function<void()>& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 std::string refused(const char* text, const char* unit, UnitRule rule = UnitRule::optional) {
   return refusal([&] { quantity_in(text, unit, rule); });
 }

@@ -3,16 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "core/graph/condition.hpp"
-#include "core/graph/params.hpp"
 #include "core/graph/test/shelf.hpp"
 #include "core/types/named.hpp"
-#include "fulmar/msg/actuators.hpp"
-#include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/origin.hpp"
-#include "fulmar/msg/plan.hpp"
 #include "tools/fulmar_inspect/print_graph.hpp"
 
 namespace resolve_test {
@@ -23,27 +18,6 @@ using namespace fulmar::core::test;
 
 namespace {
 
-int index_of(const Graph& graph, const std::string& name) {
-  for (std::size_t i = 0; i < graph.components.size(); ++i)
-    if (graph.components[i].name == name) return static_cast<int>(i);
-  return -1;
-}
-const Component& component(const Graph& graph, const std::string& name) {
-  return graph.components.at(static_cast<std::size_t>(index_of(graph, name)));
-}
-const ParamValue& param(const Graph& graph, const std::string& owner, const std::string& name) {
-  const Component& c = component(graph, owner);
-  return c.params.at(static_cast<std::size_t>(c.info().param(name)));
-}
-const Wire& wire(const Graph& graph, const std::string& owner, const std::string& input) {
-  const Component& c = component(graph, owner);
-  return c.wires.at(static_cast<std::size_t>(c.info().input(input)));
-}
-std::string names(const Graph& graph, const std::vector<int>& indices) {
-  std::vector<std::string> list;
-  for (const int i : indices) list.push_back(graph.components.at(static_cast<std::size_t>(i)).name);
-  return join(list);
-}
 /// phase -> who fills `role`
 std::string filler(const Graph& graph, const std::string& phase, const std::string& role) {
   for (const Phase& p : graph.phases)
@@ -51,51 +25,7 @@ std::string filler(const Graph& graph, const std::string& phase, const std::stri
       if (p.name == phase && graph.roles[r].name == role) return names(graph, {p.roles[r].component});
   return "?";
 }
-template <class T>
-T value(const ParamValue& param) {
-  REQUIRE(param.data.size() == sizeof(T));
-  T out;
-  std::memcpy(static_cast<void*>(&out), param.data.data(), sizeof out);
-  return out;
-}
-
 }  // namespace
-
-TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes no vehicle") {
-  const auto with = [](const std::string& what, const Overrides& overrides = {}) {
-    Mission mission;
-    mission.replace("  cruise:   {outer: tecs", "  cruise:   {vehicle: " + what + ", outer: tecs");
-    mission.replace("  fcu: ", "  spare: {fills: vehicle, use: sim_aero, only: sim}\n  fcu: ");
-    return std::pair(mission.faults(overrides),
-                     mission.faults(overrides).empty() ? mission.load(overrides) : Graph());
-  };
-  for (const char* use : {"use: sim, ", ""}) {
-    const auto [faults, graph] = with("{" + std::string(use) + "set: {wind_ned: {east: 7}}}");
-    REQUIRE(faults == "");
-    CHECK(graph.phases[0].roles[0].set.empty());
-    const Assignment& lost = graph.phases[2].roles[0];
-    CHECK(nth(graph.components, lost.component).name == "sim");
-    REQUIRE(lost.set.size() == 1);
-    CHECK(lost.set[0].value.number[0] == 3);  // the mission's base: what an overlay leaves out stays
-    CHECK(lost.set[0].value.number[1] == 7);
-  }
-  CHECK(
-      with("{use: spare, set: {wind_ned: [0, 0, 0]}}").first.find("the vehicle does not change in flight") !=
-      std::string::npos);
-  CHECK(with("{set: {turbulence: light}, fallback: spare}").first.find("the vehicle does not change") !=
-        std::string::npos);
-  CHECK(with("{set: {rate: 200 Hz}}").first.find("is fixed when the flight begins") != std::string::npos);
-  CHECK(with("{set: {wind: 3}}").first.find("sim has no parameter 'wind'") != std::string::npos);
-  Overrides hardware;
-  hardware.io = "fcu";
-  CHECK(with("{use: sim, set: {wind_ned: [0, 0, 0]}}", hardware).first.find("the vehicle does not change") !=
-        std::string::npos);
-  CHECK(with("{set: {wind_ned: [0, 0, 0]}}", hardware).first.find("fcu has no parameter 'wind_ned'") !=
-        std::string::npos);
-  Overrides spare;  // as with any role: it takes what it has
-  spare.roles = {{"vehicle", "spare"}};
-  CHECK(with("{use: sim, set: {wind_ned: [0, 0, 0]}}", spare).second.phases[2].roles[0].set.size() == 1);
-}
 
 TEST_CASE("the hourglass mission resolves into components, order, roles and phases") {
   Mission mission;
@@ -134,17 +64,6 @@ TEST_CASE("the hourglass mission resolves into components, order, roles and phas
   CHECK(graph.progress[1].field.unit == "m/s");
   CHECK(graph.progress[3].field.unit == "rad");
   CHECK(graph.summary.size() == 2);
-}
-
-TEST_CASE("an overlay belongs to the phase and the component that it is written at") {
-  Mission mission;
-  const Graph graph = mission.load();
-  const Assignment& takeoff = graph.phases[1].roles[3];
-  REQUIRE(takeoff.set.size() == 1);
-  CHECK(takeoff.set[0].param == component(graph, "slc").info().param("law"));
-  CHECK(takeoff.set[0].value.integer == 1);
-  CHECK(param(graph, "slc", "law").integer == 0);
-  CHECK(graph.phases[0].roles[3].set.empty());
 }
 
 TEST_CASE("one word flies the mission on hardware: only the chosen vehicle exists") {
@@ -226,118 +145,6 @@ TEST_CASE("the command line changes who fills a role, seed and parameters") {
   CHECK(index_of(graph, "ekf") == -1);
   CHECK(param(graph, "sim", "turbulence").integer == 2);
   CHECK(param(graph, "attitude", "roll_limit").number[0] == doctest::Approx(0.523598775598));
-}
-
-TEST_CASE("a component that fills nothing now but is wired by name exists and steps in every phase") {
-  Mission mission;
-  mission.replace("score, in: {state: nav.state, truth: vehicle.truth",
-                  "score, in: {state: nav.state, truth: truth.state");
-  const Graph graph = mission.load();
-  REQUIRE(index_of(graph, "truth") >= 0);
-  CHECK(component(graph, "truth").roles.empty());
-  CHECK(wire(graph, "score", "truth").from.kind == Source::Kind::component);
-  CHECK(wire(graph, "truth", "truth").from.kind == Source::Kind::role);
-}
-
-TEST_CASE(
-    "parameters come from the declaration, the airframe file, the mission and the command line, in this "
-    "order") {
-  Mission mission;
-  CHECK(param(mission.load(), "attitude", "roll_limit").number[0] == 0.7853981634);  // declared
-  CHECK(param(mission.load(), "attitude", "roll_kp").number[0] == 0.7);              // airframe file
-  CHECK(param(mission.load(), "tecs", "course_kp").number[0] == 1.1);  // the plugin's first component
-  mission.replace("{fills: inner,", "{fills: inner, params: {roll_kp: 0.8},");
-  CHECK(param(mission.load(), "attitude", "roll_kp").number[0] == 0.8);
-  Overrides overrides;
-  overrides.set = {{"attitude.roll_kp", "0.9"}};
-  CHECK(param(mission.load(overrides), "attitude", "roll_kp").number[0] == 0.9);
-}
-
-TEST_CASE("what the mission says once reaches everybody who has a parameter for it") {
-  Mission mission;
-  mission.replace("seed: 7", "epoch: 2026-06-01T12:00Z");
-  const Graph graph = mission.load();
-  CHECK(param(graph, "sim", "rate").number[0] == 400);
-  CHECK(param(graph, "sim", "epoch").number[0] == 1780315200);  // date -u -d 2026-06-01T12:00 +%s
-  CHECK(param(graph, "score", "epoch").integer == 1780315200);
-  for (const char* owner : {"sim", "attitude", "slc"}) {
-    CHECK(value<Airframe>(param(graph, owner, "airframe")).mass_kg == 4.5);
-    CHECK(param(graph, owner, "airframe").integer == 1);
-  }
-  for (const char* owner : {"sim", "ekf", "plan"}) {
-    const auto origin = value<Origin>(param(graph, owner, "origin"));
-    CHECK(origin.given);
-    CHECK(origin.lat_deg == 40.2463724);
-    CHECK(origin.alt_msl_m == 1387);
-  }
-  CHECK(value<Plan>(param(graph, "plan", "plan")).waypoints.count == 3);
-  CHECK(param(graph, "plan", "plan").text == "hourglass.yaml");
-  CHECK(param(graph, "sim", "wind_ned").number[1] == -4);
-}
-
-TEST_CASE("without an origin the default is handed over and not called given") {
-  Mission mission;
-  mission.replace("origin: {", "#origin: {");
-  const Graph graph = mission.load();
-  CHECK_FALSE(value<Origin>(param(graph, "sim", "origin")).given);
-  CHECK(param(graph, "sim", "origin").integer == 0);
-}
-
-TEST_CASE("records may stand in the mission itself") {
-  Mission mission;
-  mission.replace("{plan: plans/hourglass.yaml}",
-                  "{plan: {airspeed: 40 kt, waypoints: [{position_m: [1, 2, -3]}]}}");
-  const Plan plan = value<Plan>(param(mission.load(), "plan", "plan"));
-  CHECK(plan.airspeed_mps == doctest::Approx(20.5777777778));
-  CHECK(plan.waypoints[0].position_m.down == -3);
-}
-
-TEST_CASE("the failsafe is the struct that the vehicle is to be sent") {
-  Mission mission;
-  mission.replace("throttle_frac: 0, for: 2 s", "throttle: 10 %, elevator: -5 deg, for: 3 s");
-  const Graph graph = mission.load();
-  CHECK(graph.failsafe_ns == 3'000'000'000);
-  REQUIRE(graph.failsafe.size() == 1);
-  REQUIRE(graph.failsafe[0].size() == sizeof(Actuators));
-  Actuators actuators;
-  std::memcpy(&actuators, graph.failsafe[0].data(), sizeof actuators);
-  CHECK(actuators.throttle_frac == 0.1);
-  CHECK(actuators.elevator_rad == doctest::Approx(-0.0872664625997));
-  CHECK(actuators.aileron_rad == 0);
-}
-
-TEST_CASE("wires carry their age limit, their own or their component's") {
-  Mission mission;
-  mission.replace(
-      "use: path/Manager, in: {state: nav.state, plan: plan.plan}",
-      "use: path/Manager, max_age: 3 s, in: {state: {from: nav.state, max_age: 200 ms}, plan: plan.plan}");
-  const Graph graph = mission.load();
-  CHECK(wire(graph, "manage", "state").max_age_ns == 200'000'000);
-  CHECK(wire(graph, "manage", "plan").max_age_ns == 3'000'000'000);
-  CHECK(wire(graph, "score", "state").max_age_ns == 0);
-}
-
-TEST_CASE("a component's own wire wins over that of its role") {
-  Mission mission;
-  mission.replace("{fills: guide, use", "{fills: guide, in: {state: vehicle.truth}, use");
-  const Graph graph = mission.load();
-  CHECK(graph.roles[0].outputs[static_cast<std::size_t>(wire(graph, "follow", "state").from.output)].name ==
-        "truth");
-  CHECK(graph.roles[1].outputs[static_cast<std::size_t>(wire(graph, "slc", "state").from.output)].name ==
-        "state");
-}
-
-TEST_CASE("ties of the order are broken by the file, wires by what they need") {
-  Mission mission;
-  const auto at = mission.text.find("  score:  {use"), end = mission.text.find('\n', at) + 1;
-  const std::string line = mission.text.substr(at, end - at);
-  mission.text.erase(at, end - at);
-  mission.replace(
-      "\ncomponents:\n",
-      "\ncomponents:\n" + line);  // first in the file, but it needs the attitude command of all three
-  const Graph graph = mission.load();
-  CHECK(graph.components.front().name == "score");
-  CHECK(names(graph, graph.order) == "ekf, plan, manage, follow, slc, tecs, mine, score, attitude");
 }
 
 TEST_CASE(
@@ -423,22 +230,6 @@ TEST_CASE("a mission without roles and phases is one phase in which everything s
   CHECK(graph.phases[0].name == "flight");
 }
 
-TEST_CASE("the values of parameters are printed as people write them") {
-  Mission mission;
-  const Graph graph = mission.load();
-  const auto text = [&](const char* owner, const char* name) {
-    const Component& c = component(graph, owner);
-    return value_text(c.info().params.at(static_cast<std::size_t>(c.info().param(name))),
-                      param(graph, owner, name));
-  };
-  CHECK(text("attitude", "roll_kp") == "0.7 rad/rad");
-  CHECK(text("sim", "turbulence") == "light");
-  CHECK(text("sim", "wind_ned") == "[3, -4, 0]");
-  CHECK(text("sim", "airframe") == "anaconda.yaml");
-  CHECK(text("ekf", "use_mag") == "true");
-  CHECK(text("ekf", "skip") == "0");
-}
-
 TEST_CASE("the graph is printed for people and for tools") {
   Mission mission;
   const Graph graph = mission.load();
@@ -477,41 +268,11 @@ TEST_CASE("a component at the mission's own rate steps in every tick, and has no
   CHECK(component(mission.load(), "slc").period_ns == 0);
 }
 
-TEST_CASE("what is wired by name to a component that is there by name alone exists, too") {
-  Mission mission;
-  mission.replace("score, in: {state: nav.state, truth: vehicle.truth",
-                  "score, in: {state: nav.state, truth: truth.state");
-  mission.replace("in: {truth: vehicle.truth}, only: sim}",
-                  "in: {truth: second.state}, only: sim}\n  second: {fills: nav, use: estimator_ekf}");
-  const Graph graph = mission.load();
-  REQUIRE(index_of(graph, "second") >= 0);
-  CHECK(wire(graph, "truth", "truth").from.index == index_of(graph, "second"));
-}
-
-TEST_CASE("an airframe's parameters of a plugin without a component are those of its first component alone") {
-  Mission mission;
-  mission.folder.write("anaconda.yaml", std::string("name: Anaconda\nmass: 4.5 kg\n") + all_but_mass +
-                                            "params:\n  control_slc: {course_kp: 1.3}\n");
-  REQUIRE(mission.faults() == "");  // the second has no such parameter
-  const Graph graph = mission.load();
-  CHECK(param(graph, "slc", "course_kp").number[0] == 1.3);
-  CHECK(param(graph, "tecs", "course_kp").number[0] == 0.9);
-}
-
 TEST_CASE("a rate that the vehicle cannot go at is refused, too slow as well as too fast") {
   Mission mission;
   mission.replace("rate: 400 Hz", "rate: 40 Hz");
   CHECK(mission.faults().find("components.sim: the mission's rate of 40 Hz is outside 50 .. 2000 Hz") !=
         std::string::npos);
-}
-
-TEST_CASE("a count beyond what a double counts exactly is refused, where no range refuses it") {
-  Mission mission;
-  mission.shelf.plugins["estimator_ekf"]->components[0].params[1].max = 1e300;
-  mission.replace("use: estimator_ekf, ", "use: estimator_ekf, params: {skip: 9e15}, ");
-  CHECK(param(mission.load(), "ekf", "skip").integer == 9'000'000'000'000'000);
-  mission.replace("skip: 9e15", "skip: 1e16");
-  CHECK(mission.faults().find("components.ekf.params.skip: 1e16 is too large") != std::string::npos);
 }
 
 }  // namespace resolve_test

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/graph/test/shelf_types.hpp"
+#include "core/types/named.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/attitude_command.hpp"
@@ -248,6 +249,35 @@ std::string Mission::faults(const Overrides& overrides) {
     return error.what();
   }
   return "";
+}
+
+std::string changed(const std::string& from, const std::string& to) {
+  Mission mission;
+  std::string text = mission.replace(from, to).faults();
+  for (auto at = text.find("hourglass.yaml:"); at != std::string::npos; at = text.find("hourglass.yaml:", at))
+    if (at == 0 || text[at - 1] == '\n')
+      text.erase(at, 15);
+    else
+      ++at;
+  return text;
+}
+
+int index_of(const Graph& graph, const std::string& name) { return index_named(graph.components, name); }
+const Component& component(const Graph& graph, const std::string& name) {
+  return nth(graph.components, index_of(graph, name));
+}
+const ParamValue& param(const Graph& graph, const std::string& owner, const std::string& name) {
+  const Component& c = component(graph, owner);
+  return nth(c.params, c.info().param(name));
+}
+const Wire& wire(const Graph& graph, const std::string& owner, const std::string& input) {
+  const Component& c = component(graph, owner);
+  return nth(c.wires, c.info().input(input));
+}
+std::string names(const Graph& graph, const std::vector<int>& indices) {
+  std::vector<std::string> list;
+  for (const int i : indices) list.push_back(nth(graph.components, i).name);
+  return join(list);
 }
 
 }  // namespace fulmar::core::test

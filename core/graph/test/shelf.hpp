@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mission, its files and the components it uses, all made up: resolution is tested without a plugin file.
 #pragma once
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/graph/catalogue.hpp"
 #include "core/graph/graph.hpp"
 
@@ -49,5 +51,24 @@ struct Mission {
   /// What is said when it is refused; "" when it is not.
   std::string faults(const Overrides& overrides = {});
 };
+
+/// The faults of the hourglass mission with `from` replaced by `to`; "hourglass.yaml:" is left out.
+std::string changed(const std::string& from, const std::string& to);
+
+int index_of(const Graph& graph, const std::string& name);  // -1: not there
+const Component& component(const Graph& graph, const std::string& name);
+const ParamValue& param(const Graph& graph, const std::string& owner, const std::string& name);
+const Wire& wire(const Graph& graph, const std::string& owner, const std::string& input);
+/// "ekf, slc"
+std::string names(const Graph& graph, const std::vector<int>& indices);
+
+/// Of a record.
+template <class T>
+T value(const ParamValue& param) {
+  if (param.data.size() != sizeof(T)) throw Error("a record of another size");
+  T out;
+  std::memcpy(static_cast<void*>(&out), param.data.data(), sizeof out);
+  return out;
+}
 
 }  // namespace fulmar::core::test

@@ -13,7 +13,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "faults.hpp"
+
 using namespace fulmar;
+using namespace isolate_lab;
 
 namespace {
 
@@ -147,24 +150,6 @@ struct Everything {
   std::uint64_t state_, n_ = 0, seen_ = 0;
 };
 
-enum class Fault : std::uint8_t {
-  none,
-  segfault,
-  aborts,
-  exits,
-  hangs,
-  overflow,
-  throws,
-  nan,
-  leaks,
-  killed,
-  divides,
-  prints,
-  allocates,
-  fails,
-  terminates
-};
-
 volatile std::uintptr_t nowhere = 4096;
 
 int deeper(int depth, volatile char* above) {
@@ -200,7 +185,7 @@ struct Faulty {
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     out.signal = *in.signal;
     if (tick.now_s() < p.at) return Status::ok;
-    if (p.fault == Fault::nan) out.signal.y_m = std::numeric_limits<double>::quiet_NaN();
+    if (p.fault == Fault::not_a_number) out.signal.y_m = std::numeric_limits<double>::quiet_NaN();
     return act(p.fault);
   }
 
@@ -228,7 +213,7 @@ struct Faulty {
       case Fault::fails: return Status::failed;
       case Fault::terminates: std::terminate();
       case Fault::none:
-      case Fault::nan: break;
+      case Fault::not_a_number: break;
     }
     return Status::ok;
   }

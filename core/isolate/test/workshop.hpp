@@ -15,11 +15,13 @@
 #include <vector>
 
 #include "core/isolate/isolated.hpp"
+#include "core/isolate/test/faults.hpp"
 #include "core/loader/library.hpp"
 
 namespace workshop {
 
 using namespace fulmar::core;
+using namespace isolate_lab;
 
 struct Signal {  // as plugin.cpp has them
   double x_m = 0, y_m = 0;
@@ -156,25 +158,6 @@ class Rig {
   std::vector<fulmar_value> values;
   fulmar_tick tick{0, 2'500'000, 0};
   fulmar_error error{};
-};
-
-/// The order of Fault in plugin.cpp.
-enum Fault {
-  none,
-  segfault,
-  aborts,
-  exits,
-  hangs,
-  overflow,
-  throws,
-  not_a_number,
-  leaks,
-  killed,
-  divides,
-  prints,
-  allocates,
-  fails,
-  terminates
 };
 
 inline bool zombie_or_gone(pid_t pid) {

@@ -14,6 +14,27 @@ using namespace fulmar::core;
 using namespace fulmar::core::live;
 using namespace fulmar::core::live::test;
 
+namespace {
+
+/// A hub without a client; /slc/leg may stay silent.
+struct SilentPort {
+  Tap tap{channels()};
+  MockControl control;
+  Counters counters;
+  Hub hub{tap, control, counters};
+
+  SilentPort() {
+    hub.begin([] {});
+  }
+  static std::vector<TapChannel> channels() {
+    std::vector<TapChannel> list = mock_channels();
+    list[1].may_stay_silent = true;
+    return list;
+  }
+};
+
+}  // namespace
+
 TEST_CASE_FIXTURE(Fixture, "a client is told who serves, which channels there are and which services") {
   REQUIRE(peer.texts.size() == 3);
   const json& info = peer.texts[0];
@@ -82,14 +103,9 @@ TEST_CASE_FIXTURE(Fixture, "the loop is asked for a channel as long as somebody 
   CHECK(counters.clients == 0);
 }
 
-TEST_CASE("who subscribes late gets the last sample of a port that may stay silent, with its own time") {
-  std::vector<TapChannel> channels = mock_channels();
-  channels[1].may_stay_silent = true;
-  Tap tap(channels);
-  MockControl control;
-  Counters counters;
-  Hub hub(tap, control, counters);
-  hub.begin([] {});
+TEST_CASE_FIXTURE(
+    SilentPort,
+    "who subscribes late gets the last sample of a port that may stay silent, with its own time") {
   const auto publish = [&](std::int64_t now_ns, double course_rad) {
     REQUIRE(tap.wanted(1, now_ns));
     const Leg leg{1, true, course_rad, {1, 2, 3}};
@@ -124,16 +140,10 @@ TEST_CASE("who subscribes late gets the last sample of a port that may stay sile
   CHECK(counters.lost == 0);
 }
 
-TEST_CASE(
+TEST_CASE_FIXTURE(
+    SilentPort,
     "a port that may stay silent but does not is left to those who look: the loop copies it for nobody "
     "else") {
-  std::vector<TapChannel> channels = mock_channels();
-  channels[1].may_stay_silent = true;
-  Tap tap(channels);
-  MockControl control;
-  Counters counters;
-  Hub hub(tap, control, counters);
-  hub.begin([] {});
   int copied = 0;
   for (int i = 0; i < 4000; ++i) {
     copied += tap.wanted(1, i * 2'500'000LL);

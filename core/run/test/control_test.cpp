@@ -14,8 +14,11 @@
 
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
+#include "core/test/refusal.hpp"
 
 namespace control_test {
+
+using fulmar::core::test::refusal;
 
 namespace {
 
@@ -53,15 +56,6 @@ const ParameterView& parameter(const FlightView& view, const std::string& compon
       if (c.name == component && p.info.name == name) return p;
   FAIL("no parameter " << name);
   return view.components[0].params[0];
-}
-
-std::string refusal(const std::function<void()>& ask) {
-  try {
-    ask();
-  } catch (const Error& fault) {
-    return fault.what();
-  }
-  return "";
 }
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

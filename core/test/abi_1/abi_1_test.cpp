@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/loader/library.hpp"
+#include "sdk/test/said.hpp"
 
 namespace abi_1_test {
 
@@ -223,14 +224,10 @@ nlohmann::json flown(const std::string& mission, const std::string& law) {
   fs::copy_file(ABI_1_SOURCES "/" + mission, home / mission);
   fs::copy_file(ABI_1_PLUGINS "/" + law, home / law);
   const std::string command = FULMAR_BIN_DIR "/fulmar run " + (home / mission).string() + " --json --no-log";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::string text;
-  char buffer[4096];
-  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) text.append(buffer, n);
-  CHECK(::pclose(pipe) == 0);
+  const fulmar::test::Said said = fulmar::test::shell(command);
+  CHECK(said.code == 0);
   fs::remove_all(folder);
-  return nlohmann::json::parse(text);
+  return nlohmann::json::parse(said.out);
 }
 
 }  // namespace

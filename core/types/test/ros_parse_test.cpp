@@ -4,10 +4,9 @@
 
 #include <doctest/doctest.h>
 
-#include <functional>
 #include <nlohmann/json.hpp>
 
-#include "core/error.hpp"
+#include "core/test/refusal.hpp"
 #include "core/types/test/types.hpp"
 #include "core/types/wire.hpp"
 
@@ -15,19 +14,6 @@ namespace ros_parse_test {
 
 using namespace fulmar::core;
 using namespace fulmar::core::test;
-
-namespace {
-
-std::string refusal(const std::function<void()>& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
-}  // namespace
 
 TEST_CASE("a definition of ours comes back with the same fields, units, frames and labels") {
   const TypePtr type = parse_ros_definition("fulmar_msgs/msg/Mixed", ros_definition(*mixed_type()));

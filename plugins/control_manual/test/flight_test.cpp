@@ -2,12 +2,10 @@
 // The shipped mission with a transmitter that moves by the time of flight: every level, the research scheme,
 // and back, without a step.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -15,27 +13,14 @@
 #include <string>
 #include <vector>
 
+#include "sdk/test/said.hpp"
+
 namespace flight_test {
 
 namespace fs = std::filesystem;
+using namespace fulmar::test;
 
 namespace {
-
-struct Result {
-  int code = -1;
-  std::string out;
-};
-Result typed(const std::string& words) {
-  Result r;
-  FILE* pipe = popen((FULMAR_BIN_DIR "/fulmar " + words + " 2>&1").c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  char buffer[4096];
-  while (fgets(buffer, sizeof buffer, pipe)) r.out += buffer;
-  const int status = pclose(pipe);
-  r.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return r;
-}
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 struct Folder {
   fs::path path = fs::temp_directory_path() / ("fulmar_manual_" + std::to_string(getpid()));
@@ -92,14 +77,13 @@ struct Table {
 
 TEST_CASE("the mission is in order in simulation and on a flight controller") {
   for (const char* io : {"sim", "fcu"}) {
-    const Result r =
-        typed(std::string("check " FULMAR_SOURCE_DIR "/configs/missions/manual.yaml --io ") + io);
+    const Said r = typed(std::string("check " FULMAR_SOURCE_DIR "/configs/missions/manual.yaml --io ") + io);
     CHECK_MESSAGE(r.code == 0, r.out);
   }
 }
 
 TEST_CASE("a word that is no choice of an axis is refused before the flight, with the choices") {
-  const Result r = typed("check " FULMAR_SOURCE_DIR "/configs/missions/manual.yaml --set moved.course=stick");
+  const Said r = typed("check " FULMAR_SOURCE_DIR "/configs/missions/manual.yaml --set moved.course=stick");
   CHECK(r.code == 4);
   for (const char* word : {"moved.course", "'stick'", "sticks, automatic, hold, flown"})
     CHECK_MESSAGE(holds(r.out, word), r.out);
@@ -107,7 +91,7 @@ TEST_CASE("a word that is no choice of an axis is refused before the flight, wit
   const fs::path file = folder.path / "wrong.yaml";
   std::ofstream(file) << "extends: " FULMAR_SOURCE_DIR "/configs/missions/manual.yaml\n"
                       << "phases:\n  rates: {inner: {use: stick, set: {aileron: rudder}}}\n";
-  const Result phase = typed("check " + file.string());
+  const Said phase = typed("check " + file.string());
   CHECK(phase.code == 4);
   CHECK_MESSAGE(holds(phase.out, "wrong.yaml:3"), phase.out);
   CHECK_MESSAGE(holds(phase.out, "surface, rate, attitude"), phase.out);
@@ -117,8 +101,8 @@ TEST_CASE(
     "a radio that falls silent leaves the pilot's level after the time-out, and the first frames bring it "
     "back") {
   const Folder folder;
-  const Result r = typed("run " + folder.mission().string() +
-                         " --role transmitter=script --set script.lost=65 --duration 75 --no-log");
+  const Said r = typed("run " + folder.mission().string() +
+                       " --role transmitter=script --set script.lost=65 --duration 75 --no-log");
   CHECK_MESSAGE(r.code == 0, r.out);
   CHECK_MESSAGE(holds(r.out, "65.59 s  phase cruise"),
                 r.out);  // 0.5 s without a frame, 0.1 s of the condition
@@ -130,10 +114,10 @@ TEST_CASE(
     "steps") {
   const Folder folder;
   const fs::path log = folder.path / "flight.mcap", csv = folder.path / "csv";
-  const Result flown = typed("run " + folder.mission().string() +
-                             " --role transmitter=script --set sim.turbulence=none --set sim.sensors=perfect "
-                             "--duration 140 --record 'inner.actuators,guide.command,outer.attitude' --log " +
-                             log.string());
+  const Said flown = typed("run " + folder.mission().string() +
+                           " --role transmitter=script --set sim.turbulence=none --set sim.sensors=perfect "
+                           "--duration 140 --record 'inner.actuators,guide.command,outer.attitude' --log " +
+                           log.string());
   REQUIRE_MESSAGE(flown.code == 0, flown.out);
   for (const char* phase : {"increments", "angles", "rates", "surfaces", "research"})
     CHECK_MESSAGE(holds(flown.out, std::string("phase ") + phase), flown.out);

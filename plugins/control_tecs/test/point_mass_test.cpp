@@ -76,7 +76,12 @@ TEST_CASE("steps of 50 m, up and down: the airspeed is off by less than 0.1 m/s 
       flight.params.climb_acceleration_limit.value = c.acceleration;
       flight.run(5);
       flight.command.height_m += 50 * side;
-      flight.run(60);
+      double overshoot = 0;
+      for (int i = 0; i < 120; ++i) {
+        flight.run(0.5);
+        overshoot = std::max(overshoot, (flight.h - flight.command.height_m) * side);
+      }
+      CHECK(overshoot < 0.5);
       CHECK(flight.worst_speed < 0.1);
       CHECK(std::abs(flight.V - 16) < 0.01);
       CHECK(std::abs(flight.h - 100 - 50 * side) < 0.5);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy laws against numbers worked out by hand, over random states, and round an energy-consistent
-// point mass.
+// The energy laws against numbers worked out by hand, and over random states.
 #define FULMAR_COUNT_ALLOCATIONS
 #include <doctest/doctest.h>
 
@@ -58,50 +57,6 @@ void pilot_flies(Bench<Outer>& bench, const VehicleState& state, const GuidanceC
   }
 }
 
-/// Speed and height of a point mass whose path follows the pitch command and whose energy rate follows the
-/// throttle at once.
-struct PointMass {
-  double V = 16, h = 100, gamma = 0, V_dot = 0;
-  void step(const AttitudeCommand& u, double dt, double acceleration_limit = 1e9) {
-    const double turn = acceleration_limit / V * dt;
-    const double before = gamma;
-    gamma += std::clamp((u.pitch_rad - gamma) * (1 - std::exp(-dt / 0.2)), -turn, turn);
-    const double sine = std::sin(0.5 * (before + gamma));
-    V_dot = (u.throttle_frac - 0.5) * 50 / 4.5 - g * sine;  // thrust beyond drag over mass
-    h += dt * (V + 0.5 * dt * V_dot) * sine;
-    V += dt * V_dot;
-  }
-  VehicleState state() const {
-    VehicleState s = flying();
-    s.airspeed_mps = V, s.ground_speed_mps = V * std::cos(gamma), s.height_m = h,
-    s.climb_rate_mps = V * std::sin(gamma), s.pitch_rad = gamma;
-    s.specific_force_mps2 = {V_dot + g * std::sin(gamma), 0, -g * std::cos(gamma)};
-    return s;
-  }
-};
-
-struct PointMassFlight {
-  Bench<Outer> bench;
-  PointMass mass;
-  GuidanceCommand command{
-      .course_rad = 0, .height_m = 100, .climb_rate_mps = 0, .airspeed_mps = 16, .roll_feedforward_rad = 0};
-  double worst_speed_error = 0, worst_throttle = 0;
-  explicit PointMassFlight(double speed_weight) {
-    configure(bench);
-    bench.params.speed_weight.value = speed_weight;
-    bench.params.common.airframe.value.limits.climb_rate_max_mps =
-        bench.params.common.airframe.value.limits.sink_rate_max_mps = 5;
-  }
-  void run(double seconds, double acceleration_limit = 1e9) {
-    for (double t = 0; t < seconds; t += 0.02) {
-      bench.set(bench.in.state, mass.state());
-      bench.set(bench.in.command, command);
-      bench.step(0.02);
-      mass.step(bench.out.attitude, 0.02, acceleration_limit);
-      worst_speed_error = std::max(worst_speed_error, std::abs(mass.V - command.airspeed_mps));
-    }
-  }
-};
 }  // namespace
 
 TEST_CASE("throttle is the total energy rate wanted over the power of the engine") {
@@ -263,44 +218,6 @@ TEST_CASE("integrators that were saturated for a minute unwind at once") {
   settle(bench, s, level(), 0.5);
   CHECK(bench.out.throttle_integral_frac.value < integral);
   CHECK(bench.out.attitude.throttle_frac < 0.7);
-}
-
-TEST_CASE("a point mass in cruise does not drift") {
-  PointMassFlight flight(1);
-  flight.run(60);
-  CHECK(std::abs(flight.mass.V - 16) < 1e-5);
-  CHECK(std::abs(flight.mass.h - 100) < 1e-5);
-}
-
-TEST_CASE("height steps of 50 m cost next to no airspeed, whatever the weight") {
-  for (double weight : {0.2, 1.0, 1.8}) {
-    for (double step : {50.0, -50.0}) {
-      PointMassFlight flight(weight);
-      flight.bench.params.climb_acceleration_limit.value = 0.5;
-      flight.run(5);
-      double overshoot = 0;
-      flight.command.height_m += step;
-      for (int i = 0; i < 120; ++i) {
-        flight.run(0.5);
-        overshoot = std::max(overshoot, (flight.mass.h - flight.command.height_m) * (step > 0 ? 1 : -1));
-      }
-      CHECK(overshoot < 0.5);
-      CHECK(flight.worst_speed_error < 0.1);
-      CHECK(std::abs(flight.mass.V - 16) < 1e-3);
-      CHECK(std::abs(flight.mass.h - flight.command.height_m) < 0.5);
-    }
-  }
-}
-
-TEST_CASE("airspeed steps of 2 m/s settle at the same height") {
-  for (double step : {2.0, -2.0}) {
-    PointMassFlight flight(1);
-    flight.run(5);
-    flight.command.airspeed_mps += step;
-    flight.run(60);
-    CHECK(std::abs(flight.mass.V - flight.command.airspeed_mps) < 1e-3);
-    CHECK(std::abs(flight.mass.h - 100) < 0.5);
-  }
 }
 
 TEST_CASE("taking over is bumpless, and in trim keeps what the last controller had learnt") {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A mission that is flown by hand, through a pipe of joystick records; and again from its log, to the byte.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,34 +11,23 @@
 #include <thread>
 
 #include "pipe.hpp"
+#include "sdk/test/said.hpp"
 
 namespace flight_test {
 
 namespace fs = std::filesystem;
+using namespace fulmar::test;
 using namespace std::chrono_literals;
 using nlohmann::json;
 
 namespace {
 
-struct Result {
-  int code = -1;
-  std::string out;
-};
-
-/// A word of fulmar, with all that it says. Where it can be watched is told as soon as it is known.
-Result typed(const std::string& words, std::atomic<int>* port = nullptr) {
-  Result r;
-  FILE* pipe = popen((FULMAR_BIN_DIR "/fulmar " + words + " 2>&1").c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  char buffer[4096];
-  while (fgets(buffer, sizeof buffer, pipe)) {
-    const std::string line = buffer, before = "live view: ws://127.0.0.1:";
-    if (port && line.starts_with(before)) *port = std::stoi(line.substr(before.size()));
-    r.out += line;
-  }
-  const int status = pclose(pipe);
-  r.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return r;
+/// As `typed`; where it can be watched is told as soon as it is known.
+Said watched(const std::string& words, std::atomic<int>& port) {
+  return shell(FULMAR_BIN_DIR "/fulmar " + words + " 2>&1", [&](const std::string& line) {
+    const std::string before = "live view: ws://127.0.0.1:";
+    if (line.starts_with(before)) port = std::stoi(line.substr(before.size()));
+  });
 }
 
 /// The mission of the pilot, without the simulation that an onlooker may be watching on this computer.
@@ -77,7 +64,7 @@ TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") 
       while (!over) {
         std::this_thread::sleep_for(5ms);
         if (port == 0) continue;
-        const Result r = typed("echo " + field + " --count 1 --json --at 127.0.0.1:" + std::to_string(port));
+        const Said r = typed("echo " + field + " --count 1 --json --at 127.0.0.1:" + std::to_string(port));
         const json row = json::parse(r.out, nullptr, false);
         if (row.is_object() && row.contains("value") && there(row["value"].get<double>())) return;
       }
@@ -85,26 +72,26 @@ TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") 
     wait("sim.truth.height_m", [](double h) { return h > 40; });
     pipe.write(axis(2, 8000) + axis(1, -5400) + axis(0, 12000) + axis(7, 32767));  // to the right
   });
-  const Result first =
-      typed("run " + file.string() + " --speed 4 --duration 200 --log " + log.string(), &port);
+  const Said first =
+      watched("run " + file.string() + " --speed 4 --duration 200 --log " + log.string(), port);
   over = true;
   pilot.join();
   CHECK_MESSAGE(first.code == 0, first.out);
   CHECK(holds(first.out, "the pilot is there"));
 
-  const Result replayed = typed("replay " + log.string());
+  const Said replayed = typed("replay " + log.string());
   CHECK(replayed.code == 0);
   CHECK(holds(replayed.out, "0 differing bytes"));
-  const Result flown = typed("run " + file.string() + " --duration 200 --drivers-from " + log.string() +
-                             " --log " + again.string());
+  const Said flown = typed("run " + file.string() + " --duration 200 --drivers-from " + log.string() +
+                           " --log " + again.string());
   CHECK(flown.code == 0);
-  const Result diff = typed("log diff " + log.string() + " " + again.string());
+  const Said diff = typed("log diff " + log.string() + " " + again.string());
   CHECK_MESSAGE(holds(diff.out, "messages are equal"), diff.out);
 }
 
 TEST_CASE("without a joystick the aircraft is not armed, and the pilot is told why") {
   const Pipe pipe;
-  const Result r = typed("run " + mission(pipe).string() + " --speed 4 --duration 3 --no-log");
+  const Said r = typed("run " + mission(pipe).string() + " --speed 4 --duration 3 --no-log");
   CHECK(holds(r.out, "the pilot is not there: No such file or directory"));
   CHECK(holds(r.out, "hold"));
   CHECK_FALSE(holds(r.out, "takeoff"));

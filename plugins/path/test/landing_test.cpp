@@ -47,6 +47,16 @@ struct Strip {
   void approach() { REQUIRE(at(450, 0, slope(450)).stage == LandingStage::approach); }
 };
 
+/// In the flare with the nose off: the wings stay level and no slip is asked for.
+void check_no_slip(Strip& strip) {
+  strip.bench.configure();
+  strip.s.yaw_rad = 98 * deg;
+  strip.approach();
+  strip.at(45, 0, 3.4, 1);
+  CHECK(strip.bench.out.sideslip.sideslip_rad == 0);
+  CHECK(std::abs(strip.bench.out.command.roll_feedforward_rad) < 1e-12);
+}
+
 }  // namespace
 
 TEST_CASE("the circle touches the centre line where the final approach begins; onto it at its height alone") {
@@ -242,21 +252,11 @@ TEST_CASE("in the flare the nose is turned to the runway, with the bank that the
     Airframe& a = none.bench.params.airframe.value;
     a.aero.yaw.beta_ratio = 0.13, a.aero.yaw.rudder_ratio = by_power ? 0 : -0.065;
     if (!by_power) a.rudder.limit_rad = 0;
-    none.bench.configure();
-    none.s.yaw_rad = 98 * deg;
-    none.approach();
-    none.at(45, 0, 3.4, 1);
-    CHECK(none.bench.out.sideslip.sideslip_rad == 0);
-    CHECK(std::abs(none.bench.out.command.roll_feedforward_rad) < 1e-12);
+    check_no_slip(none);
   }
   Strip none;
   none.bench.params.decrab.value = 0;
-  none.bench.configure();
-  none.s.yaw_rad = 98 * deg;
-  none.approach();
-  none.at(45, 0, 3.4, 1);
-  CHECK(none.bench.out.sideslip.sideslip_rad == 0);
-  CHECK(std::abs(none.bench.out.command.roll_feedforward_rad) < 1e-12);
+  check_no_slip(none);
 }
 
 TEST_CASE("while it rolls the rudder leads back to the centre line, from either side and with the nose off") {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the planner answers: results of edits, groups that take effect as a whole, waypoints by their ids, and
 // settings of the plan.
-#define FULMAR_COUNT_ALLOCATIONS
 #include <doctest/doctest.h>
 
 #include "flight.hpp"

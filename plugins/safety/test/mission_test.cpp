@@ -1,34 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shipped mission, and what is refused of it by file and line.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "sdk/test/said.hpp"
+
 namespace mission_test {
 
 namespace fs = std::filesystem;
+using namespace fulmar::test;
 
 namespace {
-
-struct Result {
-  int code = -1;
-  std::string out;
-};
-Result typed(const std::string& words) {
-  Result r;
-  FILE* pipe = popen((FULMAR_BIN_DIR "/fulmar " + words + " 2>&1").c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  char buffer[4096];
-  while (fgets(buffer, sizeof buffer, pipe)) r.out += buffer;
-  const int status = pclose(pipe);
-  r.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return r;
-}
 
 struct Folder {
   fs::path path = fs::temp_directory_path() / ("fulmar_safety_" + std::to_string(getpid()));
@@ -37,7 +23,7 @@ struct Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
-  Result check(const std::string& params) const {
+  Said check(const std::string& params) const {
     const fs::path file = path / "wrong.yaml";
     std::ofstream(file) << "extends: " FULMAR_SOURCE_DIR "/configs/missions/return_home.yaml\nlive: off\n"
                         << "components:\n"
@@ -50,7 +36,7 @@ struct Folder {
 
 TEST_CASE("the mission is in order in simulation and on a flight controller") {
   for (const char* io : {"sim", "fcu"}) {
-    const Result r =
+    const Said r =
         typed(std::string("check " FULMAR_SOURCE_DIR "/configs/missions/return_home.yaml --io ") + io);
     CHECK_MESSAGE(r.code == 0, r.out);
   }
@@ -59,7 +45,7 @@ TEST_CASE("the mission is in order in simulation and on a flight controller") {
 TEST_CASE("a fence or places that cannot be are refused with file and line") {
   const Folder folder;
   const auto refused = [&](const std::string& params, const std::string& why) {
-    const Result r = folder.check(params);
+    const Said r = folder.check(params);
     CHECK(r.code == 4);
     CHECK_MESSAGE(r.out.find("wrong.yaml:4") != std::string::npos, r.out);
     CHECK_MESSAGE(r.out.find(why) != std::string::npos, r.out);

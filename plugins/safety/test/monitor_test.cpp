@@ -86,7 +86,7 @@ TEST_CASE("the fence is told before it is reached, by what the turn back takes, 
   CHECK(w.fly(120).answer == SafetyAnswer::land);
   Watch free;
   free.fence();
-  free.params.keep_fence.value = false;
+  free.params.fencing.keep_fence.value = false;
   free.fly(2);
   free.state.position_m.north = 990;
   CHECK(free.fly(0.1).answer == SafetyAnswer::home);
@@ -170,7 +170,7 @@ TEST_CASE("the radio is lost when it was heard, or has to be there") {
   Watch never;
   CHECK_FALSE(never.fly(20).radio_lost);
   Watch demanded;
-  demanded.params.radio_required.value = true;
+  demanded.params.radio.radio_required.value = true;
   CHECK(demanded.fly(5).radio_lost);
   Watch w;
   w.has_rc = true, w.rc.link = true;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The shipped mission: every signal is flown, what comes out of `fulmar response`, and what takes one away.
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -11,29 +9,15 @@
 #include <string>
 
 #include "kit.hpp"
+#include "sdk/test/said.hpp"
 
 namespace flight_test {
 
 namespace fs = std::filesystem;
+using namespace fulmar::test;
 using nlohmann::json;
 
 namespace {
-
-struct Result {
-  int code = -1;
-  std::string out;
-};
-Result typed(const std::string& words) {
-  Result r;
-  FILE* pipe = popen((FULMAR_BIN_DIR "/fulmar " + words + " 2>&1").c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  char buffer[4096];
-  while (fgets(buffer, sizeof buffer, pipe)) r.out += buffer;
-  const int status = pclose(pipe);
-  r.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return r;
-}
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 struct Folder {
   static inline int count = 0;
@@ -52,7 +36,7 @@ std::string flown() {
   static const Folder folder;
   static const std::string log = [] {
     const std::string file = (folder.path / "x.mcap").string();
-    const Result r = typed(std::string("run ") + mission + " --live off --strict --log " + file);
+    const Said r = typed(std::string("run ") + mission + " --live off --strict --log " + file);
     REQUIRE_MESSAGE(r.code == 0, r.out);
     for (const char* phase : {"pitch_doublet", "roll_chirp", "elevator_3211", "height_step", "level"})
       CHECK_MESSAGE(holds(r.out, std::string("phase ") + phase), r.out);
@@ -62,7 +46,7 @@ std::string flown() {
   return log;
 }
 json response(const std::string& words) {
-  const Result r = typed("response " + flown() + " --json " + words);
+  const Said r = typed("response " + flown() + " --json " + words);
   REQUIRE_MESSAGE(r.code == 0, r.out);
   return json::parse(r.out);
 }
@@ -71,15 +55,15 @@ json response(const std::string& words) {
 
 TEST_CASE("the mission is in order in simulation and on a flight controller; a wrong shape is refused") {
   for (const char* io : {"sim", "fcu"}) {
-    const Result r = typed(std::string("check ") + mission + " --io " + io);
+    const Said r = typed(std::string("check ") + mission + " --io " + io);
     CHECK_MESSAGE(r.code == 0, r.out);
   }
-  const Result r = typed(std::string("check ") + mission + " --set attitude_signal.shape=triangle");
+  const Said r = typed(std::string("check ") + mission + " --set attitude_signal.shape=triangle");
   CHECK(r.code == 4);
   for (const char* word :
        {"attitude_signal.shape", "none, step, doublet, square, sine, chirp, d3211, multisine"})
     CHECK_MESSAGE(holds(r.out, word), r.out);
-  const Result large = typed(std::string("check ") + mission + " --set \"surface_signal.size=40 deg\"");
+  const Said large = typed(std::string("check ") + mission + " --set \"surface_signal.size=40 deg\"");
   CHECK(large.code == 4);
   CHECK_MESSAGE(holds(large.out, "surface_signal.size"), large.out);
 }
@@ -137,8 +121,8 @@ TEST_CASE("the sweep: roll follows its command below its bandwidth, lags beyond,
 }
 
 TEST_CASE("a signal that leaves its bound is aborted, told, and no other follows; the flight goes on") {
-  const Result r = typed(std::string("run ") + mission + " --live off --no-log --duration 60 --set " +
-                         "\"attitude_signal.pitch_bound=4 deg\"");
+  const Said r = typed(std::string("run ") + mission + " --live off --no-log --duration 60 --set " +
+                       "\"attitude_signal.pitch_bound=4 deg\"");
   CHECK(r.code == 0);
   CHECK_MESSAGE(holds(r.out, "signal aborted: pitch is beyond pitch_bound"), r.out);
   CHECK_MESSAGE(holds(r.out, "phase level"), r.out);
@@ -158,7 +142,7 @@ TEST_CASE("the pilot takes over in the midst of a sweep: aborted, and not begun 
       << "  back: {excited_attitude: {set: {shape: chirp, channel: roll, size: 8 deg, duration: 40 "
          "s, frequency: 0.15 Hz}}, next: [{to: elevator_3211, when: \"time > 1000 s\"}]}\n";
   const std::string log = (folder.path / "pilot.mcap").string();
-  const Result r = typed("run " + file.string() + " --duration 60 --log " + log);
+  const Said r = typed("run " + file.string() + " --duration 60 --log " + log);
   CHECK_MESSAGE(holds(r.out, "signal aborted: commands do not move the aircraft"), r.out);
   REQUIRE(typed("log export " + log + " --to csv --topic /attitude_signal/probes --out " +
                 folder.path.string() + "/csv")

@@ -4,13 +4,13 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/loader/library.hpp"
+#include "sdk/test/said.hpp"
 
 using namespace fulmar::core;
 namespace fs = std::filesystem;
@@ -31,13 +31,9 @@ struct Project {
 };
 
 std::string output_of(const std::string& command) {
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::string text;
-  char buffer[4096];
-  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) text.append(buffer, n);
-  CHECK(::pclose(pipe) == 0);
-  return text;
+  const fulmar::test::Said said = fulmar::test::shell(command);
+  CHECK(said.code == 0);
+  return said.out;
 }
 
 }  // namespace

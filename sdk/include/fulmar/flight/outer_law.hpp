@@ -113,7 +113,9 @@ struct OuterLoop {
   LowPass airspeed;          ///< m/s, for trims
   NearbyDensity density;     ///< kg/m3, of the standard atmosphere
   std::uint32_t resets = 0;  ///< of the state, seen so far
-  bool took_over = false;    ///< from another law, and has not stepped since
+  /// From another law, and has not stepped since. Nothing fades here, unlike in the inner law: the limits of
+  /// rates, which always hold, begin at what flew before (OuterCommands::start).
+  bool took_over = false;
 
   /// Goes on from what was applied last. False: nobody flew, and integrals are to begin empty.
   template <class Outputs>

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is recorded: the section `record:` of a mission, and `--record PORTS[@RATE]`, which the command line
+// wants beside it.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/graph/mission.hpp"
+#include "core/graph/quantity.hpp"
+
+namespace fulmar::core {
+namespace {
+
+/// "100 Hz" or "all"; throws Error.
+std::int64_t period_of(const std::string& rate, const std::string& option) try {
+  if (rate == "all") return 0;
+  const double hz = quantity_in(rate, "Hz", UnitRule::required);
+  if (!(hz >= 1e-3 && hz <= 1e6)) throw Error("a rate is from 0.001 to 1e6 Hz");
+  return std::llround(1e9 / hz);
+} catch (const Error& fault) {
+  throw Error(option + ": " + fault.what() + "; give all, nav.*, or nav.*,outer.attitude@100Hz");
+}
+
+std::vector<std::string> keys_of(const Node& map) {
+  std::vector<std::string> keys;
+  for (const Node::Entry& entry : map.entries) keys.push_back(entry.key);
+  return keys;
+}
+
+class RecordReader {
+ public:
+  RecordReader(MissionText& mission, Report& report) : m_(mission), report_(report) {}
+
+  void read(const Keys& mission) {
+    const Node* node = mission.get("record");
+    if (!node) return;
+    if (node->is(Node::Kind::scalar)) {
+      m_.record = node->text != "off";
+      if (m_.record)
+        is_a(Node::Kind::map, *node, "record", "'off' or a map {file, ports, rate, rotate}", report_);
+      return;
+    }
+    const Keys keys(*node, "record", {"file", "ports", "rate", "rotate"}, report_);
+    m_.record_file = keys.text("file").value_or("");
+    if (keys.has("rotate")) rotate(keys);
+    const auto rate = keys.positive("rate", "Hz");
+    const std::int64_t period = rate ? std::llround(1e9 / *rate) : 0;
+    const Node* ports = keys.get("ports");
+    if (!ports) {
+      if (rate) add_rule("*", period, keys.where("rate"));
+      return;
+    }
+    if (ports->is(Node::Kind::sequence)) {
+      for (const Node& item : ports->items)
+        if (const auto text =
+                scalar_text(item, "record.ports", "a port or a pattern such as \"nav.*\"", report_))
+          add_rule(*text, period, item.where());
+    } else if (is_a(Node::Kind::map, *ports, "record.ports", "a list of ports or a map {port: rate}",
+                    report_)) {
+      const std::vector<std::string> names = keys_of(*ports);
+      const Keys rates(*ports, "record.ports", names, report_);
+      for (const std::string& name : names) {
+        const bool all = ports->find(name)->text == "all";
+        const auto hz = all ? std::nullopt : rates.positive(name, "Hz");
+        add_rule(name, hz ? std::llround(1e9 / *hz) : 0, rates.where(name));
+      }
+    }
+  }
+
+ private:
+  /// "100 MB" or "10 min". A smaller file than the least would hold little but what each file begins with.
+  void rotate(const Keys& keys) {
+    constexpr std::uint64_t least_bytes = 1'000'000;
+    constexpr std::int64_t least_ns = 1'000'000'000;
+    const std::string text = keys.text("rotate").value_or("");
+    if (text.empty()) return;
+    if (text.ends_with('B'))
+      m_.rotate_bytes = parse_bytes(text, keys.where("rotate"), "record.rotate", report_);
+    else if (text.find_first_not_of("0123456789.") == std::string::npos)
+      report_.add(keys.where("rotate"), "record.rotate: " + text +
+                                            " has no unit; give an amount or a time, as in 100 MB or 10 min");
+    else
+      m_.rotate_ns = keys.duration_ns("rotate").value_or(0);
+    if ((m_.rotate_bytes > 0 && m_.rotate_bytes < least_bytes) ||
+        (m_.rotate_ns > 0 && m_.rotate_ns < least_ns))
+      report_.add(keys.where("rotate"),
+                  "record.rotate: " + text + " is too little for a file; give at least 1 MB, or 1 s");
+  }
+
+  void add_rule(const std::string& pattern, std::int64_t period_ns, const Where& where) {
+    m_.record_rules.push_back({{pattern}, period_ns});
+    m_.record_where.push_back(where);
+  }
+
+  MissionText& m_;
+  Report& report_;
+};
+
+}  // namespace
+
+std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path,
+                          Report& report) {
+  double number = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+  std::string unit(end, text.data() + text.size());
+  unit.erase(0, unit.find_first_not_of(' '));
+  for (const auto& [name, factor] : {std::pair{"kB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}})
+    if (code == std::errc{} && unit == name && number > 0 && number <= 1e6)
+      return static_cast<std::uint64_t>(number * factor);
+  report.add(where,
+             path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
+  return 0;
+}
+
+void read_recording(const Keys& mission, MissionText& text, Report& report) {
+  RecordReader(text, report).read(mission);
+}
+
+void add_record_options(MissionText& mission, const std::vector<std::string>& options, Report& report) {
+  if (options.empty()) return;
+  mission.record = true;
+  std::vector<RecordRule> rules;
+  std::vector<Where> places;
+  for (const std::string& text : options) {
+    const std::string option = "--record " + text;
+    const std::size_t at = text.find('@');
+    try {
+      const std::int64_t period = at == std::string::npos ? 0 : period_of(text.substr(at + 1), option);
+      const std::string ports = text.substr(0, at);
+      for (std::size_t from = 0; from <= ports.size();) {
+        const std::size_t comma = std::min(ports.find(',', from), ports.size());
+        const std::string port = ports.substr(from, comma - from);
+        rules.push_back({{port == "all" ? "*" : port}, period});
+        places.push_back({option, 0});
+        from = comma + 1;
+      }
+    } catch (const Error& fault) {
+      report.add({option, 0}, fault.what());
+    }
+  }
+  if (mission.record_rules.empty())  // the rest stays as it would have been
+    rules.push_back({{"*"}, RecordRule::usual}), places.push_back({"--record", 0});
+  mission.record_rules.insert(mission.record_rules.begin(), rules.begin(), rules.end());
+  mission.record_where.insert(mission.record_where.begin(), places.begin(), places.end());
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wires: what they may connect, what they say for themselves, and the order of steps that they make.
+#include <doctest/doctest.h>
+
+#include "core/graph/test/shelf.hpp"
+
+namespace wires_test {
+
+using namespace fulmar::core;
+using namespace fulmar::core::test;
+
+TEST_CASE("wires end at ports that exist and fit") {
+  CHECK(changed("plan: plan.plan", "plan: plan.pln") ==
+        "26: components.manage.in.plan: plan (path/Planner) has no output 'pln'. Did you mean 'plan'? Valid: "
+        "plan.");
+  CHECK(changed("plan: plan.plan", "plan: pln.plan") ==
+        "26: components.manage.in.plan: there is no role or component 'pln'. Did you mean 'plan'? Valid: "
+        "vehicle, nav, guide, outer, "
+        "inner, sim, ekf, truth, plan, manage, "
+        "follow, slc, tecs, attitude, mine, score.");
+  CHECK(changed("plan: plan.plan", "plan: nav.stat") ==
+        "26: components.manage.in.plan: the role nav has no output 'stat'. Did you mean 'state'? Valid: "
+        "state.");
+  CHECK(changed("plan: plan.plan", "plan: plan") ==
+        "26: components.manage.in.plan: expected a port such as nav.state, found 'plan'");
+  CHECK(changed("plan: plan.plan", "plan: manage.progress") ==
+        "26: components.manage.in.plan: manage.plan takes Plan, but manage.progress is Progress");
+  CHECK(changed(", plan: plan.plan", "") ==
+        "26: components.manage: the input 'plan' is not wired; outputs of type Plan: plan.plan");
+  CHECK(changed("path: manage.path}, out: {comm", "path: attitude.roll_error_rad}, out: {comm") ==
+        "16: roles.guide.in.path: attitude.roll_error_rad is a probe: a number to look at, not a message to "
+        "wire");
+  CHECK(changed("{state: nav.state, path: manage.path}, out: {comm",
+                "{state: nav.state, pth: manage.path}, out: {comm") ==
+        "16: roles.guide.in.pth: no component that fills guide has such an input. Did you mean 'path'?\n"
+        "27: components.follow: the input 'path' is not wired; outputs of type Path: manage.path");
+  CHECK(changed("plan: plan.plan}", "plan: plan.plan, stat: nav.state}") ==
+        "26: components.manage.in.stat: path/Manager has no such input. Did you mean 'state'? Valid: state, "
+        "plan.");
+  CHECK(changed("plan: plan.plan}", "plan: {from: plan.plan, max_age: 3 m, dely: true}}") ==
+        "26: components.manage.in.plan: unknown key 'dely'. Valid: from, max_age, delayed.\n26: "
+        "components.manage.in.plan.max_age: 3 m is "
+        "a length, not a time");
+  CHECK(changed("plan: plan.plan}", "plan: {max_age: 3 s}}") ==
+        "26: components.manage.in.plan: 'from' is missing, as in {from: nav.state, max_age: 0.5 s}");
+  CHECK(changed("{state: nav.state, plan:", "{state: fcu.imu, plan:") ==
+        "26: components.manage.in.state: fcu exists only with io: fcu");
+  CHECK(changed("use: path/Planner,", "use: path/Planner, in: {edit: plan.plan},") ==
+        "25: components.plan.in.edit: plan.edit takes PlanEdit, but plan.plan is Plan");
+}
+
+TEST_CASE("a request is not fed by an output that is sent in every step") {
+  Mission mission;
+  mission.shelf.plugins["path"]->components[1].outputs.push_back(
+      mission.shelf.plugins["path"]->components[0].inputs[2]);
+  Port& port = mission.shelf.plugins["path"]->components[1].outputs.back();
+  port.name = "wish";
+  port.kind = FULMAR_OUT_VALUE;
+  mission.replace("use: path/Planner,", "use: path/Planner, in: {edit: {from: manage.wish, delayed: true}},");
+  CHECK(mission.faults() ==
+        "hourglass.yaml:25: components.plan.in.edit: plan.edit is a request, but manage.wish is sent in "
+        "every step; a request is fed by an "
+        "output that may stay silent");
+  port.kind = FULMAR_OUT_EVENT;
+  CHECK(mission.faults() == "");
+}
+
+TEST_CASE("messages of one name and another table are told apart by their first difference") {
+  Mission mission;
+  auto other = std::make_shared<Type>(*mission.shelf.plugins["path"]->components[1].inputs[1].type);
+  other->fields[0].unit = "m";
+  ++other->hash;
+  mission.shelf.plugins["path"]->components[1].inputs[1].type = other;
+  CHECK(mission.faults() ==
+        "hourglass.yaml:26: components.manage.in.plan: plan.plan is another Plan than manage.plan takes: "
+        "revision: reader has unit m, "
+        "writer none");
+}
+
+TEST_CASE("a cycle is printed as a path, with the way out") {
+  CHECK(changed("in: {state: nav.state, path: manage.path}, out: {command",
+                "in: {state: nav.state, path: manage.path, back: inner.actuators}, out: {command") == "");
+  Mission mission;
+  auto& follow = mission.shelf.plugins["path"]->components[2];
+  follow.inputs.push_back(mission.shelf.plugins["sim_aero"]->components[0].inputs[0]);
+  follow.inputs.back().name = "back";
+  follow.inputs.back().optional = true;
+  mission.replace("fills: guide,", "fills: guide, in: {back: inner.actuators},");
+  CHECK(mission.faults() ==
+        "hourglass.yaml:27: the wires form a cycle: follow -> slc -> attitude -> follow. Mark one of them, "
+        "as in {from: nav.state, "
+        "delayed: true}: it then carries the value of the "
+        "tick before");
+  mission.replace("back: inner.actuators", "back: {from: inner.actuators, delayed: true}");
+  CHECK(mission.faults() == "");
+}
+
+TEST_CASE("wires carry their age limit, their own or their component's") {
+  Mission mission;
+  mission.replace(
+      "use: path/Manager, in: {state: nav.state, plan: plan.plan}",
+      "use: path/Manager, max_age: 3 s, in: {state: {from: nav.state, max_age: 200 ms}, plan: plan.plan}");
+  const Graph graph = mission.load();
+  CHECK(wire(graph, "manage", "state").max_age_ns == 200'000'000);
+  CHECK(wire(graph, "manage", "plan").max_age_ns == 3'000'000'000);
+  CHECK(wire(graph, "score", "state").max_age_ns == 0);
+}
+
+TEST_CASE("a component's own wire wins over that of its role") {
+  Mission mission;
+  mission.replace("{fills: guide, use", "{fills: guide, in: {state: vehicle.truth}, use");
+  const Graph graph = mission.load();
+  CHECK(graph.roles[0].outputs[static_cast<std::size_t>(wire(graph, "follow", "state").from.output)].name ==
+        "truth");
+  CHECK(graph.roles[1].outputs[static_cast<std::size_t>(wire(graph, "slc", "state").from.output)].name ==
+        "state");
+}
+
+TEST_CASE("ties of the order are broken by the file, wires by what they need") {
+  Mission mission;
+  const auto at = mission.text.find("  score:  {use"), end = mission.text.find('\n', at) + 1;
+  const std::string line = mission.text.substr(at, end - at);
+  mission.text.erase(at, end - at);
+  mission.replace(
+      "\ncomponents:\n",
+      "\ncomponents:\n" + line);  // first in the file, but it needs the attitude command of all three
+  const Graph graph = mission.load();
+  CHECK(graph.components.front().name == "score");
+  CHECK(names(graph, graph.order) == "ekf, plan, manage, follow, slc, tecs, mine, score, attitude");
+}
+
+TEST_CASE("what is wired by name to a component that is there by name alone exists, too") {
+  Mission mission;
+  mission.replace("score, in: {state: nav.state, truth: vehicle.truth",
+                  "score, in: {state: nav.state, truth: truth.state");
+  mission.replace("in: {truth: vehicle.truth}, only: sim}",
+                  "in: {truth: second.state}, only: sim}\n  second: {fills: nav, use: estimator_ekf}");
+  const Graph graph = mission.load();
+  REQUIRE(index_of(graph, "second") >= 0);
+  CHECK(wire(graph, "truth", "truth").from.index == index_of(graph, "second"));
+}
+
+TEST_CASE("a component that fills nothing now but is wired by name exists and steps in every phase") {
+  Mission mission;
+  mission.replace("score, in: {state: nav.state, truth: vehicle.truth",
+                  "score, in: {state: nav.state, truth: truth.state");
+  const Graph graph = mission.load();
+  REQUIRE(index_of(graph, "truth") >= 0);
+  CHECK(component(graph, "truth").roles.empty());
+  CHECK(wire(graph, "score", "truth").from.kind == Source::Kind::component);
+  CHECK(wire(graph, "truth", "truth").from.kind == Source::Kind::role);
+}
+
+}  // namespace wires_test

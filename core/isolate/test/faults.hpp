@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a component of the laboratory does wrong: its parameter, which the tests set by number.
+#pragma once
+#include <cstdint>
+
+namespace isolate_lab {
+
+enum Fault : std::uint8_t {
+  none,
+  segfault,
+  aborts,
+  exits,
+  hangs,
+  overflow,
+  throws,
+  not_a_number,
+  leaks,
+  killed,
+  divides,
+  prints,
+  allocates,
+  fails,
+  terminates
+};
+
+}  // namespace isolate_lab

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the writer of a log knows of its schemas, channels and files, and the summary that is made of it.
+// Internal to core/log.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/log/mcap.hpp"
+#include "core/log/mcap_bytes.hpp"
+#include "core/log/out_file.hpp"
+
+namespace fulmar::core::mcap {
+
+struct Schema {
+  std::string name, encoding, text;
+  bool begun = false, stored = false;  // in this or an earlier chunk; in a chunk that is in the file
+
+  void write(Bytes& out, std::uint16_t id) const {
+    out.record(schema, [&] { out.number(id).text(name).text(encoding).text(text); });
+  }
+};
+
+struct Entry {
+  std::uint64_t log_ns, offset;  // in the chunk
+};
+
+/// A message's record, for the files to come.
+struct Kept {
+  std::uint16_t channel = 0;
+  std::uint64_t log_ns = 0;
+  std::vector<std::byte> record{};
+};
+
+struct Channel {
+  std::uint16_t schema = 0;
+  std::string topic, encoding;
+  Pairs metadata;
+  bool begun = false, stored = false;
+  std::uint64_t messages = 0;  // in the file
+  std::vector<Entry> index{};  // of the open chunk
+  Kept last{};                 // of those without a name
+
+  void write(Bytes& out, std::uint16_t id) const {
+    out.record(channel, [&] { out.number(id).number(schema).text(topic).text(encoding).pairs(metadata); });
+  }
+};
+
+struct Span {
+  std::uint64_t first = std::numeric_limits<std::uint64_t>::max(), last = 0;
+  void add(std::uint64_t ns) {
+    first = std::min(first, ns);
+    last = std::max(last, ns);
+  }
+};
+
+/// What one file holds, and the records of its indexes.
+struct Totals {
+  Bytes chunk_indexes, attachment_indexes, metadata_indexes;
+  std::uint32_t chunks = 0, attachments = 0, metadata_records = 0;
+  std::uint64_t messages = 0, repeated = 0, largest_chunk = 0;
+  Span span;
+};
+
+/// Data end, summary, its offsets and footer, at the end of `block`, which is to come next in the file.
+void write_summary(Bytes& block, const OutFile& out, const std::vector<Schema>& schemas,
+                   const std::vector<Channel>& channels, const Totals& file);
+
+}  // namespace fulmar::core::mcap

@@ -91,6 +91,7 @@ struct Landing {
       throw std::runtime_error(of + ".length: " + std::to_string(std::lround(runway_.length_m)) +
                                " m is too short; aim, flare and roll take " +
                                std::to_string(std::lround(needed)) + " m in still air");
+    slope_that_sinks(p);
     if (p.fence.is_given && located_) within_fence(p);
   }
 
@@ -157,6 +158,19 @@ struct Landing {
                                std::to_string(std::lround(fix_height(p))) + " m high, the ceiling " +
                                std::to_string(std::lround(p.fence->ceiling_m)) + " m");
   }
+  /// Above the slope for good it would go around for ever. With a head wind it takes less.
+  static void slope_that_sinks(const Params& p) {
+    const FlightLimits& limits = p.airframe->limits;
+    const double V = std::min(p.approach_ratio * limits.airspeed_min_mps, limits.airspeed_cruise_mps);
+    const double sink = V * std::sin(p.glide_slope), most = limits.sink_rate_max_mps;
+    if (sink <= most) return;
+    const auto number = [](double x) { return std::to_string(x).substr(0, 5); };
+    throw std::runtime_error("glide_slope: " + number(p.glide_slope) + " rad at the " + number(V) +
+                             " m/s of the approach sinks by " + number(sink) +
+                             " m/s in still air, and the airframe's limits.sink_rate_max is " + number(most) +
+                             " m/s; at most " + number(std::asin(most / V)) + " rad");
+  }
+
   /// Nobody knows where the runway is: straight on.
   Status wait(const VehicleState& s, const Params& p, Outputs& out) {
     command_ = {};

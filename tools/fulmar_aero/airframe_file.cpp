@@ -125,6 +125,12 @@ core::Where AirframeFile::where(const std::string& field) const {
   return found == origin.end() ? core::Where{name, 0} : found->second;
 }
 
+bool AirframeFile::says(const std::string& field) const {
+  const std::size_t dot = field.find('.');
+  const core::Node::Entry* const entry = entry_of(root, field.substr(0, dot));
+  return entry && (dot == std::string::npos || entry_of(entry->value, field.substr(dot + 1)));
+}
+
 std::string AirframeFile::title() const {
   const std::string own(airframe.name.view());
   return own.empty() ? std::filesystem::path(name).filename().string() : own;

@@ -18,6 +18,8 @@ struct AirframeFile {
 
   /// Where a field stands, "aero.pitch.alpha_ratio"; where it is missing, the place of what it would be in.
   core::Where where(const std::string& field) const;
+  /// Whether the file says it itself, a field "limits.airspeed_max_mps" of a map; else its default counts.
+  bool says(const std::string& field) const;
   /// The aircraft's name, or the file's when it has none.
   std::string title() const;
 };

@@ -45,7 +45,7 @@ void tell_class(Findings& f) {
   std::string outside;
   int inside = 0;
   for (const ClassRange& range : class_ranges) {
-    const double value = a.aero.*(range.table).*(range.of);
+    const double value = f.aero().*(range.table).*(range.of);
     if (range.of == &ClassD::rudder_ratio && !rudder_acts(a)) continue;
     const double distance = distance_from(range, value);
     f.figure(std::string("class_") + range.symbol + "_off_ratio", distance, "", "");
@@ -64,7 +64,7 @@ void tell_class(Findings& f) {
 
 /// -CL_0/CL_alpha. Wings of small aircraft, camber and setting together, lift nothing at -6 to 2 deg.
 void check_zero_lift(Findings& f) {
-  const Aerodynamics& aero = f.file().airframe.aero;
+  const Aerodynamics& aero = f.aero();
   if (aero.lift.alpha_ratio <= 0) return;
   const double angle = -aero.lift.zero_ratio / aero.lift.alpha_ratio;
   f.figure("zero_lift_alpha_deg", angle / degree, "", "");

@@ -66,8 +66,8 @@ const std::array<Rule, 17> rules{{
      "the aircraft would be driven by its drag"},
 }};
 
-double value_of(const Rule& rule, const Airframe& a) {
-  return rule.of ? a.aero.*(rule.table).*(rule.of) : a.aero.parasite_drag_ratio;
+double value_of(const Rule& rule, const Aerodynamics& aero) {
+  return rule.of ? aero.*(rule.table).*(rule.of) : aero.parasite_drag_ratio;
 }
 
 bool usual(const Rule& rule, double value) { return value >= rule.low && value <= rule.high; }
@@ -129,7 +129,7 @@ void missing(Findings& f, const Rule& rule) {
 
 void check_one(Findings& f, const Rule& rule) {
   const Airframe& a = f.file().airframe;
-  const double value = value_of(rule, a);
+  const double value = value_of(rule, f.aero());
   f.looked_at();
   if (usual(rule, value)) return;
   const bool sided = rule.low * rule.high > 0;

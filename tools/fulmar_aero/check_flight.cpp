@@ -33,6 +33,11 @@ void check_speeds(Findings& f, const AircraftModel& m) {
            fixed(level.fastest_mps, 1) + " m/s");
 }
 
+/// What a limit is that the file leaves out; "" of one that it has.
+std::string defaulted(const Findings& f, const char* field, const std::string& value) {
+  return f.file().says(field) ? "" : "; the file does not say it, and " + value + " are the default";
+}
+
 void check_trim(Findings& f, const AircraftModel& m) {
   const FlightLimits& l = f.file().airframe.limits;
   const auto one = [&](const char* field, double airspeed) {
@@ -41,7 +46,8 @@ void check_trim(Findings& f, const AircraftModel& m) {
     const SteadyFlight flight = fly(m, {airspeed});
     if (!flight.found())
       f.fault(field, airspeed,
-              "no level flight at " + figures(airspeed) + " m/s: " + limit_words(f.file(), m, flight));
+              "no level flight at " + figures(airspeed) + " m/s: " + limit_words(f.file(), m, flight) +
+                  defaulted(f, field, figures(airspeed) + " m/s"));
   };
   one("limits.airspeed_min_mps", l.airspeed_min_mps);
   one("limits.airspeed_cruise_mps", l.airspeed_cruise_mps);
@@ -72,19 +78,22 @@ void check_cruise(Findings& f, const AircraftModel& m, const SteadyFlight& cruis
 void check_envelope(Findings& f, const AircraftModel& m) {
   const FlightLimits& l = f.file().airframe.limits;
   const double Va = l.airspeed_cruise_mps;
-  const auto one = [&](const char* field, double value, const SteadyCondition& c) {
+  const auto one = [&](const char* field, double value, const std::string& shown, const SteadyCondition& c) {
     f.looked_at();
     const SteadyFlight flight = fly(m, c);
     if (!flight.found())
       f.warn(field, value,
-             "no " + condition_words(c, m.altitude_m()) + ": " + limit_words(f.file(), m, flight));
+             "no " + condition_words(c, m.altitude_m()) + ": " + limit_words(f.file(), m, flight) +
+                 defaulted(f, field, shown));
   };
-  one("limits.climb_rate_max_mps", l.climb_rate_max_mps,
+  const auto rate = [](double mps) { return figures(mps) + " m/s"; };
+  one("limits.climb_rate_max_mps", l.climb_rate_max_mps, rate(l.climb_rate_max_mps),
       {Va, std::asin(std::clamp(l.climb_rate_max_mps / Va, -0.99, 0.99))});
-  one("limits.sink_rate_max_mps", l.sink_rate_max_mps,
+  one("limits.sink_rate_max_mps", l.sink_rate_max_mps, rate(l.sink_rate_max_mps),
       {Va, -std::asin(std::clamp(l.sink_rate_max_mps / Va, -0.99, 0.99))});
   if (std::abs(l.roll_max_rad) < 1.4)
-    one("limits.roll_max_rad", l.roll_max_rad, {Va, 0, Turn::bank, l.roll_max_rad});
+    one("limits.roll_max_rad", l.roll_max_rad, degrees(l.roll_max_rad, 0),
+        {Va, 0, Turn::bank, l.roll_max_rad});
 }
 
 /// What is asked of a mode: the least damping of a pair, and how soon it may double.

@@ -10,32 +10,11 @@
 namespace fulmar::aero {
 namespace {
 
-struct Slopes {
-  double lift = 0, pitch = 0;  ///< over the angle of attack
-};
-/// Of the derivatives, and of the tables where the wing carries the weight at cruise, at sea level.
-Slopes slopes_at_cruise(const Airframe& a) {
-  Slopes s{a.aero.lift.alpha_ratio, a.aero.pitch.alpha_ratio};
-  const double Va = std::max(a.limits.airspeed_cruise_mps, 1.0);
-  const double CL = a.mass_kg * isa::g0 / (0.5 * isa::sea_level_density * Va * Va * a.wing.area_m2);
-  const double alpha = std::clamp((CL - a.aero.lift.zero_ratio) / s.lift, -0.1, a.wing.stall_alpha_rad);
-  using Slope = Dual<1>;
-  const TablePoint<Slope> at{0.0, Slope::variable(alpha, 0), 0.0, Va / 340.29, 0.0, 0.0, 0.0};
-  for (const CoefficientTable& t : a.aero.tables) {
-    const double slope = value_of<Slope>(t, at).d[0];
-    if (t.coefficient == Coefficient::lift) s.lift += slope;
-    if (t.coefficient == Coefficient::pitch) s.pitch += slope;
-  }
-  return s;
-}
-
 void check_margin(Findings& f) {
   f.looked_at();
-  const Aerodynamics& aero = f.file().airframe.aero;
+  const Aerodynamics& aero = f.aero();
   if (aero.lift.alpha_ratio <= 0) return;
-  const Slopes slopes = slopes_at_cruise(f.file().airframe);
-  if (slopes.lift <= 0) return;
-  const double margin = -slopes.pitch / slopes.lift;
+  const double margin = -aero.pitch.alpha_ratio / aero.lift.alpha_ratio;
   f.figure("static_margin_ratio", margin, "static margin", figures(margin) + " of the chord");
   const std::string what =
       "the static margin -Cm_alpha/CL_alpha is " + figures(margin) + " of the chord, usual is 0.05 to 0.3: ";
@@ -50,7 +29,7 @@ void check_margin(Findings& f) {
 void check_roll_power(Findings& f) {
   f.looked_at();
   const Airframe& a = f.file().airframe;
-  const Derivatives& l = a.aero.roll;
+  const Derivatives& l = f.aero().roll;
   if (l.p_ratio >= 0 || l.aileron_ratio <= 0) return;
   const double helix = -l.aileron_ratio * a.aileron.limit_rad / l.p_ratio;
   const double rate = helix * 2 * a.limits.airspeed_cruise_mps / a.wing.span_m;
@@ -66,7 +45,7 @@ void check_roll_power(Findings& f) {
 void check_pitch_power(Findings& f) {
   f.looked_at();
   const Airframe& a = f.file().airframe;
-  const Derivatives& m = a.aero.pitch;
+  const Derivatives& m = f.aero().pitch;
   if (m.elevator_ratio == 0 || m.alpha_ratio == 0) return;
   const double reach = std::abs(m.elevator_ratio * a.elevator.limit_rad / m.alpha_ratio);
   f.figure("elevator_reach_deg", reach / degree, "full elevator",
@@ -83,7 +62,7 @@ void check_pitch_power(Findings& f) {
 void check_yaw_power(Findings& f) {
   f.looked_at();
   const Airframe& a = f.file().airframe;
-  const Derivatives& n = a.aero.yaw;
+  const Derivatives& n = f.aero().yaw;
   if (n.rudder_ratio >= 0 || n.beta_ratio <= 0) return;
   const double sideslip = -n.rudder_ratio * a.rudder.limit_rad / n.beta_ratio;
   f.figure("rudder_reach_deg", sideslip / degree, "full rudder", degrees(sideslip, 1) + " of sideslip");

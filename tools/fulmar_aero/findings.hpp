@@ -26,11 +26,16 @@ struct Figure {
   std::string name, text;
 };
 
+/// The derivatives, with values and slopes of the tables where the wing carries the weight at cruise, at sea
+/// level.
+Aerodynamics with_table_slopes(const Airframe& airframe);
+
 class Findings {
  public:
-  explicit Findings(const AirframeFile& file) : file_(file) {}
+  explicit Findings(const AirframeFile& file) : file_(file), aero_(with_table_slopes(file.airframe)) {}
 
   const AirframeFile& file() const { return file_; }
+  const Aerodynamics& aero() const { return aero_; }  ///< tables with them
   void fault(const std::string& field, double value, const std::string& sentence) {
     list_.push_back({Verdict::fault, field, file_.where(field), value, sentence});
   }
@@ -59,6 +64,7 @@ class Findings {
 
  private:
   const AirframeFile& file_;
+  Aerodynamics aero_;
   std::vector<Finding> list_;
   std::vector<Figure> figures_;
   int looked_at_ = 0;

@@ -99,8 +99,9 @@ struct CommandLine {
 
   void add_import() {
     ImportWords& w = importing;
-    importer = app.add_subcommand(
-        "import", "an airframe file from files of AVL, XFLR5 or VSPAERO; exit code 1 on a fault");
+    importer = app.add_subcommand("import",
+                                  "an airframe file from files of AVL, XFLR5, VSPAERO, ROSflight, JSBSim or "
+                                  "pyfly; exit code 1 on a fault");
     importer->add_option("FILE", w.files, "of one aircraft; where two say the same, the first one counts")
         ->required();
     importer->add_option("-o,--out", w.out, "write the airframe file; replaces it. Else it is printed");

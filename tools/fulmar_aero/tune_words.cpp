@@ -16,13 +16,18 @@ std::string margin_words(const Margins& m) {
 
 nlohmann::json finite(double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); }
 
+/// A loop that never reaches 0 dB has no crossover.
+nlohmann::json more_than_none(double radps) {
+  return radps > 0 ? nlohmann::json(radps) : nlohmann::json(nullptr);
+}
+
 nlohmann::json margin_json(const std::string& at, const Margins& m) {
   return {{"at", at},
           {"gain_db", finite(m.gain_db)},
           {"reduction_db", finite(m.reduction_db)},
           {"phase_deg", finite(m.phase_rad / degree)},
           {"delay_s", finite(m.delay_s)},
-          {"crossover_radps", m.crossover_radps}};
+          {"crossover_radps", more_than_none(m.crossover_radps)}};
 }
 
 void add_faults(const std::string& loop, const std::string& at, const Margins& m,
@@ -63,15 +68,19 @@ std::vector<std::string> Judged::faults(const std::string& title) const {
   return all;
 }
 
+std::string bandwidth_words(const LoopFigures& f) {
+  return f.bandwidth_radps > 0 ? fixed(f.bandwidth_radps, 2) : "-";
+}
+
 std::string loops_text(const std::string& title, const Judged& judged) {
   std::string text = "\n" + padded(title, 34) +
                      "at the actuator: dB   phase delay    at the sensor: dB   phase delay\n  " +
                      padded("loop", 14) + "rad/s  damping   " + padded("", 12) +
                      "   up  down   deg    ms    " + padded("", 8) + "   up  down   deg    ms\n";
   for (const LoopFigures& f : judged.loops)
-    text += "  " + padded(f.name, 13) + right(fixed(f.bandwidth_radps, 2), 6) +
-            right(fixed(f.damping_ratio, 2), 8) + "    " + padded(f.actuator, 13) +
-            margin_words(f.at_actuator) + "    " + padded(f.sensor, 9) + margin_words(f.at_sensor) + "\n";
+    text += "  " + padded(f.name, 13) + right(bandwidth_words(f), 6) + right(fixed(f.damping_ratio, 2), 8) +
+            "    " + padded(f.actuator, 13) + margin_words(f.at_actuator) + "    " + padded(f.sensor, 9) +
+            margin_words(f.at_sensor) + "\n";
   if (judged.unstable > 0) text += "  not stable: " + std::to_string(judged.unstable) + " poles grow\n";
   return text;
 }
@@ -79,7 +88,7 @@ std::string loops_text(const std::string& title, const Judged& judged) {
 nlohmann::json loops_json(const Judged& judged) {
   nlohmann::json loops = nlohmann::json::object();
   for (const LoopFigures& f : judged.loops)
-    loops[f.name] = {{"bandwidth_radps", f.bandwidth_radps},
+    loops[f.name] = {{"bandwidth_radps", more_than_none(f.bandwidth_radps)},
                      {"damping_ratio", f.damping_ratio},
                      {"at_actuator", margin_json(f.actuator, f.at_actuator)},
                      {"at_sensor", margin_json(f.sensor, f.at_sensor)}};

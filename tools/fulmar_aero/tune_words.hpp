@@ -19,6 +19,8 @@ struct Judged {
 };
 Judged judge(const Plant& plant, const Laws& laws);
 
+/// Of the answer to the command, of a damper its crossover, rad/s; "-" where a damper has none.
+std::string bandwidth_words(const LoopFigures& figures);
 std::string loops_text(const std::string& title, const Judged& judged);
 nlohmann::json loops_json(const Judged& judged);
 /// The section as YAML, what the file has beside it.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "tools/fulmar_log/log_field.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -51,21 +52,11 @@ void put(Array& to, T value) {
   std::memcpy(to.data.data() + before, &value, sizeof value);
 }
 
-double as_double(const Cell& cell) {
-  switch (cell.kind) {
-    case Cell::Kind::whole: return static_cast<double>(cell.whole);
-    case Cell::Kind::natural: return static_cast<double>(cell.natural);
-    case Cell::Kind::single: return static_cast<double>(cell.single);
-    case Cell::Kind::real: return cell.real;
-    default: return std::numeric_limits<double>::quiet_NaN();
-  }
-}
-
 void add(Array& to, const Cell& cell) {
   if (to.kind == FULMAR_TEXT) {
     to.texts.emplace_back(cell.kind == Cell::Kind::text ? cell.text : std::string_view{});
   } else if (to.kind == FULMAR_F64) {
-    put(to, as_double(cell));
+    put(to, number_of_cell(cell));
   } else if (to.kind == FULMAR_F32) {
     put(to, cell.kind == Cell::Kind::single ? cell.single : std::numeric_limits<float>::quiet_NaN());
   } else {  // little-endian: the low bytes are the number

@@ -330,6 +330,25 @@ TEST_CASE("a runway that is too short is refused with what it takes") {
   CHECK(Strip(215).bench.configure() == Status::ok);
 }
 
+TEST_CASE("a glide slope that sinks more than the aircraft may is refused with what it takes") {
+  Strip strip;
+  FlightLimits& limits = strip.bench.params.airframe.value.limits;
+  limits.airspeed_min_mps = 12.9, limits.airspeed_cruise_mps = 16.75;
+  limits.sink_rate_max_mps = 0.67;
+  CHECK(strip.bench.configure() == Status::failed);
+  // 1.1 12.9 sin 0.07 = 0.9925; asin(0.67 / 14.19) = 0.04723
+  CHECK(std::string(strip.bench.error()) ==
+        "glide_slope: 0.070 rad at the 14.19 m/s of the approach sinks by 0.992 m/s in still air, and the "
+        "airframe's limits.sink_rate_max is 0.670 m/s; at most 0.047 rad");
+  strip.bench.params.glide_slope.value = 0.047;
+  CHECK(strip.bench.configure() == Status::ok);
+  strip.bench.params.glide_slope.value = 0.07;
+  limits.sink_rate_max_mps = 0.993;
+  CHECK(strip.bench.configure() == Status::ok);
+  limits.airspeed_cruise_mps = 13.5, limits.sink_rate_max_mps = 0.945;  // no faster than cruise
+  CHECK(strip.bench.configure() == Status::ok);
+}
+
 TEST_CASE("a geodetic runway is the local one, by the mission's origin or the state's") {
   Strip local;
   local.approach();

@@ -216,17 +216,17 @@ Flown flown_of(const Airframe& airframe, double cruise) {
   while (f.slowest < 0.95 * cruise && !fly(model, {f.slowest}).found())
     f.slowest = std::min(1.03 * f.slowest, 0.951 * cruise);
   while (f.fastest > 1.05 * cruise && !fly(model, {f.fastest}).found()) f.fastest *= 0.97;
-  const auto most_rate = [&](double sign) {  // half of the steepest steady flight
+  const auto most_rate = [&](double sign, double part) {  // of the steepest steady flight
     double steepest = 0;
     for (int tenths = 1; tenths <= 40; ++tenths) {
       const double angle = sign * 0.01 * tenths;
       if (!fly(model, {cruise, angle}).found()) break;
       steepest = std::abs(angle);
     }
-    return std::clamp(0.5 * cruise * std::sin(steepest), 0.3, 5.0);
+    return std::clamp(part * cruise * std::sin(steepest), 0.3, 5.0);
   };
-  f.climb = most_rate(1);
-  f.sink = most_rate(-1);
+  f.climb = most_rate(1, 0.5);
+  f.sink = most_rate(-1, 0.8);  // a good glider needs most of it to land
   return f;
 }
 

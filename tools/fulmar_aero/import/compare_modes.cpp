@@ -42,10 +42,11 @@ std::optional<std::complex<double>> take_nearest(std::vector<std::complex<double
   return value;
 }
 
-/// Acceptance of a log without friction, and of AVL with its apparent mass; 0: only shown. The phugoid's
+/// Acceptance of a log without friction, and of AVL with its apparent mass; 0: only shown, as a
+/// log's beside another tool's derivatives. The phugoid's
 /// damping is that of friction and thrust, which no log has.
-double allowed(ModeKind kind, bool apparent_mass) {
-  if (kind == ModeKind::phugoid) return 0;
+double allowed(ModeKind kind, bool apparent_mass, bool same_file) {
+  if (kind == ModeKind::phugoid || (!apparent_mass && !same_file)) return 0;
   if (!apparent_mass) return 0.01;
   if (kind == ModeKind::short_period || kind == ModeKind::dutch_roll) return 0.10;
   return kind == ModeKind::roll ? 0.20 : 0;
@@ -79,13 +80,16 @@ ModeComparison compare_modes(const Imported& imported) {
   std::stable_sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) {
     return std::abs(a.eigenvalue) > std::abs(b.eigenvalue);
   });
+  const auto file_of = [](const std::string& place) { return place.substr(0, place.find(':')); };
+  const bool same_file = file_of(imported.aircraft.c[pitch][t_alpha].from) == file_of(printed.from);
   for (const Mode& mode : modes) {
     std::vector<std::complex<double>>& from = !any.empty()         ? any
                                               : lateral(mode.kind) ? sideways
                                                                    : longitudinal;
     const auto tool = take_nearest(from, mode.eigenvalue);
     if (!tool) continue;
-    ModePair pair{mode_name(mode.kind), *tool, mode.eigenvalue, 0, allowed(mode.kind, printed.apparent_mass)};
+    ModePair pair{mode_name(mode.kind), *tool, mode.eigenvalue, 0,
+                  allowed(mode.kind, printed.apparent_mass, same_file)};
     pair.off_ratio = printed.apparent_mass ? std::abs(std::abs(pair.own) / std::abs(pair.tool) - 1)
                                            : std::abs(pair.own - pair.tool) / std::abs(pair.tool);
     // a spiral near 0 is a small difference of large numbers that are printed with five digits

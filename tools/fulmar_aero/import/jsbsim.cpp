@@ -6,97 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "tools/fulmar_aero/import/rosflight.hpp"
+#include "tools/fulmar_aero/import/xml_elements.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
-
-struct Element {
-  std::string name, attributes, text;
-  std::vector<Element> children;
-  std::size_t line = 0;
-
-  const Element* child(const std::string& wanted) const {
-    for (const Element& one : children)
-      if (one.name == wanted) return &one;
-    return nullptr;
-  }
-  std::string attribute(const std::string& key) const {
-    const std::size_t at = attributes.find(key + "=");
-    if (at == std::string::npos || at + key.size() + 2 > attributes.size()) return "";
-    const char quote = attributes[at + key.size() + 1];
-    const std::size_t begin = at + key.size() + 2, end = attributes.find(quote, begin);
-    return end == std::string::npos ? "" : attributes.substr(begin, end - begin);
-  }
-};
-
-/// Elements, attributes, text and comments: what aircraft files have of XML.
-class XmlReader {
- public:
-  explicit XmlReader(const Lines& lines) : lines_(lines), text_(lines.text) {}
-
-  Element root() {
-    Element top;
-    read_into(top, 0);
-    if (top.children.empty()) refuse(lines_.where(0), "expected <fdm_config>");
-    return top.children[0];
-  }
-
- private:
-  std::size_t line() const {
-    return std::size_t(
-        std::count(text_.begin(), text_.begin() + std::ptrdiff_t(std::min(at_, text_.size())), '\n'));
-  }
-
-  void read_into(Element& parent, int depth) {
-    if (depth > 50) refuse(lines_.where(line()), "elements are nested deeper than 50");
-    while (true) {
-      const std::size_t open = text_.find('<', at_);
-      if (open == std::string::npos) {
-        if (!parent.name.empty())
-          refuse(lines_.where(parent.line), "<" + parent.name + "> does not end; is the file cut off?");
-        return;
-      }
-      parent.text += text_.substr(at_, open - at_);
-      at_ = open;
-      if (skipped("<!--", "-->") || skipped("<?", "?>") || skipped("<!", ">")) continue;
-      const std::size_t close = text_.find('>', open);
-      if (close == std::string::npos)
-        refuse(lines_.where(line()), "a tag does not end; is the file cut off?");
-      std::string tag = text_.substr(open + 1, close - open - 1);
-      const std::size_t here = line();
-      at_ = close + 1;
-      if (!tag.empty() && tag[0] == '/') {
-        if (trimmed(tag.substr(1)) != parent.name)
-          refuse(lines_.where(here), "expected </" + parent.name + ">; found <" + tag + ">");
-        return;
-      }
-      const bool empty = !tag.empty() && tag.back() == '/';
-      if (empty) tag.pop_back();
-      Element child;
-      child.line = here;
-      const std::size_t blank = tag.find_first_of(" \t\r\n");
-      child.name = tag.substr(0, blank);
-      if (blank != std::string::npos) child.attributes = tag.substr(blank);
-      if (!empty) read_into(child, depth + 1);
-      parent.children.push_back(std::move(child));
-    }
-  }
-  bool skipped(const char* begin, const char* end) {
-    if (text_.compare(at_, std::string(begin).size(), begin) != 0) return false;
-    const std::size_t stop = text_.find(end, at_);
-    if (stop == std::string::npos)
-      refuse(lines_.where(line()), std::string(begin) + " does not end; is the file cut off?");
-    at_ = stop + std::string(end).size();
-    return true;
-  }
-
-  const Lines& lines_;
-  const std::string& text_;
-  std::size_t at_ = 0;
-};
 
 const Element& needed_child(const Lines& lines, const Element& parent, const std::string& name) {
   if (const Element* const found = parent.child(name)) return *found;
@@ -291,18 +208,18 @@ Product product_of(const Lines& lines, const Element& function) {
   return out;
 }
 
-std::string list_text(const std::vector<double>& numbers, double factor = 1) {
+std::string list_text(const std::vector<double>& numbers) {
   std::string text;
-  for (const double x : numbers) text += (text.empty() ? "" : ", ") + figures(x * factor, 7);
+  for (const double x : numbers) text += (text.empty() ? "" : ", ") + figures(x, 7);
   return "[" + text + "]";
 }
 
-std::string table_line(const LookUp& table, const char* coefficient, double factor, const std::string& from) {
+std::string table_line(const LookUp& table, const char* coefficient, const std::string& from) {
   std::string text = std::string("    - {coefficient: ") + coefficient + ", over: " + table.over->name +
                      ", at: " + list_text(table.at);
   if (table.and_over)
     text += std::string(", and_over: ") + table.and_over->name + ", and_at: " + list_text(table.and_at);
-  return text + ", values: " + list_text(table.values, factor) + "}  # " + from + "\n";
+  return text + ", values: " + list_text(table.values) + "}  # " + from + "\n";
 }
 
 /// What of the drag has the induced one in it already.
@@ -310,8 +227,16 @@ struct Drag {
   bool over_alpha = false, squared = false;
 };
 
-void take_function(const Lines& lines, const Element& function, Force force, Aircraft& a,
-                   std::vector<std::string>& tables, Drag& of_drag) {
+/// A table of a coefficient, in Fulmar's sense.
+struct CoefficientLookUp {
+  Force force = lift;
+  LookUp table;
+  std::string from;
+};
+using Tables = std::vector<CoefficientLookUp>;
+
+void take_function(const Lines& lines, const Element& function, Force force, Aircraft& a, Tables& tables,
+                   Drag& of_drag) {
   const Product product = product_of(lines, function);
   const bool moment = force == roll || force == pitch || force == yaw;
   const bool by_rate = product.term == t_p || product.term == t_q || product.term == t_r;
@@ -332,11 +257,11 @@ void take_function(const Lines& lines, const Element& function, Force force, Air
     value *= (product.by_chord ? a.chord_m.x : a.span_m.x) / (product.term == t_q ? a.chord_m.x : a.span_m.x);
   const std::string from = lines.place(function.line, function.attribute("name"));
   if (!product.tables.empty()) {
-    constexpr std::array<const char*, forces> names{"lift", "drag", "side", "roll", "pitch", "yaw"};
-    const LookUp& table = product.tables[0];
+    LookUp table = product.tables[0];
     if (tables.size() == most_tables)
       refuse(lines.where(function.line), who + ": it is the ninth table, and an airframe has at most 8");
-    tables.push_back(table_line(table, names[force], value, from));
+    for (double& x : table.values) x *= value;
+    tables.push_back({force, table, from});
     for (const Axis* const axis : {table.over, table.and_over})
       if (axis && force == drag && std::string(axis->name) == "alpha") of_drag.over_alpha = true;
     return;
@@ -362,14 +287,134 @@ void take_function(const Lines& lines, const Element& function, Force force, Air
 /// An induced drag that cannot be told from 0.
 constexpr double no_induced_drag = 1e6;
 
-void finish_drag(const std::vector<std::string>& tables, const Drag& of_drag, Aircraft& a) {
-  if (!tables.empty()) {
-    a.more_aero += "  tables:  # a flight that leaves them ends\n";
-    for (const std::string& table : tables) a.more_aero += table;
-  }
+void put_tables(const Tables& tables, Aircraft& a) {
+  constexpr std::array<const char*, forces> names{"lift", "drag", "side", "roll", "pitch", "yaw"};
+  if (!tables.empty()) a.more_aero += "  tables:  # a flight that leaves them ends\n";
+  for (const CoefficientLookUp& one : tables)
+    a.more_aero += table_line(one.table, names[one.force], one.from);
+}
+
+void finish_drag(const Drag& of_drag, Aircraft& a) {
   a.converted_parasite = a.parasite.x;
   if (!of_drag.over_alpha || of_drag.squared) return;
   a.oswald = {no_induced_drag, "none: the file's drag over alpha has the induced one in it"};
+}
+
+/// Where forces act, from the centre of gravity, m.
+struct Arm {
+  double aft = 0, up = 0;
+};
+
+/// JSBSim lets the forces act at AERORP (reference manual, section 2.2.1; FGAerodynamics::Run): its moments
+/// get the forces' arms about the centre of gravity. Along the body's axes N = CL cos(alpha) + CD sin(alpha)
+/// and A = CD cos(alpha) - CL sin(alpha), so Cm -= (N aft - A up) / c, Cn -= CY aft / b, Cl += CY up / b.
+class Mover {
+ public:
+  Mover(Aircraft& a, const Arm& arm) : a_(a), arm_(arm), c_(a.chord_m.x), b_(a.span_m.x) {}
+
+  void derivatives() {
+    for (std::size_t i = 0; i < terms; ++i) {
+      const Term term = Term(i);
+      const double CL = a_.c[lift][term].x, CD = a_.c[drag][term].x, CY = a_.c[side][term].x;
+      add(pitch, term, pitching(CL, CD));
+      add(yaw, term, -CY * arm_.aft / b_);
+      add(roll, term, CY * arm_.up / b_);
+    }
+    const double AR = b_ * b_ / a_.area_m2.x, CL = a_.c[lift][t_zero].x;
+    const double CD = a_.parasite.x + CL * CL / (std::numbers::pi * AR * a_.oswald.x);
+    const double CD_alpha = 2 * CL * a_.c[lift][t_alpha].x / (std::numbers::pi * AR * a_.oswald.x);
+    add(pitch, t_zero, pitching(0, CD));
+    add(pitch, t_alpha, pitching(CD, CD_alpha - CL));  // the airflow's axes turn with the angle of attack
+  }
+
+  /// What a table of a force does about the centre of gravity: tables of the moments.
+  void table(const CoefficientLookUp& of, Tables& out) const {
+    const auto moment = [&](Force force, auto factor) {
+      CoefficientLookUp more = of;
+      more.force = force;
+      const std::size_t columns = std::max<std::size_t>(1, of.table.and_at.size());
+      double most = 0;
+      for (std::size_t i = 0; i < of.table.values.size(); ++i) {
+        const double alpha = is_alpha(of.table.over)       ? of.table.at[i / columns]
+                             : is_alpha(of.table.and_over) ? of.table.and_at[i % columns]
+                                                           : 0;
+        more.table.values[i] *= factor(alpha);
+        most = std::max(most, std::abs(more.table.values[i]));
+      }
+      more.from += ", moved to the centre of gravity";
+      if (most > 1e-6) out.push_back(more);
+    };
+    if (of.force == lift)
+      moment(pitch, [&](double x) { return pitching(std::cos(x), -std::sin(x)); });
+    else if (of.force == drag)
+      moment(pitch, [&](double x) { return pitching(std::sin(x), std::cos(x)); });
+    else if (of.force == side) {
+      moment(yaw, [&](double) { return -arm_.aft / b_; });
+      moment(roll, [&](double) { return arm_.up / b_; });
+    }
+  }
+
+ private:
+  static bool is_alpha(const Axis* axis) { return axis && std::string(axis->name) == "alpha"; }
+  double pitching(double normal, double aft) const { return (aft * arm_.up - normal * arm_.aft) / c_; }
+  void add(Force force, Term term, double x) {
+    if (std::abs(x) < 1e-9) return;
+    Value& to = a_.c[force][term];
+    const std::string moved = "moved to the centre of gravity";
+    if (!to.known)
+      to = {x, moved};
+    else if (to.x += x; to.from.find(moved) == std::string::npos)
+      to.from += ", " + moved;
+  }
+
+  Aircraft& a_;
+  Arm arm_;
+  double c_, b_;
+};
+
+/// x aft, y right, z up, m; none when the file has no such place.
+std::optional<std::array<double, 3>> place_of(const Lines& lines, const Element& parent,
+                                              const std::string& name) {
+  for (const Element& one : parent.children) {
+    if (one.name != "location" || one.attribute("name") != name) continue;
+    const std::string unit = one.attribute("unit").empty() ? "IN" : one.attribute("unit");
+    const std::map<std::string, double> units{{"IN", 0.0254}, {"FT", 0.3048}, {"M", 1}};
+    if (units.count(unit) == 0)
+      refuse(lines.where(one.line), "<location>: '" + unit + "' is no unit that is known; valid: FT, IN, M");
+    std::array<double, 3> at{};
+    constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i)
+      at[i] = number_in(lines, needed_child(lines, one, axes[i])) * units.at(unit);
+    return at;
+  }
+  return {};
+}
+
+void move_moments(const Lines& lines, const Element& metrics, const Element& mass, Aircraft& a,
+                  Tables& tables) {
+  const auto point = place_of(lines, metrics, "AERORP"), centre = place_of(lines, mass, "CG");
+  if (!point || !centre) {
+    a.notes.push_back(
+        std::string("moments are taken as about the centre of gravity: the file has no place ") +
+        (point ? "CG" : "AERORP"));
+    return;
+  }
+  const Arm arm{(*point)[0] - (*centre)[0], (*point)[2] - (*centre)[2]};
+  if (std::abs((*point)[1] - (*centre)[1]) > 1e-3 * a.span_m.x)
+    a.warnings.push_back("AERORP and CG are not in one plane; what that rolls and yaws is left out");
+  if (std::abs(arm.aft) + std::abs(arm.up) < 1e-3 * a.chord_m.x) return;
+  Mover move(a, arm);
+  move.derivatives();
+  Tables more;
+  for (const CoefficientLookUp& one : tables) move.table(one, more);
+  if (tables.size() + more.size() > most_tables)
+    refuse(lines.where(metrics.line),
+           "AERORP and CG are not one point, and with tables of the moments that the forces have about the "
+           "centre of gravity there are " +
+               std::to_string(tables.size() + more.size()) + " tables; an airframe has at most 8");
+  tables.insert(tables.end(), more.begin(), more.end());
+  a.notes.push_back("moments moved from AERORP to the centre of gravity: forces act " + figures(arm.aft, 3) +
+                    " m behind and " + figures(arm.up, 3) + " m above it");
 }
 
 }  // namespace
@@ -404,7 +449,7 @@ Aircraft jsbsim_aircraft(const Lines& lines) {
   a.parasite = {0, "not in the file"};
   const std::map<std::string, Force> axes{{"LIFT", lift}, {"DRAG", drag},   {"SIDE", side},
                                           {"ROLL", roll}, {"PITCH", pitch}, {"YAW", yaw}};
-  std::vector<std::string> tables;
+  Tables tables;
   Drag of_drag;
   for (const Element& part : needed_child(lines, root, "aerodynamics").children) {
     if (part.name != "axis")
@@ -421,7 +466,9 @@ Aircraft jsbsim_aircraft(const Lines& lines) {
       take_function(lines, function, force->second, a, tables, of_drag);
     }
   }
-  finish_drag(tables, of_drag, a);
+  finish_drag(of_drag, a);
+  move_moments(lines, metrics, mass, a, tables);
+  put_tables(tables, a);
   return a;
 }
 

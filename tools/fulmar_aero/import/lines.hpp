@@ -65,6 +65,7 @@ std::optional<double> mass_unit(const std::string& unit);
 std::optional<double> inertia_unit(const std::string& unit);  ///< "kg.m", "slug-ft^2"
 
 std::vector<std::string> words_of(const std::string& line);
+std::vector<std::string> cells_of(const std::string& line);  ///< between commas, trimmed
 std::string trimmed(const std::string& text);
 std::string lower(std::string text);
 bool begins(const std::string& text, const std::string& with);

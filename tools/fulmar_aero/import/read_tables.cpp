@@ -330,19 +330,8 @@ Input read_vsp_drag(const Lines& lines) {
   // a table of components under a heading with C_D or Cd; the last row has the totals
   std::vector<std::string> heading;
   std::size_t column = 0;
-  const auto split = [](const std::string& text) {
-    std::vector<std::string> cells(1);
-    for (const char c : text) {
-      if (c == ',')
-        cells.emplace_back();
-      else
-        cells.back() += c;
-    }
-    for (std::string& cell : cells) cell = trimmed(cell);
-    return cells;
-  };
   for (std::size_t i = 0; i < lines.all.size(); ++i) {
-    const std::vector<std::string> cells = split(lines.all[i]);
+    const std::vector<std::string> cells = cells_of(lines.all[i]);
     for (std::size_t k = 0; k < cells.size(); ++k)
       if (const std::string cell = lower(cells[k]);
           heading.empty() && (cell == "cd" || cell == "c_d" || cell == "cd0")) {

@@ -21,18 +21,6 @@ struct ResultBlock {
   std::map<std::string, ResultRow> rows;
 };
 
-std::vector<std::string> cells_of(const std::string& text) {
-  std::vector<std::string> cells(1);
-  for (const char c : text) {
-    if (c == ',')
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  }
-  for (std::string& cell : cells) cell = trimmed(cell);
-  return cells;
-}
-
 std::vector<ResultBlock> blocks_in(const Lines& lines) {
   std::vector<ResultBlock> blocks;
   for (std::size_t i = 0; i < lines.all.size(); ++i) {

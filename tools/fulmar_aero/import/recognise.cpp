@@ -78,7 +78,9 @@ Input read_known(const Lines& lines, const ReadOptions& options) {
       lines.file +
       ":1: nobody knows this file; expected one of AVL (.st .sb .mass .run .eig), XFLR5 (stability log, "
       "plane polar, plane or polar XML), VSPAERO (.stab .polar .flt .history .vspaero, mass properties, "
-      "parasite drag, results as CSV)");
+      "parasite drag, results as CSV); or alone a whole aircraft of ROSflight (..._dynamics.yaml), JSBSim "
+      "(XML) "
+      "or pyfly (JSON)");
 }
 
 }  // namespace

@@ -55,6 +55,24 @@ TEST_CASE("the shipped airframes have no fault") {
   CHECK(text.says("no fault, 1 warning"));
 }
 
+TEST_CASE("a limit that the file leaves out is told as the default that it is") {
+  const Folder folder;
+  std::string text = changed("anaconda", "parasite_drag: 0.043", "parasite_drag: 0.14");
+  const std::string with_limit = folder.write("with.yaml", text);
+  const std::size_t at = text.find("  airspeed_max: 27 m/s"), end = text.find('\n', at);
+  REQUIRE(at != std::string::npos);
+  text.erase(at, end + 1 - at);
+  const auto sentence = [](const std::string& file) {
+    return finding(call("check --json " + file).json(), "faults", "limits.airspeed_max")["sentence"]
+        .get<std::string>();
+  };
+  CHECK(sentence(with_limit).find("no level flight at 27 m/s: ") == 0);
+  CHECK(sentence(with_limit).find("default") == std::string::npos);
+  const std::string without = sentence(folder.write("without.yaml", text));
+  CHECK(without.find("no level flight at 25 m/s: ") == 0);
+  CHECK(without.ends_with("; the file does not say it, and 25 m/s are the default"));
+}
+
 TEST_CASE("a derivative of the wrong sign is found, with what it would do" * doctest::test_suite("amounts")) {
   for (const Mistake& mistake :
        {Mistake{"p: -0.51", "p: 0.51", "faults", "aero.roll.p", "rolling would speed itself up"},
@@ -73,6 +91,14 @@ TEST_CASE("a derivative of the wrong sign is found, with what it would do" * doc
         {"aileron: -0.011", "aileron: 0.011", "warnings", "aero.yaw.aileron",
          "adverse yaw (negative) is usual"},
         {"aileron: -0.011", "aileron: -0.06", "warnings", "aero.yaw.aileron", "very much adverse yaw"}})
+    is_found(mistake);
+}
+
+TEST_CASE("a lift at no angle of attack that belongs to another angle is found, to either side") {
+  for (const Mistake& mistake :
+       {Mistake{"zero: 0.506", "zero: 0.8", "warnings", "aero.lift.zero",
+                "CL_0 is 0.8: without lift it would fly at -8.2 deg"},  // 0.8 / 5.61
+        {"zero: 0.506", "zero: -0.45", "warnings", "aero.lift.zero", "would fly at 4.6 deg"}})
     is_found(mistake);
 }
 

@@ -73,6 +73,13 @@ TEST_CASE("a log whose eigenvalues are not those of its derivatives fails") {
   CHECK(answer.code == 1);
 }
 
+TEST_CASE("a log's eigenvalues beside another tool's derivatives are shown, and accuse nobody") {
+  const ModeComparison modes = compare_modes(imported({tern_folder + "tern.st", logs[0]}));
+  REQUIRE(modes.pairs.size() == 5);
+  for (const ModePair& pair : modes.pairs) CHECK(pair.most_ratio == 0);
+  CHECK(compare_modes(imported({logs[0], tern_folder + "tern.st"})).pairs[0].most_ratio == 0.01);
+}
+
 TEST_CASE("AVL's eigenvalues count apparent mass, and are compared by size") {
   const Folder folder;
   const std::string run = folder.write("a.run",

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "tools/fulmar_aero/test/aero_kit.hpp"
+#include "tools/fulmar_aero/tune_words.hpp"
 
 namespace tune_test {
 
@@ -36,11 +37,26 @@ TEST_CASE("the gains of all shipped aircraft have their margins, broken at the a
                std::map<std::string, double>{{"gain_db", 6}, {"reduction_db", 6}, {"phase_deg", 45}})
             if (!figures[at][margin].is_null()) CHECK(figures[at][margin].get<double>() >= least);
         // A damper that turns the Dutch roll by less than 0 dB has no crossover, and no margin to lose.
-        if (where != "yaw damper") CHECK(figures["bandwidth_radps"].get<double>() > 0.1);
+        const json& width = figures["bandwidth_radps"];
+        const bool none = where == "yaw damper" && width.is_null();
+        CHECK((none || width.get<double>() > 0.1));
+        CHECK((!none || figures["at_actuator"]["crossover_radps"].is_null()));
       }
     }
     CHECK(o["faults"].empty());
   }
+}
+
+TEST_CASE("a damper without a crossover has a dash, and null in JSON") {
+  Judged judged;
+  judged.loops.resize(2);
+  judged.loops[0].name = "yaw damper";
+  judged.loops[1].name = "roll", judged.loops[1].bandwidth_radps = 12;
+  const std::string text = loops_text("shipped", judged);
+  CHECK(text.find("  yaw damper        -    0.00") != std::string::npos);
+  CHECK(text.find("  roll          12.00    0.00") != std::string::npos);
+  CHECK(loops_json(judged)["loops"]["yaw damper"]["bandwidth_radps"].is_null());
+  CHECK(loops_json(judged)["loops"]["roll"]["bandwidth_radps"] == 12);
 }
 
 TEST_CASE("bandwidths become gains by the relations of the README" * doctest::test_suite("amounts")) {

@@ -2,6 +2,7 @@
 #include "tools/fulmar_aero/vlm/aircraft.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -112,6 +113,30 @@ void put_coefficients(Aircraft& a) {
   out.drag.flap_ratio = a.whole.control[to_flap].CD;
 }
 
+/// Signs by what controls do, as `import` has them: an elevator ahead of the centre of gravity goes up where
+/// one behind it goes down. With elevons and a V-tail a column is two surfaces, and stays.
+std::string turn_controls(const Geometry& g, SixDerivatives& whole) {
+  struct Sense {
+    int control;
+    double Six::*moment;
+    double right;  ///< its sign
+    const char* words;
+  };
+  constexpr std::array<Sense, 2> senses{
+      {{to_elevator, &Six::Cm, -1, "elevator: positive is trailing edge up, which takes the nose down here"},
+       {to_rudder, &Six::Cn, -1, "rudder: positive is trailing edge right, which takes the nose left here"}}};
+  std::string turned;
+  if (g.mixer != Mixer::conventional) return turned;
+  for (const Sense& sense : senses) {
+    Six& column = whole.control[std::size_t(sense.control)];
+    if (column.*(sense.moment) * sense.right >= 0) continue;
+    for (double Six::*const c : {&Six::CL, &Six::CD, &Six::CY, &Six::Cl, &Six::Cm, &Six::Cn})
+      column.*c = -(column.*c);
+    turned += std::string(turned.empty() ? "" : "; ") + sense.words;
+  }
+  return turned.empty() ? turned : turned + ": turn the servo, too";
+}
+
 SixDerivatives with_parts(const Geometry& g, const Aircraft& a, const SixDerivatives& lattice) {
   SixDerivatives whole = lattice;
   add_bodies(g, whole);
@@ -163,11 +188,18 @@ void doubt(const SixDerivatives& few, Aircraft& a) {
   }
 }
 
-void lift_fault(const GeometryFile& file, double CL, const Aircraft& a) {
-  throw core::Error(file.where("limits", 1u << 20).text() + ": limits.airspeed_cruise: at " +
-                    core::number_text(a.stream.airspeed_mps) + " m/s level flight of " +
-                    figures(a.mass.mass_kg) + " kg takes CL " + figures(CL) +
-                    ", and these surfaces have it at no angle within 25 deg");
+void lift_fault(const GeometryFile& file, double CL, const Aircraft& a, const Vlm& vlm) {
+  constexpr double step = 5 * degree;
+  const double slope = (vlm.forces({.alpha = step}).CL - vlm.forces({.alpha = -step}).CL) / (2 * step);
+  throw core::Error(
+      file.where("limits", 1u << 20).text() + ": limits.airspeed_cruise: at " +
+      core::number_text(a.stream.airspeed_mps) + " m/s level flight of " + figures(a.mass.mass_kg) +
+      " kg takes CL " + figures(CL) + ", and these surfaces have it at no angle within 25 deg" +
+      (slope > 1 && slope < 9
+           ? ""
+           : "; their CL_alpha is " + figures(slope) +
+                 ", so a vortex passes a control point of another surface: make winglets sections of their "
+                 "wing, part a tail from the wing's wake, or change `spanwise`"));
 }
 
 }  // namespace
@@ -184,10 +216,10 @@ Aircraft aircraft_of(const GeometryFile& file, double density) {
   // the wake's angle from a few panels: it matters little, and then lies along the stream
   const Vlm few(lattice_of(g, 0.4 * density), g.reference, a.mass.centre);
   const double wake = alpha_for(few, CL);
-  if (std::isnan(wake)) lift_fault(file, CL, a);
+  if (std::isnan(wake)) lift_fault(file, CL, a, few);
   const Vlm vlm(lattice, g.reference, a.mass.centre, wake);
   a.alpha_rad = alpha_for(vlm, CL);
-  if (std::isnan(a.alpha_rad)) lift_fault(file, CL, a);
+  if (std::isnan(a.alpha_rad)) lift_fault(file, CL, a, vlm);
   const FlowState cruise{.alpha = a.alpha_rad};
   a.lattice = vlm.derivatives(cruise);
   doubt(few.derivatives(cruise), a);
@@ -220,6 +252,7 @@ Aircraft aircraft_of(const GeometryFile& file, double density) {
   }
   a.whole = with_parts(g, a, a.lattice);
   a.whole.beta.CY -= out.aero.parasite_drag_ratio;  // it pulls along the stream
+  a.turned = turn_controls(g, a.whole);
   put_coefficients(a);
   return a;
 }
@@ -232,6 +265,7 @@ std::vector<Convergence> convergence_of(const GeometryFile& file, const Aircraft
     const Vlm vlm(lattice, g.reference, aircraft.mass.centre, aircraft.alpha_rad);
     out.push_back({density, lattice.panels.size(),
                    with_parts(g, aircraft, vlm.derivatives({.alpha = aircraft.alpha_rad}))});
+    turn_controls(g, out.back().whole);
   }
   return out;
 }

@@ -22,7 +22,8 @@ struct Aircraft {
   double propeller_radps = 0;  ///< in cruise; 0: not asked for
   std::string stalls_first;    ///< the surface
   double stall_y_m = 0;
-  std::string doubt;  ///< a sentence when fewer panels say something else
+  std::string turned;  ///< a sentence for each control whose sign was turned
+  std::string doubt;   ///< a sentence when fewer panels say something else
 };
 
 /// Throws core::Error with file:line when there is no level flight, or no mass.

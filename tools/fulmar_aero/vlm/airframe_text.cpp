@@ -88,6 +88,7 @@ std::string aero_text(const GeometryFile& file, const Aircraft& a) {
   if (!g.propellers.empty())
     text += "\n# Propellers in oblique flow, at " + figures(a.propeller_radps, 4) +
             " rad/s: in alpha, beta, q and r, NACA Report 820.";
+  if (!a.turned.empty()) text += "\n# " + a.turned + ".";
   if (!a.doubt.empty()) text += "\n# WARNING: " + a.doubt;
   text += "\naero:\n  parasite_drag: " + figures(f.aero.parasite_drag_ratio, 4) + "  # sections " +
           figures(a.skin_drag, 3) + " in cruise, bodies " + figures(a.body_drag, 3) + "; polars and plates\n";

@@ -65,6 +65,7 @@ std::string summary_text(const GeometryFile& file, const Aircraft& a) {
                            (a.stalls_first.empty() ? ""
                                                    : ", first the " + a.stalls_first + " at " +
                                                          figures(a.stall_y_m) + " m from the middle")) +
+         (a.turned.empty() ? "" : "note     " + a.turned + "\n") +
          (a.doubt.empty() ? "" : "warning  " + a.doubt + "\n");
 }
 
@@ -116,6 +117,7 @@ nlohmann::json aircraft_json(const Aircraft& a, const std::vector<Convergence>& 
           {"parasite_drag", a.airframe.aero.parasite_drag_ratio},
           {"derivatives", derivatives_json(a.whole)},
           {"lattice", derivatives_json(a.lattice)},
+          {"turned", a.turned},
           {"warning", a.doubt},
           {"wake", {{"CL", a.far.CL}, {"CD", a.far.CD}, {"e", a.e_far}}},
           {"convergence", list}};

@@ -3,12 +3,14 @@
 #pragma once
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "tools/chart/test/reading_kit.hpp"
+
 namespace plot_test {
+
+using namespace fulmar::chart::test;
 
 struct Point {
   double x = 0, y = 0;
@@ -43,17 +45,6 @@ struct ReadFigure {
   std::vector<ReadPanel> panels;
 };
 
-inline std::vector<std::string> between(const std::string& text, const std::string& from,
-                                        const std::string& to) {
-  std::vector<std::string> all;
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos;) {
-    at += from.size();
-    const std::size_t end = text.find(to, at);
-    if (end == std::string::npos) break;
-    all.push_back(text.substr(at, end - at));
-  }
-  return all;
-}
 inline std::string attribute(const std::string& tag, const std::string& name) {
   const auto found = between(tag, " " + name + "=\"", "\"");
   return found.empty() ? "" : found[0];
@@ -75,27 +66,9 @@ inline std::vector<ReadText> texts(const std::string& svg, const std::string& ki
   return all;
 }
 
-/// Millimetres to values, by the first and the last number of an axis.
-struct Scale {
-  double mm0 = 0, value0 = 0, per_mm = 0;
-  double at(double mm) const { return value0 + (mm - mm0) * per_mm; }
-};
-inline Scale scale_of(const std::vector<double>& mm, const std::vector<double>& values) {
-  REQUIRE(mm.size() >= 2);
-  return {mm[0], values[0], (values.back() - values[0]) / (mm.back() - mm[0])};
-}
-
-inline ReadCurve read_curve(const std::string& tag, const Scale& x, const Scale& y) {
-  ReadCurve curve{between(tag, "<title>", "</title>").at(0), attribute(tag, "stroke-dasharray"), {}};
-  const std::string d = attribute(tag, "d");
-  for (std::size_t at = 0; (at = d.find_first_of("ML", at)) != std::string::npos; ++at) {
-    char* next = nullptr;
-    const double px = std::strtod(d.c_str() + at + 1, &next), py = std::strtod(next, nullptr);
-    if (d[at] == 'M') curve.parts.emplace_back();
-    REQUIRE(!curve.parts.empty());
-    curve.parts.back().push_back({x.at(px), y.at(py)});
-  }
-  return curve;
+inline ReadCurve read_curve(const std::string& tag, const AxisScale& x, const AxisScale& y) {
+  return {between(tag, "<title>", "</title>").at(0), attribute(tag, "stroke-dasharray"),
+          read_parts<Point>(attribute(tag, "d"), x, y)};
 }
 
 inline ReadFigure read_figure(const std::string& svg) {
@@ -108,7 +81,7 @@ inline ReadFigure read_figure(const std::string& svg) {
   std::vector<double> x_mm;
   for (const ReadText& t : texts(svg, "x")) x_mm.push_back(t.x), figure.x_marks.push_back(std::stod(t.words));
   for (const ReadText& t : texts(svg, "phase")) figure.phase_words.push_back(t.words);
-  const Scale x = scale_of(x_mm, figure.x_marks);
+  const AxisScale x = scale_of(x_mm, figure.x_marks);
   for (const std::string& one : between(svg, "<g class=\"panel\">", "</g>")) {
     ReadPanel panel;
     panel.y_words = texts(one, "y-axis").at(0).words;
@@ -116,8 +89,8 @@ inline ReadFigure read_figure(const std::string& svg) {
     for (const ReadText& t : texts(one, "y"))
       y_mm.push_back(t.y - 1), panel.y_marks.push_back(std::stod(t.words));
     for (const ReadText& t : texts(one, "legend")) panel.legend.push_back(t.words);
-    const Scale y = scale_of(y_mm, panel.y_marks);
-    panel.x_per_mm = x.per_mm, panel.y_per_mm = -y.per_mm;
+    const AxisScale y = scale_of(y_mm, panel.y_marks);
+    panel.x_per_mm = x.per_place, panel.y_per_mm = -y.per_place;
     for (const std::string& tag : between(one, "<path class=\"curve\"", "</path>"))
       panel.curves.push_back(read_curve(tag, x, y));
     for (const std::string& tag : between(one, "<rect class=\"phase\"", "</rect>"))
@@ -130,22 +103,9 @@ inline ReadFigure read_figure(const std::string& svg) {
 
 /// The first tag that is not closed where it should be, or an & that stands alone; "": it is well formed.
 inline std::string ill_formed(const std::string& svg) {
-  std::vector<std::string> open;
-  for (std::size_t at = 0; (at = svg.find('<', at)) != std::string::npos; ++at) {
-    const bool closes = svg.compare(at, 2, "</") == 0;
-    const std::size_t begin = at + (closes ? 2 : 1), end = svg.find('>', at);
-    const std::string name = svg.substr(begin, svg.find_first_of(" />", begin) - begin);
-    if (svg[end - 1] == '/') continue;
-    if (!closes) {
-      open.push_back(name);
-      continue;
-    }
-    if (open.empty() || open.back() != name) return "</" + name + "> at " + std::to_string(at);
-    open.pop_back();
-  }
   for (std::size_t at = 0; (at = svg.find('&', at)) != std::string::npos; ++at)
     if (svg.find(';', at) - at > 5) return "& at " + std::to_string(at);
-  return open.empty() ? "" : "<" + open.back() + ">";
+  return unbalanced(svg);
 }
 
 }  // namespace plot_test

@@ -4,16 +4,17 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <regex>
 #include <string>
 #include <vector>
 
 #include "tools/chart/chart.hpp"
+#include "tools/chart/test/reading_kit.hpp"
 
 namespace fulmar::aero::test {
 
 using namespace chart;
+using namespace chart::test;
 
 struct ReadCurve {
   std::string kind;  // "line s0"
@@ -40,29 +41,6 @@ struct ReadChart {
   }
 };
 
-/// What stands between two texts, each time.
-inline std::vector<std::string> between(const std::string& text, const std::string& from,
-                                        const std::string& to) {
-  std::vector<std::string> all;
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos;) {
-    at += from.size();
-    const std::size_t end = text.find(to, at);
-    if (end == std::string::npos) break;
-    all.push_back(text.substr(at, end - at));
-  }
-  return all;
-}
-
-/// Pixels to values, by the first and the last mark of an axis.
-struct AxisScale {
-  double px0 = 0, value0 = 0, per_px = 0;
-  double at(double px) const { return value0 + (px - px0) * per_px; }
-};
-inline AxisScale scale_of(const std::vector<double>& px, const std::vector<double>& values) {
-  REQUIRE(px.size() >= 2);
-  return {px[0], values[0], (values.back() - values[0]) / (px.back() - px[0])};
-}
-
 inline ReadChart read_chart(const std::string& figure) {
   ReadChart chart;
   chart.title = between(figure, "<figcaption>", "</figcaption>").at(0);
@@ -79,19 +57,11 @@ inline ReadChart read_chart(const std::string& figure) {
     if (m[3] == "y") y_px.push_back(std::stod(m[2]) - 4), chart.y_marks.push_back(std::stod(m[4]));
   }
   const AxisScale x = scale_of(x_px, chart.x_marks), y = scale_of(y_px, chart.y_marks);
-  chart.x_per_px = std::abs(x.per_px), chart.y_per_px = std::abs(y.per_px);
+  chart.x_per_px = std::abs(x.per_place), chart.y_per_px = std::abs(y.per_place);
   for (const std::string& one : between(svg, "<path ", "/>")) {  // long: no regular expression
     const std::string kind = between(one, "class=\"", "\"").at(0), d = between(one, " d=\"", "\"").at(0);
     if (!kind.starts_with("line ") && !kind.starts_with("mark ")) continue;
-    ReadCurve curve{kind, {}};
-    for (std::size_t at = 0; (at = d.find_first_of("ML", at)) != std::string::npos; ++at) {
-      char* next = nullptr;
-      const double px = std::strtod(d.c_str() + at + 1, &next), py = std::strtod(next, nullptr);
-      if (d[at] == 'M') curve.parts.emplace_back();
-      REQUIRE(!curve.parts.empty());
-      curve.parts.back().push_back({x.at(px), y.at(py)});
-    }
-    chart.curves.push_back(curve);
+    chart.curves.push_back({kind, read_parts<ChartPoint>(d, x, y)});
   }
   for (const std::string& item : between(figure, "<li>", "</li>"))
     chart.legend.push_back(item.substr(item.find("</svg>") + 6));
@@ -122,25 +92,6 @@ inline double value_at(const std::vector<ChartPoint>& points, double x) {
     if (a.x <= x && x <= b.x && b.x > a.x) return a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y);
   }
   return std::nan("");
-}
-
-/// The first tag that is not closed where it should be; "": all are.
-inline std::string unbalanced(const std::string& page) {
-  std::vector<std::string> open;
-  for (std::size_t at = 0; (at = page.find('<', at)) != std::string::npos; ++at) {
-    if (page.compare(at, 2, "<!") == 0) continue;
-    const bool closes = page.compare(at, 2, "</") == 0;
-    const std::size_t begin = at + (closes ? 2 : 1), end = page.find('>', at);
-    const std::string name = page.substr(begin, page.find_first_of(" />", begin) - begin);
-    if (name == "meta" || page[end - 1] == '/') continue;
-    if (!closes) {
-      open.push_back(name);
-      continue;
-    }
-    if (open.empty() || open.back() != name) return "</" + name + "> at " + std::to_string(at);
-    open.pop_back();
-  }
-  return open.empty() ? "" : "<" + open.back() + ">";
 }
 
 /// What every page of ours keeps.

@@ -175,6 +175,48 @@ TEST_CASE("lift over the span adds up to the lattice's lift, and stalls where vl
   CHECK(nearest > -0.02);
 }
 
+TEST_CASE("a drawing whose surfaces are in another program's file is seen as if they stood in it") {
+  const Folder folder;
+  const std::string drawn = text_of(FULMAR_SOURCE_DIR "/tools/fulmar_aero/vlm/test/merlin.yaml");
+  std::string rest = drawn.substr(drawn.find("masses:"));
+  const std::string cruise = "airspeed_cruise: 16";
+  rest.replace(rest.find(cruise), cruise.size(), "airspeed_cruise: 20");
+  const auto section = [](const std::string& at, const std::string& more) {
+    return "SECTION\n" + at + "\n" + more;
+  };
+  const std::string aileron = "CONTROL\naileron -1 0.75 0 0 0 -1\n",
+                    elevator = "CONTROL\nelevator 1 0.6 0 0 0 1\n";
+  folder.write("wing.avl",
+               "Gull\n0\n0 0 0\n0.545 0.25 2.2\n0.07 0 0\n0.02\nSURFACE\nwing\n4 1 8 1\nYDUPLICATE\n0\n"
+               "ANGLE\n2\n" +
+                   section("0 0 0 0.3 0", "") + section("0.02 0.5 0 0.25 0", aileron) +
+                   section("0.05 1.1 0 0.2 0", aileron) +
+                   "SURFACE\ntail\n4 1 4 1\nYDUPLICATE\n0\nTRANSLATE\n0.9 0 0\n" +
+                   section("0 0 0 0.15 0", elevator) + section("0.01 0.35 0 0.12 0", elevator));
+  const std::string drawing = folder.write("far.yaml", "name: gull\nplanform: wing.avl\n" + rest);
+  const std::string out = (folder.path / "p.html").string();
+  const Answer answer = call("see " + drawing + " -o " + out);
+  REQUIRE_MESSAGE(answer.code == 0, answer.out);
+  const std::string page = text_of(out);
+  check_page(page);
+  const ReadChart above = chart_named(read_charts(page), "surfaces and lattice, from above");
+  double right = -10, left = 10, wing_tip_x = 10;  // y to the right along the page's x
+  for (const ReadCurve& curve : above.all("line s0"))
+    for (const ChartPoint& point : curve.points()) {
+      right = std::max(right, point.x), left = std::min(left, point.x);
+      if (point.x > 1.099) wing_tip_x = std::min(wing_tip_x, std::abs(point.y));
+    }
+  CHECK(std::abs(right - 1.1) < 2 * above.x_per_px);
+  CHECK(std::abs(left + 1.1) < 2 * above.x_per_px);
+  CHECK(std::abs(wing_tip_x - 0.05) < 2 * above.y_per_px);
+  CHECK(chart_named(read_charts(page), "Lift over the span").all("line s0").size() >= 1);
+  // the file that is named is read from beside the drawing; without it a sentence has its line
+  folder.write("none.yaml", "name: gull\nplanform: wind.avl\n" + rest);
+  const Answer none = call("see " + (folder.path / "none.yaml").string() + " -o " + out);
+  CHECK(none.code == 4);
+  CHECK(none.says("none.yaml:2: planform: there is no file 'wind.avl' beside the drawing"));
+}
+
 TEST_CASE("a hostile name stays text; two of one name are told apart by their files") {
   const Folder folder;
   const std::string evil = "</title><script>x</script>";

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// JSBSim's moments about the centre of gravity, beside forces and arms multiplied out.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/import/import.hpp"
+#include "tools/fulmar_aero/import/rosflight.hpp"
+#include "tools/fulmar_aero/test/import_kit.hpp"
+
+namespace jsbsim_moments_test {
+using namespace fulmar::aero;
+using namespace fulmar::aero::imports;
+using doctest::Approx;
+
+namespace {
+
+std::string function(const std::string& name, const std::string& factors) {
+  return "<function name=\"" + name + "\"><product><property>aero/qbar-area</property>" + factors +
+         "</product></function>";
+}
+std::string term(const std::string& name, const std::string& lengths, const std::string& state,
+                 const std::string& value) {
+  return function(name, lengths + (state.empty() ? "" : "<property>" + state + "</property>") + "<value>" +
+                            value + "</value>");
+}
+
+/// A gull of 8 by 1.25 ft; places in inches, `lift` as functions.
+std::string gull(const std::string& point, const std::string& centre, const std::string& lift) {
+  const std::string b = "<property>metrics/bw-ft</property>", c = "<property>metrics/cbarw-ft</property>";
+  const auto place = [](const std::string& name, const std::string& xyz) {
+    return xyz.empty() ? "" : "<location name=\"" + name + "\" unit=\"IN\">" + xyz + "</location>";
+  };
+  return "<fdm_config name=\"gull\"><metrics><wingarea>10</wingarea><wingspan>8</wingspan>"
+         "<chord>1.25</chord>" +
+         place("AERORP", point) + "</metrics>\n<mass_balance><ixx>0.5</ixx><iyy>0.6</iyy><izz>1.0</izz>" +
+         "<emptywt>14</emptywt>" + place("CG", centre) +
+         "</mass_balance>\n<aerodynamics><axis name=\"LIFT\">" + lift + "</axis><axis name=\"DRAG\">" +
+         term("CD0", "", "", "0.03") + "</axis><axis name=\"SIDE\">" +
+         term("CYb", "", "aero/beta-rad", "-0.5") + "</axis><axis name=\"PITCH\">" +
+         term("Cma", c, "aero/alpha-rad", "-0.3") + term("Cmde", c, "fcs/elevator-pos-rad", "-1.2") +
+         term("Cmq", c + "<property>aero/ci2vel</property>", "velocities/q-aero-rad_sec", "-12") +
+         "</axis><axis name=\"ROLL\">" + term("Clb", b, "aero/beta-rad", "-0.06") +
+         term("Clda", b, "fcs/left-aileron-pos-rad", "0.2") +
+         term("Clp", b + "<property>aero/bi2vel</property>", "velocities/p-aero-rad_sec", "-0.45") +
+         "</axis><axis name=\"YAW\">" + term("Cnb", b, "aero/beta-rad", "0.08") +
+         term("Cnr", b + "<property>aero/bi2vel</property>", "velocities/r-aero-rad_sec", "-0.1") +
+         "</axis></aerodynamics></fdm_config>\n";
+}
+const std::string straight = term("CL0", "", "", "0.25") + term("CLa", "", "aero/alpha-rad", "4.8") +
+                             term("CLde", "", "fcs/elevator-pos-rad", "0.4");
+const std::string table = function(
+    "CLa",
+    "<table><independentVar>aero/alpha-rad</independentVar><tableData>\n-0.2 -0.75\n0 0.25\n0.24 1.4\n</"
+    "tableData></table>");
+const std::string behind = "<x>38</x><y>0</y><z>2</z>", ahead = "<x>35</x><y>0</y><z>6</z>";
+
+Aircraft read(const std::string& text) { return jsbsim_aircraft(lines_of("gull.xml", text)); }
+
+/// Along the body's axes at this angle, times their arms: 3 in aft, 4 in below.
+double pitching(double CL, double CD, double x) {
+  const double N = CL * std::cos(x) + CD * std::sin(x), A = CD * std::cos(x) - CL * std::sin(x);
+  const double aft = 3 * 0.0254, up = -4 * 0.0254;
+  return (A * up - N * aft) / (1.25 * 0.3048);
+}
+
+}  // namespace
+
+TEST_CASE("moments of JSBSim are about AERORP, and move to the centre of gravity") {
+  const Aircraft at_once = read(gull(behind, behind, straight)), a = read(gull(behind, ahead, straight));
+  CHECK(at_once.c[pitch][t_alpha].x == -0.3);
+  const auto whole = [](double x) {
+    const double CL = 0.25 + 4.8 * x, CD = 0.03 + CL * CL / (std::numbers::pi * 6.4 * 0.9);
+    return pitching(CL, CD, x);
+  };
+  const double b = 8 * 0.3048, h = 1e-5;
+  CHECK(a.c[pitch][t_zero].x / whole(0) == Approx(1));
+  CHECK((a.c[pitch][t_alpha].x + 0.3) / ((whole(h) - whole(-h)) / (2 * h)) == Approx(1).epsilon(1e-6));
+  CHECK((a.c[pitch][t_elevator].x + 1.2) / pitching(0.4, 0, 0) == Approx(1));
+  CHECK(a.c[yaw][t_beta].x == Approx(0.08 + 0.5 * 3 * 0.0254 / b));
+  CHECK(a.c[roll][t_beta].x == Approx(-0.06 + 0.5 * 4 * 0.0254 / b));
+  CHECK(a.c[pitch][t_q].x == -12);  // no force by rates, no moment of it
+  CHECK(says(a.c[pitch][t_alpha].from, "gull.xml:3 Cma, moved to the centre of gravity"));
+  CHECK(says(a.notes.back(), "forces act 0.0762 m behind and -0.102 m above it"));
+  CHECK(says(read(gull("", ahead, straight)).notes.back(), "the file has no place AERORP"));
+  CHECK(says(read(gull(behind, "", straight)).notes.back(), "the file has no place CG"));
+  CHECK(says(read(gull(behind, "<x>38</x><y>1</y><z>2</z>", straight)).warnings.back(), "not in one plane"));
+  CHECK(says(refusal([] { read(gull("<x>1</x><z>0</z>", ahead, straight)); }), "expected <y>"));
+}
+
+TEST_CASE("the moment of a lift that is a table is a table, and the check looks at its slopes") {
+  const Aircraft a = read(gull(behind, ahead, table));
+  const fulmar::aero::AirframeFile file = written(a, {}, "gull.yaml").file;
+  REQUIRE(file.airframe.aero.tables.size() == 2);
+  const auto& moment = file.airframe.aero.tables[1];
+  CHECK(moment.coefficient == fulmar::Coefficient::pitch);
+  CHECK(moment.values_ratio[2] == Approx(pitching(1.4, 0, 0.24)).epsilon(1e-6));
+  Findings findings(file);
+  check_derivatives(findings);
+  check_stability(findings);
+  CHECK_FALSE(findings.has("aero.lift.alpha_ratio"));  // 4.79 by the table
+  const auto margin = [](const Findings& f) {
+    for (const Figure& figure : f.figures())
+      if (figure.key == "static_margin_ratio") return figure.value;
+    return 0.0;
+  };
+  const double slope = (1.4 - 0.25) / 0.24;
+  const double by_table = (pitching(1.4, 0, 0.24) - pitching(0.25, 0, 0)) / 0.24;
+  const double drag = pitching(0, 0.03, 1) - std::cos(1.0) * pitching(0, 0.03, 0);  // N of it, over sin
+  CHECK(margin(findings) == Approx(-(-0.3 + by_table + drag / std::sin(1.0)) / slope).epsilon(1e-3));
+
+  // a slope of the wrong sign is a fault as it is without a table
+  std::string falls = table;
+  falls.replace(falls.find("-0.75"), 5, "1.25");
+  falls.replace(falls.find("1.4"), 3, "-.9");
+  const fulmar::aero::AirframeFile wrong = written(read(gull(behind, behind, falls)), {}, "gull.yaml").file;
+  Findings of_wrong(wrong);
+  check_derivatives(of_wrong);
+  CHECK(of_wrong.has("aero.lift.alpha_ratio"));
+}
+
+TEST_CASE("more tables than an airframe has, with those of the moments, are refused") {
+  std::string five;
+  for (int i = 0; i < 5; ++i) five += table;
+  CHECK(read(gull(behind, behind, five)).notes.size() > 0);
+  CHECK(says(refusal([&] { read(gull(behind, ahead, five)); }), "there are 10 tables"));
+}
+
+}  // namespace jsbsim_moments_test

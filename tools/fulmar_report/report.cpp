@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view place = "LOG_OF_THE_FLIGHT";
 constexpr std::size_t most_rows = 2000, least_rows = 300;  // of a curve that is judged
-constexpr std::size_t most_told = 300;                     // events
+constexpr std::size_t most_told = 100;                     // events
 constexpr std::size_t thinnest = 64;
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }

@@ -11,6 +11,7 @@ export interface Curve {
   colour: string; // of the style sheet
   dash?: number[];
   width?: number;
+  may_leave?: boolean; // what is shown does not grow for it
 }
 export interface ChartText {
   title: string; unit: string;
@@ -22,9 +23,26 @@ export interface Phase {
   name: string; from_s: number; to_s: number;
 }
 
-const longest_gap_s = 3;
+const longest_gap_s = 3, height_px = 200;
 const sync = uPlot.sync("report");
 const all: LineChart[] = [];
+
+/** Of an angle that begins anew: a line is parted there even where the gap is narrower than what the screen has. */
+const parted: uPlot.Series.PathBuilder = (u, series, from, to) => {
+  const stroke = new Path2D(), x = u.data[0], y = u.data[series] as (number | null | undefined)[];
+  let pen = false;
+  for (let i = from; i <= to; ++i) {
+    const value = y[i];
+    if (value === undefined) continue; // of another curve
+    if (value !== null) {
+      const at: [number, number] = [u.valToPos(x[i] as number, "x", true), u.valToPos(value, "y", true)];
+      if (pen) stroke.lineTo(...at);
+      else stroke.moveTo(...at);
+    }
+    pen = value !== null;
+  }
+  return { stroke };
+};
 
 /** Times that go forwards, gaps where there is no number or nothing for long, and where an angle begins anew. */
 function drawable(s: Series, turn: number): [number[], (number | null)[]] {
@@ -50,8 +68,10 @@ export class LineChart {
   readonly element: HTMLElement;
   private plot: uPlot | null = null;
   private readonly data: uPlot.AlignedData;
+  private readonly parts: boolean;
 
   constructor(private readonly text: ChartText, private readonly curves: Curve[], private readonly phases: Phase[] = [], turn = 0) {
+    this.parts = turn > 0;
     this.element = el("figure", { class: "chart", role: "img", "aria-label": this.spoken() },
       el("figcaption", {}, el("b", {}, text.title), text.note ? el("span", { class: "faint" }, text.note) : null), this.box);
     const tables = curves.map((c) => drawable(c.series, turn) as uPlot.AlignedData).filter((table) => table[0].length > 0);
@@ -79,7 +99,7 @@ export class LineChart {
     const { unit, least, around_zero } = this.text;
     const axis = { stroke: colours.get("text"), grid: { stroke: colours.get("grid"), width: 1 }, ticks: { stroke: colours.get("grid"), width: 1 }, font: "12px system-ui" };
     this.plot = new uPlot({
-      width, height: 190, pxAlign: 0,
+      width, height: height_px, pxAlign: 0,
       cursor: { drag: { x: true, y: false }, sync: { key: sync.key, setSeries: false } },
       scales: {
         x: { time: false },
@@ -91,13 +111,15 @@ export class LineChart {
           return [low - room, high + room];
         } },
       },
-      axes: [{ ...axis, values: (_u, list) => list.map((v) => digits(v) + " s") },
+      axes: [{ ...axis, size: 32, values: (_u, list) => list.map((v) => digits(v) + " s") },
         { ...axis, size: 76, values: (_u, list) => list.map((v) => with_unit(v, unit)) }],
       series: [{ label: "time", value: (_u, v) => fixed(v ?? undefined, 2, "s") },
         ...this.curves.map((c) => ({
-          label: c.name, stroke: colours.get(c.colour), width: c.width ?? 1.6, dash: c.dash, points: { show: false },
+          label: c.name, stroke: colours.get(c.colour), width: c.width ?? 1.6, dash: c.dash, points: { show: false }, auto: !c.may_leave,
+          ...(this.parts ? { paths: parted } : {}),
           value: (_u: uPlot, v: number | null) => fixed(v ?? undefined, 3, unit),
         }))],
+      legend: { markers: { width: 3, dash: (_u, i) => { const dash = this.curves[i - 1]?.dash; return !dash ? "solid" : (dash[0] as number) > 4 ? "dashed" : "dotted"; } } },
       hooks: { drawClear: [(u) => this.bands(u)] },
     }, this.data, this.box);
     if (shown?.min !== undefined && shown.max !== undefined) this.plot.setScale("x", { min: shown.min as number, max: shown.max as number });
@@ -127,7 +149,7 @@ export class LineChart {
 
   resize(): void {
     const width = this.box.clientWidth;
-    if (this.plot && width >= 50 && this.plot.width !== width) this.plot.setSize({ width, height: 190 });
+    if (this.plot && width >= 50 && this.plot.width !== width) this.plot.setSize({ width, height: height_px });
   }
   show(from_s: number, to_s: number): void {
     this.plot?.setScale("x", { min: from_s, max: to_s });

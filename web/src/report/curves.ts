@@ -15,6 +15,10 @@ const bound_dash = [4, 4], asked_dash = [8, 4];
 function scaled(s: Series, scale: number): Series {
   return scale === 1 ? s : { t: s.t, v: s.v.map((v) => v * scale) };
 }
+/** Of several logs the first are drawn below the others, and wider, so that all are seen where they agree. */
+export function width_of(log: number, logs: number): number {
+  return 1.4 + 1.1 * (logs - 1 - log);
+}
 function whole_turn(deg: number): number {
   return ((deg % 360) + 360) % 360;
 }
@@ -52,7 +56,7 @@ export function channel_charts(sources: Recording[], phases: Phase[]): LineChart
       if (c.turn > 0) set.v = set.v.map((v) => whole_turn(v * c.scale));
       else set.v = set.v.map((v) => v * c.scale);
       if (asked.t.length > 0) curves.push({ name: who + "asked", series: set, colour: one ? "line2" : colour, dash: asked_dash, width: 1.4 });
-      if (got.t.length > 0) curves.push({ name: who + "flown", series: got, colour: one ? "line1" : colour });
+      if (got.t.length > 0) curves.push({ name: who + "flown", series: got, colour: one ? "line1" : colour, width: width_of(i, sources.length) });
     });
     return new LineChart({ title: c.title, unit: c.unit, least: c.least }, curves, one ? phases : [], c.turn);
   });
@@ -64,13 +68,14 @@ export function surface_charts(sources: Recording[], phases: Phase[]): LineChart
     const curves = sources.flatMap((source, i) => {
       const topic = names_of(source).actuators;
       return fields.map(([field, name], k) => ({
-        name: one ? name : `${source.log.name}, ${name}`, series: scaled(source.whole(topic, field), scale),
-        colour: log_colours[one ? k : i] as string, dash: k === 0 ? undefined : k === 1 ? asked_dash : bound_dash,
+        name: one ? name : source.log.name, series: scaled(source.whole(topic, field), scale),
+        colour: log_colours[one ? k : i] as string, width: one ? 1.4 : width_of(i, sources.length), dash: k === 0 ? undefined : k === 1 ? asked_dash : bound_dash,
       }));
     });
     return new LineChart({ title, unit, least }, curves, one ? phases : []);
   };
-  return [chart("Surfaces", "°", 5, [["aileron_rad", "aileron"], ["elevator_rad", "elevator"], ["rudder_rad", "rudder"]], degrees),
+  const surfaces: [string, string][] = [["aileron_rad", "aileron"], ["elevator_rad", "elevator"], ["rudder_rad", "rudder"]];
+  return [...(one ? [chart("Surfaces", "°", 5, surfaces, degrees)] : surfaces.map(([field, name]) => chart(name.charAt(0).toUpperCase() + name.slice(1), "°", 5, [[field, name]], degrees))),
     chart("Throttle", "%", 20, [["throttle_frac", "throttle"]], 100)];
 }
 
@@ -83,15 +88,17 @@ const shown = (unit: string) => unit.replace(/^deg/, "°").replace("m/s2", "m/s�
 /** One quantity, of one or several estimates, with three deviations to both sides of zero. */
 export async function error_chart(title: string, judged: Judged[], phases: Phase[], claims_one = false): Promise<LineChart> {
   const one = judged.length === 1, curves: Curve[] = [];
+  let widest = 0; // of what is claimed most of the time: at first it may be a multiple
   for (const [i, { name, series }] of judged.entries()) {
     const { t, values } = await unpack_columns(series.data, series.rows, series.columns);
     const who = one ? "" : name + ", ", colour = one ? "line1" : (log_colours[i] as string);
-    curves.push({ name: who + (claims_one ? "innovation" : "error"), series: { t, v: [...(values[0] ?? [])] }, colour, width: 1.3 });
+    curves.push({ name: who + (claims_one ? "innovation" : "error"), series: { t, v: [...(values[0] ?? [])] }, colour, width: one ? 1.3 : width_of(i, judged.length) });
     const claimed = values[1];
     if (!claimed || series.claimed === undefined) continue;
     const bound = one ? "line2" : colour;
-    curves.push({ name: who + "+3 σ", series: { t, v: [...claimed].map((v) => 3 * v) }, colour: bound, dash: bound_dash, width: 1.2 });
-    curves.push({ name: who + "−3 σ", series: { t, v: [...claimed].map((v) => -3 * v) }, colour: bound, dash: bound_dash, width: 1.2 });
+    widest = Math.max(widest, 3 * usual(claimed));
+    curves.push({ name: who + "+3 σ", series: { t, v: [...claimed].map((v) => 3 * v) }, colour: bound, dash: bound_dash, width: 1.2, may_leave: true });
+    curves.push({ name: who + "−3 σ", series: { t, v: [...claimed].map((v) => -3 * v) }, colour: bound, dash: bound_dash, width: 1.2, may_leave: true });
   }
   if (claims_one) {
     const times = curves.flatMap((c) => [c.series.t[0] ?? NaN, c.series.t[c.series.t.length - 1] ?? NaN]).filter(Number.isFinite);
@@ -101,7 +108,12 @@ export async function error_chart(title: string, judged: Judged[], phases: Phase
   }
   const unit = claims_one ? "σ" : shown(judged[0]?.series.unit ?? "");
   const note = one && judged[0] ? note_of(judged[0].series, unit) : "";
-  return new LineChart({ title, unit, least: claims_one ? 8 : 1e-3, around_zero: true, note }, curves, phases);
+  return new LineChart({ title, unit, least: claims_one ? 8 : Math.max(1e-6, 2.2 * widest), around_zero: true, note }, curves, phases);
+}
+/** What nine of ten do not exceed. */
+function usual(v: Float32Array): number {
+  const sorted = [...v].filter(Number.isFinite).sort((a, b) => a - b);
+  return sorted[Math.floor(0.9 * (sorted.length - 1))] ?? 0;
 }
 /** Points near enough to each other that no gap is drawn between them. */
 function dense(from: number, to: number, v: number): Series {

@@ -5,7 +5,7 @@ import { names_of, plan_of, state_of } from "../names";
 import type { Recording } from "../recorded";
 import { MapView } from "../views/map";
 import { fixed } from "../units";
-import { channel_charts, error_chart, type Judged, log_colours, surface_charts } from "./curves";
+import { channel_charts, error_chart, type Judged, log_colours, surface_charts, width_of } from "./curves";
 import { draw_charts, resize_charts, show_time } from "./chart";
 import type { Log, ReportData } from "./model";
 import { estimate_table, figure_tables, flight_table, innovation_table, parameter_table, phase_table, plugin_table, section, sentence, time_tables, told_table } from "./tables";
@@ -97,7 +97,7 @@ export class Summary {
   private draw_map(): void {
     const tracks = this.sources.map((source, i) => {
       const n = names_of(source);
-      return { n: source.whole(n.state, "position_m.north").v as number[], e: source.whole(n.state, "position_m.east").v as number[], colour: log_colours[i] as string };
+      return { n: source.whole(n.state, "position_m.north").v as number[], e: source.whole(n.state, "position_m.east").v as number[], colour: log_colours[i] as string, width: 0.6 + width_of(i, this.sources.length) };
     });
     const first = this.sources[0] as Recording, names = names_of(first), now = first.now;
     first.now = first.log.end_s; // the plan as it was in the end

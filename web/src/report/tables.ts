@@ -7,9 +7,9 @@ import type { Estimate, Log, PackedSeries, ReportData } from "./model";
 type Cell = string | HTMLElement;
 
 /** `words`: so many columns hold words, the rest numbers. */
-export function table(heads: Cell[], rows: Cell[][], words = 1): HTMLElement {
+export function table(heads: Cell[], rows: Cell[][], words = 1, kind = ""): HTMLElement {
   const cell = (tag: "td" | "th", c: Cell, i: number, scope?: string) => el(tag, { class: i >= words ? "number" : "", scope }, c);
-  return el("div", { class: "tablebox" }, el("table", {},
+  return el("div", { class: "tablebox " + kind }, el("table", {},
     el("thead", {}, el("tr", {}, ...heads.map((c, i) => cell("th", c, i, "col")))),
     el("tbody", {}, ...rows.map((row) => el("tr", {}, ...row.map((c, i) => (i === 0 ? cell("th", c, i, "row") : cell("td", c, i))))))));
 }
@@ -32,7 +32,7 @@ function figure(value: unknown, unit: string): string {
   return value === null || value === undefined ? none : typeof value === "string" ? value : JSON.stringify(value);
 }
 function title_of(key: string): string {
-  const words = key.replace(/_/g, " ").replace(/\brmse\b/, "RMS error").replace(/\bgnss\b/, "GNSS");
+  const words = key.replace(/_/g, " ").replace(/(\berror )?\brmse\b/, "RMS error").replace(/\bgnss\b/, "GNSS");
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
@@ -48,7 +48,7 @@ export function figure_tables(logs: Log[]): HTMLElement[] {
   const of = (log: Log, key: string) => log.figures[key];
   const tracks = (key: string) => logs.some((log) => { const g = of(log, key); return is_group(g) && paper.filter((f) => f in g).length >= 6; });
   const out: HTMLElement[] = [], one = logs.length === 1;
-  const tracking = keys.filter(tracks);
+  const tracking = keys.filter(tracks).sort((a, b) => Number(b.startsWith("tracking")) - Number(a.startsWith("tracking")));
   if (tracking.length > 0)
     out.push(table([one ? "" : "log", ...paper.map((f) => split_unit(f)[0])], tracking.flatMap((key) => logs.map((log) => {
       const g = of(log, key);
@@ -82,7 +82,7 @@ export function flight_table(logs: Log[]): HTMLElement {
     ["changed by the command line", (log) => Object.entries(log.metadata.overrides ?? {}).map(([k, v]) => `${k} ${v}`).join("; ") || "nothing"],
     ["ends early", (log) => log.fault || "no"],
   ];
-  return table(["", ...logs.map((log) => log.name)], rows.map(([name, of]) => [name, ...logs.map(of)]), 99);
+  return table(["", ...logs.map((log) => log.name)], rows.map(([name, of]) => [name, ...logs.map(of)]), 99, "facts");
 }
 
 export function estimate_table(estimate: Estimate): HTMLElement {
@@ -126,7 +126,7 @@ const plain = (v: unknown) => (typeof v === "number" ? String(v) : v === null ||
 export function parameter_table(data: ReportData): HTMLElement {
   if (data.logs.length === 1) return sentence("One log: nothing to compare with. What the command line changed stands above, what was changed in flight among the guards and changes.");
   if (data.parameters.length === 0) return sentence("All parameters were the same when the flights began.");
-  return table(["parameter, when the flight began", ...data.logs.map((log) => log.name)], data.parameters.map((p) => [p.name, ...p.values.map(plain)]));
+  return table(["parameter, when the flight began", ...data.logs.map((log) => log.name)], data.parameters.map((p) => [p.name, ...p.values.map(plain)]), 99);
 }
 
 /** Per component its file, version and hash; what differs between the logs bears a sign. */

@@ -18,7 +18,7 @@ export interface Scene {
   chosen: number; // waypoint that is being edited; -1: none
   refused: number; // waypoint whose last edit was refused; -1: none
   piece: Point[]; // of the path that is followed now
-  tracks?: (Track & { colour: string })[]; // of a report: all of each flight, and all of it is shown
+  tracks?: (Track & { colour: string; width: number })[]; // of a report: all of each flight, and all of it is shown
 }
 export interface Hooks {
   press?(at: Point, waypoint: number): boolean; // true: the press is not for the map
@@ -158,8 +158,8 @@ export class MapView {
     g.lineJoin = g.lineCap = "round";
     this.grid(g);
     this.trail(g, scene.track);
-    for (const track of scene.tracks ?? []) this.trail(g, track, track.colour);
     this.route(g, scene);
+    for (const track of scene.tracks ?? []) this.trail(g, track, track.colour, track.width);
     g.strokeStyle = colours.get("track");
     g.lineWidth = 3;
     g.setLineDash([1, 6]);
@@ -214,9 +214,9 @@ export class MapView {
     });
     g.stroke();
   }
-  private trail(g: CanvasRenderingContext2D, track: Track, colour = "track"): void {
+  private trail(g: CanvasRenderingContext2D, track: Track, colour = "track", width = 2): void {
     g.strokeStyle = colours.get(colour);
-    g.lineWidth = 2;
+    g.lineWidth = width;
     g.beginPath();
     let last = { x: 1e9, y: 1e9 };
     for (let i = 0; i < track.n.length; ++i) {

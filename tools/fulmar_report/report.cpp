@@ -19,7 +19,7 @@ constexpr std::size_t most_rows = 2000, least_rows = 300;  // of a curve that is
 constexpr std::size_t most_told = 100;                     // events
 constexpr std::size_t thinnest = 64;
 
-double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
 json metadata_of(const core::McapFile& log) {
   json all = json::object();

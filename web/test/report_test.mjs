@@ -109,17 +109,17 @@ try {
   // the flight at a moment, by keys
   await page.locator("#view").focus();
   await page.keyboard.press("2");
-  const moment = page.getByLabel("Moment of the flight");
-  assert.equal(Number(await moment.getAttribute("min")).toFixed(1), "-5.0");
-  await moment.fill("-2");
+  const moment = () => page.getByLabel("Moment of the flight");
+  assert.equal(Number(await moment().getAttribute("min")).toFixed(1), "-5.0");
+  await moment().fill("-2");
   await until("before the take-off", async () => (await text("header")).includes("phase hold"));
-  await moment.fill("50");
+  await moment().fill("50");
   await until("in the air", async () => (await text("header")).includes("0:50.0") && (await text("header")).includes("phase cruise"));
   await until("the estimator's state", async () => /state✓ valid/.test(await text(".side .pairs")));
   await until("the events", async () => (await text(".events")).includes("phase cruise"));
   await whole("flight");
   await page.click("text=Play");
-  await until("time goes on", async () => Number(await moment.inputValue()) > 50.3);
+  await until("time goes on", async () => Number(await moment().inputValue()) > 50.3);
 
   // two logs, in the dark
   await open("both.html", "dark");
@@ -129,7 +129,7 @@ try {
   assert.match(await text(".chart .u-legend"), /one, flown.*two, flown/s);
   await page.keyboard.press("2");
   await page.getByLabel("Log").selectOption({ label: "two" });
-  await until("the second flight", async () => Number(await moment.getAttribute("max")) < 41);
+  await until("the second flight", async () => Number(await moment().getAttribute("max")) < 41);
   await page.keyboard.press("1");
   await whole("both");
 

@@ -47,7 +47,7 @@ struct Commands {
       "Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
   MissionOptions mission;
   RunOptions run;
-  std::string speed = "max", resume_log, seeds;
+  std::string speed = "max", resume_log, report_file, seeds;
   ReplayWords replay;
   std::vector<std::string> replay_set, replay_with;
   std::function<int()> action;  // of the command that was given
@@ -96,6 +96,12 @@ struct Commands {
     command->add_option("--log", run.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap")
         ->check(a_file("the log gets a name of its own in logs/"));
     command->add_flag("--no-log", run.no_log, "write no log");
+    CLI::Option* const report =
+        command
+            ->add_option("--report", report_file,
+                         "make an HTML page of the log when the flight is over: beside the log, or FILE.html")
+            ->expected(0, 1)
+            ->type_name("[FILE.html]");
     command->add_flag("--json", run.json, "print one JSON object instead of a table");
     command->add_flag("--strict", run.strict,
                       "exit code 3 when a guard has fired in a flight that was flown");
@@ -126,12 +132,13 @@ struct Commands {
     command->add_option("--drivers-from", run.drivers_from,
                         "take the samples of drivers from this log, in place of their devices");
     CLI::Option* const resume = add_resume(command);
-    command->callback([this, command, resume] {
+    command->callback([this, command, resume, report] {
       run.mission = mission.mission;
       run.overrides = mission.overrides(command);
       run.speed = parse_speed(speed);
       if (!seeds.empty()) run.seeds = valid_seeds(seeds);
       if (resume->count() > 0) run.resume = resume_log;
+      if (report->count() > 0) run.report = report_file;
       action = [this] { return run_command(run); };
     });
   }

@@ -22,6 +22,7 @@
 
 #include "core/app/compare.hpp"
 #include "core/app/ends.hpp"
+#include "core/app/file_names.hpp"
 #include "core/app/many.hpp"
 #include "core/app/program.hpp"
 #include "core/app/report.hpp"
@@ -40,41 +41,6 @@ namespace fulmar::core {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "flight.mcap", 2 -> "flight-2.mcap".
-fs::path numbered(const fs::path& file, std::size_t n) {
-  return file.parent_path() / (file.stem().string() + "-" + std::to_string(n) + file.extension().string());
-}
-
-/// Where the log goes. `held`: the name was chosen here, and no other run can take it.
-struct LogName {
-  fs::path file;
-  bool held = false;
-};
-
-void make_folder_of(const fs::path& file) {
-  std::error_code fault;
-  if (file.has_parent_path()) fs::create_directories(file.parent_path(), fault);
-  if (fault) throw Error("cannot make the folder '" + file.parent_path().string() + "': " + fault.message());
-}
-
-/// With a number when that is taken. Twenty flights that begin in one second all find a name.
-LogName free_name(const fs::path& wanted) {
-  make_folder_of(wanted);
-  fs::path file = wanted;
-  std::error_code none;  // a name that cannot be is nobody's; whoever makes the file says so
-  for (std::size_t n = 2; fs::exists(file, none) || !OutFile::hold(file); ++n) file = numbered(wanted, n);
-  return {file, true};
-}
-
-/// logs/<mission>-<UTC>.mcap. A host that is started again in the air must not stand still before the log of
-/// its predecessor.
-LogName default_log(const Graph& graph, const fs::path& folder) {
-  if (!graph.record_file.empty())
-    return graph.io == Io::fcu ? free_name(folder / graph.record_file) : LogName{folder / graph.record_file};
-  return free_name(
-      folder / fmt::format("logs/{}-{:%Y%m%dT%H%M%SZ}.mcap", graph.mission, fmt::gmtime(std::time(nullptr))));
-}
 
 fs::path working_directory() {
   std::error_code gone;
@@ -113,6 +79,7 @@ class Session {
       : options_(options), start_(working_directory()), graph_(load()) {
     if (!graph_.record && !options.log_file.empty())
       throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
+    if (options.report) check_report(*options.report, graph_);
   }
 
   /// A flight with what has changed; when that cannot even begin, the mission of before stays.
@@ -272,6 +239,9 @@ class Session {
     });
     o.log_file = log.file, o.log_held = log.held;
     o.log = !o.log_file.empty();
+    fs::path report;
+    if (options_.report && o.log)
+      report = report_name(*options_.report, start_, o.log_file, results_.size() + 1, graph_.io == Io::fcu);
     make_folder_of(o.log_file);
     o.interrupt = &signal_seen;
     const bool many = !options_.seeds.empty();  // of those only what is worth a warning
@@ -299,7 +269,10 @@ class Session {
     pass_on_words();
     results_.push_back(result_json(graph_, *last_, result));
     if (!options_.json) print(result);
-    return code_of(result);
+    const int code = code_of(result);
+    return !report.empty() && !report_flight(report, result.log.file, results_.back(), options_.json)
+               ? std::max<int>(code, ExitCode::failed)
+               : code;
   }
 
   /// The last flight, in a line when there are many.
@@ -427,6 +400,9 @@ int worse(int a, int b) {
 
 int run_command(const RunOptions& options) {
   if (!options.build.empty() && !options.watch) throw CLI::ValidationError("--build belongs to --watch");
+  if (options.report && options.no_log)
+    throw CLI::ValidationError(
+        "--report makes a page of the log, and --no-log leaves that out: give one of them");
   ResultFile output(options.json);
   Session session(options);
   if (!options.seeds.empty() && session.on_hardware())

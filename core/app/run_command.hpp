@@ -17,10 +17,11 @@ struct RunOptions {
   std::optional<double> duration_s;
   std::string log_file;
   bool no_log = false, json = false;
-  bool strict = false;               // a flight in which a guard fired ends with an exit code of its own
-  std::vector<std::uint64_t> seeds;  // a flight with each of them
-  int repeat = 0;                    // flights in one host; 0: one, or with `watch` until interrupted
-  bool watch = false;                // a plugin or file that changes is used by the next flight
+  std::optional<std::string> report;  // HTML file that is made of the log; "": beside the log
+  bool strict = false;                // a flight in which a guard fired ends with an exit code of its own
+  std::vector<std::uint64_t> seeds;   // a flight with each of them
+  int repeat = 0;                     // flights in one host; 0: one, or with `watch` until interrupted
+  bool watch = false;                 // a plugin or file that changes is used by the next flight
   std::string build;         // command that watch runs when a source file beside the mission has changed
   std::string drivers_from;  // log whose driver samples are fed in place of the drivers
   std::optional<std::string> resume;  // log where to go on; "": the newest of the mission

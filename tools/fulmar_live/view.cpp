@@ -17,6 +17,7 @@
 
 #include "core/graph/shipped.hpp"
 #include "core/loader/home.hpp"
+#include "core/loader/report_program.hpp"
 #include "core/terminal.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_live/commands.hpp"
@@ -46,7 +47,7 @@ std::string live_link(const std::string& scheme, const LiveAddress& target) {
 }
 
 Opening of_link(const std::string& link, const std::string& layout) {
-  return {{"xdg-open", link}, link, layout, {}};
+  return {{"xdg-open", link}, link, layout, {}, ""};
 }
 
 std::string in_path(const std::string& program) {
@@ -104,6 +105,14 @@ std::string whole_log(const std::string& name) {
   return fs::absolute(file).lexically_normal().string();
 }
 
+/// The page of a log, beside it. One that is there is of this log as long as it is the younger of the two.
+void make_page(const std::string& log, const std::string& file) {
+  if (!fs::exists(file)) return make_report(log, file, "");
+  if (fs::last_write_time(file) < fs::last_write_time(log))
+    throw Error(file + " is there already, and older than the log: move it away, or fulmar report " + log +
+                " -o ANOTHER.html");
+}
+
 }  // namespace
 
 std::string percent_encoded(const std::string& text) {
@@ -133,8 +142,10 @@ Opening opening_of(const std::string& viewer, const std::string& log, const Live
   const std::string layout = layout_file("fulmar.json"), curves = layout_file("plotjuggler.xml");
   const std::string import = "once: Layouts, Import from file, the layout above";
   if (in == "page") {
-    if (!log.empty())
-      throw WrongUsage("the page shows a running flight, not a log; for a log --in lichtblick");
+    if (!log.empty()) {
+      const std::string file = report_beside(log).string();
+      return {{"xdg-open", file}, "", "", {}, file};
+    }
     return of_link("http://" + target.text() + "/" + query(target), "");
   }
   if (in == "lichtblick") {
@@ -146,7 +157,7 @@ Opening opening_of(const std::string& viewer, const std::string& log, const Live
       o.to_do = {import, copy};
       return o;
     }
-    return {{"lichtblick", "--source=" + log, "--defaultLayout=fulmar"}, "", layout, {import, copy}};
+    return {{"lichtblick", "--source=" + log, "--defaultLayout=fulmar"}, "", layout, {import, copy}, ""};
   }
   if (in == "foxglove") {
     if (log.empty()) {
@@ -154,21 +165,22 @@ Opening opening_of(const std::string& viewer, const std::string& log, const Live
       o.to_do = {import};
       return o;
     }
-    return {{"foxglove-studio", log}, "", layout, {import}};
+    return {{"foxglove-studio", log}, "", layout, {import}, ""};
   }
   if (in == "plotjuggler") {
-    if (!log.empty()) return {{"plotjuggler", "-d", log, "-l", curves}, "", curves, {}};
+    if (!log.empty()) return {{"plotjuggler", "-d", log, "-l", curves}, "", curves, {}, ""};
     return {{"plotjuggler", "-l", curves},
             "",
             curves,
-            {"Streaming, Foxglove Bridge, address " + target.text() + ": of its plugin of that name"}};
+            {"Streaming, Foxglove Bridge, address " + target.text() + ": of its plugin of that name"},
+            ""};
   }
   if (in == "rerun") {
     if (log.empty())
       throw WrongUsage(
           "rerun opens logs, not a running flight; for that --in page, lichtblick, foxglove or "
           "plotjuggler");
-    return {{"rerun", log}, "", "", {}};
+    return {{"rerun", log}, "", "", {}, ""};
   }
   throw WrongUsage("there is no viewer '" + in + "'." +
                    choices_text(in, std::vector<std::string>(viewers.begin(), viewers.end())));
@@ -182,6 +194,7 @@ int view_command(const LiveAddress& target, const ViewOptions& options) {
   const Opening opening = opening_of(viewer, log, target);
   if (running && !options.print)
     Client(target, std::chrono::seconds(5));  // says what is wrong if nobody flies
+  if (!opening.report.empty()) make_page(log, opening.report);
   std::string line;
   for (const std::string& word : opening.words) line += (line.empty() ? "" : " ") + shell_quoted(word);
   std::printf("%s\n", for_terminal(opening.link.empty() ? line : opening.link).c_str());

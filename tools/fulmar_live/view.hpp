@@ -22,6 +22,7 @@ struct Opening {
   std::string link;                // what is opened, when it is a link: then `words` opens it
   std::string layout;              // a file; "": there is none
   std::vector<std::string> to_do;  // what people do by hand, a sentence each
+  std::string report;              // a page that is made of the log first, unless it is there; "": none
 };
 
 /// Throws Error, WrongUsage when the viewer cannot do that. `log`: whole, or "" for the running flight.

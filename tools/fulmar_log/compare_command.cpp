@@ -120,6 +120,8 @@ Span span_of(const CompareWords& words) {
 
 }  // namespace
 
+Side usual_side(const StateLog& log, const std::string& topic) { return side_of(log, topic, {}); }
+
 int compare_command(const CompareWords& words) {
   std::vector<std::string> names = words.rest;
   const bool two_logs =

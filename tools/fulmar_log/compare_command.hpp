@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/fulmar_log/comparison.hpp"
+
 namespace fulmar::states {
 
 struct CompareWords {
@@ -15,6 +17,9 @@ struct CompareWords {
   bool changed = false;                // nothing of what is equal
   bool json = false;
 };
+
+/// An estimate and what it is judged with unless somebody says otherwise: the log's truth, else fixes.
+Side usual_side(const StateLog& log, const std::string& topic);
 
 /// 0: compared, or with `changed` nothing was to be; 1: at no time were both there. Throws core::Error.
 int compare_command(const CompareWords& words);

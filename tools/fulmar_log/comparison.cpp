@@ -58,6 +58,7 @@ class OneSide {
     ahead_ = next();
   }
   TakeState on_state, on_truth;
+  TakeError on_error;
 
   std::int64_t next_ns() const { return ahead_ ? flight_ns(ahead_->log_ns) : at_the_end; }
   void step() {
@@ -134,11 +135,13 @@ class OneSide {
   void by_truth(const VehicleState& sparse, const VehicleState& dense) {
     const VehicleState& truth = truth_says_when_ ? sparse : dense;
     const VehicleState& state = truth_says_when_ ? dense : sparse;
-    judge(frame_.seen_from(truth, state), state);
+    judge(truths_.pair_ns(), frame_.seen_from(truth, state), state);
   }
-  void by_fix(const Gnss& fix, const VehicleState& state) { judge(frame_.seen_from(fix, state), state); }
+  void by_fix(const Gnss& fix, const VehicleState& state) {
+    judge(fixes_.pair_ns(), frame_.seen_from(fix, state), state);
+  }
 
-  void judge(const VehicleState& reference, const VehicleState& state) {
+  void judge(std::int64_t valid_ns, const VehicleState& reference, const VehicleState& state) {
     Errors& e = out_.errors;
     ++e.pairs;
     for (std::size_t i = 0; i < quantities().size(); ++i) {
@@ -146,8 +149,11 @@ class OneSide {
       if (!q.is_valid(reference) || !q.is_valid(state)) continue;
       const double error = q.difference(state, reference);
       e.all[i].add(error);
-      if (q.has_claim(state) && q.has_claim(reference))
-        e.claimed[i].add(error, std::hypot(q.claim(state), q.claim(reference)));
+      const bool claimed = q.has_claim(state) && q.has_claim(reference);
+      const double claim =
+          claimed ? std::hypot(q.claim(state), q.claim(reference)) : std::numeric_limits<double>::quiet_NaN();
+      if (claimed) e.claimed[i].add(error, claim);
+      if (on_error) on_error(valid_ns, i, error, claim);
     }
     if (!side_.truth.empty()) add_nees(reference, state);
   }
@@ -251,6 +257,14 @@ Comparison compare(const Side& first, const Side& second, const Span& span) {
   if (two_truths && apart_m > 0) out.truths_apart_m = apart_m;
   out.equal = all_zero(out.difference) && same_flags && states.alone() == 0 &&
               out.first.samples == out.second.samples;
+  return out;
+}
+
+Judged judge(const Side& side, const TakeError& take, const Span& span) {
+  Judged out;
+  OneSide one(side, span, out);
+  one.on_error = take;
+  while (one.next_ns() != at_the_end) one.step();
   return out;
 }
 

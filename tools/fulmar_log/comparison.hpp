@@ -3,7 +3,9 @@
 // far each is off and whether it knows. Both logs are read once, in streams.
 #pragma once
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -67,5 +69,12 @@ struct Span {
 
 /// Throws core::Error.
 Comparison compare(const Side& first, const Side& second, const Span& span = {});
+
+/// An error of quantities()[quantity], in its unit, and the deviation that is claimed for it; NaN: none is.
+using TakeError =
+    std::function<void(std::int64_t valid_ns, std::size_t quantity, double error, double claim)>;
+
+/// One estimate against its truth or fixes; `take` gets each error. Throws core::Error.
+Judged judge(const Side& side, const TakeError& take, const Span& span = {});
 
 }  // namespace fulmar::states

@@ -5,6 +5,7 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 
@@ -21,6 +22,7 @@ namespace {
 constexpr std::size_t sample_bytes = 128u << 10;  // of a topic, compressed in one go
 constexpr std::size_t index_bytes = 16;           // of a message in its chunk's index
 constexpr std::size_t most_events = 100'000;
+constexpr std::array severities{"info", "warning", "error", "critical"};
 
 /// How well the bytes of one topic compress.
 struct Weight {
@@ -126,7 +128,9 @@ struct Reading {
     for (const auto& [ns, bytes] : events) {
       const core::Event e = topic.read(bytes);
       const auto now_ns = static_cast<std::int64_t>(ns - epoch);
-      info.events.push_back({now_ns, kind_words(e.code), e.component.data(), e.words.data()});
+      const auto severity = static_cast<std::size_t>(e.severity);
+      info.events.push_back({now_ns, kind_words(e.code), e.component.data(), e.words.data(),
+                             severity < severities.size() ? severities[severity] : ""});
       if (e.code == Code::phase_entered) begin_phase(e.name.data(), now_ns);
     }
   } catch (const Error&) {
@@ -142,7 +146,7 @@ struct Reading {
     if (schema == log.schemas.end()) return;
     const TypePtr type = parse_ros_schema(schema->second.name, schema->second.text);
     for (const auto& [ns, bytes] : events) {
-      LogInfo::Event e{static_cast<std::int64_t>(ns - epoch), "", "", ""};
+      LogInfo::Event e{static_cast<std::int64_t>(ns - epoch), "", "", "", ""};
       for (const auto& [name, text] : cdr_values(*type, bytes, 1000)) {
         if (name == "kind") e.kind = text;
         if (name == "component") e.component = text;

@@ -21,7 +21,7 @@ struct LogInfo {
   };
   struct Event {
     std::int64_t time_ns = 0;
-    std::string kind, component, text;
+    std::string kind, component, text, severity;  // the last one "" in logs that say none
   };
   struct Phase {
     std::string name;

@@ -41,6 +41,8 @@ class Pairing {
   void end(const Take& take) {
     for (; !sparse_.empty(); sparse_.pop_front()) decide(take);
   }
+  /// For which the pair that is taken now is valid.
+  std::int64_t pair_ns() const { return pair_ns_; }
   std::uint64_t paired() const { return paired_; }
   std::uint64_t alone() const { return alone_; }
 
@@ -60,6 +62,7 @@ class Pairing {
       return;
     }
     ++paired_;
+    pair_ns_ = time_ns;
     if (there) return take(sample, dense_[after].second);
     const auto& [from_ns, from] = dense_[after - 1];
     const auto& [to_ns, to] = dense_[after];
@@ -70,6 +73,7 @@ class Pairing {
   std::deque<std::pair<std::int64_t, Sparse>> sparse_;
   std::deque<std::pair<std::int64_t, VehicleState>> dense_;
   std::uint64_t paired_ = 0, alone_ = 0;
+  std::int64_t pair_ns_ = 0;
 };
 
 }  // namespace fulmar::states

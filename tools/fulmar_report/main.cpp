@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar report LOG -o FILE.html`, as the program fulmar-report. Exit codes: 0 done; 1 it failed; 2 wrong
-// usage.
+// `fulmar report LOG [LOG...] -o FILE.html`, as the program fulmar-report. Exit codes: 0 done; 1 it failed; 2
+// wrong usage.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 #include "core/app/program.hpp"
 #include "core/error.hpp"
 #include "core/loader/home.hpp"
+#include "core/log/log_file.hpp"
+#include "core/types/text.hpp"
+#include "tools/fulmar_log/terminal.hpp"
 #include "tools/fulmar_report/report.hpp"
 
 namespace {
 
 namespace core = fulmar::core;
+namespace report = fulmar::report;
 namespace fs = std::filesystem;
+
+constexpr std::size_t most_bytes = 4'900'000;  // of the file, unless a rate is asked for
+constexpr double usual_rate_hz = 10;
+
+struct Words {
+  std::vector<std::string> logs, names;
+  std::string out, result;
+  double rate_hz = 0;  // 0: the usual one, and fewer where the file would be too large
+};
+
+std::string whole_text(std::istream& in) { return {std::istreambuf_iterator<char>(in), {}}; }
 
 std::string page() {
   const fs::path folder = core::page_folder();
@@ -23,37 +39,97 @@ std::string page() {
     throw core::Error(
         "this Fulmar was built without the page of a flight, which a report needs: install nodejs and npm, "
         "configure and build again");
-  return {std::istreambuf_iterator<char>(in), {}};
+  return whole_text(in);
 }
 
-int write_report(const std::string& log, std::string out, double rate_hz) {
-  const core::McapFile file = core::read_mcap(log);
-  if (out.empty()) out = fs::path(log).filename().replace_extension(".html").string();
+void check(const Words& words) {
+  if (words.logs.size() > report::most_logs)
+    throw CLI::ValidationError("a report has room for " + std::to_string(report::most_logs) + " logs, not " +
+                               std::to_string(words.logs.size()));
+  if (!words.names.empty() && words.names.size() != words.logs.size())
+    throw CLI::ValidationError(
+        "--names takes a name for each log, with commas between them: " + std::to_string(words.logs.size()) +
+        ", not " + std::to_string(words.names.size()));
+  if (!words.result.empty() && words.logs.size() > 1)
+    throw CLI::ValidationError("--result belongs to a report of one log");
+  for (std::size_t i = 0; i < words.logs.size(); ++i) {
+    core::check_log_file(words.logs[i]);
+    std::error_code none;
+    for (std::size_t k = 0; k < i; ++k)
+      if (fs::equivalent(words.logs[i], words.logs[k], none))
+        throw core::Error("'" + words.logs[i] + "' is given twice: name each log once");
+  }
+}
+
+/// "a.mcap" -> "a.html"; of several the first and what it is set beside: "a-and-2.html".
+std::string usual_out(const std::vector<std::string>& logs) {
+  fs::path file = fs::path(logs.front()).filename();
+  while (file.extension() == ".part" || file.extension() == ".mcap") file = file.stem();
+  const std::size_t more = logs.size() - 1;
+  return file.string() + (more > 0 ? "-and-" + std::to_string(more) : "") + ".html";
+}
+
+/// The step times in what `fulmar run --json` has printed.
+nlohmann::json step_times(const std::string& file) {
+  std::ifstream in;
+  if (file != "-") in.open(file);
+  const nlohmann::json result =
+      nlohmann::json::parse(whole_text(file == "-" ? std::cin : in), nullptr, false);
+  if (!result.is_object() || !result.contains("step_time_us"))
+    throw core::Error("'" + file + "' is no result of one flight, as fulmar run --json prints it");
+  return result["step_time_us"];
+}
+
+int write_report(const Words& words) {
+  check(words);
+  const std::string out = words.out.empty() ? usual_out(words.logs) : words.out;
   if (fs::exists(out)) throw core::Error(out + " is there already: give another name with -o");
-  const std::string json = fulmar::report::log_json(file, fs::path(log).filename().string(), rate_hz);
-  const std::string html = fulmar::report::with_log(page(), json);
+  const std::string empty_page = page();
+  const std::vector<std::string> names = words.names.empty() ? report::short_names(words.logs) : words.names;
+  const double rate_hz = words.rate_hz > 0 ? words.rate_hz : usual_rate_hz;
+  std::vector<report::ReportedLog> logs;
+  for (std::size_t i = 0; i < words.logs.size(); ++i)
+    logs.push_back(report::read_log(words.logs[i], names[i], rate_hz));
+  if (!words.result.empty()) logs[0].steps = step_times(words.result);
+  const std::size_t room = most_bytes - std::min(most_bytes, empty_page.size());
+  const report::Fitted fitted =
+      words.rate_hz > 0 ? report::Fitted{report::report_json(logs, 1), 1} : report::fitted_json(logs, room);
+  const std::string html = report::with_logs(empty_page, fitted.json);
   std::ofstream to(out, std::ios::binary);
   to << html;
   to.close();
   if (!to) throw core::Error(out + " cannot be written");
-  if (!file.fault.empty()) std::printf("the log ends early: %s\n", file.fault.c_str());
-  std::printf("%s: %.1f MB, for a browser\n", out.c_str(), 1e-6 * static_cast<double>(html.size()));
+  for (const report::ReportedLog& log : logs)
+    if (!log.info.file.fault.empty())
+      std::printf("%s ends early: %s\n", core::printable(log.name).c_str(),
+                  core::printable(log.info.file.fault).c_str());
+  if (fitted.every_nth > 1)
+    std::printf("thinned out to %g Hz, so that it stays small; --rate %g keeps all of it\n",
+                rate_hz / static_cast<double>(fitted.every_nth), rate_hz);
+  std::printf("%s: %.1f MB, for a browser\n", core::printable(out).c_str(),
+              1e-6 * static_cast<double>(html.size()));
   return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"A log as one HTML file: the flight to look at, at any moment of it.", "fulmar report"};
-  std::string log, out;
-  double rate_hz = 10;
-  app.add_option("log", log, "the log")->required()->check(CLI::ExistingFile)->type_name("LOG");
-  app.add_option("-o,--out", out, "the file; default: the log's name in this folder, with .html");
-  app.add_option("--rate", rate_hz, "at most so many messages of a topic per second; default 10")
+  CLI::App app{"Logs as one HTML file: figures, curves, and the flight at any moment of it.",
+               "fulmar report"};
+  Words words;
+  app.add_option("logs", words.logs, "the log, or up to six side by side")->required()->type_name("LOG");
+  app.add_option("-o,--out", words.out, "the file; default: the log's name in this folder, with .html");
+  app.add_option("--rate", words.rate_hz,
+                 "at most so many messages of a topic per second; default 10, and fewer where the file would "
+                 "have more than 5 MB")
       ->check(CLI::Range(0.1, 1000.0));
+  app.add_option("--names", words.names, "what the logs are called, as in --names before,after")
+      ->delimiter(',');
+  app.add_option("--result", words.result,
+                 "what fulmar run --json has printed of this flight, or - for standard input: step times");
   return core::run_program(app, [&] {
     if (core::asked_for_rows(argc, argv)) return std::fputs(core::command_rows(app).c_str(), stdout), 0;
     app.parse(argc, argv);
-    return write_report(log, out, rate_hz);
+    return write_report(words);
   });
 }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// See report.hpp.
 #include "tools/fulmar_report/report.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <nlohmann/json.hpp>
-#include <vector>
+#include <map>
+#include <set>
 
 #include "core/error.hpp"
 
@@ -15,16 +12,14 @@ namespace fulmar::report {
 namespace {
 
 using nlohmann::json;
+namespace fs = std::filesystem;
 
 constexpr std::string_view place = "LOG_OF_THE_FLIGHT";
+constexpr std::size_t most_rows = 2000, least_rows = 300;  // of a curve that is judged
+constexpr std::size_t most_told = 100;                     // events
+constexpr std::size_t thinnest = 64;
 
-std::uint64_t epoch_of(const core::McapFile& log) {
-  for (const auto& m : log.metadata)
-    if (m.name == "fulmar")
-      for (const auto& [key, value] : m.pairs)
-        if (key == "epoch_ns") return std::strtoull(value.c_str(), nullptr, 10);
-  return 0;
-}
+double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
 json metadata_of(const core::McapFile& log) {
   json all = json::object();
@@ -33,96 +28,128 @@ json metadata_of(const core::McapFile& log) {
   return all;
 }
 
-double seconds(std::uint64_t ns, std::uint64_t epoch_ns) {
-  const auto since = static_cast<std::int64_t>(ns - epoch_ns);
-  return std::round(static_cast<double>(since) * 1e-5) / 1e4;  // tenths of a millisecond
+/// Guards, failsafe, swaps, and whatever has the host's warning; what came in silence is no news.
+bool is_told(const core::LogInfo::Event& e) {
+  static const std::set<std::string> kinds{"guard", "failsafe", "swap", "parameter", "resume"};
+  return kinds.contains(e.kind) || (!e.severity.empty() && e.severity != "info");
 }
 
-void append(std::string& to, std::span<const std::byte> message) {
-  const auto size = static_cast<std::uint32_t>(message.size());
-  for (int shift = 0; shift < 32; shift += 8) to += static_cast<char>((size >> shift) & 0xff);
-  to.append(reinterpret_cast<const char*>(message.data()), message.size());
+json told_events(const core::LogInfo& info) {
+  json rows = json::array();
+  std::size_t all = 0;
+  for (const core::LogInfo::Event& e : info.events) {
+    if (!is_told(e)) continue;
+    if (++all <= most_told)
+      rows.push_back({{"t", seconds(e.time_ns)},
+                      {"kind", e.kind},
+                      {"component", e.component},
+                      {"severity", e.severity},
+                      {"words", e.text}});
+  }
+  return {{"rows", std::move(rows)}, {"all", all}};
 }
 
-struct Topic {
-  std::size_t count = 0;
-  std::uint64_t kept_ns = 0;
-  json t = json::array();
-  std::string data;
-};
+json phases_of(const core::LogInfo& info) {
+  json rows = json::array();
+  for (const core::LogInfo::Phase& p : info.phases)
+    rows.push_back({{"name", p.name}, {"from_s", seconds(p.begin_ns)}, {"to_s", seconds(p.end_ns)}});
+  return rows;
+}
+
+json json_of(const ReportedLog& log, std::size_t every_nth) {
+  const std::size_t rows = std::max(least_rows, most_rows / every_nth);
+  json topics = json::array(), estimates = json::array(), sensors = json::array();
+  for (const ShownTopic& t : log.topics) topics.push_back(json_of(t, every_nth));
+  for (const JudgedEstimate& e : log.estimates) estimates.push_back(json_of(e, rows));
+  for (const JudgedSeries& s : log.innovations) sensors.push_back(json_of(s, rows));
+  const json metadata = metadata_of(log.info.file);
+  return {{"name", log.name},
+          {"mission", log.info.value("fulmar", "mission")},
+          {"begin_s", seconds(log.info.begin_ns)},
+          {"end_s", seconds(log.info.end_ns)},
+          {"bytes", log.info.bytes},
+          {"messages", log.info.messages},
+          {"fault", log.info.file.fault},
+          {"metadata", metadata},
+          {"figures", log.figures.figures},
+          {"phases", phases_of(log.info)},
+          {"told", told_events(log.info)},
+          {"estimates", std::move(estimates)},
+          {"innovations", std::move(sensors)},
+          {"ticks", log.ticks},
+          {"steps", log.steps},
+          {"topics", std::move(topics)}};
+}
+
+/// Rows of a name and a value of each log; null where one lacks it. Of one log nothing.
+json parameters_that_differ(const std::vector<ReportedLog>& logs) {
+  std::map<std::string, std::vector<json>> all;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    if (!logs[i].parameters.is_object()) continue;
+    for (const auto& [component, params] : logs[i].parameters.items()) {
+      if (!params.is_object()) continue;
+      for (const auto& [name, value] : params.items()) {
+        std::vector<json>& row = all[component + "." + name];
+        row.resize(logs.size());
+        row[i] = value;
+      }
+    }
+  }
+  json rows = json::array();
+  for (const auto& [name, values] : all) {
+    const bool equal =
+        std::all_of(values.begin(), values.end(), [&](const json& v) { return v == values.front(); });
+    if (!equal) rows.push_back({{"name", name}, {"values", values}});
+  }
+  return rows;
+}
 
 }  // namespace
 
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (k < left ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= left ? letters[(word >> (18 - 6 * k)) & 63] : '=';
-  }
-  return out;
+ReportedLog read_log(const fs::path& file, const std::string& name, double rate_hz) {
+  ReportedLog log;
+  log.name = name;
+  log.info = core::read_info(file);
+  log.figures = core::log_figures(file);
+  const states::StateLog states = states::look_for_states(file);
+  std::vector<std::string> truths;
+  for (const auto& truth : states.truths) truths.push_back(truth.name);
+  log.topics = shown_topics(file, states.epoch_ns, rate_hz, truths);
+  log.estimates = judged_estimates(states);
+  log.innovations = innovations(states);
+  log.ticks = tick_times(file);
+  const core::McapFile::Attachment* const parameters = log.info.file.attachment("parameters.json");
+  if (parameters) log.parameters = json::parse(parameters->content, nullptr, false);
+  return log;
 }
 
-std::string compressed(const std::string& bytes) {
-  uLongf size = ::compressBound(bytes.size());
-  std::string out(size, '\0');
-  const int code = ::compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                               reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
-  if (code != Z_OK) throw core::Error("zlib cannot compress: there is not enough memory");
-  out.resize(size);
-  return out;
+std::vector<std::string> short_names(const std::vector<std::string>& logs) {
+  const auto differ = [](const std::vector<std::string>& names) {
+    return std::set<std::string>(names.begin(), names.end()).size() == names.size();
+  };
+  std::vector<std::string> names, longer;
+  for (const std::string& log : logs) {
+    const fs::path file(log);
+    names.push_back(file.filename().string());
+    longer.push_back((file.parent_path().filename() / file.filename()).string());
+  }
+  return differ(names) ? names : differ(longer) ? longer : logs;
 }
 
-std::string log_json(const core::McapFile& log, const std::string& name, double rate_hz) {
-  const std::uint64_t epoch_ns = epoch_of(log);
-  std::map<std::uint16_t, Topic> topics;
-  std::uint64_t first_ns = ~std::uint64_t{0}, last_ns = 0;
-  for (const auto& m : log.messages) {
-    ++topics[m.channel].count;
-    first_ns = std::min(first_ns, m.log_ns), last_ns = std::max(last_ns, m.log_ns);
-  }
-  // Of the whole log: what came in one burst and then no more is no stream.
-  const double most =
-      1.05 * (1 + rate_hz * 1e-9 * static_cast<double>(last_ns - std::min(first_ns, last_ns)));
-  const double gap_ns = 0.99e9 / rate_hz;
-  for (const auto& m : log.messages) {
-    Topic& topic = topics[m.channel];
-    const bool thinned = static_cast<double>(topic.count) > most;
-    if (thinned && !topic.t.empty() && static_cast<double>(m.log_ns - topic.kept_ns) < gap_ns) continue;
-    topic.kept_ns = m.log_ns;
-    topic.t.push_back(seconds(m.log_ns, epoch_ns));
-    append(topic.data, m.data);
-  }
-  json list = json::array();
-  for (auto& [id, topic] : topics) {
-    const auto& channel = log.channels.at(id);
-    const auto& schema = log.schemas.at(channel.schema);
-    if (channel.encoding != "cdr" || schema.encoding != "ros2msg") continue;
-    list.push_back({{"topic", channel.topic},
-                    {"type", schema.name},
-                    {"schema", schema.text},
-                    {"count", topic.count},
-                    {"t", std::move(topic.t)},
-                    {"data", base64(compressed(topic.data))}});
-  }
-  const json metadata = metadata_of(log);
-  const json whole = {{"name", name},
-                      {"mission", metadata.value("/fulmar/mission"_json_pointer, "")},
-                      {"epoch_ns", std::to_string(epoch_ns)},
-                      {"begin_s", topics.empty() ? 0 : seconds(first_ns, epoch_ns)},
-                      {"end_s", topics.empty() ? 0 : seconds(last_ns, epoch_ns)},
-                      {"fault", log.fault},
-                      {"metadata", metadata},
-                      {"topics", std::move(list)}};
+std::string report_json(const std::vector<ReportedLog>& logs, std::size_t every_nth) {
+  json all = json::array();
+  for (const ReportedLog& log : logs) all.push_back(json_of(log, every_nth));
+  const json whole{{"logs", std::move(all)}, {"parameters", parameters_that_differ(logs)}};
   return whole.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+Fitted fitted_json(const std::vector<ReportedLog>& logs, std::size_t most_bytes) {
+  for (std::size_t n = 1;; n *= 2)
+    if (Fitted f{report_json(logs, n), n}; f.json.size() <= most_bytes || n >= thinnest) return f;
+}
+
 /// No text of the log may end the element that holds it.
-std::string with_log(const std::string& page, const std::string& json_text) {
+std::string with_logs(const std::string& page, const std::string& json_text) {
   const std::size_t at = page.find(place);
   if (at == std::string::npos) throw core::Error("the page has no place for a log: it is of another version");
   std::string safe;

@@ -50,6 +50,9 @@ export class Colours {
   constructor() {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.cache.clear());
   }
+  forget(): void {
+    this.cache.clear();
+  }
   get(name: string): string {
     let value = this.cache.get(name);
     if (value === undefined) {

@@ -1,29 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight that was recorded, at any moment of it: the same as a flight that is connected, to those who look. What
-// it is made of: tools/fulmar_report/report.hpp.
+// A flight that was recorded, at any moment of it: the same as a flight that is connected, to those who look.
 import { type Message, decode, number_at, parse_schema } from "./protocol/schema";
+import { type Log, type PackedTopic, unpack_columns, unpack_messages } from "./report/model";
 import type { Series, Source, Topic } from "./source";
-
-export interface Log {
-  name: string; mission: string; epoch_ns: string; begin_s: number; end_s: number; fault: string;
-  metadata: Record<string, Record<string, string>>;
-  topics: { topic: string; type: string; schema: string; count: number; t: number[]; data: string }[];
-}
 
 interface Recorded {
   topic: Topic;
   t: number[];
-  view: DataView;
-  places: number[]; // of each message
-  messages: (Message | undefined)[];
+  message(i: number): Message | undefined;
+  column(path: string): ArrayLike<number> | undefined; // of every row, where there is one
   series: Map<string, { t: number[]; v: number[] }>;
 }
 
-async function bytes_of(base64: string): Promise<DataView> {
-  const text = atob(base64), bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new DataView(await new Response(inflated).arrayBuffer());
+/** {a: {b: 1}} of "a.b"; flags are flags. */
+function put(message: Message, path: string, value: number): void {
+  const parts = path.split("."), last = parts.pop() as string;
+  let at = message;
+  for (const part of parts) at = (at[part] ??= {}) as Message;
+  at[last] = last.endsWith("_valid") ? value !== 0 : value;
+}
+
+async function recorded(packed: PackedTopic): Promise<Recorded> {
+  const topic = { name: packed.topic, type: packed.type, fields: parse_schema(packed.type, packed.schema) };
+  if (packed.fields.length > 0) {
+    const { t, values } = await unpack_columns(packed.data, packed.rows, packed.fields.length);
+    return {
+      topic, t, series: new Map(), column: (path) => values[packed.fields.indexOf(path)],
+      message: (i) => {
+        const message: Message = {};
+        packed.fields.forEach((field, k) => put(message, field, values[k]?.[i] ?? NaN));
+        return message;
+      },
+    };
+  }
+  const { view, places } = await unpack_messages(packed.data), { t } = await unpack_columns(packed.t ?? "", packed.rows, 0);
+  const read: (Message | undefined)[] = [];
+  return {
+    topic, t: t.slice(0, places.length), series: new Map(), column: () => undefined,
+    message: (i) => {
+      try {
+        return (read[i] ??= decode(topic.fields, view, places[i] ?? Infinity));
+      } catch {
+        return undefined;
+      }
+    },
+  };
 }
 
 export class Recording implements Source {
@@ -35,29 +56,12 @@ export class Recording implements Source {
   }
   static async of(log: Log): Promise<Recording> {
     const recording = new Recording(log);
-    await recording.unpack();
+    for (const packed of log.topics) recording.all.set(packed.topic, await recorded(packed));
     return recording;
-  }
-  private async unpack(): Promise<void> {
-    for (const { topic: name, type, schema, t, data } of this.log.topics) {
-      const view = await bytes_of(data), places: number[] = [];
-      for (let at = 0; at + 4 <= view.byteLength; at += 4 + view.getUint32(at, true)) places.push(at + 4);
-      this.all.set(name, {
-        topic: { name, type, fields: parse_schema(type, schema) }, t: t.slice(0, places.length), view, places,
-        messages: [], series: new Map(),
-      });
-    }
   }
 
   topics(): Topic[] {
     return [...this.all.values()].map((r) => r.topic);
-  }
-  private read(r: Recorded, i: number): Message | undefined {
-    try {
-      return (r.messages[i] ??= decode(r.topic.fields, r.view, r.places[i] ?? Infinity));
-    } catch {
-      return undefined;
-    }
   }
   /** How many messages there are until now. */
   private until(t: number[]): number {
@@ -71,34 +75,39 @@ export class Recording implements Source {
   }
   latest(topic: string): Message | undefined {
     const r = this.all.get(topic), n = r ? this.until(r.t) : 0;
-    return r && n > 0 ? this.read(r, n - 1) : undefined;
+    return r && n > 0 ? r.message(n - 1) : undefined;
   }
   age(topic: string): number {
     const r = this.all.get(topic), n = r ? this.until(r.t) : 0;
     return r && n > 0 ? this.now - (r.t[n - 1] as number) : Infinity;
   }
-  series(topic: string, path: string): Series {
+  /** Of the whole flight. */
+  whole(topic: string, path: string): Series {
     const r = this.all.get(topic);
     if (!r) return { t: [], v: [] };
-    let whole = r.series.get(path);
-    if (!whole) {
-      whole = { t: [], v: [] };
+    let all = r.series.get(path);
+    if (!all) {
+      all = { t: [], v: [] };
+      const column = r.column(path);
       for (let i = 0; i < r.t.length; ++i) {
-        const value = number_at(this.read(r, i), path);
+        const value = column ? column[i] : number_at(r.message(i), path);
         if (value === undefined) continue;
-        whole.t.push(r.t[i] as number);
-        whole.v.push(value);
+        all.t.push(r.t[i] as number);
+        all.v.push(value);
       }
-      r.series.set(path, whole);
+      r.series.set(path, all);
     }
-    const n = this.until(whole.t);
-    return { t: whole.t.slice(0, n), v: whole.v.slice(0, n) };
+    return all;
+  }
+  series(topic: string, path: string): Series {
+    const all = this.whole(topic, path), n = this.until(all.t);
+    return { t: all.t.slice(0, n), v: all.v.slice(0, n) };
   }
   /** All of them, at once: those of the whole flight. */
   listen(topic: string, heard: (message: Message, t: number) => void): () => void {
     const r = this.all.get(topic);
     r?.t.forEach((t, i) => {
-      const message = this.read(r, i);
+      const message = r.message(i);
       if (message) heard(message, t);
     });
     return () => {};

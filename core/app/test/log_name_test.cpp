@@ -42,3 +42,22 @@ TEST_CASE_FIXTURE(Folder, "a flight that cannot begin leaves no file") {
   CHECK_FALSE(shell(run + "--set 'plan.plan={waypoints: [{airspeed: 17 m/s}]}' 2>out.txt"));
   CHECK(files(".mcap") + files(".part") == 0);
 }
+
+TEST_CASE_FIXTURE(Folder, "a report is refused before the flight where none can be, in one sentence") {
+  const auto refused = [&](const std::string& options, const std::string& words) {
+    INFO(options);
+    CHECK_FALSE(shell(run + "--duration 1 " + options + " >out.txt 2>&1"));
+    CHECK(shell("grep -q -- '" + words + "' out.txt"));
+    CHECK(files(".mcap") == 0);
+  };
+  refused("--no-log --report", "--no-log leaves that out: give one of them");
+  refused("--report x.yaml", "--report x.yaml: give a name that ends in .html, or none");
+  CHECK(shell("printf 'mission: silent\\nextends: " FULMAR_SOURCE_DIR
+              "/configs/missions/hourglass.yaml\\nrecord: off\\n' >silent.yaml"));
+  CHECK_FALSE(shell(FULMAR_BIN_DIR "/fulmar run silent.yaml --duration 1 --report >out.txt 2>&1"));
+  CHECK(shell("grep -q 'record: off; there is no log to make it of' out.txt"));
+  if (!fs::exists(FULMAR_BIN_DIR "/../share/fulmar/web/report.html")) return;  // built without Node.js
+  CHECK(shell("echo mine >there.html"));
+  refused("--report there.html", "a report never overwrites a file");
+  CHECK(shell("grep -q mine there.html"));
+}

@@ -80,12 +80,14 @@ TEST_CASE("a log is a command line, with the layout that is shipped for the view
   CHECK(fs::exists(plots.words[4]));
   CHECK(opening_of("rerun", "/a/b.mcap", nowhere).words == Words{"rerun", "/a/b.mcap"});
   CHECK(opening_of("foxglove", "/a/b.mcap", nowhere).words.back() == "/a/b.mcap");
+  CHECK(opening_of("page", "/a/b.mcap", nowhere).words == Words{"xdg-open", "/a/b.html"});
+  CHECK(opening_of("page", "/a/b.mcap", nowhere).report == "/a/b.html");
+  CHECK(opening_of("rerun", "/a/b.mcap", nowhere).report.empty());
 }
 
 TEST_CASE("what a viewer cannot do, and one that nobody knows, is refused with what can be done") {
   const LiveAddress nowhere = parse_target("");
   CHECK_THROWS_AS(opening_of("rerun", "", nowhere), WrongUsage);
-  CHECK_THROWS_AS(opening_of("page", "/a/b.mcap", nowhere), WrongUsage);
   const Folder folder;
   Result r = view("--in lichtblik --print");
   CHECK(r.code == 2);
@@ -105,6 +107,24 @@ TEST_CASE("what a viewer cannot do, and one that nobody knows, is refused with w
   r = view((folder.path / "b.mcap.part").string());
   CHECK(r.code == 1);
   CHECK(holds(r.text, "fulmar log recover"));
+}
+
+TEST_CASE("the page of a log that is there is opened as it is, unless the log is younger") {
+  const Folder folder;
+  const fs::path page = fs::path(folder.log()).replace_extension(".html");
+  std::ofstream(page) << "mine";
+  const auto log_s = fs::last_write_time(folder.log());
+  fs::last_write_time(page, log_s + std::chrono::seconds(1));
+  Result r = view("'" + folder.log() + "' --in page --print");
+  CHECK(r.code == 0);
+  CHECK(r.text == "xdg-open '" + page.string() + "'\n");
+  fs::last_write_time(page, log_s - std::chrono::seconds(1));
+  r = view("'" + folder.log() + "' --in page --print");
+  CHECK(r.code == 1);
+  CHECK(holds(r.text, "older than the log"));
+  std::string kept;
+  std::ifstream(page) >> kept;
+  CHECK(kept == "mine");
 }
 
 TEST_CASE("nobody flies: told, and no link is given; --print gives it all the same") {

@@ -2,95 +2,203 @@
 #include "tools/fulmar_report/report.hpp"
 
 #include <doctest/doctest.h>
-#include <zlib.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/log/events.hpp"
+#include "fulmar/msg/guidance_command.hpp"
+#include "fulmar/msg/rc.hpp"
+#include "tools/fulmar_report/test/report_kit.hpp"
 
 namespace report_test {
 
-using namespace fulmar;
 using nlohmann::json;
 
 namespace {
 
-constexpr std::uint64_t epoch_ns = 1'767'225'600'000'000'000;
+constexpr std::uint64_t epoch = core::test::epoch_ns;
 
-/// A log of two topics: one at 100 Hz for two seconds, one with three messages at once.
-core::McapFile log_of() {
-  core::McapFile log;
-  log.schemas[1] = {"p/msg/A", "ros2msg", "float64 x_m\n"};
-  log.schemas[2] = {"p/msg/B", "jsonschema", "{}"};
-  log.channels[1] = {1, "/fast", "cdr", {}};
-  log.channels[2] = {1, "/rare", "cdr", {}};
-  log.channels[3] = {2, "/foreign", "json", {}};
-  log.metadata.push_back({"fulmar", {{"mission", "</script><b>"}, {"epoch_ns", std::to_string(epoch_ns)}}});
-  log.memory.push_back({std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}, std::byte{0xff}});
-  const std::span<const std::byte> bytes(log.memory.back());
-  for (std::uint64_t i = 0; i < 200; ++i) {
-    const std::uint64_t now_ns = epoch_ns - 1'000'000'000 + i * 10'000'000;
-    log.messages.push_back({1, 0, now_ns, now_ns, bytes});
-    if (i >= 100 && i < 103) log.messages.push_back({2, 0, now_ns, now_ns, bytes.subspan(0, 4)});
-    if (i == 5) log.messages.push_back({3, 0, now_ns, now_ns, bytes});
-  }
-  return log;
+void write_event(Log& log, std::int64_t at_ns, core::Code code, const char* name, const char* words) {
+  core::Event e = core::event_of(code, "slc", name);
+  core::put(e.words, words);
+  log.write_as(core::Event::topic, *core::host_type<core::Event>(), at_ns, &e);
 }
 
-json parsed(double rate_hz) { return json::parse(report::log_json(log_of(), "one.mcap", rate_hz)); }
+/// Two seconds at 50 Hz from one second before the flight on.
+void write_flight(const std::filesystem::path& file, const char* parameters, const char* words = "stopped") {
+  Log log(file);
+  log.sample.writer.attach("parameters.json", "application/json", parameters, epoch);
+  for (int i = 0; i < 100; ++i) {
+    VehicleState s = state(1);
+    s.height_m = 0.1 * i, s.position_valid = i >= 50;
+    log.write("/nav/state", i * 20 * ms - 1000 * ms, s);
+    log.write("/vehicle/truth", i * 20 * ms - 1000 * ms, state(0));
+  }
+  write_event(log, 500 * ms, core::Code::phase_entered, "cruise", "phase cruise");
+  write_event(log, 500 * ms, core::Code::guard, "", words);
+  write_event(log, 600 * ms, core::Code::request_taken, "edit", "no news");
+}
+
+/// Each under the name of its file without its ending.
+std::vector<report::ReportedLog> logs_of(const std::vector<std::string>& files) {
+  std::vector<report::ReportedLog> logs;
+  for (const std::string& file : files)
+    logs.push_back(report::read_log(file, std::filesystem::path(file).stem().string(), 10));
+  return logs;
+}
+json parsed(const std::vector<std::string>& files) {
+  return json::parse(report::report_json(logs_of(files), 1));
+}
+
+const report::ShownTopic& topic(const std::vector<report::ShownTopic>& all, const std::string& name) {
+  for (const report::ShownTopic& t : all)
+    if (t.topic == name) return t;
+  FAIL(name << " is not there");
+  return all.front();
+}
 
 }  // namespace
 
-TEST_CASE("what came more often than the rate is thinned out, what is rare is whole") {
-  const json all = parsed(10);
-  REQUIRE(all["topics"].size() == 2);  // the foreign encoding is left out
-  const json &fast = all["topics"][0], &rare = all["topics"][1];
-  CHECK(fast["topic"] == "/fast");
-  CHECK(fast["count"] == 200);
-  CHECK(fast["t"].size() == 20);
-  CHECK(fast["t"][0] == -1.0);
-  CHECK(fast["t"][1] == -0.9);
-  CHECK(rare["t"] == json({0.0, 0.01, 0.02}));
-  CHECK(all["begin_s"] == -1.0);
-  CHECK(all["end_s"] == 0.99);
-  CHECK(parsed(1000)["topics"][0]["t"].size() == 200);
+TEST_CASE("streams are thinned out to the rate, what is slow by nature to 2 Hz, events are whole") {
+  const Folder folder;
+  const std::string file = folder.path / "a.mcap";
+  {
+    Log log(file);
+    for (int i = 0; i < 200; ++i) {
+      VehicleState s = state(1);
+      s.height_m = i, s.height_valid = i > 100;
+      log.write("/nav/state", i * 10 * ms, s);
+      log.write("/vehicle/truth", i * 10 * ms, s);
+      log.write("/vehicle/rc", i * 10 * ms, Rc{});
+      if (i >= 50 && i < 53) write_event(log, 500 * ms, core::Code::notice, "", "at once");
+    }
+  }
+  const auto all = report::shown_topics(file, epoch, 10, {"/vehicle/truth"});
+  REQUIRE(all.size() == 3);
+  const report::ShownTopic& state_topic = topic(all, "/nav/state");
+  CHECK(state_topic.count == 200);
+  CHECK(state_topic.columns.t.size() == 20);
+  CHECK(state_topic.columns.t[1] == 1000);
+  const auto column = [&](const char* field) {
+    const auto at = std::find(state_topic.fields.begin(), state_topic.fields.end(), field);
+    REQUIRE(at != state_topic.fields.end());
+    return state_topic.columns.values[static_cast<std::size_t>(at - state_topic.fields.begin())];
+  };
+  CHECK(column("height_m")[7] == 70.f);
+  CHECK(column("height_valid")[10] == 0.f);
+  CHECK(column("height_valid")[11] == 1.f);
+  CHECK(topic(all, "/vehicle/rc").messages.size() == 4);
+  CHECK(topic(all, core::Event::topic).messages.size() == 3);
+  CHECK(topic(report::shown_topics(file, epoch, 1000), "/nav/state").columns.t.size() == 200);
+  const json halved = json_of(state_topic, 2), events = json_of(topic(all, core::Event::topic), 2);
+  CHECK(halved["rows"] == 10);
+  CHECK(columns_of(halved["data"], 10, state_topic.fields.size()).t[1] == 2000);
+  CHECK(events["rows"] == 3);
+  CHECK(columns_of(events["t"], 3, 0).t == std::vector<std::int32_t>{5000, 5000, 5000});
 }
 
-TEST_CASE("messages lie behind their lengths, compressed, in base64") {
-  const std::string one("\4\0\0\0\0\1\0\0", 8);  // the length, and a message of four bytes
-  CHECK(parsed(10)["topics"][1]["data"] == report::base64(report::compressed(one + one + one)));
-  const std::string small = report::compressed(std::string(1000, 'x'));
-  CHECK(small.size() < 40);
-  std::string back(1000, '\0');
-  uLongf size = back.size();
-  CHECK(::uncompress(reinterpret_cast<Bytef*>(back.data()), &size,
-                     reinterpret_cast<const Bytef*>(small.data()), small.size()) == Z_OK);
-  CHECK(back == std::string(1000, 'x'));
-  CHECK(report::base64("") == "");
-  CHECK(report::base64("f") == "Zg==");  // RFC 4648, section 10
-  CHECK(report::base64("fo") == "Zm8=");
-  CHECK(report::base64("foo") == "Zm9v");
-  CHECK(report::base64("foobar") == "Zm9vYmFy");
-  CHECK(report::base64("\xff\xfe") == "//4=");
+TEST_CASE("a guide that commands lateral accelerations asks for no course") {
+  const Folder folder;
+  const std::string file = folder.path / "a.mcap";
+  {
+    Log log(file);
+    GuidanceCommand c;
+    c.course_rad = 1, c.height_m = 70;
+    log.write("/guide/command", 0, c);
+    c.lateral = LateralMode::acceleration;
+    log.write("/guide/command", 1000 * ms, c);
+  }
+  const report::ShownTopic shown = topic(report::shown_topics(file, epoch, 10), "/guide/command");
+  REQUIRE(shown.fields[0] == "course_rad");
+  CHECK(shown.columns.values[0][0] == 1.f);
+  CHECK(std::isnan(shown.columns.values[0][1]));
+  CHECK(shown.columns.values[1][1] == 70.f);
 }
 
-TEST_CASE("no name in a log ends the element that holds it") {
-  const std::string json_text = report::log_json(log_of(), "<!--", 10);
-  const std::string html = report::with_log("<script>LOG_OF_THE_FLIGHT</script>", json_text);
-  CHECK(html.find("</script><b>") == std::string::npos);
-  CHECK(html.find("<!--") == std::string::npos);
-  const std::string inside = html.substr(8, html.size() - 17);
-  CHECK(json::parse(inside)["mission"] == "</script><b>");
-  CHECK(json::parse(inside)["name"] == "<!--");
-  CHECK_THROWS_WITH_AS(report::with_log("<p>", json_text), doctest::Contains("has no place for a log"),
+TEST_CASE("phases, guards, parameters that differ, and where a log ends") {
+  const Folder folder;
+  const std::string a = folder.path / "a.mcap", b = folder.path / "b.mcap";
+  write_flight(a, R"({"slc": {"course_kp": 1.2, "law": "slc"}, "ekf": {"x": [1, 2, 3]}})");
+  write_flight(b, R"({"slc": {"course_kp": 1.9, "law": "slc"}, "ekf": {"x": [1, 2, 3]}, "new": {"y": 1}})");
+  const json all = parsed({a, b});
+  CHECK(all["parameters"] == json::parse(R"([{"name": "new.y", "values": [null, 1]},
+                                             {"name": "slc.course_kp", "values": [1.2, 1.9]}])"));
+  const json& log = all["logs"][0];
+  CHECK(log["name"] == "a");
+  CHECK(log["begin_s"] == -1.0);
+  CHECK(log["end_s"] == 0.98);
+  CHECK(log["fault"] == "");
+  CHECK(log["phases"] == json::parse(R"([{"name": "cruise", "from_s": 0.5, "to_s": 0.98}])"));
+  REQUIRE(log["told"]["rows"].size() == 1);  // a phase and a request that was taken are no news
+  CHECK(log["told"]["rows"][0]["words"] == "stopped");
+  CHECK(log["told"]["rows"][0]["severity"] == "warning");
+  CHECK(log["told"]["rows"][0]["component"] == "slc");
+  CHECK(log["estimates"][0]["reference"] == "/vehicle/truth");
+  CHECK(log["steps"].is_null());
+  for (const json& t : log["topics"]) CHECK(t["topic"] != "/vehicle/truth");
+  CHECK(parsed({a})["parameters"].empty());
+
+  const std::string bytes = core::test::contents(a), cut = folder.path / "cut.mcap";
+  core::test::store(cut, bytes.substr(0, bytes.size() / 2));
+  const json half = parsed({cut})["logs"][0];
+  CHECK(half["fault"].get<std::string>().starts_with("byte "));
+}
+
+TEST_CASE("no name and no word of a log ends the element that holds it") {
+  const Folder folder;
+  const std::string file = folder.path / "a.mcap";
+  write_flight(file, R"({"<img>": {"</script>": 1}})", "</script><b>");
+  std::vector<report::ReportedLog> logs = logs_of({file});
+  logs[0].name = "<!--";
+  const std::string text = report::report_json(logs, 1);
+  const std::string html = report::with_logs("<script>LOG_OF_THE_FLIGHT</script>", text);
+  CHECK(html.find('<', 1) == html.size() - 9);
+  const json inside = json::parse(html.substr(8, html.size() - 17));
+  CHECK(inside["logs"][0]["name"] == "<!--");
+  CHECK(inside["logs"][0]["told"]["rows"][0]["words"] == "</script><b>");
+  CHECK_THROWS_WITH_AS(report::with_logs("<p>", text), doctest::Contains("has no place for a log"),
                        core::Error);
 }
 
-TEST_CASE("a log without messages is a report without topics") {
-  const json empty = json::parse(report::log_json(core::McapFile(), "none", 10));
-  CHECK(empty["topics"].empty());
-  CHECK(empty["mission"] == "");
-  CHECK(empty["end_s"] == 0);
+TEST_CASE("what is too large is thinned out until it fits, or cannot be thinned out more") {
+  const Folder folder;
+  const std::string file = folder.path / "a.mcap";
+  {
+    Log log(file);
+    for (int i = 0; i < 3000; ++i) {
+      VehicleState s = state(1);
+      s.height_m = std::sin(1e4 * i), s.roll_rad = std::cos(1e5 * i);
+      log.write("/nav/state", i * 100 * ms, s);
+    }
+  }
+  const std::vector<report::ReportedLog> logs = logs_of({file});
+  const std::size_t whole = report::report_json(logs, 1).size();
+  CHECK(report::fitted_json(logs, whole).every_nth == 1);
+  const report::Fitted half = report::fitted_json(logs, whole - 1);
+  CHECK(half.every_nth == 2);
+  CHECK(half.json.size() < whole);
+  CHECK(report::fitted_json(logs, 1).every_nth == 64);
+}
+
+TEST_CASE("names are those of the files, with their folders where two would be alike") {
+  using Names = std::vector<std::string>;
+  CHECK(report::short_names({"/x/a.mcap", "b.mcap"}) == Names{"a.mcap", "b.mcap"});
+  CHECK(report::short_names({"/x/a.mcap", "/y/a.mcap"}) == Names{"x/a.mcap", "y/a.mcap"});
+  CHECK(report::short_names({"/x/z/a.mcap", "/y/z/a.mcap"}) == Names{"/x/z/a.mcap", "/y/z/a.mcap"});
+}
+
+TEST_CASE("what is no log is refused; a log without messages is a report without topics") {
+  const Folder folder;
+  const std::string text = folder.path / "a.txt", empty = folder.path / "empty.mcap";
+  core::test::store(text, "time,height\n0,1\n");
+  CHECK_THROWS_AS(report::read_log(text, "a", 10), core::Error);
+  { const Log log(empty); }
+  const json log = parsed({empty})["logs"][0];
+  CHECK(log["topics"].empty());
+  CHECK(log["ticks"].is_null());
+  CHECK(log["end_s"] == 0);
 }
 
 }  // namespace report_test

@@ -18,6 +18,7 @@ export interface Scene {
   chosen: number; // waypoint that is being edited; -1: none
   refused: number; // waypoint whose last edit was refused; -1: none
   piece: Point[]; // of the path that is followed now
+  tracks?: (Track & { colour: string; width: number })[]; // of a report: all of each flight, and all of it is shown
 }
 export interface Hooks {
   press?(at: Point, waypoint: number): boolean; // true: the press is not for the map
@@ -78,8 +79,11 @@ export class MapView {
     const points: Point[] = [{ n: 0, e: 0 }];
     for (const w of this.seen?.plan?.waypoints ?? []) points.push({ n: w.north, e: w.east });
     if (this.seen?.state) points.push(this.seen.state);
+    for (const track of this.seen?.tracks ?? [])
+      track.n.forEach((n, i) => Number.isFinite(n) && points.push({ n, e: track.e[i] as number }));
     const n = points.map((p) => p.n), e = points.map((p) => p.e);
-    const [n0, n1, e0, e1] = [Math.min(...n), Math.max(...n), Math.min(...e), Math.max(...e)];
+    const least = (list: number[]) => list.reduce((a, b) => Math.min(a, b)), largest = (list: number[]) => list.reduce((a, b) => Math.max(a, b));
+    const [n0, n1, e0, e1] = [least(n), largest(n), least(e), largest(e)];
     this.centre = { n: (n0 + n1) / 2, e: (e0 + e1) / 2 };
     const room = (px: number, m: number) => Math.max(1, px - 2 * margin_px) / Math.max(m, 100);
     this.px_per_m = Math.min(room(this.height, n1 - n0), room(this.width, e1 - e0));
@@ -143,7 +147,7 @@ export class MapView {
     const news = this.px_per_m === 0 || (!this.touched && !this.seen?.plan && scene.plan !== null);
     this.seen = scene;
     if (this.width === 0) return;
-    if (news && (scene.plan || scene.state)) this.fit(); // until a hand chooses what is shown
+    if (news && (scene.plan || scene.state || scene.tracks)) this.fit(); // until a hand chooses what is shown
     if (this.px_per_m === 0) return;
     if (this.follows && scene.state) this.centre = { n: scene.state.n, e: scene.state.e };
     // where the picture is, for who cannot see it: north and east of its middle in m, pixels per metre
@@ -155,6 +159,7 @@ export class MapView {
     this.grid(g);
     this.trail(g, scene.track);
     this.route(g, scene);
+    for (const track of scene.tracks ?? []) this.trail(g, track, track.colour, track.width);
     g.strokeStyle = colours.get("track");
     g.lineWidth = 3;
     g.setLineDash([1, 6]);
@@ -209,9 +214,9 @@ export class MapView {
     });
     g.stroke();
   }
-  private trail(g: CanvasRenderingContext2D, track: Track): void {
-    g.strokeStyle = colours.get("track");
-    g.lineWidth = 2;
+  private trail(g: CanvasRenderingContext2D, track: Track, colour = "track", width = 2): void {
+    g.strokeStyle = colours.get(colour);
+    g.lineWidth = width;
     g.beginPath();
     let last = { x: 1e9, y: 1e9 };
     for (let i = 0; i < track.n.length; ++i) {

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// See file_names.hpp.
+#include "core/app/file_names.hpp"
+
+#include <spdlog/fmt/chrono.h>
+
+#include <cstdio>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/loader/report_program.hpp"
+#include "core/log/out_file.hpp"
+#include "core/say.hpp"
+#include "core/terminal.hpp"
+
+namespace fulmar::core {
+
+namespace fs = std::filesystem;
+
+fs::path numbered(const fs::path& file, std::size_t n) {
+  return file.parent_path() / (file.stem().string() + "-" + std::to_string(n) + file.extension().string());
+}
+
+void make_folder_of(const fs::path& file) {
+  std::error_code fault;
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), fault);
+  if (fault) throw Error("cannot make the folder '" + file.parent_path().string() + "': " + fault.message());
+}
+
+LogName free_name(const fs::path& wanted) {
+  make_folder_of(wanted);
+  fs::path file = wanted;
+  std::error_code none;  // a name that cannot be is nobody's; whoever makes the file says so
+  for (std::size_t n = 2; fs::exists(file, none) || !OutFile::hold(file); ++n) file = numbered(wanted, n);
+  return {file, true};
+}
+
+LogName default_log(const Graph& graph, const fs::path& folder) {
+  if (!graph.record_file.empty())
+    return graph.io == Io::fcu ? free_name(folder / graph.record_file) : LogName{folder / graph.record_file};
+  return free_name(
+      folder / fmt::format("logs/{}-{:%Y%m%dT%H%M%SZ}.mcap", graph.mission, fmt::gmtime(std::time(nullptr))));
+}
+
+void check_report(const std::string& wanted, const Graph& graph) {
+  if (!graph.record) throw Error("--report: the mission says record: off; there is no log to make it of");
+  if (!wanted.empty() && !wanted.ends_with(".html"))
+    throw Error("--report " + wanted + ": give a name that ends in .html, or none");
+  check_report_program();
+}
+
+fs::path report_name(const std::string& wanted, const fs::path& start, const fs::path& log, std::size_t nth,
+                     bool on_hardware) {
+  fs::path file = report_beside(log);
+  if (!wanted.empty()) {
+    file = (start / wanted).lexically_normal();
+    if (nth > 1) file = numbered(file, nth);
+  }
+  std::error_code none;
+  if (!on_hardware && fs::exists(file, none))
+    throw Error("'" + file.string() +
+                "' exists; a report never overwrites a file. Name another with --report FILE.html");
+  const fs::path taken = file;
+  for (std::size_t n = 2; fs::exists(file, none); ++n) file = numbered(taken, n);
+  return file;
+}
+
+bool report_flight(const fs::path& file, const fs::path& log, const nlohmann::json& result, bool quiet) try {
+  if (log.empty()) throw Error("there is no log to make the report of");
+  make_folder_of(file);
+  make_report(log, file, result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (!quiet) std::printf("report %s\n", for_terminal(file.string()).c_str());
+  std::fflush(stdout);
+  return true;
+} catch (const Error& fault) {
+  warn(fault.what());
+  return false;
+}
+
+}  // namespace fulmar::core

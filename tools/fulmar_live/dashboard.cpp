@@ -195,7 +195,7 @@ std::vector<Dashboard::Cell> Dashboard::cells() const {
                battery = number("VehicleStatus", "battery_frac"), items = number("Progress", "items");
   std::string wind = none, waypoint = none;
   if (flag(state, "wind_valid"))
-    wind = "from " + with_unit(bearing(std::atan2(-wind_e, -wind_n) * 180 / M_PI), 0, "°") + ", " +
+    wind = with_unit(bearing(std::atan2(-wind_e, -wind_n) * 180 / M_PI), 0, "°") + ", " +
            with_unit(std::hypot(wind_n, wind_e), 1, "m/s");
   if (items > 0)
     waypoint = fixed(number("Progress", "item"), 0) + " of " + fixed(items, 0) + ", " +
@@ -218,7 +218,7 @@ std::vector<Dashboard::Cell> Dashboard::cells() const {
        with_unit(battery * 100, 0, "%") + ", " + with_unit(number("VehicleStatus", "battery_volt"), 1, "V"),
        battery < 0.2 ? Look::bad : Look::plain},
       {"current", with_unit(number("VehicleStatus", "battery_amp"), 1, "A")},
-      {"wind", wind}};
+      {"wind from", wind}};
 }
 
 Dashboard::Cell Dashboard::control() const {

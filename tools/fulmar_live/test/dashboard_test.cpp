@@ -140,14 +140,14 @@ height    70.2 → 75.0 m   roll      -12.3 → -11.8°  north     123 m
 airspeed  16.1 → 16.0 m/s pitch     3.1 → 2.9°      east      0 m
 climb     0.0 → 0.5 m/s   course    270 → 269°      ground    18.2 m/s
 throttle  43 %            heading   315°            waypoint  2 of 4, 123 m
-battery   87 %, 11.8 V    current   12.3 A          wind      from 053°, 5.0 m/s
+battery   87 %, 11.8 V    current   12.3 A          wind from 53°, 5.0 m/s
 control   autopilot; radio there
 estimator valid; position within 0.5 m (1 sigma)
 sensors   gyro, gnss position, 12 satellites, fix 3d
 roles     vehicle sim, nav ekf, outer slc, guide mine, inner mine
 slowest   ekf 45 (120) us, sim 21 (80) us, slc 3.1 (9) us, mine 2.0 (301) us of
           250
-0:13.0   phase cruise
+0:13.1   phase cruise
 -0:05.0   phase hold
 )");
 }
@@ -156,7 +156,7 @@ TEST_CASE("a narrow terminal gets the same words in more lines, a low one the la
   const std::string wide = board().text(size(200, 60)), narrow = board().text(size(30, 60));
   for (const std::string& line : lines(narrow)) CHECK(fulmar::core::width_of(line) <= 30);
   for (const char* what :
-       {"70.2 → 75.0 m", "2 of 4, 123 m", "from 053°, 5.0 m/s", "autopilot", "hourglass", "phase hold"}) {
+       {"70.2 → 75.0 m", "2 of 4, 123 m", "53°, 5.0 m/s", "autopilot", "hourglass", "phase hold"}) {
     CHECK(has(wide, what));
     CHECK(has(narrow, what));
   }
@@ -235,7 +235,7 @@ TEST_CASE("events: the newest above, what is bad marked, a slider's many values 
   REQUIRE(all.size() == 16);
   CHECK(all[12] == "0:15.0 ! the motor has stopped");
   CHECK(all[13] == "0:14.0   slc.roll_kp = 2");
-  CHECK(all[14] == "0:13.0   phase cruise");
+  CHECK(all[14] == "0:13.1   phase cruise");
 }
 
 TEST_CASE("no text of the flight commands the terminal") {

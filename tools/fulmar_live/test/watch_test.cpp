@@ -63,11 +63,11 @@ class FlightProcess {
   std::uint16_t port_ = 0;
 };
 
-/// A terminal of 60 x 12 in which it runs.
+/// A terminal of 100 x 12 in which it runs.
 class Terminal {
  public:
   explicit Terminal(std::uint16_t port) {
-    winsize size{12, 60, 0, 0};
+    winsize size{12, 100, 0, 0};
     pid_ = forkpty(&fd_, nullptr, nullptr, &size);
     if (pid_ == 0) {
       execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "watch", "--at", std::to_string(port).c_str(), nullptr);
@@ -83,7 +83,8 @@ class Terminal {
   /// Whether it has written this since the last call, or does before long.
   bool shows(const std::string& what) {
     std::array<char, 4096> buffer{};
-    for (;;) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (std::chrono::steady_clock::now() < end) {
       if (const std::size_t at = said_.find(what); at != std::string::npos) {
         last_ = said_.substr(0, at + what.size()), said_.erase(0, at + what.size());
         return true;
@@ -91,12 +92,13 @@ class Terminal {
       fd_set ready;
       FD_ZERO(&ready);
       FD_SET(fd_, &ready);
-      timeval patience{20, 0};
-      if (select(fd_ + 1, &ready, nullptr, nullptr, &patience) <= 0) return false;
+      timeval patience{1, 0};
+      if (select(fd_ + 1, &ready, nullptr, nullptr, &patience) <= 0) continue;
       const ssize_t got = read(fd_, buffer.data(), buffer.size());
       if (got <= 0) return false;
       said_.append(buffer.data(), static_cast<std::size_t>(got));
     }
+    return false;
   }
   const std::string& last() const { return last_; }
   void send(int signal) const { kill(pid_, signal); }

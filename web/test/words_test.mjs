@@ -29,6 +29,7 @@ const { as_group, edits_between } = await load("flight/plan_edits.ts");
 const { read_plan_file, write_plan_file } = await load("flight/plan_file.ts");
 const { last_step, value_at } = await load("flight/step.ts");
 const { piece_ahead } = await load("flight/piece.ts");
+const { draw_wiring } = await load("flight/wiring.ts");
 const { bearing, clock, digits, fixed, shown_unit, with_unit } = await load("units.ts");
 
 const point = (north, east, up = 70, id = 0) => ({ north, east, up, course: null, airspeed: 0, id, geodetic: null });
@@ -135,6 +136,60 @@ const tests = {
     }
     const round = piece_ahead(path({ kind: "orbit", remaining_m: far }), { n: 100, e: 20 });
     near(round[round.length - 1].n, round[0].n, 1e-9);
+  },
+  "wires are drawn in layers, between the boxes, each line by itself: twenty components on one screen"() {
+    const part = (name, role, inputs, outputs) => ({ name, role, inputs: inputs.map((source, i) => ({ name: `in${i}`, source })), outputs: outputs.map((o) => ({ name: o, type: "p/" + o })) });
+    const sensors = ["imu", "gnss", "mag", "baro", "pitot"], v = (names) => names.map((n) => "vehicle." + n);
+    const parts = [
+      part("score", "", ["nav.state", "vehicle.truth", "manage.path", "outer.attitude", "inner.actuators", "guide.command"], ["figures"]),
+      part("plan", "", ["nav.state", "ghost.plan"], ["plan", "notices"]), part("manage", "", ["nav.state", "plan.plan"], ["path", "progress"]),
+      part("sim", "vehicle", ["inner.actuators"], [...sensors, "rc", "VehicleStatus", "truth"]),
+      part("ekf", "nav", [...v(sensors), "vehicle.VehicleStatus"], ["state", "health"]), part("truth", "nav", ["vehicle.truth"], ["state"]),
+      ...["follow", "carrot", "lookahead"].map((n) => part(n, "guide", ["nav.state", "manage.path"], ["command"])),
+      ...["slc", "tecs", "mine"].map((n) => part(n, "outer", ["nav.state", "guide.command"], ["attitude"])),
+      part("attitude", "inner", ["nav.state", "outer.attitude"], ["actuators"]), part("autotune", "inner", ["nav.state", "outer.attitude", "joystick.rc"], ["actuators"]),
+      part("joystick", "", [], ["rc"]), part("safety", "", ["nav.state", "nav.health", "vehicle.VehicleStatus", "vehicle.rc"], ["state"]),
+      part("home", "", ["nav.state", "safety.state"], ["plan", "path"]), part("landing", "", ["nav.state", "home.path"], ["path", "progress"]),
+      part("scene", "", ["nav.state", "plan.plan", "vehicle.gnss"], ["tf"]), part("reference_receiver", "", [], ["gnss"]),
+    ];
+    assert.equal(parts.length, 20);
+    const { width, height, boxes, wires } = draw_wiring(parts, (p) => Math.max(16, p.role.length));
+    assert.ok(width <= 1240 && height <= 520, `${width} x ${height}`);
+    const box = (name) => boxes.find((b) => b.name === name), layer = (name) => box(name).layer;
+    assert.deepEqual(["sim", "ekf", "plan", "manage", "follow", "slc", "attitude", "score"].map(layer), [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert.deepEqual(["truth", "carrot", "mine", "autotune", "joystick"].map(layer), [1, 4, 5, 6, 5]); // who fills a role beside the others, who reads nothing before its reader
+    boxes.forEach((a, i) => boxes.slice(i + 1).forEach((b) => assert.ok(a.x + a.width < b.x || b.x + b.width < a.x || a.y + a.height < b.y || b.y + b.height < a.y, a.name + " on " + b.name)));
+    const readers = parts.flatMap((p) => p.inputs.map((i) => i.source)).filter((s) => s !== "ghost.plan");
+    const writers = (source) => {
+      const [owner, port] = source.split(".");
+      return parts.filter((p) => (p.name === owner || p.role === owner) && p.outputs.some((o) => o.name === port)).length;
+    };
+    assert.equal(wires.length, readers.reduce((sum, s) => sum + writers(s), 0));
+    const pieces = [];
+    for (const w of wires) {
+      const a = box(w.from), b = box(w.to), [first, last] = [w.points[0], w.points[w.points.length - 1]];
+      assert.ok(first[0] === a.x + a.width && first[1] > a.y && first[1] < a.y + a.height, w.source);
+      assert.ok(last[0] === b.x && last[1] > b.y && last[1] < b.y + b.height, w.source + " " + w.to);
+      w.points.slice(1).forEach(([x2, y2], i) => {
+        const [x1, y1] = w.points[i];
+        assert.ok(x1 === x2 || y1 === y2, "neither level nor upright");
+        const [l, r, t, u] = [Math.min(x1, x2), Math.max(x1, x2), Math.min(y1, y2), Math.max(y1, y2)];
+        assert.ok(l >= 0 && r <= width && t >= 0 && u <= height);
+        for (const c of boxes) assert.ok(r <= c.x || l >= c.x + c.width || u <= c.y || t >= c.y + c.height, `${w.source} runs through ${c.name}`);
+        pieces.push({ source: w.source, l, r, t, u });
+      });
+    }
+    // lines of two ports may cross, but never lie on each other
+    for (const p of pieces)
+      for (const q of pieces) {
+        if (p.source === q.source) continue;
+        const level = p.t === p.u && q.t === q.u && p.t === q.t && Math.min(p.r, q.r) > Math.max(p.l, q.l);
+        const upright = p.l === p.r && q.l === q.r && p.l === q.l && Math.min(p.u, q.u) > Math.max(p.t, q.t);
+        assert.ok(!level && !upright, `${p.source} on ${q.source}`);
+      }
+    assert.deepEqual(draw_wiring([], () => 0).wires, []);
+    const loop = draw_wiring([part("a", "", ["b.x"], ["x"]), part("b", "", ["a.x"], ["x"])], () => 0); // in a circle, without a vehicle
+    assert.deepEqual(loop.boxes.map((b) => b.layer), [0, 1]);
   },
   "the fewest edits: what stays keeps its id"() {
     const now = plan_of([point(0, 0, 70, 1), point(100, 0, 70, 2), point(200, 0, 70, 3), point(300, 0, 70, 4)]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node words_test.mjs NODE_MODULES: what the page computes, without a browser: types, messages, the route, edits, plan files, steps.
+// node words_test.mjs NODE_MODULES [ROUTE_POINTS]: what the page computes, without a browser: types, messages, the route, edits, plan files, steps.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -121,6 +121,49 @@ const tests = {
     for (const p of legs[1].points) near(Math.hypot(p.n - 500, p.e), 50, 1e-9);
     assert.equal(new Route(plan_of([point(5, 5)])).legs()[0].points.length, 73);
     assert.deepEqual(new Route(plan_of([])).legs(), []);
+  },
+  "the route that is drawn is the one that is flown: fillets, courses, tight corners, points in one place, orbits"() {
+    if (!process.argv[3]) return console.log("       not compared: route_points is not named");
+    let seed = 7;
+    const random = (most) => Math.floor((((seed = (seed * 16807) % 2147483647) - 1) / 2147483646) * most);
+    const plans = Array.from({ length: 80 }, (_, k) => plan_of(Array.from({ length: 2 + random(7) }, (_, i) => {
+      // far apart, or some too close for their fillets, or in one place
+      const spread = k % 3 === 0 ? 2000 : k % 3 === 1 ? 500 : 120;
+      return { ...point(random(spread) - spread / 2, random(spread) - spread / 2), course: random(4) === 0 ? random(628) / 100 - 3.14 : null, id: i + 1 };
+    }), k % 2 === 0 ? "circuit" : "orbit", 20 + random(60)));
+    plans.push(plan_of([point(0, 0), point(300, 0), point(300.4, 0), point(300, 300)]), plan_of([point(0, 0), point(400, 0), point(0, 10)]));
+    const input = plans.map((p) => `${p.end} ${p.radius} ${p.waypoints.length}\n` + p.waypoints.map((w) => `${w.north} ${w.east} ${w.course ?? "-"}\n`).join("")).join("");
+    const flown = execFileSync(process.argv[3], { input, maxBuffer: 1 << 28 }).toString().trim().split("\n");
+    let at = 0, fillets = 0;
+    const beside = (p, a, b) => {
+      const l = Math.hypot(b.n - a.n, b.e - a.e), s = l > 0 ? Math.min(1, Math.max(0, ((p.n - a.n) * (b.n - a.n) + (p.e - a.e) * (b.e - a.e)) / l / l)) : 0;
+      return Math.hypot(p.n - a.n - s * (b.n - a.n), p.e - a.e - s * (b.e - a.e));
+    };
+    const length = (points) => points.slice(1).reduce((sum, p, i) => sum + Math.hypot(p.n - points[i].n, p.e - points[i].e), 0);
+    for (const plan of plans) {
+      const drawn = new Route(plan);
+      for (const { to, points } of drawn.legs()) {
+        const head = flown[at++].split(" ");
+        if (head[0] === "orbit") {
+          for (const p of points) near(Math.hypot(p.n - Number(head[1]), p.e - Number(head[2])), Number(head[3]), 1e-6);
+          continue;
+        }
+        assert.deepEqual(head, ["leg", String(to)]);
+        if (drawn.passage(to).turn !== 0) ++fillets;
+        const way = [];
+        for (; /^[-\d]/.test(flown[at]); ++at) way.push({ n: Number(flown[at].split(" ")[0]), e: Number(flown[at].split(" ")[1]) });
+        if (way.length === 0) { // from one point to another in the same place
+          near(length(points), 0, 1e-6);
+          continue;
+        }
+        for (const [p, q] of [[points[0], way[0]], [points[points.length - 1], way[way.length - 1]]]) near(Math.hypot(p.n - q.n, p.e - q.e), 0, 1e-5, JSON.stringify(plan));
+        near(length(points), length(way), 2e-3 * length(way) + 1e-6, JSON.stringify(plan)); // chords of 6 degrees against those of a metre
+        for (const p of points) near(Math.min(...way.slice(1).map((q, i) => beside(p, way[i], q))), 0, 0.01, JSON.stringify(plan));
+      }
+      assert.equal(flown[at++], "end");
+    }
+    assert.equal(at, flown.length);
+    assert.ok(fillets > 40, `${fillets} fillets`);
   },
   "the piece that is followed goes on from beside the aircraft"() {
     const path = (more) => ({ kind: "line", turn: "right", origin_m: { north: 10, east: 20 }, direction_ratio: { north: 0, east: 0.6, down: -0.8 }, radius_m: 50, remaining_m: 30, ...more });

@@ -179,6 +179,16 @@ const tests = {
     }
     const round = piece_ahead(path({ kind: "orbit", remaining_m: far }), { n: 100, e: 20 });
     near(round[round.length - 1].n, round[0].n, 1e-9);
+    // behind 30 m of line a wide fillet: a quarter to the left of a circle of 80 m, begun west of its centre
+    const next = { kind: "orbit", turn: "left", origin_m: { north: 10, east: 170 }, radius_m: 80, start_rad: -Math.PI / 2, length_m: 40 * Math.PI, is_curve: false };
+    const both = piece_ahead(path({ has_next: true, next }), at), end = both[both.length - 1];
+    assert.deepEqual(both.slice(0, 2), [{ n: 10, e: 60 }, { n: 10, e: 90 }]);
+    near(both[2].n, 10, 1e-9); near(both[2].e, 90, 1e-9);
+    near(end.n, -70, 1e-9); near(end.e, 170, 1e-9);
+    const line = { kind: "line", origin_m: { north: 10, east: 90 }, direction_ratio: { north: 1, east: 0 }, length_m: 25, is_curve: false };
+    assert.deepEqual(piece_ahead(path({ has_next: true, next: line }), at).slice(2), [{ n: 10, e: 90 }, { n: 35, e: 90 }]);
+    for (const none of [{ has_next: false, next }, { has_next: true, next: { ...next, is_curve: true } }, { has_next: true, next, remaining_m: far }])
+      assert.equal(piece_ahead(path(none), at).length, 2);
   },
   "wires are drawn in layers, between the boxes, each line by itself: twenty components on one screen"() {
     const part = (name, role, inputs, outputs) => ({ name, role, inputs: inputs.map((source, i) => ({ name: `in${i}`, source })), outputs: outputs.map((o) => ({ name: o, type: "p/" + o })) });

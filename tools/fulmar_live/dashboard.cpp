@@ -44,16 +44,16 @@ std::string clock_text(double seconds) {
 }
 
 /// On one line, and nothing that a terminal obeys.
-std::string tamed(const std::string& text) {
+std::string one_line(const std::string& text) {
   std::string line = for_terminal(text);
   for (char& c : line)
     if (c == '\n' || c == '\t') c = ' ';
   return line;
 }
 
-std::string text_of(const ordered_json& object, const std::string& key) {
+std::string text_at(const ordered_json& object, const std::string& key) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? tamed(found->get<std::string>()) : "";
+  return found != object.end() && found->is_string() ? one_line(found->get<std::string>()) : "";
 }
 
 /// The first so many characters of UTF-8.
@@ -83,7 +83,7 @@ std::string padded(const std::string& text, std::size_t width) {
   return text + std::string(width - std::min(width, width_of(text)), ' ');
 }
 
-std::vector<std::string> words_of(const std::string& list) {  // "guide, outer"
+std::vector<std::string> split(const std::string& list) {  // "guide, outer"
   std::vector<std::string> words;
   for (std::size_t from = 0; from < list.size();) {
     const std::size_t end = std::min(list.find(", ", from), list.size());
@@ -105,7 +105,7 @@ std::vector<std::string> Dashboard::choose(const std::map<std::string, std::stri
       "Rc",           "LinkStatus",      "NavigationHealth", "Gnss",     "SafetyState"};
   std::set<std::string> roles;
   for (const json& c : view_.value("components", json::array()))
-    for (const std::string& role : words_of(c.value("role", ""))) roles.insert(role);
+    for (const std::string& role : split(c.value("role", ""))) roles.insert(role);
   std::map<std::string, int> best;
   newest_.clear();
   for (const auto& [topic, type] : topics) {
@@ -128,10 +128,10 @@ void Dashboard::take(const std::string& topic, double time_s, const ordered_json
       if (newest.topic == topic) newest.message = message, newest.time_s = time_s;
     return;
   }
-  const std::string severity = text_of(message, "severity"), code = text_of(message, "code"),
-                    component = text_of(message, "component"), name = text_of(message, "name");
-  std::string said = text_of(message, "words");
-  if (said.empty()) said = code + " " + component + " " + name + " " + text_of(message, "cause");
+  const std::string severity = text_at(message, "severity"), code = text_at(message, "code"),
+                    component = text_at(message, "component"), name = text_at(message, "name");
+  std::string said = text_at(message, "words");
+  if (said.empty()) said = code + " " + component + " " + name + " " + text_at(message, "cause");
   Happened event{clock_text(time_s) + (severity == "info" ? "   " : " ! ") + said,
                  code == "parameter_set" ? component + "." + name : "",
                  severity == "info" ? Look::plain : Look::bad};
@@ -170,7 +170,7 @@ bool Dashboard::flag(const std::string& type, const std::string& field) const {
 }
 
 std::string Dashboard::word(const std::string& type, const std::string& field) const {
-  return text_of(message(type), field);
+  return text_at(message(type), field);
 }
 
 // ---- what is shown
@@ -266,8 +266,8 @@ Dashboard::Cell Dashboard::estimator() const {
 Dashboard::Cell Dashboard::sensors() const {
   std::string good, bad;
   for (const auto& [name, sensor] : message("NavigationHealth").items()) {
-    const std::string state = sensor.is_object() ? text_of(sensor, "state") : "";
-    std::string words = tamed(name);
+    const std::string state = sensor.is_object() ? text_at(sensor, "state") : "";
+    std::string words = one_line(name);
     std::replace(words.begin(), words.end(), '_', ' ');
     if (state == "ok")
       good += (good.empty() ? "" : ", ") + words;
@@ -288,7 +288,7 @@ Dashboard::Cell Dashboard::safety() const {
   std::string wrong;
   for (const auto& [name, value] : message("SafetyState").items()) {
     if (value != true || name == "airborne") continue;
-    std::string words = tamed(name);
+    std::string words = one_line(name);
     std::replace(words.begin(), words.end(), '_', ' ');
     wrong += (wrong.empty() ? "" : ", ") + words;
   }
@@ -302,7 +302,7 @@ Dashboard::Cell Dashboard::roles() const {
   std::vector<std::string> order;
   std::map<std::string, std::string> flies, stopped;
   for (const json& c : view_.value("components", json::array()))
-    for (const std::string& role : words_of(c.value("role", ""))) {
+    for (const std::string& role : split(c.value("role", ""))) {
       if (std::find(order.begin(), order.end(), role) == order.end()) order.push_back(role);
       if (c.value("stopped", false))
         stopped[role] += " " + c.value("name", "");
@@ -316,7 +316,7 @@ Dashboard::Cell Dashboard::roles() const {
     if (stopped.contains(role)) words += " (stopped:" + stopped[role] + ")";
     bad = bad || !flies.contains(role) || stopped.contains(role);
   }
-  return {"roles", tamed(words), bad ? Look::bad : Look::plain};
+  return {"roles", one_line(words), bad ? Look::bad : Look::plain};
 }
 
 /// Whose steps take longest, and whose longest was over its budget.
@@ -341,7 +341,7 @@ Dashboard::Cell Dashboard::steps() const {
              fixed(s.most_us, 0) + ") us";
     if (s.budget_us > 0 && s.most_us > s.budget_us) words += " of " + fixed(s.budget_us, 0), over = true;
   }
-  return {"slowest", words.empty() ? none : tamed(words), over ? Look::bad : Look::plain};
+  return {"slowest", words.empty() ? none : one_line(words), over ? Look::bad : Look::plain};
 }
 
 std::vector<Dashboard::Cell> Dashboard::words() const {
@@ -359,10 +359,10 @@ std::string Dashboard::head() const {
                            : speed == 1                     ? "real time"
                                                             : "speed " + speed_text(speed);
   const double now_s = static_cast<double>(view_.value("now_ns", std::int64_t{0})) * 1e-9;
-  return tamed(view_.value("mission", "") + "  " + view_.value("phase", "") + "  " +
-               clock_text(std::max(now_s, now_s_)) + "  " +
-               (view_.value("armed", false) ? "armed" : "disarmed") + "  " + pace +
-               (view_.value("over", false) ? "  over" : ""));
+  return one_line(view_.value("mission", "") + "  " + view_.value("phase", "") + "  " +
+                  clock_text(std::max(now_s, now_s_)) + "  " +
+                  (view_.value("armed", false) ? "armed" : "disarmed") + "  " + pace +
+                  (view_.value("over", false) ? "  over" : ""));
 }
 
 std::string Dashboard::text(const PlotSize& size, const std::string& lost) const {
@@ -385,7 +385,7 @@ std::string Dashboard::text(const PlotSize& size, const std::string& lost) const
       first = false;
     }
   };
-  for (const std::string& line : wrapped(lost.empty() ? head() : tamed("! " + lost), width))
+  for (const std::string& line : wrapped(lost.empty() ? head() : one_line("! " + lost), width))
     lines.push_back(painted(line, Look::head));
 
   // A cell that needs more room than one takes that of the next one, too.

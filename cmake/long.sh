@@ -32,6 +32,7 @@ done
 for folder in build build-clang; do
   [ ! -x $folder/bin/fcu_link_test ] || $folder/bin/fcu_link_test --test-case="whatever bytes come*"
 done
+node web/test/long_test.mjs build/bin/fulmar build/web/node_modules "$(command -v chromium)" | tee build/check/page.txt || [ ${PIPESTATUS[0]} = 77 ]
 build/bin/fcu_hil_test
 build/bin/random_missions_test  # 500 flights
 build/bin/sensor_files_test     # Allan deviations of ten hours

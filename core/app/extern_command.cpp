@@ -57,6 +57,7 @@ const std::vector<OwnCommand>& own_commands() {
       {"log", "fulmar-log", "look at a log, repair it, export it, compare it"},
       {"response", "fulmar-log", "how a field of a log answers another: step, frequency response"},
       {"list", "fulmar-live", "components of a running flight, their ports, requests and phases"},
+      {"watch", "fulmar-live", "a running flight on one screen of the terminal"},
       {"echo", "fulmar-live", "print messages of a running flight; angles in degrees"},
       {"plot", "fulmar-live", "plot fields of a running flight in the terminal; of logs as a figure"},
       {"view", "fulmar-live", "open a log, or the flight that runs, in a viewer"},

@@ -20,9 +20,13 @@ constexpr std::chrono::milliseconds time_period{50};
 constexpr std::chrono::seconds drops_period{1};
 constexpr int depth_limit = 32;
 // A port that may stay silent and does not: so many samples in a row, each within this time of the one
-// before. Nobody waits for its next one, and the loop need not copy it while nobody looks.
+// before. Nobody waits for its next one, and the loop need not copy all of them while nobody looks.
 constexpr std::size_t stream_samples = 400;
 constexpr std::int64_t stream_gap_ns = 100'000'000;
+// Of what is published all the time the loop copies a sample now and then while nobody looks: a simulation
+// that is paused publishes nothing, and who comes then is to see how it stands. What is older than `fresh_ns`
+// is not how it stands.
+constexpr std::int64_t unseen_period_ns = 100'000'000, fresh_ns = 1'000'000'000;
 constexpr char op_data = 1, op_time = 2;
 
 std::shared_ptr<const std::string> shared(std::string text) {
@@ -87,8 +91,7 @@ Hub::~Hub() { close(); }
 void Hub::begin(std::function<void()> wake) {
   mailbox_ = std::make_shared<Inbox<std::function<void()>>>(std::move(wake));
   cursor_ = std::make_unique<Tap::Cursor>(tap_);
-  for (std::size_t i = 0; i < channels_.size(); ++i)
-    if (channels_[i].keeps) cursor_->want(i, 0);
+  for (std::size_t i = 0; i < channels_.size(); ++i) want_unseen(i);
   control_.on_parameter([this, mailbox = mailbox_](const std::string& component, const std::string& param) {
     mailbox->put([this, name = component + "." + param] { changed_.insert(name); });
   });
@@ -99,12 +102,13 @@ void Hub::close() {
 }
 
 Hub::ClientId Hub::add(Peer& peer) {
-  if (clients_.empty()) want_time(0);
   const ClientId id = next_id_++;
   Client& client = *clients_.emplace(id, std::make_unique<Client>()).first->second;
   client.id = id;
   client.peer = &peer;
   counters_.clients = clients_.size();
+  if (clients_.size() == 1)
+    for (std::size_t i = 0; i < channels_.size(); ++i) want_unseen(i);  // the time, from now on
   for (const auto& message : {info_, advertisement_, service_list_}) send_text(client, message);
   return id;
 }
@@ -115,21 +119,26 @@ void Hub::remove(ClientId id) {
   while (!client->subscriptions.empty()) stop_listening(*client, client->subscriptions.begin()->first);
   clients_.erase(id);
   counters_.clients = clients_.size();
-  if (clients_.empty()) want_time(-1);
+  if (clients_.empty())
+    for (std::size_t i = 0; i < channels_.size(); ++i) want_unseen(i);
 }
 
-/// Clients want to know the time in any case.
-void Hub::want_time(std::int64_t period_ns) {
-  for (std::size_t i = 0; i < channels_.size(); ++i)
-    if (tap_.channels()[i].topic == "/fulmar/ticks") cursor_->want(i, period_ns);
+/// So much of a channel as is wanted while nobody subscribes to it.
+void Hub::want_unseen(std::size_t index) {
+  const Channel& channel = channels_[index];
+  if (!channel.listeners.empty()) return;
+  const bool clock = tap_.channels()[index].topic == "/fulmar/ticks";  // the time is for all clients
+  if (clock)
+    cursor_->want(index, clients_.empty() ? -1 : 0);
+  else
+    cursor_->want(index, channel.seldom ? 0 : unseen_period_ns);
 }
 
 void Hub::stop_listening(Client& client, std::uint32_t subscription) {
   const auto at = client.subscriptions.find(subscription);
   Channel& channel = channels_[at->second];
   std::erase_if(channel.listeners, [&](const auto& listener) { return listener.first == &client; });
-  const bool clock = tap_.channels()[at->second].topic == "/fulmar/ticks";
-  if (channel.listeners.empty() && !channel.keeps && !clock) cursor_->want(at->second, -1);
+  want_unseen(at->second);
   client.subscriptions.erase(at);
 }
 
@@ -250,12 +259,10 @@ bool Hub::drain() {
     newest_ns_ = sample->now_ns;
     time_known_ = true;
     Channel& channel = channels_[sample->channel];
-    if (channel.listeners.empty() && !channel.keeps) continue;
-    const std::size_t size = channel.encoder.encode(sample->data(), scratch_.data());
-    message.body = shared(std::string(reinterpret_cast<const char*>(scratch_.data()), size));
+    if (!channel.listeners.empty()) encode(channel, sample->data(), message);
     for (const auto& [client, subscription] : channel.listeners)
       offer(*client, message, subscription, sample->now_ns);
-    if (channel.keeps) keep(sample->channel, sample->now_ns, message.body);
+    keep(*sample);
   }
   counters_.lost += cursor_->lost() - std::exchange(lost_before_, cursor_->lost());
   if (count > 0) send_time();
@@ -276,17 +283,37 @@ void Hub::offer(Client& client, Message& message, std::uint32_t subscription, st
   }
 }
 
-void Hub::keep(std::size_t index, std::int64_t now_ns, std::shared_ptr<const std::string> body) {
-  Channel& channel = channels_[index];
+void Hub::encode(Channel& channel, const std::byte* data, Message& message) {
+  const std::size_t size = channel.encoder.encode(data, scratch_.data());
+  message.body = shared(std::string(reinterpret_cast<const char*>(scratch_.data()), size));
+}
+
+void Hub::keep(const Tap::Sample& sample) {
+  Channel& channel = channels_[sample.channel];
+  const TapChannel& tapped = tap_.channels()[sample.channel];
   std::deque<Kept>& past = channel.past;
-  const bool soon = !past.empty() && now_ns - past.back().now_ns <= stream_gap_ns;
+  const bool soon = !past.empty() && sample.now_ns - past.back().now_ns <= stream_gap_ns;
   channel.in_a_row = soon ? channel.in_a_row + 1 : 0;
-  past.push_back({now_ns, std::move(body)});
-  if (past.size() > channel.most_past) past.pop_front();
-  if (tap_.channels()[index].past > 0 || channel.in_a_row < stream_samples) return;
-  channel.keeps = false;
-  past.clear();
-  if (channel.listeners.empty()) cursor_->want(index, -1);
+  if (past.size() == channel.most_past)
+    past.push_back(std::move(past.front())), past.pop_front();
+  else
+    past.emplace_back();
+  past.back().now_ns = sample.now_ns;
+  past.back().data.assign(sample.data(), sample.data() + tapped.type->size);
+  if (!channel.seldom || tapped.past > 0 || channel.in_a_row < stream_samples) return;
+  channel.seldom = false;
+  want_unseen(sample.channel);
+}
+
+/// To who has just subscribed.
+void Hub::give_past(Client& client, std::size_t index, std::uint32_t subscription) {
+  Channel& channel = channels_[index];
+  for (const Kept& kept : channel.past) {
+    if (!channel.seldom && newest_ns_ - kept.now_ns > fresh_ns) continue;
+    Message sample;
+    encode(channel, kept.data.data(), sample);
+    offer(client, sample, subscription, kept.now_ns);
+  }
 }
 
 void Hub::send_time() {

@@ -86,15 +86,15 @@ class Hub {
   struct Pending;
   struct Kept {
     std::int64_t now_ns;
-    std::shared_ptr<const std::string> body;
+    std::vector<std::byte> data;  // a struct of the channel's type
   };
   struct Channel {
     CdrEncoder encoder;
     std::vector<std::pair<Client*, std::uint32_t>> listeners;  // and their subscription
-    bool keeps = false;                                        // the last samples, for who subscribes later
-    std::size_t most_past = 1;                                 // so many of them
-    std::size_t in_a_row = 0;                                  // samples that came soon after the one before
-    std::deque<Kept> past{};                                   // the oldest first
+    bool seldom = false;        // published now and then: no sample may be missed, and the last one holds
+    std::size_t most_past = 1;  // so many of the last samples are for who subscribes later
+    std::size_t in_a_row = 0;   // samples that came soon after the one before
+    std::deque<Kept> past{};    // the oldest first
   };
   using json = nlohmann::json;
   using Op = void (Hub::*)(Client&, const json&);
@@ -124,10 +124,12 @@ class Hub {
   FlightView view();
   void stop_listening(Client& client, std::uint32_t subscription);
   bool drain();
-  void keep(std::size_t index, std::int64_t now_ns, std::shared_ptr<const std::string> body);
+  void keep(const Tap::Sample& sample);
+  void give_past(Client& client, std::size_t index, std::uint32_t subscription);
+  void encode(Channel& channel, const std::byte* data, Message& message);
   void offer(Client& client, Message& message, std::uint32_t subscription, std::int64_t now_ns);
   void send_time();
-  void want_time(std::int64_t period_ns);
+  void want_unseen(std::size_t index);
   void flush_parameters();
   void warn_of_drops();
 

@@ -72,11 +72,7 @@ void Hub::subscribe(Client& client, const json& message) {
     client.subscriptions[id] = index;
     channel.listeners.emplace_back(&client, id);
     cursor_->want(index, 0);
-    for (const Kept& kept : channel.past) {
-      Message sample;
-      sample.body = kept.body;
-      offer(client, sample, id, kept.now_ns);
-    }
+    give_past(client, index, id);
   }
 }
 

@@ -89,7 +89,8 @@ Tap::~Tap() = default;
 bool Tap::wanted(std::size_t channel, std::int64_t now_ns) noexcept {
   Channel& c = state_[channel];
   const std::int64_t period_ns = c.wanted_ns.load(std::memory_order_relaxed);
-  return c.due.take(now_ns, period_ns);
+  // every one, also when until now one of many was enough
+  return period_ns == 0 || c.due.take(now_ns, period_ns);
 }
 
 void Tap::put(const Sample& sample, const std::byte* data, std::size_t size) noexcept {

@@ -37,6 +37,9 @@ int plot_command(const LiveAddress& target, const PlotOptions& options);
 /// Of logs, over time: a picture per panel.
 int picture_command(const plot::LogPlotWords& words);
 
+/// At a terminal until interrupted; otherwise once.
+int watch_command(const LiveAddress& target);
+
 int param_list_command(const LiveAddress& target, const std::string& pattern, bool json);
 int param_get_command(const LiveAddress& target, const std::vector<std::string>& names, bool json);
 /// NAME VALUE [NAME VALUE ...]: one after another, up to the first that is refused.

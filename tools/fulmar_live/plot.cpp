@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `fulmar plot`: numbers of a running flight, or of logs, over time, in the terminal.
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cmath>
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <numbers>
+#include <optional>
 
 #include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_live/canvas.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/ports.hpp"
+#include "tools/fulmar_live/screen.hpp"
 #include "tools/fulmar_live/session.hpp"
 #include "tools/fulmar_log/plot_log.hpp"
 
 namespace fulmar::core {
 namespace {
-
-volatile std::sig_atomic_t interrupted = 0;
 
 struct Curve {
   PortField port;
@@ -64,16 +61,6 @@ Curve find_curve(Session& session, const std::string& name, Series& series) {
   return curve;
 }
 
-PlotSize terminal() {
-  PlotSize size;
-  winsize window{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0)
-    size.columns = window.ws_col, size.rows = window.ws_row;
-  const char* no_colour = std::getenv("NO_COLOR");
-  size.colours = isatty(STDOUT_FILENO) != 0 && (!no_colour || !*no_colour);
-  return size;
-}
-
 class Plot {
  public:
   Plot(Session& session, const PlotOptions& options)
@@ -89,20 +76,20 @@ class Plot {
 
   /// At a terminal until interrupted; otherwise until so many seconds have been seen.
   void run() {
-    if (live_) std::fputs("\x1b[?1049h\x1b[?25l", stdout);  // a screen of its own, no cursor
+    std::optional<Screen> screen;
+    if (live_) screen.emplace();
     auto drawn = std::chrono::steady_clock::now();
     while (!interrupted && (live_ || last_s_ - first_s_ < seconds_)) {
       if (const auto sample = session_.next(std::chrono::milliseconds(50))) take(*sample);
       const auto now = std::chrono::steady_clock::now();
       if (!live_ || now - drawn < std::chrono::milliseconds(100)) continue;
       drawn = now;
-      show();
+      screen->show(draw_plot(series_, last_s_, seconds_, terminal_size()));
     }
   }
 
   void finish() const {
-    if (live_) std::fputs("\x1b[?25h\x1b[?1049l", stdout);
-    PlotSize size = terminal();
+    PlotSize size = terminal_size();
     size.rows = std::min(size.rows, 24);
     std::fputs(draw_plot(series_, last_s_, seconds_, size).c_str(), stdout);
     std::fflush(stdout);
@@ -131,15 +118,6 @@ class Plot {
     }
   }
 
-  void show() const {
-    std::string text = draw_plot(series_, last_s_, seconds_, terminal());
-    text.pop_back();  // the last line's end would move the screen up
-    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 4)
-      text.insert(at, "\x1b[K");
-    std::printf("\x1b[H%s\x1b[K\x1b[J", text.c_str());
-    std::fflush(stdout);
-  }
-
   Session& session_;
   double seconds_;
   std::vector<Series> series_;
@@ -155,7 +133,7 @@ class Plot {
 int plot_command(const LiveAddress& target, const PlotOptions& options) {
   Session session(target);
   Plot plot(session, options);
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
+  catch_interrupts();
   std::string why;
   try {
     plot.run();
@@ -175,7 +153,7 @@ int picture_command(const plot::LogPlotWords& words) {
     for (const chart::FigureCurve& curve : panel.curves)
       for (const chart::ChartPoint& p : curve.points)
         if (std::isfinite(p.x)) begin_s = std::min(begin_s, p.x), end_s = std::max(end_s, p.x);
-  PlotSize size = terminal();
+  PlotSize size = terminal_size();
   size.rows = std::clamp(size.rows / static_cast<int>(figure.panels.size()), 12, 24);
   for (const chart::FigurePanel& panel : figure.panels) {
     std::vector<Series> series;

@@ -94,6 +94,9 @@ struct RemoteCommands::Impl {
     list->add_flag("--rates", rates, "count the samples of every port for a second");
     list->add_flag("--json", json, "print one JSON object");
 
+    add(app, "watch", "a running flight on one screen of the terminal", "watch",
+        [this] { return watch_command(target()); });
+
     CLI::App* show = add(app, "echo", "print messages of a running flight; angles in degrees",
                          "echo nav.state.height_m --rate 2", [this] { return echo_command(target(), echo); });
     show->add_option("PORT", echo.ports, "PORT, PORT.FIELD, or a component's probe")

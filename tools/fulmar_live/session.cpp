@@ -109,6 +109,7 @@ void Session::handle_binary(const std::string& bytes) {
 bool Session::pump(Milliseconds limit) {
   const std::optional<Client::Message> message = client_.receive(limit);
   if (!message) return false;
+  heard_ = Clock::now();
   message->binary ? handle_binary(message->data) : handle_text(message->data);
   return true;
 }

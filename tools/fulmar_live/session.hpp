@@ -62,6 +62,8 @@ class Session {
   };
   /// The next sample of what is subscribed; nothing when none comes in that time.
   std::optional<Sample> next(Milliseconds limit);
+  /// When the flight last said anything.
+  std::chrono::steady_clock::time_point heard() const { return heard_; }
 
  private:
   void handle_text(const std::string& text);
@@ -84,6 +86,7 @@ class Session {
   std::uint32_t calls_ = 0;
   std::unique_ptr<json> answer_;  // of call number calls_
   std::string failure_;
+  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace fulmar::core

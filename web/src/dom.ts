@@ -20,14 +20,22 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** The same of a drawing: svg("line", {class: "wire", x1: 3}) */
+export function svg<K extends keyof SVGElementTagNameMap>(tag: K, props: Record<string, string | number> = {}, ...children: Child[]): SVGElementTagNameMap[K] {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [key, value] of Object.entries(props)) element.setAttribute(key, String(value));
+  for (const child of children) if (child) element.append(child);
+  return element;
+}
+
 /** Writes only what is new: the rest of the page is not laid out again. */
-export function say(element: HTMLElement, text: string): void {
+export function say(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
-export function mark(element: HTMLElement, name: string, on: boolean): void {
+export function mark(element: Element, name: string, on: boolean): void {
   if (element.classList.contains(name) !== on) element.classList.toggle(name, on);
 }
-export function fill(element: HTMLElement, ...children: Child[]): void {
+export function fill(element: Element, ...children: Child[]): void {
   element.replaceChildren(...(children.filter(Boolean) as (Node | string)[]));
 }
 

@@ -52,11 +52,11 @@ export async function fly(fulmar, port, mission, ...options) {
   };
 }
 
-export async function browse(modules, chromium) {
+export async function browse(modules, chromium, ...more) {
   const { chromium: engine } = createRequire(join(modules, "x.js"))("playwright-core");
   return engine.launch({
     executablePath: chromium,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage"],
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", ...more],
   });
 }
 

@@ -3,7 +3,7 @@
 // of the flight by the command line.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { promisify } from "node:util";
@@ -147,6 +147,26 @@ const steps = {
     await page.click('[aria-label="Remove, waypoint 3"]');
     await until("four again", async () => (await plan()).waypoints.length === 4);
   },
+  async "Plan: what is saved is the plan of a flight that is fit to fly, and what is loaded is a draft until it is uploaded"() {
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.click("text=Save file")]);
+    assert.equal(saved.suggestedFilename(), "plan.yaml");
+    const file = join(folder, "plan.yaml");
+    await saved.saveAs(file);
+    const mission = join(folder, "again.yaml"), before = await plan();
+    writeFileSync(mission, `mission: again\nextends: ${resolve("configs/missions/hourglass.yaml")}\ncomponents: {plan: {params: {plan: plan.yaml}}}\n`);
+    await run(fulmar, ["check", mission]);
+    const words = readFileSync(file, "utf8"), first = /north: (\S+) m/.exec(words)[1];
+    near(Number(first), before.waypoints[0].position_m.north, 0.01);
+    const load = (text) => page.locator("input[type=file]").setInputFiles({ name: "mine.yaml", mimeType: "application/yaml", buffer: Buffer.from(text) });
+    await load(words.replace("up: 70 m", "up: 70 kg"));
+    await seen("what is wrong with it", ".plan .refusal", (t) => t === "Refused: mine.yaml: waypoint 0: up: '70 kg' is no length. Valid units: m, km, ft");
+    await load(words.replace(`north: ${first} m`, "north: 432.1 m"));
+    await seen("a draft", ".plan .faint", (t) => t.includes("the aircraft flies the old plan until this is uploaded"));
+    assert.equal((await plan()).waypoints[0].position_m.north, before.waypoints[0].position_m.north);
+    await page.click("text=Upload");
+    await until("it flies", async () => near((await plan()).waypoints[0].position_m.north, 432.1, 0.01, false));
+    assert.equal((await plan()).waypoints[1].id, before.waypoints[1].id, "the others are as they were");
+  },
   async "Tune: a slider sets the parameter of the flight, and the way back"() {
     await tab("Tune");
     const row = page.locator('[data-param="roll_kp"]');
@@ -170,6 +190,20 @@ const steps = {
     await page.getByLabel("Plugin in place of slc").fill("control_tecs/Outer");
     await page.keyboard.press("Enter");
     await seen("the sentence", ".wires .refusal", (t) => /slc cannot be swapped: the aircraft is .*A component is swapped on the ground, disarmed/.test(t));
+    await seen("its wires, lit", ".wiring .lit title", (t) => t.split("\n").length === 4 && /nav\.state → slc\.state: 400 Hz, \d+ ms old/.test(t) && t.includes("outer.attitude → attitude.attitude"));
+    assert.equal(await page.locator(".wiring .component").count(), JSON.parse(await ask("list", "--json")).components.length);
+    await page.locator(".wiring [data-component=slc]").focus();
+    await page.keyboard.press("ArrowRight");
+    await seen("the next one, by the keyboard", ".wires h2", (t) => t.startsWith("attitude: "));
+    assert.equal(await page.evaluate(() => document.activeElement.getAttribute("aria-pressed")), "true");
+    await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("ArrowDown");
+    await seen("the one below", ".wires h2", (t) => t.startsWith("tecs: "));
+    const cut = await page.evaluate(() => [...document.querySelectorAll(".wiring .component")].flatMap((g) => {
+      const box = g.querySelector("rect").getBBox();
+      return [...g.querySelectorAll("text")].filter((t) => t.getBBox().x + t.getBBox().width > box.x + box.width || t.getBBox().y + t.getBBox().height > box.y + box.height).map((t) => t.textContent);
+    }));
+    assert.deepEqual(cut, [], "words wider than their box");
     await shoot("wires");
   },
   async "Simulation: paused, time stands; a step moves it by its ticks"() {
@@ -180,6 +214,11 @@ const steps = {
     const stands = await time();
     await page.waitForTimeout(300);
     assert.equal(await time(), stands);
+    const late = await browser.newPage(); // who comes now sees how it stands
+    await late.goto(`http://127.0.0.1:${port}/`);
+    await until("figures of a flight that stands", async () => /ground speed\d+\.\d m\/s.*waypoint\d of 4/s.test((await late.locator(".figures").textContent()) ?? ""));
+    assert.match(await late.locator("#clock").textContent(), new RegExp(`:${(stands % 60).toFixed(1).padStart(4, "0")}`));
+    await late.close();
     await page.getByLabel("Ticks to step").fill("200");
     await page.click("button >> text=Step");
     await seen("done", ".sim .taken", (t) => t.includes("Flew 200 ticks"));
@@ -223,6 +262,11 @@ const steps = {
   },
 };
 
+const near = (a, b, room, strict = true) => {
+  const holds = Math.abs(a - b) <= room;
+  assert.ok(holds || !strict, `${a} is not ${b}`);
+  return holds;
+};
 const plan = async () => JSON.parse((await ask("echo", "plan.plan", "--count", "1", "--json")).split("\n")[0]).value;
 const position_of = async (i) => (await plan()).waypoints[i].position_m;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node words_test.mjs NODE_MODULES: what the page computes, without a browser: types, messages, the route, edits, plan files, steps.
+// node words_test.mjs NODE_MODULES [ROUTE_POINTS]: what the page computes, without a browser: types, messages, the route, edits, plan files, steps.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -29,6 +29,7 @@ const { as_group, edits_between } = await load("flight/plan_edits.ts");
 const { read_plan_file, write_plan_file } = await load("flight/plan_file.ts");
 const { last_step, value_at } = await load("flight/step.ts");
 const { piece_ahead } = await load("flight/piece.ts");
+const { draw_wiring } = await load("flight/wiring.ts");
 const { bearing, clock, digits, fixed, shown_unit, with_unit } = await load("units.ts");
 
 const point = (north, east, up = 70, id = 0) => ({ north, east, up, course: null, airspeed: 0, id, geodetic: null });
@@ -121,6 +122,49 @@ const tests = {
     assert.equal(new Route(plan_of([point(5, 5)])).legs()[0].points.length, 73);
     assert.deepEqual(new Route(plan_of([])).legs(), []);
   },
+  "the route that is drawn is the one that is flown: fillets, courses, tight corners, points in one place, orbits"() {
+    if (!process.argv[3]) return console.log("       not compared: route_points is not named");
+    let seed = 7;
+    const random = (most) => Math.floor((((seed = (seed * 16807) % 2147483647) - 1) / 2147483646) * most);
+    const plans = Array.from({ length: 80 }, (_, k) => plan_of(Array.from({ length: 2 + random(7) }, (_, i) => {
+      // far apart, or some too close for their fillets, or in one place
+      const spread = k % 3 === 0 ? 2000 : k % 3 === 1 ? 500 : 120;
+      return { ...point(random(spread) - spread / 2, random(spread) - spread / 2), course: random(4) === 0 ? random(628) / 100 - 3.14 : null, id: i + 1 };
+    }), k % 2 === 0 ? "circuit" : "orbit", 20 + random(60)));
+    plans.push(plan_of([point(0, 0), point(300, 0), point(300.4, 0), point(300, 300)]), plan_of([point(0, 0), point(400, 0), point(0, 10)]));
+    const input = plans.map((p) => `${p.end} ${p.radius} ${p.waypoints.length}\n` + p.waypoints.map((w) => `${w.north} ${w.east} ${w.course ?? "-"}\n`).join("")).join("");
+    const flown = execFileSync(process.argv[3], { input, maxBuffer: 1 << 28 }).toString().trim().split("\n");
+    let at = 0, fillets = 0;
+    const beside = (p, a, b) => {
+      const l = Math.hypot(b.n - a.n, b.e - a.e), s = l > 0 ? Math.min(1, Math.max(0, ((p.n - a.n) * (b.n - a.n) + (p.e - a.e) * (b.e - a.e)) / l / l)) : 0;
+      return Math.hypot(p.n - a.n - s * (b.n - a.n), p.e - a.e - s * (b.e - a.e));
+    };
+    const length = (points) => points.slice(1).reduce((sum, p, i) => sum + Math.hypot(p.n - points[i].n, p.e - points[i].e), 0);
+    for (const plan of plans) {
+      const drawn = new Route(plan);
+      for (const { to, points } of drawn.legs()) {
+        const head = flown[at++].split(" ");
+        if (head[0] === "orbit") {
+          for (const p of points) near(Math.hypot(p.n - Number(head[1]), p.e - Number(head[2])), Number(head[3]), 1e-6);
+          continue;
+        }
+        assert.deepEqual(head, ["leg", String(to)]);
+        if (drawn.passage(to).turn !== 0) ++fillets;
+        const way = [];
+        for (; /^[-\d]/.test(flown[at]); ++at) way.push({ n: Number(flown[at].split(" ")[0]), e: Number(flown[at].split(" ")[1]) });
+        if (way.length === 0) { // from one point to another in the same place
+          near(length(points), 0, 1e-6);
+          continue;
+        }
+        for (const [p, q] of [[points[0], way[0]], [points[points.length - 1], way[way.length - 1]]]) near(Math.hypot(p.n - q.n, p.e - q.e), 0, 1e-5, JSON.stringify(plan));
+        near(length(points), length(way), 2e-3 * length(way) + 1e-6, JSON.stringify(plan)); // chords of 6 degrees against those of a metre
+        for (const p of points) near(Math.min(...way.slice(1).map((q, i) => beside(p, way[i], q))), 0, 0.01, JSON.stringify(plan));
+      }
+      assert.equal(flown[at++], "end");
+    }
+    assert.equal(at, flown.length);
+    assert.ok(fillets > 40, `${fillets} fillets`);
+  },
   "the piece that is followed goes on from beside the aircraft"() {
     const path = (more) => ({ kind: "line", turn: "right", origin_m: { north: 10, east: 20 }, direction_ratio: { north: 0, east: 0.6, down: -0.8 }, radius_m: 50, remaining_m: 30, ...more });
     const far = 1e9, at = { n: 13, e: 60 };
@@ -135,6 +179,70 @@ const tests = {
     }
     const round = piece_ahead(path({ kind: "orbit", remaining_m: far }), { n: 100, e: 20 });
     near(round[round.length - 1].n, round[0].n, 1e-9);
+    // behind 30 m of line a wide fillet: a quarter to the left of a circle of 80 m, begun west of its centre
+    const next = { kind: "orbit", turn: "left", origin_m: { north: 10, east: 170 }, radius_m: 80, start_rad: -Math.PI / 2, length_m: 40 * Math.PI, is_curve: false };
+    const both = piece_ahead(path({ has_next: true, next }), at), end = both[both.length - 1];
+    assert.deepEqual(both.slice(0, 2), [{ n: 10, e: 60 }, { n: 10, e: 90 }]);
+    near(both[2].n, 10, 1e-9); near(both[2].e, 90, 1e-9);
+    near(end.n, -70, 1e-9); near(end.e, 170, 1e-9);
+    const line = { kind: "line", origin_m: { north: 10, east: 90 }, direction_ratio: { north: 1, east: 0 }, length_m: 25, is_curve: false };
+    assert.deepEqual(piece_ahead(path({ has_next: true, next: line }), at).slice(2), [{ n: 10, e: 90 }, { n: 35, e: 90 }]);
+    for (const none of [{ has_next: false, next }, { has_next: true, next: { ...next, is_curve: true } }, { has_next: true, next, remaining_m: far }])
+      assert.equal(piece_ahead(path(none), at).length, 2);
+  },
+  "wires are drawn in layers, between the boxes, each line by itself: twenty components on one screen"() {
+    const part = (name, role, inputs, outputs) => ({ name, role, inputs: inputs.map((source, i) => ({ name: `in${i}`, source })), outputs: outputs.map((o) => ({ name: o, type: "p/" + o })) });
+    const sensors = ["imu", "gnss", "mag", "baro", "pitot"], v = (names) => names.map((n) => "vehicle." + n);
+    const parts = [
+      part("score", "", ["nav.state", "vehicle.truth", "manage.path", "outer.attitude", "inner.actuators", "guide.command"], ["figures"]),
+      part("plan", "", ["nav.state", "ghost.plan"], ["plan", "notices"]), part("manage", "", ["nav.state", "plan.plan"], ["path", "progress"]),
+      part("sim", "vehicle", ["inner.actuators"], [...sensors, "rc", "VehicleStatus", "truth"]),
+      part("ekf", "nav", [...v(sensors), "vehicle.VehicleStatus"], ["state", "health"]), part("truth", "nav", ["vehicle.truth"], ["state"]),
+      ...["follow", "carrot", "lookahead"].map((n) => part(n, "guide", ["nav.state", "manage.path"], ["command"])),
+      ...["slc", "tecs", "mine"].map((n) => part(n, "outer", ["nav.state", "guide.command"], ["attitude"])),
+      part("attitude", "inner", ["nav.state", "outer.attitude"], ["actuators"]), part("autotune", "inner", ["nav.state", "outer.attitude", "joystick.rc"], ["actuators"]),
+      part("joystick", "", [], ["rc"]), part("safety", "", ["nav.state", "nav.health", "vehicle.VehicleStatus", "vehicle.rc"], ["state"]),
+      part("home", "", ["nav.state", "safety.state"], ["plan", "path"]), part("landing", "", ["nav.state", "home.path"], ["path", "progress"]),
+      part("scene", "", ["nav.state", "plan.plan", "vehicle.gnss"], ["tf"]), part("reference_receiver", "", [], ["gnss"]),
+    ];
+    assert.equal(parts.length, 20);
+    const { width, height, boxes, wires } = draw_wiring(parts, (p) => Math.max(16, p.role.length));
+    assert.ok(width <= 1240 && height <= 520, `${width} x ${height}`);
+    const box = (name) => boxes.find((b) => b.name === name), layer = (name) => box(name).layer;
+    assert.deepEqual(["sim", "ekf", "plan", "manage", "follow", "slc", "attitude", "score"].map(layer), [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert.deepEqual(["truth", "carrot", "mine", "autotune", "joystick"].map(layer), [1, 4, 5, 6, 5]); // who fills a role beside the others, who reads nothing before its reader
+    boxes.forEach((a, i) => boxes.slice(i + 1).forEach((b) => assert.ok(a.x + a.width < b.x || b.x + b.width < a.x || a.y + a.height < b.y || b.y + b.height < a.y, a.name + " on " + b.name)));
+    const readers = parts.flatMap((p) => p.inputs.map((i) => i.source)).filter((s) => s !== "ghost.plan");
+    const writers = (source) => {
+      const [owner, port] = source.split(".");
+      return parts.filter((p) => (p.name === owner || p.role === owner) && p.outputs.some((o) => o.name === port)).length;
+    };
+    assert.equal(wires.length, readers.reduce((sum, s) => sum + writers(s), 0));
+    const pieces = [];
+    for (const w of wires) {
+      const a = box(w.from), b = box(w.to), [first, last] = [w.points[0], w.points[w.points.length - 1]];
+      assert.ok(first[0] === a.x + a.width && first[1] > a.y && first[1] < a.y + a.height, w.source);
+      assert.ok(last[0] === b.x && last[1] > b.y && last[1] < b.y + b.height, w.source + " " + w.to);
+      w.points.slice(1).forEach(([x2, y2], i) => {
+        const [x1, y1] = w.points[i];
+        assert.ok(x1 === x2 || y1 === y2, "neither level nor upright");
+        const [l, r, t, u] = [Math.min(x1, x2), Math.max(x1, x2), Math.min(y1, y2), Math.max(y1, y2)];
+        assert.ok(l >= 0 && r <= width && t >= 0 && u <= height);
+        for (const c of boxes) assert.ok(r <= c.x || l >= c.x + c.width || u <= c.y || t >= c.y + c.height, `${w.source} runs through ${c.name}`);
+        pieces.push({ source: w.source, l, r, t, u });
+      });
+    }
+    // lines of two ports may cross, but never lie on each other
+    for (const p of pieces)
+      for (const q of pieces) {
+        if (p.source === q.source) continue;
+        const level = p.t === p.u && q.t === q.u && p.t === q.t && Math.min(p.r, q.r) > Math.max(p.l, q.l);
+        const upright = p.l === p.r && q.l === q.r && p.l === q.l && Math.min(p.u, q.u) > Math.max(p.t, q.t);
+        assert.ok(!level && !upright, `${p.source} on ${q.source}`);
+      }
+    assert.deepEqual(draw_wiring([], () => 0).wires, []);
+    const loop = draw_wiring([part("a", "", ["b.x"], ["x"]), part("b", "", ["a.x"], ["x"])], () => 0); // in a circle, without a vehicle
+    assert.deepEqual(loop.boxes.map((b) => b.layer), [0, 1]);
   },
   "the fewest edits: what stays keeps its id"() {
     const now = plan_of([point(0, 0, 70, 1), point(100, 0, 70, 2), point(200, 0, 70, 3), point(300, 0, 70, 4)]);

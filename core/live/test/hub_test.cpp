@@ -81,12 +81,15 @@ TEST_CASE_FIXTURE(
   CHECK(counters.sent == 100);
 
   say({{"op", "unsubscribe"}, {"subscriptionIds", {77}}});
-  CHECK_FALSE(tap.wanted(1, 1'000'000'000'000));
+  CHECK(tap.wanted(1, 1'000'000'000'000));  // now and then, for who comes later
+  CHECK_FALSE(tap.wanted(1, 1'000'099'000'000));
   CHECK(counters.refused == 0);
 }
 
 TEST_CASE_FIXTURE(Fixture, "the loop is asked for a channel as long as somebody subscribes to it") {
-  CHECK_FALSE(tap.wanted(0, 0));
+  CHECK(tap.wanted(0, 0));
+  CHECK_FALSE(tap.wanted(0, 99'000'000));  // ten a second, for who subscribes later
+  CHECK(tap.wanted(0, 100'000'000));
   CHECK(tap.wanted(3, 0));  // time, as long as there are clients
   TestPeer other;
   const Hub::ClientId second = hub.add(other);
@@ -94,11 +97,11 @@ TEST_CASE_FIXTURE(Fixture, "the loop is asked for a channel as long as somebody 
       json({{"op", "subscribe"}, {"subscriptions", {{{"id", 1}, {"channelId", 1}}}}}).dump();
   hub.text(id, text);
   hub.text(second, text);
-  CHECK(tap.wanted(0, 1));
+  CHECK(tap.wanted(0, 100'000'001));
   hub.remove(id);
-  CHECK(tap.wanted(0, 2));
+  CHECK(tap.wanted(0, 100'000'002));
   hub.remove(second);
-  CHECK_FALSE(tap.wanted(0, 3));
+  CHECK_FALSE(tap.wanted(0, 100'000'003));
   CHECK_FALSE(tap.wanted(3, 3'000'000'000));
   CHECK(counters.clients == 0);
 }
@@ -122,7 +125,6 @@ TEST_CASE_FIXTURE(
     return id;
   };
   hub.tick();
-  CHECK_FALSE(tap.wanted(0, 60'000'000'000));  // a port that is written in each step costs the loop nothing
   TestPeer first, second, third;
   const Hub::ClientId id = subscriber(first);
   REQUIRE(first.binaries.size() == 1);
@@ -142,8 +144,8 @@ TEST_CASE_FIXTURE(
 
 TEST_CASE_FIXTURE(
     SilentPort,
-    "a port that may stay silent but does not is left to those who look: the loop copies it for nobody "
-    "else") {
+    "a port that may stay silent but does not is left to those who look: for others the loop copies it ten "
+    "times a second") {
   int copied = 0;
   for (int i = 0; i < 4000; ++i) {
     copied += tap.wanted(1, i * 2'500'000LL);
@@ -151,12 +153,42 @@ TEST_CASE_FIXTURE(
     hub.tick();
   }
   CHECK(copied < 1000);
-  CHECK_FALSE(tap.wanted(1, 20'000'000'000));
+  CHECK(tap.wanted(1, 20'000'000'000));
+  CHECK_FALSE(tap.wanted(1, 20'099'000'000));
   TestPeer peer;
   const Hub::ClientId id = hub.add(peer);
   hub.text(id, R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 2}]})");
-  CHECK(peer.binaries.empty());
-  CHECK(tap.wanted(1, 30'000'000'000));
+  CHECK(tap.wanted(1, 20'099'000'001));
+}
+
+TEST_CASE(
+    "who comes while the flight is paused gets its last samples, but none that nobody publishes any more") {
+  Tap tap(mock_channels());
+  MockControl control;
+  Counters counters;
+  Hub hub(tap, control, counters);
+  hub.begin([] {});
+  const Leg leg{1, true, 0.5, {1, 2, 3}};
+  const std::int64_t stopped_ns = 500'000'000, paused_ns = 1'600'000'000;
+  for (std::int64_t now_ns = 0; now_ns <= paused_ns; now_ns += 2'500'000) {
+    Mixed m = mixed_value();
+    m.stamp_ns = now_ns;
+    if (tap.wanted(0, now_ns)) tap.write(0, now_ns, now_ns, bytes_of(m), false);
+    if (now_ns <= stopped_ns && tap.wanted(1, now_ns)) tap.write(1, now_ns, now_ns, bytes_of(leg), false);
+    hub.tick();
+  }
+  TestPeer peer;
+  const Hub::ClientId id = hub.add(peer);
+  hub.text(id,
+           R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 2}, {"id": 8, "channelId": 1}]})");
+  REQUIRE(peer.binaries.size() == 1);
+  CHECK(u32(peer.binaries[0], 1) == 8);
+  const std::uint64_t epoch_ns = 1'767'225'600'000'000'000u, stamp_ns = u64(peer.binaries[0], 5) - epoch_ns;
+  CHECK(stamp_ns <= static_cast<std::uint64_t>(paused_ns));
+  CHECK(stamp_ns > static_cast<std::uint64_t>(paused_ns) - 100'000'000u);
+  Mixed last = mixed_value();
+  last.stamp_ns = static_cast<std::int64_t>(stamp_ns);
+  CHECK(peer.binaries[0].substr(13) == cdr_of(*mixed_type(), last));
 }
 
 TEST_CASE("who subscribes late gets as many of the last samples as a channel keeps, in their order") {

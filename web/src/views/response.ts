@@ -43,14 +43,15 @@ export class Response {
   }
 
   update(now_ms: number): void {
-    if (now_ms - this.last_ms < 80) return;
+    const seconds = Number(this.span.value), pixel_ms = (1000 * seconds) / Math.max(1, this.box.clientWidth);
+    if (now_ms - this.last_ms < Math.max(80, pixel_ms)) return; // before, nothing moves by a pixel
     this.last_ms = now_ms;
     const pairs = pairs_of(names_of(this.source));
     if (this.choice.childElementCount !== pairs.length) fill(this.choice, ...pairs.map((p) => el("option", { value: p.name }, p.name)));
     const pair = pairs.find((p) => p.name === this.choice.value) ?? pairs[0];
     if (!pair) return say(this.figures, "Nothing in this flight commands an attitude or a course.");
     const asked = this.source.series(...pair.asked), got = this.source.series(...pair.got);
-    const seconds = Number(this.span.value), now = this.source.now;
+    const now = this.source.now;
     this.draw(pair, asked, got, now, seconds);
     this.tell(pair, asked, got, now - seconds);
   }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Components, their ports and wires, as they are at work: rates, ages, step times, guards. A component is swapped
-// from here, if the host lets it.
+// Components, their ports and wires, as they are at work: as a drawing, and in figures: rates, ages, step times, guards. A component
+// is swapped from here, if the host lets it.
 import { el, fill, mark, say } from "../dom";
 import type { Component, Flight, Port, View } from "../protocol/flight";
 import { digits, fixed, none } from "../units";
 import type { Page } from "./page";
+import { type Figures, Wiring } from "./wiring";
 
-const count_ms = 1000, steps_over_s = 4;
+const count_ms = 1000, draw_ms = 200, steps_over_s = 4;
 const short = (type: string) => type.slice(type.lastIndexOf("/") + 1) || "probe";
 const rate_of = (hz: number | undefined) => (hz === undefined ? none : digits(Math.round(hz * 10) / 10) + " Hz");
 const age_of = (s: number) => (Number.isFinite(s) ? (s < 10 ? fixed(s * 1000, 0, "ms") : fixed(s, 0, "s")) : "never");
@@ -19,7 +20,8 @@ export class Wires implements Page {
   readonly name = "Wires";
   readonly element: HTMLElement;
   private readonly body = el("tbody");
-  private readonly details = el("div", { class: "scroll" });
+  private readonly details = el("div");
+  private readonly wiring = new Wiring((name) => this.choose(name));
   private readonly said = el("p", { role: "alert", hidden: true });
   private readonly reset = el("button", { onclick: () => void this.reset_guards() }, "Reset guards");
   private rows = new Map<string, Row>();
@@ -34,9 +36,10 @@ export class Wires implements Page {
   constructor(private readonly flight: Flight) {
     const head = ["component", "fills", "plugin", "state", "runs as", "steps a second", "step, mean", "step, longest", "budget"];
     this.element = el("div", { class: "wires" },
-      el("section", {}, el("div", { class: "row" }, el("h2", {}, "Components, in the order of the mission"), this.reset), this.said,
-        el("div", { class: "scroll" }, el("table", {}, el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", { class: i > 4 ? "right" : "" }, h)))), this.body))),
-      el("section", { class: "grow" }, this.details));
+      el("section", {}, this.wiring.element),
+      el("section", {}, this.details, this.said),
+      el("section", {}, el("div", { class: "row" }, el("h2", {}, "Components, in the order of the mission"), this.reset),
+        el("table", {}, el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", { class: i > 4 ? "right" : "" }, h)))), this.body)));
   }
 
   show(): void {
@@ -69,6 +72,7 @@ export class Wires implements Page {
         el("td", { class: "number" }, c.budget_us > 0 ? fixed(c.budget_us, 0, "µs") : "none"));
       return r.row;
     }));
+    this.wiring.draw(view);
     this.choose(view.components.some((c) => c.name === this.chosen) ? this.chosen : (view.components[0]?.name ?? ""));
   }
 
@@ -81,6 +85,7 @@ export class Wires implements Page {
     fill(this.details, el("h2", {}, `${c.name}: ${c.doc}`), c.swapped ? el("p", { class: "faint" }, c.swapped) : "", this.swap_form(c),
       el("div", { class: "twotables" }, this.inputs(c), this.outputs(c)));
     this.show_rates();
+    if (this.flight.view) this.wiring.update(this.flight.view, name, this.figures);
   }
   private port_row(port: Port, words: string, topic: string): HTMLElement {
     const rate = el("td", { class: "number" }), age = el("td", { class: "number" });
@@ -151,7 +156,18 @@ export class Wires implements Page {
     }
     mark(this.reset, "main", view.components.some((c) => c.stopped));
     if (now_ms - this.counted_ms > count_ms) this.count(view, now_ms);
+    if (now_ms - this.drawn_ms < draw_ms) return;
+    this.drawn_ms = now_ms;
+    this.wiring.update(view, this.chosen, this.figures);
   }
+  private drawn_ms = 0;
+  private readonly figures: Figures = {
+    steps: (c) => (c.steps === 0 ? none : [this.step_rates.get(c.name), fixed(c.step_us, 1, "µs")].filter(Boolean).join(" ")),
+    wire: (source) => {
+      const topic = this.topic_of(source), age = topic ? this.flight.age(topic) : Infinity;
+      return { rate: rate_of(this.rates.get(topic)), age: age_of(age), silent: !Number.isFinite(age) };
+    },
+  };
 
   /** By flight time: a simulation may be quicker than the clock. */
   private count(view: View, now_ms: number): void {
@@ -163,18 +179,23 @@ export class Wires implements Page {
       else this.rates.delete(key);
       this.counts.set(key, count);
     };
+    this.flight.want_all(true); // also those that were told of after it was shown
     for (const t of this.flight.topics()) note(t.name, this.flight.count(t.name));
     // The host notes its steps now and then: over a longer time.
     const since = view.now_ns * 1e-9 - this.steps_s, anew = since < 0 || since > steps_over_s;
     for (const c of view.components) {
       const before = this.steps.get(c.name);
-      if (before !== undefined && since > 1) say(this.rows.get(c.name)?.rate as HTMLElement, rate_of((c.steps - before) / since));
+      if (before !== undefined && since > 1) {
+        this.step_rates.set(c.name, rate_of((c.steps - before) / since));
+        say(this.rows.get(c.name)?.rate as HTMLElement, this.step_rates.get(c.name) ?? none);
+      }
       if (anew || before === undefined) this.steps.set(c.name, c.steps);
     }
     if (anew) this.steps_s = view.now_ns * 1e-9;
     this.show_rates();
   }
   private steps = new Map<string, number>();
+  private step_rates = new Map<string, string>();
   private steps_s = 0; // flight time of these
 
   private show_rates(): void {

@@ -36,8 +36,8 @@ const char* const about_fixes = R"(
 ## The receiver loses its fix in cruise
 
 For as long as the first column says, it has no fix (odd seeds) or says nothing (even ones). `off the plan`: the true position from the nearest point of the
-plan, at the end of the outage or 100 s after its begin; `reckoned wrong`: the estimate from the true position, then; `said deviation`: what the estimator makes of that;
-`turned by`: the true course in the circle, at least; `on the plan`: within 10 m, after the return. Bars: nine of ten within 150 m of the plan; loss and return told
+plan, at the end of the outage, 100 s after its begin, or where it begins to circle; `reckoned wrong`: the estimate from the true position, then; `said deviation`:
+what the estimator makes of that; `turned by`: the true course in the circle, at least; `on the plan`: within 10 m, after the return. Bars: nine of ten within 150 m of the plan; loss and return told
 within 1 s; a circle after 120 s, or before at a stated deviation of 50 m; back on the plan.
 
 )";

@@ -218,7 +218,7 @@ struct Outage {
 
 struct AfterOutage {
   bool crashed = false;
-  double plan_m = 0;        ///< from the plan at the end of the outage, or 100 s after its begin
+  double plan_m = 0;  ///< from the plan at the end of the outage, 100 s after its begin, or where it circles
   double reckoned_m = 0;    ///< the estimate's error there
   double std_m = 0;         ///< and what it says of itself
   double circle_s = -1;     ///< after the loss: the circle begins
@@ -246,7 +246,8 @@ inline AfterOutage fly(const Outage& outage, const std::filesystem::path& folder
   f.set(silent ? "gnss_silent_from" : "no_fix_from", at_s);
   f.set(silent ? "gnss_silent_until" : "no_fix_until", at_s + outage.length_s);
   f.rows.clear();
-  until(begin_s + std::min(outage.length_s, reckons_s));
+  const double reckoned_s = begin_s + std::min(outage.length_s, reckons_s);
+  a.crashed = a.crashed || !f.fly_while([=](const Row& x) { return x.t_s < reckoned_s && !x.circles; });
   const Row r = f.row();
   a.plan_m = plan.distance_m(r.north_m, r.east_m);
   a.reckoned_m = r.off_estimate_m, a.std_m = r.std_m;

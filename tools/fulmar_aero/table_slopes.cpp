@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "fulmar/flight/atmosphere.hpp"
 #include "fulmar/flight/dual.hpp"
 #include "fulmar/flight/tables.hpp"
 #include "tools/fulmar_aero/findings.hpp"

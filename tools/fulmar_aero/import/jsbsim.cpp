@@ -300,6 +300,27 @@ void finish_drag(const Drag& of_drag, Aircraft& a) {
   a.oswald = {no_induced_drag, "none: the file's drag over alpha has the induced one in it"};
 }
 
+/// A lift or a pitching moment that is a table over the angle of attack alone: its straight line at 3 deg
+/// becomes zero and slope, which laws and trims are made from, and the table keeps what is left of it.
+void take_line(CoefficientLookUp& of, Aircraft& a) {
+  LookUp& t = of.table;
+  if ((of.force != lift && of.force != pitch) || a.c[of.force][t_alpha].known || t.and_over ||
+      std::string(t.over->name) != "alpha" || t.at.size() < 2)
+    return;
+  std::size_t upper = 1;
+  while (upper + 1 < t.at.size() && t.at[upper] < 3 * table_degree_rad) ++upper;
+  const double slope = (t.values[upper] - t.values[upper - 1]) / (t.at[upper] - t.at[upper - 1]);
+  const double zero = t.values[upper] - slope * t.at[upper];
+  for (std::size_t i = 0; i < t.at.size(); ++i) {
+    t.values[i] -= zero + slope * t.at[i];
+    if (std::abs(t.values[i]) < 1e-12) t.values[i] = 0;
+  }
+  a.c[of.force][t_alpha] = {slope, of.from + ", its line at 3 deg"};
+  Value& to = a.c[of.force][t_zero];
+  to = {to.x + zero, of.from + ", its line at 3 deg"};
+  of.from += ", less that line";
+}
+
 /// Where forces act, from the centre of gravity, m.
 struct Arm {
   double aft = 0, up = 0;
@@ -467,6 +488,7 @@ Aircraft jsbsim_aircraft(const Lines& lines) {
     }
   }
   finish_drag(of_drag, a);
+  for (CoefficientLookUp& table : tables) take_line(table, a);
   move_moments(lines, metrics, mass, a, tables);
   put_tables(tables, a);
   return a;

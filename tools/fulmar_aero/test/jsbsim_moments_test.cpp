@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fulmar/flight/tables.hpp"
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/import/import.hpp"
 #include "tools/fulmar_aero/import/rosflight.hpp"
@@ -14,6 +15,8 @@ namespace jsbsim_moments_test {
 using namespace fulmar::aero;
 using namespace fulmar::aero::imports;
 using doctest::Approx;
+using fulmar::aero::test::refusal;
+using fulmar::aero::test::says;
 
 namespace {
 
@@ -27,8 +30,8 @@ std::string term(const std::string& name, const std::string& lengths, const std:
                             value + "</value>");
 }
 
-/// A gull of 8 by 1.25 ft; places in inches, `lift` as functions.
-std::string gull(const std::string& point, const std::string& centre, const std::string& lift) {
+/// A gull of 8 by 1.25 ft; places in inches, `lifting` as functions.
+std::string gull(const std::string& point, const std::string& centre, const std::string& lifting) {
   const std::string b = "<property>metrics/bw-ft</property>", c = "<property>metrics/cbarw-ft</property>";
   const auto place = [](const std::string& name, const std::string& xyz) {
     return xyz.empty() ? "" : "<location name=\"" + name + "\" unit=\"IN\">" + xyz + "</location>";
@@ -37,7 +40,7 @@ std::string gull(const std::string& point, const std::string& centre, const std:
          "<chord>1.25</chord>" +
          place("AERORP", point) + "</metrics>\n<mass_balance><ixx>0.5</ixx><iyy>0.6</iyy><izz>1.0</izz>" +
          "<emptywt>14</emptywt>" + place("CG", centre) +
-         "</mass_balance>\n<aerodynamics><axis name=\"LIFT\">" + lift + "</axis><axis name=\"DRAG\">" +
+         "</mass_balance>\n<aerodynamics><axis name=\"LIFT\">" + lifting + "</axis><axis name=\"DRAG\">" +
          term("CD0", "", "", "0.03") + "</axis><axis name=\"SIDE\">" +
          term("CYb", "", "aero/beta-rad", "-0.5") + "</axis><axis name=\"PITCH\">" +
          term("Cma", c, "aero/alpha-rad", "-0.3") + term("Cmde", c, "fcs/elevator-pos-rad", "-1.2") +
@@ -90,35 +93,48 @@ TEST_CASE("moments of JSBSim are about AERORP, and move to the centre of gravity
   CHECK(says(refusal([] { read(gull("<x>1</x><z>0</z>", ahead, straight)); }), "expected <y>"));
 }
 
-TEST_CASE("the moment of a lift that is a table is a table, and the check looks at its slopes") {
-  const Aircraft a = read(gull(behind, ahead, table));
-  const fulmar::aero::AirframeFile file = written(a, {}, "gull.yaml").file;
-  REQUIRE(file.airframe.aero.tables.size() == 2);
-  const auto& moment = file.airframe.aero.tables[1];
-  CHECK(moment.coefficient == fulmar::Coefficient::pitch);
-  CHECK(moment.values_ratio[2] == Approx(pitching(1.4, 0, 0.24)).epsilon(1e-6));
-  Findings findings(file);
-  check_derivatives(findings);
-  check_stability(findings);
-  CHECK_FALSE(findings.has("aero.lift.alpha_ratio"));  // 4.79 by the table
-  const auto margin = [](const Findings& f) {
-    for (const Figure& figure : f.figures())
-      if (figure.key == "static_margin_ratio") return figure.value;
-    return 0.0;
+TEST_CASE("a lift that is a table has a line that laws are made from; what is left of it moves as a table") {
+  const Aircraft a = read(gull(behind, ahead, table)), still = read(gull(behind, behind, table));
+  CHECK(still.c[lift][t_alpha].x == Approx((1.4 - 0.25) / 0.24));
+  CHECK(still.c[lift][t_zero].x == Approx(0.25));
+  const fulmar::Airframe moved = written(a, {}, "gull.yaml").file.airframe;
+  REQUIRE(moved.aero.tables.size() == 2);
+  const auto total = [&](const fulmar::Derivatives& d, std::size_t of, double x) {
+    const fulmar::TablePoint<double> at{0, x, 0, 0, 0, 0, 0};
+    return d.zero_ratio + d.alpha_ratio * x + fulmar::value_of<double>(moved.aero.tables[of], at);
   };
-  const double slope = (1.4 - 0.25) / 0.24;
-  const double by_table = (pitching(1.4, 0, 0.24) - pitching(0.25, 0, 0)) / 0.24;
-  const double drag = pitching(0, 0.03, 1) - std::cos(1.0) * pitching(0, 0.03, 0);  // N of it, over sin
-  CHECK(margin(findings) == Approx(-(-0.3 + by_table + drag / std::sin(1.0)) / slope).epsilon(1e-3));
+  for (const double x : {-0.2, -0.01, 0.0, 0.01, 0.24}) {
+    CAPTURE(x);
+    const double CL = x < 0 ? 0.25 + 5 * x : 0.25 + (1.4 - 0.25) / 0.24 * x;
+    CHECK(total(moved.aero.lift, 0, x) == Approx(CL).epsilon(1e-6));
+    // what is straight stays so: the arm above times CL_alpha x^2 is left out, 1.3 x^2 here
+    const double CD = 0.03 + 0.25 * (2 * CL - 0.25) / (std::numbers::pi * 6.4 * 0.9);
+    CHECK(std::abs(total(moved.aero.pitch, 1, x) - (-0.3 * x + pitching(CL, CD, x))) < 1.4 * x * x + 1e-6);
+  }
+}
 
-  // a slope of the wrong sign is a fault as it is without a table
-  std::string falls = table;
-  falls.replace(falls.find("-0.75"), 5, "1.25");
-  falls.replace(falls.find("1.4"), 3, "-.9");
-  const fulmar::aero::AirframeFile wrong = written(read(gull(behind, behind, falls)), {}, "gull.yaml").file;
-  Findings of_wrong(wrong);
-  check_derivatives(of_wrong);
-  CHECK(of_wrong.has("aero.lift.alpha_ratio"));
+TEST_CASE("the check looks at the slopes of tables at cruise") {
+  const Imported plain = written(read(gull(behind, behind, straight)), {}, "gull.yaml");
+  const auto findings = [&](double slope) {
+    std::string text = plain.text;
+    const std::string aero = "aero:\n";
+    text.insert(text.find(aero) + aero.size(),
+                "  tables: [{coefficient: lift, over: alpha, at: [-0.4, 0.4], values: [" +
+                    std::to_string(-0.4 * slope) + ", " + std::to_string(0.4 * slope) + "]}]\n");
+    const AirframeFile file = airframe_of_text(text, "gull.yaml");
+    Findings f(file);
+    check_derivatives(f);
+    check_stability(f);
+    double margin = 0;
+    for (const Figure& figure : f.figures())
+      if (figure.key == "static_margin_ratio") margin = figure.value;
+    return std::pair<double, bool>(margin, f.has("aero.lift.alpha_ratio"));
+  };
+  CHECK(findings(1).first == Approx(0.3 / 5.8));
+  CHECK(findings(-1).first == Approx(0.3 / 3.8));
+  CHECK_FALSE(findings(1).second);
+  CHECK(findings(-5).second);  // -0.2 in all: a fault as without a table
+  CHECK(findings(3).second);
 }
 
 TEST_CASE("more tables than an airframe has, with those of the moments, are refused") {

@@ -48,15 +48,15 @@ TEST_CASE("the gains of all shipped aircraft have their margins, broken at the a
 }
 
 TEST_CASE("a damper without a crossover has a dash, and null in JSON") {
-  Judged judged;
+  fulmar::aero::Judged judged;
   judged.loops.resize(2);
   judged.loops[0].name = "yaw damper";
   judged.loops[1].name = "roll", judged.loops[1].bandwidth_radps = 12;
-  const std::string text = loops_text("shipped", judged);
+  const std::string text = fulmar::aero::loops_text("shipped", judged);
   CHECK(text.find("  yaw damper        -    0.00") != std::string::npos);
   CHECK(text.find("  roll          12.00    0.00") != std::string::npos);
-  CHECK(loops_json(judged)["loops"]["yaw damper"]["bandwidth_radps"].is_null());
-  CHECK(loops_json(judged)["loops"]["roll"]["bandwidth_radps"] == 12);
+  CHECK(fulmar::aero::loops_json(judged)["loops"]["yaw damper"]["bandwidth_radps"].is_null());
+  CHECK(fulmar::aero::loops_json(judged)["loops"]["roll"]["bandwidth_radps"] == 12);
 }
 
 TEST_CASE("bandwidths become gains by the relations of the README" * doctest::test_suite("amounts")) {

@@ -190,16 +190,17 @@ void doubt(const SixDerivatives& few, Aircraft& a) {
 
 void lift_fault(const GeometryFile& file, double CL, const Aircraft& a, const Vlm& vlm) {
   constexpr double step = 5 * degree;
-  const double slope = (vlm.forces({.alpha = step}).CL - vlm.forces({.alpha = -step}).CL) / (2 * step);
+  const auto lift = [&](double alpha) { return vlm.forces({.alpha = alpha}).CL; };
+  const double slope = (lift(step) - lift(-step)) / (2 * step), far = lift(steepest);
+  const bool of_wings = slope > 1 && slope < 9 && far > lift(step) && lift(-steepest) < lift(-step);
   throw core::Error(
       file.where("limits", 1u << 20).text() + ": limits.airspeed_cruise: at " +
       core::number_text(a.stream.airspeed_mps) + " m/s level flight of " + figures(a.mass.mass_kg) +
       " kg takes CL " + figures(CL) + ", and these surfaces have it at no angle within 25 deg" +
-      (slope > 1 && slope < 9
-           ? ""
-           : "; their CL_alpha is " + figures(slope) +
-                 ", so a vortex passes a control point of another surface: make winglets sections of their "
-                 "wing, part a tail from the wing's wake, or change `spanwise`"));
+      (of_wings ? ""
+                : "; their lift is not that of wings (CL_alpha " + figures(slope) + ", CL " + figures(far) +
+                      " at 25 deg), so a vortex passes a control point of another surface: make winglets "
+                      "sections of their wing, part a tail from the wing's wake, or change `spanwise`"));
 }
 
 }  // namespace

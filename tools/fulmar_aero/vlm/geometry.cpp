@@ -197,12 +197,12 @@ void complete(GeometryFile& file, core::Report& report) {
   }
   const core::Where where = file.root.find("planform")->where();
   if (says("surfaces")) return report.add(where, "planform: surfaces are given as well; one of both");
-  const std::string path =
+  const std::string elsewhere =
       core::named_file(std::filesystem::path(file.root.file->path).parent_path(), planform).string();
-  if (std::error_code fault; !std::filesystem::is_regular_file(path, fault))
+  if (std::error_code fault; !std::filesystem::is_regular_file(elsewhere, fault))
     return report.add(where, "planform: there is no file '" + planform + "' beside the drawing");
   const ReferenceQuantities own = g.reference;
-  add_planform(path, planform, g);
+  add_planform(elsewhere, planform, g);
   if (says("reference")) g.reference = own;
   if (!(g.reference.area_m2 > 0))
     report.add(whole, "this is no whole geometry, missing: reference (area, span, chord)");

@@ -96,10 +96,11 @@ json parameters_that_differ(const std::vector<ReportedLog>& logs) {
     }
   }
   json rows = json::array();
-  for (const auto& [name, values] : all) {
+  for (const auto& row : all) {
+    const std::vector<json>& values = row.second;
     const bool equal =
         std::all_of(values.begin(), values.end(), [&](const json& v) { return v == values.front(); });
-    if (!equal) rows.push_back({{"name", name}, {"values", values}});
+    if (!equal) rows.push_back({{"name", row.first}, {"values", values}});
   }
   return rows;
 }

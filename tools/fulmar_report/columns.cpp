@@ -57,11 +57,9 @@ Columns thinned_to_peaks(const Columns& series, std::size_t most) {
   if (series.t.size() <= most || most == 0) return series;
   Columns out;
   out.values.resize(series.values.size());
-  const auto [first, last] = std::minmax_element(series.t.begin(), series.t.end());
-  const double part = (static_cast<double>(*last) - *first + 1) / static_cast<double>(most);
-  const auto part_of = [&](std::size_t i) {
-    return static_cast<std::size_t>((static_cast<double>(series.t[i]) - *first) / part);
-  };
+  const auto ends = std::minmax_element(series.t.begin(), series.t.end());
+  const double first = *ends.first, part = (*ends.second - first + 1) / static_cast<double>(most);
+  const auto part_of = [&](std::size_t i) { return static_cast<std::size_t>((series.t[i] - first) / part); };
   for (std::size_t i = 0; i < series.t.size();) {
     std::size_t peak = i;
     const std::size_t here = part_of(i);

@@ -182,7 +182,7 @@ json tick_times(const std::filesystem::path& log) {
           {"max_ms", *std::max_element(periods_ms.begin(), periods_ms.end())}};
 }
 
-json json_of(const JudgedSeries& series, std::size_t most) {
+json judged_json(const JudgedSeries& series, std::size_t most) {
   const Columns kept = thinned_to_peaks(series.columns, most);
   json out{{"words", series.words},     {"unit", series.unit},           {"n", series.all.n},
            {"mean", series.all.mean()}, {"rms", series.all.rms()},       {"largest", series.all.most},
@@ -194,9 +194,9 @@ json json_of(const JudgedSeries& series, std::size_t most) {
   return out;
 }
 
-json json_of(const JudgedEstimate& estimate, std::size_t most) {
+json judged_json(const JudgedEstimate& estimate, std::size_t most) {
   json rows = json::array();
-  for (const JudgedSeries& s : estimate.series) rows.push_back(json_of(s, most));
+  for (const JudgedSeries& s : estimate.series) rows.push_back(judged_json(s, most));
   json out{{"topic", estimate.topic},
            {"reference", estimate.reference},
            {"truth", estimate.truth},

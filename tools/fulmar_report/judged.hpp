@@ -42,7 +42,7 @@ std::vector<JudgedSeries> innovations(const states::StateLog& log);
 nlohmann::json tick_times(const std::filesystem::path& log);
 
 /// `most`: so many rows of each curve, those with the largest values.
-nlohmann::json json_of(const JudgedEstimate& estimate, std::size_t most);
-nlohmann::json json_of(const JudgedSeries& series, std::size_t most);
+nlohmann::json judged_json(const JudgedEstimate& estimate, std::size_t most);
+nlohmann::json judged_json(const JudgedSeries& series, std::size_t most);
 
 }  // namespace fulmar::report

@@ -56,12 +56,12 @@ json phases_of(const core::LogInfo& info) {
   return rows;
 }
 
-json json_of(const ReportedLog& log, std::size_t every_nth) {
+json log_json(const ReportedLog& log, std::size_t every_nth) {
   const std::size_t rows = std::max(least_rows, most_rows / every_nth);
   json topics = json::array(), estimates = json::array(), sensors = json::array();
-  for (const ShownTopic& t : log.topics) topics.push_back(json_of(t, every_nth));
-  for (const JudgedEstimate& e : log.estimates) estimates.push_back(json_of(e, rows));
-  for (const JudgedSeries& s : log.innovations) sensors.push_back(json_of(s, rows));
+  for (const ShownTopic& t : log.topics) topics.push_back(topic_json(t, every_nth));
+  for (const JudgedEstimate& e : log.estimates) estimates.push_back(judged_json(e, rows));
+  for (const JudgedSeries& s : log.innovations) sensors.push_back(judged_json(s, rows));
   const json metadata = metadata_of(log.info.file);
   return {{"name", log.name},
           {"mission", log.info.value("fulmar", "mission")},
@@ -96,10 +96,11 @@ json parameters_that_differ(const std::vector<ReportedLog>& logs) {
     }
   }
   json rows = json::array();
-  for (const auto& [name, values] : all) {
+  for (const auto& row : all) {
+    const std::vector<json>& values = row.second;
     const bool equal =
         std::all_of(values.begin(), values.end(), [&](const json& v) { return v == values.front(); });
-    if (!equal) rows.push_back({{"name", name}, {"values", values}});
+    if (!equal) rows.push_back({{"name", row.first}, {"values", values}});
   }
   return rows;
 }
@@ -138,7 +139,7 @@ std::vector<std::string> short_names(const std::vector<std::string>& logs) {
 
 std::string report_json(const std::vector<ReportedLog>& logs, std::size_t every_nth) {
   json all = json::array();
-  for (const ReportedLog& log : logs) all.push_back(json_of(log, every_nth));
+  for (const ReportedLog& log : logs) all.push_back(log_json(log, every_nth));
   const json whole{{"logs", std::move(all)}, {"parameters", parameters_that_differ(logs)}};
   return whole.dump(-1, ' ', false, json::error_handler_t::replace);
 }

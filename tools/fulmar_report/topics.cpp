@@ -171,7 +171,7 @@ std::vector<ShownTopic> shown_topics(const std::filesystem::path& log, std::uint
   return all;
 }
 
-nlohmann::json json_of(const ShownTopic& topic, std::size_t every_nth) {
+nlohmann::json topic_json(const ShownTopic& topic, std::size_t every_nth) {
   const std::size_t n = topic.whole ? 1 : every_nth;
   const Columns kept = n > 1 ? every(topic.columns, n) : topic.columns;
   nlohmann::json out{{"topic", topic.topic}, {"type", topic.type},    {"schema", topic.schema},

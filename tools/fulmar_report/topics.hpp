@@ -31,6 +31,6 @@ std::vector<ShownTopic> shown_topics(const std::filesystem::path& log, std::uint
 
 /// {topic, type, schema, count, rows, fields, data, t}: `data` is packed() of the columns or of the messages;
 /// of messages `t` is packed() of their times. Of streams only every `every_nth`.
-nlohmann::json json_of(const ShownTopic& topic, std::size_t every_nth);
+nlohmann::json topic_json(const ShownTopic& topic, std::size_t every_nth);
 
 }  // namespace fulmar::report

@@ -59,7 +59,7 @@ TEST_CASE("errors are the estimate's minus the truth, each beside what is claime
   CHECK(of(all[0].series, "roll").all.rms() == doctest::Approx(0.5729578));
   CHECK(of(all[0].series, "gyro bias x").has_claim() == false);
   for (const report::JudgedSeries& s : all[0].series) CHECK(s.words != "airspeed");
-  const nlohmann::json j = json_of(all[0], 50);
+  const nlohmann::json j = judged_json(all[0], 50);
   CHECK(j["truth"] == true);
   const nlohmann::json row = j["rows"][6];
   CHECK(row["words"] == "position north");

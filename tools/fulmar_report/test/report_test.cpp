@@ -92,7 +92,7 @@ TEST_CASE("streams are thinned out to the rate, what is slow by nature to 2 Hz, 
   CHECK(topic(all, "/vehicle/rc").messages.size() == 4);
   CHECK(topic(all, core::Event::topic).messages.size() == 3);
   CHECK(topic(report::shown_topics(file, epoch, 1000), "/nav/state").columns.t.size() == 200);
-  const json halved = json_of(state_topic, 2), events = json_of(topic(all, core::Event::topic), 2);
+  const json halved = topic_json(state_topic, 2), events = topic_json(topic(all, core::Event::topic), 2);
   CHECK(halved["rows"] == 10);
   CHECK(columns_of(halved["data"], 10, state_topic.fields.size()).t[1] == 2000);
   CHECK(events["rows"] == 3);

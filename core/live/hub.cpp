@@ -305,11 +305,12 @@ void Hub::keep(const Tap::Sample& sample) {
   want_unseen(sample.channel);
 }
 
-/// To who has just subscribed.
-void Hub::give_past(Client& client, std::size_t index, std::uint32_t subscription) {
+/// To who has just subscribed. Of a stream the next sample comes soon enough, unless the flight is paused.
+void Hub::give_past(Client& client, std::size_t index, std::uint32_t subscription, bool paused) {
   Channel& channel = channels_[index];
   for (const Kept& kept : channel.past) {
-    if (!channel.seldom && newest_ns_ - kept.now_ns > fresh_ns) continue;
+    const bool holds = channel.seldom || (paused && newest_ns_ - kept.now_ns <= fresh_ns);
+    if (!holds) continue;
     Message sample;
     encode(channel, kept.data.data(), sample);
     offer(client, sample, subscription, kept.now_ns);

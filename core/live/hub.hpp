@@ -125,7 +125,7 @@ class Hub {
   void stop_listening(Client& client, std::uint32_t subscription);
   bool drain();
   void keep(const Tap::Sample& sample);
-  void give_past(Client& client, std::size_t index, std::uint32_t subscription);
+  void give_past(Client& client, std::size_t index, std::uint32_t subscription, bool paused);
   void encode(Channel& channel, const std::byte* data, Message& message);
   void offer(Client& client, Message& message, std::uint32_t subscription, std::int64_t now_ns);
   void send_time();

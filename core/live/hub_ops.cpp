@@ -54,6 +54,7 @@ const std::map<std::string, Hub::Op, std::less<>>& Hub::ops() {
 }
 
 void Hub::subscribe(Client& client, const json& message) {
+  const bool paused = view().paused;
   for (const json& entry : array_at(message, "subscriptions")) {
     const std::uint32_t id = id_of(entry.at("id")), channel_id = id_of(entry.at("channelId"));
     if (channel_id == 0 || channel_id > channels_.size()) {
@@ -72,7 +73,7 @@ void Hub::subscribe(Client& client, const json& message) {
     client.subscriptions[id] = index;
     channel.listeners.emplace_back(&client, id);
     cursor_->want(index, 0);
-    give_past(client, index, id);
+    give_past(client, index, id, paused);
   }
 }
 

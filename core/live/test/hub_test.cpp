@@ -177,10 +177,13 @@ TEST_CASE(
     if (now_ns <= stopped_ns && tap.wanted(1, now_ns)) tap.write(1, now_ns, now_ns, bytes_of(leg), false);
     hub.tick();
   }
-  TestPeer peer;
-  const Hub::ClientId id = hub.add(peer);
-  hub.text(id,
-           R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 2}, {"id": 8, "channelId": 1}]})");
+  const std::string subscribe =
+      R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 2}, {"id": 8, "channelId": 1}]})";
+  TestPeer early, peer;
+  hub.text(hub.add(early), subscribe);
+  CHECK(early.binaries.empty());  // the next one comes soon
+  control.paused = true;
+  hub.text(hub.add(peer), subscribe);
   REQUIRE(peer.binaries.size() == 1);
   CHECK(u32(peer.binaries[0], 1) == 8);
   const std::uint64_t epoch_ns = 1'767'225'600'000'000'000u, stamp_ns = u64(peer.binaries[0], 5) - epoch_ns;

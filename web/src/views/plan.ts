@@ -153,7 +153,8 @@ export class PlanPage implements Page {
     this.file.value = "";
     if (!file || !this.flown) return;
     try {
-      const plan = read_plan_file(await file.text(), this.flown, this.origin());
+      const plan = read_plan_file(await file.text(), this.flown, this.origin()), flown = this.flown.waypoints;
+      plan.waypoints.forEach((w, i) => (w.id = flown[i]?.id ?? 0)); // as if each had been edited: the leg that is flown goes on where it stays
       this.at_once.checked = false; // a whole plan is looked at before it flies
       this.chosen = -1;
       this.change(plan);

@@ -51,7 +51,7 @@ class TextFile {
 void check_report_program() {
   if (own_program(program).empty())
     throw Error(std::string("the program ") + program +
-                " is missing beside this one: it makes reports; cmake --build build --target tools");
+                " is missing beside this one: it makes reports; cmake --build build --target flight");
   if (std::error_code none; !fs::exists(page_folder() / "report.html", none))
     throw Error(
         "this Fulmar was built without the page of a flight, which a report needs: install nodejs and npm, "

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lets the simulated aircraft fail at a time, and once more later, for good, whatever phase comes of it: a
-// phase's own `set` would end with the phase.
+// phase's own `set` would end with the phase. Status and state come through it to those who are to see them
+// fail.
 #include "fulmar/msg/fault_request.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
 #include "fulmar/plugin.hpp"
 
 using namespace fulmar;
@@ -9,9 +12,14 @@ using namespace fulmar;
 struct Failing {
   static constexpr const char* doc =
       "Requests a fault of the simulated aircraft at a time, and another one later.";
-  struct Inputs {};
+  struct Inputs {
+    Optional<VehicleStatus> status;
+    Optional<VehicleState> state;
+  };
   struct Outputs {
     Out<FaultRequest> fault;
+    Out<VehicleStatus> status;  // as it came, while the link holds
+    Out<VehicleState> state;    // as it came, but for what is valid of it
   };
   struct Params {
     Choice<FaultTarget> what{FaultTarget::gyro, "that fails"};
@@ -22,8 +30,21 @@ struct Failing {
     Choice<FaultTarget> then_what{FaultTarget::gyro, "that fails as well"};
     Choice<FaultKind> then_kind{FaultKind::none, "how; none: it does not"};
     Param then_at{60, "s", 0, 1e5, "flight time"};
+    Param silent_at{1e5, "s", 0, 1e5, "flight time: from then on there is no status"};
+    Param silent_for{1e5, "s", 0, 1e5, "of that"};
+    Param invalid_at{1e5, "s", 0, 1e5, "flight time: from then on no attitude is valid"};
+    Param invalid_for{1e5, "s", 0, 1e5, "of that"};
   };
-  Status step(const Tick& tick, const Inputs&, const Params& p, Outputs& out) {
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const auto within = [&](double at_s, double for_s) {
+      return tick.now_s() >= at_s && tick.now_s() < at_s + for_s;
+    };
+    if (in.status && !within(p.silent_at, p.silent_for)) out.status.publish(*in.status, tick.now_ns);
+    if (in.state) {
+      VehicleState s = *in.state;
+      s.attitude_valid = s.attitude_valid && !within(p.invalid_at, p.invalid_for);
+      out.state.publish(s, tick.now_ns);
+    }
     FaultRequest r;
     const auto due = [&](bool& asked, FaultKind kind, double at_s) {
       if (asked || kind == FaultKind::none || tick.now_s() < at_s) return false;

@@ -32,6 +32,7 @@ struct Row {
   std::string airframe{}, name{}, does{};  ///< what the aircraft does, in words
   std::string failing{};                   ///< parameters of the plugin `failing`
   std::string sim{}, watch{};              ///< parameters of the aircraft and of the monitor
+  bool relayed = false;                    ///< status and state reach the monitor through `failing`
   bool SafetyState::*cause = nullptr;      ///< that has to be told; none: nothing may be
   double told_within_s = 10;
   double at_s = 60;
@@ -112,6 +113,30 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .cause = &S::radio_lost,
        .phases = {"home", "cruise", "approach", "flare", "roll_out"}},
       {.airframe = a,
+       .name = "link",
+       .does = "returns home, circles there, lands after 2 min",
+       .failing = "silent_at: 60",
+       .relayed = true,
+       .cause = &S::link_lost,
+       .told_within_s = 2,
+       .phases = {"home", "approach", "flare", "roll_out"}},
+      {.airframe = a,
+       .name = "link, for 20 s",
+       .does = "turns home, flies on when it is back, lands",
+       .failing = "silent_at: 60, silent_for: 20",
+       .relayed = true,
+       .cause = &S::link_lost,
+       .told_within_s = 2,
+       .phases = {"home", "cruise", "approach", "flare", "roll_out"}},
+      {.airframe = a,
+       .name = "attitude not valid, for 3 s",
+       .does = "wings level, flies on, lands",
+       .failing = "invalid_at: 60, invalid_for: 3",
+       .relayed = true,
+       .cause = &S::estimator_failed,
+       .told_within_s = 2,
+       .phases = {"level", "cruise", "approach", "flare", "roll_out"}},
+      {.airframe = a,
        .name = "battery, within 5 min",
        .does = "returns home and lands; empty on the way, it glides",
        .failing = "what: battery, kind: empty, size: 300",
@@ -187,15 +212,20 @@ inline std::string mission_text(const Row& row) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs";
   const auto list = [](const std::string& s) { return s.empty() ? "" : ", " + s; };
   const std::string failing =
-      "  failing: {use: " FULMAR_TEST_PLUGIN_DIR "/failing.so, params: {" + row.failing + "}}\n";
+      "  failing: {use: " FULMAR_TEST_PLUGIN_DIR "/failing.so, " +
+      std::string(row.relayed ? "in: {status: vehicle.status, state: nav.state}, " : "") + "params: {" +
+      row.failing + "}}\n";
+  const std::string watch = std::string("  watch: {") +
+                            (row.relayed ? "in: {status: failing.status, state: failing.state}, " : "") +
+                            "params: {";
   const std::string done =
       row.end == End::aloft ? "manage.progress.circuits >= 1" : "vehicle.status.on_ground and time > 20 s";
   const std::string head = "mission: failing\nlive: off\ntimeout: 900 s\ndone: {when: \"" + done +
                            "\", for: 10 s}\nextends: " + configs + "/missions/";
   if (row.airframe == "anaconda")
     return head + "return_home.yaml\ncomponents:\n" + failing +
-           "  sim: {in: {fault: failing.fault}, params: {motor: true" + list(row.sim) + "}}\n" +
-           "  watch: {params: {landing: false" + list(row.watch) + "}}\n";
+           "  sim: {in: {fault: failing.fault}, params: {motor: true" + list(row.sim) + "}}\n" + watch +
+           "landing: false" + list(row.watch) + "}}\n";
   const bool x8 = row.airframe == "x8", thrown = x8 && row.sim.find("start_height") == std::string::npos;
   const auto unless = [&](const char* said, const char* params) {
     return row.sim.find(said) == std::string::npos ? params : "";
@@ -217,8 +247,9 @@ inline std::string mission_text(const Row& row) {
          (x8 ? "18" : "25") +
          " m/s, turn_radius: 110 m, end: circuit, waypoints: [{north: 700 m, east: -400 m, up: 100 m}, "
          "{north: -500 m, east: -400 m, up: 100 m}, {north: -500 m, east: 200 m, up: 100 m}, {north: 700 m, "
-         "east: 200 m, up: 100 m}]}}}\n"
-         "  watch: {params: {places: {places: &places [{north: 0 m, east: 0 m}, {north: 600 m, east: -300 "
+         "east: 200 m, up: 100 m}]}}}\n" +
+         watch +
+         "places: {places: &places [{north: 0 m, east: 0 m}, {north: 600 m, east: -300 "
          "m}, {north: -400 m, east: -300 m}]}" +
          fence + list(row.watch) +
          "}}\n"

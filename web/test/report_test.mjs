@@ -123,7 +123,7 @@ try {
 
   // two logs, in the dark
   await open("both.html", "dark");
-  assert.match(await text("#parameters_that_differ"), /slc\.course_kp21\.9/);
+  assert.match(await text("#parameters_that_differ"), /slc\.course_kp2\.11\.9/);
   assert.deepEqual(await page.locator("#flights thead th").allTextContents(), ["", "one", "two"]);
   assert.equal(await page.locator("#figures_of_merit tr", { hasText: "Tracking RMS error, " }).count(), 2);
   assert.match(await text(".chart .u-legend"), /one, flown.*two, flown/s);

@@ -275,7 +275,8 @@ inline std::string missed(const Outage& outage, const AfterOutage& a) {
   if (a.told_back_s < 0 || a.told_back_s > 1) return "the return was not told within 1 s";
   if (a.circle_s > circle_s + slack_s || (a.circle_s < 0 && outage.length_s > circle_s + slack_s))
     return "no circle after " + std::to_string(circle_s) + " s";
-  if (a.circle_s >= 0 && a.turned_deg < 5 * (outage.length_s - a.circle_s) - 10)
+  // It may begin in a turn to the other side, which takes 4 s to end.
+  if (a.circle_s >= 0 && a.turned_deg < 5 * (outage.length_s - a.circle_s) - 20)
     return "a circle of " + std::to_string(a.turned_deg) + " deg";
   if (a.resumed_s < 0) return "not back on the plan";
   return "";

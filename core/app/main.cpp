@@ -80,19 +80,20 @@ struct Commands {
         "");
   }
 
+  /// What is wrong with a duration; empty: nothing.
+  static std::string not_seconds(const std::string& text) {
+    double x = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), x);
+    const bool good = code == std::errc{} && end == text.data() + text.size() && x > 0 && x <= 1e7;
+    return good ? std::string() : "give seconds, above 0 and up to 1e7, not '" + text + "'";
+  }
+
   void add_run() {
     CLI::App* command = app.add_subcommand("run", "fly a mission and tell how it went");
     mission.add(command);
     command->add_option("--speed", speed, "real, max, or a multiple of real time");
     command->add_option("--duration", run.duration_s, "end after so many seconds of flight")
-        ->check(CLI::Validator(
-            [](const std::string& text) {
-              double x = 0;
-              const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), x);
-              const bool good = code == std::errc{} && end == text.data() + text.size() && x > 0 && x <= 1e7;
-              return good ? std::string() : "give seconds, above 0 and up to 1e7, not '" + text + "'";
-            },
-            "SECONDS"));
+        ->check(CLI::Validator(not_seconds, "SECONDS"));
     command->add_option("--log", run.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap")
         ->check(a_file("the log gets a name of its own in logs/"));
     command->add_flag("--no-log", run.no_log, "write no log");

@@ -137,7 +137,8 @@ TEST_CASE("the envelope ends where trim ends") {
   CHECK(std::abs(stall.x - checked.at("stall_airspeed_mps").get<double>()) < chart.x_per_px);
 }
 
-TEST_CASE("lift over the span adds up to the lattice's lift, and stalls where vlm says") {
+TEST_CASE("lift over the span adds up to the lattice's lift, and stalls where vlm says" *
+          doctest::test_suite("amounts")) {
   const std::vector<ReadChart> charts = read_charts(both());
   const ReadChart load = chart_named(charts, "Lift over the span");
   const nlohmann::json vlm = json_of("vlm " + petrel_drawing);
@@ -274,7 +275,7 @@ TEST_CASE("what cannot be seen is refused in a sentence") {
   CHECK(unwritten.says("/no/p.html' cannot be written"));
 }
 
-TEST_CASE("the same files give the same page") {
+TEST_CASE("the same files give the same page" * doctest::test_suite("amounts")) {
   const std::string first = both();
   const Folder folder;
   const std::string out = (folder.path / "again.html").string();

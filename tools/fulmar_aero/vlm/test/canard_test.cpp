@@ -17,7 +17,8 @@ std::string with(std::string text, const std::string& old, const std::string& by
 }
 }  // namespace
 
-TEST_CASE("an elevator and a rudder ahead of the centre of gravity are turned as a whole, and told") {
+TEST_CASE("an elevator and a rudder ahead of the centre of gravity are turned as a whole, and told" *
+          doctest::test_suite("amounts")) {
   const Folder folder;
   const std::string text = text_of(petrel);
   const auto computed = [&](const char* name, const std::string& drawing) {

@@ -147,7 +147,7 @@ TEST_CASE("the Petrel: mass, trim, check; the file says what was computed") {
   CHECK(a.limits.throttle_cruise_frac == doctest::Approx(trim["throttle_frac"].get<double>()).epsilon(0.002));
 }
 
-TEST_CASE("more panels change little, and few are told when they do") {
+TEST_CASE("more panels change little, and few are told when they do" * doctest::test_suite("amounts")) {
   const auto list = call("vlm " + petrel + " --convergence --json").json()["convergence"];
   REQUIRE(list.size() == 4);
   for (const char* over : {"alpha", "q"})

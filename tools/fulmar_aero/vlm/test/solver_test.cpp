@@ -120,7 +120,8 @@ TEST_CASE("body-axis derivatives of the wing with dihedral") {
   CHECK(near(d.q.Cm, -0.462420, 0.001));
 }
 
-TEST_CASE("the aircraft Merlin: all derivatives within 10 % or 0.005 of AVL's, most within 1 %") {
+TEST_CASE("the aircraft Merlin: all derivatives within 10 % or 0.005 of AVL's, most within 1 %" *
+          doctest::test_suite("amounts")) {
   const GeometryFile file = read_geometry_file(FULMAR_SOURCE_DIR "/tools/fulmar_aero/vlm/test/merlin.yaml");
   const Vlm vlm = solved(*file.geometry, {0.085, 0, -0.02});
   const FlowState state{.alpha = 2 * degree};

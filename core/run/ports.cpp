@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/ports.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -240,7 +241,10 @@ void Intake::refuse_requests(const char* why) noexcept {
 // ---- outputs
 
 Outlets::Outlets(const Component& component, Unit& owner)
-    : slots(component.info().outputs.size()), views(component.info().outputs.size()) {
+    : slots(component.info().outputs.size()),
+      views(component.info().outputs.size()),
+      blank_(component.info().outputs.size()),
+      values_(component.info().outputs.size()) {
   for (std::size_t i = 0; i < slots.size(); ++i) {
     Slot& s = slots[i];
     s.port = &component.info().outputs[i];
@@ -253,13 +257,16 @@ Outlets::Outlets(const Component& component, Unit& owner)
       s.guard = std::make_unique<Guard>(*s.port->type);
     else
       probes.outputs.push_back(static_cast<std::uint32_t>(i));
+    blank_[i].data = s.staging.data();
+    blank_[i].stamps_ns = s.stamps.data();
+    values_[i] = s.port->kind == FULMAR_OUT_VALUE;
   }
   probes.values.resize(probes.outputs.size());
 }
 
 void Outlets::prepare(std::int64_t now_ns) noexcept {
-  for (std::size_t i = 0, count = slots.size(); i < count; ++i)
-    views[i] = {slots[i].staging.data(), slots[i].stamps.data(), now_ns, 0, 0};
+  std::copy(blank_.begin(), blank_.end(), views.begin());
+  for (fulmar_output& view : views) view.valid_at_ns = now_ns;
 }
 
 namespace {
@@ -293,6 +300,7 @@ bool messages_good(Slot& s, const fulmar_output& out, fulmar_error& problem) noe
 
 bool Outlets::good(fulmar_error& problem) noexcept {
   for (std::size_t i = 0, count = slots.size(); i < count; ++i) {
+    if (!written(i)) continue;
     const bool probe = slots[i].port->kind == FULMAR_OUT_PROBE;
     if (!(probe ? probe_good(slots[i], views[i], problem) : messages_good(slots[i], views[i], problem)))
       return false;

@@ -158,11 +158,22 @@ class Outlets {
   std::vector<fulmar_output> views;
   Probes probes;
   std::int64_t completed_ns = 0;  // when its owner last came to the end of a step
+
+ private:
+  /// Whether a step has written there: of many outputs most say nothing in most steps, and looking at their
+  /// slots would cost more than the step.
+  bool written(std::size_t i) const noexcept {
+    return views[i].count > 0 || views[i].lost > 0 || values_[i] != 0;
+  }
+
+  std::vector<fulmar_output> blank_;  // as a step finds them
+  std::vector<std::uint8_t> values_;  // whether it is written in every step
 };
 
 template <class F>
 void Outlets::publish(F&& each) {
   for (std::size_t i = 0, count = slots.size(); i < count; ++i) {
+    if (!written(i)) continue;
     Slot& s = slots[i];
     const fulmar_output& out = views[i];
     if (s.port->kind == FULMAR_OUT_PROBE) {

@@ -4,6 +4,7 @@
 switched on by FULMAR_MUTANT, and runs the programs that cover a fault. Ends with 1 when too few are noticed.
 
     cmake/mutate.py [--folder FOLDER] [--jobs N] [ID...]
+    cmake/mutate.py --only-list       only whether each fault has its place in the sources
 """
 import argparse
 import collections
@@ -124,12 +125,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build-mutants")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build")
+    parser.add_argument("--only-list", action="store_true", help="build and run nothing")
     parser.add_argument("id", nargs="*", help="faults of the list; all when none is named")
     given = parser.parse_args()
     known = mutants()
     unknown = set(given.id) - {m.id for m in known}
     if unknown:
         sys.exit(f"no such fault in {LIST}: {' '.join(sorted(unknown))}")
+    if given.only_list:
+        mutated(known)
+        return 0
     chosen = [m for m in known if not given.id or m.id in given.id]
     folder = given.folder.resolve()
     bin_folder = build(folder, given.jobs, chosen, known)

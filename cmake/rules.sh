@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What the code base promises of itself and a grep can see.
 set -u
+shopt -s lastpipe  # `refuse` at the end of a pipe is this shell: what it notes is still there at the end
 cd "$(dirname "$0")/.."
 bad=0
 refuse() { # refuse SENTENCE, reads offending lines
@@ -11,6 +12,9 @@ refuse() { # refuse SENTENCE, reads offending lines
   printf '%s\n%s\n' "$1" "$lines"
   bad=1
 }
+echo "a line" | refuse "" >/dev/null
+[ "$bad" -eq 1 ] || { echo "a broken rule would go unnoticed"; exit 1; }
+bad=0
 python3 cmake/layers.py >/dev/null || python3 cmake/layers.py | refuse "The folders of core stand on each other:"
 git grep -nE '^#include [<"]core/' -- plugins sdk examples | refuse "Plugins and SDK must not include core:"
 git grep -nE '^#include [<"](\.\./)*plugins/' -- core sdk plugins | grep -vE '^plugins/([^/]+)/test/.*plugins/\1/|^plugins/fcu_serial/test/peer/.*plugins/sim_aero/|^core/app/test/frail\.cpp:' |
@@ -30,4 +34,5 @@ for folder in $(git ls-files 'core/*.cpp' 'tools/*.cpp' 'plugins/*.cpp' | grep -
       sort -u | sed "s|\$| $file|"
   done | sort | awk '$1 == "main" { next } $1 == last { print $1 ": " file ", " $2 } { last = $1; file = $2 }'
 done | refuse "A name is given once in a folder:"
+python3 cmake/mutate.py --only-list 2>&1 | refuse "Each listed fault has a place of its own:"
 exit $bad

@@ -8,7 +8,8 @@ namespace fulmar::aero {
 
 /// SI units, rad; from the mission's origin. `time_s`: flight time.
 struct TrackPoint {
-  double time_s = 0, north_m = 0, east_m = 0, height_m = 0, airspeed_mps = 0, roll_rad = 0, pitch_rad = 0;
+  double time_s = 0, north_m = 0, east_m = 0, height_m = 0, airspeed_mps = 0, roll_rad = 0, pitch_rad = 0,
+         alpha_rad = 0;
 };
 struct CommandPoint {
   double time_s = 0, height_m = 0, airspeed_mps = 0;

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -82,6 +83,33 @@ std::vector<FlownFigure> figures_of(const nlohmann::json& o, const Airframe& a) 
            true}};
 }
 
+/// Of what lies on skids no wheel lets it roll to its speed.
+bool needs_launch(const Airframe& a) {
+  const auto& contacts = a.gear.contacts;
+  return !contacts.empty() && std::all_of(contacts.begin(), contacts.end(), [](const auto& contact) {
+    return contact.kind == ContactKind::skid;
+  });
+}
+
+/// A wing that a gust takes beyond its most lift for a moment has not stalled, nor one that is just thrown.
+std::string stall_of(const FlightTrack& track, const Airframe& a) {
+  constexpr double moment_s = 1;
+  const MostLift most = most_lift(a);
+  const TrackPoint* since = nullptr;
+  bool flies = false;
+  for (const TrackPoint& p : track.truth) {
+    flies = flies || p.airspeed_mps > a.limits.airspeed_min_mps;
+    const bool beyond = flies && p.alpha_rad > most.alpha_rad;
+    if (!beyond) since = nullptr;
+    if (beyond && !since) since = &p;
+    if (since && p.time_s - since->time_s >= moment_s)
+      return "stalled at " + fixed(since->time_s, 1) + " s: at " + fixed(since->airspeed_mps, 1) +
+             " m/s and " + degrees(since->roll_rad, 0) + " of bank its angle of attack went beyond the " +
+             degrees(most.alpha_rad, 1) + " of the most lift, and stayed there";
+  }
+  return "";
+}
+
 }  // namespace
 
 TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, double airspeed_mps) {
@@ -91,10 +119,13 @@ TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, doub
   const FlightFolder folder;
   folder.write("airframe.yaml", text);
   std::string mission = "extends: fulmar:missions/hourglass.yaml\nmission: tune\nairframe: airframe.yaml\n";
+  std::string components;
   if (!is_shipped_speed(airspeed_mps)) {
     folder.write("plan.yaml", plan_text(airspeed_mps));
-    mission += "components: {plan: {params: {plan: plan.yaml}}}\n";
+    components += "  plan: {params: {plan: plan.yaml}}\n";
   }
+  if (needs_launch(airframe)) components += "  sim: {params: {launch: catapult}}\n";
+  if (!components.empty()) mission += "components:\n" + components;
   folder.write("mission.yaml", mission);
   const auto open_file = [&](const char* name) {
     return ::open((folder.path / name).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
@@ -120,13 +151,15 @@ TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, doub
   flight.result = o["result"].get<std::string>();
   flight.figures = figures_of(o, airframe);
   flight.track = track_of(folder.path / "flight.mcap");
+  flight.stalled = stall_of(flight.track, airframe);
   for (const auto& [north, east] : shipped_corners)
     flight.corners_m.push_back({plan_scale(airspeed_mps) * north, plan_scale(airspeed_mps) * east});
   return flight;
 }
 
 std::string flight_text(const TuneFlight& flight) {
-  std::string text = "\nhourglass in light turbulence: " + flight.result + "\n";
+  std::string text = "\nhourglass in light turbulence: " + flight.result +
+                     (flight.stalled.empty() ? "" : "; " + flight.stalled) + "\n";
   for (const FlownFigure& f : flight.figures)
     text += "  " + padded(f.name, 16) + right(fixed(f.value, 2), 8) + " " + padded(f.unit, 5) +
             (f.least ? "at least " : "at most ") + figures(f.bound) + "\n";
@@ -140,12 +173,15 @@ nlohmann::json tune_flight_json(const TuneFlight& flight) {
                     {"unit", f.unit},
                     {"value", std::isfinite(f.value) ? nlohmann::json(f.value) : nlohmann::json(nullptr)},
                     {f.least ? "least" : "most", f.bound}});
-  return {{"result", flight.result}, {"figures", list}};
+  nlohmann::json o{{"result", flight.result}, {"figures", list}};
+  if (!flight.stalled.empty()) o["stalled"] = flight.stalled;
+  return o;
 }
 
 std::vector<std::string> flight_faults(const TuneFlight& flight, const std::string& title) {
   std::vector<std::string> all;
   if (flight.result != "flown") all.push_back(title + ": the hourglass was not flown: " + flight.result);
+  if (!flight.stalled.empty()) all.push_back(title + ": " + flight.stalled);
   for (const FlownFigure& f : flight.figures)
     if (!f.kept())
       all.push_back(title + ": " + f.name + " on the hourglass is " + fixed(f.value, 2) + " " + f.unit +

@@ -18,7 +18,8 @@ struct FlownFigure {
   bool kept() const { return least ? value >= bound : value <= bound; }
 };
 struct TuneFlight {
-  std::string result;  ///< "flown", or what became of it
+  std::string result;   ///< "flown", or what became of it
+  std::string stalled;  ///< when its wing stalled, in a sentence; empty when it did not
   std::vector<FlownFigure> figures;
   FlightTrack track;
   std::vector<std::array<double, 2>> corners_m;  ///< of the plan: north, east

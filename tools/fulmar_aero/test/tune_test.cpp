@@ -231,6 +231,18 @@ TEST_CASE("--verify flies the hourglass, and an aircraft that does not keep to i
       "tune configs/airframes/anaconda.yaml --verify --json --bandwidth height=0.04 --bandwidth pitch=0.2");
   CHECK(slow.code == 1);
   CHECK_MESSAGE(slow.says("anaconda: height on the hourglass is "), slow.out);
+  CHECK_MESSAGE(!slow.says("stalled"), slow.out);
+}
+
+TEST_CASE("a wing that stalls in the hourglass' turns is told with its time" *
+          doctest::test_suite("amounts")) {
+  // stall in level flight at 9.6 m/s: at 12 m/s the wing carries a turn of acos((9.6 / 12)^2) = 50 deg at
+  // most, which the plan's turns and the gusts ask for
+  const Answer stalled = call("tune configs/airframes/anaconda.yaml --airspeed '12 m/s' --verify");
+  CHECK(stalled.code == 1);
+  CHECK_MESSAGE(stalled.says("hourglass in light turbulence: failed; stalled at "), stalled.out);
+  CHECK_MESSAGE(stalled.says("anaconda: stalled at "), stalled.out);
+  CHECK_MESSAGE(stalled.says("beyond the 12.0 deg of the most lift, and stayed there"), stalled.out);
 }
 
 }  // namespace tune_test

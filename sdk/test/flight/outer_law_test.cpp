@@ -99,6 +99,41 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("near the stall the bank is what the wing carries, to both sides; at cruise it is the limit's") {
+  // Slowest level flight 10 m/s: a tenth above it is 11 m/s, and lift grows with the square of the speed.
+  FlightLimits limits;
+  limits.airspeed_min_mps = 12;
+  const double bank_12 = std::acos(121.0 / 144);
+  CHECK(bank_carried(22, limits) == doctest::Approx(std::acos(0.25)));
+  CHECK(bank_carried(12, limits) == doctest::Approx(bank_12));
+  for (const double slow : {11.0, 8.0, 0.0, -3.0}) CHECK(bank_carried(slow, limits) == 0.26);
+  struct Case {
+    double airspeed_mps;
+    bool valid;
+    double roll_rad;
+  };
+  for (const Case& c : {Case{12, true, bank_12}, {17, true, 0.7}, {7, true, 0.26}, {7, false, 0.7}})
+    for (const double side : {1.0, -1.0}) {
+      CAPTURE(c.airspeed_mps);
+      CAPTURE(side);
+      Counting law;
+      law.params.airframe.value = test::anaconda();
+      law.params.airframe.value.limits.airspeed_min_mps = 12;
+      law.params.airframe.value.limits.roll_max_rad = 1;
+      law.params.roll_limit.value = 0.7;
+      VehicleState s = flying();
+      s.airspeed_mps = c.airspeed_mps, s.airspeed_valid = c.valid;
+      GuidanceCommand command;
+      command.course_rad = side * 1.5;
+      for (int i = 0; i < 400; ++i) law.step(s, command);
+      CHECK(law.out.attitude.roll_rad == doctest::Approx(side * c.roll_rad).epsilon(1e-3));
+      CHECK(law.out.internals.roll_saturated);
+      s.airspeed_mps = 20, s.airspeed_valid = true;  // fast again
+      for (int i = 0; i < 400; ++i) law.step(s, command);
+      CHECK(law.out.attitude.roll_rad == doctest::Approx(side * 0.7).epsilon(1e-3));
+    }
+}
+
 TEST_CASE("only when height and speed are held is the law asked; else it rests") {
   Counting law;
   law.params.airframe.value = test::anaconda();

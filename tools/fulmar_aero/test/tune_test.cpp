@@ -234,15 +234,20 @@ TEST_CASE("--verify flies the hourglass, and an aircraft that does not keep to i
   CHECK_MESSAGE(!slow.says("stalled"), slow.out);
 }
 
-TEST_CASE("a wing that stalls in the hourglass' turns is told with its time" *
-          doctest::test_suite("amounts")) {
-  // stall in level flight at 9.6 m/s: at 12 m/s the wing carries a turn of acos((9.6 / 12)^2) = 50 deg at
-  // most, which the plan's turns and the gusts ask for
-  const Answer stalled = call("tune configs/airframes/anaconda.yaml --airspeed '12 m/s' --verify");
+TEST_CASE(
+    "a wing that stalls in the hourglass' turns is told with its time; the true least airspeed keeps it" *
+    doctest::test_suite("amounts")) {
+  // Level flight ends at 9.6 m/s: at 11 m/s the wing carries a turn of acos((9.6 / 11)^2) = 40 deg. An outer
+  // law that is told of a least airspeed of 8 m/s banks to 45.
+  const Folder folder;
+  const std::string wrong = changed("anaconda", "airspeed_min: 12 m/s", "airspeed_min: 8 m/s");
+  const Answer stalled = call("tune " + folder.write("wrong.yaml", wrong) + " --airspeed '11 m/s' --verify");
   CHECK(stalled.code == 1);
   CHECK_MESSAGE(stalled.says("hourglass in light turbulence: failed; stalled at "), stalled.out);
   CHECK_MESSAGE(stalled.says("anaconda: stalled at "), stalled.out);
   CHECK_MESSAGE(stalled.says("beyond the 12.0 deg of the most lift, and stayed there"), stalled.out);
+  const Answer kept = call("tune configs/airframes/anaconda.yaml --airspeed '12 m/s' --verify");
+  CHECK_MESSAGE(kept.says("hourglass in light turbulence: flown\n"), kept.out);
 }
 
 }  // namespace tune_test

@@ -3,6 +3,9 @@
 // waiting on the ground, and commands that go on without a step when the law, the phase or the controller
 // changes.
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "fulmar/flight/lateral.hpp"
 #include "fulmar/flight/takeoff.hpp"
 #include "fulmar/msg/controller_internals.hpp"
@@ -154,6 +157,16 @@ struct PitchLimits {
 inline double scheduling_airspeed(const VehicleState& state, const FlightLimits& limits) {
   return state.airspeed_valid ? std::max(state.airspeed_mps, 0.5 * limits.airspeed_min_mps)
                               : limits.airspeed_cruise_mps;
+}
+
+/// Bank, rad, to which the wing carries a level turn at airspeed `Va` with a tenth of speed left above the
+/// stall, which is at 1 / 1.2 of the least airspeed: its lift has to be 1 / cos(bank) of the weight
+/// (Anderson, Introduction to Flight, turning flight). Slower than that some bank is left, to steer with.
+inline double bank_carried(double Va, const FlightLimits& limits) {
+  constexpr double above_stall_ratio = 1.1, stall_ratio = 1 / 1.2, least_rad = 0.26;
+  const double slowest = above_stall_ratio * stall_ratio * limits.airspeed_min_mps;
+  const double cosine = slowest * slowest / std::max(Va * Va, 1e-3);
+  return std::max(least_rad, std::acos(std::min(cosine, 1.0)));
 }
 
 /// What an outer law needs to do what it is asked for. Without one of them it still flies, degraded.

@@ -35,7 +35,9 @@ struct OuterParams {
   Param course_kp{2.0, "rad/rad", 0, 10,
                   "roll per course error at cruise ground speed: course bandwidth = kp g / Va"};
   Param course_ki{0.0, "rad/(rad s)", 0, 2, "roll per integrated course error"};
-  Param roll_limit{0.785, "rad", 0.05, 1.2, "largest roll command; the airframe's own limit holds as well"};
+  Param roll_limit{0.785, "rad", 0.05, 1.2,
+                   "largest roll command; the airframe's own limit holds as well, and near the stall what "
+                   "the wing carries"};
   Param roll_rate_limit{1.0, "rad/s", 0.1, 6, "fastest change of the roll command"};
   Param roll_smoothing{0.1, "s", 0, 2, "time constant of the roll command"};
 
@@ -135,8 +137,9 @@ struct OuterLoop {
     // in one would be twice as fast as the command may go.
     const double dt = took_over ? 0 : std::clamp(tick.dt_s(), 0.0, 0.1);
     took_over = false;
-    const OuterTuning t = tuning(p);
+    OuterTuning t = tuning(p);
     const double Va = scheduling_airspeed(state, p.airframe->limits);
+    t.course.roll_max_rad = std::min(t.course.roll_max_rad, bank_carried(Va, p.airframe->limits));
     // The host lets no such command pass; a law that is flown without it is not poisoned by one either.
     const bool sense = finite(command);
     const OuterAction action = commands.begin(p.law, state, sense);

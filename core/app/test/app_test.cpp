@@ -350,7 +350,8 @@ TEST_CASE("an interrupt during a build ends the build and the program") {
   CHECK(shell("pgrep -f '^sleep 4321$'").code == 1);
 }
 
-TEST_CASE("the hourglass is flown over each Earth, as well as over the flat one") {
+TEST_CASE("the hourglass is flown over each Earth, as well as over the flat one" *
+          doctest::test_suite("amounts")) {
   for (const char* earth : {"gravity", "wgs84"}) {
     const Result r = fulmar("run " + hourglass + " --json --no-log --strict --set sim.earth=" + earth);
     REQUIRE_MESSAGE(r.code == 0, r.err);

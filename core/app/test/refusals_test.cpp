@@ -28,7 +28,7 @@ TEST_CASE("what cannot be is refused before anything flies") {
   CHECK(page.err == "fulmar: the output cannot be written; is the disk full?\n");
 }
 
-TEST_CASE("a value that no aircraft has is refused, with its range") {
+TEST_CASE("a value that no aircraft has is refused, with its range" * doctest::test_suite("amounts")) {
   const std::string with_plan = "components:\n  plan: {params: {plan: ";
   const auto refused = [](const std::string& text, const std::string& told) {
     CAPTURE(text);

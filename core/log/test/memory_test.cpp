@@ -80,7 +80,8 @@ TEST_CASE("two logs of a gigabyte are compared in little memory") {
   CHECK(whole.most_mb < 300);
 }
 
-TEST_CASE("two logs of millions of small messages are compared in little memory") {
+TEST_CASE("two logs of millions of small messages are compared in little memory" *
+          doctest::test_suite("amounts")) {
   const Folder folder;
   const auto log = folder.path / "a.mcap";
   constexpr int messages = 2'100'000;  // of 32 bytes with their heads: in chunks that are as large as may be

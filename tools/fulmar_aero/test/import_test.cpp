@@ -287,7 +287,7 @@ TEST_CASE("every file of the reference data is read, is told to be of no use, or
   CHECK(call("check '" + shared("vspaero/v2.1_ovsp3.7.0_UNCONVERGED/merlin_DegenGeom.stab") + "'").code == 1);
 }
 
-TEST_CASE("ROSflight's hand-copied files: what is wrong in each is found") {
+TEST_CASE("ROSflight's hand-copied files: what is wrong in each is found" * doctest::test_suite("amounts")) {
   if (no_shared()) return;
   const auto checked = [](const std::string& name) { return call("check " + shared("ros_params/" + name)); };
   const Answer xflr5 = checked("xflr5_anaconda_dynamics.yaml");

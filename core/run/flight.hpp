@@ -34,6 +34,14 @@ struct FlightOptions {
   std::function<void(const class Flight&)> progress;  // called about every 200 ms of wall time, between ticks
   std::function<void(const std::string&, bool warning)>
       say;  // one line for the user, as it happens: phases, guards
+  /// Why the flight cannot be asked to make room for another one of its mission; "": it can, and its owner
+  /// begins that one when the result says so.
+  std::string no_restart = "who began this flight begins no other";
+};
+
+/// The flight has made room for another one of its mission.
+struct Restart {
+  std::optional<std::uint64_t> seed;  // none: as before
 };
 
 struct PhaseVisit {
@@ -62,6 +70,7 @@ struct WallClock {
 struct FlightResult {
   Outcome outcome = Outcome::failed;
   std::string reason;
+  std::optional<Restart> restart;
   std::string
       idle;  // the role that nobody flew in, of an aircraft that never left the ground; "": it has begun
   std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and last tick

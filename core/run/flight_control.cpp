@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/record.hpp"
+#include "core/live/gate.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/types/named.hpp"
 #include "fulmar/quiet_thread.hpp"
@@ -60,6 +61,33 @@ std::string source_name(const Graph& graph, const Wire& wire) {
   return c.name + "." + c.info().outputs[output].name;
 }
 
+/// As the components have it that the mission tells: whose parameter `origin` is given.
+std::optional<Geodetic> origin_of(const Graph& graph) {
+  for (const Component& c : graph.components) {
+    const auto& params = c.info().params;
+    for (std::size_t i = 0; i < params.size(); ++i) {
+      if (params[i].kind != FULMAR_RECORD || params[i].name != "origin" || !params[i].type) continue;
+      const auto at = [&](const char* name, fulmar_kind kind) -> const std::byte* {
+        const Field* const field = params[i].type->find(name);
+        return field && field->kind == kind ? c.params[i].data.data() + field->offset : nullptr;
+      };
+      const std::byte* const given = at("given", FULMAR_BOOL);
+      if (!given || *given == std::byte{0}) continue;
+      Geodetic origin;
+      bool whole = true;
+      for (const auto& [name, to] :
+           {std::pair("lat_deg", &origin.lat_deg), std::pair("lon_deg", &origin.lon_deg),
+            std::pair("alt_msl_m", &origin.alt_msl_m)}) {
+        const std::byte* const from = at(name, FULMAR_F64);
+        whole = whole && from;
+        if (from) std::memcpy(to, from, sizeof *to);
+      }
+      if (whole) return origin;
+    }
+  }
+  return std::nullopt;
+}
+
 ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
   static constexpr const char* modes[] = {"tick", "process", "async", "driver"};
   const Component& c = *unit.component;
@@ -92,7 +120,11 @@ FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(fligh
   if (!flight.state.graph.file.empty())
     view.file = std::filesystem::absolute(flight.state.graph.file).string();
   view.mission = flight.state.graph.mission, view.io = io_word(flight.state.graph.io),
-  view.epoch_ns = flight.state.graph.epoch_ns;
+  view.epoch_ns = flight.state.graph.epoch_ns, view.seed = flight.state.graph.seed;
+  view.origin = origin_of(flight.state.graph);
+  view.tiles = flight.state.graph.live.tiles, view.attribution = flight.state.graph.live.attribution;
+  view.no_save = live::why_no_save(flight.state.graph.live);
+  for (const auto& [name, text] : flight.state.graph.overrides.set) view.set.push_back(name);
   for (const Phase& p : flight.state.graph.phases) {
     view.phases.push_back(p.name);
     overlaid.emplace_back();
@@ -242,6 +274,12 @@ bool FlightControl::apply_pace(Waiting& w) {
       if (!clock_.paused) return refuse(w, "the flight is not paused: nothing to step");
       if (clock_.stepper) return refuse(w, "other ticks are being flown; ask again");
       clock_.left = order.ticks, clock_.stepper = &w;
+      return true;
+    case What::restart:
+      end_steps();
+      flight_.state.result.restart = Restart{order.seed};
+      flight_.end.end_by(Ending::Cue::abandoned);
+      done(w);
       return true;
     case What::speed:
       flight_.state.options.speed = order.speed;
@@ -433,9 +471,12 @@ void FlightControl::pace(const PaceOrder& order, Answer answer) {
   const bool stops = order.what == What::pause || order.what == What::resume;
   if (flight_.state.on_hardware())
     throw Error(std::string("this flight is on hardware, io: fcu: ") +
-                (stops                      ? "an aircraft cannot be paused"
-                 : order.what == What::step ? "an aircraft cannot be stepped"
-                                            : "its time has no speed but that of the clock"));
+                (stops                         ? "an aircraft cannot be paused"
+                 : order.what == What::step    ? "an aircraft cannot be stepped"
+                 : order.what == What::restart ? "an aircraft cannot be put back to where it began"
+                                               : "its time has no speed but that of the clock"));
+  if (order.what == What::restart && !flight_.state.options.no_restart.empty())
+    throw Error("no new flight: " + flight_.state.options.no_restart);
   auto waiting = std::make_unique<Waiting>();
   waiting->pace = order, waiting->answer = std::move(answer);
   enqueue(std::move(waiting));

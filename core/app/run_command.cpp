@@ -284,8 +284,8 @@ class Session {
     tell_log(o.log_file);
     tell_onlookers();
     const FlightResult result = last_->run();
-    const bool alone = restarts() || result.restart;  // a flight cut short compares with none
-    restart_ = result.restart;
+    const bool alone = restarts() || last_->restart();  // a flight cut short compares with none
+    restart_ = last_->restart();
     under_way.reset();
     alarm(0);
     progress.clear();
@@ -317,7 +317,7 @@ class Session {
     else if (result.log.dropped > 0)
       warn("the log has gaps: the disk was too slow for " + std::to_string(result.log.dropped) + " messages");
     if (!whole) return ExitCode::failed;  // however the flight ended
-    if (result.restart) return guarded(result) ? ExitCode::guarded : ExitCode::done;
+    if (restarts()) return guarded(result) ? ExitCode::guarded : ExitCode::done;
     if (result.outcome == Outcome::interrupted) return ExitCode::interrupted;
     if (result.outcome == Outcome::failed || !has_begun(result)) return ExitCode::failed;
     return guarded(result) ? ExitCode::guarded : ExitCode::done;

@@ -70,7 +70,6 @@ struct WallClock {
 struct FlightResult {
   Outcome outcome = Outcome::failed;
   std::string reason;
-  std::optional<Restart> restart;
   std::string
       idle;  // the role that nobody flew in, of an aircraft that never left the ground; "": it has begun
   std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and last tick
@@ -99,6 +98,9 @@ class Flight {
   /// Or tick by tick: one tick, paced as the options say; false when the flight is over. Then `finish`, once.
   bool step();
   FlightResult finish();
+
+  /// Whether it ended to make room for another one of its mission.
+  const std::optional<Restart>& restart() const;
 
   // For those who look at a flight: between ticks, from the loop's thread.
   std::int64_t now_ns() const;

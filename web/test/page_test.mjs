@@ -168,6 +168,15 @@ const steps = {
     await page.click("text=Upload");
     await until("it flies", async () => near((await plan()).waypoints[0].position_m.north, 432.1, 0.01, false));
     assert.equal((await plan()).waypoints[1].id, before.waypoints[1].id, "the others are as they were");
+    const runway = "runway: {north: 0 m, east: 0 m, up: 0 m, heading: 135 deg, length: 300 m}", place = "{lat: 40.2499724, lon: -111.6501138, alt_msl: 1457 m";
+    await load(words.replace(/\{north: \S+ m, east: \S+ m, up: \S+ m/, place) + runway + "\n");
+    await page.click("text=Upload");
+    await until("it flies", async () => near((await plan()).waypoints[0].position_m.north, 399.8, 1, false));
+    await seen("as it flies", ".plan .faint", (t) => t.includes("This is what flies"));
+    const [kept] = await Promise.all([page.waitForEvent("download"), page.click("text=Save file")]);
+    await kept.saveAs(file);
+    assert.ok(readFileSync(file, "utf8").includes(place) && readFileSync(file, "utf8").includes(runway), readFileSync(file, "utf8"));
+    await run(fulmar, ["check", mission]);
   },
   async "Tune: a slider sets the parameter of the flight, and the way back"() {
     await tab("Tune");
@@ -344,6 +353,7 @@ const steps = {
     assert.ok(Math.max(...first) - Math.min(...first) > 15, `what is coarser stands in: ${first} at ${zoomed}`);
     assert.ok(tiles.asked.every((t) => t.referer === `http://127.0.0.1:${port}/`), "the address of the page, which may hold a token, is not told");
     assert.ok(tiles.asked.length < 300);
+    await page.goto("about:blank"); // before what it still asks for is gone
     tiles.close();
     const others = foreign.filter((url) => !url.startsWith(`http://127.0.0.1:${tiles.port}/`));
     foreign.splice(0, foreign.length, ...others);

@@ -47,17 +47,17 @@ export class LocalPlane {
     this.h = origin.alt_msl_m;
     this.at = this.earth_fixed(this.lat, this.lon);
   }
-  /** Of a place as high as the origin. */
-  private earth_fixed(lat: number, lon: number): [number, number, number] {
-    const across = a_m / Math.sqrt(1 - e2 * Math.sin(lat) ** 2), r = (across + this.h) * Math.cos(lat);
-    return [r * Math.cos(lon), r * Math.sin(lon), (across * (1 - e2) + this.h) * Math.sin(lat)];
+  private earth_fixed(lat: number, lon: number, h = this.h): [number, number, number] {
+    const across = a_m / Math.sqrt(1 - e2 * Math.sin(lat) ** 2), r = (across + h) * Math.cos(lat);
+    return [r * Math.cos(lon), r * Math.sin(lon), (across * (1 - e2) + h) * Math.sin(lat)];
   }
-  /** Radians in. */
-  to_plane(lat: number, lon: number): Point {
-    const p = this.earth_fixed(lat, lon);
+  /** Radians in, and a height as that of the origin is; without one it is as high. */
+  to_plane(lat: number, lon: number, h = this.h): Point & { up: number } {
+    const p = this.earth_fixed(lat, lon, h);
     const [x, y, z] = [p[0] - this.at[0], p[1] - this.at[1], p[2] - this.at[2]];
     const sl = Math.sin(this.lon), cl = Math.cos(this.lon);
-    return { n: -Math.sin(this.lat) * (cl * x + sl * y) + Math.cos(this.lat) * z, e: cl * y - sl * x };
+    const out = cl * x + sl * y, s = Math.sin(this.lat), c = Math.cos(this.lat);
+    return { n: c * z - s * out, e: cl * y - sl * x, up: s * z + c * out };
   }
   /** The place of a point, in radians: by Newton's method with the radii of curvature, to a millimetre within 1000 km. */
   to_place(p: Point): { lat: number; lon: number } {

@@ -133,8 +133,10 @@ void Hub::call(Client& client, const Service& service, std::uint32_t service_id,
     const std::string text = dumped(view_json(view(), tap_));
     return reply(as_json ? text : cdr_answer(std::nullopt, {text}));
   }
-  const auto done = [this, reply, as_json, id = client.id](const std::string& refusal) {
+  const bool saves = service.what == Service::What::save;
+  const auto done = [this, reply, as_json, saves, id = client.id](const std::string& refusal) {
     if (Client* caller = find(id)) --caller->unanswered;
+    if (saves && !as_json) return reply(cdr_answer(refusal.empty(), {refusal, "", ""}));
     reply(as_json ? dumped({{"accepted", refusal.empty()}, {"reason", refusal}})
                   : cdr_answer(refusal.empty(), {refusal}));
   };

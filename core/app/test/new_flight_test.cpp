@@ -34,6 +34,8 @@ TEST_CASE(
       "mission 'components: {slc: {params: {roll_limit: 31 deg}}}'\n"
       "\"$F\" restart --seed 11\n"
       "\"$F\" param get slc.roll_limit slc.course_kp\n"
+      "\"$F\" list --json | grep -o '\"origin\":{[^}]*}'; \"$F\" list --json | grep -o "
+      "'\"seed\":\"[0-9]*\"'\n"
       "sed -i 's/31 deg/31 kg/' m.yaml\n"
       "\"$F\" restart\n"  // cannot be flown: what flew before flies
       "\"$F\" speed max; landed\n"
@@ -44,8 +46,10 @@ TEST_CASE(
   CAPTURE(r.out);
   CAPTURE(r.err);
   const auto holds = [&](const char* words) { return r.out.find(words) != std::string::npos; };
-  CHECK(holds(
-      "restart: accepted, a new flight has begun\nslc.roll_limit: 31 deg\nslc.course_kp: 2.1 rad/rad\n"));
+  CHECK(
+      holds("restart: accepted, a new flight has begun\nslc.roll_limit: 31 deg\nslc.course_kp: 2.1 rad/rad\n"
+            "\"origin\":{\"alt_msl_m\":1387.0,\"lat_deg\":40.2463724,\"lon_deg\":-111.6474138}\n\"seed\":"
+            "\"11\"\n"));
   CHECK(holds("\n0\nequal\nmine\nfresh.mcap\none-2.mcap\none-3.mcap\none-4.mcap\none.mcap\nwhole\n"));
   CHECK(holds("m: interrupted (ended for a new flight)"));
   CHECK(holds("31 kg"));

@@ -157,6 +157,10 @@ TEST_CASE_FIXTURE(Fixture, "the service answers from beside the hub, in JSON and
   const std::string& answer = peer.binaries.back();
   CHECK(answer[20] == 0);  // not accepted
   CHECK(answer.find("this flight has no mission file") != std::string::npos);
+  const std::size_t then = peer.binaries.size();
+  call("/fulmar/save", "cdr", "");  // what is no request is answered in the same form
+  REQUIRE(until([&] { return peer.binaries.size() > then; }));
+  CHECK(peer.binaries.back().ends_with(le(1) + std::string(4, '\0') + le(1) + std::string(1, '\0')));
 }
 
 }  // namespace saving_test

@@ -70,6 +70,7 @@ const std::vector<OwnCommand>& own_commands() {
       {"resume", "fulmar-live", "let a paused simulation go on"},
       {"step", "fulmar-live", "fly some ticks of a paused simulation"},
       {"speed", "fulmar-live", "how fast a simulation flies"},
+      {"restart", "fulmar-live", "end a simulation, and begin its mission anew in the same host"},
       {"completion", "fulmar-live", "print what completes words in a shell"},
       {"complete", "fulmar-live", ""}};  // asked by shells, in no help
   return list;

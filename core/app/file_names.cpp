@@ -36,9 +36,10 @@ LogName free_name(const fs::path& wanted) {
   return {file, true};
 }
 
-LogName default_log(const Graph& graph, const fs::path& folder) {
+LogName default_log(const Graph& graph, const fs::path& folder, bool another) {
   if (!graph.record_file.empty())
-    return graph.io == Io::fcu ? free_name(folder / graph.record_file) : LogName{folder / graph.record_file};
+    return graph.io == Io::fcu || another ? free_name(folder / graph.record_file)
+                                          : LogName{folder / graph.record_file};
   return free_name(
       folder / fmt::format("logs/{}-{:%Y%m%dT%H%M%SZ}.mcap", graph.mission, fmt::gmtime(std::time(nullptr))));
 }
@@ -51,14 +52,14 @@ void check_report(const std::string& wanted, const Graph& graph) {
 }
 
 fs::path report_name(const std::string& wanted, const fs::path& start, const fs::path& log, std::size_t nth,
-                     bool on_hardware) {
+                     bool another) {
   fs::path file = report_beside(log);
   if (!wanted.empty()) {
     file = (start / wanted).lexically_normal();
     if (nth > 1) file = numbered(file, nth);
   }
   std::error_code none;
-  if (!on_hardware && fs::exists(file, none))
+  if (!another && fs::exists(file, none))
     throw Error("'" + file.string() +
                 "' exists; a report never overwrites a file. Name another with --report FILE.html");
   const fs::path taken = file;

@@ -26,17 +26,17 @@ void make_folder_of(const std::filesystem::path& file);
 LogName free_name(const std::filesystem::path& wanted);
 
 /// logs/<mission>-<UTC>.mcap. A host that is started again in the air must not stand still before the log of
-/// its predecessor.
-LogName default_log(const Graph& graph, const std::filesystem::path& folder);
+/// its predecessor. `another`: a file that the mission names gets a number when it is taken, as on hardware.
+LogName default_log(const Graph& graph, const std::filesystem::path& folder, bool another);
 
 /// Throws Error where `fulmar run --report=wanted` cannot make one. `wanted`: "" is beside the log.
 void check_report(const std::string& wanted, const Graph& graph);
 
 /// The report of the nth flight of a host: the log's name with .html, or as wanted from the folder `start`. A
-/// file that is there is refused (Error), but on hardware, where nothing keeps the aircraft on the ground,
-/// gets a neighbour.
+/// file that is there is refused (Error), but with `another` it gets a neighbour: on hardware, where nothing
+/// keeps the aircraft on the ground, and of a flight that follows another in its host.
 std::filesystem::path report_name(const std::string& wanted, const std::filesystem::path& start,
-                                  const std::filesystem::path& log, std::size_t nth, bool on_hardware);
+                                  const std::filesystem::path& log, std::size_t nth, bool another);
 
 /// Makes it, and names it unless `quiet`. False: it was not made, which is told; what flew has flown.
 bool report_flight(const std::filesystem::path& file, const std::filesystem::path& log,

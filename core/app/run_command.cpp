@@ -129,6 +129,21 @@ class Session {
     graph_.overrides.seed = seed;
   }
 
+  /// Whether the last flight has made room for another one.
+  bool restarts() const { return restart_.has_value(); }
+  /// That other one: the mission as its files are now, on the same port.
+  std::optional<int> fly_anew() {
+    if (restart_->seed) seed_ = restart_->seed;
+    graph_.live.port = port_ = last_->live_port();
+    take_changes();
+    std::optional<int> code;
+    for (int attempt = 0; attempt < 2 && !code; ++attempt) {  // the second with what flew before
+      if (seed_) set_seed(*seed_);
+      code = try_fly();
+    }
+    return code;
+  }
+
   void print_spread() const { std::printf("%s", spread_table(results_).c_str()); }
 
   nlohmann::json results() const {
@@ -146,19 +161,21 @@ class Session {
   Graph load() const {
     Graph graph = load_mission(options_.mission, options_.overrides);
     if (!options_.live.empty()) {
-      const std::string token = graph.live.token;
-      graph.live = parse_live(options_.live);
-      graph.live.token = token;
+      const LiveOptions asked = parse_live(options_.live);
+      graph.live.on = asked.on, graph.live.host = asked.host, graph.live.port = asked.port;
+      graph.live.where = asked.where;
     }
     if (const char* token = std::getenv("FULMAR_TOKEN"); token && *token) graph.live.token = token;
+    if (port_ != 0) graph.live.port = port_;
     return graph;
   }
 
   /// A name that stays what it is, whatever folder a plugin goes to.
   LogName log_name() const {
     if (options_.no_log || !graph_.record) return {};
-    if (options_.log_file.empty()) return default_log(graph_, start_);
+    if (options_.log_file.empty()) return default_log(graph_, start_, restarts());
     const fs::path file = (start_ / options_.log_file).lexically_normal();
+    if (restarts()) return free_name(file);
     if (results_.empty()) return graph_.io == Io::fcu ? free_name(file) : LogName{file};
     return {numbered(file, results_.size() + 1)};
   }
@@ -232,6 +249,9 @@ class Session {
     o.duration_s = options_.duration_s;
     o.drivers_from = options_.drivers_from;
     o.resume = resume();
+    o.no_restart = options_.repeat > 0       ? "this is one of the flights of --repeat"
+                   : !options_.seeds.empty() ? "this is one of the flights of --seeds"
+                                             : "";
     o.keep_inputs = options_.watch || graph_.io == Io::fcu;
     const LogName log = log_name();
     const std::shared_ptr<void> name(nullptr, [&](void*) {  // a flight that cannot begin leaves no file
@@ -241,7 +261,8 @@ class Session {
     o.log = !o.log_file.empty();
     fs::path report;
     if (options_.report && o.log)
-      report = report_name(*options_.report, start_, o.log_file, results_.size() + 1, graph_.io == Io::fcu);
+      report = report_name(*options_.report, start_, o.log_file, results_.size() + 1,
+                           graph_.io == Io::fcu || restarts());
     make_folder_of(o.log_file);
     o.interrupt = &signal_seen;
     const bool many = !options_.seeds.empty();  // of those only what is worth a warning
@@ -263,12 +284,14 @@ class Session {
     tell_log(o.log_file);
     tell_onlookers();
     const FlightResult result = last_->run();
+    const bool alone = restarts() || last_->restart();  // a flight cut short compares with none
+    restart_ = last_->restart();
     under_way.reset();
     alarm(0);
     progress.clear();
     pass_on_words();
     results_.push_back(result_json(graph_, *last_, result));
-    if (!options_.json) print(result);
+    if (!options_.json) print(result, alone);
     const int code = code_of(result);
     return !report.empty() && !report_flight(report, result.log.file, results_.back(), options_.json)
                ? std::max<int>(code, ExitCode::failed)
@@ -276,10 +299,10 @@ class Session {
   }
 
   /// The last flight, in a line when there are many.
-  void print(const FlightResult& result) const {
+  void print(const FlightResult& result, bool alone) const {
     std::string text =
         options_.seeds.empty() ? result_table(graph_, *last_, result) : short_result(results_.back()) + "\n";
-    if (options_.seeds.empty() && results_.size() > 1)
+    if (options_.seeds.empty() && results_.size() > 1 && !alone)
       text += comparison(results_[results_.size() - 2], results_.back());
     std::printf("%s", text.c_str());
     std::fflush(stdout);
@@ -294,10 +317,13 @@ class Session {
     else if (result.log.dropped > 0)
       warn("the log has gaps: the disk was too slow for " + std::to_string(result.log.dropped) + " messages");
     if (!whole) return ExitCode::failed;  // however the flight ended
+    if (restarts()) return guarded(result) ? ExitCode::guarded : ExitCode::done;
     if (result.outcome == Outcome::interrupted) return ExitCode::interrupted;
     if (result.outcome == Outcome::failed || !has_begun(result)) return ExitCode::failed;
-    return options_.strict && !result.guards.empty() ? ExitCode::guarded : ExitCode::done;
+    return guarded(result) ? ExitCode::guarded : ExitCode::done;
   }
+
+  bool guarded(const FlightResult& result) const { return options_.strict && !result.guards.empty(); }
 
   std::vector<fs::path> files() const {
     std::vector<fs::path> all = graph_.files;
@@ -352,11 +378,14 @@ class Session {
   }
 
   const RunOptions& options_;
-  const fs::path start_;  // the working directory in which the program was started
+  const fs::path start_;    // the working directory in which the program was started
+  std::uint16_t port_ = 0;  // where a flight listened that has made room for another; 0: none has
   Graph graph_;
   std::unique_ptr<Graph> before_;  // until a flight with the newcomers has begun
   std::unique_ptr<Flight> last_;   // what its components saw is what a newcomer is rehearsed on
   std::vector<nlohmann::json> results_;
+  std::optional<Restart> restart_;     // asked of the last flight
+  std::optional<std::uint64_t> seed_;  // asked for with one
   std::unique_ptr<FileStamps> stamps_, sources_;
 };
 
@@ -411,8 +440,9 @@ int run_command(const RunOptions& options) {
   const int flights = options.seeds.empty() ? options.repeat : static_cast<int>(options.seeds.size());
   for (int flight = 1;; ++flight) {
     if (!options.seeds.empty()) session.set_seed(options.seeds[static_cast<std::size_t>(flight - 1)]);
-    const std::optional<int> code = session.try_fly();
+    const std::optional<int> code = session.restarts() ? session.fly_anew() : session.try_fly();
     worst = worse(worst, code.value_or(ExitCode::failed));
+    if (session.restarts()) continue;
     if (code == ExitCode::interrupted || (flights > 0 ? flight >= flights : !options.watch)) break;
     if (flights > 0)
       options.watch ? session.take_changes() : void();

@@ -162,8 +162,13 @@ struct LiveOptions {
   std::string host = "127.0.0.1";
   std::uint16_t port = 8765;  // 0: any that is free
   std::string token;          // that a client has to show; needed for hosts other than loopback
+  std::string tiles;  // "https://tile.example.org/{z}/{x}/{y}.png", drawn beneath the page's map; "": none
+  std::optional<bool> save;  // whether clients may write files; unset: those of this computer alone may
+  std::string attribution;   // whose they are, as they want to be named
   Where where;
 };
+/// "https://tile.example.org/{z}/{x}/{y}.png" -> "https://tile.example.org"; "" -> "".
+std::string origin_of(const std::string& tiles);
 
 /// `dds:` of the mission.
 struct DdsOptions {

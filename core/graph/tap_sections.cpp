@@ -39,6 +39,32 @@ bool split_address(const std::string& text, LiveOptions& live) {
   return is_address(host);
 }
 
+/// The address becomes a part of a header, and a pattern: of the host only what no other part of the header
+/// could begin with, and each place of the pattern once.
+bool is_tiles(const std::string& url) {
+  constexpr const char* of_host = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-.";
+  const std::string origin = origin_of(url);
+  if (!origin.starts_with("http://") && !origin.starts_with("https://")) return false;
+  std::string host = origin.substr(origin.find("://") + 3);
+  if (const auto colon = host.find(':'); colon != std::string::npos) {
+    std::uint16_t port = 0;
+    const char* const last = host.data() + host.size();
+    const auto [end, code] = std::from_chars(host.data() + colon + 1, last, port);
+    if (code != std::errc{} || end != last || port == 0) return false;
+    host.resize(colon);
+  }
+  if (host.empty() || host.find_first_not_of(of_host) != std::string::npos) return false;
+  std::string path = url.substr(origin.size());
+  for (const std::string place : {"{z}", "{x}", "{y}"}) {
+    const auto at = path.find(place);
+    if (at == std::string::npos) return false;
+    path.erase(at, place.size());
+  }
+  return std::all_of(path.begin(), path.end(), [](char c) {
+    return c > ' ' && c < 0x7f && std::string_view("\"'`;,<>\\{}#").find(c) == std::string_view::npos;
+  });
+}
+
 bool is_topic(const std::string& text, bool namespaces) {
   if (text.empty() || text.back() == '/') return false;
   std::size_t at = text[0] == '/' ? 1 : 0;
@@ -154,15 +180,33 @@ const Node* section(const Keys& mission, const std::string& key, const std::stri
 }  // namespace
 
 void read_live(const Keys& mission, MissionText& text, Report& report) {
-  const Node* node = section(mission, "live", "'off' or a map {listen, token}", report);
+  const Node* node =
+      section(mission, "live", "'off' or a map {listen, token, tiles, attribution, save}", report);
   if (!node) return;
-  const Keys keys(*node, "live", {"listen", "token"}, report);
+  const Keys keys(*node, "live", {"listen", "token", "tiles", "attribution", "save"}, report);
   text.live.on = true;
   text.live.where = node->where();
   if (const auto listen = keys.text("listen"); listen && !split_address(*listen, text.live))
     report.add(keys.where("listen"),
                "live.listen: expected an address and a port such as 127.0.0.1:8765, found '" + *listen + "'");
   text.live.token = keys.text("token").value_or("");
+  text.live.tiles = keys.text("tiles").value_or("");
+  text.live.attribution = keys.text("attribution").value_or("");
+  if (keys.has("tiles") && !is_tiles(text.live.tiles))
+    report.add(
+        keys.where("tiles"),
+        "live.tiles: expected http:// or https://, a host, and a path with {z}, {x} and {y} once each and "
+        "without blanks, quotes, commas and semicolons, such as https://tile.example.org/{z}/{x}/{y}.png, "
+        "found '" +
+            text.live.tiles + "'");
+  text.live.save = keys.flag("save");
+  if (!text.live.attribution.empty() && text.live.tiles.empty())
+    report.add(keys.where("attribution"), "live.attribution: names whose live.tiles are, and there are none");
+}
+
+std::string origin_of(const std::string& tiles) {
+  const std::size_t host = tiles.find("://");
+  return host == std::string::npos ? "" : tiles.substr(0, tiles.find('/', host + 3));
 }
 
 LiveOptions parse_live(const std::string& listen) {

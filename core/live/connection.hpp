@@ -73,6 +73,7 @@ struct Context {
   Hub& hub;
   Counters& counters;
   Pages pages;                   // GET /
+  std::string policy;            // of the page's files
   std::string table;             // GET /topics, and GET / where there is no page
   std::function<void()> joined;  // a client has come
   std::set<Connection*> connections;
@@ -198,7 +199,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
       return respond(405, "Only GET and HEAD are answered.");
     if (topics) return respond(200, context_.table);
     const bool small = !file->gzipped.empty() && takes_gzip(field(http::field::accept_encoding));
-    send_answer(200, file->type, page_policy, small ? file->gzipped : file->body,
+    send_answer(200, file->type, context_.policy, small ? file->gzipped : file->body,
                 small ? "Content-Encoding: gzip\r\n" : "");
   }
 

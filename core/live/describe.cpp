@@ -42,6 +42,7 @@ Form form_of(const Service& service) {
   Form form{std::string("fulmar_msgs/srv/") + service.word, "", "", answer_text};
   form.request_name = form.type + "_Request";
   for (const std::string& argument : service.arguments) form.request += "string " + argument + "\n";
+  if (service.what == Service::What::save) form.response += "string lines\nstring mark\n";
   if (service.what == Service::What::view) form.response = "string json\n";
   return form;
 }
@@ -183,6 +184,8 @@ std::vector<Service> services_of(const FlightView& view) {
       {What::resume, "/fulmar/resume", "Resume"},
       {What::step, "/fulmar/step", "Step", {"ticks"}},
       {What::speed, "/fulmar/speed", "Speed", {"speed"}},
+      {What::restart, "/fulmar/restart", "Restart", {"seed"}},
+      {What::save, "/fulmar/save", "Save", {"component", "mark"}},
       {What::view, "/fulmar/view", "View"}};
   for (const ComponentView& c : view.components)
     for (const PortView& p : c.inputs)
@@ -246,10 +249,28 @@ json connection_graph(const FlightView& view, const Tap& tap, const std::vector<
 json view_json(const FlightView& view, const Tap& tap) {
   json components = json::array();
   for (const ComponentView& c : view.components) components.push_back(component_json(c, tap));
-  return {{"mission", view.mission},   {"file", view.file},     {"io", view.io},
-          {"phase", view.phase},       {"phases", view.phases}, {"now_ns", view.now_ns},
-          {"epoch_ns", view.epoch_ns}, {"armed", view.armed},   {"over", view.over},
-          {"paused", view.paused},     {"speed", view.speed},   {"components", components}};
+  json origin;
+  if (view.origin)
+    origin = {{"lat_deg", view.origin->lat_deg},
+              {"lon_deg", view.origin->lon_deg},
+              {"alt_msl_m", view.origin->alt_msl_m}};
+  return {{"origin", origin},
+          {"tiles", view.tiles},
+          {"attribution", view.attribution},
+          {"no_save", view.no_save},
+          {"mission", view.mission},
+          {"file", view.file},
+          {"io", view.io},
+          {"phase", view.phase},
+          {"phases", view.phases},
+          {"now_ns", view.now_ns},
+          {"epoch_ns", view.epoch_ns},
+          {"armed", view.armed},
+          {"over", view.over},
+          {"paused", view.paused},
+          {"speed", view.speed},
+          {"seed", std::to_string(view.seed)},
+          {"components", components}};
 }
 
 json parameter_json(const std::string& name, const ParameterView& parameter) {

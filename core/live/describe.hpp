@@ -3,7 +3,8 @@
 // view as JSON.
 //
 // The view, answer of the service /fulmar/view:
-//   {mission, file, io, phase, phases: [..], now_ns, epoch_ns, armed, over, paused, speed,
+//   {mission, file, io, phase, phases: [..], now_ns, epoch_ns, armed, over, paused, speed, seed,
+//    origin: {lat_deg, lon_deg, alt_msl_m} or null, tiles, attribution, no_save,
 //    components: [
 //     {name, use, role, doc, run, swapped, active, stopped, steps, step_us, step_max_us, budget_us,
 //      params: [{name, kind, unit, doc, value, text, initial, min, max, choices, live, required, overlaid,
@@ -11,8 +12,9 @@
 //      inputs: [{name, type, source, request, imported, topic}],
 //      outputs: [{name, type, topic}]}]}
 // `value` is in the parameter's unit, `text` as people write it ("0.55 rad/rad"); `type` is a ROS 2 name, ""
-// for a probe; `topic` is that of the channel, of the service for a request, or that an imported input is
-// published on. `step_us` is the mean since the start, by the clock on the wall; `budget_us` 0: none.
+// for a probe; `seed` is a text, as JavaScript's numbers have 53 bits; `topic` is that of the channel, of the
+// service for a request, or that an imported input is published on. `step_us` is the mean since the start, by
+// the clock on the wall; `budget_us` 0: none.
 #pragma once
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -37,6 +39,8 @@ struct Service {
     resume,
     step,
     speed,
+    restart,
+    save,
     view
   };
   What what = What::request;

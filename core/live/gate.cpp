@@ -71,6 +71,14 @@ bool origin_is_ours(const Caller& caller) {
 
 }  // namespace
 
+std::string why_no_save(const LiveOptions& options) {
+  if (options.save.value_or(is_loopback(lower(options.host)))) return "";
+  return options.save ? "the mission says live: {save: off}"
+                      : options.host +
+                            " can be reached from other computers, and the mission does not say live: "
+                            "{save: on}";
+}
+
 void check_options(const LiveOptions& options) {
   if (!options.token.empty() || is_loopback(lower(options.host))) return;
   throw Error("live.listen: " + options.host +

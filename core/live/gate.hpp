@@ -28,6 +28,9 @@ struct Verdict {
 
 /// Throws Error when others can reach the address and there is no token.
 void check_options(const LiveOptions& options);
+/// Why clients may not have parameters written into files; "": they may. Beyond this computer the mission has
+/// to say so.
+std::string why_no_save(const LiveOptions& options);
 Verdict admit(const LiveOptions& options, const Caller& caller);
 
 /// "/view?token=a" -> "/view".

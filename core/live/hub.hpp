@@ -20,6 +20,7 @@
 
 #include "core/inbox.hpp"
 #include "core/live/describe.hpp"
+#include "core/live/saving.hpp"
 #include "core/live/server.hpp"
 #include "core/tap/control.hpp"
 #include "core/tap/tap.hpp"
@@ -118,6 +119,8 @@ class Hub {
   void call(Client& client, const Service& service, std::uint32_t service_id, std::uint32_t call_id,
             bool as_json, std::string_view payload);
   void call_request(const Service& service, bool as_json, std::string_view payload, Control::Answer answer);
+  void call_save(Client& client, const std::vector<std::string>& texts,
+                 std::function<void(const std::string&)> reply, bool as_json);
   void call_host(const Service& service, const std::vector<std::string>& texts, Control::Answer answer);
   void set_one(Client& asker, const std::shared_ptr<Pending>& pending, const json& parameter);
 
@@ -167,6 +170,7 @@ class Hub {
   ClientId next_id_ = 1;
   std::vector<std::shared_ptr<Pending>> replies_;  // sets whose every answer is there
   std::set<std::string> changed_;                  // parameters
+  Saving saving_;
 };
 
 }  // namespace fulmar::core::live

@@ -13,11 +13,11 @@ using nlohmann::json;
 constexpr std::size_t data_head = 1 + 4, call_head = 1 + 4 + 4 + 4;
 constexpr char op_answer = 3;
 
-/// XCDR1 of {bool accepted, string reason}, or of {string text}.
-std::string cdr_answer(std::optional<bool> accepted, std::string_view text) {
+/// XCDR1 of {bool accepted, string reason, ...}, or of {string text}.
+std::string cdr_answer(std::optional<bool> accepted, std::initializer_list<std::string_view> texts) {
   CdrOut out;
   if (accepted) out.flag(*accepted);
-  out.text(text);
+  for (const std::string_view text : texts) out.text(text);
   const std::vector<std::byte> bytes = out.take();
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -131,12 +131,14 @@ void Hub::call(Client& client, const Service& service, std::uint32_t service_id,
   };
   if (service.what == Service::What::view) {
     const std::string text = dumped(view_json(view(), tap_));
-    return reply(as_json ? text : cdr_answer(std::nullopt, text));
+    return reply(as_json ? text : cdr_answer(std::nullopt, {text}));
   }
-  const auto done = [this, reply, as_json, id = client.id](const std::string& refusal) {
+  const bool saves = service.what == Service::What::save;
+  const auto done = [this, reply, as_json, saves, id = client.id](const std::string& refusal) {
     if (Client* caller = find(id)) --caller->unanswered;
+    if (saves && !as_json) return reply(cdr_answer(refusal.empty(), {refusal, "", ""}));
     reply(as_json ? dumped({{"accepted", refusal.empty()}, {"reason", refusal}})
-                  : cdr_answer(refusal.empty(), refusal));
+                  : cdr_answer(refusal.empty(), {refusal}));
   };
   const Control::Answer answer = [mailbox = mailbox_, done](const std::string& refusal) {
     mailbox->put([done, refusal] { done(refusal); });
@@ -144,6 +146,8 @@ void Hub::call(Client& client, const Service& service, std::uint32_t service_id,
   ++client.unanswered;
   try {
     if (as_json) check_json(payload);
+    if (service.what == Service::What::save)
+      return call_save(client, arguments(service, as_json, payload), reply, as_json);
     if (service.what == Service::What::request) return call_request(service, as_json, payload, answer);
     call_host(service, arguments(service, as_json, payload), answer);
   } catch (const Error& e) {
@@ -160,6 +164,23 @@ void Hub::call_request(const Service& service, bool as_json, std::string_view pa
                    std::move(answer));
 }
 
+void Hub::call_save(Client& client, const std::vector<std::string>& texts,
+                    std::function<void(const std::string&)> reply, bool as_json) {
+  saving_.begin(
+      view(), texts[0], texts[1],
+      [this, mailbox = mailbox_, id = client.id, reply = std::move(reply), as_json](const SaveAnswer& a) {
+        const std::string text =
+            as_json
+                ? dumped(
+                      {{"accepted", a.accepted}, {"reason", a.reason}, {"lines", a.lines}, {"mark", a.mark}})
+                : cdr_answer(a.accepted, {a.reason, a.lines, a.mark});
+        mailbox->put([this, id, reply, text] {
+          if (Client* caller = find(id)) --caller->unanswered;
+          reply(text);
+        });
+      });
+}
+
 void Hub::call_host(const Service& service, const std::vector<std::string>& texts, Control::Answer answer) {
   switch (service.what) {
     case Service::What::set_parameter:
@@ -171,7 +192,9 @@ void Hub::call_host(const Service& service, const std::vector<std::string>& text
     case Service::What::resume: return control_.pace({PaceOrder::What::resume}, std::move(answer));
     case Service::What::step: return control_.pace(step_order(texts[0]), std::move(answer));
     case Service::What::speed: return control_.pace(speed_order(texts[0]), std::move(answer));
+    case Service::What::restart: return control_.pace(restart_order(texts[0]), std::move(answer));
     case Service::What::request:
+    case Service::What::save:
     case Service::What::view: break;
   }
 }

@@ -52,6 +52,13 @@ const PageFile* Pages::find(std::string_view path) const {
   return at == files_.end() ? nullptr : &at->second;
 }
 
+std::string page_policy(const std::string& images) {
+  return "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data:" +
+         (images.empty() ? images : " " + images) +
+         "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; require-trusted-types-for 'script'; "
+         "trusted-types 'none'";
+}
+
 bool takes_gzip(std::string_view accept_encoding) {
   while (!accept_encoding.empty()) {
     const std::string_view one = accept_encoding.substr(0, accept_encoding.find(','));

@@ -31,12 +31,10 @@ class Pages {
   std::map<std::string, PageFile, std::less<>> files_;  // by path: "/page.js"
 };
 
-/// What a browser may do with a file of the page: load the others, speak to where it came from, and nothing
-/// else; no script but these files, and no text becomes HTML.
-inline constexpr std::string_view page_policy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data:; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'; require-trusted-types-for 'script'; "
-    "trusted-types 'none'";
+/// What a browser may do with a file of the page: load the others, speak to where it came from, show images
+/// of one other place where the mission names one ("https://tile.example.org"), and nothing else; no script
+/// but these files, and no text becomes HTML.
+std::string page_policy(const std::string& images);
 
 /// Whether "gzip, deflate, br" takes gzip; "gzip;q=0" does not.
 bool takes_gzip(std::string_view accept_encoding);

@@ -51,6 +51,7 @@ struct LiveServer::Impl {
                 hub,
                 counters,
                 live::Pages(folder),
+                live::page_policy(origin_of(options.tiles)),
                 live::topics_page(hub.mission(), tap),
                 [this] { pump(); },
                 {}} {

@@ -27,6 +27,8 @@ FlightResult Flight::run() {
 bool Flight::step() { return impl_->step(); }
 FlightResult Flight::finish() { return impl_->finish(); }
 
+const std::optional<Restart>& Flight::restart() const { return impl_->state.restart; }
+
 // ---- to look at
 
 Control* Flight::control() const { return impl_->onlookers.control.get(); }

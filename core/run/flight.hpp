@@ -34,6 +34,14 @@ struct FlightOptions {
   std::function<void(const class Flight&)> progress;  // called about every 200 ms of wall time, between ticks
   std::function<void(const std::string&, bool warning)>
       say;  // one line for the user, as it happens: phases, guards
+  /// Why the flight cannot be asked to make room for another one of its mission; "": it can, and its owner
+  /// begins that one when the result says so.
+  std::string no_restart = "who began this flight begins no other";
+};
+
+/// The flight has made room for another one of its mission.
+struct Restart {
+  std::optional<std::uint64_t> seed;  // none: as before
 };
 
 struct PhaseVisit {
@@ -90,6 +98,9 @@ class Flight {
   /// Or tick by tick: one tick, paced as the options say; false when the flight is over. Then `finish`, once.
   bool step();
   FlightResult finish();
+
+  /// Whether it ended to make room for another one of its mission.
+  const std::optional<Restart>& restart() const;
 
   // For those who look at a flight: between ticks, from the loop's thread.
   std::int64_t now_ns() const;

@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/record.hpp"
+#include "core/run/flight_directory.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/types/named.hpp"
 #include "fulmar/quiet_thread.hpp"
@@ -37,73 +37,6 @@ struct FlightControl::Waiting {
   std::string fault;                           // of the host: all of it
   std::shared_ptr<const Directory> directory;  // after a swap
 };
-
-/// What there is to see and to command; changes with a swap alone.
-struct FlightControl::Directory {
-  FlightView view;
-  std::shared_ptr<const CommandTable> commands;
-  std::vector<std::vector<std::pair<std::size_t, std::size_t>>>
-      overlaid;  // per phase: component and parameter
-
-  explicit Directory(const Flight::Impl& flight);
-};
-
-namespace {
-
-std::string source_name(const Graph& graph, const Wire& wire) {
-  if (wire.from.kind == Source::Kind::none) return "";
-  const auto index = static_cast<std::size_t>(wire.from.index),
-             output = static_cast<std::size_t>(wire.from.output);
-  if (wire.from.kind == Source::Kind::role)
-    return graph.roles[index].name + "." + graph.roles[index].outputs[output].name;
-  const Component& c = graph.components[index];
-  return c.name + "." + c.info().outputs[output].name;
-}
-
-ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
-  static constexpr const char* modes[] = {"tick", "process", "async", "driver"};
-  const Component& c = *unit.component;
-  ComponentView v;
-  v.name = c.name, v.use = c.use, v.doc = c.info().doc, v.run = modes[static_cast<std::size_t>(c.run)];
-  v.budget_us = 1e-3 * static_cast<double>(c.budget_ns);
-  for (const int role : c.roles)
-    v.role += (v.role.empty() ? "" : ", ") + nth(flight.state.graph.roles, role).name;
-  for (std::size_t i = 0; i < c.info().params.size(); ++i)
-    v.params.push_back({c.info().params[i], unit.base[i], false});
-  for (std::size_t i = 0; i < unit.in.readers.size(); ++i) {
-    const Reader& r = unit.in.readers[i];
-    PortView port{r.port->name, r.port->type, source_name(flight.state.graph, c.wires[i])};
-    port.request = r.port->kind == FULMAR_IN_REQUEST;
-    port.imported = c.wires[i].import >= 0;
-    port.channel = r.channel;
-    v.inputs.push_back(std::move(port));
-  }
-  for (const Slot& s : unit.out.slots) {
-    PortView port{s.port->name, s.port->type, ""};
-    port.channel = static_cast<int>(s.port->type ? s.log.channel : unit.out.probes.log.channel);
-    v.outputs.push_back(std::move(port));
-  }
-  return v;
-}
-
-}  // namespace
-
-FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(flight.commands) {
-  if (!flight.state.graph.file.empty())
-    view.file = std::filesystem::absolute(flight.state.graph.file).string();
-  view.mission = flight.state.graph.mission, view.io = io_word(flight.state.graph.io),
-  view.epoch_ns = flight.state.graph.epoch_ns;
-  for (const Phase& p : flight.state.graph.phases) {
-    view.phases.push_back(p.name);
-    overlaid.emplace_back();
-    for (const Assignment& a : p.roles)
-      for (const Overlay& o : a.set)
-        overlaid.back().emplace_back(static_cast<std::size_t>(a.component),
-                                     static_cast<std::size_t>(o.param));
-  }
-  for (const auto& unit : flight.wiring.units) view.components.push_back(view_of(flight, *unit));
-  for (const auto& [component, words] : flight.swapped) nth(view.components, component).swapped = words;
-}
 
 FlightControl::FlightControl(Flight::Impl& flight)
     : flight_(flight),
@@ -242,6 +175,12 @@ bool FlightControl::apply_pace(Waiting& w) {
       if (!clock_.paused) return refuse(w, "the flight is not paused: nothing to step");
       if (clock_.stepper) return refuse(w, "other ticks are being flown; ask again");
       clock_.left = order.ticks, clock_.stepper = &w;
+      return true;
+    case What::restart:
+      end_steps();
+      flight_.state.restart = Restart{order.seed};
+      flight_.end.end_by(Ending::Cue::abandoned);
+      done(w);
       return true;
     case What::speed:
       flight_.state.options.speed = order.speed;
@@ -433,9 +372,12 @@ void FlightControl::pace(const PaceOrder& order, Answer answer) {
   const bool stops = order.what == What::pause || order.what == What::resume;
   if (flight_.state.on_hardware())
     throw Error(std::string("this flight is on hardware, io: fcu: ") +
-                (stops                      ? "an aircraft cannot be paused"
-                 : order.what == What::step ? "an aircraft cannot be stepped"
-                                            : "its time has no speed but that of the clock"));
+                (stops                         ? "an aircraft cannot be paused"
+                 : order.what == What::step    ? "an aircraft cannot be stepped"
+                 : order.what == What::restart ? "an aircraft cannot be put back to where it began"
+                                               : "its time has no speed but that of the clock"));
+  if (order.what == What::restart && !flight_.state.options.no_restart.empty())
+    throw Error("no new flight: " + flight_.state.options.no_restart);
   auto waiting = std::make_unique<Waiting>();
   waiting->pace = order, waiting->answer = std::move(answer);
   enqueue(std::move(waiting));

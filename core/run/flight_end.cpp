@@ -94,7 +94,7 @@ std::string FlightEnd::reason_text() const {
     case Ending::Reason::signal: return "by a signal";
     case Ending::Reason::vehicle_failed:
       return "the vehicle failed: " + std::string(wiring_.vehicle().problem.text);
-    case Ending::Reason::abandoned: return "ended by its owner";
+    case Ending::Reason::abandoned: return state_.restart ? "ended for a new flight" : "ended by its owner";
   }
   return "";
 }

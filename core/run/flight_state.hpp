@@ -18,6 +18,7 @@ struct FlightState {
   std::int64_t now_ns = 0;
   std::uint64_t index = 0;  // of the tick
   FlightResult result;
+  std::optional<Restart> restart{};  // another flight is wanted in this one's place
 
   bool on_hardware() const noexcept { return graph.io == Io::fcu; }
   /// Nobody waits for the clock on the wall, and nothing is judged by it.

@@ -94,6 +94,7 @@ bool Flight::Impl::step() {
   const bool counted = !onlookers.control || first || onlookers.control->apply();
   const std::uint64_t entered = counted ? thread_allocations() - entering : 0;
   if (onlookers.control && onlookers.control->stands() && !stand_still()) return false;
+  if (end.over()) return false;  // to make room for another
   if (first && state.on_hardware()) stay_on_one_cpu();
   if (first) stopwatch.begin();
   const std::uint64_t before = thread_allocations();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ struct ComponentView {
   std::vector<ParameterView> params;
   std::vector<PortView> inputs, outputs;
 };
+struct Geodetic {
+  double lat_deg = 0, lon_deg = 0, alt_msl_m = 0;
+};
 struct FlightView {
   std::string mission, io, phase;
   std::vector<std::string> phases;
@@ -46,6 +50,11 @@ struct FlightView {
   double speed = 1;  // times real time; 0: as fast as the machine allows
   std::vector<ComponentView> components;
   std::string file;  // of the mission
+  std::uint64_t seed = 0;
+  std::optional<Geodetic> origin;  // of the local frame, where the mission says it
+  std::string tiles, attribution;  // LiveOptions
+  std::string no_save;             // why no client may write files; "": each may
+  std::vector<std::string> set;    // parameters that the command line has set, "slc.roll_kp"
 };
 
 /// The parameter "slc.roll_kp", or nullptr.
@@ -92,7 +101,8 @@ class Control {
   virtual void enter_phase(const std::string& phase, Answer answer) = 0;
   virtual void swap(const std::string& component, const std::string& file, Answer answer) = 0;
   virtual void reset_guards(Answer answer) = 0;
-  /// Steps are answered when the last one has been flown. Throws Error on hardware.
+  /// Steps are answered when the last one has been flown. Throws Error on hardware, and of a restart where
+  /// nobody would begin another flight.
   virtual void pace(const PaceOrder& order, Answer answer) = 0;
 
   /// Called from a thread of the control's after each change that the loop has made: (component, parameter).

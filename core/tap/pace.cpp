@@ -47,4 +47,15 @@ PaceOrder speed_order(const std::string& speed) {
   return {PaceOrder::What::speed, 0, *number};
 }
 
+PaceOrder restart_order(const std::string& seed) {
+  PaceOrder order{PaceOrder::What::restart};
+  if (seed.empty()) return order;
+  std::uint64_t n = 0;
+  const auto [end, code] = std::from_chars(seed.data(), seed.data() + seed.size(), n);
+  if (code != std::errc{} || end != seed.data() + seed.size())
+    throw Error("seed '" + seed + "': give a whole number from 0 to 18446744073709551615");
+  order.seed = n;
+  return order;
+}
+
 }  // namespace fulmar::core

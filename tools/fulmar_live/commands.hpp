@@ -63,5 +63,7 @@ int resume_command(const LiveAddress& target);
 /// Ends when the last of the ticks has been flown.
 int step_command(const LiveAddress& target, const std::string& ticks);
 int speed_command(const LiveAddress& target, const std::string& speed);
+/// Ends when the new flight is there. `seed`: "" is that of the flight that ends.
+int restart_command(const LiveAddress& target, const std::string& seed);
 
 }  // namespace fulmar::core

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar pause | resume | step | speed`: the clock of a simulation.
+// `fulmar pause | resume | step | speed | restart`: the clock of a simulation.
 #include "core/tap/pace.hpp"
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/session.hpp"
@@ -31,6 +32,19 @@ void check(const auto& parse, const std::string& text) {
   }
 }
 
+/// Whether another flight than `old` listens there within the time that a mission takes to be set up.
+bool another_comes(const LiveAddress& target, const std::string& old) {
+  constexpr auto patience = std::chrono::seconds(20);
+  for (const auto end = std::chrono::steady_clock::now() + patience; std::chrono::steady_clock::now() < end;
+       std::this_thread::sleep_for(std::chrono::milliseconds(50))) {
+    try {
+      if (Session(target).id() != old) return true;
+    } catch (const Error&) {  // nobody listens in between
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 int pause_command(const LiveAddress& target) {
@@ -54,6 +68,18 @@ int speed_command(const LiveAddress& target, const std::string& speed) {
   check(speed_order, speed);
   Session session(target);
   return order(session, "/fulmar/speed", {{"speed", speed}}, "speed " + speed);
+}
+
+int restart_command(const LiveAddress& target, const std::string& seed) {
+  check(restart_order, seed);
+  Session session(target);
+  const std::string old = session.id();
+  const auto [accepted, reason] = session.order("/fulmar/restart", {{"seed", seed}});
+  if (!accepted) return std::fprintf(stderr, "restart: refused: %s\n", reason.c_str()), 1;
+  if (!another_comes(target, old))
+    throw Error("restart: accepted, but no new flight listens on " + target.text() +
+                "; the terminal of the flight says why");
+  return std::printf("restart: accepted, a new flight has begun\n"), 0;
 }
 
 }  // namespace fulmar::core

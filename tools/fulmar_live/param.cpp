@@ -6,9 +6,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "core/graph/mission.hpp"
+#include "core/graph/param_file.hpp"
 #include "tools/fulmar_live/commands.hpp"
-#include "tools/fulmar_live/param_file.hpp"
 #include "tools/fulmar_live/parameters.hpp"
 #include "tools/fulmar_live/session.hpp"
 #include "tools/fulmar_live/table.hpp"
@@ -122,10 +121,7 @@ std::filesystem::path mission_file(const json& view, const std::string& given) {
   if (file.empty()) throw Error("the flight does not say which file its mission is: give it with --mission");
   if (!std::filesystem::exists(file))
     throw Error("there is no file " + file + " here: give the mission's with --mission");
-  Report report;  // faults are told when it is written
-  const std::string name = parse_mission(file, {}, report).mission, flies = view.value("mission", "");
-  if (name != flies)
-    throw Error(file + " is the mission '" + name + "', but '" + flies + "' flies: nothing was written");
+  check_mission_name(file, view.value("mission", ""));
   return file;
 }
 

@@ -256,6 +256,10 @@ struct RemoteCommands::Impl {
     speed->add_option("SPEED", name, "of 0.01 to 1e6; a paused simulation goes on")
         ->required()
         ->type_name("");
+    CLI::App* restart = add(app, "restart", "end a simulation, and begin its mission anew in the same host",
+                            "restart --seed 3", [this] { return restart_command(target(), name); });
+    restart->add_option("--seed", name, "of the new flight; default that of the one that ends")
+        ->type_name("NUMBER");
   }
 
   void completion() {

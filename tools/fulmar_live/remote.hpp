@@ -13,7 +13,7 @@ namespace fulmar::core {
 
 class RemoteCommands {
  public:
-  /// Adds list, watch, echo, plot, view, param, call, phase, swap, reset, pause, resume, step, speed
+  /// Adds list, watch, echo, plot, view, param, call, phase, swap, reset, pause, resume, step, speed, restart
   /// and completion.
   /// `programs`: further commands, which are programs of their own; for shells.
   RemoteCommands(CLI::App& app, std::vector<std::string> programs);

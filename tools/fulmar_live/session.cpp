@@ -72,7 +72,9 @@ void Session::handle_text(const std::string& text) {
   const json message = tamed(text);
   if (!message.is_object()) return;
   const std::string op = text_of(message, "op");
-  if (op == "advertise") {
+  if (op == "serverInfo") {
+    id_ = text_of(message, "sessionId");
+  } else if (op == "advertise") {
     for (const json& c : list_of(message, "channels"))
       channels_[text_of(c, "topic")] = {number_of(c, "id"), text_of(c, "topic"), text_of(c, "schemaName"),
                                         text_of(c, "schema"), text_of(c, "encoding")};
@@ -197,6 +199,11 @@ json Session::view() {
   json answer = call("/fulmar/view", json::object());
   if (!answer.is_object()) throw Error("the flight on " + at_ + " does not say what it is");
   return answer;
+}
+
+const std::string& Session::id() {
+  pump_until([this] { return !id_.empty(); }, "greeting");
+  return id_;
 }
 
 std::int64_t Session::epoch_ns() { return view().value("epoch_ns", std::int64_t{0}); }

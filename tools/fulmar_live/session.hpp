@@ -42,7 +42,9 @@ class Session {
 
   /// What the flight is, as /fulmar/view answers.
   json view();
-  /// Of that: the time that samples are stamped with, at the begin of the flight.
+  /// Which flight it is: another one on the same port has another.
+  const std::string& id();
+  /// Of the view: the time that samples are stamped with, at the begin of the flight.
   std::int64_t epoch_ns();
   /// Calls a service and returns its answer. Throws Error when there is no such service or the flight refuses
   /// to hear of it.
@@ -85,7 +87,7 @@ class Session {
   std::size_t taken_ = 0;
   std::uint32_t calls_ = 0;
   std::unique_ptr<json> answer_;  // of call number calls_
-  std::string failure_;
+  std::string failure_, id_;
   std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
 };
 

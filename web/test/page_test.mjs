@@ -3,11 +3,12 @@
 // of the flight by the command line.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { promisify } from "node:util";
 import { absent, browse, fly, free_port, shots_folder, until } from "./fixture.mjs";
+import { colours_at, tile_server } from "./tile_server.mjs";
 
 const [fulmar, modules, chromium] = process.argv.slice(2).map((p) => p && resolve(p));
 const skipped = absent(modules, chromium);
@@ -25,9 +26,10 @@ const value_of = async (field) => Number((await ask("echo", field, "--count", "1
 // Names that would be markup, if a page took them for it.
 const folder = mkdtempSync(join(tmpdir(), "fulmar-page-"));
 const hostile = "<img src=x onerror=document.body.remove()>";
-writeFileSync(join(folder, "hostile.yaml"), `mission: "${hostile}"\nextends: ${resolve("configs/missions/hourglass.yaml")}\n`);
+copyFileSync("configs/airframes/anaconda.yaml", join(folder, "mine.yaml")); // what is saved goes into a file of our own
+writeFileSync(join(folder, "hostile.yaml"), `mission: "${hostile}"\nextends: ${resolve("configs/missions/hourglass.yaml")}\nairframe: mine.yaml\n`);
 
-let page, flight;
+let page, flight, tiles;
 const faults = [], foreign = [];
 const shots = shots_folder(modules);
 const text = (selector) => page.locator(selector).first().textContent();
@@ -166,6 +168,15 @@ const steps = {
     await page.click("text=Upload");
     await until("it flies", async () => near((await plan()).waypoints[0].position_m.north, 432.1, 0.01, false));
     assert.equal((await plan()).waypoints[1].id, before.waypoints[1].id, "the others are as they were");
+    const runway = "runway: {north: 0 m, east: 0 m, up: 0 m, heading: 135 deg, length: 300 m}", place = "{lat: 40.2499724, lon: -111.6501138, alt_msl: 1457 m";
+    await load(words.replace(/\{north: \S+ m, east: \S+ m, up: \S+ m/, place) + runway + "\n");
+    await page.click("text=Upload");
+    await until("it flies", async () => near((await plan()).waypoints[0].position_m.north, 399.8, 1, false));
+    await seen("as it flies", ".plan .faint", (t) => t.includes("This is what flies"));
+    const [kept] = await Promise.all([page.waitForEvent("download"), page.click("text=Save file")]);
+    await kept.saveAs(file);
+    assert.ok(readFileSync(file, "utf8").includes(place) && readFileSync(file, "utf8").includes(runway), readFileSync(file, "utf8"));
+    await run(fulmar, ["check", mission]);
   },
   async "Tune: a slider sets the parameter of the flight, and the way back"() {
     await tab("Tune");
@@ -174,13 +185,41 @@ const steps = {
     await row.locator("input[type=range]").focus();
     for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowRight");
     await until("the flight's value", async () => (await ask("param", "get", "attitude.roll_kp")) !== before);
-    await seen("the command that saves it", ".changed_list code", (t) => t === `fulmar param save attitude --at 127.0.0.1:${port}`);
+    await page.click("text=Save attitude…");
+    await seen("what cannot be written alone", ".side [role=alert]", (t) => /Refused: mine.yaml: attitude.roll_kp is .* now; write it by hand: the same text also gives/.test(t));
     await row.locator("input[type=text]").fill("900");
     await row.locator("input[type=text]").press("Enter");
     await seen("the range", '[data-param="roll_kp"] .refusal', (t) => t === "Refused: attitude.roll_kp: 900 is outside 0 .. 20 rad/rad" || t.includes("outside 0 .. 20"));
     await shoot("tune");
     await row.locator("button").click();
     await until("as it was", async () => (await ask("param", "get", "attitude.roll_kp")) === before);
+  },
+  async "Tune: what is saved are the lines that were shown, and no others"() {
+    await page.click('button[data-component="slc"]');
+    const row = page.locator('[data-param="course_kp"]'), field = row.locator("input[type=text]"), before = await field.inputValue();
+    await field.fill("2.25");
+    await field.press("Enter");
+    await page.click("text=Save slc…");
+    await seen("the lines that would change", ".lines", (t) => /^mine\.yaml:\d+\n- .*course_kp.*\n\+ .*course_kp/m.test(t));
+    await shoot("save");
+    const airframe = () => readFileSync(join(folder, "mine.yaml"), "utf8"), old = airframe();
+    writeFileSync(join(folder, "mine.yaml"), old + "# another's\n"); // somebody edits meanwhile
+    await page.click("text=Write these lines");
+    await seen("why not", ".side [role=alert]", (t) => t.includes("Refused: what would be written is not what was shown any more: look again"));
+    assert.equal(airframe(), old + "# another's\n");
+    await page.click("text=Save slc…");
+    await page.click("text=Write these lines");
+    await seen("what was written", ".side [role=alert]", (t) => t.includes("Written: ") && t.includes("mine.yaml"));
+    const lines = (text) => text.split("\n").slice(0, -1), now = lines(airframe());
+    assert.equal(now.pop(), "# another's");
+    assert.equal(now.filter((line, i) => line !== lines(old)[i]).length, 1);
+    assert.match(airframe(), /course_kp: 2.25/);
+    await shoot("saved");
+    await page.click("text=Save slc…");
+    await seen("no more to write", ".side [role=alert]", (t) => t.includes("The files say already what flies."));
+    await field.fill(before);
+    await field.press("Enter");
+    await until("as it was", async () => (await ask("param", "get", "slc.course_kp")).startsWith(before));
   },
   async "Wires: rates, step times, and a swap that is refused in the air by the host's sentence"() {
     await tab("Wires");
@@ -238,6 +277,28 @@ const steps = {
     await page.click("text=Give them back");
     await until("the autopilot flies", async () => (await ask("param", "get", "sim.pilot_flies")) === "false");
   },
+  async "New flight: by two clicks, with another seed, on the same page"() {
+    await tab("Simulation");
+    assert.equal(await page.getByLabel("Seed of the new flight").inputValue(), "7");
+    await page.getByLabel("Seed of the new flight").fill("eleven");
+    const button = page.locator("button.chip", { hasText: /New flight|end this one/ });
+    await button.click();
+    await seen("the question", "button.chip.asked", (t) => t === "end this one?");
+    await shoot("new_flight");
+    await until("asked no more", async () => (await button.textContent()) === "New flight");
+    for (let i = 0; i < 2; ++i) await button.click();
+    await seen("what is no seed", ".sim [role=alert]", (t) => t.includes("Refused: seed 'eleven': give a whole number from 0"));
+    await page.getByLabel("Seed of the new flight").fill("11");
+    const before = await value_of("nav.state.height_m");
+    assert.ok(before > 20, "in the air");
+    const loaded = page.waitForEvent("load");
+    for (let i = 0; i < 2; ++i) await button.click();
+    await loaded;
+    await seen("a flight from its beginning", "#clock", (t) => /^−?0:0\d/.test(t));
+    await until("its seed", async () => (await page.getByLabel("Seed of the new flight").inputValue()) === "11");
+    assert.ok(await page.locator("#banner").isHidden());
+    assert.match(page.url(), /#simulation$/);
+  },
   async "a flight that is gone is missed within a second, and found again"() {
     await tab("Fly");
     const hidden = () => page.locator("#banner").isHidden();
@@ -257,8 +318,47 @@ const steps = {
     await until("it is back", hidden);
     await flight.end();
     await seen("the banner again", "#banner", (t) => t.includes("Connection lost"));
-    flight = await fly(fulmar, port, join(folder, "hostile.yaml"));
+    const origin = { lat: 40.2463724, lon: -111.6474138 };
+    tiles = await tile_server(origin);
+    const mission = join(folder, "tiles.yaml");
+    writeFileSync(mission, `mission: tiles\nextends: ${resolve("configs/missions/hourglass.yaml")}\n` +
+      `live: {tiles: "http://127.0.0.1:${tiles.port}/{z}/{x}/{y}.png", attribution: "Tiles of <b>nobody</b>"}\n`);
+    flight = await fly(fulmar, port, mission);
     await until("the next flight", hidden);
+  },
+  async "Map: tiles lie where they belong, from where the mission says, and what does not come is no fault"() {
+    await seen("whose they are", ".attribution", (t) => t === "Tiles of <b>nobody</b>");
+    await tab("Plan");
+    await page.locator(".plan canvas.map").focus();
+    await until("tiles", () => tiles.asked.length > 3);
+    await page.waitForTimeout(500);
+    await shoot("tiles");
+    // the origin, where four colours meet, stands where the map has it
+    const canvas = ".plan canvas.map";
+    const [n, e, px] = (await page.locator(canvas).getAttribute("data-view")).split(",").map(Number);
+    const box = await page.locator(canvas).boundingBox();
+    const x = box.width / 2 - e * px, y = box.height / 2 + n * px, off = 23; // beside the aircraft
+    await until("the colours round the origin", async () => {
+      const found = await colours_at(browser, page, canvas, [[x - off, y - off], [x + off, y - off], [x - off, y + off], [x + off, y + off]]);
+      return found.map(([r, g, b]) => (r > 150 && g < 120 ? "r" : r < 120 && g > 150 ? "g" : b > 150 ? "b" : r > 150 && g > 150 && b < 120 ? "y" : "?")).join("") === "rgby";
+    });
+    const close = await colours_at(browser, page, canvas, [[x - 2, y - 40], [x + 2, y - 40]]);
+    assert.ok(close[0][0] > close[0][1] && close[1][1] > close[1][0], "within two pixels: " + close.join(" "));
+    for (let i = 0; i < 9; ++i) await page.keyboard.press("+"); // farther in than there are tiles
+    await until("asked, and not there", () => tiles.asked.some((t) => t.z > 16));
+    await page.waitForTimeout(500);
+    await shoot("tiles_near");
+    const zoomed = (await page.locator(canvas).getAttribute("data-view")).split(",").map(Number);
+    const [first] = await colours_at(browser, page, canvas, [[box.width / 2, 8]]);
+    assert.ok(Math.max(...first) - Math.min(...first) > 15, `what is coarser stands in: ${first} at ${zoomed}`);
+    assert.ok(tiles.asked.every((t) => t.referer === `http://127.0.0.1:${port}/`), "the address of the page, which may hold a token, is not told");
+    assert.ok(tiles.asked.length < 300);
+    await page.goto("about:blank"); // before what it still asks for is gone
+    tiles.close();
+    const others = foreign.filter((url) => !url.startsWith(`http://127.0.0.1:${tiles.port}/`));
+    foreign.splice(0, foreign.length, ...others);
+    const harmless = faults.filter((f) => !f.includes("404"));
+    faults.splice(0, faults.length, ...harmless);
   },
 };
 
@@ -295,6 +395,7 @@ try {
 } finally {
   await browser.close();
   await flight?.end();
+  tiles?.close();
   rmSync(folder, { recursive: true, force: true });
 }
 process.exit(failed === 0 ? 0 : 1);

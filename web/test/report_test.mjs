@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // node report_test.mjs FULMAR NODE_MODULES CHROMIUM: reports of short flights, opened as files, read, and printed.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { execFileSync, spawn } from "node:child_process";
+import { once } from "node:events";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { dirname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { absent, browse, shots_folder, until } from "./fixture.mjs";
 
@@ -17,7 +18,7 @@ if (skipped) {
 const folder = mkdtempSync(join(tmpdir(), "fulmar-report-")), file = (name) => join(folder, name);
 const hostile = "<!--<script><img src=x onerror=document.body.remove()>";
 const run = (...words) => execFileSync(fulmar, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] }).toString();
-let browser, page, faults = [], asked = [];
+let browser, page, controller, host, faults = [], asked = [];
 
 async function open(name, scheme = "light") {
   await page?.close();
@@ -144,6 +145,52 @@ try {
   assert.match(await text("#asked_and_flown"), /Nothing was recorded of this/);
   await whole("no_truth");
 
+  // on hardware nobody knows the truth: the host at a flight controller's port, whose pilot arms, and disarms 12 s later
+  const peer = join(dirname(fulmar), "fcu_peer");
+  if (existsSync(peer)) {
+    controller = spawn(peer, ["--link", file("controller"), "--arm-at", "1"], { stdio: "ignore" });
+    await until("a controller", () => existsSync(file("controller")));
+    host = spawn(fulmar, ["run", resolve("configs/missions/hourglass.yaml"), "--io", "fcu", "--set", `fcu.port=${file("controller")}`, "--live", "off", "--log", "hard.mcap", "--duration", "12"], { cwd: folder, stdio: "ignore" });
+    const landed = once(host, "exit");
+    await new Promise((go) => setTimeout(go, 15_000));
+    controller.kill("SIGUSR1");
+    await landed;
+    controller.kill("SIGKILL");
+    run("report", "hard.mcap", "--rate", "1000"); // all samples
+    await open("hard.html");
+    assert.match(await text("#errors_of_the_estimate"), /fixes/);
+    run("log", "export", "hard.mcap", "--to", "csv", "--topic", "/nav/state", "--out", "hard");
+    const [names, ...table] = readFileSync(file("hard/nav.state.csv"), "utf8").trim().split("\n").map((line) => line.split(","));
+    const shown = await page.locator(".chart", { hasText: "Height above the origin" }).getAttribute("aria-label");
+    const [low, high] = /flown: (-?[\d.]+) m to (-?[\d.]+) m/.exec(shown).slice(1).map(Number);
+    const valid = table.filter((row) => row[names.indexOf("height_valid")] === "1" || row[names.indexOf("height_valid")] === "true").map((row) => Number(row[names.indexOf("height_m")]));
+    assert.ok(high > 3, `in the air, ${high} m`);
+    // in three digits
+    assert.ok(Math.abs(Math.max(...valid) - high) < 0.006 * high && Math.abs(Math.min(...valid) - low) < 0.006, `${low} .. ${high} m, not ${Math.min(...valid)} .. ${Math.max(...valid)}`);
+    await page.keyboard.press("2");
+    await moment().fill("9");
+    await until("in the air", async () => (await text("header")).includes("0:09.0"));
+    await whole("hardware_flight");
+    await page.keyboard.press("1");
+    await whole("hardware");
+  } else {
+    console.log("not flown on a controller: build the target `fcu_peer`");
+  }
+
+  // a log that rotates is several, each whole; one that was cut off is shown as far as it goes, which is said
+  writeFileSync(file("turns.yaml"), `mission: turns\nextends: ${resolve("configs/missions/hourglass.yaml")}\nrecord: {rotate: 10 s}\n`);
+  run("run", "turns.yaml", "--duration", "25", "--log", "turns.mcap");
+  run("report", "turns.mcap", "turns-2.mcap", "turns-3.mcap", "-o", "turns.html");
+  await open("turns.html");
+  assert.match(await page.locator("#flights").innerText(), /turns\.mcap\s+turns-2\.mcap\s+turns-3\.mcap/);
+  assert.match(await page.locator("#flights").innerText(), /file of its log\s+–\s+2\s+3/);
+  await whole("turns");
+  const bytes = readFileSync(file("one.mcap"));
+  writeFileSync(file("cut.mcap"), bytes.subarray(0, bytes.length / 2));
+  assert.match(run("report", "cut.mcap"), /cut\.mcap ends early: byte \d+/);
+  await open("cut.html");
+  assert.match(await text("#flights"), /ends early/);
+
   // whatever a log holds is text
   const html = readFileSync(file("one.html"), "utf8"), data = data_of(html), [log] = data.logs;
   Object.assign(log, { name: hostile, fault: hostile, phases: [{ name: hostile, from_s: 0, to_s: 5 }], steps: { [hostile]: { mean: 1, p50: 1, p99: 1, max: 1 } } });
@@ -163,5 +210,6 @@ try {
   console.log("reports are files of their own: read, printed, at any moment of the flight");
 } finally {
   await browser?.close();
+  for (const child of [host, controller]) child?.kill("SIGKILL");
   rmSync(folder, { recursive: true, force: true });
 }

@@ -7,6 +7,7 @@ import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+import { tile_tests } from "./tile_tests.mjs";
 
 const web = join(dirname(fileURLToPath(import.meta.url)), "..");
 const modules = resolve(process.argv[2] ?? join(web, "node_modules"));
@@ -36,6 +37,7 @@ const point = (north, east, up = 70, id = 0) => ({ north, east, up, course: null
 const plan_of = (waypoints, end = "circuit", radius = 50) => ({ end, radius, airspeed: 17, waypoints });
 
 const tests = {
+  ...tile_tests(await load("flight/tiles.ts"), near),
   "messages are read as XCDR1 has them: alignment, lists, texts, enumerations"() {
     const schema = ["uint8 OFF=0", "uint8 ON=3", "uint8 state", "float64 height_m  # m", "string name", "bool good", "pkg/P[<=4] points", "int64 at_ns",
       "float64[2] pair_rad", "=".repeat(80), "MSG: pkg/P", "float64 north", "uint16 kind"].join("\n");
@@ -272,7 +274,7 @@ const tests = {
       if (!text.includes("waypoints:")) continue; // zones of a fence
       const plan = read_plan_file(text, now, origin);
       assert.equal(plan.waypoints.length, (text.match(/^ *- *\{/gm) ?? []).length, name);
-      const again = read_plan_file(write_plan_file(plan, "it's: a \"plan\""), now, null);
+      const again = read_plan_file(write_plan_file(plan, "it's: a \"plan\""), now, origin);
       plan.waypoints.forEach((w, i) => near(again.waypoints[i].north, w.north, 1e-2));
     }
     const first = read_plan_file(readFileSync(join(configs, "hourglass.yaml"), "utf8"), now, null);
@@ -280,6 +282,25 @@ const tests = {
     // one minute of latitude at 45 degrees is 1852.2 m, of longitude 1314.2 m (WGS-84)
     const at = read_plan_file("waypoints: [{lat: 45.016666667, lon: 7.016666667, alt_msl: 100 m, course: 90 deg, airspeed: 10 kt}]", now, { latitude: 45, longitude: 7, altitude: 0 }).waypoints[0];
     near(at.north, 1852.2, 0.5); near(at.east, 1314.2, 0.5); near(at.course, Math.PI / 2, 1e-12); near(at.airspeed, 5.1444, 1e-4);
+  },
+  "what a flight does not tell again is saved as it was loaded: latitudes where a waypoint stays, the runway"() {
+    const origin = { latitude: 40.2463724, longitude: -111.6474138, altitude: 1387 }, now = { end: "circuit", radius: 50, airspeed: 17, waypoints: [] };
+    const text = "name: x\nairspeed: 17 m/s\nrunway: {lat: 40.2463, lon: -111.6474, alt_msl: 1387 m, heading: 135 deg, length: 300 m}\nwaypoints:\n" +
+      "  - {lat: 40.2913724, lon: -111.7074138, alt_msl: 1457 m}\n  - {north: 10 m, east: 20 m, up: 70 m}\n  - {lat: 40.2143724, lon: -111.6054138, alt_msl: 1.389 km, course: 30 deg}\n";
+    const file = read_plan_file(text, now, origin);
+    // by GeographicLib 2.1, LocalCartesian: 70 m above the origin's height
+    near(file.waypoints[0].north, 4999.6612, 1e-3);
+    near(file.waypoints[0].east, -5102.9506, 1e-3);
+    near(file.waypoints[0].up, 65.9979, 1e-3);
+    const flown = { ...file, waypoints: file.waypoints.map((w) => ({ ...w, geodetic: null, north: w.north + 1e-3 })) }; // as the planner tells it
+    const again = read_plan_file(write_plan_file(flown, "x", file), now, origin);
+    assert.deepEqual(again.waypoints.map((w) => w.geodetic), file.waypoints.map((w) => w.geodetic));
+    assert.deepEqual(again.runway, { lat: 40.2463, lon: -111.6474, alt_msl: "1387 m", heading: "135 deg", length: "300 m" });
+    near(again.waypoints[2].course, Math.PI / 6, 1e-9);
+    flown.waypoints[0].north += 1;
+    const moved = read_plan_file(write_plan_file(flown, "x", file), now, origin);
+    assert.deepEqual(moved.waypoints.map((w) => w.geodetic !== null), [false, false, true], "one that was moved is where it was moved to");
+    assert.doesNotMatch(write_plan_file(flown, "x"), /runway|lat:/);
   },
   "a bad plan file is told, every fault of it"() {
     const faults = (text, origin = null) => {

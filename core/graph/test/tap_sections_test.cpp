@@ -34,6 +34,7 @@ TEST_CASE("a flight can be watched where the mission says, and nowhere when it s
   CHECK(g.live.host == "::1");
   CHECK(g.live.port == 9000);
   CHECK(g.live.token == "a");
+  CHECK_FALSE(g.live.save);
   Mission usual;
   const Graph h = usual.replace("seed: 7", "live: {}").load();
   CHECK(h.live.on);
@@ -47,14 +48,63 @@ TEST_CASE("a flight can be watched where the mission says, and nowhere when it s
 }
 
 TEST_CASE("a slip in live: is told with its line and what is wanted") {
-  CHECK(faults("live: on") == "hourglass.yaml:6: live: expected 'off' or a map {listen, token}, found 'on'");
+  CHECK(faults("live: on") ==
+        "hourglass.yaml:6: live: expected 'off' or a map {listen, token, tiles, attribution, save}, found "
+        "'on'");
   for (const char* address : {"here", "127.0.0.1:99999", "127.0.0.1:", ":80", "1.5", "300.1.1.1:80",
                               "ground-station:80", "[::x]:80"}) {
     CAPTURE(address);
     holds(faults("live: {listen: \"" + std::string(address) + "\"}"),
           "6: live.listen: expected an address and a port");
   }
+  holds(faults("live: {save: perhaps}"), "6: live.save: expected true or false, found 'perhaps'");
+  Mission off;
+  CHECK(off.replace("seed: 7", "live: {save: off}").load().live.save == false);
   holds(faults("live: {port: 1}"), "6: live: unknown key 'port'");
+}
+
+TEST_CASE("tiles are named by an address that no header and no pattern can mistake") {
+  const auto said = [](const std::string& url) {
+    return faults("live: {tiles: \"" + url + "\", attribution: Example}");
+  };
+  for (const char* url : {"https://tile.example.org/{z}/{x}/{y}.png", "http://127.0.0.1:8080/{x}-{y}-{z}",
+                          "https://a.b/{z}/{x}/{y}@2x.jpg?key=abc&v=1"}) {
+    CAPTURE(url);
+    CHECK(said(url) == "");
+  }
+  for (const char* url : {"https://tile.example.org/{z}/{x}.png",
+                          "https://tile.example.org/{z}/{x}/{y}/{z}",
+                          "https://{s}.example.org/{z}/{x}/{y}",
+                          "https://tile.example.org/{s}/{z}/{x}/{y}",
+                          "ftp://tile.example.org/{z}/{x}/{y}",
+                          "//tile.example.org/{z}/{x}/{y}",
+                          "tile.example.org/{z}/{x}/{y}",
+                          "https:///{z}/{x}/{y}",
+                          "https://me:secret@tile.example.org/{z}/{x}/{y}",
+                          "https://a.b:0/{z}/{x}/{y}",
+                          "https://a.b:99999/{z}/{x}/{y}",
+                          "https://a.b:/{z}/{x}/{y}",
+                          "https://a.b;script-src *;/{z}/{x}/{y}",
+                          "https://a.b/{z}/{x}/{y};script-src *",
+                          "https://a.b/{z}/{x}/{y}'",
+                          "https://a.b/{z}/{x}/{y}, x",
+                          "https://a.b /{z}/{x}/{y}",
+                          "https://a.b/{z}/{x}/{y}\\n",
+                          "https://*.b/{z}/{x}/{y}",
+                          "",
+                          "https://[::1]:80/{z}/{x}/{y}",
+                          "https://a.b#/{z}/{x}/{y}"}) {
+    CAPTURE(url);
+    holds(said(url),
+          "hourglass.yaml:6: live.tiles: expected http:// or https://, a host, and a path with {z}");
+  }
+  holds(faults("live: {attribution: Example}"), "6: live.attribution: names whose live.tiles are");
+  Mission mission;
+  const Graph g =
+      mission.replace("seed: 7", "live: {tiles: \"https://a.b/{z}/{x}/{y}\", attribution: Example}").load();
+  CHECK(g.live.tiles == "https://a.b/{z}/{x}/{y}");
+  CHECK(g.live.attribution == "Example");
+  CHECK(origin_of(g.live.tiles) == "https://a.b");
 }
 
 TEST_CASE("ports are exported under ROS 2 names, inputs without a wire are fed by topics") {

@@ -79,19 +79,21 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
   CHECK(call_json("/fulmar/speed", R"({"speed": "max"})")["accepted"] == true);
   CHECK(call_json("/fulmar/speed", R"({"speed": "warp"})")["reason"] ==
         "speed 'warp': give real, max, or a multiple of real time from 0.01 to 1e6");
-  const std::vector<std::string> expected = {"set slc.roll_kp 0.8",
-                                             "phase hold",
-                                             "swap slc x.so",
-                                             "reset",
-                                             "pause",
-                                             "pause",
-                                             "step 40",
-                                             "resume",
-                                             "speed max"};
+  CHECK(call_json("/fulmar/restart", R"({"seed": "11"})")["accepted"] == true);
+  CHECK(call_json("/fulmar/restart", R"({"seed": ""})")["accepted"] == true);
+  CHECK(call_json("/fulmar/restart", R"({"seed": "eleven"})")["reason"] ==
+        "seed 'eleven': give a whole number from 0 to 18446744073709551615");
+  const std::vector<std::string> expected = {
+      "set slc.roll_kp 0.8", "phase hold", "swap slc x.so", "reset", "pause", "pause", "step 40", "resume",
+      "speed max",           "restart 11", "restart"};
   CHECK(control.heard() == expected);
 
   const json view = call_json("/fulmar/view", "{}");
   CHECK(view["phases"] == json({"hold", "cruise"}));
+  CHECK(view["seed"] == "18000000000000000001");
+  CHECK(view["origin"] == json({{"lat_deg", 40.25}, {"lon_deg", -111.65}, {"alt_msl_m", 1387.0}}));
+  CHECK(view["tiles"] == "https://a.b/{z}/{x}/{y}");
+  CHECK(view["attribution"] == "Example");
   CHECK(view["components"][0]["params"][0]["text"] == "0.8 rad/rad");
   CHECK(view["components"][0]["params"][0]["max"] == 2.0);
   CHECK(view["components"][0]["steps"] == 42);

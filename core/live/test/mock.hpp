@@ -43,6 +43,9 @@ class MockControl : public Control {
     v.phase = "cruise";
     v.phases = {"hold", "cruise"};
     v.paused = paused;
+    v.seed = 18'000'000'000'000'000'001u;
+    v.origin = Geodetic{40.25, -111.65, 1387};
+    v.tiles = "https://a.b/{z}/{x}/{y}", v.attribution = "Example";
     v.epoch_ns = 1'767'225'600'000'000'000;
     v.components = {controller(), planner()};
     return v;
@@ -98,11 +101,12 @@ class MockControl : public Control {
     work([answer = std::move(answer)] { answer(""); });
   }
   void pace(const PaceOrder& order, Answer answer) override {
-    static constexpr const char* words[] = {"pause", "resume", "step", "speed"};
+    static constexpr const char* words[] = {"pause", "resume", "step", "speed", "restart"};
     using What = PaceOrder::What;
     note(words[static_cast<std::size_t>(order.what)] +
          (order.what == What::step    ? " " + std::to_string(order.ticks)
           : order.what == What::speed ? " " + speed_text(order.speed)
+          : order.seed                ? " " + std::to_string(*order.seed)
                                       : std::string()));
     work([this, what = order.what, answer = std::move(answer)] {
       const bool twice = what == What::pause && paused.exchange(true);

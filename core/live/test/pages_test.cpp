@@ -84,7 +84,16 @@ TEST_CASE_FIXTURE(Paged, "scripts are the page's own files alone, and no text be
         "Cross-Origin-Resource-Policy: same-origin", "Referrer-Policy: no-referrer"})
     CHECK_MESSAGE(has(head, rule), rule);
   CHECK_FALSE(has(head, "unsafe"));
+  CHECK(has(head, "; img-src 'self' data:; "));
   CHECK(has(head_of("/page.js"), "script-src 'self'"));
+}
+
+TEST_CASE_FIXTURE(Paged, "images may come from where the mission's tiles are, and from nowhere else") {
+  options.tiles = "https://tile.example.org:8443/a/{z}/{x}/{y}.png?k=1";
+  serve();
+  for (const char* path : {"/", "/page.js"})
+    CHECK(has(head_of(path), "; img-src 'self' data: https://tile.example.org:8443; base-uri 'none'; "));
+  CHECK(origin_of("") == "");
 }
 
 TEST_CASE_FIXTURE(Paged, "what is compressed goes to who takes it") {

@@ -37,6 +37,7 @@ class Aloft {
     o.interrupt = &signal;
     o.log = !log.empty();
     o.log_file = log;
+    o.no_restart = "";
     flight_ = std::make_unique<Flight>(graph_, o);
     REQUIRE(flight_->step());
     control_ = flight_->control();
@@ -280,6 +281,71 @@ TEST_CASE("on hardware nothing of that is possible, and each says so") {
   CHECK(why(order(resume)) == "this flight is on hardware, io: fcu: an aircraft cannot be paused");
   CHECK(holds(why({PaceOrder::What::step, 1, 0}), "an aircraft cannot be stepped"));
   CHECK(holds(why({PaceOrder::What::speed, 0, 2}), "no speed but that of the clock"));
+  CHECK(holds(why(order(PaceOrder::What::restart)), "an aircraft cannot be put back to where it began"));
+}
+
+TEST_CASE("a flight makes room for another one as it ends otherwise: its log is whole, who asked is told") {
+  for (const bool paused : {false, true}) {
+    CAPTURE(paused);
+    const fs::path log = folder().path / "room.mcap";
+    fs::remove(log);
+    Aloft aloft(one_phase, 1e6, 1, log);
+    std::promise<std::string> stepped;
+    if (paused) {
+      aloft.pace(order(pause));
+      aloft.control().pace({PaceOrder::What::step, 1'000'000, 0},
+                           [&](const std::string& why) { stepped.set_value(why); });
+    }
+    CHECK(aloft.pace({PaceOrder::What::restart, 0, 0, 11}) == "");
+    const FlightResult result = aloft.wait();
+    CHECK(result.outcome == Outcome::interrupted);
+    CHECK(result.reason == "ended for a new flight");
+    REQUIRE(aloft.flight().restart());
+    CHECK(aloft.flight().restart()->seed == 11u);
+    CHECK(result.log.error == "");
+    CHECK(fs::exists(log));
+    if (paused) CHECK(holds(stepped.get_future().get(), "of 1000000 ticks"));
+    CHECK_THROWS_WITH(aloft.control().pace(order(PaceOrder::What::restart), {}), "the flight has ended");
+  }
+}
+
+TEST_CASE("of two who ask for another flight at once one gets it, and the other is told") {
+  Aloft aloft;
+  std::promise<std::string> first, second;
+  aloft.pace(order(pause));
+  aloft.control().pace({PaceOrder::What::restart, 0, 0, 3},
+                       [&](const std::string& why) { first.set_value(why); });
+  try {
+    aloft.control().pace({PaceOrder::What::restart, 0, 0, 4},
+                         [&](const std::string& why) { second.set_value(why); });
+  } catch (const Error& late) {
+    second.set_value(late.what());
+  }
+  CHECK(first.get_future().get() == "");
+  CHECK(second.get_future().get() == "the flight has ended");
+  aloft.wait();
+  CHECK(aloft.flight().restart()->seed == 3u);
+}
+
+TEST_CASE("a flight whose owner begins no other refuses to make room, and flies on") {
+  const Graph g = mission(std::string(one_phase) + watched);
+  FlightOptions o = options(1);
+  o.speed = 1;
+  Flight flight(g, o);
+  CHECK_THROWS_WITH(flight.control()->pace(order(PaceOrder::What::restart), {}),
+                    "no new flight: who began this flight begins no other");
+  CHECK(flight.step());
+}
+
+TEST_CASE("a flight that is asked before its first tick makes room behind it") {
+  const Graph g = mission(std::string(one_phase) + watched);
+  FlightOptions o = options(1);
+  o.speed = 1, o.no_restart = "";
+  Flight flight(g, o);
+  flight.control()->pace(order(PaceOrder::What::restart), {});
+  const FlightResult result = flight.run();
+  CHECK(result.ticks == 1);
+  CHECK((flight.restart() && !flight.restart()->seed));
 }
 
 TEST_CASE("ticks and speeds are read whole, and what is none is told with what would be") {
@@ -291,6 +357,11 @@ TEST_CASE("ticks and speeds are read whole, and what is none is told with what w
     CHECK_THROWS_WITH(step_order(wrong), doctest::Contains("a whole number of ticks from 1 to 1000000"));
   for (const char* const wrong : {"", "0", "-1", "fast", "2x", "nan", "inf", "0.001", "1e7"})
     CHECK_THROWS_WITH(speed_order(wrong), doctest::Contains("real, max, or a multiple of real time"));
+  CHECK_FALSE(restart_order("").seed);
+  CHECK(restart_order("0").seed == 0u);
+  CHECK(restart_order("18446744073709551615").seed == 18446744073709551615u);
+  for (const char* const wrong : {"-1", "1.5", "1x", " 1", "18446744073709551616"})
+    CHECK_THROWS_WITH(restart_order(wrong), doctest::Contains("a whole number from 0 to"));
   for (const double speed : {0.0, 1.0, 0.25, 10.0}) CHECK(speed_of(speed_text(speed)) == speed);
 }
 

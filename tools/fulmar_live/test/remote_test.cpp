@@ -84,7 +84,7 @@ TEST_CASE("what libraries throw is told in words for people") {
 TEST_CASE("without a flight every word says what to do") {
   for (const char* words :
        {"list", "watch", "echo nav.state", "plot a.b.c", "view", "param list", "param set a.b 1", "call a.b",
-        "phase x", "swap a b", "reset", "pause", "resume", "step", "step 5", "speed max"}) {
+        "phase x", "swap a b", "reset", "pause", "resume", "step", "step 5", "speed max", "restart"}) {
     const Result r = shell(program + " " + words + " --at 127.0.0.1:1");
     CHECK(r.code == 1);
     CHECK(r.err ==

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A plan file, as plugins/path/README.md has it: read, with every fault told at once, and written.
-import { load } from "js-yaml";
+import { dump, load } from "js-yaml";
 import type { Plan, Waypoint } from "./route";
+import { LocalPlane } from "./tiles";
 import { plain } from "../units";
 
 const to_rad = Math.PI / 180;
@@ -11,7 +12,14 @@ const units: Record<string, Record<string, number>> = {
   angle: { rad: 1, deg: to_rad },
 };
 const keys = ["name", "end", "airspeed", "turn_radius", "waypoints", "runway"];
+const same_m = 0.05;
 const waypoint_keys = ["north", "east", "up", "lat", "lon", "alt_msl", "course", "airspeed"];
+
+/** What a file says that a flight does not tell again: which waypoints were geodetic, and the runway. */
+export interface PlanFile {
+  waypoints: Waypoint[];
+  runway: unknown;
+}
 
 export interface Origin {
   latitude: number; longitude: number; altitude: number; // degrees, m above mean sea level
@@ -35,15 +43,11 @@ class Faults {
   }
 }
 
-/** Metres from the origin, good enough to draw: the planner computes it anew. WGS-84 radii of curvature. */
+/** Metres from the origin, as the planner has them. */
 function local(at: Origin, origin: Origin): { north: number; east: number; up: number } {
-  const a = 6378137, e2 = 6.69437999014e-3, s = Math.sin(origin.latitude * to_rad), w = Math.sqrt(1 - e2 * s * s);
-  const meridian = (a * (1 - e2)) / (w * w * w), normal = a / w;
-  return {
-    north: (at.latitude - origin.latitude) * to_rad * (meridian + origin.altitude),
-    east: (at.longitude - origin.longitude) * to_rad * (normal + origin.altitude) * Math.cos(origin.latitude * to_rad),
-    up: at.altitude - origin.altitude,
-  };
+  const plane = new LocalPlane({ lat_deg: origin.latitude, lon_deg: origin.longitude, alt_msl_m: origin.altitude });
+  const p = plane.to_plane(at.latitude * to_rad, at.longitude * to_rad, at.altitude);
+  return { north: p.n, east: p.e, up: p.up };
 }
 
 function read_waypoint(entry: unknown, i: number, origin: Origin | null, faults: Faults): Waypoint {
@@ -80,13 +84,13 @@ function read_waypoint(entry: unknown, i: number, origin: Origin | null, faults:
 }
 
 /** What is not in the file is as in `now`. Throws Error with every fault, one a line. */
-export function read_plan_file(text: string, now: Plan, origin: Origin | null): Plan {
+export function read_plan_file(text: string, now: Plan, origin: Origin | null): Plan & { runway?: unknown } {
   const faults = new Faults();
   const file = load(text) as unknown;
   if (typeof file !== "object" || file === null || Array.isArray(file)) throw new Error("This is no plan: it has to be a map with 'waypoints'.");
   const map = file as Record<string, unknown>;
   faults.known(map, keys, "");
-  const plan: Plan = { end: now.end, radius: now.radius, airspeed: now.airspeed, waypoints: [] };
+  const plan: Plan & { runway?: unknown } = { end: now.end, radius: now.radius, airspeed: now.airspeed, waypoints: [] };
   if (map.end !== undefined) {
     if (map.end === "circuit" || map.end === "orbit") plan.end = map.end;
     else faults.list.push(`end: '${String(map.end)}' is none. Valid: circuit, orbit`);
@@ -95,16 +99,27 @@ export function read_plan_file(text: string, now: Plan, origin: Origin | null): 
   if (map.airspeed !== undefined) plan.airspeed = faults.number(map.airspeed, "speed", "airspeed");
   if (!Array.isArray(map.waypoints)) faults.list.push("'waypoints' has to be a list");
   else plan.waypoints = map.waypoints.map((w, i) => read_waypoint(w, i, origin, faults));
+  if (map.runway !== undefined) plan.runway = map.runway;
   if (faults.list.length > 0) throw new Error(faults.list.join("\n"));
   return plan;
 }
 
-export function write_plan_file(plan: Plan, name: string): string {
-  const lines = [`name: ${JSON.stringify(name)}`, `end: ${plan.end}`, `airspeed: ${plain(plan.airspeed)} m/s`, `turn_radius: ${plain(plan.radius)} m`,
-    plan.waypoints.length > 0 ? "waypoints:" : "waypoints: []"];
+/** Where a waypoint still stands where the file had it, to what the flight rounds: as the file had it. */
+function geodetic_of(w: Waypoint, file: PlanFile | null): Origin | null {
+  const same = (a: number, b: number) => Math.abs(a - b) < same_m;
+  return w.geodetic ?? file?.waypoints.find((f) => f.geodetic && same(f.north, w.north) && same(f.east, w.east) && same(f.up, w.up))?.geodetic ?? null;
+}
+
+/** `file`: what the plan was loaded from. */
+export function write_plan_file(plan: Plan, name: string, file: PlanFile | null = null): string {
+  const lines = [`name: ${JSON.stringify(name)}`, `end: ${plan.end}`, `airspeed: ${plain(plan.airspeed)} m/s`, `turn_radius: ${plain(plan.radius)} m`];
+  if (file?.runway !== undefined) lines.push(dump({ runway: file.runway }, { flowLevel: 1, lineWidth: -1 }).trimEnd());
+  lines.push(plan.waypoints.length > 0 ? "waypoints:" : "waypoints: []");
   for (const w of plan.waypoints) {
     const further = (w.course === null ? "" : `, course: ${plain(w.course / to_rad)} deg`) + (w.airspeed > 0 ? `, airspeed: ${plain(w.airspeed)} m/s` : "");
-    lines.push(`  - {north: ${plain(w.north)} m, east: ${plain(w.east)} m, up: ${plain(w.up)} m${further}}`);
+    const place = geodetic_of(w, file);
+    lines.push(place ? `  - {lat: ${place.latitude}, lon: ${place.longitude}, alt_msl: ${Number(place.altitude.toFixed(3))} m${further}}`
+      : `  - {north: ${plain(w.north)} m, east: ${plain(w.east)} m, up: ${plain(w.up)} m${further}}`);
   }
   return lines.join("\n") + "\n";
 }

@@ -2,6 +2,7 @@
 // A flight that is connected: a source of figures, and the door for all that can be asked of it.
 import { type Channel, type LinkState, type ServiceInfo, Socket } from "./socket";
 import { type Field, type Message, decode, number_at, parse_schema } from "./schema";
+import type { Place } from "../flight/tiles";
 import type { Series, Source, Topic } from "../source";
 
 export interface Param {
@@ -18,7 +19,8 @@ export interface Component {
 }
 export interface View {
   mission: string; file: string; io: string; phase: string; phases: string[]; now_ns: number; epoch_ns: number;
-  armed: boolean; over: boolean; paused: boolean; speed: number; components: Component[];
+  armed: boolean; over: boolean; paused: boolean; speed: number; seed: string;
+  origin: Place | null; tiles: string; attribution: string; no_save: string; components: Component[];
 }
 export interface Answer {
   accepted: boolean;

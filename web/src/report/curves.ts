@@ -94,7 +94,7 @@ export async function error_chart(title: string, judged: Judged[], phases: Phase
     const who = one ? "" : name + ", ", colour = one ? "line1" : (log_colours[i] as string);
     curves.push({ name: who + (claims_one ? "innovation" : "error"), series: { t, v: [...(values[0] ?? [])] }, colour, width: one ? 1.3 : width_of(i, judged.length) });
     const claimed = values[1];
-    if (!claimed || series.claimed === undefined) continue;
+    if (!claimed || series.claimed === undefined || i > 0) continue; // the bounds of six are a thicket: those of the first
     const bound = one ? "line2" : colour;
     widest = Math.max(widest, 3 * usual(claimed));
     curves.push({ name: who + "+3 σ", series: { t, v: [...claimed].map((v) => 3 * v) }, colour: bound, dash: bound_dash, width: 1.2, may_leave: true });

@@ -8,6 +8,7 @@ import { type Message, number_at } from "../protocol/schema";
 import { TrackRecorder } from "../track";
 import { degrees, digits, fixed } from "../units";
 import type { Chase } from "./chase";
+import { ground_of } from "./ground";
 import { draw_instruments } from "./instruments";
 import { MapView } from "./map";
 import type { Page } from "./page";
@@ -73,7 +74,7 @@ export class Fly implements Page {
     }
     const progress = f.latest(names.progress), command = f.latest(names.command), attitude = f.latest(names.attitude);
     const item = number_at(progress, "item") ?? -1;
-    this.map.draw({ plan: this.plan, draft: false, state, track: this.track, item, chosen: -1, refused: -1, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [] });
+    this.map.draw({ plan: this.plan, draft: false, state, track: this.track, ground: ground_of(f.view), item, chosen: -1, refused: -1, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [] });
     draw_instruments(this.instruments, state, {
       air: number_at(command, "airspeed_mps"), up: number_at(command, "height_m"), course: number_at(command, "course_rad"),
       roll: number_at(attitude, "roll_rad"), pitch: number_at(attitude, "pitch_rad"),

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map without tiles: north up, metres from the origin, on a canvas. Dragging moves it, the wheel and + - zoom.
-import { colours, el, sharp } from "../dom";
+// A map: north up, metres from the origin, on a canvas, over tiles where the mission names some. Dragging moves it, the wheel and + - zoom.
+import { colours, el, say, sharp } from "../dom";
 import { type Plan, type Point, Route } from "../flight/route";
 import type { State } from "../names";
+import type { Ground } from "./ground";
 import { bearing, degrees, digits, fixed } from "../units";
 
 export interface Track {
@@ -17,6 +18,7 @@ export interface Scene {
   item: number; // waypoint that is flown to, from 0; -1: none
   chosen: number; // waypoint that is being edited; -1: none
   refused: number; // waypoint whose last edit was refused; -1: none
+  ground?: Ground | null; // what lies beneath
   piece: Point[]; // of the path that is followed now
   tracks?: (Track & { colour: string; width: number })[]; // of a report: all of each flight, and all of it is shown
 }
@@ -32,6 +34,7 @@ const click_px = 4, reach_px = 14, margin_px = 56, most_labels = 100;
 export class MapView {
   readonly canvas = el("canvas", { class: "map", tabIndex: 0, role: "img", "aria-label": "Map: plan, track and aircraft" });
   readonly element: HTMLElement;
+  private readonly attribution = el("div", { class: "attribution", hidden: true });
   hooks: Hooks = {};
   private centre: Point = { n: 0, e: 0 };
   private px_per_m = 0;
@@ -43,7 +46,7 @@ export class MapView {
   constructor() {
     const button = (words: string, label: string, onclick: () => void) =>
       el("button", { class: "small", onclick, "aria-label": label, title: label }, words);
-    this.element = el("div", { class: "mapbox" }, this.canvas,
+    this.element = el("div", { class: "mapbox" }, this.canvas, this.attribution,
       el("div", { class: "mapkeys" },
         button("+", "Zoom in", () => this.zoom(1.4)), button("−", "Zoom out", () => this.zoom(1 / 1.4)),
         button("Fit", "Show the plan whole", () => this.fit()),
@@ -156,7 +159,11 @@ export class MapView {
     g.fillStyle = colours.get("ground");
     g.fillRect(0, 0, this.width, this.height);
     g.lineJoin = g.lineCap = "round";
-    this.grid(g);
+    const step = this.grid(g);
+    scene.ground?.draw(g, this.to_ground(0, this.height), this.to_ground(this.width, 0), this.px_per_m, (p) => this.to_screen(p));
+    this.attribution.hidden = !scene.ground?.attribution;
+    say(this.attribution, scene.ground?.attribution ?? "");
+    this.scale(g, step);
     this.trail(g, scene.track);
     this.route(g, scene);
     for (const track of scene.tracks ?? []) this.trail(g, track, track.colour, track.width);
@@ -169,7 +176,7 @@ export class MapView {
     if (scene.state?.valid.position) this.aircraft(g, scene.state);
     if (scene.state?.valid.wind) this.wind(g, scene.state);
   }
-  private grid(g: CanvasRenderingContext2D): void {
+  private grid(g: CanvasRenderingContext2D): number {
     let step = 1;
     for (let i = 0; step * this.px_per_m < 55; ++i) step = (steps[i % 3] as number) * 10 ** Math.floor(i / 3);
     const low = this.to_ground(0, this.height), high = this.to_ground(this.width, 0);
@@ -189,7 +196,16 @@ export class MapView {
       g.lineTo(this.width, y);
     }
     g.stroke();
+    return step;
+  }
+  private scale(g: CanvasRenderingContext2D, step: number): void {
     const length = step * this.px_per_m, x = this.width - 14 - length, y = this.height - 12;
+    if (this.seen?.ground) {
+      g.fillStyle = colours.get("panel");
+      g.fillRect(x - 6, y - 20, length + 12, 26);
+      g.fillRect(8, this.height - 56, 30, 20);
+    }
+    g.font = "11px system-ui";
     g.strokeStyle = g.fillStyle = colours.get("text");
     g.lineWidth = 2;
     g.beginPath();

@@ -3,12 +3,13 @@
 import { el, mark, say } from "../dom";
 import { as_group, edits_between } from "../flight/plan_edits";
 import { piece_ahead } from "../flight/piece";
-import { type Origin, read_plan_file, write_plan_file } from "../flight/plan_file";
+import { type Origin, type PlanFile, read_plan_file, write_plan_file } from "../flight/plan_file";
 import type { Plan, Point, Waypoint } from "../flight/route";
 import { names_of, plan_of, state_of } from "../names";
 import type { Answer, Flight } from "../protocol/flight";
 import { type Message, number_at } from "../protocol/schema";
 import type { TrackRecorder } from "../track";
+import { ground_of } from "./ground";
 import { MapView } from "./map";
 import type { Page } from "./page";
 import { PlanTable } from "./plan_table";
@@ -37,6 +38,7 @@ export class PlanPage implements Page {
   private sending = false;
   private sent: Plan | null = null;
   private awaited = -1; // revision beyond which the plan has what was sent
+  private loaded: PlanFile | null = null; // what the plan came from, if it came from a file
   private decided = false; // whether changes go at once, by what flies
 
   constructor(private readonly flight: Flight, private readonly track: TrackRecorder) {
@@ -155,6 +157,7 @@ export class PlanPage implements Page {
     try {
       const plan = read_plan_file(await file.text(), this.flown, this.origin()), flown = this.flown.waypoints;
       plan.waypoints.forEach((w, i) => (w.id = flown[i]?.id ?? 0)); // as if each had been edited: the leg that is flown goes on where it stays
+      this.loaded = { waypoints: plan.waypoints.map((w) => ({ ...w })), runway: plan.runway };
       this.at_once.checked = false; // a whole plan is looked at before it flies
       this.chosen = -1;
       this.change(plan);
@@ -171,7 +174,7 @@ export class PlanPage implements Page {
   }
   private save(): void {
     if (!this.plan) return;
-    const text = write_plan_file(this.plan, this.flight.view?.mission ?? "plan");
+    const text = write_plan_file(this.plan, this.flight.view?.mission ?? "plan", this.loaded);
     const url = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
     el("a", { href: url, download: "plan.yaml" }).click();
     setTimeout(() => URL.revokeObjectURL(url), 10_000);
@@ -196,7 +199,7 @@ export class PlanPage implements Page {
     const item = number_at(f.latest(names.progress), "item") ?? -1;
     const draft = this.draft !== null && this.awaited < 0;
     this.map.draw({
-      plan: this.plan, draft: this.draft !== null, state, track: this.track,
+      plan: this.plan, draft: this.draft !== null, state, track: this.track, ground: ground_of(f.view),
       item: this.draft ? -1 : item, chosen: this.chosen, refused: this.refused, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [],
     });
     this.table.update(this.plan, this.chosen, this.draft ? -1 : item);

@@ -23,6 +23,11 @@ export class Simulation implements Page {
   private readonly step = el("button", { onclick: () => void this.do_step() }, "Step");
   private readonly speed = el("div", { class: "chips", role: "group", "aria-label": "Speed" });
   private readonly time = el("b", { class: "big" });
+  private readonly anew = el("button", {
+    class: "chip", title: "Ends this flight and begins its mission anew, as its files are now: click twice", onclick: () => void this.begin_anew(),
+  }, "New flight");
+  private readonly seed = el("input", { type: "text", inputMode: "numeric", size: 6, "aria-label": "Seed of the new flight" });
+  private asked_anew = 0; // timer of the first click
   private readonly rows: ParamRow[] = [];
   private readonly hand: HandPanel;
   private made_for = "";
@@ -53,6 +58,19 @@ export class Simulation implements Page {
     this.tell(await this.flight.ask("/fulmar/speed", { speed }), `Flies at ${speed === "real" ? "real time" : speed + " times real time"}.`);
   }
 
+  /** Two clicks: the second one means it. The page is loaded anew when the new flight is there. */
+  private async begin_anew(): Promise<void> {
+    const sure = this.asked_anew !== 0;
+    clearTimeout(this.asked_anew);
+    this.ask_anew(!sure);
+    if (sure) this.tell(await this.flight.ask("/fulmar/restart", { seed: this.seed.value.trim() }), "A new flight begins.");
+  }
+  private ask_anew(on: boolean): void {
+    this.asked_anew = on ? window.setTimeout(() => this.ask_anew(false), 3000) : 0;
+    mark(this.anew, "asked", on);
+    say(this.anew, on ? "end this one?" : "New flight");
+  }
+
   private make(): void {
     const view = this.flight.view;
     if (!view) return;
@@ -65,13 +83,15 @@ export class Simulation implements Page {
       chip.dataset.speed = s === "real" ? "1" : s;
       return chip;
     }));
+    this.seed.value = view.seed;
     const vehicle = view.components.find((c) => c.role.split(", ").includes("vehicle") && c.active);
     this.rows.length = 0;
     const sections = vehicle ? groups.map(([name, which]) => this.section(vehicle, name, which)) : [];
     const requests = view.components.flatMap((c) => c.inputs.filter((p) => p.request && !p.type.endsWith("/PlanEdit")).map((p) => `/${c.name}/${p.name}`));
     fill(this.box,
       el("div", { class: "column" },
-        el("section", {}, el("h2", {}, "Clock"), this.time, el("div", { class: "row" }, this.pause, this.step, this.ticks, " ticks"), this.speed, this.said),
+        el("section", {}, el("h2", {}, "Clock"), this.time, el("div", { class: "row" }, this.pause, this.step, this.ticks, " ticks"), this.speed,
+          el("div", { class: "row" }, this.anew, el("label", {}, "seed ", this.seed)), this.said),
         this.hand.element,
         ...requests.map((r) => this.request(r))),
       ...sections);

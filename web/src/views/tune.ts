@@ -5,6 +5,7 @@ import type { Component, Flight } from "../protocol/flight";
 import type { Page } from "./page";
 import { ParamRow } from "./params";
 import { Response } from "./response";
+import { SavePanel } from "./save";
 
 export class Tune implements Page {
   readonly name = "Tune";
@@ -15,6 +16,7 @@ export class Tune implements Page {
   private readonly head = el("div", { class: "faint" });
   private readonly changed = el("div", { class: "changed_list" });
   private readonly response: Response;
+  private readonly save: SavePanel;
   private rows = new Map<string, ParamRow[]>(); // by component
   private chosen = "";
   private listed = "";
@@ -22,10 +24,11 @@ export class Tune implements Page {
 
   constructor(private readonly flight: Flight) {
     this.response = new Response(flight);
+    this.save = new SavePanel(flight);
     this.element = el("div", { class: "tune" },
       el("section", {}, el("h2", {}, "Components"), this.list),
       el("section", { class: "params" }, el("div", { class: "row" }, this.head, this.filter), this.rows_box),
-      el("aside", { class: "side" }, this.response.element, el("section", {}, el("h2", {}, "Changed since this page was opened"), this.changed)));
+      el("aside", { class: "side" }, this.response.element, el("section", {}, el("h2", {}, "Changed since this page was opened"), this.changed, this.save.element)));
   }
 
   /** Once in a while, whatever is shown. */
@@ -92,14 +95,9 @@ export class Tune implements Page {
     const now = changed.map((r) => r.summary).join("\n");
     if (now === this.summary) return;
     this.summary = now;
+    this.save.offer([...new Set(changed.map((r) => r.component))]);
     if (changed.length === 0) return fill(this.changed, el("p", { class: "faint" }, "Nothing."));
-    const components = [...new Set(changed.map((r) => r.component))];
-    const at = location.host === "127.0.0.1:8765" ? "" : " --at " + location.host;
-    const command = components.map((c) => `fulmar param save ${c}${at}`).join("\n");
-    const copy = el("button", { onclick: () => void navigator.clipboard.writeText(command).then(() => say(copy, "Copied")) }, "Copy");
     fill(this.changed, el("ul", {}, ...changed.map((r) => el("li", {}, r.summary))),
-      el("div", { class: "row" }, el("button", { onclick: () => changed.forEach((r) => r.restore()) }, "All back to what they were")),
-      el("p", { class: "faint" }, "Written into the mission or airframe by the terminal, which shows first what would change:"),
-      el("div", { class: "row" }, el("code", {}, command), copy));
+      el("div", { class: "row" }, el("button", { onclick: () => changed.forEach((r) => r.restore()) }, "All back to what they were")));
   }
 }

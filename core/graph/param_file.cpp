@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/fulmar_live/param_file.hpp"
+#include "core/graph/param_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -15,10 +15,11 @@
 #include <optional>
 
 #include "core/graph/catalogue.hpp"
+#include "core/graph/mission.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/graph/yaml.hpp"
-#include "tools/fulmar_live/yaml_edit.hpp"
+#include "core/graph/yaml_edit.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -331,6 +332,13 @@ SavePlan plan_save(const fs::path& mission, const std::vector<SavedParam>& param
   Saver saver(mission);
   for (const SavedParam& p : params) saver.save(p);
   return saver.plan();
+}
+
+void check_mission_name(const std::string& file, const std::string& flies) {
+  Report report;  // faults are told when it is written
+  const std::string name = parse_mission(file, {}, report).mission;
+  if (name != flies)
+    throw Error(file + " is the mission '" + name + "', but '" + flies + "' flies: nothing was written");
 }
 
 // Changes touch single lines or add some; so the next equal line behind a difference ends it.

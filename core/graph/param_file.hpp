@@ -35,6 +35,9 @@ struct SavePlan {
 /// are left out. Throws Error when a file cannot be read.
 SavePlan plan_save(const std::filesystem::path& mission, const std::vector<SavedParam>& params);
 
+/// Throws Error when the file is another mission than the one that flies.
+void check_mission_name(const std::string& file, const std::string& flies);
+
 /// The lines that change, with those that replace them: "anaconda.yaml:54" and "-", "+".
 std::string diff_text(const FileEdit& edit);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parameters written back into mission and airframe files: the expected texts are written by hand.
-#include "tools/fulmar_live/param_file.hpp"
+#include "core/graph/param_file.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -12,7 +12,7 @@
 #include <limits>
 #include <sstream>
 
-#include "tools/fulmar_live/yaml_edit.hpp"
+#include "core/graph/yaml_edit.hpp"
 
 namespace param_file_test {
 

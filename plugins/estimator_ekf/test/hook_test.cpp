@@ -29,8 +29,12 @@ struct WithHeight {
   struct Params {
     navigation::Params nav;
     Param doubt{0, "m", 0, 100, "after a second of refusals"};
+    Param bias_std{0, "m", 0, 100, "what it may read wrong; 0: nothing, and the filter has no such state"};
   };
-  void configure(const Params& p) { ekf.configure(p.nav); }
+  void configure(const Params& p) {
+    ekf.configure(p.nav);
+    if (p.bias_std > 0) bias = ekf.append({.std = p.bias_std});
+  }
   Status activate(const Tick& tick, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
     return ekf.activate(tick, in.sensors, p.nav, last.part(last->nav));
   }
@@ -40,20 +44,23 @@ struct WithHeight {
       out.hooked_ratio = 1;
       if (!in.height || !in.height.fresh()) return;
       const ErrorStateEkf& f = navigator.filter();
-      ekf::Scalar z = ekf::position(f, f.at(f.time_s()), 2, -in.height->height_m + bias_m);
+      ekf::Scalar z = ekf::position(f, f.at(f.time_s()), 2, -in.height->height_m);
+      if (bias >= 0) {  // by what it reads too high it reads too little down
+        z.innovation += f.more().value(bias);
+        z.more(bias) = -1;
+        learnt = f.more();
+      }
       if (p.doubt > 0 && navigator.refused_for_s(aid) > 1)
         navigator.doubt({ekf::pos + 2, ekf::baro}, p.doubt, aid);
-      const double gain = bias_m2 / (std::pow(f.expected_std(z, 0.25), 2) + bias_m2);
-      navigator.fuse(z, 0.25 + bias_m2, 5, aid);
-      bias_m -= gain * z.innovation;  // down
-      bias_m2 *= 1 - gain;
+      navigator.fuse(z, 0.25, 5, aid);
       refused_for_s = navigator.refused_for_s(aid);
     });
   }
   navigation::Ekf ekf;
   navigation::Aid aid;
   double refused_for_s = 0;
-  double bias_m = 0, bias_m2 = 0;  ///< a state of its own beside the filter: what it reads too high
+  int bias = -1;                 ///< index of the state: what it reads too high, m
+  ErrorStateEkf::More learnt{};  ///< as of the last height
 };
 
 template <class S>
@@ -183,16 +190,55 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "a state beside the filter learns what the sensor reads too high, and the height stays what it was") {
+TEST_CASE("an appended state learns what the sensor reads too high, and says how well") {
+  for (const double high_m : {-3.0, 3.0}) {
+    CAPTURE(high_m);
+    Both both;
+    both.ours.params.bias_std.value = 5;
+    both.height = [&](const Truth& x) { return std::optional(high_m - x.p_n.z()); };
+    both.run(60);
+    const WithHeight& ours = both.ours.component();
+    REQUIRE(ours.learnt.count() == 1);
+    const double bias_m = ours.learnt.value(0), std_m = ours.learnt.std(0);
+    CHECK(ours.aid.refused == 0);
+    CHECK(bias_m / high_m == doctest::Approx(1).epsilon(0.25));
+    CHECK(std::abs(bias_m - high_m) < 2 * std_m);
+    // It is known as well as the height itself, and no better: the two are one unknown.
+    const double height_std_m = both.ours.out.nav.state.value.position_std_m.down;
+    CHECK(std_m / height_std_m == doctest::Approx(1).epsilon(0.1));
+    CHECK(height_std_m / both.shipped.out.state.value.position_std_m.down ==
+          doctest::Approx(1).epsilon(0.05));
+    CHECK(std::abs(both.difference_m()) < 0.3);
+  }
+}
+
+TEST_CASE("what was appended outlasts a gap, and begins anew where the estimator takes over or is set up") {
   Both both;
-  both.ours.component().bias_m2 = 25;
+  both.silent_from_s = 30;
+  both.silent_s = 3;
+  both.ours.params.bias_std.value = 5;
   both.height = [](const Truth& x) { return std::optional(3 - x.p_n.z()); };
-  both.run(60);
-  const WithHeight& ours = both.ours.component();
-  CHECK(ours.aid.refused == 0);
-  CHECK(ours.bias_m == doctest::Approx(3).epsilon(0.2));
-  CHECK(std::abs(both.difference_m()) < 0.5);
+  ErrorStateEkf::More before;
+  both.watch = [&](const Truth& x, Status, Status) {
+    if (x.t < 30) before = both.ours.component().learnt;
+  };
+  both.run(40);
+  CHECK(before.std(0) < 1.5);
+  CHECK(both.ours.component().learnt.value(0) == doctest::Approx(before.value(0)).epsilon(0.3));
+  navigation::Ekf ekf;
+  const navigation::Params p = both.shipped.params;
+  for (int i = 0; i < 3; ++i) {  // set up again and again: one state, not three
+    ekf.configure(p);
+    CHECK(ekf.append({.std = 2}) == 0);
+  }
+  navigation::Navigator navigator;
+  navigator.start(p);
+  navigator.filter().append({.std = 2});
+  navigator.filter().more().set(0, 1, 0.5);
+  navigator.resume(both.shipped.out.state.value, p, 40);
+  REQUIRE(navigator.filter().more().count() == 1);
+  CHECK(navigator.filter().more().value(0) == 0);
+  CHECK(navigator.filter().more().std(0) == doctest::Approx(2));
 }
 
 TEST_CASE("after a gap that ends in an alignment what the hook fuses moves the state again") {

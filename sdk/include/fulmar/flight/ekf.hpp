@@ -13,6 +13,7 @@
 #include <cstddef>
 
 #include "fulmar/flight/attitude.hpp"
+#include "fulmar/flight/ekf_more.hpp"
 #include "fulmar/flight/filters.hpp"
 
 namespace fulmar {
@@ -95,10 +96,11 @@ struct Nominal {
 };
 
 /// A scalar measurement: measured minus expected, and the derivative of the expected value by the error
-/// state.
+/// state, and by the states that were appended.
 struct Scalar {
   double innovation = 0;
   Row H = Row::Zero();
+  MoreRow more = MoreRow::Zero();
 };
 
 struct Fused {
@@ -112,6 +114,7 @@ struct Fused {
 class ErrorStateEkf {
  public:
   using Vector3 = Eigen::Vector3d;
+  using More = ekf::MoreStates<ekf::size>;
 
   ekf::Noise noise;
   double gravity_mps2 = 9.80665;
@@ -122,6 +125,7 @@ class ErrorStateEkf {
     x_.q_nb.normalize();
     R_nb_ = x_.q_nb.toRotationMatrix();
     P_ = std.cwiseAbs2().asDiagonal();
+    more_.forget(0, ekf::size);
     time_s_ = time_s;
     has_sample_ = false;
     step_ = {};
@@ -153,6 +157,7 @@ class ErrorStateEkf {
     time_s_ += dt;
     step_.R_dt += (0.5 * dt) * (R_before + R_nb_);
     step_.dv += dv;
+    step_.turn += turn;
     step_.angle += turn.norm();
     step_.time += dt;
     if (step_.time >= covariance_period_s - 1e-9) propagate_covariance();
@@ -165,10 +170,11 @@ class ErrorStateEkf {
   /// samples weigh less, gates by `expected_std` first.
   ekf::Fused fuse(const ekf::Scalar& z, double variance, double gate) {
     const ekf::Vector PHt = project(z);
-    const double S = z.H.dot(PHt) + variance;
+    const double S = expected_variance(z, PHt) + variance;
     const double deviation = std::sqrt(S), ratio = z.innovation / deviation;
     if (!(std::abs(ratio) <= gate)) return {false, ratio};
     const ekf::Vector k = PHt / deviation;
+    if (more_.count() > 0) more_.fused(k, more_.project(z.H, z.more) / deviation, ratio);
     const Eigen::Matrix2d considered = P_.block<2, 2>(ekf::gnss, ekf::gnss);
     for (int i = 0; i < ekf::size; ++i) P_.col(i).noalias() -= k(i) * k;  // k k': symmetric to the last bit
     P_.block<2, 2>(ekf::gnss, ekf::gnss) = considered;
@@ -178,16 +184,18 @@ class ErrorStateEkf {
   }
 
   /// The same for a measurement that attitude and sensor biases shall not follow, though their uncertainty
-  /// counts (Schmidt's considered states): a pseudo-measurement whose errors are correlated in time. P' = (I
+  /// counts (Schmidt's considered states), nor what was appended: a pseudo-measurement whose errors are
+  /// correlated in time. P' = (I
   /// - K H) P (I - K H)' + K R K'.
   ekf::Fused fuse_considering_attitude(const ekf::Scalar& z, double variance, double gate) {
     const ekf::Vector PHt = project(z);
-    const double S = z.H.dot(PHt) + variance, ratio = z.innovation / std::sqrt(S);
+    const double S = expected_variance(z, PHt) + variance, ratio = z.innovation / std::sqrt(S);
     if (!(std::abs(ratio) <= gate)) return {false, ratio};
     ekf::Vector K = PHt / S;
     K.segment<3>(ekf::theta).setZero();
     K.segment<6>(ekf::gyro_bias).setZero();
     K.segment<2>(ekf::gnss).setZero();
+    if (more_.count() > 0) more_.considered(K, more_.project(z.H, z.more));
     const ekf::Vector u = PHt - 0.5 * S * K;
     for (int i = 0; i < ekf::size; ++i) P_.col(i) -= K(i) * u + u(i) * K;
     correct(K * z.innovation);
@@ -196,8 +204,14 @@ class ErrorStateEkf {
 
   /// Deviation that `fuse` expects of this innovation, without touching the state.
   double expected_std(const ekf::Scalar& z, double variance) const {
-    return std::sqrt(z.H.dot(project(z)) + variance);
+    return std::sqrt(expected_variance(z, project(z)) + variance);
   }
+
+  /// One state more, of whatever the filter does not know (ekf_more.hpp); a measurement sees it by
+  /// `Scalar::more`. Returns its index; throws when there is no room, so at set-up.
+  int append(const ekf::MoreState& state) { return more_.append(state); }
+  const More& more() const { return more_; }
+  More& more() { return more_; }
 
   /// Moves the state and leaves its covariance.
   void correct(const ekf::Vector& dx) {
@@ -216,6 +230,7 @@ class ErrorStateEkf {
       P_.col(i).setZero();
       P_(i, i) = std * std;
     }
+    more_.forget(first, count);
   }
   /// Adds uncertainty, of an event that the model does not know: a gap, a collision.
   void inflate(int first, int count, double std) {
@@ -270,7 +285,7 @@ class ErrorStateEkf {
 
   struct Step {  ///< what the covariance has not yet seen
     Eigen::Matrix3d R_dt = Eigen::Matrix3d::Zero();
-    Vector3 dv = Vector3::Zero();
+    Vector3 dv = Vector3::Zero(), turn = Vector3::Zero();
     double time = 0, angle = 0;
   };
   struct Corrections {  ///< sums over all updates; vt is weighted with their time
@@ -286,7 +301,12 @@ class ErrorStateEkf {
     ekf::Vector PHt = ekf::Vector::Zero();
     for (int i = 0; i < ekf::size; ++i)
       if (z.H(i) != 0) PHt.noalias() += z.H(i) * P_.col(i);
+    if (more_.count() > 0) PHt.noalias() += more_.cross().transpose() * z.more.transpose();
     return PHt;
+  }
+  double expected_variance(const ekf::Scalar& z, const ekf::Vector& PHt) const {  // H P H'
+    const double own = z.H.dot(PHt);
+    return more_.count() > 0 ? own + z.more.dot(more_.project(z.H, z.more)) : own;
   }
 
   /// P <- Phi P Phi' + Q over the accumulated step, with T its length, B = sum R dt, [dv]x the specific force
@@ -326,6 +346,15 @@ class ErrorStateEkf {
     P_.topLeftCorner<9, 9>() = 0.5 * (A + A.transpose());
     P_.bottomLeftCorner<size - 9, 9>() = W.bottomRows<size - 9>();
     P_.topRightCorner<9, size - 9>() = W.bottomRows<size - 9>().transpose();
+    if (more_.count() > 0) {
+      Eigen::Matrix<double, ekf::most_more, 9> turned;
+      shear(more_.cross(), turned);
+      ekf::Vector moved = ekf::Vector::Zero();
+      moved.head<9>() =
+          more_.propagate({T, B / T, step_.turn / T, B.transpose() * step_.dv / (T * T)}, turned, P_);
+      x_.add(moved);
+      R_nb_ = x_.q_nb.toRotationMatrix();
+    }
     add_noise(T);
     step_ = {};
     remember();
@@ -358,6 +387,7 @@ class ErrorStateEkf {
     P_.middleRows<n>(first) *= phi;
     P_.middleCols<n>(first) *= phi;
     for (int i = first; i < first + n; ++i) P_(i, i) += std * std * (1 - phi * phi);
+    more_.decay(first, n, phi);
     return phi;
   }
 
@@ -392,6 +422,7 @@ class ErrorStateEkf {
   ekf::Nominal x_;
   Eigen::Matrix3d R_nb_ = Eigen::Matrix3d::Identity();
   ekf::Covariance P_ = ekf::Covariance::Identity();
+  More more_;
   double time_s_ = 0;
   Vector3 omega_ = Vector3::Zero(), f_ = Vector3::Zero();
   bool has_sample_ = false;

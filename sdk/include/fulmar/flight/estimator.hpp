@@ -30,6 +30,9 @@ struct Ekf {
   using Params = navigation::Params;
 
   void configure(const Params& p) { navigator_.start(p); }
+  /// One state more in the filter, after configure(): ekf_more.hpp. Returns its index, which stays; throws
+  /// when there is no room.
+  int append(const ekf::MoreState& state) { return navigator_.filter().append(state); }
   void retune(const Params& p) { navigator_.tune(p); }
 
   Status activate(const Tick& tick, const Inputs& in, const Params& p, const Applied<Outputs>& last) {

@@ -100,7 +100,10 @@ class Navigator {
 
   /// Takes over from an estimate that flies already.
   void resume(const VehicleState& s, const Params& p, double time_s) {
+    const ErrorStateEkf::More more = filter_.more();
     start(p);
+    filter_.more() = more;
+    filter_.more().begin_again();
     if (s.origin_valid && !seen_.origin)
       set_origin(s.origin_latitude_deg, s.origin_longitude_deg, s.origin_altitude_m);
     ekf::Nominal x;

@@ -51,8 +51,7 @@ FlightTrack track_of(const std::filesystem::path& log) {
     const double t = 1e-9 * double(std::int64_t(m->log_ns - epoch_ns));
     if (truth.takes(stream.log(), *m)) {
       const VehicleState& x = truth.value;
-      track.truth.push_back(
-          {t, x.position_m.north, x.position_m.east, x.height_m, x.airspeed_mps, x.roll_rad,
+      track.truth.push_back({t, x.position_m.north, x.position_m.east, x.height_m, x.airspeed_mps, x.roll_rad,
                              x.pitch_rad, x.alpha_rad});
     } else if (command.takes(stream.log(), *m)) {
       track.commands.push_back({t, command.value.height_m, command.value.airspeed_mps});

@@ -145,7 +145,7 @@ Node parsed(const std::string& text, const std::string& name) {
 
 class Saver {
  public:
-  explicit Saver(const fs::path& mission) {
+  Saver(const fs::path& mission, const std::vector<std::string>& flown) : flown_(flown) {
     open(mission, mission.string());
     if (const Node* base = roots_[0].find("extends"); base && base->is(Node::Kind::scalar))
       open(mission.parent_path() / base->text, base->text);
@@ -172,10 +172,13 @@ class Saver {
       const std::string& before = files_[where.file].after;
       const std::string after =
           place ? replaced(before, where.path, p) : with_entry(before, where.path, new_text(p));
-      check(before, after, where, p);
+      const std::vector<std::string> also = check(before, after, where, p);
       files_[where.file].after = after;
       roots_[where.file] = parsed(after, files_[where.file].name);
       plan_.changed.push_back(name);
+      for (const std::string& section : also)
+        plan_.also.push_back(files_[where.file].name + ": " + name + " is the same text for " + section +
+                             ", which does not fly");
     } catch (const Error& fault) {
       plan_.refused.push_back(files_[where.file].name + ": " + name + " is " + new_text(p) +
                               " now; write it by hand: " + fault.what());
@@ -280,30 +283,59 @@ class Saver {
     return text;
   }
 
-  /// The file after the change says what the flight has, and of everything else what it said before.
-  static void check(const std::string& before, const std::string& after, const FilePlace& where,
-                    const SavedParam& p) {
+  /// Whether `path` is the same parameter of the airframe for another plugin, "control_slc/Autotune", that
+  /// does not fly: then its name.
+  std::string idle_section(const std::string& path, const FilePlace& where) const {
+    if (!airframe_ || where.file != airframe_->file || where.path.size() != airframe_->path.size() + 2)
+      return "";
+    std::string head, tail = "\n" + where.path.back();
+    for (const std::string& key : airframe_->path) head += "\n" + key;
+    head += "\n";
+    if (!path.starts_with(head) || !path.ends_with(tail) || path.size() <= head.size() + tail.size())
+      return "";
+    const std::string section = path.substr(head.size(), path.size() - head.size() - tail.size());
+    if (section.find('\n') != std::string::npos) return "";
+    const auto [plugin, component] = split_use(section);
+    for (const std::string& use : flown_) {
+      const auto [flown_plugin, flown_component] = split_use(use);
+      const bool same = plugin == flown_plugin || plugin == flown_plugin + ".so";
+      if (same && (component.empty() || flown_component.empty() || component == flown_component)) return "";
+    }
+    return section;
+  }
+
+  /// The file after the change says what the flight has, and of everything else what it said before; but for
+  /// the plugins that are returned.
+  std::vector<std::string> check(const std::string& before, const std::string& after, const FilePlace& where,
+                                 const SavedParam& p) const {
     const Node root = parsed(after, "");
     const Node* node = at_path(root, where.path);
     if (!node || !says(p, *node)) throw Error("the file would not say that");
     std::map<std::string, std::string> old, now;
     flatten(parsed(before, ""), "", old);
     flatten(root, "", now);
+    std::vector<std::string> also;
     std::string own;
     for (const std::string& key : where.path) own += "\n" + key;
     for (const auto& [path, value] : old) {
       const auto same = now.find(path);
       if (path.starts_with(own) || (same != now.end() && (same->second == value || own.starts_with(path))))
         continue;
+      if (const std::string section = idle_section(path, where); !section.empty()) {
+        also.push_back(section);
+        continue;
+      }
       std::string words = path.substr(1);
       std::replace(words.begin(), words.end(), '\n', '.');
       throw Error("the same text also gives " + words);
     }
+    return also;
   }
 
   std::vector<FileEdit> files_;  // mission, what it extends, airframe
   std::vector<Node> roots_;
   std::optional<FilePlace> airframe_;
+  std::vector<std::string> flown_;
   SavePlan plan_;
 };
 
@@ -328,8 +360,9 @@ bool write_all(int file, std::string_view text) {
 
 }  // namespace
 
-SavePlan plan_save(const fs::path& mission, const std::vector<SavedParam>& params) {
-  Saver saver(mission);
+SavePlan plan_save(const fs::path& mission, const std::vector<SavedParam>& params,
+                   const std::vector<std::string>& flown) {
+  Saver saver(mission, flown);
   for (const SavedParam& p : params) saver.save(p);
   return saver.plan();
 }

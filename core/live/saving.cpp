@@ -40,7 +40,9 @@ SavePlan plan_of(const FlightView& view, const std::string& component) {
   const std::vector<SavedParam> params = params_of(view, component);
   if (!std::filesystem::exists(view.file)) throw Error("the mission's file " + view.file + " is gone");
   check_mission_name(view.file, view.mission);
-  return plan_save(view.file, params);
+  std::vector<std::string> flown;
+  for (const ComponentView& c : view.components) flown.push_back(c.use);
+  return plan_save(view.file, params, flown);
 }
 
 /// What a later look would have to find the same.
@@ -80,6 +82,7 @@ SaveAnswer answer_to(const FlightView& view, const std::string& component, const
   answer.accepted = !plan.files.empty() || plan.refused.empty();
   for (const FileEdit& file : plan.files) answer.lines += diff_text(file);
   for (const std::string& sentence : plan.refused) add(answer.reason, sentence);
+  for (const std::string& sentence : plan.also) add(answer.reason, sentence);
   for (const std::string& name : plan.changed)
     if (std::find(view.set.begin(), view.set.end(), name) != view.set.end())
       add(answer.reason, name + " was given by --set: written, it is the mission's");

@@ -141,6 +141,8 @@ int param_save_command(const LiveAddress& target, const SaveOptions& options) {
   const json view = session.view();
   const std::vector<NamedParam> params = params_of(view);
   std::vector<SavedParam> list;
+  std::vector<std::string> flown;
+  for (const NamedParam& p : params) flown.push_back(p.use);
   bool component_known = options.component.empty();
   for (const NamedParam& p : params) {
     component_known = component_known || p.component == options.component;
@@ -149,9 +151,10 @@ int param_save_command(const LiveAddress& target, const SaveOptions& options) {
     list.push_back({p.component, p.use, p.info, p.value});
   }
   if (!component_known) find_param(params, options.component);
-  const SavePlan plan = plan_save(mission_file(view, options.mission), list);
+  const SavePlan plan = plan_save(mission_file(view, options.mission), list, flown);
   for (const FileEdit& file : plan.files) std::fputs(diff_text(file).c_str(), stdout);
   for (const std::string& sentence : plan.refused) std::fprintf(stderr, "%s\n", sentence.c_str());
+  for (const std::string& sentence : plan.also) std::fprintf(stderr, "%s\n", sentence.c_str());
   const int code = plan.refused.empty() ? 0 : 1;
   if (plan.files.empty()) {
     if (plan.refused.empty()) std::printf("The files say already what flies.\n");

@@ -63,7 +63,7 @@ SavedParam choice(const std::string& name, std::int64_t value) {
 std::string saved(const std::string& mission, const std::vector<SavedParam>& params) {
   const Folder folder;
   const fs::path file = folder.file("m.yaml", mission);
-  const SavePlan plan = plan_save(file, params);
+  const SavePlan plan = plan_save(file, params, {});
   for (const std::string& sentence : plan.refused) FAIL_CHECK(sentence);
   if (plan.files.empty()) return mission;
   REQUIRE(plan.files.size() == 1);
@@ -74,7 +74,7 @@ std::string saved(const std::string& mission, const std::vector<SavedParam>& par
 }
 std::string refused(const std::string& mission, const std::vector<SavedParam>& params) {
   const Folder folder;
-  const SavePlan plan = plan_save(folder.file("m.yaml", mission), params);
+  const SavePlan plan = plan_save(folder.file("m.yaml", mission), params, {});
   CHECK(plan.files.empty());
   return plan.refused.size() == 1 ? plan.refused[0] : "";
 }
@@ -162,8 +162,10 @@ TEST_CASE("a value is written into the file that it came from: what the mission 
               "components:\n  slc: {params: {climb_kff: 0.05}}\nroles: {r: {out: {truth?: T}}}\n");
   const fs::path mission = folder.file(
       "m.yaml", "extends: common.yaml\nairframe: plane.yaml\ncomponents:\n  slc: {params: {thrust: 50 N}}\n");
-  const SavePlan plan = plan_save(mission, {number("course_kp", 2.5, "rad/rad"),
-                                            number("climb_kff", 0.06, "1/m"), number("thrust", 55.5, "N")});
+  const SavePlan plan = plan_save(
+      mission,
+      {number("course_kp", 2.5, "rad/rad"), number("climb_kff", 0.06, "1/m"), number("thrust", 55.5, "N")},
+      {});
   CHECK(plan.refused.empty());
   CHECK(plan.changed == std::vector<std::string>{"slc.course_kp", "slc.climb_kff", "slc.thrust"});
   REQUIRE(plan.files.size() == 3);
@@ -175,11 +177,40 @@ TEST_CASE("a value is written into the file that it came from: what the mission 
         "plane.yaml:4\n-     course_kp: 2   # 1.15 rad/s\n+     course_kp: 2.5   # 1.15 rad/s\n");
 }
 
+TEST_CASE(
+    "gains that the airframe gives to two plugins by one text are written when one of the two flies, which "
+    "is told") {
+  const Folder folder;
+  folder.file("plane.yaml",
+              "params:\n  control_slc/Outer: &gains\n    course_kp: 2\n  control_slc/Autotune: *gains\n");
+  const fs::path mission = folder.file("m.yaml", "airframe: plane.yaml\n");
+  const std::vector<SavedParam> now{number("course_kp", 2.5, "rad/rad")};
+  const SavePlan plan = plan_save(mission, now, {"control_slc/Outer", "control_tecs/Autotune"});
+  CHECK(plan.refused.empty());
+  REQUIRE(plan.files.size() == 1);
+  CHECK(diff_text(plan.files[0]) == "plane.yaml:3\n-     course_kp: 2\n+     course_kp: 2.5\n");
+  CHECK(plan.also == std::vector<std::string>{"plane.yaml: slc.course_kp is the same text for "
+                                              "control_slc/Autotune, which does not fly"});
+  for (const char* other : {"control_slc/Autotune", "control_slc"}) {
+    const SavePlan both = plan_save(mission, now, {"control_slc/Outer", other});
+    CHECK(both.files.empty());
+    CHECK(both.also.empty());
+    REQUIRE(both.refused.size() == 1);
+    CHECK(both.refused[0] ==
+          "plane.yaml: slc.course_kp is 2.5 now; write it by hand: the same text also gives "
+          "params.control_slc/Autotune.course_kp");
+  }
+  // another place of that text is no parameter of the airframe
+  folder.file("plane.yaml",
+              "params:\n  control_slc/Outer:\n    course_kp: &k 2\n  x: {y: {course_kp: *k}}\n");
+  CHECK(plan_save(mission, now, {"control_slc/Outer"}).refused.size() == 1);
+}
+
 TEST_CASE("an added line is shown as one, and a file that has changed meanwhile is not written") {
   const Folder folder;
   const fs::path mission =
       folder.file("m.yaml", "components:\n  slc:\n    params:\n      a: 1\n  tecs: {}\n");
-  const SavePlan plan = plan_save(mission, {number("b", 2)});
+  const SavePlan plan = plan_save(mission, {number("b", 2)}, {});
   REQUIRE(plan.files.size() == 1);
   CHECK(diff_text(plan.files[0]) == "m.yaml:5\n+       b: 2\n");
   folder.file("m.yaml", "mission: other\n");
@@ -206,7 +237,7 @@ TEST_CASE("writing leaves other files alone, and keeps the mode of its own and t
     return list;
   };
   const std::vector<std::string> there = names();
-  write_edit(plan_save(folder.path / "link.yaml", {number("a", 2)}).files.at(0));
+  write_edit(plan_save(folder.path / "link.yaml", {number("a", 2)}, {}).files.at(0));
   CHECK(text(mission) == "components:\n  slc:\n    params:\n      a: 2\n");
   CHECK(text(copy) == "mine\n");
   CHECK(fs::status(mission).permissions() == (fs::perms::owner_all | fs::perms::group_read));
@@ -218,7 +249,7 @@ TEST_CASE("what cannot be written whole leaves the file as it was, and nothing b
   const Folder folder;
   const std::string before = "components:\n  slc:\n    params:\n      a: 1\n";
   const fs::path mission = folder.file("m.yaml", before);
-  const FileEdit edit = plan_save(mission, {number("a", 2)}).files.at(0);
+  const FileEdit edit = plan_save(mission, {number("a", 2)}, {}).files.at(0);
   rlimit usual{};
   REQUIRE(::getrlimit(RLIMIT_FSIZE, &usual) == 0);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -247,12 +278,13 @@ TEST_CASE("block scalars and broken files are refused") {
         "m.yaml: slc.wind is [1 m, 2 m, 4 m] now; write it by hand: a list is changed only when it is "
         "written in brackets, [a, b, c]");
   const Folder folder;
-  CHECK_THROWS_AS(plan_save(folder.file("m.yaml", "a: {b\n"), {number("x", 1)}), Error);
+  CHECK_THROWS_AS(plan_save(folder.file("m.yaml", "a: {b\n"), {number("x", 1)}, {}), Error);
 }
 
 TEST_CASE("a shipped mission keeps every byte but those of the value") {
   const fs::path source = fs::path(FULMAR_SOURCE_DIR) / "configs";
-  const SavePlan plan = plan_save(source / "missions/hourglass.yaml", {number("course_kp", 2.25, "rad/rad")});
+  const SavePlan plan =
+      plan_save(source / "missions/hourglass.yaml", {number("course_kp", 2.25, "rad/rad")}, {});
   REQUIRE(plan.files.size() == 1);
   CHECK(plan.files[0].path.filename() == "anaconda.yaml");
   CHECK(plan.files[0].after.size() == plan.files[0].before.size() + 1);

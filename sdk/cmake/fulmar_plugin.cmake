@@ -34,8 +34,7 @@ function(fulmar_add_plugin name)
   set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON C_VISIBILITY_PRESET hidden
                         LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/fulmar LINK_DEPENDS ${FULMAR_VERSION_SCRIPT})
   target_compile_features(${name} PRIVATE cxx_std_20)
-  # -g1: line numbers; a debugger's variables are in a build of type Debug, and cost a third of the time that this one takes
-  target_compile_options(${name} PRIVATE -ffp-contract=off -fno-math-errno $<$<CONFIG:RelWithDebInfo>:-g1> $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique> $<$<CXX_COMPILER_ID:Clang>:-fconstexpr-steps=20000000>)
+  target_compile_options(${name} PRIVATE -ffp-contract=off -fno-math-errno $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique> $<$<CXX_COMPILER_ID:Clang>:-fconstexpr-steps=20000000>)
   # now: symbols are bound when the plugin is loaded, not by the first call in flight
   target_link_options(${name} PRIVATE -Wl,--version-script=${FULMAR_VERSION_SCRIPT} -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
   if(NOT FULMAR_SANITIZE)
@@ -50,7 +49,7 @@ function(fulmar_add_plugin name)
     endif()
     add_executable(${name}_test ${arg_TEST})
     target_link_libraries(${name}_test PRIVATE fulmar::sdk fulmar_plugin_test_main ${arg_LINK})
-    target_compile_options(${name}_test PRIVATE -O0 $<$<CONFIG:RelWithDebInfo>:-g1>)  # compiles in half the time; the plugin beside it is optimised
+    target_compile_options(${name}_test PRIVATE -O0)  # compiles in half the time; the plugin beside it is optimised
     target_include_directories(${name}_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
     add_test(NAME ${name}_test COMMAND ${name}_test)
   endif()

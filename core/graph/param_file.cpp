@@ -18,6 +18,7 @@
 #include "core/graph/mission.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/quantity.hpp"
+#include "core/graph/shipped.hpp"
 #include "core/graph/yaml.hpp"
 #include "core/graph/yaml_edit.hpp"
 
@@ -146,15 +147,15 @@ Node parsed(const std::string& text, const std::string& name) {
 class Saver {
  public:
   Saver(const fs::path& mission, const std::vector<std::string>& flown) : flown_(flown) {
-    open(mission, mission.string());
+    open(mission, mission.string(), true);
     if (const Node* base = roots_[0].find("extends"); base && base->is(Node::Kind::scalar))
-      open(mission.parent_path() / base->text, base->text);
+      open_named(0, base->text);
     for (std::size_t i = 0; i < files_.size(); ++i) {
       const Node* airframe = roots_[i].find("airframe");
       if (!airframe) continue;
       if (airframe->is(Node::Kind::map)) airframe_ = FilePlace{i, {"airframe", "params"}};
       if (!airframe->is(Node::Kind::scalar)) break;
-      open(files_[i].path.parent_path() / airframe->text, airframe->text);
+      open_named(i, airframe->text);
       airframe_ = FilePlace{files_.size() - 1, {"params"}};
       break;
     }
@@ -166,12 +167,14 @@ class Saver {
     if (place && p.info.kind == FULMAR_VECTOR && !p.info.type)
       p.info.type = names_of(*at_path(roots_[place->file], place->path));
     if (place ? already(p, *place) : same_value(p.info, p.value, initial_value(p.info))) return;
-    const FilePlace where = place.value_or(FilePlace{0, {"components", p.component, "params", p.info.name}});
+    const bool replaces = place && ours_[place->file];
+    const FilePlace where =
+        replaces ? *place : FilePlace{0, {"components", p.component, "params", p.info.name}};
     const std::string name = p.component + "." + p.info.name;
     try {
       const std::string& before = files_[where.file].after;
       const std::string after =
-          place ? replaced(before, where.path, p) : with_entry(before, where.path, new_text(p));
+          replaces ? replaced(before, where.path, p) : with_entry(before, where.path, new_text(p));
       const std::vector<std::string> also = check(before, after, where, p);
       files_[where.file].after = after;
       roots_[where.file] = parsed(after, files_[where.file].name);
@@ -192,7 +195,12 @@ class Saver {
   }
 
  private:
-  void open(const fs::path& path, const std::string& name) {
+  /// A file that the nth one names. What came with the installation is read, and never written.
+  void open_named(std::size_t nth, const std::string& name) {
+    open(named_file(files_[nth].path.parent_path(), name), name, ours_[nth] && !is_shipped_name(name));
+  }
+  void open(const fs::path& path, const std::string& name, bool ours) {
+    ours_.push_back(ours);
     const FilePtr file = read_source(path, name);
     roots_.push_back(parsed(file->text, name));
     files_.push_back({path, path.filename().string(), file->text, file->text});
@@ -334,6 +342,7 @@ class Saver {
 
   std::vector<FileEdit> files_;  // mission, what it extends, airframe
   std::vector<Node> roots_;
+  std::vector<bool> ours_;  // per file: whether it may be written
   std::optional<FilePlace> airframe_;
   std::vector<std::string> flown_;
   SavePlan plan_;

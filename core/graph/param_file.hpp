@@ -31,10 +31,11 @@ struct SavePlan {
 };
 
 /// Where a value stands decides where it is written: `params:` of the mission, that of the file it extends,
-/// the airframe's; the mission when it stands nowhere. Values keep the unit and the quotes that they are
-/// written in. A change that would alter anything else, through an anchor say, is refused, but when that is
-/// the same parameter of the airframe for a plugin that does not fly: it is told. `flown`: the plugins that
-/// do, "control_slc/Outer". Records and blobs are left out. Throws Error when a file cannot be read.
+/// the airframe's; the mission when it stands nowhere, or in a file of the installation (`fulmar:`). Values
+/// keep the unit and the quotes that they are written in. A change that would alter anything else, through an
+/// anchor say, is refused, but when that is the same parameter of the airframe for a plugin that does not
+/// fly: it is told. `flown`: the plugins that do, "control_slc/Outer". Records and blobs are left out. Throws
+/// Error when a file cannot be read.
 SavePlan plan_save(const std::filesystem::path& mission, const std::vector<SavedParam>& params,
                    const std::vector<std::string>& flown);
 

@@ -281,6 +281,27 @@ TEST_CASE("block scalars and broken files are refused") {
   CHECK_THROWS_AS(plan_save(folder.file("m.yaml", "a: {b\n"), {number("x", 1)}, {}), Error);
 }
 
+TEST_CASE(
+    "what stands in a file of the installation is written into the mission, which begins where that ends") {
+  const Folder folder;
+  const fs::path mission = folder.file("m.yaml", "mission: mine\nextends: fulmar:missions/hourglass.yaml\n");
+  const SavePlan plan =
+      plan_save(mission, {number("course_kp", 2.25, "rad/rad"), number("course_ki", 0, "rad/(rad s)")}, {});
+  CHECK(plan.refused.empty());
+  REQUIRE(plan.files.size() == 1);
+  CHECK(plan.files[0].after ==
+        "mission: mine\nextends: fulmar:missions/hourglass.yaml\n"
+        "components: {slc: {params: {course_kp: 2.25}}}\n");
+  write_edit(plan.files[0]);
+  const SavePlan again = plan_save(mission, {number("course_kp", 2.5, "rad/rad")}, {});
+  REQUIRE(again.files.size() == 1);
+  CHECK(again.files[0].after.find("{course_kp: 2.5}") != std::string::npos);
+  folder.file("m.yaml", "mission: mine\nairframe: fulmar:airframes/anaconda.yaml\n");
+  const SavePlan of_airframe = plan_save(mission, {number("course_kp", 2.25, "rad/rad")}, {});
+  REQUIRE(of_airframe.files.size() == 1);
+  CHECK(of_airframe.files[0].path == mission);
+}
+
 TEST_CASE("a shipped mission keeps every byte but those of the value") {
   const fs::path source = fs::path(FULMAR_SOURCE_DIR) / "configs";
   const SavePlan plan =

@@ -148,9 +148,12 @@ class Saver {
  public:
   Saver(const fs::path& mission, const std::vector<std::string>& flown) : flown_(flown) {
     open(mission, mission.string(), true);
-    if (const Node* base = roots_[0].find("extends"); base && base->is(Node::Kind::scalar))
-      open_named(0, base->text);
-    for (std::size_t i = 0; i < files_.size(); ++i) {
+    constexpr std::size_t most = 32;  // a mission that flies has no circle, but a file may have changed since
+    for (const Node* base = nullptr;
+         (base = roots_.back().find("extends")) && base->is(Node::Kind::scalar) && files_.size() < most;)
+      open_named(files_.size() - 1, base->text);
+    missions_ = files_.size();
+    for (std::size_t i = 0; i < missions_; ++i) {
       const Node* airframe = roots_[i].find("airframe");
       if (!airframe) continue;
       if (airframe->is(Node::Kind::map)) airframe_ = FilePlace{i, {"airframe", "params"}};
@@ -196,7 +199,7 @@ class Saver {
 
  private:
   /// A file that the nth one names. What came with the installation is read, and never written.
-  void open_named(std::size_t nth, const std::string& name) {
+  void open_named(std::size_t nth, const std::string name) {
     open(named_file(files_[nth].path.parent_path(), name), name, ours_[nth] && !is_shipped_name(name));
   }
   void open(const fs::path& path, const std::string& name, bool ours) {
@@ -208,7 +211,7 @@ class Saver {
 
   std::optional<FilePlace> find(const SavedParam& p) const {
     const YamlPath own{"components", p.component, "params", p.info.name};
-    for (std::size_t i = 0; i < std::min<std::size_t>(files_.size(), 2); ++i)
+    for (std::size_t i = 0; i < missions_; ++i)
       if (at_path(roots_[i], own)) return FilePlace{i, own};
     if (!airframe_) return std::nullopt;
     const Node* sections = at_path(roots_[airframe_->file], airframe_->path);
@@ -340,7 +343,8 @@ class Saver {
     return also;
   }
 
-  std::vector<FileEdit> files_;  // mission, what it extends, airframe
+  std::vector<FileEdit> files_;  // mission, what it extends and what that does, airframe
+  std::size_t missions_ = 0;     // of those
   std::vector<Node> roots_;
   std::vector<bool> ours_;  // per file: whether it may be written
   std::optional<FilePlace> airframe_;

@@ -30,7 +30,7 @@ struct SavePlan {
   std::vector<std::string> also;     // sentences: what else the same text says
 };
 
-/// Where a value stands decides where it is written: `params:` of the mission, that of the file it extends,
+/// Where a value stands decides where it is written: `params:` of the mission, that of a file it extends,
 /// the airframe's; the mission when it stands nowhere, or in a file of the installation (`fulmar:`). Values
 /// keep the unit and the quotes that they are written in. A change that would alter anything else, through an
 /// anchor say, is refused, but when that is the same parameter of the airframe for a plugin that does not

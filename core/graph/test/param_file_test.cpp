@@ -206,6 +206,20 @@ TEST_CASE(
   CHECK(plan_save(mission, now, {"control_slc/Outer"}).refused.size() == 1);
 }
 
+TEST_CASE("what a mission extends may extend another: a value is found in each, and the nearest counts") {
+  const Folder folder;
+  folder.file("far.yaml", "components:\n  slc: {params: {a: 1, b: 2}}\n");
+  folder.file("near.yaml", "extends: far.yaml\ncomponents:\n  slc: {params: {b: 3}}\n");
+  const fs::path mission = folder.file("m.yaml", "extends: near.yaml\n");
+  CHECK(plan_save(mission, {number("a", 1), number("b", 3)}, {}).files.empty());
+  const SavePlan plan = plan_save(mission, {number("a", 4), number("b", 5)}, {});
+  REQUIRE(plan.files.size() == 2);
+  CHECK(diff_text(plan.files[0]).find("+   slc: {params: {b: 5}}") != std::string::npos);
+  CHECK(diff_text(plan.files[1]).find("+   slc: {params: {a: 4, b: 2}}") != std::string::npos);
+  folder.file("far.yaml", "extends: near.yaml\n");
+  CHECK(plan_save(mission, {number("b", 3)}, {}).files.empty());  // a circle ends
+}
+
 TEST_CASE("an added line is shown as one, and a file that has changed meanwhile is not written") {
   const Folder folder;
   const fs::path mission =

@@ -186,7 +186,7 @@ const steps = {
     for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowRight");
     await until("the flight's value", async () => (await ask("param", "get", "attitude.roll_kp")) !== before);
     await page.click("text=Save attitude…");
-    await seen("what cannot be written alone", ".side [role=alert]", (t) => /Refused: mine.yaml: attitude.roll_kp is .* now; write it by hand: the same text also gives/.test(t));
+    await seen("who else has that text", ".side [role=alert]", (t) => t.includes("attitude.roll_kp is the same text for control_slc/Autotune, which does not fly"));
     await row.locator("input[type=text]").fill("900");
     await row.locator("input[type=text]").press("Enter");
     await seen("the range", '[data-param="roll_kp"] .refusal', (t) => t === "Refused: attitude.roll_kp: 900 is outside 0 .. 20 rad/rad" || t.includes("outside 0 .. 20"));

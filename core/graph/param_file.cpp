@@ -199,7 +199,7 @@ class Saver {
 
  private:
   /// A file that the nth one names. What came with the installation is read, and never written.
-  void open_named(std::size_t nth, const std::string name) {
+  void open_named(std::size_t nth, const std::string& name) {
     open(named_file(files_[nth].path.parent_path(), name), name, ours_[nth] && !is_shipped_name(name));
   }
   void open(const fs::path& path, const std::string& name, bool ours) {

@@ -97,6 +97,7 @@ bool Flight::Impl::step() {
   if (end.over()) return false;  // to make room for another
   if (first && state.on_hardware()) stay_on_one_cpu();
   if (first) stopwatch.begin();
+  stopwatch.enter(state.index);
   const std::uint64_t before = thread_allocations();
   const bool goes_on = tick();
   tell_control();

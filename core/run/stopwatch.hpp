@@ -14,6 +14,9 @@ class Stopwatch {
 
   /// [tick] In the first one.
   void begin() noexcept;
+  /// [tick] At the begin of each. Where nothing is judged by the clock, one tick in eight is timed: to read it
+  /// after each step costs more than many a step.
+  void enter(std::uint64_t tick) noexcept;
   /// [tick] Charges the time since the last reading to `unit`: one reading between two steps times both. True
   /// when the unit has been over its budget for too long.
   bool charge(Unit& unit) noexcept;
@@ -30,8 +33,11 @@ class Stopwatch {
   double elapsed_s() const noexcept;  // without what it stood still
 
  private:
+  std::int64_t measure(Unit& unit) noexcept;
+
   const FlightState& state_;
   Recorder& recorder_;
+  bool timed_ = true;  // this tick
   std::int64_t wall_ns_ = 0, begin_ns_ = 0, shown_ns_ = 0, stood_ns_ = 0;
   // where the flight's speed counts from; never: from the first tick
   std::int64_t paced_wall_ns_ = 0, paced_flight_ns_ = never_ns;

@@ -29,6 +29,9 @@ const hostile = "<img src=x onerror=document.body.remove()>";
 copyFileSync("configs/airframes/anaconda.yaml", join(folder, "mine.yaml")); // what is saved goes into a file of our own
 writeFileSync(join(folder, "hostile.yaml"), `mission: "${hostile}"\nextends: ${resolve("configs/missions/hourglass.yaml")}\nairframe: mine.yaml\n`);
 
+// A place of the mission's map that neither plan nor aircraft covers, by the radii of curvature of WGS 84 there (to 3 mm).
+const coloured = { n: 200, e: 200, lat: 40.2463724 + ((200 / 6363474) * 180) / Math.PI, lon: -111.6474138 + ((200 / 4876137) * 180) / Math.PI };
+
 let page, flight, tiles;
 const faults = [], foreign = [];
 const shots = shots_folder(modules);
@@ -38,13 +41,14 @@ const seen = (what, selector, holds, patience) => until(what, async () => holds(
 
 /** Nothing may be wider than its box, and the page not than its window. */
 async function whole(name) {
-  const cut = await page.evaluate(() => {
+  const cut = () => page.evaluate(() => {
     const hidden = (e) => getComputedStyle(e).overflowX !== "visible"; // nobody scrolls to the right to read a number
     const list = [...document.querySelectorAll("body *")].filter((e) => e.tagName !== "CANVAS" && e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1 && hidden(e));
     if (document.documentElement.scrollWidth > innerWidth) list.push(document.documentElement);
     return list.map((e) => `${e.tagName}.${e.className} ${(e.value ?? e.textContent ?? "").slice(0, 40)}`);
   });
-  assert.deepEqual(cut, [], name + ": cut off");
+  await until("drawn for this window", async () => (await cut()).length === 0).catch(() => {}); // charts follow it by and by
+  assert.deepEqual(await cut(), [], name + ": cut off");
 }
 async function shoot(name) {
   for (const [width, height] of [[1280, 720], [1024, 768]]) {
@@ -105,7 +109,6 @@ const steps = {
     await seen("the waypoints", ".waypoints tbody th", (t) => t.split("\n").length === 4);
     await shoot("plan");
     const item = await value_of("manage.progress.item");
-    const before = await value_of("manage.progress.distance_m");
     const box = await page.locator(".plan canvas.map").boundingBox();
     const [n, e, px] = (await page.locator(".plan canvas.map").getAttribute("data-view")).split(",").map(Number);
     const at_m = await position_of(item);
@@ -121,8 +124,11 @@ const steps = {
     await page.mouse.up();
     await until("the flight's waypoint has moved", async () => (await position_of(item)).north !== at_m.north);
     await seen("what is drawn flies", ".plan .faint", (t) => t.includes("This is what flies"));
-    const moved = await value_of("manage.progress.distance_m");
-    assert.ok(moved > before + 0.3 * (far_px / px), `the aircraft flies to it: ${before} m became ${moved} m`);
+    await until("the aircraft flies to it", async () => {
+      const aim = await position_of(item), is = await value_of("manage.progress.distance_m");
+      const now = { north: await value_of("nav.state.position_m.north"), east: await value_of("nav.state.position_m.east") };
+      return Math.abs(Math.hypot(aim.north - now.north, aim.east - now.east) - is) < 0.3 * (far_px / px);
+    });
   },
   async "Plan: what is refused says why, in its row, and what flies stays"() {
     const field = page.getByLabel("up of waypoint 2, m");
@@ -256,7 +262,8 @@ const steps = {
     const late = await browser.newPage(); // who comes now sees how it stands
     await late.goto(`http://127.0.0.1:${port}/`);
     await until("figures of a flight that stands", async () => /ground speed\d+\.\d m\/s.*waypoint\d of 4/s.test((await late.locator(".figures").textContent()) ?? ""));
-    assert.match(await late.locator("#clock").textContent(), new RegExp(`:${(stands % 60).toFixed(1).padStart(4, "0")}`));
+    const [minutes, seconds] = (await late.locator("#clock").textContent()).split(":").map(Number);
+    near(60 * minutes + seconds, stands, 0.06);
     await late.close();
     await page.getByLabel("Ticks to step").fill("200");
     await page.click("button >> text=Step");
@@ -318,8 +325,7 @@ const steps = {
     await until("it is back", hidden);
     await flight.end();
     await seen("the banner again", "#banner", (t) => t.includes("Connection lost"));
-    const origin = { lat: 40.2463724, lon: -111.6474138 };
-    tiles = await tile_server(origin);
+    tiles = await tile_server(coloured);
     const mission = join(folder, "tiles.yaml");
     writeFileSync(mission, `mission: tiles\nextends: ${resolve("configs/missions/hourglass.yaml")}\n` +
       `live: {tiles: "http://127.0.0.1:${tiles.port}/{z}/{x}/{y}.png", attribution: "Tiles of <b>nobody</b>"}\n`);
@@ -333,17 +339,15 @@ const steps = {
     await until("tiles", () => tiles.asked.length > 3);
     await page.waitForTimeout(500);
     await shoot("tiles");
-    // the origin, where four colours meet, stands where the map has it
-    const canvas = ".plan canvas.map";
-    const [n, e, px] = (await page.locator(canvas).getAttribute("data-view")).split(",").map(Number);
+    // where four colours meet, the map has that place: to two pixels
+    const canvas = ".plan canvas.map", off = 2;
     const box = await page.locator(canvas).boundingBox();
-    const x = box.width / 2 - e * px, y = box.height / 2 + n * px, off = 23; // beside the aircraft
-    await until("the colours round the origin", async () => {
+    await until("the colours", async () => {
+      const [n, e, px] = (await page.locator(canvas).getAttribute("data-view")).split(",").map(Number); // it moves as news come
+      const x = box.width / 2 + (coloured.e - e) * px, y = box.height / 2 - (coloured.n - n) * px;
       const found = await colours_at(browser, page, canvas, [[x - off, y - off], [x + off, y - off], [x - off, y + off], [x + off, y + off]]);
       return found.map(([r, g, b]) => (r > 150 && g < 120 ? "r" : r < 120 && g > 150 ? "g" : b > 150 ? "b" : r > 150 && g > 150 && b < 120 ? "y" : "?")).join("") === "rgby";
-    });
-    const close = await colours_at(browser, page, canvas, [[x - 2, y - 40], [x + 2, y - 40]]);
-    assert.ok(close[0][0] > close[0][1] && close[1][1] > close[1][0], "within two pixels: " + close.join(" "));
+    }, 60); // a picture of a page with 3-D takes seconds where others compute
     for (let i = 0; i < 9; ++i) await page.keyboard.press("+"); // farther in than there are tiles
     await until("asked, and not there", () => tiles.asked.some((t) => t.z > 16));
     await page.waitForTimeout(500);

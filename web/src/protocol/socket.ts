@@ -32,6 +32,7 @@ export interface LinkState {
 const quiet_ms = 250; // then we ask whether somebody is there
 const lost_ms = 750; // then nobody is
 const again_ms = 500; // between two attempts
+const watch_ms = 100;
 const op_data = 1, op_time = 2, op_call = 2, op_answer = 3;
 const encoding = new TextEncoder().encode("json");
 
@@ -43,6 +44,8 @@ interface Call {
 export class Socket {
   private ws: WebSocket | null = null;
   private heard_ms = 0;
+  private watched_ms = 0;
+  private quiet = 0; // ms since it was heard, of those in which this page was awake: what has come while it slept is read later
   private asked_ms = 0;
   private opened_ms = 0;
   private up = false;
@@ -53,17 +56,18 @@ export class Socket {
 
   constructor(private readonly url: string, private readonly on: Handlers) {
     this.open();
-    setInterval(() => this.watch(), 100);
-    document.addEventListener("visibilitychange", () => (this.heard_ms = performance.now()));
+    setInterval(() => this.watch(), watch_ms);
+    document.addEventListener("visibilitychange", () => this.heard());
   }
 
   private open(): void {
-    this.opened_ms = this.heard_ms = performance.now();
+    this.heard();
+    this.opened_ms = this.heard_ms;
     const ws = new WebSocket(this.url, ["foxglove.websocket.v1"]);
     ws.binaryType = "arraybuffer";
     ws.onmessage = (event) => {
       if (ws !== this.ws) return;
-      this.heard_ms = performance.now();
+      this.heard();
       if (typeof event.data === "string") this.text(event.data);
       else this.binary(event.data as ArrayBuffer);
     };
@@ -71,6 +75,11 @@ export class Socket {
       if (ws === this.ws) this.lose(event.reason);
     };
     this.ws = ws;
+  }
+
+  private heard(): void {
+    this.heard_ms = performance.now();
+    this.quiet = 0;
   }
 
   private lose(reason: string): void {
@@ -87,14 +96,15 @@ export class Socket {
 
   private watch(): void {
     const now = performance.now();
+    this.quiet += Math.min(now - this.watched_ms, 2 * watch_ms);
+    this.watched_ms = now;
     if (this.ws === null) {
       if (now - this.opened_ms > again_ms) this.open();
       return;
     }
     if (document.hidden) return; // a page that is not seen is put to sleep now and then
-    const quiet = now - this.heard_ms;
-    if (quiet > lost_ms && (this.up || quiet > 5 * lost_ms)) return this.lose("nothing is heard of the flight");
-    if (this.up && quiet > quiet_ms && now - this.asked_ms > quiet_ms) {
+    if (this.quiet > lost_ms && (this.up || this.quiet > 5 * lost_ms)) return this.lose("nothing is heard of the flight");
+    if (this.up && this.quiet > quiet_ms && now - this.asked_ms > quiet_ms) {
       this.asked_ms = now;
       this.send({ op: "getParameters", parameterNames: this.sign_of_life, id: "alive" });
     }

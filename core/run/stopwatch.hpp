@@ -14,8 +14,8 @@ class Stopwatch {
 
   /// [tick] In the first one.
   void begin() noexcept;
-  /// [tick] At the begin of each. Where nothing is judged by the clock, one tick in eight is timed: to read it
-  /// after each step costs more than many a step.
+  /// [tick] At the begin of each. Where nothing is judged by the clock, one tick in eight is timed: to read
+  /// it after each step costs more than many a step.
   void enter(std::uint64_t tick) noexcept;
   /// [tick] Charges the time since the last reading to `unit`: one reading between two steps times both. True
   /// when the unit has been over its budget for too long.

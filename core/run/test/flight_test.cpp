@@ -397,6 +397,26 @@ TEST_CASE("the loop takes no memory, and a component that does is named") {
     if (c.name == "one") CHECK(c.allocations == 401);
 }
 
+TEST_CASE("where nobody waits for the clock one tick in eight is timed, of every component at any rate") {
+  for (int period = 1; period <= 20; ++period) {
+    Graph g = mission(one_phase);
+    for (Component& c : g.components)
+      if (c.name == "one") c.period_ns = period * g.tick_ns;
+    for (const ComponentStats& c : Flight(g, options(20)).run().components) {
+      CAPTURE(period);
+      CAPTURE(c.name);
+      CAPTURE(c.steps);
+      if (c.steps > 100)
+        CHECK(std::abs(static_cast<double>(c.time.count()) / static_cast<double>(c.steps) -
+                       0.125 * (c.name == "sim" ? 2 : 1)) < 0.02);
+    }
+  }
+  FlightOptions paced = options(1);
+  paced.speed = 1000;
+  for (const ComponentStats& c : Flight(mission(one_phase), paced).run().components)
+    CHECK(c.time.count() >= c.steps);
+}
+
 TEST_CASE("a paced flight stops a component that is over its budget five times in a row") {
   const Graph g = mission(with_fallback, {{"one.fault", "slow"}, {"one.fault_at", "0"}});
   Graph budgeted = g;

@@ -4,6 +4,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <concepts>
 
 #include "fulmar/flight/aircraft_model.hpp"
 #include "fulmar/flight/dual.hpp"
@@ -30,15 +31,17 @@ inline constexpr std::array<int, 8> motion_states{u, w, q, pitch, v, p, r, roll}
 inline constexpr std::array<int, 4> all_inputs{aileron, elevator, rudder, throttle};
 }  // namespace model
 
-inline LinearModel linear_model(const AircraftModel& m, const model::StateVector<double>& x,
-                                const model::InputVector<double>& input) {
+/// By automatic differentiation, which only who calls it compiles.
+template <std::same_as<AircraftModel> Model>
+LinearModel linear_model(const Model& m, const model::StateVector<double>& x,
+                         const model::InputVector<double>& input) {
   constexpr int n = model::states + model::inputs;
   using D = Dual<n>;
   model::StateVector<D> x_dual;
   model::InputVector<D> u_dual;
   for (int i = 0; i < model::states; ++i) x_dual(i) = D::variable(x(i), i);
   for (int i = 0; i < model::inputs; ++i) u_dual(i) = D::variable(input(i), model::states + i);
-  const model::StateVector<D> rate = m.rate<D>(x_dual, u_dual);
+  const model::StateVector<D> rate = m.template rate<D>(x_dual, u_dual);
   LinearModel out;
   for (int i = 0; i < model::states; ++i) {
     for (int k = 0; k < model::states; ++k) out.A(i, k) = rate(i).d[std::size_t(k)];

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -44,8 +45,9 @@ namespace detail {
 using MotionMatrix = Eigen::Matrix<double, 8, 8>;
 
 /// Eigenvalues with their participations; a pair counts once.
-inline std::vector<Mode> modes_without_names(const MotionMatrix& A) {
-  const Eigen::EigenSolver<MotionMatrix> solver(A);
+template <std::same_as<MotionMatrix> Matrix>
+std::vector<Mode> modes_without_names(const Matrix& A) {
+  const Eigen::EigenSolver<Matrix> solver(A);
   const Eigen::Matrix<std::complex<double>, 8, 8> V = solver.eigenvectors(), W = V.inverse();
   std::vector<Mode> modes;
   for (int i = 0; i < 8; ++i) {
@@ -103,8 +105,10 @@ inline void name_modes(std::vector<Mode> modes, ModeKind kind, std::vector<Mode>
 }  // namespace detail
 
 /// The modes, in the order of `ModeKind`. Each kind but roll and spiral is a pair, or two real ones when it
-/// does not oscillate; roll and spiral may have become one pair (`roll_spiral`).
-inline std::vector<Mode> modes_of(const LinearModel& all) {
+/// does not oscillate; roll and spiral may have become one pair (`roll_spiral`). A template, so that who only
+/// names a mode does not compile eigenvectors: they take longer than most files.
+template <std::same_as<LinearModel> Model>
+std::vector<Mode> modes_of(const Model& all) {
   // places in model::motion_states
   constexpr std::size_t u = 0, w = 1, q = 2, pitch = 3, v = 4, p = 5, r = 6;
   const detail::MotionMatrix A = all.A(model::motion_states, model::motion_states);

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <numbers>
 
@@ -161,7 +162,8 @@ class SteadyEquations {
 };
 
 /// Newton's method from `z`; returns what is left.
-inline double solve_steady(const SteadyEquations& equations, SteadyEquations::Vector<double>& z) {
+template <std::same_as<SteadyEquations> Equations>
+double solve_steady(const Equations& equations, SteadyEquations::Vector<double>& z) {
   constexpr int n = SteadyEquations::unknowns;
   double left = 1e9;
   for (int steps = 0; steps < 60; ++steps) {
@@ -282,8 +284,10 @@ inline SteadyFlight filled(const AircraftModel& m, const SteadyCondition& c,
 }  // namespace detail
 
 /// The steady flight, or as far as it was found, with what stands against it. Several are possible beyond the
-/// stall; what is found is the one of attached flow.
-inline SteadyFlight steady_flight(const AircraftModel& m, const SteadyCondition& c) {
+/// stall; what is found is the one of attached flow. A template, so that only who calls it compiles its
+/// derivatives.
+template <std::same_as<AircraftModel> Model>
+SteadyFlight steady_flight(const Model& m, const SteadyCondition& c) {
   using E = detail::SteadyEquations;
   if (const TrimLimit missing = detail::missing_part(m.airframe()); missing != TrimLimit::none) {
     SteadyFlight f;

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 
 #include "fulmar/flight/aerodynamics.hpp"
 #include "fulmar/flight/atmosphere.hpp"
@@ -89,8 +90,9 @@ class StraightFlight {
 }  // namespace detail
 
 /// `gamma_rad` is the climb angle.
-inline Trim trimmed_flight(const Airframe& airframe, double Va, double rho, double gamma_rad = 0,
-                           double gravity_mps2 = isa::g0) {
+template <std::same_as<Airframe> Aircraft>
+Trim trimmed_flight(const Aircraft& airframe, double Va, double rho, double gamma_rad = 0,
+                    double gravity_mps2 = isa::g0) {
   using Vector6 = detail::StraightFlight::Vector6;
   const detail::StraightFlight flight(airframe, Va, rho, gamma_rad, gravity_mps2);
   Vector6 x;

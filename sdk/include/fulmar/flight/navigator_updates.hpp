@@ -481,10 +481,12 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   }
   const Gusts::MeanWind wind = mean_wind();
   const double noise = p.pitot_noise / (air_.density_kgm3 * Va);
-  const ekf::Fused fused =
-      fuse(ekf::true_airspeed(filter_.state(), Va), noise * noise + p.pitot_speed_std * p.pitot_speed_std,
-           p.air_gate, health_.pitot);
-  if (fused.accepted) gusts_.airspeed(wind, Va, time_s_, p);
+  const Vector3d before = air();
+  const ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
+  if (!fuse(z, noise * noise + p.pitot_speed_std * p.pitot_speed_std, p.air_gate, health_.pitot).accepted)
+    return;
+  gusts_.airspeed(wind, Va, time_s_, p);
+  spoil_wind(before, z, p);
 }
 
 }  // namespace fulmar::navigation

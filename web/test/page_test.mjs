@@ -329,7 +329,9 @@ const steps = {
     const mission = join(folder, "tiles.yaml");
     writeFileSync(mission, `mission: tiles\nextends: ${resolve("configs/missions/hourglass.yaml")}\n` +
       `live: {tiles: "http://127.0.0.1:${tiles.port}/{z}/{x}/{y}.png", attribution: "Tiles of <b>nobody</b>"}\n`);
+    const loaded = page.waitForEvent("load"); // of another flight the page is another one
     flight = await fly(fulmar, port, mission);
+    await loaded;
     await until("the next flight", hidden);
   },
   async "Map: tiles lie where they belong, from where the mission says, and what does not come is no fault"() {

@@ -240,7 +240,7 @@ const steps = {
     await page.locator(".wiring [data-component=slc]").focus();
     await page.keyboard.press("ArrowRight");
     await seen("the next one, by the keyboard", ".wires h2", (t) => t.startsWith("attitude: "));
-    assert.equal(await page.evaluate(() => document.activeElement.getAttribute("aria-pressed")), "true");
+    await until("it has the focus, and says so", () => page.evaluate(() => document.activeElement.getAttribute("aria-pressed") === "true"));
     await page.keyboard.press("ArrowLeft");
     await page.keyboard.press("ArrowDown");
     await seen("the one below", ".wires h2", (t) => t.startsWith("tecs: "));

@@ -308,6 +308,7 @@ const steps = {
   },
   async "a flight that is gone is missed within a second, and found again"() {
     await tab("Fly");
+    await until("all of it is here", () => page.evaluate(() => document.querySelector(".chase canvas")?.width > 300));
     const hidden = () => page.locator("#banner").isHidden();
     assert.ok(await hidden());
     // what the bar says when it comes up: how long ago the flight was heard
@@ -383,7 +384,7 @@ try {
   page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
   page.setDefaultTimeout(15_000);
   page.on("pageerror", (e) => faults.push(e.message));
-  page.on("console", (m) => m.type() === "error" && !m.text().includes("WebSocket") && faults.push(m.text()));
+  page.on("console", (m) => m.type() === "error" && !m.text().includes("WebSocket") && faults.push(`${m.text()} ${m.location().url}`));
   page.on("request", (r) => new URL(r.url()).host !== `127.0.0.1:${port}` && !r.url().startsWith("data:") && foreign.push(r.url()));
   for (const [name, step] of Object.entries(steps)) {
     const begun = Date.now();

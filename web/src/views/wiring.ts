@@ -40,13 +40,15 @@ export class Wiring {
       const title = svg("title"), path = svg("path", { class: "wire", d: "M" + wire.points.map((p) => p.join(" ")).join("L") }, title);
       return { wire, path, title };
     });
+    const held = this.element.contains(document.activeElement) ? (document.activeElement as SVGElement).dataset.component : undefined;
     this.nodes = new Map(boxes.map((box) => [box.name, this.node(box)]));
     fill(this.element, ...this.lines.map((l) => l.path), ...[...this.nodes.values()].map((n) => n.group));
+    if (held) this.nodes.get(held)?.group.focus(); // the keyboard stays where it is
   }
   private node(box: Box): Node {
     const line = (at: number, name: string) => svg("text", { class: name, x: box.x + 7, y: box.y + at });
     const title = svg("title"), name = line(16, "name"), below = line(31, "small"), last = line(45, "small");
-    const group = svg("g", { class: "component", role: "button", "data-component": box.name }, title,
+    const group = svg("g", { class: "component", role: "button", tabindex: "-1", "data-component": box.name }, title,
       svg("rect", { x: box.x, y: box.y, width: box.width, height: box.height, rx: 5 }), name, below, last);
     group.addEventListener("click", () => this.choose(box.name));
     return { box, group, title, name, below, last };

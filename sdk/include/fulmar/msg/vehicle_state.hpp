@@ -50,6 +50,7 @@ struct VehicleState {
   Vec3<Ned> reset_position_m;     ///< of the last reset: state after it minus state before it
   Vec3<Ned> reset_velocity_mps;   ///< the same
   double reset_yaw_rad = 0;       ///< the same
+  bool airspeed_from_model = false;  ///< no tube says it: thrust and drag, as learnt while one did, stand in
 };
 
 template <>

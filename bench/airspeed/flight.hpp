@@ -10,8 +10,8 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
+#include "bench/airspeed/cases.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/test/commands.hpp"
 #include "fulmar/msg/fault_request.hpp"
@@ -21,34 +21,10 @@ namespace fulmar::lost_airspeed {
 
 namespace fs = std::filesystem;
 
-struct Case {
-  std::string name{}, words{};
-  double lost_s = 60;           ///< from then on, for so long
-  double from_s = 85;           ///< after it was armed
-  bool gnss = true;             ///< lost as well
-  double engine_off_s = -1;     ///< after the loss; -1: never
-  double engine_for_s = 15;
-  double learns_until_s = 1e9;  ///< then no throttle is told until the loss
-  std::string turbulence = "light";
-};
-
-inline std::vector<Case> cases() {
-  std::vector<Case> c;
-  c.push_back({.name = "both_60", .words = "receiver and tube, 60 s", .lost_s = 60});
-  c.push_back({.name = "both_120", .words = "receiver and tube, 120 s", .lost_s = 120});
-  c.push_back({.name = "moderate_120", .words = "the same in moderate turbulence", .lost_s = 120, .turbulence = "moderate"});
-  c.push_back({.name = "tube_120", .words = "the tube alone, 120 s", .lost_s = 120, .gnss = false});
-  c.push_back({.name = "start_60", .words = "both, just after the take-off", .lost_s = 60, .from_s = 12});
-  c.push_back({.name = "engine_30", .words = "both, and 10 s later the motor stops for 15 s", .lost_s = 30, .engine_off_s = 10});
-  c.push_back({.name = "engine_at", .words = "both, and the motor at the same time", .lost_s = 30, .engine_off_s = 0});
-  c.push_back({.name = "engine_tube", .words = "tube, and 10 s later the motor stops for 15 s", .lost_s = 30, .gnss = false, .engine_off_s = 10});
-  return c;
-}
-
 /// From the loss until the sensors are back.
 struct Flown {
-  double ticks = 0, square = 0, variance = 0, most = 0, most_valid = 0, within_1 = 0, within_2 = 0, valid = 0, modelled = 0,
-         least_true = 1e9;
+  double ticks = 0, square = 0, variance = 0, most = 0, within_1 = 0, within_2 = 0, valid = 0, modelled = 0,
+         least_true = 1e9;  ///< m/s, m2/s2, ticks
   bool crashed = false;
 
   double rms() const { return std::sqrt(square / std::max(ticks, 1.0)); }
@@ -57,7 +33,7 @@ struct Flown {
   void add(const Flown& f) {
     ticks += f.ticks, square += f.square, variance += f.variance;
     within_1 += f.within_1, within_2 += f.within_2, valid += f.valid, modelled += f.modelled;
-    most = std::max(most, f.most), most_valid = std::max(most_valid, f.most_valid);
+    most = std::max(most, f.most);
     least_true = std::min(least_true, f.least_true);
     crashed = crashed || f.crashed;
   }
@@ -86,24 +62,16 @@ class Watched {
   }
 
   Flown fly() {
-    const char* trace = std::getenv("TRACE");
-    std::FILE* file = trace ? std::fopen(trace, "w") : nullptr;
     while (flight_.step()) {
       const double t_s = 1e-9 * static_cast<double>(flight_.now_ns()) - case_.from_s;
       const bool lost = t_s >= 0 && t_s < case_.lost_s;
       fault(off_, lost, FaultTarget::pitot);
       if (case_.gnss) fault(gnss_off_, lost, FaultTarget::gnss_position);
-      const double since = t_s - case_.engine_off_s;
-      fault(engine_off_, case_.engine_off_s >= 0 && since >= 0 && since < case_.engine_for_s,
-            FaultTarget::engine);
+      engine(case_.engine_s >= 0 && t_s >= case_.engine_s && lost);
       const auto* const x = at<VehicleState>(truth_);
       const auto* const s = at<VehicleState>(state_);
       if (x && s && lost) look(*x, *s);
-      if (file && x && s && flight_.now_ns() % 100'000'000 < 2'500'000)
-        std::fprintf(file, "%.2f %.3f %.3f %.3f %d %d %.2f\n", t_s, x->airspeed_mps, s->airspeed_mps,
-                     s->airspeed_std_mps, s->airspeed_valid, s->airspeed_from_model, x->height_m);
     }
-    if (file) std::fclose(file);
     out_.crashed = flight_.finish().outcome != core::Outcome::flown;
     return out_;
   }
@@ -131,13 +99,20 @@ class Watched {
     is = off;
     core::request(flight_, "sim", "fault", FaultRequest{target, off ? FaultKind::off : FaultKind::none});
   }
+  void engine(bool bad) {
+    if (bad == engine_bad_) return;
+    engine_bad_ = bad;
+    FaultRequest r{FaultTarget::engine, FaultKind::none};
+    if (bad) r.kind = case_.left_ratio > 0 ? FaultKind::weak : FaultKind::off;
+    if (bad) r.size_ratio = case_.left_ratio, r.ramp_s = case_.ramp_s;
+    core::request(flight_, "sim", "fault", r);
+  }
   void look(const VehicleState& x, const VehicleState& s) {
     const double e = std::abs(s.airspeed_mps - x.airspeed_mps);
     ++out_.ticks;
     out_.square += e * e;
     out_.variance += s.airspeed_std_mps * s.airspeed_std_mps;
     out_.most = std::max(out_.most, e);
-    if (s.airspeed_valid) out_.most_valid = std::max(out_.most_valid, e);
     out_.within_1 += e < s.airspeed_std_mps;
     out_.within_2 += e < 2 * s.airspeed_std_mps;
     out_.valid += s.airspeed_valid;
@@ -147,7 +122,7 @@ class Watched {
 
   Case case_;
   Flown out_;
-  bool off_ = false, gnss_off_ = false, engine_off_ = false;
+  bool off_ = false, gnss_off_ = false, engine_bad_ = false;
   core::Flight flight_;
   core::Source truth_, state_;
 };

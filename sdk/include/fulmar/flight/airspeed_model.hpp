@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Airspeed without a tube: what throttle, airspeed and load make of the forward specific force is learnt while
-// a tube says the airspeed, and read backwards when none does. With V the equivalent airspeed and d the
+// Airspeed without a tube: what throttle, airspeed and load make of the forward specific force is learnt
+// while a tube says the airspeed, and read backwards when none does. With V the equivalent airspeed and d the
 // throttle behind the propeller's lag, thrust over a small range of both and a parabolic polar give (Beard &
 // McLain, Small Unmanned Aircraft (2012), sections 4.2 and 4.3, lift from f_z put into drag and into the tilt
 // of the lift)
 //   f_x = c0 + c1 d + c2 d^2 + c3 d V + c4 V^2 + c5 f_z + c6 f_z^2 / V^2
-// linear in what is not known. f_z carries alpha, so vertical gusts and turns are no error, and no attitude is
-// needed. Recursive least squares in the form of a Kalman filter whose parameters wander (Ljung, System
+// linear in what is not known. f_z carries alpha, so vertical gusts and turns are no error, and no attitude
+// is needed. Recursive least squares in the form of a Kalman filter whose parameters wander (Ljung, System
 // Identification (1999), section 11.2): what was never tried stays as unsure as it was.
 #pragma once
 #include <Eigen/Core>
@@ -77,7 +77,6 @@ class AirspeedModel {
   }
 
   double slope_per_s(const Block& b) const { return slopes(b).dot(theta_); }  ///< df_x/dV
-  double slope_std(const Block& b) const { return std::sqrt(slopes(b).dot(P_ * slopes(b))); }
   double std_mps2() const { return std::sqrt(std::max(square_, square(least_mps2))); }
   /// So many blocks know as much as one.
   double alone() const {
@@ -88,7 +87,7 @@ class AirspeedModel {
   const Matrix& covariance() const { return P_; }
 
  private:
-  static constexpr double V0 = 15, g = 9.80665;                     ///< scales: m/s, m/s2
+  static constexpr double V0 = 15, g = 9.80665;                       ///< scales: m/s, m/s2
   static constexpr double window_s = 60, least_s = 5, learnt_s = 20;  ///< of the residual; before it is used
   static constexpr double least_mps2 = 0.02, most_shared = 0.9, most_off = 3;
   static constexpr double sure = 3;     ///< deviations of the slope

@@ -170,7 +170,7 @@ struct Ekf {
   void model(const Inputs& in, const Params& p) {
     const bool commanded = !in.commands.stale() && in.commands.age_s() < commands_age_s &&
                            (!in.status || !(in.status->override || in.status->failsafe));
-    airspeed_.step(navigator_, *in.commands, commanded, dt_s_, p);
+    airspeed_.step(navigator_, in.commands->throttle_frac, commanded, dt_s_, p);
   }
   void publish(std::int64_t valid_at_ns, Shown what, Outputs& out) {
     out.state.publish(state_, valid_at_ns);

@@ -1,66 +1,72 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The airspeed while no tube says it: when the model of airspeed_model.hpp learns, when it is believed, and how
-// it comes into the filter.
+// The airspeed while no tube says it: when the model of airspeed_model.hpp learns, when it is believed, and
+// how it comes into the filter. As long as the tube is used nothing of the filter depends on it.
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "fulmar/flight/airspeed_model.hpp"
 #include "fulmar/flight/navigator_updates.hpp"
-#include "fulmar/msg/actuators.hpp"
 
 namespace fulmar::navigation {
 
 class ModelledAirspeed {
  public:
-  /// After the sensors' samples, with each inertial one. `commanded`: to this aircraft, and not stale.
-  void step(Navigator& navigator, const Actuators& commands, bool commanded, double dt_s, const Params& p) {
-    if (!navigator.airborne() || !commanded || !(dt_s < coasted_s) || !navigator.aligned() || navigator.settling()) {
-      time_s_ = 0;
-      sum_ = {};
-      in_use_ = false;
-      lag_ = commands.throttle_frac;
+  /// With each inertial sample, after those of the other sensors. `commanded`: the throttle is what the motor
+  /// gets.
+  void step(Navigator& navigator, double throttle_frac, bool commanded, double dt_s, const Params& p) {
+    const bool flies = navigator.airborne() && navigator.aligned() && !navigator.settling();
+    if (!flies || !commanded || !(dt_s < coasted_s)) {
+      begin(throttle_frac);
       if (!navigator.airborne()) contradicted_ = false;
       return;
     }
     const ErrorStateEkf& f = navigator.filter();
-    lag_ += (commands.throttle_frac - lag_) * std::min(dt_s / lag_s, 1.0);
+    lag_ += (throttle_frac - lag_) * std::min(dt_s / lag_s, 1.0);
     sum_.f_x_mps2 += dt_s * f.specific_force_b().x();
     sum_.f_z_mps2 += dt_s * f.specific_force_b().z();
     sum_.throttle_frac += dt_s * lag_;
-    sum_.Va_mps += dt_s * airspeed(f);
+    sum_.Va_mps += dt_s * (ekf::air_velocity(f.state()).norm() + f.state().gust_mps);
     time_s_ += dt_s;
     if (time_s_ < AirspeedModel::block_s - 1e-4) return;
-    AirspeedModel::Block b{sum_.f_x_mps2 / time_s_, sum_.f_z_mps2 / time_s_, sum_.throttle_frac / time_s_,
-                           sum_.Va_mps / time_s_};
-    block(navigator, b, p);
+    const AirspeedModel::Block mean{sum_.f_x_mps2 / time_s_, sum_.f_z_mps2 / time_s_,
+                                    sum_.throttle_frac / time_s_, sum_.Va_mps / time_s_};
     sum_ = {};
     time_s_ = 0;
+    block(navigator, mean, p);
   }
-  /// The published airspeed rests on it.
+  /// It says the airspeed, in place of the tube.
   bool in_use() const { return in_use_; }
+  /// The force has changed as no gust changes it: the motor does not do what is commanded.
+  bool contradicted() const { return contradicted_; }
   const AirspeedModel& model() const { return model_; }
 
  private:
-  static constexpr double lag_s = 0.1;    ///< of an electric motor with its propeller
-  static constexpr double tube_s = 0.5;   ///< without an accepted sample: the tube is lost
-  static constexpr double doubt_s = 8;    ///< what the tube said last before it failed is not learnt
+  static constexpr double lag_s = 0.1;   ///< of an electric motor with its propeller
+  static constexpr double tube_s = 0.5;  ///< without an accepted sample: the tube is lost
+  static constexpr double doubt_s = 8;   ///< what a tube said last before it was found to fail is not learnt
+  static constexpr double refused_std = 5;  ///< beyond it is not used, twice in a row: never again
+  static constexpr double wrong_mps = 1.5;  ///< by which a wrong model may have moved the wind, each axis
   static constexpr std::size_t waiting = static_cast<std::size_t>(doubt_s / AirspeedModel::block_s);
 
-  static double airspeed(const ErrorStateEkf& f) {
-    return std::max(ekf::air_velocity(f.state()).norm() + f.state().gust_mps, 0.0);
+  void begin(double throttle_frac) {
+    sum_ = {};
+    time_s_ = 0;
+    lag_ = throttle_frac;
+    in_use_ = false;
   }
 
   void block(Navigator& n, AirspeedModel::Block b, const Params& p) {
-    const double up = -n.filter().state().p_n.z();
-    const double density = standard_air(n.origin().alt_m + up).density_kgm3;
-    const double root = std::sqrt(density / 1.225);
-    b.Va_mps *= root;
+    const double altitude_m = n.origin().alt_m - n.filter().state().p_n.z();
+    const double root = std::sqrt(standard_air(altitude_m).density_kgm3 / isa_density_kgm3);
+    b.Va_mps = root * std::max(b.Va_mps, 0.0);
     model_.wander(AirspeedModel::block_s);
     const Aid& tube = n.health().pitot;
-    const double silent = n.time_s() - tube.accepted_s;
-    if (silent < tube_s) {
-      in_use_ = false;
-      contradicted_ = false;
+    if (n.time_s() - tube.accepted_s < tube_s) {
+      in_use_ = contradicted_ = refused_ = false;
       if (tube.contradicts) count_ = 0;
       if (count_ == waiting) model_.learn(late_[next_]);
       late_[next_] = b;
@@ -69,42 +75,51 @@ class ModelledAirspeed {
       return;
     }
     count_ = 0;
-    use(n, b, root, p);
+    const AirspeedModel::Said said = model_.airspeed(b);
+    in_use_ = said.known && !contradicted_;
+    if (in_use_) use(n, b, said, root, p);
   }
 
-  void use(Navigator& n, const AirspeedModel::Block& b, double root, const Params& p) {
-    const AirspeedModel::Said said = model_.airspeed(b);
-    if (std::getenv("AIR_DEBUG") && n.time_s() - said_s_ > 5) {
-      said_s_ = n.time_s();
-      std::fprintf(stderr, "t %.1f known %d slope %.3f +- %.3f Va %.2f/%.2f noise %.2f model %.2f res %.3f alone %.1f fz %.2f fx %.2f thr %.2f theta", n.time_s(), said.known,
-                   model_.slope_per_s(b), model_.slope_std(b), said.Va_mps, b.Va_mps, said.noise_std_mps, said.model_std_mps, model_.std_mps2(), model_.alone(), b.f_z_mps2, b.f_x_mps2, b.throttle_frac);
-      for (int i = 0; i < 7; ++i) std::fprintf(stderr, " %.2f+-%.2f", model_.parameters()(i), std::sqrt(model_.covariance()(i, i)));
-      std::fprintf(stderr, "\n");
-    }
-    in_use_ = said.known && !contradicted_;
-    if (!in_use_) return;
+  /// Its error lasts, so it knows no better than that however often it is asked: it brings the airspeed to
+  /// its deviation and no further. Attitude and biases are not corrected by it.
+  void use(Navigator& n, const AirspeedModel::Block& b, const AirspeedModel::Said& said, double root,
+           const Params& p) {
     ErrorStateEkf& f = n.filter();
-    // The block's mean against the airspeed now: by its change since.
     ekf::Scalar z = ekf::true_airspeed(f.state(), 0);
-    z.innovation = (said.Va_mps - b.Va_mps) / root;
-    const double P = f.expected_std(z, 0), bias = said.model_std_mps / root,
-                 noise = said.noise_std_mps / root;
-    if (!(P > bias)) return;
-    const double variance = std::max(noise * noise, bias * bias * P * P / (P * P - bias * bias));
-    if (std::getenv("AIR_CONSIDER"))
-      f.fuse_considering_attitude(z, variance, p.air_gate);
-    else
-      n.fuse(z, variance, p.air_gate, aid_);
+    z.innovation = (said.Va_mps - b.Va_mps) / root;  // by means over the block: what changed in it is kept
+    const double noise = said.noise_std_mps / root, lasting = said.model_std_mps / root;
+    if (!agrees(n, z, std::hypot(noise, lasting), p)) return;
+    const double known = f.expected_std(z, 0);
+    if (!(known > lasting)) return;
+    const double to_lasting = lasting * lasting * known * known / (known * known - lasting * lasting);
+    f.fuse_considering_attitude(z, std::max(noise * noise, to_lasting), never_refused);
   }
+
+  /// A motor that stops, or loses a propeller, looks as if it were suddenly faster by more than gusts change
+  /// from one block to the next. A single block may; two end it, until a tube has said again what is right.
+  bool agrees(Navigator& n, ekf::Scalar z, double std, const Params& p) {
+    const double since_s = std::clamp(n.time_s() - used_s_, AirspeedModel::block_s, 1.0);
+    const double gust = n.gusts().std_mps(p) * std::sqrt(-2 * std::expm1(-since_s / n.gusts().time_s(p)));
+    z.H(ekf::gust) = 0;
+    const double without_gusts = n.filter().expected_std(z, 0);
+    const bool agrees = std::abs(z.innovation) < refused_std * std::hypot(std, gust, without_gusts);
+    const bool again = std::exchange(refused_, !agrees);
+    if (agrees) used_s_ = n.time_s();
+    if (agrees || !again) return agrees;
+    contradicted_ = true;
+    in_use_ = false;
+    if (used_s_ > n.health().pitot.accepted_s) n.filter().inflate(ekf::wind, 2, wrong_mps);
+    return false;
+  }
+
+  static constexpr double isa_density_kgm3 = 1.225, never_refused = 1e9;
 
   AirspeedModel model_;
-  AirspeedModel::Block sum_{};
+  AirspeedModel::Block sum_{};  ///< over `time_s_` so far
   std::array<AirspeedModel::Block, waiting> late_{};
-  std::size_t next_ = 0, count_ = 0;
-  double time_s_ = 0, lag_ = 0;
-  bool in_use_ = false, contradicted_ = false;
-  Aid aid_;
-  double said_s_ = -1e9;
+  std::size_t next_ = 0, count_ = 0;  ///< of `late_`: the next, and how many in a row
+  double time_s_ = 0, lag_ = 0, used_s_ = never;
+  bool in_use_ = false, contradicted_ = false, refused_ = false;
 };
 
 }  // namespace fulmar::navigation

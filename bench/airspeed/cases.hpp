@@ -9,10 +9,11 @@ namespace fulmar::lost_airspeed {
 
 struct Case {
   std::string name{}, words{};
-  double lost_s = 60;     ///< the tube, for so long
-  double from_s = 85;     ///< after it was armed
-  bool gnss = true;       ///< the receiver as well
-  double engine_s = -1;   ///< after the loss the motor fails, up to its end; -1: never
+  double lost_s = 60;    ///< the tube, for so long
+  double from_s = 85;    ///< after it was armed
+  bool gnss = true;      ///< the receiver as well
+  double engine_s = -1;  ///< after the loss the motor fails, up to its end; -1: never
+  double engine_for_s = 1e9;
   double ramp_s = 0;      ///< within that time
   double left_ratio = 0;  ///< and gets this share of the voltage
   std::string turbulence = "light";
@@ -39,17 +40,19 @@ inline std::vector<Case> cases() {
                .modelled = false,
                .most_modelled = 0});
   c.push_back({.name = "motor_off",
-               .words = "both, and 10 s later the motor stops for 20 s",
+               .words = "both, and 10 s later the motor stops for 15 s",
                .lost_s = 30,
                .engine_s = 10,
+               .engine_for_s = 15,
                .rms_mps = 1.5,
                .most_mps = 5,
                .modelled = false,
                .most_modelled = 0.36});
   c.push_back({.name = "motor_off_at_once",
-               .words = "both and the motor at the same time, 30 s",
+               .words = "both, 30 s, and the motor at the same time, 15 s",
                .lost_s = 30,
                .engine_s = 0,
+               .engine_for_s = 15,
                .rms_mps = 1.5,
                .most_mps = 5,
                .modelled = false,

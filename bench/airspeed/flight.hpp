@@ -67,7 +67,8 @@ class Watched {
       const bool lost = t_s >= 0 && t_s < case_.lost_s;
       fault(off_, lost, FaultTarget::pitot);
       if (case_.gnss) fault(gnss_off_, lost, FaultTarget::gnss_position);
-      engine(case_.engine_s >= 0 && t_s >= case_.engine_s && lost);
+      const double failing_s = case_.engine_s < 0 ? -1 : t_s - case_.engine_s;
+      engine(lost && failing_s >= 0 && failing_s < case_.engine_for_s);
       const auto* const x = at<VehicleState>(truth_);
       const auto* const s = at<VehicleState>(state_);
       if (x && s && lost) look(*x, *s);

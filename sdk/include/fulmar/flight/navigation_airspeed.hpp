@@ -45,9 +45,10 @@ class ModelledAirspeed {
   const AirspeedModel& model() const { return model_; }
 
  private:
-  static constexpr double lag_s = 0.1;   ///< of an electric motor with its propeller
-  static constexpr double tube_s = 0.5;  ///< without an accepted sample: the tube is lost
-  static constexpr double doubt_s = 8;   ///< what a tube said last before it was found to fail is not learnt
+  static constexpr double lag_s = 0.1;    ///< of an electric motor with its propeller
+  static constexpr double tube_s = 0.5;   ///< without an accepted sample: the tube is lost
+  static constexpr double doubt_s = 8;    ///< what a tube said last before it was found to fail is not learnt
+  static constexpr double usual_std = 2;  ///< beyond it counts for less
   static constexpr double refused_std = 5;  ///< beyond it is not used, twice in a row: never again
   static constexpr double wrong_mps = 1.5;  ///< by which a wrong model may have moved the wind, each axis
   static constexpr std::size_t waiting = static_cast<std::size_t>(doubt_s / AirspeedModel::block_s);
@@ -88,22 +89,27 @@ class ModelledAirspeed {
     ekf::Scalar z = ekf::true_airspeed(f.state(), 0);
     z.innovation = (said.Va_mps - b.Va_mps) / root;  // by means over the block: what changed in it is kept
     const double noise = said.noise_std_mps / root, lasting = said.model_std_mps / root;
-    if (!agrees(n, z, std::hypot(noise, lasting), p)) return;
+    const double ratio = ratio_of(n, z, std::hypot(noise, lasting), p);
+    if (!agrees(n, ratio)) return;
     const double known = f.expected_std(z, 0);
     if (!(known > lasting)) return;
     const double to_lasting = lasting * lasting * known * known / (known * known - lasting * lasting);
-    f.fuse_considering_attitude(z, std::max(noise * noise, to_lasting), never_refused);
+    const double doubt = std::max(std::abs(ratio) / usual_std, 1.0);
+    f.fuse_considering_attitude(z, doubt * doubt * std::max(noise * noise, to_lasting), never_refused);
   }
 
-  /// A motor that stops, or loses a propeller, looks as if it were suddenly faster by more than gusts change
-  /// from one block to the next. A single block may; two end it, until a tube has said again what is right.
-  bool agrees(Navigator& n, ekf::Scalar z, double std, const Params& p) {
+  /// Innovation in deviations: of the model, of the airspeed without gusts, and of what gusts change since it
+  /// was used last.
+  double ratio_of(const Navigator& n, ekf::Scalar z, double std, const Params& p) const {
     const double since_s = std::clamp(n.time_s() - used_s_, AirspeedModel::block_s, 1.0);
     const double gust = n.gusts().std_mps(p) * std::sqrt(-2 * std::expm1(-since_s / n.gusts().time_s(p)));
     z.H(ekf::gust) = 0;
-    const double without_gusts = n.filter().expected_std(z, 0);
-    const bool agrees = std::abs(z.innovation) < refused_std * std::hypot(std, gust, without_gusts);
-    const bool again = std::exchange(refused_, !agrees);
+    return z.innovation / std::hypot(std, gust, n.filter().expected_std(z, 0));
+  }
+  /// A motor that stops, or loses a propeller, looks as if it were suddenly faster by more than gusts change
+  /// from one block to the next. A single block may; two end it, until a tube has said again what is right.
+  bool agrees(Navigator& n, double ratio) {
+    const bool agrees = std::abs(ratio) < refused_std, again = std::exchange(refused_, !agrees);
     if (agrees) used_s_ = n.time_s();
     if (agrees || !again) return agrees;
     contradicted_ = true;

@@ -45,11 +45,13 @@ class ModelledAirspeed {
   const AirspeedModel& model() const { return model_; }
 
  private:
-  static constexpr double lag_s = 0.1;    ///< of an electric motor with its propeller
-  static constexpr double tube_s = 0.5;   ///< without an accepted sample: the tube is lost
-  static constexpr double doubt_s = 8;    ///< what a tube said last before it was found to fail is not learnt
-  static constexpr double usual_std = 2;  ///< beyond it counts for less
-  static constexpr double refused_std = 5;  ///< beyond it is not used, twice in a row: never again
+  static constexpr double lag_s = 0.1;   ///< of an electric motor with its propeller
+  static constexpr double tube_s = 0.5;  ///< without an accepted sample: the tube is lost
+  static constexpr double doubt_s = 8;   ///< what a tube said last before it was found to fail is not learnt
+  static constexpr double usual_std = 1.5;  ///< beyond it counts for less
+  // In no flight of bench_airspeed whose motor does what it is told one of the next two ended it.
+  static constexpr double refused_std = 4;           ///< beyond it is not used, twice in a row: never again
+  static constexpr double off_std = 1.5, off_s = 2;  ///< the same of the mean over seconds
   static constexpr double wrong_mps = 1.5;  ///< by which a wrong model may have moved the wind, each axis
   static constexpr std::size_t waiting = static_cast<std::size_t>(doubt_s / AirspeedModel::block_s);
 
@@ -107,11 +109,17 @@ class ModelledAirspeed {
     return z.innovation / std::hypot(std, gust, n.filter().expected_std(z, 0));
   }
   /// A motor that stops, or loses a propeller, looks as if it were suddenly faster by more than gusts change
-  /// from one block to the next. A single block may; two end it, until a tube has said again what is right.
+  /// from one block to the next; one that fades looks a little faster again and again. A single block may;
+  /// two in a row, or the mean of seconds, end it until a tube has said again what is right.
   bool agrees(Navigator& n, double ratio) {
+    if (!(used_s_ > n.health().pitot.accepted_s)) off_ = 0;
+    off_ += (ratio - off_) * AirspeedModel::block_s / off_s;
     const bool agrees = std::abs(ratio) < refused_std, again = std::exchange(refused_, !agrees);
-    if (agrees) used_s_ = n.time_s();
-    if (agrees || !again) return agrees;
+    const bool sudden = !agrees && again, slowly = std::abs(off_) > off_std;
+    if (!sudden && !slowly) {
+      if (agrees) used_s_ = n.time_s();
+      return agrees;
+    }
     contradicted_ = true;
     in_use_ = false;
     if (used_s_ > n.health().pitot.accepted_s) n.filter().inflate(ekf::wind, 2, wrong_mps);
@@ -124,7 +132,7 @@ class ModelledAirspeed {
   AirspeedModel::Block sum_{};  ///< over `time_s_` so far
   std::array<AirspeedModel::Block, waiting> late_{};
   std::size_t next_ = 0, count_ = 0;  ///< of `late_`: the next, and how many in a row
-  double time_s_ = 0, lag_ = 0, used_s_ = never;
+  double time_s_ = 0, lag_ = 0, used_s_ = never, off_ = 0;
   bool in_use_ = false, contradicted_ = false, refused_ = false;
 };
 

@@ -256,6 +256,28 @@ TEST_CASE("a motor that does not do what is commanded, more or less, ends it wit
   }
 }
 
+TEST_CASE("a motor that fades, or gains, within ten seconds ends it before it has done so") {
+  for (const double more : {0.2, -0.2}) {
+    CAPTURE(more);
+    Flown flight;
+    flight.plan.duration_s = lost_s + 40;
+    flight.quality = ublox;
+    flight.alter = lose_both;
+    const double fades_s = lost_s + 20;
+    flight.throttle = [&](const Truth& x) {
+      return throttle_of(x) + more * std::clamp((x.t - fades_s) / 10, 0.0, 1.0);
+    };
+    int before = 0, n = 0, after = 0;
+    flight.watch = [&](const Truth& x, const VehicleState& s, Status) {
+      if (x.t > lost_s + 1.1 && x.t < fades_s) before += s.airspeed_from_model, ++n;
+      if (x.t > fades_s + 10) after += s.airspeed_from_model;
+    };
+    flight.run();
+    CHECK(before == n);
+    CHECK(after == 0);
+  }
+}
+
 TEST_CASE("a tube that is lost before the model has learnt leaves the airspeed as without a throttle") {
   double most = 0;
   for (const bool wired : {true, false}) {

@@ -49,9 +49,12 @@ class ModelledAirspeed {
   static constexpr double tube_s = 0.5;  ///< without an accepted sample: the tube is lost
   static constexpr double doubt_s = 8;   ///< what a tube said last before it was found to fail is not learnt
   static constexpr double usual_std = 1.5;  ///< beyond it counts for less
-  // In no flight of bench_airspeed whose motor does what it is told one of the next two ended it.
+  // In no flight of bench_airspeed whose motor does what it is told one of the next three ended it.
   static constexpr double refused_std = 4;           ///< beyond it is not used, twice in a row: never again
   static constexpr double off_std = 1.5, off_s = 2;  ///< the same of the mean over seconds
+  /// The same of what it has moved the airspeed by in that time, in units of 1 m/s and the gusts: at most 3.3
+  /// in flights whose motor does what it is told.
+  static constexpr double moved_most = 4, moved_s = 10;
   static constexpr double wrong_mps = 1.5;  ///< by which a wrong model may have moved the wind, each axis
   static constexpr std::size_t waiting = static_cast<std::size_t>(doubt_s / AirspeedModel::block_s);
 
@@ -92,12 +95,14 @@ class ModelledAirspeed {
     z.innovation = (said.Va_mps - b.Va_mps) / root;  // by means over the block: what changed in it is kept
     const double noise = said.noise_std_mps / root, lasting = said.model_std_mps / root;
     const double ratio = ratio_of(n, z, std::hypot(noise, lasting), p);
-    if (!agrees(n, ratio)) return;
+    if (!agrees(n, ratio, p)) return;
     const double known = f.expected_std(z, 0);
     if (!(known > lasting)) return;
     const double to_lasting = lasting * lasting * known * known / (known * known - lasting * lasting);
     const double doubt = std::max(std::abs(ratio) / usual_std, 1.0);
+    const double before = ekf::air_velocity(f.state()).norm();
     f.fuse_considering_attitude(z, doubt * doubt * std::max(noise * noise, to_lasting), never_refused);
+    moved_ += ekf::air_velocity(f.state()).norm() - before - moved_ * AirspeedModel::block_s / moved_s;
   }
 
   /// Innovation in deviations: of the model, of the airspeed without gusts, and of what gusts change since it
@@ -110,12 +115,15 @@ class ModelledAirspeed {
   }
   /// A motor that stops, or loses a propeller, looks as if it were suddenly faster by more than gusts change
   /// from one block to the next; one that fades looks a little faster again and again. A single block may;
-  /// two in a row, or the mean of seconds, end it until a tube has said again what is right.
-  bool agrees(Navigator& n, double ratio) {
-    if (!(used_s_ > n.health().pitot.accepted_s)) off_ = 0;
+  /// two in a row, the mean of seconds, or what it has moved, end it until a tube has said again what is
+  /// right.
+  bool agrees(Navigator& n, double ratio, const Params& p) {
+    if (!(used_s_ > n.health().pitot.accepted_s)) off_ = moved_ = 0;
     off_ += (ratio - off_) * AirspeedModel::block_s / off_s;
     const bool agrees = std::abs(ratio) < refused_std, again = std::exchange(refused_, !agrees);
-    const bool sudden = !agrees && again, slowly = std::abs(off_) > off_std;
+    const double moved = std::abs(moved_ + n.filter().state().gust_mps);
+    const bool sudden = !agrees && again,
+               slowly = std::abs(off_) > off_std || moved > moved_most * (1 + n.gusts().std_mps(p));
     if (!sudden && !slowly) {
       if (agrees) used_s_ = n.time_s();
       return agrees;
@@ -132,7 +140,7 @@ class ModelledAirspeed {
   AirspeedModel::Block sum_{};  ///< over `time_s_` so far
   std::array<AirspeedModel::Block, waiting> late_{};
   std::size_t next_ = 0, count_ = 0;  ///< of `late_`: the next, and how many in a row
-  double time_s_ = 0, lag_ = 0, used_s_ = never, off_ = 0;
+  double time_s_ = 0, lag_ = 0, used_s_ = never, off_ = 0, moved_ = 0;
   bool in_use_ = false, contradicted_ = false, refused_ = false;
 };
 

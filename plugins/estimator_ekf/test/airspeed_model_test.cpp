@@ -256,8 +256,8 @@ TEST_CASE("a motor that does not do what is commanded, more or less, ends it wit
   }
 }
 
-TEST_CASE("a motor that gains within six seconds ends it soon after; one that fades costs what is claimed") {
-  for (const double more : {0.33, -0.33}) {
+TEST_CASE("a motor that gains a third within six seconds ends it soon after") {
+  for (const double more : {-0.33}) {  // one that loses it is not found: README, without a pitot tube
     CAPTURE(more);
     Flown flight;
     flight.plan.duration_s = lost_s + 40;
@@ -277,9 +277,8 @@ TEST_CASE("a motor that gains within six seconds ends it soon after; one that fa
         most = std::max(most, std::abs(s.airspeed_mps - x.airspeed()) / s.airspeed_std_mps);
     };
     flight.run();
-    MESSAGE("after " << after << " most " << most);
     CHECK(before == n);
-    CHECK((more > 0 || after == 0));
+    CHECK(after == 0);
     CHECK(most < 3);
   }
 }

@@ -50,7 +50,7 @@ class Judged {
       look_at(*check);
       if (truth_is_new) table_.judge(*x, *s, *check, wind_mps_, nees);
     }
-    table_.flights.push_back(nees);
+    if (nees.any()) table_.flights.push_back(nees);  // else it was lost before it could be judged
     for (const auto& [name, ratios] : ratios_) table_.innovations[name].add_flight(ratios);
     return flight_.finish();
   }

@@ -84,6 +84,7 @@ class Nees {
     ++n_;
     inside_ += nees > low && nees < high;
   }
+  bool any() const { return n_ > 0; }  ///< moment that was judged
   double mean() const { return n_ > 0 ? sum_ / static_cast<double>(n_) : 0; }
   double inside() const { return n_ > 0 ? static_cast<double>(inside_) / static_cast<double>(n_) : 0; }
 

@@ -80,7 +80,7 @@ struct Ekf {
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
     if (navigator_.filter().time_s() - deviations_s_ > deviations_after_s) fill_deviations(p);
     publish(in.imu.valid_at_ns(), Shown::measured, out);
-    if (navigator_.health().horizontal.accepted_s > checked_s_) publish_check(p, out);
+    if (navigator_.health().horizontal.accepted_s > checked_s_) publish_check(out);
     probes(out);
     return healthy() ? Status::ok : Status::degraded;
   }
@@ -178,7 +178,7 @@ struct Ekf {
   void fill_deviations(const Params& p);
   void fill_wind_deviations(const Params& p);
   void widen(double gap_s, const Params& p);
-  void publish_check(const Params& p, Outputs& out);
+  void publish_check(Outputs& out);
   void probes(Outputs& out) const;
 
   Navigator navigator_;
@@ -333,8 +333,9 @@ inline void Ekf::fill_deviations(const Params& p) {
   const auto three = [&](int i) { return Vec3<Ned>{f.std(i), f.std(i + 1), f.std(i + 2)}; };
   s.attitude_std_rad = three(ekf::theta);
   s.velocity_std_mps = three(ekf::vel);
-  s.velocity_std_mps.north = std::hypot(s.velocity_std_mps.north, h.level.std_mps());
-  s.velocity_std_mps.east = std::hypot(s.velocity_std_mps.east, h.level.std_mps());
+  const double shared = navigator_.shared_speed_mps();
+  s.velocity_std_mps.north = std::hypot(s.velocity_std_mps.north, shared);
+  s.velocity_std_mps.east = std::hypot(s.velocity_std_mps.east, shared);
   s.position_std_m = three(ekf::pos);
   fill_wind_deviations(p);
   const bool pitot = now - h.pitot.accepted_s < pitot_lost_s,
@@ -382,7 +383,7 @@ inline void Ekf::fill_wind_deviations(const Params& p) {
                     std::hypot(gust.y(), scale.y(), s.velocity_std_mps.east), unknown_std};
 }
 
-inline void Ekf::publish_check(const Params& p, Outputs& out) {
+inline void Ekf::publish_check(Outputs& out) {
   const ErrorStateEkf& f = navigator_.filter();
   const Health& h = navigator_.health();
   checked_s_ = h.horizontal.accepted_s;
@@ -398,9 +399,9 @@ inline void Ekf::publish_check(const Params& p, Outputs& out) {
   c.position_innovation_ratio = from_eigen<Ned>(h.position_innovation);
   c.velocity_innovation_ratio = from_eigen<Ned>(h.velocity_innovation);
   c.mean_wind_mps = {f.state().wind.x(), f.state().wind.y(), 0};
-  const double more = navigator_.gusts().mean_std_mps(navigator_.airborne_s(), p);
-  c.mean_wind_std_mps = {std::hypot(f.std(ekf::wind), more), std::hypot(f.std(ekf::wind + 1), more),
-                         unknown_std};
+  const Eigen::Vector2d by_gusts = navigator_.wind_error().std_mps();
+  c.mean_wind_std_mps = {std::hypot(f.std(ekf::wind), by_gusts.x()),
+                         std::hypot(f.std(ekf::wind + 1), by_gusts.y()), unknown_std};
   out.check.publish(c, imu_ns_);
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "fulmar/flight/filters.hpp"
 #include "fulmar/flight/navigation_params.hpp"
 
 namespace fulmar::navigation {
@@ -101,11 +102,6 @@ class Gusts {
   const Eigen::Matrix2d& covariance() const { return P_; }
   double std_mps(const Params& p) const { return strength_.std_mps(p); }
   double time_s(const Params& p) const { return strength_.time_s(p); }
-  /// Deviation of the gusts' mean over `over_s`: by so much a mean wind may be off that holds them for white.
-  double mean_std_mps(double over_s, const Params& p) const {
-    const double tau = time_s(p);
-    return std_mps(p) * std::sqrt(2 * tau / (over_s + 2 * tau));
-  }
 
  private:
   static constexpr double speed_std = 0.1;  ///< m/s, of a sample of the tube
@@ -130,6 +126,56 @@ class Gusts {
   GustStrength strength_;
   Eigen::Vector2d g_ = Eigen::Vector2d::Zero();
   Eigen::Matrix2d P_ = Eigen::Matrix2d::Zero();
+  double time_s_ = 0;
+};
+
+/// By how much gusts put the filter's mean wind off. The filter takes those across for white and those along
+/// for a process of its own; they last longer than either. What comes of that is the covariance of the errors
+/// under the gains that the filter has, which are not those of this model: the error budget of a suboptimal
+/// filter (Gelb, Applied Optimal Estimation (1974), section 7.2). Errors are those of the mean wind, gusts
+/// north and east, and what the filter takes for the gust along, a.
+class MeanWindError {
+ public:
+  /// A measurement of the air along `h_n` (NED, north and east), and of a where `along` is 1. `gain`: by how
+  /// much mean wind and a followed its innovation.
+  void fused(const Eigen::Vector3d& gain, const Eigen::Vector2d& h_n, double along, const Gusts& gusts,
+             double time_s, const Params& p) {
+    const double std = slow_std * gusts.std_mps(p);
+    advance(std, slow_time * gusts.time_s(p), time_s, p);
+    Vector H, K;
+    H << h_n, -h_n, along;
+    K << gain.head<2>(), 0, 0, gain.z();
+    // The innovation is h (g - e) - a = -H x, with estimate minus truth e: x becomes (1 - K H) x.
+    const Vector MH = M_ * H;
+    const double S = H.dot(MH);
+    for (int i = 0; i < 5; ++i) M_.col(i) += S * K(i) * K - MH * K(i) - K * MH(i);
+  }
+  /// Where a flight begins.
+  void forget(const Gusts& gusts, double time_s, const Params& p) {
+    M_.setZero();
+    M_.diagonal().segment<2>(2).setConstant(slow_std * slow_std * gusts.std_mps(p) * gusts.std_mps(p));
+    time_s_ = time_s;
+  }
+  /// m/s, north and east.
+  Eigen::Vector2d std_mps() const { return M_.diagonal().head<2>().cwiseMax(0).cwiseSqrt(); }
+
+ private:
+  using Vector = Eigen::Matrix<double, 5, 1>;
+  /// Changes over one and four seconds tell the gusts' fast part: of Dryden's, whose slow part is the larger
+  /// one, so much less than there is.
+  static constexpr double slow_std = 1.2, slow_time = 1.4;
+
+  void advance(double std, double tau_s, double time_s, const Params& p) {
+    const double dt = std::clamp(time_s - time_s_, 0.0, 1e3);
+    time_s_ = time_s;
+    const double phi = gust_decay_.of(dt / tau_s), own = own_decay_.of(dt / p.gust_time);
+    M_.middleRows<2>(2) *= phi, M_.middleCols<2>(2) *= phi;
+    M_.row(4) *= own, M_.col(4) *= own;
+    M_.diagonal().segment<2>(2).array() += std * std * (1 - phi * phi);
+  }
+
+  Eigen::Matrix<double, 5, 5> M_ = Eigen::Matrix<double, 5, 5>::Zero();
+  Decay gust_decay_, own_decay_;
   double time_s_ = 0;
 };
 

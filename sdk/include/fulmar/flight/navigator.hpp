@@ -13,6 +13,7 @@
 #include "fulmar/flight/navigation_aid.hpp"
 #include "fulmar/flight/navigation_alignment.hpp"
 #include "fulmar/flight/navigation_gusts.hpp"
+#include "fulmar/flight/navigation_noise.hpp"
 #include "fulmar/flight/navigation_params.hpp"
 #include "fulmar/msg/baro.hpp"
 #include "fulmar/msg/gnss.hpp"
@@ -144,7 +145,9 @@ class Navigator {
   const ErrorStateEkf& filter() const { return filter_; }
   ErrorStateEkf& filter() { return filter_; }  ///< for what fuse and doubt do not cover
   const Gusts& gusts() const { return gusts_; }
-  double airborne_s() const { return time_s_ - airborne_s_; }  ///< since it took off, or stood again
+  const MeanWindError& wind_error() const { return wind_error_; }
+  /// m/s: what innovations of the level velocity share, beyond what a fix is taken to be off for longer.
+  double shared_speed_mps() const { return fix_noise_.beyond(health_.level.std_mps()); }
   /// Since the fixes stopped; 0 with fixes.
   double outage_s() const {
     const double silent = time_s_ - std::max(health_.velocity.accepted_s, aligned_s_);
@@ -182,6 +185,9 @@ class Navigator {
     if (mode_ != Mode::waiting && !(dt > 0)) return false;
     time_s_ = time_s;
     health_.felt(omega_b, f_b);
+    gyro_noise_.sampled(omega_b, dt), accel_noise_.sampled(f_b, dt);
+    filter_.noise.gyro = gyro_noise_.density(p.gyro_noise);
+    filter_.noise.accel = accel_noise_.density(p.accel_noise);
     if (mode_ == Mode::waiting) {
       mode_ = Mode::aligning;
       return true;
@@ -267,6 +273,21 @@ class Navigator {
     const ekf::Covariance& P = filter_.covariance();
     return {ekf::air_velocity(filter_.state()), {P(ekf::wind, ekf::wind), P(ekf::wind + 1, ekf::wind + 1)}};
   }
+  void forget_gusts(double time_s, const Params& p) {
+    gusts_.forget(mean_wind(), time_s, p);
+    wind_error_.forget(gusts_, time_s, p);
+  }
+  /// m/s: mean wind north and east, gust along.
+  Vector3d air() const {
+    const ekf::Nominal& x = filter_.state();
+    return {x.wind.x(), x.wind.y(), x.gust_mps};
+  }
+  /// The filter has moved that from `before` by this measurement, and gusts were in it.
+  void spoil_wind(const Vector3d& before, const ekf::Scalar& z, const Params& p) {
+    if (std::abs(z.innovation) < 1e-9) return;  // of no gain that a number could tell
+    wind_error_.fused((air() - before) / z.innovation, z.H.segment<2>(ekf::wind).transpose(), z.H(ekf::gust),
+                      gusts_, time_s_, p);
+  }
   double declination() const { return std::atan2(field_n_.y(), field_n_.x()); }
 
   /// Nothing but the inertial unit can be fooled by a smooth flight: another witness has to agree that the
@@ -298,7 +319,7 @@ class Navigator {
     std(ekf::delay) = p.gnss_delay_std;
     time_s_ = time_s;
     filter_.reset(x, std, time_s);
-    gusts_.forget(mean_wind(), time_s, p);
+    forget_gusts(time_s, p);
     mode_ = Mode::running;
     aligned_s_ = time_s;
     seen_.yaw = yaw_std < 0.5;
@@ -403,8 +424,7 @@ class Navigator {
     const bool before = airborne_;
     airborne_ = fast && !resting_ && !(status_ && !status_->armed && status_->on_ground);
     if (airborne_ == before) return;
-    airborne_s_ = time_s_;
-    gusts_.forget(mean_wind(), time_s_, p);
+    forget_gusts(time_s_, p);
   }
 
   /// After a start in flight the attitude may be hardly known about one axis, where the field lies along the
@@ -414,12 +434,15 @@ class Navigator {
     const double side = p.sideslip_ratio * ekf::air_velocity(filter_.state()).norm(),
                  variance = p.sideslip_speed_std * p.sideslip_speed_std + side * side;
     const ekf::Scalar z = ekf::zero_sideslip(filter_.state());
+    const Vector3d before = air();
     const bool nose = time_s_ < nose_until_s_ && time_s_ - nose_s_ > (settling() ? 0.3 : 1) - 1e-4;
     if (nose) nose_s_ = time_s_;
     const ekf::Fused fused = nose ? filter_.fuse(z, variance, p.air_gate)
                                   : filter_.fuse_considering_attitude(z, variance, p.air_gate);
     health_.sideslip.told(fused, time_s_);
-    if (fused.accepted) gusts_.sideslip(mean_wind(), filter_.R_nb().col(1), side, time_s_, p);
+    if (!fused.accepted) return;
+    gusts_.sideslip(mean_wind(), filter_.R_nb().col(1), side, time_s_, p);
+    spoil_wind(before, z, p);
   }
 
   void count_reset(const ekf::Nominal& before);
@@ -452,11 +475,13 @@ class Navigator {
   Vector3d origin_sum_ = Vector3d::Zero();
   Air air_;
   Gusts gusts_;
+  MeanWindError wind_error_;
+  UnitNoise gyro_noise_, accel_noise_;
+  FixNoise fix_noise_;
   double year_ = 2026.0, altitude_m_ = 0;  ///< of the origin; without one: by pressure
   double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never,
          nose_s_ = never,
-         nose_until_s_ = never,  ///< after a start in flight the attitude follows the sideslip, now and then
-      airborne_s_ = 0;
+         nose_until_s_ = never;  ///< after a start in flight the attitude follows the sideslip, now and then
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
          pitot_mps_ = 0, baro_s_ = never, baro_back_s_ = never;
   std::int64_t origin_count_ = 0;

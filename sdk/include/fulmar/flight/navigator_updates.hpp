@@ -134,7 +134,8 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
     const ekf::Scalar& one = fix[static_cast<std::size_t>(i)];
     off(i) = one.innovation / filter_.expected_std(one, variance);
   }
-  const double slow = samples_in(p.gnss_climb_time, health_.velocity.accepted_s);
+  const double slow = samples_in(p.gnss_climb_time, health_.velocity.accepted_s),
+               slow_level = samples_in(p.gnss_speed_time, health_.velocity.accepted_s);
   const double n = climb_samples(fix[2].innovation, std, slow, p);
   if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {
     if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < p.gnss_reset_after) return;
@@ -149,8 +150,9 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
     // Without a heading from elsewhere the yaw is what the accelerations of the fixes make of it: then it
     // counts that their errors follow each other, or the yaw walks away with them.
     const bool heading = resting_ || time_s_ - health_.heading.accepted_s < heading_lost_s;
-    const double level = heading ? 1 : slow;
-    for (int i = 0; i < 3; ++i) filter_.fuse(z(i), (i < 2 ? level : n) * variance, 1e3);
+    fix_noise_.add({fix[0].innovation, fix[1].innovation, fix[2].innovation}, std, time_s_);
+    const double level = heading ? fix_noise_.level(slow_level) : slow * variance;
+    for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 ? level : fix_noise_.climb(n), 1e3);
   }
   health_.velocity.accepted_s = time_s_;
 }
@@ -481,10 +483,12 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   }
   const Gusts::MeanWind wind = mean_wind();
   const double noise = p.pitot_noise / (air_.density_kgm3 * Va);
-  const ekf::Fused fused =
-      fuse(ekf::true_airspeed(filter_.state(), Va), noise * noise + p.pitot_speed_std * p.pitot_speed_std,
-           p.air_gate, health_.pitot);
-  if (fused.accepted) gusts_.airspeed(wind, Va, time_s_, p);
+  const Vector3d before = air();
+  const ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
+  if (!fuse(z, noise * noise + p.pitot_speed_std * p.pitot_speed_std, p.air_gate, health_.pitot).accepted)
+    return;
+  gusts_.airspeed(wind, Va, time_s_, p);
+  spoil_wind(before, z, p);
 }
 
 }  // namespace fulmar::navigation

@@ -269,6 +269,13 @@ bool Hub::drain() {
   return count == samples_per_turn;
 }
 
+/// To where the loop is now.
+void Hub::catch_up() {
+  const std::uint64_t here = tap_.written();
+  while (cursor_->read() < here && drain()) {
+  }
+}
+
 void Hub::offer(Client& client, Message& message, std::uint32_t subscription, std::int64_t now_ns) {
   message.binary = true;
   message.head_size = message.head.size();

@@ -127,6 +127,7 @@ class Hub {
   FlightView view();
   void stop_listening(Client& client, std::uint32_t subscription);
   bool drain();
+  void catch_up();
   void keep(const Tap::Sample& sample);
   void give_past(Client& client, std::size_t index, std::uint32_t subscription, bool paused);
   void encode(Channel& channel, const std::byte* data, Message& message);

@@ -70,9 +70,10 @@ void Hub::subscribe(Client& client, const json& message) {
                          : "subscription " + std::to_string(id) + " is in use");
       continue;
     }
+    cursor_->want(index, 0);
+    catch_up();  // what is in the ring may be one sample of many: the stream of a client has no gap
     client.subscriptions[id] = index;
     channel.listeners.emplace_back(&client, id);
-    cursor_->want(index, 0);
     give_past(client, index, id, paused);
   }
 }

@@ -73,6 +73,8 @@ class Tap {
     /// The next sample, a copy of its own that is valid until the next call; nullptr when there is nothing
     /// new.
     const Sample* next() noexcept;
+    /// Bytes of `written` that are behind it.
+    std::uint64_t read() const noexcept { return read_; }
     /// Samples written over before they were read, of all channels.
     std::uint64_t lost() const noexcept { return lost_; }
     /// From now on at least one sample of the channel each so many ns of flight time; 0: every one; below 0:

@@ -192,6 +192,23 @@ TEST_CASE(
   CHECK(peer.binaries[0].substr(13) == cdr_of(*mixed_type(), last));
 }
 
+TEST_CASE_FIXTURE(Fixture,
+                  "the stream of who subscribes begins behind what lay in the ring, and has no gap") {
+  Tap::Cursor log(tap);
+  log.want(0, 500'000'000);
+  mock_tick(tap, 0);
+  mock_tick(tap, 200);  // one of many that the log wants
+  hub.text(id, R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 1}]})");
+  for (int i = 201; i < 220; ++i) mock_tick(tap, i);
+  hub.tick();
+  REQUIRE(peer.binaries.size() >= 19);
+  std::vector<std::uint64_t> ticks;
+  for (const std::string& b : peer.binaries)
+    if (b[0] == 1) ticks.push_back((u64(b, 5) - 1'767'225'600'000'000'000u) / 2'500'000u);
+  REQUIRE(ticks.size() == 19);
+  for (std::size_t k = 0; k < ticks.size(); ++k) CHECK(ticks[k] == 201 + k);
+}
+
 TEST_CASE("who subscribes late gets as many of the last samples as a channel keeps, in their order") {
   std::vector<TapChannel> channels = mock_channels();
   channels[1].past = 3;

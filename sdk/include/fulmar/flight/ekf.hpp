@@ -34,8 +34,8 @@ struct Noise {
   double gyro = 5e-4;   ///< rad/s/sqrt(Hz), angular random walk
   double accel = 0.02;  ///< m/s2/sqrt(Hz), velocity random walk
   double gyro_scale =
-      0;  ///< share of the turn rate that is error: adds gyro_scale * |omega| to `gyro`, in 1/sqrt(Hz)
-  double accel_scale = 0;         ///< share of the specific force that is error beyond 1 g, in 1/sqrt(Hz)
+      0;  ///< share of a lasting turn rate that is error: adds gyro_scale * |omega| to `gyro`, in 1/sqrt(Hz)
+  double accel_scale = 0;         ///< share of a lasting load beyond 1 g that is error, in 1/sqrt(Hz)
   double gyro_bias_walk = 2e-5;   ///< rad/s/sqrt(s)
   double accel_bias_walk = 1e-3;  ///< m/s2/sqrt(s)
   double wind_walk = 0.02;        ///< m/s/sqrt(s)
@@ -158,7 +158,6 @@ class ErrorStateEkf {
     step_.R_dt += (0.5 * dt) * (R_before + R_nb_);
     step_.dv += dv;
     step_.turn += turn;
-    step_.angle += turn.norm();
     step_.time += dt;
     if (step_.time >= covariance_period_s - 1e-9) propagate_covariance();
   }
@@ -281,12 +280,12 @@ class ErrorStateEkf {
   Vector3 specific_force_b() const { return f_ - x_.accel_bias; }
 
  private:
-  static constexpr double floor_ = 1e-14;
+  static constexpr double floor_ = 1e-14, scale_time_s = 2;
 
   struct Step {  ///< what the covariance has not yet seen
     Eigen::Matrix3d R_dt = Eigen::Matrix3d::Zero();
     Vector3 dv = Vector3::Zero(), turn = Vector3::Zero();
-    double time = 0, angle = 0;
+    double time = 0;
   };
   struct Corrections {  ///< sums over all updates; vt is weighted with their time
     Vector3 p = Vector3::Zero(), v = Vector3::Zero(), vt = Vector3::Zero();
@@ -365,9 +364,12 @@ class ErrorStateEkf {
     const auto add = [&](int first, int count, double variance) {
       for (int i = first; i < first + count; ++i) P_(i, i) += variance;
     };
-    const double excess = std::abs(step_.dv.norm() / T - gravity_mps2);
-    const double gyro = noise.gyro + noise.gyro_scale * step_.angle / T,
-                 accel = noise.accel + noise.accel_scale * excess;
+    // A scale error of what goes to and fro, as in gusts, comes to nothing: what lasts counts.
+    const double lasting = scale_decay_.of(T / scale_time_s);
+    load_ = lasting * load_ + (1 - lasting) * (step_.dv.norm() / T - gravity_mps2);
+    turn_ = lasting * turn_ + (1 - lasting) / T * step_.turn;
+    const double gyro = noise.gyro + noise.gyro_scale * turn_.norm(),
+                 accel = noise.accel + noise.accel_scale * std::abs(load_);
     add(theta, 3, gyro * gyro * T);
     add(vel, 3, accel * accel * T);
     add(ekf::gyro_bias, 3, noise.gyro_bias_walk * noise.gyro_bias_walk * T);
@@ -427,7 +429,9 @@ class ErrorStateEkf {
   Vector3 omega_ = Vector3::Zero(), f_ = Vector3::Zero();
   bool has_sample_ = false;
   Step step_;
-  Decay gust_decay_, heading_decay_, gnss_decay_;
+  double load_ = 0;                 ///< m/s2, beyond 1 g
+  Vector3 turn_ = Vector3::Zero();  ///< rad/s; both as they last
+  Decay scale_decay_, gust_decay_, heading_decay_, gnss_decay_;
   Corrections corrected_;
   std::array<Memory, 64> past_{};
   std::size_t past_next_ = 0, past_count_ = 0;

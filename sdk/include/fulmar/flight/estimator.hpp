@@ -333,8 +333,9 @@ inline void Ekf::fill_deviations(const Params& p) {
   const auto three = [&](int i) { return Vec3<Ned>{f.std(i), f.std(i + 1), f.std(i + 2)}; };
   s.attitude_std_rad = three(ekf::theta);
   s.velocity_std_mps = three(ekf::vel);
-  s.velocity_std_mps.north = std::hypot(s.velocity_std_mps.north, h.level.std_mps());
-  s.velocity_std_mps.east = std::hypot(s.velocity_std_mps.east, h.level.std_mps());
+  const double shared = navigator_.shared_speed_mps();
+  s.velocity_std_mps.north = std::hypot(s.velocity_std_mps.north, shared);
+  s.velocity_std_mps.east = std::hypot(s.velocity_std_mps.east, shared);
   s.position_std_m = three(ekf::pos);
   fill_wind_deviations(p);
   const bool pitot = now - h.pitot.accepted_s < pitot_lost_s,

@@ -14,13 +14,15 @@ struct Params {
   Param start_height_std{0.3, "m", 0.01, 1000, "how well that is known; 1000: not at all"};
 
   // inertial unit
-  Param gyro_noise{5e-4, "rad/s/sqrt(Hz)", 1e-6, 0.1, "white noise of the gyros, vibration included"};
-  Param gyro_scale_error{2.3e-3, "1/sqrt(Hz)", 0, 0.1,
-                         "grows gyro_noise with the turn rate: scale and alignment errors"};
+  Param gyro_noise{5e-4, "rad/s/sqrt(Hz)", 1e-6, 0.1,
+                   "white noise of the gyros, vibration included, before their samples tell it"};
+  Param gyro_scale_error{1.2e-3, "1/sqrt(Hz)", 0, 0.1,
+                         "grows gyro_noise with a turn rate that lasts: scale and alignment errors"};
   Param gyro_bias_walk{2.4e-5, "rad/s/sqrt(s)", 0, 0.01, "how fast the gyro bias wanders"};
   Param gyro_bias_std{0.15, "rad/s", 1e-4, 1, "gyro bias before it is learnt"};
-  Param accel_noise{0.02, "m/s2/sqrt(Hz)", 1e-5, 5, "white noise of the accelerometers, vibration included"};
-  Param accel_scale_error{1e-2, "1/sqrt(Hz)", 0, 0.1, "grows accel_noise with the load beyond 1 g"};
+  Param accel_noise{0.02, "m/s2/sqrt(Hz)", 1e-5, 5,
+                    "white noise of the accelerometers, vibration included, before their samples tell it"};
+  Param accel_scale_error{1e-2, "1/sqrt(Hz)", 0, 0.1, "grows accel_noise with a load beyond 1 g that lasts"};
   Param accel_bias_walk{5e-4, "m/s2/sqrt(s)", 0, 0.1, "how fast the accelerometer bias wanders"};
   Param accel_bias_std{0.35, "m/s2", 1e-3, 3, "accelerometer bias before it is learnt"};
   Param gravity{9.80665, "m/s2", 9.7, 9.9, "local gravity"};
@@ -54,6 +56,8 @@ struct Params {
   Param gnss_position_time{150, "s", 1, 1e4,
                            "correlation time of the receiver's horizontal error: as large as its deviation, "
                            "and in no mean of fixes"};
+  Param gnss_speed_time{0.28, "s", 0, 100,
+                        "the same for what of its horizontal velocity error does not change from fix to fix"};
   Param gnss_speed_std{0.29, "m/s", 0.005, 10, "when the receiver reports none"};
   Param gnss_position_floor{0.1, "m", 0, 10, "no position is trusted more than this"};
   Param gnss_speed_floor{0.015, "m/s", 0, 10, "no velocity is trusted more than this"};
@@ -70,7 +74,7 @@ struct Params {
   Param baro_load_error{
       0.1, "", 0, 1,
       "noise of the barometer as a share of the dynamic pressure, for each g of load beyond 1"};
-  Param baro_walk{0.1, "m/sqrt(s)", 0, 5, "how fast the weather and the sensor shift the pressure height"};
+  Param baro_walk{0.06, "m/sqrt(s)", 0, 5, "how fast the weather and the sensor shift the pressure height"};
   Param pitot_noise{2, "Pa", 0.1, 100, "of one sample"};
   Param pitot_speed_std{0.1, "m/s", 0, 5, "of one sample, beside the pressure noise"};
   Param pitot_scale{1, "", 0.5, 1.5, "true over measured airspeed"};

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace fulmar::navigation {
 
@@ -65,7 +66,8 @@ class Wander {
   /// A fix, north and east; `std_m`: what it claims of its position.
   void fix(const Eigen::Vector2d& p_n, const Eigen::Vector2d& v_n, double std_m, double time_s) {
     const double dt = time_s - time_s_;
-    const Eigen::Vector2d step = p_n - p_n_ - 0.5 * dt * (v_n + v_n_);
+    const bool known = !std::exchange(missed_, false);
+    const Eigen::Vector2d step = known ? p_n - p_n_ - 0.5 * dt * (v_n + v_n_) : Eigen::Vector2d(0, 0);
     time_s_ = time_s, p_n_ = p_n, v_n_ = v_n;
     if (!(dt > 0 && dt < longest_s && step.norm() < jump * std_m)) {
       off_.setZero();
@@ -80,6 +82,8 @@ class Wander {
     if (!wanders_) since_s_ = time_s;
     wanders_ = off_.norm() > (wanders_ ? 0.5 : 1) * limit;
   }
+  /// One that does not count: of the way to the next one that does nothing is known.
+  void missed() { missed_ = true; }
   bool wanders() const { return wanders_; }
   /// For so long the velocity is taken to be right; then it may be the one that is wrong.
   bool doubted() const { return wanders_ && time_s_ - since_s_ < doubted_s; }
@@ -91,7 +95,7 @@ class Wander {
   Eigen::Vector2d p_n_ = Eigen::Vector2d::Zero(), v_n_ = Eigen::Vector2d::Zero(),
                   off_ = Eigen::Vector2d::Zero();
   double time_s_ = never, since_s_ = never, usual_ = 0;
-  bool wanders_ = false;
+  bool wanders_ = false, missed_ = false;
 };
 
 /// Whether the tube's airspeed steps: within a few samples no gust changes by a metre per second, but a tube

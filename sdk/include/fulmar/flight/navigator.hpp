@@ -13,6 +13,7 @@
 #include "fulmar/flight/navigation_aid.hpp"
 #include "fulmar/flight/navigation_alignment.hpp"
 #include "fulmar/flight/navigation_gusts.hpp"
+#include "fulmar/flight/navigation_noise.hpp"
 #include "fulmar/flight/navigation_params.hpp"
 #include "fulmar/msg/baro.hpp"
 #include "fulmar/msg/gnss.hpp"
@@ -145,6 +146,8 @@ class Navigator {
   ErrorStateEkf& filter() { return filter_; }  ///< for what fuse and doubt do not cover
   const Gusts& gusts() const { return gusts_; }
   const MeanWindError& wind_error() const { return wind_error_; }
+  /// m/s: what innovations of the level velocity share, beyond what a fix is taken to be off for longer.
+  double shared_speed_mps() const { return fix_noise_.beyond(health_.level.std_mps()); }
   /// Since the fixes stopped; 0 with fixes.
   double outage_s() const {
     const double silent = time_s_ - std::max(health_.velocity.accepted_s, aligned_s_);
@@ -182,6 +185,9 @@ class Navigator {
     if (mode_ != Mode::waiting && !(dt > 0)) return false;
     time_s_ = time_s;
     health_.felt(omega_b, f_b);
+    gyro_noise_.sampled(omega_b, dt), accel_noise_.sampled(f_b, dt);
+    filter_.noise.gyro = gyro_noise_.density(p.gyro_noise);
+    filter_.noise.accel = accel_noise_.density(p.accel_noise);
     if (mode_ == Mode::waiting) {
       mode_ = Mode::aligning;
       return true;
@@ -470,6 +476,8 @@ class Navigator {
   Air air_;
   Gusts gusts_;
   MeanWindError wind_error_;
+  UnitNoise gyro_noise_, accel_noise_;
+  FixNoise fix_noise_;
   double year_ = 2026.0, altitude_m_ = 0;  ///< of the origin; without one: by pressure
   double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never,
          nose_s_ = never,

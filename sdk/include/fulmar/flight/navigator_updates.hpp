@@ -134,7 +134,8 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
     const ekf::Scalar& one = fix[static_cast<std::size_t>(i)];
     off(i) = one.innovation / filter_.expected_std(one, variance);
   }
-  const double slow = samples_in(p.gnss_climb_time, health_.velocity.accepted_s);
+  const double slow = samples_in(p.gnss_climb_time, health_.velocity.accepted_s),
+               slow_level = samples_in(p.gnss_speed_time, health_.velocity.accepted_s);
   const double n = climb_samples(fix[2].innovation, std, slow, p);
   if (!within({off.x(), off.y(), off.z()}, p.gnss_gate, health_.velocity)) {
     if (time_s_ - std::max(health_.velocity.accepted_s, aligned_s_) < p.gnss_reset_after) return;
@@ -149,8 +150,9 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
     // Without a heading from elsewhere the yaw is what the accelerations of the fixes make of it: then it
     // counts that their errors follow each other, or the yaw walks away with them.
     const bool heading = resting_ || time_s_ - health_.heading.accepted_s < heading_lost_s;
-    const double level = heading ? 1 : slow;
-    for (int i = 0; i < 3; ++i) filter_.fuse(z(i), (i < 2 ? level : n) * variance, 1e3);
+    fix_noise_.add({fix[0].innovation, fix[1].innovation, fix[2].innovation}, std, time_s_);
+    const double level = heading ? fix_noise_.level(slow_level) : slow * variance;
+    for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 ? level : fix_noise_.climb(n), 1e3);
   }
   health_.velocity.accepted_s = time_s_;
 }
@@ -318,7 +320,10 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   // As long as the velocity is right, as far as anybody knows.
   const bool asked = airborne_ && !stuck(level) && health_.velocity.refused_from_s == never &&
                      time_s_ - health_.velocity.believed_s > 60;
-  if (asked) health_.wander.fix(p_n.head<2>(), eigen(g.velocity_mps).head<2>(), h_std, valid_s);
+  if (asked)
+    health_.wander.fix(p_n.head<2>(), eigen(g.velocity_mps).head<2>(), h_std, valid_s);
+  else
+    health_.wander.missed();
   level.contradicts = asked && health_.wander.wanders();
   if (stuck(level) || (asked && health_.wander.doubted())) {
     // However long: an aircraft does not stand in the air, nor goes where its velocity does not.

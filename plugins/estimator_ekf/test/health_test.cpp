@@ -272,8 +272,8 @@ TEST_CASE("biased: off by four deviations, which the gate lets through; told wit
 }
 
 TEST_CASE("refused: off by more than the gate; told 1 s after, left when it is believed or right again") {
-  const auto baro = [](Samples& s, Random&) {
-    if (s.baro) s.baro->pressure_pa += 240;
+  const auto baro = [k = 0](Samples& s, Random&) mutable {
+    if (s.baro) s.baro->pressure_pa += 240 + ++k;  // and farther and farther
   };
   const auto pitot = [](Samples& s, Random&) {
     if (s.pitot) s.pitot->pressure_pa += 400;
@@ -294,6 +294,23 @@ TEST_CASE("refused: off by more than the gate; told 1 s after, left when it is b
     CHECK((spell.during.*sensor).accepted == (spell.before.*sensor).accepted);
     CHECK((spell.during.*sensor).refused > (spell.before.*sensor).refused + 30);
     CHECK(std::abs((spell.during.*sensor).innovation_ratio) > 5);
+  }
+}
+
+TEST_CASE(
+    "refused: a barometer that steps, for 2 s, and again when it steps back; the height is not followed") {
+  for (const double step_pa : {240.0, 40.0, -40.0}) {
+    CAPTURE(step_pa);
+    const auto stepped = [step_pa](Samples& s, Random&) {
+      if (s.baro) s.baro->pressure_pa += step_pa;
+    };
+    Spell spell{
+        .alter = stepped, .sensor = &NavigationHealth::baro, .state = SensorState::refused, .length_s = 8};
+    check(spell, 1.6, 2.6);
+    CHECK(spell.told_s > 0.9);
+    CHECK(spell.left_s > 1.9);
+    CHECK(spell.otherwise == "");
+    CHECK(spell.during.baro.state == SensorState::ok);
   }
 }
 

@@ -68,6 +68,48 @@ TEST_CASE("a static port whose share changes in flight is followed when a receiv
   CHECK(h.step_m < 1);
 }
 
+TEST_CASE("a barometer that steps, and steps back, moves the height by nothing, in turns as well") {
+  for (const double step_pa : {240.0, 40.0, -40.0})
+    for (const double bank_rad : {0.0, 0.7}) {
+      CAPTURE(step_pa);
+      CAPTURE(bank_rad);
+      const auto height_off = [&](double pa) {
+        Flown f{};
+        f.plan.duration_s = 110;
+        f.plan.bank_rad = bank_rad;
+        f.quality.height_walk_m = 0;
+        f.alter = [&](const Truth& x, Samples& s) {
+          if (s.baro && x.t > 60 && x.t < 80) s.baro->pressure_pa += pa;
+        };
+        Heights h{60};
+        f.watch = [&](const Truth& x, const VehicleState& s, Status) { h.see(x, s); };
+        f.run();
+        h.end();
+        return h;
+      };
+      const Heights as_ever = height_off(0), stepped = height_off(step_pa);
+      CHECK(std::abs(stepped.mean_m - as_ever.mean_m) < 0.3);  // of 23 m and of 4
+      CHECK(stepped.rms_m < as_ever.rms_m + 0.3);
+      CHECK(stepped.step_m < 0.3);
+    }
+}
+
+TEST_CASE("a barometer that goes off within half a second, or scatters, has not stepped") {
+  navigation::BaroStep ramp, scatter, gap;
+  Random r(3);
+  bool told = false;
+  for (int k = 0; k < 500; ++k) {
+    const double t = 0.02 * k;
+    const double off = std::clamp((t - 5) * 8, 0.0, 4.0);  // 8 m/s
+    told = told || ramp.sampled(off, 0.3, off < 1.5, t);
+    const double wild = t < 5 ? 0 : 4 + 3 * r.normal();
+    told = told || scatter.sampled(wild, 0.3, std::abs(wild) < 1.5, t);
+    if (t < 5 || t > 6)
+      told = told || gap.sampled(t < 5 ? 0 : 4, 0.3, t < 5, t);  // nobody knows of the second
+  }
+  CHECK_FALSE(told);
+}
+
 TEST_CASE("how far the port may be off makes the height less sure, in the air alone") {
   const auto height_std = [](double walk, double duration_s) {
     Flown f{};

@@ -69,25 +69,25 @@ TEST_CASE("an inertial unit tells its own noise: that of both sets of sensors, f
     for (const double rate_hz : {100.0, 400.0}) {
       CAPTURE(times);
       CAPTURE(rate_hz);
-      const double dt = 1 / rate_hz;
+      const double dt = 1 / rate_hz, least_accel = 0.5 * 0.02, least_gyro = 0.5 * 5e-4;
       const auto density = [&](double std) { return times * std * std::sqrt(dt); };
       const double accel = learnt(times * 0.2, rate_hz, 20, 0.02);
-      CHECK(accel == doctest::Approx(std::min(std::hypot(density(0.2), 1e-3), 0.1)).epsilon(0.06));
+      CHECK(accel == doctest::Approx(std::min(std::hypot(density(0.2), least_accel), 0.1)).epsilon(0.06));
       CHECK(learnt(times * 0.0139, rate_hz, 20, 0.02) ==
-            doctest::Approx(std::hypot(density(0.0139), 1e-3)).epsilon(0.06));
+            doctest::Approx(std::hypot(density(0.0139), least_accel)).epsilon(0.06));
       CHECK(learnt(times * 2.26e-3, rate_hz, 20, 5e-4) ==
-            doctest::Approx(std::hypot(density(2.26e-3), 2.5e-5)).epsilon(0.06));
+            doctest::Approx(std::hypot(density(2.26e-3), least_gyro)).epsilon(0.06));
       CHECK(learnt(times * 0.987e-3, rate_hz, 20, 5e-4) ==
-            doctest::Approx(std::hypot(density(0.987e-3), 2.5e-5)).epsilon(0.06));
+            doctest::Approx(std::hypot(density(0.987e-3), least_gyro)).epsilon(0.06));
     }
 }
 
 TEST_CASE("motion is no noise, an unknown unit has what was told, a slow one too, and there are bounds") {
-  CHECK(learnt(0.05, 400, 20, 0.02, 5) == doctest::Approx(std::hypot(0.05 / 20, 1e-3)).epsilon(0.06));
-  CHECK(learnt(0.05, 100, 20, 0.02, 2) == doctest::Approx(std::hypot(0.05 / 10, 1e-3)).epsilon(0.08));
+  CHECK(learnt(0.05, 400, 20, 0.02, 5) == doctest::Approx(std::hypot(0.05 / 20, 0.01)).epsilon(0.06));
+  CHECK(learnt(0.05, 100, 20, 0.02, 2) == doctest::Approx(std::hypot(0.05 / 10, 0.01)).epsilon(0.08));
   CHECK(learnt(0.2, 400, 0.4, 0.02) == 0.02);
   CHECK(learnt(0.2, 50, 60, 0.02) == 0.02);
-  CHECK(learnt(0, 400, 20, 0.02) == doctest::Approx(1e-3));
+  CHECK(learnt(0, 400, 20, 0.02) == doctest::Approx(0.01));
   CHECK(learnt(20, 400, 20, 0.02) == doctest::Approx(0.1));
 }
 
@@ -122,11 +122,16 @@ TEST_CASE("before its fixes tell more, a receiver's level velocity is white, and
 TEST_CASE("a scale error counts where a turn lasts, either way, and hardly where it goes to and fro") {
   const double left = tilt_std(100, [](double) { return -0.5; }),
                right = tilt_std(100, [](double) { return 0.5; });
-  // (1e-3 0.5)^2 over 20 s, less the first 2 s of growing: the integral of (1 - exp(-t / 2))^2 is 20 - 3
-  CHECK(right == doctest::Approx(5e-4 * std::sqrt(17.0)).epsilon(0.01));
+  // (1e-3 0.5)^2 times the integral of 1 - exp(-t / 2) over 20 s
+  CHECK(right == doctest::Approx(5e-4 * std::sqrt(18.0)).epsilon(0.01));
   CHECK(left == doctest::Approx(right));
+  // 1.5 Hz: what was lags a quarter behind what is, and is 1 / (2 pi 1.5 2) of it; their product's positive
+  // half
   const double sways = tilt_std(100, [](double t) { return 0.5 * std::sin(2 * pi * 1.5 * t); });
-  CHECK(sways < 0.06 * right);  // 1 / (2 pi 1.5 2) of it
+  CHECK(sways < 0.12 * right);
+  // A pull of 0.2 s: (1e-3 5)^2 times the integral of 1 - exp(-t / 2) over it, as a scale error makes of it
+  const double pull = tilt_std(100, [](double t) { return t < 0.2001 ? 5.0 : 0.0; });
+  CHECK(pull == doctest::Approx(5e-3 * std::sqrt(0.2 - 2 * (1 - std::exp(-0.1)))).epsilon(0.1));
 }
 
 }  // namespace noise_test

@@ -364,12 +364,14 @@ class ErrorStateEkf {
     const auto add = [&](int first, int count, double variance) {
       for (int i = first; i < first + count; ++i) P_(i, i) += variance;
     };
-    // A scale error of what goes to and fro, as in gusts, comes to nothing: what lasts counts.
-    const double lasting = scale_decay_.of(T / scale_time_s);
-    load_ = lasting * load_ + (1 - lasting) * (step_.dv.norm() / T - gravity_mps2);
-    turn_ = lasting * turn_ + (1 - lasting) / T * step_.turn;
-    const double gyro = noise.gyro + noise.gyro_scale * turn_.norm(),
-                 accel = noise.accel + noise.accel_scale * std::abs(load_);
+    // The error that a scale has made grows by what there is times what there was: what goes to and fro, as
+    // in gusts, comes to nothing.
+    const double lasting = scale_decay_.of(T / scale_time_s), load = step_.dv.norm() / T - gravity_mps2;
+    const Vector3 turn = step_.turn / T;
+    load_ = lasting * load_ + (1 - lasting) * load;
+    turn_ = lasting * turn_ + (1 - lasting) * turn;
+    const double gyro = noise.gyro + noise.gyro_scale * std::sqrt(std::max(turn.dot(turn_), 0.0)),
+                 accel = noise.accel + noise.accel_scale * std::sqrt(std::max(load * load_, 0.0));
     add(theta, 3, gyro * gyro * T);
     add(vel, 3, accel * accel * T);
     add(ekf::gyro_bias, 3, noise.gyro_bias_walk * noise.gyro_bias_walk * T);

@@ -207,6 +207,7 @@ struct Health {
   SharedError level;                                              ///< of the horizontal velocity
   Triad rates, forces;
   Wander wander;
+  BaroStep baro_step;
   TubeSteps tube;
   Strength field;
   std::uint32_t refused = 0;  ///< by all gates but that of the sideslip, which no sensor measures

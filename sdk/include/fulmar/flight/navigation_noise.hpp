@@ -37,7 +37,7 @@ class UnitNoise {
   }
 
  private:
-  static constexpr double longest_s = 0.0125, window_s = 5, least_s = 0.5, least_share = 0.05, most_share = 5;
+  static constexpr double longest_s = 0.0125, window_s = 5, least_s = 0.5, least_share = 0.5, most_share = 5;
 
   std::array<Eigen::Vector3d, 3> past_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                        Eigen::Vector3d::Zero()};  ///< the last one first

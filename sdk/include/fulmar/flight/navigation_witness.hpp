@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace fulmar::navigation {
@@ -96,6 +97,34 @@ class Wander {
                   off_ = Eigen::Vector2d::Zero();
   double time_s_ = never, since_s_ = never, usual_ = 0;
   bool wanders_ = false, missed_ = false;
+};
+
+/// Whether a barometer has stepped: from one sample to the next, and stays there. No aircraft does that, so
+/// all of it is the sensor's.
+class BaroStep {
+ public:
+  /// A sample's innovation, its own deviation, whether the gate took it. The step, once it has lasted.
+  std::optional<double> sampled(double innovation_m, double std_m, bool accepted, double time_s) {
+    const bool at_once =
+        took_ && time_s - time_s_ < longest_s && std::abs(innovation_m - before_m_) > most * std_m;
+    time_s_ = time_s, before_m_ = innovation_m;
+    if (took_ = accepted; accepted) return since_s_ = never, std::nullopt;
+    if (at_once) since_s_ = time_s, mean_m_ = innovation_m, count_ = 0;
+    if (since_s_ == never) return std::nullopt;
+    mean_m_ += (innovation_m - mean_m_) / ++count_;
+    if (std::abs(innovation_m - mean_m_) > most * std_m) since_s_ = never;  // it goes on
+    if (since_s_ == never || time_s - since_s_ < lasts_s) return std::nullopt;
+    since_s_ = never;
+    return mean_m_;
+  }
+  bool may_be() const { return since_s_ != never; }
+
+ private:
+  static constexpr double longest_s = 0.2, lasts_s = 2, most = 5;
+
+  bool took_ = false;
+  double time_s_ = never, since_s_ = never, before_m_ = 0, mean_m_ = 0;
+  int count_ = 0;
 };
 
 /// Whether the tube's airspeed steps: within a few samples no gust changes by a metre per second, but a tube

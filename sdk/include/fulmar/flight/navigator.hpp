@@ -34,6 +34,8 @@ inline constexpr double baro_step_m = 0.05,
 inline constexpr double height_set_m = 50;     ///< beyond which nothing is resolved by degrees
 inline constexpr double outage_after_s = 1.5;  ///< without a velocity: no late fix of a slow receiver
 inline constexpr double heading_lost_s = 10;   ///< without an accepted magnetic heading
+inline constexpr double fix_stamp_std_s =
+    0.004;  ///< from fix to fix: a receiver solves its epochs in some ms
 inline constexpr double least_gust_mps = 1.2,
                         most_gust_mps = 2;  ///< by how much a tube may be off for a second
 inline constexpr double coasted_s =

@@ -152,7 +152,10 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
     const bool heading = resting_ || time_s_ - health_.heading.accepted_s < heading_lost_s;
     fix_noise_.add({fix[0].innovation, fix[1].innovation, fix[2].innovation}, std, time_s_);
     const double level = heading ? fix_noise_.level(slow_level) : slow * variance;
-    for (int i = 0; i < 3; ++i) filter_.fuse(z(i), i < 2 ? level : fix_noise_.climb(n), 1e3);
+    for (int i = 0; i < 3; ++i) {
+      const double by_stamp = fix_stamp_std_s * a_n(i);  // what of its time is no delay that lasts
+      filter_.fuse(z(i), by_stamp * by_stamp + (i < 2 ? level : fix_noise_.climb(n)), 1e3);
+    }
   }
   health_.velocity.accepted_s = time_s_;
 }
@@ -448,7 +451,17 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
     if (off <= p.air_gate * std::hypot(known, std))
       variance = std::max(variance, known * known * (off / baro_step_m - 1));
   }
-  const ekf::Fused fused = fuse(z, variance, p.air_gate, health_.baro);
+  // What may be a step does not come in by degrees through the wider gate of a turn.
+  const double alone = p.baro_noise * ekf::metres_per_pascal(air_);
+  const bool may_step = health_.baro_step.may_be() &&
+                        std::abs(z.innovation) > p.air_gate * filter_.expected_std(z, alone * alone);
+  const ekf::Fused fused = fuse(z, variance, may_step ? 0.0 : p.air_gate.value, health_.baro);
+  if (const auto step_m = health_.baro_step.sampled(z.innovation, std, fused.accepted, time_s_)) {
+    ekf::Vector dx = ekf::Vector::Zero();
+    dx(ekf::baro) = *step_m;
+    filter_.correct(dx);
+    filter_.inflate(ekf::baro, 1, std);
+  }
   if (!fused.accepted && time_s_ - std::max(health_.baro.accepted_s, aligned_s_) > p.gnss_reset_after) {
     seen_.baro_zero = false;
     health_.baro.accepted_s = time_s_;

@@ -36,6 +36,8 @@ inline constexpr double outage_after_s = 1.5;  ///< without a velocity: no late 
 inline constexpr double heading_lost_s = 10;   ///< without an accepted magnetic heading
 inline constexpr double fix_stamp_std_s =
     0.004;  ///< from fix to fix: a receiver solves its epochs in some ms
+inline constexpr double clipped_for_s =
+    10;  ///< so long after a sample at its stop a unit has the noise that is told of it
 inline constexpr double least_gust_mps = 1.2,
                         most_gust_mps = 2;  ///< by how much a tube may be off for a second
 inline constexpr double coasted_s =
@@ -181,15 +183,22 @@ class Navigator {
   /// sensor which is right comes in again, while one that is far off stays out.
   void doubt(std::initializer_list<int> parts, double std, Aid& aid);
 
+  bool at_stop() const { return time_s_ - clipped_s_ < clipped_for_s; }  ///< or was a moment ago
+  /// A sample that is held at a stop has no noise of its own, and what went past it is not over when it is.
+  void learn_noise(const Vector3d& omega_b, const Vector3d& f_b, double dt, const Params& p) {
+    if (health_.rates.was_clipped() || health_.forces.was_clipped()) clipped_s_ = time_s_;
+    const bool told = at_stop();
+    if (!told) gyro_noise_.sampled(omega_b, dt), accel_noise_.sampled(f_b, dt);
+    filter_.noise.gyro = told ? p.gyro_noise.value : gyro_noise_.density(p.gyro_noise);
+    filter_.noise.accel = told ? p.accel_noise.value : accel_noise_.density(p.accel_noise);
+  }
   /// One inertial sample, valid at `time_s`. False: it is not newer than the last one and was ignored.
   bool imu(const Vector3d& omega_b, const Vector3d& f_b, double time_s, const Params& p) {
     const double dt = time_s - time_s_;
     if (mode_ != Mode::waiting && !(dt > 0)) return false;
     time_s_ = time_s;
     health_.felt(omega_b, f_b);
-    gyro_noise_.sampled(omega_b, dt), accel_noise_.sampled(f_b, dt);
-    filter_.noise.gyro = gyro_noise_.density(p.gyro_noise);
-    filter_.noise.accel = accel_noise_.density(p.accel_noise);
+    learn_noise(omega_b, f_b, dt, p);
     if (mode_ == Mode::waiting) {
       mode_ = Mode::aligning;
       return true;
@@ -479,6 +488,7 @@ class Navigator {
   Gusts gusts_;
   MeanWindError wind_error_;
   UnitNoise gyro_noise_, accel_noise_;
+  double clipped_s_ = never;
   FixNoise fix_noise_;
   double year_ = 2026.0, altitude_m_ = 0;  ///< of the origin; without one: by pressure
   double time_s_ = 0, aligned_s_ = 0, rest_since_s_ = never, rest_fused_s_ = never, sideslip_s_ = never,

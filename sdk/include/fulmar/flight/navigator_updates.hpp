@@ -151,7 +151,8 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
     // counts that their errors follow each other, or the yaw walks away with them.
     const bool heading = resting_ || time_s_ - health_.heading.accepted_s < heading_lost_s;
     fix_noise_.add({fix[0].innovation, fix[1].innovation, fix[2].innovation}, std, time_s_);
-    const double level = heading ? fix_noise_.level(slow_level) : slow * variance;
+    // After a stop of the unit the attitude is what is wrong, and waits for every fix.
+    const double level = !heading ? slow * variance : at_stop() ? variance : fix_noise_.level(slow_level);
     for (int i = 0; i < 3; ++i) {
       const double by_stamp = fix_stamp_std_s * a_n(i);  // what of its time is no delay that lasts
       filter_.fuse(z(i), by_stamp * by_stamp + (i < 2 ? level : fix_noise_.climb(n)), 1e3);

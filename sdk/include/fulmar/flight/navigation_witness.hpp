@@ -107,13 +107,13 @@ class BaroStep {
   std::optional<double> sampled(double innovation_m, double std_m, bool accepted, double time_s) {
     const bool at_once =
         took_ && time_s - time_s_ < longest_s && std::abs(innovation_m - before_m_) > most * std_m;
-    time_s_ = time_s, before_m_ = innovation_m;
-    if (took_ = accepted; accepted) return since_s_ = never, std::nullopt;
-    if (at_once) since_s_ = time_s, mean_m_ = innovation_m, count_ = 0;
-    if (since_s_ == never) return std::nullopt;
+    took_ = accepted, time_s_ = time_s, before_m_ = innovation_m;
+    if (at_once) since_s_ = time_s, mean_m_ = 0, count_ = 0;
+    if (accepted) since_s_ = never;
+    if (!may_be()) return std::nullopt;
     mean_m_ += (innovation_m - mean_m_) / ++count_;
     if (std::abs(innovation_m - mean_m_) > most * std_m) since_s_ = never;  // it goes on
-    if (since_s_ == never || time_s - since_s_ < lasts_s) return std::nullopt;
+    if (!may_be() || time_s - since_s_ < lasts_s) return std::nullopt;
     since_s_ = never;
     return mean_m_;
   }

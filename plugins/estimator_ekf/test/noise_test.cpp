@@ -72,33 +72,33 @@ TEST_CASE("an inertial unit tells its own noise: that of both sets of sensors, f
       const double dt = 1 / rate_hz, least_accel = 0.5 * 0.02, least_gyro = 0.5 * 5e-4;
       const auto density = [&](double std) { return times * std * std::sqrt(dt); };
       const double accel = learnt(times * 0.2, rate_hz, 20, 0.02);
-      CHECK(accel == doctest::Approx(std::min(std::hypot(density(0.2), least_accel), 0.1)).epsilon(0.06));
-      CHECK(learnt(times * 0.0139, rate_hz, 20, 0.02) ==
-            doctest::Approx(std::hypot(density(0.0139), least_accel)).epsilon(0.06));
-      CHECK(learnt(times * 2.26e-3, rate_hz, 20, 5e-4) ==
-            doctest::Approx(std::hypot(density(2.26e-3), least_gyro)).epsilon(0.06));
-      CHECK(learnt(times * 0.987e-3, rate_hz, 20, 5e-4) ==
-            doctest::Approx(std::hypot(density(0.987e-3), least_gyro)).epsilon(0.06));
+      CHECK(accel / std::min(std::hypot(density(0.2), least_accel), 0.1) == doctest::Approx(1).epsilon(0.06));
+      CHECK(learnt(times * 0.0139, rate_hz, 20, 0.02) / std::hypot(density(0.0139), least_accel) ==
+            doctest::Approx(1).epsilon(0.06));
+      CHECK(learnt(times * 2.26e-3, rate_hz, 20, 5e-4) / std::hypot(density(2.26e-3), least_gyro) ==
+            doctest::Approx(1).epsilon(0.06));
+      CHECK(learnt(times * 0.987e-3, rate_hz, 20, 5e-4) / std::hypot(density(0.987e-3), least_gyro) ==
+            doctest::Approx(1).epsilon(0.06));
     }
 }
 
 TEST_CASE("motion is no noise, an unknown unit has what was told, a slow one too, and there are bounds") {
-  CHECK(learnt(0.05, 400, 20, 0.02, 5) == doctest::Approx(std::hypot(0.05 / 20, 0.01)).epsilon(0.06));
-  CHECK(learnt(0.05, 100, 20, 0.02, 2) == doctest::Approx(std::hypot(0.05 / 10, 0.01)).epsilon(0.08));
+  CHECK(learnt(0.05, 400, 20, 0.02, 5) / std::hypot(0.05 / 20, 0.01) == doctest::Approx(1).epsilon(0.06));
+  CHECK(learnt(0.05, 100, 20, 0.02, 2) / std::hypot(0.05 / 10, 0.01) == doctest::Approx(1).epsilon(0.08));
   CHECK(learnt(0.2, 400, 0.4, 0.02) == 0.02);
   CHECK(learnt(0.2, 50, 60, 0.02) == 0.02);
-  CHECK(learnt(0, 400, 20, 0.02) == doctest::Approx(0.01));
-  CHECK(learnt(20, 400, 20, 0.02) == doctest::Approx(0.1));
+  CHECK(learnt(0, 400, 20, 0.02) / 0.01 == doctest::Approx(1));
+  CHECK(learnt(20, 400, 20, 0.02) / 0.1 == doctest::Approx(1));
 }
 
 TEST_CASE("of what a receiver states, the part that is white counts once, and the slow one n times") {
   // half the mean square of successive differences: 0.03^2 + (1 - exp(-0.1 / 2)) 0.1^2
   const double white = 0.0009 + (1 - std::exp(-0.05)) * 0.01, told = 0.15 * 0.15;
   const FixNoise slow = receiver(0.03, 0.1, 0.15);
-  CHECK(slow.level(1) == doctest::Approx(told));
-  CHECK(slow.level(6) == doctest::Approx(white + 6 * (told - white)).epsilon(0.02));
-  CHECK(slow.climb(41) == doctest::Approx(white + 41 * (told - white)).epsilon(0.02));
-  CHECK(slow.beyond(0.2) == doctest::Approx(std::sqrt(0.04 - (told - white))).epsilon(0.02));
+  CHECK(slow.level(1) / told == doctest::Approx(1));
+  CHECK(slow.level(6) / (white + 6 * (told - white)) == doctest::Approx(1).epsilon(0.02));
+  CHECK(slow.climb(41) / (white + 41 * (told - white)) == doctest::Approx(1).epsilon(0.02));
+  CHECK(slow.beyond(0.2) / std::sqrt(0.04 - (told - white)) == doctest::Approx(1).epsilon(0.02));
   CHECK(slow.beyond(0.1) == 0);
   // One that says what it is, all of it white: a fix is a fix. One that scatters by more: not by less either.
   for (const double std : {0.15, 0.5}) {
@@ -114,24 +114,24 @@ TEST_CASE("before its fixes tell more, a receiver's level velocity is white, and
   Random r(1);
   for (int k = 0; k < 40; ++k)
     noise.add({0.01 * r.normal(), 0.01 * r.normal(), 0.01 * r.normal()}, 0.2, 0.1 * k);
-  CHECK(noise.level(10) == doctest::Approx(0.04));
-  CHECK(noise.climb(10) == doctest::Approx(0.4));
-  CHECK(noise.beyond(0.1) == doctest::Approx(0.1));
+  CHECK(noise.level(10) / 0.04 == doctest::Approx(1));
+  CHECK(noise.climb(10) / 0.4 == doctest::Approx(1));
+  CHECK(noise.beyond(0.1) / 0.1 == doctest::Approx(1));
 }
 
 TEST_CASE("a scale error counts where a turn lasts, either way, and hardly where it goes to and fro") {
   const double left = tilt_std(100, [](double) { return -0.5; }),
                right = tilt_std(100, [](double) { return 0.5; });
   // (1e-3 0.5)^2 times the integral of 1 - exp(-t / 2) over 20 s
-  CHECK(right == doctest::Approx(5e-4 * std::sqrt(18.0)).epsilon(0.01));
-  CHECK(left == doctest::Approx(right));
+  CHECK(right / (5e-4 * std::sqrt(18.0)) == doctest::Approx(1).epsilon(0.01));
+  CHECK(left / right == doctest::Approx(1));
   // 1.5 Hz: what was lags a quarter behind what is, and is 1 / (2 pi 1.5 2) of it; their product's positive
   // half
   const double sways = tilt_std(100, [](double t) { return 0.5 * std::sin(2 * pi * 1.5 * t); });
   CHECK(sways < 0.12 * right);
   // A pull of 0.2 s: (1e-3 5)^2 times the integral of 1 - exp(-t / 2) over it, as a scale error makes of it
   const double pull = tilt_std(100, [](double t) { return t < 0.2001 ? 5.0 : 0.0; });
-  CHECK(pull == doctest::Approx(5e-3 * std::sqrt(0.2 - 2 * (1 - std::exp(-0.1)))).epsilon(0.1));
+  CHECK(pull / (5e-3 * std::sqrt(0.2 - 2 * (1 - std::exp(-0.1)))) == doctest::Approx(1).epsilon(0.1));
 }
 
 }  // namespace noise_test

@@ -31,11 +31,11 @@ using Covariance = Eigen::Matrix<double, size, size>;
 
 /// Continuous noise: spectral densities and walks, so that nothing depends on a sensor's rate.
 struct Noise {
-  double gyro = 5e-4;   ///< rad/s/sqrt(Hz), angular random walk
-  double accel = 0.02;  ///< m/s2/sqrt(Hz), velocity random walk
-  double gyro_scale =
-      0;  ///< share of a lasting turn rate that is error: adds gyro_scale * |omega| to `gyro`, in 1/sqrt(Hz)
-  double accel_scale = 0;         ///< share of a lasting load beyond 1 g that is error, in 1/sqrt(Hz)
+  double gyro = 5e-4;      ///< rad/s/sqrt(Hz), angular random walk
+  double accel = 0.02;     ///< m/s2/sqrt(Hz), velocity random walk
+  double gyro_scale = 0;   ///< share of a lasting turn rate that is error: adds gyro_scale times the root of
+                           ///< omega now and over the last seconds to `gyro`, in 1/sqrt(Hz)
+  double accel_scale = 0;  ///< share of a lasting load beyond 1 g that is error, in 1/sqrt(Hz)
   double gyro_bias_walk = 2e-5;   ///< rad/s/sqrt(s)
   double accel_bias_walk = 1e-3;  ///< m/s2/sqrt(s)
   double wind_walk = 0.02;        ///< m/s/sqrt(s)

@@ -438,23 +438,7 @@ class Navigator {
     forget_gusts(time_s_, p);
   }
 
-  /// After a start in flight the attitude may be hardly known about one axis, where the field lies along the
-  /// specific force: there, where the nose points says more than how gusts go on for seconds spoils.
-  void sideslip(const Params& p) {
-    sideslip_s_ = time_s_;
-    const double side = p.sideslip_ratio * ekf::air_velocity(filter_.state()).norm(),
-                 variance = p.sideslip_speed_std * p.sideslip_speed_std + side * side;
-    const ekf::Scalar z = ekf::zero_sideslip(filter_.state());
-    const Vector3d before = air();
-    const bool nose = time_s_ < nose_until_s_ && time_s_ - nose_s_ > (settling() ? 0.3 : 1) - 1e-4;
-    if (nose) nose_s_ = time_s_;
-    const ekf::Fused fused = nose ? filter_.fuse(z, variance, p.air_gate)
-                                  : filter_.fuse_considering_attitude(z, variance, p.air_gate);
-    health_.sideslip.told(fused, time_s_);
-    if (!fused.accepted) return;
-    gusts_.sideslip(mean_wind(), filter_.R_nb().col(1), side, time_s_, p);
-    spoil_wind(before, z, p);
-  }
+  void sideslip(const Params& p);
 
   void count_reset(const ekf::Nominal& before);
   void place(const Gnss& g, double time_s, const Params& p);

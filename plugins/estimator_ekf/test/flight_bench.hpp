@@ -27,7 +27,8 @@ struct Flown {
   std::function<void(const Truth&, Samples&)> alter{};
   std::function<void(const Truth&, const VehicleState&, Status)> watch{};
   std::function<void(Ekf::Params&)> set{};
-  std::optional<double> first_s{};  ///< of the first state
+  std::function<double(const Truth&)> throttle{};  ///< told to the component; nothing: not wired
+  std::optional<double> first_s{};                 ///< of the first state
   VehicleState last{};
   Truth last_truth{};
   double gnss_delay_s = 0;  ///< what was learnt of it
@@ -71,6 +72,7 @@ struct Flown {
     if (s.mag) bench.set(bench.in.mag, *s.mag);
     if (s.baro) bench.set(bench.in.baro, *s.baro);
     if (s.pitot) bench.set(bench.in.pitot, *s.pitot);
+    if (throttle) bench.set(bench.in.commands, Actuators{throttle(x), 0, 0, 0});
     if (!status) return;
     VehicleStatus v;
     v.armed = x.t > plan.rest_s - 0.2;

@@ -17,6 +17,7 @@
 // Needs GeographicLib, as geodesy.hpp: fulmar_add_plugin(... GEODESY).
 #pragma once
 #include "fulmar/eigen.hpp"
+#include "fulmar/flight/navigation_airspeed.hpp"
 #include "fulmar/flight/navigation_ports.hpp"
 #include "fulmar/flight/navigator_updates.hpp"
 
@@ -29,7 +30,10 @@ struct Ekf {
   using Outputs = navigation::Outputs;
   using Params = navigation::Params;
 
-  void configure(const Params& p) { navigator_.start(p); }
+  void configure(const Params& p) {
+    navigator_.start(p);
+    airspeed_ = {};
+  }
   /// One state more in the filter, after configure(): ekf_more.hpp. Returns its index, which stays; throws
   /// when there is no room.
   int append(const ekf::MoreState& state) { return navigator_.filter().append(state); }
@@ -76,6 +80,7 @@ struct Ekf {
       const bool had_one = navigator_.regaining() || shown_ != Shown::nothing;
       return had_one ? blind(in.imu.valid_at_ns(), p, out) : Status::degraded;
     }
+    if (in.commands) model(in, p);
     fuse_more(navigator_);
     fill(navigator_.filter().state(), navigator_.filter().R_nb(), navigator_.filter().rate_b(), p);
     if (navigator_.filter().time_s() - deviations_s_ > deviations_after_s) fill_deviations(p);
@@ -95,6 +100,7 @@ struct Ekf {
   static constexpr double position_valid_m = 50, height_valid_m = 20;
   static constexpr double tube_std_mps = 2;             ///< of the tube alone, rolling or standing
   static constexpr double pitot_lost_s = 1;             ///< without an accepted sample
+  static constexpr double commands_age_s = 0.5;         ///< older ones do not tell what the motor does
   static constexpr double deviations_after_s = 0.0099;  ///< renewed at 100 Hz; a sample may be a little early
 
   /// A sample whose time is later than that of the one before, and not in the future.
@@ -160,6 +166,12 @@ struct Ekf {
     turn_s_ = 1e-9 * static_cast<double>(attitude_ns_);
     turn_q_ = q;
   }
+  /// Throttle that reaches the motor: not where a pilot or the vehicle itself flies.
+  void model(const Inputs& in, const Params& p) {
+    const bool commanded = !in.commands.stale() && in.commands.age_s() < commands_age_s &&
+                           (!in.status || !(in.status->override || in.status->failsafe));
+    airspeed_.step(navigator_, in.commands->throttle_frac, commanded, dt_s_, p);
+  }
   void publish(std::int64_t valid_at_ns, Shown what, Outputs& out) {
     out.state.publish(state_, valid_at_ns);
     published_ns_ = valid_at_ns;
@@ -182,6 +194,7 @@ struct Ekf {
   void probes(Outputs& out) const;
 
   Navigator navigator_;
+  ModelledAirspeed airspeed_;
   VehicleState state_;
   Vector3d rate_ = Vector3d::Zero();
   double dt_s_ = 0, deviations_s_ = never, checked_s_ = never;
@@ -242,7 +255,7 @@ inline Status Ekf::blind(std::int64_t valid_at_ns, const Params& p, Outputs& out
   s.rate_radps = {};
   s.specific_force_mps2 = {};
   s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid =
-      false;
+      s.airspeed_from_model = false;
   rate_started_ = false;
   stood_in_ = true;
   deviations_s_ = never;
@@ -360,6 +373,9 @@ inline void Ekf::fill_deviations(const Params& p) {
                      std::max(s.position_std_m.north, s.position_std_m.east) < position_valid_m;
   s.height_valid = known && seen.height && s.position_std_m.down < height_valid_m;
   s.wind_valid = known && std::max(s.wind_std_mps.north, s.wind_std_mps.east) < speed_valid_mps;
+  s.airspeed_from_model = known && navigator_.airborne() && !pitot && airspeed_.in_use();
+  if (known && navigator_.airborne() && !pitot)
+    s.airspeed_std_mps = std::hypot(s.airspeed_std_mps, airspeed_.doubt_mps(navigator_, p));
   s.airspeed_valid = known && (navigator_.airborne() ? pitot || s.airspeed_std_mps < speed_valid_mps : tube);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ports of the shipped estimator (estimator.hpp): groups in those of a component that holds it.
 #pragma once
+#include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/baro.hpp"
 #include "fulmar/msg/controller_attitude.hpp"
 #include "fulmar/msg/filter_check.hpp"
@@ -23,6 +24,7 @@ struct Inputs {
   Optional<Pitot> pitot;
   Optional<VehicleStatus> status;
   Optional<ControllerAttitude> attitude;
+  Optional<Actuators> commands;  ///< what flies the aircraft: from its throttle an airspeed without a tube
 };
 struct Outputs {
   Out<VehicleState> state;

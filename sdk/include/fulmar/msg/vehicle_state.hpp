@@ -46,10 +46,11 @@ struct VehicleState {
   bool height_valid = false;
   bool airspeed_valid = false;
   bool wind_valid = false;
-  std::uint32_t reset_count = 0;  ///< since the start; the first attitude and the first position are none
-  Vec3<Ned> reset_position_m;     ///< of the last reset: state after it minus state before it
-  Vec3<Ned> reset_velocity_mps;   ///< the same
-  double reset_yaw_rad = 0;       ///< the same
+  std::uint32_t reset_count = 0;     ///< since the start; the first attitude and the first position are none
+  Vec3<Ned> reset_position_m;        ///< of the last reset: state after it minus state before it
+  Vec3<Ned> reset_velocity_mps;      ///< the same
+  double reset_yaw_rad = 0;          ///< the same
+  bool airspeed_from_model = false;  ///< no tube says it: thrust and drag, as learnt while one did, stand in
 };
 
 template <>

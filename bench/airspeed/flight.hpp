@@ -51,7 +51,7 @@ inline fs::path mission_of(const Case& c, const std::string& sensors, bool wired
                       << " s}\ncomponents:\n  sim: {params: {sensors: " << sensors
                       << ", truth_rate: 400 Hz, turbulence: " << c.turbulence
                       << "}}\n  plan: {params: {plan: plan.yaml}}\n"
-                      << (wired ? "  ekf: {in: {commands: {from: inner.actuators, delayed: true}}}\n" : "");
+                      << (wired ? "" : "  ekf: {in: {commands: null}}\n");
   return file;
 }
 

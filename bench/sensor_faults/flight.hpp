@@ -54,9 +54,7 @@ inline fs::path mission_of(const Row& row, const std::string& set, const fs::pat
                       << "  wires: {use: " FULMAR_TEST_PLUGIN_DIR
                          "/tampered.so, in: {imu: vehicle.imu, gnss: vehicle.gnss, mag: vehicle.mag, baro: "
                          "vehicle.baro, pitot: vehicle.pitot, status: vehicle.status}, params: {"
-                      << wires << ", from: " << from_s << " s, lasts: " << row.lasts_s << " s}}\n"
-                      << (row.throttle ? "  ekf: {in: {commands: {from: inner.actuators, delayed: true}}}\n"
-                                       : "");
+                      << wires << ", from: " << from_s << " s, lasts: " << row.lasts_s << " s}}\n";
   return file;
 }
 

@@ -21,7 +21,6 @@ struct Row {
   double lasts_s = 20;
   std::vector<FaultTarget> off{};           ///< by request, in place of the wires
   std::string sim{};                        ///< parameters of the aircraft, of the whole flight
-  bool throttle = false;                    ///< the estimator is told the commands
   std::vector<std::string> sensors{};       ///< that have to be named, of the port `health`
   std::string untold{}, unrecovered{};      ///< why it cannot be; "": it is, and the command holds it
   Each most{4, 2, 10, 5, 3};                ///< errors from the fault on, of what is called valid
@@ -117,11 +116,7 @@ inline std::vector<Row> rows() {
   switched("pitot_off", "off and on again by request", {pitot}, {"pitot"});
   f = &switched("gnss_pitot_off", "receiver and tube off together", {gnss_position, pitot},
                 {"gnss_position", "gnss_velocity", "gnss_height", "pitot"});
-  f->most[airspeed] = 4, f->most_over_std = 3;
-  f = &switched("gnss_pitot_throttle", "the same, and the filter knows the throttle (`commands`)",
-                {gnss_position, pitot}, {"gnss_position", "gnss_velocity", "gnss_height", "pitot"});
-  f->throttle = true;
-  f->most[airspeed] = 3, f->most_over_std = 5;
+  f->most[airspeed] = 3, f->most_over_std = 4;
   r.push_back({.name = "no_mag",
                .words = "no magnetometer in the whole flight, from the ground on",
                .sim = "mag_works: false",

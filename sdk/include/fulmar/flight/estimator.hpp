@@ -395,8 +395,11 @@ inline void Ekf::fill_wind_deviations(const Params& p) {
   const Vector3d u_n = ekf::air_velocity(f.state());
   const Eigen::Vector2d gust = g.covariance().diagonal().cwiseSqrt(),
                         scale = p.pitot_scale_std * u_n.head<2>();
-  s.wind_std_mps = {std::hypot(gust.x(), scale.x(), s.velocity_std_mps.north),
-                    std::hypot(gust.y(), scale.y(), s.velocity_std_mps.east), unknown_std};
+  // The air that comes from ahead comes from where the nose is thought to be.
+  const Eigen::Vector2d off = {std::hypot(scale.x(), s.attitude_std_rad.down * u_n.y()),
+                               std::hypot(scale.y(), s.attitude_std_rad.down * u_n.x())};
+  s.wind_std_mps = {std::hypot(gust.x(), off.x(), s.velocity_std_mps.north),
+                    std::hypot(gust.y(), off.y(), s.velocity_std_mps.east), unknown_std};
 }
 
 inline void Ekf::publish_check(Outputs& out) {

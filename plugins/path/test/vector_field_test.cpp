@@ -262,7 +262,10 @@ TEST_CASE("each outage has the whole time, and the larger of the two deviations 
   CHECK(located(150, false, 1, 1));
   CHECK(located(264, false, 50, 50));
   CHECK_FALSE(located(264, false, 51, 1));
-  CHECK_FALSE(located(264, false, 1, 51));
+  CHECK_FALSE(located(264, false, 1, 1));  // for good, or it would circle and fly on by turns
+  CHECK(located(270, true, 1, 1));
+  CHECK(located(271, false, 1, 1));
+  CHECK_FALSE(located(272, false, 1, 51));
 }
 
 TEST_CASE("a position is reckoned on by attitude and velocity: without either it is lost") {

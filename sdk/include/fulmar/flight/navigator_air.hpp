@@ -109,7 +109,7 @@ inline void Navigator::sideslip(const Params& p) {
                variance = p.sideslip_speed_std * p.sideslip_speed_std + side * side;
   const ekf::Scalar z = ekf::zero_sideslip(filter_.state());
   const Vector3d before = air();
-  const bool nose = time_s_ < nose_until_s_ && time_s_ - nose_s_ > gust_lasts_s - 1e-4;
+  const bool nose = (settling() || time_s_ < nose_until_s_) && time_s_ - nose_s_ > gust_lasts_s - 1e-4;
   if (nose) nose_s_ = time_s_;
   const ekf::Fused fused = nose ? filter_.fuse(z, variance, p.air_gate)
                                 : filter_.fuse_considering_attitude(z, variance, p.air_gate);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/run/flight.hpp"
+#include "core/run/test/output_of.hpp"
 #include "fulmar/msg/autotune_report.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "tools/fulmar_aero/flight_model.hpp"
@@ -129,14 +130,8 @@ inline Flown fly(const Case& c, const fs::path& folder) {
   core::FlightOptions options;
   options.log = false;
   core::Flight flight(graph, options);
-  const auto output_of = [&](const std::string& component, const std::string& output) {
-    for (std::size_t i = 0; i < graph.components.size(); ++i)
-      if (graph.components[i].name == component)
-        return core::Source{core::Source::Kind::component, static_cast<int>(i),
-                            graph.components[i].info().output(output)};
-    throw std::runtime_error("no component " + component);
-  };
-  const core::Source told = output_of("attitude", "report"), truth = output_of("sim", "truth");
+  const core::Source told = core::output_of(graph, "attitude", "report"),
+                     truth = core::output_of(graph, "sim", "truth");
   Flown out;
   bool begun = false;
   double begun_m = 0, begun_pitch = 0;

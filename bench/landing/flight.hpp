@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/run/flight.hpp"
+#include "core/run/test/output_of.hpp"
 #include "fulmar/flight/angles.hpp"
 #include "fulmar/flight/geodesy.hpp"
 #include "fulmar/flight/steady_flight.hpp"
@@ -124,14 +125,6 @@ class Watched {
     o.log = !file.empty();
     o.log_file = file;
     return o;
-  }
-  static core::Source output_of(const core::Graph& graph, const std::string& component,
-                                const std::string& output) {
-    for (std::size_t i = 0; i < graph.components.size(); ++i)
-      if (graph.components[i].name == component)
-        return {core::Source::Kind::component, static_cast<int>(i),
-                graph.components[i].info().output(output)};
-    throw std::runtime_error("no component " + component);
   }
   template <class T>
   const T* at(const core::Source& source) const {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/run/flight.hpp"
+#include "core/run/test/output_of.hpp"
 #include "fulmar/msg/safety_state.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
@@ -283,14 +284,6 @@ struct Flown {
     return end == row.end && told && in_order && outside_m <= 0;
   }
 };
-
-inline core::Source output_of(const core::Graph& graph, const std::string& component,
-                              const std::string& output) {
-  for (std::size_t i = 0; i < graph.components.size(); ++i)
-    if (graph.components[i].name == component)
-      return {core::Source::Kind::component, static_cast<int>(i), graph.components[i].info().output(output)};
-  throw std::runtime_error("no component " + component);
-}
 
 inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
   using namespace core;

@@ -14,6 +14,7 @@
 #include "bench/sensor_faults/rows.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/test/commands.hpp"
+#include "core/run/test/output_of.hpp"
 #include "fulmar/eigen.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 
@@ -94,14 +95,6 @@ class Watched {
     core::FlightOptions o;
     o.log = false;
     return o;
-  }
-  static core::Source output_of(const core::Graph& graph, const std::string& component,
-                                const std::string& output) {
-    for (std::size_t i = 0; i < graph.components.size(); ++i)
-      if (graph.components[i].name == component)
-        return {core::Source::Kind::component, static_cast<int>(i),
-                graph.components[i].info().output(output)};
-    throw std::runtime_error("no component " + component);
   }
   template <class T>
   const T* at(const core::Source& source) const {

@@ -14,6 +14,7 @@
 
 #include "core/app/test/hourglass.hpp"
 #include "core/run/flight.hpp"
+#include "core/run/test/output_of.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 
@@ -72,13 +73,6 @@ struct After {
   std::size_t guards = 0;
   std::string outcome;
 };
-
-inline Source output_of(const Graph& graph, const std::string& component, const std::string& output) {
-  for (std::size_t i = 0; i < graph.components.size(); ++i)
-    if (graph.components[i].name == component)
-      return {Source::Kind::component, static_cast<int>(i), graph.components[i].info().output(output)};
-  throw std::runtime_error("no component " + component);
-}
 
 class FailingFlight {
  public:

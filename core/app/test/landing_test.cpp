@@ -32,8 +32,7 @@ Touch landed(double wind_mps, double from_deg, std::uint64_t seed, const std::st
   FlightOptions options;
   options.log = false;
   Flight flight(graph, options);
-  const Source truth = failures::output_of(graph, "sim", "truth"),
-               progress = failures::output_of(graph, "land", "progress");
+  const Source truth = output_of(graph, "sim", "truth"), progress = output_of(graph, "land", "progress");
   Touch t;
   double sink = 0;
   while (flight.step()) {
@@ -93,9 +92,8 @@ Thrown thrown(const std::vector<std::pair<std::string, std::string>>& set, doubl
   options.log = false;
   options.duration_s = for_s;
   Flight flight(graph, options);
-  const Source truth = failures::output_of(graph, "sim", "truth"),
-               status = failures::output_of(graph, "sim", "status"),
-               actuators = failures::output_of(graph, "attitude", "actuators");
+  const Source truth = output_of(graph, "sim", "truth"), status = output_of(graph, "sim", "status"),
+               actuators = output_of(graph, "attitude", "actuators");
   Thrown t;
   double free_s = -1;
   while (flight.step()) {

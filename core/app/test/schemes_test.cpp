@@ -213,8 +213,7 @@ TEST_CASE("the total energy law of errors flies Aerosonde and X8 with the gains 
     FlightOptions options;
     options.log = false, options.duration_s = 180;
     Flight flight(graph, options);
-    const Source truth = failures::output_of(graph, "sim", "truth"),
-                 command = failures::output_of(graph, "follow", "command");
+    const Source truth = output_of(graph, "sim", "truth"), command = output_of(graph, "follow", "command");
     double height2 = 0, airspeed2 = 0, n = 0;
     while (flight.step()) {
       const auto* const x = reinterpret_cast<const fulmar::VehicleState*>(flight.sample(truth));

@@ -83,7 +83,6 @@ class AirspeedModel {
     const double r = std::clamp(shared_ / std::max(square_, square(least_mps2)), 0.0, most_shared);
     return (1 + r) / (1 - r);
   }
-  const Vector& parameters() const { return theta_; }
   const Matrix& covariance() const { return P_; }
 
  private:

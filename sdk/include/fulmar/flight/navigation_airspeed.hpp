@@ -40,15 +40,12 @@ class ModelledAirspeed {
   }
   /// It says the airspeed, in place of the tube.
   bool in_use() const { return in_use_; }
-  /// The force has changed as no gust changes it: the motor does not do what is commanded.
-  bool contradicted() const { return contradicted_; }
   /// By which the airspeed is less sure than the filter says. What the model has moved it by, against what
   /// inertia and the wind say, is gusts or its own motor's doing, and which of the two it cannot tell: what
   /// is more than usual for gusts may all be wrong.
   double doubt_mps(const Navigator& n, const Params& p) const {
     return used(n) ? std::max(std::abs(moved_mps(n)) - usual_gust * n.gusts().std_mps(p), 0.0) : 0;
   }
-  const AirspeedModel& model() const { return model_; }
 
  private:
   static constexpr double lag_s = 0.1;   ///< of an electric motor with its propeller
@@ -121,9 +118,8 @@ class ModelledAirspeed {
     z.H(ekf::gust) = 0;
     return z.innovation / std::hypot(std, gust, n.filter().expected_std(z, 0));
   }
-  bool used(const Navigator& n) const {
-    return used_s_ > n.health().pitot.accepted_s;
-  }  ///< since the tube was lost
+  /// Since the tube was lost.
+  bool used(const Navigator& n) const { return used_s_ > n.health().pitot.accepted_s; }
   double moved_mps(const Navigator& n) const { return moved_ + n.filter().state().gust_mps; }
   /// A motor that stops, or loses a propeller, looks as if it were suddenly faster by more than gusts change
   /// from one block to the next; one that fades looks a little faster again and again. A single block may;
@@ -154,7 +150,8 @@ class ModelledAirspeed {
   std::array<AirspeedModel::Block, waiting> late_{};
   std::size_t next_ = 0, count_ = 0;  ///< of `late_`: the next, and how many in a row
   double time_s_ = 0, lag_ = 0, used_s_ = never, off_ = 0, moved_ = 0, mean_moved_ = 0;
-  bool in_use_ = false, contradicted_ = false, refused_ = false;
+  bool in_use_ = false, refused_ = false;
+  bool contradicted_ = false;  ///< the force has changed as no gust changes it: the motor is not as commanded
 };
 
 }  // namespace fulmar::navigation

@@ -44,4 +44,11 @@ TEST_CASE("a motor that stops meanwhile is no airspeed") {
   CHECK(f.most < c.most_mps);
 }
 
+TEST_CASE("a motor that gets 0.7 of its voltage is found by what it moves the airspeed by, not by a jump") {
+  const Folder folder;
+  Flown sum;
+  for (const unsigned seed : {6u, 7u}) sum.add(fly(case_of("motor_weak"), "ublox", true, seed, folder.path));
+  CHECK(sum.share(sum.modelled) < 0.5);  // else 0.63
+}
+
 }  // namespace lost_airspeed_test

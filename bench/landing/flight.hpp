@@ -15,10 +15,10 @@
 #include "fulmar/flight/angles.hpp"
 #include "fulmar/flight/geodesy.hpp"
 #include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/landing_progress.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
-#include "fulmar/msg/vehicle_status.hpp"
 #include "fulmar/random.hpp"
 
 namespace fulmar::landing_bench {
@@ -100,15 +100,15 @@ class Watched {
   Watched(const core::Graph& graph, const Airframe& flown, std::uint64_t seed, const std::string& log)
       : flown_(flown), most_lift_(most_lift(flown).coefficient), flight_(graph, logged_to(log)) {
     out_.seed = seed;
-    truth_ = output_of(graph, "sim", "truth"), status_ = output_of(graph, "sim", "status");
+    truth_ = output_of(graph, "sim", "truth"), contact_ = output_of(graph, "sim", "contact");
     gnss_ = output_of(graph, "sim", "gnss"), progress_ = output_of(graph, "land", "progress");
   }
 
   Landed fly() {
     while (flight_.step()) {
       const auto* const x = at<VehicleState>(truth_);
-      const auto* const status = at<VehicleStatus>(status_);
-      if (x && status && flight_.now_ns() > 0) look(*x, *status);
+      const auto* const contact = at<ContactTruth>(contact_);
+      if (x && contact && flight_.now_ns() > 0) look(*x, contact->touching);
     }
     const core::FlightResult result = flight_.finish();
     out_.flown = result.outcome == core::Outcome::flown && result.guards.empty();
@@ -134,16 +134,16 @@ class Watched {
     return std::cos(runway_heading_rad) * east - std::sin(runway_heading_rad) * north;
   }
 
-  void look(const VehicleState& x, const VehicleStatus& status) {
+  void look(const VehicleState& x, bool touching) {
     const LandingProgress p =
         at<LandingProgress>(progress_) ? *at<LandingProgress>(progress_) : LandingProgress{};
     out_.go_arounds = p.go_arounds;
     const double c = cross(x.position_m.north, x.position_m.east);
     const bool landing = p.stage == LandingStage::approach || p.stage >= LandingStage::flare;
     receiver(x);
-    if (status.on_ground && flight_.phase() == "takeoff") recent_.clear(), sum_ = 0;
-    if (!status.on_ground && !landing_begun(p) && !out_.touched) aloft(x);
-    if (status.on_ground && landing && p.stage != LandingStage::go_around && flight_.phase() != "takeoff" &&
+    if (touching && flight_.phase() == "takeoff") recent_.clear(), sum_ = 0;
+    if (!touching && !landing_begun(p) && !out_.touched) aloft(x);
+    if (touching && landing && p.stage != LandingStage::go_around && flight_.phase() != "takeoff" &&
         !out_.touched) {
       out_.touched = true;
       out_.sink_mps = -before_.climb_rate_mps;
@@ -184,7 +184,7 @@ class Watched {
   Airframe flown_;
   double most_lift_;
   core::Flight flight_;
-  core::Source truth_, status_, gnss_, progress_;
+  core::Source truth_, contact_, gnss_, progress_;
   LocalFrame frame_{40.2463724, -111.6474138, 1387};
   Landed out_;
   VehicleState before_;

@@ -15,9 +15,9 @@
 
 #include "core/run/flight.hpp"
 #include "core/run/test/output_of.hpp"
+#include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/safety_state.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
-#include "fulmar/msg/vehicle_status.hpp"
 
 namespace fulmar::safety_flights {
 
@@ -220,7 +220,7 @@ inline std::string mission_text(const Row& row) {
                             (row.relayed ? "in: {status: failing.status, state: failing.state}, " : "") +
                             "params: {";
   const std::string done =
-      row.end == End::aloft ? "manage.progress.circuits >= 1" : "vehicle.status.on_ground and time > 20 s";
+      row.end == End::aloft ? "manage.progress.circuits >= 1" : "ground.state.landed";
   const std::string head = "mission: failing\nlive: off\ntimeout: 900 s\ndone: {when: \"" + done +
                            "\", for: 10 s}\nextends: " + configs + "/missions/";
   if (row.airframe == "anaconda")
@@ -295,7 +295,7 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
   options.log = false;
   const Graph graph = load_mission(file.string(), overrides);
   Flight flight(graph, options);
-  const Source truth = output_of(graph, "sim", "truth"), status = output_of(graph, "sim", "status"),
+  const Source truth = output_of(graph, "sim", "truth"), contact = output_of(graph, "sim", "contact"),
                watch = output_of(graph, "watch", "safety");
   Flown f;
   std::size_t next = 0;
@@ -306,7 +306,7 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
     if (next < row.phases.size() && flight.phase() == row.phases[next]) ++next;
     const auto* const safety = reinterpret_cast<const SafetyState*>(flight.sample(watch));
     const auto* const x = reinterpret_cast<const VehicleState*>(flight.sample(truth));
-    const auto* const v = reinterpret_cast<const VehicleStatus*>(flight.sample(status));
+    const auto* const v = reinterpret_cast<const ContactTruth*>(flight.sample(contact));
     if (!x || !v) continue;
     if (safety) {
       if (row.cause && safety->*row.cause && f.told_s < 0 && now >= row.at_s) f.told_s = now - row.at_s;
@@ -315,7 +315,7 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
     }
     f.outside_m = std::max({f.outside_m, -x->position_m.north - row.south_m, x->height_m - row.up_m});
     flew = flew || x->height_m > 5;
-    if (flew && v->on_ground && touched_s < 0) touched_s = now, f.touch_sink_mps = -climb_mps;
+    if (flew && v->touching && touched_s < 0) touched_s = now, f.touch_sink_mps = -climb_mps;
     climb_mps = x->climb_rate_mps;
     f.home_m = std::hypot(x->position_m.north, x->position_m.east);
     if (touched_s >= 0 && row.cause == &SafetyState::wind_excessive && now - touched_s > 1) break;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
@@ -36,6 +37,7 @@ class Vehicle {
     Optional<AuxOutputs> aux;
     Optional<VehicleState> state;
     Optional<Path> path;
+    Optional<GroundState> ground;  // keeps the throttle closed after a landing
   };
   struct Outputs {
     Out<Imu> imu;
@@ -121,7 +123,8 @@ class Vehicle {
     run_.met_state = run_.met_state || in.state;
     if (run_.met_state && !in.state && !in.actuators)
       return Status::ok;  // the host is silent, and has said why
-    if (may_command(tick.now_ns, in, p)) send_command(tick.now_ns, in.actuators);
+    const bool locked = in.ground && in.ground->throttle_locked;
+    if (may_command(tick.now_ns, in, p)) send_command(tick.now_ns, in.actuators, locked);
     send_aux(tick.now_ns, in.aux);
     if (p.send_attitude) send_attitude(tick.now_ns, in.state);
     return Status::ok;
@@ -362,11 +365,13 @@ class Vehicle {
 
   /// Nothing without a command, or with one that nobody has renewed: the controller then hands over to its
   /// pilot.
-  void send_command(std::int64_t now_ns, const Optional<Actuators>& actuators) {
+  void send_command(std::int64_t now_ns, const Optional<Actuators>& actuators, bool throttle_locked) {
     if (!actuators || now_ns - actuators.valid_at_ns() > command_patience_ns ||
         !run_.pace.due(actuators.fresh(), now_ns))
       return;
-    const auto command = to_offboard(*actuators, run_.throws);
+    Actuators wanted = *actuators;
+    if (throttle_locked) wanted.throttle_frac = 0;
+    const auto command = to_offboard(wanted, run_.throws);
     if (!command || !link_->send(*command)) {
       ++run_.report.unsent;
       if (!command && (run_.told_kinds & kind_command) == 0)

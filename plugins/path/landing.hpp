@@ -4,36 +4,40 @@
 // chapter 10); the flare is the exponential one of Stevens, Lewis & Johnson, Aircraft Control and Simulation
 // (2016), 4.6.
 #pragma once
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/fence.hpp"
-#include "fulmar/flight/geodesy.hpp"
 #include "fulmar/msg/airframe.hpp"
+#include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/landing_progress.hpp"
+#include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/origin.hpp"
-#include "fulmar/msg/runway.hpp"
 #include "fulmar/msg/sideslip_command.hpp"
-#include "fulmar/msg/vehicle_status.hpp"
 #include "plan_file.hpp"
+#include "runway_site.hpp"
 #include "vector_field.hpp"
 
 namespace fulmar::path {
+
+/// What the wind does to an approach: refuse it and stay on the circle, or fly it with a warning.
+enum class WindAnswer : std::uint8_t { refuse, warn };
 
 struct Landing {
   static constexpr const char* doc =
       "Lands: a circle onto the final approach, glide slope, flare, roll; goes around when it is off.";
   struct Inputs {
     In<VehicleState> state;
-    Optional<VehicleStatus> status;  // of the touch-down; without it, what the state says of it
+    Optional<GroundState> ground;  // of the touch-down; without it, what the state says of it
   };
   struct Outputs {
     GuidanceCommand command;
     LandingProgress progress;
     SideslipCommand sideslip;  // for the rudder: turns the nose to the runway before it touches
     Probe height_error_m;      // above the glide slope is positive
+    OutQueue<Notice, 4> notices;
   };
   struct Params {
     FieldParams field;
@@ -62,6 +66,15 @@ struct Landing {
     Param cross_limit{8, "m", 0.5, 100, "farther from the centre line below twice that height: go around"};
     Param height_limit{6, "m", 0.5, 100, "farther from the glide slope below twice that height: go around"};
     Param deceleration{0.8, "m/s2", 0.05, 10, "of the roll, by which the runway has to be long enough"};
+    Choice<WindAnswer> wind{WindAnswer::refuse,
+                            "an approach in more wind than crosswind_limit, or than the runway is long "
+                            "enough for: refuse: stay on "
+                            "the circle; warn: fly it with a warning"};
+    Param crosswind_limit{0.55, "ratio", 0, 2, "crosswind over approach airspeed, up to which it lands"};
+    Param late_sink{
+        1.0, "m/s", 0.05, 3,
+        "largest sink rate of a flare that lasts longer than its height says: the height was wrong"};
+    Param roll_time{60, "s", 5, 3600, "of the roll, after which the landing counts as ended"};
     Flag go_around{false, "climb away now; false lets it come again"};
   };
 
@@ -70,44 +83,37 @@ struct Landing {
     const double flare =
         p.flare_height / std::tan(p.glide_slope) + 2 * V;  // the slope's way, and two seconds
     const double needed = p.aim + flare + 0.5 * V * V / p.deceleration;
-    runway_ = p.runway.given() ? *p.runway : p.plan->runway;
+    height_off_m_ = 0;
     const std::string of = p.runway.given() ? "runway" : "plan.runway";
-    const auto known = [](double a, double b, double c) {
-      return (a != unknown_std) + (b != unknown_std) + (c != unknown_std);
-    };
-    const int local = known(runway_.north_m, runway_.east_m, runway_.up_m),
-              geodetic = known(runway_.lat_deg, runway_.lon_deg, runway_.alt_msl_m);
-    if (runway_.length_m <= 0 && local + geodetic > 0) throw std::runtime_error(of + ": needs a length");
-    if (runway_.length_m <= 0)
-      throw std::runtime_error(
-          std::string(p.plan.given() ? "plan" : "runway") +
-          ": there is no runway to land on; give one here or in the plan, as {north, east, "
-          "up, heading, length} or {lat, lon, alt_msl, heading, length}");
-    if (local + geodetic != 3 || (local != 0 && geodetic != 0))
-      throw std::runtime_error(of + ": needs either north, east, up or lat, lon, alt_msl");
-    located_ = local == 3;
-    if (p.origin.given()) put(p.origin->lat_deg, p.origin->lon_deg, p.origin->alt_msl_m);
-    if (runway_.length_m < needed)
-      throw std::runtime_error(of + ".length: " + std::to_string(std::lround(runway_.length_m)) +
+    site_.take(p.runway.given() ? *p.runway : p.plan->runway, of, p.plan.given() && !p.runway.given());
+    if (p.origin.given()) site_.put(p.origin->lat_deg, p.origin->lon_deg, p.origin->alt_msl_m);
+    if (site_.runway().length_m < needed)
+      throw std::runtime_error(of + ".length: " + std::to_string(std::lround(site_.runway().length_m)) +
                                " m is too short; aim, flare and roll take " +
                                std::to_string(std::lround(needed)) + " m in still air");
-    slope_that_sinks(p);
-    if (p.fence.is_given && located_) within_fence(p);
+    check_slope(p.airframe->limits, p.approach_ratio, p.glide_slope);
+    if (p.fence.is_given && site_.located())
+      site_.within_fence(*p.fence, *p.origin, p.fence_margin, pattern(p));
   }
 
   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>&) {
     progress_.stage = LandingStage::join;
+    progress_.reason = LandingReason::none;
     settled_s_ = slip_rad_ = 0;
+    said_s_ = -1e9;
     return Status::ok;
   }
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const VehicleState& s = *in.state;
-    if (!located_ && s.origin_valid) put(s.origin_latitude_deg, s.origin_longitude_deg, s.origin_altitude_m);
-    if (!located_) return wait(s, p, out);
+    if (s.origin_valid) site_.put(s.origin_latitude_deg, s.origin_longitude_deg, s.origin_altitude_m);
+    if (!site_.located()) return wait(s, p, out);
     locate(s, p);
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
+    feel_wind(s, p);
+    const LandingProgress before = progress_;
     decide(in, p, dt);
+    report(before, tick, p, out);
     fly(s, p, dt);
     out.command = command_;
     out.progress = progress_;
@@ -118,60 +124,10 @@ struct Landing {
   }
 
  private:
-  /// A geodetic runway, once the origin is known.
-  void put(double lat_deg, double lon_deg, double alt_m) {
-    if (located_) return;
-    const Eigen::Vector3d p_n =
-        LocalFrame(lat_deg, lon_deg, alt_m).to_ned(runway_.lat_deg, runway_.lon_deg, runway_.alt_msl_m);
-    runway_.north_m = p_n.x(), runway_.east_m = p_n.y(), runway_.up_m = -p_n.z();
-    located_ = true;
+  Pattern pattern(const Params& p) const {
+    return {p.glide_slope, p.aim, p.final_length, p.circle_radius, p.circle};
   }
-  /// Refuses a fence that the way onto the runway, or along it again, leaves or comes too near to.
-  void within_fence(const Params& p) const {
-    safety::Polygon fence;
-    fence.set(*p.fence, *p.origin);
-    const Path orbit = circle(p);
-    const double c = std::cos(runway_.heading_rad), s = std::sin(runway_.heading_rad);
-    const auto look = [&](const char* what, double north_m, double east_m) {
-      const double room = fence.room_m(north_m, east_m);
-      if (room >= p.fence_margin) return;
-      const auto m = [](double x) { return std::to_string(std::lround(x)) + " m"; };
-      throw std::runtime_error("fence.corners: " + std::string(what) + ", " + m(north_m) + " north, " +
-                               m(east_m) + " east, " +
-                               (room < 0 ? "lies " + m(-room) + " outside of the fence"
-                                         : "leaves " + m(room) + " to the fence, of " + m(p.fence_margin)) +
-                               "; move the fence, or set final_length, circle_radius, circle");
-    };
-    constexpr int points = 72;
-    for (int i = 0; i < points; ++i) {
-      const double a = 2 * std::numbers::pi * i / points;
-      look("the circle onto the final approach", orbit.origin_m.north + p.circle_radius * std::cos(a),
-           orbit.origin_m.east + p.circle_radius * std::sin(a));
-    }
-    for (int i = 0; i <= points; ++i) {
-      const double along = -p.final_length + (p.final_length + runway_.length_m) * i / points;
-      look(along < 0 ? "the final approach" : "the runway", runway_.north_m + along * c,
-           runway_.east_m + along * s);
-    }
-    if (fix_height(p) + p.fence_margin > p.fence->ceiling_m)
-      throw std::runtime_error("fence.ceiling_m: the circle onto the final approach is " +
-                               std::to_string(std::lround(fix_height(p))) + " m high, the ceiling " +
-                               std::to_string(std::lround(p.fence->ceiling_m)) + " m");
-  }
-  /// Above the slope for good it would go around for ever. With a head wind it takes less.
-  static void slope_that_sinks(const Params& p) {
-    const FlightLimits& limits = p.airframe->limits;
-    const double V = std::min(p.approach_ratio * limits.airspeed_min_mps, limits.airspeed_cruise_mps);
-    const double sink = V * std::sin(p.glide_slope), most = limits.sink_rate_max_mps;
-    if (sink <= most) return;
-    const auto number = [](double x) { return std::to_string(x).substr(0, 5); };
-    throw std::runtime_error("glide_slope: " + number(p.glide_slope) + " rad at the " + number(V) +
-                             " m/s of the approach sinks by " + number(sink) +
-                             " m/s in still air, and the airframe's limits.sink_rate_max is " + number(most) +
-                             " m/s; at most " + number(std::asin(most / V)) + " rad");
-  }
-
-  /// Nobody knows where the runway is: straight on.
+  /// The place of the runway is not known yet: straight on.
   Status wait(const VehicleState& s, const Params& p, Outputs& out) {
     command_ = {};
     command_.course_rad = s.course_rad;
@@ -186,76 +142,74 @@ struct Landing {
   static double k(const VehicleState& s, const Params& p) {
     return p.field.reference_speed / std::max(s.ground_speed_mps, 0.3 * p.field.reference_speed);
   }
-  double runway_height(const Params&) const { return runway_.up_m; }
-  double fix_height(const Params& p) const {
-    return runway_height(p) + std::tan(p.glide_slope) * (p.final_length + p.aim);
-  }
+  double runway_height() const { return site_.runway().up_m + height_off_m_; }
+  double fix_height(const Params& p) const { return site_.fix_height(pattern(p)) + height_off_m_; }
   double slope_height(const Params& p) const {
-    return runway_height(p) + std::tan(p.glide_slope) * progress_.along_m;
+    return runway_height() + std::tan(p.glide_slope) * progress_.along_m;
   }
-
-  /// The centre line as a path, from the point where the slope meets it, down by the slope.
   Path final_approach(const Params& p) const {
-    const Runway& r = runway_;
-    const double c = std::cos(r.heading_rad), s = std::sin(r.heading_rad);
-    Path path;
-    path.kind = PathKind::line;
-    path.origin_m = {r.north_m + p.aim * c, r.east_m + p.aim * s, -r.up_m};
-    path.direction_ratio = {c * std::cos(p.glide_slope), s * std::cos(p.glide_slope),
-                            std::sin(p.glide_slope)};
-    return path;
-  }
-  /// Touches the centre line where the final approach begins.
-  Path circle(const Params& p) const {
-    const Runway& r = runway_;
-    const double c = std::cos(r.heading_rad), s = std::sin(r.heading_rad);
-    const double side = p.circle == Turn::right ? 1 : -1, R = p.circle_radius;
-    Path path;
-    path.kind = PathKind::orbit;
-    path.turn = p.circle;
-    path.radius_m = R;
-    path.origin_m = {r.north_m - p.final_length * c - side * R * s,
-                     r.east_m - p.final_length * s + side * R * c, -fix_height(p)};
+    Path path = site_.final_approach(pattern(p));
+    path.origin_m.down -= height_off_m_;
     return path;
   }
 
   void locate(const VehicleState& s, const Params& p) {
     const Path line = final_approach(p);
     const double n = s.position_m.north - line.origin_m.north, e = s.position_m.east - line.origin_m.east;
-    const double cosine = std::cos(runway_.heading_rad), sine = std::sin(runway_.heading_rad);
+    const double cosine = std::cos(site_.runway().heading_rad), sine = std::sin(site_.runway().heading_rad);
     progress_.along_m = -(n * cosine + e * sine);
     progress_.cross_m = cosine * e - sine * n;
-    progress_.height_m = s.height_m - runway_height(p);
+    progress_.height_m = s.height_m - runway_height();
+  }
+
+  /// Along and across the runway, and how much of it a landing takes in this wind.
+  void feel_wind(const VehicleState& s, const Params& p) {
+    const double c = std::cos(site_.runway().heading_rad), e = std::sin(site_.runway().heading_rad);
+    const Vec3<Ned> w = s.wind_valid ? s.wind_mps : Vec3<Ned>{};
+    progress_.head_wind_mps = -(w.north * c + w.east * e);
+    progress_.cross_wind_mps = w.east * c - w.north * e;
+    const double V = capped(p.airframe->limits.airspeed_min_mps + faster_mps(s, p), p);
+    const double over_ground = std::max(V - progress_.head_wind_mps, 1.0);
+    const double flare_s = (p.flare_height / std::tan(p.glide_slope)) / V + 2;
+    progress_.needed_m = p.aim + flare_s * over_ground + 0.5 * over_ground * over_ground / p.deceleration;
+  }
+  LandingReason refused_by_wind(const Params& p) const {
+    const double V = p.approach_ratio * p.airframe->limits.airspeed_min_mps;
+    if (std::abs(progress_.cross_wind_mps) > p.crosswind_limit * V) return LandingReason::crosswind;
+    return progress_.needed_m > site_.runway().length_m ? LandingReason::runway_short : LandingReason::none;
   }
 
   void decide(const Inputs& in, const Params& p, double dt) {
     const VehicleState& s = *in.state;
     LandingStage& stage = progress_.stage;
-    const double course_error = angle_difference(runway_.heading_rad, s.course_rad);
+    const double course_error = angle_difference(site_.runway().heading_rad, s.course_rad);
+    const bool touches = in.ground && in.ground->contact == Contact::ground;
     switch (stage) {
-      case LandingStage::join: {
-        const double past_fix = p.final_length + p.aim - progress_.along_m;
-        const bool onto = std::abs(past_fix) < 0.5 * p.circle_radius && std::abs(progress_.cross_m) < 20 &&
-                          std::abs(course_error) < 0.35;
-        if (onto && std::abs(s.height_m - fix_height(p)) < p.height_limit && !p.go_around)
-          stage = LandingStage::approach;
+      case LandingStage::join:
+        if (onto_final(s, course_error, p)) begin_approach(p);
         break;
-      }
       case LandingStage::approach:
-        if (p.decision_height > progress_.height_m && in.status && in.status->on_ground)
-          stage = LandingStage::roll_out, rolled_s_ = 0;  // the height was wrong
-        else if (p.go_around || missed(s, p))
-          stage = LandingStage::go_around, ++progress_.go_arounds;
+        if (p.decision_height > progress_.height_m && touches)
+          roll();  // the height was wrong
+        else if (const LandingReason why = missed(s, p); why != LandingReason::none)
+          go_around(why);
         else if (progress_.height_m < p.flare_height)
-          stage = LandingStage::flare, flare_height_m_ = s.height_m, settled_s_ = 0;
+          flare(s);
         break;
       case LandingStage::flare:
-        if (touched(in, dt)) stage = LandingStage::roll_out, rolled_s_ = 0;
+        flare_s_ += dt;
+        if (touches || settled(in, dt))
+          roll();
+        else if (p.go_around)
+          go_around(LandingReason::commanded);
+        else if (too_long(s, p))
+          break_flare_off();
         break;
       case LandingStage::roll_out:
         rolled_s_ += dt;
         // Along the runway: a wind that is strong enough rolls it back.
-        if (rolled_s_ > 1 && s.ground_speed_mps * std::cos(course_error) < 1) stage = LandingStage::stopped;
+        if ((rolled_s_ > 1 && s.ground_speed_mps * std::cos(course_error) < 1) || rolled_s_ > p.roll_time)
+          stage = LandingStage::stopped;
         break;
       case LandingStage::go_around:
         if (s.height_m > fix_height(p) - 2) stage = LandingStage::join;
@@ -263,31 +217,124 @@ struct Landing {
       case LandingStage::stopped: break;
     }
   }
-  /// Before the decision height: can this approach still end on the runway?
-  bool missed(const VehicleState& s, const Params& p) const {
-    if (progress_.height_m < p.decision_height) return false;
-    if (!s.position_valid || !s.height_valid) return true;
-    return progress_.height_m < 2 * p.decision_height &&
-           (std::abs(progress_.cross_m) > p.cross_limit ||
-            std::abs(s.height_m - slope_height(p)) > p.height_limit);
+
+  bool onto_final(const VehicleState& s, double course_error, const Params& p) const {
+    const double past_fix = p.final_length + p.aim - progress_.along_m;
+    const bool onto = std::abs(past_fix) < 0.5 * p.circle_radius && std::abs(progress_.cross_m) < 20 &&
+                      std::abs(course_error) < 0.35;
+    return onto && std::abs(s.height_m - fix_height(p)) < p.height_limit && !p.go_around;
   }
-  /// The vehicle says so; or, as not every vehicle can, it was asked to be much lower for a while and does
-  /// not sink. The height is off by metres, so it says little.
-  bool touched(const Inputs& in, double dt) {
+  void begin_approach(const Params& p) {
+    progress_.reason = refused_by_wind(p);
+    if (progress_.reason == LandingReason::none || p.wind == WindAnswer::warn)
+      progress_.stage = LandingStage::approach;
+  }
+  void flare(const VehicleState& s) {
+    progress_.stage = LandingStage::flare;
+    flare_height_m_ = s.height_m;
+    settled_s_ = flare_s_ = 0;
+  }
+  void roll() {
+    progress_.stage = LandingStage::roll_out;
+    rolled_s_ = 0;
+  }
+  void go_around(LandingReason why) {
+    progress_.stage = LandingStage::go_around;
+    progress_.reason = why;
+    ++progress_.go_arounds;
+  }
+  /// An aircraft that still flies below the height of the runway has shown how far that height is off.
+  void break_flare_off() {
+    height_off_m_ += std::min(progress_.height_m, 0.0);
+    go_around(LandingReason::flare_long);
+  }
+
+  /// Before the decision height: can this approach still end on the runway?
+  LandingReason missed(const VehicleState& s, const Params& p) const {
+    if (p.go_around) return LandingReason::commanded;
+    if (progress_.height_m < p.decision_height) return LandingReason::none;
+    if (!s.position_valid || !s.height_valid) return LandingReason::position;
+    if (progress_.height_m > 2 * p.decision_height) return LandingReason::none;
+    if (std::abs(progress_.cross_m) > p.cross_limit) return LandingReason::cross_track;
+    return std::abs(s.height_m - slope_height(p)) > p.height_limit ? LandingReason::height
+                                                                   : LandingReason::none;
+  }
+  /// Seconds that a flare lasts whose sink falls with its height, B&M-like: dh/dt = -(t + (s - t) h / h0).
+  double expected_flare_s(double slope_sink, const Params& p) const {
+    const double ratio = std::max(slope_sink / p.touch_sink, 1.01);
+    return p.flare_height / p.touch_sink * std::log(ratio) / (ratio - 1);
+  }
+  /// In the flare: no touch-down, and no more runway left than a stop takes. Once: the next one lands.
+  bool too_long(const VehicleState& s, const Params& p) const {
+    const double left = site_.runway().length_m - p.aim + progress_.along_m;
+    const double stop = 0.5 * s.ground_speed_mps * s.ground_speed_mps / p.deceleration;
+    return height_off_m_ == 0 && s.position_valid && flare_s_ > 5 && left < stop;
+  }
+  /// Where no ground state is wired: it was asked to be much lower for a while and does not sink. The height
+  /// is off by metres, so it says little.
+  bool settled(const Inputs& in, double dt) {
     constexpr double asked_m = 1, still_mps = 0.15, for_s = 2;
-    if (in.status && in.status->on_ground) return true;
+    if (in.ground) return false;
     const VehicleState& s = *in.state;
     const bool still = s.height_m - flare_height_m_ > asked_m && std::abs(s.climb_rate_mps) < still_mps;
     settled_s_ = still ? settled_s_ + dt : 0;
     return settled_s_ > for_s;
   }
 
+  /// One notice for each go-around, refusal and unusual end, with its figure.
+  void report(const LandingProgress& before, const Tick& tick, const Params& p, Outputs& out) {
+    const LandingProgress& now = progress_;
+    const auto say = [&](Severity severity, const char* format, double value) {
+      Notice notice;
+      char text[96];
+      std::snprintf(text, sizeof text, format, value);
+      notice.text = text;
+      notice.severity = severity;
+      out.notices.push(notice, tick.now_ns);
+    };
+    if (now.go_arounds != before.go_arounds) {
+      switch (now.reason) {
+        case LandingReason::cross_track:
+          say(Severity::warning, "go-around: %.0f m off the centre line", std::abs(now.cross_m));
+          break;
+        case LandingReason::height:
+          say(Severity::warning, "go-around: off the glide slope at %.0f m", now.height_m);
+          break;
+        case LandingReason::position:
+          say(Severity::warning, "go-around: no valid position or height at %.0f m", now.height_m);
+          break;
+        case LandingReason::flare_long:
+          say(Severity::warning, "go-around: no touch-down after %.0f s of flare, the height is wrong",
+              flare_s_);
+          break;
+        default: say(Severity::info, "go-around at %.0f m, as commanded", now.height_m);
+      }
+    }
+    const bool refused = now.stage == LandingStage::join && (now.reason == LandingReason::crosswind ||
+                                                             now.reason == LandingReason::runway_short);
+    const bool warned = now.stage == LandingStage::approach && before.stage == LandingStage::join &&
+                        now.reason != LandingReason::none;
+    constexpr double repeat_s = 30;
+    if (warned || (refused && tick.now_s() - said_s_ > repeat_s)) {
+      said_s_ = tick.now_s();
+      const bool crosswind = now.reason == LandingReason::crosswind;
+      const char* const format =
+          warned
+              ? (crosswind ? "crosswind of %.1f m/s is beyond the limit: landing all the same"
+                           : "the landing takes %.0f m, more than the runway: landing all the same")
+              : (crosswind ? "crosswind of %.1f m/s is beyond the limit: circling, take over or change runway"
+                           : "the landing takes %.0f m, more than the runway: circling, take over");
+      say(Severity::warning, format, crosswind ? std::abs(now.cross_wind_mps) : now.needed_m);
+    }
+    if (now.stage == LandingStage::stopped && before.stage == LandingStage::roll_out &&
+        rolled_s_ > p.roll_time)
+      say(Severity::warning, "still rolling %.0f s after the touch-down: brake by hand", rolled_s_);
+  }
+
   /// What approach and flare are faster by: a steady wind's share, so that there is some ground speed.
   double faster_mps(const VehicleState& s, const Params& p) const {
     if (!s.wind_valid) return 0;
-    const double head =
-        -(s.wind_mps.north * std::cos(runway_.heading_rad) + s.wind_mps.east * std::sin(runway_.heading_rad));
-    return p.wind_share * std::max(head, 0.0);
+    return p.wind_share * std::max(progress_.head_wind_mps, 0.0);
   }
   double capped(double airspeed_mps, const Params& p) const {
     return std::min(airspeed_mps, p.airframe->limits.airspeed_cruise_mps);
@@ -304,7 +351,7 @@ struct Landing {
       slip_rad_ = 0;
       return;
     }
-    const double off = angle_difference(s.yaw_rad, runway_.heading_rad);
+    const double off = angle_difference(s.yaw_rad, site_.runway().heading_rad);
     if (progress_.stage ==
         LandingStage::roll_out) {  // back to the centre line, by what is left of the rudder
       const double towards = std::clamp(progress_.cross_m / steer_m, -steer_rad, steer_rad);
@@ -333,7 +380,7 @@ struct Landing {
     turn_nose(s, p, dt);
     const double faster = faster_mps(s, p);
     if (progress_.stage == LandingStage::join) {
-      const Path path = circle(p);
+      const Path path = site_.circle(pattern(p));
       const VectorField::Aim aim = VectorField::at_orbit(path, s, p.field, k(s, p));
       follow(aim, path, s, p);
       command_.height_m = fix_height(p);
@@ -350,7 +397,11 @@ struct Landing {
         // From the sink of the slope to that of the touch-down as the height goes.
         const double slope_sink = std::max(-command_.climb_rate_mps, p.touch_sink.value);
         const double left = std::clamp(progress_.height_m / p.flare_height, 0.0, 1.0);
-        command_.climb_rate_mps = -(p.touch_sink + left * (slope_sink - p.touch_sink));
+        const double late_s = std::max(flare_s_ - 1.3 * expected_flare_s(slope_sink, p), 0.0);
+        const double sink = p.touch_sink + left * (slope_sink - p.touch_sink);
+        constexpr double firmer_mps2 = 0.15;
+        command_.climb_rate_mps =
+            -std::max(sink, std::min<double>(p.touch_sink + firmer_mps2 * late_s, p.late_sink));
         // A height that sinks so, not the rate alone: a law without an error learns nothing and keeps its
         // trim's.
         flare_height_m_ = std::clamp(flare_height_m_ + command_.climb_rate_mps * dt, s.height_m - lead_m,
@@ -367,7 +418,7 @@ struct Landing {
         break;
       case LandingStage::roll_out:
       case LandingStage::stopped:
-        command_.height_m = runway_height(p);
+        command_.height_m = runway_height();
         command_.climb_rate_mps = 0;
         break;
       default: break;
@@ -382,11 +433,12 @@ struct Landing {
         bank_for(kappa, s.ground_speed_mps, angle_difference(s.course_rad, s.yaw_rad), p.field.roll_max);
   }
 
-  Runway runway_;  ///< in the local frame, if `located_`
-  bool located_ = false;
+  RunwaySite site_;
   GuidanceCommand command_;
   LandingProgress progress_;
-  double settled_s_ = 0, rolled_s_ = 0, flare_height_m_ = 0;
+  double settled_s_ = 0, rolled_s_ = 0, flare_s_ = 0, flare_height_m_ = 0;
+  double height_off_m_ = 0;              ///< of the runway below the height that is given, shown by a flare
+  double said_s_ = -1e9;                 ///< when the wind was reported last
   double slip_rad_ = 0;                  ///< asked for
   static constexpr double lead_m = 1.5;  ///< of the flare's height before the aircraft
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What has failed, and the ways home that are left.
 #include "glide.hpp"
+#include "ground.hpp"
 #include "home.hpp"
 #include "monitor.hpp"
 
 using namespace fulmar;
-FULMAR_PLUGIN("1.0.0", safety::Monitor, safety::Home, safety::Glide)
+FULMAR_PLUGIN("1.0.0", safety::Monitor, safety::Home, safety::Glide, safety::Ground)

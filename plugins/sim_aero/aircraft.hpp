@@ -12,8 +12,10 @@
 #include "fulmar/eigen.hpp"
 #include "fulmar/flight/magnetic_model.hpp"
 #include "fulmar/msg/arm_request.hpp"
+#include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/fault_request.hpp"
 #include "fulmar/msg/flaps.hpp"
+#include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/rc.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -46,7 +48,8 @@ class Aircraft {
     Optional<Flaps> flaps;
     Request<ArmRequest> arm;
     Request<FaultRequest> fault;
-    Optional<Rc> pilot;  // a transmitter, in place of the parameters pilot_flies, stick_* and aux*
+    Optional<GroundState> ground;  // keeps the throttle closed after a landing
+    Optional<Rc> pilot;            // a transmitter, in place of the parameters pilot_flies, stick_* and aux*
   };
   struct Outputs {
     Out<Imu> imu;
@@ -57,6 +60,7 @@ class Aircraft {
     Out<Rc> rc;
     Out<VehicleStatus> status;
     Out<VehicleState> truth;
+    Out<ContactTruth> contact;
   };
   struct Params {
     Record<Airframe> airframe{"the aircraft", required};
@@ -176,6 +180,7 @@ class Aircraft {
     launch_ = Launch(p.launching);
     actuation_ = Actuation({p.mux_rate, p.pwm_resolution, p.link_latency}, airframe_, now_ns_);
     status_ = {};
+    contact_.reset();
     plant_.emplace(airframe_, weather(p), origin_.alt_msl_m, mix_seed(seed_, 10), earth(p));
     place(p);
     if (add_to(airframe_, p.model, changed_)) plant_->set_aerodynamics(changed_);
@@ -232,6 +237,7 @@ class Aircraft {
     publish_sensors(p, out);
     publish_rc_and_status(p, out);
     if (truth_due_(now_ns_)) out.truth.publish(truth());
+    publish_contact(out);
     return plant_->crashed() ? Status::degraded : Status::ok;
   }
 
@@ -250,7 +256,7 @@ class Aircraft {
     else if (flies || silent_)
       command_ = by_hand(pilot_rc(p));
     else if (heard)
-      command_ = *in.actuators;
+      command_ = with_lock(*in.actuators, in.ground);
     else if (released_)
       command_ = {};  // motor off, surfaces neutral
     actuation_.put(command_, tick.now_ns);
@@ -265,6 +271,10 @@ class Aircraft {
   static constexpr std::int64_t patience_ns =
       100000000;  ///< commands older than this are silence, as on ROSflight
 
+  static Actuators with_lock(Actuators a, const Optional<GroundState>& ground) {
+    if (ground && ground->throttle_locked) a.throttle_frac = 0;
+    return a;
+  }
   static bool sound(const Actuators& a) {
     return std::isfinite(a.throttle_frac) && std::isfinite(a.aileron_rad) && std::isfinite(a.elevator_rad) &&
            std::isfinite(a.rudder_rad);
@@ -390,7 +400,7 @@ class Aircraft {
     s.armed = armed_;
     s.override = flies;
     s.failsafe = failsafe_;
-    s.on_ground = plant_->on_ground() || held();
+    s.on_ground = !armed_;  // as a controller without a contact switch publishes it
     s.crashed = plant_->crashed();
     s.in_control = armed_ && !flies && !silent_ && !failsafe_ && !s.crashed;
     s.health = s.crashed ? Health::failed : Health::ok;
@@ -405,6 +415,14 @@ class Aircraft {
   }
 
   VehicleState truth() const;
+  void publish_contact(Outputs& out) {
+    ContactTruth c;
+    c.touching = plant_->on_ground() || held();
+    c.crashed = plant_->crashed();
+    if (contact_ && c.touching == contact_->touching && c.crashed == contact_->crashed) return;
+    contact_ = c;
+    out.contact.publish(c);
+  }
 
   std::uint64_t seed_;
   Origin origin_;
@@ -421,6 +439,7 @@ class Aircraft {
   Actuators command_;
   Actuation actuation_;
   VehicleStatus status_;
+  std::optional<ContactTruth> contact_;  ///< as published
   Faults faults_;
   PilotRadio pilot_;
   Icing icing_;

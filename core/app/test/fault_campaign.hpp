@@ -15,8 +15,8 @@
 #include "core/app/test/hourglass.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/test/output_of.hpp"
+#include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
-#include "fulmar/msg/vehicle_status.hpp"
 
 namespace fulmar::core::failures {
 
@@ -78,7 +78,7 @@ class FailingFlight {
  public:
   FailingFlight(const Graph& graph, FlightOptions options) : flight_(graph, watched(std::move(options))) {
     truth_ = output_of(graph, "sim", "truth");
-    status_ = output_of(graph, "sim", "status");
+    contact_ = output_of(graph, "sim", "contact");
     state_ = output_of(graph, "ekf", "state");
   }
 
@@ -89,8 +89,8 @@ class FailingFlight {
       if (failed_s_ < 0 && flight_.phase() == "failing") failed_s_ = now_s_;
       if (failed_s_ < 0) continue;
       look_at();
-      const auto* const status = at<fulmar::VehicleStatus>(status_);
-      if (status && status->on_ground && touched_s < 0) touched_s = now_s_;
+      const auto* const contact = at<fulmar::ContactTruth>(contact_);
+      if (contact && contact->touching && touched_s < 0) touched_s = now_s_;
       if (touched_s >= 0 && now_s_ - touched_s > 1) break;  // it has landed, somehow
     }
     const FlightResult result = flight_.finish();
@@ -132,7 +132,7 @@ class FailingFlight {
   After after_;
   test::Hourglass plan_;
   Flight flight_;
-  Source truth_, status_, state_;
+  Source truth_, contact_, state_;
 };
 
 inline After fly(const Failure& f, unsigned seed, const fs::path& folder, FlightOptions options) {

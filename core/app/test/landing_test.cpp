@@ -7,6 +7,7 @@
 #include "core/app/test/fault_campaign.hpp"
 #include "core/run/allocation.hpp"
 #include "fulmar/msg/actuators.hpp"
+#include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/landing_progress.hpp"
 
 using namespace fulmar::core;
@@ -92,17 +93,17 @@ Thrown thrown(const std::vector<std::pair<std::string, std::string>>& set, doubl
   options.log = false;
   options.duration_s = for_s;
   Flight flight(graph, options);
-  const Source truth = output_of(graph, "sim", "truth"), status = output_of(graph, "sim", "status"),
+  const Source truth = output_of(graph, "sim", "truth"), contact = output_of(graph, "sim", "contact"),
                actuators = output_of(graph, "attitude", "actuators");
   Thrown t;
   double free_s = -1;
   while (flight.step()) {
     const auto* const x = reinterpret_cast<const fulmar::VehicleState*>(flight.sample(truth));
-    const auto* const s = reinterpret_cast<const fulmar::VehicleStatus*>(flight.sample(status));
+    const auto* const s = reinterpret_cast<const fulmar::ContactTruth*>(flight.sample(contact));
     const auto* const u = reinterpret_cast<const fulmar::Actuators*>(flight.sample(actuators));
     const double now_s = 1e-9 * static_cast<double>(flight.now_ns());
     if (!x || !s || !u || now_s < 0) continue;
-    if (free_s < 0 && !s->on_ground) free_s = now_s;
+    if (free_s < 0 && !s->touching) free_s = now_s;
     if (u->throttle_frac > 0.05 && t.motor_s == 1e9) t.motor_s = free_s < 0 ? -1 : now_s - free_s;
     t.motor_at_end = u->throttle_frac > 0;
     t.crashed = t.crashed || s->crashed;

@@ -164,19 +164,19 @@ TEST_CASE("a touch-down is what the vehicle says, or two seconds without sinking
   Strip told;
   told.approach();
   told.at(40, 0, 3);
-  VehicleStatus status;
-  status.on_ground = true;
-  told.bench.set(told.bench.in.status, status);
+  GroundState ground;
+  ground.contact = Contact::ground;
+  told.bench.set(told.bench.in.ground, ground);
   told.s.climb_rate_mps = -0.5;
   CHECK(told.at(20, 0, 2.5).stage == LandingStage::roll_out);  // whatever the height says
 }
 
 TEST_CASE("the ground above the flare's height is a touch-down, at the circle's height it is none") {
-  VehicleStatus status;
-  status.on_ground = true;
+  GroundState ground;
+  ground.contact = Contact::ground;
   Strip strip;
   strip.approach();
-  strip.bench.set(strip.bench.in.status, status);
+  strip.bench.set(strip.bench.in.ground, ground);
   CHECK(strip.at(400, 0, strip.slope(400)).stage == LandingStage::approach);  // 28 m: a contact that is stuck
   CHECK(strip.at(60, 0, 4.2).stage == LandingStage::roll_out);
 }
@@ -184,10 +184,10 @@ TEST_CASE("the ground above the flare's height is a touch-down, at the circle's 
 TEST_CASE("what is rolled back by the wind has stopped") {
   Strip strip;
   strip.approach();
-  VehicleStatus status;
-  status.on_ground = true;
+  GroundState ground;
+  ground.contact = Contact::ground;
   strip.at(40, 0, 3);
-  strip.bench.set(strip.bench.in.status, status);
+  strip.bench.set(strip.bench.in.ground, ground);
   strip.s.ground_speed_mps = 3;
   CHECK(strip.at(0, 0, 0, 2).stage == LandingStage::roll_out);
   strip.s.course_rad = -90 * deg;
@@ -267,9 +267,9 @@ TEST_CASE("while it rolls the rudder leads back to the centre line, from either 
     strip.bench.configure();
     strip.approach();
     strip.at(45, 0, 3);
-    VehicleStatus status;
-    status.on_ground = true;
-    strip.bench.set(strip.bench.in.status, status);
+    GroundState ground;
+    ground.contact = Contact::ground;
+    strip.bench.set(strip.bench.in.ground, ground);
     REQUIRE(strip.at(0, side * 1, 0).stage == LandingStage::roll_out);
     const auto slip = [&](double right_m, double nose_rad) {
       strip.s.yaw_rad = 90 * deg + nose_rad;

@@ -142,7 +142,9 @@ TEST_CASE("armed on request, at flight time zero and not before") {
   CHECK(b->tick.now_ns == 0);
   REQUIRE(b->out.status.written);  // on change
   CHECK(b->out.status.value.armed);
-  CHECK(b->out.status.value.on_ground);
+  CHECK_FALSE(b->out.status.value.on_ground);
+  CHECK_FALSE(b->out.status.value.contact_known);
+  CHECK(b->out.contact.value.touching);
 }
 
 TEST_CASE("nobody asks, nobody arms, and the motor does not turn") {

@@ -11,7 +11,7 @@ struct VehicleStatus {
   bool armed = false;
   bool override = false;   ///< the pilot flies; commands have no effect
   bool failsafe = false;   ///< the vehicle flies by its own failsafe; commands have no effect
-  bool on_ground = false;  ///< as far as the vehicle can tell
+  bool on_ground = false;  ///< disarmed. Armed: `contact_known` says whether this means anything
   bool crashed = false;    ///< simulation: the airframe hit the ground
   Health health = Health::ok;
   std::uint32_t errors = 0;  ///< the vehicle's own error bits
@@ -23,6 +23,12 @@ struct VehicleStatus {
   bool offboard = false;               ///< the vehicle takes commands from the host, as far as it says
   std::uint32_t override_reasons = 0;  ///< the vehicle's own bits: why the pilot flies
   double rc_age_s = 1e9;               ///< since the pilot's radio was last heard; 1e9: never
+  /// Whether `on_ground` is measured. A controller without a contact switch has none, and a simulated one
+  /// publishes the same: safety/Ground estimates it.
+  bool contact_known = false;
 };
+
+template <>
+inline constexpr std::string_view appended_from<VehicleStatus> = "contact_known";
 
 }  // namespace fulmar

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stands, rolls or flies: estimated from the navigation state and the throttle, which every vehicle has. A
+// flight controller has no contact switch, so a simulated one is not read either.
+#pragma once
+#include "fulmar/msg/actuators.hpp"
+#include "fulmar/msg/airframe.hpp"
+#include "fulmar/msg/ground_state.hpp"
+#include "fulmar/msg/landing_progress.hpp"
+#include "fulmar/msg/notice.hpp"
+#include "fulmar/msg/takeoff_request.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
+#include "touch_down.hpp"
+
+namespace fulmar::safety {
+
+/// True after a condition has held for a time.
+class HeldFor {
+ public:
+  bool step(bool holds, double for_s, double dt) {
+    held_s_ = holds ? held_s_ + dt : 0;
+    return holds && held_s_ >= for_s;
+  }
+
+ private:
+  double held_s_ = 0;
+};
+
+struct Ground {
+  static constexpr const char* doc =
+      "Lift-off and touch-down by acceleration, climb rate, height and speed; closes the throttle after a "
+      "landing.";
+  struct Inputs {
+    In<VehicleState> state;
+    Optional<VehicleStatus> status;     // armed, and who flies; without it armed and no pilot
+    Optional<Actuators> actuators;      // the throttle; without it an open one
+    Optional<LandingProgress> landing;  // height above a runway; without it the height of the take-off
+    Request<TakeoffRequest> takeoff;    // opens the throttle after a landing
+  };
+  struct Outputs {
+    GroundState state;
+    OutQueue<Notice, 4> notices;
+  };
+  struct Params {
+    Record<Airframe> airframe{"airspeeds", required};
+    TouchParams touch;
+    Param touch_height{
+        15, "m", 1, 1000,
+        "above or below the place of the take-off, or the runway, where a touch-down with power "
+        "is possible; with the throttle closed it is possible at any height"};
+    Param lift_height{1.5, "m", 0.2, 50, "above the place where it stood, from which on it flies"};
+    Param slow{0.6, "ratio", 0.1, 1, "of the least airspeed: slower than that it does not fly"};
+    Param landed_after{0.5, "s", 0, 60, "of slow rolling, after which the throttle is locked"};
+  };
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
+    const VehicleState& s = *in.state;
+    now_.since_s += dt;
+    read(in, p);
+    release(in);
+    if (!s.attitude_valid || !s.height_valid) {
+      now_.touch_evidence_ratio = 0;
+      touch_.reset();
+    } else if (now_.contact == Contact::air) {
+      fly(s, in, p, dt);
+    } else {
+      stand(s, p, dt);
+    }
+    lock(p, dt);
+    out.state = now_;
+    report(tick, out);
+    return Status::ok;
+  }
+
+ private:
+  /// Whether it moves fast enough to fly, as far as that is measured.
+  void read(const Inputs& in, const Params& p) {
+    const VehicleState& s = *in.state;
+    const double least = p.airframe->limits.airspeed_min_mps;
+    armed_ = !in.status || in.status->armed;
+    if (s.reset_count != resets_) height_m_ -= s.reset_position_m.down;
+    resets_ = s.reset_count;
+    // In a wind an aircraft that stands has airspeed, and one that flies may have no ground speed.
+    speed_ratio_ = (s.airspeed_valid ? s.airspeed_mps : s.ground_speed_mps) / least;
+    moves_ = !s.velocity_valid || s.ground_speed_mps > moving_mps || std::abs(s.climb_rate_mps) > moving_mps;
+    slow_ = speed_ratio_ < p.slow && (!s.velocity_valid || s.ground_speed_mps < p.slow * least);
+  }
+
+  /// A hand-over by the pilot, arming, or a request opens the throttle again.
+  void release(const Inputs& in) {
+    const bool pilot = in.status && in.status->override;
+    const bool handed_over = armed_ && had_pilot_ && !pilot;
+    const bool arms = armed_ && !was_armed_;
+    had_pilot_ = pilot;
+    was_armed_ = armed_;
+    bool asked = false;
+    for (auto request : in.takeoff) {
+      if (now_.contact == Contact::air) {
+        request.refuse("the aircraft flies");
+        continue;
+      }
+      request.accept();
+      asked = true;
+    }
+    if (handed_over || arms || asked) now_.landed = now_.throttle_locked = false;
+  }
+
+  /// From the ground, or at the start from an unknown place, into the air.
+  void stand(const VehicleState& s, const Params& p, double dt) {
+    now_.touch_evidence_ratio = 0;
+    const bool rests = slow_ && std::abs(s.climb_rate_mps) < 1;
+    if (now_.contact == Contact::unknown && stands_.step(rests, 1.0, dt)) set(Contact::ground);
+    if (now_.contact == Contact::ground && (slow_ || !placed_)) {
+      height_m_ = placed_ ? height_m_ + std::min(dt / 0.5, 1.0) * (s.height_m - height_m_) : s.height_m;
+      placed_ = true;
+    }
+    const bool high = placed_ && s.height_m - height_m_ > p.lift_height;
+    const bool rises = high && speed_ratio_ > p.slow && moves_;
+    // Once it has stood, speed alone is a roll; at the start of a host it may be in the air already.
+    const bool fast = now_.contact == Contact::unknown && speed_ratio_ > 0.85 && moves_;
+    const bool climbs = s.velocity_valid && s.climb_rate_mps > 0.7 && speed_ratio_ > 0.8;
+    const bool risen = rises_.step(rises, 0.2, dt), climbed = climbs_.step(climbs, 0.5, dt);
+    const bool flies = fast_.step(fast, 0.5, dt) || risen || climbed;
+    if (!armed_ || !flies) return;
+    set(Contact::air);
+    ++now_.lift_offs;
+    now_.landed = false;
+    touch_.reset();
+  }
+
+  void fly(const VehicleState& s, const Inputs& in, const Params& p, double dt) {
+    now_.touch_evidence_ratio = touch_.step(s, p.touch, dt);
+    const bool closed = closed_.step(in.actuators && in.actuators->throttle_frac < 0.03, 1.0, dt);
+    const bool near = placed_ && std::abs(s.height_m - height_m_) < p.touch_height;
+    const bool runway = in.landing && !in.landing.stale() && std::abs(in.landing->height_m) < p.touch_height;
+    // Whatever happened: an aircraft that neither moves nor climbs for a second is on the ground.
+    const bool rests = stands_.step(slow_ && std::abs(s.climb_rate_mps) < 0.5, 1.0, dt);
+    const bool touches = now_.touch_evidence_ratio >= 1 && (closed || near || runway);
+    if (!touches && !rests) return;
+    now_.touch_sink_mps = touch_.sink_mps();
+    ++now_.touch_downs;
+    set(Contact::ground);
+    height_m_ = s.height_m;
+    placed_ = true;
+  }
+
+  void set(Contact contact) {
+    now_.contact = contact;
+    now_.since_s = 0;
+    rises_ = climbs_ = fast_ = stands_ = locks_ = {};
+  }
+
+  void lock(const Params& p, double dt) {
+    const bool rolled = now_.contact == Contact::ground && now_.touch_downs > 0 && slow_ && !released();
+    if (!locks_.step(rolled, p.landed_after, dt)) return;
+    now_.landed = now_.throttle_locked = true;
+    released_at_ = now_.touch_downs;
+  }
+  /// One landing locks once: after a hand-over the aircraft is slow as well.
+  bool released() const { return released_at_ == now_.touch_downs; }
+
+  void report(const Tick& tick, Outputs& out) {
+    const auto say = [&](const char* text) {
+      Notice notice;
+      notice.text = text;
+      out.notices.push(notice, tick.now_ns);
+    };
+    if (now_.lift_offs != told_.lift_offs) say("lift-off");
+    if (now_.touch_downs != told_.touch_downs) say("touch-down");
+    if (now_.throttle_locked && !told_.throttle_locked)
+      say("landed: the throttle stays closed until the pilot hands over or a take-off is requested");
+    told_ = now_;
+  }
+
+  static constexpr double moving_mps = 3;
+  GroundState now_, told_;
+  TouchDown touch_;
+  HeldFor rises_, climbs_, fast_, stands_, closed_, locks_;
+  std::uint32_t resets_ = 0;       ///< of the state, seen so far
+  std::uint32_t released_at_ = 0;  ///< the touch-down whose lock has been set
+  double height_m_ = 0;            ///< where it stood last
+  double speed_ratio_ = 0;         ///< speed over least airspeed
+  bool placed_ = false, armed_ = false, was_armed_ = false, had_pilot_ = false, moves_ = false, slow_ = false;
+};
+
+}  // namespace fulmar::safety

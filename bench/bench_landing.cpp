@@ -26,20 +26,19 @@ struct Options {
   int flights = 1000, jobs = 1;
   std::uint64_t first = 1;
   double wind_mps = 12, off_deg = 30;
-  bool each = false, json = false;
+  bool each = false, json = false, hard = false;
   std::string log;
   std::vector<std::pair<std::string, std::string>> set;
 };
 
 Dispersion dispersion_of(const Options& o, std::uint64_t seed) {
-  return dispersion(seed, o.wind_mps, o.off_deg * deg);
+  return o.hard ? hard_dispersion(seed) : dispersion(seed, o.wind_mps, o.off_deg * deg);
 }
 
 /// In `jobs` processes: what a flight loads is a process's own. By seed.
 std::vector<Landed> fly_all(const Options& o) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
-  const fulmar::Airframe nominal = fulmar::test::airframe_file("anaconda");
   std::vector<pid_t> children;
   for (int job = 0; job < o.jobs; ++job) {
     const pid_t child = fork();
@@ -50,7 +49,8 @@ std::vector<Landed> fly_all(const Options& o) {
         Landed l;
         l.seed = o.first + static_cast<std::uint64_t>(i);
         try {
-          l = fly(dispersion_of(o, l.seed), nominal, o.set, o.log);
+          const Dispersion d = dispersion_of(o, l.seed);
+          l = fly(d, fulmar::test::airframe_file(d.aircraft), o.set, o.log);
         } catch (const std::exception& e) {
           std::fprintf(stderr, "seed %llu: %s\n", static_cast<unsigned long long>(l.seed), e.what());
         }
@@ -110,6 +110,11 @@ struct Statistics {
     yaw_most = quantile(all, 1, [](const Landed& l) { return std::abs(l.yaw_off_rad) / deg; });
     along_5 = quantile(all, 0.05, [](const Landed& l) { return l.along_m; });
     along_95 = quantile(all, 0.95, [](const Landed& l) { return l.along_m; });
+    recognised_95 = quantile(all, 0.95, [](const Landed& l) { return l.recognised_s; });
+    recognised_most = quantile(all, 1, [](const Landed& l) { return l.recognised_s; });
+    early_most = quantile(all, 1, [](const Landed& l) { return l.early_m; });
+    nose_down_most = quantile(all, 1, [](const Landed& l) { return l.nose_down_s; });
+    roll_out_most = quantile(all, 1, [](const Landed& l) { return l.roll_out_m; });
     roll_out_95 = quantile(all, 0.95, [](const Landed& l) { return l.roll_out_m; });
   }
   bool kept() const {
@@ -119,7 +124,8 @@ struct Statistics {
   int flights, flown = 0, crashed = 0, went_around = 0, short_of_it = 0;
   double over_stall = 1e9, soft = 0, near = 0, sink_50 = 0, sink_99 = 0, sink_most = 0, cross_95 = 0,
          cross_true_95 = 0, yaw_50 = 0, yaw_95 = 0, yaw_most = 0, bank_50 = 0, bank_95 = 0, bank_most = 0,
-         along_5 = 0, along_50 = 0, along_95 = 0, roll_out_95 = 0;
+         along_5 = 0, along_50 = 0, along_95 = 0, roll_out_95 = 0, roll_out_most = 0, recognised_95 = 0,
+         recognised_most = 0, early_most = 0, nose_down_most = 0;
 };
 
 std::string words(const Dispersion& d) {
@@ -127,6 +133,13 @@ std::string words(const Dispersion& d) {
   std::snprintf(text, sizeof text, "%.1f m/s from %+.0f deg, mass %+.0f %%, delay %.0f ms, %s%s", d.wind_mps,
                 d.wind_off_rad / deg, 100 * (d.mass_ratio - 1), 1e3 * d.delay_s,
                 d.ublox ? "ublox" : "rosflight", d.slow_servos ? ", slow servos" : "");
+  return text;
+}
+std::string hard_words(const Dispersion& d) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%s, %s, CG %+.0f %%, motor %.0f %%, slope %+.1f deg, height %+.1f m%s",
+                d.aircraft.c_str(), d.sensors.c_str(), 100 * d.cg_share, 100 * d.engine_share,
+                d.slope_rad / deg, d.height_off_m, d.moderate ? ", moderate" : "");
   return text;
 }
 std::string derivatives(const Dispersion& d) {
@@ -205,7 +218,6 @@ nlohmann::json json_of(const Statistics& s) {
           {"share_near", s.near},
           {"sink_median_mps", s.sink_50},
           {"sink_99_mps", s.sink_99},
-          {"sink_max_mps", s.sink_most},
           {"cross_beside_receiver_95_m", s.cross_95},
           {"cross_95_m", s.cross_true_95},
           {"yaw_off_95_deg", s.yaw_95},
@@ -215,6 +227,12 @@ nlohmann::json json_of(const Statistics& s) {
           {"along_5_m", s.along_5},
           {"along_95_m", s.along_95},
           {"roll_out_cross_95_m", s.roll_out_95},
+          {"roll_out_cross_max_m", s.roll_out_most},
+          {"touch_down_recognised_95_s", s.recognised_95},
+          {"touch_down_recognised_max_s", s.recognised_most},
+          {"touch_down_early_max_m", s.early_most},
+          {"elevator_down_max_s", s.nose_down_most},
+          {"sink_max_mps", s.sink_most},
           {"kept", s.kept()}};
 }
 
@@ -222,11 +240,14 @@ void print_each(const Options& o, const std::vector<Landed>& all) {
   for (const Landed& l : all)
     std::fprintf(stderr,
                  "seed %llu%s%s: over stall %.2f, sink %.2f m/s, off %.1f m (receiver %.1f), along %.0f m, "
-                 "nose %.1f deg, bank %.1f deg, %u around; %s\n",
+                 "nose %.1f deg, bank %.1f deg, %u around, recognised %.2f s, early %.1f m, elevator %.1f "
+                 "deg, roll-out "
+                 "%.1f m, stop %.0f m; %s%s%s\n",
                  static_cast<unsigned long long>(l.seed), l.flown ? "" : " NOT FLOWN",
                  l.crashed ? " CRASHED" : "", l.least_over_stall, l.sink_mps, l.cross_m, l.receiver_m,
-                 l.along_m, l.yaw_off_rad / deg, l.roll_rad / deg, l.go_arounds,
-                 words(dispersion_of(o, l.seed)).c_str());
+                 l.along_m, l.yaw_off_rad / deg, l.roll_rad / deg, l.go_arounds, l.recognised_s, l.early_m,
+                 l.nose_down_s, l.roll_out_m, l.stopped_m, words(dispersion_of(o, l.seed)).c_str(),
+                 o.hard ? "; " : "", o.hard ? hard_words(dispersion_of(o, l.seed)).c_str() : "");
 }
 
 Options options_of(int argc, char** argv) {
@@ -236,6 +257,8 @@ Options options_of(int argc, char** argv) {
     const bool more = i + 1 < argc;
     if (word == "--json")
       o.json = true;
+    else if (word == "--hard")
+      o.hard = true;
     else if (word == "--each")
       o.each = true;
     else if (word == "--flights" && more && std::atoi(argv[i + 1]) > 0)

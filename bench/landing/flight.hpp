@@ -2,6 +2,7 @@
 // One flight from runway to runway of an aircraft that is not the one the laws were made for, and what the
 // truth says of it.
 #pragma once
+#include <array>
 #include <cmath>
 #include <deque>
 #include <numbers>
@@ -15,8 +16,10 @@
 #include "fulmar/flight/angles.hpp"
 #include "fulmar/flight/geodesy.hpp"
 #include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/gnss.hpp"
+#include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/landing_progress.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/random.hpp"
@@ -32,6 +35,11 @@ struct Dispersion {
   double wind_mps = 0, wind_off_rad = 0;  ///< where it comes from, to the right of the runway's heading
   double mass_ratio = 1, delay_s = 0;
   bool ublox = false, slow_servos = false;
+  // Harder draws alone.
+  std::string aircraft = "anaconda", mission = "mission", sensors;  ///< sensors: "" as `ublox` says
+  double cg_share = 0;                                              ///< aft, of the chord
+  double engine_share = 1, slope_rad = 0, height_off_m = 0;
+  bool moderate = false;
   std::vector<std::pair<const char*, double>> derivatives;  ///< each times that
 };
 
@@ -50,6 +58,23 @@ inline Dispersion dispersion(std::uint64_t seed, double most_wind_mps = 12, doub
                            "roll.p", "roll.r", "roll.aileron", "roll.rudder", "pitch.alpha", "pitch.q",
                            "pitch.elevator", "yaw.beta", "yaw.p", "yaw.r", "yaw.aileron", "yaw.rudder"})
     d.derivatives.emplace_back(name, random.uniform(0.8, 1.2));
+  return d;
+}
+
+/// The same, and another aircraft, centre of gravity, motor, slope, height, sensors, turbulence.
+inline Dispersion hard_dispersion(std::uint64_t seed, double most_height_off_m = 6) {
+  Dispersion d = dispersion(seed);
+  Random random(mix_seed(seed, 2));
+  constexpr std::array aircraft{"anaconda", "aerosonde", "x8"};
+  constexpr std::array sensors{"rosflight", "ublox", "mems_budget"};
+  d.aircraft = aircraft[seed % aircraft.size()];
+  d.mission = "hard_" + d.aircraft;
+  d.sensors = sensors[seed / aircraft.size() % sensors.size()];
+  d.cg_share = random.uniform(-0.1, 0.2);
+  d.engine_share = random.uniform(0.75, 1);
+  d.slope_rad = random.uniform(-1.5, 1.5) * deg;
+  d.height_off_m = random.uniform(-most_height_off_m, most_height_off_m);
+  d.moderate = random.uniform(0, 1) < 0.3;
   return d;
 }
 
@@ -76,6 +101,10 @@ inline Airframe dispersed(const Airframe& nominal, const Dispersion& d) {
   for (double* const J : {&a.inertia.xx_kgm2, &a.inertia.yy_kgm2, &a.inertia.zz_kgm2, &a.inertia.xz_kgm2})
     *J *= d.mass_ratio;
   for (const auto& [name, ratio] : d.derivatives) derivative(a.aero, name) *= ratio;
+  // Moments about a centre of gravity that lies aft by that share of the chord, Etkin & Reid, 2.3.
+  a.aero.pitch.alpha_ratio += a.aero.lift.alpha_ratio * d.cg_share;
+  a.aero.pitch.zero_ratio += a.aero.lift.zero_ratio * d.cg_share;
+  a.aero.pitch.elevator_ratio += a.aero.lift.elevator_ratio * d.cg_share;
   return a;
 }
 
@@ -92,6 +121,10 @@ struct Landed {
   double roll_rad = 0;
   double roll_out_m = 0;  ///< largest distance from the centre line while it rolls
   std::uint32_t go_arounds = 0;
+  double recognised_s = 1e9;  ///< from the true touch-down to the estimated one
+  double early_m = 0;         ///< largest height above the place of the touch-down at an earlier estimate
+  double nose_down_s = 0;     ///< longest time with more than half of the elevator down, after the touch-down
+  double stopped_m = 0;       ///< behind the threshold
   double beside_receiver_m() const { return std::abs(cross_m + receiver_m); }
 };
 
@@ -102,6 +135,7 @@ class Watched {
     out_.seed = seed;
     truth_ = output_of(graph, "sim", "truth"), contact_ = output_of(graph, "sim", "contact");
     gnss_ = output_of(graph, "sim", "gnss"), progress_ = output_of(graph, "land", "progress");
+    ground_ = output_of(graph, "ground", "state"), actuators_ = output_of(graph, "attitude", "actuators");
   }
 
   Landed fly() {
@@ -139,6 +173,7 @@ class Watched {
         at<LandingProgress>(progress_) ? *at<LandingProgress>(progress_) : LandingProgress{};
     out_.go_arounds = p.go_arounds;
     const double c = cross(x.position_m.north, x.position_m.east);
+    recognise(x);
     const bool landing = p.stage == LandingStage::approach || p.stage >= LandingStage::flare;
     receiver(x);
     if (touching && flight_.phase() == "takeoff") recent_.clear(), sum_ = 0;
@@ -154,9 +189,35 @@ class Watched {
       out_.yaw_off_rad = angle_difference(before_.yaw_rad, runway_heading_rad);
       out_.roll_rad = before_.roll_rad;
     }
-    if (out_.touched) out_.roll_out_m = std::max(out_.roll_out_m, std::abs(c));
+    if (out_.touched) rolling(x, c);
     before_ = x;
   }
+  static double along(const VehicleState& x) {
+    return std::cos(runway_heading_rad) * x.position_m.north +
+           std::sin(runway_heading_rad) * x.position_m.east;
+  }
+  void rolling(const VehicleState& x, double c) {
+    out_.roll_out_m = std::max(out_.roll_out_m, std::abs(c));
+    out_.stopped_m = std::max(out_.stopped_m, along(x));
+    if (touched_s_ < 0) touched_s_ = now_s();
+    if (estimated_ && out_.recognised_s == 1e9) out_.recognised_s = std::max(now_s() - touched_s_, 0.0);
+    const auto* const u = at<Actuators>(actuators_);
+    const bool down = u && u->elevator_rad > 0.5 * flown_.elevator.limit_rad && x.airspeed_mps > 8;
+    nose_down_s_ = down ? nose_down_s_ + 0.0025 : 0;
+    out_.nose_down_s = std::max(out_.nose_down_s, nose_down_s_);
+  }
+  /// An estimate of before the true touch-down counts when it still stands then.
+  void recognise(const VehicleState& x) {
+    const auto* const g = at<GroundState>(ground_);
+    const bool was = estimated_;
+    estimated_ = g && g->lift_offs > 0 && g->contact == Contact::ground;
+    if (estimated_ && !was && !out_.touched) early_height_m_ = x.height_m;
+    if (early_height_m_ < 1e9 && out_.touched) {
+      out_.early_m = std::max(out_.early_m, early_height_m_ - x.height_m);
+      early_height_m_ = 1e9;
+    }
+  }
+  double now_s() const { return 1e-9 * static_cast<double>(flight_.now_ns()); }
   /// The flare ends what is asked of the airspeed.
   static bool landing_begun(const LandingProgress& p) {
     return p.stage == LandingStage::flare || p.stage == LandingStage::roll_out ||
@@ -184,7 +245,9 @@ class Watched {
   Airframe flown_;
   double most_lift_;
   core::Flight flight_;
-  core::Source truth_, contact_, gnss_, progress_;
+  core::Source truth_, contact_, gnss_, progress_, ground_, actuators_;
+  bool estimated_ = false;
+  double nose_down_s_ = 0, touched_s_ = -1, early_height_m_ = 1e9;
   LocalFrame frame_{40.2463724, -111.6474138, 1387};
   Landed out_;
   VehicleState before_;
@@ -202,8 +265,11 @@ inline Landed fly(const Dispersion& d, const Airframe& nominal,
   const Airframe a = dispersed(nominal, d);
   const double from = runway_heading_rad + d.wind_off_rad, back = -d.wind_mps;
   const std::string file = "sim.sensor_file", body = "sim.airframe.";
-  o.set = {{file,
-            std::string(FULMAR_SOURCE_DIR "/configs/sensors/") + (d.ublox ? "ublox" : "rosflight") + ".yaml"},
+  o.set = {{file, std::string(FULMAR_SOURCE_DIR "/configs/sensors/") +
+                      (!d.sensors.empty() ? d.sensors
+                       : d.ublox          ? "ublox"
+                                          : "rosflight") +
+                      ".yaml"},
            {"sim.wind_ned", "[" + std::to_string(back * std::cos(from)) + ", " +
                                 std::to_string(back * std::sin(from)) + ", 0]"},
            {body + "mass_kg", std::to_string(a.mass_kg)},
@@ -212,7 +278,8 @@ inline Landed fly(const Dispersion& d, const Airframe& nominal,
            {body + "inertia.zz_kgm2", std::to_string(a.inertia.zz_kgm2)},
            {body + "inertia.xz_kgm2", std::to_string(a.inertia.xz_kgm2)}};
   for (const char* sensor : {"gnss", "baro", "mag", "pitot"}) {
-    const double own = d.ublox && std::string(sensor) == "gnss" ? 0.15 : 0;
+    const double own =
+        (d.sensors.empty() ? d.ublox : d.sensors != "rosflight") && std::string(sensor) == "gnss" ? 0.15 : 0;
     o.set.emplace_back(file + "." + sensor + ".timing.latency_s", std::to_string(own + d.delay_s));
   }
   Airframe changed = a;
@@ -223,9 +290,20 @@ inline Landed fly(const Dispersion& d, const Airframe& nominal,
       o.set.emplace_back("sim." + std::string(surface) + "_fault", "slow");
     o.set.emplace_back("sim.fault_speed", "0.5");
   }
+  if (d.engine_share < 1) {
+    o.set.emplace_back("sim.engine_fault", "weak");
+    o.set.emplace_back("sim.engine_fault_share", std::to_string(d.engine_share));
+  }
+  if (d.slope_rad != 0) {
+    o.set.emplace_back("sim.ground_slope", std::to_string(std::abs(d.slope_rad)));
+    const double rises = d.slope_rad > 0 ? runway_heading_rad : runway_heading_rad - std::numbers::pi;
+    o.set.emplace_back("sim.ground_slope_towards", std::to_string(rises));
+  }
+  if (d.height_off_m != 0) o.set.emplace_back("land.runway.up_m", std::to_string(d.height_off_m));
+  if (d.moderate) o.set.emplace_back("sim.turbulence", "moderate");
   for (const auto& one : set) o.set.push_back(one);
-  return Watched(core::load_mission(FULMAR_SOURCE_DIR "/bench/landing/mission.yaml", o), a, d.seed, log)
-      .fly();
+  const std::string mission = FULMAR_SOURCE_DIR "/bench/landing/" + d.mission + ".yaml";
+  return Watched(core::load_mission(mission, o), a, d.seed, log).fly();
 }
 
 }  // namespace fulmar::landing_bench

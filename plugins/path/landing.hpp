@@ -207,6 +207,10 @@ struct Landing {
         break;
       case LandingStage::roll_out:
         rolled_s_ += dt;
+        if (rolled_s_ < 4 && in.ground && in.ground->contact == Contact::air) {  // a bounce, or no touch-down
+          flare(s);
+          break;
+        }
         // Along the runway: a wind that is strong enough rolls it back.
         if ((rolled_s_ > 1 && s.ground_speed_mps * std::cos(course_error) < 1) || rolled_s_ > p.roll_time)
           stage = LandingStage::stopped;

@@ -110,32 +110,46 @@ struct Ground {
     now_.touch_evidence_ratio = 0;
     const bool rests = slow_ && std::abs(s.climb_rate_mps) < 1;
     if (now_.contact == Contact::unknown && stands_.step(rests, 1.0, dt)) set(Contact::ground);
-    if (now_.contact == Contact::ground && (slow_ || !placed_)) {
-      height_m_ = placed_ ? height_m_ + std::min(dt / 0.5, 1.0) * (s.height_m - height_m_) : s.height_m;
-      placed_ = true;
-    }
+    if (now_.contact == Contact::ground) follow_ground(s, dt);
     const bool high = placed_ && s.height_m - height_m_ > p.lift_height;
     const bool rises = high && speed_ratio_ > p.slow && moves_;
     // Once it has stood, speed alone is a roll; at the start of a host it may be in the air already.
     const bool fast = now_.contact == Contact::unknown && speed_ratio_ > 0.85 && moves_;
-    const bool climbs = s.velocity_valid && s.climb_rate_mps > 0.7 && speed_ratio_ > 0.8;
+    const bool climbs = s.velocity_valid && s.climb_rate_mps > steep_mps(s) && speed_ratio_ > 0.8;
     const bool risen = rises_.step(rises, 0.2, dt), climbed = climbs_.step(climbs, 0.5, dt);
-    const bool flies = fast_.step(fast, 0.5, dt) || risen || climbed;
+    const bool fell = falls(s, dt);
+    const bool flies = fast_.step(fast, 0.5, dt) || risen || climbed || fell;
     if (!armed_ || !flies) return;
     set(Contact::air);
-    ++now_.lift_offs;
+    if (fell)
+      --now_.touch_downs;
+    else
+      ++now_.lift_offs;
     now_.landed = false;
     touch_.reset();
   }
 
+  /// The height of the ground under a rolling aircraft changes by its slope, that under a standing one with
+  /// the estimate.
+  void follow_ground(const VehicleState& s, double dt) {
+    const double off = s.height_m - height_m_, most = steepest * s.ground_speed_mps * dt;
+    if (!placed_)
+      height_m_ = s.height_m;
+    else
+      height_m_ += slow_ ? std::min(dt / 0.5, 1.0) * off : std::clamp(off, -most, most);
+    placed_ = true;
+  }
+  /// Faster than a slope of the ground lets it roll up or down.
+  static double steep_mps(const VehicleState& s) { return 0.4 + steepest * s.ground_speed_mps; }
+
   void fly(const VehicleState& s, const Inputs& in, const Params& p, double dt) {
-    now_.touch_evidence_ratio = touch_.step(s, p.touch, dt);
+    const double off = off_m(s, in);
+    now_.touch_evidence_ratio = touch_.step(s, off, speed_ratio_ < 1.1, p.touch, dt);
+    // Far from any known ground a touch-down is possible for an aircraft that glides.
     const bool closed = closed_.step(in.actuators && in.actuators->throttle_frac < 0.03, 1.0, dt);
-    const bool near = placed_ && std::abs(s.height_m - height_m_) < p.touch_height;
-    const bool runway = in.landing && !in.landing.stale() && std::abs(in.landing->height_m) < p.touch_height;
+    const bool touches = now_.touch_evidence_ratio >= 1 && (closed || off < p.touch_height);
     // Whatever happened: an aircraft that neither moves nor climbs for a second is on the ground.
     const bool rests = stands_.step(slow_ && std::abs(s.climb_rate_mps) < 0.5, 1.0, dt);
-    const bool touches = now_.touch_evidence_ratio >= 1 && (closed || near || runway);
     if (!touches && !rests) return;
     now_.touch_sink_mps = touch_.sink_mps();
     ++now_.touch_downs;
@@ -143,11 +157,24 @@ struct Ground {
     height_m_ = s.height_m;
     placed_ = true;
   }
+  /// From the height of the runway, or of the place where it stood; large where neither is known.
+  double off_m(const VehicleState& s, const Inputs& in) const {
+    constexpr double unknown_m = 100;
+    const double place = placed_ ? std::abs(s.height_m - height_m_) : unknown_m;
+    const bool runway = in.landing && !in.landing.stale();
+    return std::min({place, runway ? std::abs(in.landing->height_m) : unknown_m, unknown_m});
+  }
+  /// After a touch-down that was none, or a bounce: it falls faster than a slope of the ground lets it roll.
+  bool falls(const VehicleState& s, double dt) {
+    constexpr double soon_s = 4;
+    const bool down = now_.touch_downs > 0 && now_.since_s < soon_s && -s.climb_rate_mps > steep_mps(s);
+    return falls_.step(down, 0.15, dt);
+  }
 
   void set(Contact contact) {
     now_.contact = contact;
     now_.since_s = 0;
-    rises_ = climbs_ = fast_ = stands_ = locks_ = {};
+    rises_ = climbs_ = fast_ = falls_ = stands_ = locks_ = {};
   }
 
   void lock(const Params& p, double dt) {
@@ -166,16 +193,18 @@ struct Ground {
       out.notices.push(notice, tick.now_ns);
     };
     if (now_.lift_offs != told_.lift_offs) say("lift-off");
-    if (now_.touch_downs != told_.touch_downs) say("touch-down");
+    if (now_.touch_downs > told_.touch_downs) say("touch-down");
+    if (now_.touch_downs < told_.touch_downs) say("still in the air");
     if (now_.throttle_locked && !told_.throttle_locked)
       say("landed: the throttle stays closed until the pilot hands over or a take-off is requested");
     told_ = now_;
   }
 
   static constexpr double moving_mps = 3;
+  static constexpr double steepest = 0.035;  ///< slope of the ground
   GroundState now_, told_;
   TouchDown touch_;
-  HeldFor rises_, climbs_, fast_, stands_, closed_, locks_;
+  HeldFor rises_, climbs_, fast_, falls_, stands_, closed_, locks_;
   std::uint32_t resets_ = 0;       ///< of the state, seen so far
   std::uint32_t released_at_ = 0;  ///< the touch-down whose lock has been set
   double height_m_ = 0;            ///< where it stood last

@@ -184,17 +184,31 @@ TEST_CASE("what flew before the launch leaves no power to a propeller in the han
   CHECK(rolling.take_off(s, tuning, {}, 0.01).throttle_frac > 0.6);
 }
 
-TEST_CASE("on the roll-out the motor is off, wings level, and the nose is held down") {
+TEST_CASE(
+    "on the roll-out the motor is off, wings level, and the pitch that the wheels give is the command") {
   OuterTuning tuning;
+  FlightLimits limits;
+  limits.airspeed_min_mps = 10;
   OuterCommands commands;
   VehicleState s = at(15, 10, 0);
+  s.attitude_valid = s.airspeed_valid = true;
+  s.pitch_rad = 0.12;  // a tail-dragger
   commands.start(OuterLaw::hold, s, {0.2, 0.1, 0.6});
   REQUIRE(commands.begin(OuterLaw::roll_out, s) == OuterAction::roll_out);
   AttitudeCommand c;
-  for (int i = 0; i < 200; ++i) c = commands.roll_out(tuning, 0.01);
-  CHECK(c.pitch_rad == doctest::Approx(-0.05));
+  const auto roll = [&](double Va) {
+    s.airspeed_mps = Va;
+    for (int i = 0; i < 200; ++i) c = commands.roll_out(s, tuning, limits, 0.01);
+  };
+  roll(7.9);
+  CHECK(c.pitch_rad == doctest::Approx(0.12));
   CHECK(c.throttle_frac == 0);
   CHECK(std::abs(c.roll_rad) < 1e-6);
+  roll(12);  // fast enough to fly again: pressed onto the wheels by a degree
+  CHECK(c.pitch_rad == doctest::Approx(0.10));
+  s.attitude_valid = false;
+  roll(7);
+  CHECK(c.pitch_rad == 0);
 }
 
 TEST_CASE("a stumble, a push without speed and a ride without a push start no motor") {

@@ -95,11 +95,17 @@ class OuterCommands {
     return last_;
   }
 
-  /// On the ground after a landing: engine off, wings level, the nose comes down. Below level: a fast
-  /// touch-down would fly again, with the engine off.
-  AttitudeCommand roll_out(const OuterTuning& tuning, double dt_s) {
-    constexpr double nose_rad = -0.05;
-    return finish(course_.shape(0, tuning.course, dt_s), nose_rad, 0, tuning, dt_s);
+  /// On the ground after a landing: engine off, wings level. The pitch that the wheels give is the command: a
+  /// pitch loop that works against the ground drives the elevator to its stop and the nose into the ground.
+  AttitudeCommand roll_out(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits,
+                           double dt_s) {
+    constexpr double press_rad = 0.02;  // as long as it is fast enough to fly again
+    const double fast = state.airspeed_valid ? smoothly(state.airspeed_mps, 0.8 * limits.airspeed_min_mps,
+                                                        1.1 * limits.airspeed_min_mps)
+                                             : 0;
+    const double pitch_rad = state.attitude_valid ? state.pitch_rad - press_rad * fast : 0;
+    pitch_.reset_to(pitch_rad);
+    return finish(course_.shape(0, tuning.course, dt_s), pitch_rad, 0, tuning, dt_s);
   }
 
   /// The state is not known in flight: wings level, trim of level flight at cruise speed.

@@ -30,7 +30,7 @@ struct OuterParams {
   Choice<OuterLaw> law{
       OuterLaw::hold,
       "hold: follow guidance; takeoff: full throttle, wings level, rotate, keep the runway's course; "
-      "roll_out: throttle closed, wings level, nose down onto its wheel"};
+      "roll_out: throttle closed, wings level, pitch as the wheels give it"};
 
   Param course_kp{2.0, "rad/rad", 0, 10,
                   "roll per course error at cruise ground speed: course bandwidth = kp g / Va"};
@@ -150,7 +150,7 @@ struct OuterLoop {
     resets = state.reset_count;
     switch (action) {
       case OuterAction::wait: out.attitude = commands.wait(); break;
-      case OuterAction::roll_out: out.attitude = commands.roll_out(t, dt); break;
+      case OuterAction::roll_out: out.attitude = commands.roll_out(state, t, p.airframe->limits, dt); break;
       case OuterAction::take_off: out.attitude = commands.take_off(state, t, p.airframe->limits, dt); break;
       case OuterAction::level: out.attitude = level(state, p, t, dt); break;
       case OuterAction::hold: {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "fulmar/flight/attitude.hpp"
+#include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/plugin.hpp"
 #include "plugins/fcu_serial/test/peer/script.hpp"
 #include "plugins/fcu_serial/test/virtual_link.hpp"
@@ -33,11 +34,12 @@ class VirtualController {
     OutQueue<Notice, 32> notices;
     Out<ControllerAttitude> attitude;
     Out<VehicleState> truth;
-    Probe script_s;        ///< since the host's first command, negative before it
-    Probe commands_ratio;  ///< frames with commands that the host has sent
-    Probe blind_ratio;     ///< of these: without a valid attitude
-    Probe host_ratio;      ///< 1: its commands move the aircraft
-    Probe sticks_ratio;    ///< how far the outputs are off the sticks, while the pilot has the aircraft
+    Out<ContactTruth> contact;  ///< of the aircraft, for figures alone
+    Probe script_s;             ///< since the host's first command, negative before it
+    Probe commands_ratio;       ///< frames with commands that the host has sent
+    Probe blind_ratio;          ///< of these: without a valid attitude
+    Probe host_ratio;           ///< 1: its commands move the aircraft
+    Probe sticks_ratio;         ///< how far the outputs are off the sticks, while the pilot has the aircraft
   };
   /// Times count from the host's first command.
   struct Params {
@@ -101,6 +103,10 @@ class VirtualController {
     for (std::uint32_t i = 0; i < from.notices.count; ++i)
       out.notices.push(from.notices.items[i], from.notices.stamps_ns[i]);
     out.truth.publish(truth());
+    ContactTruth contact;
+    contact.touching = plane_->plant().on_ground();
+    contact.crashed = plane_->plant().crashed();
+    out.contact.publish(contact);
     out.script_s = script_s();
     out.commands_ratio = static_cast<double>(run_.commands);
     out.blind_ratio = static_cast<double>(run_.blind);

@@ -4,7 +4,6 @@
 // chapter 10); the flare is the exponential one of Stevens, Lewis & Johnson, Aircraft Control and Simulation
 // (2016), 4.6.
 #pragma once
-#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -13,9 +12,9 @@
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/landing_progress.hpp"
-#include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/sideslip_command.hpp"
+#include "landing_notices.hpp"
 #include "plan_file.hpp"
 #include "runway_site.hpp"
 #include "vector_field.hpp"
@@ -100,7 +99,7 @@ struct Landing {
     progress_.stage = LandingStage::join;
     progress_.reason = LandingReason::none;
     settled_s_ = slip_rad_ = 0;
-    said_s_ = -1e9;
+    notices_ = {};
     return Status::ok;
   }
 
@@ -113,7 +112,7 @@ struct Landing {
     feel_wind(s, p);
     const LandingProgress before = progress_;
     decide(in, p, dt);
-    report(before, tick, p, out);
+    notices_.report(before, progress_, {flare_s_, rolled_s_, p.roll_time}, tick.now_ns, out.notices);
     fly(s, p, dt);
     out.command = command_;
     out.progress = progress_;
@@ -285,56 +284,6 @@ struct Landing {
     return settled_s_ > for_s;
   }
 
-  /// One notice for each go-around, refusal and unusual end, with its figure.
-  void report(const LandingProgress& before, const Tick& tick, const Params& p, Outputs& out) {
-    const LandingProgress& now = progress_;
-    const auto say = [&](Severity severity, const char* format, double value) {
-      Notice notice;
-      char text[96];
-      std::snprintf(text, sizeof text, format, value);
-      notice.text = text;
-      notice.severity = severity;
-      out.notices.push(notice, tick.now_ns);
-    };
-    if (now.go_arounds != before.go_arounds) {
-      switch (now.reason) {
-        case LandingReason::cross_track:
-          say(Severity::warning, "go-around: %.0f m off the centre line", std::abs(now.cross_m));
-          break;
-        case LandingReason::height:
-          say(Severity::warning, "go-around: off the glide slope at %.0f m", now.height_m);
-          break;
-        case LandingReason::position:
-          say(Severity::warning, "go-around: no valid position or height at %.0f m", now.height_m);
-          break;
-        case LandingReason::flare_long:
-          say(Severity::warning, "go-around: no touch-down after %.0f s of flare, the height is wrong",
-              flare_s_);
-          break;
-        default: say(Severity::info, "go-around at %.0f m, as commanded", now.height_m);
-      }
-    }
-    const bool refused = now.stage == LandingStage::join && (now.reason == LandingReason::crosswind ||
-                                                             now.reason == LandingReason::runway_short);
-    const bool warned = now.stage == LandingStage::approach && before.stage == LandingStage::join &&
-                        now.reason != LandingReason::none;
-    constexpr double repeat_s = 30;
-    if (warned || (refused && tick.now_s() - said_s_ > repeat_s)) {
-      said_s_ = tick.now_s();
-      const bool crosswind = now.reason == LandingReason::crosswind;
-      const char* const format =
-          warned
-              ? (crosswind ? "crosswind of %.1f m/s is beyond the limit: landing all the same"
-                           : "the landing takes %.0f m, more than the runway: landing all the same")
-              : (crosswind ? "crosswind of %.1f m/s is beyond the limit: circling, take over or change runway"
-                           : "the landing takes %.0f m, more than the runway: circling, take over");
-      say(Severity::warning, format, crosswind ? std::abs(now.cross_wind_mps) : now.needed_m);
-    }
-    if (now.stage == LandingStage::stopped && before.stage == LandingStage::roll_out &&
-        rolled_s_ > p.roll_time)
-      say(Severity::warning, "still rolling %.0f s after the touch-down: brake by hand", rolled_s_);
-  }
-
   /// What approach and flare are faster by: a steady wind's share, so that there is some ground speed.
   double faster_mps(const VehicleState& s, const Params& p) const {
     if (!s.wind_valid) return 0;
@@ -441,8 +390,8 @@ struct Landing {
   GuidanceCommand command_;
   LandingProgress progress_;
   double settled_s_ = 0, rolled_s_ = 0, flare_s_ = 0, flare_height_m_ = 0;
-  double height_off_m_ = 0;              ///< of the runway below the height that is given, shown by a flare
-  double said_s_ = -1e9;                 ///< when the wind was reported last
+  double height_off_m_ = 0;  ///< of the runway below the height that is given, shown by a flare
+  LandingNotices notices_;
   double slip_rad_ = 0;                  ///< asked for
   static constexpr double lead_m = 1.5;  ///< of the flare's height before the aircraft
 };

@@ -144,7 +144,8 @@ struct Ground {
 
   void fly(const VehicleState& s, const Inputs& in, const Params& p, double dt) {
     const double off = off_m(s, in);
-    now_.touch_evidence_ratio = touch_.step(s, off, speed_ratio_ < 1.1, p.touch, dt);
+    const bool flares = in.landing && !in.landing.stale() && in.landing->stage == LandingStage::flare;
+    now_.touch_evidence_ratio = touch_.step(s, {off, speed_ratio_ < 1.1, flares}, p.touch, dt);
     // Far from any known ground a touch-down is possible for an aircraft that glides.
     const bool closed = closed_.step(in.actuators && in.actuators->throttle_frac < 0.03, 1.0, dt);
     const bool touches = now_.touch_evidence_ratio >= 1 && (closed || off < p.touch_height);

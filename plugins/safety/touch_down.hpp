@@ -22,6 +22,7 @@ struct TouchParams {
   Param touch_still{0.3, "m/s", 0.02, 2, "climb or sink rate below which the sink has ended"};
   Param touch_confirm{0.1, "s", 0, 2, "that it has ended for, after a push"};
   Param touch_quiet{2, "s", 0.1, 20, "that it has ended for, without a push, at the least airspeed"};
+  Param touch_soft{0.4, "s", 0.05, 20, "the same in a flare, which asks for more sink all the time"};
 };
 
 /// A part of a signal that is new: its fast mean less its slow one, and how much of that is usual.
@@ -45,11 +46,15 @@ class TouchDown {
  public:
   void reset() { *this = {}; }
 
-  /// `off_m`: from the height where ground is expected; a large one where none is. `slow`: at the least
-  /// airspeed or below it.
-  double step(const VehicleState& s, double off_m, bool slow, const TouchParams& p, double dt) {
+  /// What is expected of the aircraft now.
+  struct Expected {
+    double off_m;  ///< from the height of the ground; a large one where that is not known
+    bool slow;     ///< at the least airspeed or below it
+    bool flare;    ///< a sink is asked for until it touches
+  };
+  double step(const VehicleState& s, const Expected& e, const TouchParams& p, double dt) {
     const Eigen::Vector3d f_b = eigen(s.specific_force_mps2), f_n = eigen(s.attitude) * f_b;
-    const double unlikely = 1 + off_m / p.touch_off;
+    const double unlikely = 1 + e.off_m / p.touch_off;
     const double up_before = up_.usual(), drag_before = drag_.usual();
     const double push = up_.step(-f_n.z() - isa::g0, 0.005, 0.025, dt) / unlikely;
     const double drag = -drag_.step(f_b.x(), 0.04, 0.3, dt) / unlikely;
@@ -66,12 +71,13 @@ class TouchDown {
     const double rate = std::abs(s.climb_rate_mps);
     const bool still = since_hit_s_ < lasts_s && rate < p.touch_still + 0.4 * sink_mps_;
     still_s_ = still ? still_s_ + dt : 0;
-    if (rate > quiet_mps || !slow)
+    const double quiet_mps = e.flare ? 0.08 : 0.12;
+    if (rate > quiet_mps || !(e.slow || e.flare))
       quiet_s_ = 0;
     else if (quiet_s_ > 0 || sink > least_sink_mps)
       quiet_s_ += dt;
-    return std::min(std::max(still_s_ / std::max<double>(p.touch_confirm, 1e-3), quiet_s_ / p.touch_quiet),
-                    1.0);
+    const double quiet = quiet_s_ / (e.flare ? p.touch_soft : p.touch_quiet);
+    return std::min(std::max(still_s_ / std::max<double>(p.touch_confirm, 1e-3), quiet), 1.0);
   }
 
   /// Mean sink rate before the touch-down, m/s.
@@ -79,8 +85,7 @@ class TouchDown {
 
  private:
   static constexpr double least_sink_mps = 0.1;  ///< of the last second: who climbs touches nothing
-  static constexpr double quiet_mps = 0.12;
-  static constexpr double lasts_s = 0.6;  ///< after it a push says nothing
+  static constexpr double lasts_s = 0.6;         ///< after it a push says nothing
   Sudden up_, drag_;
   LowPass sink_;
   double since_hit_s_ = 1e9, still_s_ = 0, quiet_s_ = 0, sink_mps_ = 0;

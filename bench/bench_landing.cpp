@@ -2,7 +2,8 @@
 // Flies from runway to runway, flight after flight, each in another wind and with another aircraft than the
 // laws were made for. Prints docs/landing.md and exits 1 when a bar is missed. bench_landing [--flights N]
 // [--first SEED] [--jobs N] [--wind MPS] [--off DEG] [--set COMP.PARAM=VALUE]... [--log FILE] [--each]
-// [--json]; --log flies the seed of --first alone.
+// [--json]; --log flies the seed of --first alone. --hard [--height M] draws aircraft, centre of gravity,
+// motor, slope, sensors, moderate turbulence, and a height of the runway that is off by up to M metres, too.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,14 +26,14 @@ constexpr double share_sink = 0.99, share_cross = 0.95;
 struct Options {
   int flights = 1000, jobs = 1;
   std::uint64_t first = 1;
-  double wind_mps = 12, off_deg = 30;
+  double wind_mps = 12, off_deg = 30, height_off_m = 6;
   bool each = false, json = false, hard = false;
   std::string log;
   std::vector<std::pair<std::string, std::string>> set;
 };
 
 Dispersion dispersion_of(const Options& o, std::uint64_t seed) {
-  return o.hard ? hard_dispersion(seed) : dispersion(seed, o.wind_mps, o.off_deg * deg);
+  return o.hard ? hard_dispersion(seed, o.height_off_m) : dispersion(seed, o.wind_mps, o.off_deg * deg);
 }
 
 /// In `jobs` processes: what a flight loads is a process's own. By seed.
@@ -259,6 +260,8 @@ Options options_of(int argc, char** argv) {
       o.json = true;
     else if (word == "--hard")
       o.hard = true;
+    else if (word == "--height" && more)
+      o.height_off_m = std::atof(argv[++i]);
     else if (word == "--each")
       o.each = true;
     else if (word == "--flights" && more && std::atoi(argv[i + 1]) > 0)
@@ -278,7 +281,8 @@ Options options_of(int argc, char** argv) {
       o.set.emplace_back(one.substr(0, one.find('=')), one.substr(one.find('=') + 1));
     } else
       throw std::invalid_argument(
-          "usage: bench_landing [--flights N] [--first SEED] [--jobs N] [--wind MPS] [--off DEG] [--set "
+          "usage: bench_landing [--hard] [--height M] [--flights N] [--first SEED] [--jobs N] [--wind MPS] "
+          "[--off DEG] [--set "
           "COMP.PARAM=VALUE]... [--log FILE] [--each] [--json]");
   }
   return o;

@@ -144,8 +144,10 @@ struct Ground {
 
   void fly(const VehicleState& s, const Inputs& in, const Params& p, double dt) {
     const double off = off_m(s, in);
-    const bool flares = in.landing && !in.landing.stale() && in.landing->stage == LandingStage::flare;
-    now_.touch_evidence_ratio = touch_.step(s, {off, speed_ratio_ < 1.1, flares}, p.touch, dt);
+    const bool sinks = in.landing && !in.landing.stale() &&
+                       (in.landing->stage == LandingStage::flare ||
+                        (in.landing->stage == LandingStage::approach && off < short_final_m));
+    now_.touch_evidence_ratio = touch_.step(s, *p.airframe, {off, speed_ratio_ < 1.1, sinks}, p.touch, dt);
     // Far from any known ground a touch-down is possible for an aircraft that glides.
     const bool closed = closed_.step(in.actuators && in.actuators->throttle_frac < 0.03, 1.0, dt);
     const bool touches = now_.touch_evidence_ratio >= 1 && (closed || off < p.touch_height);
@@ -201,7 +203,7 @@ struct Ground {
     told_ = now_;
   }
 
-  static constexpr double moving_mps = 3;
+  static constexpr double moving_mps = 3, short_final_m = 8;
   static constexpr double steepest = 0.035;  ///< slope of the ground
   GroundState now_, told_;
   TouchDown touch_;

@@ -8,6 +8,7 @@
 #include "fulmar/eigen.hpp"
 #include "fulmar/flight/atmosphere.hpp"
 #include "fulmar/flight/filters.hpp"
+#include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
 
@@ -22,7 +23,28 @@ struct TouchParams {
   Param touch_still{0.3, "m/s", 0.02, 2, "climb or sink rate below which the sink has ended"};
   Param touch_confirm{0.1, "s", 0, 2, "that it has ended for, after a push"};
   Param touch_quiet{2, "s", 0.1, 20, "that it has ended for, without a push, at the least airspeed"};
-  Param touch_soft{0.4, "s", 0.05, 20, "the same in a flare, which asks for more sink all the time"};
+  Param touch_support{0.12, "ratio", 0.01, 1, "of the weight that the wing does not carry, for touch_soft"};
+  Param touch_soft{0.35, "s", 0.05, 20, "the same on short final and in the flare, where a sink is commanded"};
+};
+
+/// The share of the weight that something else than the wing carries: what the wing lifts at this angle of
+/// attack, B&M (4.6), against the normal force, relative to what the two are in flight.
+class Support {
+ public:
+  double step(const VehicleState& s, const Airframe& a, double dt) {
+    if (!s.airspeed_valid) return 0;
+    const double rho = standard_air(s.origin_altitude_m + s.height_m).density_kgm3;
+    const double q = 0.5 * rho * s.airspeed_mps * s.airspeed_mps;
+    const double lift_mps2 =
+        q * a.wing.area_m2 * (a.aero.lift.zero_ratio + a.aero.lift.alpha_ratio * s.alpha_rad) / a.mass_kg;
+    const double normal_mps2 = std::max(-s.specific_force_mps2.z, 0.2 * isa::g0);
+    const double share = now_.step(lift_mps2 / normal_mps2, 0.15, dt);
+    const double usual = usual_.step(share, 6, dt);
+    return usual > 0.2 ? 1 - share / usual : 0;
+  }
+
+ private:
+  LowPass now_, usual_;
 };
 
 /// A part of a signal that is new: its fast mean less its slow one, and how much of that is usual.
@@ -50,9 +72,9 @@ class TouchDown {
   struct Expected {
     double off_m;  ///< from the height of the ground; a large one where that is not known
     bool slow;     ///< at the least airspeed or below it
-    bool flare;    ///< a sink is asked for until it touches
+    bool sinks;    ///< a sink is asked for until it touches: short final and flare
   };
-  double step(const VehicleState& s, const Expected& e, const TouchParams& p, double dt) {
+  double step(const VehicleState& s, const Airframe& a, const Expected& e, const TouchParams& p, double dt) {
     const Eigen::Vector3d f_b = eigen(s.specific_force_mps2), f_n = eigen(s.attitude) * f_b;
     const double unlikely = 1 + e.off_m / p.touch_off;
     const double up_before = up_.usual(), drag_before = drag_.usual();
@@ -71,12 +93,14 @@ class TouchDown {
     const double rate = std::abs(s.climb_rate_mps);
     const bool still = since_hit_s_ < lasts_s && rate < p.touch_still + 0.4 * sink_mps_;
     still_s_ = still ? still_s_ + dt : 0;
-    const double quiet_mps = e.flare ? 0.08 : 0.12;
-    if (rate > quiet_mps || !(e.slow || e.flare))
+    const bool carried = support_.step(s, a, dt) > p.touch_support;
+    if (rate > quiet_mps || !(e.slow || (e.sinks && (carried || quiet_s_ > 0))))
       quiet_s_ = 0;
     else if (quiet_s_ > 0 || sink > least_sink_mps)
       quiet_s_ += dt;
-    const double quiet = quiet_s_ / (e.flare ? p.touch_soft : p.touch_quiet);
+    // Away from the expected ground a lull is more likely than a soft touch-down.
+    const double soft_s = p.touch_soft * (1 + std::max(e.off_m - usual_off_m, 0.0) / lull_m);
+    const double quiet = quiet_s_ / (e.sinks ? std::min<double>(soft_s, p.touch_quiet) : p.touch_quiet);
     return std::min(std::max(still_s_ / std::max<double>(p.touch_confirm, 1e-3), quiet), 1.0);
   }
 
@@ -85,8 +109,10 @@ class TouchDown {
 
  private:
   static constexpr double least_sink_mps = 0.1;  ///< of the last second: who climbs touches nothing
-  static constexpr double lasts_s = 0.6;         ///< after it a push says nothing
+  static constexpr double quiet_mps = 0.12, usual_off_m = 2, lull_m = 1.5;
+  static constexpr double lasts_s = 0.6;  ///< after it a push says nothing
   Sudden up_, drag_;
+  Support support_;
   LowPass sink_;
   double since_hit_s_ = 1e9, still_s_ = 0, quiet_s_ = 0, sink_mps_ = 0;
 };

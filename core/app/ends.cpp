@@ -25,6 +25,7 @@ void note_signal(int signal) {
   static timespec latest{};
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
+  if (!is_the_host()) return end_copy_by(signal);
   const bool patience_over = signal == SIGALRM;
   if (patience_over && signal_seen.load() == 0) return;
   const double since_s = static_cast<double>(now.tv_sec - latest.tv_sec) +
@@ -52,19 +53,24 @@ constexpr Name endings[] = {{SIGQUIT, "SIGQUIT"}, {SIGUSR1, "SIGUSR1"},     {SIG
                             {SIGXCPU, "SIGXCPU"}, {SIGVTALRM, "SIGVTALRM"}, {SIGPROF, "SIGPROF"},
                             {SIGIO, "SIGIO"},     {SIGPWR, "SIGPWR"},       {SIGSTKFLT, "SIGSTKFLT"}};
 
-const char* ending_name(int signal) {
+/// Tells which signal it is. Those of real time have numbers: SIGRTMIN+5.
+void tell_ending(int signal) {
   for (const Name& end : endings)
-    if (end.signal == signal) return end.text;
-  return "";
+    if (end.signal == signal) return tell({end.text});
+  const int n = signal - SIGRTMIN;
+  const char digits[] = {static_cast<char>('0' + n / 10), static_cast<char>('0' + n % 10), 0};
+  tell({"SIGRTMIN", n > 0 ? "+" : "", n > 0 ? digits + (n < 10) : ""});
 }
 
 /// Somebody wants an end at once. Another one, which comes before the words are said, does not cut them
 /// short.
 void on_end(int signal) {
+  if (!is_the_host()) return end_copy_by(signal);
   static std::atomic<bool> ending{false};
   if (ending.exchange(true)) return;
   send_last_frame();
-  tell({"\nfulmar: ended by ", ending_name(signal)});
+  tell({"\nfulmar: ended by "});
+  tell_ending(signal);
   tell_end();
   refuses_calls = false;  // it may have come in a component's step
   struct sigaction usual {};
@@ -88,6 +94,7 @@ void handle_signals(bool hardware, unsigned patience) {
   action.sa_handler = on_end;
   action.sa_flags = SA_NODEFER;
   for (const Name& end : endings) sigaction(end.signal, &action, nullptr);
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) sigaction(signal, &action, nullptr);
   handle_crashes();
 }
 

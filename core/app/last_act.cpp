@@ -25,7 +25,8 @@ std::atomic<bool> in_flight{false};
 
 namespace {
 
-std::atomic<pid_t> at_work{0};  // the process: a fork of it is none
+std::atomic<pid_t> at_work{0};   // the process: a fork of it is none
+std::atomic<pid_t> the_host{0};  // its handlers are set, for ever
 const char* no_log = ".\n";
 char log_name[4200], log_part[4200];  // of a flight's log, when it will be whole and until then
 
@@ -91,7 +92,17 @@ void leave(int code) {
   for (;;) syscall(SYS_exit_group, code);
 }
 
+bool is_the_host() { return getpid() == the_host; }
+
+void end_copy_by(int signal) {
+  struct sigaction usual {};
+  usual.sa_handler = SIG_DFL;
+  sigaction(signal, &usual, nullptr);
+  raise(signal);
+}
+
 void send_last_frame() {
+  if (!is_the_host()) return;
   const fulmar_last_frame* frame = last_frame.exchange(nullptr, std::memory_order_acq_rel);
   if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0)
     tell({"\nfulmar: the last frame could not be sent"});
@@ -133,6 +144,7 @@ const char* beginning() { return in_flight ? "\nfulmar: " : "fulmar: "; }
 
 /// A component that crashes takes the host with it; at least it is named.
 void on_crash(int signal, siginfo_t*, void* context) {
+  if (!is_the_host()) return end_copy_by(signal);
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
   const char* loading = file_in_hand.load(std::memory_order_relaxed);
@@ -169,6 +181,7 @@ void on_exit() {
 }  // namespace
 
 void handle_crashes() {
+  the_host = getpid();
 #ifndef FULMAR_SANITIZED                            // such a build reports crashes by itself
   static const auto* const stack = new CrashStack;  // a plugin's last destructor may crash, too
   struct sigaction action {};

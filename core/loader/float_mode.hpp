@@ -26,7 +26,11 @@ class FloatModeGuard {
 #if defined(__x86_64__)
 inline bool plain_arithmetic() noexcept {
   constexpr unsigned control = 0xffc0, initial = 0x1f80;  // MXCSR; System V ABI for AMD64, 3.2.3
-  return (__builtin_ia32_stmxcsr() & control) == initial;
+  // of long double, 8.1.5 in Intel's manual of the architecture: precision, rounding, traps
+  constexpr unsigned x87_control = 0x0f3f, x87_initial = 0x033f;
+  std::uint16_t x87 = 0;
+  asm volatile("fnstcw %0" : "=m"(x87));
+  return (__builtin_ia32_stmxcsr() & control) == initial && (x87 & x87_control) == x87_initial;
 }
 #elif defined(__aarch64__)
 inline bool plain_arithmetic() noexcept {

@@ -14,6 +14,7 @@
 #include <cstdarg>
 #include <cstring>
 
+#include "core/original.hpp"
 #include "core/run/ports.hpp"
 
 namespace fulmar::core {
@@ -22,14 +23,27 @@ constinit thread_local const char* refused_call = nullptr;
 constinit thread_local bool refuses_calls = false;
 constinit thread_local bool refuses_processes = false;
 
+namespace {
+
+constexpr const char* shared = "what that changes is everybody's";
+thread_local const char* refused_since = shared;
+
+}  // namespace
+
+void end_forked_copy() noexcept {
+  const char* const component = in_step.load(std::memory_order_relaxed);
+  for (const char* const word :
+       {"fulmar: ", component ? component : "a component", " has forked the host; the copy ends\n"})
+    if (write(STDERR_FILENO, word, std::strlen(word)) < 0) break;
+  end_copy();
+}
+
 std::uint32_t put_right(fulmar_error& problem) noexcept {
   if (!plain_arithmetic()) {
     make_arithmetic_plain();
     put_problem(problem, "%s", changed_arithmetic);
-  } else if (std::strncmp(refused_call, "posix_spawn", 11) == 0) {
-    put_problem(problem, "calls %s in flight; the loop would wait for it", refused_call);
   } else {
-    put_problem(problem, "calls %s in flight; what that changes is everybody's", refused_call);
+    put_problem(problem, "calls %s in flight; %s", refused_call, refused_since);
   }
   refused_call = nullptr;
   return FULMAR_FAILED;
@@ -53,13 +67,18 @@ const pid_t program = getpid();
 
 /// Whether the call is refused. `changes`: it asks for more than what is set. A process that the component
 /// has forked is not the host.
-bool refuse(const char* call, bool changes = true) noexcept {
+bool refuse(const char* call, bool changes = true, const char* since = shared) noexcept {
   if (!changes || !refuses_calls || getpid() != program) return false;
   refused_call = call;
+  refused_since = since;
   return true;
 }
 
-bool refuse_process(const char* call) noexcept { return refuses_processes && refuse(call); }
+bool refuse_process(const char* call) noexcept {
+  return refuses_processes && refuse(call, true, "the loop would wait for it");
+}
+
+bool refuse_fork(const char* call) noexcept { return refuse(call, true, copy_would_fly); }
 
 using Words = char* const*;
 
@@ -87,6 +106,9 @@ Function behind(const char* name) noexcept {
 
 }  // namespace
 }  // namespace fulmar::core
+
+using fulmar::core::refuse_fork;
+#include "core/fork_hooks.hpp"
 
 using fulmar::core::behind;
 using fulmar::core::refuse;

@@ -5,19 +5,30 @@
 #include <atomic>
 #include <string>
 
+#include "core/original.hpp"
+
 namespace fulmar::core {
 
 /// Name of the component whose code runs in this thread, or nullptr.
 inline constinit thread_local std::atomic<const char*> in_step{nullptr};
 inline constinit thread_local std::atomic<const char*> in_call{"step"};  // which of its functions
 
-/// As long as it lives, the component's code runs in this thread. The name has to live as long.
+/// Ends a copy of the program that a component has forked and that comes back from its call.
+[[noreturn]] void end_forked_copy() noexcept;
+
+/// As long as it lives, the component's code runs in this thread. The name has to live as long. A copy of the
+/// process that the code has forked ends here.
 struct Inside {
   Inside(const std::string& component, const char* call) noexcept {
     in_call.store(call, std::memory_order_relaxed);
     in_step.store(component.c_str(), std::memory_order_relaxed);
+    original_mark.set();
   }
-  ~Inside() { in_step.store(nullptr, std::memory_order_relaxed); }
+  ~Inside() {
+    if (!original_mark.is_set()) [[unlikely]]
+      end_forked_copy();
+    in_step.store(nullptr, std::memory_order_relaxed);
+  }
   Inside(const Inside&) = delete;
   Inside& operator=(const Inside&) = delete;
 };

@@ -279,6 +279,33 @@ bool probe_good(const Slot& s, const fulmar_output& out, fulmar_error& problem) 
   return false;
 }
 
+/// How far ahead of its tick a sample may be dated. A vehicle dates by arrival, and the samples of a host
+/// that stood still have arrived before their ticks. Others pass on what they read.
+constexpr std::uint64_t vehicle_ahead_ns = 60'000'000'000, most_ahead_ns = 1'000'000'000;
+constexpr std::int64_t earliest_ns = -7'200'000'000'000;  // before any flight
+
+/// Whether the time of validity is one of this flight; what came without one is of now. A sample of the
+/// future would never become too old.
+bool well_dated(std::int64_t& valid_at_ns, std::int64_t now_ns, std::uint64_t ahead_ns) noexcept {
+  if (valid_at_ns == FULMAR_ON_ARRIVAL) valid_at_ns = now_ns;
+  if (valid_at_ns <= now_ns) return valid_at_ns >= earliest_ns;
+  return static_cast<std::uint64_t>(valid_at_ns) - static_cast<std::uint64_t>(now_ns) <= ahead_ns;
+}
+
+bool times_good(Slot& s, fulmar_output& out, std::int64_t now_ns, fulmar_error& problem) noexcept {
+  const std::uint64_t ahead_ns = s.owner->info->vehicle ? vehicle_ahead_ns : most_ahead_ns;
+  const bool queue = s.port->kind == FULMAR_OUT_QUEUE;
+  const std::uint32_t count = queue ? out.count : 1;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    std::int64_t& valid_at_ns = queue ? s.stamps[k] : out.valid_at_ns;
+    if (well_dated(valid_at_ns, now_ns, ahead_ns)) continue;
+    put_problem(problem, "output '%s' is dated %.3f s, now is %.3f s", s.port->name.c_str(),
+                1e-9 * static_cast<double>(valid_at_ns), 1e-9 * static_cast<double>(now_ns));
+    return false;
+  }
+  return true;
+}
+
 bool messages_good(Slot& s, const fulmar_output& out, fulmar_error& problem) noexcept {
   const std::uint32_t count = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;
   if (count > s.port->capacity) {
@@ -298,11 +325,13 @@ bool messages_good(Slot& s, const fulmar_output& out, fulmar_error& problem) noe
 
 }  // namespace
 
-bool Outlets::good(fulmar_error& problem) noexcept {
+bool Outlets::good(std::int64_t now_ns, fulmar_error& problem) noexcept {
   for (std::size_t i = 0, count = slots.size(); i < count; ++i) {
     if (!written(i)) continue;
     const bool probe = slots[i].port->kind == FULMAR_OUT_PROBE;
-    if (!(probe ? probe_good(slots[i], views[i], problem) : messages_good(slots[i], views[i], problem)))
+    if (!(probe ? probe_good(slots[i], views[i], problem)
+                : messages_good(slots[i], views[i], problem) &&
+                      times_good(slots[i], views[i], now_ns, problem)))
       return false;
   }
   return true;

@@ -149,7 +149,7 @@ class Outlets {
   /// [tick] Room for what a step publishes, dated now unless it says otherwise.
   void prepare(std::int64_t now_ns) noexcept;
   /// [tick] Whether what the step has written passes the guards; else `problem` says what does not.
-  bool good(fulmar_error& problem) noexcept;
+  bool good(std::int64_t now_ns, fulmar_error& problem) noexcept;
   /// [tick] Publishes it; `each(slot)` for each sample.
   template <class F>
   void publish(F&& each);

@@ -100,7 +100,7 @@ bool Unit::rehearse(const Tape& from) noexcept {
     if (i == 0 && !runner_->activate(step.tick, in.views, arguments_.last, problem)) return false;
     out.prepare(step.tick.now_ns);
     if (!has_stepped(runner_->step(step.tick, in, out, problem))) return false;
-    if (!out.good(problem)) return false;
+    if (!out.good(step.tick.now_ns, problem)) return false;
   }
   return true;
 }
@@ -147,9 +147,9 @@ inline bool Unit::heap_good() noexcept {
 }
 
 /// What a step came to after the guards.
-inline StepResult Unit::guarded(StepResult result) noexcept {
+inline StepResult Unit::guarded(StepResult result, std::int64_t now_ns) noexcept {
   if (!has_stepped(result)) return result;
-  if (!out.good(problem) || !heap_good()) return StepResult::bad;
+  if (!out.good(now_ns, problem) || !heap_good()) return StepResult::bad;
   if (result == StepResult::degraded) ++stats.degraded;
   return result;
 }
@@ -170,11 +170,11 @@ StepResult Unit::step(std::int64_t now_ns, std::uint64_t index) noexcept {
   stats.allocations = runner_->heap().calls;
   ++stats.steps;
   in.consume();
-  return guarded(result);
+  return guarded(result, now_ns);
 }
 
 StepResult Unit::collect(std::int64_t now_ns) noexcept {
-  return guarded(runner_->collect(now_ns, in, out, problem));
+  return guarded(runner_->collect(now_ns, in, out, problem), now_ns);
 }
 
 StepResult Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
@@ -193,12 +193,9 @@ StepResult Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
                 static_cast<long long>(t.now_ns));
     return StepResult::bad;
   }
-  for (fulmar_output& view : out.views)
-    if (view.valid_at_ns == FULMAR_ON_ARRIVAL)
-      view.valid_at_ns = t.now_ns;  // read has not dated it, and now the time is known
   now_ns = t.now_ns;
   schedule_.last_step_ns = now_ns;
-  if (!out.good(problem)) return StepResult::bad;
+  if (!out.good(now_ns, problem)) return StepResult::bad;
   if (status == FULMAR_DEGRADED) ++stats.degraded;
   return StepResult::stepped;
 }

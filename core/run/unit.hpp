@@ -98,7 +98,7 @@ class Unit {
   void fill_last(std::int64_t now_ns, const std::vector<const Slot*>& last) noexcept;
   void steer(std::int64_t now_ns, Ending::Steering steering,
              const std::vector<std::vector<std::byte>>& failsafe) noexcept;
-  StepResult guarded(StepResult result) noexcept;
+  StepResult guarded(StepResult result, std::int64_t now_ns) noexcept;
   bool heap_good() noexcept;
   fulmar_tick tick(std::int64_t now_ns, std::uint64_t index) const noexcept;
   void stepped(std::int64_t now_ns) noexcept;

@@ -106,6 +106,12 @@ class Program {
   fs::path said_ = folder().path / "said";
 };
 
+std::size_t occurrences(const std::string& text, const std::string& word) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+  return n;
+}
+
 double last_frame() {
   double u = 0;
   std::ifstream(device(), std::ios::binary).read(reinterpret_cast<char*>(&u), sizeof u);
@@ -205,6 +211,29 @@ TEST_CASE("a fork of the host that exits is not the host") {
   CHECK(last_frame() == 0);
 }
 
+TEST_CASE("a copy of the host that comes back from a step ends, and the host flies on alone") {
+  for (const std::string& mode : {""s, "run: async, latency: 10 ms, "s}) {
+    CAPTURE(mode);
+    Program program(law("clones_on", mode), {"--duration", "0.3"});
+    CHECK(program.wait() == 0);
+    const std::string said = program.said();
+    CHECK_MESSAGE(occurrences(said, "flown") == 1, said);
+    CHECK(occurrences(said, "one has forked the host") == 1);
+    CHECK(last_frame() == 0);
+  }
+}
+
+TEST_CASE("a copy of the host that a signal ends acts as no host: no last frame, no words") {
+  if (!FULMAR_CRASH_TESTS) return;
+  Program program(law("clones_end"), {"--duration", "0.15"});
+  CHECK(program.wait() == 0);
+  const std::string said = program.said();
+  CHECK_MESSAGE(said.find("crashed") == std::string::npos, said);
+  CHECK(said.find("ended by") == std::string::npos);
+  CHECK(said.find("guard") == std::string::npos);  // each copy ended by its signal
+  CHECK(last_frame() == 0);
+}
+
 TEST_CASE("no thread of the host but the main one takes a signal, and all take those of a crash") {
   Program program(everything + std::string(one_phase), {"--speed", "real"});
   for (const char* const name : {"fulmar-log", "fulmar-live", "fulmar-async", "fulmar-driver", "fulmar-words",
@@ -250,8 +279,10 @@ TEST_CASE(
     int signal;
     const char* name;
   };
-  for (const End& end : {End{SIGQUIT, "SIGQUIT"}, End{SIGUSR1, "SIGUSR1"}, End{SIGUSR2, "SIGUSR2"},
-                         End{SIGXCPU, "SIGXCPU"}, End{SIGVTALRM, "SIGVTALRM"}, End{SIGIO, "SIGIO"}}) {
+  for (const End& end :
+       {End{SIGQUIT, "SIGQUIT"}, End{SIGUSR1, "SIGUSR1"}, End{SIGUSR2, "SIGUSR2"}, End{SIGXCPU, "SIGXCPU"},
+        End{SIGVTALRM, "SIGVTALRM"}, End{SIGIO, "SIGIO"}, End{SIGRTMIN, "SIGRTMIN"},
+        End{SIGRTMIN + 5, "SIGRTMIN+5"}, End{SIGRTMAX, "SIGRTMIN+30"}}) {
     CAPTURE(end.name);
     Program program(one_phase, {"--speed", "real"});
     REQUIRE(program.logs());

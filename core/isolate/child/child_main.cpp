@@ -25,6 +25,7 @@ namespace {
 
 ControlBlock* shared = nullptr;
 std::uintptr_t stack_top = 0;
+pid_t own_process = 0;
 
 // A fault where the main stack would have grown to, had its limit allowed it. A large frame may step over its
 // end by far.
@@ -38,6 +39,10 @@ bool below_stack(std::uintptr_t address) {
 // Async-signal-safe: atomics and system calls alone. The signal, default again, strikes a second time and
 // ends the process.
 void last_act(int signal, siginfo_t* about, void*) {
+  if (::getpid() != own_process) {  // forked by the component
+    ::raise(signal);
+    return;
+  }
   if (signal == SIGSEGV && about->si_code > 0 &&
       below_stack(reinterpret_cast<std::uintptr_t>(about->si_addr)))
     shared->stack_overflow.store(1);
@@ -49,6 +54,7 @@ void last_act(int signal, siginfo_t* about, void*) {
 // Handles the signals of a crash on a stack of their own, for the calling thread.
 void tell_crashes(ControlBlock& control) {
   shared = &control;
+  own_process = ::getpid();
   stack_top = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
   constexpr std::size_t size = 64 * 1024;
   void* room = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -106,6 +112,7 @@ int main(int argc, char** argv) {
   void* memory =
       ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, shared_descriptor, 0);
   if (memory == MAP_FAILED) return 2;
+  ::madvise(memory, size, MADV_DONTFORK);  // a copy of this process writes no answer into it
   auto& control = *static_cast<ControlBlock*>(memory);
   if (::getppid() != control.host_pid) return 1;  // it died before this process asked to die with it
   tell_crashes(control);

@@ -10,15 +10,18 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/isolate/child/fork.hpp"
 #include "core/isolate/child/heap.hpp"
 #include "core/loader/float_mode.hpp"
 #include "core/loader/library.hpp"
 #include "core/loader/script.hpp"
 #include "core/loader/shared_object.hpp"
 #include "core/loader/table.hpp"
+#include "core/original.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -38,7 +41,9 @@ class Session {
     build();
     control().stage = Stage::created;
     fulmar_error error{};
+    original_mark.set();
     instance_ = functions_.create(order.seed, &error);
+    if (!original_mark.is_set()) end_copy();
     error.text[sizeof error.text - 1] = '\0';
     if (!instance_) throw Error(error.text[0] ? error.text : "the constructor failed");
     control().stage = Stage::running;
@@ -62,7 +67,7 @@ class Session {
       number = wait(number);
       const Call call = control().call;
       error.text[0] = '\0';
-      std::uint32_t status = run(call, error);
+      std::uint32_t status = judged(call, error);
       if (!plain_arithmetic()) {
         make_arithmetic_plain();
         std::snprintf(error.text, sizeof error.text, "%s", changed_arithmetic);
@@ -234,6 +239,19 @@ class Session {
   void close() noexcept {
     functions_.destroy(instance_);
     script_.reset();
+  }
+
+  /// A copy of this process, forked in the call, does not come back from it.
+  std::uint32_t judged(Call call, fulmar_error& error) {
+    original_mark.set();
+    refuses_forks = call != Call::configure && call != Call::quit;
+    const std::uint32_t status = run(call, error);
+    refuses_forks = false;
+    if (!original_mark.is_set()) end_copy();
+    const char* const fork = std::exchange(refused_fork, nullptr);
+    if (fork == nullptr) return status;
+    std::snprintf(error.text, sizeof error.text, "calls %s in flight; %s", fork, copy_would_fly);
+    return FULMAR_FAILED;
   }
 
   std::uint32_t run(Call call, fulmar_error& error) {

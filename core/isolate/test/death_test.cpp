@@ -25,6 +25,33 @@ std::string fault_of_setup(const std::string& component, std::int64_t setup_ns =
 
 }  // namespace
 
+TEST_CASE("a fork in a step is refused and fails the step") {
+  Rig rig("Faulty");
+  rig.there();
+  rig.choose("fault", forks);
+  REQUIRE(rig.configure() == FULMAR_OK);
+  rig.give({3, 4, 5});
+  CHECK(rig.step() == FULMAR_FAILED);
+  CHECK(rig.text().find("fork") != std::string::npos);
+  CHECK(rig.child->alive());
+}
+
+TEST_CASE("a copy of the child does not answer for it, neither when it comes back nor when it crashes") {
+  for (const Fault fault : {clones, clone_crashes}) {
+    CAPTURE(fault);
+    Rig rig("Faulty");
+    rig.there();
+    rig.choose("fault", fault);
+    REQUIRE(rig.configure() == FULMAR_OK);
+    for (int i = 0; i < 20; ++i) {
+      rig.give({3, 4.0 + i, 5});
+      CHECK(rig.step() == FULMAR_OK);
+      CHECK(rig.first_output().y_m == 4.0 + i);
+    }
+    CHECK(rig.child->alive());
+  }
+}
+
 TEST_CASE("every way to die in a step is one failed step with its name, and the proxy stays dead") {
   struct Case {
     Fault fault;

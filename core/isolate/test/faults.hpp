@@ -20,7 +20,10 @@ enum Fault : std::uint8_t {
   prints,
   allocates,
   fails,
-  terminates
+  terminates,
+  forks,
+  clones,
+  clone_crashes
 };
 
 }  // namespace isolate_lab

@@ -3,6 +3,8 @@
 // everything wrong.
 #include "fulmar/plugin.hpp"
 
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -164,6 +166,9 @@ void leak(std::size_t bytes) {
   asm volatile("" ::"r"(lost) : "memory");
 }
 
+/// A copy of the process by the kernel's own call, which no function of the C library sees.
+pid_t clone_process() { return static_cast<pid_t>(syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0)); }
+
 /// Does what `fault` says, in each call from `at` on.
 struct Faulty {
   struct Inputs {
@@ -212,6 +217,14 @@ struct Faulty {
       }
       case Fault::fails: return Status::failed;
       case Fault::terminates: std::terminate();
+      case Fault::forks: return fork() < 0 ? Status::ok : Status::failed;
+      case Fault::clones: clone_process(); break;
+      case Fault::clone_crashes: {
+        const pid_t copy = clone_process();
+        if (copy == 0) *reinterpret_cast<volatile int*>(nowhere) = 1;
+        int status = 0;
+        return waitpid(copy, &status, 0) == copy && WIFSIGNALED(status) ? Status::ok : Status::failed;
+      }
       case Fault::none:
       case Fault::not_a_number: break;
     }

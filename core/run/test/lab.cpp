@@ -214,13 +214,20 @@ struct Mute {  ///< a law that may say nothing
   struct Params {
     Param mute_at{1e9, "s", -1e9, 1e9, "says nothing from here on"};
     Flag explains{false, "says that it is degraded when it says nothing"};
+    Param dated_at{1e9, "s", -1e9, 1e9, "dates what it says from here on"};
+    Param ahead{0, "s", -1e10, 1e10, "so far ahead of now"};
   };
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     if (tick.now_s() >= p.mute_at) return p.explains ? Status::degraded : Status::ok;
     Command c;
     c.u_frac = 0.3;
     c.seen_m = in.signal->x_m;
-    out.command.publish(c);
+    const double at_s = tick.now_s() + p.ahead;
+    if (tick.now_s() < p.dated_at)
+      out.command.publish(c);
+    else
+      out.command.publish(c,
+                          at_s > 9e9 ? std::numeric_limits<std::int64_t>::max() : std::llround(1e9 * at_s));
     return Status::ok;
   }
 };

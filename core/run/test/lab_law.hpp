@@ -3,6 +3,7 @@
 #pragma once
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@
 #include <stdexcept>
 #include <thread>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "lab_cart.hpp"
@@ -54,8 +56,27 @@ enum class Fault : std::uint8_t {
   thread_crashes,
   thread_quits,
   forks,
+  forks_on,
+  vforks_on,
+  clones_on,
+  clones_end,
+  narrows,
   parts
 };
+
+/// A copy of the process by the kernel's own call, which no function of the C library sees.
+pid_t clone_process() { return static_cast<pid_t>(syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0)); }
+
+/// Whether a copy of the process ends by the signal that it raises.
+bool copy_ends_by(int signal) {
+  const pid_t copy = clone_process();
+  if (copy == 0) {
+    raise(signal);
+    _exit(0);
+  }
+  int status = 0;
+  return waitpid(copy, &status, 0) == copy && WIFSIGNALED(status) && WTERMSIG(status) == signal;
+}
 
 // Recursion without an end that no compiler can turn into a loop.
 double overflow(double x) {
@@ -160,6 +181,15 @@ struct Law {
       case Fault::divides: raise(SIGFPE); break;
       case Fault::quits: _exit(0);
       case Fault::rounds: std::fesetround(FE_UPWARD); break;
+      case Fault::narrows: {
+#if defined(__x86_64__)
+        const std::uint16_t double_precision = 0x027f;  // of the x87's numbers, which are long double
+        asm volatile("fldcw %0" ::"m"(double_precision));
+#else
+        std::fesetround(FE_UPWARD);
+#endif
+        break;
+      }
       case Fault::moves: std::ignore = chdir("/"); break;
       case Fault::speaks: std::setlocale(LC_ALL, "C"); break;
       case Fault::masks: {
@@ -189,7 +219,7 @@ struct Law {
         break;
       }
       case Fault::fosters: {  // a process of its own, in which it may do as it likes
-        const pid_t child = fork();
+        const pid_t child = clone_process();
         if (child == 0) {
           char name[] = "true";
           char* const words[] = {name, nullptr};
@@ -217,7 +247,16 @@ struct Law {
       case Fault::thread_crashes: std::thread([] { *static_cast<volatile int*>(nowhere) = 1; }).join(); break;
       case Fault::thread_quits: std::thread([] { std::exit(0); }).join(); break;
       case Fault::forks:
-        if (fork() == 0) std::exit(0);
+        if (clone_process() == 0) std::exit(0);
+        break;
+      case Fault::forks_on: std::ignore = fork(); break;  // and both go on
+      case Fault::vforks_on: std::ignore = vfork(); break;
+      case Fault::clones_on:
+        if (!std::exchange(cloned_, true)) clone_process();
+        break;
+      case Fault::clones_end:
+        for (const int signal : {SIGSEGV, SIGTERM, SIGUSR1, SIGRTMIN + 1})
+          if (!copy_ends_by(signal)) return Status::failed;
         break;
       case Fault::parts: parting.crashes = true; break;
       default: break;
@@ -229,6 +268,7 @@ struct Law {
   double taken_ = -9;
   [[maybe_unused]] int steps_ = 0;
   int late_ = 0;
+  bool cloned_ = false;
   std::vector<const char*> kept_;
 };
 

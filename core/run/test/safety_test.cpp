@@ -99,13 +99,16 @@ TEST_CASE("what a component tries to change for everybody stays as it was") {
   const std::string locale = std::setlocale(LC_ALL, nullptr);
   sigset_t before, after;
   pthread_sigmask(SIG_SETMASK, nullptr, &before);
-  for (const char* const fault : {"rounds", "moves", "speaks", "masks", "deafens", "listens"}) {
+  for (const char* const fault : {"rounds", "narrows", "moves", "speaks", "masks", "deafens", "listens"}) {
     CAPTURE(fault);
     const auto interrupt = handler_of(SIGINT), crash = handler_of(SIGSEGV);
     const Graph g = mission(law({fault, "", true}, false));
     Flight flight(g, options(0.3));
     CHECK(flight.run().guards.size() == 1);
     CHECK(std::fegetround() == FE_TONEAREST);
+    volatile long double one = 1, little = std::numeric_limits<long double>::epsilon();
+    const volatile long double sum = one + little;
+    CHECK(sum > 1);
     CHECK(fs::current_path() == here);
     CHECK(std::setlocale(LC_ALL, nullptr) == locale);
     pthread_sigmask(SIG_SETMASK, nullptr, &after);
@@ -120,6 +123,41 @@ TEST_CASE("what a component tries to change for everybody stays as it was") {
 TEST_CASE("what a component has forked is not the host, and may do as it likes") {
   const Graph g = mission(law({"fosters", "", true}, false));
   CHECK(Flight(g, options(0.11)).run().guards.empty());
+}
+
+TEST_CASE("an output that is dated in the future, or before any flight, is a bad output") {
+  for (const auto& [ahead, good] : {std::pair{"1e10 s", false},
+                                    {"2 s", false},
+                                    {"0.5 s", true},
+                                    {"0 s", true},
+                                    {"-7000 s", true},
+                                    {"-7300 s", false}})
+    for (const char* const mode : {"", "run: async, latency: 10 ms, ", "run: process, "}) {
+      CAPTURE(ahead);
+      CAPTURE(mode);
+      const Graph g = mission("  one: {fills: law, use: lab/Mute, "s + mode +
+                              "params: {dated_at: 0.05 s, ahead: " + ahead + "}}\n" + with_fallback);
+      const FlightResult result = Flight(g, options(0.1)).run();
+      CHECK(result.guards.size() == (good ? 0 : 1));
+      if (!good) CHECK(result.guards.at(0).at_ns <= 60'000'000);
+    }
+}
+
+TEST_CASE("a component that forks in flight is stopped, in the loop, beside it and in a child") {
+  for (const char* const mode : {"", "run: async, latency: 10 ms, ", "run: process, "})
+    for (const char* const fault : {"forks_on", "vforks_on"}) {
+      CAPTURE(mode);
+      CAPTURE(fault);
+      const Graph g =
+          mission("  one: {fills: law, use: lab/Law, "s + mode + "params: {id: 1, u: 0.1, fault: " + fault +
+                  ", fault_at: 0.1 s}}\n" + with_fallback);
+      Flight flight(g, options(0.15));
+      const FlightResult result = flight.run();
+      REQUIRE(result.guards.size() == 1);
+      CHECK(result.guards[0].component == "one");
+      CHECK(result.guards[0].at_ns < 120'000'000);
+      CHECK(value(g, flight, "sim", "applied", "by") == 2);
+    }
 }
 
 TEST_CASE("a component beside the loop may start a process, as it may take its time") {

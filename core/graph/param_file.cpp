@@ -419,6 +419,7 @@ void write_edit(const FileEdit& edit) {
     throw Error(edit.path.string() + " cannot be written: " + std::strerror(code));
   };
   if (fault) failed(fault.value());
+  if ((mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0) failed(EACCES);  // the administrator could
   const int file = ::mkostemp(fresh.data(), O_CLOEXEC);
   if (file < 0) failed(errno);
   // On the disk before it takes the name: else a loss of power could leave an empty file under it.

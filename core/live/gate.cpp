@@ -21,6 +21,12 @@ bool is_address(const std::string& host) {
 
 bool is_any(const std::string& host) { return host == "0.0.0.0" || host == "::"; }
 
+/// ":8765", or nothing: what may follow a host.
+bool is_port(std::string_view text) {
+  return text.empty() ||
+         (text[0] == ':' && text.size() <= 6 && std::all_of(text.begin() + 1, text.end(), is_digit));
+}
+
 std::string percent_decoded(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -109,11 +115,11 @@ std::string_view path_of(std::string_view target) { return target.substr(0, targ
 
 std::string host_of_authority(std::string_view authority) {
   if (authority.find_first_of("@/ ") != std::string_view::npos) return "";
-  if (authority.starts_with('[')) {
-    const std::size_t end = authority.find(']');
-    return end == std::string_view::npos ? "" : std::string(authority.substr(1, end - 1));
-  }
-  return std::string(authority.substr(0, authority.find(':')));
+  const bool bracketed = authority.starts_with('[');
+  const std::size_t end = bracketed ? authority.find(']') : std::min(authority.find(':'), authority.size());
+  if (end == std::string_view::npos) return "";
+  if (!is_port(authority.substr(bracketed ? end + 1 : end))) return "";
+  return std::string(authority.substr(bracketed ? 1 : 0, bracketed ? end - 1 : end));
 }
 
 bool is_loopback(const std::string& host) {

@@ -35,7 +35,8 @@ Verdict admit(const LiveOptions& options, const Caller& caller);
 
 /// "/view?token=a" -> "/view".
 std::string_view path_of(std::string_view target);
-/// "localhost:8765" -> "localhost"; "[::1]:8765" -> "::1"; "" when it is none.
+/// "localhost:8765" -> "localhost"; "[::1]:8765" -> "::1"; "" when it is none, or anything but a
+/// port follows.
 std::string host_of_authority(std::string_view authority);
 bool is_loopback(const std::string& host);
 /// Takes as long whatever the first difference is.

@@ -173,7 +173,9 @@ void Hub::guarded(ClientId id, const Work& work) {
     refuse(*client, e.what());
     client->peer->close(1007, e.what());
   } catch (const json::exception& e) {
-    refuse(*client, std::string("the message has not the form that its op asks for: ") + e.what());
+    std::string_view words = e.what();  // "[json.exception.type_error.302] type must be string"
+    words.remove_prefix(std::min(words.find("] ") + 2, words.size()));
+    refuse(*client, "the message has not the form that its op asks for: " + std::string(words));
     client->peer->close(1007, "wrong types");
   } catch (const Error& e) {
     refuse(*client, e.what());

@@ -3,7 +3,10 @@
 // refused at the earliest of these.
 #include "core/loader/library.hpp"
 
+#include <cxxabi.h>
+
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -21,6 +24,7 @@
 #include "core/loader/shared_object.hpp"
 #include "core/loader/store.hpp"
 #include "core/loader/table.hpp"
+#include "core/loader/unique.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -32,6 +36,10 @@ struct Registry {
   std::mutex mutex;
   std::map<std::string, std::weak_ptr<Library>> loaded;
   std::set<std::string> probed;
+  struct Owner {
+    std::string key, name;
+  };
+  std::map<std::string, Owner> unique;  // of each unique symbol; it is never unloaded
 };
 
 Registry& registry() {
@@ -69,6 +77,23 @@ void try_in_child(const fs::path& copy, const std::string& key, const std::strin
     throw Error(fault);
   }
   registry().probed.insert(key);
+}
+
+std::string plain_name(const std::string& symbol) {
+  int failed = 0;
+  const std::unique_ptr<char, void (*)(void*)> plain(
+      abi::__cxa_demangle(symbol.c_str(), nullptr, nullptr, &failed), &std::free);
+  return plain ? plain.get() : symbol;
+}
+
+/// Throws when another file that was loaded has one of the unique symbols: this one would get its data.
+void refuse_shared(const std::vector<std::string>& symbols, const std::string& key, const std::string& name) {
+  for (const std::string& symbol : symbols)
+    if (const auto owner = registry().unique.find(symbol);
+        owner != registry().unique.end() && owner->second.key != key)
+      throw Error(name + " has the unique symbol " + plain_name(symbol) + ", as " + owner->second.name +
+                  ", which is loaded: one would fly with the data of the other. Build both with "
+                  "-fno-gnu-unique, or as fulmar_add_plugin does");
 }
 
 }  // namespace
@@ -132,6 +157,8 @@ std::shared_ptr<Library> Library::open(const fs::path& file, const Expected& exp
   library->key_ = key;
   library->copy_ = keep_copy(bytes, sha256, script ? file.extension().string() : ".so");
   try_in_child(library->copy_, key, name, script ? host->copy_ : "", place);
+  const std::vector<std::string> unique = script ? std::vector<std::string>{} : unique_symbols(bytes);
+  refuse_shared(unique, key, name);
   library->handle_ = std::make_unique<Handle>();
   PluginInfo& info = library->info_;
   info.file = name;
@@ -148,6 +175,7 @@ std::shared_ptr<Library> Library::open(const fs::path& file, const Expected& exp
   if (script) info.script = library->copy_.string();
   library->handle_->copy_functions();
   registry().loaded[key] = library;
+  for (const std::string& symbol : unique) registry().unique[symbol] = {key, name};
   return library;
 }
 

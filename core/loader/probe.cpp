@@ -68,20 +68,45 @@ struct Pipe {
 };
 
 struct Outcome {
-  std::string report;
+  std::string report, words;  // of the probe, and the last that anything wrote to its standard error
   int signal = 0, exit_code = 0;
   bool in_time = false;
   std::string limit;  // that it did not keep
 };
 
-// False at the end of the report.
-bool read_some(int pipe, std::string& report) {
-  constexpr std::size_t longest = 16384;  // a plugin may have found the pipe and write to it
-  char piece[1024];
-  const ssize_t n = ::read(pipe, piece, sizeof piece);
-  if (n > 0 && report.size() < longest) report.append(piece, static_cast<std::size_t>(n));
-  return n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
-}
+/// What comes out of a pipe: the beginning of it, or its end.
+class Stream {
+ public:
+  enum class Keeps : unsigned char { beginning, end };
+  Stream(std::string& text, Keeps keeps) : text_(text), keeps_(keeps) {
+    ::fcntl(pipe_.ends[0], F_SETFL, O_NONBLOCK);
+  }
+  int writing() const { return pipe_.ends[1]; }
+  /// -1 when it has ended.
+  int reading() const { return open_ ? pipe_.ends[0] : -1; }
+  void leave_writing() { ::close(std::exchange(pipe_.ends[1], -1)); }
+  /// False when there was nothing.
+  bool read_some() {
+    constexpr std::size_t longest = 16384;  // a plugin may have found the pipe and write to it
+    char piece[1024];
+    const ssize_t n = ::read(pipe_.ends[0], piece, sizeof piece);
+    if (n > 0 && (keeps_ == Keeps::end || text_.size() < longest))
+      text_.append(piece, static_cast<std::size_t>(n));
+    if (keeps_ == Keeps::end && text_.size() > 2 * longest) text_.erase(0, text_.size() - longest);
+    open_ = n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
+    return n > 0;
+  }
+  /// What is in it now, however much a process that still writes adds.
+  void read_rest() {
+    for (int i = 0; i < 1000 && read_some(); ++i) continue;
+  }
+
+ private:
+  Pipe pipe_;
+  std::string& text_;
+  Keeps keeps_;
+  bool open_ = true;
+};
 
 /// The one that loads the plugin, a child of the probe; 0: it has not said so yet.
 pid_t loading_process(const std::string& report) {
@@ -97,33 +122,49 @@ void end_probe(Process& child) {
 }
 
 Outcome run_probe(const std::vector<std::string>& words, double limit_s) {
-  Pipe pipe;
-  ChildFiles files;
-  files.out = pipe.ends[1];
-  Process child(probe_program().string(), words, files);
-  ::close(std::exchange(pipe.ends[1], -1));
-  const int reading = pipe.ends[0];
   Outcome outcome;
+  Stream report(outcome.report, Stream::Keeps::beginning), error(outcome.words, Stream::Keeps::end);
+  ChildFiles files;
+  files.out = report.writing();
+  files.error = error.writing();
+  Process child(probe_program().string(), words, files);
+  for (Stream* const stream : {&report, &error}) stream->leave_writing();
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                            std::chrono::duration<double>(wall_per_cpu * limit_s));
-  ::fcntl(reading, F_SETFL, O_NONBLOCK);
-  bool open = true;
   while (!(outcome.in_time = child.ended()) && outcome.limit.empty()) {
     if (cpu_s(loading_process(outcome.report)) > limit_s)
       outcome.limit = number_text(limit_s) + " s of the CPU";
     if (Clock::now() > deadline) outcome.limit = number_text(wall_per_cpu * limit_s) + " s";
     // the pipe closes when the child ends: no need to wait long after that, and none to sleep before
-    pollfd waiting{reading, POLLIN, 0};
-    if (::poll(&waiting, open ? 1u : 0u, open ? 10 : 1) > 0) open = read_some(reading, outcome.report);
+    pollfd waiting[] = {{report.reading(), POLLIN, 0}, {error.reading(), POLLIN, 0}};
+    if (::poll(waiting, 2, report.reading() >= 0 ? 10 : 1) <= 0) continue;
+    if (waiting[0].revents != 0) report.read_some();
+    if (waiting[1].revents != 0) error.read_some();
   }
   if (!outcome.in_time) end_probe(child);
-  std::size_t before = 0;
-  do {
-    before = outcome.report.size();
-  } while (read_some(reading, outcome.report) && outcome.report.size() > before);
+  report.read_rest();
+  error.read_rest();
   outcome.signal = child.signal();
   outcome.exit_code = child.exit_code();
   return outcome;
+}
+
+}  // namespace
+
+namespace {
+
+/// ": what(): no licence": the last line that says something, of what the plugin and the system wrote while
+/// they failed.
+std::string last_line(std::string_view words) {
+  constexpr std::size_t longest = 200;
+  while (!words.empty()) {
+    const std::size_t end = words.find_last_of("\r\n");
+    const std::string_view line = trimmed(words.substr(end == std::string_view::npos ? 0 : end + 1));
+    words = words.substr(0, end == std::string_view::npos ? 0 : end);
+    if (line.empty() || line.ends_with("==ABORTING")) continue;  // a sanitizer's summary is before it
+    return ": " + for_terminal(std::string(line.substr(0, longest)));
+  }
+  return "";
 }
 
 }  // namespace
@@ -141,14 +182,15 @@ std::string probe(const fs::path& copy, const std::string& name, const ProbedScr
     return name + " did not finish " + doing + " within " + outcome.limit;
   }
   if (outcome.signal != 0)
-    return name + " crashed while being " + stage + " (signal " + std::to_string(outcome.signal) + ")";
+    return name + " crashed while being " + stage + " (signal " + std::to_string(outcome.signal) + ")" +
+           last_line(outcome.words);
   if (const std::size_t at = report.find(report_fault); at != std::string::npos) {
     const std::size_t begin = at + report_fault.size();
     return report.substr(begin, report.find('\n', begin) - begin);
   }
   if (said(report_good) && outcome.exit_code == 0) return "";
   return name + " ended the process while being " + stage + " (exit code " +
-         std::to_string(outcome.exit_code) + ")";
+         std::to_string(outcome.exit_code) + ")" + last_line(outcome.words);
 }
 
 bool stays_mapped(const fs::path& copy) {

@@ -26,6 +26,7 @@ struct Series {
   std::int64_t delay_ns = 0;
   std::string key, path;
   std::size_t last_line = 0;
+  std::size_t cut_at = 0;  ///< byte of the file; 0: it is whole
   const char* line_word = "line";
   LeftOut left_out;
 };
@@ -65,7 +66,7 @@ class Reader {
   Series<M> read(Make make) {
     table_ = files_.read(from_, key_, wanted_);
     Series<M> series;
-    series.key = key_, series.path = path_;
+    series.key = key_, series.path = path_, series.cut_at = table_.cut_at;
     if (!files_.has_lines(from_)) series.line_word = "message";
     series.delay_ns = ns_of(from_.delay_s);
     std::vector<std::int64_t> stamps_ns;
@@ -82,6 +83,8 @@ class Reader {
       lines.push_back(table_.lines[i]);
     }
     keep_order(series, stamps_ns, samples, lines);
+    if (table_.rows() == 0 && !files_.has_lines(from_))
+      refuse(key_ + ".from.topic", path_ + " has no message of it");
     if (series.samples.empty())
       refuse(key_ + ".from.file", path_ + ": none of its " + std::to_string(table_.rows()) +
                                       " rows can be used: the file ends early, or these are not the columns");

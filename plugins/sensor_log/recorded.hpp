@@ -6,6 +6,7 @@
 #include <fulmar/msg/rc.hpp>
 #include <fulmar/msg/vehicle_status.hpp>
 #include <fulmar/plugin.hpp>
+#include <map>
 
 #include "refusals.hpp"
 #include "schedule.hpp"
@@ -36,7 +37,7 @@ struct Recorded {
     Rc rc;
     VehicleStatus status;
     Recording recording;
-    OutQueue<Notice, 5> notices;
+    OutQueue<Notice, 10> notices;
   };
   struct Params {
     Record<Description> log{"which columns of which files are which sensor", required};
@@ -113,9 +114,23 @@ struct Recorded {
       refuse_early_end(s, d_.use);
       count(s.left_out, words_of(s));
     });
+    tell_cuts();
     if (d_.utc_at_zero_s == 0) return;
     for (std::size_t i = 0; i < gnss_.samples.size(); ++i)
       gnss_.samples[i].utc_ns = ns_of(d_.utc_at_zero_s) + gnss_.at_ns[i] - gnss_.delay_ns;
+  }
+
+  /// Each file that is cut off, with the last sample that is whole.
+  void tell_cuts() {
+    std::map<std::string, std::pair<std::size_t, std::int64_t>> cuts;
+    each([&](const auto& s) {
+      if (s.cut_at == 0) return;
+      auto& [at, last_ns] = cuts[s.path];
+      at = s.cut_at;
+      last_ns = std::max(last_ns, s.at_ns.back());
+    });
+    for (const auto& [path, cut] : cuts)
+      notices_.push_back({{cut_words(path, cut.first, cut.second)}, Severity::warning});
   }
 
   void count(const LeftOut& left_out, const std::string& words) {

@@ -86,6 +86,11 @@ void refuse_early_end(const Series<M>& s, const Window& use) {
                                    seconds_of(s.at_ns.back()) + "; `use:` wants it to " + seconds(use.to_s));
 }
 
+inline std::string cut_words(const std::string& path, std::size_t at, std::int64_t last_ns) {
+  return path.substr(path.rfind('/') + 1) + ": cut off: byte " + std::to_string(at) + ", at " +
+         seconds_of(last_ns) + "; read up to there";
+}
+
 template <class M>
 std::string words_of(const Series<M>& s) {
   const LeftOut& out = s.left_out;

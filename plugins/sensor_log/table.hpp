@@ -28,6 +28,7 @@ struct Column {
 struct Table {
   std::vector<Column> columns;     ///< in the order in which they were wanted
   std::vector<std::size_t> lines;  ///< where each row is, for people: a line, or the number of a message
+  std::size_t cut_at = 0;          ///< the byte at which the file is cut off in a record; 0: it is whole
   std::size_t rows() const { return lines.size(); }
 };
 

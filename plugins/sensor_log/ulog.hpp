@@ -30,6 +30,7 @@ class Ulog {
       }
       table.lines.push_back(table.rows() + 1);
     });
+    table.cut_at = cut_at_;
     return table;
   }
 
@@ -53,7 +54,14 @@ class Ulog {
     Cursor all{&file_, file_.bytes, 0, 0};
     all.take(16);
     logged_ = false;
+    cut_at_ = 0;
     while (all.more()) {
+      const std::size_t end = end_of_part(all.at);
+      if (!whole_record(all, end)) {
+        if (end == file_.bytes.size()) cut_at_ = all.at;
+        all.at = end;
+        continue;
+      }
       const auto size = all.number<std::uint16_t>();
       const char kind = all.number<char>();
       Cursor record = all.part(size);
@@ -64,16 +72,33 @@ class Ulog {
     }
     if (!logged_)
       refuse(file_.key.substr(0, file_.key.rfind('.')) + ".topic",
-             "no topic '" + topic_ + "' in " + file_.path + "; there are " + all_of(topics_));
+             "no topic '" + topic_ + "' in " + file_.path + "; there are " + all_of(topics_) +
+                 (cut_at_ > 0 ? "; the file is cut off at byte " + std::to_string(cut_at_) : ""));
   }
 
-  /// What a reader has to understand: that data were appended later is all that PX4 writes there, and only
-  /// after it has crashed.
-  static void flags(Cursor& record) {
+  /// PX4 writes until the power goes: the last record of a part need not be whole.
+  static bool whole_record(Cursor at, std::size_t end) {
+    constexpr std::size_t head = 3;
+    return end - at.at >= head && end - at.at - head >= at.number<std::uint16_t>();
+  }
+
+  /// Where the part of the file ends in which `at` is: data appended after a crash begin anew.
+  std::size_t end_of_part(std::size_t at) const {
+    std::size_t end = file_.bytes.size();
+    for (const std::uint64_t begin : appended_)
+      if (begin > at && begin < end) end = static_cast<std::size_t>(begin);
+    return end;
+  }
+
+  /// What a reader has to understand: of these bits PX4 sets one, where it has appended data after a crash.
+  void flags(Cursor& record) {
     record.take(8);
-    for (const char bits : record.take(8))
-      if (bits != 0)
-        record.fault("the log was appended to after a crash, or is of a later kind; this cannot be read");
+    const std::string_view bits = record.take(8);
+    for (std::size_t i = 0; i < bits.size(); ++i)
+      if ((bits[i] & ~(i == 0 ? 1 : 0)) != 0)
+        record.fault("the log is of a later kind, which cannot be read");
+    if (bits[0] == 0) return;
+    for (std::uint64_t& begin : appended_) begin = record.number<std::uint64_t>();
   }
 
   void new_topic(Cursor& record) {
@@ -170,6 +195,8 @@ class Ulog {
   const File& file_;
   std::string topic_, name_;
   bool logged_ = false;
+  std::array<std::uint64_t, 3> appended_{};  // where appended data begin; 0: none
+  std::size_t cut_at_ = 0;                   // the record that is not whole; 0: none
   std::uint16_t id_ = 0;
   std::vector<std::string> topics_;
   std::map<std::string, std::string> formats_;

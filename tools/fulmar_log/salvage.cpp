@@ -2,8 +2,13 @@
 // See salvage.hpp. Source: the MCAP file format specification, version 0.
 #include "tools/fulmar_log/salvage.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 
 #include "core/error.hpp"
 
@@ -16,8 +21,21 @@ Salvage::Salvage(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, ignored)) return;  // McapStream says so
   in_.open(file, std::ios::binary | std::ios::ate);
   if (!in_) return;
+  holes_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   size_ = static_cast<std::uint64_t>(in_.tellg());
   read_summary();
+}
+
+Salvage::~Salvage() {
+  if (holes_ >= 0) ::close(holes_);
+}
+
+/// The next byte at `at` or behind that the file system has stored; the file's size when there is none. A
+/// file that lost its end in a power failure can have gigabytes that were never written.
+std::uint64_t Salvage::next_stored(std::uint64_t at) const {
+  const off_t stored = holes_ < 0 ? -1 : ::lseek(holes_, static_cast<off_t>(at), SEEK_DATA);
+  if (stored >= 0) return static_cast<std::uint64_t>(stored);
+  return holes_ >= 0 && errno == ENXIO ? size_ : at;
 }
 
 void Salvage::seek(std::uint64_t to) {
@@ -105,16 +123,25 @@ std::uint64_t Salvage::go_on(std::uint64_t place, std::uint8_t code, std::uint64
   return next > 0 ? next : behind;
 }
 
+namespace {
+
+bool is_zero(Data block) {
+  return block[0] == std::byte{0} && std::memcmp(block.data(), block.data() + 1, block.size() - 1) == 0;
+}
+
+}  // namespace
+
 std::uint64_t Salvage::next_place(std::uint64_t place) {
   const auto later = named_.upper_bound(place);
   if (later != named_.end() && later->first < size_) return later->first;
   if (!named_.empty()) return 0;
   constexpr std::uint64_t step = 64 << 10, overlap = mcap::record_head;
   std::vector<std::byte> block(step + overlap);
-  for (std::uint64_t at = place + 1; at + overlap < size_; at += step) {
+  for (std::uint64_t at = next_stored(place + 1); at + overlap < size_; at = next_stored(at + step)) {
     const std::uint64_t bytes = std::min<std::uint64_t>(block.size(), size_ - at);
     seek(at);
     read(block.data(), bytes);
+    if (is_zero(Data(block).first(bytes))) continue;
     for (std::uint64_t i = 0; i + overlap <= bytes && i < step; ++i)
       if (begins_record(Data(block).subspan(i, overlap), at + i)) return at + i;
   }

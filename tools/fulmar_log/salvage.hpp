@@ -23,6 +23,9 @@ struct LeftOut {
 class Salvage : public McapSalvage {
  public:
   explicit Salvage(const std::filesystem::path& file);
+  ~Salvage();
+  Salvage(const Salvage&) = delete;
+  Salvage& operator=(const Salvage&) = delete;
   void check_head(std::uint64_t place, std::uint8_t code, std::uint64_t length) override;
   void check_whole(std::uint64_t place, std::uint8_t code, std::uint64_t length) override;
   std::uint64_t go_on(std::uint64_t place, std::uint8_t code, std::uint64_t behind) override;
@@ -32,6 +35,7 @@ class Salvage : public McapSalvage {
  private:
   void read_summary();
   void name_place(std::uint8_t code, mcap::Cursor of);
+  std::uint64_t next_stored(std::uint64_t at) const;
   std::uint64_t next_place(std::uint64_t place);
   bool begins_record(mcap::Data head, std::uint64_t at);
   std::uint64_t length_within(std::uint8_t code);
@@ -42,6 +46,7 @@ class Salvage : public McapSalvage {
   void read(std::byte* to, std::uint64_t bytes);
 
   std::ifstream in_;
+  int holes_ = -1;  // the same file, to ask where it has holes
   std::uint64_t size_ = 0, place_ = 0;
   std::map<std::uint64_t, std::uint8_t> named_;  // places that the summary names, and what is there
   LeftOut left_out_;

@@ -284,6 +284,18 @@ TEST_CASE("what cannot be written whole leaves the file as it was, and nothing b
   CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
 }
 
+TEST_CASE("a file that is read-only is left alone, by an administrator too") {
+  const Folder folder;
+  const std::string before = "components:\n  slc:\n    params:\n      a: 1\n";
+  const fs::path mission = folder.file("m.yaml", before);
+  const FileEdit edit = plan_save(mission, {number("a", 2)}, {}).files.at(0);
+  fs::permissions(mission, fs::perms::owner_read);
+  CHECK_THROWS_AS(write_edit(edit), Error);
+  std::stringstream now;
+  now << std::ifstream(mission, std::ios::binary).rdbuf();
+  CHECK(now.str() == before);
+}
+
 TEST_CASE("block scalars and broken files are refused") {
   CHECK(refused("components:\n  slc:\n    params:\n      note: |\n        a\n", {text("note", "b")}) ==
         "m.yaml: slc.note is b now; write it by hand: it is written in a form that is not changed here");

@@ -40,7 +40,8 @@ TEST_CASE("names that this computer has for itself are answered, others are not"
   for (const char* host : {"evil.example", "evil.example:8765", "localhost.evil.example",
                            "127.0.0.1.evil.example", "192.168.1.5", "[fe80::1]"})
     CHECK(status(options, {"/", host, "", ""}) == 403);
-  for (const char* host : {"", ":8765", "[::1", "a@localhost", "localhost/x"})
+  for (const char* host : {"", ":8765", "[::1", "a@localhost", "localhost/x", "localhost:8765evil",
+                           "localhost:evil.example", "[::1]evil", "[::1]:x", "localhost:123456"})
     CHECK(status(options, {"/", host, "", ""}) == 400);
 }
 
@@ -49,8 +50,9 @@ TEST_CASE("pages of other sites may not speak to a flight") {
   for (const char* origin :
        {"http://localhost:8765", "http://127.0.0.1:3000", "https://localhost", "http://[::1]:1"})
     CHECK(status(options, {"/", "localhost:8765", origin, ""}) == 200);
-  for (const char* origin : {"http://evil.example", "https://localhost.evil.example", "null", "file://",
-                             "http://", "http://evil.example:8765"})
+  for (const char* origin :
+       {"http://evil.example", "https://localhost.evil.example", "null", "file://", "http://",
+        "http://evil.example:8765", "http://localhost:8765.evil.example", "http://[::1].evil.example"})
     CHECK(status(options, {"/", "localhost:8765", origin, ""}) == 403);
 }
 

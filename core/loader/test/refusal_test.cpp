@@ -129,6 +129,27 @@ TEST_CASE("tables that contradict themselves are refused by name") {
   CHECK(refusal(plugin("no_read")) == "no_read.so: component 'Point' lacks the function read");
 }
 
+TEST_CASE("files that would share static data are not loaded side by side") {
+  if (!fs::exists(plugin("resident_unique"))) return;  // clang makes no such symbols
+  const auto first = fulmar::core::Library::open(plugin("resident_unique"));
+  const std::string second = refusal(plugin("resident_unique_too"));
+  for (const char* const word : {"resident_unique_too.so", "resident_unique.so", "-fno-gnu-unique"})
+    CHECK_MESSAGE(second.find(word) != std::string::npos, second);
+  CHECK(refusal(plugin("resident_unique")) == "accepted");
+  CHECK(refusal(plugin("unique_alone")) == "accepted");
+}
+
+TEST_CASE("the last words of a plugin that cannot be loaded are in its refusal, without control characters") {
+  CHECK(refusal(plugin("words_throws")) ==
+        "words_throws.so crashed while being loaded (signal 6): what():  the licence server is not reached");
+  CHECK(refusal(plugin("words_exits")) ==
+        "words_exits.so ended the process while being loaded (exit code 1): the runtime does not come first");
+  const std::string aborted = refusal(plugin("words_aborts"));
+  CHECK(aborted.starts_with("words_aborts.so crashed while being loaded (signal 6): "));
+  CHECK_MESSAGE(aborted.find("SUMMARY: out of licences") != std::string::npos, aborted);
+  CHECK(aborted.find_first_of("\x1b\x07\n") == std::string::npos);
+}
+
 TEST_CASE("what a plugin does while it is loaded happens to a child") {
   CHECK(refusal(plugin("crash")) == "crash.so crashed while being loaded (signal 11)");
   CHECK(refusal(plugin("crash_unload")) == "crash_unload.so crashed while being unloaded (signal 6)");

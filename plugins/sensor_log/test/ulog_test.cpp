@@ -108,8 +108,8 @@ TEST_CASE("what cannot be read of a ULog is refused in one sentence") {
             .starts_with(
                 "log.imu.rate.columns[1]: no column 'gyro_rad[3]' in sensor_combined of flight.ulg; there "
                 "are timestamp, gyro_rad[0], gyro_rad[1], gyro_rad[2], "));
-  CHECK(refusal(imu_topic(), ulog_begin(1) + ulog_topic(0, 1, "x"))
-            .find("the log was appended to after a crash") != std::string::npos);
+  CHECK(refusal(imu_topic(), ulog_begin(2) + ulog_topic(0, 1, "x")).find("of a later kind") !=
+        std::string::npos);
   CHECK(refusal(imu_topic(), ulog_begin() + ulog_topic(0, 1, "sensor_combined")) ==
         "log.imu.from.file: flight.ulg has no format of 'sensor_combined'");
   const std::string with_pose = ulog_format("sensor_combined:uint64_t timestamp;pose[2] p;");
@@ -124,14 +124,61 @@ TEST_CASE("what cannot be read of a ULog is refused in one sentence") {
         "log.imu.from.file: flight.ulg has no format of 'pose'");
   CHECK(refusal(imu_topic(), one_topic(with_pose + ulog_format("pose:float[60000] p;"))) ==
         "log.imu.from.file: flight.ulg: 'float[60000] p[1].p' is more than a message can hold");
-  const std::string cut = ulog().substr(0, ulog().size() - 1);
-  CHECK(refusal(imu_topic(), cut).find("the file ends early, or is damaged") != std::string::npos);
+  const std::string silent = ulog_begin() + ulog_format("sensor_combined:uint64_t timestamp;float x;") +
+                             ulog_topic(0, 1, "sensor_combined");
+  Description empty = imu_topic();
+  empty.imu.rate.columns = empty.imu.specific_force.columns = {"x", "x", "x"};
+  CHECK(refusal(empty, silent) == "log.imu.from.topic: flight.ulg has no message of it");
   Description csv = imu_topic();
   csv.imu.from.file = "imu.csv";
   const Folder folder;
   folder.write("imu.csv", level(3));
   CHECK(fly(csv, folder).fault ==
         "log.imu.from.topic: " + folder.path.string() + "/imu.csv has none; bags and ULogs have");
+}
+
+TEST_CASE("a ULog that the power has cut is read up to its last whole record, and says where it is cut") {
+  constexpr std::size_t record = 3 + 2 + 8 + 6 * 4, rows = 40;
+  std::string begin = ulog_begin() +
+                      ulog_format(
+                          "sensor_combined:uint64_t timestamp;float[3] gyro_rad;float[3] "
+                          "accelerometer_m_s2;") +
+                      ulog_topic(0, 7, "sensor_combined");
+  std::string whole = begin;
+  for (std::uint64_t i = 0; i < rows; ++i)
+    whole += ulog_data(
+        7, raw(1'000'000 + 5'000 * i) + raw(0.F) + raw(0.F) + raw(0.F) + raw(0.F) + raw(0.F) + raw(-9.8F));
+  REQUIRE(whole.size() == begin.size() + rows * record);
+  for (std::size_t size = whole.size() - 1000; size <= whole.size(); size += 3) {
+    CAPTURE(size);
+    const Flown f = flown(imu_topic(), whole.substr(0, size));
+    const std::size_t kept = (size - begin.size()) / record, at = begin.size() + kept * record;
+    CHECK(f.fault == "");
+    CHECK(f.imu.size() == kept);
+    REQUIRE(f.notices.size() == (at == size ? 0 : 1));
+    if (at == size) continue;
+    CHECK(f.notices[0].find("byte " + std::to_string(at)) != std::string::npos);
+    CHECK(f.notices[0].find(seconds(0.005 * static_cast<double>(kept - 1))) != std::string::npos);
+  }
+}
+
+TEST_CASE("what PX4 has appended to a ULog after a crash is read, behind the record that the crash has cut") {
+  const auto row = [](std::uint64_t t_us) {
+    return ulog_data(7, raw(t_us) + raw(0.F) + raw(0.F) + raw(0.F) + raw(0.F) + raw(0.F) + raw(-9.8F));
+  };
+  std::string file = ulog_begin(1) +
+                     ulog_format(
+                         "sensor_combined:uint64_t timestamp;float[3] gyro_rad;float[3] "
+                         "accelerometer_m_s2;") +
+                     ulog_topic(0, 7, "sensor_combined") + row(1'000'000) + row(1'005'000);
+  file += row(1'010'000).substr(0, 20);
+  constexpr std::size_t offsets_at = 16 + 3 + 8 + 8;
+  file.replace(offsets_at, 8, raw(std::uint64_t{file.size()}));
+  file += row(1'020'000) + row(1'025'000) + row(1'030'000);
+  const Flown f = flown(imu_topic(), file);
+  CHECK(f.fault == "");
+  CHECK(f.ticks_ns == std::vector<std::int64_t>{0, 5'000'000, 20'000'000, 25'000'000, 30'000'000});
+  CHECK(f.notices.empty());
 }
 
 TEST_CASE("every beginning of a ULog, and every one with one byte changed, is read or refused in words") {

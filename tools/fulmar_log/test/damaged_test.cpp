@@ -193,6 +193,38 @@ constexpr int chunk_code = 6, index_code = 7, attachment_code = 9, metadata_code
 
 }  // namespace
 
+namespace {
+
+/// Bytes that this process has read so far; 0 where the system does not count them.
+std::uint64_t bytes_read() {
+  std::ifstream in("/proc/self/io");
+  std::string word;
+  std::uint64_t n = 0;
+  return in >> word >> n && word == "rchar:" ? n : 0;
+}
+
+}  // namespace
+
+TEST_CASE("what lies behind gigabytes that were never written is recovered without reading them") {
+  Pieces p;
+  const std::size_t last = p.places.at(chunk_code).at(9);
+  const std::string chunk = p.bytes.substr(last, p.places.at(index_code).back() - last);
+  const std::filesystem::path file = p.folder.path / "sparse.mcap.part";
+  constexpr std::uint64_t hole = std::uint64_t{5} << 30, most_read = 50'000'000;
+  for (const bool behind : {false, true}) {
+    CAPTURE(behind);
+    store(file, p.bytes.substr(0, last + 40));
+    std::filesystem::resize_file(file, hole);
+    if (behind) std::ofstream(file, std::ios::binary | std::ios::app) << chunk;
+    const std::uint64_t before = bytes_read();
+    const Recovery r = recover_log(file, p.folder.path / "good.mcap");
+    CHECK(bytes_read() - before < most_read);
+    CHECK(r.left_out.chunks == 1);
+    CHECK(r.written.messages == (behind ? 1000 : 900));
+    std::filesystem::remove(p.folder.path / "good.mcap");
+  }
+}
+
 TEST_CASE("one flipped bit costs the chunk or the attachment in which it is, and nothing else") {
   Pieces p;
   REQUIRE(p.places[chunk_code].size() == 10);

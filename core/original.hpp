@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tells a process from a copy of it that a component has forked. A copy has the host's log, ports and
-// devices; none of its acts may be taken for the host's.
+// Distinguishes a process from a copy of it that a component has forked. A copy has the log, ports and
+// devices of the host, and must not act as the host.
 #pragma once
 #include <pthread.h>
 #include <sys/mman.h>

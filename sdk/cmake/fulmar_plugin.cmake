@@ -2,7 +2,7 @@
 # fulmar_add_plugin(NAME source... [GEODESY] [LINK library...] [TEST source...])
 #
 # One shared object with one exported symbol. Without a version script, or with unique symbols on gcc, a library stays mapped after it is
-# closed and a swap would silently fly the old code. TEST adds a program NAME_test and a ctest entry; doctest's main is there.
+# closed and a swap would silently fly the old code; the target fulmar::sdk has the flag against them. TEST adds a program NAME_test and a ctest entry; doctest's main is there.
 # GEODESY links what <fulmar/flight/geodesy.hpp> needs, GeographicLib: that header and the navigator, which includes it, need more than headers. Targets of other
 # kinds link fulmar::geodesy after fulmar_find_geodesy().
 set(FULMAR_VERSION_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/plugin.version CACHE INTERNAL "exports the entry alone")
@@ -34,7 +34,7 @@ function(fulmar_add_plugin name)
   set_target_properties(${name} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON C_VISIBILITY_PRESET hidden
                         LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/fulmar LINK_DEPENDS ${FULMAR_VERSION_SCRIPT})
   target_compile_features(${name} PRIVATE cxx_std_20)
-  target_compile_options(${name} PRIVATE -ffp-contract=off -fno-math-errno $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique> $<$<CXX_COMPILER_ID:Clang>:-fconstexpr-steps=20000000>)
+  target_compile_options(${name} PRIVATE -ffp-contract=off -fno-math-errno $<$<CXX_COMPILER_ID:Clang>:-fconstexpr-steps=20000000>)
   # now: symbols are bound when the plugin is loaded, not by the first call in flight
   target_link_options(${name} PRIVATE -Wl,--version-script=${FULMAR_VERSION_SCRIPT} -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
   if(NOT FULMAR_SANITIZE)

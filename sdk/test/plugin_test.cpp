@@ -265,6 +265,86 @@ TEST_CASE("what a component throws arrives as text, and nothing crosses") {
   CHECK(bench.error() == "seven is unlucky");
 }
 
+namespace {
+
+struct Wordless : std::exception {
+  const char* what() const noexcept override { return nullptr; }
+};
+struct Empty : std::exception {
+  const char* what() const noexcept override { return ""; }
+};
+[[noreturn]] void throw_something() { throw std::runtime_error("there are no words"); }
+struct Failing : std::exception {
+  const char* what() const noexcept override { throw_something(); }
+};
+
+enum class Place { nowhere, constructor, configure, activate, step };
+Place thrown_in = Place::nowhere;
+int kind_thrown = 0;
+
+/// Throws where it shall what has no words.
+struct Odd {
+  struct Inputs {};
+  struct Outputs {
+    Probe steps_ratio;
+  };
+  struct Params {};
+  Odd() { pass(Place::constructor); }
+  void configure(const Params&) { pass(Place::configure); }
+  Status activate(const Tick&, const Inputs&, const Params&, const Outputs&) { return pass(Place::activate); }
+  Status step(const Tick&, const Inputs&, const Params&, Outputs&) { return pass(Place::step); }
+
+  static Status pass(Place here) {
+    if (here != thrown_in) return Status::ok;
+    if (kind_thrown == 0) throw Wordless();
+    if (kind_thrown == 1) throw Empty();
+    throw Failing();
+  }
+};
+
+/// The first of its calls that fails, and the text that comes with it.
+std::pair<Place, std::string> first_failure() {
+  const fulmar_component c = detail::component_entry<Odd>();
+  fulmar_error error{};
+  const fulmar_tick tick{};
+  double probe = 0;
+  fulmar_input last{};
+  fulmar_output out{};
+  out.data = &probe;
+  void* const instance = c.create(1, &error);
+  if (!instance) return {Place::constructor, error.text};
+  Place failed = Place::nowhere;
+  if (c.configure(instance, nullptr, &error) == FULMAR_FAILED)
+    failed = Place::configure;
+  else if (c.activate(instance, &tick, nullptr, &last, &error) == FULMAR_FAILED)
+    failed = Place::activate;
+  else if (c.step(instance, &tick, nullptr, &out, &error) == FULMAR_FAILED)
+    failed = Place::step;
+  c.destroy(instance);
+  return {failed, error.text};
+}
+
+}  // namespace
+
+TEST_CASE("an exception without words, or whose words throw, fails its call and is named by its type") {
+  const std::terminate_handler before = std::get_terminate();
+  const char* const types[] = {"Wordless", "Empty", "Failing"};
+  for (const Place place : {Place::constructor, Place::configure, Place::activate, Place::step})
+    for (kind_thrown = 0; kind_thrown < 3; ++kind_thrown) {
+      CAPTURE(static_cast<int>(place));
+      CAPTURE(kind_thrown);
+      thrown_in = place;
+      const auto [failed, text] = first_failure();
+      CHECK(failed == place);
+      CHECK_MESSAGE(text.find(types[kind_thrown]) != std::string::npos, text);
+      CHECK(std::uncaught_exceptions() == 0);
+      CHECK_FALSE(std::current_exception());
+    }
+  thrown_in = Place::nowhere;
+  CHECK(first_failure().first == Place::nowhere);
+  CHECK((std::get_terminate() == before));
+}
+
 TEST_CASE("parameters arrive in configure and retune, the last outputs in activate") {
   Bench<Everything> bench;
   bench.params.roll_kp.value = 0.7;

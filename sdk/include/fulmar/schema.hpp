@@ -408,6 +408,11 @@ consteval bool marked_exist() {
     if (!names_member<T>(rising)) return false;
   return instead_field<T>.empty() || names_member<T>(instead_field<T>);
 }
+template <class T>
+constexpr void take_range(fulmar_field& field, std::string_view name) {
+  for (const FieldRange& range : field_ranges<T>)
+    if (range.field == name) field.min = range.min, field.max = range.max;
+}
 template <class T, class... M>
 consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
   constexpr std::size_t count = sizeof...(M);
@@ -425,6 +430,7 @@ consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
       if (is_required<T>(name)) f.flags |= FULMAR_FIELD_REQUIRED;
       if (is_rising<T>(name)) f.flags |= FULMAR_FIELD_RISING;
       if (!name.empty() && name == instead_field<T>) f.flags |= FULMAR_FIELD_INSTEAD;
+      take_range<T>(f, name);  // of a count, which needs no unit
       const bool stamp = (f.kind == FULMAR_I64 || f.kind == FULMAR_U64) && name.ends_with("_ns");
       if (exempt || !(measured[i] || stamp)) continue;
       const int unit = find_unit(name);
@@ -436,8 +442,7 @@ consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
       if (!measured[i]) continue;
       f.min = units[static_cast<std::size_t>(unit)].min;
       f.max = units[static_cast<std::size_t>(unit)].max;
-      for (const FieldRange& range : field_ranges<T>)
-        if (range.field == name) f.min = range.min, f.max = range.max;
+      take_range<T>(f, name);
     }
   }
   return out;

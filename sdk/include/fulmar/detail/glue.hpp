@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "fulmar/detail/exception_words.hpp"
 #include "fulmar/detail/params.hpp"
 #include "fulmar/detail/rules.hpp"
 
@@ -164,19 +165,12 @@ struct Instance {
   typename C::Params params{};
 };
 
-inline void tell(fulmar_error* error, const char* text) noexcept {
-  if (!error) return;
-  const std::size_t n = std::min(std::strlen(text), sizeof error->text - 1);
-  std::memcpy(error->text, text, n);
-  error->text[n] = '\0';
-}
-
 template <class F>
 std::uint32_t guarded(fulmar_error* error, F&& f) noexcept {
   try {
     return static_cast<std::uint32_t>(f());
   } catch (const std::exception& e) {
-    tell(error, e.what());
+    tell_exception(error, e);
   } catch (...) {
     tell(error, "threw something that is not a std::exception");
   }

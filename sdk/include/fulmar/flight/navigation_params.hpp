@@ -96,7 +96,7 @@ struct Params {
                            "side component of the air velocity, at 10 Hz; its gusts are correlated, so "
                            "attitude does not follow it"};
   Param sideslip_ratio{0.1, "rad", 0, 1, "grows with the airspeed: sideslip of uncoordinated flight"};
-  Param min_airspeed{8, "m/s", 2, 40, "below this neither pitot nor sideslip is used: rolling, not flying"};
+  Param min_airspeed{8, "m/s", 2, 12, "below this neither pitot nor sideslip is used: rolling, not flying"};
 
   // magnetometer
   Param mag_noise{0.03, "", 1e-4, 0.5, "at 10 Hz, as a share of the field"};

@@ -31,6 +31,7 @@ class GeometryRules {
     if (g_.surfaces.empty())
       add(file_.where("surfaces", 0), "surfaces: there is none; an aircraft has at least a wing");
     if (report_.empty()) reference();
+    if (report_.empty()) panels();
   }
 
  private:
@@ -143,6 +144,26 @@ class GeometryRules {
       if (needs_up && up < 0.05 * span)
         add(where, path + ".drives: " + quoted(s.name.view()) + " lies flat; a rudder does nothing there");
     }
+  }
+
+  /// The lattice is a full matrix of the panels with one another, which takes memory and time.
+  void panels() {
+    constexpr std::int64_t most = 4000;
+    std::int64_t sum = 0, largest = 0;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < g_.surfaces.size(); ++i) {
+      const LiftingSurface& s = g_.surfaces[i];
+      const std::int64_t own = std::int64_t{s.chordwise} * s.spanwise * (s.mirror ? 2 : 1);
+      sum += own;
+      if (own <= largest) continue;
+      largest = own;
+      at = i;
+    }
+    if (sum <= most) return;
+    add(file_.where("surfaces", at),
+        "surfaces: they have " + std::to_string(sum) + " panels, of which " +
+            quoted(g_.surfaces[at].name.view()) + " has " + std::to_string(largest) +
+            " (chordwise times spanwise, both halves); at most " + std::to_string(most) + " are solved");
   }
 
   /// A slip of unit or of half and whole: coefficients would be right for an aircraft of another size.

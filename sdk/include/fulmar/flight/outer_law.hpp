@@ -225,9 +225,9 @@ struct OuterLoop {
     said.height_uncontrolled = finding != HeightWatch::Finding::held;
     if constexpr (requires { out.notices; }) reports.step(tick, guard, said, out.notices);
     if (finding == HeightWatch::Finding::contradiction) return Status::failed;
-    if (!flying) return Status::ok;
-    return !sense || said.stalled || said.height_uncontrolled || !enough_known(state) ? Status::degraded
-                                                                                      : Status::ok;
+    if (flying && !sense) return Status::degraded;
+    if (said.stalled || said.height_uncontrolled) return Status::degraded;
+    return flying && !enough_known(state) ? Status::degraded : Status::ok;
   }
 
   /// Attitude or height is not known: the trim of level flight at cruise speed.

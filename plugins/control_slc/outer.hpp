@@ -21,6 +21,7 @@ struct Outer {
   struct Outputs {
     AttitudeCommand attitude;
     ControllerInternals internals;
+    OutQueue<Notice, 3> notices;  // a stall and its end, a height that is lost
     Probe climb_rate_demand_mps;
     Probe pitch_integral_rad;
     Probe throttle_integral_frac;
@@ -40,6 +41,8 @@ struct Outer {
                  "force per unit of throttle near cruise: turns the drag of a turn into throttle"};
   };
 
+  void configure(const Params& p) { loop_.configure(p.common); }
+
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
     if (!loop_.activate(*in.state, p.common, last)) altitude_.reset(), airspeed_.reset();
     late_.reset();
@@ -54,7 +57,7 @@ struct Outer {
     const auto hold = [&](const LevelTurn& turn, double dt) -> PitchThrottle {
       const double theta = height_to_pitch(state, command, p, turn, dt, out);
       const double feedforward = p.climb_kff * out.climb_rate_demand_mps.value + turn.drag_newton / p.thrust;
-      return {theta, airspeed_to_throttle(state, command, p, feedforward, dt, out)};
+      return {theta, airspeed_to_throttle(state, command, p, turn.within, feedforward, dt, out)};
     };
     const Status status = loop_.step(tick, state, command, p.common, out, rest, hold);
     out.pitch_integral_rad = altitude_.integral();
@@ -68,7 +71,7 @@ struct Outer {
   double height_to_pitch(const VehicleState& state, const GuidanceCommand& command, const Params& p,
                          const LevelTurn& turn, double dt, Outputs& out) {
     const FlightLimits& limits = p.common.airframe->limits;
-    const PitchLimits pitch(state, limits, p.common.pitch_limit);
+    const PitchLimits pitch(turn.within, limits, p.common.pitch_limit);
     const double error = command.height_m - state.height_m;
     const double wanted = command.climb_rate_mps + p.altitude_kp * turn.Va_mps * error;
     const double climb_rate = std::clamp(wanted, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
@@ -94,11 +97,11 @@ struct Outer {
   /// delta_t = trim + feed-forward of climb, turn and speed + kp e + integral. Without airspeed: trim and
   /// feed-forward alone.
   double airspeed_to_throttle(const VehicleState& state, const GuidanceCommand& command, const Params& p,
-                              double feedforward, double dt, Outputs& out) {
+                              const Envelope& within, double feedforward, double dt, Outputs& out) {
     const FlightLimits& limits = p.common.airframe->limits;
     const double trim = limits.throttle_cruise_frac + feedforward;
     if (!state.airspeed_valid) return std::clamp(trim, 0.0, 1.0);
-    const double Va_c = std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
+    const double Va_c = within.airspeed(command.airspeed_mps, limits);
     const PidInput in{.error = Va_c - state.airspeed_mps,
                       .rate = 0,
                       .feedforward = trim + p.airspeed_kff * (Va_c - limits.airspeed_cruise_mps),

@@ -24,8 +24,9 @@ struct ErrorLaw {
   struct Outputs {
     AttitudeCommand attitude;
     ControllerInternals internals;
-    Probe total_error_ratio;    // m2/s2, within its limits
-    Probe balance_error_ratio;  // m2/s2, within its limits
+    OutQueue<Notice, 3> notices;  // a stall and its end, a height that is lost
+    Probe total_error_ratio;      // m2/s2, within its limits
+    Probe balance_error_ratio;    // m2/s2, within its limits
     Probe pitch_integral_rad;
     Probe throttle_integral_frac;
     Probe underspeed_ratio;
@@ -50,6 +51,8 @@ struct ErrorLaw {
         "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
   };
 
+  void configure(const Params& p) { loop_.configure(p.common); }
+
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
     if (!loop_.activate(*in.state, p.common, last)) pitch_.reset(), throttle_.reset();
     airspeed_.reset();
@@ -64,7 +67,7 @@ struct ErrorLaw {
       out.underspeed_ratio = 0.0;
     };
     const auto hold = [&](const LevelTurn& turn, double dt) -> PitchThrottle {
-      const Errors e = errors(*in.state, *in.command, p, dt, out);
+      const Errors e = errors(*in.state, *in.command, p, turn.within, dt, out);
       const double theta = balance_to_pitch(*in.state, p, e, turn, dt, out);
       return {theta, total_to_throttle(*in.state, p, e, turn, dt, out)};
     };
@@ -94,8 +97,8 @@ struct ErrorLaw {
     }
   };
 
-  Errors errors(const VehicleState& state, const GuidanceCommand& command, const Params& p, double dt,
-                Outputs& out) {
+  Errors errors(const VehicleState& state, const GuidanceCommand& command, const Params& p,
+                const Envelope& within, double dt, Outputs& out) {
     const FlightLimits& limits = p.common.airframe->limits;
     const double error = command.height_m - state.height_m;
     Errors e;
@@ -105,10 +108,8 @@ struct ErrorLaw {
     e.potential = isa::g0 * error;
     e.Va_c = limits.airspeed_cruise_mps;
     if (state.airspeed_valid) {
-      const double slowest = limits.airspeed_min_mps * (1 - p.underspeed_band);
-      e.underspeed = std::clamp(
-          (limits.airspeed_min_mps - state.airspeed_mps) / (limits.airspeed_min_mps - slowest), 0.0, 1.0);
-      e.Va_c = std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
+      e.underspeed = within.underspeed(state.airspeed_mps, p.underspeed_band);
+      e.Va_c = within.airspeed(command.airspeed_mps, limits);
       const auto kinetic = [&](double V) { return 0.5 * (e.Va_c * e.Va_c - V * V); };
       e.kinetic = kinetic(state.airspeed_mps);
       e.steady_kinetic =
@@ -135,7 +136,7 @@ struct ErrorLaw {
     const bool limited = held.potential != e.potential || held.kinetic != e.steady_kinetic;
     const double B = held.balance(w_h, w_V);
     const double per_gV = 1 / (isa::g0 * turn.Va_mps);
-    const PitchLimits pitch(state, p.common.airframe->limits, p.common.pitch_limit);
+    const PitchLimits pitch(turn.within, p.common.airframe->limits, p.common.pitch_limit);
     const double ahead = (1 - e.underspeed) * e.climb_rate_mps;
     const double climb_rate = ahead + p.balance_gain * w_h * held.potential / isa::g0;
     const double missing = late_climb_.missing(limited, climb_rate, state.climb_rate_mps, pitch_.integral(),

@@ -24,6 +24,7 @@ struct Outer {
   struct Outputs {
     AttitudeCommand attitude;
     ControllerInternals internals;
+    OutQueue<Notice, 3> notices;  // a stall and its end, a height that is lost
     Probe climb_rate_demand_mps;
     Probe acceleration_demand_mps2;
     Probe total_rate_error_ratio;    // m2/s3
@@ -62,6 +63,8 @@ struct Outer {
         "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
   };
 
+  void configure(const Params& p) { loop_.configure(p.common); }
+
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
     if (!loop_.activate(*in.state, p.common, last)) pitch_.reset(), throttle_.reset();
     climb_rate_.reset_to(in.state->climb_rate_mps);
@@ -90,6 +93,7 @@ struct Outer {
     double turn_drag = 0;       ///< energy rate that the turn takes from the engine
     double underspeed = 0;      ///< 0: none, 1: speed before everything
     double Va = 0, Va_c = 0;
+    Envelope within;
     bool limited = false;  ///< the climb that is wanted
   };
 
@@ -109,6 +113,7 @@ struct Outer {
   PitchThrottle hold(const VehicleState& state, const GuidanceCommand& command, const Params& p,
                      const LevelTurn& turn, double dt, Outputs& out) {
     Energy e;
+    e.within = turn.within;
     e.Va = turn.Va_mps;
     e.turn_drag = turn.drag_newton * e.Va / p.common.airframe->mass_kg;
     demand(state, command, p, dt, e, out);
@@ -132,10 +137,8 @@ struct Outer {
     const double most = isa::g0 * limits.climb_rate_max_mps,
                  least = -isa::g0 * limits.sink_rate_max_mps;  // of the total energy rate
     if (state.airspeed_valid) {
-      const double slowest = limits.airspeed_min_mps * (1 - p.underspeed_band);
-      e.underspeed = std::clamp(
-          (limits.airspeed_min_mps - state.airspeed_mps) / (limits.airspeed_min_mps - slowest), 0.0, 1.0);
-      e.Va_c = std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
+      e.underspeed = e.within.underspeed(state.airspeed_mps, p.underspeed_band);
+      e.Va_c = e.within.airspeed(command.airspeed_mps, limits);
       const double rate = airspeed_rate(state);
       const double steady = airspeed_.step(state.airspeed_mps, rate, p.airspeed_filter, dt);
       const auto acceleration = [&](double V) {
@@ -181,7 +184,7 @@ struct Outer {
     const double climb = e.wanted.potential * (1 - e.underspeed) - (1 - w_h) * missing;
     const double B_ff = climb - w_V * e.steady_kinetic;
     const double per_gV = 1 / (isa::g0 * e.Va);
-    const PitchLimits pitch(state, p.common.airframe->limits, p.common.pitch_limit);
+    const PitchLimits pitch(e.within, p.common.airframe->limits, p.common.pitch_limit);
     const PidInput in{.error = error * per_gV,
                       .rate = 0,
                       .feedforward = theta_trim + B_ff * per_gV,

@@ -61,6 +61,7 @@ struct Glide {
     const auto hold = [&](const LevelTurn& turn, double dt) -> PitchThrottle {
       return {pitch(s, c, p, turn, height, dt, out), 0};
     };
+    loop_.flares = flares_;
     const Status status = loop_.step(tick, s, c, p.common, out, rest, hold);
     out.attitude.throttle_frac = 0;  // level flight's, where the state is not known, is not to be had
     return status;
@@ -88,7 +89,7 @@ struct Glide {
       // No ceiling near the stall: the speed is to go.
       return std::clamp(theta, limits.pitch_min_rad, limits.pitch_max_rad);
     }
-    const PitchLimits within(s, limits, p.common.pitch_limit);
+    const PitchLimits within(turn.within, limits, p.common.pitch_limit);
     const double trim = turn.pitch_rad - std::asin(std::clamp(sink / turn.Va_mps, 0.0, 0.5));
     if (!s.airspeed_valid) return std::clamp(trim, within.min, within.max);
     const PidInput in{.error = s.airspeed_mps - c.airspeed_mps,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fulmar/flight/envelope.hpp"
 #include "fulmar/flight/lateral.hpp"
 #include "fulmar/flight/takeoff.hpp"
 #include "fulmar/msg/controller_internals.hpp"
@@ -114,6 +115,13 @@ class OuterCommands {
     return finish(course_.shape(0, tuning.course, dt_s), pitch_rad, throttle_frac, tuning, dt_s);
   }
 
+  /// Out of a stall: wings level, full power. What holds next goes on from here, as after a hand-over.
+  AttitudeCommand recover(double pitch_rad, const OuterTuning& tuning, double dt_s) {
+    finish(course_.shape(0, tuning.course, dt_s), pitch_rad, 1, tuning, dt_s);
+    taking_up_ = true;
+    return last_;
+  }
+
   /// Roll command of course hold, or of a lateral acceleration, shaped. Without a velocity there is no
   /// course: wings level.
   double roll(const VehicleState& state, const GuidanceCommand& command, const OuterTuning& tuning,
@@ -153,8 +161,8 @@ class OuterCommands {
 
 /// Pitch limits in force: the airframe's, the user's, and the ceiling near the stall.
 struct PitchLimits {
-  PitchLimits(const VehicleState& state, const FlightLimits& limits, double pitch_limit_rad)
-      : max(std::min({limits.pitch_max_rad, pitch_limit_rad, pitch_ceiling(state, limits)})),
+  PitchLimits(const Envelope& within, const FlightLimits& limits, double pitch_limit_rad)
+      : max(std::min({limits.pitch_max_rad, pitch_limit_rad, within.pitch_max_rad})),
         min(std::min(max, std::max(limits.pitch_min_rad, -pitch_limit_rad))) {}
   double max, min;
 };
@@ -163,16 +171,6 @@ struct PitchLimits {
 inline double scheduling_airspeed(const VehicleState& state, const FlightLimits& limits) {
   return state.airspeed_valid ? std::max(state.airspeed_mps, 0.5 * limits.airspeed_min_mps)
                               : limits.airspeed_cruise_mps;
-}
-
-/// Bank, rad, to which the wing carries a level turn at airspeed `Va` with a tenth of speed left above the
-/// stall, which is at 1 / 1.2 of the least airspeed: its lift has to be 1 / cos(bank) of the weight
-/// (Anderson, Introduction to Flight, turning flight). Slower than that some bank is left, to steer with.
-inline double bank_carried(double Va, const FlightLimits& limits) {
-  constexpr double above_stall_ratio = 1.1, stall_ratio = 1 / 1.2, least_rad = 0.26;
-  const double slowest = above_stall_ratio * stall_ratio * limits.airspeed_min_mps;
-  const double cosine = slowest * slowest / std::max(Va * Va, 1e-3);
-  return std::max(least_rad, std::acos(std::min(cosine, 1.0)));
 }
 
 /// What an outer law needs to do what it is asked for. Without one of them it still flies, degraded.

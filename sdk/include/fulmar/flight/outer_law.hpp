@@ -3,6 +3,7 @@
 // step, and what a banked turn costs. A law is left with a function from a turn to pitch and throttle.
 //
 //   struct Params { OuterParams common;  Param height_kp{...}; };
+//   void configure(const Params& p) { loop_.configure(p.common); }
 //   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
 //     if (!loop_.activate(*in.state, p.common, last)) integral_.reset();
 //     return Status::ok;
@@ -17,6 +18,8 @@
 //   }
 #pragma once
 #include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/envelope.hpp"
+#include "fulmar/flight/envelope_reports.hpp"
 #include "fulmar/flight/filters.hpp"
 #include "fulmar/flight/outer_commands.hpp"
 #include "fulmar/flight/turn_trim.hpp"
@@ -63,6 +66,9 @@ struct OuterParams {
   Param airspeed_smoothing{0.5, "s", 0, 10,
                            "time constant of the airspeed whose trim is flown: pitch does not follow gusts"};
 
+  Flag stall_guard{true,
+                   "a stall is recognised and left, and the angle of attack limits pitch; off in a flare"};
+
   Record<Airframe> airframe{"limits, trims, and the derivatives for the feed-forward of turns"};
 };
 
@@ -88,6 +94,7 @@ struct LevelTurn {
   double Va_mps;       ///< true airspeed for divisions, smoothed: never near 0 (scheduling_airspeed)
   double pitch_rad;    ///< trim, the turn's share included
   double drag_newton;  ///< beyond that of level flight
+  Envelope within;     ///< what may be asked for
 };
 struct PitchThrottle {
   double pitch_rad, throttle_frac;
@@ -101,8 +108,10 @@ inline double air_density(const VehicleState& state) {
 inline LevelTurn level_turn(double roll_rad, double Va, double rho, const OuterParams& p) {
   const TurnTrims trims(*p.airframe, Va, rho);
   const TurnTrim turn = trims.at(roll_rad), level = trims.at(0);
-  return {Va, level.alpha_rad + p.turn_kff * (turn.alpha_rad * std::cos(roll_rad) - level.alpha_rad),
-          p.turn_kff * (turn.drag_newton - level.drag_newton)};
+  return {Va,
+          level.alpha_rad + p.turn_kff * (turn.alpha_rad * std::cos(roll_rad) - level.alpha_rad),
+          p.turn_kff * (turn.drag_newton - level.drag_newton),
+          {}};
 }
 
 inline LevelTurn level_turn(double roll_rad, double Va, const VehicleState& state, const OuterParams& p) {
@@ -112,12 +121,19 @@ inline LevelTurn level_turn(double roll_rad, double Va, const VehicleState& stat
 /// An outer law but for height and speed. Its component publishes `attitude` and `internals`.
 struct OuterLoop {
   OuterCommands commands;
+  EnvelopeGuard guard;
+  HeightWatch height;
+  EnvelopeReports reports;
   LowPass airspeed;          ///< m/s, for trims
   NearbyDensity density;     ///< kg/m3, of the standard atmosphere
   std::uint32_t resets = 0;  ///< of the state, seen so far
   /// From another law, and has not stepped since. Nothing fades here, unlike in the inner law: the limits of
   /// rates, which always hold, begin at what flew before (OuterCommands::start).
   bool took_over = false;
+  bool flares = false;  ///< of the law, which sets it: speed is to go, and no stall is to be left
+
+  /// Computes what the wing carries. Where a law has no `configure`, the first step does.
+  void configure(const OuterParams& p) { guard.configure(*p.airframe); }
 
   /// Goes on from what was applied last. False: nobody flew, and integrals are to begin empty.
   template <class Outputs>
@@ -125,6 +141,8 @@ struct OuterLoop {
     airspeed.reset_to(scheduling_airspeed(state, p.airframe->limits));
     const AttitudeCommand* attitude = last.has(last->attitude) ? &last->attitude : nullptr;
     took_over = attitude != nullptr;
+    guard.reset();
+    height.reset();
     return commands.take_over(p.law, state, attitude, tuning(p), p.airframe->limits);
   }
 
@@ -137,40 +155,79 @@ struct OuterLoop {
     // in one would be twice as fast as the command may go.
     const double dt = took_over ? 0 : std::clamp(tick.dt_s(), 0.0, 0.1);
     took_over = false;
+    if (!guard.configured()) configure(p);
     OuterTuning t = tuning(p);
-    const double Va = scheduling_airspeed(state, p.airframe->limits);
-    t.course.roll_max_rad = std::min(t.course.roll_max_rad, bank_carried(Va, p.airframe->limits));
+    const FlightLimits& limits = p.airframe->limits;
+    const double Va = scheduling_airspeed(state, limits);
     // The host lets no such command pass; a law that is flown without it is not poisoned by one either.
     const bool sense = finite(command);
     const OuterAction action = commands.begin(p.law, state, sense);
     out.internals = {};
-    if (action != OuterAction::hold) rest();
+    const bool holds = action == OuterAction::hold;
+    if (!holds) rest();
+    if (!holds || state.reset_count != resets) guard.reset();
     // No aircraft was as fast as before a reset of the state: what is smoothed begins anew.
-    if (action != OuterAction::hold || state.reset_count != resets) airspeed.reset_to(Va);
+    if (!holds || state.reset_count != resets) airspeed.reset_to(Va);
     resets = state.reset_count;
     switch (action) {
       case OuterAction::wait: out.attitude = commands.wait(); break;
-      case OuterAction::roll_out: out.attitude = commands.roll_out(state, t, p.airframe->limits, dt); break;
-      case OuterAction::take_off: out.attitude = commands.take_off(state, t, p.airframe->limits, dt); break;
+      case OuterAction::roll_out: out.attitude = commands.roll_out(state, t, limits, dt); break;
+      case OuterAction::take_off: out.attitude = commands.take_off(state, t, limits, dt); break;
       case OuterAction::level: out.attitude = level(state, p, t, dt); break;
       case OuterAction::hold: {
-        const double phi = commands.roll(state, command, t, dt);
-        const double altitude = state.origin_altitude_m + state.height_m;
+        const double rho = density.at(state.origin_altitude_m + state.height_m);
+        const double carried = guard.bank_max(Va, limits, rho);
+        const bool banks_less = carried < t.course.roll_max_rad;
+        t.course.roll_max_rad = std::min(t.course.roll_max_rad, carried);
         const double steady = airspeed.step(Va, p.airspeed_smoothing, dt);
-        const PitchThrottle wanted = hold(level_turn(phi, steady, density.at(altitude), p), dt);
-        out.attitude = commands.finish(phi, wanted.pitch_rad, wanted.throttle_frac, t, dt);
+        out.attitude = held(state, command, p, t, steady, rho, dt, out.internals, rest, hold);
+        out.internals.bank_limited = banks_less && commands.roll_saturated();
       }
     }
     tell(out.attitude, out.internals);
-    const bool flying = action == OuterAction::hold || action == OuterAction::level;
-    if (flying && !sense) return Status::degraded;
-    return flying && !enough_known(state) ? Status::degraded : Status::ok;
+    return judge(tick, state, out, holds || action == OuterAction::level, sense, dt);
   }
 
  private:
   static bool finite(const GuidanceCommand& c) {
     return std::isfinite(c.course_rad + c.height_m + c.climb_rate_mps + c.airspeed_mps +
                          c.roll_feedforward_rad + c.lateral_acceleration_mps2);
+  }
+
+  /// Height and speed by the law, or the way out of a stall.
+  template <class Rest, class Hold>
+  AttitudeCommand held(const VehicleState& state, const GuidanceCommand& command, const OuterParams& p,
+                       const OuterTuning& t, double steady_mps, double rho, double dt,
+                       ControllerInternals& internals, Rest&& rest, Hold&& hold) {
+    const FlightLimits& limits = p.airframe->limits;
+    const double bank = guard.stalled() ? 0 : commands.roll(state, command, t, dt);
+    Envelope within =
+        guard.step(state, limits, rho, bank, command.climb_rate_mps, p.stall_guard && !flares, dt);
+    internals.airspeed_raised = state.airspeed_valid && within.airspeed_min_mps > command.airspeed_mps;
+    internals.stalled = guard.stalled();
+    if (guard.stalled()) {
+      rest();
+      internals.height_error_m = command.height_m - state.height_m;
+      return commands.recover(guard.recovery_pitch(limits), t, dt);
+    }
+    LevelTurn turn = level_turn(bank, steady_mps, rho, p);
+    turn.within = within;
+    const PitchThrottle wanted = hold(turn, dt);
+    return commands.finish(bank, wanted.pitch_rad, wanted.throttle_frac, t, dt);
+  }
+
+  /// What the step says of itself, and what is reported of the envelope.
+  template <class Outputs>
+  Status judge(const Tick& tick, const VehicleState& state, Outputs& out, bool flying, bool sense,
+               double dt) {
+    ControllerInternals& said = out.internals;
+    const HeightWatch::Finding finding = height.step(state, out.attitude, said, dt);
+    said.height_uncontrolled = finding != HeightWatch::Finding::held;
+    if constexpr (requires { out.notices; }) reports.step(tick, guard, said, out.notices);
+    if (finding == HeightWatch::Finding::contradiction) return Status::failed;
+    if (flying && !sense) return Status::degraded;
+    if (said.stalled || said.height_uncontrolled) return Status::degraded;
+    return flying && !enough_known(state) ? Status::degraded : Status::ok;
   }
 
   /// Attitude or height is not known: the trim of level flight at cruise speed.

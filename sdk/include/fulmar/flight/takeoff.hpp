@@ -21,11 +21,13 @@ inline bool standing(const VehicleState& state) {
   return state.airspeed_valid ? state.airspeed_mps < slow_mps : state.height_m < low_m;
 }
 
-/// Highest pitch command that speed permits: the limit above the minimum airspeed, level flight at 4/5 of it.
-inline double pitch_ceiling(const VehicleState& state, const FlightLimits& limits) {
+/// Highest pitch command that speed permits: the limit above the slowest airspeed, level flight at 4/5 of it.
+inline double pitch_ceiling(const VehicleState& state, const FlightLimits& limits, double slowest_mps) {
   if (!state.airspeed_valid) return limits.pitch_max_rad;
-  return limits.pitch_max_rad *
-         smoothly(state.airspeed_mps, 0.8 * limits.airspeed_min_mps, limits.airspeed_min_mps);
+  return limits.pitch_max_rad * smoothly(state.airspeed_mps, 0.8 * slowest_mps, slowest_mps);
+}
+inline double pitch_ceiling(const VehicleState& state, const FlightLimits& limits) {
+  return pitch_ceiling(state, limits, limits.airspeed_min_mps);
 }
 
 struct TakeoffTuning {

@@ -17,6 +17,13 @@ struct ControllerInternals {
   bool roll_saturated = false;
   bool pitch_saturated = false;
   bool throttle_saturated = false;
+  bool stalled = false;              ///< it recovers from a stall: height and course are not held
+  bool airspeed_raised = false;      ///< more than commanded is held: load factor, mass or angle of attack
+  bool bank_limited = false;         ///< by what the wing carries at this airspeed
+  bool height_uncontrolled = false;  ///< it sinks at the limit of what the law can ask for
 };
+
+template <>
+inline constexpr std::string_view appended_from<ControllerInternals> = "stalled";
 
 }  // namespace fulmar

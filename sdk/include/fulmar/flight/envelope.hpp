@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What keeps an outer law off the stall, and brings it out of one: least airspeed by load factor, mass and
+// angle of attack; most bank by airspeed; most pitch by angle of attack. Lift of a turn: Anderson,
+// Introduction to Flight, turning flight. Recovery - less angle of attack, wings level, full power - as in
+// FAA, Airplane Flying Handbook, chapter 5.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "fulmar/flight/energy.hpp"
+#include "fulmar/flight/filters.hpp"
+#include "fulmar/flight/most_lift.hpp"
+#include "fulmar/flight/takeoff.hpp"
+#include "fulmar/flight/turn_trim.hpp"
+
+namespace fulmar {
+
+/// Lift over the angle of attack, of an airframe's own model: a line from no lift up to the most.
+struct WingEnvelope {
+  double mass_kg = 0, area_m2 = 1;
+  double most_lift = 0;               ///< CL, trimmed; 0: the airframe has no model of its lift
+  double stall_alpha_rad = 0.2618;    ///< of the most lift
+  double zero_alpha_rad = -0.05;      ///< of no lift
+  double share_per_rad = 1 / 0.3118;  ///< of the most lift
+
+  WingEnvelope() = default;
+  explicit WingEnvelope(const Airframe& a) : mass_kg(a.mass_kg), area_m2(a.wing.area_m2) {
+    const MostLift most = fulmar::most_lift(a);
+    constexpr double step = 0.05;
+    const Aerodynamic aero(a);
+    const double CL = trimmed_lift(aero, a, 0), slope = (trimmed_lift(aero, a, step) - CL) / step;
+    if (!(slope > 0.5 && most.coefficient > 0.1 && most.alpha_rad > step)) return;
+    most_lift = most.coefficient, stall_alpha_rad = most.alpha_rad;
+    zero_alpha_rad = -CL / slope, share_per_rad = slope / most_lift;
+  }
+
+  /// Of the most lift. Beyond the stall it goes on: how far the angle of attack is too large.
+  double share(double alpha_rad) const { return share_per_rad * (alpha_rad - zero_alpha_rad); }
+  double alpha_of(double share) const { return zero_alpha_rad + share / share_per_rad; }
+
+  /// Slowest level flight: by the model, and no slower than the limits' minimum over 1.2.
+  double stall_mps(const FlightLimits& limits, double density_kgm3) const {
+    constexpr double of_minimum = 1 / 1.2, g = 9.80665;
+    const double said = of_minimum * limits.airspeed_min_mps;
+    if (most_lift <= 0) return said;
+    return std::max(said, std::sqrt(2 * mass_kg * g / (density_kgm3 * area_m2 * most_lift)));
+  }
+};
+
+/// Bank, rad, to which the wing carries a level turn at airspeed `Va` with a tenth of speed left above the
+/// stall: its lift has to be 1 / cos(bank) of the weight. Slower than that some bank is left, to steer with.
+inline double bank_carried(double Va, double stall_mps) {
+  constexpr double above_stall_ratio = 1.1, least_rad = 0.26;
+  const double slowest = above_stall_ratio * stall_mps;
+  const double cosine = slowest * slowest / std::max(Va * Va, 1e-3);
+  return std::max(least_rad, std::acos(std::min(cosine, 1.0)));
+}
+
+/// What a law may ask for at this moment.
+struct Envelope {
+  double airspeed_min_mps = 0;  ///< least airspeed to ask for
+  double slowest_mps = 0;       ///< below it airspeed comes before height: no angle of attack is in it
+  double pitch_max_rad = 1.57;  ///< near the stall
+
+  /// The airspeed to hold for one that is commanded.
+  double airspeed(double commanded_mps, const FlightLimits& limits) const {
+    return std::clamp(commanded_mps, airspeed_min_mps, limits.airspeed_max_mps);
+  }
+  /// 0 at the slowest airspeed and above, 1 at `band`, a share of it, below.
+  double underspeed(double airspeed_mps, double band) const {
+    const double full = slowest_mps * (1 - band);
+    return std::clamp((slowest_mps - airspeed_mps) / (slowest_mps - full), 0.0, 1.0);
+  }
+};
+
+class EnvelopeGuard {
+ public:
+  void configure(const Airframe& a) { wing_ = WingEnvelope(a), configured_ = true; }
+  bool configured() const { return configured_; }
+
+  /// A hand-over, a reset of the state, flight on the ground: what was seen is over.
+  void reset() {
+    lift_.reset(), gust_.reset(), gusty_.reset();
+    learnt_ = false, above_s_ = below_s_ = 0, stalled_ = false;
+  }
+
+  double bank_max(double Va, const FlightLimits& limits, double density_kgm3) const {
+    return bank_carried(Va, wing_.stall_mps(limits, density_kgm3));
+  }
+
+  /// `bank_rad` is commanded, `climb_rate_mps` asked for. Not `guarded`: a flare, whose speed is to go.
+  Envelope step(const VehicleState& state, const FlightLimits& limits, double density_kgm3, double bank_rad,
+                double climb_rate_mps, bool guarded, double dt_s) {
+    Envelope e;
+    const double stall = wing_.stall_mps(limits, density_kgm3), load = load_factor(bank_rad);
+    const double least = std::max(limits.airspeed_min_mps, above_stall * stall);
+    V_ = state.airspeed_valid ? std::max(state.airspeed_mps, 0.5 * limits.airspeed_min_mps)
+                              : limits.airspeed_cruise_mps;
+    climb_rad_ = std::asin(std::clamp(state.climb_rate_mps / V_, -1.0, 1.0));
+    alpha_ = alpha(state);
+    lift(state, density_kgm3, dt_s);
+    e.slowest_mps = std::min(least * std::sqrt(load), limits.airspeed_max_mps);
+    e.airspeed_min_mps = e.slowest_mps;
+    const bool seen = sees_alpha(state);
+    if (state.airspeed_valid) e.pitch_max_rad = pitch_ceiling(state, limits, e.slowest_mps);
+    if (!guarded) {
+      reset();
+      return e;
+    }
+    if (seen) {
+      const double least_mps =
+          std::max(for_alpha(e, load, stall, limits, dt_s), for_gusts(state, stall * std::sqrt(load), dt_s));
+      e.airspeed_min_mps = std::clamp(least_mps, e.slowest_mps, limits.airspeed_max_mps);
+    }
+    if (state.airspeed_valid && state.velocity_valid)
+      e.pitch_max_rad = std::min(e.pitch_max_rad, pitch_max(state));
+    look(state, e.slowest_mps, climb_rate_mps, seen, dt_s);
+    return e;
+  }
+
+  bool stalled() const { return stalled_; }
+  double alpha_rad() const { return alpha_; }
+  /// Of the recovery: six tenths of the most lift above the present flight path.
+  double recovery_pitch(const FlightLimits& limits) const {
+    constexpr double share = 0.6;
+    return std::clamp(climb_rad_ + wing_.alpha_of(share), limits.pitch_min_rad, limits.pitch_max_rad);
+  }
+
+ private:
+  static constexpr double above_stall = 1.15;
+
+  static bool sees_alpha(const VehicleState& s) {
+    return s.airspeed_valid && s.wind_valid && s.velocity_valid && !s.airspeed_from_model;
+  }
+  /// By the estimate where wind and airspeed are known, else what pitch and flight path leave.
+  double alpha(const VehicleState& s) const {
+    if (!s.velocity_valid) return wing_.zero_alpha_rad;
+    if (sees_alpha(s)) return s.alpha_rad;
+    return (s.pitch_rad - climb_rad_) / std::max(std::cos(s.roll_rad), 0.5);
+  }
+
+  /// Share of the most lift, by what the accelerometer says: the wing's own, vertical air or not.
+  void lift(const VehicleState& s, double density_kgm3, double dt_s) {
+    constexpr double smoothed_s = 0.1;
+    const double most = 0.5 * density_kgm3 * V_ * V_ * wing_.area_m2 * wing_.most_lift;
+    lift_.step(most > 0 ? -s.specific_force_mps2.z * wing_.mass_kg / most : 1, smoothed_s, dt_s);
+  }
+  /// Of the most lift, as far as the flight path and the accelerometer agree: in air that sinks the angle
+  /// over the flight path is large, and that of the wing is not. The mass may be a fifth more than it should.
+  double used() const { return std::min(wing_.share(alpha_), 1.2 * lift_.value()); }
+
+  /// Gusts take airspeed faster than an engine gives it: the faster part of them, times four, above the
+  /// stall.
+  double for_gusts(const VehicleState& s, double stall_mps, double dt_s) {
+    constexpr double follows_s = 3, averaged_s = 20, times = 4, of_stall = 0.95;
+    const double gust = s.airspeed_mps - gust_.step(s.airspeed_mps, airspeed_rate(s), follows_s, dt_s);
+    return of_stall * stall_mps + times * std::sqrt(gusty_.step(gust * gust, averaged_s, dt_s));
+  }
+
+  /// V^2 CL / (n CL_max) is the square of the slowest level flight at the present weight, of which mass,
+  /// centre of gravity and ice are known to nothing else. Vertical air is in the angle of attack: it counts
+  /// only where the aircraft is slow, and is forgotten where it is not.
+  double for_alpha(const Envelope& e, double load, double stall_mps, const FlightLimits& limits,
+                   double dt_s) {
+    constexpr double learns_s = 1.5, forgets_s = 10, near_ratio = 1.25, most_ratio = 1.4;
+    const double nominal = stall_mps * stall_mps;
+    if (!learnt_) learnt_ = true, stall_squared_.reset_to(nominal);
+    const bool near = V_ * V_ * load < near_ratio * near_ratio * e.slowest_mps * e.slowest_mps;
+    const double seen = near ? V_ * V_ * std::clamp(used(), 0.0, 2.0) / load : nominal;
+    const double squared = load * stall_squared_.step(seen, near ? learns_s : forgets_s, dt_s);
+    if (above_stall * above_stall * squared <= e.slowest_mps * e.slowest_mps) return e.slowest_mps;
+    const double most = std::min(most_ratio * e.slowest_mps, limits.airspeed_max_mps);
+    return std::max(e.slowest_mps, std::min(above_stall * std::sqrt(squared), most));
+  }
+
+  /// No more than nine tenths of the lift above the flight path, where the lift that is used nears that.
+  double pitch_max(const VehicleState& s) const {
+    constexpr double share = 0.9, free_rad = 0.6, free_share = 0.65, full_share = 0.85;
+    const double slack = free_rad * smoothly(used(), full_share, free_share);
+    return climb_rad_ + wing_.alpha_of(share) * std::cos(s.roll_rad) + slack;
+  }
+
+  /// A stall: the angle of attack is beyond that of the most lift, the aircraft is slow, and sinks though
+  /// nothing asked it to, though the wing pushes up: in a downdraft it does not. Without wind or airspeed the
+  /// angle is known less well: more of it, for longer.
+  void look(const VehicleState& s, double slowest_mps, double climb_rate_mps, bool seen, double dt_s) {
+    constexpr double left_share = 0.8, left_s = 0.2, fast_ratio = 1.35, sink_mps = 1, carries = 0.1;
+    const double beyond_rad = seen ? 0.02 : 0.07, for_s = seen ? 0.3 : 1;
+    const bool slow = !s.airspeed_valid || V_ < fast_ratio * slowest_mps;
+    const bool sinks = s.climb_rate_mps < std::min(climb_rate_mps, 0.0) - sink_mps;
+    const bool above = s.velocity_valid && slow && sinks && lift_.value() > carries &&
+                       alpha_ > wing_.stall_alpha_rad + beyond_rad;
+    above_s_ = std::clamp(above ? above_s_ + dt_s : above_s_ - dt_s, 0.0, for_s);
+    const bool left = !slow || !s.velocity_valid || wing_.share(alpha_) < left_share;
+    below_s_ = left ? below_s_ + dt_s : 0;
+    if (above_s_ >= for_s)
+      stalled_ = true;
+    else if (below_s_ >= left_s)
+      stalled_ = false;
+  }
+
+  WingEnvelope wing_;
+  LowPass stall_squared_, lift_, gusty_;
+  SteadyAirspeed gust_;
+  double V_ = 0, climb_rad_ = 0, alpha_ = 0, above_s_ = 0, below_s_ = 0;
+  bool configured_ = false, learnt_ = false, stalled_ = false;
+};
+
+}  // namespace fulmar

@@ -43,6 +43,7 @@ Form form_of(const Service& service) {
   form.request_name = form.type + "_Request";
   for (const std::string& argument : service.arguments) form.request += "string " + argument + "\n";
   if (service.what == Service::What::save) form.response += "string lines\nstring mark\n";
+  if (service.what == Service::What::record) form.response += "string json\n";
   if (service.what == Service::What::view) form.response = "string json\n";
   return form;
 }
@@ -67,9 +68,11 @@ json value_json(const ParamInfo& info, const ParamValue& value) {
   }
 }
 
-json param_json(const ParameterView& parameter) {
+json param_json(const ParameterView& parameter, const ParameterView* begun) {
   const ParamInfo& info = parameter.info;
+  const bool same = begun && begun->info.kind == info.kind;
   return {{"name", info.name},
+          {"begun", value_json(info, same ? begun->base : parameter.base)},
           {"kind", param_kinds[info.kind]},
           {"unit", info.unit},
           {"doc", info.doc},
@@ -94,9 +97,10 @@ json port_json(const Tap& tap, const ComponentView& component, const PortView& p
   return result;
 }
 
-json component_json(const ComponentView& component, const Tap& tap) {
+json component_json(const ComponentView& component, const FlightView& begun, const Tap& tap) {
   json params = json::array(), inputs = json::array(), outputs = json::array();
-  for (const ParameterView& p : component.params) params.push_back(param_json(p));
+  for (const ParameterView& p : component.params)
+    params.push_back(param_json(p, find_parameter(begun, component.name + "." + p.info.name)));
   for (const PortView& p : component.inputs) inputs.push_back(port_json(tap, component, p, true));
   for (const PortView& p : component.outputs) outputs.push_back(port_json(tap, component, p, false));
   return {{"name", component.name},
@@ -186,6 +190,7 @@ std::vector<Service> services_of(const FlightView& view) {
       {What::speed, "/fulmar/speed", "Speed", {"speed"}},
       {What::restart, "/fulmar/restart", "Restart", {"seed"}},
       {What::save, "/fulmar/save", "Save", {"component", "mark"}},
+      {What::record, "/fulmar/record", "Record", {"component", "name"}},
       {What::view, "/fulmar/view", "View"}};
   for (const ComponentView& c : view.components)
     for (const PortView& p : c.inputs)
@@ -246,9 +251,9 @@ json connection_graph(const FlightView& view, const Tap& tap, const std::vector<
           {"removedServices", json::array()}};
 }
 
-json view_json(const FlightView& view, const Tap& tap) {
+json view_json(const FlightView& view, const FlightView& begun, const Tap& tap) {
   json components = json::array();
-  for (const ComponentView& c : view.components) components.push_back(component_json(c, tap));
+  for (const ComponentView& c : view.components) components.push_back(component_json(c, begun, tap));
   json origin;
   if (view.origin)
     origin = {{"lat_deg", view.origin->lat_deg},
@@ -271,6 +276,13 @@ json view_json(const FlightView& view, const Tap& tap) {
           {"speed", view.speed},
           {"seed", std::to_string(view.seed)},
           {"components", components}};
+}
+
+json record_json(const FlightView& view, const std::string& component, const std::string& name) {
+  const ParameterView* const p = find_parameter(view, component + "." + name);
+  if (!p) throw Error("there is no parameter '" + component + "." + name + "'");
+  if (p->info.kind != FULMAR_RECORD) throw Error(component + "." + name + " is no record");
+  return p->base.integer ? to_json(*p->info.type, p->base.data.data(), false) : json(nullptr);
 }
 
 json parameter_json(const std::string& name, const ParameterView& parameter) {

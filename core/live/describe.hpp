@@ -7,11 +7,12 @@
 //    origin: {lat_deg, lon_deg, alt_msl_m} or null, tiles, attribution, no_save,
 //    components: [
 //     {name, use, role, doc, run, swapped, active, stopped, steps, step_us, step_max_us, budget_us,
-//      params: [{name, kind, unit, doc, value, text, initial, min, max, choices, live, required, overlaid,
-//                file}],
+//      params: [{name, kind, unit, doc, value, text, begun, initial, min, max, choices, live, required,
+//                overlaid}],
 //      inputs: [{name, type, source, request, imported, topic}],
 //      outputs: [{name, type, topic}]}]}
-// `value` is in the parameter's unit, `text` as people write it ("0.55 rad/rad"); `type` is a ROS 2 name, ""
+// `value` is in the parameter's unit, `text` as people write it ("0.55 rad/rad"); `begun` is the value with
+// which the flight began; `type` is a ROS 2 name, ""
 // for a probe; `seed` is a text, as JavaScript's numbers have 53 bits; `topic` is that of the channel, of the
 // service for a request, or that an imported input is published on. `step_us` is the mean since the start, by
 // the clock on the wall; `budget_us` 0: none.
@@ -41,6 +42,7 @@ struct Service {
     speed,
     restart,
     save,
+    record,
     view
   };
   What what = What::request;
@@ -56,7 +58,10 @@ std::vector<Service> services_of(const FlightView& view);
 nlohmann::json advertise(const Tap& tap);
 nlohmann::json advertise_services(const std::vector<Service>& services);
 nlohmann::json connection_graph(const FlightView& view, const Tap& tap, const std::vector<Service>& services);
-nlohmann::json view_json(const FlightView& view, const Tap& tap);
+/// `begun`: the view as the flight began; a parameter that it lacks began as it is.
+nlohmann::json view_json(const FlightView& view, const FlightView& begun, const Tap& tap);
+/// Fields of a parameter that is a record. Throws Error when there is no such parameter, or no record.
+nlohmann::json record_json(const FlightView& view, const std::string& component, const std::string& name);
 
 /// {name, value, type} as the protocol has it; no value when the parameter's is no finite number.
 nlohmann::json parameter_json(const std::string& name, const ParameterView& parameter);

@@ -61,7 +61,8 @@ bool too_deep(std::string_view text) {
 }
 
 Hub::Hub(Tap& tap, Control& control, Counters& counters) : tap_(tap), control_(control), counters_(counters) {
-  const FlightView now = view();
+  begun_ = view();
+  const FlightView& now = begun_;
   mission_ = now.mission;
   services_ = services_of(now);
   for (const std::string& name : parameter_names(now))

@@ -121,6 +121,8 @@ class Hub {
   void call_request(const Service& service, bool as_json, std::string_view payload, Control::Answer answer);
   void call_save(Client& client, const std::vector<std::string>& texts,
                  std::function<void(const std::string&)> reply, bool as_json);
+  void call_record(Client& client, const std::vector<std::string>& texts,
+                   const std::function<void(const std::string&)>& reply, bool as_json);
   void call_host(const Service& service, const std::vector<std::string>& texts, Control::Answer answer);
   void set_one(Client& asker, const std::shared_ptr<Pending>& pending, const json& parameter);
 
@@ -156,6 +158,7 @@ class Hub {
   Counters& counters_;
   std::shared_ptr<Inbox<std::function<void()>>> mailbox_;  // from other threads into the hub's
   std::string mission_;
+  FlightView begun_;  // the flight as it was when it began
   std::int64_t epoch_ns_ = 0, newest_ns_ = 0;
   bool time_known_ = false;
   std::chrono::steady_clock::time_point time_sent_{}, drops_told_{};

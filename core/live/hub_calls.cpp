@@ -130,13 +130,13 @@ void Hub::call(Client& client, const Service& service, std::uint32_t service_id,
     caller->peer->send(std::move(message));
   };
   if (service.what == Service::What::view) {
-    const std::string text = dumped(view_json(view(), tap_));
+    const std::string text = dumped(view_json(view(), begun_, tap_));
     return reply(as_json ? text : cdr_answer(std::nullopt, {text}));
   }
-  const bool saves = service.what == Service::What::save;
-  const auto done = [this, reply, as_json, saves, id = client.id](const std::string& refusal) {
+  const auto done = [this, reply, as_json, what = service.what, id = client.id](const std::string& refusal) {
     if (Client* caller = find(id)) --caller->unanswered;
-    if (saves && !as_json) return reply(cdr_answer(refusal.empty(), {refusal, "", ""}));
+    if (what == Service::What::save && !as_json) return reply(cdr_answer(refusal.empty(), {refusal, "", ""}));
+    if (what == Service::What::record && !as_json) return reply(cdr_answer(refusal.empty(), {refusal, ""}));
     reply(as_json ? dumped({{"accepted", refusal.empty()}, {"reason", refusal}})
                   : cdr_answer(refusal.empty(), {refusal}));
   };
@@ -149,6 +149,8 @@ void Hub::call(Client& client, const Service& service, std::uint32_t service_id,
     if (service.what == Service::What::save)
       return call_save(client, arguments(service, as_json, payload), reply, as_json);
     if (service.what == Service::What::request) return call_request(service, as_json, payload, answer);
+    if (service.what == Service::What::record)
+      return call_record(client, arguments(service, as_json, payload), reply, as_json);
     call_host(service, arguments(service, as_json, payload), answer);
   } catch (const Error& e) {
     done(e.what());
@@ -181,6 +183,14 @@ void Hub::call_save(Client& client, const std::vector<std::string>& texts,
       });
 }
 
+void Hub::call_record(Client& client, const std::vector<std::string>& texts,
+                      const std::function<void(const std::string&)>& reply, bool as_json) {
+  const json record = record_json(view(), texts[0], texts[1]);
+  --client.unanswered;
+  reply(as_json ? dumped({{"accepted", true}, {"reason", ""}, {"record", record}})
+                : cdr_answer(true, {"", dumped(record)}));
+}
+
 void Hub::call_host(const Service& service, const std::vector<std::string>& texts, Control::Answer answer) {
   switch (service.what) {
     case Service::What::set_parameter:
@@ -195,6 +205,7 @@ void Hub::call_host(const Service& service, const std::vector<std::string>& text
     case Service::What::restart: return control_.pace(restart_order(texts[0]), std::move(answer));
     case Service::What::request:
     case Service::What::save:
+    case Service::What::record:
     case Service::What::view: break;
   }
 }

@@ -56,6 +56,20 @@ json phases_of(const core::LogInfo& info) {
   return rows;
 }
 
+/// Of the parameters, those records that name places on the ground: fence, places, runway.
+json ground_records(const json& parameters) {
+  json records = json::array();
+  if (!parameters.is_object()) return records;
+  for (const auto& [component, params] : parameters.items())
+    for (const auto& [name, value] : params.items()) {
+      if (value.contains("runway"))
+        records.push_back({{"runway", value["runway"]}});
+      else if (value.contains("corners") || value.contains("places") || value.contains("length_m"))
+        records.push_back(value);
+    }
+  return records;
+}
+
 json log_json(const ReportedLog& log, std::size_t every_nth) {
   const std::size_t rows = std::max(least_rows, most_rows / every_nth);
   json topics = json::array(), estimates = json::array(), sensors = json::array();
@@ -78,6 +92,7 @@ json log_json(const ReportedLog& log, std::size_t every_nth) {
           {"innovations", std::move(sensors)},
           {"ticks", log.ticks},
           {"steps", log.steps},
+          {"ground", ground_records(log.parameters)},
           {"topics", std::move(topics)}};
 }
 

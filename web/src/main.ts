@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page of a running flight: connects to where it came from, shows one view at a time.
 import { el, fill, mark, say } from "./dom";
+import { names_of } from "./names";
 import { Flight } from "./protocol/flight";
 import { clock } from "./units";
+import { AlertStrip } from "./views/alerts";
 import { Fly } from "./views/fly";
 import type { Page } from "./views/page";
 import { PlanPage } from "./views/plan";
@@ -11,13 +13,15 @@ import { Tune } from "./views/tune";
 import { Wires } from "./views/wires";
 
 const flight = new Flight(location.href.replace(/^http/, "ws").replace(/#.*$/, ""));
-const lost_for_ms = 300;
+const lost_for_ms = 300, old_ms = 1000, behind_ms = 600, least_often_ms = 1000;
 
 function byId(id: string): HTMLElement {
   return document.getElementById(id) as HTMLElement;
 }
 
-const fly = new Fly(flight), tune = new Tune(flight);
+const alerts = new AlertStrip(flight);
+const fly = new Fly(flight, alerts), tune = new Tune(flight);
+flight.heard_of_channels.push(() => alerts.begin());
 const pages: Page[] = [fly, new PlanPage(flight, fly.track), tune, new Wires(flight), new Simulation(flight)];
 let shown: Page | null = null;
 
@@ -70,6 +74,20 @@ function link(now_ms: number): void {
   if (down) say(banner, `✕ ${what}, ${seconds} s ago.${shown} ${ended ? "Waiting for another one." : "Trying again."}`);
 }
 
+/** The age of what is shown: on its way, in this browser, of the estimate itself, and since it was drawn. */
+function shown_age_ms(now_ms: number): number {
+  const view = flight.view, state = names_of(flight).state, stands = !view || view.paused || view.over;
+  const sample = stands || state === "" ? 0 : flight.age(state) / Math.max(1, view.speed);
+  return Math.max(flight.age_ms(), Number.isFinite(sample) ? 1000 * sample : 0, now_ms - drawn_ms);
+}
+function age(now_ms: number): void {
+  const field = byId("age"), ms = Math.max(0, shown_age_ms(now_ms)), old = ms > old_ms && flight.view !== null;
+  say(field, flight.view === null ? "–" : ms < 10_000 ? (ms / 1000).toFixed(1) + " s" : Math.round(ms / 1000) + " s");
+  field.dataset.ms = String(Math.round(ms));
+  mark(field, "old", old);
+  mark(document.body, "stale", old);
+}
+
 function head(): void {
   const view = flight.view;
   if (!view) return;
@@ -86,6 +104,7 @@ function head(): void {
 
 flight.on_link = () => link(performance.now());
 
+let drawn_ms = performance.now(); // when the views were drawn last
 let toast_timer = 0;
 flight.on_status = (level, words) => {
   const toast = byId("toast");
@@ -105,9 +124,17 @@ function frame(now_ms: number): void {
   last_ms = now_ms;
   link(performance.now());
   head();
+  alerts.update();
+  // who is behind reads what has come before he draws again, and then draws the newest
+  if (flight.age_ms() > behind_ms && performance.now() - drawn_ms < least_often_ms) return;
+  drawn_ms = performance.now();
   fly.track.update(); // whatever is shown
   shown?.update(now_ms);
 }
 requestAnimationFrame(frame);
 setInterval(() => tune.record(), 1000);
-setInterval(() => link(performance.now()), 200); // also where no pictures are asked for
+setInterval(() => {
+  link(performance.now()); // also where no pictures are asked for
+  age(performance.now());
+}, 200);
+byId("alerts").replaceWith(alerts.element);

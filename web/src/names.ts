@@ -7,7 +7,8 @@ import type { Plan, Waypoint } from "./flight/route";
 
 export interface Names {
   state: string; truth: string; plan: string; path: string; progress: string; command: string;
-  attitude: string; actuators: string; status: string; health: string; gnss: string; rc: string; link: string;
+  attitude: string; actuators: string; status: string; health: string; gnss: string; rc: string; link: string; safety: string;
+  ground: string; contact: string;
 }
 
 export function names_of(source: Source): Names {
@@ -20,6 +21,7 @@ export function names_of(source: Source): Names {
     plan: first("Plan"), path: first("Path"), progress: first("Progress"), command: first("GuidanceCommand"),
     attitude: first("AttitudeCommand"), actuators: first("Actuators"), status: first("VehicleStatus"),
     health: first("NavigationHealth"), gnss: first("Gnss"), rc: first("Rc"), link: first("LinkState"),
+    safety: first("SafetyState"), ground: first("GroundState"), contact: first("ContactTruth"),
   };
 }
 

@@ -67,6 +67,10 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
   CHECK(call_json("/fulmar/swap", R"({"component": "slc", "file": "x.so"})")["reason"] ==
         "the vehicle is armed");
   CHECK(call_json("/fulmar/reset_guards", "")["accepted"] == true);
+  CHECK(call_json("/fulmar/record", R"({"component": "slc", "name": "roll_kp"})")["reason"] ==
+        "slc.roll_kp is no record");
+  CHECK(call_json("/fulmar/record", R"({"component": "slc", "name": "fence"})")["reason"] ==
+        "there is no parameter 'slc.fence'");
   CHECK(call_json("/fulmar/view", "{}")["paused"] == false);
   CHECK(call_json("/fulmar/pause", "{}")["accepted"] == true);
   CHECK(call_json("/fulmar/pause", "{}")["reason"] == "the flight is paused already");
@@ -95,6 +99,8 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
   CHECK(view["tiles"] == "https://a.b/{z}/{x}/{y}");
   CHECK(view["attribution"] == "Example");
   CHECK(view["components"][0]["params"][0]["text"] == "0.8 rad/rad");
+  CHECK(view["components"][0]["params"][0]["begun"] == 0.55);
+  CHECK(view["components"][0]["params"][0]["value"] == 0.8);
   CHECK(view["components"][0]["params"][0]["max"] == 2.0);
   CHECK(view["components"][0]["steps"] == 42);
   CHECK(view["components"][0]["step_us"] == 3.5);

@@ -49,12 +49,12 @@ TEST_CASE_FIXTURE(Fixture, "a client is told who serves, which channels there ar
   CHECK(channels[1]["schemaName"] == "fulmar_msgs/msg/Leg");
   CHECK(channels[1]["schema"].get<std::string>().find("float64 course_rad") != std::string::npos);
   const json& services = peer.texts[2]["services"];
-  REQUIRE(services.size() == 12);
-  CHECK(services[11]["name"] == "/plan/add_leg");
-  CHECK(services[11]["type"] == "fulmar_msgs/srv/Leg");
-  CHECK(services[11]["request"]["schemaName"] == "fulmar_msgs/msg/Leg");
-  CHECK(services[11]["requestSchema"] == channels[1]["schema"]);
-  CHECK(services[11]["responseSchema"] == "bool accepted\nstring reason\n");
+  REQUIRE(services.size() == 13);
+  CHECK(services[12]["name"] == "/plan/add_leg");
+  CHECK(services[12]["type"] == "fulmar_msgs/srv/Leg");
+  CHECK(services[12]["request"]["schemaName"] == "fulmar_msgs/msg/Leg");
+  CHECK(services[12]["requestSchema"] == channels[1]["schema"]);
+  CHECK(services[12]["responseSchema"] == "bool accepted\nstring reason\n");
   CHECK(services[0]["requestSchema"] == "string component\nstring name\nstring text\n");
 }
 

@@ -6,7 +6,7 @@ import type { Place } from "../flight/tiles";
 import type { Series, Source, Topic } from "../source";
 
 export interface Param {
-  name: string; kind: string; unit: string; doc: string; value: unknown; text: string; initial: unknown;
+  name: string; kind: string; unit: string; doc: string; value: unknown; text: string; begun: unknown; initial: unknown;
   min: number | null; max: number | null; choices: string[]; live: boolean; overlaid: boolean;
 }
 export interface Port {
@@ -28,7 +28,7 @@ export interface Answer {
 }
 
 const series_gap_s = 0.02, series_length = 12_000; // four minutes at 50 a second
-const view_every_ms = 1000;
+const view_every_ms = 1000, too_old_ms = 2000;
 
 interface Heard {
   topic: Topic;
@@ -51,7 +51,10 @@ export class Flight implements Source {
   on_status: (level: number, words: string) => void = () => {};
   on_view: (view: View) => void = () => {};
   on_link: () => void = () => {};
-  on_channels: () => void = () => {};
+  /** Called when the topics are known, or others. */
+  readonly heard_of_channels: (() => void)[] = [];
+  /** Parameters that are records: fence, places, runway, plan. */
+  records: unknown[] = [];
   private readonly socket: Socket;
   private heard = new Map<string, Heard>();
   private by_id = new Map<number, Heard>();
@@ -106,7 +109,7 @@ export class Flight implements Source {
       this.heard.set(c.topic, heard);
       this.by_id.set(c.id, heard);
     }
-    this.on_channels();
+    for (const heard of this.heard_of_channels) heard();
   }
 
   private take(id: number, time: bigint, view: DataView, offset: number): void {
@@ -118,7 +121,9 @@ export class Flight implements Source {
     heard.wall_ms = performance.now();
     ++heard.count;
     if (heard.t > this.now || Number.isNaN(this.now)) this.now = heard.t;
-    for (const [path, s] of heard.series) {
+    // a browser that is too slow goes without curves until it has the newest
+    const late = !document.hidden && this.age_ms() > too_old_ms;
+    for (const [path, s] of late ? [] : heard.series) {
       if (s.t.length > 0 && heard.t - (s.t[s.t.length - 1] as number) < series_gap_s - 1e-6) continue;
       const value = number_at(this.read(heard), path);
       if (value === undefined || Number.isNaN(heard.t)) continue;
@@ -142,6 +147,11 @@ export class Flight implements Source {
       heard.raw = null; // not what its description says
     }
     return heard.message;
+  }
+
+  /** How old what has come last can be at most: on its way from the flight, and in this browser. */
+  age_ms(): number {
+    return this.socket.age_ms();
   }
 
   // ---- figures
@@ -206,11 +216,12 @@ export class Flight implements Source {
       const first_time = this.epoch === null;
       this.view = view;
       this.epoch = BigInt(view.epoch_ns);
-      if (first_time) this.on_channels();
+      if (first_time) for (const heard of this.heard_of_channels) heard();
       if (view.paused || Number.isNaN(this.now)) this.now = view.now_ns * 1e-9;
       const first = view.components.find((c) => c.params.length > 0);
       if (first) this.socket.sign_of_life = [first.name + "." + first.params[0]?.name];
       this.on_view(view);
+      void this.read_records(view);
     } catch {
       // the connection was lost: it will come again
     } finally {
@@ -220,6 +231,22 @@ export class Flight implements Source {
       if (waiters.length > 0) void this.refresh().then(() => waiters.forEach((done) => done()));
     }
   }
+
+  /** Records do not change in flight, but for a swap. */
+  private async read_records(view: View): Promise<void> {
+    const wanted = view.components.flatMap((c) => c.params.filter((p) => p.kind === "record" && p.name !== "airframe" && p.name !== "origin" && p.text !== "not given")
+      .map((p) => ({ component: c.name, name: p.name, text: p.text, use: c.use })));
+    const key = JSON.stringify(wanted), service = this.services.get("/fulmar/record");
+    if (key === this.read_for || !service) return;
+    this.read_for = key;
+    try {
+      const answers = await Promise.all(wanted.map((w) => this.socket.call(service.id, { component: w.component, name: w.name })));
+      this.records = answers.map((a) => (a as { record?: unknown }).record ?? null);
+    } catch {
+      this.read_for = ""; // with the next view
+    }
+  }
+  private read_for = "";
 
   /** Asks, and says what the flight answered: also when nobody could be asked. */
   async ask(service: string, request: unknown): Promise<Answer> {

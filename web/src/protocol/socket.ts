@@ -29,7 +29,7 @@ export interface LinkState {
   why: string; // it is down
 }
 
-const quiet_ms = 250; // then we ask whether somebody is there
+const alive_ms = 200; // between two questions whose answers show how old is what comes with them
 const lost_ms = 750; // then nobody is
 const again_ms = 500; // between two attempts
 const watch_ms = 100;
@@ -46,7 +46,10 @@ export class Socket {
   private heard_ms = 0;
   private watched_ms = 0;
   private quiet = 0; // ms since it was heard, of those in which this page was awake: what has come while it slept is read later
+  private asked = new Map<string, number>(); // questions without an answer, and when they were sent
+  private next_asked = 1;
   private asked_ms = 0;
+  private known_ms = 0; // when the newest question was sent that has an answer
   private opened_ms = 0;
   private up = false;
   private calls = new Map<number, Call>();
@@ -104,10 +107,21 @@ export class Socket {
     }
     if (document.hidden) return; // a page that is not seen is put to sleep now and then
     if (this.quiet > lost_ms && (this.up || this.quiet > 5 * lost_ms)) return this.lose("nothing is heard of the flight");
-    if (this.up && this.quiet > quiet_ms && now - this.asked_ms > quiet_ms) {
-      this.asked_ms = now;
-      this.send({ op: "getParameters", parameterNames: this.sign_of_life, id: "alive" });
-    }
+    if (!this.up || now - this.asked_ms < alive_ms) return;
+    this.asked_ms = now;
+    const id = "alive " + this.next_asked++;
+    this.asked.set(id, now);
+    this.send({ op: "getParameters", parameterNames: this.sign_of_life, id });
+  }
+  /** How old what has come last can be at most. Answers come behind the samples that were sent before them, through every queue on the way. */
+  age_ms(): number {
+    return performance.now() - this.known_ms;
+  }
+  private answered(id: string): void {
+    const sent = this.asked.get(id);
+    if (sent === undefined) return;
+    for (const [other, ms] of this.asked) if (ms <= sent) this.asked.delete(other);
+    this.known_ms = Math.max(this.known_ms, sent);
   }
   /** One parameter, so that the answer is short. */
   sign_of_life: string[] = [];
@@ -121,6 +135,8 @@ export class Socket {
     switch (message.op) {
       case "serverInfo":
         this.up = true;
+        this.known_ms = performance.now();
+        this.asked.clear();
         this.on.session(String(message.sessionId));
         this.on.link({ up: true, since_ms: performance.now(), why: "" });
         break;
@@ -132,7 +148,8 @@ export class Socket {
         this.on.services(message.services);
         break;
       case "parameterValues":
-        if (message.id !== "alive") this.on.parameters(message.parameters);
+        if (String(message.id ?? "").startsWith("alive ")) this.answered(message.id);
+        else this.on.parameters(message.parameters);
         break;
       case "status":
         this.on.status(message.level, String(message.message));

@@ -6,9 +6,11 @@ import { names_of, plan_of, state_of } from "../names";
 import { number_at } from "../protocol/schema";
 import type { Recording } from "../recorded";
 import { clock } from "../units";
+import { recorded_lost, recorded_places } from "./ground";
 import { Chase } from "../views/chase";
 import { EventList } from "../views/events";
 import { HealthPanel } from "../views/health";
+import { SafetyRow } from "../views/safety";
 import { draw_instruments } from "../views/instruments";
 import { MapView } from "../views/map";
 import { Response } from "../views/response";
@@ -17,7 +19,7 @@ export class Moment {
   private readonly names;
   private readonly slider; private readonly play; private readonly speed;
   private readonly time = el("b", { class: "big" }); private readonly phase = el("b");
-  private readonly map = new MapView(); private readonly health; private readonly events; private readonly response;
+  private readonly map = new MapView(); private readonly safety; private readonly health; private readonly events; private readonly response;
   private readonly instruments = el("canvas", { role: "img", "aria-label": "Attitude, airspeed, height, heading" });
   private readonly chase_canvas = el("canvas", { role: "img", "aria-label": "The aircraft from behind" });
   private readonly chase_box = el("div", { class: "chase" }, this.chase_canvas);
@@ -32,11 +34,12 @@ export class Moment {
     this.play = el("button", { class: "main", onclick: () => (this.plays = !this.plays) }, "Play");
     this.speed = el("select", { "aria-label": "Speed" }, ...[1, 2, 5, 10, 30].map((s) => el("option", { value: String(s) }, s + " ×")));
     this.health = new HealthPanel(source);
+    this.safety = new SafetyRow(source);
     this.events = new EventList(source);
     this.response = new Response(source);
     this.slider.addEventListener("input", () => (source.now = this.slider.valueAsNumber));
     this.controls = el("div", { class: "row moment" }, this.play, this.speed, this.time, el("span", {}, el("i", {}, "phase "), this.phase), this.slider);
-    this.element = el("div", { class: "fly report" }, this.chase_box, this.map.element, el("div", { class: "pfd" }, this.instruments), this.response.element,
+    this.element = el("div", { class: "fly report" }, this.safety.element, this.chase_box, this.map.element, el("div", { class: "pfd" }, this.instruments), this.response.element,
       el("aside", { class: "side" }, this.health.element, this.events.element));
   }
 
@@ -79,6 +82,7 @@ export class Moment {
     const track = { n: source.series(names.state, "position_m.north").v as number[], e: source.series(names.state, "position_m.east").v as number[] };
     this.map.draw({
       plan: this.plan, draft: false, state, track, item: number_at(source.latest(names.progress), "item") ?? -1, chosen: -1, refused: -1,
+      places: recorded_places(source, names), lost: recorded_lost(source, names),
       piece: state?.valid.position ? piece_ahead(source.latest(names.path), state) : [],
     });
     const command = source.latest(names.command), attitude = source.latest(names.attitude), actuators = source.latest(names.actuators);
@@ -89,5 +93,6 @@ export class Moment {
     const x = (path: string) => number_at(actuators, path) ?? 0;
     this.chase?.draw(state, actuators ? { aileron: x("aileron_rad"), elevator: x("elevator_rad"), rudder: x("rudder_rad"), throttle: x("throttle_frac") } : null, this.plan);
     this.health.update(names);
+    this.safety.update(names);
   }
 }

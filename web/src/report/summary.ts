@@ -4,6 +4,7 @@ import { el } from "../dom";
 import { names_of, plan_of, state_of } from "../names";
 import type { Recording } from "../recorded";
 import { MapView } from "../views/map";
+import { recorded_places } from "./ground";
 import { fixed } from "../units";
 import { channel_charts, error_chart, type Judged, log_colours, surface_charts, width_of } from "./curves";
 import { draw_charts, resize_charts, show_time } from "./chart";
@@ -103,7 +104,7 @@ export class Summary {
     first.now = first.log.end_s; // the plan as it was in the end
     const plan = plan_of(first.latest(names.plan)), state = state_of(first.latest(names.state));
     first.now = now;
-    this.map.draw({ plan, draft: false, state: this.sources.length === 1 ? state : null, track: { n: [], e: [] }, tracks, item: -1, chosen: -1, refused: -1, piece: [] });
+    this.map.draw({ plan, draft: false, state: this.sources.length === 1 ? state : null, track: { n: [], e: [] }, tracks, places: recorded_places(first, names), item: -1, chosen: -1, refused: -1, piece: [] });
   }
   draw(): void {
     draw_charts();

@@ -15,9 +15,19 @@ import type { Page } from "./page";
 import { EventList } from "./events";
 import { HealthPanel } from "./health";
 import { RolesPanel } from "./roles";
+import type { AlertStrip } from "./alerts";
+import { Commands } from "./commands";
+import { HandPanel } from "./hand";
+import { on_ground } from "../flight/alerts";
+import { places_now } from "./places";
+import { PreArm, SafetyRow } from "./safety";
 
 /** A number stays with its unit, wherever the line is broken. */
+const said_s = 12; // it is said every 10 s as long as it holds
 const whole = (words: string) => words.replace(/ /g, "\u00a0");
+
+/** A battery without voltage is none that is measured, and then neither is its current. */
+const measured = (status: Message | undefined) => (number_at(status, "battery_volt") ?? 0) > 0;
 
 export class Fly implements Page {
   readonly name = "Fly";
@@ -32,24 +42,33 @@ export class Fly implements Page {
   private readonly events: EventList;
   private readonly health: HealthPanel;
   private readonly roles: RolesPanel;
+  private readonly safety: SafetyRow;
+  private readonly prearm: PreArm;
+  private readonly commands: Commands;
+  private readonly hand: HandPanel;
   private chase: Chase | null = null;
   private loading = false;
   private plan_message: Message | undefined;
   private plan: ReturnType<typeof plan_of> = null;
 
-  constructor(private readonly flight: Flight) {
+  constructor(private readonly flight: Flight, private readonly alerts: AlertStrip) {
     this.names = names_of(flight);
     this.track = new TrackRecorder(flight, () => this.names);
     this.events = new EventList(flight);
     this.health = new HealthPanel(flight);
     this.roles = new RolesPanel(flight);
-    flight.on_channels = () => {
+    this.safety = new SafetyRow(flight);
+    this.prearm = new PreArm(flight);
+    this.commands = new Commands(flight);
+    this.hand = new HandPanel(flight);
+    flight.heard_of_channels.push(() => {
       this.names = names_of(flight);
       this.events.begin();
-    };
-    this.element = el("div", { class: "fly" }, this.chase_box, this.map.element,
-      el("div", { class: "pfd" }, this.instruments), this.figures,
-      el("aside", { class: "side" }, this.roles.element, this.health.element, this.events.element));
+    });
+    this.element = el("div", { class: "fly" }, this.safety.element, this.chase_box, this.map.element,
+      el("div", { class: "pfd" }, this.instruments),
+      el("div", { class: "desk" }, el("div", { class: "row nowrap" }, this.commands.element, this.hand.flies), this.commands.refusal, this.hand.element, this.figures),
+      el("aside", { class: "side" }, this.prearm.element, this.roles.element, this.events.element, this.health.element));
   }
 
   /** three is most of the page: what is seen first does not wait for it. */
@@ -74,7 +93,7 @@ export class Fly implements Page {
     }
     const progress = f.latest(names.progress), command = f.latest(names.command), attitude = f.latest(names.attitude);
     const item = number_at(progress, "item") ?? -1;
-    this.map.draw({ plan: this.plan, draft: false, state, track: this.track, ground: ground_of(f.view), item, chosen: -1, refused: -1, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [] });
+    this.map.draw({ plan: this.plan, draft: false, state, track: this.track, ground: ground_of(f.view), places: places_now(f, names), lost: this.track.lost(), item, chosen: -1, refused: -1, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [] });
     draw_instruments(this.instruments, state, {
       air: number_at(command, "airspeed_mps"), up: number_at(command, "height_m"), course: number_at(command, "course_rad"),
       roll: number_at(attitude, "roll_rad"), pitch: number_at(attitude, "pitch_rad"),
@@ -89,6 +108,13 @@ export class Fly implements Page {
     this.show_figures(state, actuators, progress);
     this.roles.update();
     this.health.update(names);
+    this.safety.update(names);
+    this.commands.update();
+    this.hand.update();
+    mark(this.figures, "few", this.hand.has);
+    const moment = this.alerts.moment(), lacks = this.alerts.lacks;
+    const flown = (number_at(moment.ground, "lift_offs") ?? 0) > 0 || f.now > 20; // after a flight it is no news
+    this.prearm.update(names, f.view !== null && (on_ground(moment) || !f.view.armed) && !(flown && f.view.armed), f.now - lacks.t < said_s ? lacks.what : []);
   }
 
   private show_figures(s: ReturnType<typeof state_of>, actuators: Message | undefined, progress: Message | undefined): void {
@@ -99,14 +125,14 @@ export class Fly implements Page {
       ["ground speed", s?.valid.velocity ? fixed(s.ground, 1, "m/s") : "–"],
       ["climb rate", s?.valid.velocity ? fixed(s.climb, 1, "m/s") : "–"],
       ["throttle", fixed((number_at(actuators, "throttle_frac") ?? NaN) * 100, 0, "%")],
+      ["battery", measured(status) ? `${whole(fixed(number_at(status, "battery_volt"), 1, "V"))} ${whole(fixed((number_at(status, "battery_frac") ?? NaN) * 100, 0, "%"))}` : "not measured",
+        measured(status) && (number_at(status, "battery_frac") ?? 1) < 0.2],
       ["aileron", angle("aileron_rad")], ["elevator", angle("elevator_rad")], ["rudder", angle("rudder_rad")],
       ["waypoint", items ? `${number_at(progress, "item")} of ${items}` : "–"],
       ["distance to it", items ? digits(number_at(progress, "distance_m") ?? NaN) + " m" : "–"],
       ["circuits", items ? String(number_at(progress, "circuits") ?? "–") : "–"],
       ["from origin", s?.valid.position ? digits(Math.hypot(s.n, s.e)) + " m" : "–"],
-      ["battery", status ? `${whole(fixed(number_at(status, "battery_volt"), 1, "V"))} ${whole(fixed((number_at(status, "battery_frac") ?? NaN) * 100, 0, "%"))}` : "–",
-        (number_at(status, "battery_frac") ?? 1) < 0.2],
-      ["current", fixed(number_at(status, "battery_amp"), 1, "A")],
+      ["current", measured(status) ? fixed(number_at(status, "battery_amp"), 1, "A") : "–"],
     ];
     if (this.figures.childElementCount === 0)
       fill(this.figures, ...list.map(([name]) => el("div", {}, el("span", {}, name), el("b", {}))));

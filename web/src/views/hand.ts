@@ -10,11 +10,11 @@ const sticks = ["stick_roll", "stick_pitch", "stick_yaw", "stick_throttle"] as c
 
 export class HandPanel {
   private readonly pad = el("div", { class: "sticks", tabIndex: 0, role: "application", "aria-label": "Sticks: click, then fly by keys" });
-  private readonly flies = el("button", { onclick: () => void this.toggle() }, "Take the sticks");
+  readonly flies = el("button", { class: "take",  onclick: () => void this.toggle() }, "Take the sticks");
   private readonly said = el("p", { class: "refusal", role: "alert", hidden: true });
   private readonly words = el("p", { class: "faint" });
   private readonly knobs = [el("i"), el("i")];
-  readonly element = el("section", {}, el("h2", {}, "By hand"), el("div", { class: "row" }, this.flies), this.pad, this.words, this.said);
+  readonly element = el("section", { class: "hand" }, this.pad, this.words, this.said);
   private held = new Set<string>();
   private position = { roll: 0, pitch: 0, yaw: 0, throttle: 0 };
   private sent = "";
@@ -37,7 +37,7 @@ export class HandPanel {
   private vehicle(): string {
     return this.flight.view?.components.find((c) => c.active && c.params.some((p) => p.name === "pilot_flies"))?.name ?? "";
   }
-  private get has(): boolean {
+  get has(): boolean {
     return this.flight.component(this.vehicle())?.params.find((p) => p.name === "pilot_flies")?.value === true;
   }
   private async toggle(): Promise<void> {
@@ -47,7 +47,7 @@ export class HandPanel {
     this.said.hidden = answer.accepted;
     say(this.said, "Refused: " + answer.reason);
     await this.flight.refresh();
-    this.pad.hidden = !this.has; // what is hidden cannot have the keys
+    this.element.hidden = this.pad.hidden = !this.has; // what is hidden cannot have the keys
     if (this.has) this.pad.focus();
   }
   /** The throttle where the autopilot has it, the rest in the middle. */
@@ -92,14 +92,12 @@ export class HandPanel {
 
   update(): void {
     const vehicle = this.vehicle(), has = this.has, now = performance.now();
-    this.element.hidden = vehicle === "";
+    this.flies.hidden = vehicle === "";
+    this.element.hidden = !has && this.said.hidden;
     say(this.flies, has ? "Give them back" : "Take the sticks");
     this.pad.hidden = !has;
     const p = this.position;
-    say(this.words, has
-      ? `Arrows or W A S D: roll and pitch; Q E: yaw; R F: throttle; X: closed; or a gamepad. Roll ${fixed(p.roll * 100, 0, "%")}, pitch ${fixed(p.pitch * 100, 0, "%")}, ` +
-        `yaw ${fixed(p.yaw * 100, 0, "%")}, throttle ${fixed(p.throttle * 100, 0, "%")}.`
-      : "The sticks move the surfaces of the simulated aircraft, past the autopilot. By keys or a gamepad.");
+    say(this.words, `Arrows or W A S D: roll and pitch; Q E: yaw; R F: throttle; X: closed; or a gamepad. Throttle ${fixed(p.throttle * 100, 0, "%")}.`);
     const seconds = (now - this.last_ms) / 1000;
     if (!has || seconds * 1000 < send_ms) return;
     this.last_ms = now;

@@ -3,9 +3,12 @@
 import { colours, el, say, sharp } from "../dom";
 import { type Plan, type Point, Route } from "../flight/route";
 import type { State } from "../names";
+import type { Places } from "../flight/places";
 import type { Ground } from "./ground";
+import { type Lost, aircraft_shape, draw_lost, draw_places, words_on } from "./marks";
 import { bearing, degrees, digits, fixed } from "../units";
 
+export type { Lost } from "./marks";
 export interface Track {
   n: number[];
   e: number[];
@@ -19,6 +22,8 @@ export interface Scene {
   chosen: number; // waypoint that is being edited; -1: none
   refused: number; // waypoint whose last edit was refused; -1: none
   ground?: Ground | null; // what lies beneath
+  places?: Places | null; // fence, runway, places to come down at
+  lost?: Lost | null; // of an aircraft whose position is not known
   piece: Point[]; // of the path that is followed now
   tracks?: (Track & { colour: string; width: number })[]; // of a report: all of each flight, and all of it is shown
 }
@@ -81,7 +86,9 @@ export class MapView {
     this.follows = false;
     const points: Point[] = [{ n: 0, e: 0 }];
     for (const w of this.seen?.plan?.waypoints ?? []) points.push({ n: w.north, e: w.east });
-    if (this.seen?.state) points.push(this.seen.state);
+    if (this.seen?.state?.valid.position) points.push(this.seen.state);
+    const places = this.seen?.places;
+    points.push(...(places?.fence ?? []), ...(places?.places ?? []));
     for (const track of this.seen?.tracks ?? [])
       track.n.forEach((n, i) => Number.isFinite(n) && points.push({ n, e: track.e[i] as number }));
     const n = points.map((p) => p.n), e = points.map((p) => p.e);
@@ -147,12 +154,14 @@ export class MapView {
 
   // ---- the picture
   draw(scene: Scene): void {
-    const news = this.px_per_m === 0 || (!this.touched && !this.seen?.plan && scene.plan !== null);
+    const comes = (had: unknown, has: unknown) => !had && Boolean(has);
+    const news = this.px_per_m === 0 || (!this.touched && (comes(this.seen?.plan, scene.plan) || comes(this.seen?.places?.fence.length, scene.places?.fence.length)));
     this.seen = scene;
     if (this.width === 0) return;
     if (news && (scene.plan || scene.state || scene.tracks)) this.fit(); // until a hand chooses what is shown
     if (this.px_per_m === 0) return;
-    if (this.follows && scene.state) this.centre = { n: scene.state.n, e: scene.state.e };
+    const middle = scene.lost?.at ?? scene.state;
+    if (this.follows && middle) this.centre = { n: middle.n, e: middle.e };
     // where the picture is, for who cannot see it: north and east of its middle in m, pixels per metre
     this.canvas.dataset.view = [this.centre.n, this.centre.e, this.px_per_m].join();
     const g = sharp(this.canvas);
@@ -164,6 +173,7 @@ export class MapView {
     this.attribution.hidden = !scene.ground?.attribution;
     say(this.attribution, scene.ground?.attribution ?? "");
     this.scale(g, step);
+    if (scene.places) draw_places(g, scene.places, (p) => this.to_screen(p), this.px_per_m);
     this.trail(g, scene.track);
     this.route(g, scene);
     for (const track of scene.tracks ?? []) this.trail(g, track, track.colour, track.width);
@@ -172,9 +182,20 @@ export class MapView {
     g.setLineDash([1, 6]);
     this.line(g, scene.piece);
     g.setLineDash([]);
-    this.home(g);
+    if (!scene.places?.places.length) this.home(g);
+    if (scene.lost) draw_lost(g, scene.lost, (p) => this.to_screen(p), this.px_per_m);
+    this.data(scene);
     if (scene.state?.valid.position) this.aircraft(g, scene.state);
     if (scene.state?.valid.wind) this.wind(g, scene.state);
+  }
+  /** What the picture shows, for who cannot see it. */
+  private data(scene: Scene): void {
+    const { places, lost } = scene, data = this.canvas.dataset;
+    data.fence = String(places?.fence.length ?? 0);
+    data.places = String(places?.places.length ?? 0);
+    data.runway = places?.runway ? String(Math.round(places.runway.length)) : "";
+    data.aircraft = scene.state?.valid.position ? "known" : lost ? "lost" : "none";
+    data.lost = lost ? [lost.at.n, lost.at.e, lost.radius ?? ""].join() : "";
   }
   private grid(g: CanvasRenderingContext2D): number {
     let step = 1;
@@ -278,7 +299,9 @@ export class MapView {
         const p = this.to_screen({ n: other.north, e: other.east });
         return k === i || Math.abs(p.y - at.y) > 16 || p.x < at.x - 30 || p.x > end + 12;
       });
-      if (free || i === scene.chosen) g.fillText(words, at.x + 15, at.y);
+      if (free || i === scene.chosen) words_on(g, words, at.x + 15, at.y);
+      g.strokeStyle = g.fillStyle = colours.get("text");
+      g.lineWidth = 2;
       if (w.course === null) return;
       g.beginPath();
       g.moveTo(at.x + 12 * Math.sin(w.course), at.y - 12 * Math.cos(w.course));
@@ -299,17 +322,12 @@ export class MapView {
     g.font = "11px system-ui";
     g.textAlign = "center";
     g.textBaseline = "top";
-    g.fillText("origin", x, y + 8);
+    words_on(g, "origin", x, y + 8);
   }
   private aircraft(g: CanvasRenderingContext2D, s: State): void {
     const { x, y } = this.to_screen(s);
     g.save();
-    g.translate(x, y);
-    g.rotate(s.yaw);
-    g.beginPath();
-    for (const [a, b] of [[0, -15], [3, -4], [16, 2], [16, 5], [3, 3], [2, 11], [6, 14], [6, 16], [0, 15]] as const) g.lineTo(a, b);
-    for (const [a, b] of [[6, 16], [6, 14], [2, 11], [3, 3], [16, 5], [16, 2], [3, -4]] as const) g.lineTo(-a, b);
-    g.closePath();
+    aircraft_shape(g, s.yaw, x, y);
     g.fillStyle = colours.get("aircraft");
     g.strokeStyle = colours.get("ground");
     g.lineWidth = 1.5;

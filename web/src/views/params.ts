@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One live parameter: slider or switch, the value as it can be typed, its range, and the way back to what it was
-// when the page began to look. Angles in degrees.
+// when the flight began. Angles in degrees.
 import { el, mark, say } from "../dom";
 import type { Flight, Param } from "../protocol/flight";
 import { digits, plain, shown_unit, with_unit } from "../units";
@@ -27,7 +27,7 @@ export class ParamRow {
   private readonly back = el("button", { class: "small", onclick: () => this.put(this.was, this.text_of(this.was)) }, "↺");
   private readonly note = el("span", { class: "faint note" });
   private readonly refusal = el("p", { class: "refusal", role: "alert", hidden: true });
-  private was: unknown; // when the page began to look
+  private was: unknown; // when the flight began
   private value: unknown;
   private waiting: string | null = null;
   private last_ms = 0;
@@ -35,7 +35,8 @@ export class ParamRow {
   private touched_ms = -1e9;
 
   constructor(private readonly flight: Flight, readonly component: string, private p: Param) {
-    this.was = this.value = p.value;
+    this.was = p.begun;
+    this.value = p.value;
     const { unit, scale } = shown_unit(p.unit);
     const label = `${component}.${p.name}${unit ? ", " + unit : ""}`;
     if (p.kind === "choice") {

@@ -10,6 +10,7 @@ import type { Answer, Flight } from "../protocol/flight";
 import { type Message, number_at } from "../protocol/schema";
 import type { TrackRecorder } from "../track";
 import { ground_of } from "./ground";
+import { places_now } from "./places";
 import { MapView } from "./map";
 import type { Page } from "./page";
 import { PlanTable } from "./plan_table";
@@ -199,7 +200,7 @@ export class PlanPage implements Page {
     const item = number_at(f.latest(names.progress), "item") ?? -1;
     const draft = this.draft !== null && this.awaited < 0;
     this.map.draw({
-      plan: this.plan, draft: this.draft !== null, state, track: this.track, ground: ground_of(f.view),
+      plan: this.plan, draft: this.draft !== null, state, track: this.track, ground: ground_of(f.view), places: places_now(f, names), lost: this.track.lost(),
       item: this.draft ? -1 : item, chosen: this.chosen, refused: this.refused, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [],
     });
     this.table.update(this.plan, this.chosen, this.draft ? -1 : item);

@@ -4,7 +4,6 @@ import { el, fill, mark, say } from "../dom";
 import type { Answer, Component, Flight } from "../protocol/flight";
 import type { Field } from "../protocol/schema";
 import { clock } from "../units";
-import { HandPanel } from "./hand";
 import type { Page } from "./page";
 import { ParamRow } from "./params";
 
@@ -29,11 +28,9 @@ export class Simulation implements Page {
   private readonly seed = el("input", { type: "text", inputMode: "numeric", size: 6, "aria-label": "Seed of the new flight" });
   private asked_anew = 0; // timer of the first click
   private readonly rows: ParamRow[] = [];
-  private readonly hand: HandPanel;
   private made_for = "";
 
   constructor(private readonly flight: Flight) {
-    this.hand = new HandPanel(flight);
     this.element = this.box;
   }
 
@@ -92,7 +89,6 @@ export class Simulation implements Page {
       el("div", { class: "column" },
         el("section", {}, el("h2", {}, "Clock"), this.time, el("div", { class: "row" }, this.pause, this.step, this.ticks, " ticks"), this.speed,
           el("div", { class: "row" }, this.anew, el("label", {}, "seed ", this.seed)), this.said),
-        this.hand.element,
         ...requests.map((r) => this.request(r))),
       ...sections);
   }
@@ -150,6 +146,5 @@ export class Simulation implements Page {
       const p = vehicle?.params.find((q) => q.name === row.name);
       if (p) row.show(p);
     }
-    this.hand.update();
   }
 }

@@ -28,7 +28,7 @@ export class Tune implements Page {
     this.element = el("div", { class: "tune" },
       el("section", {}, el("h2", {}, "Components"), this.list),
       el("section", { class: "params" }, el("div", { class: "row" }, this.head, this.filter), this.rows_box),
-      el("aside", { class: "side" }, this.response.element, el("section", {}, el("h2", {}, "Changed since this page was opened"), this.changed, this.save.element)));
+      el("aside", { class: "side" }, this.response.element, el("section", {}, el("h2", {}, "Changed since the flight began"), this.changed, this.save.element)));
   }
 
   /** Once in a while, whatever is shown. */
@@ -79,6 +79,7 @@ export class Tune implements Page {
         this.choose(view.components.some((c) => c.name === this.chosen) ? this.chosen : (usual?.name ?? ""));
       }
       for (const c of view.components) {
+        if (c.params.some((p) => JSON.stringify(p.value) !== JSON.stringify(p.begun))) this.live(c); // changed, wherever it was
         const rows = this.rows.get(c.name);
         for (const row of rows ?? []) {
           const p = c.params.find((q) => q.name === row.name);

@@ -7,10 +7,10 @@ import { digits, fixed, none } from "../units";
 import type { Page } from "./page";
 import { type Figures, Wiring } from "./wiring";
 
-const count_ms = 1000, draw_ms = 200, steps_over_s = 4;
+const count_ms = 1000, draw_ms = 200, steps_over_s = 4, listened_ms = 3000;
 const short = (type: string) => type.slice(type.lastIndexOf("/") + 1) || "probe";
 const rate_of = (hz: number | undefined) => (hz === undefined ? none : digits(Math.round(hz * 10) / 10) + " Hz");
-const age_of = (s: number) => (Number.isFinite(s) ? (s < 10 ? fixed(s * 1000, 0, "ms") : fixed(s, 0, "s")) : "never");
+const age_of = (s: number, listened = true) => (!listened ? none : Number.isFinite(s) ? (s < 10 ? fixed(s * 1000, 0, "ms") : fixed(s, 0, "s")) : "never");
 
 interface Row {
   row: HTMLElement; state: HTMLElement; rate: HTMLElement; mean: HTMLElement; most: HTMLElement;
@@ -43,7 +43,7 @@ export class Wires implements Page {
   }
 
   show(): void {
-    this.counted_ms = 0;
+    this.counted_ms = this.since_ms = 0;
     this.steps = new Map();
     this.steps_s = -1e9;
     this.flight.want_all(true);
@@ -165,9 +165,19 @@ export class Wires implements Page {
     steps: (c) => (c.steps === 0 ? none : [this.step_rates.get(c.name), fixed(c.step_us, 1, "µs")].filter(Boolean).join(" ")),
     wire: (source) => {
       const topic = this.topic_of(source), age = topic ? this.flight.age(topic) : Infinity;
-      return { rate: rate_of(this.rates.get(topic)), age: age_of(age), silent: !Number.isFinite(age) };
+      return { rate: this.rate(topic), age: age_of(age, this.listened), silent: this.listened && !Number.isFinite(age) };
     },
   };
+
+  /** Of a topic that has not been listened to long enough nothing is known: no rate, and no "never". */
+  private get listened(): boolean {
+    return this.since_ms > 0 && performance.now() - this.since_ms > listened_ms;
+  }
+  private since_ms = 0;
+  private rate(topic: string): string {
+    const hz = this.rates.get(topic);
+    return rate_of(hz === 0 && !this.listened ? undefined : hz);
+  }
 
   /** By flight time: a simulation may be quicker than the clock. */
   private count(view: View, now_ms: number): void {
@@ -179,6 +189,7 @@ export class Wires implements Page {
       else this.rates.delete(key);
       this.counts.set(key, count);
     };
+    if (this.since_ms === 0 && this.flight.topics().length > 0) this.since_ms = performance.now();
     this.flight.want_all(true); // also those that were told of after it was shown
     for (const t of this.flight.topics()) note(t.name, this.flight.count(t.name));
     // The host notes its steps now and then: over a longer time.
@@ -200,8 +211,8 @@ export class Wires implements Page {
 
   private show_rates(): void {
     for (const p of this.ports) {
-      say(p.rate, p.topic ? rate_of(this.rates.get(p.topic)) : none);
-      say(p.age, p.topic ? age_of(this.flight.age(p.topic)) : none);
+      say(p.rate, p.topic ? this.rate(p.topic) : none);
+      say(p.age, p.topic ? age_of(this.flight.age(p.topic), this.listened) : none);
     }
   }
 }

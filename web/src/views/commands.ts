@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Three large buttons: return, land, hold. A safety monitor is asked for its answer; without one a phase of the mission is entered.
+import { el, mark, say } from "../dom";
+import { names_of } from "../names";
+import type { Flight } from "../protocol/flight";
+
+interface Command {
+  key: "return" | "land" | "hold";
+  words: string; title: string;
+  answer: string; // of SafetyAnswer
+  phases: string[]; // the first that the mission has
+}
+const commands: Command[] = [
+  { key: "return", words: "⌂ Return", title: "Flies home and circles there", answer: "home", phases: ["return", "home"] },
+  { key: "land", words: "⤓ Land", title: "Returns and lands", answer: "land", phases: ["land", "landing", "approach", "settle"] },
+  { key: "hold", words: "⟳ Hold", title: "Circles here and keeps its height", answer: "wait", phases: ["loiter", "wait"] },
+];
+const sure_ms = 3000, looked_at_ms = 1500;
+
+export class Commands {
+  private readonly said = el("p", { class: "refusal", role: "alert", hidden: true });
+  private readonly buttons = commands.map((c) => {
+    const button = el("button", { class: "command", onclick: () => void this.press(c) }, el("b", {}), el("small", {}));
+    button.dataset.command = c.key;
+    return button;
+  });
+  readonly element = el("div", { class: "commands", role: "group", "aria-label": "Commands" }, ...this.buttons);
+  readonly refusal = this.said;
+  private sure: { key: string; until_ms: number } = { key: "", until_ms: 0 };
+
+  constructor(private readonly flight: Flight) {}
+
+  /** The monitor that a pilot may ask for an answer; "" when there is none. */
+  private monitor(): string {
+    const name = names_of(this.flight).safety.split("/")[1] ?? "";
+    const found = this.flight.component(name) ?? this.flight.view?.components.find((c) => c.active && c.role.split(", ").includes(name));
+    return found?.params.some((p) => p.name === "asked" && p.live && p.choices.includes("home")) ? found.name : "";
+  }
+  private asked(monitor: string): string {
+    return String(this.flight.component(monitor)?.params.find((p) => p.name === "asked")?.value ?? "none");
+  }
+  private phase(c: Command): string {
+    const phases = this.flight.view?.phases ?? [];
+    return c.phases.find((p) => phases.includes(p) && p !== phases[0]) ?? "";
+  }
+  private state(c: Command): { on: boolean; why_not: string } {
+    const f = this.flight, monitor = this.monitor(), phase = this.phase(c);
+    const on = monitor !== "" ? this.asked(monitor) === c.answer : phase !== "" && f.view?.phase === phase;
+    const status = f.latest(names_of(f).status);
+    const why_not = !f.view ? "no flight" : monitor === "" && phase === "" ? "not in this mission"
+      : status?.crashed === true ? "crashed" : !f.view.armed ? "disarmed" : status?.on_ground === true ? "on the ground" : status?.override === true ? "the pilot flies" : "";
+    return { on, why_not };
+  }
+
+  /** To land is final, and takes two. */
+  private async press(c: Command): Promise<void> {
+    const { on } = this.state(c), monitor = this.monitor(), now = performance.now();
+    if (c.key === "land" && !on && !(this.sure.key === c.key && now < this.sure.until_ms)) {
+      this.sure = { key: c.key, until_ms: now + sure_ms };
+      return;
+    }
+    this.sure = { key: "", until_ms: 0 };
+    const answer = monitor !== "" ? await this.flight.set_parameter(monitor, "asked", on ? "none" : c.answer) : await this.flight.ask("/fulmar/phase", { phase: this.phase(c) });
+    this.said.hidden = answer.accepted;
+    say(this.said, "Refused: " + answer.reason);
+    if (monitor === "" && answer.accepted) setTimeout(() => this.look(c), looked_at_ms);
+  }
+  /** A mission may leave a phase at once. */
+  private look(c: Command): void {
+    const phase = this.flight.view?.phase ?? "";
+    this.said.hidden = phase === this.phase(c);
+    say(this.said, `The mission left phase ${this.phase(c)} for ${phase} at once: its own transitions lead there.`);
+  }
+
+  update(): void {
+    commands.forEach((c, i) => {
+      const button = this.buttons[i] as HTMLButtonElement, { on, why_not } = this.state(c);
+      const sure = this.sure.key === c.key && performance.now() < this.sure.until_ms;
+      button.disabled = why_not !== "";
+      button.title = why_not || c.title;
+      say(button.firstElementChild as Element, sure ? "press again" : c.words);
+      say(button.lastElementChild as Element, why_not || (on ? "asked for: press to go on" : ""));
+      button.setAttribute("aria-pressed", String(on));
+      button.dataset.on = String(on);
+      button.dataset.why = why_not;
+      mark(button, "on", on);
+      mark(button, "asked", sure);
+    });
+  }
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What lies on every map besides the plan: fence, runway, places to come down at, and where an aircraft without position may be.
+import { colours } from "../dom";
+import type { Places } from "../flight/places";
+
+interface Point {
+  n: number;
+  e: number;
+}
+type Screen = (p: Point) => { x: number; y: number };
+type Canvas = CanvasRenderingContext2D;
+
+/** The position is not known: where it was, and a circle about where it is by the estimate. */
+export interface Lost {
+  last: Point & { t: number };
+  age_s: number;
+  at: Point;
+  radius: number | null; // m; null: the estimate says nothing
+  yaw: number;
+}
+
+/** Words that can be read on lines and tiles. */
+export function words_on(g: Canvas, words: string, x: number, y: number, colour = "text"): void {
+  g.lineJoin = "round";
+  g.lineWidth = 4;
+  g.strokeStyle = colours.get("ground");
+  g.strokeText(words, x, y);
+  g.fillStyle = colours.get(colour);
+  g.fillText(words, x, y);
+}
+
+export function aircraft_shape(g: Canvas, yaw: number, x: number, y: number): void {
+  g.translate(x, y);
+  g.rotate(yaw);
+  g.beginPath();
+  for (const [a, b] of [[0, -15], [3, -4], [16, 2], [16, 5], [3, 3], [2, 11], [6, 14], [6, 16], [0, 15]] as const) g.lineTo(a, b);
+  for (const [a, b] of [[6, 16], [6, 14], [2, 11], [3, 3], [16, 5], [16, 2], [3, -4]] as const) g.lineTo(-a, b);
+  g.closePath();
+}
+
+function fence(g: Canvas, corners: Point[], to_screen: Screen): void {
+  if (corners.length === 0) return;
+  g.beginPath();
+  for (const c of corners) {
+    const { x, y } = to_screen(c);
+    g.lineTo(x, y);
+  }
+  g.closePath();
+  g.strokeStyle = colours.get("fence");
+  g.lineWidth = 2.5;
+  g.setLineDash([10, 5]);
+  g.stroke();
+  g.setLineDash([]);
+  const top = corners.map(to_screen).reduce((a, b) => (b.y < a.y || (b.y === a.y && b.x < a.x) ? b : a));
+  g.font = "11px system-ui";
+  g.textAlign = "left";
+  g.textBaseline = "bottom";
+  words_on(g, "fence", top.x + 4, top.y - 4, "fence");
+}
+
+function runway(g: Canvas, strip: NonNullable<Places["runway"]>, to_screen: Screen, px_per_m: number): void {
+  const { x, y } = to_screen(strip), end = to_screen({ n: strip.n + strip.length * Math.cos(strip.heading), e: strip.e + strip.length * Math.sin(strip.heading) });
+  const width = Math.max(6, 12 * px_per_m);
+  g.lineCap = "butt";
+  for (const [wide, colour, dash] of [[width + 2, "text", []], [width, "runway", []], [1.5, "on_tape", [8, 6]]] as const) {
+    g.strokeStyle = colours.get(colour);
+    g.lineWidth = wide;
+    g.setLineDash(dash as unknown as number[]);
+    g.beginPath();
+    g.moveTo(x, y);
+    g.lineTo(end.x, end.y);
+    g.stroke();
+  }
+  g.setLineDash([]);
+  g.lineCap = "round";
+  const number = Math.round(((strip.heading * 180) / Math.PI + 360) % 360 / 10) || 36;
+  g.font = "bold 11px system-ui";
+  g.textAlign = "center";
+  g.textBaseline = "middle";
+  words_on(g, String(number).padStart(2, "0"), x - 16 * Math.sin(strip.heading), y + 16 * Math.cos(strip.heading));
+}
+
+function spot(g: Canvas, { x, y }: { x: number; y: number }, letter: string): void {
+  g.beginPath();
+  g.arc(x, y, 9, 0, 2 * Math.PI);
+  g.fillStyle = colours.get("panel");
+  g.fill();
+  g.strokeStyle = colours.get("place");
+  g.lineWidth = 2.5;
+  g.stroke();
+  g.font = "bold 11px system-ui";
+  g.textAlign = "center";
+  g.textBaseline = "middle";
+  g.fillStyle = colours.get("text");
+  g.fillText(letter, x, y + 0.5);
+}
+
+/** H is home, L where it can land as well. */
+export function draw_places(g: Canvas, places: Places, to_screen: Screen, px_per_m: number): void {
+  fence(g, places.fence, to_screen);
+  if (places.runway) runway(g, places.runway, to_screen, px_per_m);
+  places.places.forEach((p, i) => spot(g, to_screen(p), i === 0 ? "H" : "L"));
+}
+
+export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: number): void {
+  const was = to_screen(lost.last), at = to_screen(lost.at);
+  g.strokeStyle = g.fillStyle = colours.get("bad");
+  if (lost.radius !== null) {
+    g.beginPath();
+    g.arc(at.x, at.y, Math.max(20, lost.radius * px_per_m), 0, 2 * Math.PI);
+    g.globalAlpha = 0.15;
+    g.fill();
+    g.globalAlpha = 1;
+    g.lineWidth = 2.5;
+    g.setLineDash([6, 4]);
+    g.stroke();
+    g.setLineDash([]);
+  }
+  g.lineWidth = 3;
+  g.beginPath();
+  for (const [a, b] of [[-7, 7], [7, -7]] as const) {
+    g.moveTo(was.x + a, was.y + a);
+    g.lineTo(was.x + b, was.y + b);
+    g.moveTo(was.x - a, was.y + a);
+    g.lineTo(was.x - b, was.y + b);
+  }
+  g.stroke();
+  if (lost.radius !== null) {
+    g.save();
+    aircraft_shape(g, lost.yaw, at.x, at.y);
+    g.fillStyle = colours.get("panel");
+    g.fill();
+    g.lineWidth = 2;
+    g.stroke();
+    g.restore();
+  }
+  g.font = "bold 13px system-ui";
+  g.textAlign = "center";
+  g.textBaseline = "bottom";
+  words_on(g, `position lost ${Math.round(lost.age_s)} s ago`, was.x, was.y - 12, "bad");
+  if (lost.radius === null) return;
+  g.textBaseline = "top";
+  words_on(g, `estimate, ±${Math.round(lost.radius)} m`, at.x, at.y + 22, "bad");
+}

@@ -123,6 +123,8 @@ struct Monitor {
     Record<Origin> origin{"of the local frame, for lat and lon"};
     Record<Fence> fence{"corners, floor, ceiling; without it there is none"};
     Record<Places> places{"where to come down; the first is home. Without it, the origin"};
+    Choice<SafetyAnswer> asked{SafetyAnswer::none,
+                               "the answer as long as nothing is wrong: home, land and wait, for a pilot"};
     Flag landing{false, "while it is true the floor of the fence does not count"};
 
     Param airborne_raise{1.5, "s", 0, 60, "off the ground, until it flies: a landing may bounce"};
@@ -229,6 +231,7 @@ inline Status Monitor::step(const Tick& tick, const Inputs& in, const Params& p,
   now_.attitude_excessive = alarms_.attitude.raised(), now_.engine_failed = alarms_.engine.raised();
   now_.wind_excessive = alarms_.wind.raised(), now_.estimator_failed = alarms_.estimator.raised();
   now_.answer = answer(p, dt);
+  if (now_.airborne && now_.answer == SafetyAnswer::none) now_.answer = p.asked;
   out.safety = now_;
   tell(tick, out);
   return Status::ok;

@@ -7,6 +7,7 @@ import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+import { pilot_tests } from "./pilot_tests.mjs";
 import { tile_tests } from "./tile_tests.mjs";
 
 const web = join(dirname(fileURLToPath(import.meta.url)), "..");
@@ -38,6 +39,7 @@ const plan_of = (waypoints, end = "circuit", radius = 50) => ({ end, radius, air
 
 const tests = {
   ...tile_tests(await load("flight/tiles.ts"), near),
+  ...pilot_tests(await load("flight/alerts.ts"), await load("flight/places.ts"), await load("track.ts"), near),
   "messages are read as XCDR1 has them: alignment, lists, texts, enumerations"() {
     const schema = ["uint8 OFF=0", "uint8 ON=3", "uint8 state", "float64 height_m  # m", "string name", "bool good", "pkg/P[<=4] points", "int64 at_ns",
       "float64[2] pair_rad", "=".repeat(80), "MSG: pkg/P", "float64 north", "uint16 kind"].join("\n");

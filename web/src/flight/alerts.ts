@@ -16,14 +16,13 @@ export interface Moment {
   ground: Message | undefined; // GroundState
   contact: Message | undefined; // ContactTruth
   state: Message | undefined; // VehicleState
-  phase: string;
   stopped: { name: string; role: string; heir: string }[]; // by guards; who flies in its place
 }
 
 /** What the answer of the safety monitor makes of the flight. */
 export const answers: Record<string, string> = {
-  none: "flies on", level: "levels its wings", glide: "glides down without motor to the nearest place within reach",
-  descend: "descends in a circle without motor", wait: "circles here and keeps its height", land: "returns and lands", home: "returns home and circles there",
+  none: "flies on", level: "levels its wings", glide: "glides to the nearest place, motor off", descend: "descends in a circle, motor off",
+  wait: "circles here", land: "returns and lands", home: "returns home, circles there",
 };
 
 interface Words {
@@ -35,10 +34,10 @@ interface Words {
 export const flags: Record<string, Words & { short: string }> = {
   estimator_failed: { level: "critical", short: "estimate", what: "ESTIMATE NOT VALID", pilot: "Take over by sight now. The instruments are wrong." },
   attitude_excessive: { level: "critical", short: "attitude", what: "ATTITUDE EXCESSIVE", pilot: "Let it recover. Take over if it does not within seconds." },
-  engine_failed: { level: "critical", short: "motor", what: "MOTOR FAILED", pilot: "Clear the landing place. Take over only to choose another field." },
+  engine_failed: { level: "critical", short: "motor", what: "MOTOR FAILED", pilot: "Clear the landing place. Take over only for a better field." },
   battery_empty: { level: "critical", short: "battery", what: "BATTERY EMPTY", pilot: "Clear the landing place. The motor stops soon." },
   link_lost: { level: "critical", short: "link", what: "CONTROLLER LINK LOST", pilot: "Take over by radio. Check the cable to the flight controller." },
-  gnss_lost: { level: "critical", short: "GNSS", what: "GNSS LOST", pilot: "Keep the aircraft in sight. The map shows an estimate only. Land by hand if you can." },
+  gnss_lost: { level: "critical", short: "GNSS", what: "GNSS LOST", pilot: "Keep it in sight. The map is an estimate. Land by hand if you can." },
   fence: { level: "critical", short: "fence", what: "FENCE", pilot: "Watch the turn back. Take over if it does not turn." },
   radio_lost: { level: "warning", short: "radio", what: "RADIO LOST", pilot: "Check the transmitter: power, antenna, distance." },
   pitot_lost: { level: "warning", short: "airspeed", what: "AIRSPEED LOST", pilot: "Expect a fast approach. Keep the speed up if you take over." },
@@ -63,19 +62,18 @@ export const crashed = (m: Moment): boolean => is(m.status, "crashed") || is(m.c
 
 /** What the aircraft does now, as far as its controller and its safety monitor say. */
 export function doing(m: Moment): string {
-  const phase = m.phase === "" ? "" : ` (phase ${m.phase})`;
-  if (crashed(m)) return "lies on the ground" + phase;
-  if (is(m.status, "failsafe")) return "flies by the failsafe of its flight controller; commands have no effect";
+  if (crashed(m)) return "lies on the ground";
+  if (is(m.status, "failsafe")) return "flies by the failsafe of its controller";
   if (is(m.status, "override")) return "follows the pilot's sticks";
-  if (on_ground(m)) return "is on the ground" + phase;
+  if (on_ground(m)) return "is on the ground";
   const answer = String(m.safety?.answer ?? "none");
-  return (answers[answer] ?? answer.replace(/_/g, " ")) + phase;
+  return answers[answer] ?? answer.replace(/_/g, " ");
 }
 
 function of_vehicle(m: Moment, does: string): Alert[] {
-  const list: Alert[] = [];
   const part = String(m.contact?.part ?? "");
-  if (crashed(m)) list.push({ key: "crashed", level: "critical", what: "CRASHED" + (part ? `: ${part}` : ""), does, pilot: "Switch the motor off. The map shows the place." });
+  if (crashed(m)) return [{ key: "crashed", level: "critical", what: "CRASHED" + (part ? `: ${part}` : ""), does, pilot: "Switch the motor off. The map shows the place." }];
+  const list: Alert[] = [];
   if (is(m.status, "failsafe")) list.push({ key: "failsafe", level: "critical", what: "FAILSAFE OF THE FLIGHT CONTROLLER", does, pilot: "Take over by radio now." });
   if (m.status?.health === "failed") list.push({ key: "vehicle_failed", level: "critical", what: "FLIGHT CONTROLLER FAILED", does, pilot: "Take over by radio now." });
   if (m.status?.health === "degraded") list.push({ key: "vehicle_degraded", level: "warning", what: "FLIGHT CONTROLLER REPORTS ERRORS", does, pilot: "Land soon. Read its error bits before the next flight." });
@@ -85,7 +83,7 @@ function of_vehicle(m: Moment, does: string): Alert[] {
 }
 /** A mission without a safety monitor still has an estimate. */
 function of_estimate(m: Moment, does: string): Alert[] {
-  if (m.safety || !m.state || on_ground(m)) return [];
+  if (m.safety || !m.state || on_ground(m) || crashed(m)) return [];
   const one = (flag: string): Alert => ({ key: flag, does, level: flags[flag]?.level ?? "critical", what: flags[flag]?.what ?? spelled(flag), pilot: flags[flag]?.pilot ?? "" });
   if (m.state.attitude_valid === false) return [one("estimator_failed")];
   return m.state.position_valid === false ? [one("gnss_lost")] : [];
@@ -94,7 +92,7 @@ function of_estimate(m: Moment, does: string): Alert[] {
 /** What is wrong in this moment, the worst first. What is wrong on the ground before a flight is no alert: see `not_ready`. */
 export function alerts_of(m: Moment): Alert[] {
   const does = doing(m), list = [...of_vehicle(m, does), ...of_estimate(m, does)];
-  if (m.safety && !on_ground(m)) {
+  if (m.safety && !on_ground(m) && !crashed(m)) {
     const order = Object.keys(flags), up = flags_of(m.safety).filter(([, on]) => on).map(([flag]) => flag);
     up.sort((a, b) => order.indexOf(a) - order.indexOf(b));
     for (const flag of up) {
@@ -145,11 +143,11 @@ export class AlertBook {
 }
 
 /** An event of the host that a pilot has to see; null for all others. `monitor`: whose notices are flags as well. */
-export function alert_of_event(event: Message, monitor: string, does: string): Alert | null {
+export function alert_of_event(event: Message, monitors: string[], does: string): Alert | null {
   const code = String(event.code), component = String(event.component), words = String(event.words);
   const severity = String(event.severity);
   if (severity === "info" || ["guard", "hung", "over_budget", "died", "took_over", "cannot_take_over"].includes(code)) return null; // a stopped component has its own
-  if (code === "notice" && (component === monitor || not_ready(words).length > 0)) return null;
+  if (code === "notice" && (monitors.includes(component) || not_ready(words).length > 0)) return null;
   const level: Level = severity === "warning" ? "warning" : "critical";
   return { key: `event ${code} ${component} ${words.replace(/[-\d.]+/g, "#")}`, level, what: words, does, pilot: level === "critical" ? "Take over by radio." : "" };
 }

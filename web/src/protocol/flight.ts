@@ -27,6 +27,11 @@ export interface Answer {
   reason: string;
 }
 
+/** Those whose output a topic is, or may be: of a role all that fill it. */
+export function publishers(flight: Flight, topic: string): Component[] {
+  return topic === "" ? [] : (flight.view?.components ?? []).filter((c) => c.outputs.some((p) => p.topic === topic));
+}
+
 const series_gap_s = 0.02, series_length = 12_000; // four minutes at 50 a second
 const view_every_ms = 1000, too_old_ms = 2000;
 

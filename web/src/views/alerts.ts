@@ -3,10 +3,10 @@
 import { el, fill, mark, say } from "../dom";
 import { type Alert, AlertBook, type Held, type Moment, alert_of_event, alerts_of, doing, not_ready } from "../flight/alerts";
 import { names_of } from "../names";
-import type { Flight } from "../protocol/flight";
+import { type Flight, publishers } from "../protocol/flight";
 import { clock } from "../units";
 
-const most = 3, fresh_s = 10;
+const most = 2, fresh_s = 10;
 
 export class AlertStrip {
   private readonly rows = el("div", { class: "alert_rows", role: "alert" });
@@ -27,12 +27,13 @@ export class AlertStrip {
       if (m.code === "phase_entered") void this.flight.refresh();
       const lacks = not_ready(String(m.words));
       if (lacks.length > 0) Object.assign(this.lacks, { what: lacks, t });
-      const alert = alert_of_event(m, this.monitor(), doing(this.moment()));
+      const alert = alert_of_event(m, this.monitors(), doing(this.moment()));
       if (alert && this.flight.now - t < fresh_s) this.book.raise(alert, t);
     });
   }
-  private monitor(): string {
-    return names_of(this.flight).safety.split("/")[1] ?? "";
+  /** Whose notices are flags as well. */
+  private monitors(): string[] {
+    return publishers(this.flight, names_of(this.flight).safety).map((c) => c.name);
   }
   moment(): Moment {
     const f = this.flight, n = names_of(f), view = f.view;
@@ -40,8 +41,7 @@ export class AlertStrip {
       name: c.name, role: c.role, heir: view?.components.find((o) => o.active && !o.stopped && o.role !== "" && o.role === c.role)?.name ?? "",
     }));
     return {
-      safety: f.latest(n.safety), status: f.latest(n.status), ground: f.latest(n.ground), contact: f.latest(n.contact), state: f.latest(n.state),
-      phase: view?.phase ?? "", stopped,
+      safety: f.latest(n.safety), status: f.latest(n.status), ground: f.latest(n.ground), contact: f.latest(n.contact), state: f.latest(n.state), stopped,
     };
   }
 
@@ -54,7 +54,8 @@ export class AlertStrip {
     this.element.hidden = list.length === 0 && lasting.length === 0;
     this.element.dataset.level = list.some((h) => h.alert.level === "critical" && h.now) ? "critical" : list.length > 0 ? "warning" : "none";
     const focused = (document.activeElement as HTMLElement | null)?.dataset?.acknowledge;
-    fill(this.rows, ...list.slice(0, most).map((h) => this.row(h)), list.length > most && this.more(list.slice(most)));
+    const large = list.filter((h, i) => (h.now || i === 0) && i < most), rest = list.filter((h) => !large.includes(h));
+    fill(this.rows, ...large.map((h) => this.row(h)), rest.length > 0 && this.more(rest));
     if (focused) [...this.rows.querySelectorAll("button")].find((b) => b.dataset.acknowledge === focused)?.focus();
     this.lasting.hidden = lasting.length === 0;
     say(this.lasting, lasting.length === 0 ? "" : "Acknowledged, and still so: " + lasting.map((h) => h.alert.what).join(" · "));
@@ -62,7 +63,7 @@ export class AlertStrip {
 
   private row(h: Held): HTMLElement {
     const { alert } = h, event = alert.key.startsWith("event ");
-    const row = el("div", { class: `alert ${alert.level}` },
+    const row = el("div", { class: `alert ${alert.level}${event ? " told" : ""}` },
       el("b", { class: "what" }, (alert.level === "critical" ? "✕ " : "⚠ ") + alert.what),
       el("span", { class: "since" }, event ? "at " + clock(h.since_s) : h.now ? "since " + clock(h.since_s) : "is over, since " + clock(h.since_s)),
       el("span", { class: "does" }, el("i", {}, "Aircraft "), alert.does),
@@ -74,7 +75,7 @@ export class AlertStrip {
     return row;
   }
   private more(rest: Held[]): HTMLElement {
-    return el("div", { class: "alert more" }, el("span", { class: "what" }, `and ${rest.length} more: ` + rest.map((h) => h.alert.what).join(" · ")),
+    return el("div", { class: "alert more" }, el("span", { class: "what" }, `and ${rest.length} more: ` + rest.map((h) => h.alert.what + (h.now ? "" : " (over)")).join(" · ")),
       this.button("Acknowledge these", rest.map((h) => h.alert)));
   }
   private button(words: string, alerts: Alert[]): HTMLElement {

@@ -2,7 +2,7 @@
 // Three large buttons: return, land, hold. A safety monitor is asked for its answer; without one a phase of the mission is entered.
 import { el, mark, say } from "../dom";
 import { names_of } from "../names";
-import type { Flight } from "../protocol/flight";
+import { type Component, type Flight, publishers } from "../protocol/flight";
 
 interface Command {
   key: "return" | "land" | "hold";
@@ -32,9 +32,8 @@ export class Commands {
 
   /** The monitor that a pilot may ask for an answer; "" when there is none. */
   private monitor(): string {
-    const name = names_of(this.flight).safety.split("/")[1] ?? "";
-    const found = this.flight.component(name) ?? this.flight.view?.components.find((c) => c.active && c.role.split(", ").includes(name));
-    return found?.params.some((p) => p.name === "asked" && p.live && p.choices.includes("home")) ? found.name : "";
+    const has = (c: Component) => c.params.some((p) => p.name === "asked" && p.live && p.choices.includes("home"));
+    return publishers(this.flight, names_of(this.flight).safety).find((c) => has(c))?.name ?? "";
   }
   private asked(monitor: string): string {
     return String(this.flight.component(monitor)?.params.find((p) => p.name === "asked")?.value ?? "none");
@@ -79,7 +78,7 @@ export class Commands {
       button.disabled = why_not !== "";
       button.title = why_not || c.title;
       say(button.firstElementChild as Element, sure ? "press again" : c.words);
-      say(button.lastElementChild as Element, why_not || (on ? "asked for: press to go on" : ""));
+      say(button.lastElementChild as Element, why_not || (on ? (this.monitor() === "" ? "flies now" : "on: press to fly on") : ""));
       button.setAttribute("aria-pressed", String(on));
       button.dataset.on = String(on);
       button.dataset.why = why_not;

@@ -45,6 +45,7 @@ export class MapView {
   private px_per_m = 0;
   private follows = false;
   private touched = false;
+  private fitted = ""; // size of the picture that it was fitted to
   private plan_drawn: { plan: Plan; legs: { to: number; points: Point[] }[] } | null = null;
   private seen: Scene | null = null;
 
@@ -84,6 +85,7 @@ export class MapView {
   }
   fit(): void {
     this.follows = false;
+    this.fitted = `${this.width} ${this.height}`;
     const points: Point[] = [{ n: 0, e: 0 }];
     for (const w of this.seen?.plan?.waypoints ?? []) points.push({ n: w.north, e: w.east });
     if (this.seen?.state?.valid.position) points.push(this.seen.state);
@@ -158,7 +160,8 @@ export class MapView {
     const news = this.px_per_m === 0 || (!this.touched && (comes(this.seen?.plan, scene.plan) || comes(this.seen?.places?.fence.length, scene.places?.fence.length)));
     this.seen = scene;
     if (this.width === 0) return;
-    if (news && (scene.plan || scene.state || scene.tracks)) this.fit(); // until a hand chooses what is shown
+    const resized = !this.touched && this.fitted !== "" && this.fitted !== `${this.width} ${this.height}`;
+    if ((news || resized) && (scene.plan || scene.state || scene.tracks)) this.fit(); // until a hand chooses what is shown
     if (this.px_per_m === 0) return;
     const middle = scene.lost?.at ?? scene.state;
     if (this.follows && middle) this.centre = { n: middle.n, e: middle.e };

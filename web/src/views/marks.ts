@@ -77,7 +77,7 @@ function runway(g: Canvas, strip: NonNullable<Places["runway"]>, to_screen: Scre
   g.font = "bold 11px system-ui";
   g.textAlign = "center";
   g.textBaseline = "middle";
-  words_on(g, String(number).padStart(2, "0"), x - 16 * Math.sin(strip.heading), y + 16 * Math.cos(strip.heading));
+  words_on(g, String(number).padStart(2, "0"), x - 20 * Math.sin(strip.heading), y + 20 * Math.cos(strip.heading));
 }
 
 function spot(g: Canvas, { x, y }: { x: number; y: number }, letter: string): void {
@@ -134,11 +134,12 @@ export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: nu
     g.stroke();
     g.restore();
   }
+  const lines = [`✕ position lost ${Math.round(lost.age_s)} s ago`, lost.radius === null ? "no estimate of where it is" : `within ${Math.round(lost.radius)} m of the circle's middle, 95 %`];
   g.font = "bold 13px system-ui";
-  g.textAlign = "center";
-  g.textBaseline = "bottom";
-  words_on(g, `position lost ${Math.round(lost.age_s)} s ago`, was.x, was.y - 12, "bad");
-  if (lost.radius === null) return;
-  g.textBaseline = "top";
-  words_on(g, `estimate, ±${Math.round(lost.radius)} m`, at.x, at.y + 22, "bad");
+  g.fillStyle = colours.get("alarm");
+  g.fillRect(8, 8, Math.max(...lines.map((l) => g.measureText(l).width)) + 16, 42);
+  g.fillStyle = "#fff";
+  g.textAlign = "left";
+  g.textBaseline = "middle";
+  lines.forEach((l, i) => g.fillText(l, 16, 20 + 18 * i));
 }

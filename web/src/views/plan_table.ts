@@ -106,7 +106,7 @@ export class PlanTable {
     });
     const row = el("tr", { onfocusin: () => this.hands.choose(i), onclick: () => this.hands.choose(i) },
       el("th", { scope: "row" }, String(i)),
-      ...columns.map((c) => el("td", {}, this.number(`${c.name} of waypoint ${i}, ${c.unit}`, c.get(w), c.name === "course" || c.name === "airspeed",
+      ...columns.map((c) => el("td", { "data-label": `${c.name}, ${c.unit}` }, this.number(`${c.name} of waypoint ${i}, ${c.unit}`, c.get(w), c.name === "course" || c.name === "airspeed",
         (v) => this.edit((p) => c.set(p.waypoints[i] as Waypoint, v))))),
       el("td", { class: "keys" },
         button("↑", "Earlier", () => move(i - 1), i === 0), button("↓", "Later", () => move(i + 1), i + 1 === count),

@@ -39,7 +39,7 @@ export class Wires implements Page {
       el("section", {}, this.wiring.element),
       el("section", {}, this.details, this.said),
       el("section", {}, el("div", { class: "row" }, el("h2", {}, "Components, in the order of the mission"), this.reset),
-        el("table", {}, el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", { class: i > 4 ? "right" : "" }, h)))), this.body)));
+        el("table", { class: "listed" }, el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", { class: i > 4 ? "right" : "" }, h)))), this.body)));
   }
 
   show(): void {

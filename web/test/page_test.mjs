@@ -274,6 +274,7 @@ const steps = {
     await until("time goes on", async () => (await time()) > stands + 0.7);
   },
   async "By hand: keys move the sticks, until they are given back"() {
+    await tab("Fly");
     await page.click("text=Take the sticks");
     await until("the pilot flies", async () => (await ask("param", "get", "sim.pilot_flies")) === "true");
     await until("the sticks have the keys", () => page.locator(".sticks").evaluate((e) => e === document.activeElement));

@@ -19,7 +19,7 @@ export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, not_r
       assert.deepEqual(alerts_of(flying({ [flag]: true, airborne: false }, { status: { on_ground: true } })), []);
     }
   },
-  "what the aircraft does is said of every answer, and of whoever flies instead"() {
+  "what the aircraft does is said of every answer, and of the pilot or failsafe that flies instead"() {
     const does = (moment) => alerts_of(moment)[0].does;
     const said = ["none", "level", "glide", "descend", "wait", "land", "home"].map((answer) => does(flying({ gnss_lost: true, answer })));
     assert.equal(new Set(said).size, 7);

@@ -20,7 +20,7 @@ export class AlertStrip {
 
   constructor(private readonly flight: Flight) {}
 
-  /** Anew, when the topics are known. What happened before the page was opened is in the list of events. */
+  /** Again, when the topics are known. What happened before the page was opened is in the list of events. */
   begin(): void {
     this.stop();
     this.stop = this.flight.listen("/fulmar/event", (m, t) => {

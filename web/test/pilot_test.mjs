@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// node pilot_test.mjs FULMAR NODE_MODULES CHROMIUM: failures of a flight, as its pilot sees them: alerts, safety row, map, commands, age.
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { promisify } from "node:util";
+import { absent, browse, fly, free_port, shots_folder, until } from "./fixture.mjs";
+
+const [fulmar, modules, chromium] = process.argv.slice(2).map((p) => p && resolve(p));
+const skipped = absent(modules, chromium);
+if (skipped) {
+  console.log("skipped: " + skipped);
+  process.exit(77);
+}
+const run = promisify(execFile);
+const port = await free_port(), shots = shots_folder(modules);
+const ask = async (...words) => (await run(fulmar, [...words, "--at", `127.0.0.1:${port}`])).stdout.trim();
+const set = (...words) => ask("param", "set", ...words);
+// Without an end of its own: on the ground return_home is over after 30 s.
+const folder = mkdtempSync(join(tmpdir(), "fulmar-pilot-")), mission = join(folder, "pilot.yaml");
+writeFileSync(mission, `mission: pilot\nextends: ${resolve("configs/missions/return_home.yaml")}\ndone: "time > 1 h"\n`);
+const sizes = [[1280, 720], [1024, 768], [390, 844]];
+let page;
+const faults = [];
+const tab = (name) => page.click(`#tabs button[data-page="${name}"]`);
+const data = (selector, name) => page.locator(selector).first().getAttribute("data-" + name);
+const is = (what, selector, name, value, patience) => until(what, async () => (await page.locator(selector).count()) > 0 && (await data(selector, name)) === value, patience);
+const alert = (key) => `.alert[data-alert="${key}"]`;
+const map = ".fly canvas.map";
+
+/** No cell of a table, no field and no alert is cut or beyond the window. */
+async function whole(name) {
+  for (const [width, height] of sizes) {
+    await page.setViewportSize({ width, height });
+    const cut = () => page.evaluate(() => [...document.querySelectorAll("td, th, input, .alert, .alert *, .flag, .command")]
+      .filter((e) => e.getClientRects().length > 0 && (e.getBoundingClientRect().right > innerWidth + 1 || (e.matches("input, .alert, .command") && e.scrollWidth > e.clientWidth + 1)))
+      .map((e) => `${e.tagName}.${e.className} ${(e.value ?? e.textContent ?? "").slice(0, 30)}`));
+    await until("drawn for this window", async () => (await cut()).length === 0, 3).catch(() => {});
+    assert.deepEqual(await cut(), [], `${name} ${width}`);
+    await page.screenshot({ path: join(shots, `pilot_${name}_${width}.png`) });
+  }
+  await page.setViewportSize({ width: 1280, height: 720 });
+}
+/** Seen at a glance: wholly inside the window, above its middle, red with large letters. */
+async function at_a_glance(key) {
+  const seen = await page.locator(alert(key)).evaluate((e) => {
+    const box = e.getBoundingClientRect(), words = e.querySelector(".what");
+    return { top: box.top, bottom: box.bottom, level: e.className, size: parseFloat(getComputedStyle(words).fontSize), parts: [".does", ".pilot"].map((p) => e.querySelector(p).textContent.length) };
+  });
+  assert.ok(seen.top >= 0 && seen.bottom < 360 && seen.size >= 18 && seen.level.includes("critical") && seen.parts.every((n) => n > 10), JSON.stringify(seen));
+}
+
+const steps = {
+  async "on the ground: what is missing before a take-off, and no command"() {
+    await page.goto(`http://127.0.0.1:${port}/`);
+    await is("ready", ".prearm", "ready", "true");
+    assert.equal(await page.locator(".command:disabled").count(), 3);
+    await ask("speed", "5");
+    await set("sim.gnss_works", "false");
+    await is("not ready", ".prearm", "ready", "false");
+    assert.equal(await page.locator(".alert").count(), 0, "what is wrong on the ground is no alert");
+    await set("sim.gnss_works", "true");
+    await is("ready again", ".prearm", "ready", "true");
+  },
+  async "maps show fence, runway and places"() {
+    for (const canvas of [map, ".plan canvas.map"]) {
+      await tab(canvas === map ? "Fly" : "Plan");
+      await is("fence", canvas, "fence", "4");
+      assert.deepEqual([await data(canvas, "places"), await data(canvas, "runway")], ["3", "300"]);
+    }
+    await whole("plan");
+  },
+  async "Wires: in its first seconds nothing is said of what was not listened to"() {
+    await tab("Wires");
+    const first = await page.locator(".twotables").textContent();
+    assert.doesNotMatch(first, /never|\b0 Hz/);
+    await whole("wires");
+  },
+  async "Tune: what was changed elsewhere is listed, also after a reload, and can be saved"() {
+    await set("slc.course_kp", "1.9");
+    await page.goto(`http://127.0.0.1:${port}/#tune`);
+    await page.reload();
+    await until("the change", async () => (await page.locator(".changed_list li").allTextContents()).join() === "slc.course_kp: 2.1 → 1.9 rad/rad");
+    assert.equal(await page.locator("button", { hasText: "Save slc" }).count(), 1);
+    await page.click("text=All back to what they were");
+    await until("as it was", async () => (await ask("param", "get", "slc.course_kp")).startsWith("2.1"));
+  },
+  async "commands: hold, return and land are flown, and taken back"() {
+    await tab("Fly");
+    await ask("call", "sim.arm", "{armed: true}");
+    await until("in the air", async () => (await page.locator("#phase").textContent()) === "cruise", 30);
+    const press = async (key, phase) => {
+      await page.click(`.command[data-command="${key}"]`);
+      await until(phase, async () => (await page.locator("#phase").textContent()) === phase);
+    };
+    await press("hold", "wait");
+    await is("it shows", '.command[data-command="hold"]', "on", "true");
+    await is("the answer", '.flag[data-flag="answer"]', "good", "false");
+    await press("hold", "cruise");
+    await press("return", "home");
+    await press("return", "cruise");
+    await page.click('.command[data-command="land"]');
+    assert.equal(await ask("param", "get", "watch.asked"), "none", "to land takes two");
+    await press("land", "home");
+    assert.equal(await ask("param", "get", "watch.asked"), "land");
+    await press("land", "cruise");
+  },
+  async "GNSS lost: an alert, the row, and the aircraft about where the estimate has it; it stays until acknowledged"() {
+    await set("sim.gnss_works", "false");
+    await is("the alert", alert("gnss_lost"), "now", "true");
+    await at_a_glance("gnss_lost");
+    await is("the row", '.flag[data-flag="gnss_lost"]', "good", "false");
+    await is("not vanished", map, "aircraft", "lost");
+    const [n, e, radius] = (await data(map, "lost")).split(",").map(Number);
+    assert.ok(Number.isFinite(n) && Number.isFinite(e) && radius > 5 && radius < 300, `${n} ${e} ${radius}`);
+    await whole("gnss");
+    await set("sim.gnss_works", "true");
+    await is("over, and still there", alert("gnss_lost"), "now", "false");
+    await page.click(`${alert("gnss_lost")} button`);
+    await until("acknowledged", async () => (await page.locator(".alert").count()) === 0);
+    await is("on the map", map, "aircraft", "known");
+  },
+  async "a motor that is dead is an alert; acknowledged, it is one line as long as it lasts"() {
+    await set("sim.engine_fault", "off");
+    await is("the alert", alert("engine_failed"), "now", "true");
+    await at_a_glance("engine_failed");
+    await page.screenshot({ path: join(shots, "pilot_motor.png") });
+    await page.click(`${alert("engine_failed")} button`);
+    await until("one line", async () => (await page.locator(alert("engine_failed")).count()) === 0 && page.locator(".alert_lasting").isVisible());
+  },
+  async "a browser that stood still shows how old it is, and then the newest"() {
+    const largest = await page.evaluate(async () => {
+      const field = document.getElementById("age");
+      let most = 0;
+      new MutationObserver(() => field.classList.contains("old") && (most = Math.max(most, Number(field.dataset.ms)))).observe(field, { attributes: true, attributeFilter: ["class", "data-ms"] });
+      const end = performance.now() + 1600;
+      while (performance.now() < end);
+      for (let i = 0; i < 100 && most === 0; ++i) await new Promise((go) => setTimeout(go, 20));
+      return most;
+    });
+    assert.ok(largest > 1000, `${largest} ms`);
+    await until("the newest", async () => Number(await data("#age", "ms")) < 1000);
+  },
+  async "a crash is an alert, alone"() {
+    await set("sim.pilot_flies", "true", "sim.stick_pitch", "-1");
+    await is("the alert", alert("crashed"), "now", "true", 20);
+    await at_a_glance("crashed");
+    await is("the row", '.flag[data-flag="contact"]', "good", "false");
+    assert.equal(await page.locator(".alert.critical:not(.over)").count(), 1);
+    await whole("crash");
+  },
+};
+
+const browser = await browse(modules, chromium);
+const flight = await fly(fulmar, port, mission, "--arm", "off");
+let failed = 0;
+try {
+  flight.child.stdout.resume();
+  page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
+  page.setDefaultTimeout(15_000);
+  page.on("pageerror", (e) => faults.push(e.message));
+  for (const [name, step] of Object.entries(steps)) {
+    const begun = Date.now();
+    try {
+      await step();
+      console.log(`ok     ${((Date.now() - begun) / 1000).toFixed(1)} s  ${name}`);
+    } catch (fault) {
+      ++failed;
+      console.log(`FAILED ${name}\n${fault.stack}`);
+      await page.screenshot({ path: join(shots, "pilot_failed.png") }).catch(() => {});
+      break; // the next ones go on from here
+    }
+  }
+  assert.deepEqual(faults, [], "faults of the page");
+} finally {
+  await browser.close();
+  await flight.end();
+  rmSync(folder, { recursive: true, force: true });
+}
+process.exit(failed === 0 ? 0 : 1);

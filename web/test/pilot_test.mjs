@@ -21,7 +21,7 @@ const set = (...words) => ask("param", "set", ...words);
 // Without an end of its own: on the ground return_home is over after 30 s.
 const folder = mkdtempSync(join(tmpdir(), "fulmar-pilot-")), mission = join(folder, "pilot.yaml");
 writeFileSync(mission, `mission: pilot\nextends: ${resolve("configs/missions/return_home.yaml")}\ndone: "time > 1 h"\n`);
-const sizes = [[1280, 720], [1024, 768], [390, 844]];
+const phone = [390, 844], sizes = [[1280, 720], [1024, 768], phone];
 let page;
 const faults = [];
 const tab = (name) => page.click(`#tabs button[data-page="${name}"]`);
@@ -31,8 +31,8 @@ const alert = (key) => `.alert[data-alert="${key}"]`;
 const map = ".fly canvas.map";
 
 /** No cell of a table, no field and no alert is cut or beyond the window. */
-async function whole(name) {
-  for (const [width, height] of sizes) {
+async function whole(name, at = sizes) {
+  for (const [width, height] of at) {
     await page.setViewportSize({ width, height });
     const cut = () => page.evaluate(() => [...document.querySelectorAll("td, th, input, .alert, .alert *, .flag, .command")]
       .filter((e) => e.getClientRects().length > 0 && (e.getBoundingClientRect().right > innerWidth + 1 || (e.matches("input, .alert, .command") && e.scrollWidth > e.clientWidth + 1)))
@@ -70,13 +70,13 @@ const steps = {
       await is("fence", canvas, "fence", "4");
       assert.deepEqual([await data(canvas, "places"), await data(canvas, "runway")], ["3", "300"]);
     }
-    await whole("plan");
+    await whole("plan", [phone]);
   },
   async "Wires: in its first seconds nothing is said of what was not listened to"() {
     await tab("Wires");
     const first = await page.locator(".twotables").textContent();
     assert.doesNotMatch(first, /never|\b0 Hz/);
-    await whole("wires");
+    await whole("wires", [phone]);
   },
   async "Tune: what was changed elsewhere is listed, also after a reload, and can be saved"() {
     await set("slc.course_kp", "1.9");
@@ -103,9 +103,12 @@ const steps = {
     await press("return", "cruise");
     await page.click('.command[data-command="land"]');
     assert.equal(await ask("param", "get", "watch.asked"), "none", "to land takes two");
-    await press("land", "home");
-    assert.equal(await ask("param", "get", "watch.asked"), "land");
-    await press("land", "cruise");
+    await page.click('.command[data-command="land"]');
+    await until("it is asked for", async () => (await ask("param", "get", "watch.asked")) === "land");
+    await until("flown", async () => ["home", "approach"].includes(await page.locator("#phase").textContent()));
+    await page.click('.command[data-command="land"]');
+    await until("taken back", async () => (await ask("param", "get", "watch.asked")) === "none");
+    await ask("phase", "cruise"); // from an approach only by hand
   },
   async "GNSS lost: an alert, the row, and the aircraft about where the estimate has it; it stays until acknowledged"() {
     await set("sim.gnss_works", "false");
@@ -122,14 +125,6 @@ const steps = {
     await until("acknowledged", async () => (await page.locator(".alert").count()) === 0);
     await is("on the map", map, "aircraft", "known");
   },
-  async "a motor that is dead is an alert; acknowledged, it is one line as long as it lasts"() {
-    await set("sim.engine_fault", "off");
-    await is("the alert", alert("engine_failed"), "now", "true");
-    await at_a_glance("engine_failed");
-    await page.screenshot({ path: join(shots, "pilot_motor.png") });
-    await page.click(`${alert("engine_failed")} button`);
-    await until("one line", async () => (await page.locator(alert("engine_failed")).count()) === 0 && page.locator(".alert_lasting").isVisible());
-  },
   async "a browser that stood still shows how old it is, and then the newest"() {
     const largest = await page.evaluate(async () => {
       const field = document.getElementById("age");
@@ -143,13 +138,23 @@ const steps = {
     assert.ok(largest > 1000, `${largest} ms`);
     await until("the newest", async () => Number(await data("#age", "ms")) < 1000);
   },
+  async "a motor that is dead is an alert; acknowledged, it is one line as long as it lasts"() {
+    await set("sim.engine_fault", "off");
+    await is("the alert", alert("engine_failed"), "now", "true");
+    await ask("speed", "real"); // it is on its way down
+    await at_a_glance("engine_failed");
+    await page.screenshot({ path: join(shots, "pilot_motor.png") });
+    await page.click(`${alert("engine_failed")} button`);
+    await until("one line", async () => (await page.locator(alert("engine_failed")).count()) === 0 && page.locator(".alert_lasting").isVisible());
+  },
   async "a crash is an alert, alone"() {
     await set("sim.pilot_flies", "true", "sim.stick_pitch", "-1");
+    await ask("speed", "5");
     await is("the alert", alert("crashed"), "now", "true", 20);
     await at_a_glance("crashed");
     await is("the row", '.flag[data-flag="contact"]', "good", "false");
     assert.equal(await page.locator(".alert.critical:not(.over)").count(), 1);
-    await whole("crash");
+    await whole("crash", [[1280, 720]]);
   },
 };
 

@@ -120,12 +120,13 @@ TEST_CASE(
 
 TEST_CASE("the pilot is given the answer that he asks for, in the air, as long as nothing is wrong") {
   Watch w;
-  w.has_status = w.has_throttle = true;
   for (const SafetyAnswer asked : {SafetyAnswer::home, SafetyAnswer::land, SafetyAnswer::wait}) {
     w.params.asked.value = asked;
-    CHECK(w.fly(1).answer == asked);
+    w.fly(3);
+    CHECK(w.told == "");
+    CHECK(w.out.safety.answer == asked);
   }
-  w.actuators.throttle_frac = 0.57, w.state.position_valid = false;
+  w.state.position_valid = false;
   w.params.asked.value = SafetyAnswer::home;
   CHECK(w.fly(5).answer == SafetyAnswer::wait);  // what is wrong comes first
   w.state.position_valid = true;

@@ -59,16 +59,18 @@ export class Commands {
       return;
     }
     this.sure = { key: "", until_ms: 0 };
+    const before = this.flight.view?.phase ?? "";
     const answer = monitor !== "" ? await this.flight.set_parameter(monitor, "asked", on ? "none" : c.answer) : await this.flight.ask("/fulmar/phase", { phase: this.phase(c) });
     this.said.hidden = answer.accepted;
     say(this.said, "Refused: " + answer.reason);
-    if (monitor === "" && answer.accepted) setTimeout(() => this.look(c), looked_at_ms);
+    if (answer.accepted) setTimeout(() => this.look(c, monitor !== "", before), looked_at_ms);
   }
-  /** A mission may leave a phase at once. */
-  private look(c: Command): void {
-    const phase = this.flight.view?.phase ?? "";
-    this.said.hidden = phase === this.phase(c);
-    say(this.said, `The mission left phase ${this.phase(c)} for ${phase} at once: its own transitions lead there.`);
+  /** A phase may not follow the answer, and a mission may leave a phase at once. */
+  private look(c: Command, asked: boolean, before: string): void {
+    const phase = this.flight.view?.phase ?? "", follows = asked ? phase !== before : phase === this.phase(c);
+    this.said.hidden = follows;
+    say(this.said, asked ? `Phase ${phase} goes on: its transitions do not follow this command. Choose another phase.`
+      : `The mission left phase ${this.phase(c)} for ${phase} at once: its own transitions lead there.`);
   }
 
   update(): void {

@@ -143,6 +143,7 @@ const steps = {
     await is("the alert", alert("engine_failed"), "now", "true");
     await ask("speed", "real"); // it is on its way down
     await at_a_glance("engine_failed");
+    await until("no command that is not flown", async () => (await page.locator(".command:disabled").count()) === 3);
     await page.screenshot({ path: join(shots, "pilot_motor.png") });
     await page.click(`${alert("engine_failed")} button`);
     await until("one line", async () => (await page.locator(alert("engine_failed")).count()) === 0 && page.locator(".alert_lasting").isVisible());
@@ -153,6 +154,7 @@ const steps = {
     await is("the alert", alert("crashed"), "now", "true", 20);
     await at_a_glance("crashed");
     await is("the row", '.flag[data-flag="contact"]', "good", "false");
+    assert.equal(await data(map, "crashed"), "true");
     assert.equal(await page.locator(".alert.critical:not(.over)").count(), 1);
     await whole("crash", [[1280, 720]]);
   },

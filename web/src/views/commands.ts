@@ -45,9 +45,11 @@ export class Commands {
   private state(c: Command): { on: boolean; why_not: string } {
     const f = this.flight, monitor = this.monitor(), phase = this.phase(c);
     const on = monitor !== "" ? this.asked(monitor) === c.answer : phase !== "" && f.view?.phase === phase;
+    // what has failed is answered before a pilot is
+    const answer = String(f.latest(names_of(f).safety)?.answer ?? "none"), overruled = !on && monitor !== "" && answer !== "none" && answer !== this.asked(monitor);
     const status = f.latest(names_of(f).status);
     const why_not = !f.view ? "no flight" : monitor === "" && phase === "" ? "not in this mission"
-      : status?.crashed === true ? "crashed" : !f.view.armed ? "disarmed" : status?.on_ground === true ? "on the ground" : status?.override === true ? "the pilot flies" : "";
+      : status?.crashed === true ? "crashed" : !f.view.armed ? "disarmed" : status?.on_ground === true ? "on the ground" : status?.override === true ? "the pilot flies" : overruled ? "safety comes first" : "";
     return { on, why_not };
   }
 

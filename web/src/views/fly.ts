@@ -18,7 +18,7 @@ import { RolesPanel } from "./roles";
 import type { AlertStrip } from "./alerts";
 import { Commands } from "./commands";
 import { HandPanel } from "./hand";
-import { on_ground } from "../flight/alerts";
+import { crashed, on_ground } from "../flight/alerts";
 import { places_now } from "./places";
 import { PreArm, SafetyRow } from "./safety";
 
@@ -93,7 +93,7 @@ export class Fly implements Page {
     }
     const progress = f.latest(names.progress), command = f.latest(names.command), attitude = f.latest(names.attitude);
     const item = number_at(progress, "item") ?? -1;
-    this.map.draw({ plan: this.plan, draft: false, state, track: this.track, ground: ground_of(f.view), places: places_now(f, names), lost: this.track.lost(), item, chosen: -1, refused: -1, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [] });
+    this.map.draw({ plan: this.plan, draft: false, state, track: this.track, ground: ground_of(f.view), places: places_now(f, names), lost: this.track.lost(), crashed: crashed(this.alerts.moment()), item, chosen: -1, refused: -1, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [] });
     draw_instruments(this.instruments, state, {
       air: number_at(command, "airspeed_mps"), up: number_at(command, "height_m"), course: number_at(command, "course_rad"),
       roll: number_at(attitude, "roll_rad"), pitch: number_at(attitude, "pitch_rad"),

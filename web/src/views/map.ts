@@ -5,7 +5,7 @@ import { type Plan, type Point, Route } from "../flight/route";
 import type { State } from "../names";
 import type { Places } from "../flight/places";
 import type { Ground } from "./ground";
-import { type Lost, aircraft_shape, draw_lost, draw_places, words_on } from "./marks";
+import { type Lost, aircraft_shape, draw_crash, draw_lost, draw_places, words_on } from "./marks";
 import { bearing, degrees, digits, fixed } from "../units";
 
 export type { Lost } from "./marks";
@@ -23,6 +23,7 @@ export interface Scene {
   refused: number; // waypoint whose last edit was refused; -1: none
   ground?: Ground | null; // what lies beneath
   places?: Places | null; // fence, runway, places to come down at
+  crashed?: boolean;
   lost?: Lost | null; // of an aircraft whose position is not known
   piece: Point[]; // of the path that is followed now
   tracks?: (Track & { colour: string; width: number })[]; // of a report: all of each flight, and all of it is shown
@@ -189,6 +190,7 @@ export class MapView {
     if (scene.lost) draw_lost(g, scene.lost, (p) => this.to_screen(p), this.px_per_m);
     this.data(scene);
     if (scene.state?.valid.position) this.aircraft(g, scene.state);
+    if (scene.crashed && scene.state) draw_crash(g, this.to_screen(scene.lost?.at ?? scene.state));
     if (scene.state?.valid.wind) this.wind(g, scene.state);
   }
   /** What the picture shows, for who cannot see it. */
@@ -198,6 +200,7 @@ export class MapView {
     data.places = String(places?.places.length ?? 0);
     data.runway = places?.runway ? String(Math.round(places.runway.length)) : "";
     data.aircraft = scene.state?.valid.position ? "known" : lost ? "lost" : "none";
+    data.crashed = String(scene.crashed === true);
     data.lost = lost ? [lost.at.n, lost.at.e, lost.radius ?? ""].join() : "";
   }
   private grid(g: CanvasRenderingContext2D): number {

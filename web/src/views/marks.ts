@@ -102,6 +102,22 @@ export function draw_places(g: Canvas, places: Places, to_screen: Screen, px_per
   places.places.forEach((p, i) => spot(g, to_screen(p), i === 0 ? "H" : "L"));
 }
 
+/** Where a flight ended that should not have. */
+export function draw_crash(g: Canvas, { x, y }: { x: number; y: number }): void {
+  g.strokeStyle = colours.get("alarm");
+  g.lineWidth = 5;
+  g.beginPath();
+  for (const side of [-1, 1]) {
+    g.moveTo(x - 14, y - 14 * side);
+    g.lineTo(x + 14, y + 14 * side);
+  }
+  g.stroke();
+  g.font = "bold 14px system-ui";
+  g.textAlign = "center";
+  g.textBaseline = "bottom";
+  words_on(g, "✕ crashed", x, y - 18, "bad");
+}
+
 export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: number): void {
   const was = to_screen(lost.last), at = to_screen(lost.at);
   g.strokeStyle = g.fillStyle = colours.get("bad");
@@ -134,12 +150,13 @@ export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: nu
     g.stroke();
     g.restore();
   }
-  const lines = [`✕ position lost ${Math.round(lost.age_s)} s ago`, lost.radius === null ? "no estimate of where it is" : `within ${Math.round(lost.radius)} m of the circle's middle, 95 %`];
+  const lines = [`✕ position lost ${Math.round(lost.age_s)} s ago`, lost.radius === null ? "no estimate of where it is" : `95 %: within ${Math.round(lost.radius)} m of the estimate`];
   g.font = "bold 13px system-ui";
   g.fillStyle = colours.get("alarm");
-  g.fillRect(8, 8, Math.max(...lines.map((l) => g.measureText(l).width)) + 16, 42);
+  const width = Math.max(...lines.map((l) => g.measureText(l).width)) + 16, top = width + 200 < g.canvas.clientWidth ? 8 : 42; // beside the keys, or below them
+  g.fillRect(8, top, width, 42);
   g.fillStyle = "#fff";
   g.textAlign = "left";
   g.textBaseline = "middle";
-  lines.forEach((l, i) => g.fillText(l, 16, 20 + 18 * i));
+  lines.forEach((l, i) => g.fillText(l, 16, top + 12 + 18 * i));
 }

@@ -117,19 +117,20 @@ flight.on_status = (level, words) => {
 tabs();
 const wanted = location.hash.slice(1);
 show(pages.find((p) => p.name.toLowerCase().replace(/ /g, "_") === wanted) ?? (pages[0] as Page));
-let last_ms = 0;
+let last_ms = 0, took_ms = 0; // of the last picture
 function frame(now_ms: number): void {
   requestAnimationFrame(frame);
-  if (now_ms - last_ms < 30) return; // some 30 pictures a second
-  last_ms = now_ms;
-  link(performance.now());
+  // some 30 pictures a second; a browser that is behind first reads what has come, and draws a fifth of the time
+  const rest_ms = flight.age_ms() > behind_ms ? Math.max(least_often_ms, 4 * took_ms) : 30;
+  const begun_ms = performance.now();
+  if (begun_ms - last_ms < rest_ms) return;
+  link(begun_ms);
   head();
   alerts.update();
-  // who is behind reads what has come before he draws again, and then draws the newest
-  if (flight.age_ms() > behind_ms && performance.now() - drawn_ms < least_often_ms) return;
-  drawn_ms = performance.now();
   fly.track.update(); // whatever is shown
   shown?.update(now_ms);
+  drawn_ms = last_ms = performance.now();
+  took_ms = drawn_ms - begun_ms;
 }
 requestAnimationFrame(frame);
 setInterval(() => tune.record(), 1000);

@@ -33,7 +33,7 @@ export function publishers(flight: Flight, topic: string): Component[] {
 }
 
 const series_gap_s = 0.02, series_length = 12_000; // four minutes at 50 a second
-const view_every_ms = 1000, too_old_ms = 2000;
+const view_every_ms = 1000, too_old_ms = 1000, new_ms = 400, pace_ms = 100;
 
 interface Heard {
   topic: Topic;
@@ -92,8 +92,9 @@ export class Flight implements Source {
         this.on_link();
       },
     });
+    setInterval(() => this.pace(), pace_ms);
     setInterval(() => {
-      if (this.link.up && !document.hidden) void this.refresh();
+      if (this.link.up && !document.hidden && !this.held) void this.refresh();
     }, view_every_ms);
   }
 
@@ -126,9 +127,7 @@ export class Flight implements Source {
     heard.wall_ms = performance.now();
     ++heard.count;
     if (heard.t > this.now || Number.isNaN(this.now)) this.now = heard.t;
-    // a browser that is too slow goes without curves until it has the newest
-    const late = !document.hidden && this.age_ms() > too_old_ms;
-    for (const [path, s] of late ? [] : heard.series) {
+    for (const [path, s] of this.held ? [] : heard.series) {
       if (s.t.length > 0 && heard.t - (s.t[s.t.length - 1] as number) < series_gap_s - 1e-6) continue;
       const value = number_at(this.read(heard), path);
       if (value === undefined || Number.isNaN(heard.t)) continue;
@@ -154,6 +153,14 @@ export class Flight implements Source {
     return heard.message;
   }
 
+  /** A browser or a way that is too slow goes without samples until it has read what was sent, and then has the newest. */
+  private pace(): void {
+    const age = this.age_ms(), hold = !document.hidden && this.link.up && (this.held ? age > new_ms : age > too_old_ms);
+    if (hold === this.held) return;
+    this.held = hold;
+    this.socket.hold(hold ? new Set([...this.heard.values()].filter((h) => h.listeners.size > 0).map((h) => h.id)) : null);
+  }
+  private held = false;
   /** How old what has come last can be at most: on its way from the flight, and in this browser. */
   age_ms(): number {
     return this.socket.age_ms();

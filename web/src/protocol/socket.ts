@@ -187,14 +187,22 @@ export class Socket {
     this.resubscribe();
   }
 
+  /** Only samples of these channels until it is called with null: so that what is on its way comes to an end. */
+  hold(kept: Set<number> | null): void {
+    this.kept = kept;
+    this.resubscribe();
+  }
+  private kept: Set<number> | null = null;
+
   private resubscribe(): void {
     if (!this.up) return;
-    const more = [...this.wanted].filter((id) => !this.subscribed.has(id));
-    const less = [...this.subscribed].filter((id) => !this.wanted.has(id));
+    const kept = this.kept, now = kept ? [...this.wanted].filter((id) => kept.has(id)) : [...this.wanted];
+    const more = now.filter((id) => !this.subscribed.has(id));
+    const less = [...this.subscribed].filter((id) => !now.includes(id));
     if (more.length > 0)
       this.send({ op: "subscribe", subscriptions: more.map((id) => ({ id, channelId: id })) });
     if (less.length > 0) this.send({ op: "unsubscribe", subscriptionIds: less });
-    this.subscribed = new Set(this.wanted);
+    this.subscribed = new Set(now);
   }
 
   watch_parameters(): void {

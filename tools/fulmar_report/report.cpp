@@ -56,7 +56,7 @@ json phases_of(const core::LogInfo& info) {
   return rows;
 }
 
-/// Of the parameters, those records that name places on the ground: fence, places, runway.
+/// Of the parameters, those records that name places on the ground: fence, places, runway, and their origin.
 json ground_records(const json& parameters) {
   json records = json::array();
   if (!parameters.is_object()) return records;
@@ -64,7 +64,8 @@ json ground_records(const json& parameters) {
     for (const auto& [name, value] : params.items()) {
       if (value.contains("runway"))
         records.push_back({{"runway", value["runway"]}});
-      else if (value.contains("corners") || value.contains("places") || value.contains("length_m"))
+      else if (value.contains("corners") || value.contains("places") || value.contains("length_m") ||
+               value.contains("given"))
         records.push_back(value);
     }
   return records;

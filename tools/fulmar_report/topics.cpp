@@ -63,6 +63,9 @@ const std::vector<Wanted>& all_wanted() {
       {"fulmar_msgs/msg/Progress", Form::slow, {}},
       {"fulmar_msgs/msg/VehicleStatus", Form::slow, {}},
       {"fulmar_msgs/msg/NavigationHealth", Form::slow, {}},
+      {"fulmar_msgs/msg/SafetyState", Form::slow, {}},
+      {"fulmar_msgs/msg/GroundState", Form::slow, {}},
+      {"fulmar_msgs/msg/ContactTruth", Form::slow, {}},
       {"fulmar_msgs/msg/Gnss", Form::slow, {}},
       {"fulmar_msgs/msg/Rc", Form::slow, {}}};
   return list;

@@ -178,13 +178,19 @@ try {
   }
 
   // a log that rotates is several, each whole; one that was cut off is shown as far as it goes, which is said
-  writeFileSync(file("turns.yaml"), `mission: turns\nextends: ${resolve("configs/missions/hourglass.yaml")}\nrecord: {rotate: 10 s}\n`);
+  writeFileSync(file("turns.yaml"), `mission: turns\nextends: ${resolve("configs/missions/return_home.yaml")}\nrecord: {rotate: 10 s}\n`);
   run("run", "turns.yaml", "--duration", "25", "--log", "turns.mcap");
   run("report", "turns.mcap", "turns-2.mcap", "turns-3.mcap", "-o", "turns.html");
   await open("turns.html");
   assert.match(await page.locator("#flights").innerText(), /turns\.mcap\s+turns-2\.mcap\s+turns-3\.mcap/);
   assert.match(await page.locator("#flights").innerText(), /file of its log\s+–\s+2\s+3/);
   await whole("turns");
+  // fence, places and runway, as the mission names them, on the map of the summary and of the moment
+  const places = (selector) => page.locator(selector).first().evaluate((e) => [e.dataset.fence, e.dataset.places, e.dataset.runway]);
+  assert.deepEqual(await places("#map_and_height canvas.map"), ["4", "3", "300"]);
+  await page.keyboard.press("2");
+  await until("the map of the moment", async () => (await places(".report canvas.map")).join() === "4,3,300");
+  assert.equal(await page.locator('.report .flag[data-flag="fence"]').count(), 1);
   const bytes = readFileSync(file("one.mcap"));
   writeFileSync(file("cut.mcap"), bytes.subarray(0, bytes.length / 2));
   assert.match(run("report", "cut.mcap"), /cut\.mcap ends early: byte \d+/);

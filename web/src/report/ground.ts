@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fence, places, runway of a flight that was recorded, and where its position was last known.
 import { type Places, places_of } from "../flight/places";
+import type { Place } from "../flight/tiles";
 import type { Names } from "../names";
 import type { Recording } from "../recorded";
 import { lost_position } from "../track";
 import type { Lost } from "../views/marks";
-import { origin_of } from "../views/places";
 
 const kept = new WeakMap<Recording, Places>();
-/** By the origin of the flight's end, which is known then if it ever was. */
-export function recorded_places(source: Recording, names: Names): Places {
+/** Of the mission; one that the first fix has made is in no record. */
+function recorded_origin(records: unknown[]): Place | null {
+  const of = records.find((r) => (r as Record<string, unknown>)?.given === true && typeof (r as Record<string, unknown>).lat_deg === "number");
+  return (of as Place | undefined) ?? null;
+}
+export function recorded_places(source: Recording): Places {
   let places = kept.get(source);
   if (places) return places;
-  const now = source.now;
-  source.now = source.log.end_s;
-  kept.set(source, (places = places_of(source.log.ground ?? [], origin_of(source.latest(names.state)))));
-  source.now = now;
+  const records = source.log.ground ?? [];
+  kept.set(source, (places = places_of(records, recorded_origin(records))));
   return places;
 }
 

@@ -26,7 +26,7 @@ export interface Log {
   estimates: Estimate[]; innovations: PackedSeries[];
   ticks: { n: number; mean_ms: number; p99_ms: number; max_ms: number } | null;
   steps: Record<string, { mean: number; p50: number; p99: number; max: number }> | null;
-  ground?: unknown[]; // records of fence, places, runway
+  ground?: unknown[]; // records of fence, places, runway, origin
   topics: PackedTopic[];
 }
 export interface ReportData {

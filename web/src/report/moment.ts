@@ -82,7 +82,7 @@ export class Moment {
     const track = { n: source.series(names.state, "position_m.north").v as number[], e: source.series(names.state, "position_m.east").v as number[] };
     this.map.draw({
       plan: this.plan, draft: false, state, track, item: number_at(source.latest(names.progress), "item") ?? -1, chosen: -1, refused: -1,
-      places: recorded_places(source, names), lost: recorded_lost(source, names),
+      places: recorded_places(source), lost: recorded_lost(source, names),
       piece: state?.valid.position ? piece_ahead(source.latest(names.path), state) : [],
     });
     const command = source.latest(names.command), attitude = source.latest(names.attitude), actuators = source.latest(names.actuators);

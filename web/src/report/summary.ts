@@ -104,7 +104,7 @@ export class Summary {
     first.now = first.log.end_s; // the plan as it was in the end
     const plan = plan_of(first.latest(names.plan)), state = state_of(first.latest(names.state));
     first.now = now;
-    this.map.draw({ plan, draft: false, state: this.sources.length === 1 ? state : null, track: { n: [], e: [] }, tracks, places: recorded_places(first, names), item: -1, chosen: -1, refused: -1, piece: [] });
+    this.map.draw({ plan, draft: false, state: this.sources.length === 1 ? state : null, track: { n: [], e: [] }, tracks, places: recorded_places(first), item: -1, chosen: -1, refused: -1, piece: [] });
   }
   draw(): void {
     draw_charts();

@@ -8,7 +8,7 @@ const flying = (flags = {}, more = {}) => ({
 });
 const keys = (list) => list.map((a) => a.key);
 
-export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, not_ready }, { places_of }, { lost_position }, near) => ({
+export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, gate_of, not_ready }, { places_of }, { lost_position }, near) => ({
   "each flag of the safety monitor is an alert in the air and none on the ground, also one that the page has no words for"() {
     assert.deepEqual(alerts_of(flying()), []);
     for (const flag of [...Object.keys(flags), "spoiler_jammed"]) {
@@ -77,6 +77,10 @@ export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, not_r
   "what is missing before a take-off is a list"() {
     assert.deepEqual(not_ready("fcu: not ready: no GNSS fix, no height"), ["no GNSS fix", "no height"]);
     assert.deepEqual(not_ready("the radio is lost"), []);
+    assert.equal(gate_of({ airborne: false }), null);
+    assert.deepEqual(gate_of({ not_ready: { radio: false, wind: true, brakes_hot: true } }).length, 2);
+    assert.deepEqual(gate_of({ ready: true, not_ready: { radio: false } }), []);
+    assert.deepEqual(alerts_of(flying({ ready: true })), []);
   },
   "fence, places and runway come out of records, by metres or by degrees; a runway of its own wins over the plan's"() {
     const nothing = 1e9, origin = { lat_deg: 40, lon_deg: -111, alt_msl_m: 0 };

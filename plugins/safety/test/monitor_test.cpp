@@ -119,20 +119,18 @@ TEST_CASE(
 }
 
 TEST_CASE("the pilot is given the answer that he asks for, in the air, as long as nothing is wrong") {
-  Watch w;
   for (const SafetyAnswer asked : {SafetyAnswer::home, SafetyAnswer::land, SafetyAnswer::wait}) {
+    Watch w;
     w.params.asked.value = asked;
-    w.fly(3);
-    CHECK(w.told == "");
-    CHECK(w.out.safety.answer == asked);
+    CHECK(w.fly(0.5).answer == SafetyAnswer::none);  // not yet in the air
+    CHECK(w.fly(3).answer == asked);
+    w.state.attitude_valid = false;
+    CHECK(w.fly(3).answer == SafetyAnswer::level);  // what is wrong comes first
+    w.state.attitude_valid = true;
+    CHECK(w.fly(5).answer == asked);
+    w.status.on_ground = true;
+    CHECK(w.fly(1).answer == SafetyAnswer::none);
   }
-  w.state.position_valid = false;
-  w.params.asked.value = SafetyAnswer::home;
-  CHECK(w.fly(5).answer == SafetyAnswer::wait);  // what is wrong comes first
-  w.state.position_valid = true;
-  CHECK(w.fly(5).answer == SafetyAnswer::home);
-  w.params.asked.value = SafetyAnswer::none;
-  CHECK(w.fly(1).answer == SafetyAnswer::none);
 }
 
 TEST_CASE("home has to lie within the fence, with room") {

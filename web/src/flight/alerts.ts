@@ -35,16 +35,18 @@ export const flags: Record<string, Words & { short: string }> = {
   estimator_failed: { level: "critical", short: "estimate", what: "ESTIMATE NOT VALID", pilot: "Take over by sight now. The instruments are wrong." },
   attitude_excessive: { level: "critical", short: "attitude", what: "ATTITUDE EXCESSIVE", pilot: "Let it recover. Take over if it does not within seconds." },
   engine_failed: { level: "critical", short: "motor", what: "MOTOR FAILED", pilot: "Clear the landing place. Take over only for a better field." },
+  drifting: { level: "critical", short: "drift", what: "WIND ABOVE THE AIRSPEED", pilot: "Follow it down wind. Land by hand where it is clear." },
   battery_empty: { level: "critical", short: "battery", what: "BATTERY EMPTY", pilot: "Clear the landing place. The motor stops soon." },
   link_lost: { level: "critical", short: "link", what: "CONTROLLER LINK LOST", pilot: "Take over by radio. Check the cable to the flight controller." },
   gnss_lost: { level: "critical", short: "GNSS", what: "GNSS LOST", pilot: "Keep it in sight. The map is an estimate. Land by hand if you can." },
   fence: { level: "critical", short: "fence", what: "FENCE", pilot: "Watch the turn back. Take over if it does not turn." },
   radio_lost: { level: "warning", short: "radio", what: "RADIO LOST", pilot: "Check the transmitter: power, antenna, distance." },
+  engine_weak: { level: "warning", short: "motor", what: "MOTOR WEAK", pilot: "Bring it home. Do not climb." },
   pitot_lost: { level: "warning", short: "airspeed", what: "AIRSPEED LOST", pilot: "Expect a fast approach. Keep the speed up if you take over." },
   battery_low: { level: "warning", short: "battery", what: "BATTERY LOW", pilot: "Let it land." },
   wind_excessive: { level: "warning", short: "wind", what: "WIND TOO STRONG", pilot: "Let it come home. Expect a short, steep landing." },
 };
-const no_flags = new Set(["airborne"]);
+const no_flags = new Set(["airborne", "ready"]); // of SafetyState: no troubles
 
 /** Every flag of SafetyState, also one that is not listed above. */
 export function flags_of(safety: Message): [string, boolean][] {
@@ -150,6 +152,17 @@ export function alert_of_event(event: Message, monitors: string[], does: string)
   if (code === "notice" && (monitors.includes(component) || not_ready(words).length > 0)) return null;
   const level: Level = severity === "warning" ? "warning" : "critical";
   return { key: `event ${code} ${component} ${words.replace(/[-\d.]+/g, "#")}`, level, what: words, does, pilot: level === "critical" ? "Take over by radio." : "" };
+}
+
+const gate_words: Record<string, string> = {
+  estimator: "estimate not valid", position: "no position", pitot: "airspeed sensor", radio: "no radio", battery: "battery low", wind: "too much wind",
+  fence: "outside the fence, or too near", height: "above the ceiling of the fence, or too near", motor: "motor gives no thrust",
+};
+/** What the safety monitor has against a take-off; null of a monitor that does not judge it. */
+export function gate_of(safety: Message | undefined): string[] | null {
+  const gate = safety?.not_ready;
+  if (typeof gate !== "object" || gate === null) return null;
+  return Object.entries(gate).filter(([, on]) => on === true).map(([cause]) => gate_words[cause] ?? cause.replace(/_/g, " "));
 }
 
 /** "fcu: not ready: no GNSS fix, no height" -> what is missing; [] of other words. */

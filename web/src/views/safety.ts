@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The safety row: every flag of the safety monitor, its answer, and where the aircraft is; and what is missing before a take-off.
 import { el, fill } from "../dom";
-import { answers, flags, flags_of } from "../flight/alerts";
+import { answers, flags, flags_of, gate_of } from "../flight/alerts";
 import { type Names, state_of } from "../names";
 import { type Message, number_at } from "../protocol/schema";
 import type { Source } from "../source";
@@ -61,7 +61,9 @@ export function missing(source: Source, names: Names, said: string[]): string[] 
   add(!s || !s.valid.height, "no height", /height|barometer/);
   add(rc !== undefined && rc.link !== true, "no radio", /radio/);
   add(status !== undefined && status.health !== "ok", "flight controller: " + String(status?.health), /controller/);
-  if (safety) for (const [flag, up] of flags_of(safety)) add(up, short(flag) + ": " + flag.replace(/_/g, " "), new RegExp(short(flag), "i"));
+  const gate = gate_of(safety);
+  for (const words of gate ?? []) add(true, words, new RegExp(words.split(" ").pop() ?? "", "i"));
+  if (safety && !gate) for (const [flag, up] of flags_of(safety)) add(up, short(flag) + ": " + flag.replace(/_/g, " "), new RegExp(short(flag), "i"));
   return list;
 }
 

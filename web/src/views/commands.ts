@@ -2,6 +2,8 @@
 // Three large buttons: return, land, hold. A safety monitor is asked for its answer; without one a phase of the mission is entered.
 import { el, mark, say } from "../dom";
 import { names_of } from "../names";
+import { crashed, on_ground } from "../flight/alerts";
+import type { AlertStrip } from "./alerts";
 import { type Component, type Flight, publishers } from "../protocol/flight";
 
 interface Command {
@@ -28,7 +30,7 @@ export class Commands {
   readonly refusal = this.said;
   private sure: { key: string; until_ms: number } = { key: "", until_ms: 0 };
 
-  constructor(private readonly flight: Flight) {}
+  constructor(private readonly flight: Flight, private readonly alerts: AlertStrip) {}
 
   /** The monitor that a pilot may ask for an answer; "" when there is none. */
   private monitor(): string {
@@ -47,9 +49,9 @@ export class Commands {
     const on = monitor !== "" ? this.asked(monitor) === c.answer : phase !== "" && f.view?.phase === phase;
     // what has failed is answered before a pilot is
     const answer = String(f.latest(names_of(f).safety)?.answer ?? "none"), overruled = !on && monitor !== "" && answer !== "none" && answer !== this.asked(monitor);
-    const status = f.latest(names_of(f).status);
+    const moment = this.alerts.moment();
     const why_not = !f.view ? "no flight" : monitor === "" && phase === "" ? "not in this mission"
-      : status?.crashed === true ? "crashed" : !f.view.armed ? "disarmed" : status?.on_ground === true ? "on the ground" : status?.override === true ? "the pilot flies" : overruled ? "safety comes first" : "";
+      : crashed(moment) ? "crashed" : !f.view.armed ? "disarmed" : on_ground(moment) ? "on the ground" : moment.status?.override === true ? "the pilot flies" : overruled ? "safety comes first" : "";
     return { on, why_not };
   }
 

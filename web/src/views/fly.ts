@@ -59,7 +59,7 @@ export class Fly implements Page {
     this.roles = new RolesPanel(flight);
     this.safety = new SafetyRow(flight);
     this.prearm = new PreArm(flight);
-    this.commands = new Commands(flight);
+    this.commands = new Commands(flight, alerts);
     this.hand = new HandPanel(flight);
     flight.heard_of_channels.push(() => {
       this.names = names_of(flight);

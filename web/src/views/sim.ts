@@ -12,6 +12,12 @@ const groups: [string, RegExp][] = [
   ["Faults", /(fault|_works$|^motor$|^rc_link$|icing)/],
 ];
 
+/** Of a fault what fails, by the parameter's name; the first that fits. */
+const parts: [string, RegExp][] = [
+  ["Motor", /^(motor|engine)/], ["Battery", /^battery/], ["GNSS", /^gnss/], ["Airspeed", /^pitot/], ["Radio", /^rc/], ["Inertial unit", /^(imu|gyro|accel)/],
+  ["Magnetometer", /^mag/], ["Barometer", /^baro/], ["Surfaces", /^(aileron|elevator|rudder|fault_speed)/], ["Icing", /^icing/], ["How sensors fail", /./],
+];
+
 export class Simulation implements Page {
   readonly name = "Simulation";
   readonly element: HTMLElement;
@@ -96,8 +102,19 @@ export class Simulation implements Page {
   private section(c: Component, name: string, which: RegExp): HTMLElement {
     const rows = c.params.filter((p) => p.live && which.test(p.name)).map((p) => new ParamRow(this.flight, c.name, p));
     this.rows.push(...rows);
-    return el("section", { class: "params" }, el("h2", {}, `${name}, of ${c.name}`), el("div", { class: "scroll rows" }, ...rows.map((r) => r.element)));
+    const list = name === "Faults" ? this.folded(rows) : rows.map((r) => r.element);
+    return el("section", { class: "params" }, el("h2", {}, `${name}, of ${c.name}`), el("div", { class: "scroll rows" }, ...list));
   }
+
+  private folded(rows: ParamRow[]): HTMLElement[] {
+    this.folds = parts.map(([name, which]) => {
+      const mine = rows.filter((r) => parts.find(([, first]) => first.test(r.name))?.[1] === which);
+      const summary = el("summary", {}, name);
+      return { name, rows: mine, summary, element: el("details", { class: "fold" }, summary, ...mine.map((r) => r.element)) };
+    }).filter((f) => f.rows.length > 0);
+    return this.folds.map((f) => f.element);
+  }
+  private folds: { name: string; rows: ParamRow[]; summary: HTMLElement; element: HTMLElement }[] = [];
 
   /** A form of a request's fields, as its message has them. */
   private request(service: string): HTMLElement {
@@ -145,6 +162,11 @@ export class Simulation implements Page {
     for (const row of this.rows) {
       const p = vehicle?.params.find((q) => q.name === row.name);
       if (p) row.show(p);
+    }
+    for (const f of this.folds) {
+      const changed = f.rows.filter((r) => r.changed).map((r) => r.summary.replace(/^\w+\./, ""));
+      say(f.summary, f.name + (changed.length > 0 ? " ✕ " + changed.join("; ") : ""));
+      mark(f.summary, "bad", changed.length > 0);
     }
   }
 }

@@ -92,7 +92,7 @@ function head(): void {
   const view = flight.view;
   if (!view) return;
   say(byId("mission"), view.mission);
-  document.title = view.mission + " – Fulmar";
+  document.title = (alerts.element.dataset.level === "critical" ? "✕ " : "") + view.mission + " – Fulmar"; // also of a tab that is behind others
   say(byId("phase"), view.phase);
   say(byId("clock"), clock(flight.now));
   say(byId("armed"), view.armed ? "armed" : "disarmed");

@@ -28,6 +28,21 @@ json metadata_of(const core::McapFile& log) {
   return all;
 }
 
+/// Of the parameters, those records that name places on the ground: fence, places, runway, and their origin.
+json ground_records(const json& parameters) {
+  json records = json::array();
+  if (!parameters.is_object()) return records;
+  for (const auto& [component, params] : parameters.items())
+    for (const auto& [name, value] : params.items()) {
+      if (value.contains("runway"))
+        records.push_back({{"runway", value["runway"]}});
+      else if (value.contains("corners") || value.contains("places") || value.contains("length_m") ||
+               value.contains("given"))
+        records.push_back(value);
+    }
+  return records;
+}
+
 /// Guards, failsafe, swaps, and whatever has the host's warning; what came in silence is no news.
 bool is_told(const core::LogInfo::Event& e) {
   static const std::set<std::string> kinds{"guard", "failsafe", "swap", "parameter", "resume"};
@@ -54,21 +69,6 @@ json phases_of(const core::LogInfo& info) {
   for (const core::LogInfo::Phase& p : info.phases)
     rows.push_back({{"name", p.name}, {"from_s", seconds(p.begin_ns)}, {"to_s", seconds(p.end_ns)}});
   return rows;
-}
-
-/// Of the parameters, those records that name places on the ground: fence, places, runway, and their origin.
-json ground_records(const json& parameters) {
-  json records = json::array();
-  if (!parameters.is_object()) return records;
-  for (const auto& [component, params] : parameters.items())
-    for (const auto& [name, value] : params.items()) {
-      if (value.contains("runway"))
-        records.push_back({{"runway", value["runway"]}});
-      else if (value.contains("corners") || value.contains("places") || value.contains("length_m") ||
-               value.contains("given"))
-        records.push_back(value);
-    }
-  return records;
 }
 
 json log_json(const ReportedLog& log, std::size_t every_nth) {

@@ -231,7 +231,6 @@ inline Status Monitor::step(const Tick& tick, const Inputs& in, const Params& p,
   now_.attitude_excessive = alarms_.attitude.raised(), now_.engine_failed = alarms_.engine.raised();
   now_.wind_excessive = alarms_.wind.raised(), now_.estimator_failed = alarms_.estimator.raised();
   now_.answer = answer(p, dt);
-  if (now_.airborne && now_.answer == SafetyAnswer::none) now_.answer = p.asked;
   out.safety = now_;
   tell(tick, out);
   return Status::ok;
@@ -389,7 +388,7 @@ inline SafetyAnswer Monitor::answer(const Params& p, double dt) {
   const bool returns = now_.radio_lost || now_.link_lost || now_.fence || kept_fence_;
   now_.returning_s = returns ? now_.returning_s + dt : 0;
   if (now_.battery_low || now_.pitot_lost || now_.wind_excessive) return SafetyAnswer::land;
-  if (!returns) return SafetyAnswer::none;
+  if (!returns) return p.asked;
   return now_.returning_s > p.radio.land_after ? SafetyAnswer::land : SafetyAnswer::home;
 }
 

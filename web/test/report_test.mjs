@@ -190,7 +190,9 @@ try {
   assert.deepEqual(await places("#map_and_height canvas.map"), ["4", "3", "300"]);
   await page.keyboard.press("2");
   await until("the map of the moment", async () => (await places(".report canvas.map")).join() === "4,3,300");
-  assert.equal(await page.locator('.report .flag[data-flag="fence"]').count(), 1);
+  await moment().fill("4");
+  await until("the safety row", async () => (await page.locator('.report .flag[data-flag="fence"]').count()) === 1);
+  await whole("turns_moment");
   const bytes = readFileSync(file("one.mcap"));
   writeFileSync(file("cut.mcap"), bytes.subarray(0, bytes.length / 2));
   assert.match(run("report", "cut.mcap"), /cut\.mcap ends early: byte \d+/);

@@ -71,6 +71,7 @@ function link(now_ms: number): void {
   const ended = why.includes("ended");
   const what = flight.view === null ? "No answer from the flight" : ended ? "The flight has ended" : "Connection lost";
   const shown = flight.view === null ? "" : ended ? " What is shown is its last moment." : " What is shown is old.";
+  mark(banner, "ended", ended); // an end is no fault
   if (down) say(banner, `✕ ${what}, ${seconds} s ago.${shown} ${ended ? "Waiting for another one." : "Trying again."}`);
 }
 

@@ -6,7 +6,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { promisify } from "node:util";
-import { absent, browse, fly, free_port, shots_folder, until } from "./fixture.mjs";
+import { absent, browse, fly, free_port, shots_folder, until as within } from "./fixture.mjs";
 
 const [fulmar, modules, chromium] = process.argv.slice(2).map((p) => p && resolve(p));
 const skipped = absent(modules, chromium);
@@ -24,6 +24,7 @@ writeFileSync(mission, `mission: pilot\nextends: ${resolve("configs/missions/ret
 const phone = [390, 844], sizes = [[1280, 720], [1024, 768], phone];
 let page;
 const faults = [];
+const until = (what, holds, patience = 60) => within(what, holds, patience); // where others compute, a flight is slower
 const tab = (name) => page.click(`#tabs button[data-page="${name}"]`);
 const data = (selector, name) => page.locator(selector).first().getAttribute("data-" + name);
 const is = (what, selector, name, value, patience) => until(what, async () => (await page.locator(selector).count()) > 0 && (await data(selector, name)) === value, patience);
@@ -90,7 +91,7 @@ const steps = {
   async "commands: hold, return and land are flown, and taken back"() {
     await tab("Fly");
     await ask("call", "sim.arm", "{armed: true}");
-    await until("in the air", async () => (await page.locator("#phase").textContent()) === "cruise", 30);
+    await until("in the air", async () => (await page.locator("#phase").textContent()) === "cruise");
     const press = async (key, phase) => {
       await page.click(`.command[data-command="${key}"]`);
       await until(phase, async () => (await page.locator("#phase").textContent()) === phase);
@@ -101,9 +102,15 @@ const steps = {
     await press("hold", "cruise");
     await press("return", "home");
     await press("return", "cruise");
-    await page.click('.command[data-command="land"]');
-    assert.equal(await ask("param", "get", "watch.asked"), "none", "to land takes two");
-    await page.click('.command[data-command="land"]');
+    const between = await page.evaluate(async () => {
+      const button = document.querySelector('.command[data-command="land"]');
+      button.click();
+      await new Promise((go) => setTimeout(go, 300));
+      const { on } = button.dataset;
+      button.click();
+      return on;
+    });
+    assert.equal(between, "false", "to land takes two");
     await until("it is asked for", async () => (await ask("param", "get", "watch.asked")) === "land");
     await until("flown", async () => ["home", "approach"].includes(await page.locator("#phase").textContent()));
     await page.click('.command[data-command="land"]');
@@ -151,7 +158,7 @@ const steps = {
   async "a crash is an alert, alone"() {
     await set("sim.pilot_flies", "true", "sim.stick_pitch", "-1");
     await ask("speed", "5");
-    await is("the alert", alert("crashed"), "now", "true", 20);
+    await is("the alert", alert("crashed"), "now", "true");
     await at_a_glance("crashed");
     await is("the row", '.flag[data-flag="contact"]', "good", "false");
     assert.equal(await data(map, "crashed"), "true");
@@ -166,7 +173,7 @@ let failed = 0;
 try {
   flight.child.stdout.resume();
   page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
-  page.setDefaultTimeout(15_000);
+  page.setDefaultTimeout(60_000);
   page.on("pageerror", (e) => faults.push(e.message));
   for (const [name, step] of Object.entries(steps)) {
     const begun = Date.now();

@@ -117,6 +117,17 @@ export class Fly implements Page {
     this.prearm.update(names, f.view !== null && (on_ground(moment) || !f.view.armed) && !(flown && f.view.armed), f.now - lacks.t < said_s ? lacks.what : []);
   }
 
+  /** Over the last second: of a propeller in gusts it jumps. A current that was never above 0 is not measured. */
+  private current(): string {
+    const { t, v } = this.flight.series(this.names.status, "battery_amp"), since = this.flight.now - 1;
+    let from = t.length;
+    while (from > 0 && (t[from - 1] as number) > since) --from;
+    const last = v.slice(from);
+    this.has_current = this.has_current || last.some((amp) => amp > 0);
+    return this.has_current && last.length > 0 ? fixed(last.reduce((a, b) => a + b) / last.length, 1, "A") : "–";
+  }
+  private has_current = false;
+
   private show_figures(s: ReturnType<typeof state_of>, actuators: Message | undefined, progress: Message | undefined): void {
     const status = this.flight.latest(this.names.status);
     const angle = (path: string) => fixed((number_at(actuators, path) ?? NaN) * degrees, 1, "°");
@@ -132,7 +143,7 @@ export class Fly implements Page {
       ["distance to it", items ? digits(number_at(progress, "distance_m") ?? NaN) + " m" : "–"],
       ["circuits", items ? String(number_at(progress, "circuits") ?? "–") : "–"],
       ["from origin", s?.valid.position ? digits(Math.hypot(s.n, s.e)) + " m" : "–"],
-      ["current", measured(status) ? fixed(number_at(status, "battery_amp"), 1, "A") : "–"],
+      ["current", measured(status) ? this.current() : "–"],
     ];
     if (this.figures.childElementCount === 0)
       fill(this.figures, ...list.map(([name]) => el("div", {}, el("span", {}, name), el("b", {}))));

@@ -9,7 +9,7 @@ namespace fulmar {
 struct MotionTruth {
   double aileron_rad = 0, elevator_rad = 0, rudder_rad = 0, flap_rad = 0;  ///< with lag, rate limit and stops
   double propeller_radps = 0;                                              ///< of the first motor
-  Vec3<Body> angular_acceleration_radps2;  ///< relative to inertial space
+  Vec3<Body> angular_acceleration_radps2;                                  ///< relative to inertial space
 };
 
 }  // namespace fulmar

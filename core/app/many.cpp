@@ -125,7 +125,8 @@ std::string spread_table(const std::vector<json>& results) {
 
 std::string short_result(const json& result) {
   return fmt::format("seed {}: {} ({})", result.at("seed").get<std::uint64_t>(),
-                     result.at("result").get<std::string>(), result.value("reason", ""));
+                     result.value("verdict", result.at("result").get<std::string>()),
+                     result.value("reason", ""));
 }
 
 }  // namespace fulmar::core

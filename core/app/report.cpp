@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/run/verdict.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -17,11 +18,6 @@ using nlohmann::json;
 
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 json or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
-
-std::string reason_of(const FlightResult& result) {
-  return has_begun(result) ? result.reason
-                           : "nothing came from the role " + result.idle + "; " + result.reason;
-}
 
 /// Roles that more than one component has filled: the figures are of all of them.
 std::vector<std::string> shared_roles(const FlightResult& result) {
@@ -57,12 +53,7 @@ TypePtr type_of(const Graph& graph, const Source& source) {
 
 json summary_of(const Graph& graph, const Flight& flight, const Source& source) {
   const std::byte* message = flight.sample(source);
-  if (!message) return nullptr;
-  json figures = to_json(*type_of(graph, source), message, true);
-  // 1e9 is the deviation of what nobody knows: no figure
-  for (json& value : figures)
-    if (value == 1e9 || value == 1e9 * (180.0 / std::numbers::pi)) value = nullptr;
-  return figures;
+  return message ? figures_json(*type_of(graph, source), message) : json(nullptr);
 }
 
 double flight_time_s(const FlightResult& result) {
@@ -151,14 +142,6 @@ bool present(const Shown& shown, const std::byte* message) {
 
 }  // namespace
 
-bool has_begun(const FlightResult& result) { return result.outcome != Outcome::flown || result.idle.empty(); }
-
-const char* result_word(const FlightResult& result) {
-  if (result.outcome == Outcome::interrupted) return "interrupted";
-  if (result.outcome == Outcome::failed) return "failed";
-  return !has_begun(result) ? "not begun" : result.guards.empty() ? "flown" : "flown with guards";
-}
-
 std::string progress_line(const Graph& graph, const Flight& flight) {
   std::string line = fmt::format("{:8.1f} s  {:<10}", seconds(flight.now_ns()), flight.phase());
   for (const Shown& shown : graph.progress) {
@@ -184,12 +167,16 @@ json result_json(const Graph& graph, const Flight& flight, const FlightResult& r
   j["seed"] = graph.seed;
   j["result"] = result_word(result);
   j["reason"] = reason_of(result);
+  j["verdict"] = verdict_of(graph, flight, result);
   j["flight_time_s"] = flight_time_s(result);
   j["wall_time_s"] = result.wall.took_s;
   j["speedup"] = speedup(result);
   j["phases"] = json::array();
   for (const PhaseVisit& p : result.phases)
-    j["phases"].push_back({{"name", p.name}, {"from_s", seconds(p.from_ns)}, {"to_s", seconds(p.to_ns)}});
+    j["phases"].push_back({{"name", p.name},
+                           {"from_s", seconds(p.from_ns)},
+                           {"to_s", seconds(p.to_ns)},
+                           {"because", or_null(p.because)}});
   j["who_flew"] = tenures_json(result);
   j["guards"] = json::array();
   for (const GuardEvent& g : result.guards)
@@ -220,7 +207,8 @@ json result_json(const Graph& graph, const Flight& flight, const FlightResult& r
 }
 
 std::string result_table(const Graph& graph, const Flight& flight, const FlightResult& result) {
-  std::string out = fmt::format("\n{}: {} ({})\n", graph.mission, result_word(result), reason_of(result));
+  std::string out =
+      fmt::format("\n{}: {} ({})\n", graph.mission, verdict_of(graph, flight, result), reason_of(result));
   out += fmt::format("  {:.1f} s of flight in {:.2f} s: {:.0f} times real time\n", flight_time_s(result),
                      result.wall.took_s, speedup(result));
   if (result.wall.behind_max_s > 0.5)

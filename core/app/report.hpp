@@ -6,13 +6,9 @@
 
 #include "core/graph/graph.hpp"
 #include "core/run/flight.hpp"
+#include "core/run/verdict.hpp"
 
 namespace fulmar::core {
-
-/// Not begun: nothing has come from one of the roles, and the aircraft has never left the ground.
-bool has_begun(const FlightResult& result);
-/// flown, flown with guards, not begun, failed, interrupted
-const char* result_word(const FlightResult& result);
 
 std::string progress_line(const Graph& graph, const Flight& flight);
 nlohmann::json result_json(const Graph& graph, const Flight& flight, const FlightResult& result);

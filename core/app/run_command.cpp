@@ -80,6 +80,8 @@ class Session {
     if (!graph_.record && !options.log_file.empty())
       throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
     if (options.report) check_report(*options.report, graph_);
+    for (const std::string& warning : graph_.warnings)
+      if (warning.starts_with("--")) warn(warning);  // asked on the command line, and without effect
   }
 
   /// A flight with what has changed; when that cannot even begin, the mission of before stays.
@@ -264,6 +266,7 @@ class Session {
       report = report_name(*options_.report, start_, o.log_file, results_.size() + 1,
                            graph_.io == Io::fcu || restarts());
     make_folder_of(o.log_file);
+    if (graph_.io == Io::fcu && o.log) note_newest_log(graph_, o.log_file);
     o.interrupt = &signal_seen;
     const bool many = !options_.seeds.empty();  // of those only what is worth a warning
     if (!many) o.progress = [&](const Flight& flight) { progress.show(flight); };
@@ -319,7 +322,8 @@ class Session {
     if (!whole) return ExitCode::failed;  // however the flight ended
     if (restarts()) return guarded(result) ? ExitCode::guarded : ExitCode::done;
     if (result.outcome == Outcome::interrupted) return ExitCode::interrupted;
-    if (result.outcome == Outcome::failed || !has_begun(result)) return ExitCode::failed;
+    if (result.outcome == Outcome::failed || result.outcome == Outcome::aborted || !has_begun(result))
+      return ExitCode::failed;
     return guarded(result) ? ExitCode::guarded : ExitCode::done;
   }
 

@@ -111,6 +111,8 @@ std::vector<std::pair<Where, std::string>> onlookers(const MissionText& text, co
   };
   if (text.done) look(*text.done, "done looks at ");
   if (text.failed) look(*text.failed, "failed looks at ");
+  if (text.flown) look(*text.flown, "flown looks at ");
+  if (text.verdict) look(*text.verdict, "verdict comes from ");
   for (const Word& word : text.progress) look(word, "progress shows ");
   for (const auto& [key, word] : text.summary) look(word, "summary." + key + " shows ");
   for (const auto& [param, word] : text.resume) look(word, "resume." + param + " takes up what was of ");

@@ -98,6 +98,9 @@ void tell_bypassed(Draft& draft);
 // unread.cpp: of the built graph, with what DDS exports
 void tell_unread(Draft& draft);
 
+// overlaid.cpp: after the roles are assigned
+void tell_overlaid(Draft& draft);
+
 // tap_sections.cpp
 void mark_imports(Draft& draft);
 /// `ports`: the names under which outputs leave the flight.

@@ -212,15 +212,22 @@ struct Overrides {
   std::vector<std::string> record;           // "all", "nav.*@100Hz"
 };
 
+/// A port that says in a word and in words how the flight went.
+struct VerdictPort {
+  Source from;
+  std::size_t word = 0, text = 0;  // offsets of the texts
+  std::size_t word_size = 0, text_size = 0;
+};
+
 /// What a mission says that stands by itself, as it is written.
 struct Settings {
   std::string mission;
   Io io = Io::sim;
   std::int64_t epoch_ns = 0;  // UTC of flight time 0
   std::uint64_t seed = 1;
-  bool arm = false;                                 // with Io::sim alone
-  std::int64_t timeout_ns = 0;                      // of flight time; 0: none
-  std::int64_t done_for_ns = 0, failed_for_ns = 0;  // how long `done` and `failed` have to hold
+  bool arm = false;                                                   // with Io::sim alone
+  std::int64_t timeout_ns = 0;                                        // of flight time; 0: none
+  std::int64_t done_for_ns = 0, failed_for_ns = 0, flown_for_ns = 0;  // how long the conditions have to hold
   std::int64_t failsafe_ns = 0;
   std::string record_file;  // "" : logs/<mission>-<UTC>.mcap
   bool record = true;
@@ -240,9 +247,10 @@ struct Graph : Settings {
   std::vector<Transition> any;
   std::vector<int> order;  // steps, the vehicle left out
   int vehicle = -1;
-  VehicleFlags flags;                                   // of the vehicle; with Io::fcu it has all of them
-  std::shared_ptr<const Condition> done, failed;        // may be empty
-  std::vector<std::pair<std::string, Source>> summary;  // key of the result -> port
+  VehicleFlags flags;                                    // of the vehicle; with Io::fcu it has all of them
+  std::shared_ptr<const Condition> done, failed, flown;  // may be empty
+  std::optional<VerdictPort> verdict;                    // what a component says of the flight
+  std::vector<std::pair<std::string, Source>> summary;   // key of the result -> port
   std::vector<Shown> progress;
   std::vector<int> control;  // roles that begin anew as long as the vehicle says that it does not obey
   std::vector<Source> tell;  // ports whose texts are for people

@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::vector<std::string> mission_keys = {
-    "mission", "extends", "io",      "airframe", "origin",  "rate",     "seed",  "arm",        "done",
-    "failed",  "timeout", "epoch",   "progress", "summary", "failsafe", "roles", "components", "phases",
-    "record",  "plugins", "control", "tell",     "resume",  "live",     "dds"};
+    "mission",    "extends", "io",      "airframe", "origin",  "rate",     "seed",    "arm",      "done",
+    "failed",     "flown",   "verdict", "timeout",  "epoch",   "progress", "summary", "failsafe", "roles",
+    "components", "phases",  "record",  "plugins",  "control", "tell",     "resume",  "live",     "dds"};
 const std::vector<std::string> component_keys = {"fills", "use",     "in",     "params",  "rate",   "only",
                                                  "run",   "latency", "budget", "max_age", "memory", "hang"};
 
@@ -101,7 +101,7 @@ class MissionReader {
       report_.add(node.where(), "seed: expected a whole number from 0, found " + found_words(node));
   }
 
-  /// A condition that ends the flight: "..." or {when: "...", for: 60 s}.
+  /// A condition that ends or judges the flight: "..." or {when: "...", for: 60 s}.
   void ending(const Keys& keys, const std::string& key, std::optional<Word>& word, std::int64_t& for_ns) {
     const Node* node = keys.get(key);
     if (!node || !node->is(Node::Kind::map)) {
@@ -119,6 +119,8 @@ class MissionReader {
   void shown(const Keys& keys) {
     ending(keys, "done", m_.done, m_.done_for_ns);
     ending(keys, "failed", m_.failed, m_.failed_for_ns);
+    ending(keys, "flown", m_.flown, m_.flown_for_ns);
+    if (const auto port = keys.text("verdict")) m_.verdict = Word{*port, keys.get("verdict")->where()};
     list(keys, "progress", "a list of fields such as [nav.state.height_m]",
          "a field such as nav.state.height_m", m_.progress);
     list(keys, "control", "a list of roles such as [guide, outer, inner]", "the name of a role", m_.control);

@@ -91,7 +91,7 @@ struct MissionText : Settings {
   double rate_hz = 400;
   Node airframe;  // text, a map, or missing
   Node origin;
-  std::optional<Word> done, failed;
+  std::optional<Word> done, failed, flown, verdict;
   std::vector<Word> progress;
   std::vector<std::pair<std::string, Word>> summary;
   std::vector<Word> control, tell;

@@ -50,9 +50,11 @@ void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
 
 /// What every result has: a summary must not write over it.
 const std::vector<std::string> result_keys = {
-    "allocations", "behind_max_s", "dds",        "flight_time_s", "guards",           "io",      "live",
-    "log",         "log_dropped",  "log_sha256", "mission",       "not_reproducible", "phases",  "reason",
-    "result",      "seed",         "speedup",    "step_time_us",  "wall_time_s",      "who_flew"};
+    "allocations", "behind_max_s", "dds",     "flight_time_s",    "guards",
+    "io",          "live",         "log",     "log_dropped",      "log_error",
+    "log_sha256",  "misses",       "mission", "not_reproducible", "phases",
+    "reason",      "result",       "seed",    "speedup",          "step_time_us",
+    "verdict",     "wall_time_s",  "who_flew"};
 
 std::pair<Source, TypePtr> find_port(const Word& word, const std::string& example, const FindPort& find) {
   const auto dot = word.text.find('.');
@@ -91,6 +93,22 @@ void read_told(Draft& draft, const FindPort& find) {
       } catch (const NobodyProvides&) {
       }
     });
+}
+
+/// How the flight went, in a word and in words.
+void read_verdict(Draft& draft, const FindPort& find) {
+  draft.graph.verdict.reset();
+  if (!draft.text.verdict) return;
+  const Word& word = *draft.text.verdict;
+  guarded(draft, word.where, "verdict", [&] {
+    const auto [source, type] = find_port(word, "score.verdict", find);
+    const Field* const of = type ? type->find("word") : nullptr;
+    const Field* const text = type ? type->find("text") : nullptr;
+    if (!of || !text || of->kind != FULMAR_TEXT || text->kind != FULMAR_TEXT)
+      throw Error("'" + word.text + "' is " + (type ? type->name : "a probe") +
+                  ", which has no texts 'word' and 'text'");
+    draft.graph.verdict = VerdictPort{source, of->offset, text->offset, of->stride, text->stride};
+  });
 }
 
 Shown shown(const Word& word, const FindPort& find) {
@@ -169,6 +187,8 @@ void compile_all(Draft& draft, bool built) {
   Graph& graph = draft.graph;
   if (draft.text.done) graph.done = compiled(draft, *draft.text.done, "done", find);
   if (draft.text.failed) graph.failed = compiled(draft, *draft.text.failed, "failed", find);
+  if (draft.text.flown) graph.flown = compiled(draft, *draft.text.flown, "flown", find);
+  read_verdict(draft, find);
   read_shown(draft, find);
   read_summary(draft, find);
   read_told(draft, find);

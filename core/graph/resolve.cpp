@@ -292,6 +292,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   resolve_wires(draft);
   read_values(draft);
   assign_roles(draft);
+  tell_overlaid(draft);
   name_ports(draft);
   mark_used(draft);
   choose_vehicle(draft);

@@ -54,6 +54,7 @@ class Playback final : public Circumstances {
   /// Whether a signal to the host took effect at the end of this tick.
   bool signalled() const;
   bool ran_over(const std::string& component, std::int64_t now_ns) const override;
+  const Event* conclusion() const override { return survey_.conclusion ? &*survey_.conclusion : nullptr; }
   void stand_in(const Graph& graph, const Component& component, UnitOptions& options) override;
 
  private:

@@ -102,6 +102,9 @@ struct Survey::Reading {
         to.last_words = e.cause.data();
         break;
       case Code::duration_reached: to.ended_ns = log_ns; break;
+      case Code::concluded:
+        if (e.name[0] != '\0') to.conclusion = e;
+        break;
       case Code::signal_refused:
       case Code::gave_up:
         if (e.component[0] == '\0') to.signals.push_back(log_ns), count(sizeof log_ns);

@@ -54,6 +54,7 @@ struct Survey {
   std::vector<std::uint64_t> signals;              // that took effect
   std::optional<std::uint64_t> vehicle_failed_ns;  // log time
   std::string last_words;                          // of the vehicle then
+  std::optional<Event> conclusion;                 // with the verdict
   std::optional<std::uint64_t> ended_ns;       // log time at which the flight's owner had it end while armed
   std::uint64_t begun_at = ~std::uint64_t{0};  // place of the first message that a begun flight has logged
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/graph/graph.hpp"
+#include "core/log/events.hpp"
 #include "core/run/unit.hpp"
 
 namespace fulmar::core {
@@ -19,6 +20,8 @@ class Circumstances {
   virtual void stand_in(const Graph& graph, const Component& component, UnitOptions& options) = 0;
   /// [tick] Whether the wall clock stopped the component in this tick.
   virtual bool ran_over(const std::string& component, std::int64_t now_ns) const = 0;
+  /// The event with its verdict: name and cause count, the words do not. nullptr: the log ends before.
+  virtual const Event* conclusion() const = 0;
 };
 
 }  // namespace fulmar::core

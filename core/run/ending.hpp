@@ -9,7 +9,8 @@
 
 namespace fulmar::core {
 
-enum class Outcome : std::uint8_t { flown, failed, interrupted };
+/// Aborted: `done` holds, but what the mission calls flown never did.
+enum class Outcome : std::uint8_t { flown, aborted, failed, interrupted };
 
 class Ending {
  public:

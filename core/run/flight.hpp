@@ -47,6 +47,7 @@ struct Restart {
 struct PhaseVisit {
   std::string name;
   std::int64_t from_ns = 0, to_ns = 0;
+  std::string because;  // the condition that led here; "": the first one, or a command
 };
 
 /// A guard that fired: what the component did, and what the host did about it.

@@ -24,6 +24,7 @@ bool FlightEnd::reached() {
       graph.done && ending_.asks_done() && wiring_.held_for(*graph.done, graph.done_for_ns, done_since_ns_);
   facts.failed = graph.failed && ending_.asks_failed() &&
                  wiring_.held_for(*graph.failed, graph.failed_for_ns, failed_since_ns_);
+  if (graph.flown && !flown_) flown_ = wiring_.held_for(*graph.flown, graph.flown_for_ns, flown_since_ns_);
   facts.duration =
       options.duration_s && state_.now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9);
   facts.timeout = graph.timeout_ns > 0 && !state_.on_hardware() && state_.now_ns >= graph.timeout_ns;
@@ -52,10 +53,18 @@ void FlightEnd::carry_out(Ending::Act act) {
     }
     case Ending::Act::refuse_signal: return refuse_signal();
     case Ending::Act::give_up: return give_up();
-    case Ending::Act::end:
-      state_.result.outcome = Ending::outcome(ending_.reason());
-      state_.result.reason = reason_text();
+    case Ending::Act::end: return conclude();
   }
+}
+
+void FlightEnd::conclude() {
+  FlightResult& result = state_.result;
+  result.outcome = Ending::outcome(ending_.reason());
+  result.reason = reason_text();
+  const bool short_of_it = ending_.reason() == Ending::Reason::done && state_.graph.flown && !flown_;
+  if (!short_of_it) return;
+  result.outcome = Outcome::aborted;
+  result.reason += "; never held: " + state_.graph.flown->text();
 }
 
 /// What the signal's handler does meanwhile is in run_command.cpp.

@@ -31,6 +31,7 @@ class FlightEnd {
 
   bool over() const noexcept { return ending_.over(); }
   bool in_failsafe() const noexcept { return ending_.in_failsafe(); }
+  bool abandoned() const noexcept { return ending_.reason() == Ending::Reason::abandoned; }
   Ending::Steering steering() const noexcept { return ending_.steering(state_.now_ns); }
 
  private:
@@ -38,6 +39,7 @@ class FlightEnd {
   void give_up();
   void refuse_signal();
   void tell_verdict(Code code, const char* what);
+  void conclude();
   std::string reason_text() const;
 
   FlightState& state_;
@@ -45,7 +47,8 @@ class FlightEnd {
   Recorder& recorder_;
   const Protection& protection_;
   Ending ending_;
-  std::int64_t done_since_ns_ = never_ns, failed_since_ns_ = never_ns;
+  std::int64_t done_since_ns_ = never_ns, failed_since_ns_ = never_ns, flown_since_ns_ = never_ns;
+  bool flown_ = false;                       // what the mission calls flown has held
   decltype(Event::words) failsafe_words_{};  // why nobody can fly any more
 };
 

@@ -41,6 +41,7 @@ struct Flight::Impl {
   // loop.cpp
   bool step();  // one tick, paced; false: the flight is over
   FlightResult finish();
+  void conclude();
   bool tick();
   void begin();
   bool vehicle_failed();

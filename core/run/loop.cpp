@@ -6,8 +6,10 @@
 #include <cstdio>
 
 #include "core/run/allocation.hpp"
+#include "core/run/circumstances.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/run/realtime.hpp"
+#include "core/run/verdict.hpp"
 
 namespace fulmar::core {
 
@@ -110,6 +112,26 @@ bool Flight::Impl::step() {
   return true;
 }
 
+/// The verdict, for the log and for those who look on. A replay stops where its log does, and takes the
+/// reason from there.
+void Flight::Impl::conclude() {
+  const FlightResult& result = state.result;
+  std::string word = result_word(result), reason = reason_of(result);
+  if (state.options.circumstances) {
+    const Event* const was = state.options.circumstances->conclusion();
+    if (!was) return;
+    if (end.abandoned()) {
+      word = was->name.data();
+      reason = was->cause.data();
+    }
+  }
+  Event e = event_of(Code::concluded, "", word);
+  if (!word.starts_with("flown")) e.severity = Severity::error;
+  put(e.cause, reason);
+  say(e, "%s (%s)", verdict_line(state.graph, owner, word).c_str(), e.cause.data());
+  recorder.note(e, false);
+}
+
 FlightResult Flight::Impl::finish() {
   FlightResult& result = state.result;
   if (!end.over()) end.end_by(Ending::Cue::abandoned);
@@ -124,6 +146,7 @@ FlightResult Flight::Impl::finish() {
   roles.tell_overdue();
   roles.conclude();
   if (!protection.has_flown()) result.idle = roles.idle_role();
+  conclude();
   result.log = recorder.close();
   return std::move(result);
 }

@@ -7,11 +7,12 @@
 
 namespace fulmar::core {
 
-void Roles::note_phase(const Phase& entered) {
+void Roles::note_phase(const Phase& entered, const std::string& because) {
   std::vector<PhaseVisit>& visits = state_.result.phases;
   if (!visits.empty()) visits.back().to_ns = state_.now_ns;
-  visits.push_back({entered.name, state_.now_ns, state_.now_ns});
+  visits.push_back({entered.name, state_.now_ns, state_.now_ns, because});
   Event e = event_of(Code::phase_entered, "", entered.name);
+  put(e.cause, because);
   say(e, "phase %s", entered.name.c_str());
   recorder_.note(e);
 }
@@ -47,7 +48,7 @@ void Roles::begin() {
     if (!again && !a.set.empty()) lay_over(a.component, &a.set);
   }
   next_since_.assign(first.next.size(), never_ns);
-  note_phase(first);
+  note_phase(first, "");
 }
 
 void Roles::transitions() {
@@ -59,18 +60,18 @@ bool Roles::try_transitions(const std::vector<Transition>& list, std::vector<std
     const Transition& t = list[i];
     if (t.to == phase_ || !wiring_.held_for(*t.when, t.for_ns, since[i])) continue;
     since[i] = never_ns;
-    enter(t.to);
+    enter(t.to, t.when->text());
     return true;
   }
   return false;
 }
 
-void Roles::enter(int phase) {
+void Roles::enter(int phase, const std::string& because) {
   const Phase& before = present();
   phase_ = phase;
   const Phase& entered = present();
   next_since_.assign(entered.next.size(), never_ns);
-  note_phase(entered);
+  note_phase(entered, because);
   for (std::size_t r = 0; r < active_.size(); ++r) fill(static_cast<int>(r), !before.roles[r].set.empty());
   keep_groups_whole();
   for (const auto& unit : wiring_.units)

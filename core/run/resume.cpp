@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
@@ -153,27 +154,68 @@ bool holds_message(const fs::path& log) {
   }
 }
 
+struct UsualPlace {
+  fs::path folder;
+  std::string stem;
+};
+UsualPlace usual_place(const Graph& graph) {
+  const fs::path usual = graph.record_file.empty() ? "logs/" + graph.mission + "-" : graph.record_file;
+  return {usual.has_parent_path() ? usual.parent_path() : ".",
+          graph.record_file.empty() ? usual.filename().string() : usual.stem().string()};
+}
+/// Of the last flights: one that died as it began has left nothing to resume from.
+std::vector<std::string> noted_logs(const fs::path& note) {
+  constexpr std::size_t most = 4;
+  std::vector<std::string> logs;
+  std::ifstream in(note);
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) logs.push_back(line);
+  if (logs.size() > most) logs.erase(logs.begin(), logs.end() - most);
+  return logs;
+}
+fs::path note_of(const UsualPlace& place) { return place.folder / ("." + place.stem + "newest"); }
+
+/// The newest so far.
+struct Newest {
+  fs::path log;
+  fs::file_time_type time = fs::file_time_type::min();
+
+  void look(const UsualPlace& place) {
+    std::error_code code;
+    for (const fs::directory_entry& entry : fs::directory_iterator(place.folder, code)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with(place.stem) || !(name.ends_with(".mcap") || name.ends_with(".mcap.part")))
+        continue;
+      const fs::file_time_type written = entry.last_write_time(code);
+      if (code || written <= time || !holds_message(entry.path())) continue;
+      log = entry.path();
+      time = written;
+    }
+  }
+};
+
 }  // namespace
 
-fs::path newest_log(const Graph& graph, double max_age_s) {
-  const fs::path usual = graph.record_file.empty() ? "logs/" + graph.mission + "-" : graph.record_file;
-  const fs::path folder = usual.has_parent_path() ? usual.parent_path() : ".";
-  const std::string stem = graph.record_file.empty() ? usual.filename().string() : usual.stem().string();
+void note_newest_log(const Graph& graph, const fs::path& log) {
+  const UsualPlace place = usual_place(graph);
   std::error_code code;
-  fs::path newest;
-  fs::file_time_type newest_time = fs::file_time_type::min();
+  fs::create_directories(place.folder, code);
+  std::vector<std::string> logs = noted_logs(note_of(place));
+  logs.push_back(fs::absolute(log, code).string());
+  std::ofstream out(note_of(place));
+  for (const std::string& one : logs) out << one << '\n';
+}
+
+fs::path newest_log(const Graph& graph, double max_age_s) {
+  Newest newest;
   if (max_age_s > 0)
-    newest_time = fs::file_time_type::clock::now() - std::chrono::duration_cast<fs::file_time_type::duration>(
+    newest.time = fs::file_time_type::clock::now() - std::chrono::duration_cast<fs::file_time_type::duration>(
                                                          std::chrono::duration<double>(max_age_s));
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(stem) || !(name.ends_with(".mcap") || name.ends_with(".mcap.part"))) continue;
-    const fs::file_time_type time = entry.last_write_time(code);
-    if (code || time <= newest_time || !holds_message(entry.path())) continue;
-    newest = entry.path();
-    newest_time = time;
-  }
-  return newest;
+  const UsualPlace usual = usual_place(graph);
+  newest.look(usual);
+  for (const fs::path noted : noted_logs(note_of(usual)))
+    newest.look({noted.parent_path(), noted.stem().string()});
+  return newest.log;
 }
 
 // ---- in flight

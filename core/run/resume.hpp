@@ -27,8 +27,11 @@ struct Resume {
 /// holds no phase.
 Resume read_resume(const Graph& graph, const std::filesystem::path& log);
 
-/// The newest log of the mission in its usual place, cut off or whole; empty when there is none that young.
-/// 0: of any age.
+/// Remembers, in the mission's usual place, where the log of a flight is: `newest_log` looks there, too.
+void note_newest_log(const Graph& graph, const std::filesystem::path& log);
+
+/// The newest log of the mission, in its usual place or where the last flight was noted to write it, cut off
+/// or whole; empty when there is none that young. 0: of any age.
 std::filesystem::path newest_log(const Graph& graph, double max_age_s);
 
 }  // namespace fulmar::core

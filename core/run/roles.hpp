@@ -39,7 +39,7 @@ class Roles {
   void transitions();
   /// [tick] Before the vehicle writes.
   void watch_commands();
-  void enter(int phase);
+  void enter(int phase, const std::string& because = {});
 
   // roles.cpp
   /// [tick] Steps a component if it is due, and takes what has arrived from elsewhere.
@@ -62,7 +62,7 @@ class Roles {
 
  private:
   bool try_transitions(const std::vector<Transition>& list, std::vector<std::int64_t>& since);
-  void note_phase(const Phase& entered);
+  void note_phase(const Phase& entered, const std::string& because);
   void lay_over(int component, const std::vector<Overlay>* set);
   void fill(int role, bool overlaid);
   int group_wanted_in(int role) const;

@@ -77,6 +77,14 @@ json to_json(const Type& type, const std::byte* data, bool degrees) {
   return object(type, data, degrees ? Turned::angles : Turned::none, 1.0);
 }
 
+json figures_json(const Type& type, const std::byte* data) {
+  constexpr double unknown = 1e9, unknown_deg = unknown * (180.0 / std::numbers::pi);
+  json figures = to_json(type, data, true);
+  for (json& value : figures)
+    if (value == unknown || value == unknown_deg) value = nullptr;
+  return figures;
+}
+
 ordered_json shown_json(const Type& type, const std::byte* data) {
   return object(type, data, Turned::all, 1.0);
 }

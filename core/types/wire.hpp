@@ -74,6 +74,8 @@ std::string ros_type_hash(const Type& type);
 /// JSON of a message. Keys are field names; `_rad` fields are shown as `_deg` in degrees when `degrees` is
 /// set. Text is a string, an enum its label; a number that is not finite is null.
 nlohmann::json to_json(const Type& type, const std::byte* data, bool degrees);
+/// The fields of a message of figures, angles in degrees; null where there is no figure (1e9).
+nlohmann::json figures_json(const Type& type, const std::byte* data);
 
 /// The same for people: in the order of the fields; angles, angular rates and accelerations in degrees, under
 /// their shown names.

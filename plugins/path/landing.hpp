@@ -159,6 +159,8 @@ struct Landing {
     progress_.along_m = -(n * cosine + e * sine);
     progress_.cross_m = cosine * e - sine * n;
     progress_.height_m = s.height_m - runway_height();
+    progress_.runway_rad = site_.runway().heading_rad;
+    progress_.beyond_threshold_m = p.aim - progress_.along_m;
   }
 
   /// Along and across the runway, and how much of it a landing takes in this wind.

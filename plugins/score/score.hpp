@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well the flight is flown: tracking, estimation and injected GNSS errors, and a few figures. Takes no
-// part in the flight.
+// How well the flight is flown: tracking, estimation and injected GNSS errors, touch-downs, a crash, and a
+// few figures. Takes no part in the flight.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,23 @@
 #include "fulmar/flight/route.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/attitude_command.hpp"
+#include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/gnss.hpp"
+#include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/guidance_command.hpp"
+#include "fulmar/msg/home_progress.hpp"
+#include "fulmar/msg/landing_progress.hpp"
+#include "fulmar/msg/loiter_progress.hpp"
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/progress.hpp"
+#include "fulmar/msg/safety_state.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
 #include "fulmar/plugin.hpp"
 #include "score_messages.hpp"
+#include "story.hpp"
+#include "touch_watch.hpp"
 #include "truth_history.hpp"
 
 namespace fulmar::score {
@@ -61,6 +70,15 @@ struct Score {
     Optional<AttitudeCommand> attitude;
     Optional<Actuators> actuators;
     Optional<Gnss> gnss;
+    Optional<VehicleStatus> status;  // who flies
+    Optional<GroundState> ground;
+    Optional<ContactTruth> contact;
+    Optional<SafetyState> safety;
+    // As long as one of these comes, another guide flies than the one that follows the plan.
+    Optional<LandingProgress> landing;
+    Optional<HomeProgress> home;
+    Optional<LoiterProgress> loiter;
+    Optional<GuidanceCommand> by_hand;
   };
   struct Outputs {
     Out<TrackingError> tracking;       // against the estimate
@@ -68,6 +86,10 @@ struct Score {
     Out<EstimationError> estimation;
     Out<GnssError> gnss_error;
     Out<Figures> figures;
+    Out<TouchDown> touch_down;       // by the estimate
+    Out<TouchDown> touch_down_true;  // by the simulator's contact
+    Out<Crash> crash;
+    Out<Verdict> verdict;
   };
   struct Params {
     Param start_height{20, "m", 0, 10000,
@@ -79,9 +101,9 @@ struct Score {
  private:
   struct Tracking {
     MeanSquare north, east, altitude, roll, pitch, course, airspeed;
-    TrackingError rms() const {
-      return {north.rms(), east.rms(),          altitude.rms(), roll.rms(),
-              pitch.rms(), course.rms_if_any(), airspeed.rms()};
+    TrackingError rms(double counted_s) const {
+      return {north.rms_if_any(), east.rms_if_any(),   altitude.rms_if_any(), roll.rms_if_any(),
+              pitch.rms_if_any(), course.rms_if_any(), airspeed.rms_if_any(), counted_s};
     }
     bool any() const { return north.count + roll.count + airspeed.count > 0; }
   };
@@ -95,13 +117,17 @@ struct Score {
     Compared sample;
   };
 
+  void watch(const Tick& tick, const Inputs& in, Outputs& out);
+  bool follows_plan(const Tick& tick, const Inputs& in);
+  void begin(const Tick& tick, const Inputs& in);
+  void count_commands(const Inputs& in, bool counts);
   void track(const Inputs& in, const VehicleState& state, Tracking& sums);
   bool nearest_point(const Inputs& in, const VehicleState& state, RoutePoint& point);
   void note_truth(const Inputs& in);
   void estimate(const Inputs& in);
   void add_estimation(const Compared& estimate, const Compared& truth);
   void fix(const Inputs& in);
-  void count(const Tick& tick, const Inputs& in);
+  void count(const Tick& tick, const Inputs& in, bool counts);
   bool due(const Tick& tick, const Inputs& in);
   void publish(Outputs& out) const;
 
@@ -117,8 +143,13 @@ struct Score {
   Actuators actuators_;
   std::int64_t actuators_ns_ = 0;
   std::uint64_t actuators_seen_ = 0;
-  bool started_ = false;
-  std::int64_t lap_began_ns_ = 0, published_ns_ = 0;
+  TouchWatch touch_;
+  Story story_;
+  bool crashed_ = false;
+  bool started_ = false, under_way_ = true;  // under way: a waypoint was reached since it stood on the ground
+  std::uint32_t reached_on_ground_ = 0;
+  double counted_s_ = 0, left_out_s_ = 0, miss_max_m_ = unknown_std;
+  std::int64_t lap_began_ns_ = 0, published_ns_ = 0, touch_published_ns_ = 0;
   std::uint32_t first_reached_ = 0, reached_ = 0, circuits_ = 0;
   double airspeed_min_ = unknown_std;
 };

@@ -44,26 +44,75 @@ inline bool NearRoute::nearest_to(const Plan& plan, const Progress& progress, do
 }
 
 inline Status Score::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+  if (crashed_) return Status::ok;
   note_truth(in);
+  watch(tick, in, out);
   if (!started_) {
     started_ = in.progress ? in.progress->reached > 0 : in.state->height_m > p.start_height;
-    if (!started_) return Status::ok;
-    lap_began_ns_ = tick.now_ns;
-    published_ns_ = tick.now_ns;
-    if (in.progress) {
-      first_reached_ = reached_ = in.progress->reached;
-      circuits_ = in.progress->circuits;
-    }
+    if (started_) begin(tick, in);
   }
+  const bool counts = started_ && follows_plan(tick, in);
+  const double dt = std::clamp(tick.dt_s(), 0.0, 1.0);
+  if (counts) counted_s_ += dt;
+  if (!counts && touch_.flying()) left_out_s_ += dt;
+  if (!started_) return Status::ok;
   if (in.state.fresh()) {
-    if (in.state->position_valid) track(in, *in.state, tracking_);
+    if (counts && in.state->position_valid) track(in, *in.state, tracking_);
     estimate(in);
   }
-  if (in.truth && in.truth.fresh()) track(in, *in.truth, tracking_true_);
+  if (counts && in.truth && in.truth.fresh()) track(in, *in.truth, tracking_true_);
   fix(in);
-  count(tick, in);
-  if (due(tick, in)) publish(out);
+  count(tick, in, counts);
+  if (due(tick, in) || crashed_) publish(out);
   return Status::ok;
+}
+
+inline void Score::begin(const Tick& tick, const Inputs& in) {
+  lap_began_ns_ = tick.now_ns;
+  published_ns_ = tick.now_ns;
+  if (!in.progress) return;
+  first_reached_ = reached_ = in.progress->reached;
+  circuits_ = in.progress->circuits;
+}
+
+/// Touch-downs, crash and verdict: from the first step on.
+inline void Score::watch(const Tick& tick, const Inputs& in, Outputs& out) {
+  const auto seen = [](const auto& port) { return port ? &*port : nullptr; };
+  const bool down = touch_.step(
+      {&*in.state, seen(in.truth), seen(in.contact), seen(in.ground), seen(in.landing)}, tick.now_ns);
+  const bool rolls = !touch_.flying() && tick.now_ns - touch_published_ns_ >= 1'000'000'000;
+  if (down || rolls) {
+    touch_published_ns_ = tick.now_ns;
+    if (touch_.estimated().any) out.touch_down.publish(touch_.estimated().figures);
+    if (touch_.truth().any) out.touch_down_true.publish(touch_.truth().figures);
+  }
+  const bool flies = touch_.flying();
+  const bool lifted = story_.lift(in.ground || in.contact, flies);
+  const bool answered = in.safety && story_.answer(*in.safety, flies, tick.now_s());
+  if (lifted || answered) out.verdict.publish(story_.verdict());
+  crashed_ = (in.contact && in.contact->crashed) || (in.status && in.status->crashed);
+  if (!crashed_) return;
+  Crash crash;
+  crash.at_s = tick.now_s();
+  if (in.contact && in.contact->crashed) crash = crash_of(*in.contact);
+  out.crash.publish(crash);
+  out.verdict.publish(story_.verdict(crash));
+}
+
+/// Whether what flies now is to be on the plan: no take-off, landing or return, no pilot, no failsafe.
+inline bool Score::follows_plan(const Tick& tick, const Inputs& in) {
+  constexpr std::int64_t recent_ns = 100'000'000;
+  const auto flies = [&](const auto& port) { return port && tick.now_ns - port.valid_at_ns() < recent_ns; };
+  const bool stands =
+      (in.ground && in.ground->contact == Contact::ground) || (in.contact && in.contact->touching);
+  const std::uint32_t reached = in.progress ? in.progress->reached : 0;
+  if (stands) {
+    under_way_ = !in.progress;
+    reached_on_ground_ = reached;
+  }
+  under_way_ = under_way_ || reached > reached_on_ground_;
+  const bool aside = flies(in.landing) || flies(in.home) || flies(in.loiter) || flies(in.by_hand);
+  return under_way_ && !stands && !aside && !crashed_ && (!in.status || in.status->in_control);
 }
 
 inline void Score::track(const Inputs& in, const VehicleState& state, Tracking& sums) {
@@ -200,30 +249,33 @@ inline void Score::fix(const Inputs& in) {
   gnss_east_.add(gnss_.sample.east - truth.east);
 }
 
-inline void Score::count(const Tick& tick, const Inputs& in) {
+inline void Score::count(const Tick& tick, const Inputs& in, bool counts) {
   if (in.progress) {
     const Progress& progress = *in.progress;
     figures_.waypoints_reached = progress.reached;
     if (progress.reached > first_reached_)
-      figures_.miss_distance_max_m = std::max(figures_.miss_distance_max_m, progress.miss_m);
+      miss_max_m_ = miss_max_m_ == unknown_std ? progress.miss_m : std::max(miss_max_m_, progress.miss_m);
     if (progress.circuits != circuits_) {
       figures_.lap_time_s = 1e-9 * static_cast<double>(tick.now_ns - lap_began_ns_);
       lap_began_ns_ = tick.now_ns;
     }
   }
-  airspeed_min_ = std::min(airspeed_min_, in.truth ? in.truth->airspeed_mps : in.state->airspeed_mps);
-  if (in.actuators && in.actuators.fresh()) {
-    const Actuators& now = *in.actuators;
-    const double dt_s = 1e-9 * static_cast<double>(in.actuators.valid_at_ns() - actuators_ns_);
-    if (actuators_seen_ > 0 && dt_s > 0) {
-      surface_rate_.add((now.aileron_rad - actuators_.aileron_rad) / dt_s);
-      surface_rate_.add((now.elevator_rad - actuators_.elevator_rad) / dt_s);
-      surface_rate_.add((now.rudder_rad - actuators_.rudder_rad) / dt_s);
-    }
-    actuators_ = now;
-    actuators_ns_ = in.actuators.valid_at_ns();
-    ++actuators_seen_;
+  if (counts)
+    airspeed_min_ = std::min(airspeed_min_, in.truth ? in.truth->airspeed_mps : in.state->airspeed_mps);
+  if (in.actuators && in.actuators.fresh()) count_commands(in, counts);
+}
+
+inline void Score::count_commands(const Inputs& in, bool counts) {
+  const Actuators& now = *in.actuators;
+  const double dt_s = 1e-9 * static_cast<double>(in.actuators.valid_at_ns() - actuators_ns_);
+  if (counts && actuators_seen_ > 0 && dt_s > 0) {
+    surface_rate_.add((now.aileron_rad - actuators_.aileron_rad) / dt_s);
+    surface_rate_.add((now.elevator_rad - actuators_.elevator_rad) / dt_s);
+    surface_rate_.add((now.rudder_rad - actuators_.rudder_rad) / dt_s);
   }
+  actuators_ = now;
+  actuators_ns_ = in.actuators.valid_at_ns();
+  ++actuators_seen_;
 }
 
 /// Once a second, and whenever the progress changes: a flight that ends with a waypoint ends with the figures
@@ -240,8 +292,8 @@ inline bool Score::due(const Tick& tick, const Inputs& in) {
 }
 
 inline void Score::publish(Outputs& out) const {
-  if (tracking_.any()) out.tracking.publish(tracking_.rms());
-  if (tracking_true_.any()) out.tracking_true.publish(tracking_true_.rms());
+  if (tracking_.any()) out.tracking.publish(tracking_.rms(counted_s_));
+  if (tracking_true_.any()) out.tracking_true.publish(tracking_true_.rms(counted_s_));
   if (estimation_.north.count > 0) {
     const Estimation& s = estimation_;
     out.estimation.publish({s.north.rms(), s.east.rms(), s.altitude.rms(), s.vel_x.rms(), s.vel_y.rms(),
@@ -250,8 +302,10 @@ inline void Score::publish(Outputs& out) const {
   }
   if (gnss_north_.count > 0) out.gnss_error.publish({gnss_north_.rms(), gnss_east_.rms()});
   Figures figures = figures_;
-  figures.surface_rate_rms_radps = surface_rate_.rms();
+  figures.miss_distance_max_m = miss_max_m_;
+  figures.surface_rate_rms_radps = surface_rate_.rms_if_any();
   figures.airspeed_min_mps = airspeed_min_;
+  figures.left_out_s = left_out_s_;
   out.figures.publish(figures);
 }
 

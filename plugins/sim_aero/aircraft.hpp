@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "actuation.hpp"
+#include "contact.hpp"
 #include "faults.hpp"
 #include "fulmar/eigen.hpp"
 #include "fulmar/flight/magnetic_model.hpp"
@@ -26,6 +27,7 @@
 #include "icing.hpp"
 #include "launch.hpp"
 #include "model_params.hpp"
+#include "motion.hpp"
 #include "pilot.hpp"
 #include "refusals.hpp"
 #include "sensors.hpp"
@@ -61,6 +63,7 @@ class Aircraft {
     Out<VehicleStatus> status;
     Out<VehicleState> truth;
     Out<ContactTruth> contact;
+    Out<MotionTruth> motion;
   };
   struct Params {
     Record<Airframe> airframe{"the aircraft", required};
@@ -180,7 +183,6 @@ class Aircraft {
     launch_ = Launch(p.launching);
     actuation_ = Actuation({p.mux_rate, p.pwm_resolution, p.link_latency}, airframe_, now_ns_);
     status_ = {};
-    contact_.reset();
     plant_.emplace(airframe_, weather(p), origin_.alt_msl_m, mix_seed(seed_, 10), earth(p));
     place(p);
     if (add_to(airframe_, p.model, changed_)) plant_->set_aerodynamics(changed_);
@@ -202,6 +204,7 @@ class Aircraft {
     faults_ = {};
     faults_.set(p.faults, now_ns_);
     icing_ = {};
+    contact_ = {};
     gusts_ = {};
     gusts_.set(p.around.air, now_ns_);
   }
@@ -236,8 +239,11 @@ class Aircraft {
     }
     publish_sensors(p, out);
     publish_rc_and_status(p, out);
-    if (truth_due_(now_ns_)) out.truth.publish(truth());
-    publish_contact(out);
+    if (truth_due_(now_ns_)) {
+      out.truth.publish(truth());
+      out.motion.publish(motion_truth(*plant_));
+    }
+    contact_.publish(*plant_, held(), now_ns_, out.contact);
     return plant_->crashed() ? Status::degraded : Status::ok;
   }
 
@@ -415,14 +421,6 @@ class Aircraft {
   }
 
   VehicleState truth() const;
-  void publish_contact(Outputs& out) {
-    ContactTruth c;
-    c.touching = plant_->on_ground() || held();
-    c.crashed = plant_->crashed();
-    if (contact_ && c.touching == contact_->touching && c.crashed == contact_->crashed) return;
-    contact_ = c;
-    out.contact.publish(c);
-  }
 
   std::uint64_t seed_;
   Origin origin_;
@@ -439,10 +437,10 @@ class Aircraft {
   Actuators command_;
   Actuation actuation_;
   VehicleStatus status_;
-  std::optional<ContactTruth> contact_;  ///< as published
   Faults faults_;
   PilotRadio pilot_;
   Icing icing_;
+  ContactReport contact_;
   GustClock gusts_;
   bool armed_ = false, wants_armed_ = false;
   Launch launch_;

@@ -104,7 +104,7 @@ struct FlightReading {
       if (type->size > most_bytes) return nullptr;
       Bytes message(type->size);
       cdr_decode(*type, bytes.data(), bytes.size(), message.data());
-      return to_json(*type, message.data(), true);
+      return figures_json(*type, message.data());
     }
     return nullptr;
   } catch (const Error&) {

@@ -86,7 +86,8 @@ struct Reading {
       first_ns = std::min(first_ns, m->log_ns);
       last_ns = std::max(last_ns, m->log_ns);
       ++info.messages;
-      if (w.topic.topic == core::Event::topic && events.size() < most_events) {
+      if (w.topic.topic == core::Event::topic) {
+        if (events.size() == most_events) events.pop_back();  // the last one has the verdict
         events.emplace_back(m->log_ns, std::vector<std::byte>(m->data.begin(), m->data.end()));
         event_channel = m->channel;
       }
@@ -117,9 +118,9 @@ struct Reading {
     info.file = stream.take_log();
   }
 
-  void begin_phase(const std::string& name, std::int64_t now_ns) {
+  void begin_phase(const std::string& name, std::int64_t now_ns, const std::string& because) {
     if (!info.phases.empty()) info.phases.back().end_ns = now_ns;
-    info.phases.push_back({name, now_ns, info.end_ns});
+    info.phases.push_back({name, now_ns, info.end_ns, because});
   }
 
   void read_events(const McapFile& log, std::uint64_t epoch) try {
@@ -131,7 +132,9 @@ struct Reading {
       const auto severity = static_cast<std::size_t>(e.severity);
       info.events.push_back({now_ns, kind_words(e.code), e.component.data(), e.words.data(),
                              severity < severities.size() ? severities[severity] : ""});
-      if (e.code == Code::phase_entered) begin_phase(e.name.data(), now_ns);
+      if (e.code == Code::phase_entered) begin_phase(e.name.data(), now_ns, e.cause.data());
+      if (e.code == Code::concluded && e.name[0] != '\0')
+        info.verdict = {info.events.back().text, info.events.back().severity};
     }
   } catch (const Error&) {
     return;
@@ -153,7 +156,7 @@ struct Reading {
         if (name == "text" || name == "words") e.text = text;
       }
       if (e.kind == "phase" && e.text.starts_with(phase_word))
-        begin_phase(e.text.substr(phase_word.size()), e.time_ns);
+        begin_phase(e.text.substr(phase_word.size()), e.time_ns, "");
       info.events.push_back(std::move(e));
     }
   }

@@ -26,6 +26,10 @@ struct LogInfo {
   struct Phase {
     std::string name;
     std::int64_t begin_ns = 0, end_ns = 0;
+    std::string because;  // the condition that led to it
+  };
+  struct Verdict {
+    std::string words, severity;
   };
   McapFile file;  // without messages
   std::uint64_t bytes = 0, messages = 0;
@@ -33,6 +37,7 @@ struct LogInfo {
   std::vector<Topic> topics;              // in order of name
   std::vector<Event> events;              // of /fulmar/event
   std::vector<Phase> phases;
+  Verdict verdict;  // of the flight; "" when the log ends before it
 
   double minutes() const { return static_cast<double>(end_ns - begin_ns) / 60e9; }
   /// Of the metadata; "" when there is none.

@@ -85,6 +85,7 @@ json info_json(const LogInfo& info) {
          {"chunks", info.file.chunks},
          {"complete", info.file.complete},
          {"fault", info.file.fault.empty() ? json(nullptr) : json(info.file.fault)},
+         {"verdict", info.verdict.words.empty() ? json(nullptr) : json(info.verdict.words)},
          {"begin_s", seconds(info.begin_ns)},
          {"end_s", seconds(info.end_ns)},
          {"duration_s", seconds(info.end_ns - info.begin_ns)},

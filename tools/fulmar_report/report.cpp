@@ -67,8 +67,15 @@ json told_events(const core::LogInfo& info) {
 json phases_of(const core::LogInfo& info) {
   json rows = json::array();
   for (const core::LogInfo::Phase& p : info.phases)
-    rows.push_back({{"name", p.name}, {"from_s", seconds(p.begin_ns)}, {"to_s", seconds(p.end_ns)}});
+    rows.push_back({{"name", p.name},
+                    {"from_s", seconds(p.begin_ns)},
+                    {"to_s", seconds(p.end_ns)},
+                    {"because", p.because}});
   return rows;
+}
+
+json verdict_of(const core::LogInfo& info) {
+  return {{"words", info.verdict.words}, {"severity", info.verdict.severity}};
 }
 
 json log_json(const ReportedLog& log, std::size_t every_nth) {
@@ -85,6 +92,7 @@ json log_json(const ReportedLog& log, std::size_t every_nth) {
           {"bytes", log.info.bytes},
           {"messages", log.info.messages},
           {"fault", log.info.file.fault},
+          {"verdict", verdict_of(log.info)},
           {"metadata", metadata},
           {"figures", log.figures.figures},
           {"phases", phases_of(log.info)},

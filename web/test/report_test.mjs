@@ -67,7 +67,9 @@ try {
   for (const cell of [...(await cells("Tracking RMS error")), ...(await page.locator("#errors_of_the_estimate td").allTextContents())])
     assert.match(cell, /^(–|-?[\d.]+(e[+-]\d+)?(°|°\/s| (m|m\/s|m\/s²|%)))$/, "a number without a unit");
   assert.match(await text("#times"), /slc\d+(\.\d+)? µs/);
-  assert.match(await text("#phases"), /takeoff0\.00 s/);
+  assert.match(await text("#phases"), /takeoffvehicle\.status\.armed.*0\.00 s/);
+  assert.match(await text("#verdict"), /^VerdictFlown \(duration reached\)$/);
+  assert.equal(result.verdict, "flown");
 
   // a value in a chart is that of the export
   run("log", "export", "one.mcap", "--to", "csv", "--topic", "/nav/state", "--out", "csv");
@@ -197,11 +199,12 @@ try {
   writeFileSync(file("cut.mcap"), bytes.subarray(0, bytes.length / 2));
   assert.match(run("report", "cut.mcap"), /cut\.mcap ends early: byte \d+/);
   await open("cut.html");
-  assert.match(await text("#flights"), /ends early/);
+  assert.match(await text("#flights"), /log is wholeno: byte \d+/);
+  assert.match(await text("#verdict"), /without a verdict: byte \d+/);
 
   // whatever a log holds is text
   const html = readFileSync(file("one.html"), "utf8"), data = data_of(html), [log] = data.logs;
-  Object.assign(log, { name: hostile, fault: hostile, phases: [{ name: hostile, from_s: 0, to_s: 5 }], steps: { [hostile]: { mean: 1, p50: 1, p99: 1, max: 1 } } });
+  Object.assign(log, { name: hostile, fault: hostile, verdict: { words: hostile, severity: hostile }, phases: [{ name: hostile, because: hostile, from_s: 0, to_s: 5 }], steps: { [hostile]: { mean: 1, p50: 1, p99: 1, max: 1 } } });
   log.told = { rows: [{ t: 1, kind: hostile, component: hostile, severity: "warning", words: hostile }], all: 1 };
   log.metadata.plugins[`${hostile}.file`] = log.metadata.overrides = { [hostile]: hostile };
   log.metadata.plugins[`${hostile}.file`] = hostile;
@@ -210,7 +213,7 @@ try {
   writeFileSync(file("bad.html"), with_data(html, data));
   await open("bad.html");
   assert.equal(await page.locator("img").count(), 0);
-  for (const id of ["flights", "figures_of_merit", "errors_of_the_estimate", "innovations", "phases", "guards_and_changes", "times", "plugins"])
+  for (const id of ["verdict", "flights", "figures_of_merit", "errors_of_the_estimate", "innovations", "phases", "guards_and_changes", "times", "plugins"])
     assert.ok((await text("#" + id)).includes(hostile), id);
 
   assert.deepEqual(faults, []);

@@ -310,7 +310,8 @@ TEST_CASE("a motion that leaves the model ends the flight with its cause and a w
     fs::remove(log);
     const Result r = fulmar("run " + hourglass + " --log " + log + " " + changes);
     CHECK(r.code == 1);
-    CHECK_MESSAGE((r.out + r.err).find("failed (the vehicle failed: " + cause) != std::string::npos,
+    CHECK(r.out.find("hourglass: failed") != std::string::npos);
+    CHECK_MESSAGE((r.out + r.err).find("(the vehicle failed: " + cause) != std::string::npos,
                   (r.out + r.err));
     const Result info = fulmar("log info " + log);
     CHECK(info.code == 0);

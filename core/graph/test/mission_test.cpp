@@ -22,7 +22,8 @@ std::string broken(const std::string& text) {
 }
 
 const std::string keys =
-    "mission, extends, io, airframe, origin, rate, seed, arm, done, failed, timeout, epoch, progress, "
+    "mission, extends, io, airframe, origin, rate, seed, arm, done, failed, flown, verdict, timeout, epoch, "
+    "progress, "
     "summary, failsafe, roles, "
     "components, phases, record, plugins, control, tell, resume, live, dds";
 

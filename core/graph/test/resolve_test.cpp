@@ -126,6 +126,29 @@ TEST_CASE("a required input that nobody feeds on hardware is told") {
         "in this run");
 }
 
+TEST_CASE(
+    "a value that a phase hides is warned of, and so is a component in a phase that sets what it lacks") {
+  Mission mission;
+  Overrides hidden;
+  hidden.set = {{"slc.law", "takeoff"}};
+  const auto warned = [](const Graph& graph, const std::string& words) {
+    return std::count_if(graph.warnings.begin(), graph.warnings.end(),
+                         [&](const std::string& w) { return w.find(words) != std::string::npos; });
+  };
+  CHECK(warned(mission.load(hidden), "--set slc.law=takeoff has no effect in takeoff") == 1);
+  Overrides open;
+  open.set = {{"slc.course_kp", "1.3"}, {"attitude.roll_limit", "30 deg"}};
+  CHECK(warned(mission.load(open), "has no effect") == 0);
+  std::erase_if(mission.shelf.plugins["my_law"]->components[0].params,
+                [](const ParamInfo& param) { return param.name == "law"; });
+  Overrides other;
+  other.roles = {{"outer", "mine"}};
+  CHECK(warned(mission.load(other), "--role outer=mine: it flies the phase takeoff, too, which sets law") ==
+        1);
+  other.roles = {{"outer", "tecs"}};
+  CHECK(warned(mission.load(other), "--role outer=tecs") == 0);  // it has that parameter
+}
+
 TEST_CASE("the command line changes who fills a role, seed and parameters") {
   Mission mission;
   Overrides overrides;
@@ -179,7 +202,7 @@ TEST_CASE(
   CHECK(mission.faults() ==
         "hourglass.yaml:3: unknown key 'sed'. Did you mean 'seed'? Valid: mission, extends, io, airframe, "
         "origin, rate, seed, arm, done, "
-        "failed, timeout, epoch, progress, summary, "
+        "failed, flown, verdict, timeout, epoch, progress, summary, "
         "failsafe, roles, components, phases, record, plugins, control, tell, resume, live, dds.\n"
         "hourglass.yaml:6: components.sim.params.turbulence: unknown word 'nne'. Did you mean 'none'? Valid: "
         "none, light, moderate.\n"

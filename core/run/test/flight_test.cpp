@@ -17,6 +17,7 @@
 #include "core/run/published.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
+#include "core/run/verdict.hpp"
 #include "core/types/wire.hpp"
 
 namespace flight_test {
@@ -257,6 +258,66 @@ TEST_CASE("done, failed and timeout end a flight, in words") {
   CHECK(Flight(endless, o).run().outcome == Outcome::interrupted);
 }
 
+namespace {
+
+/// A flight without a log, and what it is called.
+struct Called {
+  FlightResult result;
+  std::string verdict;
+};
+Called called(const std::string& tail, const std::vector<std::pair<std::string, std::string>>& set = {}) {
+  const Graph g = mission(tail + one_phase, set);
+  FlightOptions o;
+  o.log = false;
+  Flight flight(g, o);
+  Called c{flight.run(), ""};
+  c.verdict = verdict_of(g, flight, c.result);
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("a flight that is done without what its mission calls flown is aborted") {
+  const std::string done = "done: \"vehicle.signal.tick_s > 0.2 s\"\n";
+  const Called aborted = called(done + "flown: \"vehicle.signal.tick_s > 0.3 s\"\n");
+  CHECK(aborted.result.outcome == Outcome::aborted);
+  CHECK(aborted.result.reason == "vehicle.signal.tick_s > 0.2 s; never held: vehicle.signal.tick_s > 0.3 s");
+  CHECK(aborted.verdict == "aborted");
+  const Called flown =  // it need not hold at the end
+      called(done + "flown: \"vehicle.signal.tick_s > 0.05 s and vehicle.signal.tick_s < 0.1 s\"\n");
+  CHECK(flown.result.outcome == Outcome::flown);
+  CHECK(flown.verdict == "flown");
+  CHECK(called(done + "flown: {when: \"vehicle.signal.tick_s < 0.1 s\", for: 2 s}\n").result.outcome ==
+        Outcome::aborted);
+  CHECK(called("failed: \"vehicle.signal.tick_s > 0.2 s\"\nflown: \"time > 9 s\"\n").result.outcome ==
+        Outcome::failed);
+}
+
+TEST_CASE("the verdict of a flight is what a component says of it, in one line") {
+  const std::string said = "  herald: {use: lab/Herald}\nverdict: herald.said\n";
+  const std::string failed = "failed: \"vehicle.signal.tick_s > 0.2 s\"\n";
+  CHECK(called(said + failed).verdict == "crashed: the nose touched");
+  CHECK(called(said + failed, {{"herald.names", "false"}}).verdict == "failed: the nose touched");
+  CHECK(called(said + failed, {{"herald.at", "9"}}).verdict == "failed");  // nothing was said
+  CHECK(called(said + "done: \"vehicle.signal.tick_s > 0.2 s\"\n").verdict == "flown: the nose touched");
+  CHECK_THROWS_WITH_AS(called("  herald: {use: lab/Herald}\nverdict: herald.other\n"),
+                       doctest::Contains("'herald.other' is Tally, which has no texts 'word' and 'text'"),
+                       Error);
+}
+
+TEST_CASE("a phase remembers the condition that led to it") {
+  FlightOptions o;
+  o.log = false;
+  o.duration_s = 0.3;
+  const FlightResult r = Flight(mission("phases:\n  fly: {law: one, next: [{to: on, when: "
+                                        "\"vehicle.signal.tick_s > 0.1 s\"}]}\n  on: {law: two}\n"),
+                                o)
+                             .run();
+  REQUIRE(r.phases.size() == 2);
+  CHECK(r.phases[0].because == "");
+  CHECK(r.phases[1].because == "vehicle.signal.tick_s > 0.1 s");
+}
+
 TEST_CASE("a request is answered by the step that sees it") {
   const Graph g = mission(std::string("done: \"vehicle.signal.tick_s > 0.2 s\"\n") + one_phase);
   FlightOptions o;
@@ -332,6 +393,9 @@ TEST_CASE("each event is a line for log panels as well, with its level and the t
   CHECK(line == told.size());
   CHECK(line >= 2);
   CHECK(levels == 20 * line);
+  CHECK(told.back().code == Code::concluded);  // the verdict is the last word
+  CHECK(std::string(told.back().name.data()) == "flown");
+  CHECK(std::string(told.back().words.data()) == "flown (duration reached)");
   Event bad = event_of(Code::failsafe);
   CHECK(int{log_line_of(bad, 0).level} == 50);
   CHECK(int{log_line_of(event_of(Code::guard), 0).level} == 30);

@@ -83,6 +83,27 @@ struct Watch {  ///< fills no role
   Tally tally_;
 };
 
+struct Said {
+  Text<16> word;
+  Text<64> text;
+};
+
+struct Herald {  ///< says how the flight went
+  struct Inputs {};
+  struct Outputs {
+    Out<Said> said;
+    Out<Tally> other;
+  };
+  struct Params {
+    Param at{0.15, "s", -1e9, 1e9, "speaks from here on"};
+    Flag names{true, "gives a word of its own"};
+  };
+  Status step(const Tick& tick, const Inputs&, const Params& p, Outputs& out) {
+    if (tick.now_s() >= p.at) out.said.publish({p.names ? "crashed" : "", "the nose\ntouched"});
+    return Status::ok;
+  }
+};
+
 // The same message as Command, as another SDK knows it: a field more, in front.
 namespace newer {
 struct Command {
@@ -300,5 +321,6 @@ struct Statute {
 FULMAR_PLUGIN("2.0.0", Statute)
 #else
 }  // namespace
-FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, OldReader, Late, Mute, Hungry, Ticker, Thinker, NewLaw, Both)
+FULMAR_PLUGIN("1.0.0", Cart, Law, Filter, Watch, Herald, OldReader, Late, Mute, Hungry, Ticker, Thinker,
+              NewLaw, Both)
 #endif

@@ -164,6 +164,27 @@ TEST_CASE("the newest log of a mission is found, cut off or whole, unless it is 
   CHECK(newest_log(g, 600).filename() == "run-3.mcap");
 }
 
+TEST_CASE("a log elsewhere is found when it is noted, and is taken before an older one in the usual place") {
+  const fs::path place = folder().path / "noted", elsewhere = folder().path / "elsewhere";
+  fs::create_directories(place);
+  fs::create_directories(elsewhere);
+  Graph g = craft(two_phases);
+  g.record_file = (place / "run.mcap").string();
+  const auto now = fs::file_time_type::clock::now();
+  const fs::path log = cut_log(g, 3);
+  const auto put = [&](const fs::path& file, int age_s) {
+    fs::copy_file(log, file);
+    fs::last_write_time(file, now - std::chrono::seconds(age_s));
+  };
+  put(place / "run.mcap", 300);
+  put(elsewhere / "mine.mcap.part", 100);
+  CHECK(newest_log(g, 600).filename() == "run.mcap");
+  note_newest_log(g, elsewhere / "mine.mcap");
+  CHECK(newest_log(g, 600) == elsewhere / "mine.mcap.part");
+  put(place / "run-2.mcap", 50);
+  CHECK(newest_log(g, 600).filename() == "run-2.mcap");
+}
+
 TEST_CASE("the second in which an aircraft may turn out to fly begins when its vehicle speaks") {
   for (const std::string lift_at : {"1.3", "1.9"}) {  // it speaks from 0.8 s on
     CAPTURE(lift_at);

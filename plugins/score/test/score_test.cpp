@@ -436,4 +436,278 @@ TEST_CASE("the distance from a curve is that of its closest point, its height th
   CHECK(tracking.altitude_m / (70 - height) == doctest::Approx(1).epsilon(1e-3));
 }
 
+TEST_CASE("a figure without data is unknown: no lap, no waypoint after the first, no command, no airspeed") {
+  Bench<Score> bench;
+  Figures figures;
+  TrackingError tracking;
+  for (int i = 0; i < 300; ++i) {
+    bench.set(bench.in.state, north_at(0.01 * i));
+    bench.set(bench.in.progress, under_way());
+    AttitudeCommand level;
+    bench.set(bench.in.attitude, level);
+    bench.step(0.01);
+    if (bench.out.figures.written) figures = bench.out.figures.value;
+    if (bench.out.tracking.written) tracking = bench.out.tracking.value;
+  }
+  CHECK(figures.lap_time_s == unknown_std);
+  CHECK(figures.miss_distance_max_m == unknown_std);
+  CHECK(figures.surface_rate_rms_radps == unknown_std);
+  CHECK(figures.airspeed_min_mps == 18);
+  CHECK(tracking.north_m == unknown_std);  // no plan, no path
+  CHECK(tracking.airspeed_mps == unknown_std);
+  CHECK(tracking.roll_rad == 0);
+}
+
+TEST_CASE("what another guide, the pilot or a failsafe flies is left out of tracking, and so is the ground") {
+  enum Who { plan, landing, home, loiter, by_hand, pilot, ground, contact };
+  for (const Who who : {plan, landing, home, loiter, by_hand, pilot, ground, contact}) {
+    CAPTURE(who);
+    Bench<Score> bench;
+    GuidanceCommand command;
+    command.airspeed_mps = 18;
+    VehicleStatus status;
+    ContactTruth air;
+    bench.set(bench.in.plan, square());
+    TrackingError tracking;
+    Figures figures;
+    for (int i = 0; i < 2000; ++i) {
+      const bool second = i >= 1000;  // then it is 40 m off, and slow
+      VehicleState s = north_at(0.01 * i, second ? 40 : 0);
+      if (second) s.airspeed_mps = 11;
+      status.in_control = !(second && who == pilot);
+      air.touching = second && who == contact;
+      bench.set(bench.in.state, s);
+      bench.set(bench.in.progress, under_way());
+      bench.set(bench.in.command, command);
+      bench.set(bench.in.status, status);
+      bench.set(bench.in.contact, air);
+      if (second && who == landing) bench.set(bench.in.landing, LandingProgress{});
+      if (second && who == home) bench.set(bench.in.home, HomeProgress{});
+      if (second && who == loiter) bench.set(bench.in.loiter, LoiterProgress{});
+      if (second && who == by_hand) bench.set(bench.in.by_hand, command);
+      if (second && who == ground) bench.set(bench.in.ground, GroundState{Contact::ground});
+      bench.step(0.01);
+      if (bench.out.tracking.written) tracking = bench.out.tracking.value;
+      if (bench.out.figures.written) figures = bench.out.figures.value;
+    }
+    CHECK(tracking.east_m == doctest::Approx(who == plan ? 40 / std::sqrt(2) : 0).epsilon(0.04));
+    CHECK(tracking.time_counted_s == doctest::Approx(who == plan ? 20 : 10).epsilon(0.06));
+    CHECK(figures.airspeed_min_mps == (who == plan ? 11 : 18));
+    const double left_out = who == plan ? 0 : 10;
+    CHECK(std::abs(figures.left_out_s - left_out) < 1.1);
+  }
+}
+
+TEST_CASE("after a landing tracking counts again from the next waypoint on") {
+  Bench<Score> bench;
+  bench.set(bench.in.plan, square());
+  ContactTruth contact;
+  TrackingError tracking;
+  for (int i = 0; i < 4000; ++i) {
+    Progress progress = under_way();
+    contact.touching = i >= 1000 && i < 2000;
+    progress.reached = i < 3000 ? 1 : 2;  // it climbs away for 10 s
+    bench.set(bench.in.state, north_at(0.01 * i, i >= 2000 && i < 3000 ? 40 : 0));
+    bench.set(bench.in.progress, progress);
+    bench.set(bench.in.contact, contact);
+    bench.step(0.01);
+    if (bench.out.tracking.written) tracking = bench.out.tracking.value;
+  }
+  CHECK(tracking.time_counted_s == doctest::Approx(20).epsilon(0.06));
+  CHECK(std::abs(tracking.east_m) < 1e-9);
+}
+
+namespace {
+
+/// Down a slope of 1 m/s along a runway to 60 deg, onto it at 10 s, 100 m beyond the threshold and 2 m right
+/// of its middle, 10 deg of crab; then it rolls 50 m.
+struct Landing {
+  static constexpr double heading = pi / 3;
+  double time_s = 0;
+  double ground_m() const { return time_s < 10 ? 15 * (time_s - 10) : std::min(5 * (time_s - 10), 50.0); }
+  VehicleState state(double off_m) const {
+    VehicleState s = north_at(0);
+    const double a = ground_m();
+    s.position_m = {500 + a * std::cos(heading) - 2 * std::sin(heading) + off_m,
+                    300 + a * std::sin(heading) + 2 * std::cos(heading), 0};
+    s.height_m = std::max(10 - time_s, 0.0);
+    s.climb_rate_mps = time_s < 10 ? -1 : 0;
+    s.course_rad = heading;
+    s.yaw_rad = heading + 10 * pi / 180;
+    s.roll_rad = -0.1;
+    s.ground_speed_mps = time_s < 10 ? 15 : a < 50 ? 5 : 0;
+    return s;
+  }
+  LandingProgress progress() const {
+    LandingProgress p;
+    p.stage = time_s < 10 ? LandingStage::flare : LandingStage::roll_out;
+    p.cross_m = 2;
+    p.runway_rad = heading;
+    p.beyond_threshold_m = 100 + ground_m();
+    return p;
+  }
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a touch-down has sink, place on the runway, crab, bank and run-out, by each source that is wired") {
+  enum Source { by_stage, by_ground, by_contact };
+  for (const Source source : {by_stage, by_ground, by_contact}) {
+    CAPTURE(source);
+    Bench<Score> bench;
+    Landing landing;
+    TouchDown touch, real;
+    bool any_real = false;
+    for (int i = 0; i < 2500; ++i) {
+      landing.time_s = 0.01 * i;
+      bench.set(bench.in.state, landing.state(0));
+      bench.set(bench.in.truth, landing.state(-3));  // the truth is 3 m south of the estimate
+      bench.set(bench.in.landing, landing.progress());
+      GroundState ground;
+      ground.touch_downs = landing.time_s < 10 ? 4 : 5;
+      ground.touch_sink_mps = 0.7;
+      if (source == by_ground) bench.set(bench.in.ground, ground);
+      ContactTruth contact;
+      if (landing.time_s >= 10) {
+        const VehicleState at = [&] {
+          Landing l;
+          l.time_s = 10;
+          return l.state(-3);
+        }();
+        contact = {true, false, "left main wheel", 9.998, at.position_m, 1.25, 15, 0.05, 0.1, pi / 3, pi / 3};
+      }
+      if (source == by_contact) bench.set(bench.in.contact, contact);
+      bench.step(0.01);
+      if (bench.out.touch_down.written) touch = bench.out.touch_down.value;
+      if (bench.out.touch_down_true.written) {
+        real = bench.out.touch_down_true.value;
+        any_real = true;
+      }
+    }
+    CHECK(touch.at_s == doctest::Approx(10).epsilon(0.002));
+    CHECK(touch.beyond_threshold_m == doctest::Approx(100).epsilon(0.002));
+    CHECK(touch.cross_m == doctest::Approx(2));
+    CHECK(touch.crab_rad == doctest::Approx(10 * pi / 180));
+    CHECK(touch.roll_rad == doctest::Approx(-0.1));
+    CHECK(touch.run_out_m == doctest::Approx(50).epsilon(0.01));
+    CHECK(touch.cross_max_m == doctest::Approx(2));
+    if (source == by_ground) CHECK(touch.sink_mps == 0.7);
+    CHECK(any_real == (source == by_contact));
+    if (source != by_contact) continue;
+    CHECK(real.at_s == 9.998);
+    CHECK(real.sink_mps == 1.25);
+    CHECK(real.beyond_threshold_m == doctest::Approx(100 - 3 * std::cos(pi / 3)).epsilon(0.002));
+    CHECK(real.cross_m == doctest::Approx(2 + 3 * std::sin(pi / 3)).epsilon(0.002));
+    CHECK(real.crab_rad == 0);
+  }
+}
+
+TEST_CASE(
+    "no aircraft that stands, and no bounce, is a touch-down; without a runway its fields are unknown") {
+  Bench<Score> bench;
+  bool any = false;
+  TouchDown touch;
+  for (int i = 0; i < 3000; ++i) {
+    VehicleState s = north_at(0.01 * i);
+    s.height_m = i < 1000 ? 0 : i < 2000 ? 20 : 0.3;
+    GroundState ground;
+    ground.touch_downs = i < 500    ? 1
+                         : i < 2000 ? 2
+                         : i < 2100 ? 3
+                                    : 4;  // at 5 s it has not flown; two at the end
+    bench.set(bench.in.state, s);
+    bench.set(bench.in.ground, ground);
+    bench.step(0.01);
+    if (!bench.out.touch_down.written) continue;
+    touch = bench.out.touch_down.value;
+    any = true;
+    CHECK(i >= 2000);
+  }
+  REQUIRE(any);
+  CHECK(touch.at_s == doctest::Approx(20).epsilon(0.002));
+  CHECK(touch.cross_m == unknown_std);
+  CHECK(touch.beyond_threshold_m == unknown_std);
+}
+
+TEST_CASE("a crash is told once, with what touched and what safety did before; figures end there") {
+  Bench<Score> bench;
+  int crashes = 0;
+  Crash crash;
+  Verdict verdict;
+  SafetyState safety;
+  safety.airborne = true;
+  ContactTruth contact;
+  for (int i = 0; i < 3000; ++i) {
+    safety.engine_failed = i >= 1000;
+    safety.answer = i >= 1000 ? SafetyAnswer::glide : SafetyAnswer::none;
+    if (i >= 2000)
+      contact = {true, true, "left wing tip", 20.0, {12, -40, 0}, 3.25, 14.125, -0.7854, 0, 0, 0};
+    bench.set(bench.in.state, north_at(0.01 * i));
+    bench.set(bench.in.safety, safety);
+    bench.set(bench.in.contact, contact);
+    bench.step(0.01);
+    if (bench.out.verdict.written) verdict = bench.out.verdict.value;
+    if (i == 1500) {
+      CHECK(verdict.word.view().empty());
+      CHECK(verdict.text.view() == "glide at 10.0 s (no thrust)");
+    }
+    if (!bench.out.crash.written) continue;
+    ++crashes;
+    crash = bench.out.crash.value;
+  }
+  CHECK(crashes == 1);
+  CHECK(crash.part.view() == "left wing tip");
+  CHECK(crash.sink_mps == 3.25);
+  CHECK(crash.east_m == -40);
+  CHECK(verdict.word.view() == "crashed");
+  CHECK(verdict.text.view() ==
+        "left wing tip touched at 20.00 s, sink 3.2 m/s, bank -45 deg, 14.1 m/s over ground, 12 m north and "
+        "40 m west; before: glide at 10.0 s (no thrust)");
+}
+
+TEST_CASE("an aircraft that stands is said to have never left the ground, and its alarms are no answers") {
+  for (const bool lifts : {false, true}) {
+    Bench<Score> bench;
+    Verdict verdict;
+    SafetyState safety;
+    for (int i = 0; i < 1000; ++i) {
+      VehicleState s = north_at(0);
+      s.height_m = 0.01 * i;  // a barometer that drifts
+      safety.answer = i > 300 && i < 400 ? SafetyAnswer::level : SafetyAnswer::none;
+      safety.estimator_failed = true;
+      bench.set(bench.in.state, s);
+      bench.set(bench.in.safety, safety);
+      bench.set(bench.in.ground, GroundState{lifts && i > 500 ? Contact::air : Contact::ground});
+      bench.step(0.01);
+      if (bench.out.verdict.written) verdict = bench.out.verdict.value;
+      if (i == 499) CHECK(verdict.text.view() == "never left the ground");
+    }
+    CHECK(verdict.text.view() == (lifts ? "" : "never left the ground"));
+    CHECK(verdict.word.view().empty());
+  }
+}
+
+TEST_CASE("a landing, an answer and a crash allocate nothing") {
+  Bench<Score> bench;
+  SafetyState safety;
+  safety.airborne = true;
+  ContactTruth contact;
+  const auto pass = [&](int i) {
+    VehicleState s = north_at(0.01 * i);
+    bench.set(bench.in.state, s);
+    safety.answer = i % 7 == 0 ? SafetyAnswer::home : SafetyAnswer::wait;
+    safety.gnss_lost = safety.battery_low = safety.wind_excessive = true;
+    contact.touched_s = i / 20;
+    contact.crashed = i == 99;
+    bench.set(bench.in.safety, safety);
+    bench.set(bench.in.contact, contact);
+    bench.step(0.01);
+  };
+  pass(0);
+  std::uint64_t most = 0;
+  for (int i = 1; i < 100; ++i) most = std::max(most, allocations([&] { pass(i); }));
+  CHECK(most == 0);
+}
+
 }  // namespace score_test

@@ -391,6 +391,60 @@ TEST_CASE("the pilot who overrides flies with the sticks, and commands have no e
   CHECK(b->component().plant().state().omega_b.x() > 0.5);
 }
 
+TEST_CASE(
+    "the contact comes when it changes: it stands, lifts off, crashes; then with part, sink, place and "
+    "time") {
+  auto b = bench(20);
+  arm(*b);
+  const Actuators dive{0, 0, 0.5, 0};
+  int count = 0, status_s = 0;
+  ContactTruth contact;
+  VehicleState before;
+  std::int64_t at_ns = 0;
+  for (int i = 0; i < 6000 && !contact.crashed; ++i) {
+    pass(*b, &dive);
+    if (b->out.truth.written) before = b->out.truth.value;
+    if (b->out.status.written && b->out.status.value.crashed) ++status_s;
+    if (!b->out.contact.written) continue;
+    contact = b->out.contact.value;
+    at_ns = std::int64_t{2500000} * (i + 1) - 5000000000;
+    ++count;
+  }
+  REQUIRE(contact.crashed);
+  CHECK(count == 2);  // in the air, then this
+  CHECK(status_s == 1);
+  CHECK(contact.part.view().starts_with("nose"));
+  CHECK(contact.touched_s == doctest::Approx(1e-9 * static_cast<double>(at_ns)));
+  CHECK(contact.sink_mps == doctest::Approx(-before.climb_rate_mps).epsilon(0.1));
+  CHECK(contact.sink_mps > 3);
+  CHECK(contact.pitch_rad < -0.3);
+  CHECK(std::abs(contact.position_m.north - before.position_m.north) < 1);
+  CHECK(std::abs(contact.ground_speed_mps - before.ground_speed_mps) < 1);
+}
+
+TEST_CASE(
+    "deflections in the motion follow the command with the servo's lag, accelerations are those of the "
+    "rates") {
+  auto b = bench(200, SensorSet::perfect);
+  b->params.truth_rate.value = 400;
+  arm(*b);
+  Actuators flat{0.5, 0, 0, 0};
+  double rate = 0, least = 1;
+  for (int i = 0; i < 2400; ++i) {
+    flat.aileron_rad = i > 2100 ? 0.1 : 0;
+    pass(*b, &flat);
+    const double p = b->out.truth.value.rate_radps.x, dt = 0.0025;
+    const MotionTruth& m = b->out.motion.value;
+    if (i > 2110 && i < 2300) CHECK(std::abs((p - rate) / dt - m.angular_acceleration_radps2.x) < 0.6);
+    if (i == 2103) least = m.aileron_rad;
+    rate = p;
+  }
+  CHECK(least > 0);
+  CHECK(least < 0.09);
+  CHECK(b->out.motion.value.aileron_rad == doctest::Approx(0.1).epsilon(0.01));
+  CHECK(b->out.motion.value.propeller_radps > 100);
+}
+
 TEST_CASE("a crash is told, and a crashed aircraft cannot be armed again") {
   auto b = bench(20);
   arm(*b);

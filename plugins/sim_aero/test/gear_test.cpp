@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "fly.hpp"
@@ -181,6 +182,47 @@ TEST_CASE(
     CHECK(p.state().p_n.x() < 2 * 12 * 12 / (2 * 0.4 * g));  // the wing bears a part at first
     CHECK(-p.state().p_n.z() == Approx(0.12).epsilon(0.02));
   }
+}
+
+TEST_CASE("a touch-down names the part and keeps sink, attitude and place; a bounce is none") {
+  Plant p = plant(anaconda());
+  const double stands = anaconda().gear.height_m;
+  run(p, 1);
+  CHECK(p.touch().count == 0);  // it stands
+  REQUIRE(p.fly({0, 0, -30}, 0, 15));
+  RigidBody x = p.state();
+  x.p_n = {30, -4, -stands - 0.05};
+  x.v_n = {12, 0, 0.8};
+  x.q_nb = Eigen::AngleAxisd(0.06, Vector3d::UnitX());  // the right wheel is 1.2 cm lower
+  x.omega_b.setZero();
+  p.set_state(x);
+  for (int i = 0; i < 2000; ++i) p.advance({}, 0, dt);  // it bounces, and rolls
+  CHECK(p.touch().count == 1);
+  CHECK_FALSE(p.crashed());
+  CHECK(std::string(p.touch().part) == "right main wheel");
+  CHECK(p.touch().at.v_n.z() == Approx(0.8).epsilon(0.5));
+  CHECK(p.touch().at.p_n.x() > 30);
+  CHECK(-p.touch().at.p_n.z() < stands + 0.1);
+}
+
+TEST_CASE("a crash names what broke: left or right wing tip, nose, a wheel that came down too hard") {
+  const auto broken = [](double roll, double pitch, double sink) {
+    Plant p = plant(anaconda());
+    RigidBody x = p.state();
+    x.q_nb = Eigen::AngleAxisd(pitch, Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Vector3d::UnitX());
+    x.p_n.z() = -3;
+    x.v_n = x.q_nb * Vector3d(14, 0, 0) + Vector3d(0, 0, sink);
+    p.set_state(x);
+    for (int i = 0; i < 2000 && !p.crashed(); ++i) p.advance({}, 0, dt);
+    REQUIRE(p.crashed());
+    CHECK(p.touch().count == 1);
+    CHECK(p.touch().at.v_n.z() > 1);  // before it came to rest
+    return std::string(p.touch().part);
+  };
+  CHECK(broken(-1.2, 0, 4) == "left wing tip");
+  CHECK(broken(1.2, 0, 4) == "right wing tip");
+  CHECK(broken(0, -1.5, 4) == "nose");
+  CHECK(broken(0, 0, 8).find("wheel") != std::string::npos);
 }
 
 TEST_CASE("what the hull says breaks, and nothing else") {

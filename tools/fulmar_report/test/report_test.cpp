@@ -26,6 +26,10 @@ void write_event(Log& log, std::int64_t at_ns, core::Code code, const char* name
   log.write_as(core::Event::topic, *core::host_type<core::Event>(), at_ns, &e);
 }
 
+void write_event(Log& log, std::int64_t at_ns, const core::Event& e) {
+  log.write_as(core::Event::topic, *core::host_type<core::Event>(), at_ns, &e);
+}
+
 /// Two seconds at 50 Hz from one second before the flight on.
 void write_flight(const std::filesystem::path& file, const char* parameters, const char* words = "stopped") {
   Log log(file);
@@ -130,7 +134,7 @@ TEST_CASE("phases, guards, parameters that differ, and where a log ends") {
   CHECK(log["begin_s"] == -1.0);
   CHECK(log["end_s"] == 0.98);
   CHECK(log["fault"] == "");
-  CHECK(log["phases"] == json::parse(R"([{"name": "cruise", "from_s": 0.5, "to_s": 0.98}])"));
+  CHECK(log["phases"] == json::parse(R"([{"name": "cruise", "from_s": 0.5, "to_s": 0.98, "because": ""}])"));
   REQUIRE(log["told"]["rows"].size() == 1);  // a phase and a request that was taken are no news
   CHECK(log["told"]["rows"][0]["words"] == "stopped");
   CHECK(log["told"]["rows"][0]["severity"] == "warning");
@@ -144,6 +148,31 @@ TEST_CASE("phases, guards, parameters that differ, and where a log ends") {
   core::test::store(cut, bytes.substr(0, bytes.size() / 2));
   const json half = parsed({cut})["logs"][0];
   CHECK(half["fault"].get<std::string>().starts_with("byte "));
+}
+
+TEST_CASE("the verdict of a flight is its last word, and a log that was cut off has none") {
+  const Folder folder;
+  const std::string file = folder.path / "a.mcap";
+  write_flight(file, "{}");
+  CHECK(parsed({file})["logs"][0]["verdict"]["words"] == "");
+  const std::string ended = folder.path / "b.mcap";
+  {
+    Log log(ended);
+    core::Event phase = core::event_of(core::Code::phase_entered, "", "home");
+    core::put(phase.cause, "guard.safety.answer == home");
+    write_event(log, 100 * ms, phase);
+    core::Event early = core::event_of(core::Code::concluded);  // of an armed aircraft, on its way
+    core::put(early.words, "done: x; flies on until disarmed");
+    write_event(log, 400 * ms, early);
+    core::Event last = core::event_of(core::Code::concluded, "", "failed");
+    last.severity = core::Severity::error;
+    core::put(last.words, "crashed: nose touched (y)");
+    write_event(log, 500 * ms, last);
+    write_event(log, 500 * ms, early);
+  }
+  const json log = parsed({ended})["logs"][0];
+  CHECK(log["verdict"] == json{{"words", "crashed: nose touched (y)"}, {"severity", "error"}});
+  CHECK(log["phases"][0]["because"] == "guard.safety.answer == home");
 }
 
 TEST_CASE("no name and no word of a log ends the element that holds it") {

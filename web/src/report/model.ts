@@ -21,7 +21,8 @@ export interface Log {
   name: string; mission: string; begin_s: number; end_s: number; bytes: number; messages: number; fault: string;
   metadata: Record<string, Record<string, string>>;
   figures: Record<string, unknown>; // those of `fulmar run --json`
-  phases: { name: string; from_s: number; to_s: number }[];
+  verdict: { words: string; severity: string }; // no words: the log ends before the flight does
+  phases: { name: string; from_s: number; to_s: number; because: string }[];
   told: { rows: Told[]; all: number };
   estimates: Estimate[]; innovations: PackedSeries[];
   ticks: { n: number; mean_ms: number; p99_ms: number; max_ms: number } | null;

@@ -9,7 +9,7 @@ import { fixed } from "../units";
 import { channel_charts, error_chart, type Judged, log_colours, surface_charts, width_of } from "./curves";
 import { draw_charts, resize_charts, show_time } from "./chart";
 import type { Log, ReportData } from "./model";
-import { estimate_table, figure_tables, flight_table, innovation_table, parameter_table, phase_table, plugin_table, section, sentence, time_tables, told_table } from "./tables";
+import { estimate_table, figure_tables, flight_table, innovation_table, parameter_table, phase_table, plugin_table, section, sentence, time_tables, told_table, verdict_line } from "./tables";
 
 /** "Roll" of several estimates: those of one quantity beside each other. */
 function by_words(all: { name: string; rows: Log["innovations"] }[]): Map<string, Judged[]> {
@@ -30,6 +30,7 @@ export class Summary {
     const [height, ...rest] = channel_charts(this.sources, phases);
     const each = (of: (log: Log) => HTMLElement) => logs.map((log) => (one ? of(log) : el("div", {}, el("h3", {}, log.name), of(log))));
     this.element.append(
+      section("Verdict", ...each(verdict_line)),
       section("Flights", flight_table(logs)),
       section("Figures of merit", ...figure_tables(logs)),
       this.time_bar(),

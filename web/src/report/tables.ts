@@ -69,6 +69,14 @@ export function figure_tables(logs: Log[]): HTMLElement[] {
   return [el("div", { class: "tables" }, ...out)];
 }
 
+/** What became of the flight: the first line of a report. */
+export function verdict_line(log: Log): HTMLElement {
+  const { words, severity } = log.verdict;
+  if (!words) return el("p", { class: "verdict bad" }, `The log ends at ${clock(log.end_s)} without a verdict: ${log.fault || "it is not the last file of its flight, or the host was killed"}.`);
+  const bad = severity === "error" || severity === "critical";
+  return el("p", { class: bad ? "verdict bad" : "verdict" }, words.charAt(0).toUpperCase() + words.slice(1));
+}
+
 export function flight_table(logs: Log[]): HTMLElement {
   const said = (log: Log, key: string) => log.metadata.fulmar?.[key] ?? none;
   const rows: [string, (log: Log) => string][] = [
@@ -80,7 +88,7 @@ export function flight_table(logs: Log[]): HTMLElement {
     ["Fulmar", (log) => said(log, "version")],
     ["compiler", (log) => said(log, "toolchain")],
     ["changed by the command line", (log) => Object.entries(log.metadata.overrides ?? {}).map(([k, v]) => `${k} ${v}`).join("; ") || "nothing"],
-    ["ends early", (log) => log.fault || "no"],
+    ["log is whole", (log) => (log.fault ? "no: " + log.fault : "yes")],
   ];
   // of a log that rotates each file begins with what was said before, so its time does not tell
   if (logs.some((log) => log.metadata.series)) rows.splice(3, 0, ["file of its log", (log) => log.metadata.series?.file ?? none]);
@@ -100,7 +108,7 @@ export function innovation_table(log: Log): HTMLElement {
 
 export function phase_table(log: Log): HTMLElement {
   if (log.phases.length === 0) return sentence("No phase was entered.");
-  return table(["phase", "from", "to", "lasts"], log.phases.map((p) => [p.name, fixed(p.from_s, 2, "s"), fixed(p.to_s, 2, "s"), fixed(p.to_s - p.from_s, 2, "s")]));
+  return table(["phase", "because", "from", "to", "lasts"], log.phases.map((p) => [p.name, p.because || none, fixed(p.from_s, 2, "s"), fixed(p.to_s, 2, "s"), fixed(p.to_s - p.from_s, 2, "s")]), 2);
 }
 const signs: Record<string, string> = { warning: "⚠ ", error: "✕ ", critical: "✕✕ " };
 export function told_table(log: Log): HTMLElement {

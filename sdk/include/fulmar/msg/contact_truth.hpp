@@ -9,7 +9,9 @@ struct ContactTruth {
   bool touching = false;  ///< a wheel or another part is on the ground
   bool crashed = false;   ///< since the first contact that the airframe does not survive
   Text<32> part;          ///< what touched last: "nose wheel", "left wing tip"; empty: nothing yet
-  double touched_s = -1;  ///< flight time of the last touch-down; -1: none yet. The fields below belong to it
+  /// Flight time of the last touch-down after 0.5 s in the air, or of the contact that ended the flight;
+  /// -1: none yet. The fields below belong to it.
+  double touched_s = -1;
   Vec3<Ned> position_m;
   double sink_mps = 0;  ///< of the centre of gravity, down is positive
   double ground_speed_mps = 0;

@@ -35,6 +35,8 @@ struct LandingProgress {
   double head_wind_mps = 0;                    ///< along the runway; negative: tail wind
   double cross_wind_mps = 0;                   ///< from the left is positive
   double needed_m = 0;                         ///< from the threshold to a stop, in this wind
+  double runway_rad = 0;                       ///< its heading
+  double beyond_threshold_m = 0;               ///< along it; negative before it
 };
 
 template <>

@@ -21,9 +21,30 @@ struct Leg {
   double k_t = 0, c_t = 0;                        ///< along the ground, while it does not slip
   double rolling = 0;                             ///< friction along its heading
   bool skid = false;                              ///< `rolling` is its friction in every direction
+  const char* part = "";                          ///< what a pilot calls it
   Eigen::Vector2d bristle = Eigen::Vector2d::Zero();
   bool down = false;
 };
+
+/// What a pilot calls a wheel or skid whose foot is at `r_b`.
+inline const char* leg_part(const Eigen::Vector3d& r_b, bool skid) {
+  constexpr double middle = 0.02;  // m
+  const bool front = r_b.x() > 0;
+  if (std::abs(r_b.y()) <= middle)
+    return skid ? (front ? "nose skid" : "tail skid") : (front ? "nose wheel" : "tail wheel");
+  if (!skid) return r_b.y() < 0 ? "left main wheel" : "right main wheel";
+  if (r_b.y() < 0) return front ? "left front skid" : "left rear skid";
+  return front ? "right front skid" : "right rear skid";
+}
+
+/// The same of a point of the hull.
+inline const char* hull_part(const Eigen::Vector3d& r_b, double span_m) {
+  const double y = r_b.y() / span_m;
+  if (std::abs(y) > 0.35) return y < 0 ? "left wing tip" : "right wing tip";
+  if (std::abs(y) > 0.1) return y < 0 ? "left wing" : "right wing";
+  if (std::abs(r_b.x()) > std::abs(r_b.z())) return r_b.x() > 0 ? "nose" : "tail";
+  return r_b.z() < 0 ? "back" : "belly";
+}
 
 /// On flat ground at rest: height of the centre of gravity and attitude without heading.
 struct Standing {
@@ -35,7 +56,8 @@ struct Standing {
 class Legs {
  public:
   /// `friction`: factor on what the airframe says.
-  explicit Legs(const Airframe& a, double friction = 1) : weight_(a.mass_kg * isa::g0), friction_(friction) {
+  explicit Legs(const Airframe& a, double friction = 1)
+      : weight_(a.mass_kg * isa::g0), friction_(friction), span_(a.wing.span_m) {
     if (a.gear.contacts.empty())
       derive(a);
     else
@@ -48,6 +70,7 @@ class Legs {
   std::span<const Leg> legs() const { return {legs_.data(), legs_count_}; }
   /// Where it touches, it breaks.
   std::span<const Eigen::Vector3d> hull() const { return {hull_.data(), hull_count_}; }
+  const char* hull_part(std::size_t i) const { return sim::hull_part(hull_[i], span_); }
   double reach() const { return reach_; }
   const Standing& standing() const { return standing_; }
 
@@ -69,6 +92,7 @@ class Legs {
     add({-nose_share * L, -y, h}, (1 - nose_share) / 2 * weight_, rolling);
     add({-nose_share * L, y, h}, (1 - nose_share) / 2 * weight_, rolling);
     add({-L, 0, tail_z}, nose_share * weight_, sliding);
+    legs_[legs_count_ - 1].part = leg_part({-L, 0, tail_z}, true);
     break_at_tips(a, L);
     standing_ = {true, a.gear.height_m};
   }
@@ -81,6 +105,7 @@ class Legs {
       add(eigen(c.at_m) + Eigen::Vector3d(0, 0, bears ? sag : 0),
           (bears ? c.carries_ratio : nose_share) * weight_, c.friction_ratio >= 0 ? c.friction_ratio : usual);
       legs_[legs_count_ - 1].skid = skid;
+      legs_[legs_count_ - 1].part = leg_part(eigen(c.at_m), skid);
       front = std::max(front, c.at_m.x);
     }
     standing_ = find_standing();
@@ -99,6 +124,7 @@ class Legs {
   void add(const Eigen::Vector3d& r_b, double carried, double rolling) {
     Leg& l = legs_[legs_count_++];
     l.r_b = r_b;
+    l.part = leg_part(r_b, false);
     l.k = carried / sag;
     l.c = 2 * damping * std::sqrt(l.k * carried / isa::g0);
     l.k_t = l.k;
@@ -116,7 +142,7 @@ class Legs {
   };
   Slopes slopes(const Eigen::Vector3d& height_pitch_roll) const;
 
-  double weight_, friction_;
+  double weight_, friction_, span_;
   std::array<Leg, 12> legs_;
   std::array<Eigen::Vector3d, 12> hull_;
   std::size_t legs_count_ = 0, hull_count_ = 0;

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "fulmar/flight/rigid_body.hpp"
 #include "fulmar/msg/airframe.hpp"
@@ -45,11 +47,13 @@ class Ground {
   /// Set down on its wheels, at rest.
   void stand() {
     touching_ = true;
+    air_s_ = 0;
     for (auto& l : legs_.legs()) l.down = true;
   }
 
   /// After each step: bristles follow, touch-downs are judged.
   void advance(const RigidBody& x, double dt) {
+    air_s_ = touching_ ? 0 : air_s_ + dt;
     touching_ = false;
     if (clear(x)) {
       for (auto& l : legs_.legs()) lift(l);
@@ -57,33 +61,62 @@ class Ground {
     }
     const Eigen::Matrix3d R = x.q_nb.toRotationMatrix();
     const Eigen::Vector2d forward = R.block<2, 1>(0, 0).normalized();
+    const Leg* deepest = nullptr;
+    double depth = 0;
     for (auto& l : legs_.legs()) {
       const Contact c = contact(l, x, R, forward);
       if (c.depth <= 0) {
         lift(l);
         continue;
       }
-      if (!l.down && c.sink > hardest_touch) crashed_ = true;
+      if (c.depth > depth) {
+        deepest = &l;
+        depth = c.depth;
+      }
+      if (!l.down && c.sink > hardest_touch) break_at(l.part);
       l.down = touching_ = true;
       l.bristle += dt * c.velocity;
       hold(l, l.rolling * c.normal / l.k_t, sliding_ * c.normal / l.k_t, l.bristle.x(), l.bristle.y());
     }
-    for (const auto& r : legs_.hull()) crashed_ = crashed_ || x.p_n.z() + R.row(2).dot(r) > 0;
+    if (deepest && air_s_ >= shortest_flight && !crashed_) note(deepest->part);
+    break_hull(x, R);
   }
 
   /// At rest on it.
   const Standing& standing() const { return legs_.standing(); }
   bool touching() const { return touching_; }
   bool crashed() const { return crashed_; }
+  /// Touch-downs, and the contact that broke it: how many, and what touched at the last one.
+  std::uint32_t touches() const { return touches_; }
+  const char* touched_part() const { return part_; }
 
  private:
-  static constexpr double hardest_touch = 3;  ///< m/s
+  static constexpr double hardest_touch = 3;      ///< m/s
+  static constexpr double shortest_flight = 0.5;  ///< s: what returns earlier has bounced
 
   struct Contact {
     double depth = 0, sink = 0, normal = 0;
     Eigen::Vector2d velocity =
         Eigen::Vector2d::Zero();  ///< over the ground, along the heading and to its right
   };
+
+  void note(const char* part) {
+    part_ = part;
+    ++touches_;
+  }
+
+  void break_at(const char* part) {
+    if (!crashed_) note(part);
+    crashed_ = true;
+  }
+
+  void break_hull(const RigidBody& x, const Eigen::Matrix3d& R) {
+    std::size_t i = 0;
+    for (const auto& r : legs_.hull()) {
+      if (x.p_n.z() + R.row(2).dot(r) > 0) break_at(legs_.hull_part(i));
+      ++i;
+    }
+  }
 
   /// No more than friction holds, of a force or of the bristle behind it. A skid knows no heading.
   static void hold(const Leg& l, double most_along, double most_across, double& along, double& across) {
@@ -116,6 +149,9 @@ class Ground {
   Legs legs_;
   double sliding_;
   bool touching_ = false, crashed_ = false;
+  double air_s_ = shortest_flight;  ///< since something touched
+  std::uint32_t touches_ = 0;
+  const char* part_ = "";
 };
 
 }  // namespace fulmar::sim

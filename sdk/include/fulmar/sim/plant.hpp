@@ -41,6 +41,14 @@ struct Earth {
   Terrain terrain{};
 };
 
+/// The last touch-down, or the contact that broke the aircraft: what touched, and the state at that moment,
+/// velocity and attitude as the ground sees them, the position in the frame of the origin.
+struct Touch {
+  std::uint32_t count = 0;  ///< 0: none yet
+  const char* part = "";
+  RigidBody at;
+};
+
 class Plant {
  public:
   Plant(const Airframe& a, const Weather& weather, double origin_altitude_m, std::uint64_t seed,
@@ -141,6 +149,7 @@ class Plant {
       ground_.advance(slope_.seen(x_), dt);
     else
       ground_.advance(turns() ? level_.seen(x_) : x_, dt);
+    note_touch();
     if (ground_.crashed()) rest();  // it stays where it hit
     disturb(dt);
     if (battery_.drains()) drain(dt);
@@ -243,6 +252,7 @@ class Plant {
   double battery_used_ah() const { return battery_.used_ah(); }
   bool on_ground() const { return ground_.touching(); }
   bool crashed() const { return ground_.crashed(); }
+  const Touch& touch() const { return touch_; }
   Departure departure() const { return departure_; }
   const Aerodynamic& aerodynamic() const { return aero_; }
   double height_above_ground() const { return slope_.height(seen().p_n); }
@@ -265,6 +275,7 @@ class Plant {
   /// Nothing touches the ground, nothing has broken.
   void begin_anew() {
     ground_ = Ground(airframe_, earth_.terrain.friction_ratio);
+    touch_ = {};
     departure_ = Departure::none;
   }
 
@@ -335,6 +346,12 @@ class Plant {
     if (!turns()) return;
     level_ = LocalLevel(turning_, x_.p_n);
     x_ = level_.in_frame(x_);
+  }
+
+  void note_touch() {
+    if (ground_.touches() == touch_.count) return;
+    touch_ = {ground_.touches(), ground_.touched_part(), turns() ? level_.seen(x_) : x_};
+    touch_.at.p_n = x_.p_n;
   }
 
   void rest() {
@@ -430,6 +447,7 @@ class Plant {
   BatteryState battery_;
   Slope slope_;
   Ground ground_;
+  Touch touch_;
   Disturbances disturbances_;
   Surfaces surfaces_;
   Drive flap_;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/verdict.hpp"
+
+#include <cstring>
+
+#include "core/log/events.hpp"
+
+namespace fulmar::core {
+namespace {
+
+/// A text field of a message: one printable line.
+std::string text_at(const std::byte* field, std::size_t room) {
+  const char* const text = reinterpret_cast<const char*>(field);
+  std::string line(text, strnlen(text, room));
+  make_printable(line.data());
+  return line;
+}
+
+}  // namespace
+
+bool has_begun(const FlightResult& result) {
+  const bool ended_well = result.outcome == Outcome::flown || result.outcome == Outcome::aborted;
+  return !ended_well || result.idle.empty();
+}
+
+const char* result_word(const FlightResult& result) {
+  if (result.outcome == Outcome::interrupted) return "interrupted";
+  if (result.outcome == Outcome::failed) return "failed";
+  if (!has_begun(result)) return "not begun";
+  if (result.outcome == Outcome::aborted) return "aborted";
+  return result.guards.empty() ? "flown" : "flown with guards";
+}
+
+std::string reason_of(const FlightResult& result) {
+  return has_begun(result) ? result.reason
+                           : "nothing came from the role " + result.idle + "; " + result.reason;
+}
+
+std::string verdict_line(const Graph& graph, const Flight& flight, const std::string& result_word) {
+  const std::byte* const said = graph.verdict ? flight.sample(graph.verdict->from) : nullptr;
+  if (!said) return result_word;
+  const VerdictPort& port = *graph.verdict;
+  const std::string word = text_at(said + port.word, port.word_size),
+                    text = text_at(said + port.text, port.text_size);
+  const bool own = result_word == "failed" && !word.empty();
+  return (own ? word : result_word) + (text.empty() ? "" : ": " + text);
+}
+
+std::string verdict_of(const Graph& graph, const Flight& flight, const FlightResult& result) {
+  return verdict_line(graph, flight, result_word(result));
+}
+
+}  // namespace fulmar::core

@@ -160,9 +160,19 @@ struct Home {
         fly_course(c.course_rad, limits.airspeed_cruise_mps, wind(s)).ground_speed_mps < p.least_ground_speed;
     c.airspeed_mps = behind ? std::clamp(fast, limits.airspeed_cruise_mps, limits.airspeed_max_mps)
                             : limits.airspeed_cruise_mps;
+    if (in.safety && in.safety->engine_weak) within_thrust(s, p, c);
     into_the_wind(s, p, c);
     out.progress.there =
         std::abs(out.progress.distance_m - R) < 0.5 * R && std::abs(s.height_m - c.height_m) < 10;
+  }
+
+  /// A weak motor climbs as far as it leaves an airspeed that flies well; slower than that, height makes
+  /// speed.
+  static void within_thrust(const VehicleState& s, const Params& p, GuidanceCommand& c) {
+    constexpr double height_per_speed_s = 3;
+    const double Va = s.airspeed_valid ? s.airspeed_mps : p.airframe->limits.airspeed_cruise_mps;
+    const double spare = Va - p.glide_margin * p.airframe->limits.airspeed_min_mps;
+    c.height_m = std::min(c.height_m, s.height_m + height_per_speed_s * spare);
   }
 
   /// Where the largest airspeed leaves no way over the ground, the nose points into the wind, at that speed.

@@ -65,6 +65,7 @@ struct Monitor {
   void battery(const Inputs& in, const Params& p, double dt);
   void motor(const Inputs& in, const Params& p, double dt);
   void wind(const VehicleState& s, const Params& p, double dt);
+  void wind_on_ground(const VehicleState& s, const WindLimits& w, double dt);
   bool leaves_by_drift(const VehicleState& s, const Params& p) const;
   void gate(const Inputs& in, const Params& p, double dt);
   SafetyAnswer answer(const VehicleState& s, const Params& p, double dt);
@@ -100,7 +101,7 @@ struct Monitor {
   bool kept_fence_ = false;
   bool radio_heard_ = false, airspeed_heard_ = false, position_heard_ = false;
   bool radio_there_ = false, drift_ends_wait_ = false;
-  double aloft_s_ = 0, ground_wind_mps_ = 0;
+  double aloft_s_ = 0, ground_wind_mps_ = 0, ground_wind_s_ = 1e-3;
   Vec3<Ned> wind_;
   bool wind_known_ = false;
 };
@@ -183,6 +184,7 @@ inline Reports::Facts Monitor::facts(const Inputs& in, const Params& p) const {
   f.room_m = polygon_.given() ? polygon_.room_m(s.position_m.north, s.position_m.east) : not_given;
   f.below_ceiling_m = ceiling_m_ - s.height_m;
   f.above_floor_m = s.height_m - floor_m_;
+  f.aloft = aloft_s_ > 0;
   f.by_side = now_.fence_margin_m < p.fencing.fence_margin;
   f.drift_ends_wait = drift_ends_wait_;
   f.kept_fence = kept_fence_;
@@ -261,7 +263,8 @@ inline void Monitor::sensors(const Tick&, const Inputs& in, const Params& p, dou
   // A tube that was there on the ground counts, though it may have been blocked from before the take-off.
   const bool fitted = in.health && in.health->pitot.state != SensorState::never;
   airspeed_heard_ = airspeed_heard_ || ((measured || fitted) && now_.airborne);
-  alarms_.pitot.step(airspeed_heard_ && !measured, p.pitot.pitot_raise, p.pitot.pitot_clear, dt);
+  if (now_.airborne)
+    alarms_.pitot.step(airspeed_heard_ && !measured, p.pitot.pitot_raise, p.pitot.pitot_clear, dt);
 
   const bool valid = s.attitude_valid && s.height_valid && (s.velocity_valid || alarms_.gnss.raised());
   alarms_.estimator.step(now_.airborne && !valid, p.estimator.estimator_raise, p.estimator.estimator_clear,
@@ -327,12 +330,21 @@ inline void Monitor::wind(const VehicleState& s, const Params& p, double dt) {
   const double most = p.airframe->limits.airspeed_max_mps / p.airframe->limits.airspeed_cruise_mps;
   alarms_.drifting.step(known && now_.wind_ratio > 0.95 * most, known && now_.wind_ratio < 0.9 * most,
                         w.wind_raise, w.wind_clear, dt);
-  // Standing, the tube measures the head wind before the filter has a wind.
-  const bool stands = !now_.airborne && s.velocity_valid && s.ground_speed_mps < 2;
-  if (!stands) return;
-  const double mps = std::max(s.wind_valid ? std::hypot(s.wind_mps.north, s.wind_mps.east) : 0.0,
-                              s.airspeed_valid ? s.airspeed_mps : 0.0);
-  ground_wind_mps_ += (1 - std::exp(-dt / w.wind_smoothing)) * (mps - ground_wind_mps_);
+  if (!now_.airborne) wind_on_ground(s, w, dt);
+}
+
+/// The filter has no wind yet. What the tube measures beyond the ground speed is head wind, what it measures
+/// less is tail wind, which only a take-off run shows.
+inline void Monitor::wind_on_ground(const VehicleState& s, const WindLimits& w, double dt) {
+  if (!s.velocity_valid) return;
+  constexpr double rolls_mps = 2, run_smoothing_s = 0.3;
+  const bool stands = s.ground_speed_mps < rolls_mps;
+  const double along = s.airspeed_valid ? std::abs(s.airspeed_mps - s.ground_speed_mps) : 0;
+  const double mps =
+      std::max(stands && s.wind_valid ? std::hypot(s.wind_mps.north, s.wind_mps.east) : 0.0, along);
+  ground_wind_s_ += dt;
+  const double share = 1 - std::exp(-dt / (stands ? w.wind_smoothing.value : run_smoothing_s));
+  ground_wind_mps_ += std::max(share, dt / ground_wind_s_) * (mps - ground_wind_mps_);  // the mean, at first
 }
 
 /// Whether the drift of the descent, by the last wind, takes it out of the fence: it cannot wait longer.
@@ -372,15 +384,16 @@ inline void Monitor::gate(const Inputs& in, const Params& p, double dt) {
   now_.ready = !any(n);
 }
 
-/// Near the ground a landing is finished: without a position, too, and whatever sends the aircraft home.
+/// Near the ground a landing is finished: without a position, too, and in the flare without a motor.
 inline SafetyAnswer Monitor::answer(const VehicleState& s, const Params& p, double dt) {
   const SafetyAnswer before = now_.answer, now = wanted(s, p, dt);
-  const auto lands = [](SafetyAnswer a) {
-    return a == SafetyAnswer::none || a == SafetyAnswer::land || a == SafetyAnswer::home;
-  };
-  const bool committed = now_.airborne && p.landing && s.height_valid &&
-                         s.height_m - places_[0].up_m < p.gnss.committed_height && lands(before);
-  return committed && (now == SafetyAnswer::wait || now == SafetyAnswer::descend) ? before : now;
+  const bool lands =
+      before == SafetyAnswer::none || before == SafetyAnswer::land || before == SafetyAnswer::home;
+  if (!now_.airborne || !p.landing || !s.height_valid || !lands) return now;
+  const double height = s.height_m - places_[0].up_m, committed = p.gnss.committed_height;
+  const bool circles = now == SafetyAnswer::wait || now == SafetyAnswer::descend;
+  const bool flares = now == SafetyAnswer::glide && height < committed / 3;
+  return (circles && height < committed) || flares ? before : now;
 }
 
 inline SafetyAnswer Monitor::wanted(const VehicleState& s, const Params& p, double dt) {

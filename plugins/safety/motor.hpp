@@ -59,12 +59,13 @@ class Motor {
     const double Va = airspeed(s, a);
     if (Va < 0.7 * a.limits.airspeed_min_mps) return;  // stalled, or rolling: the polar says nothing
     const double rho = standard_air(s.origin_altitude_m + s.height_m).density_kgm3, mg = a.mass_kg * isa::g0;
-    const double found = mg * s.climb_rate_mps / Va + a.mass_kg * airspeed_rate(s) +
-                         turn_trim(a, s.roll_rad, Va, rho).drag_newton;
+    const double gain = mg * s.climb_rate_mps / Va + a.mass_kg * airspeed_rate(s),
+                 drag = turn_trim(a, s.roll_rad, Va, rho).drag_newton, found = gain + drag;
     const double expected = thrust_of(a, throttle_frac, Va, rho);
     const double share = 1 - std::exp(-dt / e.engine_smoothing);
     found_ += share * (found - found_);
     expected_ += share * (expected - expected_);
+    gain_ += share * (gain - gain_);
     throttle_ += share * (throttle_frac - throttle_);
     const bool demanded = std::min(expected_, expected) > e.engine_thrust * mg;
     ratio_ = demanded ? found_ / expected_ : 1;
@@ -74,8 +75,10 @@ class Motor {
     const double weight = failed_.raised() ? 1 : std::clamp((e.engine_share - ratio_) / sure_ratio, 0.0, 1.0);
     const bool missing = demanded && expected_ - found_ > e.engine_missing * mg;
     const bool little = missing && ratio_ < std::max(e.engine_share, e.weak_share);
+    constexpr double level_ratio = 0.25;  // of the drag: a loss that small is level flight
     const bool flies =
-        little && holds_level(a, full_frac * effectiveness(a, throttle_, found_, Va, rho), rho);
+        little && (gain_ > -level_ratio * drag ||
+                   holds_level(a, full_frac * effectiveness(a, throttle_, found_, Va, rho), rho));
     const double shown = 2 * std::max<double>(e.engine_share, 0.1);
     failed_.step(missing && ratio_ < e.engine_share && !flies, demanded && ratio_ > shown, e.engine_raise,
                  e.engine_clear, weight * dt);
@@ -92,6 +95,7 @@ class Motor {
 
   Alarm failed_, weak_;
   double expected_ = 0, found_ = 0;  ///< smoothed, N
+  double gain_ = 0;                  ///< of energy, as a force; smoothed as they are
   double throttle_ = 0;              ///< smoothed as they are
   double ratio_ = 1;
 };

@@ -24,6 +24,7 @@ class Reports {
     double battery_ratio = 1, wind_mps = 0, ground_wind_mps = 0, roll_rad = 0, pitch_rad = 0;
     double room_m = 0;                              ///< to the nearest side of the fence, now
     double below_ceiling_m = 0, above_floor_m = 0;  ///< now
+    bool aloft = false;                             ///< off the ground, for however short a time
     bool by_side = false;                           ///< it is a side that the turn back comes too near to
     bool drift_ends_wait = false, kept_fence = false;
   };
@@ -86,8 +87,9 @@ class Reports {
     const int charge = static_cast<int>(std::lround(100 * std::clamp(f.battery_ratio, 0.0, 1.0)));
     const int thrust = static_cast<int>(std::lround(100 * std::clamp(now_->thrust_ratio, 0.0, 1.0)));
     say(&S::engine_failed, line("no thrust from the motor"), "the motor gives thrust", "land ahead");
-    say(&S::engine_weak, line("weak motor, %d %% of its thrust", thrust), "the motor has its thrust",
-        "no go-around");
+    if (!now_->engine_failed)
+      say(&S::engine_weak, line("weak motor, %d %% of its thrust", thrust), "the motor has its thrust",
+          "no go-around");
     say(&S::battery_empty, line("battery empty, %d %%", charge), "battery not empty", "land now");
     say(&S::attitude_excessive,
         line("excessive attitude, roll %.0f, pitch %.0f deg", std::abs(f.roll_rad) / deg,
@@ -149,7 +151,7 @@ class Reports {
     constexpr double settled_s = 2, apart_s = 5;
     flew_ = flew_ || now_->airborne;
     since_s_ += dt;
-    if (flew_) return;
+    if (flew_ || f.aloft) return;
     const std::uint32_t bits = mask(now_->not_ready);
     same_s_ = bits == bits_ ? same_s_ + dt : 0;
     bits_ = bits;

@@ -73,6 +73,20 @@ TEST_CASE("each thing that is wrong on the ground is refused by its name, once")
   });
 }
 
+TEST_CASE("tail wind is found in the take-off run: less airspeed than ground speed") {
+  for (const double tail : {8.0, 9.0}) {
+    Stands w;
+    w.fly(10);
+    w.actuators.throttle_frac = 1;
+    for (double speed = 0; speed < 11; speed += 0.08) {
+      w.state.ground_speed_mps = speed;
+      w.state.airspeed_mps = std::max(speed - tail, 0.0);
+      w.fly(0.02);
+    }
+    CHECK(w.out.safety.not_ready.wind == (tail > 8.5));
+  }
+}
+
 TEST_CASE("what is allowed: no tube, no radio, wind below half of the cruise speed, 16 m to the fence") {
   Stands w;
   w.fence();

@@ -142,6 +142,15 @@ TEST_CASE(
   w.fly(121);
   w.state.height_m = 5;
   CHECK(w.fly(1).answer == SafetyAnswer::descend);
+  Watch flares;
+  flares.params.landing.value = true;
+  flares.fly(2);
+  flares.status.battery_frac = 0.05;
+  flares.state.height_m = 3.9;
+  CHECK(flares.fly(5).answer == SafetyAnswer::none);
+  CHECK(flares.out.safety.battery_empty);
+  flares.state.height_m = 4.1;
+  CHECK(flares.fly(0.1).answer == SafetyAnswer::glide);
   Watch cruises;
   cruises.fly(2);
   cruises.state.height_m = 11;

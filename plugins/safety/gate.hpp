@@ -14,25 +14,28 @@ struct GateLimits {
                    "open throttle without motion before a take-off, until the motor has failed"};
 };
 
-/// The motor of a take-off run: open throttle moves the aircraft.
+/// What only a take-off run shows, kept until a hand-over or a disarming: a motor that does not move the
+/// aircraft, and a tail wind.
 class RunUp {
  public:
   bool failed() const { return failed_; }
-  void step(bool obeyed, double throttle_frac, double ground_speed_mps, double within_s, double dt) {
-    constexpr double open_frac = 0.5, moves_mps = 1.5;
+  bool tail_wind() const { return tail_wind_; }
+  void step(bool obeyed, double throttle_frac, double ground_speed_mps, bool windy, double within_s,
+            double dt) {
+    constexpr double open_frac = 0.5, moves_mps = 1.5, rolls_mps = 2;
     if (!obeyed) {
-      failed_ = false;
-      open_s_ = 0;
+      *this = {};
       return;
     }
     const bool stands = throttle_frac > open_frac && ground_speed_mps < moves_mps;
     open_s_ = stands ? open_s_ + dt : 0;
     failed_ = failed_ || open_s_ >= within_s;
+    tail_wind_ = tail_wind_ || (windy && ground_speed_mps > rolls_mps);
   }
 
  private:
   double open_s_ = 0;
-  bool failed_ = false;
+  bool failed_ = false, tail_wind_ = false;
 };
 
 inline bool any(const NotReady& n) {

@@ -184,6 +184,7 @@ inline Reports::Facts Monitor::facts(const Inputs& in, const Params& p) const {
   f.room_m = polygon_.given() ? polygon_.room_m(s.position_m.north, s.position_m.east) : not_given;
   f.below_ceiling_m = ceiling_m_ - s.height_m;
   f.above_floor_m = s.height_m - floor_m_;
+  f.tail_wind = run_up_.tail_wind();
   f.aloft = aloft_s_ > 0;
   f.by_side = now_.fence_margin_m < p.fencing.fence_margin;
   f.drift_ends_wait = drift_ends_wait_;
@@ -366,7 +367,8 @@ inline void Monitor::gate(const Inputs& in, const Params& p, double dt) {
   const bool fresh = in.health && !in.health.stale();
   const double throttle = in.actuators ? in.actuators->throttle_frac : 0;
   const bool run = in.status && in.status->armed && obeyed(in) && !now_.airborne && s.velocity_valid;
-  run_up_.step(run, throttle, s.ground_speed_mps, p.gate.motor_test, dt);
+  const bool windy = ground_wind_mps_ > p.gate.take_off_wind * p.airframe->limits.airspeed_cruise_mps;
+  run_up_.step(run, throttle, s.ground_speed_mps, windy, p.gate.motor_test, dt);
   NotReady& n = now_.not_ready;
   n = {};
   now_.ready = false;
@@ -377,7 +379,7 @@ inline void Monitor::gate(const Inputs& in, const Params& p, double dt) {
   n.pitot = fresh && gone(in.health->pitot);
   n.radio = p.radio.radio_required || radio_heard_ ? !radio_there_ : false;
   n.battery = now_.battery_low || now_.battery_empty;
-  n.wind = ground_wind_mps_ > p.gate.take_off_wind * p.airframe->limits.airspeed_cruise_mps;
+  n.wind = windy || run_up_.tail_wind();
   n.fence = now_.fence_margin_m < margin;
   n.height = now_.height_margin_m < margin;
   n.motor = run_up_.failed();

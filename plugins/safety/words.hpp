@@ -24,6 +24,7 @@ class Reports {
     double battery_ratio = 1, wind_mps = 0, ground_wind_mps = 0, roll_rad = 0, pitch_rad = 0;
     double room_m = 0;                              ///< to the nearest side of the fence, now
     double below_ceiling_m = 0, above_floor_m = 0;  ///< now
+    bool tail_wind = false;                         ///< found in a take-off run
     bool aloft = false;                             ///< off the ground, for however short a time
     bool by_side = false;                           ///< it is a side that the turn back comes too near to
     bool drift_ends_wait = false, kept_fence = false;
@@ -181,7 +182,7 @@ class Reports {
     add(n.motor, line("no thrust from the motor"));
     add(n.fence, side(f.room_m));
     add(n.height, ceiling(f.below_ceiling_m));
-    add(n.wind, line("wind %.0f m/s", f.ground_wind_mps));
+    add(n.wind, f.tail_wind ? line("tail wind in the run") : line("wind %.0f m/s", f.ground_wind_mps));
     add(n.pitot, line("pitot"));
     add(n.battery, line("battery"));
     add(n.radio, line("radio"));

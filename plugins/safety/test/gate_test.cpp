@@ -84,6 +84,11 @@ TEST_CASE("tail wind is found in the take-off run: less airspeed than ground spe
       w.fly(0.02);
     }
     CHECK(w.out.safety.not_ready.wind == (tail > 8.5));
+    w.state.ground_speed_mps = w.state.airspeed_mps = 0;  // standing, the tube shows nothing of it
+    CHECK(w.fly(30).not_ready.wind == (tail > 8.5));
+    CHECK(w.told_of("not ready: tail wind in the run") == (tail > 8.5));
+    w.status.in_control = false;
+    CHECK_FALSE(w.fly(1).not_ready.wind);
   }
 }
 

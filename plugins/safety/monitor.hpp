@@ -367,7 +367,8 @@ inline void Monitor::gate(const Inputs& in, const Params& p, double dt) {
   const bool fresh = in.health && !in.health.stale();
   const double throttle = in.actuators ? in.actuators->throttle_frac : 0;
   const bool run = in.status && in.status->armed && obeyed(in) && !now_.airborne && s.velocity_valid;
-  const bool windy = ground_wind_mps_ > p.gate.take_off_wind * p.airframe->limits.airspeed_cruise_mps;
+  const double most_wind = p.gate.take_off_wind * p.airframe->limits.airspeed_cruise_mps;
+  const bool windy = ground_wind_mps_ > (now_.not_ready.wind ? 0.8 : 1.0) * most_wind;
   run_up_.step(run, throttle, s.ground_speed_mps, windy, p.gate.motor_test, dt);
   NotReady& n = now_.not_ready;
   n = {};

@@ -73,6 +73,16 @@ TEST_CASE("each thing that is wrong on the ground is refused by its name, once")
   });
 }
 
+TEST_CASE("a lull is no end of the wind: below four fifths of the limit it is ready again") {
+  Stands w;
+  w.state.airspeed_mps = 9;
+  CHECK_FALSE(w.fly(30).ready);
+  w.state.airspeed_mps = 7;
+  CHECK_FALSE(w.fly(60).ready);
+  w.state.airspeed_mps = 6.5;
+  CHECK(w.fly(60).ready);
+}
+
 TEST_CASE("tail wind is found in the take-off run: less airspeed than ground speed") {
   for (const double tail : {8.0, 9.0}) {
     Stands w;

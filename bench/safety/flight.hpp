@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -24,9 +25,10 @@ namespace fulmar::safety_flights {
 namespace fs = std::filesystem;
 
 /// Where a flight ends.
-enum class End : std::uint8_t { on_ground, broken, aloft };
+enum class End : std::uint8_t { on_ground, broken, aloft, stood };
 inline const char* word(End end) {
-  return end == End::on_ground ? "on the ground, whole" : end == End::broken ? "broken" : "in the air";
+  static constexpr std::array words{"on the ground, whole", "broken", "in the air", "did not take off"};
+  return words[static_cast<std::size_t>(end)];
 }
 
 struct Row {
@@ -39,9 +41,101 @@ struct Row {
   double at_s = 60;
   End end = End::on_ground;
   std::vector<std::string> phases{};  ///< that have to be flown, in this order
-  double south_m = 1e9,
-         up_m = 1e9;  ///< the side of the fence that it comes near, south of the origin, and the ceiling
+  double south_m = 0, up_m = 0;       ///< side and ceiling of the fence, where they are not the usual ones
+  double below_m = 0;                 ///< it fails below this height of the landing, not at a time
+  bool may_be_told = false;           ///< as well as not: it lands before
 };
+
+/// Before the take-off, in it, on final, and on the way back.
+inline std::vector<Row> rows_of_takeoff_and_final(const std::string& a) {
+  using S = SafetyState;
+  return {
+      {.airframe = a,
+       .name = "motor, before the take-off",
+       .does = "closes the throttle after 3 s",
+       .failing = "what: engine, kind: off, at: 0",
+       .end = End::stood,
+       .phases = {"takeoff", "grounded"}},
+      {.airframe = a,
+       .name = "stands outside the fence",
+       .does = "keeps the throttle closed",
+       .sim = "start_north: 900 m",
+       .end = End::stood,
+       .phases = {"grounded"}},
+      {.airframe = a,
+       .name = "head wind of 12 m/s, standing",
+       .does = "keeps the throttle closed",
+       .sim = "wind_ned: [8.5, -8.5, 0]",
+       .end = End::stood,
+       .phases = {"grounded"}},
+      {.airframe = a,
+       .name = "pitot tube stuck, from before the take-off",
+       .does = "returns home without it, lands",
+       .failing = "what: pitot, kind: stuck, at: 0",
+       .cause = &S::pitot_lost,
+       .told_within_s = 12,
+       .at_s = 0,
+       .phases = {"home", "fast_approach", "fast_flare", "roll_out"}},
+      {.airframe = a,
+       .name = "position, in the climb",
+       .does = "flies home by reckoning, circles, descends without motor",
+       .failing = "what: gnss_position, kind: off, at: 4",
+       .cause = &S::gnss_lost,
+       .at_s = 4,
+       .phases = {"wait", "descend", "roll_out"}},
+      {.airframe = a,
+       .name = "position, in 8 m/s of wind",
+       .does = "flies home by reckoning, circles, descends without motor",
+       .failing = "what: gnss_position, kind: off",
+       .sim = "wind_ned: [5.66, -5.66, 0]",
+       .cause = &S::gnss_lost,
+       .phases = {"wait", "descend", "roll_out"}},
+      {.airframe = a,
+       .name = "position and motor at once",
+       .does = "glides",
+       .failing = "what: gnss_position, kind: off, then_what: engine, then_kind: off, then_at: 60",
+       .cause = &S::engine_failed,
+       .phases = {"glide", "roll_out"}},
+      {.airframe = a,
+       .name = "radio, then the pitot tube while returning",
+       .does = "returns home, lands without airspeed",
+       .failing = "what: radio, kind: off, then_what: pitot, then_kind: off, then_at: 75",
+       .cause = &S::pitot_lost,
+       .told_within_s = 20,
+       .phases = {"home", "fast_approach", "fast_flare", "roll_out"}},
+      {.airframe = a,
+       .name = "radio, then the position while returning",
+       .does = "returns home, by reckoning, descends in a circle without motor",
+       .failing = "what: radio, kind: off, then_what: gnss_position, then_kind: off, then_at: 75",
+       .cause = &S::gnss_lost,
+       .told_within_s = 20,
+       .phases = {"home", "wait", "descend", "roll_out"}},
+      {.airframe = a,
+       .name = "position, below 11 m on final",
+       .does = "finishes the landing",
+       .failing = "what: gnss_position, kind: off, below: 11",
+       .cause = &S::gnss_lost,
+       .phases = {"approach", "flare", "roll_out"},
+       .below_m = 11,
+       .may_be_told = true},
+      {.airframe = a,
+       .name = "radio and pitot tube, below 25 m on final",
+       .does = "finishes the landing",
+       .failing = "what: radio, kind: off, then_what: pitot, then_kind: off, then_at: 0.1, below: 25",
+       .cause = &S::pitot_lost,
+       .phases = {"approach", "flare", "roll_out"},
+       .below_m = 25,
+       .may_be_told = true},
+      {.airframe = a,
+       .name = "motor, below 20 m on final",
+       .does = "lands, short of the runway or on it",
+       .failing = "what: engine, kind: off, below: 20",
+       .cause = &S::engine_failed,
+       .phases = {"approach", "roll_out"},
+       .below_m = 20,
+       .may_be_told = true},
+  };
+}
 
 inline std::vector<Row> rows_of(const std::string& a) {
   using S = SafetyState;
@@ -178,7 +272,16 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .at_s = 0,
        .phases = {"home", "settle", "roll_out"}},
   };
+  rows.push_back({.airframe = a,
+                  .name = "weak motor",
+                  .does = "returns home and lands with what it still gives; without, it glides",
+                  .failing = "what: engine, kind: weak",
+                  .cause = &S::engine_weak,
+                  .told_within_s = 60,
+                  .may_be_told = x8,
+                  .phases = x8 ? std::vector<std::string>{"approach"} : std::vector<std::string>{"home"}});
   if (big) return rows;
+  for (Row& row : rows_of_takeoff_and_final(a)) rows.push_back(std::move(row));
   // Two things at once: the graver one is answered.
   rows.push_back({.airframe = a,
                   .name = "radio, then the motor",
@@ -212,15 +315,15 @@ inline std::vector<Row> rows_of(const std::string& a) {
 inline std::string mission_text(const Row& row) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs";
   const auto list = [](const std::string& s) { return s.empty() ? "" : ", " + s; };
-  const std::string failing =
-      "  failing: {use: " FULMAR_TEST_PLUGIN_DIR "/failing.so, " +
-      std::string(row.relayed ? "in: {status: vehicle.status, state: nav.state}, " : "") + "params: {" +
-      row.failing + "}}\n";
+  const std::string failing = "  failing: {use: " FULMAR_TEST_PLUGIN_DIR "/failing.so, " +
+                              "in: {status: vehicle.status, state: nav.state}, params: {" + row.failing +
+                              "}}\n";
   const std::string watch = std::string("  watch: {") +
                             (row.relayed ? "in: {status: failing.status, state: failing.state}, " : "") +
                             "params: {";
-  const std::string done =
-      row.end == End::aloft ? "manage.progress.circuits >= 1" : "ground.state.landed";
+  const std::string done = row.end == End::aloft   ? "manage.progress.circuits >= 1"
+                           : row.end == End::stood ? "time > 60 s"
+                                                   : "ground.state.landed";
   const std::string head = "mission: failing\nlive: off\ntimeout: 900 s\ndone: {when: \"" + done +
                            "\", for: 10 s}\nextends: " + configs + "/missions/";
   if (row.airframe == "anaconda")
@@ -276,14 +379,25 @@ struct Flown {
   bool in_order = false;      ///< all of the row's phases were flown
   double touch_sink_mps = 0;  ///< true, at the first touch
   double home_m = 0;          ///< true, from home where it stopped
-  double outside_m = -1e9;    ///< true, beyond the row's sides of the fence, at most
+  double outside_m = -1e9;    ///< true, beyond the fence, at most
   double seconds = 0;         ///< from the failure to the ground
   std::string outcome;
   bool kept(const Row& row) const {
-    const bool told = row.cause ? told_s >= 0 && told_s <= row.told_within_s : !told_else;
-    return end == row.end && told && in_order && outside_m <= 0;
+    const bool in_time = told_s >= 0 && told_s <= row.told_within_s;
+    const bool told = row.cause ? in_time || (row.may_be_told && told_s < 0) : !told_else;
+    return end == row.end && told && in_order && (outside_m <= 0 || end == End::stood);
   }
 };
+
+/// How far beyond the row's fence a position is; negative: inside.
+inline double outside(const Row& row, const VehicleState& x) {
+  const bool big = row.airframe != "anaconda", near = row.watch.find("fence: ") != std::string::npos;
+  const double north = big ? 1200 : 600, east = big ? 600 : 350, west = big ? 1300 : 700;
+  const double south = row.south_m > 0 ? row.south_m : big ? 1000 : 600;
+  const double up = row.up_m > 0 ? row.up_m : near ? 1e9 : big ? 200 : 150;
+  const auto& at = x.position_m;
+  return std::max({at.north - north, -at.north - south, at.east - east, -at.east - west, x.height_m - up});
+}
 
 inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
   using namespace core;
@@ -300,7 +414,7 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
   Flown f;
   std::size_t next = 0;
   bool flew = false;
-  double touched_s = -1, climb_mps = 0;
+  double touched_s = -1, climb_mps = 0, at_s = row.below_m > 0 ? 1e9 : row.at_s, top_m = 0;
   while (flight.step()) {
     const double now = 1e-9 * static_cast<double>(flight.now_ns());
     if (next < row.phases.size() && flight.phase() == row.phases[next]) ++next;
@@ -309,11 +423,13 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
     const auto* const v = reinterpret_cast<const ContactTruth*>(flight.sample(contact));
     if (!x || !v) continue;
     if (safety) {
-      if (row.cause && safety->*row.cause && f.told_s < 0 && now >= row.at_s) f.told_s = now - row.at_s;
-      f.told_else = f.told_else || (safety->airborne && safety->answer != SafetyAnswer::none &&
-                                    (now < row.at_s || !row.cause));
+      if (row.cause && safety->*row.cause && f.told_s < 0 && now >= at_s) f.told_s = now - at_s;
+      f.told_else = f.told_else ||
+                    (safety->airborne && safety->answer != SafetyAnswer::none && (now < at_s || !row.cause));
     }
-    f.outside_m = std::max({f.outside_m, -x->position_m.north - row.south_m, x->height_m - row.up_m});
+    f.outside_m = std::max(f.outside_m, outside(row, *x));
+    top_m = std::max(top_m, x->height_m);
+    if (at_s > 1e8 && top_m > 40 && x->height_m < row.below_m) at_s = now;
     flew = flew || x->height_m > 5;
     if (flew && v->touching && touched_s < 0) touched_s = now, f.touch_sink_mps = -climb_mps;
     climb_mps = x->climb_rate_mps;
@@ -324,9 +440,10 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
   f.outcome = result.reason;
   f.in_order = next == row.phases.size();
   f.end = result.reason.find("crashed") != std::string::npos ? End::broken
+          : !flew                                            ? End::stood
           : touched_s >= 0                                   ? End::on_ground
                                                              : End::aloft;
-  f.seconds = touched_s - row.at_s;
+  f.seconds = touched_s - at_s;
   return f;
 }
 

@@ -377,7 +377,7 @@ inline void Monitor::gate(const Inputs& in, const Params& p, double dt) {
   const double margin = p.fencing.fence_margin;
   n.estimator = !s.attitude_valid || !s.height_valid || !s.velocity_valid;
   n.position = !s.position_valid || (fresh && gone(in.health->gnss_position));
-  n.pitot = fresh && gone(in.health->pitot);
+  n.pitot = fresh && in.health->pitot.state >= SensorState::stuck;  // rejected: a tail wind does that
   n.radio = p.radio.radio_required || radio_heard_ ? !radio_there_ : false;
   n.battery = now_.battery_low || now_.battery_empty;
   n.wind = windy || run_up_.tail_wind();

@@ -33,13 +33,17 @@ inline double effectiveness(const Airframe& a, double throttle_frac, double thru
   return low;
 }
 
+/// A loss of that share of the drag counts as level flight: model and weather are not better than that.
+inline constexpr double level_ratio = 0.25;
+
 /// Whether a throttle holds level flight at some speed from just above the least to cruise.
 inline bool holds_level(const Airframe& a, double throttle_frac, double rho) {
   constexpr int steps = 6;
   const double from = 1.1 * a.limits.airspeed_min_mps;
   for (int i = 0; i <= steps; ++i) {
     const double Va = from + (a.limits.airspeed_cruise_mps - from) * i / steps;
-    if (thrust_of(a, throttle_frac, Va, rho) > turn_trim(a, 0, Va, rho).drag_newton) return true;
+    const double drag = turn_trim(a, 0, Va, rho).drag_newton;
+    if (thrust_of(a, throttle_frac, Va, rho) > (1 - level_ratio) * drag) return true;
   }
   return false;
 }
@@ -75,7 +79,6 @@ class Motor {
     const double weight = failed_.raised() ? 1 : std::clamp((e.engine_share - ratio_) / sure_ratio, 0.0, 1.0);
     const bool missing = demanded && expected_ - found_ > e.engine_missing * mg;
     const bool little = missing && ratio_ < std::max(e.engine_share, e.weak_share);
-    constexpr double level_ratio = 0.25;  // of the drag: a loss that small is level flight
     const bool flies =
         little && (gain_ > -level_ratio * drag ||
                    holds_level(a, full_frac * effectiveness(a, throttle_, found_, Va, rho), rho));

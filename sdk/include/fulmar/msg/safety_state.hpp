@@ -23,7 +23,7 @@ enum class SafetyTurn : std::uint8_t { either, left, right };
 struct NotReady {
   bool estimator = false;  ///< attitude, height or velocity are not valid
   bool position = false;   ///< not valid, or the receiver fails
-  bool pitot = false;      ///< silent, stuck or rejected
+  bool pitot = false;      ///< silent or stuck
   bool radio = false;      ///< lost, or required and silent
   bool battery = false;    ///< low or empty
   bool wind = false;       ///< above the limit of a take-off

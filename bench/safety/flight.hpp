@@ -278,8 +278,8 @@ inline std::vector<Row> rows_of(const std::string& a) {
                   .failing = "what: engine, kind: weak",
                   .cause = &S::engine_weak,
                   .told_within_s = 60,
-                  .may_be_told = x8,
-                  .phases = x8 ? std::vector<std::string>{"approach"} : std::vector<std::string>{"home"}});
+                  .phases = x8 ? std::vector<std::string>{"approach"} : std::vector<std::string>{"home"},
+                  .may_be_told = x8});
   if (big) return rows;
   for (Row& row : rows_of_takeoff_and_final(a)) rows.push_back(std::move(row));
   // Two things at once: the graver one is answered.
@@ -315,9 +315,10 @@ inline std::vector<Row> rows_of(const std::string& a) {
 inline std::string mission_text(const Row& row) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs";
   const auto list = [](const std::string& s) { return s.empty() ? "" : ", " + s; };
-  const std::string failing = "  failing: {use: " FULMAR_TEST_PLUGIN_DIR "/failing.so, " +
-                              "in: {status: vehicle.status, state: nav.state}, params: {" + row.failing +
-                              "}}\n";
+  const std::string failing = "  failing: {use: " FULMAR_TEST_PLUGIN_DIR
+                              "/failing.so, "
+                              "in: {status: vehicle.status, state: nav.state}, params: {" +
+                              row.failing + "}}\n";
   const std::string watch = std::string("  watch: {") +
                             (row.relayed ? "in: {status: failing.status, state: failing.state}, " : "") +
                             "params: {";

@@ -9,7 +9,7 @@
 namespace fulmar::safety {
 
 struct GateLimits {
-  Param take_off_wind{0.5, "ratio", 0, 5, "wind over cruise airspeed, above which it is not ready"};
+  Param take_off_wind{0.55, "ratio", 0, 5, "wind over cruise airspeed, above which it is not ready"};
   Param motor_test{3, "s", 0, 60,
                    "open throttle without motion before a take-off, until the motor has failed"};
 };
@@ -30,7 +30,7 @@ class RunUp {
     const bool stands = throttle_frac > open_frac && ground_speed_mps < moves_mps;
     open_s_ = stands ? open_s_ + dt : 0;
     failed_ = failed_ || open_s_ >= within_s;
-    tail_wind_ = tail_wind_ || (windy && ground_speed_mps > rolls_mps);
+    tail_wind_ = tail_wind_ || (windy && throttle_frac > open_frac && ground_speed_mps > rolls_mps);
   }
 
  private:

@@ -66,47 +66,47 @@ TEST_CASE("each thing that is wrong on the ground is refused by its name, once")
   refuses(&NotReady::radio, "not ready: radio",
           [](Stands& w) { w.params.radio.radio_required.value = true; });
   refuses(&NotReady::battery, "not ready: battery", [](Stands& w) { w.status.battery_frac = 0.2; });
-  refuses(&NotReady::wind, "not ready: wind 9 m/s", [](Stands& w) { w.state.airspeed_mps = 9; });
+  refuses(&NotReady::wind, "not ready: wind 10 m/s", [](Stands& w) { w.state.airspeed_mps = 10; });
   refuses(&NotReady::wind, "not ready: wind ", [](Stands& w) {
-    w.state.wind_mps = {6, -8, 0};
+    w.state.wind_mps = {6.6, -8.8, 0};
     w.state.wind_valid = true;
   });
 }
 
 TEST_CASE("a lull is no end of the wind: below four fifths of the limit it is ready again") {
   Stands w;
-  w.state.airspeed_mps = 9;
+  w.state.airspeed_mps = 10;
   CHECK_FALSE(w.fly(30).ready);
-  w.state.airspeed_mps = 7;
+  w.state.airspeed_mps = 7.6;
   CHECK_FALSE(w.fly(60).ready);
-  w.state.airspeed_mps = 6.5;
+  w.state.airspeed_mps = 7.2;
   CHECK(w.fly(60).ready);
 }
 
 TEST_CASE("tail wind is found in the take-off run: less airspeed than ground speed") {
-  for (const double tail : {8.0, 9.0}) {
+  for (const double tail : {9.0, 10.0}) {
     Stands w;
     w.fly(10);
     w.actuators.throttle_frac = 1;
-    for (double speed = 0; speed < 11; speed += 0.08) {
+    for (double speed = 0; speed < 12; speed += 0.08) {
       w.state.ground_speed_mps = speed;
       w.state.airspeed_mps = std::max(speed - tail, 0.0);
       w.fly(0.02);
     }
-    CHECK(w.out.safety.not_ready.wind == (tail > 8.5));
+    CHECK(w.out.safety.not_ready.wind == (tail > 9.35));
     w.state.ground_speed_mps = w.state.airspeed_mps = 0;  // standing, the tube shows nothing of it
-    CHECK(w.fly(30).not_ready.wind == (tail > 8.5));
-    CHECK(w.told_of("not ready: tail wind in the run") == (tail > 8.5));
+    CHECK(w.fly(30).not_ready.wind == (tail > 9.35));
+    CHECK(w.told_of("not ready: tail wind in the run") == (tail > 9.35));
     w.status.in_control = false;
     CHECK_FALSE(w.fly(1).not_ready.wind);
   }
 }
 
-TEST_CASE("what is allowed: no tube, no radio, wind below half of the cruise speed, 16 m to the fence") {
+TEST_CASE("what is allowed: no tube, no radio, wind below 0.55 of the cruise speed, 16 m to the fence") {
   Stands w;
   w.fence();
   w.health.pitot.state = SensorState::never;
-  w.state.airspeed_mps = 8;
+  w.state.airspeed_mps = 9;
   w.state.position_m.east = 984;
   CHECK(w.fly(30).ready);
 }

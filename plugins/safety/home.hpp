@@ -215,17 +215,28 @@ struct Home {
     if (s.reset_count != resets_) height_m_ -= s.reset_position_m.down, resets_ = s.reset_count;
     hold(s, p, out.command);
     reckons_ = s.position_valid || (reckons_ && located(s, p.reckon_std));
-    if (reckons_) return orbit(s, target_, radius(s, p), p, out.command);
+    if (reckons_) return orbit(s, target_, gentle_radius(s, p), p, out.command);
     out.command.lateral = LateralMode::acceleration;
     out.command.roll_feedforward_rad = p.wait_bank;
     out.command.lateral_acceleration_mps2 = isa::g0 * std::tan(p.wait_bank);
   }
 
-  /// The ground is taken for as high as at home.
+  /// The bank of the waiting circle with the wind behind; where home is by reckoning is not known better.
+  static double gentle_radius(const VehicleState& s, const Params& p) {
+    const double fastest = p.airframe->limits.airspeed_cruise_mps + std::hypot(wind(s).north, wind(s).east);
+    return std::max(radius(s, p), 0.7 * fastest * fastest / (isa::g0 * std::tan(p.wait_bank)));
+  }
+
+  /// The ground is taken for as high as at home. Near it the wings are level.
   void descend(const VehicleState& s, const Params& p, Outputs& out) {
     wait(s, p, out);
-    out.command.height_m = target_.up_m;
-    out.command.airspeed_mps = best_glide(*p.airframe, rho(s), 0, p.glide_margin).airspeed_mps;
+    GuidanceCommand& c = out.command;
+    c.height_m = target_.up_m;
+    c.airspeed_mps = best_glide(*p.airframe, rho(s), 0, p.glide_margin).airspeed_mps;
+    if (!reckons_ || s.height_m - target_.up_m > p.straight_height) return;
+    c.lateral = LateralMode::acceleration;
+    c.roll_feedforward_rad = 0;
+    c.lateral_acceleration_mps2 = 0;
   }
 
   void hold(const VehicleState& s, const Params& p, GuidanceCommand& c) const {

@@ -264,9 +264,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
       {.airframe = a,
        .name = "too much wind",
        .does = "returns home, settles into the wind without motor",
-       .sim = gale + (x8    ? ""
-                      : big ? ", start_height: 100 m"
-                            : ", start_height: 70 m"),
+       .sim = gale + (big ? ", start_height: 100 m" : ", start_height: 70 m"),
        .cause = &S::wind_excessive,
        .told_within_s = 60,
        .at_s = 0,
@@ -435,7 +433,7 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
     if (flew && v->touching && touched_s < 0) touched_s = now, f.touch_sink_mps = -climb_mps;
     climb_mps = x->climb_rate_mps;
     f.home_m = std::hypot(x->position_m.north, x->position_m.east);
-    if (touched_s >= 0 && row.cause == &SafetyState::wind_excessive && now - touched_s > 2) break;
+    if (touched_s >= 0 && row.cause == &SafetyState::wind_excessive && now - touched_s > 5) break;
   }
   const FlightResult result = flight.finish();
   f.outcome = result.reason;

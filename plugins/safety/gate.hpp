@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What speaks against a take-off.
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "fulmar/msg/safety_state.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
 
 namespace fulmar::safety {
@@ -36,6 +38,26 @@ class RunUp {
  private:
   double open_s_ = 0;
   bool failed_ = false, tail_wind_ = false;
+};
+
+/// Wind before the filter has one, along the aircraft. What the tube measures beyond the ground speed is head
+/// wind, what it measures less is tail wind, which only a take-off run shows.
+class GroundWind {
+ public:
+  double mps() const { return mps_; }
+  void step(const VehicleState& s, double smoothing_s, double dt) {
+    if (!s.velocity_valid) return;
+    constexpr double rolls_mps = 2, run_smoothing_s = 0.3;
+    const bool stands = s.ground_speed_mps < rolls_mps;
+    const double along = s.airspeed_valid ? std::abs(s.airspeed_mps - s.ground_speed_mps) : 0;
+    const double filter = stands && s.wind_valid ? std::hypot(s.wind_mps.north, s.wind_mps.east) : 0.0;
+    since_s_ += dt;
+    const double share = 1 - std::exp(-dt / (stands ? smoothing_s : run_smoothing_s));
+    mps_ += std::max(share, dt / since_s_) * (std::max(filter, along) - mps_);  // the mean, at first
+  }
+
+ private:
+  double mps_ = 0, since_s_ = 1e-3;
 };
 
 inline bool any(const NotReady& n) {

@@ -65,7 +65,6 @@ struct Monitor {
   void battery(const Inputs& in, const Params& p, double dt);
   void motor(const Inputs& in, const Params& p, double dt);
   void wind(const VehicleState& s, const Params& p, double dt);
-  void wind_on_ground(const VehicleState& s, const WindLimits& w, double dt);
   bool leaves_by_drift(const VehicleState& s, const Params& p) const;
   void gate(const Inputs& in, const Params& p, double dt);
   SafetyAnswer answer(const VehicleState& s, const Params& p, double dt);
@@ -73,18 +72,11 @@ struct Monitor {
   void flags();
   Reports::Facts facts(const Inputs& in, const Params& p) const;
 
-  static constexpr double there_volt = 1;  ///< below it there is no battery, or none that is measured
   static bool gone(const SensorHealth& h) {
     return h.state == SensorState::silent || h.state == SensorState::stuck || h.state == SensorState::refused;
   }
   /// Commands move the aircraft, as far as the vehicle says.
   bool obeyed(const Inputs& in) const { return !in.status || (in.status->in_control && !now_.link_lost); }
-  static double volt_share(const Inputs& in, const Params& p) {
-    const double full = p.airframe->propulsion.battery_volt;
-    return in.status && in.status->battery_volt > there_volt && full > 0
-               ? std::min(in.status->battery_volt / full, 1.0)
-               : 1;  // the throttle is a share of what the battery has
-  }
   struct Alarms {
     Alarm fence, gnss, pitot, radio, link, low, empty, attitude, wind, drifting, estimator;
   };
@@ -94,6 +86,7 @@ struct Monitor {
   Alarms alarms_;
   Motor motor_;
   RunUp run_up_;
+  GroundWind ground_wind_;
   Reckoned reckoned_;
   Reports reports_;
   SafetyState now_;
@@ -101,7 +94,7 @@ struct Monitor {
   bool kept_fence_ = false;
   bool radio_heard_ = false, airspeed_heard_ = false, position_heard_ = false;
   bool radio_there_ = false, drift_ends_wait_ = false;
-  double aloft_s_ = 0, ground_wind_mps_ = 0, ground_wind_s_ = 1e-3;
+  double aloft_s_ = 0;
   Vec3<Ned> wind_;
   bool wind_known_ = false;
 };
@@ -178,7 +171,7 @@ inline Reports::Facts Monitor::facts(const Inputs& in, const Params& p) const {
   Reports::Facts f;
   f.battery_ratio = in.status ? in.status->battery_frac : 1;
   f.wind_mps = now_.wind_ratio * p.airframe->limits.airspeed_cruise_mps;
-  f.ground_wind_mps = ground_wind_mps_;
+  f.ground_wind_mps = ground_wind_.mps();
   f.roll_rad = s.roll_rad;
   f.pitch_rad = s.pitch_rad;
   f.room_m = polygon_.given() ? polygon_.room_m(s.position_m.north, s.position_m.east) : not_given;
@@ -313,7 +306,7 @@ inline void Monitor::motor(const Inputs& in, const Params& p, double dt) {
   const VehicleState& s = *in.state;
   if (!obeyed(in)) return motor_.reset();
   if (!now_.airborne || !in.actuators || !s.attitude_valid || !s.velocity_valid) return;
-  const double volt = volt_share(in, p);
+  const double volt = in.status ? volt_share(in.status->battery_volt, *p.airframe) : 1;
   motor_.step(s, *p.airframe, volt * std::clamp(in.actuators->throttle_frac, 0.0, 1.0), volt, p.engine, dt);
 }
 
@@ -331,21 +324,7 @@ inline void Monitor::wind(const VehicleState& s, const Params& p, double dt) {
   const double most = p.airframe->limits.airspeed_max_mps / p.airframe->limits.airspeed_cruise_mps;
   alarms_.drifting.step(known && now_.wind_ratio > 0.95 * most, known && now_.wind_ratio < 0.9 * most,
                         w.wind_raise, w.wind_clear, dt);
-  if (!now_.airborne) wind_on_ground(s, w, dt);
-}
-
-/// The filter has no wind yet. What the tube measures beyond the ground speed is head wind, what it measures
-/// less is tail wind, which only a take-off run shows.
-inline void Monitor::wind_on_ground(const VehicleState& s, const WindLimits& w, double dt) {
-  if (!s.velocity_valid) return;
-  constexpr double rolls_mps = 2, run_smoothing_s = 0.3;
-  const bool stands = s.ground_speed_mps < rolls_mps;
-  const double along = s.airspeed_valid ? std::abs(s.airspeed_mps - s.ground_speed_mps) : 0;
-  const double mps =
-      std::max(stands && s.wind_valid ? std::hypot(s.wind_mps.north, s.wind_mps.east) : 0.0, along);
-  ground_wind_s_ += dt;
-  const double share = 1 - std::exp(-dt / (stands ? w.wind_smoothing.value : run_smoothing_s));
-  ground_wind_mps_ += std::max(share, dt / ground_wind_s_) * (mps - ground_wind_mps_);  // the mean, at first
+  if (!now_.airborne) ground_wind_.step(s, w.wind_smoothing, dt);
 }
 
 /// Whether the drift of the descent, by the last wind, takes it out of the fence: it cannot wait longer.
@@ -368,7 +347,7 @@ inline void Monitor::gate(const Inputs& in, const Params& p, double dt) {
   const double throttle = in.actuators ? in.actuators->throttle_frac : 0;
   const bool run = in.status && in.status->armed && obeyed(in) && !now_.airborne && s.velocity_valid;
   const double most_wind = p.gate.take_off_wind * p.airframe->limits.airspeed_cruise_mps;
-  const bool windy = ground_wind_mps_ > (now_.not_ready.wind ? 0.8 : 1.0) * most_wind;
+  const bool windy = ground_wind_.mps() > (now_.not_ready.wind ? 0.8 : 1.0) * most_wind;
   run_up_.step(run, throttle, s.ground_speed_mps, windy, p.gate.motor_test, dt);
   NotReady& n = now_.not_ready;
   n = {};

@@ -22,6 +22,14 @@ struct EngineLimits {
   Param weak_raise{8, "s", 0, 600, "of that, until it is reported"};
 };
 
+inline constexpr double there_volt = 1;  ///< below it there is no battery, or none that is measured
+
+/// The throttle is a share of what the battery has.
+inline double volt_share(double volt, const Airframe& a) {
+  const double full = a.propulsion.battery_volt;
+  return volt > there_volt && full > 0 ? std::min(volt / full, 1.0) : 1;
+}
+
 /// Share of the throttle that a motor still obeys: the one at which the model gives the thrust that is found.
 inline double effectiveness(const Airframe& a, double throttle_frac, double thrust_newton, double Va,
                             double rho) {

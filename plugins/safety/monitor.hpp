@@ -180,6 +180,7 @@ inline Reports::Facts Monitor::facts(const Inputs& in, const Params& p) const {
   f.tail_wind = run_up_.tail_wind();
   f.aloft = aloft_s_ > 0;
   f.by_side = now_.fence_margin_m < p.fencing.fence_margin;
+  f.landing = p.landing;
   f.drift_ends_wait = drift_ends_wait_;
   f.kept_fence = kept_fence_;
   return f;

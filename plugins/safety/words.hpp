@@ -27,7 +27,7 @@ class Reports {
     bool tail_wind = false;                         ///< found in a take-off run
     bool aloft = false;                             ///< off the ground, for however short a time
     bool by_side = false;                           ///< it is a side that the turn back comes too near to
-    bool drift_ends_wait = false, kept_fence = false;
+    bool landing = false, drift_ends_wait = false, kept_fence = false;
   };
 
   void step(const SafetyState& now, const Facts& facts, const Tick& tick, double dt, Queue& out) {
@@ -35,6 +35,7 @@ class Reports {
     tick_ = &tick;
     out_ = &out;
     said_ = false;
+    lands_ = facts.landing;
     faults(facts);
     place(facts);
     changes(facts);
@@ -47,7 +48,10 @@ class Reports {
       "goes on",           "levels the wings",  "glides down", "descends in a circle, motor off",
       "circles and waits", "returns and lands", "returns home"};
 
-  const char* answer() const { return does[static_cast<std::size_t>(now_->answer)]; }
+  const char* answer() const {
+    if (lands_ && now_->answer == SafetyAnswer::none) return "finishes the landing";
+    return does[static_cast<std::size_t>(now_->answer)];
+  }
 
   void push(const char* text, Severity severity) {
     Notice notice;
@@ -197,7 +201,7 @@ class Reports {
   SafetyState told_;
   std::uint32_t bits_ = 0, listed_ = 0;
   double same_s_ = 0, since_s_ = 1e9;
-  bool said_ = false, flew_ = false;
+  bool said_ = false, flew_ = false, lands_ = false;
 };
 
 }  // namespace fulmar::safety

@@ -137,6 +137,7 @@ TEST_CASE(
   w.state.position_valid = false;
   CHECK(w.fly(10).answer == SafetyAnswer::none);
   CHECK(w.out.safety.gnss_lost);
+  CHECK(w.told.find("no position: finishes the landing. Pilot: ") != std::string::npos);
   w.state.height_m = 13;
   CHECK(w.fly(0.1).answer == SafetyAnswer::wait);
   w.fly(121);

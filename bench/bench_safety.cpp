@@ -13,7 +13,7 @@ namespace {
 
 struct Worst {
   unsigned flown = 0, kept = 0, told_else = 0;
-  std::array<unsigned, 3> ends{};
+  std::array<unsigned, 4> ends{};
   double told_s = -1, sink_mps = 0, home_m = 0, outside_m = -1e9, seconds = 0;
   void add(const Row& row, const Flown& f) {
     ++flown, kept += f.kept(row), told_else += f.told_else;
@@ -24,11 +24,9 @@ struct Worst {
   }
 };
 
-bool fenced(const Worst& w) { return w.outside_m > -1e6; }
-
 std::string ends(const Worst& w) {
   std::string text;
-  for (const End end : {End::on_ground, End::broken, End::aloft}) {
+  for (const End end : {End::on_ground, End::broken, End::aloft, End::stood}) {
     const unsigned n = w.ends[static_cast<std::size_t>(end)];
     if (n == 0) continue;
     if (!text.empty()) text += ", ";
@@ -38,9 +36,14 @@ std::string ends(const Worst& w) {
 }
 
 void print(const Row& row, const Worst& w) {
-  char told[32] = "", inside[32] = "", down[64] = " | ";
-  if (row.cause && row.at_s > 0) std::snprintf(told, sizeof told, "%.1f", w.told_s);
-  if (fenced(w)) std::snprintf(inside, sizeof inside, "%.0f", -w.outside_m);
+  char told[32] = "before the throttle", inside[32] = "stood", down[64] = "flies on | flies on";
+  if (row.end != End::stood) {
+    std::snprintf(told, sizeof told, row.cause ? "not before the ground" : "nothing to report");
+    std::snprintf(inside, sizeof inside, "%.0f", -w.outside_m);
+  } else {
+    std::snprintf(down, sizeof down, "stood | stood");
+  }
+  if (w.told_s >= 0) std::snprintf(told, sizeof told, "%.1f", w.told_s);
   if (row.end == End::on_ground) std::snprintf(down, sizeof down, "%.0f | %.1f", w.seconds, w.sink_mps);
   std::printf("| %s | %s | %s | %s | %s | %.0f | %s | %s |\n", row.airframe.c_str(), row.name.c_str(),
               row.does.c_str(), told, down, w.home_m, inside, ends(w).c_str());
@@ -59,7 +62,7 @@ nlohmann::json json_of(const Row& row, const Worst& w) {
           {"down_s", w.seconds},
           {"touch_sink_mps", w.sink_mps},
           {"from_home_m", w.home_m},
-          {"inside_fence_m", or_null(fenced(w), -w.outside_m)}};
+          {"inside_fence_m", or_null(row.end != End::stood, -w.outside_m)}};
 }
 
 int usage() {

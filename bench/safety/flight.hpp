@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/safety/rows.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/test/output_of.hpp"
 #include "fulmar/msg/contact_truth.hpp"
@@ -23,204 +24,21 @@ namespace fulmar::safety_flights {
 
 namespace fs = std::filesystem;
 
-/// Where a flight ends.
-enum class End : std::uint8_t { on_ground, broken, aloft };
-inline const char* word(End end) {
-  return end == End::on_ground ? "on the ground, whole" : end == End::broken ? "broken" : "in the air";
-}
-
-struct Row {
-  std::string airframe{}, name{}, does{};  ///< what the aircraft does, in words
-  std::string failing{};                   ///< parameters of the plugin `failing`
-  std::string sim{}, watch{};              ///< parameters of the aircraft and of the monitor
-  bool relayed = false;                    ///< status and state reach the monitor through `failing`
-  bool SafetyState::*cause = nullptr;      ///< that has to be told; none: nothing may be
-  double told_within_s = 10;
-  double at_s = 60;
-  End end = End::on_ground;
-  std::vector<std::string> phases{};  ///< that have to be flown, in this order
-  double south_m = 1e9,
-         up_m = 1e9;  ///< the side of the fence that it comes near, south of the origin, and the ceiling
-};
-
-inline std::vector<Row> rows_of(const std::string& a) {
-  using S = SafetyState;
-  const bool big = a != "anaconda", x8 = a == "x8";
-  const std::string near = big ? "fence: {corners: [{north: 1200 m, east: -1300 m}, {north: 1200 m, east: "
-                                 "600 m}, {north: -440 m, east: 600 m}, {north: -440 m, east: -1300 m}]}"
-                               : "fence: {corners: [{north: 600 m, east: -700 m}, {north: 600 m, east: 350 "
-                                 "m}, {north: -340 m, east: 350 m}, {north: -340 m, east: -700 m}]}";
-  const std::string low = big ? "fence.ceiling: 90 m" : "fence.ceiling: 65 m";
-  const std::string gale = x8    ? "wind_ned: [8.3, -8.3, 0]"
-                           : big ? "wind_ned: [11.3, -11.3, 0]"
-                                 : "wind_ned: [7.8, -7.8, 0]";
-  std::vector<Row> rows{
-      {.airframe = a,
-       .name = "nothing",
-       .does = "flies its circuit, lands",
-       .phases = {"approach", "flare", "roll_out"}},
-      {.airframe = a,
-       .name = "moderate turbulence",
-       .does = "flies its circuit",
-       .sim = std::string("turbulence: moderate") + (x8 ? ", start_height: 100 m" : ""),
-       .end = End::aloft,
-       .phases = {"cruise"}},
-      {.airframe = a,
-       .name = "fence",
-       .does = "turns back before it, circles at home, lands after 2 min",
-       .watch = near,
-       .cause = &S::fence,
-       .told_within_s = 1e9,
-       .at_s = 0,
-       .phases = {"home", "approach", "flare", "roll_out"},
-       .south_m = big ? 440.0 : 340.0},
-      {.airframe = a,
-       .name = "ceiling",
-       .does = "returns home and circles there, lands after 2 min",
-       .watch = low,
-       .cause = &S::fence,
-       .told_within_s = 1e9,
-       .at_s = 0,
-       .phases = {"home", "approach", "flare", "roll_out"},
-       .up_m = big ? 90.0 : 65.0},
-      {.airframe = a,
-       .name = "position",
-       .does = "circles for 2 min, descends in a circle without motor",
-       .failing = "what: gnss_position, kind: off",
-       .cause = &S::gnss_lost,
-       .phases = {"wait", "descend", "roll_out"}},
-      {.airframe = a,
-       .name = "position, for 30 s",
-       .does = "circles until it is back, flies on, lands",
-       .failing = "what: gnss_position, kind: off, lasts: 30",
-       .cause = &S::gnss_lost,
-       .phases = {"wait", "cruise", "approach", "flare", "roll_out"}},
-      {.airframe = a,
-       .name = "pitot tube",
-       .does = "returns home without it, lands",
-       .failing = "what: pitot, kind: off",
-       .cause = &S::pitot_lost,
-       .phases = {"home", "fast_approach", "fast_flare", "roll_out"}},
-      {.airframe = a,
-       .name = "radio",
-       .does = "returns home, circles there, lands after 2 min",
-       .failing = "what: radio, kind: off",
-       .cause = &S::radio_lost,
-       .phases = {"home", "approach", "flare", "roll_out"}},
-      {.airframe = a,
-       .name = "radio, for 20 s",
-       .does = "turns home, flies on when it is back, lands",
-       .failing = "what: radio, kind: off, lasts: 20",
-       .cause = &S::radio_lost,
-       .phases = {"home", "cruise", "approach", "flare", "roll_out"}},
-      {.airframe = a,
-       .name = "link",
-       .does = "returns home, circles there, lands after 2 min",
-       .failing = "silent_at: 60",
-       .relayed = true,
-       .cause = &S::link_lost,
-       .told_within_s = 2,
-       .phases = {"home", "approach", "flare", "roll_out"}},
-      {.airframe = a,
-       .name = "link, for 20 s",
-       .does = "turns home, flies on when it is back, lands",
-       .failing = "silent_at: 60, silent_for: 20",
-       .relayed = true,
-       .cause = &S::link_lost,
-       .told_within_s = 2,
-       .phases = {"home", "cruise", "approach", "flare", "roll_out"}},
-      {.airframe = a,
-       .name = "attitude not valid, for 3 s",
-       .does = "wings level, flies on, lands",
-       .failing = "invalid_at: 60, invalid_for: 3",
-       .relayed = true,
-       .cause = &S::estimator_failed,
-       .told_within_s = 2,
-       .phases = {"level", "cruise", "approach", "flare", "roll_out"}},
-      {.airframe = a,
-       .name = "battery, within 5 min",
-       .does = "returns home and lands; empty on the way, it glides",
-       .failing = "what: battery, kind: empty, size: 300",
-       .cause = &S::battery_low,
-       .told_within_s = 60,
-       .phases = {"home", "roll_out"}},
-      {.airframe = a,
-       .name = "motor",
-       .does = "glides to the nearest place or into the wind",
-       .failing = "what: engine, kind: off",
-       .cause = &S::engine_failed,
-       .told_within_s = x8 ? 15.0 : 5.0,  // it needs little thrust, and sinks as little without
-       .phases = {"glide", "roll_out"}},
-      {.airframe = a,
-       .name = "motor, in the climb",
-       .does = "glides straight on, or into the wind",
-       .failing = std::string("what: engine, kind: off, at: ") + (a == "aerosonde" ? "20" : "10"),
-       .cause = &S::engine_failed,
-       .told_within_s = x8 ? 15.0 : 5.0,
-       .at_s = a == "aerosonde" ? 20.0 : 10.0,
-       .phases = {"glide", "roll_out"}},
-      {.airframe = a,
-       .name = x8 ? "an elevon hard over, 1 s" : "ailerons hard over, 1 s",
-       .does = "wings level, flies on, lands",
-       .failing =
-           std::string("what: aileron, lasts: 1, kind: ") + (x8 ? "hardover_negative" : "hardover_positive"),
-       .cause = &S::attitude_excessive,
-       .told_within_s = 2,
-       .phases = {"level", "cruise", "approach", "flare", "roll_out"}},
-      {.airframe = a,
-       .name = "too much wind",
-       .does = "returns home, settles into the wind without motor",
-       .sim = gale + (x8    ? ""
-                      : big ? ", start_height: 100 m"
-                            : ", start_height: 70 m"),
-       .cause = &S::wind_excessive,
-       .told_within_s = 60,
-       .at_s = 0,
-       .phases = {"home", "settle", "roll_out"}},
-  };
-  if (big) return rows;
-  // Two things at once: the graver one is answered.
-  rows.push_back({.airframe = a,
-                  .name = "radio, then the motor",
-                  .does = "turns home, then glides",
-                  .failing = "what: radio, kind: off, then_what: engine, then_kind: off, then_at: 70",
-                  .cause = &S::engine_failed,
-                  .told_within_s = 15,
-                  .phases = {"home", "glide", "roll_out"}});
-  rows.push_back({.airframe = a,
-                  .name = "pitot tube, then position",
-                  .does = "turns home, then circles, descends in a circle without motor",
-                  .failing = "what: pitot, kind: off, then_what: gnss_position, then_kind: off, then_at: 64",
-                  .cause = &S::gnss_lost,
-                  .told_within_s = 12,
-                  .phases = {"home", "wait", "descend", "roll_out"}});
-  rows.push_back({.airframe = a,
-                  .name = "fence, then the battery",
-                  .does = "turns back before it, lands; empty on the way, it glides",
-                  .failing = "what: battery, kind: empty, size: 450, at: 20",
-                  .watch = near,
-                  .cause = &S::battery_low,
-                  .told_within_s = 120,
-                  .at_s = 20,
-                  .phases = {"home", "roll_out"},
-                  .south_m = 340.0});
-  return rows;
-}
-
 /// Of the airframe's own size: the hourglass is too small for all but the Anaconda. The X8 is thrown, unless
 /// it begins in the air.
 inline std::string mission_text(const Row& row) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs";
   const auto list = [](const std::string& s) { return s.empty() ? "" : ", " + s; };
-  const std::string failing =
-      "  failing: {use: " FULMAR_TEST_PLUGIN_DIR "/failing.so, " +
-      std::string(row.relayed ? "in: {status: vehicle.status, state: nav.state}, " : "") + "params: {" +
-      row.failing + "}}\n";
+  const std::string failing = "  failing: {use: " FULMAR_TEST_PLUGIN_DIR
+                              "/failing.so, "
+                              "in: {status: vehicle.status, state: nav.state}, params: {" +
+                              row.failing + "}}\n";
   const std::string watch = std::string("  watch: {") +
                             (row.relayed ? "in: {status: failing.status, state: failing.state}, " : "") +
                             "params: {";
-  const std::string done =
-      row.end == End::aloft ? "manage.progress.circuits >= 1" : "ground.state.landed";
+  const std::string done = row.end == End::aloft   ? "manage.progress.circuits >= 1"
+                           : row.end == End::stood ? "time > 60 s"
+                                                   : "ground.state.landed";
   const std::string head = "mission: failing\nlive: off\ntimeout: 900 s\ndone: {when: \"" + done +
                            "\", for: 10 s}\nextends: " + configs + "/missions/";
   if (row.airframe == "anaconda")
@@ -276,14 +94,25 @@ struct Flown {
   bool in_order = false;      ///< all of the row's phases were flown
   double touch_sink_mps = 0;  ///< true, at the first touch
   double home_m = 0;          ///< true, from home where it stopped
-  double outside_m = -1e9;    ///< true, beyond the row's sides of the fence, at most
+  double outside_m = -1e9;    ///< true, beyond the fence, at most
   double seconds = 0;         ///< from the failure to the ground
   std::string outcome;
   bool kept(const Row& row) const {
-    const bool told = row.cause ? told_s >= 0 && told_s <= row.told_within_s : !told_else;
-    return end == row.end && told && in_order && outside_m <= 0;
+    const bool in_time = told_s >= 0 && told_s <= row.told_within_s;
+    const bool told = row.cause ? in_time || (row.may_be_told && told_s < 0) : !told_else;
+    return end == row.end && told && in_order && (outside_m <= 0 || end == End::stood);
   }
 };
+
+/// How far beyond the row's fence a position is; negative: inside.
+inline double outside(const Row& row, const VehicleState& x) {
+  const bool big = row.airframe != "anaconda", near = row.watch.find("fence: ") != std::string::npos;
+  const double north = big ? 1200 : 600, east = big ? 600 : 350, west = big ? 1300 : 700;
+  const double south = row.south_m > 0 ? row.south_m : big ? 1000 : 600;
+  const double up = row.up_m > 0 ? row.up_m : near ? 1e9 : big ? 200 : 150;
+  const auto& at = x.position_m;
+  return std::max({at.north - north, -at.north - south, at.east - east, -at.east - west, x.height_m - up});
+}
 
 inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
   using namespace core;
@@ -300,7 +129,7 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
   Flown f;
   std::size_t next = 0;
   bool flew = false;
-  double touched_s = -1, climb_mps = 0;
+  double touched_s = -1, climb_mps = 0, at_s = row.below_m > 0 ? 1e9 : row.at_s, top_m = 0;
   while (flight.step()) {
     const double now = 1e-9 * static_cast<double>(flight.now_ns());
     if (next < row.phases.size() && flight.phase() == row.phases[next]) ++next;
@@ -309,24 +138,27 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
     const auto* const v = reinterpret_cast<const ContactTruth*>(flight.sample(contact));
     if (!x || !v) continue;
     if (safety) {
-      if (row.cause && safety->*row.cause && f.told_s < 0 && now >= row.at_s) f.told_s = now - row.at_s;
-      f.told_else = f.told_else || (safety->airborne && safety->answer != SafetyAnswer::none &&
-                                    (now < row.at_s || !row.cause));
+      if (row.cause && safety->*row.cause && f.told_s < 0 && now >= at_s) f.told_s = now - at_s;
+      f.told_else = f.told_else ||
+                    (safety->airborne && safety->answer != SafetyAnswer::none && (now < at_s || !row.cause));
     }
-    f.outside_m = std::max({f.outside_m, -x->position_m.north - row.south_m, x->height_m - row.up_m});
+    f.outside_m = std::max(f.outside_m, outside(row, *x));
+    top_m = std::max(top_m, x->height_m);
+    if (at_s > 1e8 && top_m > 40 && x->height_m < row.below_m) at_s = now;
     flew = flew || x->height_m > 5;
     if (flew && v->touching && touched_s < 0) touched_s = now, f.touch_sink_mps = -climb_mps;
     climb_mps = x->climb_rate_mps;
     f.home_m = std::hypot(x->position_m.north, x->position_m.east);
-    if (touched_s >= 0 && row.cause == &SafetyState::wind_excessive && now - touched_s > 1) break;
+    if (touched_s >= 0 && row.cause == &SafetyState::wind_excessive && now - touched_s > 5) break;
   }
   const FlightResult result = flight.finish();
   f.outcome = result.reason;
   f.in_order = next == row.phases.size();
   f.end = result.reason.find("crashed") != std::string::npos ? End::broken
+          : !flew                                            ? End::stood
           : touched_s >= 0                                   ? End::on_ground
                                                              : End::aloft;
-  f.seconds = touched_s - row.at_s;
+  f.seconds = touched_s - at_s;
   return f;
 }
 

@@ -13,6 +13,7 @@
 #include "fulmar/msg/safety_state.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "glide_model.hpp"
+#include "reckoned.hpp"
 
 namespace fulmar::safety {
 
@@ -20,9 +21,8 @@ enum class HomeMode : std::uint8_t { home, glide, wait, descend, level };
 
 struct Home {
   static constexpr const char* doc =
-      "Flies home and circles there; glides to a place within reach and onto it into the wind; circles where "
-      "the "
-      "position is not known; or straight on, wings level.";
+      "Flies home and circles there; glides to a place within reach and onto it into the wind; without "
+      "satellites home by the reckoned position and a circle; or straight on, wings level.";
   struct Inputs {
     In<VehicleState> state;
     Optional<SafetyState>
@@ -33,10 +33,11 @@ struct Home {
     HomeProgress progress;
   };
   struct Params {
-    Choice<HomeMode> mode{HomeMode::home,
-                          "home: there and circle; glide: without motor to a place and onto it; wait: circle "
-                          "here; descend: the same without motor; "
-                          "level: straight on"};
+    Choice<HomeMode> mode{
+        HomeMode::home,
+        "home: there and circle; glide: without motor to a place and onto it; wait: home by "
+        "the reckoned position, else a circle here; descend: the same without motor; "
+        "level: straight on"};
     Record<Airframe> airframe{"airspeeds, and the glide", required};
     Record<Origin> origin{"of the local frame, for lat and lon"};
     Record<Places> places{"where to come down; the first is home. Without it, the origin"};
@@ -46,6 +47,8 @@ struct Home {
     Param k_orbit{2, "ratio", 0.1, 20, "how sharply to turn onto a circle, Beard & McLain (10.13)"};
     Param least_ground_speed{6, "m/s", 0, 100, "on the way home; against more wind it flies faster"};
     Param least_height{40, "m", 0, 10000, "above home, of the circle while the position is not known"};
+    Param reckon_std{50, "m", 0, 1000,
+                     "a position is reckoned on up to this deviation; beyond, a circle by bank"};
     Param wait_bank{0.26, "rad", 0.02, 1, "of the circle while the position is not known, to the right"};
     Param glide_margin{1.2, "ratio", 1, 2, "least airspeed of a glide over the airframe's least"};
     Param glide_radius{35, "m", 10, 1000, "of the circle above a place"};
@@ -99,7 +102,7 @@ struct Home {
 
   void begin(const Inputs& in, const Params& p) {
     const VehicleState& s = *in.state;
-    begun_ = true, final_ = false;
+    begun_ = true, final_ = false, reckons_ = true, into_wind_ = false;
     target_ = spots_[0];
     height_m_ = within_fence(std::max(s.height_m, target_.up_m + p.least_height), in, p),
     course_rad_ = s.course_rad;
@@ -157,8 +160,35 @@ struct Home {
         fly_course(c.course_rad, limits.airspeed_cruise_mps, wind(s)).ground_speed_mps < p.least_ground_speed;
     c.airspeed_mps = behind ? std::clamp(fast, limits.airspeed_cruise_mps, limits.airspeed_max_mps)
                             : limits.airspeed_cruise_mps;
+    if (in.safety && in.safety->engine_weak) within_thrust(s, p, c);
+    into_the_wind(s, p, c);
     out.progress.there =
         std::abs(out.progress.distance_m - R) < 0.5 * R && std::abs(s.height_m - c.height_m) < 10;
+  }
+
+  /// A weak motor climbs as far as it leaves an airspeed that flies well; slower than that, height makes
+  /// speed.
+  static void within_thrust(const VehicleState& s, const Params& p, GuidanceCommand& c) {
+    constexpr double height_per_speed_s = 3;
+    const double Va = s.airspeed_valid ? s.airspeed_mps : p.airframe->limits.airspeed_cruise_mps;
+    const double spare = Va - p.glide_margin * p.airframe->limits.airspeed_min_mps;
+    c.height_m = std::min(c.height_m, s.height_m + height_per_speed_s * spare);
+  }
+
+  /// Where the largest airspeed leaves no way over the ground, the nose points into the wind, at that speed.
+  void into_the_wind(const VehicleState& s, const Params& p, GuidanceCommand& c) {
+    const double most = p.airframe->limits.airspeed_max_mps, speed = std::hypot(wind(s).north, wind(s).east);
+    into_wind_ = s.attitude_valid && speed > (into_wind_ ? 0.9 : 0.95) * most;
+    if (!into_wind_) return;
+    const double upwind = std::atan2(-wind(s).east, -wind(s).north);
+    constexpr double bank_per_rad = 1.0;
+    const double most_bank = 0.7 * p.airframe->limits.roll_max_rad;
+    const double bank = std::clamp(bank_per_rad * angle_difference(upwind, s.yaw_rad), -most_bank, most_bank);
+    c.airspeed_mps = most;
+    c.course_rad = s.course_rad;
+    c.lateral = LateralMode::acceleration;
+    c.roll_feedforward_rad = bank;
+    c.lateral_acceleration_mps2 = isa::g0 * std::tan(bank);
   }
 
   /// What can be flown with the wind behind, too, at 0.7 of the largest bank.
@@ -179,20 +209,34 @@ struct Home {
     c.roll_feedforward_rad = 0;
   }
 
-  /// Through the air, by bank alone: a course would need a velocity.
+  /// Home and a circle there as long as the reckoned position is good enough; beyond, through the air, by
+  /// bank alone: a course would need a velocity.
   void wait(const VehicleState& s, const Params& p, Outputs& out) {
     if (s.reset_count != resets_) height_m_ -= s.reset_position_m.down, resets_ = s.reset_count;
     hold(s, p, out.command);
+    reckons_ = s.position_valid || (reckons_ && located(s, p.reckon_std));
+    if (reckons_) return orbit(s, target_, gentle_radius(s, p), p, out.command);
     out.command.lateral = LateralMode::acceleration;
     out.command.roll_feedforward_rad = p.wait_bank;
     out.command.lateral_acceleration_mps2 = isa::g0 * std::tan(p.wait_bank);
   }
 
-  /// The ground is taken for as high as at home.
+  /// The bank of the waiting circle with the wind behind; where home is by reckoning is not known better.
+  static double gentle_radius(const VehicleState& s, const Params& p) {
+    const double fastest = p.airframe->limits.airspeed_cruise_mps + std::hypot(wind(s).north, wind(s).east);
+    return std::max(radius(s, p), 0.7 * fastest * fastest / (isa::g0 * std::tan(p.wait_bank)));
+  }
+
+  /// The ground is taken for as high as at home. Near it the wings are level.
   void descend(const VehicleState& s, const Params& p, Outputs& out) {
     wait(s, p, out);
-    out.command.height_m = target_.up_m;
-    out.command.airspeed_mps = best_glide(*p.airframe, rho(s), 0, p.glide_margin).airspeed_mps;
+    GuidanceCommand& c = out.command;
+    c.height_m = target_.up_m;
+    c.airspeed_mps = best_glide(*p.airframe, rho(s), 0, p.glide_margin).airspeed_mps;
+    if (!reckons_ || s.height_m - target_.up_m > p.straight_height) return;
+    c.lateral = LateralMode::acceleration;
+    c.roll_feedforward_rad = 0;
+    c.lateral_acceleration_mps2 = 0;
   }
 
   void hold(const VehicleState& s, const Params& p, GuidanceCommand& c) const {
@@ -243,7 +287,7 @@ struct Home {
   Spot target_;
   HomeMode mode_ = HomeMode::home;
   SafetyTurn round_ = SafetyTurn::either;
-  bool begun_ = false, final_ = false;
+  bool begun_ = false, final_ = false, reckons_ = true, into_wind_ = false;
   double height_m_ = 0, course_rad_ = 0;
   std::uint32_t resets_ = 0;
   static constexpr double side_ = 1;  ///< circles to the right

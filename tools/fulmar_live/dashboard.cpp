@@ -287,7 +287,7 @@ Dashboard::Cell Dashboard::sensors() const {
 Dashboard::Cell Dashboard::safety() const {
   std::string wrong;
   for (const auto& [name, value] : message("SafetyState").items()) {
-    if (value != true || name == "airborne") continue;
+    if (value != true || name == "airborne" || name == "ready") continue;
     std::string words = one_line(name);
     std::replace(words.begin(), words.end(), '_', ' ');
     wrong += (wrong.empty() ? "" : ", ") + words;

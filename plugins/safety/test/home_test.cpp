@@ -193,4 +193,56 @@ TEST_CASE("places that are none, or have no position, are refused") {
   CHECK(lost.error().find("places.places[0]: give north and east") == 0);
 }
 
+TEST_CASE(
+    "without satellites it flies home by the reckoned position; beyond its accuracy it circles by bank") {
+  for (const HomeMode mode : {HomeMode::wait, HomeMode::descend}) {
+    Way w;
+    w.wind = {0, 6, 0};
+    w.state = kit::level(500, -300, 1);
+    w.state.position_valid = false;
+    w.state.position_std_m = {20, 20, 2};
+    w.begin(mode);
+    w.fly(120);
+    CHECK(w.out.command.lateral == LateralMode::course);
+    CHECK(w.distance() < 190);  // the circle that 23 m/s over the ground need at a bank of 0.35 rad: 142 m
+    w.state.position_std_m = {51, 20, 2};
+    CHECK(w.look().lateral == LateralMode::acceleration);
+    w.state.position_std_m = {49, 20, 2};  // who circles does not go on for a second
+    CHECK(w.look().lateral == LateralMode::acceleration);
+    w.state.position_valid = true;
+    CHECK(w.look().lateral == LateralMode::course);
+    w.state.position_valid = w.state.velocity_valid = false;
+    CHECK(w.look().lateral == LateralMode::acceleration);
+  }
+}
+
+TEST_CASE("the descent by reckoning levels its wings near the ground") {
+  Way w;
+  w.state = kit::level(200, 0, 1);
+  w.begin(HomeMode::descend);
+  w.state.height_m = 16;
+  CHECK(w.look().lateral == LateralMode::course);
+  w.state.height_m = 14;
+  CHECK(w.look().lateral == LateralMode::acceleration);
+  CHECK(w.out.command.lateral_acceleration_mps2 == 0);
+}
+
+TEST_CASE("in more wind than its largest airspeed it turns the nose into the wind and holds it there") {
+  Way w;
+  w.wind = {0, -30, 0};  // from the east
+  w.state = kit::level(300, 0, std::numbers::pi);
+  w.begin(HomeMode::home);
+  w.look();
+  CHECK(w.out.command.airspeed_mps == fulmar::test::anaconda().limits.airspeed_max_mps);
+  CHECK(w.out.command.lateral == LateralMode::acceleration);
+  for (double yaw = -3.1; yaw < 3.1; yaw += 0.1) {  // whatever the course over the ground is
+    w.state.yaw_rad = yaw;
+    const double a = w.look().lateral_acceleration_mps2, off = angle_difference(0.5 * std::numbers::pi, yaw);
+    if (std::abs(off) > 0.05) CHECK(a * off > 0);
+    CHECK(std::abs(a) < 9.80665 * std::tan(0.785));
+  }
+  w.wind = {0, -10, 0};
+  CHECK(w.look().lateral == LateralMode::course);
+}
+
 }  // namespace home_test

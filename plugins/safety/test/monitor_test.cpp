@@ -1,64 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugins/safety/monitor.hpp"
 
-#include "kit.hpp"
+#include "watch.hpp"
 
 namespace monitor_test {
 
 using namespace fulmar;
 using namespace fulmar::safety;
-
-namespace {
-
-struct Watch : Bench<Monitor> {
-  VehicleState state = kit::level();
-  VehicleStatus status;
-  Actuators actuators;
-  Rc rc;
-  NavigationHealth health;
-  bool has_status = true, has_rc = false, has_health = false, has_throttle = true;
-  std::string told;
-
-  Watch() {
-    kit::give_anaconda(params);
-    status.armed = true, status.battery_volt = 24;
-    actuators.throttle_frac = 0.57;
-    health.pitot.state = health.gnss_position.state = SensorState::ok;
-  }
-  void fence(double south = -1000) {
-    Fence& f = params.fence.value;
-    for (const auto& [n, e] :
-         {std::pair{1000.0, -1000.0}, {1000.0, 1000.0}, {south, 1000.0}, {south, -1000.0}}) {
-      FencePoint p;
-      p.north_m = n, p.east_m = e;
-      f.corners.push_back(p);
-    }
-    f.floor_m = 20, f.ceiling_m = 120;
-    params.fence.is_given = true;
-  }
-  const SafetyState& fly(double seconds, double dt = 0.02) {
-    for (double t = 0; t < seconds - dt / 2; t += dt) {
-      set(in.state, state, -dt);
-      if (has_status) set(in.status, status, -dt);
-      if (has_rc) set(in.rc, rc, -dt);
-      if (has_health) set(in.health, health, -dt);
-      if (has_throttle) set(in.actuators, actuators, -dt);
-      REQUIRE(step(dt) == Status::ok);
-      REQUIRE(fault() == "");
-      for (std::uint32_t i = 0; i < out.notices.count; ++i)
-        told += out.notices.items[i].text.view(), told += "\n";
-    }
-    return out.safety;
-  }
-  /// From when on `flag` is raised, s; -1: not within `within_s`.
-  double raised_after(bool SafetyState::*flag, double within_s = 20, bool wanted = true) {
-    for (double t = 0; t < within_s; t += 0.02)
-      if (fly(0.02).*flag == wanted) return t + 0.02;
-    return -1;
-  }
-};
-
-}  // namespace
+using kit::Watch;
 
 TEST_CASE("in order nothing is told, for long") {
   Watch w;
@@ -79,7 +28,7 @@ TEST_CASE("the fence is told before it is reached, by what the turn back takes, 
   w.state.position_m.north = from + 3;
   CHECK(w.fly(0.1).fence);
   CHECK(w.out.safety.answer == SafetyAnswer::home);
-  CHECK(w.told.find("the fence is near, 1") != std::string::npos);
+  CHECK(w.told.find(" m to the fence: returns home") != std::string::npos);
   w.state = kit::level();
   CHECK_FALSE(w.fly(3).fence);
   CHECK(w.out.safety.answer == SafetyAnswer::home);
@@ -266,7 +215,7 @@ TEST_CASE("the motor: the trim's throttle holds level flight, and no motor sinks
   CHECK(after > 1.9);
   CHECK(after < 4);
   CHECK(w.out.safety.answer == SafetyAnswer::glide);
-  CHECK(w.told.find("the motor gives no thrust, -") != std::string::npos);
+  CHECK(w.told.find("no thrust from the motor: glides down") != std::string::npos);
   w.actuators.throttle_frac = 0;  // nothing is demanded: nothing is learnt
   CHECK(w.fly(30).engine_failed);
   w.actuators.throttle_frac = 0.57, w.state.climb_rate_mps = 0;

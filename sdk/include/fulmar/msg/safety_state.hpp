@@ -19,6 +19,19 @@ enum class SafetyAnswer : std::uint8_t {
 /// Which way round the fence leaves room for a turn back.
 enum class SafetyTurn : std::uint8_t { either, left, right };
 
+/// What speaks against a take-off of an aircraft on the ground; in the air all of it is false.
+struct NotReady {
+  bool estimator = false;  ///< attitude, height or velocity are not valid
+  bool position = false;   ///< not valid, or the receiver fails
+  bool pitot = false;      ///< silent or stuck
+  bool radio = false;      ///< lost, or required and silent
+  bool battery = false;    ///< low or empty
+  bool wind = false;       ///< above the limit of a take-off
+  bool fence = false;      ///< outside of it, or nearer than its margin
+  bool height = false;     ///< above its ceiling, or nearer than its margin
+  bool motor = false;      ///< no acceleration at open throttle, until a hand-over or a disarming
+};
+
 /// What is wrong, of which a mission makes phases. A flag rises and falls with a delay of its own.
 struct SafetyState {
   bool fence = false;        ///< it would be left if the aircraft did not turn back now, or has been left
@@ -35,13 +48,21 @@ struct SafetyState {
   bool airborne = false;
   SafetyAnswer answer = SafetyAnswer::none;
   SafetyTurn turn = SafetyTurn::either;
-  double fence_margin_m = 1e9;   ///< room that the turn back leaves, level; negative: outside. 1e9: no fence
-  double height_margin_m = 1e9;  ///< room to floor and ceiling, less what the pull-out takes
+  double fence_margin_m =
+      1e9;  ///< room that the turn back leaves, on the ground the distance; negative: outside. 1e9: none
+  double height_margin_m = 1e9;            ///< room to floor and ceiling, less what the pull-out takes
   double floor_m = -1e9, ceiling_m = 1e9;  ///< of the fence, above the origin
-  double thrust_ratio = 1;  ///< force along the flight path over what the model says of this throttle
-  double wind_ratio = 0;    ///< wind speed over cruise airspeed
-  double waiting_s = 0;     ///< since the position was lost
-  double returning_s = 0;   ///< since the answer is `home`
+  double thrust_ratio = 1;   ///< force along the flight path over what the model says of this throttle
+  double wind_ratio = 0;     ///< wind speed over cruise airspeed
+  double waiting_s = 0;      ///< since the position was lost
+  double returning_s = 0;    ///< since the answer is `home`
+  bool engine_weak = false;  ///< less thrust than modelled, but enough for level flight
+  bool drifting = false;     ///< the wind exceeds the largest airspeed
+  bool ready = false;        ///< on the ground, and nothing speaks against a take-off
+  NotReady not_ready;
 };
+
+template <>
+inline constexpr std::string_view appended_from<SafetyState> = "engine_weak";
 
 }  // namespace fulmar

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What speaks against a take-off.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "fulmar/msg/safety_state.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/plugin.hpp"
+
+namespace fulmar::safety {
+
+struct GateLimits {
+  Param take_off_wind{0.55, "ratio", 0, 5, "wind over cruise airspeed, above which it is not ready"};
+  Param motor_test{3, "s", 0, 60,
+                   "open throttle without motion before a take-off, until the motor has failed"};
+};
+
+/// What only a take-off run shows, kept until a hand-over or a disarming: a motor that does not move the
+/// aircraft, and a tail wind.
+class RunUp {
+ public:
+  bool failed() const { return failed_; }
+  bool tail_wind() const { return tail_wind_; }
+  void step(bool obeyed, double throttle_frac, double ground_speed_mps, bool windy, double within_s,
+            double dt) {
+    constexpr double open_frac = 0.5, moves_mps = 1.5, rolls_mps = 2;
+    if (!obeyed) {
+      *this = {};
+      return;
+    }
+    const bool stands = throttle_frac > open_frac && ground_speed_mps < moves_mps;
+    open_s_ = stands ? open_s_ + dt : 0;
+    failed_ = failed_ || open_s_ >= within_s;
+    tail_wind_ = tail_wind_ || (windy && throttle_frac > open_frac && ground_speed_mps > rolls_mps);
+  }
+
+ private:
+  double open_s_ = 0;
+  bool failed_ = false, tail_wind_ = false;
+};
+
+/// Wind before the filter has one, along the aircraft. What the tube measures beyond the ground speed is head
+/// wind, what it measures less is tail wind, which only a take-off run shows.
+class GroundWind {
+ public:
+  double mps() const { return mps_; }
+  void step(const VehicleState& s, double smoothing_s, double dt) {
+    if (!s.velocity_valid) return;
+    constexpr double rolls_mps = 2, run_smoothing_s = 0.3;
+    const bool stands = s.ground_speed_mps < rolls_mps;
+    const double along = s.airspeed_valid ? std::abs(s.airspeed_mps - s.ground_speed_mps) : 0;
+    const double filter = stands && s.wind_valid ? std::hypot(s.wind_mps.north, s.wind_mps.east) : 0.0;
+    since_s_ += dt;
+    const double share = 1 - std::exp(-dt / (stands ? smoothing_s : run_smoothing_s));
+    mps_ += std::max(share, dt / since_s_) * (std::max(filter, along) - mps_);  // the mean, at first
+  }
+
+ private:
+  double mps_ = 0, since_s_ = 1e-3;
+};
+
+inline bool any(const NotReady& n) {
+  return n.estimator || n.position || n.pitot || n.radio || n.battery || n.wind || n.fence || n.height ||
+         n.motor;
+}
+
+}  // namespace fulmar::safety

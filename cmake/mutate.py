@@ -35,12 +35,17 @@ inline bool fulmar_mutant(int id) {
   return chosen == id;
 }
 // By value: of two expressions with operators of Eigen neither is of the other's type.
+template <class T, class = void>
+struct FulmarValue {
+  using type = std::decay_t<T>;
+};
 template <class T>
-auto fulmar_value(T&& x) {
-  if constexpr (requires { typename std::remove_reference_t<T>::PlainObject; })
-    return typename std::remove_reference_t<T>::PlainObject(x);
-  else
-    return std::decay_t<T>(static_cast<T&&>(x));
+struct FulmarValue<T, std::void_t<typename std::decay_t<T>::PlainObject>> {
+  using type = typename std::decay_t<T>::PlainObject;
+};
+template <class T>
+typename FulmarValue<T>::type fulmar_value(T&& x) {
+  return typename FulmarValue<T>::type(static_cast<T&&>(x));
 }
 #endif
 """

@@ -169,7 +169,7 @@ def choice(source, fault, fault_id):
         return f"{{ if (!::fulmar_mutant({fault_id})) {{ {was} }} }}"
     if fault.statement:
         return f"{{ if (::fulmar_mutant({fault_id})) {{ {now} }} else {{ {was} }} }}"
-    return f"(::fulmar_mutant({fault_id}) ? ::fulmar_value({now}) : ::fulmar_value({was}))"
+    return f"(::fulmar_mutant({fault_id}) ? ::fulmar_chosen({now}) : ::fulmar_chosen({was}))"
 
 
 def unfixed(source, begin):

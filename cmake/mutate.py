@@ -36,16 +36,16 @@ inline bool fulmar_mutant(int id) {
 }
 // By value: of two expressions with operators of Eigen neither is of the other's type.
 template <class T, class = void>
-struct FulmarValue {
+struct FulmarChosen {
   using type = std::decay_t<T>;
 };
 template <class T>
-struct FulmarValue<T, std::void_t<typename std::decay_t<T>::PlainObject>> {
+struct FulmarChosen<T, std::void_t<typename std::decay_t<T>::PlainObject>> {
   using type = typename std::decay_t<T>::PlainObject;
 };
 template <class T>
-typename FulmarValue<T>::type fulmar_value(T&& x) {
-  return typename FulmarValue<T>::type(static_cast<T&&>(x));
+typename FulmarChosen<T>::type fulmar_chosen(T&& x) {
+  return typename FulmarChosen<T>::type(static_cast<T&&>(x));
 }
 #endif
 """

@@ -44,15 +44,25 @@ struct Rounds : Bench<Manager> {
   }
 };
 
-/// From the runway's place on the slope that lands to the east.
+constexpr double runway_rad = 0.7;
+
+/// On the slope that meets a runway at 100 m north, -150 m east, 20 m high, so far in front of it.
 VehicleState on_final(double along_m, double course_rad) {
   VehicleState s;
-  s.position_m = {100, -150 - along_m, -(20 + std::tan(0.07) * along_m)};
+  s.position_m = {100 - along_m * std::cos(runway_rad), -150 - along_m * std::sin(runway_rad),
+                  -(20 + std::tan(0.07) * along_m)};
   s.height_m = -s.position_m.down;
   s.ground_speed_mps = s.airspeed_mps = 14;
-  s.course_rad = course_rad, s.yaw_rad = pi / 2;
+  s.course_rad = course_rad, s.yaw_rad = runway_rad;
   s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
   return s;
+}
+
+/// A waypoint that is passed in this course, with its own id.
+Waypoint passed(std::uint32_t id, double north, double east, double course_rad) {
+  Waypoint w = point(north, east);
+  w.id = id, w.has_course = true, w.course_rad = course_rad;
+  return w;
 }
 
 }  // namespace
@@ -75,21 +85,25 @@ TEST_CASE("a second orbit counts its own circles, not the rest of the first one,
 TEST_CASE("on the slope the climb rate is that of the way along it: half at 60 degrees to it, none across") {
   Bench<Landing> bench;
   Runway& runway = bench.params.runway.value;
-  runway.north_m = 100, runway.east_m = -200, runway.up_m = 20, runway.heading_rad = pi / 2;
+  runway.up_m = 20, runway.heading_rad = runway_rad;
+  runway.north_m = 100 - bench.params.aim * std::cos(runway_rad);
+  runway.east_m = -150 - bench.params.aim * std::sin(runway_rad);
   runway.length_m = 400;
   bench.params.runway.is_given = true;
   FlightLimits& limits = bench.params.airframe.value.limits;
   limits.airspeed_min_mps = 12, limits.airspeed_cruise_mps = 17;
   bench.configure();
-  bench.set(bench.in.state, on_final(450, pi / 2));
+  bench.set(bench.in.state, on_final(450, runway_rad));
   bench.step(0.01);
   REQUIRE(bench.out.progress.stage == LandingStage::approach);
-  for (const double off : {-pi / 3, -pi / 6, pi / 4, pi / 3, pi / 2}) {
+  for (const double off : {-pi / 3, -pi / 6, 0.0, pi / 4, pi / 3, pi / 2}) {
     CAPTURE(off);
-    bench.set(bench.in.state, on_final(440, pi / 2 + off));
+    bench.set(bench.in.state, on_final(440, runway_rad + off));
     bench.step(0.01);
     REQUIRE(bench.out.progress.stage == LandingStage::approach);
     CHECK(std::abs(bench.out.command.climb_rate_mps + 14 * std::tan(0.07) * std::cos(off)) < 1e-9);
+    CHECK(std::abs(bench.out.command.height_m - (20 + std::tan(0.07) * 440)) < 1e-9);
+    CHECK(std::abs(angle_difference(bench.out.command.course_rad, runway_rad)) < 1e-9);
   }
 }
 
@@ -164,6 +178,44 @@ TEST_CASE(
         CHECK(std::abs(from_n * end.north_m + from_e * end.east_m) < 1e-6);
       }
     }
+}
+
+TEST_CASE("as far either way round: to the right; a hair nearer one way: that one") {
+  for (const double course : {0.0, 1.3, -2.9}) {
+    const auto turn = [&](double off_m) {  // 200 m before the centre, so far to the left of the way there
+      const double n = -200 * std::cos(course) + off_m * std::sin(course),
+                   e = -200 * std::sin(course) - off_m * std::cos(course);
+      return least_turning({n, e, course}, 0, 0, 50);
+    };
+    CHECK(turn(0) == Turn::right);
+    CHECK(turn(1) == Turn::right);
+    CHECK(turn(-1) == Turn::left);
+  }
+}
+
+TEST_CASE("on the way to the first waypoint another one is put in before it: the same goal, the next index") {
+  Bench<Manager> manager;
+  Plan plan = plan_of({passed(1, 600, 0, 0), passed(2, 1200, 300, 0.5), passed(3, 600, 900, -2)});
+  const VehicleState s = Kinematic{}.state();
+  const auto look = [&] {
+    manager.set(manager.in.plan, plan);
+    manager.set(manager.in.state, s);
+    REQUIRE(manager.step(0.01) == Status::ok);
+  };
+  look();
+  CHECK(manager.out.progress.item == 0);
+  CHECK(manager.out.progress.joining);
+  const Path before = manager.out.path.value;
+  for (std::uint32_t i = 1; i <= 2; ++i) {
+    for (std::uint32_t k = plan.waypoints.count++; k > 0; --k) plan.waypoints[k] = plan.waypoints[k - 1];
+    plan.waypoints[0] = passed(3 + i, -500, 100.0 * i, 1);
+    ++plan.revision;
+    look();
+    CHECK(manager.out.progress.item == i);
+    CHECK(manager.out.progress.items == 3 + i);
+    CHECK(manager.out.progress.joining);
+    CHECK(manager.out.path.value.origin_m == before.origin_m);
+  }
 }
 
 }  // namespace off_nominal_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What happens a second time, and the wind that moves the best glide off its bound.
 #include "kit.hpp"
+#include "plugins/safety/glide.hpp"
 #include "plugins/safety/home.hpp"
 #include "plugins/safety/monitor.hpp"
 
@@ -18,6 +19,12 @@ struct Lost : Bench<Monitor> {
     kit::give_anaconda(params);
     fly(true, 2);
   }
+  std::string told;
+  int count(const std::string& words) const {
+    int n = 0;
+    for (std::size_t at = told.find(words); at != std::string::npos; at = told.find(words, at + 1)) ++n;
+    return n;
+  }
   const SafetyState& fly(bool position, double seconds) {
     VehicleState state = kit::level();
     state.position_valid = position;
@@ -27,18 +34,20 @@ struct Lost : Bench<Monitor> {
       set(in.state, state, -0.02);
       set(in.status, status, -0.02);
       REQUIRE(step(0.02) == Status::ok);
+      for (std::uint32_t i = 0; i < out.notices.count; ++i)
+        told += std::string(out.notices.items[i].text.view()) + "\n";
     }
     return out.safety;
   }
 };
 
-/// Of all airspeeds from the least to the most, the one that goes farthest over the ground.
-double farthest_m(double height_m, double head_wind_mps) {
+/// Of all airspeeds from the least to the most, the one that goes farthest over the ground, and how far.
+std::pair<double, double> farthest(double height_m, double head_wind_mps) {
   const Airframe a = test::anaconda();
   const double rho = standard_air(test::FlightModel::field_m + height_m).density_kgm3;
-  double best = 0;
+  std::pair<double, double> best{0, 0};
   for (double Va = 1.2 * a.limits.airspeed_min_mps; Va <= a.limits.airspeed_max_mps; Va += 0.01)
-    best = std::max(best, height_m * (Va - head_wind_mps) / sink_rate(a, Va, 0, rho));
+    best = std::max(best, {height_m * (Va - head_wind_mps) / sink_rate(a, Va, 0, rho), Va});
   return best;
 }
 
@@ -67,8 +76,89 @@ TEST_CASE("the reach in strong wind is that of the airspeed that goes farthest, 
       home.set(home.in.state, s);
       REQUIRE(home.activate() == Status::ok);
       home.step(0.02);
-      CHECK(home.out.progress.reach_m / farthest_m(70, head) == Approx(1).epsilon(0.02));
+      CHECK(home.out.progress.reach_m / farthest(70, head).first == Approx(1).epsilon(0.02));
     }
+}
+
+TEST_CASE("on the glide the airspeed is the one that goes farthest on the course that is asked for") {
+  for (const double head : {14.0, 10.0, -11.0}) {
+    CAPTURE(head);
+    Bench<Home> home;
+    kit::give_anaconda(home.params);
+    home.params.mode.value = HomeMode::glide;
+    REQUIRE(home.retune() == Status::ok);
+    VehicleState s = kit::level(-3000, 0, 0);
+    s.position_m.down = -400, s.height_m = 400;
+    s.wind_mps = {-head, 0, 0};
+    home.set(home.in.state, s);
+    REQUIRE(home.activate() == Status::ok);
+    home.step(0.02);
+    REQUIRE_FALSE(home.out.progress.final);
+    const double along = std::cos(home.out.command.course_rad);
+    CHECK(std::abs(home.out.command.airspeed_mps - farthest(400, head * along).second) < 0.3);
+  }
+}
+
+TEST_CASE("a change is told once, and once when it is over, each time") {
+  Lost w;
+  for (int i = 1; i <= 2; ++i) {
+    w.fly(false, 20);
+    CHECK(w.count("no position") == i);
+    CHECK(w.count("the position is back") == i - 1);
+    w.fly(true, 20);
+    CHECK(w.count("no position") == i);
+    CHECK(w.count("the position is back") == i);
+  }
+}
+
+TEST_CASE("home outside of the fence is named by its own place") {
+  Bench<Monitor> w;
+  kit::give_anaconda(w.params);
+  for (const auto& [n, e] : {std::pair{300.0, -300.0}, {300.0, 300.0}, {-300.0, 300.0}, {-300.0, -300.0}}) {
+    FencePoint corner;
+    corner.north_m = n, corner.east_m = e;
+    w.params.fence.value.corners.push_back(corner);
+  }
+  w.params.fence.value.floor_m = 20, w.params.fence.value.ceiling_m = 120, w.params.fence.is_given = true;
+  for (const auto& [n, e] : {std::pair{500.0, -40.0}, {10.0, 20.0}}) {
+    Place place;
+    place.north_m = n, place.east_m = e;
+    w.params.places.value.places.push_back(place);
+  }
+  w.params.places.is_given = true;
+  CHECK(w.configure() == Status::failed);
+  CHECK(w.error().find("home, 500 m north, -40 m east, lies outside of the fence") != std::string::npos);
+}
+
+TEST_CASE(
+    "at the ground the flare's pitch is that of level flight, and not below the stalling speed, less the "
+    "sink") {
+  const double stall_mps = 12 / 1.2;
+  for (const double Va : {7.0, 9.0, 11.0, 13.0}) {
+    CAPTURE(Va);
+    Bench<Glide> law;
+    kit::give_anaconda(law.params.common);
+    law.params.airspeed_ki.value = law.params.airspeed_kd.value = law.params.flare_kd.value = 0;
+    VehicleState s = kit::level(0, 0, 0.5, Va);
+    GuidanceCommand command;
+    command.course_rad = 0.5, command.airspeed_mps = 14;
+    const auto fly = [&](double height_m, double climb_mps, double seconds) {
+      s.height_m = height_m, s.position_m.down = -height_m, s.climb_rate_mps = climb_mps;
+      for (double t = 0; t < seconds; t += 0.01) {
+        law.set(law.in.state, s, -0.01);
+        law.set(law.in.command, command, -0.01);
+        REQUIRE(law.step(0.01) != Status::failed);
+      }
+    };
+    fly(5, -10, 1);
+    REQUIRE(law.out.flare_ratio.value == 1);
+    fly(0, -0.5, 4);
+    const double rho = standard_air(test::FlightModel::field_m).density_kgm3;
+    const double alpha = turn_trim(test::anaconda(), 0, std::max(Va, stall_mps), rho).alpha_rad;
+    const double limit = test::anaconda().limits.pitch_max_rad;
+    const double wanted = std::min(alpha - law.params.touch_sink / Va, limit);
+    CHECK(std::abs(law.out.attitude.pitch_rad - wanted) < 0.004);
+  }
 }
 
 }  // namespace off_nominal_test

@@ -78,4 +78,30 @@ TEST_CASE("a climbing circle has no error on it, to either side; above it the er
   }
 }
 
+TEST_CASE("in the middle of the final circle the error is its radius, to the north") {
+  Bench<Score> bench;
+  Plan plan;
+  plan.revision = 1, plan.end = PlanEnd::orbit, plan.turn_radius_m = 60;
+  Waypoint w;
+  w.position_m = {100, -50, -70};
+  plan.waypoints.push_back(w);
+  Progress progress;
+  progress.items = progress.reached = 1, progress.plan_revision = 1, progress.finished = true;
+  TrackingError error;
+  for (int i = 0; i < 200; ++i) {
+    VehicleState s;
+    s.position_m = {100, -50, -70};
+    s.height_m = 70;
+    s.airspeed_mps = s.ground_speed_mps = 17;
+    s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
+    bench.set(bench.in.plan, plan);
+    bench.set(bench.in.progress, progress);
+    bench.set(bench.in.state, s);
+    bench.step(0.01);
+    if (bench.out.tracking.written) error = bench.out.tracking.value;
+  }
+  CHECK(error.north_m == Approx(60));
+  CHECK(error.east_m < 1e-9);
+}
+
 }  // namespace off_nominal_test

@@ -218,4 +218,44 @@ TEST_CASE("on the way to the first waypoint another one is put in before it: the
   }
 }
 
+TEST_CASE("a waypoint that comes behind changes nothing of the piece that is flown, wherever on the leg") {
+  bool line = false, arc = false;
+  for (const double seconds : {0.5, 2.0, 5.0, 8.0}) {
+    CAPTURE(seconds);
+    Flight flight(hourglass());
+    REQUIRE(flight.fly(200, [&] { return flight.progress().item == 2; }));
+    flight.fly(seconds);
+    REQUIRE(flight.progress().item == 2);
+    const Path before = flight.path();
+    Plan plan = flight.plan();
+    plan.waypoints.push_back(point(800, 800));
+    ++plan.revision;
+    flight.change(plan);
+    flight.step(1e-4);
+    CHECK(flight.progress().item == 2);
+    CHECK(flight.path().kind == before.kind);
+    CHECK(std::hypot(flight.path().origin_m.north - before.origin_m.north,
+                     flight.path().origin_m.east - before.origin_m.east) < 1e-6);
+    line = line || before.kind == PathKind::line;
+    arc = arc || before.kind == PathKind::orbit;
+  }
+  CHECK(line);
+  CHECK(arc);
+}
+
+TEST_CASE("from its first step on the field follows the path, also while the position is not valid") {
+  Path path;
+  path.kind = PathKind::line;
+  path.origin_m = {0, 0, -80}, path.direction_ratio = {0, 1, 0};
+  path.airspeed_mps = 18, path.remaining_m = 1e3;
+  VehicleState s = on_final(0, 0.2);
+  s.position_valid = false;
+  Bench<VectorField> field;
+  field.set(field.in.path, path);
+  field.set(field.in.state, s);
+  CHECK(field.step(0.01) == Status::degraded);
+  CHECK(field.out.command.airspeed_mps == 18);
+  CHECK(field.out.command.height_m == Approx(80));
+}
+
 }  // namespace off_nominal_test

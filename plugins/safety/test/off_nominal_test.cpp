@@ -41,6 +41,19 @@ struct Lost : Bench<Monitor> {
   }
 };
 
+/// A square of 1200 m around the origin, from 20 to 120 m.
+void fence(Bench<Monitor>& w) {
+  kit::give_anaconda(w.params);
+  Fence& f = w.params.fence.value;
+  for (const auto& [n, e] : {std::pair{600.0, -600.0}, {600.0, 600.0}, {-600.0, 600.0}, {-600.0, -600.0}}) {
+    FencePoint corner;
+    corner.north_m = n, corner.east_m = e;
+    f.corners.push_back(corner);
+  }
+  f.floor_m = 20, f.ceiling_m = 120;
+  w.params.fence.is_given = true;
+}
+
 /// Of all airspeeds from the least to the most, the one that goes farthest over the ground, and how far.
 std::pair<double, double> farthest(double height_m, double head_wind_mps) {
   const Airframe a = test::anaconda();
@@ -111,23 +124,74 @@ TEST_CASE("a change is told once, and once when it is over, each time") {
   }
 }
 
-TEST_CASE("home outside of the fence is named by its own place") {
-  Bench<Monitor> w;
-  kit::give_anaconda(w.params);
-  for (const auto& [n, e] : {std::pair{300.0, -300.0}, {300.0, 300.0}, {-300.0, 300.0}, {-300.0, -300.0}}) {
-    FencePoint corner;
-    corner.north_m = n, corner.east_m = e;
-    w.params.fence.value.corners.push_back(corner);
+TEST_CASE("home outside of the fence, to the north or to the east, is named by its own place") {
+  for (const auto& [north, east, words] :
+       {std::tuple{700.0, -40.0, "home, 700 m north, -40 m east, lies outside of the fence"},
+        {20.0, 800.0, "home, 20 m north, 800 m east, lies outside of the fence"}}) {
+    Bench<Monitor> w;
+    fence(w);
+    for (const auto& [n, e] : {std::pair{north, east}, {10.0, 20.0}}) {
+      Place place;
+      place.north_m = n, place.east_m = e;
+      w.params.places.value.places.push_back(place);
+    }
+    w.params.places.is_given = true;
+    CHECK(w.configure() == Status::failed);
+    CHECK(w.error().find(words) != std::string::npos);
   }
-  w.params.fence.value.floor_m = 20, w.params.fence.value.ceiling_m = 120, w.params.fence.is_given = true;
-  for (const auto& [n, e] : {std::pair{500.0, -40.0}, {10.0, 20.0}}) {
-    Place place;
-    place.north_m = n, place.east_m = e;
-    w.params.places.value.places.push_back(place);
+}
+
+TEST_CASE(
+    "the fence is near on each of its sides, and only there; without one there is no floor and no ceiling") {
+  const auto flown = [](double north, double east, double course, bool fenced) {
+    Bench<Monitor> w;
+    kit::give_anaconda(w.params);
+    if (fenced) fence(w);
+    REQUIRE(w.configure() == Status::ok);
+    VehicleStatus status;
+    status.armed = true, status.battery_volt = 24;
+    for (int i = 0; i < 150; ++i) {
+      const bool there = i >= 100;
+      w.set(w.in.state, kit::level(there ? north : 0, there ? east : 0, there ? course : 0), -0.02);
+      w.set(w.in.status, status, -0.02);
+      REQUIRE(w.step(0.02) == Status::ok);
+    }
+    return w.out.safety;
+  };
+  constexpr double pi = std::numbers::pi;
+  for (const auto& [n, e, course] :
+       {std::tuple{560.0, 50.0, 0.0}, {-60.0, 560.0, pi / 2}, {-560.0, 20.0, pi}, {70.0, -560.0, -pi / 2}}) {
+    CHECK(flown(n, e, course, true).fence);
+    CHECK_FALSE(flown(0.2 * n, 0.2 * e, course, true).fence);
+    CHECK_FALSE(flown(n, e, course, false).fence);
   }
-  w.params.places.is_given = true;
-  CHECK(w.configure() == Status::failed);
-  CHECK(w.error().find("home, 500 m north, -40 m east, lies outside of the fence") != std::string::npos);
+  const SafetyState free = flown(0, 0, 0, false), held = flown(0, 0, 0, true);
+  CHECK(free.floor_m < -1e6);
+  CHECK(free.ceiling_m > 1e6);
+  CHECK(held.floor_m == 20);
+  CHECK(held.ceiling_m == 120);
+}
+
+TEST_CASE("a second glide does not begin in the flare of the first") {
+  Bench<Glide> law;
+  kit::give_anaconda(law.params.common);
+  GuidanceCommand command;
+  command.course_rad = 0.5, command.airspeed_mps = 14;
+  const auto fly = [&](double height_m, double climb_mps) {
+    VehicleState s = kit::level(0, 0, 0.5, 14);
+    s.height_m = height_m, s.position_m.down = -height_m, s.climb_rate_mps = climb_mps;
+    for (int i = 0; i < 20; ++i) {
+      law.set(law.in.state, s, -0.01);
+      law.set(law.in.command, command, -0.01);
+      REQUIRE(law.step(0.01) != Status::failed);
+    }
+    return law.out.flare_ratio.value;
+  };
+  CHECK(fly(5, -5) == 1);
+  CHECK(fly(12, -1) == 1);  // a bump is no end of the flare
+  REQUIRE(law.activate() == Status::ok);
+  CHECK(fly(12, -1) == 0);
+  CHECK(fly(5, -5) == 1);
 }
 
 TEST_CASE(

@@ -104,4 +104,27 @@ TEST_CASE("in the middle of the final circle the error is its radius, to the nor
   CHECK(error.east_m < 1e-9);
 }
 
+TEST_CASE("an estimate counts only while position, attitude and velocity are valid, all of them") {
+  for (int invalid = 0; invalid <= 3; ++invalid) {
+    Bench<Score> bench;
+    bool counted = false;
+    for (int i = 0; i < 2500; ++i) {
+      VehicleState s;
+      s.position_m = {0.2 * i, 0, -70};
+      s.velocity_mps = {20, 0, 0};
+      s.height_m = 70, s.airspeed_mps = s.ground_speed_mps = 20;
+      s.origin_latitude_deg = 40, s.origin_valid = true;
+      s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
+      bench.set(bench.in.truth, s);
+      if (invalid == 1) s.position_valid = false;
+      if (invalid == 2) s.attitude_valid = false;
+      if (invalid == 3) s.velocity_valid = false;
+      bench.set(bench.in.state, s);
+      bench.step(0.01);
+      counted = counted || bench.out.estimation.written;
+    }
+    CHECK(counted == (invalid == 0));
+  }
+}
+
 }  // namespace off_nominal_test

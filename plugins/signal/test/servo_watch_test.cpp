@@ -75,8 +75,7 @@ TEST_CASE("larger than the throw, about the trim; faster than the servo: reporte
   }
 }
 
-TEST_CASE(
-    "a sine at twice the servo's rate: it is at its limit most of the time, which is reported once") {
+TEST_CASE("a sine at twice the servo's rate: it is at its limit most of the time, which is reported once") {
   Sweep s(Shape::sine, 0.3, 2 / (2 * std::numbers::pi * 0.15));
   s.go(8);
   // 16 whole periods of 8 s; of each half one of 0.24 s the lag of 20 ms takes a tenth to a fifth

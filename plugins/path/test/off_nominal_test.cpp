@@ -243,6 +243,27 @@ TEST_CASE("a waypoint that comes behind changes nothing of the piece that is flo
   CHECK(arc);
 }
 
+TEST_CASE("a leg climbs evenly, on its arcs as well: each piece has the slope of the whole") {
+  Plan plan = plan_of({passed(0, 400, 0, 0), passed(0, 900, 500, 2), passed(0, 0, 700, -2)});
+  for (std::uint32_t i = 0; i < 3; ++i) plan.waypoints[i].position_m.down = -(85 + 15.0 * i);
+  Flight flight(plan);
+  REQUIRE(flight.fly(200, [&] { return flight.progress().item == 1; }));
+  const Route route(flight.plan());
+  const RouteLeg leg = route.leg(1);
+  bool arc = false;
+  while (flight.progress().item == 1) {
+    const Path& path = flight.path();
+    const double slope =
+        path.kind == PathKind::line
+            ? -path.direction_ratio.down / std::hypot(path.direction_ratio.north, path.direction_ratio.east)
+            : path.climb_ratio;
+    REQUIRE(slope == Approx(15 / leg.length_m));
+    arc = arc || path.kind == PathKind::orbit;
+    flight.step(0.05);
+  }
+  CHECK(arc);
+}
+
 TEST_CASE("from its first step on the field follows the path, also while the position is not valid") {
   Path path;
   path.kind = PathKind::line;

@@ -172,6 +172,22 @@ TEST_CASE(
   CHECK(held.ceiling_m == 120);
 }
 
+TEST_CASE("a fence that is taken away is gone: configured a second time without one") {
+  Bench<Monitor> w;
+  fence(w);
+  REQUIRE(w.configure() == Status::ok);
+  w.params.fence.is_given = false;
+  REQUIRE(w.configure() == Status::ok);
+  VehicleStatus status;
+  status.armed = true, status.battery_volt = 24;
+  for (int i = 0; i < 150; ++i) {
+    w.set(w.in.state, kit::level(i < 100 ? 0 : 590, 0, 0), -0.02);
+    w.set(w.in.status, status, -0.02);
+    REQUIRE(w.step(0.02) == Status::ok);
+  }
+  CHECK_FALSE(w.out.safety.fence);
+}
+
 TEST_CASE("a second glide does not begin in the flare of the first") {
   Bench<Glide> law;
   kit::give_anaconda(law.params.common);

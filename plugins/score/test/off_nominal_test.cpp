@@ -78,30 +78,33 @@ TEST_CASE("a climbing circle has no error on it, to either side; above it the er
   }
 }
 
-TEST_CASE("in the middle of the final circle the error is its radius, to the north") {
-  Bench<Score> bench;
-  Plan plan;
-  plan.revision = 1, plan.end = PlanEnd::orbit, plan.turn_radius_m = 60;
-  Waypoint w;
-  w.position_m = {100, -50, -70};
-  plan.waypoints.push_back(w);
-  Progress progress;
-  progress.items = progress.reached = 1, progress.plan_revision = 1, progress.finished = true;
-  TrackingError error;
-  for (int i = 0; i < 200; ++i) {
-    VehicleState s;
-    s.position_m = {100, -50, -70};
-    s.height_m = 70;
-    s.airspeed_mps = s.ground_speed_mps = 17;
-    s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
-    bench.set(bench.in.plan, plan);
-    bench.set(bench.in.progress, progress);
-    bench.set(bench.in.state, s);
-    bench.step(0.01);
-    if (bench.out.tracking.written) error = bench.out.tracking.value;
+TEST_CASE("on the final circle the error is the way to it, off its middle by the radius, to the north") {
+  for (const auto& [north, east, error_north, error_east] :
+       {std::tuple{0.0, 0.0, 60.0, 0.0}, {70 * 0.6, 70 * 0.8, 6.0, 8.0}, {-50 * 0.8, 50 * 0.6, 8.0, 6.0}}) {
+    Bench<Score> bench;
+    Plan plan;
+    plan.revision = 1, plan.end = PlanEnd::orbit, plan.turn_radius_m = 60;
+    Waypoint w;
+    w.position_m = {100, -50, -70};
+    plan.waypoints.push_back(w);
+    Progress progress;
+    progress.items = progress.reached = 1, progress.plan_revision = 1, progress.finished = true;
+    TrackingError error;
+    for (int i = 0; i < 200; ++i) {
+      VehicleState s;
+      s.position_m = {100 + north, -50 + east, -70};
+      s.height_m = 70;
+      s.airspeed_mps = s.ground_speed_mps = 17;
+      s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
+      bench.set(bench.in.plan, plan);
+      bench.set(bench.in.progress, progress);
+      bench.set(bench.in.state, s);
+      bench.step(0.01);
+      if (bench.out.tracking.written) error = bench.out.tracking.value;
+    }
+    CHECK(error.north_m == Approx(error_north));
+    CHECK(std::abs(error.east_m - error_east) < 1e-9);
   }
-  CHECK(error.north_m == Approx(60));
-  CHECK(error.east_m < 1e-9);
 }
 
 TEST_CASE("an estimate counts only while position, attitude and velocity are valid, all of them") {

@@ -264,6 +264,37 @@ TEST_CASE("a leg climbs evenly, on its arcs as well: each piece has the slope of
   CHECK(arc);
 }
 
+TEST_CASE(
+    "the nearest point of a leg is that of a fine search, on lines, arcs of both turns and beyond their "
+    "ends") {
+  const Plan plan = plan_of({passed(0, 300, 0, 0.4), passed(0, 500, 400, 2.6), passed(0, -200, 300, -2)});
+  const Route route(plan);
+  for (std::uint32_t item = 0; item < 3; ++item) {
+    const RouteLeg leg = route.leg(item);
+    for (int k = 0; k < 200; ++k) {
+      const double n = -400 + 1200 * std::fmod(0.618034 * k, 1.0), e = -300 + 6.0 * k;
+      double best_m = 1e9;
+      for (std::size_t i = 0; i < leg.count; ++i)
+        for (double along = 0; along < leg[i].length_m; along += 0.5) {
+          const RoutePiece& piece = leg[i];
+          const double azimuth =
+              piece.start_rad + (piece.turn == Turn::right ? 1 : -1) * along / piece.radius_m;
+          const bool line = piece.kind == PathKind::line;
+          const double at_n = piece.north_m +
+                              (line ? along * piece.unit_north_ratio : piece.radius_m * std::cos(azimuth)),
+                       at_e = piece.east_m +
+                              (line ? along * piece.unit_east_ratio : piece.radius_m * std::sin(azimuth));
+          best_m = std::min(best_m, std::hypot(n - at_n, e - at_e));
+        }
+      CAPTURE(item);
+      CAPTURE(k);
+      const RoutePoint found = nearest(leg, n, e);
+      CHECK(std::abs(found.distance_m - best_m) < 0.5);
+      CHECK(std::hypot(n - found.north_m, e - found.east_m) == Approx(found.distance_m));
+    }
+  }
+}
+
 TEST_CASE("from its first step on the field follows the path, also while the position is not valid") {
   Path path;
   path.kind = PathKind::line;

@@ -5,6 +5,8 @@ switched on by FULMAR_MUTANT, and runs the programs that cover a fault. Ends wit
 
     cmake/mutate.py [--folder FOLDER] [--jobs N] [ID...]
     cmake/mutate.py --only-list       only whether each fault has its place in the sources
+    cmake/mutate.py --draw N --seed S [--in PATH...] [--programs NAME...]
+                                      N faults that no list has, drawn from the flight code (of these paths)
 """
 import argparse
 import collections
@@ -13,18 +15,37 @@ import pathlib
 import subprocess
 import sys
 
+import drawn_faults
+import mutant_programs
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LIST = ROOT / "cmake/mutants.txt"
 ENOUGH_PERCENT = 92
+ENOUGH_OF_DRAWN_PERCENT = 85
+ROUNDS = 12  # of drawing others for those that the compiler refuses
 LIMIT_S = 300  # of one program: a fault that makes it hang is noticed, too
 SWITCH = """// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #ifdef __cplusplus
 #include <cstdlib>
+#include <type_traits>
 inline bool fulmar_mutant(int id) {
   static const char* text = std::getenv("FULMAR_MUTANT");
   static const int chosen = text ? std::atoi(text) : 0;
   return chosen == id;
+}
+// By value: of two expressions with operators of Eigen neither is of the other's type.
+template <class T, class = void>
+struct FulmarChosen {
+  using type = std::decay_t<T>;
+};
+template <class T>
+struct FulmarChosen<T, std::void_t<typename std::decay_t<T>::PlainObject>> {
+  using type = typename std::decay_t<T>::PlainObject;
+};
+template <class T>
+typename FulmarChosen<T>::type fulmar_chosen(T&& x) {
+  return typename FulmarChosen<T>::type(static_cast<T&&>(x));
 }
 #endif
 """
@@ -88,9 +109,9 @@ def write(path, content, mode=0o644):
     path.chmod(mode)
 
 
-def build(folder, jobs, chosen, known):
+def configure(folder, texts, log):
+    """A copy of the tree with these texts in it, ready to be built."""
     tree, out = folder / "tree", folder / "build"
-    texts = mutated(known)
     files = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
     for name in filter(None, files.split("\0")):
         source = ROOT / name
@@ -98,14 +119,26 @@ def build(folder, jobs, chosen, known):
         write(tree / name, content, source.stat().st_mode & 0o777)
     switch = folder / "mutant.hpp"
     write(switch, SWITCH.encode())
+    if subprocess.run(["cmake", "-S", tree, "-B", out, "-G", "Ninja", "-DFULMAR_TESTS=ON", "-DCMAKE_BUILD_TYPE=Release",
+                       "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", f"-DCMAKE_CXX_FLAGS=-w -include {switch}"],
+                      stdout=log, stderr=log).returncode:
+        sys.exit(f"the copy with the faults in it cannot be configured: {log.name}")
+    return out
+
+
+def ninja(out, jobs, targets, log):
+    """All that can be built: whether it is all."""
+    command = ["ninja", "-C", out, "-k", "0", "-j", str(jobs), *targets]
+    return subprocess.run(command, stdout=log, stderr=log).returncode == 0
+
+
+def build(folder, jobs, chosen, known):
     programs = sorted({p.split("@")[0] for m in chosen for p in m.programs})
-    log = folder / "build.log"
-    with log.open("w") as to:
-        for command in (["cmake", "-S", tree, "-B", out, "-G", "Ninja", "-DFULMAR_TESTS=ON", "-DCMAKE_BUILD_TYPE=Release",
-                         "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", f"-DCMAKE_CXX_FLAGS=-w -include {switch}"],
-                        ["ninja", "-C", out, "-j", str(jobs), "fulmar", *programs]):
-            if subprocess.run(command, stdout=to, stderr=to).returncode:
-                sys.exit(f"the build with the faults in it failed: {log}")
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "build.log").open("w") as log:
+        out = configure(folder, mutated(known), log)
+        if not ninja(out, jobs, ["fulmar", *programs], log):
+            sys.exit(f"the build with the faults in it failed: {log.name}")
     return out / "bin"
 
 
@@ -121,13 +154,61 @@ def passes(bin_folder, program, folder, mutant="0"):
         return False
 
 
+def draw(given):
+    files = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
+    sources = {f: (ROOT / f).read_text() for f in files
+               if drawn_faults.is_flight_code(f) and f.startswith(tuple(given.within))}
+    drawing = drawn_faults.Draw(sources, given.seed)
+    drawing.draw(given.draw)
+    folder = given.folder.resolve().with_name(given.folder.name + "-drawn")
+    if given.only_list:
+        for m in drawing.drawn():
+            print(f"{m.path}:{m.line}: {m.kind}: {m.was} -> {m.now}")
+        return 0
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "build.log").open("w+") as log:
+        programs = build_drawn(folder, drawing, given, log)
+    return mutant_programs.judge(list(drawing.drawn()), programs, folder, ENOUGH_OF_DRAWN_PERCENT, given.jobs)
+
+
+def build_drawn(folder, drawing, given, log):
+    """The programs with the faults in them: name -> the files of the tree that it is compiled of."""
+    refused = None
+    for _ in range(ROUNDS):
+        out = configure(folder, drawing.texts(), log)
+        compiled = mutant_programs.compiled_of(out, folder / "tree")
+        wanted = {path for path, _ in drawing.taken.values()}
+        programs = {name: files for name, files in compiled.items()
+                    if files & wanted and (not given.programs or name in given.programs)}
+        # First the compiler's front end alone, over as few sources as hold all faults.
+        places = mutant_programs.refused_places(out, folder / "tree", wanted, programs, given.jobs)
+        if not places:
+            begin = log.tell()
+            if ninja(out, given.jobs, programs, log):
+                return programs
+            log.seek(begin)
+            places = mutant_programs.places_in(log.read(), folder / "tree")
+        refused = list(drawing.on_lines(places))
+        if not refused:
+            break
+        print(f"the compiler refuses {len(refused)}: others in their place", flush=True)
+        drawing.drop(refused)
+    sys.exit(f"the build with the faults in it failed: {log.name}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build-mutants")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the build")
+    parser.add_argument("--draw", type=int, metavar="N", help="so many faults that no list has")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the draw")
+    parser.add_argument("--in", dest="within", nargs="+", default=[""], metavar="PATH", help="draw from these alone")
+    parser.add_argument("--programs", nargs="+", default=[], metavar="NAME", help="run these alone")
     parser.add_argument("--only-list", action="store_true", help="build and run nothing")
     parser.add_argument("id", nargs="*", help="faults of the list; all when none is named")
     given = parser.parse_args()
+    if given.draw is not None:
+        return draw(given)
     known = mutants()
     unknown = set(given.id) - {m.id for m in known}
     if unknown:

@@ -44,7 +44,7 @@ struct Airspeed {
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
     airspeed_.reset_to(in.state->airspeed_mps);
-    command_rate_.reset_to(in.command->airspeed_mps);
+    command_rate_.reset_to(wanted_airspeed(*in.command, p));
     loop_.reset();
     take_up_ = last.has(last->attitude);
     throttle_.reset_to(take_up_ ? last->attitude.throttle_frac : p.airframe->limits.throttle_cruise_frac);
@@ -65,8 +65,7 @@ struct Airspeed {
     if (roll_left != 0) out.attitude.roll_rad = wrap_pi(out.attitude.roll_rad + roll_left);
     out.attitude.pitch_rad += pitch_left_.step(0, p.take_over_rate, dt);
     const FlightLimits& limits = p.airframe->limits;
-    const double Va_c =
-        std::clamp(in.command->airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
+    const double Va_c = wanted_airspeed(*in.command, p);
     const double per_throttle = p.thrust / p.airframe->mass_kg;  // m/s2
     const double acceleration_c = command_rate_.step(Va_c, p.command_filter, dt);
     const double steady = needed(state, out.attitude, *p.airframe, Va_c);
@@ -86,6 +85,11 @@ struct Airspeed {
   }
 
  private:
+  static double wanted_airspeed(const GuidanceCommand& command, const Params& p) {
+    const FlightLimits& limits = p.airframe->limits;
+    return std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
+  }
+
   /// Standing: engine off, nothing is remembered.
   Status rest(Outputs& out) {
     loop_.reset(), airspeed_.reset(), command_rate_.reset();

@@ -88,7 +88,8 @@ class Excitation {
               std::size_t channel, double size, std::string_view extra, Told& told) {
     const Request now{p.shape,     channel,         size,    p.delay, p.duration,
                       p.frequency, p.frequency_end, p.every, p.run};
-    if (now != request_) begin(now, p, tick, in.state->height_m);
+    began_ = now != request_;
+    if (began_) begin(now, p, tick, in.state->height_m);
     if (running_) {
       std::string_view why = trouble(in, bounds, begun_m_);
       if (why.empty()) why = extra;
@@ -106,6 +107,8 @@ class Excitation {
     return aborted_ ? Status::degraded : Status::ok;
   }
   double operator[](std::size_t channel) const { return last_[channel]; }
+  /// In the last step another signal was asked for.
+  bool began() const { return began_; }
 
  private:
   static constexpr double let_go_s = 0.2;  // what is left of a signal that is taken away goes within it
@@ -139,7 +142,7 @@ class Excitation {
   Waveform wave_;
   std::int64_t begun_ns_ = 0;
   double begun_m_ = 0;
-  bool running_ = false, aborted_ = false;
+  bool running_ = false, aborted_ = false, began_ = false;
   std::string_view untold_;                         // why it was aborted, until that is told
   std::array<double, N> last_{}, left_{}, from_{};  // added last; of signals before, now and when let go
 };

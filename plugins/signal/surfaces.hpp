@@ -3,6 +3,7 @@
 #pragma once
 #include "excitation.hpp"
 #include "fulmar/msg/actuators.hpp"
+#include "servo_watch.hpp"
 
 namespace fulmar::signal {
 
@@ -21,6 +22,7 @@ struct Surfaces {
     Probe elevator_excitation_rad;
     Probe rudder_excitation_rad;
     Probe throttle_excitation_frac;
+    Probe limited_ratio;  // 1: a servo is at its stop or its rate limit, of whatever is commanded
     Told told;
   };
   struct Params {
@@ -51,15 +53,34 @@ struct Surfaces {
     out.elevator_excitation_rad = out.actuators.elevator_rad - asked.elevator_rad;
     out.rudder_excitation_rad = out.actuators.rudder_rad - asked.rudder_rad;
     out.throttle_excitation_frac = out.actuators.throttle_frac - asked.throttle_frac;
+    watch(tick, p, size, asked, out);
     return status;
   }
 
  private:
+  /// What the servos cannot follow: of the signal before it begins, and of every command.
+  void watch(const Tick& tick, const Params& p, double size, const Actuators& asked, Outputs& out) {
+    const Airframe& a = *p.bounds.airframe;
+    const std::array<const Surface*, 3> surfaces{&a.aileron, &a.elevator, &a.rudder};
+    const auto channel = static_cast<std::size_t>(p.channel.value);
+    if (excitation_.began() && channel < surfaces.size())
+      report(servo_trouble(*surfaces[channel], p.signal, size), tick, out);
+    Actuators wanted = asked;
+    wanted.aileron_rad += excitation_[0];
+    wanted.elevator_rad += excitation_[1];
+    wanted.rudder_rad += excitation_[2];
+    report(servos_.step(a, wanted, tick.dt_s()), tick, out);
+    out.limited_ratio = servos_.limited() ? 1.0 : 0.0;
+  }
+  static void report(std::string_view what, const Tick& tick, Outputs& out) {
+    if (!what.empty()) out.told.notices.push({Text<96>(what), Severity::warning}, tick.now_ns);
+  }
   static double within_throw(const Surface& s, double value, double by) {
     return added(value, by, std::max(-s.limit_rad, s.min_rad), std::min(s.limit_rad, s.max_rad));
   }
 
   Excitation<4> excitation_;
+  ServoWatch servos_;
 };
 
 }  // namespace fulmar::signal

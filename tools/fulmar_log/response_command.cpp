@@ -82,6 +82,12 @@ std::string step_text(const StepFigures& f, double band, const std::array<Signal
   if (same_unit(s)) out += fmt::format("  {:<24} {:10.4g} {}\n", "steady error", f.steady_error(), s[1].unit);
   return out;
 }
+std::string limited_text(const std::optional<double>& share) {
+  if (!share) return "";
+  std::string out = fmt::format("servos  {:.1f} % of this time at a stop or at the rate limit", 100 * *share);
+  if (*share > 0.01) out += ": the figures are not those of small signals";
+  return out + "\n";
+}
 std::string frequency_text(const FrequencyResponse& r) {
   std::string out = fmt::format(
       "\n{} segments of {:.2f} s at {:.4g} Hz\n{:>12} {:>11} {:>9} {:>9} {:>11} {:>10}\n", r.segments,
@@ -157,14 +163,17 @@ struct ResponseCommand::Impl {
     const auto r =
         attempt(!step, no_frequency, [&] { return frequency_response(s[0].series, s[1].series, segment_s); });
     if (!f && !r) throw Error(log + ": " + no_step + (step || frequency ? "" : "; and ") + no_frequency);
+    const std::vector<double>& t_s = s[0].series.t_s;
+    const std::optional<double> limited = limited_share(log, t_s.front(), t_s.back());
     if (as_json) {
-      core::print_json({{"input", signal_json(s[0])},
+      core::print_json({{"servo_limited_ratio", or_null(limited)},
+                        {"input", signal_json(s[0])},
                         {"output", signal_json(s[1])},
                         {"step", f ? step_json(*f, band, same_unit(s)) : json(nullptr)},
                         {"frequency", r ? frequency_json(*r) : json(nullptr)}});
       return 0;
     }
-    std::string text = head_text(s[0], "input") + head_text(s[1], "output");
+    std::string text = head_text(s[0], "input") + head_text(s[1], "output") + limited_text(limited);
     if (f) text += step_text(*f, band, s);
     if (!f && !frequency) text += "\nno figures of a step: " + no_step + "\n";
     if (r) text += frequency_text(*r);

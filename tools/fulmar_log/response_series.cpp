@@ -103,4 +103,30 @@ std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::
   return out;
 }
 
+std::optional<double> limited_share(const std::filesystem::path& log, double from_s, double to_s) {
+  std::vector<std::string> topics;
+  for (const core::LogInfo::Topic& t : core::read_info(log).topics)
+    if (t.topic.ends_with("/probes")) topics.push_back(t.topic);
+  if (topics.empty()) return std::nullopt;
+  const core::Tables tables(log, topics);
+  std::vector<int> columns;
+  for (const core::Table& table : tables.list())
+    columns.push_back(core::index_named(table.columns, "limited_ratio"));
+  std::vector<double> sums(columns.size()), counts(columns.size());
+  tables.rows([&](std::size_t table) { return columns[table] >= 0; },
+              [&](const core::Tables::Row& row) {
+                const double t = 1e-9 * static_cast<double>(row.valid_ns);
+                if (t < from_s || t > to_s) return;
+                const double x =
+                    core::number_of_cell((*row.cells)[static_cast<std::size_t>(columns[row.table])]);
+                if (!std::isfinite(x)) return;
+                sums[row.table] += x;
+                counts[row.table] += 1;
+              });
+  std::optional<double> most;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    if (counts[i] > 0) most = std::max(most.value_or(0), sums[i] / counts[i]);
+  return most;
+}
+
 }  // namespace fulmar::response

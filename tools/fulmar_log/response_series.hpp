@@ -26,4 +26,8 @@ struct Signal {
 std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::array<std::string, 2>& fields,
                                    const Window& window);
 
+/// The share of the time from `from_s` to `to_s` in which a servo was at its stop or its rate limit, by the
+/// components that report it (`limited_ratio`); the largest of several. Empty when none does.
+std::optional<double> limited_share(const std::filesystem::path& log, double from_s, double to_s);
+
 }  // namespace fulmar::response

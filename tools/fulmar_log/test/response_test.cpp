@@ -321,6 +321,37 @@ TEST_CASE("one of the two alone, a part of the time, another band; the table say
   CHECK_MESSAGE(none.find("no figures of a step: the input has no step") != std::string::npos, none);
 }
 
+TEST_CASE(
+    "the share of the time with a servo at its limit is that of the time looked at; without a report none") {
+  const Folder folder;
+  const std::string file = (folder.path / "limited.mcap").string();
+  {
+    core::test::Sample log({.file = file, .max_message_bytes = 4096});
+    const auto type = core::test::make_type(
+        "Probes", 16, 8, {core::test::number("size_rad", 0), core::test::number("limited_ratio", 8)});
+    const std::uint16_t probes = log.channel("/surface_signal/probes", *type);
+    for (int i = 0; i < 1000; ++i) {  // of 10 s the fifth and the first half of the sixth
+      const double values[] = {i < 450 ? 0.0 : 0.1, i >= 400 && i < 550 ? 1.0 : 0.0};
+      log.write(probes, i * 10 * ms, reinterpret_cast<const std::byte*>(values), 0, 0);
+    }
+    log.writer.close();
+  }
+  const std::string words =
+      file + " --step --input surface_signal.size_rad --output surface_signal.size_rad ";
+  const auto share = [&](const std::string& more) {
+    return json::parse(say(words + "--json " + more).text).at("servo_limited_ratio").get<double>();
+  };
+  CHECK(share("") == doctest::Approx(0.15));
+  CHECK(share("--from 4 --to 4.995") == doctest::Approx(1));
+  CHECK(share("--from 3.5 --to 7.495") == doctest::Approx(0.375));
+  CHECK(say(words).text.find("servos  15.0 % of this time at a stop or at the rate limit: the figures") !=
+        std::string::npos);
+  const std::string other =
+      stepped_log(folder) + " --input outer.attitude.roll_rad --output nav.state.roll_rad";
+  CHECK(json::parse(say(other + " --json").text).at("servo_limited_ratio") == nullptr);
+  CHECK(say(other).text.find("servos") == std::string::npos);
+}
+
 TEST_CASE("what is not in the log is told with what there is") {
   const Folder folder;
   const std::string log = stepped_log(folder);

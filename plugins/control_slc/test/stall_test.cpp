@@ -106,18 +106,14 @@ TEST_CASE("an aircraft with little static margin leaves the stall that an updraf
     }
 }
 
-TEST_CASE(
-    "nose up and slow without power, as a pilot may hand over: out of it within seconds, and reported") {
-  for (const Airframe& a : {test::anaconda(), glider()}) {
-    CAPTURE(a.aero.pitch.alpha_ratio);
-    Flight f(a, a, Turbulence::none, 1);
-    f.run(5);
-    for (int i = 0; i < 800; ++i) f.model.step({0, 0, -0.6, 0}, 0.0025);  // elevator up, motor off
-    f.run(30);
-    CHECK(f.longest_s < 2);
-    CHECK(f.lowest_m > 25);
-    CHECK(std::abs(f.state.height_m - 70) < 3);
-  }
+TEST_CASE("nose up and slow without power, as a pilot may hand over: out of it within seconds") {
+  Flight f(test::anaconda(), test::anaconda(), Turbulence::none, 1);
+  f.run(5);
+  for (int i = 0; i < 800; ++i) f.model.step({0, 0, -0.6, 0}, 0.0025);  // elevator up, motor off
+  f.run(30);
+  CHECK(f.longest_s < 2);
+  CHECK(f.lowest_m > 25);
+  CHECK(std::abs(f.state.height_m - 70) < 3);
 }
 
 TEST_CASE("in calm air at cruise nothing of it shows: no flag, and the airspeed that is commanded") {

@@ -37,6 +37,12 @@ struct Guarded {
   }
 };
 
+/// Along the velocity, which is level: what the accelerometer has of it beside gravity.
+void own_acceleration(VehicleState& s, double mps2) {
+  s.specific_force_mps2.x = mps2 * std::cos(s.alpha_rad) + g * std::sin(s.pitch_rad);
+  s.specific_force_mps2.z = mps2 * std::sin(s.alpha_rad) - g * std::cos(s.pitch_rad);
+}
+
 /// Nose 20 degrees up, on the way down: the angle of attack is the sum of both.
 VehicleState mushing(double sink_mps, double airspeed_mps = 13) {
   VehicleState s = level(airspeed_mps);
@@ -111,11 +117,10 @@ TEST_CASE("gusts that take airspeed raise the least airspeed; a change that the 
   Guarded calm, gusty;
   for (int i = 0; i < 3000; ++i) {
     VehicleState s = level(17 + std::sin(0.01 * i));
-    s.specific_force_mps2.x = g * std::sin(s.pitch_rad) + std::cos(0.01 * i);  // its own acceleration
-    s.specific_force_mps2.x = std::cos(0.01 * i) + g * std::sin(s.pitch_rad);
+    own_acceleration(s, std::cos(0.01 * i));
     calm.fly(s, 0.01);
     s = level(17 + 2 * std::sin(0.02 * i));
-    s.specific_force_mps2.x = g * std::sin(s.pitch_rad);
+    own_acceleration(s, 0);
     gusty.fly(s, 0.01);
   }
   CHECK(calm.now.airspeed_min_mps < 12.5);
@@ -186,6 +191,9 @@ TEST_CASE("near the stall pitch is no more than nine tenths of the lift above th
   s.climb_rate_mps = -2;
   f.fly(s, 1);
   CHECK(f.now.pitch_max_rad == doctest::Approx(alpha - std::asin(2.0 / 12)).epsilon(0.02));
+  s.climb_rate_mps = -11;  // air that falls: no lower than the limit
+  f.fly(s, 1);
+  CHECK(f.now.pitch_max_rad == f.airframe.limits.pitch_min_rad);
   f.guarded = false;
   f.fly(s, 1);
   CHECK(f.now.pitch_max_rad == doctest::Approx(f.airframe.limits.pitch_max_rad));

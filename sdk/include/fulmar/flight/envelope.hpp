@@ -113,7 +113,7 @@ class EnvelopeGuard {
       e.airspeed_min_mps = std::clamp(least_mps, e.slowest_mps, limits.airspeed_max_mps);
     }
     if (state.airspeed_valid && state.velocity_valid)
-      e.pitch_max_rad = std::min(e.pitch_max_rad, pitch_max(state));
+      e.pitch_max_rad = std::min(e.pitch_max_rad, pitch_max(state, limits, e.slowest_mps));
     look(state, e.slowest_mps, climb_rate_mps, seen, dt_s);
     return e;
   }
@@ -173,11 +173,14 @@ class EnvelopeGuard {
     return std::max(e.slowest_mps, std::min(above_stall * std::sqrt(squared), most));
   }
 
-  /// No more than nine tenths of the lift above the flight path, where the lift that is used nears that.
-  double pitch_max(const VehicleState& s) const {
+  /// No more than nine tenths of the lift above the flight path, where the lift that is used nears that. No
+  /// lower than the pitch limit, and half of it where the aircraft is fast: the flight path may be the air's.
+  double pitch_max(const VehicleState& s, const FlightLimits& limits, double slowest_mps) const {
     constexpr double share = 0.9, free_rad = 0.6, free_share = 0.65, full_share = 0.85;
     const double slack = free_rad * smoothly(used(), full_share, free_share);
-    return climb_rad_ + wing_.alpha_of(share) * std::cos(s.roll_rad) + slack;
+    const double lowest =
+        limits.pitch_min_rad * (1 - 0.5 * smoothly(V_, 1.2 * slowest_mps, 1.5 * slowest_mps));
+    return std::max(lowest, climb_rad_ + wing_.alpha_of(share) * std::cos(s.roll_rad) + slack);
   }
 
   /// A stall: the angle of attack is beyond that of the most lift, the aircraft is slow, and sinks though

@@ -73,7 +73,6 @@ struct Monitor {
   SafetyAnswer wanted(const VehicleState& s, const Params& p, double dt);
   void flags();
   Reports::Facts facts(const Inputs& in, const Params& p) const;
-
   static bool gone(const SensorHealth& h) {
     return h.state == SensorState::silent || h.state == SensorState::stuck || h.state == SensorState::refused;
   }
@@ -137,7 +136,7 @@ inline bool Monitor::is_airborne(const Inputs& in, const Params& p) const {
   return (s.velocity_valid && s.ground_speed_mps > carries) || (s.airspeed_valid && s.airspeed_mps > carries);
 }
 
-/// A wheel that leaves the ground for a moment is no flight; with each flight what concerns it begins again.
+/// A wheel that leaves the ground for a moment is no flight; each flight begins again.
 inline void Monitor::take_off(bool airborne, const Params& p, double dt) {
   aloft_s_ = airborne ? aloft_s_ + dt : 0;
   const bool before = now_.airborne;

@@ -261,7 +261,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
                   .failing = "what: engine, kind: weak",
                   .cause = &S::engine_weak,
                   .told_within_s = 60,
-                  .phases = big ? std::vector<std::string>{"approach"} : std::vector<std::string>{"home"},
+                  .phases = big ? std::vector<std::string>{"cruise"} : std::vector<std::string>{"home"},
                   .may_be_told = big});
   if (big) return rows;
   for (Row& row : rows_of_takeoff_and_final(a)) rows.push_back(std::move(row));

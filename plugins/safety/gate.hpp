@@ -22,23 +22,27 @@ class RunUp {
  public:
   bool failed() const { return failed_; }
   bool tail_wind() const { return tail_wind_; }
-  void step(bool obeyed, double throttle_frac, double ground_speed_mps, bool windy, double within_s,
-            double dt) {
+  void step(bool obeyed, double throttle_frac, double forward_mps, bool windy, double within_s, double dt) {
     constexpr double open_frac = 0.5, moves_mps = 1.5, rolls_mps = 2;
     if (!obeyed) {
       *this = {};
       return;
     }
-    const bool stands = throttle_frac > open_frac && ground_speed_mps < moves_mps;
+    const bool stands = throttle_frac > open_frac && forward_mps < moves_mps;
     open_s_ = stands ? open_s_ + dt : 0;
     failed_ = failed_ || open_s_ >= within_s;
-    tail_wind_ = tail_wind_ || (windy && throttle_frac > open_frac && ground_speed_mps > rolls_mps);
+    tail_wind_ = tail_wind_ || (windy && throttle_frac > open_frac && forward_mps > rolls_mps);
   }
 
  private:
   double open_s_ = 0;
   bool failed_ = false, tail_wind_ = false;
 };
+
+/// Ground speed where the nose points; a wind rolls a standing aircraft backwards.
+inline double forward_speed(const VehicleState& s) {
+  return s.velocity_mps.north * std::cos(s.yaw_rad) + s.velocity_mps.east * std::sin(s.yaw_rad);
+}
 
 /// Wind before the filter has one, along the aircraft. What the tube measures beyond the ground speed is head
 /// wind, what it measures less is tail wind, which only a take-off run shows.
@@ -48,8 +52,8 @@ class GroundWind {
   void step(const VehicleState& s, double smoothing_s, double dt) {
     if (!s.velocity_valid) return;
     constexpr double rolls_mps = 2, run_smoothing_s = 0.3;
-    const bool stands = s.ground_speed_mps < rolls_mps;
-    const double along = s.airspeed_valid ? std::abs(s.airspeed_mps - s.ground_speed_mps) : 0;
+    const bool stands = forward_speed(s) < rolls_mps;
+    const double along = s.airspeed_valid ? std::abs(s.airspeed_mps - forward_speed(s)) : 0;
     const double filter = stands && s.wind_valid ? std::hypot(s.wind_mps.north, s.wind_mps.east) : 0.0;
     since_s_ += dt;
     const double share = 1 - std::exp(-dt / (stands ? smoothing_s : run_smoothing_s));

@@ -83,18 +83,29 @@ TEST_CASE("a lull is no end of the wind: below four fifths of the limit it is re
   CHECK(w.fly(60).ready);
 }
 
+TEST_CASE("a head wind that rolls the aircraft backwards stays the wind that it is") {
+  Stands w;
+  w.state.airspeed_mps = 10;
+  w.fly(20);
+  w.state.ground_speed_mps = 3;
+  w.state.velocity_mps.north = -3;
+  w.state.airspeed_mps = 7;
+  CHECK_FALSE(w.fly(30).ready);
+}
+
 TEST_CASE("tail wind is found in the take-off run: less airspeed than ground speed") {
   for (const double tail : {9.0, 10.0}) {
     Stands w;
     w.fly(10);
     w.actuators.throttle_frac = 1;
     for (double speed = 0; speed < 12; speed += 0.08) {
-      w.state.ground_speed_mps = speed;
+      w.state.ground_speed_mps = w.state.velocity_mps.north = speed;
       w.state.airspeed_mps = std::max(speed - tail, 0.0);
       w.fly(0.02);
     }
     CHECK(w.out.safety.not_ready.wind == (tail > 9.35));
-    w.state.ground_speed_mps = w.state.airspeed_mps = 0;  // standing, the tube shows nothing of it
+    w.state.ground_speed_mps = w.state.velocity_mps.north = w.state.airspeed_mps =
+        0;  // standing, the tube shows nothing of it
     CHECK(w.fly(30).not_ready.wind == (tail > 9.35));
     CHECK(w.told_of("not ready: tail wind in the run") == (tail > 9.35));
     w.status.in_control = false;
@@ -128,7 +139,7 @@ TEST_CASE("a motor that does not move the aircraft at open throttle is not ready
   Stands rolls;
   rolls.actuators.throttle_frac = 1;
   rolls.fly(1);
-  rolls.state.ground_speed_mps = 2;
+  rolls.state.ground_speed_mps = rolls.state.velocity_mps.north = 2;
   CHECK(rolls.fly(10).ready);
   Stands pilot;  // whose throttle it is not
   pilot.actuators.throttle_frac = 1;

@@ -24,7 +24,7 @@ std::string broken(const std::string& text) {
 const std::string keys =
     "mission, extends, io, airframe, origin, rate, seed, arm, done, failed, timeout, epoch, progress, "
     "summary, failsafe, roles, "
-    "components, phases, record, plugins, control, tell, resume, live, dds";
+    "components, phases, record, plugins, control, tell, resume, live, dds, hardware";
 
 }  // namespace
 

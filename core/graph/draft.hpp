@@ -100,9 +100,7 @@ void tell_bypassed(Draft& draft);
 std::vector<int> deciding_components(const Graph& graph, const MissionText& text);
 
 // hardware.cpp: of the built graph
-/// Whether what only a simulator has is refused with io: fcu; else it is a warning there too.
-inline constexpr bool refuse_simulator_ports = false;
-/// Steering components and conditions that read what only a simulator has.
+/// Steering components and conditions that read what only a simulator has: refused with io: fcu.
 void tell_simulator_ports(Draft& draft, Catalogue& catalogue);
 
 // unread.cpp: of the built graph, with what DDS exports

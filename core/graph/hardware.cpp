@@ -53,7 +53,7 @@ constexpr std::string_view contact_fields[] = {"on_ground", "crashed"};
 
 /// Refused with io: fcu, warned of with io: sim.
 void object(Draft& draft, const Where& where, const std::string& sentence) {
-  if (draft.graph.io == Io::fcu && refuse_simulator_ports) return draft.report.add(where, sentence);
+  if (draft.graph.io == Io::fcu) return draft.report.add(where, sentence);
   const std::string warning = where.text() + ": " + sentence;
   std::vector<std::string>& warnings = draft.graph.warnings;
   if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);

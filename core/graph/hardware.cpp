@@ -78,27 +78,16 @@ std::vector<std::vector<std::string>> names_in(const std::string& condition) {
   return names;
 }
 
-/// The outputs of the vehicle that flies this mission on hardware; nothing when there is none, or when its
-/// plugin cannot be opened: then it cannot be said what it lacks.
-std::optional<std::vector<std::string>> hardware_outputs(const Draft& draft, Catalogue& catalogue) {
-  if (draft.graph.io == Io::fcu) return names_of(draft.vehicle().info().outputs);
-  for (const ComponentText& c : draft.text.components) {
-    if (!c.fills_role("vehicle") || c.only != Io::fcu) continue;
-    try {
-      const auto [plugin, name] = split_use(c.use.text);
-      const FoundPlugin found = catalogue.open(plugin);
-      for (const ComponentInfo& info : found.info->components)
-        if (name.empty() || info.name == name) return names_of(info.outputs);
-    } catch (const Error&) {
-    }
-  }
-  return std::nullopt;
+/// The vehicle that flies this mission on hardware; null: none does.
+const ComponentText* hardware_vehicle(const MissionText& text) {
+  for (const ComponentText& c : text.components)
+    if (c.fills_role("vehicle") && c.only == Io::fcu) return &c;
+  return nullptr;
 }
 
 class SimulatorPorts {
  public:
-  SimulatorPorts(Draft& draft, std::vector<std::string> outputs)
-      : draft_(draft), outputs_(std::move(outputs)) {}
+  SimulatorPorts(Draft& draft, Catalogue& catalogue) : draft_(draft), catalogue_(catalogue) {}
 
   void check() {
     for (const TransitionText& t : draft_.text.any) look(t, "any");
@@ -112,8 +101,30 @@ class SimulatorPorts {
     const ComponentText* const c = draft_.text.component(owner);
     return owner == "vehicle" || (c && c->fills_role("vehicle"));
   }
-  bool lacks(const std::string& port) const {
-    return std::find(outputs_.begin(), outputs_.end(), port) == outputs_.end();
+  static bool has(const ComponentInfo& info, const std::string& port) { return info.output(port) >= 0; }
+  /// What both vehicles have to have needs no look at the other one, and what this one lacks is no port of
+  /// the simulator.
+  bool lacks(const std::string& port) {
+    const ComponentInfo& flown = draft_.vehicle().info();
+    if (draft_.graph.io == Io::fcu) return !has(flown, port);
+    const RoleText* const role = draft_.text.role("vehicle");
+    const RoleOutText* const out = role ? find_named(role->out, port) : nullptr;
+    if ((out && !out->optional) || !has(flown, port)) return false;
+    const ComponentInfo* const real = real_vehicle();
+    return real && !has(*real, port);
+  }
+  /// Null when its plugin cannot be opened: then it cannot be said what it lacks.
+  const ComponentInfo* real_vehicle() {
+    if (!plugin_) try {
+        const auto [plugin, name] = split_use(hardware_vehicle(draft_.text)->use.text);
+        plugin_ = catalogue_.open(plugin).info;
+        real_name_ = name;
+      } catch (const Error&) {
+        return nullptr;
+      }
+    for (const ComponentInfo& info : plugin_->components)
+      if (real_name_.empty() || info.name == real_name_) return &info;
+    return nullptr;
   }
   bool is_contact(const std::string& port, const std::string& field) const {
     const RoleText* const role = draft_.text.role("vehicle");
@@ -161,14 +172,17 @@ class SimulatorPorts {
   }
 
   Draft& draft_;
-  std::vector<std::string> outputs_;
+  Catalogue& catalogue_;
+  std::shared_ptr<const PluginInfo> plugin_;  // of the vehicle on hardware
+  std::string real_name_;
 };
 
 }  // namespace
 
 void tell_simulator_ports(Draft& draft, Catalogue& catalogue) {
-  if (draft.graph.vehicle < 0 || !draft.text.hardware.fit) return;
-  if (const auto outputs = hardware_outputs(draft, catalogue)) SimulatorPorts(draft, *outputs).check();
+  const bool flies = draft.graph.io == Io::fcu || hardware_vehicle(draft.text);
+  if (draft.graph.vehicle < 0 || !draft.text.hardware.fit || !flies) return;
+  SimulatorPorts(draft, catalogue).check();
 }
 
 }  // namespace fulmar::core

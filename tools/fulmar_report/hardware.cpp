@@ -10,8 +10,7 @@
 #include <tuple>
 
 #include "core/log/reader.hpp"
-#include "fulmar/msg/notice.hpp"
-#include "fulmar/msg/rc.hpp"
+#include "fulmar/message.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 #include "plugins/fcu_serial/reports.hpp"
 #include "tools/fulmar_log/states.hpp"
@@ -28,6 +27,14 @@ constexpr std::string_view calibrated[] = {"ACC_X_BIAS",  "ACC_Y_BIAS",   "ACC_Z
                                            "GYRO_Y_BIAS", "GYRO_Z_BIAS",  "MAG_X_BIAS",     "MAG_Y_BIAS",
                                            "MAG_Z_BIAS",  "MAG_CAL_A00",  "MAG_CAL_A11",    "MAG_CAL_A22",
                                            "BARO_BIAS",   "GROUND_LEVEL", "DIFF_PRESS_BIAS"};
+
+/// A log holds texts of any length: these are the messages with room for them.
+struct LoggedNotice {
+  Text<4096> text;
+};
+struct LoggedParameter {
+  Text<4096> name, value;
+};
 
 /// Who has the aircraft, by its status.
 const char* pilot_of(const VehicleStatus& s) {
@@ -69,8 +76,8 @@ class ControllerReading {
   void take(const McapFile::Message& m) {
     if (const auto s = read<VehicleStatus>(m, "VehicleStatus")) return status(*s, m.publish_ns);
     if (const auto l = read<fcu::LinkStatus>(m, "LinkStatus")) return void(link_ = *l);
-    if (const auto p = read<fcu::ControllerParameter>(m, "ControllerParameter")) return parameter(*p);
-    if (const auto n = read<Notice>(m, "Notice"); n && n->text.view().starts_with(greeting))
+    if (const auto p = read<LoggedParameter>(m, "ControllerParameter")) return parameter(*p);
+    if (const auto n = read<LoggedNotice>(m, "Notice"); n && n->text.view().starts_with(greeting))
       firmware_ = n->text.view().substr(greeting.size());
   }
 
@@ -86,7 +93,7 @@ class ControllerReading {
     most_amp_ = std::max(most_amp_, s.battery_amp);
   }
 
-  void parameter(const fcu::ControllerParameter& p) {
+  void parameter(const LoggedParameter& p) {
     const std::string name(p.name.view()), value(p.value.view());
     if (const auto before = parameters_.find(name); before != parameters_.end() && before->second != value)
       ++changed_;
@@ -115,8 +122,8 @@ class ControllerReading {
   using Readers = std::map<std::uint16_t, states::MessageReader<Message>>;
 
   core::McapStream stream_;
-  std::tuple<Readers<VehicleStatus>, Readers<fcu::LinkStatus>, Readers<fcu::ControllerParameter>,
-             Readers<Notice>>
+  std::tuple<Readers<VehicleStatus>, Readers<fcu::LinkStatus>, Readers<LoggedParameter>,
+             Readers<LoggedNotice>>
       readers_;
   std::optional<fcu::LinkStatus> link_;  // the last
   std::string firmware_;

@@ -70,7 +70,7 @@ TEST_CASE("a negative integer and the largest one are set and read back to the b
     const Param before = read_param(client, "RC_OVRD_LAG_T");
     set_param(client, before, parse_value(before, value));
     CHECK(bench.firmware.params().i(peer::param("RC_OVRD_LAG_T")) == std::stoll(value));
-    CHECK(read_param(client, "rc_arm_chn").text() == value);
+    CHECK(read_param(client, "rc_ovrd_lag_t").text() == value);
   }
 }
 

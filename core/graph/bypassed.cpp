@@ -41,28 +41,40 @@ Names who_steers(const MissionText& text, Io io) {
   return steer;
 }
 
-/// The same of the built graph, which knows who has which input.
-Names who_steers(const Graph& graph, const MissionText& text) {
-  const RoleText* const role = text.role("vehicle");
-  if (graph.vehicle < 0 || !role) return {};
-  Names steer;
-  std::vector<int> todo;
-  const auto follow = [&](const Wire& wire) {
+/// Every component that leads to one of `ends`, the vehicle left out.
+std::vector<int> leading_to(const Graph& graph, std::vector<Source> ends) {
+  std::vector<int> found;
+  while (!ends.empty()) {
+    const Source end = ends.back();
+    ends.pop_back();
     std::vector<int> writers;
-    if (wire.from.kind == Source::Kind::component) writers = {wire.from.index};
-    if (wire.from.kind == Source::Kind::role) writers = nth(graph.roles, wire.from.index).fillers;
-    for (const int writer : writers)
-      if (writer != graph.vehicle && steer.insert(nth(graph.components, writer).name).second)
-        todo.push_back(writer);
-  };
+    if (end.kind == Source::Kind::component) writers = {end.index};
+    if (end.kind == Source::Kind::role) writers = nth(graph.roles, end.index).fillers;
+    for (const int writer : writers) {
+      if (writer == graph.vehicle || std::find(found.begin(), found.end(), writer) != found.end()) continue;
+      found.push_back(writer);
+      for (const Wire& wire : nth(graph.components, writer).wires) ends.push_back(wire.from);
+    }
+  }
+  return found;
+}
+
+/// What the vehicle obeys.
+std::vector<Source> commands(const Graph& graph, const MissionText& text) {
+  std::vector<Source> ends;
+  const RoleText* const role = text.role("vehicle");
+  if (graph.vehicle < 0 || !role) return ends;
   const Component& vehicle = nth(graph.components, graph.vehicle);
   for (const WireText& wire : role->in)
-    if (const int input = vehicle.info().input(wire.name); input >= 0) follow(nth(vehicle.wires, input));
-  while (!todo.empty()) {
-    const int reader = todo.back();
-    todo.pop_back();
-    for (const Wire& wire : nth(graph.components, reader).wires) follow(wire);
-  }
+    if (const int input = vehicle.info().input(wire.name); input >= 0)
+      ends.push_back(nth(vehicle.wires, input).from);
+  return ends;
+}
+
+/// The same of the built graph, which knows who has which input.
+Names who_steers(const Graph& graph, const MissionText& text) {
+  Names steer;
+  for (const int i : leading_to(graph, commands(graph, text))) steer.insert(nth(graph.components, i).name);
   return steer;
 }
 
@@ -138,6 +150,17 @@ void tell_untold(Draft& draft) {
 }
 
 }  // namespace
+
+std::vector<int> deciding_components(const Graph& graph, const MissionText& text) {
+  std::vector<Source> ends = commands(graph, text);
+  const auto add = [&](const std::vector<Transition>& next) {
+    for (const Transition& t : next)
+      if (t.when) ends.insert(ends.end(), t.when->ports().begin(), t.when->ports().end());
+  };
+  add(graph.any);
+  for (const Phase& phase : graph.phases) add(phase.next);
+  return leading_to(graph, ends);
+}
 
 void tell_bypassed(Draft& draft) {
   Graph& graph = draft.graph;

@@ -18,9 +18,10 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::vector<std::string> mission_keys = {
-    "mission",    "extends", "io",      "airframe", "origin",  "rate",     "seed",    "arm",      "done",
-    "failed",     "flown",   "verdict", "timeout",  "epoch",   "progress", "summary", "failsafe", "roles",
-    "components", "phases",  "record",  "plugins",  "control", "tell",     "resume",  "live",     "dds"};
+    "mission",  "extends", "io",       "airframe", "origin",     "rate",    "seed",
+    "arm",      "done",    "failed",   "flown",    "verdict",    "timeout", "epoch",
+    "progress", "summary", "failsafe", "roles",    "components", "phases",  "record",
+    "plugins",  "control", "tell",     "resume",   "live",       "dds",     "hardware"};
 const std::vector<std::string> component_keys = {"fills", "use",     "in",     "params",  "rate",   "only",
                                                  "run",   "latency", "budget", "max_age", "memory", "hang"};
 
@@ -53,6 +54,7 @@ class MissionReader {
     read_recording(keys, m_, report_);
     read_live(keys, m_, report_);
     read_dds(keys, m_, report_);
+    read_hardware(keys, m_, report_);
   }
 
  private:

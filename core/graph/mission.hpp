@@ -86,6 +86,14 @@ struct ImportText {
   Where where;
 };
 
+/// What the mission states of itself: whether an aircraft behind a flight controller may fly it.
+struct HardwareText {
+  bool fit = true;   // also of a mission that does not say
+  std::string with;  // a role or component that the command line has to choose; "": none
+  std::string because;
+  Where where;  // line 0: not said
+};
+
 struct MissionText : Settings {
   FilePtr file;
   double rate_hz = 400;
@@ -98,6 +106,7 @@ struct MissionText : Settings {
   std::vector<std::pair<std::string, Word>> resume;  // parameter -> field
   Node plugins;                                      // what may be loaded
   Node failsafe;
+  HardwareText hardware;
   std::vector<RoleText> roles;
   std::vector<ComponentText> components;
   std::vector<PhaseText> phases;  // without `any`
@@ -118,6 +127,11 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
 // tap_sections.cpp: `live:` and `dds:`
 void read_live(const Keys& mission, MissionText& text, Report& report);
 void read_dds(const Keys& mission, MissionText& text, Report& report);
+
+// hardware.cpp: `hardware:`
+void read_hardware(const Keys& mission, MissionText& text, Report& report);
+/// With io: fcu: reports a mission that is not for hardware, and throws then.
+void check_hardware(const MissionText& text, const Overrides& overrides, Report& report);
 
 // recording.cpp: `record:`, and `--record`, whose rules come before the mission's own, so that they hold
 void read_recording(const Keys& mission, MissionText& text, Report& report);

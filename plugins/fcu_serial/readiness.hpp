@@ -27,20 +27,43 @@ inline bool solved(FixType fix) {
          fix == FixType::rtk_fixed;
 }
 
-/// Tells the loss of the fix, and its return. A slow receiver gets the time of two and a half fixes.
+/// What comes and goes is told less and less often: 1 s after the last time, then 2 s, up to 10 s.
+class Hold {
+ public:
+  bool open(std::int64_t now_ns) const { return now_ns - told_ns_ >= hold_ns_; }
+  void told(std::int64_t now_ns) {
+    hold_ns_ = now_ns - told_ns_ < 2 * repeat_ns ? std::min(2 * hold_ns_, repeat_ns) : least_ns;
+    told_ns_ = now_ns;
+  }
+  /// The next one is told at once.
+  void release() { told_ns_ = never_ns; }
+
+ private:
+  static constexpr std::int64_t least_ns = 1'000'000'000;
+  std::int64_t told_ns_ = never_ns, hold_ns_ = least_ns;
+};
+
+/// Tells the loss of the fix, and its return. A slow receiver gets the time of two and a half fixes; while
+/// the link was down none could come. `link_ns`: since when it is up.
 class FixWatch {
  public:
-  void tell(std::int64_t fix_ns, bool link, bool armed, std::int64_t now_ns, Notices& out) {
+  void tell(std::int64_t fix_ns, std::int64_t link_ns, bool link, bool armed, std::int64_t now_ns,
+            Notices& out) {
     if (fix_ns == never_ns) return;
     if (fix_ns != last_ns_) {
       if (last_ns_ != never_ns && !lost_)
         period_ns_ = std::min(fix_ns - last_ns_, std::int64_t{2'000'000'000});
-      if (lost_) out.say(Severity::warning, (Line() << "GNSS is back after ").seconds(fix_ns - last_ns_));
+      if (lost_ && told_)
+        out.say(Severity::warning, (Line() << "GNSS is back after ").seconds(fix_ns - last_ns_));
       last_ns_ = fix_ns;
       lost_ = false;
     }
-    if (lost_ || !link || now_ns - fix_ns < std::max(least_ns, period_ns_ * 5 / 2)) return;
+    const std::int64_t silent_ns = now_ns - std::max(fix_ns, link_ns);
+    if (lost_ || !link || silent_ns < std::max(least_ns, period_ns_ * 5 / 2)) return;
     lost_ = true;
+    told_ = hold_.open(now_ns);
+    if (!told_) return;
+    hold_.told(now_ns);
     out.say(armed ? Severity::critical : Severity::warning,
             "GNSS lost: no fix; the position is reckoned on from air data");
   }
@@ -51,7 +74,32 @@ class FixWatch {
   static constexpr std::int64_t least_ns = 700'000'000;
   std::int64_t last_ns_ = never_ns,
                period_ns_ = 2'000'000'000;  ///< until two fixes have told it: the slowest receiver's
-  bool lost_ = false;
+  bool lost_ = false, told_ = false;
+  Hold hold_;
+};
+
+/// Tells when the attitude is lost while the computer flies: its controllers can then only hold the surfaces,
+/// and the pilot has to take over. Nothing else says so, as samples go on coming.
+class AttitudeWatch {
+ public:
+  void tell(bool attitude, bool in_control, std::int64_t now_ns, Notices& out) {
+    if (attitude) met_ = true;
+    if (attitude || !in_control || !met_)
+      lost_ns_ = never_ns;
+    else if (lost_ns_ == never_ns)
+      lost_ns_ = now_ns;
+    const bool lost = lost_ns_ != never_ns && now_ns - lost_ns_ >= patience_ns;
+    if (lost && !told_)
+      out.say(Severity::critical, "pilot: take over. The attitude is lost, the surfaces are only held");
+    if (told_ && attitude) out.say(Severity::warning, "the attitude is valid again");
+    told_ = lost || (told_ && !attitude);
+  }
+
+ private:
+  using Severity = fulmar::Severity;
+  static constexpr std::int64_t patience_ns = 300'000'000;
+  std::int64_t lost_ns_ = never_ns;
+  bool met_ = false, told_ = false;
 };
 
 /// The gate before the commands. It closes
@@ -76,11 +124,18 @@ class Readiness {
   bool update(const Facts& f, std::int64_t now_ns, Notices& out) {
     const bool attitude = f.state && f.state->attitude_valid;
     const std::uint32_t missing = missing_of(f, now_ns);
-    look_for_flight(f, (missing & needed) == 0);
-    take_hand_over(f, (missing & needed) == 0);
+    complete_ = (missing & needed) == 0;
+    met_ = true;
+    look_for_flight(f, complete_);
+    take_hand_over(f, complete_);
+    watch_.tell(attitude, f.status.in_control && f.inertial, now_ns, out);
     tell_attitude(attitude, f, out);
     tell_missing(missing, f, now_ns, out);
     return !blind_ && !refused_;
+  }
+  /// Whether it refuses the hand-over that this status may just begin.
+  bool refuses(const VehicleStatus& s) const {
+    return refused_ || (met_ && handed(s) && !handed_ && met_disarmed_ && !flown_ && !complete_);
   }
 
  private:
@@ -158,6 +213,7 @@ class Readiness {
     if (now && !handed_ && met_disarmed_ && !flown_ && !complete) {
       refused_ = true;
       told_ns_ = never_ns;
+      hold_.release();
     }
     if (!now) refused_ = false;
     handed_ = now;
@@ -181,16 +237,18 @@ class Readiness {
   void tell_missing(std::uint32_t missing, const Facts& f, std::int64_t now_ns, Notices& out) {
     if (now_ns < first_told_ns && !f.status.armed) return;
     const bool waits = !f.status.armed || refused_ || (handed_ && blind_);
-    const bool due = now_ns - told_ns_ >= repeat_ns;
+    const bool due = now_ns - told_ns_ >= repeat_ns, may_change = hold_.open(now_ns);
     if (!waits) return;
     if ((missing & needed) == 0) {
       if (refused_ ? !due && told_ready_ : told_ready_ && missing == told_) return;
+      if (!due && !may_change) return;
       return say(ready_line(missing), missing, true, now_ns, out);
     }
-    if (due || told_ready_) say(missing_line(missing), missing, false, now_ns, out);
+    if (due || (told_ready_ && may_change)) say(missing_line(missing), missing, false, now_ns, out);
   }
   void say(const Line& line, std::uint32_t missing, bool ready, std::int64_t now_ns, Notices& out) {
     out.say(ready && (missing == 0) ? Level::info : Level::warning, line);
+    if (ready != told_ready_) hold_.told(now_ns);
     told_ns_ = now_ns;
     told_ready_ = ready;
     told_ = missing;
@@ -214,6 +272,9 @@ class Readiness {
   bool told_ready_ = false;
   std::uint32_t told_ = 0;
   std::int64_t told_ns_ = never_ns;
+  Hold hold_;
+  bool complete_ = false, met_ = false;
+  AttitudeWatch watch_;
 };
 
 }  // namespace fulmar::fcu

@@ -23,6 +23,11 @@ inline constexpr std::int64_t status_patience_ns = 500'000'000;  ///< without a 
 inline constexpr std::int64_t command_patience_ns =
     100'000'000;  ///< OFFBOARD_TIMEOUT: the controller forgets a command after this
 
+/// Frames of other kinds without one of the radio: of those that come, one in twelve is the radio's. A bad
+/// line that loses nearly all of them takes longer to reach this, and says nothing about the radio until
+/// then.
+inline constexpr std::uint32_t frames_without_rc = 200;
+
 /// Bits of VehicleStatus::errors beside the controller's own eight.
 enum OwnError : std::uint32_t {
   own_error_rc_silent = 0x100,     ///< the radio's frames stopped
@@ -36,21 +41,35 @@ enum OwnError : std::uint32_t {
 struct Heard {
   RosflightStatus status;
   double volt = 0, amp = 0;
-  bool open = true;           ///< the device is there
-  std::int64_t since_ns = 0;  ///< frames come without a break
+  bool open = true;                    ///< the device is there
+  std::int64_t since_ns = 0;           ///< frames come without a break
+  std::int64_t resumed_ns = never_ns;  ///< this computer stood still until then: what it missed is no silence
+  std::uint32_t frames_since_rc = 0;
   std::int64_t frame_ns = never_ns, imu_ns = never_ns, status_ns = never_ns, rc_ns = never_ns,
                command_ns = never_ns;
 
   void frame(std::int64_t now_ns) {
     if (now_ns - frame_ns >= link_patience_ns) since_ns = now_ns;
     frame_ns = now_ns;
+    ++frames_since_rc;
+  }
+  void rc(std::int64_t now_ns) {
+    rc_ns = now_ns;
+    frames_since_rc = 0;
+  }
+  /// For how long nothing of that kind came, as far as this computer could have received it.
+  std::int64_t silence_ns(std::int64_t last_ns, std::int64_t now_ns) const {
+    return now_ns - std::max(last_ns, resumed_ns);
   }
 };
 
 inline VehicleStatus evaluate(const Heard& h, std::int64_t now_ns) {
-  const bool link = now_ns - h.frame_ns < link_patience_ns;
+  const bool link = h.silence_ns(h.frame_ns, now_ns) < link_patience_ns;
   const bool rc = now_ns - h.rc_ns < rc_patience_ns;
   const bool imu = now_ns - h.imu_ns < link_patience_ns;
+  const bool rc_stopped =
+      h.silence_ns(h.rc_ns, now_ns) >= rc_patience_ns && (!link || h.frames_since_rc >= frames_without_rc);
+  const bool imu_stopped = h.silence_ns(h.imu_ns, now_ns) >= link_patience_ns;
   VehicleStatus s;
   s.armed = h.status.armed != 0;
   s.failsafe = h.status.failsafe != 0;
@@ -62,10 +81,10 @@ inline VehicleStatus evaluate(const Heard& h, std::int64_t now_ns) {
                  (h.status.rc_override & (override_by_pilot | override_inactive)) == 0 && rc && imu &&
                  now_ns - h.status_ns < status_patience_ns && now_ns - h.command_ns < command_patience_ns;
   s.errors = h.status.error_code;
-  if (!rc && now_ns - h.since_ns > rc_patience_ns) s.errors |= own_error_rc_silent;
+  if (rc_stopped && now_ns - h.since_ns > rc_patience_ns) s.errors |= own_error_rc_silent;
   if (!link) s.errors |= own_error_link_down;
   if (h.status.num_errors > 0) s.errors |= own_error_sensors_dead;
-  if (link && !imu && now_ns - h.since_ns > link_patience_ns) s.errors |= own_error_imu_silent;
+  if (link && imu_stopped && now_ns - h.since_ns > link_patience_ns) s.errors |= own_error_imu_silent;
   s.health = !link || !imu                                           ? Health::failed
              : s.errors != 0 || now_ns - h.imu_ns >= gap_patience_ns ? Health::degraded
                                                                      : Health::ok;

@@ -111,6 +111,8 @@ class Vehicle {
       run_.notices.say(fulmar::Severity::critical,
                        (Line() << "this computer stood still for ").seconds(host_ns - run_.read_ns)
                            << ": no command went out meanwhile");
+    if (run_.read_ns != never_ns && host_ns - run_.read_ns > missed_ns)
+      run_.heard.resumed_ns = flight_ns(host_ns);
     run_.read_ns = host_ns;
     run_.now_ns = std::max(flight_ns(run_.arrived_ns != never_ns ? run_.arrived_ns : host_ns),
                            run_.now_ns + least_step_ns);
@@ -150,6 +152,8 @@ class Vehicle {
                                 attitude_period_ns = 19'500'000;
   static constexpr std::int64_t stood_still_ns =
       300'000'000;  ///< between two ticks, which wait for 10 ms at most
+  static constexpr std::int64_t missed_ns =
+      100'000'000;  ///< the same: what was silent meanwhile is not known
   static constexpr std::int64_t reboot_memory_ns = 1'000'000'000;
   static constexpr std::int64_t attitude_boots_ns = 3'000'000'000;  ///< FILT_INIT_T: its estimate begins anew
 
@@ -318,11 +322,12 @@ class Vehicle {
 
   Status report(std::int64_t host_ns, Outputs& out) {
     run_.heard.open = last_frame_.fd >= 0;
-    const VehicleStatus s = evaluate(run_.heard, run_.now_ns);
+    VehicleStatus s = evaluate(run_.heard, run_.now_ns);
+    s.in_control = s.in_control && !run_.readiness.refuses(s);  // a command of before is still obeyed
     run_.teller.tell(s, run_.heard, run_.now_ns, run_.notices);
     run_.overload.tell(run_.now_ns, run_.notices);
-    run_.fixes.tell(run_.spoken.fix_ns, (s.errors & own_error_link_down) == 0, s.armed, run_.now_ns,
-                    run_.notices);
+    run_.fixes.tell(run_.spoken.fix_ns, std::max(run_.heard.since_ns, run_.heard.resumed_ns),
+                    (s.errors & own_error_link_down) == 0, s.armed, run_.now_ns, run_.notices);
     const bool known = run_.heard.status_ns != never_ns;
     if (known && (changed(s, run_.status) || run_.now_ns - run_.status_ns >= status_period_ns)) {
       run_.status = s;

@@ -125,7 +125,7 @@ void Vehicle<AnyLink>::take_state(const Received& r, Outputs& out) {
       return;
     }
     case RcChannels::id:
-      heard.rc_ns = arrived_ns;
+      heard.rc(arrived_ns);
       run_.rc = to_rc(r.packet.template as<RcChannels>(), run_.map, run_.throws,
                       (heard.status.error_code & error_rc_lost) == 0);
       return out.rc.publish(run_.rc, flight_ns(std::min(r.valid_at_ns, r.arrived_ns)));

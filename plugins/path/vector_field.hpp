@@ -10,6 +10,7 @@
 #include "fulmar/flight/angles.hpp"
 #include "fulmar/flight/curve.hpp"
 #include "fulmar/msg/guidance_command.hpp"
+#include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
@@ -39,6 +40,7 @@ struct VectorField {
     GuidanceCommand command;
     Probe cross_track_m;   // right of a line is positive; outside an orbit is positive
     Probe height_error_m;  // above the path is positive
+    OutQueue<Notice, 2> notices;
   };
   struct Params {
     FieldParams field;
@@ -68,7 +70,7 @@ struct VectorField {
  private:
   /// Nobody knows where the path is: a circle through the air to the right, at the height and speed that were
   /// last asked for. Straight on as long as nobody knows the attitude either.
-  Status wait(const VehicleState& state, const Params& p, Outputs& out) {
+  Status wait(const Tick& tick, const VehicleState& state, const Params& p, Outputs& out) {
     constexpr double g = 9.80665;
     const bool circles = state.attitude_valid && state.velocity_valid;
     const double Va = std::max(state.airspeed_mps, 1.0);
@@ -79,12 +81,22 @@ struct VectorField {
     out.command = last_;
     out.cross_track_m = 0.0;
     out.height_error_m = 0.0;
+    if (!waits_)
+      report("no position: circle to the right, it drifts with the wind. Pilot: take over",
+             Severity::critical, tick, out);
+    waits_ = true;
     return Status::degraded;
+  }
+  static void report(const char* words, Severity severity, const Tick& tick, Outputs& out) {
+    Notice notice;
+    notice.severity = severity;
+    notice.text = words;
+    out.notices.push(notice, tick.now_ns);
   }
 
   GuidanceCommand last_;
   Reckoning reckoning_;
-  bool commanded_ = false;
+  bool commanded_ = false, waits_ = false;
 };
 
 /// Bank that turns the ground track at curvature kappa (right positive): chi_dot = Vg kappa = g/Vg tan(phi)
@@ -164,7 +176,9 @@ inline Status VectorField::step(const Tick& tick, const Inputs& in, const Params
   const VehicleState& state = *in.state;
   const Path& path = *in.path;
   if (!reckoning_.located(state, tick.now_ns, p.reckon_std, p.reckon_time) && commanded_)
-    return wait(state, p, out);
+    return wait(tick, state, p, out);
+  if (waits_) report("the position is back: the path is flown again", Severity::warning, tick, out);
+  waits_ = false;
   const double Vg = state.ground_speed_mps, chi = state.course_rad;
   const double k =
       p.field.reference_speed / std::max(Vg, 0.3 * p.field.reference_speed);  // one time constant always

@@ -4,6 +4,7 @@
 #include "ground.hpp"
 #include "home.hpp"
 #include "monitor.hpp"
+#include "sensor_watch.hpp"
 
 using namespace fulmar;
-FULMAR_PLUGIN("1.0.0", safety::Monitor, safety::Home, safety::Glide, safety::Ground)
+FULMAR_PLUGIN("1.0.0", safety::Monitor, safety::Home, safety::Glide, safety::Ground, safety::SensorWatch)

@@ -45,6 +45,14 @@ int mixer_command(Client& client, const Options& options);
 int check_command(Client& client, const Options& options, const HardwareOptions& what);
 int outputs_command(Client& client, const Options& options, const HardwareOptions& what);
 
+// bench_command.cpp
+struct BenchOptions {
+  std::string file;  ///< .json, or Markdown
+  double seconds = 20;
+  bool replace = false;
+};
+int bench_command(Client& client, const Options& options, const BenchOptions& what);
+
 // mag_command.cpp
 int calibrate_mag(Client& client, const Options& options, const HardwareOptions& what);
 /// From a file, and nothing is set: needs no controller.

@@ -26,6 +26,7 @@ struct CommandLine {
   Options options;
   ParamsOptions params;
   HardwareOptions hardware;
+  BenchOptions bench;
   bool once = false, watch = false;
   Deed deed;
 
@@ -68,6 +69,7 @@ struct CommandLine {
         {"diff", " aircraft.yaml"},
         {"imu", " --write"},
         {"mag", " --record samples.csv"},
+        {"bench", " board.md"},
         {"status", " --once"},
         {"check", " --airframe configs/airframes/anaconda.yaml"},
         {"params", " list"},
@@ -152,6 +154,13 @@ struct CommandLine {
     CLI::App* check = command(&app, "check", "the list before a flight; exit code 1 on a FAIL",
                               [this](Client& c) { return check_command(c, options, hardware); });
     check->add_option("--airframe", hardware.airframe, "the airframe file of this aircraft, to compare with");
+    CLI::App* measure = command(&app, "bench", "a report of the board at rest: latency, rates, losses, noise",
+                                [this](Client& c) { return bench_command(c, options, bench); });
+    measure->add_option("FILE", bench.file, "to keep it: .json, else Markdown")->required();
+    measure->add_option("--seconds", bench.seconds, "how long it listens")
+        ->check(CLI::Range(1, 3600))
+        ->capture_default_str();
+    measure->add_flag("--replace", bench.replace, "overwrite a file that is there");
     command(&app, "mixer", "which output follows which command",
             [this](Client& c) { return mixer_command(c, options); });
     CLI::App* outputs =

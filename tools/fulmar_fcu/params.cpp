@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "tools/fulmar_fcu/param_ranges.hpp"
+
 namespace fulmar::fcu {
 
 namespace {
@@ -76,6 +78,10 @@ std::uint32_t parse_integer(const Param& param, const std::string& text) {
   if (code != std::errc{} || value < INT32_MIN || value > INT32_MAX)
     throw Error(text + " is too large for " + param.name +
                 ": it holds whole numbers from -2147483648 to 2147483647.");
+  for (const ParamRange& range : param_ranges)
+    if (range.name == param.name && (value < range.least || value > range.most))
+      throw Error(param.name + " is " + std::to_string(range.least) + " to " + std::to_string(range.most) +
+                  ", not " + text + ": the controller would take it, and not work with it.");
   return std::bit_cast<std::uint32_t>(static_cast<std::int32_t>(value));
 }
 

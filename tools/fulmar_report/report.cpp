@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "tools/fulmar_report/hardware.hpp"
 
 namespace fulmar::report {
 namespace {
@@ -99,6 +100,7 @@ json log_json(const ReportedLog& log, std::size_t every_nth) {
           {"told", told_events(log.info)},
           {"estimates", std::move(estimates)},
           {"innovations", std::move(sensors)},
+          {"hardware", log.hardware},
           {"ticks", log.ticks},
           {"steps", log.steps},
           {"ground", ground_records(log.parameters)},
@@ -142,6 +144,7 @@ ReportedLog read_log(const fs::path& file, const std::string& name, double rate_
   log.topics = shown_topics(file, states.epoch_ns, rate_hz, truths);
   log.estimates = judged_estimates(states);
   log.innovations = innovations(states);
+  log.hardware = hardware_of(file);
   log.ticks = tick_times(file);
   const core::McapFile::Attachment* const parameters = log.info.file.attachment("parameters.json");
   if (parameters) log.parameters = json::parse(parameters->content, nullptr, false);

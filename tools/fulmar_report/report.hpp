@@ -26,6 +26,7 @@ struct ReportedLog {
   std::vector<JudgedEstimate> estimates;
   std::vector<JudgedSeries> innovations;
   nlohmann::json ticks, parameters;  // null where the log has none
+  nlohmann::json hardware;           // hardware.hpp; null in simulation
   nlohmann::json steps;              // of `fulmar run --json`, microseconds by component; or null
 };
 

@@ -20,6 +20,7 @@ Heard flying() {
   Heard h;
   h.status.armed = h.status.offboard = 1;
   h.frame_ns = h.imu_ns = h.status_ns = h.rc_ns = h.command_ns = now - ms;
+  h.frames_since_rc = frames_without_rc;  // it counts only once the radio is silent
   return h;
 }
 
@@ -116,6 +117,7 @@ TEST_CASE("a controller that is back is not told to have no radio before that co
 
 TEST_CASE("no radio is an error only after it had the time to speak") {
   Heard h;
+  h.frames_since_rc = frames_without_rc;
   h.frame_ns = h.imu_ns = h.status_ns = 100 * ms;
   CHECK(evaluate(h, 100 * ms).errors == 0);
   CHECK(evaluate(h, 100 * ms).rc_age_s == 1e9);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugins/fcu_serial/link/link.hpp"
@@ -24,9 +25,10 @@ struct World {
 
   peer::Firmware fcu;
   std::int64_t now_ns = 0;
-  bool plugged = true;  ///< false: the device is gone
-  bool cut = false;     ///< the device is there, and nothing comes through
-  bool passes = true;   ///< false: the device takes no frame
+  bool plugged = true;         ///< false: the device is gone
+  bool cut = false;            ///< the device is there, and nothing comes through
+  bool passes = true;          ///< false: the device takes no frame
+  std::int64_t stands_ns = 0;  ///< the whole computer stops for so long in its next wait
   std::uint64_t bytes = 0, text_bytes = 0, frames = 0;
   std::function<bool(const Packet&)> lost = [](const Packet&) { return false; };
   std::vector<Packet> sent;  ///< by the host
@@ -36,6 +38,12 @@ struct World {
 
   /// Until a time, or an inertial sample when one is waited for.
   bool run(std::int64_t until_ns, bool for_imu) {
+    if (for_imu && stands_ns > 0) {
+      now_ns += std::exchange(stands_ns, 0);
+      fcu.run(now_ns / 1000);
+      fcu.take();  // what came meanwhile found no room
+      return false;
+    }
     while (true) {
       if (for_imu && has_imu()) return true;
       if (now_ns >= until_ns) return false;

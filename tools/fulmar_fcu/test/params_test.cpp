@@ -67,10 +67,10 @@ TEST_CASE("a negative integer and the largest one are set and read back to the b
   Client client = bench.client();
   client.connect();
   for (const char* value : {"-1", "2147483647", "-2147483648", "8388607", "1"}) {
-    const Param before = read_param(client, "RC_ARM_CHN");
+    const Param before = read_param(client, "RC_OVRD_LAG_T");
     set_param(client, before, parse_value(before, value));
-    CHECK(bench.firmware.params().i(peer::param("RC_ARM_CHN")) == std::stoll(value));
-    CHECK(read_param(client, "rc_arm_chn").text() == value);
+    CHECK(bench.firmware.params().i(peer::param("RC_OVRD_LAG_T")) == std::stoll(value));
+    CHECK(read_param(client, "rc_ovrd_lag_t").text() == value);
   }
 }
 
@@ -102,6 +102,12 @@ TEST_CASE("what a type does not hold is refused with a sentence") {
   says(whole, "4x", "whole number");
   says(whole, "2147483648", "too large");
   says(whole, "99999999999999999999", "too large");
+  const Param channels{"RC_NUM_CHN", 3, true, 0, 0};
+  says(channels, "99", "RC_NUM_CHN is 4 to 16, not 99");
+  says(channels, "3", "4 to 16");
+  CHECK(parse_value(channels, "8") == 8);
+  says(whole, "-2", "RC_ARM_CHN is -1 to 15");
+  CHECK(parse_value(whole, "-1") == 0xffffffff);
   says(real, "1e40", "outside");
   says(real, "nan", "finite");
   says(real, "inf", "finite");

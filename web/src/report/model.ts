@@ -17,6 +17,12 @@ export interface Estimate {
 export interface Told {
   t: number; kind: string; component: string; severity: string; words: string;
 }
+/** With which controller it was flown: tools/fulmar_report/hardware.cpp. */
+export interface Hardware {
+  firmware: string | null; calibration: Record<string, string> | null; parameters_changed: number;
+  link: Record<string, number>; battery: Record<string, number> | null; radio_age_max_s: number | null;
+  who_flew_s: Record<string, number> | null;
+}
 export interface Log {
   name: string; mission: string; begin_s: number; end_s: number; bytes: number; messages: number; fault: string;
   metadata: Record<string, Record<string, string>>;
@@ -25,6 +31,7 @@ export interface Log {
   phases: { name: string; from_s: number; to_s: number; because: string }[];
   told: { rows: Told[]; all: number };
   estimates: Estimate[]; innovations: PackedSeries[];
+  hardware: Hardware | null; // null in simulation
   ticks: { n: number; mean_ms: number; p99_ms: number; max_ms: number } | null;
   steps: Record<string, { mean: number; p50: number; p99: number; max: number }> | null;
   ground?: unknown[]; // records of fence, places, runway, origin

@@ -8,6 +8,7 @@ import { recorded_places } from "./ground";
 import { fixed } from "../units";
 import { channel_charts, error_chart, type Judged, log_colours, surface_charts, width_of } from "./curves";
 import { draw_charts, resize_charts, show_time } from "./chart";
+import { hardware_section } from "./hardware";
 import type { Log, ReportData } from "./model";
 import { estimate_table, figure_tables, flight_table, innovation_table, parameter_table, phase_table, plugin_table, section, sentence, time_tables, told_table, verdict_line } from "./tables";
 
@@ -42,6 +43,7 @@ export class Summary {
       section("Guards and changes", ...each(told_table)),
       section("Times", ...time_tables(logs)),
       section("Parameters that differ", parameter_table(this.data)),
+      hardware_section(logs),
       section("Plugins", plugin_table(logs)));
     for (const event of ["pointerdown", "pointermove", "wheel", "keydown", "click"])
       this.map.element.addEventListener(event, () => requestAnimationFrame(() => this.draw_map()), { passive: true });

@@ -82,15 +82,18 @@ class Pilot {
     in.rc_lost = script_.rc_lost.holds(t);
   }
 
-  /// Wings level, the nose a little up, 60 % throttle: by looking at the aircraft.
-  void hold_level(Inputs& in, const RigidBody& x) const {
+  /// Wings level, the nose a little up, 60 % throttle: by looking at the aircraft. With a `height_m` above 0
+  /// he takes off, climbs to it and stays there.
+  void hold_level(Inputs& in, const RigidBody& x, double height_m = 0) const {
+    const double below_m = height_m > 0 ? height_m + x.p_n.z() : 0;
+    const double nose_rad = 0.05 + std::clamp(0.01 * below_m + 0.05 * x.v_n.z(), -0.12, 0.12);
     const Euler e = euler_from(x.q_nb);
     const auto stick = [](double v) {
       return static_cast<std::uint16_t>(std::lround(1500 + 500 * std::clamp(v, -1.0, 1.0)));
     };
     in.rc_us[0] = stick(trim_[0] - aileron_ * (0.8 * e.roll_rad + 0.1 * x.omega_b.x()));
-    in.rc_us[1] = stick(trim_[1] + elevator_ * (0.8 * (e.pitch_rad - 0.05) + 0.1 * x.omega_b.y()));
-    in.rc_us[2] = 1600;
+    in.rc_us[1] = stick(trim_[1] + elevator_ * (0.8 * (e.pitch_rad - nose_rad) + 0.1 * x.omega_b.y()));
+    in.rc_us[2] = static_cast<std::uint16_t>(1600 + std::lround(std::clamp(20 * below_m, -150.0, 390.0)));
   }
 
  private:

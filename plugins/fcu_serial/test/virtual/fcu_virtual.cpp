@@ -50,6 +50,8 @@ class VirtualController {
     Param arm_at{6, "s", 0, 1e9, "the pilot arms, and hands over half a second later"};
     Param pilot_from{1e9, "s", -100, 1e9, "the pilot takes over"};
     Param pilot_until{1e9, "s", -100, 1e9, "and hands back"};
+    Param pilot_height{0, "m", 0, 1000,
+                       "to which he takes off and climbs; 0: in the air he holds the wings level"};
     Param gap_from{1e9, "s", -100, 1e9, "nothing comes through the link, either way"};
     Param gap_until{1e9, "s", -100, 1e9, "and again"};
     Param no_fix_from{1e9, "s", -100, 1e9, "the receiver has no fix"};
@@ -152,6 +154,7 @@ class VirtualController {
     script_.moved_accel = {accel.x(), accel.y(), accel.z()};
     script_.moved_gyro = {gyro.x(), gyro.y(), gyro.z()};
     script_.levels = true;
+    pilot_height_m_ = p.pilot_height;
     pilot_.emplace(script_, plane_->airframe(), plane_->plant().air().density_kgm3);
   }
 
@@ -171,8 +174,9 @@ class VirtualController {
     wire_->cut = script_.mute.holds(t);
     watch_sticks(in);
     pilot_->act(in, t, false);
-    if (script_.levels && !host_flies() && plane_->height_m() > in_the_air_m)
-      pilot_->hold_level(in, plane_->plant().state());
+    const bool takes_off = pilot_height_m_ > 0 && wire_->fcu.armed();
+    if (script_.levels && !host_flies() && (takes_off || plane_->height_m() > in_the_air_m))
+      pilot_->hold_level(in, plane_->plant().state(), pilot_height_m_);
   }
 
   /// Whoever has the aircraft has it by his sticks as they were a moment ago.
@@ -221,6 +225,7 @@ class VirtualController {
   std::optional<Inner> inner_;
   Inner::Params inner_params_;
   peer::Script script_;
+  double pilot_height_m_ = 0;
   Run run_;
 };
 

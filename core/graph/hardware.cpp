@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether a mission is for hardware: what it states itself under `hardware:`, and what its conditions and its
+// steering components read that no flight controller measures.
+#include <algorithm>
+#include <cctype>
+
+#include "core/graph/draft.hpp"
+
+namespace fulmar::core {
+
+/// yes, or {fit: no, because: "..."}, or {with: nav, because: "..."}.
+void read_hardware(const Keys& mission, MissionText& text, Report& report) {
+  const Node* const node = mission.get("hardware");
+  if (!node) return;
+  HardwareText& hardware = text.hardware;
+  hardware.where = node->where();
+  if (node->is(Node::Kind::scalar)) {
+    if (node->text == "yes") return;
+    return report.add(hardware.where,
+                      "hardware: expected yes, {fit: no, because: \"...\"} or {with: ROLE, because: "
+                      "\"...\"}, found " +
+                          found_words(*node));
+  }
+  const Keys keys(*node, "hardware", {"fit", "with", "because"}, report);
+  if (!node->is(Node::Kind::map)) return;
+  hardware.fit = keys.word("fit", {"yes", "no"}).value_or("yes") == "yes";
+  hardware.with = keys.text("with").value_or("");
+  hardware.because = keys.text("because").value_or("");
+  if ((!hardware.fit || !hardware.with.empty()) && hardware.because.empty())
+    report.add(hardware.where, "hardware: 'because' is missing: the reason, for the one who is refused");
+}
+
+void check_hardware(const MissionText& text, const Overrides& overrides, Report& report) {
+  const HardwareText& hardware = text.hardware;
+  if (text.io != Io::fcu) return;
+  if (!hardware.fit) {
+    report.add(hardware.where, "hardware: this mission is for simulation only: " + hardware.because);
+    report.throw_if_any();  // what else is wrong with it on hardware follows from that
+  }
+  const auto given = [&](const auto& list) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& o) { return o.first == hardware.with; });
+  };
+  if (hardware.with.empty() || given(overrides.roles) || given(overrides.with)) return;
+  report.add(hardware.where, "hardware: with io: fcu this mission needs --role " + hardware.with +
+                                 "=COMPONENT or --with " + hardware.with + "=FILE: " + hardware.because);
+}
+
+namespace {
+
+/// Fields of a vehicle by which only a simulator tells ground contact and crash. A flight controller reports
+/// at most that it is disarmed.
+constexpr std::string_view contact_fields[] = {"on_ground", "crashed"};
+
+/// Refused with io: fcu, warned of with io: sim.
+void object(Draft& draft, const Where& where, const std::string& sentence) {
+  if (draft.graph.io == Io::fcu) return draft.report.add(where, sentence);
+  const std::string warning = where.text() + ": " + sentence;
+  std::vector<std::string>& warnings = draft.graph.warnings;
+  if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+}
+
+/// Every name such as vehicle.status.on_ground in a condition, split at its points.
+std::vector<std::vector<std::string>> names_in(const std::string& condition) {
+  std::vector<std::vector<std::string>> names;
+  std::vector<std::string> parts(1);
+  const auto finish = [&] {
+    if (parts.size() > 1) names.push_back(parts);
+    parts.assign(1, "");
+  };
+  for (const char c : condition)
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_')
+      parts.back() += c;
+    else if (c == '.')
+      parts.emplace_back();
+    else
+      finish();
+  finish();
+  return names;
+}
+
+/// The vehicle that flies this mission on hardware; null: none does.
+const ComponentText* hardware_vehicle(const MissionText& text) {
+  for (const ComponentText& c : text.components)
+    if (c.fills_role("vehicle") && c.only == Io::fcu) return &c;
+  return nullptr;
+}
+
+class SimulatorPorts {
+ public:
+  SimulatorPorts(Draft& draft, Catalogue& catalogue) : draft_(draft), catalogue_(catalogue) {}
+
+  void check() {
+    for (const TransitionText& t : draft_.text.any) look(t, "any");
+    for (const PhaseText& phase : draft_.text.phases)
+      for (const TransitionText& t : phase.next) look(t, phase.name);
+    for (const int i : deciding_components(draft_.graph, draft_.text)) look(nth(draft_.graph.components, i));
+  }
+
+ private:
+  bool is_vehicle(const std::string& owner) const {
+    const ComponentText* const c = draft_.text.component(owner);
+    return owner == "vehicle" || (c && c->fills_role("vehicle"));
+  }
+  static bool has(const ComponentInfo& info, const std::string& port) { return info.output(port) >= 0; }
+  /// What both vehicles have to have needs no look at the other one, and what this one lacks is no port of
+  /// the simulator.
+  bool lacks(const std::string& port) {
+    const ComponentInfo& flown = draft_.vehicle().info();
+    if (draft_.graph.io == Io::fcu) return !has(flown, port);
+    const RoleText* const role = draft_.text.role("vehicle");
+    const RoleOutText* const out = role ? find_named(role->out, port) : nullptr;
+    if ((out && !out->optional) || !has(flown, port)) return false;
+    const ComponentInfo* const real = real_vehicle();
+    return real && !has(*real, port);
+  }
+  /// Null when its plugin cannot be opened: then it cannot be said what it lacks.
+  const ComponentInfo* real_vehicle() {
+    if (!plugin_) try {
+        const auto [plugin, name] = split_use(hardware_vehicle(draft_.text)->use.text);
+        plugin_ = catalogue_.open(plugin).info;
+        real_name_ = name;
+      } catch (const Error&) {
+        return nullptr;
+      }
+    for (const ComponentInfo& info : plugin_->components)
+      if (real_name_.empty() || info.name == real_name_) return &info;
+    return nullptr;
+  }
+  bool is_contact(const std::string& port, const std::string& field) const {
+    const RoleText* const role = draft_.text.role("vehicle");
+    for (std::size_t i = 0; role && i < role->flags.size(); ++i)
+      if (role->flags[i].first == "on_ground" && role->flags[i].second.text == port + "." + field)
+        return true;
+    return std::find(std::begin(contact_fields), std::end(contact_fields), field) != std::end(contact_fields);
+  }
+
+  void look(const TransitionText& t, const std::string& phase) {
+    for (const std::vector<std::string>& name : names_in(t.when.text)) {
+      if (!is_vehicle(name[0]) || name.size() < 3) continue;
+      const std::string path = "phases." + phase + ".next: " + name[0] + "." + name[1];
+      if (lacks(name[1]))
+        object(draft_, t.when.where, path + " exists in simulation only");
+      else if (is_contact(name[1], name.back()))
+        object(draft_, t.when.where,
+               path + "." + name.back() +
+                   ": a flight controller does not measure it; decide by an estimate, as safety/Ground gives "
+                   "one");
+    }
+  }
+
+  /// A component that exists only with io: sim says so itself.
+  void look(const Component& reader) {
+    const Candidate& candidate = nth(draft_.candidates, draft_.candidate(reader.name));
+    if (candidate.text->only == Io::sim) return;
+    for (std::size_t i = 0; i < candidate.wires.size(); ++i) {
+      const std::string port = vehicle_port(candidate.wires[i].from);
+      if (!port.empty() && lacks(port))
+        object(draft_, candidate.wires[i].where,
+               reader.name + "." + reader.info().inputs[i].name + " comes from vehicle." + port +
+                   ", which exists in simulation only, and " + reader.name +
+                   " steers the aircraft or decides its phase");
+    }
+  }
+
+  /// "truth" of a wire that begins at the vehicle, whoever it is; else "".
+  std::string vehicle_port(const Source& from) const {
+    if (from.kind == Source::Kind::role && nth(draft_.roles, from.index).name == "vehicle")
+      return nth(nth(draft_.roles, from.index).text->out, from.output).name;
+    if (from.kind != Source::Kind::component || from.output < 0) return "";
+    const Candidate& writer = nth(draft_.candidates, from.index);
+    return writer.text->fills_role("vehicle") ? nth(writer.info().outputs, from.output).name : "";
+  }
+
+  Draft& draft_;
+  Catalogue& catalogue_;
+  std::shared_ptr<const PluginInfo> plugin_;  // of the vehicle on hardware
+  std::string real_name_;
+};
+
+}  // namespace
+
+void tell_simulator_ports(Draft& draft, Catalogue& catalogue) {
+  const bool flies = draft.graph.io == Io::fcu || hardware_vehicle(draft.text);
+  if (draft.graph.vehicle < 0 || !draft.text.hardware.fit || !flies) return;
+  SimulatorPorts(draft, catalogue).check();
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which missions are for hardware, and what a mission reads that only a simulator has.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/graph/mission.hpp"
+#include "core/graph/shipped.hpp"
+#include "core/graph/test/shelf.hpp"
+
+namespace hardware_key_test {
+
+using namespace fulmar::core;
+using namespace fulmar::core::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+Overrides on(const std::string& io) {
+  Overrides o;
+  o.io = io;
+  return o;
+}
+
+std::string keyed(const std::string& key, const Overrides& o) {
+  Mission mission;
+  mission.replace("seed: 7", "hardware: " + key);
+  return mission.faults(o);
+}
+
+/// Warnings of the hourglass mission that speak of simulation only, `from` replaced by `to`.
+std::vector<std::string> warned(const std::string& from, const std::string& to,
+                                const std::string& io = "sim") {
+  Mission mission;
+  std::vector<std::string> list = mission.replace(from, to).load(on(io)).warnings;
+  std::erase_if(list, [](const std::string& w) {
+    return w.find("in simulation only") == std::string::npos &&
+           w.find("does not measure") == std::string::npos;
+  });
+  return list;
+}
+
+}  // namespace
+
+TEST_CASE("a mission that is not for hardware is refused there with its reason and its line") {
+  const std::string no = "{fit: no, because: \"its phases fly by the true state\"}";
+  CHECK(keyed(no, on("sim")) == "");
+  CHECK(keyed(no, on("fcu")) ==
+        "hourglass.yaml:6: hardware: this mission is for simulation only: its phases fly by the true state");
+  CHECK(keyed("yes", on("fcu")) == "");
+  CHECK(keyed("{fit: yes}", on("fcu")) == "");
+  CHECK(Mission().faults(on("fcu")) == "");  // a mission that does not say may try
+}
+
+TEST_CASE("a mission may need a role or a component that the command line chooses") {
+  const std::string with = "{with: outer, because: \"no law of it has flown\"}";
+  CHECK(keyed(with, on("sim")) == "");
+  CHECK(keyed(with, on("fcu")) ==
+        "hourglass.yaml:6: hardware: with io: fcu this mission needs --role outer=COMPONENT or --with "
+        "outer=FILE: no law of it has flown");
+  Overrides chosen = on("fcu");
+  chosen.roles = {{"outer", "tecs"}};
+  CHECK(keyed(with, chosen) == "");
+  chosen.roles = {{"guide", "follow"}};
+  CHECK(keyed(with, chosen) != "");
+}
+
+TEST_CASE("what stands under hardware is checked in simulation too") {
+  for (const char* io : {"sim", "fcu"}) {
+    CHECK(keyed("perhaps", on(io)).find("hourglass.yaml:6: hardware: expected yes, ") == 0);
+    CHECK(keyed("no", on(io)).find("found 'no'") != std::string::npos);
+    CHECK(keyed("{fit: no}", on(io)).find("hourglass.yaml:6: hardware: 'because' is missing") == 0);
+    CHECK(keyed("{with: outer}", on(io)).find("hourglass.yaml:6: hardware: 'because' is missing") == 0);
+    CHECK(keyed("{fits: no}", on(io)).find("unknown key 'fits'. Did you mean 'fit'?") != std::string::npos);
+    CHECK(keyed("[yes]", on(io)).find("hourglass.yaml:6: hardware: expected a map") == 0);
+  }
+}
+
+TEST_CASE("the key is inherited, and a layer replaces it as a whole") {
+  Mission mission;
+  mission.folder.write("base.yaml", std::string(hourglass) + "hardware: {fit: no, because: \"it is not\"}\n");
+  mission.text = "extends: base.yaml\n";
+  CHECK(mission.faults(on("fcu")).find("it is not") != std::string::npos);
+  mission.text = "extends: base.yaml\nhardware: yes\n";
+  CHECK(mission.faults(on("fcu")) == "");
+}
+
+TEST_CASE("a condition that reads ground contact, a crash or the true state is told") {
+  const std::string when = "\"nav.state.height_m > 30 m\"";
+  CHECK(warned(when, when).empty());
+  CHECK(warned(when, "\"vehicle.status.armed\"").empty());
+  const auto contact = warned(when, "\"nav.state.height_m > 3 m and not vehicle.status.on_ground\"");
+  REQUIRE(contact.size() == 1);
+  CHECK(contact[0].find("hourglass.yaml:37: phases.takeoff.next: vehicle.status.on_ground: ") == 0);
+  CHECK(warned(when, "\"vehicle.status.crashed\"").size() == 1);
+  CHECK(warned(when, "\"sim.status.crashed\"").size() == 1);
+  Mission refused;
+  CHECK(refused.replace(when, "\"vehicle.status.crashed\"")
+            .faults(on("fcu"))
+            .find("hourglass.yaml:37: phases.takeoff.next: vehicle.status.crashed: ") == 0);
+  const auto truth = warned(when, "\"vehicle.truth.height_m > 30 m\"");
+  REQUIRE(truth.size() == 1);
+  CHECK(truth[0].find("hourglass.yaml:37: phases.takeoff.next: vehicle.truth ") == 0);
+  CHECK(warned("\"vehicle.status.override\"", "\"vehicle.status.on_ground\"").size() == 1);  // of `any`
+}
+
+TEST_CASE("a verdict may read what only the simulator has") {
+  CHECK(warned("seed: 7", "failed: \"vehicle.status.crashed\"").empty());
+  CHECK(warned("\"manage.progress.circuits >= 2\"", "\"vehicle.status.on_ground\"").empty());
+}
+
+TEST_CASE("a component that steers by the true state is told, one that only measures is not") {
+  const std::string manage = "use: path/Manager, in: {state: nav.state,";
+  const auto list = warned(manage, "use: path/Manager, in: {state: vehicle.truth,");
+  REQUIRE(list.size() == 1);
+  CHECK(list[0].find("hourglass.yaml:26: manage.state comes from vehicle.truth") == 0);
+  CHECK(warned(manage, "use: path/Manager, in: {state: sim.truth,").size() == 1);
+  CHECK(warned("only: sim}", "only: sim}\n  second: {use: sim_aero/TruthState, in: {truth: vehicle.truth}}")
+            .empty());
+  // a component that only measures decides as soon as a phase looks at it
+  const auto decided = warned("\"nav.state.height_m > 30 m\"", "\"score.tracking.circuits > 1\"");
+  REQUIRE(decided.size() == 1);
+  CHECK(decided[0].find("score.truth comes from vehicle.truth") != std::string::npos);
+  Mission open;  // an optional input that hardware leaves open
+  CHECK(open.replace("\"nav.state.height_m > 30 m\"", "\"score.tracking.circuits > 1\"")
+            .faults(on("fcu"))
+            .find("score.truth comes from vehicle.truth") != std::string::npos);
+  // who exists in simulation alone says so itself
+  Mission mission;
+  Overrides o = on("sim");
+  o.roles = {{"nav", "truth"}};
+  const std::vector<std::string> truth = mission.load(o).warnings;
+  CHECK(std::none_of(truth.begin(), truth.end(),
+                     [](const std::string& w) { return w.find("simulation only") != std::string::npos; }));
+}
+
+TEST_CASE("a mission that is for simulation only, or has no other vehicle, is told nothing") {
+  const std::string crashed = "\"vehicle.status.crashed\"", when = "\"nav.state.height_m > 30 m\"";
+  Mission mission;
+  mission.replace(when, crashed).replace("seed: 7", "hardware: {fit: no, because: \"it is a toy\"}");
+  CHECK(mission.load().warnings.empty());
+  Mission alone;
+  alone.replace(when, crashed)
+      .replace("  fcu:    {fills: vehicle, use: fcu_serial, params: {port: /dev/ttyACM0}}\n", "");
+  CHECK(alone.load().warnings.empty());
+}
+
+TEST_CASE("each shipped mission says whether it is for hardware") {
+  const fs::path folder = named_file("", "fulmar:missions/common.yaml").parent_path();
+  int missions = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".yaml") continue;
+    Report report;
+    Overrides overrides;
+    const MissionText text = parse_mission(entry.path().string(), overrides, report);
+    const Node own = parse_yaml(text.file, report);
+    if (!own.find("mission")) continue;
+    ++missions;
+    CHECK_MESSAGE(own.find("hardware"), entry.path().filename().string());
+    CHECK_MESSAGE(report.empty(), report.text());
+  }
+  CHECK(missions > 15);
+}
+
+}  // namespace hardware_key_test

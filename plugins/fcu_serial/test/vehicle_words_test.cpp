@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is told is true: after a gap of the link, on a bad line, after a stop of the computer, in a hand-over
+// that is refused, and when something comes and goes.
+#include "flying.hpp"
+
+namespace vehicle_words_test {
+
+using namespace fulmar;
+using namespace fulmar::fcu;
+using namespace fulmar::fcu::testing;
+
+namespace {
+
+VehicleState known(double speed_mps = 0) {
+  VehicleState s;
+  s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = true;
+  s.ground_speed_mps = speed_mps;
+  return s;
+}
+void switch_to(Flying& f, bool pilot) { f.world.fcu.inputs.rc_us[5] = pilot ? 2000 : 1000; }
+void cruising(Flying& f) {
+  f.state = known();
+  f.fly(4);
+  f.world.fcu.inputs.rc_us[4] = 2000;
+  switch_to(f, true);
+  f.fly(1);
+  switch_to(f, false);
+  f.fly(1);
+  REQUIRE(f.status.in_control);
+  f.state = known(17);
+  f.fly(1);
+  f.told.clear();
+}
+int times(const Flying& f, const std::string& words) {
+  int n = 0;
+  for (auto at = f.told.find(words); at != std::string::npos; at = f.told.find(words, at + 1)) ++n;
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("a gap of the link is no loss of GNSS, however long it lasts; a fix that stays away after it is") {
+  for (const double gap_s : {0.5, 2.0, 10.0}) {
+    CAPTURE(gap_s);
+    Flying f;
+    cruising(f);
+    f.world.cut = true;
+    f.fly(gap_s);
+    f.world.cut = false;
+    f.fly(2);
+    CHECK(times(f, "GNSS") == 0);
+    f.world.cut = true;
+    f.fly(gap_s);
+    f.world.fcu.inputs.gnss_works = false;
+    f.world.cut = false;
+    f.fly(2);
+    CHECK(times(f, "GNSS lost") == 1);
+  }
+}
+
+TEST_CASE("a computer that stood still blames nobody else") {
+  for (const std::int64_t stop_ns :
+       {std::int64_t{250'000'000}, std::int64_t{700'000'000}, std::int64_t{3'000'000'000}}) {
+    CAPTURE(stop_ns);
+    Flying f;
+    cruising(f);
+    f.world.stands_ns = stop_ns;
+    f.fly(static_cast<double>(stop_ns) * 1e-9 + 2);
+    CHECK(times(f, "stood still") == (stop_ns > 300'000'000 ? 1 : 0));
+    for (const char* words : {"nothing comes", "device is gone", "GNSS", "radio", "no inertial samples"}) {
+      CAPTURE(words);
+      CHECK(times(f, words) == 0);
+    }
+    CHECK(f.status.in_control);
+    f.world.cut = true;  // what is silent from then on is told as ever
+    f.fly(0.5);
+    CHECK(times(f, "nothing comes from the flight controller") == 1);
+  }
+}
+
+TEST_CASE("a line that loses nearly everything says nothing of the radio; a radio that stops is told on it") {
+  Flying f;
+  cruising(f);
+  std::uint32_t dice = 1;
+  f.world.lost = [&dice](const Packet&) { return (dice = dice * 1664525 + 1013904223) >> 24 >= 8; };  // 97 %
+  f.fly(20);
+  CHECK(times(f, "outputs are frozen") == 0);
+  f.world.fcu.inputs.rc_frames = false;
+  f.fly(10);
+  CHECK(times(f, "outputs are frozen") == 1);
+  f.world.lost = [](const Packet&) { return false; };
+  f.world.fcu.inputs.rc_frames = true;
+  f.fly(2);
+  CHECK(times(f, "frames of the radio come again") == 1);
+}
+
+TEST_CASE("a hand-over that is refused is never called control") {
+  Flying f;
+  f.state = known();
+  f.state->position_valid = false;
+  f.world.fcu.inputs.gnss.fix_type = 0;
+  f.fly(4);
+  f.world.fcu.inputs.rc_us[4] = 2000;
+  switch_to(f, true);
+  f.fly(1);
+  REQUIRE(f.status.armed);
+  f.told.clear();
+  for (int i = 0; i < 5; ++i) {
+    switch_to(f, false);
+    for (int tick = 0; tick < 400; ++tick) {
+      f.tick();
+      CHECK_FALSE(f.status.in_control);
+    }
+    switch_to(f, true);
+    f.fly(1);
+  }
+  CHECK(times(f, "in control") == 0);
+  CHECK(times(f, "not ready") >= 5);  // each hand-over is answered
+}
+
+TEST_CASE("what makes it ready and comes and goes is told less and less often") {
+  Flying f;
+  f.state = known();
+  f.fly(4);
+  f.told.clear();
+  for (int i = 0; i < 60; ++i) {
+    f.state->position_valid = i % 2 != 0;
+    f.world.fcu.inputs.gnss.fix_type = i % 2 != 0 ? 3 : 0;
+    f.fly(1);
+  }
+  const int lines = times(f, "ready");
+  CHECK(lines >= 4);   // each of them is 10 s old at most
+  CHECK(lines <= 12);  // of 60 changes
+  CHECK(times(f, "GNSS lost") >= 4);
+  CHECK(times(f, "GNSS lost") <= 12);
+  CHECK(times(f, "GNSS is back") == times(f, "GNSS lost"));
+  f.told.clear();
+  f.state->position_valid = true;
+  f.world.fcu.inputs.gnss.fix_type = 3;
+  f.fly(11);
+  CHECK(times(f, "not ready") == 0);
+}
+
+TEST_CASE("an attitude that is lost while the computer flies calls the pilot, once") {
+  Flying f;
+  cruising(f);
+  f.state->attitude_valid = false;
+  f.fly(0.25);
+  CHECK(times(f, "pilot: take over") == 0);
+  f.fly(3);
+  CHECK(times(f, "pilot: take over") == 1);
+  f.state->attitude_valid = true;
+  f.fly(1);
+  CHECK(times(f, "the attitude is valid again") == 1);
+  // while the pilot flies he is not called
+  switch_to(f, true);
+  f.fly(1);
+  f.state->attitude_valid = false;
+  f.fly(3);
+  CHECK(times(f, "pilot: take over") == 1);
+  // an estimate that nobody renews is lost too
+  Flying silent;
+  cruising(silent);
+  silent.state.reset();
+  silent.fly(3);
+  CHECK(times(silent, "pilot: take over") == 1);
+}
+
+}  // namespace vehicle_words_test

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reports each sensor that fails in flight, and its return, in every mission: what is wrong, what the
+// aircraft does now, and what the pilot should do.
+#pragma once
+#include <array>
+#include <cstdio>
+
+#include "fulmar/msg/ground_state.hpp"
+#include "fulmar/msg/navigation_health.hpp"
+#include "fulmar/msg/notice.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+#include "fulmar/plugin.hpp"
+
+namespace fulmar::safety {
+
+/// One fault on its way from there to reported and back. What comes and goes is reported once per `pause_s`.
+class Reported {
+ public:
+  enum class News { none, raised, cleared };
+
+  News step(bool bad, bool good, double raise_s, double clear_s, double pause_s, double now_s, double dt) {
+    held_s_ = (raised_ ? good : bad) ? held_s_ + dt : 0;
+    if (held_s_ <= 0 || held_s_ < (raised_ ? clear_s : raise_s)) return News::none;
+    held_s_ = 0;
+    raised_ = !raised_;
+    if (!raised_) return said_ ? News::cleared : News::none;
+    began_s_ = now_s - raise_s;
+    said_ = !any_ || now_s - said_s_ >= pause_s;
+    if (!said_) return News::none;
+    any_ = true;
+    said_s_ = now_s;
+    return News::raised;
+  }
+  double since_s(double now_s) const { return now_s - began_s_; }
+
+ private:
+  double held_s_ = 0, began_s_ = 0, said_s_ = 0;
+  bool raised_ = false, said_ = false, any_ = false;
+};
+
+struct SensorWatch {
+  static constexpr const char* doc =
+      "Reports sensors that are silent, stuck, refused, noisy or biased in flight, a lost position, and "
+      "their "
+      "return.";
+  struct Inputs {
+    In<VehicleState> state;
+    Optional<NavigationHealth> health;  // without it the position alone is watched
+    Optional<GroundState> ground;       // without it the aircraft flies when it is faster than `flying`
+  };
+  struct Outputs {
+    OutQueue<Notice, 12> notices;
+  };
+  struct Params {
+    Param raise{0.3, "s", 0, 600, "silent, stuck or refused, until it is reported"};
+    Param raise_soft{10, "s", 0, 600, "noisy or biased, until it is reported"};
+    Param clear{3, "s", 0, 600, "in order, until its return is reported"};
+    Param pause{30, "s", 0, 3600, "between two reports of the same sensor"};
+    Param flying{7, "m/s", 0, 100, "ground speed from which on the aircraft flies, without `ground`"};
+  };
+
+  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+    const double dt = std::clamp(tick.dt_s(), 0.0, 1.0), now_s = 1e-9 * static_cast<double>(tick.now_ns);
+    const VehicleState& s = *in.state;
+    const bool flies =
+        in.ground ? in.ground->contact == Contact::air : s.velocity_valid && s.ground_speed_mps > p.flying;
+    for (std::size_t i = 0; i < sensors.size() && in.health && !in.health.stale(); ++i)
+      watch(sensors[i], (*in.health).*sensors[i].health, reported_[i], flies, p, now_s, dt, tick, out);
+    had_position_ = had_position_ || s.position_valid;
+    const Reported::News news = position_.step(flies && had_position_ && !s.position_valid, s.position_valid,
+                                               0, p.clear, p.pause, now_s, dt);
+    if (news == Reported::News::raised)
+      say(Severity::critical, "position lost: it is reckoned by air data and drifts. Pilot: be ready", tick,
+          out);
+    if (news == Reported::News::cleared) say(Severity::info, "the position is valid again", tick, out);
+    return Status::ok;
+  }
+
+ private:
+  struct Sensor {
+    const char* name;
+    SensorHealth NavigationHealth::*health;
+    Severity severity;
+    const char* answer;  // what the aircraft does now, and the pilot
+  };
+  static constexpr std::array<Sensor, 6> sensors{{
+      {"gyro", &NavigationHealth::gyro, Severity::critical, "the attitude is not reliable. Pilot: take over"},
+      {"accelerometer", &NavigationHealth::accel, Severity::critical,
+       "the attitude is not reliable. Pilot: take over"},
+      {"GNSS position", &NavigationHealth::gnss_position, Severity::warning, "dead reckoning by air data"},
+      {"magnetometer", &NavigationHealth::mag, Severity::warning, "heading by GNSS course"},
+      {"barometer", &NavigationHealth::baro, Severity::warning, "height by GNSS"},
+      {"pitot tube", &NavigationHealth::pitot, Severity::warning, "airspeed estimated from GNSS and wind"},
+  }};
+
+  static const char* word(SensorState state) {
+    switch (state) {
+      case SensorState::silent: return "silent";
+      case SensorState::stuck: return "stuck";
+      case SensorState::noisy: return "noisy";
+      case SensorState::refused: return "refused, it contradicts the others";
+      case SensorState::biased: return "biased";
+      default: return "in order";
+    }
+  }
+
+  static void watch(const Sensor& sensor, const SensorHealth& h, std::array<Reported, 2>& reported,
+                    bool flies, const Params& p, double now_s, double dt, const Tick& tick, Outputs& out) {
+    const bool hard =
+        h.state == SensorState::silent || h.state == SensorState::stuck || h.state == SensorState::refused;
+    const bool soft = h.state == SensorState::noisy || h.state == SensorState::biased;
+    const bool good = h.state == SensorState::ok;
+    const std::array<bool, 2> bad{hard, soft};
+    const std::array<double, 2> raise{p.raise, p.raise_soft};
+    for (std::size_t i = 0; i < bad.size(); ++i) {
+      const Reported::News news =
+          reported[i].step(flies && bad[i], good || (i == 0 && soft), raise[i], p.clear, p.pause, now_s, dt);
+      char text[96];
+      if (news == Reported::News::raised) {
+        std::snprintf(text, sizeof text, "%s %s: %s", sensor.name, word(h.state), sensor.answer);
+        say(sensor.severity, text, tick, out);
+      } else if (news == Reported::News::cleared) {
+        std::snprintf(text, sizeof text, "%s in order again after %.0f s", sensor.name,
+                      reported[i].since_s(now_s) - p.clear);
+        say(Severity::info, text, tick, out);
+      }
+    }
+  }
+
+  static void say(Severity severity, const char* text, const Tick& tick, Outputs& out) {
+    Notice notice;
+    notice.severity = severity;
+    notice.text = text;
+    out.notices.push(notice, tick.now_ns);
+  }
+
+  std::array<std::array<Reported, 2>, sensors.size()> reported_;
+  Reported position_;
+  bool had_position_ = false;
+};
+
+}  // namespace fulmar::safety

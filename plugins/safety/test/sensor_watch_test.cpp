@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each sensor that fails in flight is reported once, and its return; nothing on the ground, nothing of a
+// flight in order.
+#include "plugins/safety/sensor_watch.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "kit.hpp"
+#include "sdk/test/said.hpp"
+
+namespace sensor_watch_test {
+
+namespace fs = std::filesystem;
+using namespace fulmar;
+using namespace fulmar::safety;
+
+namespace {
+
+struct Watching {
+  Bench<SensorWatch> bench;
+  VehicleState state = kit::level();
+  NavigationHealth health = all(SensorState::ok);
+  GroundState ground;
+  std::vector<Notice> told;
+
+  Watching() { ground.contact = Contact::air; }
+  static NavigationHealth all(SensorState s) {
+    NavigationHealth h;
+    for (SensorHealth* each :
+         {&h.gyro, &h.accel, &h.gnss_position, &h.gnss_height, &h.gnss_velocity, &h.mag, &h.baro, &h.pitot})
+      each->state = s;
+    return h;
+  }
+  void fly(double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 10 + 0.5); ++i) {
+      bench.set(bench.in.state, state);
+      bench.set(bench.in.health, health);
+      bench.set(bench.in.ground, ground);
+      bench.step(0.1);
+      for (std::uint32_t n = 0; n < bench.out.notices.count; ++n) told.push_back(bench.out.notices.items[n]);
+    }
+  }
+  int count(Severity severity) const {
+    int n = 0;
+    for (const Notice& each : told) n += each.severity == severity ? 1 : 0;
+    return n;
+  }
+};
+
+using test::Said;
+using test::typed;
+
+/// The lines of `sensors` and `follow` in a flight of the hourglass with this fault from 40 to 60 s.
+std::string flown(const std::string& fault, const std::string& more = "") {
+  const fs::path file = fs::temp_directory_path() / ("fulmar_sensors_" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(file) << "extends: " FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml\nlive: off\n"
+                      << "done: \"time > 70 s\"\nphases:\n"
+                      << "  cruise: {next: [{to: faulty, when: \"time > 40 s\"}]}\n"
+                      << "  faulty: {outer: slc, vehicle: {set: {" << fault
+                      << "}}, next: [{to: after, when: \"time > 60 s\"}]}\n  after: {outer: slc}\n"
+                      << more;
+  const Said r = typed("run " + file.string() + " --no-log");
+  fs::remove(file);
+  std::string lines;
+  std::istringstream all(r.out);
+  for (std::string line; std::getline(all, line);)
+    if (line.find(" s  sensors: ") != std::string::npos || line.find(" s  follow: ") != std::string::npos)
+      lines += line + "\n";
+  return lines;
+}
+int lines_of(const std::string& text, const std::string& words) {
+  int n = 0;
+  for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++n;
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("a sensor that fails in flight is reported once, and once when it is in order again") {
+  for (const SensorState bad : {SensorState::silent, SensorState::stuck, SensorState::refused}) {
+    for (SensorHealth NavigationHealth::*which :
+         {&NavigationHealth::mag, &NavigationHealth::baro, &NavigationHealth::pitot,
+          &NavigationHealth::gnss_position}) {
+      Watching w;
+      w.fly(5);
+      CHECK(w.told.empty());
+      (w.health.*which).state = bad;
+      w.fly(0.2);
+      CHECK(w.told.empty());
+      w.fly(20);
+      CHECK(w.told.size() == 1);
+      CHECK(w.count(Severity::warning) == 1);
+      (w.health.*which).state = SensorState::ok;
+      w.fly(2.5);
+      CHECK(w.told.size() == 1);
+      w.fly(1);
+      CHECK(w.told.size() == 2);
+      CHECK(w.count(Severity::info) == 1);
+    }
+  }
+}
+
+TEST_CASE("an inertial sensor that fails calls the pilot") {
+  for (SensorHealth NavigationHealth::*which : {&NavigationHealth::gyro, &NavigationHealth::accel}) {
+    Watching w;
+    (w.health.*which).state = SensorState::stuck;
+    w.fly(5);
+    REQUIRE(w.told.size() == 1);
+    CHECK(w.told[0].severity == Severity::critical);
+    CHECK(w.told[0].text.view().find("Pilot: take over") != std::string_view::npos);
+  }
+}
+
+TEST_CASE("noise and bias are reported when they last") {
+  for (const SensorState bad : {SensorState::noisy, SensorState::biased}) {
+    Watching w;
+    w.health.baro.state = bad;
+    w.fly(9.5);
+    CHECK(w.told.empty());
+    w.fly(1);
+    CHECK(w.told.size() == 1);
+  }
+}
+
+TEST_CASE("what comes and goes is reported twice a minute at most") {
+  Watching w;
+  for (int i = 0; i < 12; ++i) {
+    w.health.pitot.state = SensorState::silent;
+    w.fly(1);
+    w.health.pitot.state = SensorState::ok;
+    w.fly(4);
+  }
+  CHECK(w.count(Severity::warning) == 2);
+  CHECK(w.count(Severity::info) == 2);
+}
+
+TEST_CASE("on the ground, and of a sensor that was never there, nothing is reported") {
+  for (const Contact contact : {Contact::ground, Contact::unknown}) {
+    Watching w;
+    w.ground.contact = contact;
+    w.health = Watching::all(SensorState::silent);
+    w.fly(20);
+    CHECK(w.told.empty());
+  }
+  Watching w;
+  w.health = Watching::all(SensorState::never);
+  w.fly(20);
+  CHECK(w.told.empty());
+}
+
+TEST_CASE("a position that is lost is reported, and its return") {
+  Watching w;
+  w.fly(1);
+  w.state.position_valid = false;
+  w.fly(20);
+  REQUIRE(w.told.size() == 1);
+  CHECK(w.told[0].severity == Severity::critical);
+  w.state.position_valid = true;
+  w.fly(4);
+  CHECK(w.told.size() == 2);
+  Watching never;
+  never.state.position_valid = false;
+  never.fly(20);
+  CHECK(never.told.empty());
+}
+
+TEST_CASE("in a flight each fault of a sensor is a line, and a flight in order has none") {
+  CHECK(flown("baro_fault: none") == "");
+  for (const char* fault : {"off", "stuck", "wrong"})
+    for (const auto& [sensor, name] :
+         {std::pair{"baro", "barometer "}, {"pitot", "pitot tube "}, {"mag", "magnetometer "}}) {
+      const std::string lines = flown(std::string(sensor) + "_fault: " + fault);
+      CAPTURE(fault);
+      CAPTURE(lines);
+      CHECK(lines_of(lines, name) == 2);
+      CHECK(lines.find(name) < lines.find("in order again"));
+    }
+}
+
+TEST_CASE("the circle of an aircraft without a position begins with a line and ends with one") {
+  const std::string lines =
+      flown("gnss_position_fault: off", "components: {follow: {params: {reckon_time: 5 s}}}\n");
+  CAPTURE(lines);
+  CHECK(lines_of(lines, "follow: no position: circle") == 1);
+  CHECK(lines_of(lines, "follow: the position is back") == 1);
+}
+
+}  // namespace sensor_watch_test

@@ -104,6 +104,7 @@ TEST_CASE("an angle of attack that is too large for the airspeed raises the leas
   VehicleState s = level(12);
   const WingEnvelope w(f.airframe);
   s.alpha_rad = s.pitch_rad = w.alpha_of(0.95);
+  own_acceleration(s, 0);
   f.fly(s, 10);
   CHECK(f.now.airspeed_min_mps > 12.5);
   CHECK(f.now.airspeed_min_mps < 14);

@@ -42,7 +42,6 @@ build/bin/bench_faults >build/check/faults.md
 build/bin/bench_sensor_faults >build/check/sensor_faults.md
 build/bin/bench_safety >build/check/safety.md
 build/bin/bench_landing --jobs 2 >build/check/landing.md
-build/bin/bench_envelope --jobs 2 >build/check/envelope.md
 build/bin/bench_attitude >build/check/attitude.md
 build/bin/bench_autotune >build/check/autotune.md
 build/bin/bench_aero >build/check/aero.txt

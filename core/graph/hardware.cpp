@@ -3,6 +3,7 @@
 // steering components read that no flight controller measures.
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "core/graph/draft.hpp"
 
@@ -37,8 +38,12 @@ void check_hardware(const MissionText& text, const Overrides& overrides, Report&
     report.add(hardware.where, "hardware: this mission is for simulation only: " + hardware.because);
     report.throw_if_any();  // what else is wrong with it on hardware follows from that
   }
+  const auto fills = [&](const std::string& name) {
+    const ComponentText* const c = text.component(name);
+    return name == hardware.with || (c && c->fills_role(hardware.with));
+  };
   const auto given = [&](const auto& list) {
-    return std::any_of(list.begin(), list.end(), [&](const auto& o) { return o.first == hardware.with; });
+    return std::any_of(list.begin(), list.end(), [&](const auto& o) { return fills(o.first); });
   };
   if (hardware.with.empty() || given(overrides.roles) || given(overrides.with)) return;
   report.add(hardware.where, "hardware: with io: fcu this mission needs --role " + hardware.with +
@@ -115,6 +120,7 @@ class SimulatorPorts {
   }
   /// Null when its plugin cannot be opened: then it cannot be said what it lacks.
   const ComponentInfo* real_vehicle() {
+    if (!plugin_ && std::exchange(tried_, true)) return nullptr;
     if (!plugin_) try {
         const auto [plugin, name] = split_use(hardware_vehicle(draft_.text)->use.text);
         plugin_ = catalogue_.open(plugin).info;
@@ -175,6 +181,7 @@ class SimulatorPorts {
   Catalogue& catalogue_;
   std::shared_ptr<const PluginInfo> plugin_;  // of the vehicle on hardware
   std::string real_name_;
+  bool tried_ = false;  ///< to open the plugin
 };
 
 }  // namespace

@@ -311,7 +311,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   check_record_rules(draft, ports);
   resolve_dds(draft, ports);
   tell_unread(draft);
-  tell_simulator_ports(draft, catalogue);
+  if (!draft.overrides.files) tell_simulator_ports(draft, catalogue);
 }
 
 /// Whether `--with` names this very file: as it is searched, in a folder and perhaps without its ending.
@@ -348,7 +348,7 @@ Graph load_mission(const std::string& file, const Overrides& given, Catalogue& c
   for (const auto& [name, value] : given.set) report.opened("--set " + name + "=" + value);
   for (const std::string& ports : given.record) report.opened("--record " + ports);
   const MissionText text = parse_mission(file, given, report);
-  check_hardware(text, given, report);
+  if (!given.files) check_hardware(text, given, report);  // a log was flown already
   const Overrides overrides = with_components(text, given, report);
   catalogue.admit = [trust = Trust(text, report), &overrides](const fs::path& plugin) {
     return overrides.files ? admit_again(plugin, overrides) : trust.check(plugin);

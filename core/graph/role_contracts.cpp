@@ -101,13 +101,17 @@ void check_groups(Draft& draft) {
     const Where& where = group.text->fills.front().where;
     if (group.fills(draft.role("vehicle")))
       draft.report.add(where, path + "the vehicle fills the role vehicle alone");
-    std::vector<std::string> outputs;
+    std::vector<const RoleOutText*> outputs;
     for (const int r : group.roles)
       for (const RoleOutText& out : nth(draft.roles, r).text->out) {
-        if (std::find(outputs.begin(), outputs.end(), out.name) != outputs.end())
+        // An optional output such as the notices is one port that both roles have.
+        const auto same = [&](const RoleOutText* other) {
+          return other->name == out.name && !(other->optional && out.optional);
+        };
+        if (std::any_of(outputs.begin(), outputs.end(), same))
           draft.report.add(where, path + "two of these roles have an output '" + out.name +
                                       "'; one component cannot fill both");
-        outputs.push_back(out.name);
+        outputs.push_back(&out);
       }
     for (std::size_t k = 0; k < i; ++k) {
       const Candidate& other = draft.candidates[k];

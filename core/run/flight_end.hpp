@@ -29,6 +29,8 @@ class FlightEnd {
   /// At once.
   void end_by(Ending::Cue cue) { carry_out(ending_.take(cue, state_.now_ns)); }
 
+  /// [setup] A host that resumes a flight has not seen all of it: what the mission calls flown may have held.
+  void taken_up() noexcept { flown_ = true; }
   bool over() const noexcept { return ending_.over(); }
   bool in_failsafe() const noexcept { return ending_.in_failsafe(); }
   bool abandoned() const noexcept { return ending_.reason() == Ending::Reason::abandoned; }

@@ -235,6 +235,8 @@ void Recorder::listen(const Units& units) {
 void Recorder::listen_to(const Unit& unit, int output) {
   if (output < 0) return;
   const Slot& slot = nth(unit.out.slots, output);
+  // One component may fill two roles whose notices are listed.
+  if (std::any_of(told_.begin(), told_.end(), [&](const Told& t) { return t.slot == &slot; })) return;
   Told told{&slot, slot.port->type->find("text"), slot.port->type->find("severity"), {}};
   if (!told.text || told.text->kind != FULMAR_TEXT) return;
   if (!told.severity) told.severity = slot.port->type->find("level");

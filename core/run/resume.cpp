@@ -180,12 +180,15 @@ struct Newest {
   fs::path log;
   fs::file_time_type time = fs::file_time_type::min();
 
-  void look(const UsualPlace& place) {
+  /// `whole`: the stem is that of one flight, whose names go on with a number at most.
+  void look(const UsualPlace& place, bool whole = false) {
     std::error_code code;
     for (const fs::directory_entry& entry : fs::directory_iterator(place.folder, code)) {
       const std::string name = entry.path().filename().string();
       if (!name.starts_with(place.stem) || !(name.ends_with(".mcap") || name.ends_with(".mcap.part")))
         continue;
+      const char next = name[place.stem.size()];
+      if (whole && next != '.' && next != '-') continue;
       const fs::file_time_type written = entry.last_write_time(code);
       if (code || written <= time || !holds_message(entry.path())) continue;
       log = entry.path();
@@ -214,7 +217,7 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
   const UsualPlace usual = usual_place(graph);
   newest.look(usual);
   for (const fs::path noted : noted_logs(note_of(usual)))
-    newest.look({noted.parent_path(), noted.stem().string()});
+    newest.look({noted.parent_path(), noted.stem().string()}, true);
   return newest.log;
 }
 
@@ -225,6 +228,7 @@ fs::path newest_log(const Graph& graph, double max_age_s) {
 void Flight::Impl::resume_now(bool begun) {
   const Resume resume = std::move(*state.options.resume);
   state.options.resume.reset();
+  end.taken_up();
   const int to = std::max(0, index_named(state.graph.phases, resume.phase));
   if (!begun) roles.begin_in(to);
   Event e = event_of(Code::resumed, "", resume.phase);

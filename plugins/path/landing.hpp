@@ -9,6 +9,7 @@
 #include <string>
 
 #include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/filters.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/landing_progress.hpp"
@@ -98,7 +99,10 @@ struct Landing {
   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>&) {
     progress_.stage = LandingStage::join;
     progress_.reason = LandingReason::none;
-    settled_s_ = slip_rad_ = 0;
+    settled_s_ = slip_rad_ = height_off_m_ = 0;
+    broken_off_ = false;
+    head_.reset();
+    cross_.reset();
     notices_ = {};
     return Status::ok;
   }
@@ -109,7 +113,9 @@ struct Landing {
     if (!site_.located()) return wait(s, p, out);
     locate(s, p);
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
-    feel_wind(s, p);
+    if (s.reset_count != resets_) height_off_m_ = 0;
+    resets_ = s.reset_count;
+    feel_wind(s, p, dt);
     const LandingProgress before = progress_;
     decide(in, p, dt);
     notices_.report(before, progress_, {flare_s_, rolled_s_, p.roll_time}, tick.now_ns, out.notices);
@@ -164,11 +170,12 @@ struct Landing {
   }
 
   /// Along and across the runway, and how much of it a landing takes in this wind.
-  void feel_wind(const VehicleState& s, const Params& p) {
+  void feel_wind(const VehicleState& s, const Params& p, double dt) {
     const double c = std::cos(site_.runway().heading_rad), e = std::sin(site_.runway().heading_rad);
     const Vec3<Ned> w = s.wind_valid ? s.wind_mps : Vec3<Ned>{};
-    progress_.head_wind_mps = -(w.north * c + w.east * e);
-    progress_.cross_wind_mps = w.east * c - w.north * e;
+    constexpr double gusts_s = 5;  // a lull of one step begins no approach
+    progress_.head_wind_mps = head_.step(-(w.north * c + w.east * e), gusts_s, dt);
+    progress_.cross_wind_mps = cross_.step(w.east * c - w.north * e, gusts_s, dt);
     const double V = capped(p.airframe->limits.airspeed_min_mps + faster_mps(s, p), p);
     const double over_ground = std::max(V - progress_.head_wind_mps, 1.0);
     const double flare_s = (p.flare_height / std::tan(p.glide_slope)) / V + 2;
@@ -251,6 +258,7 @@ struct Landing {
   /// An aircraft that still flies below the height of the runway has shown how far that height is off.
   void break_flare_off() {
     height_off_m_ += std::min(progress_.height_m, 0.0);
+    broken_off_ = true;
     go_around(LandingReason::flare_long);
   }
 
@@ -273,7 +281,7 @@ struct Landing {
   bool too_long(const VehicleState& s, const Params& p) const {
     const double left = site_.runway().length_m - p.aim + progress_.along_m;
     const double stop = 0.5 * s.ground_speed_mps * s.ground_speed_mps / p.deceleration;
-    return height_off_m_ == 0 && s.position_valid && flare_s_ > 5 && left < stop;
+    return !broken_off_ && s.position_valid && flare_s_ > 5 && left < stop;
   }
   /// Where no ground state is wired: it was asked to be much lower for a while and does not sink. The height
   /// is off by metres, so it says little.
@@ -392,7 +400,10 @@ struct Landing {
   GuidanceCommand command_;
   LandingProgress progress_;
   double settled_s_ = 0, rolled_s_ = 0, flare_s_ = 0, flare_height_m_ = 0;
-  double height_off_m_ = 0;  ///< of the runway below the height that is given, shown by a flare
+  double height_off_m_ = 0;   ///< of the runway below the height that is given, shown by a flare
+  bool broken_off_ = false;   ///< a flare that lasted too long, once
+  LowPass head_, cross_;      ///< wind, m/s
+  std::uint32_t resets_ = 0;  ///< of the state, seen so far
   LandingNotices notices_;
   double slip_rad_ = 0;                  ///< asked for
   static constexpr double lead_m = 1.5;  ///< of the flare's height before the aircraft

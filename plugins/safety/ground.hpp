@@ -56,7 +56,7 @@ struct Ground {
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
     const VehicleState& s = *in.state;
     now_.since_s += dt;
-    read(in, p);
+    read(tick, in, p);
     release(in);
     if (!s.attitude_valid || !s.height_valid) {
       now_.touch_evidence_ratio = 0;
@@ -74,7 +74,7 @@ struct Ground {
 
  private:
   /// Whether it moves fast enough to fly, as far as that is measured.
-  void read(const Inputs& in, const Params& p) {
+  void read(const Tick& tick, const Inputs& in, const Params& p) {
     const VehicleState& s = *in.state;
     const double least = p.airframe->limits.airspeed_min_mps;
     armed_ = !in.status || in.status->armed;
@@ -84,6 +84,10 @@ struct Ground {
     speed_ratio_ = (s.airspeed_valid ? s.airspeed_mps : s.ground_speed_mps) / least;
     moves_ = !s.velocity_valid || s.ground_speed_mps > moving_mps || std::abs(s.climb_rate_mps) > moving_mps;
     slow_ = speed_ratio_ < p.slow && (!s.velocity_valid || s.ground_speed_mps < p.slow * least);
+    // In a strong wind the tube of an aircraft that stands reads the wind.
+    still_ = s.velocity_valid && s.ground_speed_mps < still_mps && std::abs(s.climb_rate_mps) < still_mps;
+    // A landing that is not flown leaves its last progress behind.
+    approaches_ = in.landing && tick.now_ns - in.landing.valid_at_ns() < current_ns;
   }
 
   /// A hand-over by the pilot, arming, or a request opens the throttle again.
@@ -108,7 +112,7 @@ struct Ground {
   /// From the ground, or at the start from an unknown place, into the air.
   void stand(const VehicleState& s, const Params& p, double dt) {
     now_.touch_evidence_ratio = 0;
-    const bool rests = slow_ && std::abs(s.climb_rate_mps) < 1;
+    const bool rests = (slow_ && std::abs(s.climb_rate_mps) < 1) || still_;
     if (now_.contact == Contact::unknown && stands_.step(rests, 1.0, dt)) set(Contact::ground);
     if (now_.contact == Contact::ground) follow_ground(s, dt);
     const bool high = placed_ && s.height_m - height_m_ > p.lift_height;
@@ -121,10 +125,12 @@ struct Ground {
     const bool flies = fast_.step(fast, 0.5, dt) || risen || climbed || fell;
     if (!armed_ || !flies) return;
     set(Contact::air);
-    if (fell)
+    if (fell) {
       --now_.touch_downs;
-    else
+      released_at_ = std::min(released_at_, now_.touch_downs);
+    } else {
       ++now_.lift_offs;
+    }
     now_.landed = false;
     touch_.reset();
   }
@@ -144,15 +150,16 @@ struct Ground {
 
   void fly(const VehicleState& s, const Inputs& in, const Params& p, double dt) {
     const double off = off_m(s, in);
-    const bool sinks = in.landing && !in.landing.stale() &&
-                       (in.landing->stage == LandingStage::flare ||
-                        (in.landing->stage == LandingStage::approach && off < short_final_m));
+    const bool sinks = approaches_ && (in.landing->stage == LandingStage::flare ||
+                                       (in.landing->stage == LandingStage::approach && off < short_final_m));
     now_.touch_evidence_ratio = touch_.step(s, *p.airframe, {off, speed_ratio_ < 1.1, sinks}, p.touch, dt);
     // Far from any known ground a touch-down is possible for an aircraft that glides.
     const bool closed = closed_.step(in.actuators && in.actuators->throttle_frac < 0.03, 1.0, dt);
     const bool touches = now_.touch_evidence_ratio >= 1 && (closed || off < p.touch_height);
     // Whatever happened: an aircraft that neither moves nor climbs for a second is on the ground.
-    const bool rests = stands_.step(slow_ && std::abs(s.climb_rate_mps) < 0.5, 1.0, dt);
+    // Without an airspeed a slow ground speed may be a flight against the wind.
+    const bool slow = slow_ && (s.airspeed_valid || still_) && std::abs(s.climb_rate_mps) < 0.5;
+    const bool rests = stands_.step(slow, s.airspeed_valid ? 1.0 : 3.0, dt);
     if (!touches && !rests) return;
     now_.touch_sink_mps = touch_.sink_mps();
     ++now_.touch_downs;
@@ -164,14 +171,15 @@ struct Ground {
   double off_m(const VehicleState& s, const Inputs& in) const {
     constexpr double unknown_m = 100;
     const double place = placed_ ? std::abs(s.height_m - height_m_) : unknown_m;
-    const bool runway = in.landing && !in.landing.stale();
-    return std::min({place, runway ? std::abs(in.landing->height_m) : unknown_m, unknown_m});
+    return std::min({place, approaches_ ? std::abs(in.landing->height_m) : unknown_m, unknown_m});
   }
   /// After a touch-down that was none, or a bounce: it falls faster than a slope of the ground lets it roll.
   bool falls(const VehicleState& s, double dt) {
     constexpr double soon_s = 4;
-    const bool down = now_.touch_downs > 0 && now_.since_s < soon_s && -s.climb_rate_mps > steep_mps(s);
-    return falls_.step(down, 0.15, dt);
+    const bool soon = now_.since_s < soon_s;
+    const double steep = soon ? steep_mps(s) : 2 * steep_mps(s);
+    const bool down = now_.touch_downs > 0 && -s.climb_rate_mps > steep && !slow_;
+    return falls_.step(down, soon ? 0.15 : 0.5, dt);
   }
 
   void set(Contact contact) {
@@ -181,7 +189,8 @@ struct Ground {
   }
 
   void lock(const Params& p, double dt) {
-    const bool rolled = now_.contact == Contact::ground && now_.touch_downs > 0 && slow_ && !released();
+    const bool rolled =
+        now_.contact == Contact::ground && now_.touch_downs > 0 && (slow_ || still_) && !released();
     if (!locks_.step(rolled, p.landed_after, dt)) return;
     now_.landed = now_.throttle_locked = true;
     released_at_ = now_.touch_downs;
@@ -203,7 +212,8 @@ struct Ground {
     told_ = now_;
   }
 
-  static constexpr double moving_mps = 3, short_final_m = 8;
+  static constexpr double moving_mps = 3, still_mps = 1, short_final_m = 8;
+  static constexpr std::int64_t current_ns = 500'000'000;
   static constexpr double steepest = 0.035;  ///< slope of the ground
   GroundState now_, told_;
   TouchDown touch_;
@@ -213,6 +223,7 @@ struct Ground {
   double height_m_ = 0;            ///< where it stood last
   double speed_ratio_ = 0;         ///< speed over least airspeed
   bool placed_ = false, armed_ = false, was_armed_ = false, had_pilot_ = false, moves_ = false, slow_ = false;
+  bool still_ = false, approaches_ = false;
 };
 
 }  // namespace fulmar::safety

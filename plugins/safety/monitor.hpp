@@ -145,6 +145,8 @@ inline void Monitor::take_off(bool airborne, const Params& p, double dt) {
   above_floor_ = kept_fence_ = false;
   alarms_.fence.reset();
   alarms_.attitude.reset();
+  alarms_.pitot.reset();
+  alarms_.wind.reset();
   motor_.reset();
   now_.waiting_s = now_.returning_s = 0;
 }

@@ -62,7 +62,7 @@ std::vector<Named<Law>> outer_parameters(std::vector<Named<Law>> own) {
   for (const char* other :
        {"law", "roll_limit", "roll_rate_limit", "pitch_limit", "pitch_rate_limit", "throttle_rate_limit",
         "turn_kff", "takeoff_throttle", "takeoff_pitch", "takeoff_kp", "takeoff_roll_limit",
-        "launch_acceleration", "launch_speed", "launch_delay", "airframe"})
+        "launch_acceleration", "launch_speed", "launch_delay", "stall_guard", "airframe"})
     all.push_back({other, nullptr});
   all.insert(all.end(), own.begin(), own.end());
   return all;

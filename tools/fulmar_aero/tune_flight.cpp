@@ -91,7 +91,8 @@ bool needs_launch(const Airframe& a) {
   });
 }
 
-/// A wing that a gust takes beyond its most lift for a moment has not stalled, nor one that is just thrown.
+}  // namespace
+
 std::string stall_of(const FlightTrack& track, const Airframe& a) {
   constexpr double moment_s = 1;
   const MostLift most = most_lift(a);
@@ -109,8 +110,6 @@ std::string stall_of(const FlightTrack& track, const Airframe& a) {
   }
   return "";
 }
-
-}  // namespace
 
 TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, double airspeed_mps) {
   const fs::path host = core::own_program("fulmar");

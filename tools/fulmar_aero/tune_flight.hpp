@@ -29,6 +29,10 @@ struct TuneFlight {
 /// shape grown with the square of the airspeed, so that turns have the same bank.
 TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, double airspeed_mps);
 
+/// When the wing stalled, in a sentence; empty when it did not. A wing that a gust takes beyond its most lift
+/// for a moment has not, nor one that is just thrown.
+std::string stall_of(const FlightTrack& track, const Airframe& a);
+
 std::string flight_text(const TuneFlight& flight);
 nlohmann::json tune_flight_json(const TuneFlight& flight);
 std::vector<std::string> flight_faults(const TuneFlight& flight, const std::string& title);

@@ -122,7 +122,7 @@ let last_ms = 0, took_ms = 0; // of the last picture
 function frame(now_ms: number): void {
   requestAnimationFrame(frame);
   // some 30 pictures a second; a browser that is behind first reads what has come, and draws a fifth of the time
-  const rest_ms = flight.age_ms() > behind_ms ? Math.max(least_often_ms, 4 * took_ms) : 30;
+  const rest_ms = flight.late_ms() > behind_ms ? Math.max(least_often_ms, 4 * took_ms) : 30;
   const begun_ms = performance.now();
   if (begun_ms - last_ms < rest_ms) return;
   link(begun_ms);

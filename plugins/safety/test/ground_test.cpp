@@ -22,7 +22,8 @@ struct Craft : Bench<Ground> {
   Actuators actuators;
   Random noise{7};
   double noise_mps2 = 0.2;
-  bool has_status = true, has_throttle = true;
+  bool has_status = true, has_throttle = true, has_landing = false;
+  LandingProgress landing;
 
   Craft() {
     kit::give_anaconda(params);
@@ -43,6 +44,7 @@ struct Craft : Bench<Ground> {
       set(in.state, s, -dt);
       if (has_status) set(in.status, status, -dt);
       if (has_throttle) set(in.actuators, actuators, -dt);
+      if (has_landing) set(in.landing, landing, -dt);
       REQUIRE(step(dt) == Status::ok);
     }
     return out.state;
@@ -167,12 +169,57 @@ TEST_CASE("the same push with power far from any known ground is none") {
   CHECK(c.go(0.5).contact == Contact::air);
   Craft runway;  // unless a runway is there
   runway.take_off(60);
-  LandingProgress landing;
-  landing.height_m = 1;
-  runway.set(runway.in.landing, landing, -dt);
+  runway.landing.height_m = 1;
+  runway.has_landing = true;
   runway.sink_to(40, 1);
   runway.touch();
   CHECK(runway.go(0.3).contact == Contact::ground);
+  Craft left;  // a landing that is over says nothing
+  left.take_off(60);
+  left.landing.height_m = 1;
+  left.has_landing = true;
+  left.go(0.1);
+  left.has_landing = false;
+  left.go(0.6);
+  left.sink_to(40, 1);
+  left.touch();
+  CHECK(left.go(0.5).contact == Contact::air);
+}
+
+TEST_CASE("a landing into a gale is one although the tube reads the wind, and locks the throttle") {
+  Craft c;
+  c.take_off();
+  c.sink_to(0, 0.5);
+  c.touch();
+  c.s.airspeed_mps = 9;  // of 12; it stands
+  c.s.ground_speed_mps = 0.2;
+  CHECK(c.go(2).throttle_locked);
+  Craft parked;  // and one that never flew stands on the ground
+  parked.s.airspeed_mps = 9;
+  CHECK(parked.go(2).contact == Contact::ground);
+}
+
+TEST_CASE("an aircraft without airspeed that flies slowly against the wind is not on the ground") {
+  Craft c;
+  c.take_off(60);
+  c.s.airspeed_valid = false;
+  c.s.ground_speed_mps = 4;
+  CHECK(c.go(20).contact == Contact::air);
+  CHECK_FALSE(c.out.state.throttle_locked);
+}
+
+TEST_CASE("a touch-down that was none ends after seconds as well, and a later landing locks") {
+  Craft c;
+  c.take_off(10);
+  c.sink_to(3, 1);
+  c.touch();
+  REQUIRE(c.go(6).contact == Contact::ground);
+  c.climb(-2.5);
+  CHECK(c.until(Contact::air, 1) < 0.7);
+  c.sink_to(0, 1);
+  c.touch();
+  c.fast(3);
+  CHECK(c.go(2).throttle_locked);
 }
 
 TEST_CASE("a touch-down that was none ends when the aircraft falls, and is not counted") {

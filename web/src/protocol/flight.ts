@@ -155,7 +155,7 @@ export class Flight implements Source {
 
   /** A browser or a way that is too slow goes without samples until it has read what was sent, and then has the newest. */
   private pace(): void {
-    const age = this.age_ms(), hold = !document.hidden && this.link.up && (this.held ? age > new_ms : age > too_old_ms);
+    const age = this.socket.late_ms(), hold = !document.hidden && this.link.up && (this.held ? age > new_ms : age > too_old_ms);
     if (hold === this.held) return;
     this.held = hold;
     this.socket.hold(hold ? new Set([...this.heard.values()].filter((h) => h.listeners.size > 0).map((h) => h.id)) : null);
@@ -164,6 +164,10 @@ export class Flight implements Source {
   /** How old what has come last can be at most: on its way from the flight, and in this browser. */
   age_ms(): number {
     return this.socket.age_ms();
+  }
+
+  late_ms(): number {
+    return this.socket.late_ms();
   }
 
   // ---- figures

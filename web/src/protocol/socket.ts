@@ -60,7 +60,10 @@ export class Socket {
   constructor(private readonly url: string, private readonly on: Handlers) {
     this.open();
     setInterval(() => this.watch(), watch_ms);
-    document.addEventListener("visibilitychange", () => this.heard());
+    document.addEventListener("visibilitychange", () => {
+      this.known_ms = performance.now(); // nothing was asked while the page was hidden
+      this.heard();
+    });
   }
 
   private open(): void {
@@ -111,15 +114,22 @@ export class Socket {
     this.asked_ms = now;
     const id = "alive " + this.next_asked++;
     this.asked.set(id, now);
-    this.send({ op: "getParameters", parameterNames: this.sign_of_life, id });
+    // An empty list asks for all of them.
+    this.send({ op: "getParameters", parameterNames: this.sign_of_life.length > 0 ? this.sign_of_life : ["-"], id });
   }
   /** How old what has come last can be at most. Answers come behind the samples that were sent before them, through every queue on the way. */
   age_ms(): number {
     return performance.now() - this.known_ms;
   }
+  /** The same without the way there and back at its shortest: what waits in a queue. */
+  late_ms(): number {
+    return this.age_ms() - (Number.isFinite(this.least_ms) ? this.least_ms : 0);
+  }
+  private least_ms = Infinity;
   private answered(id: string): void {
     const sent = this.asked.get(id);
     if (sent === undefined) return;
+    this.least_ms = Math.min(this.least_ms, performance.now() - sent);
     for (const [other, ms] of this.asked) if (ms <= sent) this.asked.delete(other);
     this.known_ms = Math.max(this.known_ms, sent);
   }
@@ -136,6 +146,7 @@ export class Socket {
       case "serverInfo":
         this.up = true;
         this.known_ms = performance.now();
+        this.least_ms = Infinity;
         this.asked.clear();
         this.on.session(String(message.sessionId));
         this.on.link({ up: true, since_ms: performance.now(), why: "" });

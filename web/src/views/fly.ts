@@ -113,7 +113,8 @@ export class Fly implements Page {
     this.hand.update();
     mark(this.figures, "few", this.hand.has);
     const moment = this.alerts.moment(), lacks = this.alerts.lacks;
-    const flown = (number_at(moment.ground, "lift_offs") ?? 0) > 0 || f.now > 20; // after a flight it is no news
+    const lift_offs = number_at(moment.ground, "lift_offs");
+    const flown = lift_offs === undefined ? f.now > 20 : lift_offs > 0; // after a flight it is no news
     this.prearm.update(names, f.view !== null && (on_ground(moment) || !f.view.armed) && !(flown && f.view.armed), f.now - lacks.t < said_s ? lacks.what : []);
   }
 

@@ -92,7 +92,7 @@ TEST_CASE(
   std::ofstream(project.mission(), std::ios::app)
       << "plugins:\n  allow:\n    - {file: build/c_law.so, sha256: " << sha256
       << "}\n    - sim_aero\n    - estimator_ekf\n    - path\n    - control_slc\n    - score\n    - "
-         "ros_bridge\n";
+         "ros_bridge\n    - safety\n";
   const std::string check =
       std::string(FULMAR_BIN_DIR "/fulmar ") + "check " + project.mission().string() + " 2>&1";
   const auto said = [&] {

@@ -127,6 +127,7 @@ struct Ground {
     set(Contact::air);
     if (fell) {
       --now_.touch_downs;
+      height_m_ = last_m_;
       released_at_ = std::min(released_at_, now_.touch_downs);
     } else {
       ++now_.lift_offs;
@@ -149,10 +150,14 @@ struct Ground {
   static double steep_mps(const VehicleState& s) { return 0.4 + steepest * s.ground_speed_mps; }
 
   void fly(const VehicleState& s, const Inputs& in, const Params& p, double dt) {
-    const double off = off_m(s, in);
+    const double place = placed_ ? std::abs(s.height_m - height_m_) : unknown_m;
+    const double runway = approaches_ ? std::abs(in.landing->height_m) : unknown_m;
+    const double off = std::min({place, runway, unknown_m});
+    const double far = placed_ && approaches_ ? std::max(place, runway) : off;
     const bool sinks = approaches_ && (in.landing->stage == LandingStage::flare ||
                                        (in.landing->stage == LandingStage::approach && off < short_final_m));
-    now_.touch_evidence_ratio = touch_.step(s, *p.airframe, {off, speed_ratio_ < 1.1, sinks}, p.touch, dt);
+    now_.touch_evidence_ratio =
+        touch_.step(s, *p.airframe, {off, far, speed_ratio_ < 1.1, sinks}, p.touch, dt);
     // Far from any known ground a touch-down is possible for an aircraft that glides.
     const bool closed = closed_.step(in.actuators && in.actuators->throttle_frac < 0.03, 1.0, dt);
     const bool touches = now_.touch_evidence_ratio >= 1 && (closed || off < p.touch_height);
@@ -164,14 +169,9 @@ struct Ground {
     now_.touch_sink_mps = touch_.sink_mps();
     ++now_.touch_downs;
     set(Contact::ground);
+    last_m_ = placed_ ? height_m_ : s.height_m;
     height_m_ = s.height_m;
     placed_ = true;
-  }
-  /// From the height of the runway, or of the place where it stood; large where neither is known.
-  double off_m(const VehicleState& s, const Inputs& in) const {
-    constexpr double unknown_m = 100;
-    const double place = placed_ ? std::abs(s.height_m - height_m_) : unknown_m;
-    return std::min({place, approaches_ ? std::abs(in.landing->height_m) : unknown_m, unknown_m});
   }
   /// After a touch-down that was none, or a bounce: it falls faster than a slope of the ground lets it roll.
   bool falls(const VehicleState& s, double dt) {
@@ -212,7 +212,7 @@ struct Ground {
     told_ = now_;
   }
 
-  static constexpr double moving_mps = 3, still_mps = 1, short_final_m = 8;
+  static constexpr double moving_mps = 3, still_mps = 1, short_final_m = 8, unknown_m = 100;
   static constexpr std::int64_t current_ns = 500'000'000;
   static constexpr double steepest = 0.035;  ///< slope of the ground
   GroundState now_, told_;
@@ -221,6 +221,7 @@ struct Ground {
   std::uint32_t resets_ = 0;       ///< of the state, seen so far
   std::uint32_t released_at_ = 0;  ///< the touch-down whose lock has been set
   double height_m_ = 0;            ///< where it stood last
+  double last_m_ = 0;              ///< and before the last touch-down
   double speed_ratio_ = 0;         ///< speed over least airspeed
   bool placed_ = false, armed_ = false, was_armed_ = false, had_pilot_ = false, moves_ = false, slow_ = false;
   bool still_ = false, approaches_ = false;

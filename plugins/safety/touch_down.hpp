@@ -17,10 +17,11 @@ namespace fulmar::safety {
 struct TouchParams {
   Param touch_push{1.6, "m/s2", 0.2, 50, "upward acceleration within 0.02 s that a touch-down has at least"};
   Param touch_drag{2, "m/s2", 0.2, 50, "deceleration within 0.3 s that a belly has at least on the ground"};
-  Param touch_gusts{6, "ratio", 1, 50, "the same, over the standard deviation of it in the last seconds"};
+  Param touch_gusts{4.5, "ratio", 1, 50, "the same, over the standard deviation of it in the last seconds"};
   Param touch_off{10, "m", 0.1, 1000,
                   "height above or below the expected ground that doubles what a touch-down has at least"};
-  Param touch_still{0.3, "m/s", 0.02, 2, "climb or sink rate below which the sink has ended"};
+  Param touch_still{0.15, "m/s", 0.02, 2,
+                    "climb or sink rate below which the sink has ended; or 0.45 of the sink before"};
   Param touch_confirm{0.1, "s", 0, 2, "that it has ended for, after a push"};
   Param touch_quiet{2, "s", 0.1, 20, "that it has ended for, without a push, at the least airspeed"};
   Param touch_support{0.12, "ratio", 0.01, 1, "of the weight that the wing does not carry, for touch_soft"};
@@ -72,6 +73,7 @@ class TouchDown {
   /// What is expected of the aircraft now.
   struct Expected {
     double off_m;  ///< from the height of the ground; a large one where that is not known
+    double far_m;  ///< the same, from the farther of runway and place of the take-off
     bool slow;     ///< at the least airspeed or below it
     bool sinks;    ///< a sink is asked for until it touches: short final and flare
   };
@@ -81,18 +83,25 @@ class TouchDown {
     const double up_before = up_.usual(), drag_before = drag_.usual();
     const double push = up_.step(-f_n.z() - isa::g0, 0.005, 0.025, dt) / unlikely;
     const double drag = -drag_.step(f_b.x(), 0.04, 0.3, dt) / unlikely;
-    const bool hit = push > std::max<double>(p.touch_push, p.touch_gusts * up_before) ||
-                     drag > std::max<double>(p.touch_drag, p.touch_gusts * drag_before);
+    // Of what it takes at least: 1 is a touch-down that may as well be a gust, far more can be none.
+    const double hit = std::max(push / std::max<double>(p.touch_push, p.touch_gusts * up_before),
+                                drag / std::max<double>(p.touch_drag, p.touch_gusts * drag_before));
     const double sink = sink_.step(-s.climb_rate_mps, 0.8, dt);
-    if (hit && sink > least_sink_mps) {
-      if (since_hit_s_ > lasts_s) sink_mps_ = sink;
+    if (hit > 1 && sink > least_sink_mps) {
+      if (since_hit_s_ > lasts_s) {
+        sink_mps_ = sink;
+        hit_ = 0;
+      }
+      hit_ = std::max(hit_, hit);
       since_hit_s_ = 0;
     } else {
       since_hit_s_ += dt;
     }
     // On a slope the aircraft rolls up or down with a part of the sink that it had.
     const double rate = std::abs(s.climb_rate_mps);
-    const bool still = since_hit_s_ < lasts_s && rate < p.touch_still + 0.4 * sink_mps_;
+    const double left = hit_ > sure_ratio ? 2 * p.touch_still + 0.4 * sink_mps_
+                                          : std::max<double>(p.touch_still, 0.45 * sink_mps_);
+    const bool still = since_hit_s_ < lasts_s && rate < left;
     still_s_ = still ? still_s_ + dt : 0;
     const bool carried = support_.step(s, a, dt) > p.touch_support;
     if (rate > quiet_mps || !(e.slow || (e.sinks && (carried || quiet_s_ > 0))))
@@ -100,7 +109,7 @@ class TouchDown {
     else if (quiet_s_ > 0 || sink > least_sink_mps)
       quiet_s_ += dt;
     // Away from the expected ground a lull is more likely than a soft touch-down.
-    const double soft_s = p.touch_soft * (1 + std::max(e.off_m - usual_off_m, 0.0) / lull_m);
+    const double soft_s = p.touch_soft * (1 + std::max(e.far_m - usual_off_m, 0.0) / lull_m);
     const double quiet = quiet_s_ / (e.sinks ? std::min<double>(soft_s, p.touch_quiet) : p.touch_quiet);
     return std::min(std::max(still_s_ / std::max<double>(p.touch_confirm, 1e-3), quiet), 1.0);
   }
@@ -115,7 +124,8 @@ class TouchDown {
   Sudden up_, drag_;
   Support support_;
   LowPass sink_;
-  double since_hit_s_ = 1e9, still_s_ = 0, quiet_s_ = 0, sink_mps_ = 0;
+  static constexpr double sure_ratio = 1.7;
+  double hit_ = 0, since_hit_s_ = 1e9, still_s_ = 0, quiet_s_ = 0, sink_mps_ = 0;
 };
 
 }  // namespace fulmar::safety

@@ -34,7 +34,10 @@ TEST_CASE(
     if (warn) continue;
     strip.at(450, 0, strip.slope(450), 20);
     CHECK(strip.bench.out.notices.count == 0);  // repeated after half a minute
-    strip.s.wind_mps.east = 2;                  // the wind drops
+    strip.s.wind_mps.east = 2;                  // the wind drops, for longer than a lull
+    strip.at(600, 0, strip.slope(450), 1);
+    CHECK(strip.at(450, 0, strip.slope(450)).stage == LandingStage::join);
+    strip.at(600, 0, strip.slope(450), 30);
     CHECK(strip.at(450, 0, strip.slope(450)).stage == LandingStage::approach);
     CHECK(strip.bench.out.progress.reason == LandingReason::none);
   }

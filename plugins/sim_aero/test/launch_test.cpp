@@ -49,22 +49,22 @@ TEST_CASE("it is held with its nose up, whatever the wind does, and let go with 
     CHECK(held.yaw_rad == Approx(0.5));
     CHECK(held.ground_speed_mps == 0);
     CHECK(held.airspeed_mps == Approx(8));
-    CHECK(b->out.status.value.on_ground);
+    CHECK(b->out.contact.value.touching);
     // v^2 = 2 a s, as long as v / a
     const double push_s = 2 * l.length_m / l.speed_mps;
     until(*b, 2 + 0.5 * push_s);
     CHECK(b->out.imu.value.specific_force_mps2.x ==
           Approx(l.speed_mps * l.speed_mps / (2 * l.length_m) + 9.80665 * std::sin(0.2)).epsilon(0.01));
-    CHECK(b->out.status.value.on_ground);
+    CHECK(b->out.contact.value.touching);
     until(*b, 2 + push_s + 0.005);
     const RigidBody& x = b->component().plant().state();
     CHECK(x.v_n.norm() == Approx(l.speed_mps).epsilon(0.02));
     CHECK(-x.p_n.z() - held.height_m == Approx(l.length_m * std::sin(0.2)).epsilon(0.1));
     CHECK(std::hypot(x.p_n.x(), x.p_n.y()) == Approx(l.length_m * std::cos(0.2)).epsilon(0.05));
     CHECK(std::atan2(x.v_n.y(), x.v_n.x()) == Approx(0.5).epsilon(0.01));
-    CHECK_FALSE(b->out.status.value.on_ground);
+    CHECK_FALSE(b->out.contact.value.touching);
     until(*b, 2 + push_s + 6);  // nobody flies it: it is on the ground again
-    CHECK(b->out.status.value.on_ground);
+    CHECK(b->out.contact.value.touching);
   }
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("nobody is launched before he is armed, and not while he waits") {
   REQUIRE(b->configure() == Status::ok);
   until(*b, 60);
   CHECK(b->out.truth.value.ground_speed_mps == 0);
-  CHECK(b->out.status.value.on_ground);
+  CHECK(b->out.contact.value.touching);
   arm(*b);
   until(*b, 159);
   CHECK(b->out.truth.value.ground_speed_mps == 0);

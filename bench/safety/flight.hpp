@@ -100,7 +100,7 @@ struct Flown {
   bool kept(const Row& row) const {
     const bool in_time = told_s >= 0 && told_s <= row.told_within_s;
     const bool told = row.cause ? in_time || (row.may_be_told && told_s < 0) : !told_else;
-    return end == row.end && told && in_order && (outside_m <= 0 || end == End::stood);
+    return end == row.end && told && in_order && (outside_m <= 0 || end == End::stood || row.may_leave);
   }
 };
 

@@ -24,6 +24,7 @@ struct Row {
   bool SafetyState::*cause = nullptr;      ///< that has to be told; none: nothing may be
   double told_within_s = 10;
   double at_s = 60;
+  bool may_leave = false;  ///< the fence: with the reason beside the row
   End end = End::on_ground;
   std::vector<std::string> phases{};  ///< that have to be flown, in this order
   double south_m = 0, up_m = 0;       ///< side and ceiling of the fence, where they are not the usual ones
@@ -237,6 +238,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .cause = &S::engine_failed,
        .told_within_s = x8 ? 15.0 : 5.0,
        .at_s = a == "aerosonde" ? 20.0 : 10.0,
+       .may_leave = a == "aerosonde",  // too low for a turn, and the fence ends 600 m ahead
        .phases = {"glide", "roll_out"}},
       {.airframe = a,
        .name = x8 ? "an elevon hard over, 1 s" : "ailerons hard over, 1 s",

@@ -47,6 +47,8 @@ void read_outputs(const Role& role, const RoleText& text, std::size_t index, Con
     output.type_name = text.out[i].type;
     output.optional = role.outputs[i].optional;
     output.role = index;
+    // Notices and the like: whoever wants them writes them. What a vehicle may have stands in its frame.
+    if (output.optional && !contract.vehicle()) continue;
     if (const ContractOutput* same = find_named(contract.outputs, output.name))
       throw Error("the roles " + contract.roles[same->role].name + " and " + role.name +
                   " both have an output '" + output.name + "': one component cannot fill both");

@@ -24,8 +24,8 @@ struct TouchParams {
                     "climb or sink rate below which the sink has ended; or 0.45 of the sink before"};
   Param touch_confirm{0.1, "s", 0, 2, "that it has ended for, after a push"};
   Param touch_quiet{2, "s", 0.1, 20, "that it has ended for, without a push, at the least airspeed"};
-  Param touch_support{0.12, "ratio", 0.01, 1, "of the weight that the wing does not carry, for touch_soft"};
-  Param touch_soft{0.35, "s", 0.05, 20,
+  Param touch_support{0.25, "ratio", 0.01, 1, "of the weight that the wing does not carry, for touch_soft"};
+  Param touch_soft{0.8, "s", 0.05, 20,
                    "the same on short final and in the flare, where a sink is commanded"};
 };
 
@@ -111,7 +111,8 @@ class TouchDown {
     // Away from the expected ground a lull is more likely than a soft touch-down.
     const double soft_s = p.touch_soft * (1 + std::max(e.far_m - usual_off_m, 0.0) / lull_m);
     const double quiet = quiet_s_ / (e.sinks ? std::min<double>(soft_s, p.touch_quiet) : p.touch_quiet);
-    return std::min(std::max(still_s_ / std::max<double>(p.touch_confirm, 1e-3), quiet), 1.0);
+    const double confirm_s = p.touch_confirm;
+    return std::min(std::max(still_s_ / std::max(confirm_s, 1e-3), quiet), 1.0);
   }
 
   /// Mean sink rate before the touch-down, m/s.

@@ -60,10 +60,11 @@ class Reports {
     out_->push(notice, tick_->now_ns);
     said_ = true;
   }
-  template <class... A>
-  static Line line(const char* format, A... a) {
+  static Line line(const char* text) { return joined({text}); }
+  template <class First, class... A>
+  static Line line(const char* format, First first, A... a) {
     Line text{};
-    std::snprintf(text.data(), text.size(), format, a...);
+    std::snprintf(text.data(), text.size(), format, first, a...);
     return text;
   }
 

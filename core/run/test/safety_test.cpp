@@ -126,20 +126,20 @@ TEST_CASE("what a component has forked is not the host, and may do as it likes")
 }
 
 TEST_CASE("an output that is dated in the future, or before any flight, is a bad output") {
-  for (const auto& [ahead, good] : {std::pair{"1e10 s", false},
-                                    {"2 s", false},
-                                    {"0.5 s", true},
-                                    {"0 s", true},
-                                    {"-7000 s", true},
-                                    {"-7300 s", false}})
+  struct Stamp {
+    const char* ahead;
+    bool good;
+  };
+  for (const Stamp& stamp : {Stamp{"1e10 s", false}, Stamp{"2 s", false}, Stamp{"0.5 s", true},
+                             Stamp{"0 s", true}, Stamp{"-7000 s", true}, Stamp{"-7300 s", false}})
     for (const char* const mode : {"", "run: async, latency: 10 ms, ", "run: process, "}) {
-      CAPTURE(ahead);
+      CAPTURE(stamp.ahead);
       CAPTURE(mode);
       const Graph g = mission("  one: {fills: law, use: lab/Mute, "s + mode +
-                              "params: {dated_at: 0.05 s, ahead: " + ahead + "}}\n" + with_fallback);
+                              "params: {dated_at: 0.05 s, ahead: " + stamp.ahead + "}}\n" + with_fallback);
       const FlightResult result = Flight(g, options(0.1)).run();
-      CHECK(result.guards.size() == (good ? 0 : 1));
-      if (!good) CHECK(result.guards.at(0).at_ns <= 60'000'000);
+      CHECK(result.guards.size() == (stamp.good ? 0 : 1));
+      if (!stamp.good) CHECK(result.guards.at(0).at_ns <= 60'000'000);
     }
 }
 

@@ -61,17 +61,21 @@ TEST_CASE("larger than the throw, about the trim; faster than the servo: reporte
     large.go(0.01);
     CHECK(large.told == std::string(signal::signal_beyond_throw) + "\n");
   }
-  for (const auto& [shape, size, f1, told] : {std::tuple{Shape::chirp, 0.1, 3.1, false},
-                                              {Shape::chirp, 0.1, 3.3, true},  // 2 rad/s: 3.18 Hz
-                                              {Shape::multisine, 0.1, 3.3, true},
-                                              {Shape::sine, 0.3, 40.0, false},
-                                              {Shape::square, 0.19, 1.0, false},
-                                              {Shape::square, 0.21, 1.0, true}}) {  // 0.2 of a level of 1 s
-    CAPTURE(shape);
-    CAPTURE(f1);
-    Sweep fast(shape, size, 0.5, f1);
+  struct Asked {
+    Shape shape;
+    double size, f1;
+    bool told;
+  };
+  for (const Asked& asked :
+       {Asked{Shape::chirp, 0.1, 3.1, false}, Asked{Shape::chirp, 0.1, 3.3, true},  // 2 rad/s: 3.18 Hz
+        Asked{Shape::multisine, 0.1, 3.3, true}, Asked{Shape::sine, 0.3, 40.0, false},
+        Asked{Shape::square, 0.19, 1.0, false},
+        Asked{Shape::square, 0.21, 1.0, true}}) {  // 0.2 of a level of 1 s
+    CAPTURE(asked.shape);
+    CAPTURE(asked.f1);
+    Sweep fast(asked.shape, asked.size, 0.5, asked.f1);
     fast.go(0.01);
-    CHECK((fast.told == std::string(signal::signal_beyond_rate) + "\n") == told);
+    CHECK((fast.told == std::string(signal::signal_beyond_rate) + "\n") == asked.told);
   }
 }
 

@@ -108,8 +108,12 @@ class EnvelopeGuard {
       return e;
     }
     if (seen) {
-      const double least_mps =
-          std::max(for_alpha(e, load, stall, limits, dt_s), for_gusts(state, stall * std::sqrt(load), dt_s));
+      // Of an aircraft that is asked to fly well above its slowest, gusts raise nothing: its path comes
+      // first.
+      constexpr double most_for_gusts = 1.2;
+      const double gusts =
+          std::min(for_gusts(state, stall * std::sqrt(load), dt_s), most_for_gusts * e.slowest_mps);
+      const double least_mps = std::max(for_alpha(e, load, stall, limits, dt_s), gusts);
       e.airspeed_min_mps = std::clamp(least_mps, e.slowest_mps, limits.airspeed_max_mps);
     }
     if (state.airspeed_valid && state.velocity_valid)

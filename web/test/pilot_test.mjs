@@ -124,7 +124,7 @@ const steps = {
     await is("the row", '.flag[data-flag="gnss_lost"]', "good", "false");
     await is("not vanished", map, "aircraft", "lost");
     const [n, e, radius] = (await data(map, "lost")).split(",").map(Number);
-    assert.ok(Number.isFinite(n) && Number.isFinite(e) && radius > 5 && radius < 300, `${n} ${e} ${radius}`);
+    assert.ok(Number.isFinite(n) && Number.isFinite(e) && radius > 3 && radius < 300, `${n} ${e} ${radius}`);
     await whole("gnss");
     await set("sim.gnss_works", "true");
     await is("over, and still there", alert("gnss_lost"), "now", "false");

@@ -148,8 +148,10 @@ export class AlertBook {
 export function alert_of_event(event: Message, monitors: string[], does: string): Alert | null {
   const code = String(event.code), component = String(event.component), words = String(event.words);
   const severity = String(event.severity);
-  if (severity === "info" || ["guard", "hung", "over_budget", "died", "took_over", "cannot_take_over"].includes(code)) return null; // a stopped component has its own
+  if (severity === "info" || ["guard", "hung", "over_budget", "died", "took_over", "cannot_take_over", "concluded"].includes(code)) return null; // a stopped component has its own
   if (code === "notice" && (monitors.includes(component) || not_ready(words).length > 0)) return null;
+  // The monitor has flags for these two: one alert for one cause.
+  if (code === "notice" && component === "sensors" && monitors.length > 0 && /^(GNSS|position|the position|pitot)/i.test(words)) return null;
   const level: Level = severity === "warning" ? "warning" : "critical";
   return { key: `event ${code} ${component} ${words.replace(/[-\d.]+/g, "#")}`, level, what: words, does, pilot: level === "critical" ? "Take over by radio." : "" };
 }

@@ -25,8 +25,7 @@ struct TouchParams {
   Param touch_confirm{0.1, "s", 0, 2, "that it has ended for, after a push"};
   Param touch_quiet{2, "s", 0.1, 20, "that it has ended for, without a push, at the least airspeed"};
   Param touch_support{0.25, "ratio", 0.01, 1, "of the weight that the wing does not carry, for touch_soft"};
-  Param touch_soft{0.8, "s", 0.05, 20,
-                   "the same on short final and in the flare, where a sink is commanded"};
+  Param touch_soft{0.8, "s", 0.05, 20, "the same on short final and in the flare, where a sink is commanded"};
 };
 
 /// The share of the weight that something else than the wing carries: what the wing lifts at this angle of

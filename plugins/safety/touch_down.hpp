@@ -103,13 +103,14 @@ class TouchDown {
     const bool still = since_hit_s_ < lasts_s && rate < left;
     still_s_ = still ? still_s_ + dt : 0;
     const bool carried = support_.step(s, a, dt) > p.touch_support;
-    if (rate > quiet_mps || !(e.slow || (e.sinks && (carried || quiet_s_ > 0))))
-      quiet_s_ = 0;
-    else if (quiet_s_ > 0 || sink > least_sink_mps)
-      quiet_s_ += dt;
+    // Level flight at the least airspeed is asked for at times, so that there it takes a sink before. Where a
+    // sink is asked for, none is evidence by itself: a glide slope or a flare can end in a kiss.
+    const bool begins = e.sinks || (e.slow && sink > least_sink_mps);
+    quiet_s_ = rate < quiet_mps && (begins || (e.slow && quiet_s_ > 0)) ? quiet_s_ + dt : 0;
+    soft_s_ = quiet_s_ > 0 && e.sinks && (carried || soft_s_ > 0) ? soft_s_ + dt : 0;
     // Away from the expected ground a lull is more likely than a soft touch-down.
     const double soft_s = p.touch_soft * (1 + std::max(e.far_m - usual_off_m, 0.0) / lull_m);
-    const double quiet = quiet_s_ / (e.sinks ? std::min<double>(soft_s, p.touch_quiet) : p.touch_quiet);
+    const double quiet = std::max(quiet_s_ / p.touch_quiet, soft_s_ / soft_s);
     const double confirm_s = p.touch_confirm;
     return std::min(std::max(still_s_ / std::max(confirm_s, 1e-3), quiet), 1.0);
   }
@@ -125,7 +126,7 @@ class TouchDown {
   Support support_;
   LowPass sink_;
   static constexpr double sure_ratio = 1.7;
-  double hit_ = 0, since_hit_s_ = 1e9, still_s_ = 0, quiet_s_ = 0, sink_mps_ = 0;
+  double hit_ = 0, since_hit_s_ = 1e9, still_s_ = 0, quiet_s_ = 0, soft_s_ = 0, sink_mps_ = 0;
 };
 
 }  // namespace fulmar::safety

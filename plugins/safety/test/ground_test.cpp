@@ -135,6 +135,27 @@ TEST_CASE("a touch-down is recognised within 0.3 s at sinks from 0.3 to 1.5 m/s,
     }
 }
 
+TEST_CASE("a touch-down without a push is one after a second or two of a flare, wing unloaded or not") {
+  for (const bool unloaded : {true, false}) {
+    CAPTURE(unloaded);
+    Craft c;
+    c.take_off();
+    c.has_landing = true;
+    c.landing.stage = LandingStage::flare;
+    c.sink_to(3, 0.8);
+    c.fast(14.5);  // above 1.1 of the least airspeed
+    c.go(3, 0.8 / 3);
+    REQUIRE(c.out.state.contact == Contact::air);
+    c.s.height_m = c.landing.height_m = 0.3;
+    if (unloaded) c.s.alpha_rad = -0.08;
+    CHECK(c.until(Contact::ground, 5) < (unloaded ? 1.5 : 2.1));
+  }
+  Craft cruise;
+  cruise.take_off();
+  cruise.fast(14.5);
+  CHECK(cruise.until(Contact::ground, 20) > 1e8);  // level flight, no sink asked for
+}
+
 TEST_CASE("a belly without wheels is recognised by what it brakes") {
   Craft c;
   c.take_off();

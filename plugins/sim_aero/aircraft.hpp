@@ -88,6 +88,8 @@ class Aircraft {
     Choice<SensorSet> sensors{SensorSet::rosflight, "errors of the sensors", setup};
     SensorParams own_sensors;
     Param truth_rate{50, "Hz", 1, 2000, "of the truth", setup};
+    Param motion_rate{
+        10, "Hz", 1, 2000, "of the deflections and angular accelerations; identification needs 100", setup};
     Param start_north{0, "m", -1e5, 1e5, "position at flight time 0", setup};
     Param start_east{0, "m", -1e5, 1e5, "position at flight time 0", setup};
     Param start_height{0, "m", 0, 5000, "0: on the ground; more: in trimmed level flight", setup};
@@ -201,6 +203,7 @@ class Aircraft {
     rc_due_ = Due(50, first_ns);
     status_rate_ = Due(10, first_ns);
     truth_due_ = Due(p.truth_rate, first_ns);
+    motion_due_ = Due(p.motion_rate, first_ns);
     faults_ = {};
     faults_.set(p.faults, now_ns_);
     icing_ = {};
@@ -239,10 +242,8 @@ class Aircraft {
     }
     publish_sensors(p, out);
     publish_rc_and_status(p, out);
-    if (truth_due_(now_ns_)) {
-      out.truth.publish(truth());
-      out.motion.publish(motion_truth(*plant_));
-    }
+    if (truth_due_(now_ns_)) out.truth.publish(truth());
+    if (motion_due_(now_ns_)) out.motion.publish(motion_truth(*plant_));
     contact_.publish(*plant_, held(), now_ns_, out.contact);
     return plant_->crashed() ? Status::degraded : Status::ok;
   }
@@ -433,7 +434,7 @@ class Aircraft {
   SensorLine<Mag> mag_line_;
   SensorLine<Baro> baro_line_;
   SensorLine<Pitot> pitot_line_;
-  Due rc_due_, status_rate_, truth_due_;
+  Due rc_due_, status_rate_, truth_due_, motion_due_;
   Actuators command_;
   Actuation actuation_;
   VehicleStatus status_;

@@ -3,13 +3,13 @@
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "fulmar/eigen.hpp"
 #include "fulmar/flight/atmosphere.hpp"
 #include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/single.hpp"
 #include "fulmar/msg/baro.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/imu.hpp"
@@ -22,13 +22,6 @@
 #include "sensor_place.hpp"
 
 namespace fulmar::sim {
-
-/// Rounded to the 24 bits of single precision. Not by a cast to float and back: where g++ 12 makes vectors of
-/// it, it leaves it out.
-inline double to_single(double value) {
-  constexpr std::uint64_t lost = (std::uint64_t{1} << 29) - 1;
-  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(value) + (lost >> 1) + 1) & ~lost);
-}
 
 class Sensors {
  public:

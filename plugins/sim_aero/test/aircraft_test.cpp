@@ -427,6 +427,7 @@ TEST_CASE(
     "rates") {
   auto b = bench(200, SensorSet::perfect);
   b->params.truth_rate.value = 400;
+  b->params.motion_rate.value = 400;
   arm(*b);
   Actuators flat{0.5, 0, 0, 0};
   double rate = 0, least = 1;
@@ -443,6 +444,20 @@ TEST_CASE(
   CHECK(least < 0.09);
   CHECK(b->out.motion.value.aileron_rad == doctest::Approx(0.1).epsilon(0.01));
   CHECK(b->out.motion.value.propeller_radps > 100);
+}
+
+TEST_CASE("the motion comes at its own rate beside the truth's") {
+  auto b = bench(20);
+  b->params.motion_rate.value = 20;
+  arm(*b);
+  int truths = 0, motions = 0;
+  for (int i = 0; i < 400; ++i) {
+    pass(*b);
+    truths += b->out.truth.written;
+    motions += b->out.motion.written;
+  }
+  CHECK(truths == 50);
+  CHECK(motions == 20);
 }
 
 TEST_CASE("a crash is told, and a crashed aircraft cannot be armed again") {

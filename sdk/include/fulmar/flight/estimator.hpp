@@ -20,6 +20,7 @@
 #include "fulmar/flight/navigation_airspeed.hpp"
 #include "fulmar/flight/navigation_ports.hpp"
 #include "fulmar/flight/navigator_updates.hpp"
+#include "fulmar/flight/single.hpp"
 
 namespace fulmar::navigation {
 
@@ -413,8 +414,8 @@ inline void Ekf::publish_check(Outputs& out) {
   std::size_t k = 0;
   for (std::size_t i = 1; i < 9; ++i)
     for (std::size_t j = 0; j < i; ++j)
-      c.correlation_ratio[k++] =
-          P(static_cast<int>(j), static_cast<int>(i)) * over_std[i] * over_std[j];  // theta, vel, pos
+      c.correlation_ratio[k++] =  // theta, vel, pos
+          to_single(P(static_cast<int>(j), static_cast<int>(i)) * over_std[i] * over_std[j]);
   c.position_innovation_ratio = from_eigen<Ned>(h.position_innovation);
   c.velocity_innovation_ratio = from_eigen<Ned>(h.velocity_innovation);
   c.mean_wind_mps = {f.state().wind.x(), f.state().wind.y(), 0};

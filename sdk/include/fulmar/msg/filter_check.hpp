@@ -8,7 +8,7 @@ namespace fulmar {
 /// receiver's fix showed of it: for consistency tests. One with each fix that was used.
 struct FilterCheck {
   /// Of the errors of attitude, velocity and position, each north, east, down: the rows of the lower triangle
-  /// without its diagonal, (1,0), (2,0), (2,1), (3,0) ...
+  /// without its diagonal, (1,0), (2,0), (2,1), (3,0) ... In single precision, which halves them in a log.
   std::array<double, 36> correlation_ratio{};
   Vec3<Ned> position_innovation_ratio;  ///< of the fix: measured minus expected, in expected deviations
   Vec3<Ned> velocity_innovation_ratio;

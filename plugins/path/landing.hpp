@@ -72,7 +72,7 @@ struct Landing {
                             "the circle; warn: fly it with a warning"};
     Param crosswind_limit{0.55, "ratio", 0, 2, "crosswind over approach airspeed, up to which it lands"};
     Param late_sink{
-        1.0, "m/s", 0.05, 3,
+        0.7, "m/s", 0.05, 3,
         "largest sink rate of a flare that lasts longer than its height says: the height was wrong"};
     Param roll_time{60, "s", 5, 3600, "of the roll, after which the landing counts as ended"};
     Flag go_around{false, "climb away now; false lets it come again"};

@@ -139,7 +139,7 @@ struct Ground {
   /// The height of the ground under a rolling aircraft changes by its slope, that under a standing one with
   /// the estimate.
   void follow_ground(const VehicleState& s, double dt) {
-    const double off = s.height_m - height_m_, most = steepest * s.ground_speed_mps * dt;
+    const double off = s.height_m - height_m_, most = steepest_ground * s.ground_speed_mps * dt;
     if (!placed_)
       height_m_ = s.height_m;
     else
@@ -147,7 +147,7 @@ struct Ground {
     placed_ = true;
   }
   /// Faster than a slope of the ground lets it roll up or down.
-  static double steep_mps(const VehicleState& s) { return 0.4 + steepest * s.ground_speed_mps; }
+  static double steep_mps(const VehicleState& s) { return 0.4 + steepest_ground * s.ground_speed_mps; }
 
   void fly(const VehicleState& s, const Inputs& in, const Params& p, double dt) {
     const double place = placed_ ? std::abs(s.height_m - height_m_) : unknown_m;
@@ -214,7 +214,6 @@ struct Ground {
 
   static constexpr double moving_mps = 3, still_mps = 1, short_final_m = 8, unknown_m = 100;
   static constexpr std::int64_t current_ns = 500'000'000;
-  static constexpr double steepest = 0.035;  ///< slope of the ground
   GroundState now_, told_;
   TouchDown touch_;
   HeldFor rises_, climbs_, fast_, falls_, stands_, closed_, locks_;

@@ -28,6 +28,8 @@ struct TouchParams {
   Param touch_soft{0.8, "s", 0.05, 20, "the same on short final and in the flare, where a sink is commanded"};
 };
 
+inline constexpr double steepest_ground = 0.035;  ///< slope of a runway
+
 /// The share of the weight that something else than the wing carries: what the wing lifts at this angle of
 /// attack, B&M (4.6), against the normal force, relative to what the two are in flight.
 class Support {
@@ -108,9 +110,12 @@ class TouchDown {
     const bool begins = e.sinks || (e.slow && sink > least_sink_mps);
     quiet_s_ = rate < quiet_mps && (begins || (e.slow && quiet_s_ > 0)) ? quiet_s_ + dt : 0;
     soft_s_ = quiet_s_ > 0 && e.sinks && (carried || soft_s_ > 0) ? soft_s_ + dt : 0;
+    // On a slope the aircraft rolls up or down while the ground carries it.
+    const bool rolls = rate < quiet_mps + steepest_ground * s.ground_speed_mps;
+    slope_s_ = rolls && e.sinks && carried ? slope_s_ + dt : 0;
     // Away from the expected ground a lull is more likely than a soft touch-down.
     const double soft_s = p.touch_soft * (1 + std::max(e.far_m - usual_off_m, 0.0) / lull_m);
-    const double quiet = std::max(quiet_s_ / p.touch_quiet, soft_s_ / soft_s);
+    const double quiet = std::max({quiet_s_ / p.touch_quiet, soft_s_ / soft_s, slope_s_ / rolls_s});
     const double confirm_s = p.touch_confirm;
     return std::min(std::max(still_s_ / std::max(confirm_s, 1e-3), quiet), 1.0);
   }
@@ -125,8 +130,8 @@ class TouchDown {
   Sudden up_, drag_;
   Support support_;
   LowPass sink_;
-  static constexpr double sure_ratio = 1.7;
-  double hit_ = 0, since_hit_s_ = 1e9, still_s_ = 0, quiet_s_ = 0, soft_s_ = 0, sink_mps_ = 0;
+  static constexpr double sure_ratio = 1.7, rolls_s = 3;
+  double hit_ = 0, since_hit_s_ = 1e9, still_s_ = 0, quiet_s_ = 0, soft_s_ = 0, slope_s_ = 0, sink_mps_ = 0;
 };
 
 }  // namespace fulmar::safety

@@ -24,7 +24,7 @@ using namespace fulmar;
 
 struct Plan {
   double duration_s = 150, rate_hz = 400, rest_s = 5, speed_mps = 17, bank_rad = 0.6,
-         initial_course_rad = 0.4;
+         initial_course_rad = 0.4, start_mps2 = 4, start_radps = 2.5;
   double lat_deg = 40.2463724, lon_deg = -111.6474138, alt_m = 1387;
   Vector3d wind{3, -4, 0};
   double gust_mps = 0.8, gust_time_s = 5;
@@ -61,6 +61,7 @@ inline std::vector<Truth> fly(const Plan& plan) {
   std::vector<Truth> flight(n);
   Random random(plan.seed);
   Smooth speed, climb, bank, lift;
+  speed.natural = plan.start_radps;
   climb.natural = 1.2;
   double course = plan.initial_course_rad;
   Vector3d p = Vector3d::Zero(), gust = Vector3d::Zero();
@@ -68,7 +69,7 @@ inline std::vector<Truth> fly(const Plan& plan) {
     Truth& x = flight[k];
     x.t = static_cast<double>(k) * dt;
     const double since = x.t - plan.rest_s;
-    speed.step(since > 0 ? std::min(plan.speed_mps, 4 * since) : 0, dt);
+    speed.step(since > 0 ? std::min(plan.speed_mps, plan.start_mps2 * since) : 0, dt);
     lift.step(since > 5.5 ? 1 : 0, dt);
     climb.step(since > 6 && since < 30 ? 0.17 : since > 60 ? 0.05 * std::sin(0.3 * since) : 0, dt);
     bank.step(since > 0 ? bank_command(plan, x.t) : 0, dt);

@@ -71,7 +71,7 @@ TEST_CASE("a flare that lasts too long sinks faster, goes around once, and the n
   strip.at(0, 0, -2, 2.5);
   CHECK(strip.bench.out.command.climb_rate_mps == doctest::Approx(-0.4 - 0.15 * 2).epsilon(0.05));
   strip.at(0, 0, -3, 4);
-  CHECK(strip.bench.out.command.climb_rate_mps == doctest::Approx(-1).epsilon(0.03));
+  CHECK(strip.bench.out.command.climb_rate_mps == doctest::Approx(-0.7).epsilon(0.03));
   REQUIRE(strip.bench.out.progress.stage == LandingStage::flare);
   // 350 m of runway behind the aim, 14^2 / 1.6 = 122.5 m to stop
   CHECK(strip.at(-227, 0, -4).stage == LandingStage::flare);

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 class Stillness {
  public:
   void update(const Vector3d& omega_b, const Vector3d& f_b, double dt) {
-    if (dt > 0.1) *this = {};
+    if (dt > 0.1 || moves(omega_b, f_b)) *this = {};
     if (n_ == 0) {
       first_omega_ = omega_b;
       first_f_ = f_b;
@@ -43,8 +43,14 @@ class Stillness {
  private:
   static constexpr int blocks = 4;
   static constexpr double block_s = 0.25, gyro_noise = 0.03, gyro_step = 0.02, accel_noise = 0.6,
-                          accel_step = 0.25;
+                          accel_step = 0.25, gyro_jump = 0.5, accel_jump = 3;
 
+  /// A throw is not at rest until its block ends: that would be 10 m/s later.
+  bool moves(const Vector3d& omega_b, const Vector3d& f_b) const {
+    const std::size_t last = (next_ + blocks - 1) % blocks;
+    return blocks_still_ > 0 && ((f_b - f_[last]).cwiseAbs().maxCoeff() > accel_jump ||
+                                 (omega_b - omega_[last]).cwiseAbs().maxCoeff() > gyro_jump);
+  }
   void close_block() {
     const Vector3d omega_mean = omega_sum_ / n_, f_mean = f_sum_ / n_;
     const double omega_std = std::sqrt((omega_squares_ / n_ - omega_mean.cwiseAbs2()).maxCoeff());

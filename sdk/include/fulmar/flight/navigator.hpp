@@ -211,7 +211,10 @@ class Navigator {
       if (resting_) align_at_rest(p);
       return true;
     }
+    const Vector3d v = filter_.state().v_n;
     filter_.predict(omega_b, f_b, dt);
+    const Vector3d ahead = ekf::air_velocity(filter_.state()).normalized();
+    late_mps_ = (late_mps_ + (filter_.state().v_n - v).dot(ahead)) * std::exp(-dt / late_s);
     if (dt > coasted_s) bridged(dt, p);
     // At its stop the unit says less than what happens.
     if (airborne_ && health_.rates.clipped())
@@ -480,6 +483,8 @@ class Navigator {
          nose_until_s_ = never;  ///< after a start in flight the attitude follows the sideslip, now and then
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
          pitot_mps_ = 0, baro_s_ = never, baro_back_s_ = never;
+  static constexpr double late_s = 0.1;  ///< by which an airspeed may be late
+  double late_mps_ = 0;                  ///< what the airspeed has changed by within that time
   std::int64_t origin_count_ = 0;
   double baro_pa_ = 0, height_seen_s_ = never, height_off_m_ = 0, climb_seen_s_ = never, climb_off_mps_ = 0;
   Mode mode_ = Mode::waiting;

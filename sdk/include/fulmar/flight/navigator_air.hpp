@@ -68,8 +68,8 @@ inline bool Navigator::tube_contradicts(double Va, const Params& p) {
   ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
   z.H(ekf::gust) = 0;  // by what has been learnt of them
   const double without_tube = ekf::air_velocity(filter_.state()).norm();
-  const double doubt =
-      std::hypot(std::clamp(gusts_.std_mps(p), least_gust_mps, most_gust_mps), filter_.expected_std(z, 0));
+  const double doubt = std::hypot(std::clamp(gusts_.std_mps(p), least_gust_mps, most_gust_mps),
+                                  filter_.expected_std(z, 0), late_mps_);
   health_.tube.sampled(Va, without_tube, sample, doubt, time_s_);
   health_.pitot.contradicts = health_.tube.stepped() || health_.tube.off();
   return health_.pitot.contradicts;
@@ -93,8 +93,9 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   const double noise = p.pitot_noise / (air_.density_kgm3 * Va);
   const Vector3d before = air();
   const ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
-  if (!fuse(z, noise * noise + p.pitot_speed_std * p.pitot_speed_std, p.air_gate, health_.pitot).accepted)
-    return;
+  // A late sample is that of another airspeed: in a launch by several m/s.
+  const double variance = noise * noise + p.pitot_speed_std * p.pitot_speed_std + late_mps_ * late_mps_;
+  if (!fuse(z, variance, p.air_gate, health_.pitot).accepted) return;
   gusts_.airspeed(wind, Va, time_s_, p);
   spoil_wind(before, z, p);
 }

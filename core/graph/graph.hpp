@@ -250,7 +250,9 @@ struct Graph : Settings {
   VehicleFlags flags;                                    // of the vehicle; with Io::fcu it has all of them
   std::shared_ptr<const Condition> done, failed, flown;  // may be empty
   std::optional<VerdictPort> verdict;                    // what a component says of the flight
-  std::vector<std::pair<std::string, Source>> summary;   // key of the result -> port
+  std::vector<std::pair<std::string, Source>> summary;   // key of the result -> port; none: left out
+  /// Keys that only report, of components that this flight does not have -> port.
+  std::vector<std::pair<std::string, std::string>> left_out;
   std::vector<Shown> progress;
   std::vector<int> control;  // roles that begin anew as long as the vehicle says that it does not obey
   std::vector<Source> tell;  // ports whose texts are for people

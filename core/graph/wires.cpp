@@ -128,7 +128,7 @@ Target find_target(const Draft& draft, const PortName& name) {
   if (role >= 0) return role_target(draft, role, name);
   const int candidate = draft.candidate(name.owner);
   if (candidate >= 0) return component_target(draft, candidate, name);
-  if (draft.text.component(name.owner)) throw Error(not_there(draft, name.owner));
+  if (draft.text.component(name.owner)) throw NoOwner(name.owner, not_there(draft, name.owner));
   std::vector<std::string> names = names_of(draft.roles);
   for (const Candidate& other : draft.candidates) names.push_back(other.name);
   throw NoOwner(name.owner,

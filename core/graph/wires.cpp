@@ -59,11 +59,21 @@ std::string misfit(const std::string& owner, const Port& input, const PortName& 
   return "";
 }
 
+/// Another plugin by the command line: it takes of the wires what it has inputs for.
+bool is_exchanged(const Draft& draft, const std::string& component) {
+  const auto& with = draft.overrides.with;
+  return std::any_of(with.begin(), with.end(), [&](const auto& pair) { return pair.first == component; });
+}
+
 void connect(Draft& draft, std::size_t index, const WireText& text, const std::string& path) {
   if (text.from.owner.empty()) return;  // reported when it was read
   Candidate& candidate = draft.candidates[index];
   const ComponentInfo& info = candidate.info();
   const int input = info.input(text.name);
+  if (input < 0 && is_exchanged(draft, candidate.name)) {
+    const std::string sentence = path + " is left out: " + candidate.use + " of --with has no such input";
+    return draft.graph.warnings.push_back(text.where.text() + ": " + sentence);
+  }
   if (input < 0)
     return draft.report.add(text.where, path + ": " + candidate.use + " has no such input." +
                                             choices_text(text.name, names_of(info.inputs)));

@@ -18,6 +18,12 @@ using namespace fulmar;
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
+TEST_CASE("an origin at a pole, where north turns within a flight, is refused by its line") {
+  CHECK(changed("lat: 40.2463724", "lat: 89.5") == "");
+  for (const char* const lat : {"lat: -90", "lat: 89.6"})
+    CHECK(changed("lat: 40.2463724", lat).find("origin.lat: ") != std::string::npos);
+}
+
 TEST_CASE("parameters exist, fit and lie in their range") {
   CHECK(changed("turbulence: light", "turbulence: lihgt") ==
         "21: components.sim.params.turbulence: unknown word 'lihgt'. Did you mean 'light'? Valid: none, "

@@ -312,6 +312,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   order_steps(draft);
   guard_wires(draft);
   tell_bypassed(draft);
+  tell_two_fences(draft);
   read_failsafe(draft);
   read_vehicle_flags(draft);
   read_control(draft);

@@ -205,7 +205,8 @@ struct Overrides {
   std::vector<std::pair<std::string, std::string>> roles;  // role=component
   std::vector<std::pair<std::string, std::string>> set;    // component.param=value (YAML text)
   std::vector<std::pair<std::string, std::string>>
-      with;  // component=plugin file, in place of the file that its `use` names; or role=plugin file
+      with;           // component=plugin file, in place of the file that its `use` names; or role=plugin file
+  std::string swaps;  // component of `with` that is exchanged in flight: it has to have all that it had
   std::shared_ptr<const StoredFiles> files;  // in place of the disk: of a mission that has flown
   std::vector<std::string> flown;            // SHA-256 of the plugins that have flown in it
   std::optional<std::string> arm;            // auto, off

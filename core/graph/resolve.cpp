@@ -54,7 +54,7 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
       if (name != text.name) continue;
       const auto [named, part] = is_file(word) ? std::pair{word, std::string()} : split_use(word);
       plugin = is_file(named) ? fs::absolute(named).string() : named;
-      unnamed = part.empty() ? word : "";
+      unnamed = part.empty() && draft.overrides.swaps != text.name ? word : "";
       if (!part.empty()) component = part;
     }
     const FoundPlugin found = catalogue.open(plugin);

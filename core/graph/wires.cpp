@@ -62,7 +62,8 @@ std::string misfit(const std::string& owner, const Port& input, const PortName& 
 /// Another plugin by the command line: it takes of the wires what it has inputs for.
 bool is_exchanged(const Draft& draft, const std::string& component) {
   const auto& with = draft.overrides.with;
-  return std::any_of(with.begin(), with.end(), [&](const auto& pair) { return pair.first == component; });
+  return draft.overrides.swaps != component &&
+         std::any_of(with.begin(), with.end(), [&](const auto& pair) { return pair.first == component; });
 }
 
 void connect(Draft& draft, std::size_t index, const WireText& text, const std::string& path) {

@@ -40,7 +40,7 @@ inline std::array<char, 96> airspeed_doubt(const Plan& plan, const FlightLimits&
   const auto look = [&](double Va) {
     if (words[0] != 0 || Va <= 0 || (Va >= limits.airspeed_min_mps && Va <= limits.airspeed_max_mps)) return;
     std::snprintf(words.data(), words.size(),
-                  "plan: %.0f m/s is beyond the airframe's %.0f to %.0f m/s, flown at the limit", Va,
+                  "%.0f m/s is beyond the airframe's %.0f to %.0f m/s, flown at the limit", Va,
                   limits.airspeed_min_mps, limits.airspeed_max_mps);
   };
   look(plan.airspeed_mps);
@@ -56,7 +56,7 @@ inline std::array<char, 96> radius_doubt(const Plan& plan, const FlightLimits& l
   const double least_m = Va2 / (g_mps2 * std::tan(limits.roll_max_rad));
   if (plan.turn_radius_m < least_m)
     std::snprintf(words.data(), words.size(),
-                  "plan: turn_radius %.0f m takes %.0f deg of bank; roll_max %.0f deg gives %.0f m",
+                  "turn_radius %.0f m takes %.0f deg of bank; roll_max %.0f deg gives %.0f m",
                   plan.turn_radius_m, degrees * std::atan(Va2 / (g_mps2 * plan.turn_radius_m)),
                   degrees * limits.roll_max_rad, least_m);
   return words;

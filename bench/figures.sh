@@ -23,7 +23,7 @@ speed() { # speed MISSION: median of five runs, log written, all threads on one 
   echo
   echo "Anaconda, 17 m/s, 50 m fillets, wind 5 m/s, light turbulence, two circuits; \`build/bin/bench_missions --markdown\`. Root mean square over the flight after the"
   echo "first waypoint. \`tracking\` compares path and raw set-points with the estimated state, \`tracking_true\` with the simulated truth, \`estimation\` the estimate with the"
-  echo "truth. The wind figures contain the gusts, which no estimator of a mean wind can follow."
+  echo "truth. The wind figures contain the gusts."
   echo
   build/bin/bench_missions --markdown
   echo

@@ -53,5 +53,5 @@ configure_and_build() {
 
 # What a flight needs: the host and the plugins, without tests.
 build_all() {
-  configure_and_build build -- flight
+  configure_and_build build -- flight tools
 }

@@ -7,7 +7,7 @@
 #include <ctime>
 
 #include "core/app/last_act.hpp"
-#include "core/run/in_flight.hpp"
+#include "core/loader/in_hand.hpp"
 #include "core/run/inside.hpp"
 
 namespace fulmar::core {
@@ -15,6 +15,18 @@ namespace fulmar::core {
 std::atomic<int> signal_seen{0};
 
 namespace {
+
+constexpr unsigned exit_patience_s = 3;
+std::atomic<int> exit_code{-1};  // of a program that has nothing more to do
+
+/// An exit handler or a destructor of a plugin hangs.
+void end_hanging_exit() {
+  const char* const file = file_in_hand.load(std::memory_order_relaxed);
+  tell({"fulmar: ended: ", file ? file : "code of a plugin",
+        file ? " hangs while being " : " hangs at its exit",
+        file ? file_is_being.load(std::memory_order_relaxed) : "", "\n"});
+  leave(exit_code);
+}
 
 std::atomic<unsigned> patience_s{10};  // between a signal and the end of the flight
 
@@ -25,8 +37,9 @@ void note_signal(int signal) {
   static timespec latest{};
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  if (!is_the_host()) return end_copy_by(signal);
+  if (!is_the_host()) return end_by_default(signal);
   const bool patience_over = signal == SIGALRM;
+  if (patience_over && exit_code >= 0) end_hanging_exit();
   if (patience_over && signal_seen.load() == 0) return;
   const double since_s = static_cast<double>(now.tv_sec - latest.tv_sec) +
                          1e-9 * static_cast<double>(now.tv_nsec - latest.tv_nsec);
@@ -65,18 +78,14 @@ void tell_ending(int signal) {
 /// Somebody wants an end at once. Another one, which comes before the words are said, does not cut them
 /// short.
 void on_end(int signal) {
-  if (!is_the_host()) return end_copy_by(signal);
+  if (!is_the_host()) return end_by_default(signal);
   static std::atomic<bool> ending{false};
   if (ending.exchange(true)) return;
   send_last_frame();
   tell({"\nfulmar: ended by "});
   tell_ending(signal);
   tell_end();
-  refuses_calls = false;  // it may have come in a component's step
-  struct sigaction usual {};
-  usual.sa_handler = SIG_DFL;
-  sigaction(signal, &usual, nullptr);
-  raise(signal);
+  end_by_default(signal);
 }
 
 }  // namespace
@@ -96,6 +105,11 @@ void handle_signals(bool hardware, unsigned patience) {
   for (const Name& end : endings) sigaction(end.signal, &action, nullptr);
   for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) sigaction(signal, &action, nullptr);
   handle_crashes();
+}
+
+void expect_exit(int code) {
+  exit_code = code;
+  alarm(exit_patience_s);
 }
 
 UnderWay::UnderWay(const Graph& graph, const std::string& log) {

@@ -17,6 +17,9 @@ extern std::atomic<int> signal_seen;
 /// signal, or none answered within `patience_s`, ends the program.
 void handle_signals(bool hardware, unsigned patience_s);
 
+/// All is done but what plugins do at their exit. Where that does not come to an end, the program does.
+void expect_exit(int code);
+
 /// While it lives a flight is under way: whoever ends the process is told of, and its exit code is 1 at
 /// least.
 class UnderWay {

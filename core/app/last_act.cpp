@@ -15,6 +15,7 @@
 #include "core/app/program.hpp"
 #include "core/app/words.hpp"
 #include "core/loader/in_hand.hpp"
+#include "core/run/in_flight.hpp"
 #include "core/run/last_words.hpp"
 #include "core/sanitized.hpp"
 #include "fulmar/quiet_thread.hpp"
@@ -27,6 +28,7 @@ namespace {
 
 std::atomic<pid_t> at_work{0};   // the process: a fork of it is none
 std::atomic<pid_t> the_host{0};  // its handlers are set, for ever
+std::atomic<pid_t> ends_it{0};   // the thread that does
 const char* no_log = ".\n";
 char log_name[4200], log_part[4200];  // of a flight's log, when it will be whole and until then
 
@@ -94,7 +96,8 @@ void leave(int code) {
 
 bool is_the_host() { return getpid() == the_host; }
 
-void end_copy_by(int signal) {
+void end_by_default(int signal) {
+  refuses_calls = false;  // it may have come in a component's step
   struct sigaction usual {};
   usual.sa_handler = SIG_DFL;
   sigaction(signal, &usual, nullptr);
@@ -142,9 +145,19 @@ std::uintptr_t program_counter([[maybe_unused]] const void* context) {
 /// A flight may have left half a line on the terminal.
 const char* beginning() { return in_flight ? "\nfulmar: " : "fulmar: "; }
 
+/// Of the threads that end the host at one time the first says why, and the others wait for its end. False:
+/// it is that thread once more.
+bool is_first_to_end() {
+  const pid_t me = static_cast<pid_t>(syscall(SYS_gettid));
+  pid_t first = 0;
+  if (ends_it.compare_exchange_strong(first, me)) return true;
+  while (first != me) pause();
+  return false;
+}
+
 /// A component that crashes takes the host with it; at least it is named.
 void on_crash(int signal, siginfo_t*, void* context) {
-  if (!is_the_host()) return end_copy_by(signal);
+  if (!is_the_host() || !is_first_to_end()) return end_by_default(signal);
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
   const char* loading = file_in_hand.load(std::memory_order_relaxed);
@@ -158,12 +171,13 @@ void on_crash(int signal, siginfo_t*, void* context) {
     tell({" in code of ", code});
   tell({crash_name(signal)});
   tell_end();
-  raise(signal);  // the default action, restored by SA_RESETHAND
+  end_by_default(signal);
 }
 
 /// Code of a plugin, or a thread that it has started, ends the program as a crash does.
 void on_exit() {
-  if (at_work != getpid()) return;
+  if (at_work != getpid() && ends_it == 0) return;
+  if (!is_the_host() || !is_first_to_end()) return;
   at_work = 0;
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
@@ -186,7 +200,7 @@ void handle_crashes() {
   static const auto* const stack = new CrashStack;  // a plugin's last destructor may crash, too
   struct sigaction action {};
   action.sa_sigaction = on_crash;
-  action.sa_flags = static_cast<int>(SA_SIGINFO | SA_ONSTACK | SA_RESETHAND | SA_NODEFER);
+  action.sa_flags = static_cast<int>(SA_SIGINFO | SA_ONSTACK | SA_NODEFER);
   for (const int signal : crash_signals) sigaction(signal, &action, nullptr);
   static_cast<void>(stack);
 #else

@@ -34,8 +34,8 @@ void forget_code();
 
 /// Whether this process is the one whose ends are handled, and no copy of it that a component has forked.
 bool is_the_host();
-/// Ends a copy by a signal as if the host had never handled it.
-void end_copy_by(int signal);
+/// Ends this process by a signal as if the host had never handled it.
+void end_by_default(int signal);
 
 /// What the vehicle's device is to hear when the host goes. This and what follows is async-signal-safe.
 void send_last_frame();

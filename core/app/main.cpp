@@ -209,7 +209,7 @@ struct Commands {
                  choices_text(word, valid).c_str());
     if (word == "fcu" || word == "ros2" || word == "aero" || word == "import")
       std::fprintf(stderr,
-                   "The program fulmar-%s is not there: ./fly leaves it out, `cmake --build build --target "
+                   "The program fulmar-%s is not there: `cmake --build build --target "
                    "tools` makes it.\n",
                    words[0]);
     return 2;

@@ -52,7 +52,7 @@ TypePtr type_of(const Graph& graph, const Source& source) {
 }
 
 json summary_of(const Graph& graph, const Flight& flight, const Source& source) {
-  const std::byte* message = flight.sample(source);
+  const std::byte* const message = source.kind == Source::Kind::none ? nullptr : flight.sample(source);
   return message ? figures_json(*type_of(graph, source), message) : json(nullptr);
 }
 

@@ -33,6 +33,7 @@
 #include "core/run/published.hpp"
 #include "core/run/realtime.hpp"
 #include "core/run/swap.hpp"
+#include "core/sanitized.hpp"
 #include "core/say.hpp"
 #include "core/tap/pace.hpp"
 #include "core/types/text.hpp"
@@ -437,6 +438,7 @@ int run_command(const RunOptions& options) {
     throw CLI::ValidationError(
         "--report makes a page of the log, and --no-log leaves that out: give one of them");
   ResultFile output(options.json);
+  handle_signals(false, 10);  // also while it is set up
   Session session(options);
   if (!options.seeds.empty() && session.on_hardware())
     throw CLI::ValidationError("--seeds belongs to a simulation: on hardware nothing is drawn by chance");
@@ -461,6 +463,9 @@ int run_command(const RunOptions& options) {
     warn(fault.what());
     return ExitCode::failed;
   }
+#ifndef FULMAR_SANITIZED  // which looks for leaks at its exit, and takes its time
+  expect_exit(worst);
+#endif
   return worst;
 }
 

@@ -106,6 +106,9 @@ void tell_simulator_ports(Draft& draft, Catalogue& catalogue);
 // unread.cpp: of the built graph, with what DDS exports
 void tell_unread(Draft& draft);
 
+// fences.cpp: of the built graph
+void tell_two_fences(Draft& draft);
+
 // overlaid.cpp: after the roles are assigned
 void tell_overlaid(Draft& draft);
 

@@ -205,7 +205,8 @@ struct Overrides {
   std::vector<std::pair<std::string, std::string>> roles;  // role=component
   std::vector<std::pair<std::string, std::string>> set;    // component.param=value (YAML text)
   std::vector<std::pair<std::string, std::string>>
-      with;  // component=plugin file, in place of the file that its `use` names; or role=plugin file
+      with;           // component=plugin file, in place of the file that its `use` names; or role=plugin file
+  std::string swaps;  // component of `with` that is exchanged in flight: it has to have all that it had
   std::shared_ptr<const StoredFiles> files;  // in place of the disk: of a mission that has flown
   std::vector<std::string> flown;            // SHA-256 of the plugins that have flown in it
   std::optional<std::string> arm;            // auto, off
@@ -250,7 +251,9 @@ struct Graph : Settings {
   VehicleFlags flags;                                    // of the vehicle; with Io::fcu it has all of them
   std::shared_ptr<const Condition> done, failed, flown;  // may be empty
   std::optional<VerdictPort> verdict;                    // what a component says of the flight
-  std::vector<std::pair<std::string, Source>> summary;   // key of the result -> port
+  std::vector<std::pair<std::string, Source>> summary;   // key of the result -> port; none: left out
+  /// Keys that only report, of components that this flight does not have -> port.
+  std::vector<std::pair<std::string, std::string>> left_out;
   std::vector<Shown> progress;
   std::vector<int> control;  // roles that begin anew as long as the vehicle says that it does not obey
   std::vector<Source> tell;  // ports whose texts are for people

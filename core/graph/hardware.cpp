@@ -52,9 +52,10 @@ void check_hardware(const MissionText& text, const Overrides& overrides, Report&
 
 namespace {
 
-/// Fields of a vehicle by which only a simulator tells ground contact and crash. A flight controller reports
-/// at most that it is disarmed.
+/// A message with the field `contact_known` declares that its vehicle may not measure contact: these of its
+/// fields mean something where that one is true. A message without it measures what it has.
 constexpr std::string_view contact_fields[] = {"on_ground", "crashed"};
+constexpr const char* contact_known = "contact_known";
 
 /// Refused with io: fcu, warned of with io: sim.
 void object(Draft& draft, const Where& where, const std::string& sentence) {
@@ -132,25 +133,37 @@ class SimulatorPorts {
       if (real_name_.empty() || info.name == real_name_) return &info;
     return nullptr;
   }
-  bool is_contact(const std::string& port, const std::string& field) const {
+  /// Whether a field of contact may be unknown, and the condition does not ask for that.
+  bool is_guess(const std::vector<std::string>& name,
+                const std::vector<std::vector<std::string>>& all) const {
+    const ComponentInfo& flown = draft_.vehicle().info();
+    const int output = flown.output(name[1]);
+    const TypePtr type = output < 0 ? nullptr : nth(flown.outputs, output).type;
+    if (!type || !type->find(contact_known)) return false;
+    if (std::find(all.begin(), all.end(), std::vector<std::string>{name[0], name[1], contact_known}) !=
+        all.end())
+      return false;
     const RoleText* const role = draft_.text.role("vehicle");
     for (std::size_t i = 0; role && i < role->flags.size(); ++i)
-      if (role->flags[i].first == "on_ground" && role->flags[i].second.text == port + "." + field)
+      if (role->flags[i].first == "on_ground" && role->flags[i].second.text == name[1] + "." + name.back())
         return true;
-    return std::find(std::begin(contact_fields), std::end(contact_fields), field) != std::end(contact_fields);
+    return std::find(std::begin(contact_fields), std::end(contact_fields), name.back()) !=
+           std::end(contact_fields);
   }
 
   void look(const TransitionText& t, const std::string& phase) {
-    for (const std::vector<std::string>& name : names_in(t.when.text)) {
+    const std::vector<std::vector<std::string>> names = names_in(t.when.text);
+    for (const std::vector<std::string>& name : names) {
       if (!is_vehicle(name[0]) || name.size() < 3) continue;
       const std::string path = "phases." + phase + ".next: " + name[0] + "." + name[1];
       if (lacks(name[1]))
         object(draft_, t.when.where, path + " exists in simulation only");
-      else if (is_contact(name[1], name.back()))
+      else if (is_guess(name, names))
         object(draft_, t.when.where,
                path + "." + name.back() +
-                   ": a flight controller does not measure it; decide by an estimate, as safety/Ground gives "
-                   "one");
+                   ": a flight controller does not measure it, as its contact_known says; decide by an "
+                   "estimate, as safety/Ground gives one, or ask for " +
+                   name[0] + "." + name[1] + ".contact_known too");
     }
   }
 

@@ -48,6 +48,35 @@ void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
   }
 }
 
+/// Whether a key that only reports has lost its component: a layer took it away, it is of the other io, or a
+/// layer gave it another plugin without such an output.
+bool is_left_out(const Draft& draft, const Word& word) {
+  const auto dot = word.text.find('.');
+  const std::string owner = word.text.substr(0, dot);
+  const ComponentText* const text = draft.text.component(owner);
+  if (!text) return draft.report.is_taken_away("components." + owner);
+  if (draft.is_out(*text)) return true;
+  const int i = draft.candidate(owner);
+  if (dot == std::string::npos || i < 0 || !nth(draft.candidates, i).loaded) return false;
+  const auto& below = draft.text.below;
+  const bool replaced = std::any_of(below.begin(), below.end(), [&](const MissionText& layer) {
+    const ComponentText* const was = layer.component(owner);
+    return was && was->use.text != text->use.text;
+  });
+  return replaced && index_named(nth(draft.candidates, i).info().outputs, word.text.substr(dot + 1)) < 0;
+}
+
+/// As guarded, of a key that only reports: it goes with its component. Whether it stays.
+template <class F>
+bool report_of(Draft& draft, const Word& word, const std::string& path, F run) {
+  const bool gone = is_left_out(draft, word);
+  if (gone)
+    draft.graph.left_out.push_back({path, word.text});
+  else
+    guarded(draft, word.where, path, run);
+  return !gone;
+}
+
 /// What every result has: a summary must not write over it.
 const std::vector<std::string> result_keys = {
     "allocations", "behind_max_s", "dds",     "flight_time_s",    "guards",
@@ -68,13 +97,14 @@ void read_summary(Draft& draft, const FindPort& find) {
   for (const auto& entry : draft.text.summary) {
     const std::string& key = entry.first;
     const Word& word = entry.second;
-    guarded(draft, word.where, "summary." + key, [&] {
+    const bool stays = report_of(draft, word, "summary." + key, [&] {
       if (std::find(result_keys.begin(), result_keys.end(), key) != result_keys.end())
         throw Error("'" + key + "' is a key of every result; choose another name");
       const auto [source, type] = find_port(word, "score.tracking", find);
       if (!type) throw Error("'" + word.text + "' is a probe; a summary shows messages");
       draft.graph.summary.emplace_back(key, source);
     });
+    if (!stays) draft.graph.summary.emplace_back(key, Source{});
   }
 }
 
@@ -82,7 +112,7 @@ void read_summary(Draft& draft, const FindPort& find) {
 void read_told(Draft& draft, const FindPort& find) {
   draft.graph.tell.clear();
   for (const Word& word : draft.text.tell)
-    guarded(draft, word.where, "tell", [&] {
+    report_of(draft, word, "tell", [&] {
       try {
         const auto [source, type] = find_port(word, "vehicle.notices", find);
         const Field* const text = type ? type->find("text") : nullptr;
@@ -100,7 +130,7 @@ void read_verdict(Draft& draft, const FindPort& find) {
   draft.graph.verdict.reset();
   if (!draft.text.verdict) return;
   const Word& word = *draft.text.verdict;
-  guarded(draft, word.where, "verdict", [&] {
+  report_of(draft, word, "verdict", [&] {
     const auto [source, type] = find_port(word, "score.verdict", find);
     const Field* const of = type ? type->find("word") : nullptr;
     const Field* const text = type ? type->find("text") : nullptr;
@@ -185,6 +215,7 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
 void compile_all(Draft& draft, bool built) {
   const FindPort find = finder(draft, built);
   Graph& graph = draft.graph;
+  graph.left_out.clear();
   if (draft.text.done) graph.done = compiled(draft, *draft.text.done, "done", find);
   if (draft.text.failed) graph.failed = compiled(draft, *draft.text.failed, "failed", find);
   if (draft.text.flown) graph.flown = compiled(draft, *draft.text.flown, "flown", find);
@@ -242,6 +273,11 @@ void compile_phases(Draft& draft) {
     }
   }
   check_reachable(draft);
+  std::vector<std::string> gone;
+  for (const auto& [key, port] : draft.graph.left_out) gone.push_back(key + " (" + port + ")");
+  if (!gone.empty())
+    draft.graph.warnings.push_back(draft.text.file->name + ": without " + join(gone) +
+                                   ": the component or its output is not in this flight");
 }
 
 }  // namespace fulmar::core

@@ -49,16 +49,24 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
   const std::string path = "components." + text.name;
   try {
     auto [plugin, component] = split_use(text.use.text);
+    std::string unnamed;  // the file of --with, when it names no component
     for (const auto& [name, word] : draft.overrides.with) {
       if (name != text.name) continue;
       const auto [named, part] = is_file(word) ? std::pair{word, std::string()} : split_use(word);
       plugin = is_file(named) ? fs::absolute(named).string() : named;
+      unnamed = part.empty() && draft.overrides.swaps != text.name ? word : "";
       if (!part.empty()) component = part;
     }
     const FoundPlugin found = catalogue.open(plugin);
     candidate.plugin = found.info, candidate.library = found.library;
     const auto& components = found.info->components;
     if (components.empty()) throw Error(plugin + " holds no component");
+    if (!unnamed.empty() && index_named(components, component) < 0) {
+      if (components.size() > 1)
+        throw Error(no_such("the plugin " + unnamed + " has no component", component, components) +
+                    " Name one, as in --with " + text.name + "=" + unnamed + "/" + components[0].name);
+      component.clear();
+    }
     if (!component.empty())
       candidate.index_in_plugin = static_cast<std::size_t>(
           require_named(components, component, "the plugin " + plugin + " has no component"));
@@ -304,6 +312,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   order_steps(draft);
   guard_wires(draft);
   tell_bypassed(draft);
+  tell_two_fences(draft);
   read_failsafe(draft);
   read_vehicle_flags(draft);
   read_control(draft);

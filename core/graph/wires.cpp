@@ -59,11 +59,22 @@ std::string misfit(const std::string& owner, const Port& input, const PortName& 
   return "";
 }
 
+/// Another plugin by the command line: it takes of the wires what it has inputs for.
+bool is_exchanged(const Draft& draft, const std::string& component) {
+  const auto& with = draft.overrides.with;
+  return draft.overrides.swaps != component &&
+         std::any_of(with.begin(), with.end(), [&](const auto& pair) { return pair.first == component; });
+}
+
 void connect(Draft& draft, std::size_t index, const WireText& text, const std::string& path) {
   if (text.from.owner.empty()) return;  // reported when it was read
   Candidate& candidate = draft.candidates[index];
   const ComponentInfo& info = candidate.info();
   const int input = info.input(text.name);
+  if (input < 0 && is_exchanged(draft, candidate.name)) {
+    const std::string sentence = path + " is left out: " + candidate.use + " of --with has no such input";
+    return draft.graph.warnings.push_back(text.where.text() + ": " + sentence);
+  }
   if (input < 0)
     return draft.report.add(text.where, path + ": " + candidate.use + " has no such input." +
                                             choices_text(text.name, names_of(info.inputs)));
@@ -128,7 +139,7 @@ Target find_target(const Draft& draft, const PortName& name) {
   if (role >= 0) return role_target(draft, role, name);
   const int candidate = draft.candidate(name.owner);
   if (candidate >= 0) return component_target(draft, candidate, name);
-  if (draft.text.component(name.owner)) throw Error(not_there(draft, name.owner));
+  if (draft.text.component(name.owner)) throw NoOwner(name.owner, not_there(draft, name.owner));
   std::vector<std::string> names = names_of(draft.roles);
   for (const Candidate& other : draft.candidates) names.push_back(other.name);
   throw NoOwner(name.owner,

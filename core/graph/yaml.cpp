@@ -61,6 +61,10 @@ bool Report::still_named(const std::vector<std::string>& names, const Where& whe
   return false;
 }
 
+bool Report::is_taken_away(const std::string& name) const {
+  return std::any_of(taken_.begin(), taken_.end(), [&](const Taken& taken) { return taken.name == name; });
+}
+
 bool Report::misses(const std::string& prefix) const {
   return std::any_of(taken_.begin(), taken_.end(), [&](const Taken& taken) {
     return !taken.named_by.empty() && taken.name.starts_with(prefix);

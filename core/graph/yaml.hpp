@@ -35,6 +35,7 @@ class Report {
   void taken_away(const std::string& name, const Where& where);
   /// Whether one of `names` was taken away; `path` is then what still names it.
   bool still_named(const std::vector<std::string>& names, const Where& where, const std::string& path);
+  bool is_taken_away(const std::string& name) const;
   /// Whether one whose name begins so is still named.
   bool misses(const std::string& prefix) const;
   /// One fault per line.

@@ -20,6 +20,12 @@ Severity severity_of(const Slot& slot, const Field* severity) noexcept {
                               : Severity::info;
 }
 
+/// The word of the cause is the name of the event, so that those who look on need no words.
+void name_cause(Event& e, const Slot& slot, const Field& cause) noexcept {
+  const auto label = static_cast<std::size_t>(slot.published[cause.offset]);
+  if (label > 0 && label < cause.labels.size()) fulmar::core::put(e.name, cause.labels[label]);
+}
+
 }  // namespace
 
 void Recorder::note(const Event& e, bool aloud) {
@@ -58,6 +64,7 @@ void Recorder::tell(Told& told) {
   if (size == 0) return;
   Event e = event_of(Code::notice, told.slot->owner->component->name);
   e.severity = severity_of(*told.slot, told.severity);
+  if (told.cause) name_cause(e, *told.slot, *told.cause);
   say(e, "%.*s", static_cast<int>(size), text);
   note(e);
 }

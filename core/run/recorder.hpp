@@ -61,7 +61,7 @@ class Recorder {
   /// A port whose texts are for people.
   struct Told {
     const Slot* slot = nullptr;
-    const Field *text = nullptr, *severity = nullptr;
+    const Field *text = nullptr, *severity = nullptr, *cause = nullptr;
     std::vector<char> last;  // of a port that is written in every step: told when it changes
   };
   class ChannelList;

@@ -237,11 +237,15 @@ void Recorder::listen_to(const Unit& unit, int output) {
   const Slot& slot = nth(unit.out.slots, output);
   // One component may fill two roles whose notices are listed.
   if (std::any_of(told_.begin(), told_.end(), [&](const Told& t) { return t.slot == &slot; })) return;
-  Told told{&slot, slot.port->type->find("text"), slot.port->type->find("severity"), {}};
+  Told told{&slot,
+            slot.port->type->find("text"),
+            slot.port->type->find("severity"),
+            slot.port->type->find("cause"),
+            {}};
   if (!told.text || told.text->kind != FULMAR_TEXT) return;
   if (!told.severity) told.severity = slot.port->type->find("level");
-  if (told.severity && (told.severity->kind != FULMAR_ENUM || told.severity->shape != FULMAR_SCALAR))
-    told.severity = nullptr;
+  for (const Field** word : {&told.severity, &told.cause})
+    if (*word && ((*word)->kind != FULMAR_ENUM || (*word)->shape != FULMAR_SCALAR)) *word = nullptr;
   if (slot.port->kind == FULMAR_OUT_VALUE) told.last.assign(told.text->stride, '\0');
   told_.push_back(std::move(told));
 }

@@ -186,6 +186,7 @@ void Flight::Impl::replace(int at, const std::string& file) {
   Overrides overrides = graph.overrides;
   std::erase_if(overrides.with, [&](const auto& with) { return with.first == name; });
   overrides.with.emplace_back(name, file);
+  overrides.swaps = name;
   Graph next = load_mission(graph.file, overrides);
   if (const std::string difference = structural_difference(graph, next); !difference.empty())
     throw Error(graph.file + " has changed since this flight began (" + difference +

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/run/verdict.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/log/events.hpp"
+#include "core/types/names.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -14,6 +16,16 @@ std::string text_at(const std::byte* field, std::size_t room) {
   std::string line(text, strnlen(text, room));
   make_printable(line.data());
   return line;
+}
+
+/// Which components report nothing, because this flight does not have them.
+std::string without(const Graph& graph) {
+  std::vector<std::string> owners;
+  for (const auto& [key, port] : graph.left_out) {
+    const std::string owner = port.substr(0, port.find('.'));
+    if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
+  }
+  return "no verdict; without what " + join(owners) + " reports";
 }
 
 }  // namespace
@@ -37,6 +49,7 @@ std::string reason_of(const FlightResult& result) {
 }
 
 std::string verdict_line(const Graph& graph, const Flight& flight, const std::string& result_word) {
+  if (!graph.verdict && !graph.left_out.empty()) return result_word + ": " + without(graph);
   const std::byte* const said = graph.verdict ? flight.sample(graph.verdict->from) : nullptr;
   if (!said) return result_word;
   const VerdictPort& port = *graph.verdict;

@@ -15,6 +15,7 @@
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
 #include "plan_file.hpp"
+#include "plan_limits.hpp"
 
 namespace fulmar::path {
 
@@ -34,6 +35,8 @@ struct Planner {
   struct Params {
     Record<PlanFile> plan{"waypoints; without it the plan begins empty"};
     Record<Origin> origin{"of the local frame"};
+    Record<Airframe> airframe{"airspeeds and bank; without it the plan's are not compared"};
+    Record<safety::Fence> fence{"corners, floor, ceiling; waypoints outside are refused"};
     Param lowest{1,
                  "m",
                  -1e4,
@@ -76,12 +79,14 @@ struct Planner {
   void know_origin(double lat_deg, double lon_deg, double alt_m);
 
   void tell_unflyable(const Tick& tick, Outputs& out);
+  void tell_doubts(const Tick& tick, const Params& p, Outputs& out);
 
   Plan plan_;
   Group group_;
   double lowest_m_ = 0;
   LocalFrame frame_;
   bool origin_known_ = false;
+  bool doubtful_ = true;       // what the plan asks of the airframe has not been looked at
   bool changed_ = true;        // the plan has not been published as it is now
   std::uint64_t changes_ = 0;  // edits in force
   std::uint32_t next_id_ = 1;
@@ -148,11 +153,26 @@ inline void Planner::configure(const Params& p) {
   }
   if (plan->waypoints.size() == 1 && plan->end == PlanEnd::circuit)
     throw std::runtime_error("the plan has one waypoint, which makes no circuit: give more, or end: orbit");
+  if (p.fence.given()) check_fence(*plan, *p.fence, *p.origin);
   plan_ = *plan;
-  changed_ = true;
+  changed_ = doubtful_ = true;
 }
 
-inline Status Planner::step(const Tick& tick, const Inputs& in, const Params&, Outputs& out) {
+inline void Planner::tell_doubts(const Tick& tick, const Params& p, Outputs& out) {
+  doubtful_ = false;
+  if (!p.airframe.given()) return;
+  for (const auto& words :
+       {airspeed_doubt(plan_, p.airframe->limits), radius_doubt(plan_, p.airframe->limits)}) {
+    if (words[0] == 0) continue;
+    Notice notice;
+    notice.severity = Severity::warning;
+    notice.text = words.data();
+    out.notices.push(notice, tick.now_ns);
+  }
+}
+
+inline Status Planner::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
+  if (doubtful_) tell_doubts(tick, p, out);
   if (!origin_known_ && in.state && in.state->origin_valid) {
     know_origin(in.state->origin_latitude_deg, in.state->origin_longitude_deg, in.state->origin_altitude_m);
     tell_unflyable(tick, out);

@@ -90,6 +90,7 @@ struct VectorField {
   static void report(const char* words, Severity severity, const Tick& tick, Outputs& out) {
     Notice notice;
     notice.severity = severity;
+    notice.cause = Cause::gnss_lost;
     notice.text = words;
     out.notices.push(notice, tick.now_ns);
   }
@@ -177,7 +178,7 @@ inline Status VectorField::step(const Tick& tick, const Inputs& in, const Params
   const Path& path = *in.path;
   if (!reckoning_.located(state, tick.now_ns, p.reckon_std, p.reckon_time) && commanded_)
     return wait(tick, state, p, out);
-  if (waits_) report("the position is back: the path is flown again", Severity::warning, tick, out);
+  if (waits_) report("the position is back: the path is flown again", Severity::info, tick, out);
   waits_ = false;
   const double Vg = state.ground_speed_mps, chi = state.course_rad;
   const double k =

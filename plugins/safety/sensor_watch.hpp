@@ -70,9 +70,10 @@ struct SensorWatch {
     const Reported::News news = position_.step(flies && had_position_ && !s.position_valid, s.position_valid,
                                                0, p.clear, p.pause, now_s, dt);
     if (news == Reported::News::raised)
-      say(Severity::critical, "position lost: it is reckoned by air data and drifts. Pilot: be ready", tick,
-          out);
-    if (news == Reported::News::cleared) say(Severity::info, "the position is valid again", tick, out);
+      say(Severity::critical, Cause::gnss_lost,
+          "position lost: it is reckoned by air data and drifts. Pilot: be ready", tick, out);
+    if (news == Reported::News::cleared)
+      say(Severity::info, Cause::gnss_lost, "the position is valid again", tick, out);
     return Status::ok;
   }
 
@@ -80,17 +81,22 @@ struct SensorWatch {
   struct Sensor {
     const char* name;
     SensorHealth NavigationHealth::*health;
+    Cause cause;
     Severity severity;
     const char* answer;  // what the aircraft does now, and the pilot
   };
   static constexpr std::array<Sensor, 6> sensors{{
-      {"gyro", &NavigationHealth::gyro, Severity::critical, "the attitude is not reliable. Pilot: take over"},
-      {"accelerometer", &NavigationHealth::accel, Severity::critical,
+      {"gyro", &NavigationHealth::gyro, Cause::gyro, Severity::critical,
        "the attitude is not reliable. Pilot: take over"},
-      {"GNSS position", &NavigationHealth::gnss_position, Severity::warning, "dead reckoning by air data"},
-      {"magnetometer", &NavigationHealth::mag, Severity::warning, "heading by GNSS course"},
-      {"barometer", &NavigationHealth::baro, Severity::warning, "height by GNSS"},
-      {"pitot tube", &NavigationHealth::pitot, Severity::warning, "airspeed estimated from GNSS and wind"},
+      {"accelerometer", &NavigationHealth::accel, Cause::accelerometer, Severity::critical,
+       "the attitude is not reliable. Pilot: take over"},
+      {"GNSS position", &NavigationHealth::gnss_position, Cause::gnss_lost, Severity::warning,
+       "dead reckoning by air data"},
+      {"magnetometer", &NavigationHealth::mag, Cause::magnetometer, Severity::warning,
+       "heading by GNSS course"},
+      {"barometer", &NavigationHealth::baro, Cause::barometer, Severity::warning, "height by GNSS"},
+      {"pitot tube", &NavigationHealth::pitot, Cause::pitot_lost, Severity::warning,
+       "airspeed estimated from GNSS and wind"},
   }};
 
   static const char* word(SensorState state) {
@@ -118,17 +124,18 @@ struct SensorWatch {
       char text[96];
       if (news == Reported::News::raised) {
         std::snprintf(text, sizeof text, "%s %s: %s", sensor.name, word(h.state), sensor.answer);
-        say(sensor.severity, text, tick, out);
+        say(sensor.severity, sensor.cause, text, tick, out);
       } else if (news == Reported::News::cleared) {
         std::snprintf(text, sizeof text, "%s in order again after %.0f s", sensor.name,
                       reported[i].since_s(now_s) - p.clear);
-        say(Severity::info, text, tick, out);
+        say(Severity::info, sensor.cause, text, tick, out);
       }
     }
   }
 
-  static void say(Severity severity, const char* text, const Tick& tick, Outputs& out) {
+  static void say(Severity severity, Cause cause, const char* text, const Tick& tick, Outputs& out) {
     Notice notice;
+    notice.cause = cause;
     notice.severity = severity;
     notice.text = text;
     out.notices.push(notice, tick.now_ns);

@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "fulmar/flight/alarms.hpp"
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/safety_state.hpp"
 #include "fulmar/plugin.hpp"
@@ -53,10 +54,11 @@ class Reports {
     return does[static_cast<std::size_t>(now_->answer)];
   }
 
-  void push(const char* text, Severity severity) {
+  void push(const char* text, Severity severity, Cause cause = Cause::none) {
     Notice notice;
     notice.text = text;
     notice.severity = severity;
+    notice.cause = cause;
     out_->push(notice, tick_->now_ns);
     said_ = true;
   }
@@ -80,11 +82,17 @@ class Reports {
   void say(bool SafetyState::*flag, const Line& wrong, const char* right, const char* pilot) {
     const bool raised = now_->*flag;
     if (raised == told_.*flag) return;
+    const Cause cause = alarm(flag).cause;
     const char* const what = raised ? wrong.data() : right;
-    if (!now_->airborne) return push(what, raised ? Severity::warning : Severity::info);
-    if (raised) return push(joined({what, ": ", answer(), ". Pilot: ", pilot}).data(), Severity::warning);
+    if (!now_->airborne) return push(what, raised ? Severity::warning : Severity::info, cause);
+    if (raised)
+      return push(joined({what, ": ", answer(), ". Pilot: ", pilot}).data(), Severity::warning, cause);
     const bool free = now_->answer == SafetyAnswer::none;
-    push(joined({what, free ? ": " : ": still ", answer()}).data(), Severity::info);
+    push(joined({what, free ? ": " : ": still ", answer()}).data(), Severity::info, cause);
+  }
+  /// The words of an alarm, and a figure.
+  void say(bool SafetyState::*flag, const char* right, const char* pilot, const Line& figure = {}) {
+    say(flag, joined({alarm(flag).words, figure.data()}), right, pilot);
   }
 
   void faults(const Facts& f) {
@@ -92,30 +100,28 @@ class Reports {
     constexpr double deg = std::numbers::pi / 180;
     const int charge = static_cast<int>(std::lround(100 * std::clamp(f.battery_ratio, 0.0, 1.0)));
     const int thrust = static_cast<int>(std::lround(100 * std::clamp(now_->thrust_ratio, 0.0, 1.0)));
-    say(&S::engine_failed, line("no thrust from the motor"), "the motor gives thrust", "land ahead");
+    say(&S::engine_failed, "the motor gives thrust", "land ahead");
     if (!now_->engine_failed)
-      say(&S::engine_weak, line("weak motor, %d %% of its thrust", thrust), "the motor has its thrust",
-          "no go-around");
-    say(&S::battery_empty, line("battery empty, %d %%", charge), "battery not empty", "land now");
+      say(&S::engine_weak, "the motor has its thrust", "no go-around", line(", %d %% of its thrust", thrust));
+    say(&S::battery_empty, "battery not empty", "land now", line(", %d %%", charge));
     say(&S::attitude_excessive,
-        line("excessive attitude, roll %.0f, pitch %.0f deg", std::abs(f.roll_rad) / deg,
-             std::abs(f.pitch_rad) / deg),
+        joined({alarm(&S::attitude_excessive).words, line(", roll %.0f", std::abs(f.roll_rad) / deg).data(),
+                line(", pitch %.0f deg", std::abs(f.pitch_rad) / deg).data()}),
         "attitude in limits", "take over");
-    say(&S::estimator_failed, line("attitude, height or velocity not valid"), "estimate valid", "take over");
-    say(&S::gnss_lost, line("no position"), "position back", "take over by sight");
-    say(&S::battery_low, line("battery low, %d %%", charge), "battery not low", "clear the runway");
-    say(&S::pitot_lost, line("no airspeed"), "airspeed measured again", "fly fast");
-    say(&S::wind_excessive, line("wind %.0f m/s, above the limit", f.wind_mps), "wind below the limit",
-        "keep the field clear");
-    say(&S::radio_lost, line("pilot's radio lost"), "radio back", "check the transmitter");
-    say(&S::link_lost, line("no vehicle status"), "vehicle status back", "check the link");
+    say(&S::estimator_failed, "estimate valid", "take over");
+    say(&S::gnss_lost, "position back", "take over by sight");
+    say(&S::battery_low, "battery not low", "clear the runway", line(", %d %%", charge));
+    say(&S::pitot_lost, "airspeed measured again", "fly fast");
+    say(&S::wind_excessive, "wind below the limit", "keep the field clear", line(", %.0f m/s", f.wind_mps));
+    say(&S::radio_lost, "radio back", "check the transmitter");
+    say(&S::link_lost, "vehicle status back", "check the link");
     if (now_->drifting != told_.drifting)
       push(now_->drifting
                ? line("wind %.0f m/s exceeds the top airspeed: nose into wind, drifts. Pilot: land",
                       f.wind_mps)
                      .data()
                : "wind below the top airspeed: holds its ground",
-           now_->drifting ? Severity::warning : Severity::info);
+           now_->drifting ? Severity::warning : Severity::info, Cause::drifting);
   }
 
   /// Distances without a sign.

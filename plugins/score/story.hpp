@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "fulmar/flight/alarms.hpp"
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/safety_state.hpp"
 #include "score_messages.hpp"
@@ -51,23 +52,11 @@ class Line {
   std::size_t size_ = 0;
 };
 
-/// All that is wrong: "no thrust and battery low".
+/// All that is wrong: "no thrust from the motor and battery low".
 inline Line<128> alarm_words(const SafetyState& s) {
   Line<128> line;
-  const auto add = [&](bool raised, const char* words) {
-    if (raised) line.add("%s%s", line.empty() ? "" : " and ", words);
-  };
-  add(s.engine_failed, "no thrust");
-  add(s.estimator_failed, "estimate not valid");
-  add(s.attitude_excessive, "attitude beyond its limits");
-  add(s.gnss_lost, "no position");
-  add(s.pitot_lost, "no airspeed");
-  add(s.link_lost, "no link");
-  add(s.radio_lost, "no radio");
-  add(s.battery_empty, "battery empty");
-  add(s.battery_low && !s.battery_empty, "battery low");
-  add(s.wind_excessive, "too much wind");
-  add(s.fence, "fence");
+  for (const NamedAlarm& a : alarms)
+    if (is_raised(a, s)) line.add("%s%s", line.empty() ? "" : " and ", a.words);
   return line;
 }
 

@@ -74,6 +74,27 @@ export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, gate_
     book.acknowledge(book.list()[0].alert.key);
     assert.deepEqual(book.list(), []);
   },
+  "flag, estimate and every component that reports one cause are one alert, and its end is over for all"() {
+    const event = (severity, name, words) => alert_of_event({ code: "notice", severity, component: "sensors", name, words }, ["watch"], "flies on");
+    const book = new AlertBook(), now = () => book.list().map((h) => [h.alert.key, h.now]);
+    const by_event = event("warning", "gnss_lost", "GNSS position silent: dead reckoning"), [by_flag] = alerts_of(flying({ gnss_lost: true }));
+    assert.deepEqual([by_event.what, by_event.pilot, by_event.level], [by_flag.what, by_flag.pilot, by_flag.level]);
+    book.raise(by_event, 5);
+    book.update([], 6);
+    assert.deepEqual(now(), [["gnss_lost", true]]);
+    book.update([by_flag], 7);
+    assert.deepEqual(now(), [["gnss_lost", true]]);
+    book.update([], 8); // the flag is down: it was not the event's alone
+    assert.deepEqual(now(), [["gnss_lost", false]]);
+    book.raise(event("warning", "barometer", "barometer stuck: height by GNSS"), 9);
+    book.update([], 10);
+    assert.deepEqual(now(), [["barometer", true], ["gnss_lost", false]]);
+    book.over("barometer");
+    assert.deepEqual(now().map(([, lasts]) => lasts), [false, false]);
+    book.acknowledge("barometer");
+    book.update([], 11);
+    assert.deepEqual(now(), [["gnss_lost", false]]);
+  },
   "what is missing before a take-off is a list"() {
     assert.deepEqual(not_ready("fcu: not ready: no GNSS fix, no height"), ["no GNSS fix", "no height"]);
     assert.deepEqual(not_ready("the radio is lost"), []);

@@ -34,12 +34,22 @@ const { piece_ahead } = await load("flight/piece.ts");
 const { draw_wiring } = await load("flight/wiring.ts");
 const { bearing, clock, digits, fixed, shown_unit, with_unit } = await load("units.ts");
 
+const { verdict_of } = await load("report/verdict.ts");
+
 const point = (north, east, up = 70, id = 0) => ({ north, east, up, course: null, airspeed: 0, id, geodetic: null });
 const plan_of = (waypoints, end = "circuit", radius = 50) => ({ end, radius, airspeed: 17, waypoints });
 
 const tests = {
   ...tile_tests(await load("flight/tiles.ts"), near),
   ...pilot_tests(await load("flight/alerts.ts"), await load("flight/places.ts"), await load("track.ts"), near),
+  "a log without a verdict is bad where it was cut, and only there"() {
+    const log = (verdict, fault = "", metadata = {}) => verdict_of({ verdict: { words: "", severity: "", ...verdict }, fault, end_s: 61, metadata });
+    assert.deepEqual(log({ words: "crashed: nose", severity: "error" }), { words: "Crashed: nose", bad: true });
+    assert.equal(log({ words: "flown (done)", severity: "info" }).bad, false);
+    const cut = log({}, "byte 5 is no record");
+    assert.ok(cut.bad && cut.words.includes("byte 5"));
+    for (const whole of [log({}), log({}, "", { series: { file: "1" } })]) assert.ok(!whole.bad && !/killed/.test(whole.words), whole.words);
+  },
   "messages are read as XCDR1 has them: alignment, lists, texts, enumerations"() {
     const schema = ["uint8 OFF=0", "uint8 ON=3", "uint8 state", "float64 height_m  # m", "string name", "bool good", "pkg/P[<=4] points", "int64 at_ns",
       "float64[2] pair_rad", "=".repeat(80), "MSG: pkg/P", "float64 north", "uint16 kind"].join("\n");

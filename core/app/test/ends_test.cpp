@@ -169,6 +169,21 @@ TEST_CASE("a component that takes the host with it is named, and the device gets
   }
 }
 
+TEST_CASE("of threads that end the program at one time one says why, whole and once") {
+  if (!FULMAR_CRASH_TESTS) return;
+  for (int i = 0; i < 3; ++i) {
+    Program program(law("threads_terminate", ""));
+    CHECK(program.wait() == 128 + SIGABRT);
+    const std::string said = program.said(), crashed = " crashed";
+    const auto at = said.find(crashed);
+    REQUIRE(at != std::string::npos);
+    CHECK(said.find(crashed, at + 1) == std::string::npos);
+    CHECK(said.find("What was logged until then is in " + log_file().string() + ".part\n", at) !=
+          std::string::npos);
+    CHECK(last_frame() == failsafe);
+  }
+}
+
 TEST_CASE("a signal that a component raises is heard, beside the loop as in it") {
   const std::string async = "run: async, latency: 10 ms, ";
   for (const std::string& mode : {std::string(), async}) {

@@ -113,9 +113,8 @@ TEST_CASE("a program of ours that was not built is told with how to build it") {
   for (const std::string word : {"fcu", "ros2"}) {
     const Said missing = home.fulmar(word + " status");
     CHECK(missing.code == 2);
-    CHECK(holds(missing.out,
-                "The program fulmar-" + word +
-                    " is not there: ./fly leaves it out, `cmake --build build --target tools` makes it."));
+    CHECK(holds(missing.out, "The program fulmar-" + word +
+                                 " is not there: `cmake --build build --target tools` makes it."));
   }
   CHECK_FALSE(holds(home.fulmar("fca").out, "is not there"));
 }

@@ -2,6 +2,7 @@
 // From runway to runway: the shipped mission in several winds, judged by the simulated truth.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/app/test/fault_campaign.hpp"
@@ -75,6 +76,23 @@ TEST_CASE("it takes off, flies its circuit and lands on the runway, with wind fr
     CHECK(t.slowest_mps > 11);         // 1.1 times the stall
     if (!counts_allocations()) break;  // under the sanitizers a flight takes twenty times as long
   }
+}
+
+TEST_CASE("an approach that the wind refuses for three minutes is flown all the same, with a warning") {
+  Overrides overrides;
+  overrides.set = {{"sim.wind_ned", "[6.36, 6.36, 0]"}};  // 9 m/s across the runway
+  const Graph graph = load_mission(FULMAR_SOURCE_DIR "/configs/missions/runway_to_runway.yaml", overrides);
+  FlightOptions options;
+  options.log = false;
+  const FlightResult result = Flight(graph, options).run();
+  CHECK(result.outcome == Outcome::flown);
+  const auto& p = result.phases;
+  const auto at = std::find_if(p.begin(), p.end(), [](const auto& v) { return v.name == "lands_anyway"; });
+  REQUIRE(at != p.end());
+  REQUIRE(at != p.begin());
+  CHECK(std::prev(at)->name == "approach");
+  CHECK(std::prev(at)->to_ns - std::prev(at)->from_ns >= 180'000'000'000);
+  CHECK(p.back().name == "roll_out");
 }
 
 namespace {

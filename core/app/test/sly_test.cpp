@@ -78,6 +78,20 @@ TEST_CASE("a plugin that ends the program where it is used is named by every wor
   }
 }
 
+TEST_CASE("a signal that comes while a flight is set up ends it as one in flight does") {
+  const Result r = fulmar("run " + sly_mission("sly_hup") + " --no-log --json");
+  CHECK(r.code == 130);
+  CHECK(r.out.find("\"result\": \"interrupted\"") != std::string::npos);
+}
+
+TEST_CASE("a destructor that hangs at the exit ends with the program, and the flight's code stays") {
+  if (!FULMAR_CRASH_TESTS) return;
+  const Result r = fulmar("run " + sly_mission("sly_stay") + " --no-log --duration 0.2");
+  CHECK(r.code == 0);
+  CHECK(r.err.find("sly_stay.so hangs while being unloaded") != std::string::npos);
+  CHECK(r.out.find("flown (duration reached)") != std::string::npos);
+}
+
 TEST_CASE("a plugin that ends a running host in a swap is named, with the place of the log") {
   const std::string log = (folder().path / "swap.mcap").string();
   for (const Sly& sly : all) {

@@ -8,12 +8,18 @@
 #include "core/graph/mission.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/graph/test/shelf.hpp"
+#include "core/graph/test/shelf_types.hpp"
 
 namespace hardware_key_test {
 
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 namespace fs = std::filesystem;
+
+/// Of a vehicle with a switch in its landing gear.
+struct Wheels {
+  bool on_ground = false;
+};
 
 namespace {
 
@@ -103,6 +109,21 @@ TEST_CASE("a condition that reads ground contact, a crash or the true state is t
   REQUIRE(truth.size() == 1);
   CHECK(truth[0].find("hourglass.yaml:37: phases.takeoff.next: vehicle.truth ") == 0);
   CHECK(warned("\"vehicle.status.override\"", "\"vehicle.status.on_ground\"").size() == 1);  // of `any`
+}
+
+TEST_CASE("a vehicle that measures contact, or whose contact_known is asked for, may be read for it") {
+  const std::string when = "\"nav.state.height_m > 30 m\"";
+  CHECK(warned(when, "\"vehicle.status.contact_known and not vehicle.status.on_ground\"").empty());
+  CHECK(warned(when, "\"sim.status.contact_known and vehicle.status.on_ground\"").size() == 1);
+  for (const char* io : {"sim", "fcu"}) {
+    Mission mission;  // a message without contact_known is that of a switch, whatever its field is called
+    for (const char* plugin : {"sim_aero", "fcu_serial"})
+      mission.shelf.plugins[plugin]->components[0].outputs.push_back(out<Wheels>("wheels"));
+    mission.replace("status: VehicleStatus", "wheels: Wheels, status: VehicleStatus")
+        .replace(when, "\"not vehicle.wheels.on_ground\"");
+    CHECK(mission.faults(on(io)) == "");
+    CHECK(mission.load(on(io)).warnings.empty());
+  }
 }
 
 TEST_CASE("a verdict may read what only the simulator has") {

@@ -29,6 +29,12 @@ namespace {
 
 std::string component_names(const Graph& graph) { return join(names_of(graph.components)); }
 
+std::string left_out(const Graph& graph) {
+  std::vector<std::string> list;
+  for (const auto& [key, port] : graph.left_out) list.push_back(key + " (" + port + ")");
+  return join(list);
+}
+
 /// The made-up hourglass as the lowest layer of a mission that says `text`.
 struct Layered : Mission {
   explicit Layered(const std::string& top) {
@@ -169,6 +175,34 @@ TEST_CASE("of what was taken away and is still named there is one fault, with al
   CHECK(mission.faults() ==
         "hourglass.yaml:2: phases.takeoff is taken away here and still named by phases.hold.next.to "
         "(ground.yaml:36)");
+}
+
+TEST_CASE("figures, verdict and texts go with the component that a layer takes away, and are named") {
+  Layered mission("extends: ground.yaml\ncomponents:\n  score: null\n");
+  mission.folder.write("ground.yaml", Mission().text + "\nverdict: score.verdict\ntell: [score.notices]\n");
+  const Graph graph = mission.load();
+  CHECK_FALSE(graph.verdict);
+  CHECK(graph.tell.empty());
+  REQUIRE(graph.summary.size() == 2);  // their keys stay in the result, without a value
+  for (const auto& [key, from] : graph.summary) CHECK(from.kind == Source::Kind::none);
+  CHECK(left_out(graph) ==
+        "verdict (score.verdict), summary.tracking_rmse (score.tracking), "
+        "summary.estimation_rmse (score.estimation), tell (score.notices)");
+  REQUIRE(graph.warnings.size() == 1);
+  CHECK(graph.warnings[0].find("score") != std::string::npos);
+  mission.text += "done: \"score.tracking.circuits > 1\"\n";  // what decides does not go
+  CHECK(mission.faults().find("hourglass.yaml:3: components.score is taken away here and still named by done "
+                              "(hourglass.yaml:4)") == 0);
+}
+
+TEST_CASE("figures go with a component of the other io, and with one that another plugin has replaced") {
+  Layered other("extends: ground.yaml\ncomponents: {score: {only: fcu}}\n");
+  CHECK(left_out(other.load()) ==
+        "summary.tracking_rmse (score.tracking), summary.estimation_rmse (score.estimation)");
+  Layered replaced("extends: ground.yaml\ncomponents: {score: {use: control_tecs/Outer, in: null}}\n");
+  CHECK(replaced.faults().find("has no output") == std::string::npos);
+  Layered slip("extends: ground.yaml\nsummary: {more: score.trackin}\n");
+  CHECK(slip.faults().find("has no output 'trackin'") != std::string::npos);
 }
 
 TEST_CASE("a map of a few fields is no record, for whoever reads it") {

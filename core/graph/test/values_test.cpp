@@ -6,6 +6,7 @@
 
 #include "core/graph/params.hpp"
 #include "core/graph/test/shelf.hpp"
+#include "core/graph/test/shelf_types.hpp"
 #include "core/types/named.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/airframe.hpp"
@@ -17,6 +18,29 @@ namespace values_test {
 using namespace fulmar;
 using namespace fulmar::core;
 using namespace fulmar::core::test;
+
+TEST_CASE("two fences that differ are reported, one for all is not") {
+  const auto warnings = [](const std::string& lat) {
+    Mission mission;
+    for (const char* plugin : {"estimator_ekf", "path"})
+      mission.shelf.plugins[plugin]->components[0].params.push_back(record<Origin>("fence", false));
+    const auto fence = [](const std::string& at) { return "fence: {lat: " + at + ", lon: 2, alt_msl: 3 m}"; };
+    mission.replace("fills: nav, use: estimator_ekf",
+                    "fills: nav, use: estimator_ekf, params: {" + fence("1") + "}");
+    Overrides o;
+    o.set.emplace_back("plan.fence", fence(lat).substr(7));
+    return mission.load(o).warnings;
+  };
+  CHECK(warnings("1").empty());
+  REQUIRE(warnings("1.5").size() == 1);
+  CHECK(warnings("1.5")[0].find("plan.fence is another one than ekf.fence") != std::string::npos);
+}
+
+TEST_CASE("an origin at a pole, where north turns within a flight, is refused by its line") {
+  CHECK(changed("lat: 40.2463724", "lat: 89.5") == "");
+  for (const char* const lat : {"lat: -90", "lat: 89.6"})
+    CHECK(changed("lat: 40.2463724", lat).find("origin.lat: ") != std::string::npos);
+}
 
 TEST_CASE("parameters exist, fit and lie in their range") {
   CHECK(changed("turbulence: light", "turbulence: lihgt") ==

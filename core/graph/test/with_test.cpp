@@ -53,4 +53,21 @@ TEST_CASE("a role that several fill in turn is refused, with their names; so is 
   CHECK(mission.faults(with({{"vehicle", "nothing"}})).find("components.sim: ") != std::string::npos);
 }
 
+TEST_CASE("a filter of one's own takes the place of the shipped one with the inputs that it has") {
+  Mission mission;
+  mission.replace("use: estimator_ekf", "use: estimator_ekf/Ekf");
+  const ComponentInfo& ekf = mission.shelf.plugins["estimator_ekf"]->components[0];
+  std::vector<Port> inputs = ekf.inputs;
+  std::erase_if(inputs, [](const Port& p) { return p.name == "status"; });
+  mission.shelf.add("my_filter", "MyFilter", inputs, ekf.outputs);
+  const Graph graph = mission.load(with({{"nav", "my_filter"}}));
+  CHECK(use_of(graph, "ekf") == "my_filter/MyFilter");
+  REQUIRE(graph.warnings.size() == 1);
+  CHECK(graph.warnings[0].find("components.ekf.in.status") != std::string::npos);
+  mission.shelf.add("my_filter", "Other", inputs, ekf.outputs);
+  CHECK(mission.faults(with({{"nav", "my_filter"}})).find("--with ekf=my_filter/MyFilter") !=
+        std::string::npos);
+  CHECK(mission.faults(with({{"nav", "my_filter/Other"}})) == "");
+}
+
 }  // namespace with_test

@@ -30,9 +30,12 @@ struct Received {
 
 enum class Level : std::uint8_t { info, warning, error };
 
+enum class Cause : std::uint8_t { none, alarm };
+
 struct Note {
   Text<40> text;
   Level level = Level::info;
+  Cause cause = Cause::none;
 };
 
 struct Craft {
@@ -68,7 +71,7 @@ struct Craft {
     if (n_ > 1) out.applied.publish(applied_);
     if (n_ > 1 && t >= p.note_at && t < p.note_at + 0.0025) {
       out.notices.push({"all is well", Level::info}, tick.now_ns);
-      out.notices.push({"bell\a rings", Level::error}, tick.now_ns);
+      out.notices.push({"bell\a rings", Level::error, Cause::alarm}, tick.now_ns);
     }
     out.remark.text = t >= p.note_at ? "changed" : "";
     return Status::ok;

@@ -305,6 +305,13 @@ TEST_CASE("the verdict of a flight is what a component says of it, in one line")
                        Error);
 }
 
+TEST_CASE("a flight whose verdict has no component flies, and names what it is without") {
+  const Called c = called(
+      "  herald: {use: lab/Herald, only: fcu}\nverdict: herald.said\n"
+      "done: \"vehicle.signal.tick_s > 0.2 s\"\n");
+  CHECK(c.verdict == "flown: no verdict; without what herald reports");
+}
+
 TEST_CASE("a phase remembers the condition that led to it") {
   FlightOptions o;
   o.log = false;

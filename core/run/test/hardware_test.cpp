@@ -238,10 +238,12 @@ TEST_CASE(
   CHECK(said.warnings == std::vector<bool>{false, false, true, false});
   const McapFile file = read_mcap(o.log_file);
   const std::uint16_t channel = file.channel("/fulmar/event");
-  int notices = 0;
+  std::vector<std::string> causes;  // a word of the component, for those who read no sentences
   for (const auto& m : file.messages)
-    if (m.channel == channel && HostTopic<Event>(file).read(m.data).code == Code::notice) ++notices;
-  CHECK(notices == 3);
+    if (m.channel == channel)
+      if (const Event e = HostTopic<Event>(file).read(m.data); e.code == Code::notice)
+        causes.emplace_back(e.name.data());
+  CHECK(causes == std::vector<std::string>{"", "alarm", ""});
 }
 
 TEST_CASE(

@@ -7,12 +7,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cfenv>
 #include <chrono>
 #include <clocale>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <exception>
 #include <limits>
 #include <stdexcept>
 #include <thread>
@@ -55,6 +57,7 @@ enum class Fault : std::uint8_t {
   raises_term,
   thread_crashes,
   thread_quits,
+  threads_terminate,
   forks,
   forks_on,
   vforks_on,
@@ -86,6 +89,20 @@ double overflow(double x) {
 }
 
 void* volatile nowhere = nullptr;
+
+/// Threads that end the program at one time, by a handler that throws.
+inline void terminate_together() {
+  constexpr int most = 6;
+  static std::atomic<int> ready{0};
+  std::set_terminate([] { throw std::runtime_error("no end"); });
+  std::vector<std::thread> threads;
+  for (int i = 0; i < most; ++i)
+    threads.emplace_back([] {
+      for (++ready; ready < most;) std::this_thread::yield();
+      std::terminate();
+    });
+  for (std::thread& thread : threads) thread.join();
+}
 
 struct Parting {  // crashes when its library goes
   bool crashes = false;
@@ -246,6 +263,7 @@ struct Law {
       case Fault::raises_term: raise(SIGTERM); break;
       case Fault::thread_crashes: std::thread([] { *static_cast<volatile int*>(nowhere) = 1; }).join(); break;
       case Fault::thread_quits: std::thread([] { std::exit(0); }).join(); break;
+      case Fault::threads_terminate: terminate_together(); break;
       case Fault::forks:
         if (clone_process() == 0) std::exit(0);
         break;

@@ -34,11 +34,22 @@ int sly_crash(void) {
   return 0;
 }
 
+int sly_hup(void);
+int sly_hup(void) {
+  if (!tried()) raise(SIGHUP);
+  return 0;
+}
+
+static int stays;
+int sly_stay(void);
+int sly_stay(void) { return stays = !tried(); }
+
 static int armed;
 int sly_last(void);
 int sly_last(void) { return armed = !tried(); }
 __attribute__((destructor)) static void at_last(void) {
   if (armed) exit(0);
+  while (stays) pause();
 }
 
 /// A process in a session of its own, whose parent is gone, writes its number to the file SLY_FILE.

@@ -74,6 +74,57 @@ TEST_CASE("the plan of the file is published once, then only when it changes") {
   CHECK(bench.out.plan.value.jumps == first.jumps);
 }
 
+TEST_CASE("a waypoint outside the fence, above its ceiling or below its floor is refused by its number") {
+  const auto refusal = [](double north, double up) {
+    Bench<Planner> bench;
+    three_waypoints(bench);
+    bench.params.plan.value.waypoints.push_back(local(north, 100, up));
+    safety::Fence& fence = bench.params.fence.value;
+    for (const auto& [n, e] :
+         {std::pair{-200.0, -200.0}, {1000.0, -200.0}, {1000.0, 400.0}, {-200.0, 400.0}}) {
+      safety::FencePoint corner;
+      corner.north_m = n;
+      corner.east_m = e;
+      fence.corners.push_back(corner);
+    }
+    fence.floor_m = 30;
+    fence.ceiling_m = 120;
+    bench.params.fence.is_given = true;
+    return bench.configure() == Status::failed ? std::string(bench.error()) : std::string();
+  };
+  CHECK(refusal(900, 119) == "");
+  CHECK(refusal(3700, 70).find("waypoint 4 of the plan is 2700 m outside") != std::string::npos);
+  CHECK(refusal(900, 121).find("waypoint 4") != std::string::npos);
+  CHECK(refusal(900, 29).find("waypoint 4") != std::string::npos);
+}
+
+TEST_CASE("airspeed and bank beyond the airframe are reported once, within it never") {
+  const auto reports = [](double airspeed, double radius, bool known = true) {
+    Bench<Planner> bench;
+    three_waypoints(bench);
+    FlightLimits& limits = bench.params.airframe.value.limits;
+    limits.airspeed_min_mps = 12;
+    limits.airspeed_max_mps = 27;
+    limits.roll_max_rad = 0.7853981634;
+    bench.params.airframe.is_given = known;
+    bench.params.plan.value.airspeed_mps = airspeed;
+    bench.params.plan.value.turn_radius_m = radius;
+    std::uint32_t n = 0;
+    for (int i = 0; i < 5; ++i) {
+      bench.step(0.01);
+      n += bench.out.notices.count;
+    }
+    return n;
+  };
+  CHECK(reports(17, 50) == 0);
+  CHECK(reports(9, 50) == 1);
+  CHECK(reports(35, 150) == 1);
+  CHECK(reports(17, 30) == 0);  // 45 deg at 17 m/s: 29.47 m
+  CHECK(reports(17, 29) == 1);
+  CHECK(reports(35, 20) == 2);
+  CHECK(reports(35, 20, false) == 0);
+}
+
 TEST_CASE("an empty plan is published too, so that something can be flown around") {
   Bench<Planner> bench;
   bench.step(0.01);

@@ -9,6 +9,44 @@ using namespace fulmar;
 using namespace fulmar::safety;
 using kit::Watch;
 
+TEST_CASE("each flag has an alarm, with words and the cause of its name") {
+  const fulmar_type& state = *detail::type_table<SafetyState>();
+  const fulmar_type& notice = *detail::type_table<Notice>();
+  const fulmar_field* cause = nullptr;
+  for (std::uint32_t i = 0; i < notice.field_count; ++i)
+    if (std::string_view(notice.fields[i].name) == "cause") cause = &notice.fields[i];
+  REQUIRE(cause);
+  const SafetyState base;
+  std::size_t flags = 0;
+  for (std::uint32_t i = 0; i < state.field_count; ++i) {
+    const fulmar_field& f = state.fields[i];
+    const std::string_view name = f.name;
+    if (f.kind != FULMAR_BOOL || name == "airborne" || name == "ready") continue;
+    ++flags;
+    const auto at = std::find_if(alarms.begin(), alarms.end(), [&](const NamedAlarm& a) {
+      const auto* const place = reinterpret_cast<const char*>(&(base.*a.flag));
+      return place - reinterpret_cast<const char*>(&base) == static_cast<std::ptrdiff_t>(f.offset);
+    });
+    REQUIRE_MESSAGE(at != alarms.end(), name);
+    CHECK(cause->labels[static_cast<std::size_t>(at->cause)] == name);
+    CHECK(at->words[0] != 0);
+  }
+  CHECK(flags == alarms.size());
+}
+
+TEST_CASE("an alarm and its end are reported with their cause") {
+  Watch w;
+  w.fly(5);
+  w.state.position_valid = false;
+  w.raised_after(&SafetyState::gnss_lost);
+  w.state.position_valid = true;
+  w.fly(6);
+  std::vector<Severity> said;
+  for (const Notice& n : w.notices)
+    if (n.cause == Cause::gnss_lost) said.push_back(n.severity);
+  CHECK(said == std::vector{Severity::warning, Severity::info});
+}
+
 TEST_CASE("in order nothing is told, for long") {
   Watch w;
   w.fence();

@@ -111,6 +111,7 @@ TEST_CASE("an inertial sensor that fails calls the pilot") {
     w.fly(5);
     REQUIRE(w.told.size() == 1);
     CHECK(w.told[0].severity == Severity::critical);
+    CHECK(w.told[0].cause == (which == &NavigationHealth::gyro ? Cause::gyro : Cause::accelerometer));
     CHECK(w.told[0].text.view().find("Pilot: take over") != std::string_view::npos);
   }
 }

@@ -20,6 +20,7 @@ struct Watch : Bench<Monitor> {
   GroundState ground;
   bool has_status = true, has_rc = false, has_health = false, has_throttle = true, has_ground = false;
   std::string told;
+  std::vector<Notice> notices;
 
   Watch() {
     kit::give_anaconda(params);
@@ -51,6 +52,7 @@ struct Watch : Bench<Monitor> {
       REQUIRE(fault() == "");
       for (std::uint32_t i = 0; i < out.notices.count; ++i) {
         CHECK(out.notices.items[i].text.view().size() < 96);  // none is cut
+        notices.push_back(out.notices.items[i]);
         told += std::string(out.notices.items[i].text.view()) + "\n";
       }
     }

@@ -650,7 +650,7 @@ TEST_CASE("a crash is told once, with what touched and what safety did before; f
     if (bench.out.verdict.written) verdict = bench.out.verdict.value;
     if (i == 1500) {
       CHECK(verdict.word.view().empty());
-      CHECK(verdict.text.view() == "glide at 10.0 s (no thrust)");
+      CHECK(verdict.text.view() == "glide at 10.0 s (no thrust from the motor)");
     }
     if (!bench.out.crash.written) continue;
     ++crashes;
@@ -663,7 +663,7 @@ TEST_CASE("a crash is told once, with what touched and what safety did before; f
   CHECK(verdict.word.view() == "crashed");
   CHECK(verdict.text.view() ==
         "left wing tip touched at 20.00 s, sink 3.2 m/s, bank -45 deg, 14.1 m/s over ground, 12 m north and "
-        "40 m west; before: glide at 10.0 s (no thrust)");
+        "40 m west; before: glide at 10.0 s (no thrust from the motor)");
 }
 
 TEST_CASE("an aircraft that stands is said to have never left the ground, and its alarms are no answers") {

@@ -111,27 +111,33 @@ export interface Held {
   since_s: number; // of flight
   now: boolean; // the cause lasts
   seen: boolean; // acknowledged
+  told: boolean; // by an event: nothing but an event, or a flag of the same key, ends it
 }
 export class AlertBook {
   private held = new Map<string, Held>();
 
   /** What is wrong now. Causes that are over stay until they are acknowledged. */
   update(alerts: Alert[], now_s: number): void {
-    for (const h of this.held.values()) if (!h.alert.key.startsWith("event ")) h.now = false;
-    for (const alert of alerts) this.raise(alert, now_s);
+    for (const h of this.held.values()) if (!h.told) h.now = false;
+    for (const alert of alerts) this.raise(alert, now_s, false);
     for (const [key, h] of this.held) if (!h.now && h.seen) this.held.delete(key);
   }
-  /** Of an event: there is no end of its cause to be seen. */
-  raise(alert: Alert, now_s: number): void {
+  /** Of an event: its end is another one, if there is any. */
+  raise(alert: Alert, now_s: number, told = true): void {
     const h = this.held.get(alert.key);
-    if (h) Object.assign(h, { alert, now: true });
-    else this.held.set(alert.key, { alert, since_s: now_s, now: true, seen: false });
+    if (h) Object.assign(h, { alert, now: true, told });
+    else this.held.set(alert.key, { alert, since_s: now_s, now: true, seen: false, told });
+  }
+  /** An event says that this cause is over. */
+  over(key: string): void {
+    const h = this.held.get(key);
+    if (h?.told) Object.assign(h, { now: false, told: false });
   }
   acknowledge(key: string): void {
     const h = this.held.get(key);
     if (!h) return;
     h.seen = true;
-    if (key.startsWith("event ")) this.held.delete(key);
+    if (h.told && key.startsWith("event ")) this.held.delete(key); // it has no end
   }
   /** Those to be acknowledged: the worst first, then the newest. */
   list(): Held[] {
@@ -144,15 +150,19 @@ export class AlertBook {
   }
 }
 
+/** What a notice is about: a word of its component, the same as the flag of a monitor; "" of other events. */
+export const cause_of = (event: Message): string => (event.code === "notice" ? String(event.name ?? "") : "");
+
 /** An event of the host that a pilot has to see; null for all others. `monitor`: whose notices are flags as well. */
 export function alert_of_event(event: Message, monitors: string[], does: string): Alert | null {
   const code = String(event.code), component = String(event.component), words = String(event.words);
   const severity = String(event.severity);
   if (severity === "info" || ["guard", "hung", "over_budget", "died", "took_over", "cannot_take_over", "concluded"].includes(code)) return null; // a stopped component has its own
   if (code === "notice" && (monitors.includes(component) || not_ready(words).length > 0)) return null;
-  // The monitor has flags for these two: one alert for one cause.
-  if (code === "notice" && component === "sensors" && monitors.length > 0 && /^(GNSS|position|the position|pitot)/i.test(words)) return null;
   const level: Level = severity === "warning" ? "warning" : "critical";
+  const cause = cause_of(event), known = flags[cause];
+  if (known) return { key: cause, level: known.level, what: known.what, does, pilot: known.pilot };
+  if (cause) return { key: cause, level, what: words, does, pilot: level === "critical" ? "Take over by radio." : "" };
   return { key: `event ${code} ${component} ${words.replace(/[-\d.]+/g, "#")}`, level, what: words, does, pilot: level === "critical" ? "Take over by radio." : "" };
 }
 

@@ -3,6 +3,7 @@
 import { el } from "../dom";
 import { clock, fixed, none } from "../units";
 import type { Estimate, Log, PackedSeries, ReportData } from "./model";
+import { verdict_of } from "./verdict";
 
 type Cell = string | HTMLElement;
 
@@ -71,10 +72,8 @@ export function figure_tables(logs: Log[]): HTMLElement[] {
 
 /** What became of the flight: the first line of a report. */
 export function verdict_line(log: Log): HTMLElement {
-  const { words, severity } = log.verdict;
-  if (!words) return el("p", { class: "verdict bad" }, `The log ends at ${clock(log.end_s)} without a verdict: ${log.fault || "it is not the last file of its flight, or the host was killed"}.`);
-  const bad = severity === "error" || severity === "critical";
-  return el("p", { class: bad ? "verdict bad" : "verdict" }, words.charAt(0).toUpperCase() + words.slice(1));
+  const { words, bad } = verdict_of(log);
+  return el("p", { class: bad ? "verdict bad" : "verdict" }, words);
 }
 
 export function flight_table(logs: Log[]): HTMLElement {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The strip under the header: what is wrong, what the aircraft does, what the pilot should do, until it is acknowledged.
 import { el, fill, mark, say } from "../dom";
-import { type Alert, AlertBook, type Held, type Moment, alert_of_event, alerts_of, doing, not_ready } from "../flight/alerts";
+import { type Alert, AlertBook, type Held, type Moment, alert_of_event, alerts_of, cause_of, doing, not_ready } from "../flight/alerts";
 import { names_of } from "../names";
 import { type Flight, publishers } from "../protocol/flight";
 import { clock } from "../units";
@@ -27,6 +27,7 @@ export class AlertStrip {
       if (m.code === "phase_entered") void this.flight.refresh();
       const lacks = not_ready(String(m.words));
       if (lacks.length > 0) Object.assign(this.lacks, { what: lacks, t });
+      if (m.severity === "info" && cause_of(m)) this.book.over(cause_of(m));
       const alert = alert_of_event(m, this.monitors(), doing(this.moment()));
       if (alert && this.flight.now - t < fresh_s) this.book.raise(alert, t);
     });

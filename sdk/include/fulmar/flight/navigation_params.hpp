@@ -77,7 +77,7 @@ struct Params {
   Param baro_walk{0.06, "m/sqrt(s)", 0, 5, "how fast the weather and the sensor shift the pressure height"};
   Param pitot_noise{2, "Pa", 0.1, 100, "of one sample"};
   Param pitot_speed_std{0.1, "m/s", 0, 5, "of one sample, beside the pressure noise"};
-  Param pitot_scale{1, "", 0.5, 1.5, "true over measured airspeed"};
+  Param pitot_scale{1, "", 0.8, 1.2, "true over measured airspeed"};
   Param pitot_scale_std{0.012, "", 0, 0.2, "how well that is known: counts in the deviations, is not learnt"};
   Param air_gate{5, "", 2, 20, "gate of baro, pitot and sideslip, in deviations"};
   Param wind_walk{0.01, "m/s/sqrt(s)", 0, 5, "how fast the wind wanders"};

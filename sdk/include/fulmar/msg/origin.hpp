@@ -12,10 +12,10 @@ struct Origin {
   bool given = false;  ///< false: the first good fixes decide
 };
 
-/// Where ground is, and where the models of air hold.
+/// Where ground is, and where the models of air hold; not at a pole, where north turns within a flight.
 template <>
 inline constexpr std::array<FieldRange, 3> field_ranges<Origin>{
-    {{"lat_deg", -90, 90}, {"lon_deg", -180, 180}, {"alt_msl_m", -1000, 20000}}};
+    {{"lat_deg", -89.5, 89.5}, {"lon_deg", -180, 180}, {"alt_msl_m", -1000, 20000}}};
 
 template <>
 inline constexpr std::array<std::string_view, 3> required_fields<Origin>{"lat_deg", "lon_deg", "alt_msl_m"};

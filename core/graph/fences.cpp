@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One fence for all who keep inside it: two that differ are flown by whoever steers.
+#include <string>
+
+#include "core/graph/draft.hpp"
+
+namespace fulmar::core {
+namespace {
+
+/// A record of that name that is given; null: none.
+const ParamValue* given_record(const Component& c, const std::string& name) {
+  const auto& params = c.info().params;
+  for (std::size_t i = 0; i < params.size(); ++i)
+    if (params[i].name == name && params[i].kind == FULMAR_RECORD && c.params[i].integer != 0)
+      return &c.params[i];
+  return nullptr;
+}
+
+}  // namespace
+
+void tell_two_fences(Draft& draft) {
+  const Component* first = nullptr;
+  for (const Component& c : draft.graph.components) {
+    const ParamValue* const fence = given_record(c, "fence");
+    if (!fence) continue;
+    if (!first)
+      first = &c;
+    else if (given_record(*first, "fence")->data != fence->data)
+      draft.graph.warnings.push_back(c.where.text() + ": " + c.name + ".fence is another one than " +
+                                     first->name + ".fence: the aircraft may leave one of them");
+  }
+}
+
+}  // namespace fulmar::core

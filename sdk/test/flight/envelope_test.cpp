@@ -128,17 +128,53 @@ TEST_CASE("gusts that take airspeed raise the least airspeed; a change that the 
   CHECK(gusty.now.airspeed_min_mps > 14);
 }
 
+TEST_CASE(
+    "at cruise airspeed neither gusts nor a turn nor the angle of attack ask for more, or limit pitch") {
+  for (const double cruise : {15.0, 17.0}) {
+    CAPTURE(cruise);
+    Guarded f;
+    f.airframe.limits.airspeed_min_mps = 13, f.airframe.limits.airspeed_cruise_mps = cruise;
+    const double used = WingEnvelope(f.airframe).alpha_of(1.0);
+    for (int i = 0; i < 3000; ++i) {
+      VehicleState s = level(cruise + 2 * std::sin(0.02 * i), used);
+      own_acceleration(s, 0);
+      s.specific_force_mps2.z *= 1.4;
+      f.fly(s, 0.01, 0.785);
+    }
+    CHECK(f.now.airspeed_min_mps == cruise);
+    CHECK(f.now.slowest_mps <= cruise);
+    VehicleState s = level(cruise, used);
+    f.fly(s, 1, 0.785);
+    CHECK(f.now.pitch_max_rad >= f.airframe.limits.pitch_max_rad);
+    s.airspeed_mps = 0.88 * cruise;
+    f.fly(s, 1, 0.785);
+    CHECK(f.now.pitch_max_rad < f.airframe.limits.pitch_max_rad);
+  }
+}
+
+TEST_CASE(
+    "the wing carries a bank with a twentieth above its own stall, and a tenth above that of the limits") {
+  Guarded f;
+  f.guard.configure(f.airframe);
+  const double stall = std::sqrt(2 * 4.5 * g / (rho * 0.52 * 1.515));
+  f.airframe.limits.airspeed_min_mps = 10;
+  CHECK(f.guard.bank_max(14, f.airframe.limits, rho) ==
+        doctest::Approx(std::acos(std::pow(1.05 * stall / 14, 2))).epsilon(0.005));
+  f.airframe.limits.airspeed_min_mps = 13.2;
+  CHECK(f.guard.bank_max(14, f.airframe.limits, rho) == doctest::Approx(std::acos(std::pow(12.1 / 14, 2))));
+}
+
 TEST_CASE("a stall is seen by the angle of attack within half a second, and left when the wing flies again") {
   Guarded f;
   f.fly(level(13), 2);
-  f.fly(mushing(5), 0.25);
+  f.fly(mushing(5, 12), 0.25);
   CHECK_FALSE(f.guard.stalled());
-  f.fly(mushing(5), 0.25);
+  f.fly(mushing(5, 12), 0.25);
   CHECK(f.guard.stalled());
-  const double path = -std::asin(5.0 / 13);
+  const double path = -std::asin(5.0 / 12);
   const double pitch = path + WingEnvelope(f.airframe).alpha_of(0.6);
   CHECK(f.guard.recovery_pitch(f.airframe.limits) == doctest::Approx(std::max(pitch, -0.35)).epsilon(0.01));
-  f.fly(mushing(5), 5);
+  f.fly(mushing(5, 12), 5);
   CHECK(f.guard.stalled());
   f.fly(level(14), 0.15);
   CHECK(f.guard.stalled());
@@ -157,6 +193,21 @@ TEST_CASE(
     CHECK_FALSE(f.guard.stalled());
     f.fly(s, 0.4);
     CHECK(f.guard.stalled());
+  }
+}
+
+TEST_CASE("well above the stalling speed an angle of attack that is too large is a stall after a second") {
+  const double stall = std::sqrt(2 * 4.5 * g / (rho * 0.52 * 1.515));
+  for (const double bank : {0.0, 0.7}) {
+    CAPTURE(bank);
+    const double edge = 1.2 * stall / std::sqrt(std::cos(bank));
+    Guarded near, away;
+    near.fly(mushing(5, edge - 0.2), 0.5, bank);
+    CHECK(near.guard.stalled());
+    away.fly(mushing(5, edge + 0.2), 0.8, bank);
+    CHECK_FALSE(away.guard.stalled());
+    away.fly(mushing(5, edge + 0.2), 0.4, bank);
+    CHECK(away.guard.stalled());
   }
 }
 

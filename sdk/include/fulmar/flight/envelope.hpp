@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What keeps an outer law off the stall, and brings it out of one: least airspeed by load factor, mass and
-// angle of attack; most bank by airspeed; most pitch by angle of attack. Lift of a turn: Anderson,
+// angle of attack; most bank by airspeed; most pitch by angle of attack. At cruise airspeed none of them
+// holds but the bank: no airspeed above cruise is asked for, and pitch is free. Lift of a turn: Anderson,
 // Introduction to Flight, turning flight. Recovery - less angle of attack, wings level, full power - as in
 // FAA, Airplane Flying Handbook, chapter 5.
 #pragma once
@@ -40,10 +41,19 @@ struct WingEnvelope {
 
   /// Slowest level flight: by the model, and no slower than the limits' minimum over 1.2.
   double stall_mps(const FlightLimits& limits, double density_kgm3) const {
-    constexpr double of_minimum = 1 / 1.2, g = 9.80665;
-    const double said = of_minimum * limits.airspeed_min_mps;
-    if (most_lift <= 0) return said;
-    return std::max(said, std::sqrt(2 * mass_kg * g / (density_kgm3 * area_m2 * most_lift)));
+    return std::max(by_limits_mps(limits), by_model_mps(density_kgm3));
+  }
+  /// The same for the bank: a twentieth above the model's stall is enough, a tenth above that of the limits.
+  double bank_stall_mps(const FlightLimits& limits, double density_kgm3) const {
+    constexpr double share = 1.05 / 1.1;
+    return std::max(by_limits_mps(limits), share * by_model_mps(density_kgm3));
+  }
+
+ private:
+  static double by_limits_mps(const FlightLimits& limits) { return limits.airspeed_min_mps / 1.2; }
+  double by_model_mps(double density_kgm3) const {
+    constexpr double g = 9.80665;
+    return most_lift > 0 ? std::sqrt(2 * mass_kg * g / (density_kgm3 * area_m2 * most_lift)) : 0;
   }
 };
 
@@ -85,7 +95,7 @@ class EnvelopeGuard {
   }
 
   double bank_max(double Va, const FlightLimits& limits, double density_kgm3) const {
-    return bank_carried(Va, wing_.stall_mps(limits, density_kgm3));
+    return bank_carried(Va, wing_.bank_stall_mps(limits, density_kgm3));
   }
 
   /// `bank_rad` is commanded, `climb_rate_mps` asked for. Not `guarded`: a flare, whose speed is to go.
@@ -99,7 +109,9 @@ class EnvelopeGuard {
     climb_rad_ = std::asin(std::clamp(state.climb_rate_mps / V_, -1.0, 1.0));
     alpha_ = alpha(state);
     lift(state, density_kgm3, dt_s);
-    e.slowest_mps = std::min(least * std::sqrt(load), limits.airspeed_max_mps);
+    // The path of a flight at cruise comes before a margin that its turns leave the airframe without.
+    const double most = std::min(std::max(least, limits.airspeed_cruise_mps), limits.airspeed_max_mps);
+    e.slowest_mps = std::min(least * std::sqrt(load), most);
     e.airspeed_min_mps = e.slowest_mps;
     const bool seen = sees_alpha(state);
     if (state.airspeed_valid) e.pitch_max_rad = pitch_ceiling(state, limits, e.slowest_mps);
@@ -108,17 +120,15 @@ class EnvelopeGuard {
       return e;
     }
     if (seen) {
-      // Of an aircraft that is asked to fly well above its slowest, gusts raise nothing: its path comes
-      // first.
       constexpr double most_for_gusts = 1.2;
       const double gusts =
           std::min(for_gusts(state, stall * std::sqrt(load), dt_s), most_for_gusts * e.slowest_mps);
       const double least_mps = std::max(for_alpha(e, load, stall, limits, dt_s), gusts);
-      e.airspeed_min_mps = std::clamp(least_mps, e.slowest_mps, limits.airspeed_max_mps);
+      e.airspeed_min_mps = std::clamp(least_mps, e.slowest_mps, most);
     }
     if (state.airspeed_valid && state.velocity_valid)
       e.pitch_max_rad = std::min(e.pitch_max_rad, pitch_max(state, limits, e.slowest_mps));
-    look(state, e.slowest_mps, climb_rate_mps, seen, dt_s);
+    look(state, e.slowest_mps, stall * std::sqrt(load), climb_rate_mps, seen, dt_s);
     return e;
   }
 
@@ -177,11 +187,14 @@ class EnvelopeGuard {
     return std::max(e.slowest_mps, std::min(above_stall * std::sqrt(squared), most));
   }
 
-  /// No more than nine tenths of the lift above the flight path, where the lift that is used nears that. No
-  /// lower than the pitch limit, and half of it where the aircraft is fast: the flight path may be the air's.
+  /// No more than nine tenths of the lift above the flight path, where the lift that is used nears that and
+  /// the aircraft is slower than cruise. No lower than the pitch limit, and half of it where the aircraft is
+  /// fast: the flight path may be the air's.
   double pitch_max(const VehicleState& s, const FlightLimits& limits, double slowest_mps) const {
-    constexpr double share = 0.9, free_rad = 0.6, free_share = 0.65, full_share = 0.85;
-    const double slack = free_rad * smoothly(used(), full_share, free_share);
+    constexpr double share = 0.9, free_rad = 0.6, free_share = 0.65, full_share = 0.85, slow_ratio = 0.9;
+    const double cruise = limits.airspeed_cruise_mps;
+    const double slack = free_rad * std::max(smoothly(used(), full_share, free_share),
+                                             smoothly(V_, slow_ratio * cruise, cruise));
     const double lowest =
         limits.pitch_min_rad * (1 - 0.5 * smoothly(V_, 1.2 * slowest_mps, 1.5 * slowest_mps));
     return std::max(lowest, climb_rad_ + wing_.alpha_of(share) * std::cos(s.roll_rad) + slack);
@@ -189,10 +202,13 @@ class EnvelopeGuard {
 
   /// A stall: the angle of attack is beyond that of the most lift, the aircraft is slow, and sinks though
   /// nothing asked it to, though the wing pushes up: in a downdraft it does not. Without wind or airspeed the
-  /// angle is known less well: more of it, for longer.
-  void look(const VehicleState& s, double slowest_mps, double climb_rate_mps, bool seen, double dt_s) {
-    constexpr double left_share = 0.8, left_s = 0.2, fast_ratio = 1.35, sink_mps = 1, carries = 0.1;
-    const double beyond_rad = seen ? 0.02 : 0.07, for_s = seen ? 0.3 : 1;
+  /// angle is known less well: more of it, for longer. Well above the stalling speed it is mostly the air
+  /// that sinks: longer, too.
+  void look(const VehicleState& s, double slowest_mps, double stall_mps, double climb_rate_mps, bool seen,
+            double dt_s) {
+    constexpr double left_share = 0.8, left_s = 0.2, fast_ratio = 1.35, sink_mps = 1, carries = 0.1,
+                     near_ratio = 1.2;
+    const double beyond_rad = seen ? 0.02 : 0.07, for_s = seen && V_ < near_ratio * stall_mps ? 0.3 : 1;
     const bool slow = !s.airspeed_valid || V_ < fast_ratio * slowest_mps;
     const bool sinks = s.climb_rate_mps < std::min(climb_rate_mps, 0.0) - sink_mps;
     const bool above = s.velocity_valid && slow && sinks && lift_.value() > carries &&

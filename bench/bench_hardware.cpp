@@ -93,6 +93,27 @@ struct Row {
   }
 };
 
+void print_heading(const Settings& s) {
+  std::printf(
+      R"(# Missions through the flight controller
+
+Written by `build/bin/bench_hardware > docs/hardware_flights.md`; nothing here is typed. It exits 1 when a bar is missed. `--seeds`, `--first` and `--only` choose
+flights, `--lines` prints what a flight said that missed its case, `--no-replay` leaves out the replays.
+
+The Anaconda, wind 5 m/s, light turbulence, sensors `rosflight`, through the code of `fcu_serial` on the software flight controller of the tests, in virtual time. The
+controller publishes no ground contact, no thrust and no crash, as a real one. `safe` is a rectangle on top of `safe.yaml`. Missions that end in the air are landed by the
+pilot. Seeds %llu to %llu. `as asked`: it landed whole; nothing opened the throttle afterwards; phases and lines are those of the case; the touch-down was recognised within
+%.1f s, early or late. Bars: all as asked, and within %.1f s in 95 %%. `hardware_landing_test` flies some of it in `./check`; `maiden_flight_test` flies the steps of
+[hardware.md](hardware.md#maiden-flight).
+
+| mission | case | flights | as asked | crashed | motor or take-off unasked | touch-down after, 95 %%, s | most, s | logs replayed equal |
+|---|---|---|---|---|---|---|---|---|
+)",
+      static_cast<unsigned long long>(s.first),
+      static_cast<unsigned long long>(s.first) + static_cast<unsigned long long>(s.seeds) - 1,
+      recognised_most_s, recognised_95_s);
+}
+
 void print(const Row& row, bool replayed) {
   const std::vector<double> delays = row.delays();
   std::printf("| %s | %s | %zu | %ld | %ld | %ld | %.2f | %.2f | %s |\n", row.what.mission.c_str(),
@@ -100,6 +121,29 @@ void print(const Row& row, bool replayed) {
               share_of(delays, 0.95), share_of(delays, 1),
               replayed ? std::to_string(row.equal()).c_str() : "not flown again");
   std::fflush(stdout);
+}
+
+std::vector<double> delays_of(const std::vector<Row>& rows, const std::string& mission = "") {
+  std::vector<double> all;
+  for (const Row& row : rows) {
+    if (!mission.empty() && row.what.mission != mission) continue;
+    const std::vector<double> more = row.delays();
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+void print_touch_downs(const std::vector<Row>& rows) {
+  std::printf("\n| mission | touch-downs | recognised after, 95 %%, s | most, s |\n|---|---|---|---|\n");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string& mission = rows[i].what.mission;
+    const auto same = [&](const Row& row) { return row.what.mission == mission; };
+    if (std::any_of(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(i), same)) continue;
+    const std::vector<double> delays = delays_of(rows, mission);
+    std::printf("| %s | %zu | %.2f | %.2f |\n", mission.c_str(), delays.size(), share_of(delays, 0.95),
+                share_of(delays, 1));
+  }
 }
 
 /// Each flight that was not as its case asks.
@@ -141,20 +185,12 @@ int main(int argc, char** argv) {
       std::filesystem::temp_directory_path() / ("fulmar-bench-hardware-" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   setenv("FULMAR_STORE", (folder / "store").c_str(), 1);
-  if (!s.json)
-    std::printf(
-        "| mission | case | flights | as asked | crashed | motor or take-off unasked | touch-down after, "
-        "95 %%, s | most, s | logs replayed equal |\n|---|---|---|---|---|---|---|---|---|\n");
+  if (!s.json) print_heading(s);
   const std::vector<Row> rows = fly_all(s, folder);
   std::filesystem::remove_all(folder);
-  std::vector<double> delays;
   bool kept = true;
-  for (const Row& row : rows) {
-    const std::vector<double> more = row.delays();
-    delays.insert(delays.end(), more.begin(), more.end());
-    kept = kept && row.good() == static_cast<long>(row.flights.size());
-  }
-  std::sort(delays.begin(), delays.end());
+  for (const Row& row : rows) kept = kept && row.good() == static_cast<long>(row.flights.size());
+  const std::vector<double> delays = delays_of(rows);
   const double p95 = share_of(delays, 0.95), most = share_of(delays, 1);
   kept = kept && p95 <= recognised_95_s && most <= recognised_most_s;
   if (s.json) {
@@ -166,8 +202,8 @@ int main(int argc, char** argv) {
     std::printf("%s\n", out.dump(2).c_str());
     return kept ? 0 : 1;
   }
-  std::printf("\nTouch-down recognised after %.2f s in 95 %%, %.2f s at most, of %zu flights.\n\n", p95, most,
-              delays.size());
+  print_touch_downs(rows);
+  std::printf("\nFlights that were not as asked:\n\n");
   print_others(rows, s.lines);
   return kept ? 0 : 1;
 }

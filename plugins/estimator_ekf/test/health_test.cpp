@@ -363,6 +363,17 @@ TEST_CASE("a tube that stays off by a step is believed after half a minute") {
   CHECK(spell.during.pitot.state == SensorState::ok);
 }
 
+TEST_CASE("a tube that stays off by more than gusts explain is not believed, however long it lasts") {
+  Spell spell{.sensor = &NavigationHealth::pitot, .state = SensorState::biased, .length_s = 60};
+  spell.alter = [](Samples& s, Random&) {
+    if (s.pitot) s.pitot->pressure_pa += 120;
+  };
+  spell.run();
+  CHECK(spell.told_s <= 0.4);
+  CHECK(spell.during.pitot.state != SensorState::ok);
+  CHECK(spell.during.pitot.accepted < spell.before.pitot.accepted + 30);
+}
+
 TEST_CASE("biased: a field that is a third stronger than before, within 0.8 s") {
   Spell spell{.sensor = &NavigationHealth::mag, .state = SensorState::biased};
   spell.alter = [](Samples& s, Random&) {

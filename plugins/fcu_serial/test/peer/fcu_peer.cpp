@@ -29,6 +29,7 @@ struct Settings {
   double scale = 1, for_s = never_s, heading_deg = 135, start_height_m = 0, delay_ms = 0;
   std::vector<double> wind{3.5355, -3.5355, 0};
   FaultRates faults;
+  Rates rates;
   Script script;
   std::uint64_t seed = 7;
   double rc_silent_until = never_s, rc_lost_until = never_s, override_until = never_s, unplug_for = 5,
@@ -54,6 +55,8 @@ void read_options(CLI::App& app, Settings& s) {
   app.add_option("--airframe", s.airframe, "of configs/airframes");
   app.add_option("--sensors", s.sensors, "their errors")
       ->check(CLI::IsMember({"perfect", "rosflight", "ublox"}));
+  app.add_option("--imu-rate", s.rates.imu, "Hz");
+  app.add_option("--gnss-rate", s.rates.gnss, "Hz");
   app.add_option("--turbulence", s.turbulence, "of the air")
       ->check(CLI::IsMember({"none", "light", "moderate", "severe"}));
   app.add_option("--wind", s.wind, "north, east, down, m/s")->expected(3)->allow_extra_args(false);
@@ -132,6 +135,7 @@ World world(const Settings& s) {
 Options options(const Settings& s) {
   Options o;
   o.refuses = s.refuse;
+  o.rates = s.rates;
   o.seed = s.seed;
   if (s.old_firmware) o.version = "v1.3.1-12-g6d4b9c1";
   return o;

@@ -39,6 +39,7 @@ class VirtualController {
     Probe commands_ratio;       ///< frames with commands that the host has sent
     Probe blind_ratio;          ///< of these: without a valid attitude
     Probe host_ratio;           ///< 1: its commands move the aircraft
+    Probe throttle_ratio;       ///< that the motor gets
     Probe sticks_ratio;         ///< how far the outputs are off the sticks, while the pilot has the aircraft
   };
   /// Times count from the host's first command.
@@ -58,6 +59,20 @@ class VirtualController {
     Param no_fix_until{1e9, "s", -100, 1e9, "and has it again"};
     Param gnss_silent_from{1e9, "s", -100, 1e9, "the receiver says nothing"};
     Param gnss_silent_until{1e9, "s", -100, 1e9, "and speaks again"};
+    Choice<peer::Failing> fails{peer::Failing::none, "a sensor of the board"};
+    Param fails_from{1e9, "s", -100, 1e9, "it fails"};
+    Param fails_until{1e9, "s", -100, 1e9, "and works again"};
+    Param rc_silent_from{1e9, "s", -100, 1e9, "the frames of the radio stop, without a flag"};
+    Param rc_silent_until{1e9, "s", -100, 1e9, "and come again"};
+    Param rc_lost_from{1e9, "s", -100, 1e9, "the receiver says that it has lost the radio"};
+    Param rc_lost_until{1e9, "s", -100, 1e9, "and has it again"};
+    Param pilot_throttle{-1, "ratio", -1, 1, "of the pilot in the air; below 0: what he needs"};
+    Flag pilot_lands{false, "the pilot, when he has it in the air, lands with the heading of the start"};
+    Flag manual{false, "set up as control_manual has it: armed by the sticks, three switches are free",
+                setup};
+    Param aux1{-1, "ratio", -1, 1, "with `manual`, as the others: the switch of channel 5"};
+    Param aux2{-1, "ratio", -1, 1, "of channel 6"};
+    Param aux3{-1, "ratio", -1, 1, "of channel 7"};
     Flag mag{true, "false: there is none"};
     Flag baro{true, "false: there is none"};
     Flag pitot{true, "false: there is none"};
@@ -74,6 +89,7 @@ class VirtualController {
     wire_.reset();  // before the next one: there is one at a time
     wire_.emplace();
     wire_->fcu.provision();
+    if (p.manual) set_up_manual();
     world_ = {};
     world_.airframe = *p.airframe;
     world_.weather.wind_n = eigen(p.wind_ned.value);
@@ -85,6 +101,7 @@ class VirtualController {
     read_script(p);
     wire_->fcu.before_imu = [this] {
       plane_->pitot_covered = !plane_->released() && wire_->fcu.clock_us() < 11000000;
+      failure_.undo(wire_->fcu.inputs);
       plane_->step();
       act();
     };
@@ -113,6 +130,7 @@ class VirtualController {
     out.commands_ratio = static_cast<double>(run_.commands);
     out.blind_ratio = static_cast<double>(run_.blind);
     out.host_ratio = host_flies() ? 1 : 0;
+    out.throttle_ratio = plane_->actuators().throttle_frac;
     out.sticks_ratio = run_.sticks;
     return status;
   }
@@ -148,6 +166,14 @@ class VirtualController {
     script_.mute = {p.gap_from, p.gap_until};
     script_.no_fix = {p.no_fix_from, p.no_fix_until};
     script_.gnss_silent = {p.gnss_silent_from, p.gnss_silent_until};
+    script_.rc_silent = {p.rc_silent_from, p.rc_silent_until};
+    script_.rc_lost = {p.rc_lost_from, p.rc_lost_until};
+    script_.gesture = p.manual;
+    script_.aux = {p.aux1, p.aux2, p.aux3};
+    fails_ = p.fails;
+    failing_ = {p.fails_from, p.fails_until};
+    pilot_throttle_ = p.pilot_throttle;
+    pilot_lands_ = p.pilot_lands;
     script_.mag = p.mag, script_.baro = p.baro, script_.pitot = p.pitot;
     script_.moved_at = p.moved_at;
     const Eigen::Vector3d accel = eigen(p.moved_accel.value), gyro = eigen(p.moved_gyro.value);
@@ -156,6 +182,17 @@ class VirtualController {
     script_.levels = true;
     pilot_height_m_ = p.pilot_height;
     pilot_.emplace(script_, plane_->airframe(), plane_->plant().air().density_kgm3);
+  }
+
+  /// The parameters of control_manual's README.
+  void set_up_manual() {
+    peer::Params& board = wire_->fcu.params();
+    board.set(peer::param("RC_ARM_CHN"), -1);
+    board.set(peer::param("RC_ATT_OVRD_CHN"), 7);
+    board.set(peer::param("RC_THR_OVRD_CHN"), 7);
+    board.set(peer::param("RC_OVRD_DEV"), 1.5f);
+    wire_->fcu.write_flash();
+    wire_->fcu.reboot(0);
   }
 
   double script_s() const {
@@ -171,12 +208,23 @@ class VirtualController {
     peer::Inputs& in = wire_->fcu.inputs;
     const double t = script_s();
     peer::fail(script_, t, in);
+    failure_.act(fails_, failing_.holds(t), in);
     wire_->cut = script_.mute.holds(t);
     watch_sticks(in);
     pilot_->act(in, t, false);
+    const RigidBody& x = plane_->plant().state();
+    if (host_flies()) {
+      if (script_.aux[1] > 0.5) pilot_->weave(in, x, t, 70, script_.aux[2] <= -0.5);
+      return;
+    }
     const bool takes_off = pilot_height_m_ > 0 && wire_->fcu.armed();
-    if (script_.levels && !host_flies() && (takes_off || plane_->height_m() > in_the_air_m))
-      pilot_->hold_level(in, plane_->plant().state(), pilot_height_m_);
+    const bool flies = takes_off || plane_->height_m() > in_the_air_m;
+    if (pilot_lands_ && script_.override.holds(t))
+      pilot_->land(in, x, plane_->plant().air_velocity_b().norm(), world_.heading_rad);
+    else if (script_.levels && flies)
+      pilot_->hold_level(in, x, pilot_height_m_);
+    if (pilot_throttle_ >= 0 && flies && script_.override.holds(t))
+      in.rc_us[2] = static_cast<std::uint16_t>(1000 + std::lround(1000 * pilot_throttle_));
   }
 
   /// Whoever has the aircraft has it by his sticks as they were a moment ago.
@@ -225,7 +273,11 @@ class VirtualController {
   std::optional<Inner> inner_;
   Inner::Params inner_params_;
   peer::Script script_;
-  double pilot_height_m_ = 0;
+  peer::SensorFailure failure_;
+  peer::Failing fails_ = peer::Failing::none;
+  peer::Span failing_;
+  double pilot_height_m_ = 0, pilot_throttle_ = -1;
+  bool pilot_lands_ = false;
   Run run_;
 };
 

@@ -153,7 +153,7 @@ class TubeSteps {
     const bool falls = seconds_ == second_.size() && std::abs(mean_) > std::abs(second_.back()) &&
                        std::abs(mean_ - second_.back()) > change_times * change_1;
     off_ = falls || std::abs(mean_) > (off_ ? back_std * std : off_std * gust);
-    if (time_s - stepped_s_ > forgotten_s) sum_ = 0;
+    if (time_s - stepped_s_ > forgotten_s && std::abs(mean_) < bearable_mps) sum_ = 0;
     if (count_ < past_.size()) return;
     // By how much a first-order Gauss-Markov gust changes from the one group of samples to the other.
     const double change = std * std::sqrt(2 * (past_[1].time_s - past_[5].time_s) / gust_time_s);
@@ -169,6 +169,7 @@ class TubeSteps {
   static constexpr double least_mps = 1.2, noise_times = 8, change_times = 6, gust_time_s = 10,
                           forgotten_s = 30, longest_s = 0.15;
   static constexpr double mean_s = 0.6, off_std = 5, back_std = 2.5, strong_mps = 2;
+  static constexpr double bearable_mps = 3.5;  ///< an aircraft at its least airspeed does not stall by it
 
   /// The last three samples, each, from the mean of the three before the one in between. Both must have
   /// stepped: the airspeed without the tube steps when the receiver is believed after all.

@@ -60,8 +60,8 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
   }
 }
 
-/// A tube that has stepped is not used until it has stepped back, or so long ago that it may be right; nor
-/// one that is off by more than gusts are.
+/// A tube that has stepped is not used until it has stepped back, or so long ago that it may be right and
+/// by little; nor one that is off by more than gusts are.
 inline bool Navigator::tube_contradicts(double Va, const Params& p) {
   const double noise = p.pitot_noise / (air_.density_kgm3 * std::max(Va, 0.5 * p.min_airspeed)),
                sample = std::hypot(noise, p.pitot_speed_std) * health_.pitot.innovations.std();

@@ -84,11 +84,15 @@ TEST_CASE("a bank that closes on its command is a turn that begins, one that goe
     Watching w;
     w.asked.roll_rad = side * 40 * deg;
     w.state.rate_radps.x = side * 0.2;
-    w.fly(5);
+    w.fly(1.9);
     CHECK(w.told.empty());
-    w.state.rate_radps.x = -side * 0.2;
-    w.fly(1.1);
+    w.fly(0.3);  // 2 s off the command are no turn that begins
     CHECK(w.count(Severity::critical, "bank") == 1);
+    Watching away;
+    away.asked.roll_rad = side * 40 * deg;
+    away.state.rate_radps.x = -side * 0.2;
+    away.fly(1.1);
+    CHECK(away.count(Severity::critical, "bank") == 1);
   }
 }
 

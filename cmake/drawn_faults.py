@@ -38,7 +38,7 @@ TOKENS = re.compile(
 LITERAL = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])*\'', re.S)
 # Lines that hold no fault of flight: directives, declared parameters, what the compiler checks, types.
 NO_LINE = re.compile(r"^\s*(#|static_assert|using |template\b|enum\b|friend |case .*:$)")
-PARAMETER = re.compile(r"^\s*\w*Param\w* \w+\{")
+PARAMETER = re.compile(r"^\s*(?:\w*Param\w*|Flag|Count|(?:Choice|Vector|Record)<[\w:]+>) \w+\{")
 NO_STATEMENT = r"(?!(?:return|const|constexpr|static|auto|delete|using|break|continue|else)\b)"
 STATEMENT = re.compile(r"^\s*" + NO_STATEMENT + r"[A-Za-z_*][\w.:>()\[\]<-]*(?:(?:\(.*\))| [-+*/|&]?= .+);$")
 AFTER_A_STATEMENT = re.compile(r"(?:[;{}:]|\belse|\))\s*$")

@@ -41,6 +41,7 @@ build/bin/bench_link_gaps >build/check/link_gaps.md
 build/bin/bench_faults >build/check/faults.md
 build/bin/bench_sensor_faults >build/check/sensor_faults.md
 build/bin/bench_safety >build/check/safety.md
+build/bin/bench_failures >build/check/failures.md
 build/bin/bench_landing --jobs 2 >build/check/landing.md
 build/bin/bench_attitude >build/check/attitude.md
 build/bin/bench_autotune >build/check/autotune.md

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What has failed, with thresholds, delays and one answer. The README has the table.
 #pragma once
+#include "battery.hpp"
 #include "fence.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/ground_state.hpp"
@@ -79,12 +80,13 @@ struct Monitor {
   /// Commands move the aircraft, as far as the vehicle says.
   bool obeyed(const Inputs& in) const { return !in.status || (in.status->in_control && !now_.link_lost); }
   struct Alarms {
-    Alarm fence, gnss, pitot, radio, link, low, empty, attitude, wind, drifting, estimator;
+    Alarm fence, gnss, pitot, radio, link, attitude, wind, drifting, estimator;
   };
   Polygon polygon_;
   double floor_m_ = -not_given, ceiling_m_ = not_given;
   std::vector<Spot> places_;
   Alarms alarms_;
+  Battery battery_;
   Motor motor_;
   RunUp run_up_;
   GroundWind ground_wind_;
@@ -195,8 +197,8 @@ inline void Monitor::flags() {
   now_.pitot_lost = alarms_.pitot.raised();
   now_.radio_lost = alarms_.radio.raised();
   now_.link_lost = alarms_.link.raised();
-  now_.battery_low = alarms_.low.raised();
-  now_.battery_empty = alarms_.empty.raised();
+  now_.battery_low = battery_.low();
+  now_.battery_empty = battery_.empty();
   now_.attitude_excessive = alarms_.attitude.raised();
   now_.engine_failed = motor_.failed();
   now_.engine_weak = motor_.weak();
@@ -290,19 +292,7 @@ inline void Monitor::radio_and_link(const Tick& tick, const Inputs& in, const Pa
 }
 
 inline void Monitor::battery(const Inputs& in, const Params& p, double dt) {
-  const BatteryLimits& b = p.battery;
-  if (!in.status) return;
-  const double full = p.airframe->propulsion.battery_volt;
-  const double volt = in.status->battery_volt > there_volt || alarms_.low.raised()
-                          ? in.status->battery_volt / std::max(full, there_volt)
-                          : 1;
-  const double charge = in.status->battery_frac;
-  const auto below = [&](double share, double of_volt) { return charge < share || volt < of_volt; };
-  const auto watch = [&](Alarm& a, double share, double of_volt) {
-    a.step(below(share, of_volt), !below(share + 0.1, of_volt + 0.1), b.battery_raise, b.battery_clear, dt);
-  };
-  watch(alarms_.low, b.battery_low, b.volt_low);
-  watch(alarms_.empty, b.battery_empty, b.volt_empty);
+  if (in.status) battery_.step(*in.status, p.airframe->propulsion.battery_volt, p.battery, dt);
 }
 
 /// Commands that did not move the aircraft say nothing of its motor, nor does what it did meanwhile.

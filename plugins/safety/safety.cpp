@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What has failed, and the ways home that are left.
+#include "aircraft_watch.hpp"
 #include "glide.hpp"
 #include "ground.hpp"
 #include "home.hpp"
@@ -7,4 +8,5 @@
 #include "sensor_watch.hpp"
 
 using namespace fulmar;
-FULMAR_PLUGIN("1.0.0", safety::Monitor, safety::Home, safety::Glide, safety::Ground, safety::SensorWatch)
+FULMAR_PLUGIN("1.0.0", safety::AircraftWatch, safety::Monitor, safety::Home, safety::Glide, safety::Ground,
+              safety::SensorWatch)

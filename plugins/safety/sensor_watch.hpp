@@ -10,33 +10,9 @@
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
+#include "reported.hpp"
 
 namespace fulmar::safety {
-
-/// One fault on its way from there to reported and back. What comes and goes is reported once per `pause_s`.
-class Reported {
- public:
-  enum class News { none, raised, cleared };
-
-  News step(bool bad, bool good, double raise_s, double clear_s, double pause_s, double now_s, double dt) {
-    held_s_ = (raised_ ? good : bad) ? held_s_ + dt : 0;
-    if (held_s_ <= 0 || held_s_ < (raised_ ? clear_s : raise_s)) return News::none;
-    held_s_ = 0;
-    raised_ = !raised_;
-    if (!raised_) return said_ ? News::cleared : News::none;
-    began_s_ = now_s - raise_s;
-    said_ = !any_ || now_s - said_s_ >= pause_s;
-    if (!said_) return News::none;
-    any_ = true;
-    said_s_ = now_s;
-    return News::raised;
-  }
-  double since_s(double now_s) const { return now_s - began_s_; }
-
- private:
-  double held_s_ = 0, began_s_ = 0, said_s_ = 0;
-  bool raised_ = false, said_ = false, any_ = false;
-};
 
 struct SensorWatch {
   static constexpr const char* doc =
@@ -54,6 +30,7 @@ struct SensorWatch {
   struct Params {
     Param raise{0.3, "s", 0, 600, "silent, stuck or refused, until it is reported"};
     Param raise_soft{10, "s", 0, 600, "noisy or biased, until it is reported"};
+    Param raise_inertial{1, "s", 0, 600, "two of the others refused at once, until it is reported"};
     Param clear{3, "s", 0, 600, "in order, until its return is reported"};
     Param pause{30, "s", 0, 3600, "between two reports of the same sensor"};
     Param flying{7, "m/s", 0, 100, "ground speed from which on the aircraft flies, without `ground`"};
@@ -66,6 +43,7 @@ struct SensorWatch {
         in.ground ? in.ground->contact == Contact::air : s.velocity_valid && s.ground_speed_mps > p.flying;
     for (std::size_t i = 0; i < sensors.size() && in.health && !in.health.stale(); ++i)
       watch(sensors[i], (*in.health).*sensors[i].health, reported_[i], flies, p, now_s, dt, tick, out);
+    if (in.health && !in.health.stale()) inertial(*in.health, flies, p, now_s, dt, tick, out);
     had_position_ = had_position_ || s.position_valid;
     const Reported::News news = position_.step(flies && had_position_ && !s.position_valid, s.position_valid,
                                                0, p.clear, p.pause, now_s, dt);
@@ -85,13 +63,15 @@ struct SensorWatch {
     Severity severity;
     const char* answer;  // what the aircraft does now, and the pilot
   };
-  static constexpr std::array<Sensor, 6> sensors{{
+  static constexpr std::array<Sensor, 7> sensors{{
       {"gyro", &NavigationHealth::gyro, Cause::gyro, Severity::critical,
        "the attitude is not reliable. Pilot: take over"},
       {"accelerometer", &NavigationHealth::accel, Cause::accelerometer, Severity::critical,
        "the attitude is not reliable. Pilot: take over"},
       {"GNSS position", &NavigationHealth::gnss_position, Cause::gnss_lost, Severity::warning,
        "dead reckoning by air data"},
+      {"GNSS velocity", &NavigationHealth::gnss_velocity, Cause::gnss_velocity, Severity::warning,
+       "velocity by position and air data"},
       {"magnetometer", &NavigationHealth::mag, Cause::magnetometer, Severity::warning,
        "heading by GNSS course"},
       {"barometer", &NavigationHealth::baro, Cause::barometer, Severity::warning, "height by GNSS"},
@@ -133,6 +113,23 @@ struct SensorWatch {
     }
   }
 
+  /// Receiver, magnetometer, barometer and pitot tube have nothing in common but the inertial unit, which
+  /// they are compared with: two of them that are rejected at once point to it.
+  void inertial(const NavigationHealth& h, bool flies, const Params& p, double now_s, double dt,
+                const Tick& tick, Outputs& out) {
+    const auto rejected = [](const SensorHealth& s) { return s.state == SensorState::refused; };
+    const int n = (rejected(h.gnss_position) || rejected(h.gnss_velocity) ? 1 : 0) +
+                  (rejected(h.mag) ? 1 : 0) + (rejected(h.baro) ? 1 : 0) + (rejected(h.pitot) ? 1 : 0);
+    const Reported::News news =
+        inertial_.step(flies && n >= 2, n == 0, p.raise_inertial, p.clear, p.pause, now_s, dt);
+    if (news == Reported::News::raised)
+      say(Severity::critical, Cause::inertial,
+          "gyro or accelerometer wrong, several sensors contradict them. Pilot: take over", tick, out);
+    if (news == Reported::News::cleared)
+      say(Severity::info, Cause::inertial, "gyro and accelerometer agree with the other sensors again", tick,
+          out);
+  }
+
   static void say(Severity severity, Cause cause, const char* text, const Tick& tick, Outputs& out) {
     Notice notice;
     notice.cause = cause;
@@ -142,7 +139,7 @@ struct SensorWatch {
   }
 
   std::array<std::array<Reported, 2>, sensors.size()> reported_;
-  Reported position_;
+  Reported position_, inertial_;
   bool had_position_ = false;
 };
 

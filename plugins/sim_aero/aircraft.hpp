@@ -17,6 +17,7 @@
 #include "fulmar/msg/fault_request.hpp"
 #include "fulmar/msg/flaps.hpp"
 #include "fulmar/msg/ground_state.hpp"
+#include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/rc.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -64,6 +65,7 @@ class Aircraft {
     Out<VehicleState> truth;
     Out<ContactTruth> contact;
     Out<MotionTruth> motion;
+    OutQueue<Notice, 4> notices;  // who flies
   };
   struct Params {
     Record<Airframe> airframe{"the aircraft", required};
@@ -417,8 +419,17 @@ class Aircraft {
     if (!status_rate_(now_ns_) && !changed) return;
     s.battery_volt = faults_.voltage(now_ns_) * plant_->battery_volt();
     s.battery_amp = plant_->battery_amp();
+    report_pilot(s, out);
     status_ = s;
     out.status.publish(s);
+  }
+
+  /// The words of a flight controller: fcu_serial.
+  void report_pilot(const VehicleStatus& s, Outputs& out) const {
+    if (!s.armed || !status_.armed || s.override == status_.override) return;
+    Notice notice;
+    notice.text = s.override ? "the pilot flies" : "the pilot hands over";
+    out.notices.push(notice, now_ns_);
   }
 
   VehicleState truth() const;

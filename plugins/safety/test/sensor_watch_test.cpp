@@ -84,7 +84,7 @@ TEST_CASE("a sensor that fails in flight is reported once, and once when it is i
   for (const SensorState bad : {SensorState::silent, SensorState::stuck, SensorState::refused}) {
     for (SensorHealth NavigationHealth::*which :
          {&NavigationHealth::mag, &NavigationHealth::baro, &NavigationHealth::pitot,
-          &NavigationHealth::gnss_position}) {
+          &NavigationHealth::gnss_position, &NavigationHealth::gnss_velocity}) {
       Watching w;
       w.fly(5);
       CHECK(w.told.empty());
@@ -114,6 +114,41 @@ TEST_CASE("an inertial sensor that fails calls the pilot") {
     CHECK(w.told[0].cause == (which == &NavigationHealth::gyro ? Cause::gyro : Cause::accelerometer));
     CHECK(w.told[0].text.view().find("Pilot: take over") != std::string_view::npos);
   }
+}
+
+TEST_CASE("two sensors without anything in common that are rejected at once point to the inertial unit") {
+  using H = NavigationHealth;
+  const auto reports = [](const Watching& w) {
+    int n = 0;
+    for (const Notice& each : w.told)
+      n += each.severity == Severity::critical && each.text.view().find("gyro") != std::string_view::npos ? 1
+                                                                                                          : 0;
+    return n;
+  };
+  const std::array<SensorHealth H::*, 5> all{&H::gnss_position, &H::gnss_velocity, &H::mag, &H::baro,
+                                             &H::pitot};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i; j < all.size(); ++j) {
+      CAPTURE(i);
+      CAPTURE(j);
+      Watching w;
+      (w.health.*all[i]).state = (w.health.*all[j]).state = SensorState::refused;
+      w.fly(0.9);
+      CHECK(reports(w) == 0);
+      w.fly(0.2);
+      const int expected = i == j || j == 1 ? 0 : 1;  // position and velocity are of one receiver
+      CHECK(reports(w) == expected);
+      w.health = Watching::all(SensorState::ok);
+      w.fly(40);
+      CHECK(reports(w) == expected);
+      (w.health.*all[i]).state = (w.health.*all[j]).state = SensorState::refused;  // once more
+      w.fly(2);
+      CHECK(reports(w) == 2 * expected);
+    }
+  Watching silent;  // a loss of power, no contradiction
+  silent.health.mag.state = silent.health.baro.state = SensorState::silent;
+  silent.fly(10);
+  CHECK(reports(silent) == 0);
 }
 
 TEST_CASE("noise and bias are reported when they last") {

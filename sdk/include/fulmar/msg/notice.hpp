@@ -26,7 +26,11 @@ enum class Cause : std::uint8_t {
   gyro,
   accelerometer,
   magnetometer,
-  barometer
+  barometer,
+  gnss_velocity,
+  inertial,
+  bank,
+  pitch
 };
 
 /// One line for the person at the terminal and for the log. A port of notices is told when the mission lists

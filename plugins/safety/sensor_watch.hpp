@@ -92,8 +92,9 @@ struct SensorWatch {
 
   static void watch(const Sensor& sensor, const SensorHealth& h, std::array<Reported, 2>& reported,
                     bool flies, const Params& p, double now_s, double dt, const Tick& tick, Outputs& out) {
-    const bool hard =
-        h.state == SensorState::silent || h.state == SensorState::stuck || h.state == SensorState::refused;
+    // One receiver gives position and velocity: when it is silent, the line of the position says so.
+    const bool silent = h.state == SensorState::silent && sensor.cause != Cause::gnss_velocity;
+    const bool hard = silent || h.state == SensorState::stuck || h.state == SensorState::refused;
     const bool soft = h.state == SensorState::noisy || h.state == SensorState::biased;
     const bool good = h.state == SensorState::ok;
     const std::array<bool, 2> bad{hard, soft};

@@ -231,11 +231,11 @@ const steps = {
     await tab("Wires");
     await page.click("button.link >> text=slc");
     await seen("a step time", ".wires tbody tr", (t) => /slc.*\d µs/.test(t));
-    await seen("the rate of what it publishes", ".twotables", (t) => /→ attitude\.attitude, score\.attitude(9\d|10\d)(\.\d)? Hz/.test(t));
+    await seen("the rate of what it publishes", ".twotables", (t) => /→ (?=[a-z., ]*attitude\.attitude)(?=[a-z., ]*score\.attitude)[a-z., ]*(9\d|10\d)(\.\d)? Hz/.test(t));
     await page.getByLabel("Plugin in place of slc").fill("control_tecs/Outer");
     await page.keyboard.press("Enter");
     await seen("the sentence", ".wires .refusal", (t) => /slc cannot be swapped: the aircraft is .*A component is swapped on the ground, disarmed/.test(t));
-    await seen("its wires, lit", ".wiring .lit title", (t) => t.split("\n").length === 4 && /nav\.state → slc\.state: 400 Hz, \d+ ms old/.test(t) && t.includes("outer.attitude → attitude.attitude"));
+    await seen("its wires, lit", ".wiring .lit title", (t) => t.split("\n").length === 5 && /nav\.state → slc\.state: 400 Hz, \d+ ms old/.test(t) && t.includes("outer.attitude → attitude.attitude"));
     assert.equal(await page.locator(".wiring .component").count(), JSON.parse(await ask("list", "--json")).components.length);
     await page.locator(".wiring [data-component=slc]").focus();
     await page.keyboard.press("ArrowRight");

@@ -41,8 +41,13 @@ struct SensorWatch {
     const VehicleState& s = *in.state;
     const bool flies =
         in.ground ? in.ground->contact == Contact::air : s.velocity_valid && s.ground_speed_mps > p.flying;
-    for (std::size_t i = 0; i < sensors.size() && in.health && !in.health.stale(); ++i)
-      watch(sensors[i], (*in.health).*sensors[i].health, reported_[i], flies, p, now_s, dt, tick, out);
+    for (std::size_t i = 0; i < sensors.size() && in.health && !in.health.stale(); ++i) {
+      // One receiver gives both: when it is silent, the line of the position says so.
+      const bool said = sensors[i].health == &NavigationHealth::gnss_velocity &&
+                        in.health->gnss_position.state == SensorState::silent;
+      watch(sensors[i], (*in.health).*sensors[i].health, reported_[i], flies && !said, p, now_s, dt, tick,
+            out);
+    }
     if (in.health && !in.health.stale()) inertial(*in.health, flies, p, now_s, dt, tick, out);
     had_position_ = had_position_ || s.position_valid;
     const Reported::News news = position_.step(flies && had_position_ && !s.position_valid, s.position_valid,
@@ -92,9 +97,8 @@ struct SensorWatch {
 
   static void watch(const Sensor& sensor, const SensorHealth& h, std::array<Reported, 2>& reported,
                     bool flies, const Params& p, double now_s, double dt, const Tick& tick, Outputs& out) {
-    // One receiver gives position and velocity: when it is silent, the line of the position says so.
-    const bool silent = h.state == SensorState::silent && sensor.cause != Cause::gnss_velocity;
-    const bool hard = silent || h.state == SensorState::stuck || h.state == SensorState::refused;
+    const bool hard =
+        h.state == SensorState::silent || h.state == SensorState::stuck || h.state == SensorState::refused;
     const bool soft = h.state == SensorState::noisy || h.state == SensorState::biased;
     const bool good = h.state == SensorState::ok;
     const std::array<bool, 2> bad{hard, soft};

@@ -162,6 +162,14 @@ TEST_CASE("noise and bias are reported when they last") {
   }
 }
 
+TEST_CASE("a receiver that is silent is one line, not one for each thing that it measures") {
+  Watching w;
+  w.fly(5);
+  w.health.gnss_position.state = w.health.gnss_velocity.state = SensorState::silent;
+  w.fly(20);
+  CHECK(w.told.size() == 1);
+}
+
 TEST_CASE("what comes and goes is reported twice a minute at most") {
   Watching w;
   for (int i = 0; i < 12; ++i) {

@@ -95,6 +95,12 @@ export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, gate_
     book.update([], 11);
     assert.deepEqual(now(), [["gnss_lost", false]]);
   },
+  "of an aircraft that lies on the ground nothing lasts but the crash"() {
+    const book = new AlertBook(), now = () => book.list().map((h) => [h.alert.key, h.now]).sort();
+    book.raise(alert_of_event({ code: "notice", severity: "critical", component: "sensors", name: "gyro", words: "gyro stuck" }, ["watch"], "flies on"), 5);
+    book.update(alerts_of({ ...flying({}), status: { crashed: true } }), 6);
+    assert.deepEqual(now(), [["crashed", true], ["gyro", false]]);
+  },
   "what is missing before a take-off is a list"() {
     assert.deepEqual(not_ready("fcu: not ready: no GNSS fix, no height"), ["no GNSS fix", "no height"]);
     assert.deepEqual(not_ready("the radio is lost"), []);

@@ -118,7 +118,8 @@ export class AlertBook {
 
   /** What is wrong now. Causes that are over stay until they are acknowledged. */
   update(alerts: Alert[], now_s: number): void {
-    for (const h of this.held.values()) if (!h.told) h.now = false;
+    const lies = alerts.some((a) => a.key === "crashed"); // of an aircraft that lies on the ground nothing else lasts
+    for (const h of this.held.values()) if (!h.told || lies) Object.assign(h, { now: false, told: false });
     for (const alert of alerts) this.raise(alert, now_s, false);
     for (const [key, h] of this.held) if (!h.now && h.seen) this.held.delete(key);
   }

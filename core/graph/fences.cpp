@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One fence for all who keep inside it: two that differ are flown by whoever steers.
+// Components that keep inside a fence share one: of two that differ, the steering component decides.
 #include <string>
 
 #include "core/graph/draft.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies what draw.hpp has drawn, and judges it: what was flown by the truth, and what the flight reports.
+// Flies what draw.hpp has drawn, and judges it by the truth and by the lines that the flight reports.
 #pragma once
 #include <unistd.h>
 
@@ -46,7 +46,7 @@ struct Asked {
 
 struct Flown {
   Class of = Class::done;
-  std::string verdict, missed{}, reason{};  ///< missed: what of the mission; reason: the line that counts
+  std::string verdict, missed{}, reason{};  ///< missed: part of the mission; reason: the line that counts
   std::vector<std::string> lines{};         ///< since the failure
   bool failed_at_all = false;               ///< the flight lasted until the failure
 };
@@ -183,7 +183,7 @@ class FailingFlight {
     return std::any_of(d_.names.begin(), d_.names.end(),
                        [&](const std::string& name) { return line.find(name) != std::string::npos; });
   }
-  /// Of a crash its figures are no reason: what safety did before may be.
+  /// Figures of a crash are no reason. An answer of safety before it may be one.
   std::string story() const {
     const std::size_t before = flown_.verdict.find("before: ");
     if (before != std::string::npos) return flown_.verdict.substr(before);

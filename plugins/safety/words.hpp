@@ -90,7 +90,7 @@ class Reports {
     const bool free = now_->answer == SafetyAnswer::none;
     push(joined({what, free ? ": " : ": still ", answer()}).data(), Severity::info, cause);
   }
-  /// The words of an alarm, and a figure.
+  /// The text of an alarm, and a figure.
   void say(bool SafetyState::*flag, const char* right, const char* pilot, const Line& figure = {}) {
     say(flag, joined({alarm(flag).words, figure.data()}), right, pilot);
   }

@@ -424,7 +424,7 @@ class Aircraft {
     out.status.publish(s);
   }
 
-  /// The words of a flight controller: fcu_serial.
+  /// The texts that fcu_serial has for a flight controller.
   void report_pilot(const VehicleStatus& s, Outputs& out) const {
     if (!s.armed || !status_.armed || s.override == status_.override) return;
     Notice notice;

@@ -66,7 +66,7 @@ class VirtualController {
     Param rc_silent_until{1e9, "s", -100, 1e9, "and come again"};
     Param rc_lost_from{1e9, "s", -100, 1e9, "the receiver says that it has lost the radio"};
     Param rc_lost_until{1e9, "s", -100, 1e9, "and has it again"};
-    Param pilot_throttle{-1, "ratio", -1, 1, "of the pilot in the air; below 0: what he needs"};
+    Param pilot_throttle{-1, "ratio", -1, 1, "of the pilot in the air; below 0: as the flight needs it"};
     Flag pilot_lands{false, "the pilot, when he has it in the air, lands with the heading of the start"};
     Flag manual{false, "set up as control_manual has it: armed by the sticks, three switches are free",
                 setup};

@@ -97,7 +97,7 @@ void print_heading(const Settings& s) {
   std::printf(
       R"(# Missions through the flight controller
 
-Written by `build/bin/bench_hardware > docs/hardware_flights.md`; nothing here is typed. It exits 1 when a bar is missed. `--seeds`, `--first` and `--only` choose
+Written by `build/bin/bench_hardware --seeds 10 --first 201 --no-replay > docs/hardware_flights.md`; nothing here is typed. It exits 1 when a bar is missed. `--seeds`, `--first` and `--only` choose
 flights, `--lines` prints what a flight said that missed its case, `--no-replay` leaves out the replays.
 
 The Anaconda, wind 5 m/s, light turbulence, sensors `rosflight`, through the code of `fcu_serial` on the software flight controller of the tests, in virtual time. The

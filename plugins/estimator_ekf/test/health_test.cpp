@@ -363,6 +363,33 @@ TEST_CASE("a tube that stays off by a step is believed after half a minute") {
   CHECK(spell.during.pitot.state == SensorState::ok);
 }
 
+TEST_CASE("a moment of agreement does not take a rejected tube back, six seconds of it do") {
+  for (const double sign : {1.0, -1.0}) {
+    navigation::TubeSteps tube;
+    double t = 0, air = 16;
+    const auto reads = [&](double excess, double std, double for_s) {
+      for (const double until = t + for_s; t < until; t += 0.02)
+        tube.sampled(air + sign * excess, air, 0.1, std, t);
+    };
+    reads(0, 1, 10);
+    CHECK_FALSE(tube.off());
+    reads(5.5, 1, 2);
+    CHECK(tube.stepped());
+    // The wind that is estimated meanwhile becomes less certain, whatever the tube reads.
+    reads(5.5, 3, 60);
+    CHECK((tube.stepped() || tube.off()));
+    for (double excess = 5.5; excess > 2; excess -= 0.5) reads(excess, 3, 1);
+    reads(2, 3, 3);
+    CHECK((tube.stepped() || tube.off()));
+    reads(5.5, 3, 5);
+    CHECK((tube.stepped() || tube.off()));
+    for (double excess = 5.5; excess > 0; excess -= 0.5) reads(excess, 3, 1);
+    reads(0, 3, 30);
+    CHECK_FALSE(tube.stepped());
+    CHECK_FALSE(tube.off());
+  }
+}
+
 TEST_CASE("a tube that stays off by more than gusts explain is not believed, however long it lasts") {
   Spell spell{.sensor = &NavigationHealth::pitot, .state = SensorState::biased, .length_s = 60};
   spell.alter = [](Samples& s, Random&) {

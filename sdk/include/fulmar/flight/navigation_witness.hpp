@@ -152,8 +152,9 @@ class TubeSteps {
     const double gust = std::max(std, strong_mps), change_1 = gust * std::sqrt(2 / gust_time_s);
     const bool falls = seconds_ == second_.size() && std::abs(mean_) > std::abs(second_.back()) &&
                        std::abs(mean_ - second_.back()) > change_times * change_1;
-    off_ = falls || std::abs(mean_) > (off_ ? back_std * std : off_std * gust);
-    if (time_s - stepped_s_ > forgotten_s && std::abs(mean_) < bearable_mps) sum_ = 0;
+    agrees_s_ = std::abs(mean_) < agreed(std) ? agrees_s_ + dt : 0;
+    off_ = falls || std::abs(mean_) > off_std * gust || (off_ && agrees_s_ < agreed_s);
+    if (time_s - stepped_s_ > forgotten_s && agrees_s_ >= agreed_s) sum_ = 0;
     if (count_ < past_.size()) return;
     // By how much a first-order Gauss-Markov gust changes from the one group of samples to the other.
     const double change = std * std::sqrt(2 * (past_[1].time_s - past_[5].time_s) / gust_time_s);
@@ -170,6 +171,9 @@ class TubeSteps {
                           forgotten_s = 30, longest_s = 0.15;
   static constexpr double mean_s = 0.6, off_std = 5, back_std = 2.5, strong_mps = 2;
   static constexpr double bearable_mps = 3.5;  ///< an aircraft at its least airspeed does not stall by it
+  static constexpr double agreed_s = 6;  ///< the wind estimated without the tube may drift past agreement
+
+  static double agreed(double std) { return std::min(back_std * std, bearable_mps); }
 
   /// The last three samples, each, from the mean of the three before the one in between. Both must have
   /// stepped: the airspeed without the tube steps when the receiver is believed after all.
@@ -184,9 +188,12 @@ class TubeSteps {
     count_ = 0;
     sum_ += step;
     stepped_s_ = time_s_;
-    // Back where it was; or crept off, and now it agrees.
-    const bool agrees = off_ && std::abs(past_[0].excess) < back_std * std;
-    if (agrees) mean_ = past_[0].excess;
+    // Back where it was; or crept off, and now it steps to where it agrees: no drift of the wind does that.
+    const bool agrees = off_ && std::abs(past_[0].excess) < agreed(std);
+    if (agrees) {
+      mean_ = past_[0].excess;
+      agrees_s_ = agreed_s;
+    }
     if (agrees || std::abs(sum_) < 0.5 * std::max(limit, std::abs(step))) sum_ = 0;
   }
 
@@ -195,7 +202,7 @@ class TubeSteps {
   std::array<double, 11> second_{};  ///< the mean excess, every tenth of a second
   std::size_t seconds_ = 0;
   double seconds_s_ = never;
-  double time_s_ = never, stepped_s_ = never, sum_ = 0, mean_ = 0;
+  double time_s_ = never, stepped_s_ = never, sum_ = 0, mean_ = 0, agrees_s_ = 0;
   bool off_ = false;
 };
 

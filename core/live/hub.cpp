@@ -22,6 +22,7 @@ constexpr int depth_limit = 32;
 // A port that may stay silent and does not: so many samples in a row, each within this time of the one
 // before. Nobody waits for its next one, and the loop need not copy all of them while nobody looks.
 constexpr std::size_t stream_samples = 400;
+constexpr std::size_t owed_samples = 20;  // in a row, of what comes seldom
 constexpr std::int64_t stream_gap_ns = 100'000'000;
 // Of what is published all the time the loop copies a sample now and then while nobody looks: a simulation
 // that is paused publishes nothing, and who comes then is to see how it stands. What is older than `fresh_ns`
@@ -264,7 +265,7 @@ bool Hub::drain() {
     Channel& channel = channels_[sample->channel];
     if (!channel.listeners.empty()) encode(channel, sample->data(), message);
     for (const auto& [client, subscription] : channel.listeners)
-      offer(*client, message, subscription, sample->now_ns);
+      give(*client, message, subscription, sample->now_ns, owed(channel));
     keep(*sample);
   }
   counters_.lost += cursor_->lost() - std::exchange(lost_before_, cursor_->lost());
@@ -279,13 +280,17 @@ void Hub::catch_up() {
   }
 }
 
-void Hub::offer(Client& client, Message& message, std::uint32_t subscription, std::int64_t now_ns) {
+bool Hub::owed(const Channel& channel) { return channel.seldom && channel.in_a_row < owed_samples; }
+
+/// A slow client goes without samples of a stream. One that comes seldom is owed: a crash is published once.
+void Hub::give(Client& client, Message& message, std::uint32_t subscription, std::int64_t now_ns, bool owed) {
   message.binary = true;
   message.head_size = message.head.size();
   message.head[0] = op_data;
   put(&message.head[1], subscription);
   put(&message.head[5], static_cast<std::uint64_t>(std::max<std::int64_t>(0, epoch_ns_ + now_ns)));
-  if (client.peer->offer(message)) {
+  if (owed) client.peer->send(message);
+  if (owed || client.peer->offer(message)) {
     ++counters_.sent;
   } else {
     ++client.dropped;
@@ -323,7 +328,7 @@ void Hub::give_past(Client& client, std::size_t index, std::uint32_t subscriptio
     if (!holds) continue;
     Message sample;
     encode(channel, kept.data.data(), sample);
-    offer(client, sample, subscription, kept.now_ns);
+    give(client, sample, subscription, kept.now_ns, owed(channel));
   }
 }
 

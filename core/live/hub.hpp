@@ -43,7 +43,7 @@ class Peer {
   virtual ~Peer() = default;
   /// Data. False when the client has not taken what came before: then it goes without.
   virtual bool offer(const Message& message) = 0;
-  /// Anything else. A client that does not take these either is closed.
+  /// Anything else, and data that comes seldom. A client that does not take these either is closed.
   virtual void send(Message message) = 0;
   virtual void close(std::uint16_t code, const std::string& why) = 0;
 };
@@ -133,7 +133,8 @@ class Hub {
   void keep(const Tap::Sample& sample);
   void give_past(Client& client, std::size_t index, std::uint32_t subscription, bool paused);
   void encode(Channel& channel, const std::byte* data, Message& message);
-  void offer(Client& client, Message& message, std::uint32_t subscription, std::int64_t now_ns);
+  static bool owed(const Channel& channel);
+  void give(Client& client, Message& message, std::uint32_t subscription, std::int64_t now_ns, bool owed);
   void send_time();
   void want_unseen(std::size_t index);
   void flush_parameters();

@@ -253,6 +253,31 @@ TEST_CASE_FIXTURE(Fixture, "a slow client goes without, is told so, and delays n
   CHECK(quick.last("status") == nullptr);
 }
 
+TEST_CASE("a slow client gets each sample of what is published seldom, and goes without a burst") {
+  std::vector<TapChannel> channels = mock_channels();
+  channels[1].may_stay_silent = true;
+  Tap tap(channels);
+  MockControl control;
+  Counters counters;
+  Hub hub(tap, control, counters);
+  hub.begin([] {});
+  TestPeer peer;
+  hub.text(hub.add(peer), R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 2}]})");
+  peer.room = 0;
+  const auto publish = [&](std::int64_t now_ns) {
+    const Leg leg{1, true, static_cast<double>(now_ns), {1, 2, 3}};
+    tap.write(1, now_ns, now_ns, bytes_of(leg), false);
+    hub.tick();
+  };
+  for (int i = 0; i < 100; ++i) publish(i * 1'000'000'000LL);
+  CHECK(peer.binaries.size() == 100);
+  CHECK(counters.dropped == 0);
+  for (int i = 1; i <= 100; ++i) publish(99'000'000'000LL + i * 2'500'000LL);
+  CHECK(peer.binaries.size() == 120);
+  CHECK(counters.dropped == 80);
+  CHECK(counters.sent == 120);
+}
+
 TEST_CASE_FIXTURE(Fixture, "subscriptions that contradict each other are refused one by one") {
   say({{"op", "subscribe"},
        {"subscriptions",

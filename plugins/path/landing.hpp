@@ -15,6 +15,7 @@
 #include "fulmar/msg/landing_progress.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/sideslip_command.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
 #include "landing_notices.hpp"
 #include "plan_file.hpp"
 #include "runway_site.hpp"
@@ -30,7 +31,8 @@ struct Landing {
       "Lands: a circle onto the final approach, glide slope, flare, roll; goes around when it is off.";
   struct Inputs {
     In<VehicleState> state;
-    Optional<GroundState> ground;  // of the touch-down; without it, what the state says of it
+    Optional<GroundState> ground;    // of the touch-down; without it, what the state says of it
+    Optional<VehicleStatus> status;  // the charge of the battery
   };
   struct Outputs {
     GuidanceCommand command;
@@ -70,6 +72,9 @@ struct Landing {
                             "an approach in more wind than crosswind_limit, or than the runway is long "
                             "enough for: refuse: stay on "
                             "the circle; warn: fly it with a warning"};
+    Param wind_wait{180, "s", 0, 86400,
+                    "after so long on the circle a refused approach is flown with a warning, as with less "
+                    "than a fifth of the charge"};
     Param crosswind_limit{0.55, "ratio", 0, 2, "crosswind over approach airspeed, up to which it lands"};
     Param late_sink{
         0.7, "m/s", 0.05, 3,
@@ -99,7 +104,7 @@ struct Landing {
   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>&) {
     progress_.stage = LandingStage::join;
     progress_.reason = LandingReason::none;
-    settled_s_ = slip_rad_ = height_off_m_ = 0;
+    settled_s_ = slip_rad_ = height_off_m_ = refused_s_ = 0;
     broken_off_ = false;
     head_.reset();
     cross_.reset();
@@ -181,6 +186,9 @@ struct Landing {
     const double flare_s = (p.flare_height / std::tan(p.glide_slope)) / V + 2;
     progress_.needed_m = p.aim + flare_s * over_ground + 0.5 * over_ground * over_ground / p.deceleration;
   }
+  static bool by_wind(LandingReason why) {
+    return why == LandingReason::crosswind || why == LandingReason::runway_short;
+  }
   LandingReason refused_by_wind(const Params& p) const {
     const double V = p.approach_ratio * p.airframe->limits.airspeed_min_mps;
     if (std::abs(progress_.cross_wind_mps) > p.crosswind_limit * V) return LandingReason::crosswind;
@@ -194,7 +202,9 @@ struct Landing {
     const bool touches = in.ground && in.ground->contact == Contact::ground;
     switch (stage) {
       case LandingStage::join:
-        if (onto_final(s, course_error, p)) begin_approach(p);
+        refused_s_ =
+            progress_.reason == LandingReason::none ? 0 : refused_s_ + (by_wind(progress_.reason) ? dt : 0);
+        if (onto_final(s, course_error, p)) begin_approach(in, p);
         break;
       case LandingStage::approach:
         if (p.decision_height > progress_.height_m && touches)
@@ -236,9 +246,12 @@ struct Landing {
                       std::abs(course_error) < 0.35;
     return onto && std::abs(s.height_m - fix_height(p)) < p.height_limit && !p.go_around;
   }
-  void begin_approach(const Params& p) {
+  void begin_approach(const Inputs& in, const Params& p) {
+    constexpr double low_frac = 0.2;
     progress_.reason = refused_by_wind(p);
-    if (progress_.reason == LandingReason::none || p.wind == WindAnswer::warn)
+    const bool low = in.status && in.status->battery_frac < low_frac;  // a battery that is not known is not
+    if (progress_.reason == LandingReason::none || p.wind == WindAnswer::warn || low ||
+        refused_s_ > p.wind_wait)
       progress_.stage = LandingStage::approach;
   }
   void flare(const VehicleState& s) {
@@ -399,6 +412,7 @@ struct Landing {
   RunwaySite site_;
   GuidanceCommand command_;
   LandingProgress progress_;
+  double refused_s_ = 0;  ///< on the circle since the first approach that the wind refused
   double settled_s_ = 0, rolled_s_ = 0, flare_s_ = 0, flare_height_m_ = 0;
   double height_off_m_ = 0;   ///< of the runway below the height that is given, shown by a flare
   bool broken_off_ = false;   ///< a flare that lasted too long, once

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Limits of a landing: wind, length of the flare, bounce, length of the roll.
+#include <limits>
+
 #include "landing_kit.hpp"
 
 namespace landing_limits_test {
@@ -40,6 +42,37 @@ TEST_CASE(
     strip.at(600, 0, strip.slope(450), 30);
     CHECK(strip.at(450, 0, strip.slope(450)).stage == LandingStage::approach);
     CHECK(strip.bench.out.progress.reason == LandingReason::none);
+  }
+}
+
+TEST_CASE("an approach that the wind refuses is flown after wind_wait, or at once with little charge") {
+  for (const double wait_s : {60.0, 180.0}) {
+    Strip strip;
+    strip.bench.params.wind_wait.value = wait_s;
+    REQUIRE(strip.bench.configure() == Status::ok);
+    strip.bench.activate();
+    strip.s.wind_valid = true;
+    strip.s.wind_mps.north = 9;
+    const double away = strip.slope(450);
+    CHECK(strip.at(450, 0, away).stage == LandingStage::join);
+    strip.at(900, 0, away, wait_s - 2);
+    CHECK(strip.at(450, 0, away).stage == LandingStage::join);
+    CHECK(strip.bench.out.progress.reason == LandingReason::crosswind);
+    strip.at(900, 0, away, 3);
+    CHECK(strip.at(450, 0, away).stage == LandingStage::approach);
+    CHECK(strip.bench.out.progress.reason == LandingReason::crosswind);
+    REQUIRE(strip.bench.out.notices.count == 1);
+    CHECK(strip.bench.out.notices.items[0].severity == Severity::warning);
+    // The next flight of the same object has its own wait.
+    strip.bench.activate();
+    CHECK(strip.at(450, 0, away).stage == LandingStage::join);
+    VehicleStatus status;
+    status.battery_frac = std::numeric_limits<double>::quiet_NaN();  // not measured
+    strip.bench.set(strip.bench.in.status, status);
+    CHECK(strip.at(450, 0, away).stage == LandingStage::join);
+    status.battery_frac = 0.19;
+    strip.bench.set(strip.bench.in.status, status);
+    CHECK(strip.at(450, 0, away).stage == LandingStage::approach);
   }
 }
 

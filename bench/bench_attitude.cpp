@@ -16,7 +16,7 @@ using namespace fulmar::attitude;
 namespace {
 
 struct Options {
-  std::uint64_t episodes = 100, seed = 1;
+  std::uint64_t episodes = 300, seed = 1;
   std::string turbulence = "all", law = "slc";
   bool json = false;
   std::vector<std::string> sets;
@@ -86,7 +86,7 @@ Optimization* (ICUAS 2019), flown by `control_slc/Airspeed` and `control_slc/Inn
 X8, an unstable Dutch roll and no rudder, true state, 100 Hz.
 
 - Start: roll within 60, pitch 25 deg, airspeed 17 to 28 m/s with up to 5 m/s of it sideways and 5 down or up, rates within 40 deg/s, throttle closed.
-- Target: roll within 15, pitch 10 deg, airspeed within 3 m/s of the start's and 17 to 28 m/s; it moves with the pitch that is asked for: down to 26.27 - 41.25 theta
+- Target: roll within 15, pitch 10 deg, airspeed within 3 m/s of the start's, so 14 to 31 m/s; it moves with the pitch that is asked for: down to 26.27 - 41.25 theta
   (theta in rad) in a climb of 5 deg and more, up to 28.4 - 40.1 theta in a descent of 2.5 deg and more.
 - Success: roll and pitch within 5 deg and airspeed within 2 m/s for 100 steps on end, within 1500. Settling is the end of those 100; a failure counts 1500.
 - Variation: mean of |rate| of elevator, aileron (rad) and throttle, averaged over the three, from the first command to the end of the episode; mean of the episodes.
@@ -95,15 +95,20 @@ X8, an unstable Dutch roll and no rudder, true state, 100 Hz.
 `PID here` is the published PID with its published gains in this simulator; beside it what was published: how far apart the two simulators and draws of episodes are.
 The bars: success of the best learnt policy, settling and variation of the published PID. The exit code is 1 when one is missed.
 
+One setting differs from the shipped airframe: `limits.airspeed_max` is 40 m/s, as the suite asks for up to 35 m/s in descents; the file has 24 m/s. `success, file's limits` has
+the file as shipped: an airspeed above 24 m/s is not flown then. The file's `pitch_trade` lets the airspeed law change the pitch by up to 4 deg where the throttle is at its stop: 31 m/s
+at 5 deg of pitch is more than level flight gives at full throttle.
+
 )";
 
 Row flown(const Options& o, std::size_t level, const std::string& law, const Gains& gains,
-          nlohmann::json& failed) {
+          nlohmann::json& failed, Limits limits = Limits::suite) {
   const auto turbulence = static_cast<Turbulence>(level);
   std::vector<Result> results;
   for (std::uint64_t i = 0; i < o.episodes; ++i) {
     const Episode e = episode(o.seed, i);
-    results.push_back(law == "pid" ? fly_published(e, turbulence) : fly_shipped(gains, e, turbulence));
+    results.push_back(law == "pid" ? fly_published(e, turbulence)
+                                   : fly_shipped(gains, e, turbulence, limits));
     if (!results.back().success) failed.push_back(i);
   }
   return summary(results);
@@ -125,8 +130,10 @@ int run(const Options& o) {
   if (!o.json)
     std::printf(
         "%s%llu episodes, seed %llu, law `%s`.\n\n"
-        "| turbulence | success, %% | settling, steps | variation, 1/s | PID here | | | PID published | | | "
-        "best policy published, success |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "| turbulence | success, %% | settling, steps | variation, 1/s | success, file's limits, %% | PID "
+        "here "
+        "| | | PID published | | | best policy published, success |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|\n",
         page, static_cast<unsigned long long>(o.episodes), static_cast<unsigned long long>(o.seed),
         o.law.c_str());
   for (std::size_t level = 0; level < published.size(); ++level) {
@@ -141,7 +148,8 @@ int run(const Options& o) {
                          {"within", within(row, p)},
                          {"failed", failed}};
     if (!o.json)
-      std::printf("| %s | %s | %s | %s | %.0f |\n", p.turbulence, shown(row).c_str(),
+      std::printf("| %s | %s | %.0f | %s | %s | %.0f |\n", p.turbulence, shown(row).c_str(),
+                  flown(o, level, o.law, gains, unused, Limits::file).success_percent,
                   shown(flown(o, level, "pid", gains, unused)).c_str(), shown(p.pid).c_str(),
                   p.policy_percent);
   }

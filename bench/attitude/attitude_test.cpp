@@ -12,7 +12,7 @@ using doctest::Approx;
 
 TEST_CASE("episodes begin and aim within the published ranges, and fill them") {
   double roll = 0, pitch = 0, v = 0, w = 0, rate = 0, aim_roll = 0, aim_pitch = 0, apart = 0;
-  double slow = 99, fast = 0;
+  double slow = 99, fast = 0, slow_aim = 99, fast_aim = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const Episode e = episode(5, i);
     roll = std::max(roll, std::abs(e.start.roll_rad)), pitch = std::max(pitch, std::abs(e.start.pitch_rad));
@@ -21,8 +21,9 @@ TEST_CASE("episodes begin and aim within the published ranges, and fill them") {
     aim_roll = std::max(aim_roll, std::abs(e.target.roll_rad));
     aim_pitch = std::max(aim_pitch, std::abs(e.target.pitch_rad));
     apart = std::max(apart, std::abs(e.target.airspeed_mps - e.start.airspeed_mps));
-    slow = std::min({slow, e.start.airspeed_mps, e.target.airspeed_mps});
-    fast = std::max({fast, e.start.airspeed_mps, e.target.airspeed_mps});
+    slow = std::min(slow, e.start.airspeed_mps), fast = std::max(fast, e.start.airspeed_mps);
+    slow_aim = std::min(slow_aim, e.target.airspeed_mps);
+    fast_aim = std::max(fast_aim, e.target.airspeed_mps);
   }
   const auto fills = [](double most, double bound) { return most <= bound && most > 0.99 * bound; };
   CHECK(fills(roll, 60 * deg));
@@ -36,6 +37,10 @@ TEST_CASE("episodes begin and aim within the published ranges, and fill them") {
   CHECK(fills(fast, 28));
   CHECK(slow >= 17);
   CHECK(slow < 17.1);
+  CHECK(slow_aim >= 14);  // the published set has 14.0 to 30.8
+  CHECK(slow_aim < 14.5);
+  CHECK(fast_aim > 30.5);
+  CHECK(fast_aim <= 31);
   CHECK(episode(5, 3).start.roll_rad == episode(5, 3).start.roll_rad);
   CHECK(episode(5, 3).start.roll_rad != episode(5, 4).start.roll_rad);
   CHECK(episode(5, 3).start.roll_rad != episode(6, 3).start.roll_rad);

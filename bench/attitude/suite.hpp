@@ -31,8 +31,9 @@ struct Target {
   double roll_rad = 0, pitch_rad = 0, airspeed_mps = 0;
 };
 
-/// What an airspeed may begin as. The target's as well, which is drawn within 3 m/s of it.
-inline constexpr double slowest_mps = 17, fastest_mps = 28;
+/// Airspeed at the start. The target is drawn within 3 m/s of it: 14 to 31 m/s, as the published set's 14.0
+/// to 30.8.
+inline constexpr double slowest_mps = 17, fastest_mps = 28, target_apart_mps = 3;
 
 struct Episode {
   Start start;
@@ -50,8 +51,7 @@ inline Episode episode(std::uint64_t seed, std::uint64_t number) {
   e.start.v_mps = within(5), e.start.w_mps = within(5);
   for (double& rate : e.start.rate_radps) rate = within(40 * deg);
   e.target.roll_rad = within(15 * deg), e.target.pitch_rad = within(10 * deg);
-  const double Va = e.start.airspeed_mps;
-  e.target.airspeed_mps = random.uniform(std::max(Va - 3, slowest_mps), std::min(Va + 3, fastest_mps));
+  e.target.airspeed_mps = e.start.airspeed_mps + within(target_apart_mps);
   e.seed = random.bits();
   return e;
 }

@@ -39,6 +39,9 @@ struct Airspeed {
     // loop follows an attitude that turns so fast. The outer laws have these rates for every command.
     Param take_over_rate{0.5, "rad/s", 0.05, 6,
                          "at which roll and pitch go from what was flown before to what is wanted"};
+    Param pitch_trade{0, "rad", 0, 0.2,
+                      "most change of the pitch that is wanted, where the throttle is at its stop and the "
+                      "airspeed is off: down when too slow, up when too fast"};
     Record<Airframe> airframe{"mass, trims, limits, and the drag that is fed forward"};
   };
 
@@ -46,6 +49,7 @@ struct Airspeed {
     airspeed_.reset_to(in.state->airspeed_mps);
     command_rate_.reset_to(wanted_airspeed(*in.command, p));
     loop_.reset();
+    traded_.reset_to(0);
     take_up_ = last.has(last->attitude);
     throttle_.reset_to(take_up_ ? last->attitude.throttle_frac : p.airframe->limits.throttle_cruise_frac);
     // Whose attitude it is did not fly until now, and may ask for another one by much.
@@ -79,12 +83,24 @@ struct Airspeed {
     const PidGains gains{p.speed_kp / per_throttle, p.speed_ki / per_throttle, 0};
     if (take_up_) loop_.reset_to(throttle_.value(), gains, input, 0.2);
     take_up_ = false;
-    out.attitude.throttle_frac = throttle_.step(loop_.step(gains, input, dt), p.throttle_rate_limit, dt);
+    const double throttle = loop_.step(gains, input, dt);
+    out.attitude.throttle_frac = throttle_.step(throttle, p.throttle_rate_limit, dt);
+    out.attitude.pitch_rad -= trade(input.error, throttle, p, dt);
     out.airspeed_error_mps = input.error;
     return state.airspeed_valid ? Status::ok : Status::degraded;
   }
 
  private:
+  /// Pitch, rad, that is given up for airspeed where thrust has no more to give.
+  double trade(double error_mps, double throttle_frac, const Params& p, double dt) {
+    constexpr double bearable_mps = 0.5, rad_per_mps = 0.05, smoothed_s = 0.3;
+    const double beyond_mps = error_mps - std::clamp(error_mps, -bearable_mps, bearable_mps);
+    const bool at_stop = beyond_mps > 0 ? throttle_frac >= 1 : throttle_frac <= 0;
+    const double wanted =
+        at_stop ? std::clamp<double>(rad_per_mps * beyond_mps, -p.pitch_trade, p.pitch_trade) : 0;
+    return p.pitch_trade > 0 ? traded_.step(wanted, smoothed_s, dt) : 0;
+  }
+
   static double wanted_airspeed(const GuidanceCommand& command, const Params& p) {
     const FlightLimits& limits = p.airframe->limits;
     return std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
@@ -93,7 +109,7 @@ struct Airspeed {
   /// Standing: engine off, nothing is remembered.
   Status rest(Outputs& out) {
     loop_.reset(), airspeed_.reset(), command_rate_.reset();
-    throttle_.reset_to(0), roll_left_.reset_to(0), pitch_left_.reset_to(0);
+    throttle_.reset_to(0), roll_left_.reset_to(0), pitch_left_.reset_to(0), traded_.reset();
     take_up_ = false;
     out.attitude.throttle_frac = 0;
     return Status::ok;
@@ -112,6 +128,7 @@ struct Airspeed {
 
   static constexpr double g_mps2 = 9.80665;
   LowPass airspeed_;  ///< m/s
+  LowPass traded_;    ///< rad
   Differentiator command_rate_;
   RateLimiter throttle_;
   RateLimiter roll_left_, pitch_left_;  ///< rad, of what was flown before

@@ -169,6 +169,42 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("pitch is given up for airspeed where the throttle is at its stop, and only there") {
+  const auto pitch_off = [](double error_mps, double kp, double trade_rad) {
+    Loop loop;
+    loop.params.energy_kff.value = 0;
+    loop.params.speed_kp.value = kp;
+    loop.params.pitch_trade.value = trade_rad;
+    loop.give();
+    loop.activate();
+    loop.state.airspeed_mps = cruise - error_mps;
+    loop.throttle(500);
+    return loop.out.attitude.pitch_rad - loop.wanted.pitch_rad;
+  };
+  for (const double side : {1.0, -1.0}) {
+    CAPTURE(side);
+    CHECK(pitch_off(4 * side, 10, 0) == 0);       // at the stop, but nothing may be given up
+    CHECK(pitch_off(4 * side, 0.01, 0.07) == 0);  // far off, and thrust has more to give
+    CHECK(pitch_off(0.4 * side, 10, 0.07) == 0);
+    CHECK(pitch_off(4 * side, 10, 0.07) == Approx(-0.07 * side));
+    const double some = pitch_off(1.5 * side, 10, 0.07);
+    CHECK(some * side < -0.02);
+    CHECK(some * side > -0.07);
+  }
+  // A take-over and a stop on the ground begin without it.
+  Loop loop;
+  loop.params.speed_kp.value = 10;
+  loop.params.pitch_trade.value = 0.07;
+  loop.state.airspeed_mps = cruise - 4;
+  loop.throttle(500);
+  REQUIRE(loop.out.attitude.pitch_rad < loop.wanted.pitch_rad);
+  loop.state.airspeed_mps = cruise;
+  loop.give();
+  loop.activate();
+  loop.throttle();
+  CHECK(loop.out.attitude.pitch_rad == loop.wanted.pitch_rad);
+}
+
 TEST_CASE("activation forgets the airspeed of before") {
   Loop loop;
   loop.params.energy_kff.value = 0;

@@ -44,7 +44,7 @@ struct Inner {
     Param roll_from_sideslip{0.0, "rad/rad", -5, 5,
                              "aileron per sideslip: damps the dutch roll of an aircraft without a rudder"};
 
-    Param pitch_kp{4.0, "rad/rad", 0, 40, "nose-up elevator per pitch error"};
+    Param pitch_kp{4.0, "rad/rad", 0, 20, "nose-up elevator per pitch error"};
     Param pitch_ki{2.0, "rad/(rad s)", 0, 40, "nose-up elevator per integrated pitch error"};
     Param pitch_kd{0.5, "rad s/rad", 0, 10, "elevator against pitch rate beyond that of the turn"};
     Param turn_kff{1.0, "ratio", 0, 2,

@@ -47,7 +47,7 @@ struct Named {
 struct InnerLaw {
   Number roll_kp{1.2, "rad/rad", 0, 20}, roll_ki{0.1, "rad/(rad s)", 0, 10}, roll_kd{0.02, "rad s/rad", 0, 5},
       roll_kff{0.15, "rad s/rad", 0, 5}, roll_from_sideslip{0, "rad/rad", -5, 5};
-  Number pitch_kp{4.0, "rad/rad", 0, 40}, pitch_ki{2.0, "rad/(rad s)", 0, 40},
+  Number pitch_kp{4.0, "rad/rad", 0, 20}, pitch_ki{2.0, "rad/(rad s)", 0, 40},
       pitch_kd{0.5, "rad s/rad", 0, 10}, turn_kff{1.0, "ratio", 0, 2};
   Number yaw_kd{0.3, "rad s/rad", 0, 5}, yaw_washout{0.6, "rad/s", 0.01, 10};
   Number command_filter{0.04, "s", 0.005, 1}, airspeed_smoothing{0.5, "s", 0, 10},

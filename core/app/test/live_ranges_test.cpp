@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The range of a live parameter holds what an aircraft survives: those of the estimator, flown at both ends
-// on three aircraft. A draw of them here; all of them with --no-skip.
+// The range of a live parameter holds what an aircraft survives: those of estimator, laws and guidance, flown
+// at both ends on three aircraft. A draw of them here; all of them with --no-skip.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -28,6 +28,7 @@ constexpr Craft crafts[] = {
 struct Case {
   Craft craft;
   std::string param, value;
+  std::string outer = "slc";  ///< the law that flies
 };
 
 class Folder {
@@ -48,6 +49,7 @@ class Folder {
   Graph mission(const Case& c) const {
     Overrides o;
     if (!c.param.empty()) o.set.emplace_back(c.param, c.value);
+    if (c.outer != "slc") o.roles.emplace_back("outer", c.outer);
     return load_mission((path / (std::string(c.craft.name) + ".yaml")).string(), o);
   }
   std::filesystem::path path;
@@ -59,14 +61,25 @@ std::string text_of(double value) {
   return text;
 }
 
-/// Both ends of each live number of the estimator.
-std::vector<Case> cases(const Folder& folder) {
-  std::vector<Case> list;
-  const Graph graph = folder.mission({crafts[0], "", ""});
-  for (const ParamInfo& p : find_named(graph.components, "ekf")->info().params)
+/// Both ends of each live number of the component, with this law.
+void add(std::vector<Case>& list, const Folder& folder, const std::string& component,
+         const std::string& outer) {
+  const Graph graph = folder.mission({crafts[0], "", "", outer});
+  for (const ParamInfo& p : find_named(graph.components, component)->info().params)
     for (const double end : {p.min, p.max})
       for (const Craft& craft : crafts)
-        if (p.live && p.kind == FULMAR_NUMBER) list.push_back({craft, "ekf." + p.name, text_of(end)});
+        if (p.live && p.kind == FULMAR_NUMBER)
+          list.push_back({craft, component + "." + p.name, text_of(end), outer});
+}
+std::vector<Case> of_estimator(const Folder& folder) {
+  std::vector<Case> list;
+  add(list, folder, "ekf", "slc");
+  return list;
+}
+std::vector<Case> of_laws(const Folder& folder) {
+  std::vector<Case> list;
+  for (const char* component : {"slc", "attitude", "follow", "manage"}) add(list, folder, component, "slc");
+  add(list, folder, "tecs", "tecs");
   return list;
 }
 
@@ -81,20 +94,26 @@ void survives(const Folder& folder, const Case& c) {
   CHECK(Flight(graph, options).run().outcome == Outcome::flown);
 }
 
-}  // namespace
-
-TEST_CASE("an aircraft survives both ends of the ranges of the estimator's live parameters: a draw") {
-  const Folder folder;
-  std::vector<Case> list = cases(folder);
-  CHECK(list.size() > 200);
+void survives_some(const Folder& folder, const std::vector<Case>& list, int count) {
   std::mt19937_64 draw(1);
-  for (int i = 0; i < 8; ++i) survives(folder, list[draw() % list.size()]);
+  for (int i = 0; i < count; ++i) survives(folder, list[draw() % list.size()]);
 }
 
-TEST_CASE("an aircraft survives both ends of the ranges of the estimator's live parameters: all" *
-          doctest::skip()) {
+}  // namespace
+
+TEST_CASE("an aircraft survives both ends of the ranges of the live parameters: a draw") {
   const Folder folder;
-  for (const Case& c : cases(folder)) survives(folder, c);
+  const std::vector<Case> estimator = of_estimator(folder), laws = of_laws(folder);
+  CHECK(estimator.size() > 200);
+  CHECK(laws.size() > 200);
+  survives_some(folder, estimator, 6);
+  survives_some(folder, laws, 6);
+}
+
+TEST_CASE("an aircraft survives both ends of the ranges of the live parameters: all" * doctest::skip()) {
+  const Folder folder;
+  for (const std::vector<Case>& list : {of_estimator(folder), of_laws(folder)})
+    for (const Case& c : list) survives(folder, c);
 }
 
 }  // namespace live_ranges_test

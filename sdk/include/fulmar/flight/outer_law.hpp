@@ -44,7 +44,7 @@ struct OuterParams {
   Param roll_rate_limit{1.0, "rad/s", 0.1, 6, "fastest change of the roll command"};
   Param roll_smoothing{0.1, "s", 0, 2, "time constant of the roll command"};
 
-  Param pitch_limit{0.35, "rad", 0.02, 1.0,
+  Param pitch_limit{0.35, "rad", 0.1, 1.0,
                     "largest pitch command, either way; the airframe's own limits hold as well"};
   Param pitch_rate_limit{0.8, "rad/s", 0.05, 6, "fastest change of the pitch command"};
   Param throttle_rate_limit{2.0, "1/s", 0.1, 20, "fastest change of the throttle"};

@@ -114,7 +114,7 @@ class TouchDown {
   static constexpr double asked_mps = 0.4;       ///< least sink of a flare
   static constexpr double least_sink_mps = 0.1;  ///< of the last second, or seconds
   static constexpr double gust_s = 0.8;          ///< for which a gust accelerates
-  static constexpr double most_rate = 3, new_rate_s = 0.3;
+  static constexpr double most_rate = 3, new_rate_s = 0.4;
   static constexpr double unknown_ground = 20;  ///< no height is less likely than this
   Sudden up_{0.005, 0.025, 0.36}, back_{0.005, 0.025, 0.2}, side_{0.02, 0.1, 0.1}, gust_{0.1, 0.5, 0.2};
   LowPass sink_, usual_sink_;

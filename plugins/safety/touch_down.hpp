@@ -43,14 +43,13 @@ class Sudden {
 
 /// Evidence of a touch-down of an aircraft in the air, 1: enough. Fed at each tick.
 ///
-/// | feature                      | density in the air            | density on the ground           | new
-/// each |
-/// |------------------------------|-------------------------------|---------------------------------|----------|
-/// | sudden push up, back and to  | normal, as in the last 3 s;   | the same; 1 of 50 is wide:      | 0.01 s
-/// | | a side, m/s2                 | 1 of 100 000 is 4 times wider | wheels or a belly hit           | | |
-/// climb rate, m/s              | normal: the sink of the last  | normal: half level runways,     | 0.3 s |
-/// |                              | 3 s, as wide as gusts make it | half with a slope               | | |
-/// height above the ground, m   | any                           | normal, `touch_off`             | once |
+/// | feature                | density in the air           | density on the ground         | new each |
+/// |------------------------|------------------------------|-------------------------------|----------|
+/// | sudden push up, back   | normal, as in the last 3 s;  | the same; 1 of 50 is 4 times  | 0.01 s   |
+/// | or to a side           | 1 of 1e5 is 4 times wider    | wider: wheels or a belly hit  |          |
+/// | climb rate             | normal: sink of the last 3 s | half a level runway, half a   | 0.4 s    |
+/// |                        | as wide as gusts make it     | slope                         |          |
+/// | height over the ground | any                          | normal, `touch_off`           | once     |
 ///
 /// The logarithms of the ratios are added. A sum below 0 starts at 0 again: the past in the air is no
 /// evidence against a touch-down now.
@@ -67,9 +66,9 @@ class TouchDown {
   double step(const VehicleState& s, const Expected& e, const TouchParams& p, double dt) {
     const double sink = sink_.step(-s.climb_rate_mps, 0.8, dt);
     const double pushed = pushes(s, dt), ended = sink_ends(s, e, p, dt);
-    // Level flight is asked for at times: there an end of the sink is no evidence. Who climbs touches
-    // nothing.
+    // Level flight is asked for at times: there an end of the sink is no evidence.
     const bool sinks = e.sinks || (e.slow && usual_sink_.value() > least_sink_mps);
+    // Who climbs touches nothing.
     log_ratio_ += (sink > least_sink_mps ? pushed : std::min(pushed, 0.0)) * dt / new_push_s;
     log_ratio_ += (sinks ? ended : std::min(ended, 0.0)) * dt / new_rate_s;
     if (log_ratio_ <= 0) {

@@ -62,10 +62,11 @@ class TouchDown {
     double off_m;  ///< from the height of the ground; a large one where that is not known
     bool slow;     ///< at the least airspeed or below it
     bool sinks;    ///< a sink is asked for until it touches: short final and flare
+    bool closed;   ///< the throttle, for a second: what brakes is not the motor
   };
   double step(const VehicleState& s, const Expected& e, const TouchParams& p, double dt) {
     const double sink = sink_.step(-s.climb_rate_mps, 0.8, dt);
-    const double pushed = pushes(s, dt), ended = sink_ends(s, e, p, dt);
+    const double pushed = pushes(s, e, dt), ended = sink_ends(s, e, p, dt);
     // Level flight is asked for at times: there an end of the sink is no evidence.
     const bool sinks = e.sinks || (e.slow && usual_sink_.value() > least_sink_mps);
     // Who climbs touches nothing.
@@ -84,11 +85,12 @@ class TouchDown {
 
  private:
   /// Logarithm of the ratio of the two densities of the three pushes, ground to air.
-  double pushes(const VehicleState& s, double dt) {
+  double pushes(const VehicleState& s, const Expected& e, double dt) {
     const Eigen::Vector3d f_b = eigen(s.specific_force_mps2), f_n = eigen(s.attitude) * f_b;
     gust_.step(-f_n.z(), dt);
     const double up = std::max(up_.step(-f_n.z(), dt), 0.0);
-    const double back = std::max(back_.step(-f_b.x(), dt), 0.0);
+    const double kick = back_.step(-f_b.x(), dt), brake = brake_.step(-f_b.x(), dt);
+    const double back = std::max({kick, e.closed ? brake : 0, 0.0});
     const double side = side_.step(f_b.y(), dt);
     const double square = std::min(up * up + back * back + side * side, 200.0);
     // The wide normal density over the narrow one.
@@ -115,7 +117,8 @@ class TouchDown {
   static constexpr double gust_s = 0.8;          ///< for which a gust accelerates
   static constexpr double most_rate = 3, new_rate_s = 0.4;
   static constexpr double unknown_ground = 20;  ///< no height is less likely than this
-  Sudden up_{0.005, 0.025, 0.36}, back_{0.005, 0.025, 0.2}, side_{0.02, 0.1, 0.1}, gust_{0.1, 0.5, 0.2};
+  Sudden up_{0.005, 0.025, 0.36}, back_{0.005, 0.025, 0.2}, brake_{0.02, 0.1, 0.2}, side_{0.01, 0.06, 0.1},
+      gust_{0.1, 0.5, 0.2};
   LowPass sink_, usual_sink_;
   double log_ratio_ = 0, sink_mps_ = 0;
 };

@@ -177,6 +177,21 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a belly that touches with a kiss is recognised by how it brakes, while the throttle is closed") {
+  for (const bool closed : {true, false}) {
+    CAPTURE(closed);
+    Craft c;
+    c.take_off();
+    c.has_landing = true;
+    c.landing.stage = LandingStage::flare;
+    c.actuators.throttle_frac = closed ? 0 : 0.5;
+    c.sink_to(0.2, 0.3);
+    for (double t = 0; t < 0.1; t += dt) c.go(dt, 0, -2.5 * t / 0.1);
+    c.go(0.1, 0, -2.5);
+    CHECK((c.out.state.contact == Contact::ground) == closed);
+  }
+}
+
 TEST_CASE("a lull in rough air is no touch-down, in the flare of a runway that is given 4 m wrong or not") {
   for (const double off : {0.5, 4.0}) {
     CAPTURE(off);

@@ -153,13 +153,11 @@ struct Ground {
     const double place = placed_ ? std::abs(s.height_m - height_m_) : unknown_m;
     const double runway = approaches_ ? std::abs(in.landing->height_m) : unknown_m;
     const double off = std::min({place, runway, unknown_m});
-    const double far = placed_ && approaches_ ? std::max(place, runway) : off;
     const bool sinks = approaches_ && (in.landing->stage == LandingStage::flare ||
                                        (in.landing->stage == LandingStage::approach && off < short_final_m));
-    now_.touch_evidence_ratio =
-        touch_.step(s, *p.airframe, {off, far, speed_ratio_ < 1.1, sinks}, p.touch, dt);
-    // Far from any known ground a touch-down is possible for an aircraft that glides.
     const bool closed = closed_.step(in.actuators && in.actuators->throttle_frac < 0.03, 1.0, dt);
+    now_.touch_evidence_ratio = touch_.step(s, {off, speed_ratio_ < 1.1, sinks, closed}, p.touch, dt);
+    // Far from any known ground a touch-down is possible for an aircraft that glides.
     const bool touches = now_.touch_evidence_ratio >= 1 && (closed || off < p.touch_height);
     // Whatever happened: an aircraft that neither moves nor climbs for a second is on the ground.
     // Without an airspeed a slow ground speed may be a flight against the wind.

@@ -21,7 +21,7 @@ struct Craft : Bench<Ground> {
   VehicleStatus status;
   Actuators actuators;
   Random noise{7};
-  double noise_mps2 = 0.2;
+  double noise_mps2 = 0.2, side_mps2 = 0;
   bool has_status = true, has_throttle = true, has_landing = false;
   LandingProgress landing;
 
@@ -39,7 +39,7 @@ struct Craft : Bench<Ground> {
     for (double t = 0; t < seconds - dt / 2; t += dt) {
       s.climb_rate_mps += up_mps2 * dt;
       s.height_m += s.climb_rate_mps * dt;
-      s.specific_force_mps2 = {ahead_mps2 + noise_mps2 * noise.normal(), 0,
+      s.specific_force_mps2 = {ahead_mps2 + noise_mps2 * noise.normal(), side_mps2,
                                -g - up_mps2 + noise_mps2 * noise.normal()};
       set(in.state, s, -dt);
       if (has_status) set(in.status, status, -dt);
@@ -75,6 +75,11 @@ struct Craft : Bench<Ground> {
   void gust(double by_mps, double for_s) {
     const double pi = std::numbers::pi, peak = by_mps * pi / (2 * for_s);
     for (double t = dt / 2; t < for_s; t += dt) go(dt, peak * std::sin(pi * t / for_s));
+  }
+  /// Gusts that go on and leave the mean of the climb rate as it is.
+  void rough_air(double seconds, double up_mps2 = 1) {
+    const double pi = std::numbers::pi;
+    for (double t = dt / 2; t < seconds; t += dt) go(dt, up_mps2 * std::sin(2 * pi * 1.5 * t));
   }
   /// Seconds from now until the contact is `wanted`; 1e9: not within `within_s`.
   double until(Contact wanted, double within_s) {
@@ -154,6 +159,81 @@ TEST_CASE("a touch-down without a push is one after a second or two of a flare, 
   cruise.take_off();
   cruise.fast(14.5);
   CHECK(cruise.until(Contact::ground, 20) > 1e8);  // level flight, no sink asked for
+}
+
+TEST_CASE(
+    "a kiss in a crosswind is recognised within 0.3 s by what pushes the wheels to a side, left or right") {
+  for (const double side : {1.5, -1.5}) {
+    Craft c;
+    c.take_off();
+    c.has_landing = true;
+    c.landing.stage = LandingStage::flare;
+    c.sink_to(0.1, 0.4);
+    c.go(0.3, 0.4 / 0.3);
+    REQUIRE(c.out.state.contact == Contact::air);
+    c.side_mps2 = side;
+    CHECK(c.until(Contact::ground, 1) < 0.3);
+    CHECK(c.out.state.touch_sink_mps == doctest::Approx(0.4).epsilon(0.3));
+  }
+}
+
+TEST_CASE("a belly that touches with a kiss is recognised by how it brakes, while the throttle is closed") {
+  for (const bool closed : {true, false}) {
+    CAPTURE(closed);
+    Craft c;
+    c.take_off();
+    c.has_landing = true;
+    c.landing.stage = LandingStage::flare;
+    c.actuators.throttle_frac = closed ? 0 : 0.5;
+    c.sink_to(0.2, 0.3);
+    for (double t = 0; t < 0.1; t += dt) c.go(dt, 0, -2.5 * t / 0.1);
+    c.go(0.1, 0, -2.5);
+    CHECK((c.out.state.contact == Contact::ground) == closed);
+  }
+}
+
+TEST_CASE("a lull in rough air is no touch-down, in the flare of a runway that is given 4 m wrong or not") {
+  for (const double off : {0.5, 4.0}) {
+    CAPTURE(off);
+    Craft c;
+    c.take_off();
+    c.has_landing = true;
+    c.landing.stage = LandingStage::flare;
+    c.landing.height_m = off;
+    c.climb(-0.8);
+    c.rough_air(10);
+    c.climb(0);
+    c.rough_air(2.5);
+    CHECK(c.out.state.contact == Contact::air);
+  }
+}
+
+TEST_CASE("a throttle that closes within a fifth of a second brakes more slowly than a belly") {
+  Craft c;
+  c.take_off();
+  c.has_landing = true;
+  c.landing.stage = LandingStage::flare;
+  c.sink_to(2, 0.8);
+  for (double t = 0; t < 0.2; t += dt) c.go(dt, 0, -3 * t / 0.2);
+  c.go(2, 0, -3);
+  CHECK(c.out.state.contact == Contact::air);
+}
+
+TEST_CASE("evidence of one far from the runway has to be stronger by the square of the height") {
+  const auto evidence = [](double off_m) {
+    Craft one;
+    one.take_off(40);
+    one.has_landing = true;
+    one.landing.stage = LandingStage::flare;
+    one.landing.height_m = off_m;
+    one.sink_to(30, 0.5);
+    one.go(0.01, 6);
+    return one.out.state.touch_evidence_ratio;
+  };
+  const double here = evidence(0), far = evidence(12);
+  REQUIRE(here > 0);
+  REQUIRE(here < 1);
+  CHECK(here / far == doctest::Approx((std::log(1e5) + 4.5) / std::log(1e5)));
 }
 
 TEST_CASE("a belly without wheels is recognised by what it brakes") {

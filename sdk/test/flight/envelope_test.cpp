@@ -233,6 +233,66 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a stall whose recovery takes the lift away was air that sinks, and is left") {
+  Guarded f;
+  VehicleState s = mushing(5, 12);
+  f.fly(s, 1);
+  CHECK(f.guard.stalled());
+  s.specific_force_mps2.z = 0;
+  f.fly(s, 0.6);
+  CHECK_FALSE(f.guard.stalled());
+}
+
+TEST_CASE(
+    "beyond the stall pitch stays limited though lift is gone; in air that sinks it is free after seconds") {
+  Guarded f;
+  VehicleState s = level(12);
+  s.alpha_rad = s.pitch_rad = 0.3;
+  f.fly(s, 1);
+  const double most = f.now.pitch_max_rad;
+  CHECK(most < 0.2);
+  s.specific_force_mps2.z = -0.3 * g;
+  f.fly(s, 0.1);
+  CHECK(f.now.pitch_max_rad == doctest::Approx(most));
+  f.fly(s, 4);
+  CHECK(f.now.pitch_max_rad > f.airframe.limits.pitch_max_rad);
+}
+
+TEST_CASE("after a fall height is regained: not for a descent that is asked for, until the height is near") {
+  Guarded f;
+  VehicleState s = level(14);
+  f.fly(s, 1);
+  s.climb_rate_mps = -4;
+  CHECK_FALSE(f.guard.regains(s, 20, -3));  // a descent
+  CHECK_FALSE(f.guard.regains(s, 4, 0));
+  CHECK(f.guard.regains(s, 6, 0));
+  CHECK(f.guard.bank_max(30, f.airframe.limits, rho) == doctest::Approx(0.26));
+  s.climb_rate_mps = 3;
+  CHECK(f.guard.regains(s, 12, 0));
+  s.airspeed_valid = false;
+  CHECK_FALSE(f.guard.regains(s, 12, 0));  // the law flies, until it is known again
+  s.airspeed_valid = true;
+  CHECK(f.guard.regains(s, 12, 0));
+  CHECK_FALSE(f.guard.regains(s, 10.9, 0));  // two seconds of climb and 5 m
+  CHECK(f.guard.bank_max(30, f.airframe.limits, rho) > 1);
+}
+
+TEST_CASE("on the way up airspeed that is too much raises the nose, as far as the wing's lift allows") {
+  Guarded f;
+  VehicleState s = level(25);
+  f.fly(s, 2);
+  const WingEnvelope w(f.airframe);
+  const double lift = 4.5 * g / (0.5 * rho * 25 * 25 * 0.52 * w.most_lift);
+  // 25 m/s against 1.1 times the least; the flight is level, and pitch points 0.05 rad above it.
+  const double rate = 0.05 * (25 - 1.1 * f.now.slowest_mps) + 0.1 * airspeed_rate(s);
+  CHECK(f.guard.regaining_pitch(s, f.now, 0.1, 0.01) == doctest::Approx(0.1 + 0.01 * rate).epsilon(1e-3));
+  const double used = std::min(w.share(0.05), 1.2 * lift);
+  CHECK(f.guard.regaining_pitch(s, f.now, 2, 0.01) ==
+        doctest::Approx(std::min(0.05 + (0.9 - used) / w.share_per_rad, f.now.pitch_max_rad)).epsilon(1e-3));
+  CHECK(f.guard.regaining_pitch(s, f.now, -2, 0.01) ==
+        doctest::Approx(0.05 + (0.3 - lift) / w.share_per_rad).epsilon(1e-3));
+}
+
 TEST_CASE("near the stall pitch is no more than nine tenths of the lift above the flight path") {
   Guarded f;
   VehicleState s = level(12);

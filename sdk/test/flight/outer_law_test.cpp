@@ -282,6 +282,30 @@ TEST_CASE("a stall takes the law out: nose down, wings level, full power, degrad
   CHECK_FALSE(law.out.internals.stalled);
 }
 
+TEST_CASE("after a fall the loop climbs at full power and little bank, then the law goes on without a step") {
+  Counting law;
+  law.params.airframe.value = test::anaconda();
+  GuidanceCommand command;
+  command.course_rad = 1.5, command.height_m = 90, command.airspeed_mps = 12;
+  VehicleState s = flying();
+  s.wind_valid = true, s.specific_force_mps2.z = -9.8;
+  for (int i = 0; i < 200; ++i) law.step(s, command);
+  REQUIRE(law.out.attitude.roll_rad > 0.5);
+  const int held = law.holds;
+  s.climb_rate_mps = -4;
+  for (int i = 0; i < 100; ++i) law.step(s, command);
+  CHECK_EQ(law.holds, held);
+  CHECK_FALSE(law.out.internals.stalled);
+  CHECK(law.out.attitude.throttle_frac == 1);
+  CHECK(law.out.attitude.roll_rad < 0.27);
+  CHECK_EQ(law.out.internals.height_error_m, 20);
+  s.climb_rate_mps = 1, s.height_m = 89;
+  const double throttle = law.out.attitude.throttle_frac;
+  law.step(s, command);
+  CHECK_EQ(law.holds, held + 1);
+  CHECK(std::abs(law.out.attitude.throttle_frac - throttle) < 0.0201);
+}
+
 TEST_CASE("a law that sinks at its pitch limit with the throttle closed is refused after seconds") {
   Counting law;
   law.params.airframe.value = test::anaconda();

@@ -57,13 +57,15 @@ struct WingEnvelope {
   }
 };
 
+inline constexpr double least_bank_rad = 0.26;
+
 /// Bank, rad, to which the wing carries a level turn at airspeed `Va` with a tenth of speed left above the
 /// stall: its lift has to be 1 / cos(bank) of the weight. Slower than that some bank is left, to steer with.
 inline double bank_carried(double Va, double stall_mps) {
-  constexpr double above_stall_ratio = 1.1, least_rad = 0.26;
+  constexpr double above_stall_ratio = 1.1;
   const double slowest = above_stall_ratio * stall_mps;
   const double cosine = slowest * slowest / std::max(Va * Va, 1e-3);
-  return std::max(least_rad, std::acos(std::min(cosine, 1.0)));
+  return std::max(least_bank_rad, std::acos(std::min(cosine, 1.0)));
 }
 
 /// What a law may ask for at this moment.
@@ -91,10 +93,11 @@ class EnvelopeGuard {
   /// A hand-over, a reset of the state, flight on the ground: what was seen is over.
   void reset() {
     lift_.reset(), gust_.reset(), gusty_.reset();
-    learnt_ = false, above_s_ = below_s_ = 0, stalled_ = false;
+    learnt_ = false, above_s_ = below_s_ = unloaded_s_ = peak_ = 0, stalled_ = regains_ = false;
   }
 
   double bank_max(double Va, const FlightLimits& limits, double density_kgm3) const {
+    if (regains_) return least_bank_rad;
     return bank_carried(Va, wing_.bank_stall_mps(limits, density_kgm3));
   }
 
@@ -120,9 +123,7 @@ class EnvelopeGuard {
       return e;
     }
     if (seen) {
-      constexpr double most_for_gusts = 1.2;
-      const double gusts =
-          std::min(for_gusts(state, stall * std::sqrt(load), dt_s), most_for_gusts * e.slowest_mps);
+      const double gusts = for_gusts(state, stall * std::sqrt(load), dt_s);
       const double least_mps = std::max(for_alpha(e, load, stall, limits, dt_s), gusts);
       e.airspeed_min_mps = std::clamp(least_mps, e.slowest_mps, most);
     }
@@ -140,6 +141,29 @@ class EnvelopeGuard {
     return std::clamp(climb_rad_ + wing_.alpha_of(share), limits.pitch_min_rad, limits.pitch_max_rad);
   }
 
+  /// After a stall, or where it fell though nothing asked it to: the law is to rest until the height that is
+  /// commanded is near. Airspeed is held by pitch, at full power.
+  bool regains(const VehicleState& s, double height_error_m, double climb_rate_mps) {
+    constexpr double fall_mps = 3, held_mps = 1, below_m = 5, ahead_s = 2;
+    const double sink = std::min(climb_rate_mps, 0.0) - s.climb_rate_mps;
+    const double left_m = height_error_m - ahead_s * std::max(s.climb_rate_mps, 0.0);
+    if (!s.height_valid || (!stalled_ && sink < held_mps && left_m < below_m)) regains_ = false;
+    if (stalled_ || (sink > fall_mps && height_error_m > below_m)) regains_ = s.height_valid;
+    return regains_ && s.airspeed_valid && s.velocity_valid;
+  }
+  /// Airspeed that is too much becomes height, airspeed that is missing comes from height. Between them the
+  /// wing's own lift holds, as the accelerometer measures it: no more than nine tenths of it, and not so
+  /// little that the aircraft falls. `pitch_rad` was commanded last.
+  double regaining_pitch(const VehicleState& s, const Envelope& e, double pitch_rad, double dt_s) const {
+    constexpr double above_slowest = 1.1, most_share = 0.9, least_share = 0.3;
+    constexpr double error_gain = 0.05, rate_gain = 0.1;  // 0.7 rad/s, damping 0.7
+    const double error = s.airspeed_mps - above_slowest * e.slowest_mps;
+    const double rate = error_gain * error + rate_gain * airspeed_rate(s);
+    const double least = s.pitch_rad + (least_share - lift_.value()) / wing_.share_per_rad;
+    const double most = s.pitch_rad + (most_share - used()) / wing_.share_per_rad;
+    return std::min({std::max(pitch_rad + rate * dt_s, least), most, e.pitch_max_rad});
+  }
+
  private:
   static constexpr double above_stall = 1.15;
 
@@ -155,13 +179,15 @@ class EnvelopeGuard {
 
   /// Share of the most lift, by what the accelerometer says: the wing's own, vertical air or not.
   void lift(const VehicleState& s, double density_kgm3, double dt_s) {
-    constexpr double smoothed_s = 0.1;
+    constexpr double smoothed_s = 0.1, remembered_s = 1;
     const double most = 0.5 * density_kgm3 * V_ * V_ * wing_.area_m2 * wing_.most_lift;
     lift_.step(most > 0 ? -s.specific_force_mps2.z * wing_.mass_kg / most : 1, smoothed_s, dt_s);
+    peak_ = std::max(lift_.value(), decay_.of(dt_s / remembered_s) * peak_);
   }
   /// Of the most lift, as far as the flight path and the accelerometer agree: in air that sinks the angle
-  /// over the flight path is large, and that of the wing is not. The mass may be a fifth more than it should.
-  double used() const { return std::min(wing_.share(alpha_), 1.2 * lift_.value()); }
+  /// over the flight path is large, and that of the wing is not. Beyond the stall lift is small as well: the
+  /// largest of the last second counts. The mass may be a fifth more than it should.
+  double used() const { return std::min(wing_.share(alpha_), 1.2 * peak_); }
 
   /// Gusts take airspeed faster than an engine gives it: the faster part of them, times four, above the
   /// stall.
@@ -188,13 +214,15 @@ class EnvelopeGuard {
   }
 
   /// No more than nine tenths of the lift above the flight path, where the lift that is used nears that and
-  /// the aircraft is slower than cruise. No lower than the pitch limit, and half of it where the aircraft is
-  /// fast: the flight path may be the air's.
+  /// the aircraft is slower than cruise or falls. No lower than the pitch limit, and half of it where the
+  /// aircraft is fast: the flight path may be the air's.
   double pitch_max(const VehicleState& s, const FlightLimits& limits, double slowest_mps) const {
     constexpr double share = 0.9, free_rad = 0.6, free_share = 0.65, full_share = 0.85, slow_ratio = 0.9;
+    constexpr double held_mps = 2, fall_mps = 4;
+    const double flies = 1 - smoothly(-s.climb_rate_mps, held_mps, fall_mps);
     const double cruise = limits.airspeed_cruise_mps;
     const double slack = free_rad * std::max(smoothly(used(), full_share, free_share),
-                                             smoothly(V_, slow_ratio * cruise, cruise));
+                                             flies * smoothly(V_, slow_ratio * cruise, cruise));
     const double lowest =
         limits.pitch_min_rad * (1 - 0.5 * smoothly(V_, 1.2 * slowest_mps, 1.5 * slowest_mps));
     return std::max(lowest, climb_rad_ + wing_.alpha_of(share) * std::cos(s.roll_rad) + slack);
@@ -203,30 +231,34 @@ class EnvelopeGuard {
   /// A stall: the angle of attack is beyond that of the most lift, the aircraft is slow, and sinks though
   /// nothing asked it to, though the wing pushes up: in a downdraft it does not. Without wind or airspeed the
   /// angle is known less well: more of it, for longer. Well above the stalling speed it is mostly the air
-  /// that sinks: longer, too.
+  /// that sinks: longer, too. Where the nose goes down and takes all lift away, it was no stall. Fast, with
+  /// lift: it is over.
   void look(const VehicleState& s, double slowest_mps, double stall_mps, double climb_rate_mps, bool seen,
             double dt_s) {
-    constexpr double left_share = 0.8, left_s = 0.2, fast_ratio = 1.35, sink_mps = 1, carries = 0.1,
-                     near_ratio = 1.2;
+    constexpr double left_share = 0.8, left_s = 0.2, unloaded_s = 0.1, fast_ratio = 1.35, sink_mps = 1,
+                     carries = 0.1, near_ratio = 1.2;
     const double beyond_rad = seen ? 0.02 : 0.07, for_s = seen && V_ < near_ratio * stall_mps ? 0.3 : 1;
-    const bool slow = !s.airspeed_valid || V_ < fast_ratio * slowest_mps;
+    const bool slow = !s.airspeed_valid || regains_ || V_ < fast_ratio * slowest_mps;
+    const bool unloaded = lift_.value() < carries && V_ > stall_mps;
     const bool sinks = s.climb_rate_mps < std::min(climb_rate_mps, 0.0) - sink_mps;
-    const bool above = s.velocity_valid && slow && sinks && lift_.value() > carries &&
-                       alpha_ > wing_.stall_alpha_rad + beyond_rad;
+    const bool above =
+        s.velocity_valid && slow && sinks && !unloaded && alpha_ > wing_.stall_alpha_rad + beyond_rad;
     above_s_ = std::clamp(above ? above_s_ + dt_s : above_s_ - dt_s, 0.0, for_s);
-    const bool left = !slow || !s.velocity_valid || wing_.share(alpha_) < left_share;
+    const bool left = !s.velocity_valid || wing_.share(alpha_) < left_share;
     below_s_ = left ? below_s_ + dt_s : 0;
+    unloaded_s_ = unloaded ? unloaded_s_ + dt_s : 0;
     if (above_s_ >= for_s)
       stalled_ = true;
-    else if (below_s_ >= left_s)
+    else if (below_s_ >= left_s || unloaded_s_ >= unloaded_s)
       stalled_ = false;
   }
 
   WingEnvelope wing_;
   LowPass stall_squared_, lift_, gusty_;
   SteadyAirspeed gust_;
-  double V_ = 0, climb_rad_ = 0, alpha_ = 0, above_s_ = 0, below_s_ = 0;
-  bool configured_ = false, learnt_ = false, stalled_ = false;
+  double V_ = 0, climb_rad_ = 0, alpha_ = 0, above_s_ = 0, below_s_ = 0, unloaded_s_ = 0, peak_ = 0;
+  Decay decay_;
+  bool configured_ = false, learnt_ = false, stalled_ = false, regains_ = false;
 };
 
 }  // namespace fulmar

@@ -115,12 +115,15 @@ class OuterCommands {
     return finish(course_.shape(0, tuning.course, dt_s), pitch_rad, throttle_frac, tuning, dt_s);
   }
 
-  /// Out of a stall: wings level, full power. What holds next goes on from here, as after a hand-over.
-  AttitudeCommand recover(double pitch_rad, const OuterTuning& tuning, double dt_s) {
-    finish(course_.shape(0, tuning.course, dt_s), pitch_rad, 1, tuning, dt_s);
+  /// Out of a stall, and up again. What holds next goes on from here, as after a hand-over.
+  AttitudeCommand recover(double roll_rad, double pitch_rad, double throttle_frac, const OuterTuning& tuning,
+                          double dt_s) {
+    finish(roll_rad, pitch_rad, throttle_frac, tuning, dt_s);
     taking_up_ = true;
     return last_;
   }
+
+  double wings_level(const OuterTuning& tuning, double dt_s) { return course_.shape(0, tuning.course, dt_s); }
 
   /// Roll command of course hold, or of a lateral acceleration, shaped. Without a velocity there is no
   /// course: wings level.

@@ -194,26 +194,43 @@ struct OuterLoop {
                          c.roll_feedforward_rad + c.lateral_acceleration_mps2);
   }
 
-  /// Height and speed by the law, or the way out of a stall.
+  /// Height and speed by the law, or the way out of a stall and up again.
   template <class Rest, class Hold>
   AttitudeCommand held(const VehicleState& state, const GuidanceCommand& command, const OuterParams& p,
                        const OuterTuning& t, double steady_mps, double rho, double dt,
                        ControllerInternals& internals, Rest&& rest, Hold&& hold) {
     const FlightLimits& limits = p.airframe->limits;
-    const double bank = guard.stalled() ? 0 : commands.roll(state, command, t, dt);
-    Envelope within =
-        guard.step(state, limits, rho, bank, command.climb_rate_mps, p.stall_guard && !flares, dt);
+    const bool guarded = p.stall_guard && !flares;
+    const double bank = guard.stalled() ? commands.wings_level(t, dt) : commands.roll(state, command, t, dt);
+    Envelope within = guard.step(state, limits, rho, bank, command.climb_rate_mps, guarded, dt);
     internals.airspeed_raised = state.airspeed_valid && within.airspeed_min_mps > command.airspeed_mps;
     internals.stalled = guard.stalled();
-    if (guard.stalled()) {
+    const double error = command.height_m - state.height_m;
+    const bool regains = guarded && guard.regains(state, error, command.climb_rate_mps);
+    if (guard.stalled() || regains) {
       rest();
-      internals.height_error_m = command.height_m - state.height_m;
-      return commands.recover(guard.recovery_pitch(limits), t, dt);
+      internals.height_error_m = error;
+      internals.pitch_saturated = true;
+      return commands.recover(bank, regained_pitch(state, within, limits, dt), power(state, limits), t, dt);
     }
     LevelTurn turn = level_turn(bank, steady_mps, rho, p);
     turn.within = within;
     const PitchThrottle wanted = hold(turn, dt);
     return commands.finish(bank, wanted.pitch_rad, wanted.throttle_frac, t, dt);
+  }
+
+  double regained_pitch(const VehicleState& state, const Envelope& within, const FlightLimits& limits,
+                        double dt) const {
+    if (guard.stalled()) return guard.recovery_pitch(limits);
+    const double pitch = guard.regaining_pitch(state, within, commands.last().pitch_rad, dt);
+    return std::clamp(pitch, limits.pitch_min_rad, limits.pitch_max_rad);
+  }
+  /// All of it; in a spiral dive none that makes it faster than the largest airspeed.
+  static double power(const VehicleState& state, const FlightLimits& limits) {
+    constexpr double banked_rad = 1;
+    const bool spirals = state.airspeed_valid && std::abs(state.roll_rad) > banked_rad;
+    return spirals ? 1 - smoothly(state.airspeed_mps, limits.airspeed_cruise_mps, limits.airspeed_max_mps)
+                   : 1;
   }
 
   /// What the step says of itself, and what is reported of the envelope.

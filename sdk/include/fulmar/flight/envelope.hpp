@@ -231,8 +231,7 @@ class EnvelopeGuard {
   /// A stall: the angle of attack is beyond that of the most lift, the aircraft is slow, and sinks though
   /// nothing asked it to, though the wing pushes up: in a downdraft it does not. Without wind or airspeed the
   /// angle is known less well: more of it, for longer. Well above the stalling speed it is mostly the air
-  /// that sinks: longer, too. Where the nose goes down and takes all lift away, it was no stall. Fast, with
-  /// lift: it is over.
+  /// that sinks: longer, too. Where the nose goes down and takes all lift away, it was no stall.
   void look(const VehicleState& s, double slowest_mps, double stall_mps, double climb_rate_mps, bool seen,
             double dt_s) {
     constexpr double left_share = 0.8, left_s = 0.2, unloaded_s = 0.1, fast_ratio = 1.35, sink_mps = 1,

@@ -253,9 +253,9 @@ TEST_CASE(
   CHECK(most < 0.2);
   s.specific_force_mps2.z = -0.3 * g;
   f.fly(s, 0.1);
-  CHECK(f.now.pitch_max_rad == doctest::Approx(most));
+  CHECK(f.now.pitch_max_rad < most + 0.15);
   f.fly(s, 4);
-  CHECK(f.now.pitch_max_rad > f.airframe.limits.pitch_max_rad);
+  CHECK(f.now.pitch_max_rad > most + 0.15);
 }
 
 TEST_CASE("after a fall height is regained: not for a descent that is asked for, until the height is near") {

@@ -93,8 +93,53 @@ TEST_CASE("the ratio follows by its time constant, and a weak motor is reported 
   }
   // below half after 2 s ln(6), then 8 s
   CHECK(weak * dt == Approx(2 * std::log(6.0) + 8).epsilon(0.005));
+  for (const double share : {0.67, 0.73}) {
+    for (int k = 0; k < 2000; ++k) motor.step(t.state(share, true), t.a, t.throttle, 1, e, dt);
+    CHECK(motor.weak() == (share < 0.7));
+  }
   motor.reset();
   CHECK_FALSE(motor.weak());
+}
+
+TEST_CASE("a motor that brakes has failed after its delay, the later the less it is below the limit") {
+  const Thrust t;
+  EngineLimits e;
+  e.engine_smoothing.value = 0.05;
+  const auto until = [&](Motor& motor, double share, bool failed) {
+    for (int k = 1; k < 1000; ++k) {
+      motor.step(t.state(share, true), t.a, t.throttle, 1, e, dt);
+      if (motor.failed() == failed) return k * dt;
+    }
+    return -1.0;
+  };
+  const double stopped = thrust_of(t.a, 0, t.Va, t.rho()) / t.expected();
+  // 2 s over the share of 0.5 that it lies below the limit
+  for (const auto& [limit, raise_s, clear] : {std::tuple{0.25, 2.0, 0.5}, {stopped + 0.2, 5.0, 0.2}}) {
+    e.engine_share.value = limit;
+    Motor motor;
+    for (int k = 0; k < 100; ++k) motor.step(t.state(1, true), t.a, t.throttle, 1, e, dt);
+    CHECK(std::abs(until(motor, stopped, true) - raise_s) < 0.25);
+    CHECK_FALSE(motor.weak());
+    CHECK(until(motor, clear - 0.03, false) == -1);
+    CHECK(std::abs(until(motor, clear + 0.03, false) - 5) < 0.25);
+  }
+}
+
+TEST_CASE("thrust counts from a twentieth of the weight on, and a tenth of it has to be missing") {
+  Thrust t;
+  const EngineLimits e;
+  const double mg = t.a.mass_kg * g;
+  const auto ratio_at = [&](double thrust_share) {  // of the weight
+    t.throttle = 0;
+    while (t.expected() < thrust_share * mg) t.throttle += 1e-3;
+    Motor motor;
+    for (int k = 0; k < 1000; ++k) motor.step(t.state(0.4, true), t.a, t.throttle, 1, e, dt);
+    return std::pair{motor.ratio(), motor.weak()};
+  };
+  CHECK(ratio_at(0.045).first == 1);
+  CHECK(ratio_at(0.055).first == Approx(0.4).epsilon(0.01));
+  CHECK_FALSE(ratio_at(0.15).second);  // 0.6 of it: 0.09
+  CHECK(ratio_at(0.18).second);
 }
 
 TEST_CASE("without demand, below the stall and without an airspeed the motor is judged as it should be") {

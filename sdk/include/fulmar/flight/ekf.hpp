@@ -129,7 +129,6 @@ class ErrorStateEkf {
     time_s_ = time_s;
     has_sample_ = false;
     step_ = {};
-    corrected_ = {};
     past_count_ = 0;
     remember();
   }

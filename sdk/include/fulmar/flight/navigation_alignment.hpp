@@ -80,17 +80,11 @@ class Stillness {
       f_ = omega_;
 };
 
-/// A magnetic field in NED from declination and dip.
-inline Vector3d field_direction(double declination_rad, double dip_rad) {
-  return {std::cos(dip_rad) * std::cos(declination_rad), std::cos(dip_rad) * std::sin(declination_rad),
-          std::sin(dip_rad)};
-}
-
 /// Attitude at rest. Only the horizontal direction of the field is used: its dip may be disturbed by the
 /// ground.
 inline Quaterniond attitude_at_rest(const Vector3d& f_b, const Vector3d& field_b, double declination_rad) {
-  return attitude_from_directions(f_b, -Vector3d::UnitZ(), field_b,
-                                  field_direction(declination_rad, 0) + Vector3d::UnitZ());
+  const Vector3d magnetic_north(std::cos(declination_rad), std::sin(declination_rad), 0);
+  return attitude_from_directions(f_b, -Vector3d::UnitZ(), field_b, magnetic_north);
 }
 inline Quaterniond attitude_at_rest(const Vector3d& f_b) {  // yaw unknown: north
   const Vector3d ahead = std::abs(f_b.normalized().x()) < 0.99 ? Vector3d::UnitX() : Vector3d::UnitZ();

@@ -108,7 +108,7 @@ class BaroStep {
     const bool at_once =
         took_ && time_s - time_s_ < longest_s && std::abs(innovation_m - before_m_) > most * std_m;
     took_ = accepted, time_s_ = time_s, before_m_ = innovation_m;
-    if (at_once) since_s_ = time_s, mean_m_ = 0, count_ = 0;
+    if (at_once) since_s_ = time_s, count_ = 0;
     if (accepted) since_s_ = never;
     if (!may_be()) return std::nullopt;
     mean_m_ += (innovation_m - mean_m_) / ++count_;
@@ -175,12 +175,14 @@ class TubeSteps {
 
   static double agreed(double std) { return std::min(back_std * std, bearable_mps); }
 
-  /// The last three samples, each, from the mean of the three before the one in between. Both must have
-  /// stepped: the airspeed without the tube steps when the receiver is believed after all.
+  /// The last three samples, each, from the median of the three before the one in between: one odd sample is
+  /// no step. Both must have stepped: the airspeed without the tube steps when the receiver is believed after
+  /// all.
   void step(double limit, double std) {
     double step = 0;
     for (const auto which : {&Said::tube, &Said::excess}) {
-      const double before = (past_[4].*which + past_[5].*which + past_[6].*which) / 3;
+      const auto [low, high] = std::minmax(past_[4].*which, past_[5].*which);
+      const double before = std::clamp(past_[6].*which, low, high);
       const double a = past_[0].*which - before, b = past_[1].*which - before, c = past_[2].*which - before;
       if (std::min({std::abs(a), std::abs(b), std::abs(c)}) < limit || a * b < 0 || a * c < 0) return;
       step = (a + b + c) / 3;

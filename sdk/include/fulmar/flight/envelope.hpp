@@ -179,7 +179,7 @@ class EnvelopeGuard {
 
   /// Share of the most lift, by what the accelerometer says: the wing's own, vertical air or not.
   void lift(const VehicleState& s, double density_kgm3, double dt_s) {
-    constexpr double smoothed_s = 0.1, remembered_s = 1;
+    constexpr double smoothed_s = 0.1, remembered_s = 0.3;
     const double most = 0.5 * density_kgm3 * V_ * V_ * wing_.area_m2 * wing_.most_lift;
     lift_.step(most > 0 ? -s.specific_force_mps2.z * wing_.mass_kg / most : 1, smoothed_s, dt_s);
     peak_ = std::max(lift_.value(), decay_.of(dt_s / remembered_s) * peak_);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -16,6 +17,7 @@ struct LogPlotWords {
   std::vector<std::string> panels{};   // further panels: fields with commas between them
   std::string over{};                  // field that is x, ".field" of each curve's own port; "": time
   std::string out{}, size{}, names{};  // "x.svg"; "160x90mm"; "old,new"
+  std::string labels{};                // of fields: "estimated,true"
   std::optional<double> from_s{}, to_s{};
   bool no_phases = false;
 };
@@ -33,6 +35,9 @@ int plot_log_command(const LogPlotWords& words);
 
 /// The figure alone. `notes`: what is to be told beside it.
 chart::Figure log_figure(const LogPlotWords& words, std::vector<std::string>& notes);
+
+/// "160x90mm": width and height. Throws WrongWords.
+std::pair<double, double> read_size(const std::string& text);
 
 /// A figure as SVG, or as what a program makes of it: PNG, PDF. Throws core::Error.
 void write_figure(const std::filesystem::path& out, const std::string& svg);

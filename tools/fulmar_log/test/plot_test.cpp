@@ -320,6 +320,13 @@ TEST_CASE(
         std::vector<std::string>{"old: nav.state.roll_deg [deg]", "new: nav.state.roll_deg [deg]",
                                  "old: nav.state.height_m [m]", "new: nav.state.height_m [m]"});
   CHECK(f.panels[2].curves.size() == 2);
+  const ReadFigure labelled = drawn({.words = {a, b, "nav.state.height_m"},
+                                     .panels = {"nav.state.roll_deg,slc.error_m"},
+                                     .labels = "height,roll angle,error"});
+  CHECK(labelled.panels[0].legend == std::vector<std::string>{"a", "b"});
+  CHECK(labelled.panels[1].legend == std::vector<std::string>{"a: roll angle [deg]", "b: roll angle [deg]",
+                                                              "a: error [m]", "b: error [m]"});
+  CHECK(drawn({.words = {a, "slc.error_m"}, .labels = "<e>"}).panels[0].legend.at(0) == "&lt;e&gt;");
   CHECK(drawn({.words = {a, b, "slc.error_m"}}).panels[0].legend == std::vector<std::string>{"a", "b"});
   std::vector<std::string> notes;
   flight.phases = {"climb"};
@@ -368,6 +375,8 @@ TEST_CASE("what cannot be drawn is told in a sentence with what there is") {
         "'" + log + "' is a log: logs stand before the fields");
   CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .names = "a,b"}) ==
         "--names takes a name for each log, with commas between them: 1, not 2");
+  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .labels = "a,b"}) ==
+        "--labels takes a name for each field, with commas between them: 1, not 2");
   for (const char* size : {"160", "160x", "0x90mm", "160x90cm", "160x9000mm", "x", "-1x5mm", "nanxnanmm"})
     CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .size = size}) ==
           std::string("--size ") + size +

@@ -120,7 +120,7 @@ class Drawing {
     const bool can_be_solid = !figure_.track && curves.size() > 1 && curves.size() <= most_solid;
     std::vector<Look> looks;
     for (std::size_t k = 0; k < curves.size(); ++k)
-      looks.push_back({k, can_be_solid && is_noisy(curves[k], boxes_[i])});
+      looks.push_back({k, can_be_solid && is_noisy(curves[k], boxes_[i]), curves[k].behind});
     return looks;
   }
 
@@ -179,8 +179,10 @@ class Drawing {
         "<g class=\"panel\">\n" + bands_svg(box, i == 0) + axes_svg(box, i + 1 == boxes_.size());
     out += text_at("y-axis", edge + type_size - 0.6, box.top + box.high / 2, panel.y, "middle",
                    box.high + gap, true);
-    for (std::size_t k = 0; k < panel.curves.size(); ++k)
-      out += curve_svg(panel.curves[k], looks_[i][k], box, figure_.track);
+    for (const bool behind : {true, false})
+      for (std::size_t k = 0; k < panel.curves.size(); ++k)
+        if (panel.curves[k].behind == behind)
+          out += curve_svg(panel.curves[k], looks_[i][k], box, figure_.track);
     out += "<rect class=\"frame\"" + rectangle(box.left, box.top, box.wide, box.high) +
            " fill=\"none\" stroke=\"#333333\" stroke-width=\"0.2\"/>\n";
     return out + legend_svg(i, i == 0 ? names_high() : 0) + "</g>\n";

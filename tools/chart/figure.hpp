@@ -14,6 +14,7 @@ struct FigureCurve {
   std::string name;                ///< in the legend
   std::vector<ChartPoint> points;  ///< one that is not finite parts the curve
   bool held = false;               ///< a value stays until the next one: a choice, a flag
+  bool behind = false;             ///< grey and broad, under the others
 };
 
 struct FigurePanel {

@@ -89,8 +89,12 @@ std::string marks_along(const Points& part, const Look& look) {
 std::string mm(double x) { return fixed(x, 3); }
 std::string number(const char* name, double x) { return std::string(" ") + name + "=\"" + mm(x) + "\""; }
 
-Mark Look::mark() const { return solid ? marks[curve] : marks[curve / dashes.size()]; }
+Mark Look::mark() const {
+  if (behind) return Mark::none;
+  return solid ? marks[curve] : marks[curve / dashes.size()];
+}
 std::string Look::stroke() const {
+  if (behind) return " fill=\"none\" stroke=\"#b8b8b8\" stroke-width=\"0.9\" stroke-linejoin=\"round\"";
   const std::string dash = solid ? "" : dashes[curve % dashes.size()];
   return std::string(" fill=\"none\" stroke=\"") + colour_of(*this) + "\" stroke-width=\"" +
          (solid ? "0.2" : "0.35") + "\" stroke-linejoin=\"round\"" +

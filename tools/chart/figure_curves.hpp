@@ -21,10 +21,10 @@ struct Box {
   double right() const { return left + wide; }
 };
 
-/// How a curve is drawn. `solid`: no dashes, a mark tells it apart.
+/// How a curve is drawn. `solid`: no dashes, a mark tells it apart. `behind`: grey, alone of its kind.
 struct Look {
   std::size_t curve = 0;
-  bool solid = false;
+  bool solid = false, behind = false;
   Mark mark() const;
   std::string stroke() const;
   std::string marks_svg(const std::string& d) const;

@@ -161,6 +161,7 @@ struct RemoteCommands::Impl {
                              "what each field is called in the legend, as in --labels estimated,true"))
         ->type_name("NAMES");
     of_logs(draw->add_flag("--no-phases", figure.no_phases, "no bands of the flight's phases"));
+    of_logs(draw->add_flag("--no-plan", figure.no_plan, "no plan behind a track of north over east"));
   }
 
   bool draws_logs() {

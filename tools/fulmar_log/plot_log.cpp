@@ -193,8 +193,6 @@ OpenLog read_log(const std::string& file, const std::string& name, const Asked& 
   return log;
 }
 
-// ---- curves
-
 /// A value between the samples of x, at the time of a sample of y.
 double value_at_time(const Samples& x, double t_s) {
   const auto after = std::lower_bound(x.t_s.begin(), x.t_s.end(), t_s);
@@ -265,6 +263,14 @@ class FigureMaker {
     figure.even = figure.panels.size() == 1 &&
                   std::all_of(logs_[0].over.begin(), logs_[0].over.end(), in_metres) &&
                   std::all_of(logs_[0].fields.begin(), logs_[0].fields.end(), in_metres);
+  }
+
+  /// Behind a track over the ground, that of the first log.
+  void add_plan() {
+    const bool ground =
+        figure.even && figure.x == "position east [m]" && figure.panels[0].y == "position north [m]";
+    const auto route = ground ? route_of(logs_[0].file, logs_[0].info) : std::vector<ChartPoint>{};
+    if (!route.empty()) figure.panels[0].curves.push_back({"plan", route, false, true});
   }
 
   /// What was asked for, as far as there was a flight.
@@ -353,6 +359,7 @@ chart::Figure log_figure(const LogPlotWords& words, std::vector<std::string>& no
   for (const auto& panel : by_unit(logs[0], asked.in_order)) maker.add_panel(panel);
   for (const auto& panel : asked.panels) maker.add_panel(panel);
   maker.set_x();
+  if (!words.no_plan) maker.add_plan();
   if (words.over.empty()) maker.show(time);
   if (words.over.empty() && !words.no_phases) maker.set_phases();
   chart::Figure& figure = maker.figure;

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "tools/chart/figure.hpp"
+#include "tools/fulmar_log/info.hpp"
 
 namespace fulmar::plot {
 
@@ -19,7 +20,7 @@ struct LogPlotWords {
   std::string out{}, size{}, names{};  // "x.svg"; "160x90mm"; "old,new"
   std::string labels{};                // of fields: "estimated,true"
   std::optional<double> from_s{}, to_s{};
-  bool no_phases = false;
+  bool no_phases = false, no_plan = false;
 };
 
 /// What was typed cannot be meant.
@@ -38,6 +39,9 @@ chart::Figure log_figure(const LogPlotWords& words, std::vector<std::string>& no
 
 /// "160x90mm": width and height. Throws WrongWords.
 std::pair<double, double> read_size(const std::string& text);
+
+/// The route that a log has last; empty: none.
+std::vector<chart::ChartPoint> route_of(const std::filesystem::path& file, const core::LogInfo& info);
 
 /// A figure as SVG, or as what a program makes of it: PNG, PDF. Throws core::Error.
 void write_figure(const std::filesystem::path& out, const std::string& svg);

@@ -69,6 +69,22 @@ const steps = {
     await set("sim.gnss_works", "true");
     await is("ready again", ".prearm", "ready", "true");
   },
+  async "a flight whose view comes late is asked for nothing that it does not have"() {
+    const other = await browser.newPage(), refused = [];
+    await other.routeWebSocket(/./, (ws) => {
+      const server = ws.connectToServer();
+      server.onMessage((m) => {
+        if (typeof m === "string" && JSON.parse(m).op === "status") refused.push(m);
+        if (typeof m !== "string" && m[0] === 3) setTimeout(() => ws.send(m), 2500); // the answer of a service
+        else ws.send(m);
+      });
+    });
+    await other.goto(`http://127.0.0.1:${port}/`);
+    await until("the view", async () => (await other.locator("#phase").textContent()) !== "–");
+    assert.deepEqual(refused, []);
+    assert.equal(await other.locator("#toast").isVisible(), false);
+    await other.close();
+  },
   async "maps show fence, runway and places"() {
     for (const canvas of [map, ".plan canvas.map"]) {
       await tab(canvas === map ? "Fly" : "Plan");

@@ -2,11 +2,11 @@
 #include "tools/chart/figure.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "tools/chart/chart.hpp"
+#include "tools/chart/figure_curves.hpp"
 #include "tools/chart/numbers.hpp"
 
 namespace fulmar::chart {
@@ -18,22 +18,9 @@ constexpr double least_type = 1.1;
 constexpr double letter_wide = 0.52 * type_size;
 constexpr double edge = 2, gap = 3.5, row_high = 4, band_high = 4.5, under_high = 10.5, sample_wide = 9;
 constexpr double least_plot = 8;     // of a panel's height and width
-constexpr double column = 0.1;       // of what is seen along an axis of time
-constexpr double seen_apart = 0.03;  // points of a track
-constexpr double mark_apart = 14;
-
-// Colours of Okabe & Ito, Color Universal Design (2008), dark enough for white paper; dashes tell the lines
-// apart where there are no colours, marks where the dashes are used up.
-constexpr std::array<const char*, 6> colours{"#0072b2", "#c04f00", "#007a5a",
-                                             "#b0558a", "#8f6600", "#333333"};
-constexpr std::array<const char*, 6> dashes{
-    "", "2.4 1", "0.5 0.7", "3 0.9 0.5 0.9", "4.5 0.9", "1.6 0.6 0.4 0.6 0.4 0.6"};
-constexpr std::array<Mark, 6> marks{Mark::none,    Mark::circle, Mark::square,
-                                    Mark::diamond, Mark::plus,   Mark::cross};
-static_assert(most_curves == dashes.size() * marks.size());
-
-std::string mm(double x) { return fixed(x, 3); }
-std::string number(const char* name, double x) { return std::string(" ") + name + "=\"" + mm(x) + "\""; }
+constexpr double most_upright = 14;  // of a name above the first panel
+constexpr double even_plot = 130,
+                 least_even = 45;  // sides of a track: the longer one, the other one at least
 
 double text_wide(const std::string& text) {
   const auto letters = std::count_if(text.begin(), text.end(),
@@ -51,49 +38,6 @@ std::string text_at(const char* kind, double x, double y, const std::string& tex
          "</text>\n";
 }
 
-std::string stroke_of(std::size_t curve) {
-  const std::size_t style = curve % dashes.size();
-  const std::string dash = dashes[style];
-  return std::string(" fill=\"none\" stroke=\"") + colours[style] + "\" stroke-width=\"0.35\"" +
-         " stroke-linejoin=\"round\"" + (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\"");
-}
-Mark mark_of(std::size_t curve) { return marks[curve / dashes.size()]; }
-std::string marks_path(std::size_t curve, const std::string& d) {
-  if (d.empty()) return "";
-  return std::string("<path class=\"mark\" fill=\"none\" stroke=\"") + colours[curve % colours.size()] +
-         "\" stroke-width=\"0.3\" d=\"" + d + "\"/>\n";
-}
-
-using Points = std::vector<ChartPoint>;
-
-/// Of the points of one column those that show, in their order.
-void keep_column(const Points& from, std::size_t begin, std::size_t end, Points& kept) {
-  const auto less = [](const ChartPoint& a, const ChartPoint& b) { return a.y < b.y; };
-  const auto at = [&](std::size_t i) { return from.begin() + static_cast<std::ptrdiff_t>(i); };
-  const auto [least, most] = std::minmax_element(at(begin), at(end), less);
-  std::array places{at(begin), std::min(least, most), std::max(least, most), at(end) - 1};
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (i == 0 || places[i] != places[i - 1]) kept.push_back(*places[i]);
-}
-
-/// One part of a curve, in millimetres of the figure: what can be seen of it.
-Points seen_part(const Points& part, bool track) {
-  Points kept;
-  for (std::size_t i = 0, next = 0; i < part.size(); i = next) {
-    next = i + 1;
-    if (track) {
-      const bool last = next == part.size();
-      if (kept.empty() || last ||
-          std::hypot(part[i].x - kept.back().x, part[i].y - kept.back().y) > seen_apart)
-        kept.push_back(part[i]);
-      continue;
-    }
-    while (next < part.size() && std::floor(part[next].x / column) == std::floor(part[i].x / column)) ++next;
-    keep_column(part, i, next, kept);
-  }
-  return kept;
-}
-
 /// Between marks of an axis: at most so many, but two at least, since one alone tells no scale.
 double step_in(const AxisRange& range, double most) {
   const auto marks_in = [&](double step) {
@@ -102,60 +46,6 @@ double step_in(const AxisRange& range, double most) {
   double step = step_of(range.span(), most);
   for (; marks_in(step) < 2 && most < 20; most += 1) step = step_of(range.span(), most);
   return step;
-}
-
-/// A box of the figure with its axes.
-struct Box {
-  double left = 0, top = 0, wide = 0, high = 0;
-  AxisRange x, y;
-  double px(double v) const { return left + (v - x.min) / x.span() * wide; }
-  double py(double v) const { return top + high - (v - y.min) / y.span() * high; }
-  double bottom() const { return top + high; }
-  double right() const { return left + wide; }
-};
-
-std::string path_of(const Points& part, bool held) {
-  std::string d;
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    if (i > 0 && held && part[i].y != part[i - 1].y) d += "L" + mm(part[i].x) + " " + mm(part[i - 1].y);
-    d += (i == 0 ? "M" : "L") + mm(part[i].x) + " " + mm(part[i].y);
-  }
-  if (part.size() == 1) d += "h0.001";  // a point alone is a dot
-  return d;
-}
-
-std::string marks_along(const Points& part, Mark mark) {
-  std::string d;
-  double way = 0.5 * mark_apart;
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    if (i > 0) way += std::hypot(part[i].x - part[i - 1].x, part[i].y - part[i - 1].y);
-    if (way < mark_apart) continue;
-    way = 0;
-    d += mark_path(mark, part[i].x, part[i].y, 0.28, 3);
-  }
-  return d;
-}
-
-std::string curve_svg(const FigureCurve& curve, std::size_t number, const Box& box, bool track) {
-  std::string d, dots;
-  Points part;
-  const auto finish = [&] {
-    const Points seen = seen_part(part, track);
-    d += path_of(seen, curve.held);
-    if (mark_of(number) != Mark::none) dots += marks_along(seen, mark_of(number));
-    part.clear();
-  };
-  for (const ChartPoint& p : curve.points) {
-    if (is_there(p))
-      part.push_back({box.px(p.x), box.py(p.y)});
-    else
-      finish();
-  }
-  finish();
-  if (d.empty()) return "";
-  return "<path class=\"curve\"" + stroke_of(number) + " stroke-linecap=\"" +
-         (d.find("h0.001") == std::string::npos ? "butt" : "round") + "\" d=\"" + d + "\"><title>" +
-         in_html(curve.name) + "</title></path>\n" + marks_path(number, dots);
 }
 
 /// Where each curve's name stands in the rows above a panel.
@@ -186,9 +76,12 @@ class Drawing {
     boxes_.resize(figure.panels.size());
     set_ranges();
     set_places();
+    for (std::size_t i = 0; i < boxes_.size(); ++i) looks_.push_back(looks_of(i));
   }
 
   double plot_high() const { return high_; }
+  /// Height by width of what is drawn in a panel, in the units of the axes.
+  double shape() const { return shape_; }
   double plot_wide() const { return boxes_.empty() ? least_plot : boxes_[0].wide; }
 
   std::string svg() const {
@@ -218,6 +111,35 @@ class Drawing {
     if (all.empty()) all.min = 0, all.max = 1;
     if (figure_.track || all.span() <= 0) all.widen();
     for (Box& box : boxes_) box.x = all;
+    shape_ = boxes_.empty() ? 1 : boxes_[0].y.span() / all.span();
+  }
+
+  /// Where dashes turn into fur, in a panel of few curves, marks are in their place.
+  std::vector<Look> looks_of(std::size_t i) const {
+    const auto& curves = figure_.panels[i].curves;
+    const bool can_be_solid = !figure_.track && curves.size() > 1 && curves.size() <= most_solid;
+    std::vector<Look> looks;
+    for (std::size_t k = 0; k < curves.size(); ++k)
+      looks.push_back({k, can_be_solid && is_noisy(curves[k], boxes_[i]), curves[k].behind});
+    return looks;
+  }
+
+  /// Of a name above the first panel; 0: it lies. Its letters are as large as its band is wide.
+  double upright_size(const FigureBand& band) const {
+    const double wide = band_wide(band);
+    return text_wide(band.name) < wide + 1 ? 0 : std::min(wide, type_size);
+  }
+  double band_wide(const FigureBand& band) const {
+    const Box& box = boxes_[0];
+    return box.px(std::min(band.to, box.x.max)) - box.px(std::max(band.from, box.x.min));
+  }
+  /// What the names of bands take above the first panel.
+  double names_high() const {
+    double high = figure_.bands.empty() ? 0 : band_high;
+    for (const FigureBand& band : figure_.bands)
+      if (const double size = upright_size(band); size > least_type)
+        high = std::max(high, std::min(most_upright, text_wide(band.name) * size / type_size) + 2);
+    return high;
   }
 
   void set_places() {
@@ -228,17 +150,19 @@ class Drawing {
         label_wide = std::max(label_wide, text_wide(value_text(i * step, step)));
     }
     const double left = edge + type_size + 2.5 + label_wide, wide = figure_.wide_mm - left - edge - 2;
-    double rest = figure_.high_mm - edge - under_high - (figure_.bands.empty() ? 0 : band_high);
+    for (Box& box : boxes_) box.left = left, box.wide = wide;
+    const double names = names_high();
+    double rest = figure_.high_mm - edge - under_high - names;
     for (const FigurePanel& panel : figure_.panels) {
       legends_.push_back(legend_of(panel, wide));
       rest -= static_cast<double>(legends_.back().rows) * row_high;
     }
     rest -= gap * static_cast<double>(boxes_.size() - 1);
     high_ = rest / static_cast<double>(boxes_.size());
-    double top = edge + (figure_.bands.empty() ? 0 : band_high);
+    double top = edge + names;
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       top += static_cast<double>(legends_[i].rows) * row_high;
-      boxes_[i].left = left, boxes_[i].wide = wide, boxes_[i].top = top, boxes_[i].high = high_;
+      boxes_[i].top = top, boxes_[i].high = high_;
       top += high_ + gap;
       if (!figure_.even) continue;
       Box& box = boxes_[i];
@@ -255,19 +179,21 @@ class Drawing {
         "<g class=\"panel\">\n" + bands_svg(box, i == 0) + axes_svg(box, i + 1 == boxes_.size());
     out += text_at("y-axis", edge + type_size - 0.6, box.top + box.high / 2, panel.y, "middle",
                    box.high + gap, true);
-    for (std::size_t k = 0; k < panel.curves.size(); ++k)
-      out += curve_svg(panel.curves[k], k, box, figure_.track);
+    for (const bool behind : {true, false})
+      for (std::size_t k = 0; k < panel.curves.size(); ++k)
+        if (panel.curves[k].behind == behind)
+          out += curve_svg(panel.curves[k], looks_[i][k], box, figure_.track);
     out += "<rect class=\"frame\"" + rectangle(box.left, box.top, box.wide, box.high) +
            " fill=\"none\" stroke=\"#333333\" stroke-width=\"0.2\"/>\n";
-    return out + legend_svg(i) + "</g>\n";
+    return out + legend_svg(i, i == 0 ? names_high() : 0) + "</g>\n";
   }
 
   static std::string rectangle(double x, double y, double wide, double high) {
     return number("x", x) + number("y", y) + number("width", wide) + number("height", high);
   }
 
-  /// Every second one is shaded; a name stands above the first panel, upright and smaller where it is too
-  /// long, and nowhere where it could not be read.
+  /// Every second one is shaded; a name is above the first panel, upright and smaller where it is too long,
+  /// and nowhere where it could not be read.
   std::string bands_svg(const Box& box, bool with_names) const {
     std::string out;
     for (std::size_t i = 0; i < figure_.bands.size(); ++i) {
@@ -278,11 +204,12 @@ class Drawing {
              (i % 2 == 0 ? "#ffffff" : "#ececec") + "\"><title>" + in_html(band.name) + "</title></rect>\n";
       if (!with_names) continue;
       const double middle = (from + to) / 2;
-      if (text_wide(band.name) < to - from + 1)
-        out += text_at("phase", middle, edge + 2.6, band.name, "middle");
-      else if (const double size = std::min(to - from, type_size); size > least_type)
-        out += text_at("phase", middle + 0.35 * size, box.top + 1, band.name, "end",
-                       std::min(box.high, text_wide(band.name) * size / type_size), true);
+      const double size = upright_size(band);
+      if (size == 0)
+        out += text_at("phase", middle, box.top - 1.2, band.name, "middle");
+      else if (size > least_type)
+        out += text_at("phase", middle + 0.35 * size, box.top - 1, band.name, "start",
+                       std::min(most_upright, text_wide(band.name) * size / type_size), true);
     }
     return out;
   }
@@ -307,17 +234,20 @@ class Drawing {
            "\"/>\n" + words;
   }
 
-  std::string legend_svg(std::size_t panel) const {
+  /// `under`: what is between it and the panel.
+  std::string legend_svg(std::size_t panel, double under) const {
     const Box& box = boxes_[panel];
     const Legend& legend = legends_[panel];
     std::string out;
     for (std::size_t k = 0; k < legend.places.size(); ++k) {
       const double x = box.left + legend.places[k].x,
-                   y = box.top - 1.6 - row_high * static_cast<double>(legend.rows - 1 - legend.places[k].row);
-      out += "<path class=\"sample\"" + stroke_of(k) + " d=\"M" + mm(x) + " " + mm(y - 0.9) + "h" +
+                   y = box.top - under - 1.6 -
+                       row_high * static_cast<double>(legend.rows - 1 - legend.places[k].row);
+      const Look& look = looks_[panel][k];
+      out += "<path class=\"sample\"" + look.stroke() + " d=\"M" + mm(x) + " " + mm(y - 0.9) + "h" +
              mm(sample_wide - 1.5) + "\"/>\n";
-      if (mark_of(k) != Mark::none)
-        out += marks_path(k, mark_path(mark_of(k), x + (sample_wide - 1.5) / 2, y - 0.9, 0.28, 3));
+      if (look.mark() != Mark::none)
+        out += look.marks_svg(mark_path(look.mark(), x + (sample_wide - 1.5) / 2, y - 0.9, 0.28, 3));
       out += text_at("legend", x + sample_wide, y, figure_.panels[panel].curves[k].name, "start",
                      box.right() - x - sample_wide);
     }
@@ -327,7 +257,8 @@ class Drawing {
   const Figure& figure_;
   std::vector<Box> boxes_;
   std::vector<Legend> legends_;
-  double high_ = 0;
+  std::vector<std::vector<Look>> looks_;
+  double high_ = 0, shape_ = 1;
 };
 
 }  // namespace
@@ -341,6 +272,16 @@ std::string too_small(const Figure& figure) {
          (figure.panels.size() == 1 ? " panel" : " panels") + "; it takes at least " +
          fixed(std::ceil(figure.wide_mm + std::max(0.0, wider)), 0) + "x" +
          fixed(std::ceil(figure.high_mm + std::max(0.0, higher)), 0) + "mm";
+}
+
+void fit_even(Figure& figure) {
+  for (int i = 0; i < 2; ++i) {  // a legend that breaks takes another row
+    const Drawing drawing(figure);
+    const double wide = even_plot / std::max(1.0, drawing.shape()),
+                 high = even_plot * std::min(1.0, drawing.shape());
+    figure.wide_mm = std::round(figure.wide_mm + std::max(wide, least_even) - drawing.plot_wide());
+    figure.high_mm = std::round(figure.high_mm + std::max(high, least_even) - drawing.plot_high());
+  }
 }
 
 std::string figure_svg(const Figure& figure) { return Drawing(figure).svg(); }

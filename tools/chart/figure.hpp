@@ -14,6 +14,7 @@ struct FigureCurve {
   std::string name;                ///< in the legend
   std::vector<ChartPoint> points;  ///< one that is not finite parts the curve
   bool held = false;               ///< a value stays until the next one: a choice, a flag
+  bool behind = false;             ///< grey and broad, under the others
 };
 
 struct FigurePanel {
@@ -43,6 +44,9 @@ constexpr std::size_t most_curves = 36;
 
 /// What there is to say when a figure of that size has no room for so many panels; "": it has.
 std::string too_small(const Figure& figure);
+
+/// Gives it the size in which one panel with one scale on both axes is filled.
+void fit_even(Figure& figure);
 
 /// Curves hold what can be seen, no more: of the points within a tenth of a millimetre of an axis of time the
 /// first, the least, the largest and the last.

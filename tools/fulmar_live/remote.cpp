@@ -157,7 +157,11 @@ struct RemoteCommands::Impl {
         ->type_name("SIZE");
     of_logs(draw->add_option("--names", figure.names, "what the logs are called, as in --names old,new"))
         ->type_name("NAMES");
+    of_logs(draw->add_option("--labels", figure.labels,
+                             "what each field is called in the legend, as in --labels estimated,true"))
+        ->type_name("NAMES");
     of_logs(draw->add_flag("--no-phases", figure.no_phases, "no bands of the flight's phases"));
+    of_logs(draw->add_flag("--no-plan", figure.no_plan, "no plan behind a track of north over east"));
   }
 
   bool draws_logs() {

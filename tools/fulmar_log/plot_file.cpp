@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where a figure goes: an SVG file, or what a program beside Fulmar makes of it.
+#include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -16,6 +17,7 @@ namespace {
 using core::Error;
 namespace fs = std::filesystem;
 
+constexpr double largest_mm = 2000;
 constexpr const char* print_dpi = "300";
 constexpr std::chrono::seconds patience{60};
 
@@ -67,6 +69,19 @@ struct Scratch {
 };
 
 }  // namespace
+
+std::pair<double, double> read_size(const std::string& text) {
+  double wide = 0, high = 0;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, wide);
+  if (first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x') {
+    const auto second = std::from_chars(first.ptr + 1, end, high);
+    const std::string unit(second.ptr, end);
+    const bool good = wide > 0 && high > 0 && wide <= largest_mm && high <= largest_mm;
+    if (second.ec == std::errc{} && (unit == "mm" || unit.empty()) && good) return {wide, high};
+  }
+  throw WrongWords("--size " + text + ": give width and height in millimetres, at most 2000, as in 160x90mm");
+}
 
 void write_figure(const fs::path& out, const std::string& svg) {
   const std::string ending = out.extension().string();

@@ -3,7 +3,6 @@
 #include "tools/fulmar_log/plot_log.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -25,7 +24,6 @@ using core::Error;
 namespace fs = std::filesystem;
 
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-constexpr double largest_mm = 2000;
 constexpr std::int64_t seen_ns = 100'000'000;  // of what begins a phase
 
 /// A field in one log.
@@ -46,6 +44,7 @@ struct OpenLog {
 
 struct Asked {
   std::vector<std::string> logs, fields;         // no field twice
+  std::vector<std::string> labels;               // of --labels: of each field, or none
   std::vector<std::vector<std::size_t>> panels;  // of --panel: places in `fields`
   std::size_t in_order = 0;                      // so many fields, the first ones, go to panels by their unit
 };
@@ -87,21 +86,12 @@ Asked read_words(const LogPlotWords& words) {
   if (asked.fields.empty())
     throw WrongWords("give at least one field behind the log, as in fulmar plot " + asked.logs.at(0) +
                      " nav.state.height_m -o height.svg");
+  if (words.labels.empty()) return asked;
+  asked.labels = split(words.labels);
+  if (asked.labels.size() != asked.fields.size())
+    throw WrongWords("--labels takes a name for each field, with commas between them: " +
+                     std::to_string(asked.fields.size()) + ", not " + std::to_string(asked.labels.size()));
   return asked;
-}
-
-/// "160x90mm"
-std::pair<double, double> read_size(const std::string& text) {
-  double wide = 0, high = 0;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, wide);
-  if (first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x') {
-    const auto second = std::from_chars(first.ptr + 1, end, high);
-    const std::string unit(second.ptr, end);
-    const bool good = wide > 0 && high > 0 && wide <= largest_mm && high <= largest_mm;
-    if (second.ec == std::errc{} && (unit == "mm" || unit.empty()) && good) return {wide, high};
-  }
-  throw WrongWords("--size " + text + ": give width and height in millimetres, at most 2000, as in 160x90mm");
 }
 
 // ---- what logs say
@@ -203,8 +193,6 @@ OpenLog read_log(const std::string& file, const std::string& name, const Asked& 
   return log;
 }
 
-// ---- curves
-
 /// A value between the samples of x, at the time of a sample of y.
 double value_at_time(const Samples& x, double t_s) {
   const auto after = std::lower_bound(x.t_s.begin(), x.t_s.end(), t_s);
@@ -238,8 +226,8 @@ std::string axis_words(const core::LogNumber& n) {
 
 class FigureMaker {
  public:
-  FigureMaker(const std::vector<OpenLog>& logs, std::vector<std::string>& notes)
-      : logs_(logs), over_(!logs[0].over.empty()), notes_(notes) {}
+  FigureMaker(const Asked& asked, const std::vector<OpenLog>& logs, std::vector<std::string>& notes)
+      : asked_(asked), logs_(logs), over_(!logs[0].over.empty()), notes_(notes) {}
 
   void add_panel(const std::vector<std::size_t>& fields) {
     chart::FigurePanel panel;
@@ -254,7 +242,7 @@ class FigureMaker {
     for (const std::size_t f : fields)
       for (const OpenLog& log : logs_) {
         const Samples& s = log.fields[f];
-        std::string name = s.number.name;
+        std::string name = asked_.labels.empty() ? s.number.name : asked_.labels[f];
         if (logs_.size() > 1) name = fields.size() > 1 ? log.name + ": " + name : log.name;
         if (!one_unit && !s.number.unit.empty()) name += " [" + s.number.unit + "]";
         panel.curves.push_back({name, points_of(s, log.x_of(f)), s.number.held && !over_});
@@ -275,6 +263,14 @@ class FigureMaker {
     figure.even = figure.panels.size() == 1 &&
                   std::all_of(logs_[0].over.begin(), logs_[0].over.end(), in_metres) &&
                   std::all_of(logs_[0].fields.begin(), logs_[0].fields.end(), in_metres);
+  }
+
+  /// Behind a track over the ground, that of the first log.
+  void add_plan() {
+    const bool ground =
+        figure.even && figure.x == "position east [m]" && figure.panels[0].y == "position north [m]";
+    const auto route = ground ? route_of(logs_[0].file, logs_[0].info) : std::vector<ChartPoint>{};
+    if (!route.empty()) figure.panels[0].curves.push_back({"plan", route, false, true});
   }
 
   /// What was asked for, as far as there was a flight.
@@ -305,6 +301,7 @@ class FigureMaker {
       return x.name == y.name && std::abs(x.begin_ns - y.begin_ns) <= seen_ns;
     });
   }
+  const Asked& asked_;
   const std::vector<OpenLog>& logs_;
   bool over_;
   std::vector<std::string>& notes_;
@@ -358,16 +355,18 @@ chart::Figure log_figure(const LogPlotWords& words, std::vector<std::string>& no
     if (!logs.back().info.file.fault.empty())
       notes.push_back(asked.logs[i] + " is cut off: " + logs.back().info.file.fault);
   }
-  FigureMaker maker(logs, notes);
+  FigureMaker maker(asked, logs, notes);
   for (const auto& panel : by_unit(logs[0], asked.in_order)) maker.add_panel(panel);
   for (const auto& panel : asked.panels) maker.add_panel(panel);
   maker.set_x();
+  if (!words.no_plan) maker.add_plan();
   if (words.over.empty()) maker.show(time);
   if (words.over.empty() && !words.no_phases) maker.set_phases();
   chart::Figure& figure = maker.figure;
   for (const std::string& name : names) figure.title += (figure.title.empty() ? "" : ", ") + name;
   clean_texts(figure);
   figure.high_mm = 40 + 50 * static_cast<double>(figure.panels.size());
+  if (figure.even) chart::fit_even(figure);
   if (!words.size.empty()) std::tie(figure.wide_mm, figure.high_mm) = read_size(words.size);
   if (const std::string why = chart::too_small(figure); !why.empty())
     throw WrongWords("--size " + chart::figures(figure.wide_mm, 6) + "x" + chart::figures(figure.high_mm, 6) +

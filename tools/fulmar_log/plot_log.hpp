@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "tools/chart/figure.hpp"
+#include "tools/fulmar_log/info.hpp"
 
 namespace fulmar::plot {
 
@@ -16,8 +18,9 @@ struct LogPlotWords {
   std::vector<std::string> panels{};   // further panels: fields with commas between them
   std::string over{};                  // field that is x, ".field" of each curve's own port; "": time
   std::string out{}, size{}, names{};  // "x.svg"; "160x90mm"; "old,new"
+  std::string labels{};                // of fields: "estimated,true"
   std::optional<double> from_s{}, to_s{};
-  bool no_phases = false;
+  bool no_phases = false, no_plan = false;
 };
 
 /// What was typed cannot be meant.
@@ -33,6 +36,12 @@ int plot_log_command(const LogPlotWords& words);
 
 /// The figure alone. `notes`: what is to be told beside it.
 chart::Figure log_figure(const LogPlotWords& words, std::vector<std::string>& notes);
+
+/// "160x90mm": width and height. Throws WrongWords.
+std::pair<double, double> read_size(const std::string& text);
+
+/// The route that a log has last; empty: none.
+std::vector<chart::ChartPoint> route_of(const std::filesystem::path& file, const core::LogInfo& info);
 
 /// A figure as SVG, or as what a program makes of it: PNG, PDF. Throws core::Error.
 void write_figure(const std::filesystem::path& out, const std::string& svg);

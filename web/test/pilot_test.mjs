@@ -21,7 +21,7 @@ const set = (...words) => ask("param", "set", ...words);
 // Without an end of its own: on the ground return_home is over after 30 s.
 const folder = mkdtempSync(join(tmpdir(), "fulmar-pilot-")), mission = join(folder, "pilot.yaml");
 writeFileSync(mission, `mission: pilot\nextends: ${resolve("configs/missions/return_home.yaml")}\ndone: "time > 1 h"\n`);
-const phone = [390, 844], sizes = [[1280, 720], [1024, 768], phone];
+const phone = [390, 844], sizes = [[1280, 720], [1024, 768], [820, 1180], phone];
 let page;
 const faults = [];
 const until = (what, holds, patience = 60) => within(what, holds, patience); // where others compute, a flight is slower
@@ -35,8 +35,8 @@ const map = ".fly canvas.map";
 async function whole(name, at = sizes) {
   for (const [width, height] of at) {
     await page.setViewportSize({ width, height });
-    const cut = () => page.evaluate(() => [...document.querySelectorAll("td, th, input, .alert, .alert *, .flag, .command")]
-      .filter((e) => e.getClientRects().length > 0 && (e.getBoundingClientRect().right > innerWidth + 1 || (e.matches("input, .alert, .command") && e.scrollWidth > e.clientWidth + 1)))
+    const cut = () => page.evaluate(() => [...document.querySelectorAll("td, th, input, .alert, .alert *, .flag, .command, .command *, .figures > div")]
+      .filter((e) => e.getClientRects().length > 0 && (e.getBoundingClientRect().right > innerWidth + 1 || (e.matches("input, .alert, .command, .figures > div") && (e.scrollWidth > e.clientWidth + 1 || (!e.matches("input") && e.scrollHeight > e.clientHeight + 2)))))
       .map((e) => `${e.tagName}.${e.className} ${(e.value ?? e.textContent ?? "").slice(0, 30)}`));
     await until("drawn for this window", async () => (await cut()).length === 0, 3).catch(() => {});
     assert.deepEqual(await cut(), [], `${name} ${width}`);
@@ -69,13 +69,31 @@ const steps = {
     await set("sim.gnss_works", "true");
     await is("ready again", ".prearm", "ready", "true");
   },
+  async "a flight whose view comes late is asked for nothing that it does not have"() {
+    const other = await browser.newPage(), refused = [];
+    await other.routeWebSocket(/./, (ws) => {
+      const server = ws.connectToServer();
+      server.onMessage((m) => {
+        if (typeof m === "string" && JSON.parse(m).op === "status") refused.push(m);
+        if (typeof m !== "string" && m[0] === 3) setTimeout(() => ws.send(m), 2500); // the answer of a service
+        else ws.send(m);
+      });
+    });
+    await other.goto(`http://127.0.0.1:${port}/`);
+    await until("the view", async () => (await other.locator("#phase").textContent()) !== "–");
+    assert.deepEqual(refused, []);
+    assert.equal(await other.locator("#toast").isVisible(), false);
+    await other.close();
+  },
   async "maps show fence, runway and places"() {
     for (const canvas of [map, ".plan canvas.map"]) {
       await tab(canvas === map ? "Fly" : "Plan");
       await is("fence", canvas, "fence", "4");
       assert.deepEqual([await data(canvas, "places"), await data(canvas, "runway")], ["3", "300"]);
     }
-    await whole("plan", [phone]);
+    await whole("plan", [[820, 1180], phone]);
+    await tab("Fly");
+    await whole("fly", [[820, 1180], phone]);
   },
   async "Wires: in its first seconds nothing is said of what was not listened to"() {
     await tab("Wires");

@@ -9,6 +9,7 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { pilot_tests } from "./pilot_tests.mjs";
 import { tile_tests } from "./tile_tests.mjs";
+import { view_tests } from "./view_tests.mjs";
 
 const web = join(dirname(fileURLToPath(import.meta.url)), "..");
 const modules = resolve(process.argv[2] ?? join(web, "node_modules"));
@@ -41,6 +42,7 @@ const plan_of = (waypoints, end = "circuit", radius = 50) => ({ end, radius, air
 
 const tests = {
   ...tile_tests(await load("flight/tiles.ts"), near),
+  ...view_tests(await load("flight/labels.ts"), await load("flight/rates.ts")),
   ...pilot_tests(await load("flight/alerts.ts"), await load("flight/places.ts"), await load("track.ts"), near),
   "a log without a verdict is bad where it was cut, and only there"() {
     const log = (verdict, fault = "", metadata = {}) => verdict_of({ verdict: { words: "", severity: "", ...verdict }, fault, end_s: 61, metadata });

@@ -104,4 +104,79 @@ TEST_CASE("the name of a short phase stands upright, in smaller letters, and not
   CHECK(panel.bands[2].name == "touch");
 }
 
+TEST_CASE("names of phases are above the first panel and below its legend, upright ones as well") {
+  chart::Figure figure;
+  figure.x = "time [s]";
+  figure.panels.push_back({"y", {{"c", {{0, 0}, {1000, 1}}, false}}});
+  figure.bands = {{"cruise", 0, 900}, {"takeoff", 900, 920}, {std::string(40, 'n'), 920, 1000}};
+  const std::string svg = chart::figure_svg(figure);
+  const double top = length(between(svg, "<rect class=\"frame\"", "/>").at(0), "y");
+  const double legend = texts(svg, "legend").at(0).y;
+  const auto names = between(svg, "<text class=\"phase\"", "</text>");
+  REQUIRE(names.size() == 3);
+  for (const std::string& name : names) {
+    const bool upright = attribute(name, "transform") != "";
+    const std::string size = attribute(name, "font-size");
+    const double letter = size.empty() ? 2.8 : std::stod(size);
+    const double letters = static_cast<double>(name.size() - name.find('>') - 1);
+    CHECK(length(name, "y") < top);
+    CHECK(length(name, "y") - (upright ? 0.52 * letter * letters : letter) > legend);
+    CHECK(attribute(name, "text-anchor") == (upright ? "start" : "middle"));
+  }
+  CHECK(attribute(names[0], "transform") == "");
+  CHECK(attribute(names[1], "transform") != "");
+  CHECK(legend > 2.8);
+}
+
+TEST_CASE("noisy curves of a panel have marks in place of dashes, and smooth ones keep their dashes") {
+  chart::Figure figure;
+  figure.x = "time [s]";
+  figure.panels.resize(1);
+  const auto add = [&](const char* name, double noise) {
+    figure.panels[0].curves.push_back({name, {}, false});
+    for (int i = 0; i <= 4000; ++i)
+      figure.panels[0].curves.back().points.push_back(
+          {0.1 * i, std::sin(0.02 * i) + noise * std::sin(1.7 * i)});
+  };
+  add("a", 0), add("b", 0), add("c", 0.3), add("d", 0.3), add("e", 0.001);
+  const std::string svg = chart::figure_svg(figure);
+  const ReadFigure f = read_figure(svg);
+  std::vector<bool> dashed;
+  for (const ReadCurve& c : f.panels[0].curves) dashed.push_back(!c.style.empty());
+  CHECK(dashed == std::vector<bool>{false, true, false, false, true});
+  CHECK(between(svg, "<path class=\"mark\"", "/>").size() == 4);  // two curves, and their samples
+  std::set<std::string> samples;
+  for (const std::string& tag : between(svg, "<path class=\"sample\"", "<text")) {
+    const auto mark = between(tag, "<path class=\"mark\"", "/>");
+    samples.insert(attribute(tag, "stroke-dasharray") +
+                   (mark.empty() ? "" : shape_of(attribute(mark[0], "d"))));
+  }
+  CHECK(samples.size() == 5);
+  figure.track = true;
+  CHECK(between(chart::figure_svg(figure), "<path class=\"mark\"", "/>").empty());
+}
+
+TEST_CASE("a track with one scale on both axes fills the figure that is fitted to it") {
+  for (const auto& [east, north] :
+       {std::pair{400.0, 800.0}, {800.0, 200.0}, {300.0, 300.0}, {5000.0, 10.0}}) {
+    CAPTURE(east);
+    CAPTURE(north);
+    chart::Figure figure;
+    figure.x = "east [m]", figure.track = figure.even = true;
+    figure.panels.push_back({"north [m]", {{"flown", {{0, 0}, {east, north}}, false}}});
+    chart::fit_even(figure);
+    CHECK(chart::too_small(figure) == "");
+    const std::string svg = chart::figure_svg(figure);
+    const ReadPanel panel = read_figure(svg).panels[0];
+    CHECK(panel.x_per_mm == doctest::Approx(panel.y_per_mm).epsilon(0.01));
+    const std::string frame = between(svg, "<rect class=\"frame\"", "/>").at(0);
+    const double wide = length(frame, "width") * panel.x_per_mm,
+                 high = length(frame, "height") * panel.y_per_mm;
+    CHECK(std::max(east / wide, north / high) > 0.85);
+    if (std::max(east, north) < 2.5 * std::min(east, north))
+      CHECK(std::min(east / wide, north / high) > 0.85);
+    CHECK(std::max(length(frame, "width"), length(frame, "height")) < 135);
+  }
+}
+
 }  // namespace plot_test

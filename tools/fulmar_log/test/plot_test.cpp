@@ -53,6 +53,7 @@ struct Flight {
   int samples = 61;
   double hz = 10;
   std::vector<std::string> phases{"climb", "cruise"};
+  std::vector<std::array<double, 2>> route{};  // x, y
   std::function<void(int, State&)> change = [](int, State&) {};
 
   static State at(int i) {
@@ -66,6 +67,18 @@ struct Flight {
             {static_cast<std::uint32_t>(i % 3), {1.5 + i, 2.5, 0, 0}},
             std::uint8_t(i > 30)};
   }
+  void write_route(core::test::Sample& log) const {
+    using namespace core::test;
+    using Poses = Items<std::array<double, 2>, 4>;
+    const auto point = make_type("Point", 16, 8, {number("x", 0), number("y", 8)});
+    const auto pose = make_type("Pose", 16, 8, {nested("position", point, 0)});
+    const auto stamped = make_type("PoseStamped", 16, 8, {nested("pose", pose, 0)});
+    const auto path =
+        make_type("Path", sizeof(Poses), 8, {list(nested("poses", stamped, 0), 4, offsetof(Poses, items))});
+    Poses poses{};
+    for (const auto& at : route) poses.items[poses.count++] = at;
+    log.write(log.channel("/scene/route", *path), 0, reinterpret_cast<const std::byte*>(&poses));
+  }
   std::string write(const std::filesystem::path& file) const {
     core::test::Sample log({.file = file, .max_message_bytes = 4096});
     const std::uint16_t state = log.channel("/nav/state", *state_type()),
@@ -73,6 +86,7 @@ struct Flight {
                             "/slc/probes",
                             *core::test::make_type("Probes", 8, 8, {core::test::number("error_m", 0)})),
                         events = log.channel(core::Event::topic, *core::host_type<core::Event>());
+    if (!route.empty()) write_route(log);
     std::size_t phase = 0;
     for (int i = 0; i < samples; ++i) {
       const std::int64_t now = std::llround(1e9 * i / hz);
@@ -297,6 +311,29 @@ TEST_CASE(
         log + ": slc has no field 'position_m'. Valid: error_m.");
 }
 
+TEST_CASE("a track of north over east has the plan behind it, unless it is not wanted") {
+  const Folder folder;
+  Flight flight;
+  flight.route = {{-40, 60}, {-40, -60}, {45, 0}};
+  const std::string log = flight.write(folder.path / "a.mcap");
+  LogPlotWords words{.words = {log, "nav.state.position_m.north"}, .over = ".position_m.east"};
+  const ReadFigure f = drawn(words);
+  CHECK(f.panels[0].legend == std::vector<std::string>{"nav.state.position_m.north", "plan"});
+  REQUIRE(f.panels[0].curves.size() == 2);
+  CHECK(f.panels[0].curves[0].name == "plan");  // under the other one
+  const std::vector<Point> plan = f.panels[0].curves[0].points();
+  REQUIRE(plan.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(std::abs(plan[i].x - flight.route[i][0]) < 0.01 * f.panels[0].x_per_mm);
+    CHECK(std::abs(plan[i].y - flight.route[i][1]) < 0.01 * f.panels[0].y_per_mm);
+  }
+  words.no_plan = true;
+  CHECK(drawn(words).panels[0].curves.size() == 1);
+  CHECK(drawn({.words = {log, "nav.state.position_m.down"}, .over = ".position_m.east"})
+            .panels[0]
+            .curves.size() == 1);
+}
+
 TEST_CASE(
     "several logs in one figure, by name; panels as they are asked for; units in the legend where they "
     "differ") {
@@ -320,6 +357,13 @@ TEST_CASE(
         std::vector<std::string>{"old: nav.state.roll_deg [deg]", "new: nav.state.roll_deg [deg]",
                                  "old: nav.state.height_m [m]", "new: nav.state.height_m [m]"});
   CHECK(f.panels[2].curves.size() == 2);
+  const ReadFigure labelled = drawn({.words = {a, b, "nav.state.height_m"},
+                                     .panels = {"nav.state.roll_deg,slc.error_m"},
+                                     .labels = "height,roll angle,error"});
+  CHECK(labelled.panels[0].legend == std::vector<std::string>{"a", "b"});
+  CHECK(labelled.panels[1].legend == std::vector<std::string>{"a: roll angle [deg]", "b: roll angle [deg]",
+                                                              "a: error [m]", "b: error [m]"});
+  CHECK(drawn({.words = {a, "slc.error_m"}, .labels = "<e>"}).panels[0].legend.at(0) == "&lt;e&gt;");
   CHECK(drawn({.words = {a, b, "slc.error_m"}}).panels[0].legend == std::vector<std::string>{"a", "b"});
   std::vector<std::string> notes;
   flight.phases = {"climb"};
@@ -368,6 +412,8 @@ TEST_CASE("what cannot be drawn is told in a sentence with what there is") {
         "'" + log + "' is a log: logs stand before the fields");
   CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .names = "a,b"}) ==
         "--names takes a name for each log, with commas between them: 1, not 2");
+  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .labels = "a,b"}) ==
+        "--labels takes a name for each field, with commas between them: 1, not 2");
   for (const char* size : {"160", "160x", "0x90mm", "160x90cm", "160x9000mm", "x", "-1x5mm", "nanxnanmm"})
     CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .size = size}) ==
           std::string("--size ") + size +

@@ -109,13 +109,13 @@ export class Socket {
       return;
     }
     if (document.hidden) return; // a page that is not seen is put to sleep now and then
-    if (this.quiet > lost_ms && (this.up || this.quiet > 5 * lost_ms)) return this.lose("nothing is heard of the flight");
-    if (!this.up || now - this.asked_ms < alive_ms) return;
+    const asks = this.up && this.sign_of_life.length > 0; // else nothing may be heard for a while
+    if (this.quiet > lost_ms && (asks || this.quiet > 5 * lost_ms)) return this.lose("nothing is heard of the flight");
+    if (!asks || now - this.asked_ms < alive_ms) return;
     this.asked_ms = now;
     const id = "alive " + this.next_asked++;
     this.asked.set(id, now);
-    // An empty list asks for all of them.
-    this.send({ op: "getParameters", parameterNames: this.sign_of_life.length > 0 ? this.sign_of_life : ["-"], id });
+    this.send({ op: "getParameters", parameterNames: this.sign_of_life, id });
   }
   /** How old what has come last can be at most. Answers come behind the samples that were sent before them, through every queue on the way. */
   age_ms(): number {
@@ -134,7 +134,7 @@ export class Socket {
     this.known_ms = Math.max(this.known_ms, sent);
   }
   /** One parameter, so that the answer is short. */
-  sign_of_life: string[] = [];
+  sign_of_life: string[] = []; // empty: not known yet, and nothing is asked, since an empty list asks for all of them
 
   private send(message: unknown): void {
     if (this.ws?.readyState === WebSocket.OPEN) this.ws.send(JSON.stringify(message));

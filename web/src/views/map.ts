@@ -2,6 +2,7 @@
 // A map: north up, metres from the origin, on a canvas, over tiles where the mission names some. Dragging moves it, the wheel and + - zoom.
 import { colours, el, say, sharp } from "../dom";
 import { type Plan, type Point, Route } from "../flight/route";
+import { type Spot, label_side } from "../flight/labels";
 import type { State } from "../names";
 import type { Places } from "../flight/places";
 import type { Ground } from "./ground";
@@ -186,6 +187,7 @@ export class MapView {
     g.setLineDash([1, 6]);
     this.line(g, scene.piece);
     g.setLineDash([]);
+    this.waypoints(g, scene);
     if (!scene.places?.places.length) this.home(g);
     if (scene.lost) draw_lost(g, scene.lost, (p) => this.to_screen(p), this.px_per_m);
     this.data(scene);
@@ -282,10 +284,15 @@ export class MapView {
       this.line(g, leg.points);
     }
     g.setLineDash([]);
+  }
+  private waypoints(g: CanvasRenderingContext2D, scene: Scene): void {
+    const plan = scene.plan;
+    if (!plan) return;
     g.font = "bold 12px system-ui";
     g.textBaseline = "middle";
+    const places = plan.waypoints.map((w) => this.to_screen({ n: w.north, e: w.east }));
     plan.waypoints.forEach((w, i) => {
-      const at = this.to_screen({ n: w.north, e: w.east });
+      const at = places[i] as Spot;
       if (at.x < -50 || at.y < -50 || at.x > this.width + 50 || at.y > this.height + 50) return;
       const radius = i === scene.chosen ? 12 : 10;
       g.beginPath();
@@ -298,14 +305,7 @@ export class MapView {
       g.fillStyle = i === scene.refused || i === scene.item ? colours.get("on_colour") : colours.get("text");
       g.textAlign = "center";
       g.fillText(String(i), at.x, at.y + 0.5);
-      g.textAlign = "left";
-      g.fillStyle = colours.get("text");
-      const words = digits(w.up) + " m", end = at.x + 15 + g.measureText(words).width;
-      const free = plan.waypoints.length <= most_labels && plan.waypoints.every((other, k) => {
-        const p = this.to_screen({ n: other.north, e: other.east });
-        return k === i || Math.abs(p.y - at.y) > 16 || p.x < at.x - 30 || p.x > end + 12;
-      });
-      if (free || i === scene.chosen) words_on(g, words, at.x + 15, at.y);
+      if (places.length <= most_labels || i === scene.chosen) this.height_label(g, digits(w.up) + " m", places, i, plan.end === "circuit", i === scene.chosen);
       g.strokeStyle = g.fillStyle = colours.get("text");
       g.lineWidth = 2;
       if (w.course === null) return;
@@ -314,6 +314,15 @@ export class MapView {
       g.lineTo(at.x + 26 * Math.sin(w.course), at.y - 26 * Math.cos(w.course));
       g.stroke();
     });
+  }
+  /** Of waypoint `i`, away from its legs; not where it would lie on another waypoint, unless it is the chosen one. */
+  private height_label(g: CanvasRenderingContext2D, words: string, places: Spot[], i: number, closed: boolean, chosen: boolean): void {
+    const at = places[i] as Spot, count = places.length, half = g.measureText(words).width / 2;
+    const next = [i - 1, i + 1].map((k) => places[closed ? (k + count) % count : k]).filter((p) => p !== undefined);
+    const side = label_side(at, next), x = at.x + side.x * (15 + half), y = at.y + side.y * 21;
+    if (!chosen && places.some((p, k) => k !== i && Math.abs(p.y - y) < 17 && Math.abs(p.x - x) < half + 12)) return;
+    g.textAlign = "center";
+    words_on(g, words, x, y);
   }
   private home(g: CanvasRenderingContext2D): void {
     const { x, y } = this.to_screen({ n: 0, e: 0 });

@@ -12,8 +12,9 @@ const groups: [string, RegExp][] = [
   ["Faults", /(fault|_works$|^motor$|^rc_link$|icing)/],
 ];
 
-/** Of a fault what fails, by the parameter's name; the first that fits. */
+/** Of the air what moves it, of a fault what fails, by the parameter's name; the first that fits. */
 const parts: [string, RegExp][] = [
+  ["Wind", /^wind/], ["Gusts", /^gust/], ["Turbulence and thermals", /^(turbulence|thermal|shear)/],
   ["Motor", /^(motor|engine)/], ["Battery", /^battery/], ["GNSS", /^gnss/], ["Airspeed", /^pitot/], ["Radio", /^rc/], ["Inertial unit", /^(imu|gyro|accel)/],
   ["Magnetometer", /^mag/], ["Barometer", /^baro/], ["Surfaces", /^(aileron|elevator|rudder|fault_speed)/], ["Icing", /^icing/], ["How sensors fail", /./],
 ];
@@ -88,7 +89,7 @@ export class Simulation implements Page {
     }));
     this.seed.value = view.seed;
     const vehicle = view.components.find((c) => c.role.split(", ").includes("vehicle") && c.active);
-    this.rows.length = 0;
+    this.rows.length = this.folds.length = 0;
     const sections = vehicle ? groups.map(([name, which]) => this.section(vehicle, name, which)) : [];
     const requests = view.components.flatMap((c) => c.inputs.filter((p) => p.request && !p.type.endsWith("/PlanEdit")).map((p) => `/${c.name}/${p.name}`));
     fill(this.box,
@@ -102,19 +103,20 @@ export class Simulation implements Page {
   private section(c: Component, name: string, which: RegExp): HTMLElement {
     const rows = c.params.filter((p) => p.live && which.test(p.name)).map((p) => new ParamRow(this.flight, c.name, p));
     this.rows.push(...rows);
-    const list = name === "Faults" ? this.folded(rows) : rows.map((r) => r.element);
-    return el("section", { class: "params" }, el("h2", {}, `${name}, of ${c.name}`), el("div", { class: "scroll rows" }, ...list));
+    return el("section", { class: "params" }, el("h2", {}, `${name}, of ${c.name}`), el("div", { class: "scroll rows" }, ...this.folded(rows, name === "Faults")));
   }
 
-  private folded(rows: ParamRow[]): HTMLElement[] {
-    this.folds = parts.map(([name, which]) => {
+  private folded(rows: ParamRow[], fault: boolean): HTMLElement[] {
+    const folds = parts.map(([name, which]) => {
       const mine = rows.filter((r) => parts.find(([, first]) => first.test(r.name))?.[1] === which);
       const summary = el("summary", {}, name);
-      return { name, rows: mine, summary, element: el("details", { class: "fold" }, summary, ...mine.map((r) => r.element)) };
+      return { name, fault, rows: mine, summary, element: el("details", { class: "fold" }, summary, ...mine.map((r) => r.element)) };
     }).filter((f) => f.rows.length > 0);
-    return this.folds.map((f) => f.element);
+    for (const f of folds) f.element.open = f.name === "Wind";
+    this.folds.push(...folds);
+    return folds.map((f) => f.element);
   }
-  private folds: { name: string; rows: ParamRow[]; summary: HTMLElement; element: HTMLElement }[] = [];
+  private readonly folds: { name: string; fault: boolean; rows: ParamRow[]; summary: HTMLElement; element: HTMLElement }[] = [];
 
   /** A form of a request's fields, as its message has them. */
   private request(service: string): HTMLElement {
@@ -165,8 +167,8 @@ export class Simulation implements Page {
     }
     for (const f of this.folds) {
       const changed = f.rows.filter((r) => r.changed).map((r) => r.summary.replace(/^\w+\./, ""));
-      say(f.summary, f.name + (changed.length > 0 ? " ✕ " + changed.join("; ") : ""));
-      mark(f.summary, "bad", changed.length > 0);
+      say(f.summary, f.name + (changed.length > 0 ? " " + (f.fault ? "✕ " : "") + changed.join("; ") : ""));
+      mark(f.summary, f.fault ? "bad" : "changed", changed.length > 0);
     }
   }
 }

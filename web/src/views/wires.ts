@@ -2,6 +2,7 @@
 // Components, their ports and wires, as they are at work: as a drawing, and in figures: rates, ages, step times, guards. A component
 // is swapped from here, if the host lets it.
 import { el, fill, mark, say } from "../dom";
+import { Rates } from "../flight/rates";
 import type { Component, Flight, Port, View } from "../protocol/flight";
 import { digits, fixed, none } from "../units";
 import type { Page } from "./page";
@@ -29,9 +30,7 @@ export class Wires implements Page {
   private listed = "";
   private chosen = "";
   private counted_ms = 0;
-  private counted_s = 0; // of flight
-  private counts = new Map<string, number>();
-  private rates = new Map<string, number>();
+  private readonly rates = new Rates();
 
   constructor(private readonly flight: Flight) {
     const head = ["component", "fills", "plugin", "state", "runs as", "steps a second", "step, mean", "step, longest", "budget"];
@@ -44,6 +43,7 @@ export class Wires implements Page {
 
   show(): void {
     this.counted_ms = this.since_ms = 0;
+    this.rates.begin();
     this.steps = new Map();
     this.steps_s = -1e9;
     this.flight.want_all(true);
@@ -175,23 +175,16 @@ export class Wires implements Page {
   }
   private since_ms = 0;
   private rate(topic: string): string {
-    const hz = this.rates.get(topic);
+    const hz = this.rates.of(topic);
     return rate_of(hz === 0 && !this.listened ? undefined : hz);
   }
 
-  /** By flight time: a simulation may be quicker than the clock. */
   private count(view: View, now_ms: number): void {
-    const seconds = this.flight.now - this.counted_s, first = this.counted_ms === 0;
     this.counted_ms = now_ms;
-    this.counted_s = this.flight.now;
-    const note = (key: string, count: number) => {
-      if (!first && seconds > 0) this.rates.set(key, (count - (this.counts.get(key) ?? count)) / seconds);
-      else this.rates.delete(key);
-      this.counts.set(key, count);
-    };
-    if (this.since_ms === 0 && this.flight.topics().length > 0) this.since_ms = performance.now();
     this.flight.want_all(true); // also those that were told of after it was shown
-    for (const t of this.flight.topics()) note(t.name, this.flight.count(t.name));
+    const topics = this.flight.topics();
+    if (topics.length > 0) this.rates.count(this.flight.now, topics.map((t) => [t.name, this.flight.count(t.name)]));
+    if (topics.length > 0 && this.since_ms === 0) this.since_ms = performance.now();
     // The host notes its steps now and then: over a longer time.
     const since = view.now_ns * 1e-9 - this.steps_s, anew = since < 0 || since > steps_over_s;
     for (const c of view.components) {

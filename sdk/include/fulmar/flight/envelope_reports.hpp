@@ -54,7 +54,8 @@ class EnvelopeReports {
              "stall at %.0f deg angle of attack: nose down, wings level, full power",
              degrees * guard.alpha_rad());
       else
-        push(tick, notices, Severity::info, "out of the stall: full power, little bank, until the height is reached", 0);
+        push(tick, notices, Severity::info,
+             "out of the stall: full power, little bank, until the height is reached", 0);
     }
     if (said.height_uncontrolled != lost_) {
       lost_ = said.height_uncontrolled;

@@ -252,7 +252,7 @@ TEST_CASE(
   const double most = f.now.pitch_max_rad;
   CHECK(most < 0.2);
   s.specific_force_mps2.z = -0.3 * g;
-  f.fly(s, 0.1);
+  f.fly(s, 0.05);
   CHECK(f.now.pitch_max_rad < most + 0.15);
   f.fly(s, 4);
   CHECK(f.now.pitch_max_rad > most + 0.15);
@@ -263,17 +263,18 @@ TEST_CASE("after a fall height is regained: not for a descent that is asked for,
   VehicleState s = level(14);
   f.fly(s, 1);
   s.climb_rate_mps = -4;
-  CHECK_FALSE(f.guard.regains(s, 20, -3));  // a descent
-  CHECK_FALSE(f.guard.regains(s, 4, 0));
-  CHECK(f.guard.regains(s, 6, 0));
+  CHECK_FALSE(f.guard.regains(s, 20, -3, 0.6));  // a descent
+  CHECK_FALSE(f.guard.regains(s, 4, 0, 0.6));
+  CHECK_FALSE(f.guard.regains(s, 6, 0, 0.4));  // as after a hand-over
+  CHECK(f.guard.regains(s, 6, 0, 0.4));
   CHECK(f.guard.bank_max(30, f.airframe.limits, rho) == doctest::Approx(0.26));
   s.climb_rate_mps = 3;
-  CHECK(f.guard.regains(s, 12, 0));
+  CHECK(f.guard.regains(s, 12, 0, 0.6));
   s.airspeed_valid = false;
-  CHECK_FALSE(f.guard.regains(s, 12, 0));  // the law flies, until it is known again
+  CHECK_FALSE(f.guard.regains(s, 12, 0, 0.6));  // the law flies, until it is known again
   s.airspeed_valid = true;
-  CHECK(f.guard.regains(s, 12, 0));
-  CHECK_FALSE(f.guard.regains(s, 10.9, 0));  // two seconds of climb and 5 m
+  CHECK(f.guard.regains(s, 12, 0, 0.6));
+  CHECK_FALSE(f.guard.regains(s, 10.9, 0, 0.6));  // two seconds of climb and 5 m
   CHECK(f.guard.bank_max(30, f.airframe.limits, rho) > 1);
 }
 

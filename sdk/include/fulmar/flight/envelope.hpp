@@ -93,7 +93,7 @@ class EnvelopeGuard {
   /// A hand-over, a reset of the state, flight on the ground: what was seen is over.
   void reset() {
     lift_.reset(), gust_.reset(), gusty_.reset();
-    learnt_ = false, above_s_ = below_s_ = unloaded_s_ = peak_ = 0, stalled_ = regains_ = false;
+    learnt_ = false, above_s_ = below_s_ = unloaded_s_ = falls_s_ = peak_ = 0, stalled_ = regains_ = false;
   }
 
   double bank_max(double Va, const FlightLimits& limits, double density_kgm3) const {
@@ -143,12 +143,14 @@ class EnvelopeGuard {
 
   /// After a stall, or where it fell though nothing asked it to: the law is to rest until the height that is
   /// commanded is near. Airspeed is held by pitch, at full power.
-  bool regains(const VehicleState& s, double height_error_m, double climb_rate_mps) {
-    constexpr double fall_mps = 3, held_mps = 1, below_m = 5, ahead_s = 2;
+  bool regains(const VehicleState& s, double height_error_m, double climb_rate_mps, double dt_s) {
+    constexpr double fall_mps = 3, falls_s = 0.5, held_mps = 1, below_m = 5, ahead_s = 2;
     const double sink = std::min(climb_rate_mps, 0.0) - s.climb_rate_mps;
     const double left_m = height_error_m - ahead_s * std::max(s.climb_rate_mps, 0.0);
     if (!s.height_valid || (!stalled_ && sink < held_mps && left_m < below_m)) regains_ = false;
-    if (stalled_ || (sink > fall_mps && height_error_m > below_m)) regains_ = s.height_valid;
+    // The sink that a hand-over brings along ends without that.
+    falls_s_ = sink > fall_mps && height_error_m > below_m ? falls_s_ + dt_s : 0;
+    if (stalled_ || falls_s_ > falls_s) regains_ = s.height_valid;
     return regains_ && s.airspeed_valid && s.velocity_valid;
   }
   /// Airspeed that is too much becomes height, airspeed that is missing comes from height. Between them the
@@ -186,7 +188,7 @@ class EnvelopeGuard {
   }
   /// Of the most lift, as far as the flight path and the accelerometer agree: in air that sinks the angle
   /// over the flight path is large, and that of the wing is not. Beyond the stall lift is small as well: the
-  /// largest of the last second counts. The mass may be a fifth more than it should.
+  /// largest of the last moment counts. The mass may be a fifth more than it should.
   double used() const { return std::min(wing_.share(alpha_), 1.2 * peak_); }
 
   /// Gusts take airspeed faster than an engine gives it: the faster part of them, times four, above the
@@ -255,7 +257,8 @@ class EnvelopeGuard {
   WingEnvelope wing_;
   LowPass stall_squared_, lift_, gusty_;
   SteadyAirspeed gust_;
-  double V_ = 0, climb_rad_ = 0, alpha_ = 0, above_s_ = 0, below_s_ = 0, unloaded_s_ = 0, peak_ = 0;
+  double V_ = 0, climb_rad_ = 0, alpha_ = 0, above_s_ = 0, below_s_ = 0, unloaded_s_ = 0, falls_s_ = 0,
+         peak_ = 0;
   Decay decay_;
   bool configured_ = false, learnt_ = false, stalled_ = false, regains_ = false;
 };

@@ -206,7 +206,7 @@ struct OuterLoop {
     internals.airspeed_raised = state.airspeed_valid && within.airspeed_min_mps > command.airspeed_mps;
     internals.stalled = guard.stalled();
     const double error = command.height_m - state.height_m;
-    const bool regains = guarded && guard.regains(state, error, command.climb_rate_mps);
+    const bool regains = guarded && guard.regains(state, error, command.climb_rate_mps, dt);
     if (guard.stalled() || regains) {
       rest();
       internals.height_error_m = error;

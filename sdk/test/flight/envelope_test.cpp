@@ -252,7 +252,7 @@ TEST_CASE(
   const double most = f.now.pitch_max_rad;
   CHECK(most < 0.2);
   s.specific_force_mps2.z = -0.3 * g;
-  f.fly(s, 0.05);
+  f.fly(s, 0.01);
   CHECK(f.now.pitch_max_rad < most + 0.15);
   f.fly(s, 4);
   CHECK(f.now.pitch_max_rad > most + 0.15);

@@ -256,16 +256,6 @@ void check_reachable(Draft& draft) {
                                                   ", where the flight begins");
 }
 
-/// A flight that enters such a phase ends by its timeout alone, as failed.
-void warn_of_dead_ends(Draft& draft) {
-  Graph& graph = draft.graph;
-  if (graph.done || !graph.any.empty() || graph.phases.size() < 2) return;
-  for (const Phase& phase : graph.phases)
-    if (phase.next.empty())
-      graph.warnings.push_back(phase.where.text() + ": phases." + phase.name +
-                               ": no transition leaves it, and the mission has no 'done'");
-}
-
 }  // namespace
 
 void name_ports(Draft& draft) { compile_all(draft, false); }
@@ -283,7 +273,6 @@ void compile_phases(Draft& draft) {
     }
   }
   check_reachable(draft);
-  warn_of_dead_ends(draft);
   std::vector<std::string> gone;
   for (const auto& [key, port] : draft.graph.left_out) gone.push_back(key + " (" + port + ")");
   if (!gone.empty())

@@ -214,24 +214,6 @@ TEST_CASE("rates, budgets and run modes are those that this build has") {
         "async'");
 }
 
-TEST_CASE("a phase that no transition leaves is warned of where the mission has no end") {
-  const std::string last = ", next: [{to: cruise, when: \"vehicle.rc.aux1_frac < 0.5\"}]",
-                    any = "  any:      {next: [{to: hold, when: \"vehicle.status.override\"}]}\n",
-                    done = "done: \"manage.progress.circuits >= 2\"\n";
-  const auto warned = [&](std::initializer_list<std::string> without) {
-    Mission mission;
-    for (const std::string& text : without) mission.replace(text, "");
-    std::size_t count = 0;
-    for (const std::string& w : mission.load().warnings)
-      count += w.find("phases.research: no transition leaves it") != std::string::npos;
-    return count;
-  };
-  CHECK(warned({last, any, done}) == 1);
-  CHECK(warned({last, any}) == 0);
-  CHECK(warned({last, done}) == 0);
-  CHECK(warned({any, done}) == 0);
-}
-
 TEST_CASE("phases name phases, roles and fillers that exist, and all can be reached") {
   CHECK(changed("to: takeoff", "to: take_off") ==
         "36: phases.hold.next.to: there is no phase 'take_off'. Did you mean 'takeoff'? Valid: hold, "

@@ -291,8 +291,11 @@ TEST_CASE("after a fall the loop climbs at full power and little bank, then the 
   s.wind_valid = true, s.specific_force_mps2.z = -9.8;
   for (int i = 0; i < 200; ++i) law.step(s, command);
   REQUIRE(law.out.attitude.roll_rad > 0.5);
-  const int held = law.holds;
   s.climb_rate_mps = -4;
+  for (int i = 0; i < 40; ++i) law.step(s, command);
+  CHECK_EQ(law.holds, 240);  // a sink that a hand-over brings along ends by itself
+  for (int i = 0; i < 20; ++i) law.step(s, command);
+  const int held = law.holds;
   for (int i = 0; i < 100; ++i) law.step(s, command);
   CHECK_EQ(law.holds, held);
   CHECK_FALSE(law.out.internals.stalled);

@@ -62,7 +62,7 @@ class TouchDown {
     double off_m;  ///< from the height of the ground; a large one where that is not known
     bool slow;     ///< at the least airspeed or below it
     bool sinks;    ///< a sink is asked for until it touches: short final and flare
-    bool closed;   ///< the throttle, for a second: what brakes is not the motor
+    bool closed;   ///< the throttle, for a second: the motor brakes no more
   };
   double step(const VehicleState& s, const Expected& e, const TouchParams& p, double dt) {
     const double sink = sink_.step(-s.climb_rate_mps, 0.8, dt);

@@ -234,7 +234,7 @@ class Drawing {
            "\"/>\n" + words;
   }
 
-  /// `under`: what is between it and the panel.
+  /// `under`: height between it and the panel.
   std::string legend_svg(std::size_t panel, double under) const {
     const Box& box = boxes_[panel];
     const Legend& legend = legends_[panel];

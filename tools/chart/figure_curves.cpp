@@ -43,7 +43,7 @@ void keep_column(const Points& from, std::size_t begin, std::size_t end, Points&
     if (i == 0 || places[i] != places[i - 1]) kept.push_back(*places[i]);
 }
 
-/// One part of a curve, in millimetres of the figure: what can be seen of it.
+/// One part of a curve, in millimetres of the figure: its visible part.
 Points seen_part(const Points& part, bool track) {
   Points kept;
   for (std::size_t i = 0, next = 0; i < part.size(); i = next) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The navigator's numbers by single samples: what it takes over, what a fix of any deviation moves, how long
-// a refused sensor waits, what is not level and not along north.
+// The navigator's numbers by single samples: values taken over, the shift by a fix of any deviation, how long
+// a refused sensor waits, attitudes neither level nor along north.
 #include <doctest/doctest.h>
 
 #include <cmath>

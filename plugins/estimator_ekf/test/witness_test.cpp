@@ -224,7 +224,7 @@ TEST_CASE(
       CHECK(step(side * 4.7 * std, std, 0.02).second == 0);
     }
   CHECK(step(3, 0.3, 0.19).second > 0);
-  CHECK(step(3, 0.3, 0.21).second == 0);  // nobody saw how it went there
+  CHECK(step(3, 0.3, 0.21).second == 0);  // the way there has no samples
 }
 
 TEST_CASE("a step of the barometer that comes back within the two seconds is none, and the next one counts") {

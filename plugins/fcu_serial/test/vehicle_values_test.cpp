@@ -202,7 +202,7 @@ TEST_CASE("commands go out at their rate, repeated after 25 ms, and a late one d
   CHECK(pace.due(false, 60 * ms));
 }
 
-TEST_CASE("a computer that is too slow is told in its second such second, each ten, and when it is over") {
+TEST_CASE("a computer that is too slow is reported in its second such second, each ten, and at its end") {
   for (const auto& [too_old, slow] : {std::pair{9, false}, {10, true}, {30, true}}) {
     Overload load;
     std::string told;
@@ -227,7 +227,7 @@ TEST_CASE("a computer that is too slow is told in its second such second, each t
 }
 
 TEST_CASE(
-    "parameters are asked for every 10 ms, in five rounds half a second apart, and what lacks is told") {
+    "parameters are asked for every 10 ms, in five rounds half a second apart; missing ones are reported") {
   ParameterBook book;
   book.expect(3);
   Notices out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laws of the path beside their formulas, where nothing is level or symmetrical: what is asked for while
+// The laws of the path beside their formulas, where nothing is level or symmetrical: commands while
 // the position is lost, circles that are entered and left, plans at their limits, each on both sides.
 #include <doctest/doctest.h>
 

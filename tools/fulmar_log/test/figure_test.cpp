@@ -157,8 +157,9 @@ TEST_CASE("noisy curves of a panel have marks in place of dashes, and smooth one
 }
 
 TEST_CASE("a track with one scale on both axes fills the figure that is fitted to it") {
-  for (const auto& [east, north] :
-       {std::pair{400.0, 800.0}, {800.0, 200.0}, {300.0, 300.0}, {5000.0, 10.0}}) {
+  // No structured binding: clang before 16 does not capture one.
+  for (const auto& corner : {std::pair{400.0, 800.0}, {800.0, 200.0}, {300.0, 300.0}, {5000.0, 10.0}}) {
+    const double east = corner.first, north = corner.second;
     CAPTURE(east);
     CAPTURE(north);
     chart::Figure figure;

@@ -16,7 +16,7 @@
 #include <stdexcept>
 
 #include "core/run/flight.hpp"
-#include "fulmar/flight/estimator.hpp"
+#include "fulmar/flight/navigation/estimator.hpp"
 #include "fulmar/random.hpp"
 #include "fulmar/testing.hpp"
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/isolate/isolated.hpp"
-#include "core/run/unit.hpp"
+#include "core/run/component/unit.hpp"
 
 using namespace fulmar::core;
 

@@ -194,7 +194,7 @@ void print(const Options& o, const std::vector<Landed>& all, const Statistics& s
       s.yaw_most, s.bank_50, s.bank_95, s.bank_most, s.along_5, s.along_50, s.along_95);
   std::printf(
       "Bars: all flown, none crashed; from lift-off to the flare the mean of a second of true airspeed at "
-      "least %.1f times the flight's own stall (`most_lift`, fulmar/flight/steady_flight.hpp); sink at "
+      "least %.1f times the flight's own stall (`most_lift`, fulmar/flight/model/steady_flight.hpp); sink at "
       "touch-down below %.1f m/s in %.0f %% (%.1f %%); within %.0f m of the centre line beside the "
       "receiver's "
       "own error in %.0f %% (%.1f %%).\n\n"

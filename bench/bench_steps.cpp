@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "bench/control_steps.hpp"
+#include "core/run/component/unit.hpp"
 #include "core/run/flight.hpp"
-#include "core/run/unit.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "sdk/test/flight/airframe_file.hpp"
 

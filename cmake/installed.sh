@@ -46,7 +46,7 @@ geodesy() {
   quietly "$prefix/bin/fulmar" new my_place --in state=nav.state --out range=Range
   (
     cd my_place
-    sed -i 's|#include <fulmar/plugin.hpp>|&\n#include <fulmar/flight/geodesy.hpp>|; s|// Your law goes here.|LocalFrame(40, -111, 1400).to_ned(40, -111, in.state->height_m).allFinite();|' my_place.hpp
+    sed -i 's|#include <fulmar/plugin.hpp>|&\n#include <fulmar/flight/earth/geodesy.hpp>|; s|// Your law goes here.|LocalFrame(40, -111, 1400).to_ned(40, -111, in.state->height_m).allFinite();|' my_place.hpp
     sed -i 's|fulmar_add_plugin(my_place my_place.cpp|& GEODESY|' CMakeLists.txt
     quietly cmake --preset default -DCMAKE_CXX_FLAGS=-Werror
     quietly cmake --build build

@@ -1,58 +1,109 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The folders of core/ stand on each other: no include upwards, no circle of files, a README in each. Tests may include what they like.
+"""The folders of the tree stand on each other: no include upwards, and no circle of units, where a unit is a header with
+the source beside it. Each folder of core/ and of flight/ has a README. Tests may include what they like.
 In core/run, where the next change is hardest to get right, no struct has more than 15 members and no file more than 450 lines."""
 import re
 import subprocess
 import sys
 from pathlib import Path
 
-ORDER = "types loader log isolate graph tap live dds run replay app".split()
+# From the bottom up. A folder includes itself and what stands before it; folders of one line do not include each other.
+ORDER = [line.split() for line in """
+sdk/include/fulmar
+sdk/include/fulmar/flight/math
+sdk/include/fulmar/flight/earth
+sdk/include/fulmar/flight/model
+sdk/include/fulmar/flight/control sdk/include/fulmar/flight/path sdk/include/fulmar/flight/navigation
+sdk/include/fulmar/sim
+core
+core/types
+core/loader
+core/loader/probe
+core/log
+core/isolate
+core/isolate/child
+core/graph
+core/tap
+core/live core/dds
+core/run/component
+core/run/state
+core/run/record
+core/run/flight
+core/run/command
+core/run
+core/replay
+core/app
+plugins examples
+tools
+bench
+""".strip().split("\n")]
+RANK = {folder: rank for rank, folders in enumerate(ORDER) for folder in folders}
+READMES = [f for f in RANK if re.match(r"core/(run/)?\w+$", f) or "/flight/" in f]
 root = Path(__file__).resolve().parent.parent
-listed = subprocess.run(["git", "ls-files", "core", "sdk", "tools", "plugins"], cwd=root, capture_output=True, text=True, check=True).stdout
+listed = subprocess.run(["git", "ls-files", "core", "sdk/include", "tools", "plugins", "examples", "bench"], cwd=root, capture_output=True,
+                        text=True, check=True).stdout
 sources = [f for f in listed.split() if f.endswith((".cpp", ".hpp", ".h", ".c")) and "/test/" not in f and (root / f).exists()]
-includes = {f: re.findall(r'^#include "((?:core|tools|plugins|fulmar)/[^"]+)"', (root / f).read_text(), re.M) for f in sources}
+known = set(sources)
 faults = []
 
 
-def floor(path):
-    """Which floor of core a file stands on; 0 for what lies in core/ itself."""
-    folder = path.split("/")[1] if path.count("/") > 1 else ""
-    if folder and folder not in ORDER:
-        faults.append(f"{path}: core/{folder} is no folder of cmake/layers.py")
-        return 0
-    return ORDER.index(folder) + 1 if folder else 0
+def target(file, name):
+    """The file of the tree that an include names, or None."""
+    near = f"{file.rsplit('/', 1)[0]}/{name}"
+    return next((t for t in (name, f"sdk/include/{name}", near) if t in known), None)
 
 
+def read_includes(file):
+    names = re.findall(r'^#include [<"]([^>"]+)[>"]', (root / file).read_text(), re.M)
+    return [t for name in names if (t := target(file, name))]
+
+
+def folder_of(file):
+    """The nearest folder of ORDER around a file. A new folder of core/ or flight/ has to be listed first."""
+    parts = file.split("/")[:-1]
+    if parts[0] == "core" and len(parts) > 1 and "/".join(parts) not in RANK:
+        faults.append(f"{file}: {'/'.join(parts)} is no folder of cmake/layers.py")
+    while parts and "/".join(parts) not in RANK:
+        parts.pop()
+    return "/".join(parts)
+
+
+includes = {f: read_includes(f) for f in sources}
+folders = {f: folder_of(f) for f in sources}
 for file, targets in includes.items():
-    if not file.startswith("core/"):
-        continue
-    for target in targets:
-        if target.startswith(("tools/", "plugins/")):
-            faults.append(f"{file} includes {target}: core stands below")
-        elif target.startswith("core/") and floor(target) > floor(file):
-            faults.append(f"{file} includes {target}: upwards")
+    for other in targets:
+        here, there = folders[file], folders[other]
+        if here != there and RANK.get(there, -1) >= RANK.get(here, -1):
+            faults.append(f"{file} includes {other}: {'upwards' if RANK[there] > RANK[here] else 'sideways'}")
+
+
+def unit(file):
+    """A header, the source beside it and `_impl`, the definitions that its templates or its sources share, are one."""
+    return file.rsplit(".", 1)[0].removesuffix("_impl")
 
 
 def circle():
-    """Depth first: the first circle of headers, as a path."""
+    """Depth first: the first circle of units, as a path."""
+    edges = {}
+    for file, targets in includes.items():
+        edges.setdefault(unit(file), set()).update(unit(t) for t in targets if unit(t) != unit(file))
     state, path = {}, []
 
-    def visit(file):
-        state[file] = "open"
-        path.append(file)
-        for target in includes.get(file, []):
-            target = target if target in includes else f"sdk/include/{target}"
-            if state.get(target) == "open":
-                return path[path.index(target):] + [target]
-            if target in includes and target not in state and (found := visit(target)):
+    def visit(name):
+        state[name] = "open"
+        path.append(name)
+        for other in sorted(edges[name]):
+            if state.get(other) == "open":
+                return path[path.index(other):] + [other]
+            if other not in state and (found := visit(other)):
                 return found
         path.pop()
-        state[file] = "done"
+        state[name] = "done"
         return None
 
-    for file in includes:
-        if file not in state and (found := visit(file)):
+    for name in edges:
+        if name not in state and (found := visit(name)):
             return found
     return None
 
@@ -102,6 +153,6 @@ for file in sources:
 
 if found := circle():
     faults.append("circle: " + " -> ".join(found))
-faults += [f"core/{folder} has no README.md" for folder in ORDER if not (root / "core" / folder / "README.md").exists()]
-print("\n".join(faults) or f"{len(sources)} files: no include upwards, no circle")
+faults += [f"{folder} has no README.md" for folder in READMES if not (root / folder / "README.md").exists()]
+print("\n".join(dict.fromkeys(faults)) or f"{len(sources)} files: no include upwards, no circle")
 sys.exit(bool(faults))

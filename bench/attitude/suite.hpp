@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "fulmar/flight/dryden.hpp"
+#include "fulmar/flight/earth/dryden.hpp"
 #include "fulmar/random.hpp"
 
 namespace fulmar::attitude {

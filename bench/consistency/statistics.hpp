@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fulmar/flight/consistency.hpp"
+#include "fulmar/flight/navigation/consistency.hpp"
 #include "fulmar/msg/filter_check.hpp"
 
 namespace fulmar::consistency {

@@ -16,7 +16,7 @@
 #include "core/run/test/commands.hpp"
 #include "core/run/test/output_of.hpp"
 #include "core/run/verdict.hpp"
-#include "fulmar/flight/route.hpp"
+#include "fulmar/flight/path/route.hpp"
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/progress.hpp"

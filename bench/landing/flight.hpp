@@ -13,9 +13,9 @@
 
 #include "core/run/flight.hpp"
 #include "core/run/test/output_of.hpp"
-#include "fulmar/flight/angles.hpp"
-#include "fulmar/flight/geodesy.hpp"
-#include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
+#include "fulmar/flight/math/angles.hpp"
+#include "fulmar/flight/model/steady_flight.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/gnss.hpp"

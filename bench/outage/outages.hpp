@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fulmar/flight/geodesy.hpp>
+#include <fulmar/flight/earth/geodesy.hpp>
 #include <fulmar/msg/vehicle_state.hpp>
 #include <fulmar/schema.hpp>
 #include <fulmar/testing.hpp>

@@ -6,7 +6,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <fulmar/flight/angles.hpp>
+#include <fulmar/flight/math/angles.hpp>
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/msg/guidance_command.hpp>

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "bench/safety/flight.hpp"
-#include "core/run/allocation.hpp"
+#include "core/run/component/allocation.hpp"
 
 namespace safety_flights_test {
 

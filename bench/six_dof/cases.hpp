@@ -4,9 +4,9 @@
 #pragma once
 #include <numbers>
 
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/attitude.hpp"
-#include "fulmar/flight/earth.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
+#include "fulmar/flight/math/attitude.hpp"
+#include "fulmar/flight/model/round_earth.hpp"
 #include "recording.hpp"
 
 namespace fulmar::six_dof {

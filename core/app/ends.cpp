@@ -8,7 +8,7 @@
 
 #include "core/app/last_act.hpp"
 #include "core/loader/in_hand.hpp"
-#include "core/run/inside.hpp"
+#include "core/run/component/running_code.hpp"
 
 namespace fulmar::core {
 

@@ -12,11 +12,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/app/program.hpp"
 #include "core/app/words.hpp"
 #include "core/loader/in_hand.hpp"
-#include "core/run/in_flight.hpp"
-#include "core/run/last_words.hpp"
+#include "core/run/component/last_frame.hpp"
+#include "core/run/component/process_state.hpp"
 #include "core/sanitized.hpp"
 #include "fulmar/quiet_thread.hpp"
 

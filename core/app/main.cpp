@@ -15,8 +15,8 @@
 #include "core/app/run_command.hpp"
 #include "core/error.hpp"
 #include "core/graph/graph.hpp"
-#include "core/run/realtime.hpp"
-#include "core/run/set_up.hpp"
+#include "core/run/command/trial.hpp"
+#include "core/run/component/realtime.hpp"
 #include "core/say.hpp"
 #include "core/types/text.hpp"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/dds/bridge.hpp"
 #include "core/dds/participant.hpp"
+#include "core/dds/stats.hpp"
 #include "core/due.hpp"
 #include "core/tap/control.hpp"
 #include "core/tap/tap.hpp"

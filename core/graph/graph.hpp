@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/graph/places.hpp"
+#include "core/graph/said_places.hpp"
 #include "core/loader/library.hpp"
 #include "core/types/type.hpp"
 

@@ -7,15 +7,12 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/graph/said_places.hpp"
 
 namespace fulmar::core {
 
 struct Component;
 struct Node;
-
-/// "" is the whole parameter, "inertia.xz" or "contacts[2].at" a part of a record, without suffixes of units.
-using SaidPlaces = std::map<std::string, Where>;
-using SaidPlacesPtr = std::shared_ptr<const SaidPlaces>;
 
 /// Those of a whole record, in place of all before.
 SaidPlacesPtr places_of(const Node& node);

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/graph/yaml.hpp"
+#include "core/graph/source_file.hpp"
 
 namespace fulmar::core {
 

@@ -11,15 +11,9 @@
 
 #include "core/error.hpp"
 #include "core/graph/quantity.hpp"
+#include "core/graph/source_file.hpp"
 
 namespace fulmar::core {
-
-struct SourceFile {
-  std::filesystem::path path;  // to open what the file names, relative to its folder
-  std::string name;            // as people wrote it: what faults say
-  std::string text;
-};
-using FilePtr = std::shared_ptr<const SourceFile>;
 
 /// The faults of a set-up: each once, ordered by file (as the files were opened) and line; of very many the
 /// first hundred that were found.

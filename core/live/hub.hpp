@@ -21,7 +21,7 @@
 #include "core/inbox.hpp"
 #include "core/live/describe.hpp"
 #include "core/live/saving.hpp"
-#include "core/live/server.hpp"
+#include "core/live/stats.hpp"
 #include "core/tap/control.hpp"
 #include "core/tap/tap.hpp"
 #include "core/types/wire.hpp"

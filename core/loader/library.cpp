@@ -22,7 +22,6 @@
 #include "core/loader/probe.hpp"
 #include "core/loader/script.hpp"
 #include "core/loader/shared_object.hpp"
-#include "core/loader/store.hpp"
 #include "core/loader/table.hpp"
 #include "core/loader/unique.hpp"
 

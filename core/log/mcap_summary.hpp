@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/log/mcap.hpp"
 #include "core/log/mcap_bytes.hpp"
 #include "core/log/out_file.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/run/published.hpp"
+#include "core/run/state/published.hpp"
 #include "core/types/text.hpp"
 #include "core/types/wire.hpp"
 

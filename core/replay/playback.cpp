@@ -6,7 +6,7 @@
 
 #include "core/replay/logged.hpp"
 #include "core/replay/recorded_vehicle.hpp"
-#include "core/run/recorded_samples.hpp"
+#include "core/run/component/recorded_samples.hpp"
 #include "core/types/named.hpp"
 #include "core/types/wire.hpp"
 

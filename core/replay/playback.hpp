@@ -18,9 +18,9 @@
 #include "core/log/events.hpp"
 #include "core/log/reader.hpp"
 #include "core/replay/survey.hpp"
-#include "core/run/circumstances.hpp"
-#include "core/run/command.hpp"
-#include "core/run/resume.hpp"
+#include "core/run/command/command.hpp"
+#include "core/run/component/replay_context.hpp"
+#include "core/run/state/resume.hpp"
 
 namespace fulmar::core {
 

@@ -13,7 +13,7 @@
 #include "core/graph/graph.hpp"
 #include "core/log/reader.hpp"
 #include "core/replay/survey.hpp"
-#include "core/run/runner.hpp"
+#include "core/run/component/runner.hpp"
 
 namespace fulmar::core {
 

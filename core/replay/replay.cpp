@@ -13,7 +13,7 @@
 #include "core/log/diff.hpp"
 #include "core/log/mcap.hpp"
 #include "core/replay/playback.hpp"
-#include "core/run/command.hpp"
+#include "core/run/command/command.hpp"
 #include "core/types/named.hpp"
 
 namespace fulmar::core {

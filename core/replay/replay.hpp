@@ -14,7 +14,7 @@
 #include "core/graph/graph.hpp"
 #include "core/replay/survey.hpp"
 #include "core/run/flight.hpp"
-#include "core/run/flown_plugin.hpp"
+#include "core/run/record/flown_plugin.hpp"
 
 namespace fulmar::core {
 

@@ -1,90 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One flight: creates the components of a graph, runs the loop, and tells how it went.
 #pragma once
-#include <atomic>
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "core/dds/bridge.hpp"
 #include "core/graph/graph.hpp"
-#include "core/live/server.hpp"
-#include "core/run/ending.hpp"
-#include "core/run/resume.hpp"
-#include "core/run/stats.hpp"
-#include "core/tap/log.hpp"
+#include "core/run/state/flight_types.hpp"
 
 namespace fulmar::core {
-
-struct FlightOptions {
-  double speed = 0;                  // times real time; 0: as fast as the machine allows
-  std::optional<double> duration_s;  // of flight time from 0; then the flight counts as flown
-  bool log = true;
-  std::filesystem::path log_file;      // must not exist
-  bool log_held = false;               // this process holds its name, see OutFile::hold
-  std::optional<Resume> resume;        // where to go on, in place of the first phase
-  bool keep_inputs = false;            // of every component's last steps, to rehearse a swap on
-  std::filesystem::path drivers_from;  // log whose samples are fed in place of the drivers
-  std::shared_ptr<class Circumstances> circumstances;  // of a flight that is flown again
-  std::atomic<int>* interrupt = nullptr;  // not 0: the flight is asked to end; set back to 0 when it refuses
-  std::function<void(const class Flight&)> progress;  // called about every 200 ms of wall time, between ticks
-  std::function<void(const std::string&, bool warning)>
-      say;  // one line for the user, as it happens: phases, guards
-  /// Why the flight cannot be asked to make room for another one of its mission; "": it can, and its owner
-  /// begins that one when the result says so.
-  std::string no_restart = "who began this flight begins no other";
-};
-
-/// The flight has made room for another one of its mission.
-struct Restart {
-  std::optional<std::uint64_t> seed;  // none: as before
-};
-
-struct PhaseVisit {
-  std::string name;
-  std::int64_t from_ns = 0, to_ns = 0;
-  std::string because;  // the condition that led here; "": the first one, or a command
-};
-
-/// A guard that fired: what the component did, and what the host did about it.
-struct GuardEvent {
-  std::int64_t at_ns = 0;
-  std::string component, what, action;
-};
-
-/// Who filled a role, from when to when.
-struct Tenure {
-  std::string role, component;
-  std::int64_t from_ns = 0, to_ns = 0;
-};
-
-/// Of the clock on the wall.
-struct WallClock {
-  double took_s = 0;        // first to last tick
-  double behind_max_s = 0;  // how far a paced flight was behind it
-};
-
-struct FlightResult {
-  Outcome outcome = Outcome::failed;
-  std::string reason;
-  std::string
-      idle;  // the role that nobody flew in, of an aircraft that never left the ground; "": it has begun
-  std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and last tick
-  std::uint64_t ticks = 0;
-  WallClock wall;
-  std::vector<PhaseVisit> phases;
-  std::vector<GuardEvent> guards;
-  std::vector<Tenure> tenures;
-  std::vector<ComponentStats> components;
-  LogResult log;
-  std::optional<LiveStats> live;  // of a flight that could be watched
-  std::optional<DdsStats> dds;
-  std::uint64_t loop_allocations = 0;  // of the whole loop, after its first tick and before its last
-};
 
 class Flight {
  public:

@@ -7,20 +7,21 @@
 #include <memory>
 #include <string>
 
-#include "core/dds/bridge.hpp"
-#include "core/live/server.hpp"
-#include "core/run/command.hpp"
+#include "core/run/command/command.hpp"
 #include "core/run/flight.hpp"
-#include "core/run/flight_control.hpp"
-#include "core/run/flight_end.hpp"
-#include "core/run/flight_state.hpp"
-#include "core/run/protection.hpp"
-#include "core/run/recorder.hpp"
-#include "core/run/roles.hpp"
-#include "core/run/stopwatch.hpp"
-#include "core/run/wiring.hpp"
+#include "core/run/flight/end.hpp"
+#include "core/run/flight/protection.hpp"
+#include "core/run/flight/roles.hpp"
+#include "core/run/flight/stopwatch.hpp"
+#include "core/run/flight/wiring.hpp"
+#include "core/run/record/recorder.hpp"
+#include "core/run/state/state.hpp"
 
 namespace fulmar::core {
+
+class DdsBridge;
+class FlightControl;
+class LiveServer;
 
 /// Those who look at a flight and speak to it. What comes later ends before what it speaks to.
 struct Onlookers {
@@ -31,6 +32,7 @@ struct Onlookers {
 
 struct Flight::Impl {
   Impl(const Graph& graph, const FlightOptions& options, const Flight& owner);
+  ~Impl();
 
   // flight_setup.cpp
   void connect();  // as the graph says; whatever was connected before is not any more

@@ -5,10 +5,13 @@
 #include <array>
 #include <cstdio>
 
-#include "core/run/allocation.hpp"
-#include "core/run/circumstances.hpp"
+#include "core/dds/bridge.hpp"
+#include "core/live/server.hpp"
+#include "core/run/component/allocation.hpp"
+#include "core/run/component/realtime.hpp"
+#include "core/run/component/replay_context.hpp"
+#include "core/run/control.hpp"
 #include "core/run/flight_impl.hpp"
-#include "core/run/realtime.hpp"
 #include "core/run/verdict.hpp"
 
 namespace fulmar::core {

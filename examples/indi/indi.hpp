@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fulmar/eigen.hpp>
-#include <fulmar/flight/aircraft_model.hpp>
-#include <fulmar/flight/atmosphere.hpp>
-#include <fulmar/flight/filters.hpp>
-#include <fulmar/flight/outer_commands.hpp>
-#include <fulmar/flight/turn_trim.hpp>
+#include <fulmar/flight/control/outer_commands.hpp>
+#include <fulmar/flight/control/turn_trim.hpp>
+#include <fulmar/flight/earth/atmosphere.hpp>
+#include <fulmar/flight/math/filters.hpp>
+#include <fulmar/flight/model/aircraft_model.hpp>
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/plugin.hpp>

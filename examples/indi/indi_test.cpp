@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
-#include <fulmar/flight/attitude.hpp>
+#include <fulmar/flight/math/attitude.hpp>
 #include <fulmar/testing.hpp>
 
 #include "indi.hpp"

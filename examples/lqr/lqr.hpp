@@ -6,8 +6,8 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <fulmar/flight/filters.hpp>
-#include <fulmar/flight/outer_law.hpp>
+#include <fulmar/flight/control/outer_law.hpp>
+#include <fulmar/flight/math/filters.hpp>
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/origin.hpp>
 #include <fulmar/plugin.hpp>

@@ -5,8 +5,8 @@
 #pragma once
 #include <Eigen/Core>
 #include <cmath>
-#include <fulmar/flight/attitude.hpp>
-#include <fulmar/flight/trim.hpp>
+#include <fulmar/flight/math/attitude.hpp>
+#include <fulmar/flight/model/trim.hpp>
 #include <stdexcept>
 
 struct Plant {

@@ -4,7 +4,7 @@
 // Integrated Navigation Systems (2013), chapters 6 (radar altimeter) and 17 (gates).
 #pragma once
 #include <cmath>
-#include <fulmar/flight/estimator.hpp>
+#include <fulmar/flight/navigation/estimator.hpp>
 
 #include "radar_altimeter.hpp"
 

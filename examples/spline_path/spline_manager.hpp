@@ -5,7 +5,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <fulmar/flight/curve.hpp>
+#include <fulmar/flight/path/curve.hpp>
 #include <fulmar/msg/path.hpp>
 #include <fulmar/msg/plan.hpp>
 #include <fulmar/msg/progress.hpp>

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fulmar/flight/outer_commands.hpp"
+#include "fulmar/flight/control/outer_commands.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"

@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "fulmar/flight/angles.hpp"
-#include "fulmar/flight/outer_commands.hpp"
+#include "fulmar/flight/control/outer_commands.hpp"
+#include "fulmar/flight/math/angles.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/guidance_command.hpp"
 #include "pilot.hpp"

@@ -2,8 +2,8 @@
 // Surfaces, body rates or attitude from the sticks, each axis by itself. The README gives every equation.
 #pragma once
 #include "envelope.hpp"
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/filters.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
+#include "fulmar/flight/math/filters.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/attitude_command.hpp"
 #include "pilot.hpp"

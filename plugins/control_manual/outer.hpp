@@ -2,9 +2,9 @@
 // Roll, pitch and throttle as the pilot holds them, each axis by itself; the others come from an outer law.
 #pragma once
 #include "envelope.hpp"
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/filters.hpp"
-#include "fulmar/flight/turn_trim.hpp"
+#include "fulmar/flight/control/turn_trim.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
+#include "fulmar/flight/math/filters.hpp"
 #include "fulmar/msg/attitude_command.hpp"
 #include "pilot.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fulmar/flight/sticks.hpp"
+#include "fulmar/flight/control/sticks.hpp"
 #include "fulmar/msg/rc.hpp"
 #include "fulmar/plugin.hpp"
 

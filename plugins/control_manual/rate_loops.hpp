@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fulmar/flight/pid.hpp"
-#include "fulmar/flight/turn_trim.hpp"
+#include "fulmar/flight/control/pid.hpp"
+#include "fulmar/flight/control/turn_trim.hpp"
 
 namespace fulmar::manual {
 

@@ -3,12 +3,12 @@
 // for the thrust that the energy balance wants, m dV/dt = T - D - m g sin(gamma): Beard & McLain, Small
 // Unmanned Aircraft (2012), (5.36) and section 6.4.3.
 #pragma once
-#include <fulmar/flight/angles.hpp>
-#include <fulmar/flight/atmosphere.hpp>
-#include <fulmar/flight/filters.hpp>
-#include <fulmar/flight/outer_commands.hpp>
-#include <fulmar/flight/pid.hpp>
-#include <fulmar/flight/turn_trim.hpp>
+#include <fulmar/flight/control/outer_commands.hpp>
+#include <fulmar/flight/control/pid.hpp>
+#include <fulmar/flight/control/turn_trim.hpp>
+#include <fulmar/flight/earth/atmosphere.hpp>
+#include <fulmar/flight/math/angles.hpp>
+#include <fulmar/flight/math/filters.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/msg/guidance_command.hpp>
 #include <fulmar/plugin.hpp>

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <fulmar/flight/margins.hpp>
+#include <fulmar/flight/math/margins.hpp>
 #include <numbers>
 
 namespace fulmar::slc {

@@ -2,8 +2,8 @@
 // Outer loops by successive loop closure: course -> roll, height -> pitch, airspeed -> throttle.
 // Beard & McLain, Small Unmanned Aircraft (2012), chapter 6. The README gives every equation.
 #pragma once
-#include <fulmar/flight/outer_law.hpp>
-#include <fulmar/flight/pid.hpp>
+#include <fulmar/flight/control/outer_law.hpp>
+#include <fulmar/flight/control/pid.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/msg/controller_internals.hpp>
 #include <fulmar/msg/guidance_command.hpp>

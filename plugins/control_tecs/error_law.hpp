@@ -3,10 +3,10 @@
 // that of the balance between height and speed moves pitch, each through a PI law. Beard & McLain, Small
 // Unmanned Aircraft, supplement to chapter 6, "Total energy control". Equations: README.
 #pragma once
-#include <fulmar/flight/energy.hpp>
-#include <fulmar/flight/filters.hpp>
-#include <fulmar/flight/outer_law.hpp>
-#include <fulmar/flight/pid.hpp>
+#include <fulmar/flight/control/energy.hpp>
+#include <fulmar/flight/control/outer_law.hpp>
+#include <fulmar/flight/control/pid.hpp>
+#include <fulmar/flight/math/filters.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/msg/controller_internals.hpp>
 #include <fulmar/msg/guidance_command.hpp>

@@ -3,10 +3,10 @@
 // shared between height and speed. Lambregts, AIAA 83-2239 (1983); the arrangement of rate demands and limits
 // is that of the field's open autopilots. Equations: README.
 #pragma once
-#include <fulmar/flight/energy.hpp>
-#include <fulmar/flight/filters.hpp>
-#include <fulmar/flight/outer_law.hpp>
-#include <fulmar/flight/pid.hpp>
+#include <fulmar/flight/control/energy.hpp>
+#include <fulmar/flight/control/outer_law.hpp>
+#include <fulmar/flight/control/pid.hpp>
+#include <fulmar/flight/math/filters.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/msg/controller_internals.hpp>
 #include <fulmar/msg/guidance_command.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plugin of the estimator as the SDK has it; README.md has the equations.
-#include <fulmar/flight/estimator.hpp>
+#include <fulmar/flight/navigation/estimator.hpp>
 
 using fulmar::navigation::Ekf;
 FULMAR_PLUGIN("1.0.0", Ekf)

@@ -422,4 +422,4 @@ class Vehicle {
 
 }  // namespace fulmar::fcu
 
-#include "vehicle_packets.hpp"
+#include "vehicle_impl.hpp"

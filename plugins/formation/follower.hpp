@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "fulmar/eigen.hpp"
-#include "fulmar/flight/angles.hpp"
+#include "fulmar/flight/math/angles.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/guidance_command.hpp"
 #include "other_aircraft.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "events.hpp"
-#include "fulmar/flight/sticks.hpp"
+#include "fulmar/flight/control/sticks.hpp"
 #include "source.hpp"
 #include "transmitter.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "fulmar/eigen.hpp"
-#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"

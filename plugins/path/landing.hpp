@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/filters.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
+#include "fulmar/flight/math/filters.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/landing_progress.hpp"

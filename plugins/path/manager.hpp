@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "fulmar/flight/route.hpp"
+#include "fulmar/flight/path/route.hpp"
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/progress.hpp"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fulmar/flight/fence.hpp"
+#include "fulmar/flight/path/fence.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/plan.hpp"
 

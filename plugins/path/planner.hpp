@@ -8,7 +8,7 @@
 #include <string>
 
 #include "fulmar/eigen.hpp"
-#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/msg/plan_edit.hpp"
@@ -198,4 +198,4 @@ inline Status Planner::step(const Tick& tick, const Inputs& in, const Params& p,
 
 }  // namespace fulmar::path
 
-#include "plan_editing.hpp"
+#include "planner_impl.hpp"

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "fulmar/flight/fence.hpp"
-#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
+#include "fulmar/flight/path/fence.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/runway.hpp"

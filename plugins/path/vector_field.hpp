@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "fulmar/flight/angles.hpp"
-#include "fulmar/flight/curve.hpp"
+#include "fulmar/flight/math/angles.hpp"
+#include "fulmar/flight/path/curve.hpp"
 #include "fulmar/msg/guidance_command.hpp"
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/path.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fulmar/flight/wind_triangle.hpp"
+#include "fulmar/flight/earth/wind_triangle.hpp"
 
 namespace fulmar::path {
 

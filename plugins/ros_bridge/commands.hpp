@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "convert.hpp"
-#include "fulmar/flight/angles.hpp"
+#include "fulmar/flight/math/angles.hpp"
 #include "fulmar/msg/guidance_command.hpp"
 #include "fulmar/msg/plan_edit.hpp"
 #include "fulmar/msg/vehicle_state.hpp"

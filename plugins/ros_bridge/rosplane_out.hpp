@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "convert.hpp"
-#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/attitude_command.hpp"

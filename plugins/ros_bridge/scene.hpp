@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "convert.hpp"
-#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/vehicle_state.hpp"

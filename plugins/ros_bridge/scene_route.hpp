@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The way of a plan as poses along it: fillets, Dubins paths, the last orbit. Source:
-// fulmar/flight/route.hpp, which is what path/Manager flies.
+// fulmar/flight/path/route.hpp, which is what path/Manager flies.
 #pragma once
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "convert.hpp"
-#include "fulmar/flight/route.hpp"
+#include "fulmar/flight/path/route.hpp"
 #include "ros_markers.hpp"
 
 namespace fulmar::ros_bridge {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "convert.hpp"
-#include "fulmar/flight/curve.hpp"
+#include "fulmar/flight/path/curve.hpp"
 #include "fulmar/msg/baro.hpp"
 #include "fulmar/msg/imu.hpp"
 #include "fulmar/msg/mag.hpp"

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "battery.hpp"
-#include "fulmar/flight/angles.hpp"
+#include "fulmar/flight/math/angles.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/attitude_command.hpp"
 #include "fulmar/msg/ground_state.hpp"

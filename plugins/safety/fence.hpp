@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How much room the turn back leaves to a fence.
 #pragma once
-#include "fulmar/flight/fence.hpp"
+#include "fulmar/flight/path/fence.hpp"
 
 namespace fulmar::safety {
 

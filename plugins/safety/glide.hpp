@@ -3,9 +3,9 @@
 // section 6.4.3, with the glide of the airframe's model fed forward; the flare is the exponential one of
 // Stevens, Lewis & Johnson, Aircraft Control and Simulation (2016), 4.6.
 #pragma once
-#include "fulmar/flight/energy.hpp"
-#include "fulmar/flight/outer_law.hpp"
-#include "fulmar/flight/pid.hpp"
+#include "fulmar/flight/control/energy.hpp"
+#include "fulmar/flight/control/outer_law.hpp"
+#include "fulmar/flight/control/pid.hpp"
 #include "fulmar/msg/attitude_command.hpp"
 #include "fulmar/msg/controller_internals.hpp"
 #include "fulmar/msg/home_progress.hpp"

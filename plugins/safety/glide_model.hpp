@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fulmar/flight/propulsion.hpp"
-#include "fulmar/flight/turn_trim.hpp"
+#include "fulmar/flight/control/turn_trim.hpp"
+#include "fulmar/flight/model/propulsion.hpp"
 
 namespace fulmar::safety {
 

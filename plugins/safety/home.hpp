@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "fence.hpp"
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/wind_triangle.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
+#include "fulmar/flight/earth/wind_triangle.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/guidance_command.hpp"
 #include "fulmar/msg/home_progress.hpp"

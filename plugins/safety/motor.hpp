@@ -2,8 +2,8 @@
 // What the motor gives, by what the aircraft's energy does.
 #pragma once
 #include "alarm.hpp"
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/energy.hpp"
+#include "fulmar/flight/control/energy.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"

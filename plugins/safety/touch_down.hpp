@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "fulmar/eigen.hpp"
-#include "fulmar/flight/filters.hpp"
+#include "fulmar/flight/math/filters.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
 

@@ -9,7 +9,7 @@
 #include <initializer_list>
 #include <numbers>
 
-#include "fulmar/flight/alarms.hpp"
+#include "fulmar/flight/control/alarms.hpp"
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/safety_state.hpp"
 #include "fulmar/plugin.hpp"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "fulmar/flight/curve.hpp"
-#include "fulmar/flight/geodesy.hpp"
-#include "fulmar/flight/route.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
+#include "fulmar/flight/path/curve.hpp"
+#include "fulmar/flight/path/route.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/attitude_command.hpp"
 #include "fulmar/msg/contact_truth.hpp"

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "fulmar/flight/alarms.hpp"
+#include "fulmar/flight/control/alarms.hpp"
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/safety_state.hpp"
 #include "score_messages.hpp"

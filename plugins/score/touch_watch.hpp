@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "fulmar/flight/angles.hpp"
+#include "fulmar/flight/math/angles.hpp"
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/landing_progress.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fulmar/flight/angles.hpp"
+#include "fulmar/flight/math/angles.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 
 namespace fulmar::score {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Units, axes and calibration: from the numbers of a row to a message.
 #pragma once
-#include <fulmar/flight/atmosphere.hpp>
+#include <fulmar/flight/earth/atmosphere.hpp>
 #include <numbers>
 
 #include "layouts.hpp"

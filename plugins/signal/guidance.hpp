@@ -2,7 +2,7 @@
 // A signal on course, height or airspeed that guidance asks for.
 #pragma once
 #include "excitation.hpp"
-#include "fulmar/flight/angles.hpp"
+#include "fulmar/flight/math/angles.hpp"
 #include "fulmar/msg/guidance_command.hpp"
 
 namespace fulmar::signal {

@@ -11,7 +11,7 @@
 #include "contact.hpp"
 #include "faults.hpp"
 #include "fulmar/eigen.hpp"
-#include "fulmar/flight/magnetic_model.hpp"
+#include "fulmar/flight/earth/magnetic_model.hpp"
 #include "fulmar/msg/arm_request.hpp"
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/fault_request.hpp"

@@ -3,7 +3,7 @@
 // them in a log.
 #pragma once
 #include "fulmar/eigen.hpp"
-#include "fulmar/flight/single.hpp"
+#include "fulmar/flight/math/single.hpp"
 #include "fulmar/msg/motion_truth.hpp"
 #include "fulmar/sim/plant.hpp"
 

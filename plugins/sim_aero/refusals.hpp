@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/flight/model/steady_flight.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/sim/plant.hpp"
 

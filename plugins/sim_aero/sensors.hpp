@@ -7,9 +7,9 @@
 #include <cstdint>
 
 #include "fulmar/eigen.hpp"
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/geodesy.hpp"
-#include "fulmar/flight/single.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
+#include "fulmar/flight/math/single.hpp"
 #include "fulmar/msg/baro.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/imu.hpp"

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-#include "fulmar/flight/wind_triangle.hpp"
+#include "fulmar/flight/earth/wind_triangle.hpp"
 #include "fulmar/random.hpp"
 #include "zones.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fulmar/flight/route.hpp"
+#include "fulmar/flight/path/route.hpp"
 #include "fulmar/message.hpp"
 
 namespace fulmar::slow_planner {

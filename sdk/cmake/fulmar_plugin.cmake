@@ -3,7 +3,7 @@
 #
 # One shared object with one exported symbol. Without a version script, or with unique symbols on gcc, a library stays mapped after it is
 # closed and a swap would silently fly the old code; the target fulmar::sdk has the flag against them. TEST adds a program NAME_test and a ctest entry; doctest's main is there.
-# GEODESY links what <fulmar/flight/geodesy.hpp> needs, GeographicLib: that header and the navigator, which includes it, need more than headers. Targets of other
+# GEODESY links what <fulmar/flight/earth/geodesy.hpp> needs, GeographicLib: that header and the navigator, which includes it, need more than headers. Targets of other
 # kinds link fulmar::geodesy after fulmar_find_geodesy().
 set(FULMAR_VERSION_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/plugin.version CACHE INTERNAL "exports the entry alone")
 set(FULMAR_TEST_MAIN ${CMAKE_CURRENT_LIST_DIR}/test_main.cpp CACHE INTERNAL "doctest's main")
@@ -13,7 +13,7 @@ function(fulmar_find_geodesy)
   if(TARGET fulmar::geodesy)
     return()
   endif()
-  find_library(FULMAR_GEOGRAPHIC_LIBRARY NAMES GeographicLib Geographic DOC "GeographicLib, for fulmar/flight/geodesy.hpp")
+  find_library(FULMAR_GEOGRAPHIC_LIBRARY NAMES GeographicLib Geographic DOC "GeographicLib, for fulmar/flight/earth/geodesy.hpp")
   find_path(FULMAR_GEOGRAPHIC_INCLUDE NAMES GeographicLib/LocalCartesian.hpp DOC "headers of GeographicLib")
   if(NOT FULMAR_GEOGRAPHIC_LIBRARY OR NOT FULMAR_GEOGRAPHIC_INCLUDE)
     message(FATAL_ERROR "GEODESY needs GeographicLib, which is not here. On Debian and Ubuntu: apt install libgeographiclib-dev (older: libgeographic-dev)")

@@ -7,8 +7,8 @@
 #include "core/graph/record.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/loader/table.hpp"
-#include "fulmar/flight/tables.hpp"
-#include "fulmar/flight/trim.hpp"
+#include "fulmar/flight/math/tables.hpp"
+#include "fulmar/flight/model/trim.hpp"
 #include "fulmar/schema.hpp"
 #include "fulmar/sim/airframe_rules.hpp"
 

@@ -2,7 +2,7 @@
 // Throws, rates and limits: degrees where radians are meant, and limits that contradict each other.
 #include <cmath>
 
-#include "fulmar/flight/trim.hpp"
+#include "fulmar/flight/model/trim.hpp"
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/words.hpp"
 

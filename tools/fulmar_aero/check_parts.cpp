@@ -2,8 +2,8 @@
 // Servos, propellers, battery and gear: units that are suspected, and parts that do not fit together.
 #include <cmath>
 
-#include "fulmar/flight/mixer.hpp"
-#include "fulmar/flight/propellers.hpp"
+#include "fulmar/flight/model/mixer.hpp"
+#include "fulmar/flight/model/propellers.hpp"
 #include "fulmar/sim/gear_legs.hpp"
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/words.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/flight/model/steady_flight.hpp"
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/words.hpp"
 

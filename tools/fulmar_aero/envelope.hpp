@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where steady flight begins and ends.
 #pragma once
-#include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/flight/model/steady_flight.hpp"
 
 namespace fulmar::aero {
 

@@ -3,9 +3,9 @@
 #pragma once
 #include <vector>
 
-#include "fulmar/flight/linear_model.hpp"
-#include "fulmar/flight/modes.hpp"
-#include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/flight/model/linear_model.hpp"
+#include "fulmar/flight/model/modes.hpp"
+#include "fulmar/flight/model/steady_flight.hpp"
 
 namespace fulmar::aero {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/flight/model/steady_flight.hpp"
 #include "tools/fulmar_aero/airframe_file.hpp"
 
 namespace fulmar::aero {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/turn_trim.hpp"
+#include "fulmar/flight/control/turn_trim.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
 
 namespace fulmar::aero {
 namespace {

@@ -7,7 +7,7 @@
 #include <complex>
 #include <vector>
 
-#include "fulmar/flight/aircraft_model.hpp"
+#include "fulmar/flight/model/aircraft_model.hpp"
 #include "fulmar/msg/airframe.hpp"
 
 namespace fulmar::aero {

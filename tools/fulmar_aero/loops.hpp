@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "fulmar/flight/linear_model.hpp"
-#include "fulmar/flight/margins.hpp"
-#include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/flight/math/margins.hpp"
+#include "fulmar/flight/model/linear_model.hpp"
+#include "fulmar/flight/model/steady_flight.hpp"
 #include "tools/fulmar_aero/laws.hpp"
 
 namespace fulmar::aero {

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "fulmar/flight/modes.hpp"
+#include "fulmar/flight/model/modes.hpp"
 
 namespace fulmar::aero {
 

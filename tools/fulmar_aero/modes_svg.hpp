@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fulmar/flight/modes.hpp"
+#include "fulmar/flight/model/modes.hpp"
 
 namespace fulmar::aero {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fulmar/flight/steady_flight.hpp"
+#include "fulmar/flight/model/steady_flight.hpp"
 
 namespace fulmar::aero {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/dual.hpp"
-#include "fulmar/flight/tables.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
+#include "fulmar/flight/math/dual.hpp"
+#include "fulmar/flight/math/tables.hpp"
 #include "tools/fulmar_aero/findings.hpp"
 
 namespace fulmar::aero {

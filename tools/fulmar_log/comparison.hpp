@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "fulmar/flight/consistency.hpp"
+#include "fulmar/flight/navigation/consistency.hpp"
 #include "tools/fulmar_log/states.hpp"
 
 namespace fulmar::states {

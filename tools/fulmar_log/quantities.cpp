@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fulmar/flight/angles.hpp"
+#include "fulmar/flight/math/angles.hpp"
 #include "tools/fulmar_log/pairing.hpp"
 
 namespace fulmar::states {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 

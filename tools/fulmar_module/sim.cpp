@@ -8,7 +8,7 @@
 #include "core/app/report.hpp"
 #include "core/graph/params.hpp"
 #include "core/graph/record.hpp"
-#include "core/run/command.hpp"
+#include "core/run/command/command.hpp"
 #include "core/types/wire.hpp"
 #include "values.hpp"
 

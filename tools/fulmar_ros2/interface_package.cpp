@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "core/run/published.hpp"
+#include "core/run/state/published.hpp"
 #include "core/types/ros_service.hpp"
 #include "core/types/wire.hpp"
 

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <string>
 
-#include "fulmar/flight/route.hpp"
+#include "fulmar/flight/path/route.hpp"
 
 int main() {
   using namespace fulmar;

@@ -7,7 +7,7 @@
 #include "core/app/test/unlogged.hpp"
 #include "core/log/reader.hpp"
 #include "core/replay/replay.hpp"
-#include "core/run/allocation.hpp"
+#include "core/run/component/allocation.hpp"
 #include "core/run/test/commands.hpp"
 #include "fulmar/msg/fault_request.hpp"
 

@@ -6,7 +6,7 @@
 #include "core/app/test/unlogged.hpp"
 #include "core/app/test/virtual_controller.hpp"
 #include "core/replay/replay.hpp"
-#include "core/run/allocation.hpp"
+#include "core/run/component/allocation.hpp"
 
 using namespace fulmar::core;
 using namespace fulmar::core::through_controller;

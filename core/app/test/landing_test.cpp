@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/app/test/fault_campaign.hpp"
-#include "core/run/allocation.hpp"
+#include "core/run/component/allocation.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/landing_progress.hpp"

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/run/allocation.hpp"
+#include "core/run/component/allocation.hpp"
 #include "core/run/flight.hpp"
 
 using namespace fulmar::core;

@@ -15,7 +15,7 @@
 #include "core/app/report.hpp"
 #include "core/graph/condition.hpp"
 #include "core/replay/replay.hpp"
-#include "core/run/allocation.hpp"
+#include "core/run/component/allocation.hpp"
 
 using namespace fulmar::core;
 namespace fs = std::filesystem;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Real-time priority: who has it while a flight goes on, and what is said when it is not permitted.
-#include "core/run/realtime.hpp"
+#include "core/run/component/realtime.hpp"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>

@@ -7,7 +7,7 @@
 
 #include "core/app/test/replays.hpp"
 #include "core/log/reader.hpp"
-#include "core/run/allocation.hpp"
+#include "core/run/component/allocation.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/sanitized.hpp"
 #include "tools/fulmar_log/recover.hpp"

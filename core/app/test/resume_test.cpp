@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The hourglass, whose host is gone after a minute and starts again in the air: it goes on, and not from the
 // beginning.
-#include "core/run/resume.hpp"
+#include "core/run/state/resume.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/app/test/fault_campaign.hpp"
-#include "core/run/allocation.hpp"
+#include "core/run/component/allocation.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/test/commands.hpp"
 #include "fulmar/msg/actuators.hpp"

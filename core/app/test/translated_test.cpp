@@ -10,7 +10,7 @@
 #include "core/app/test/replays.hpp"
 #include "core/log/events.hpp"
 #include "core/log/mcap.hpp"
-#include "core/run/resume.hpp"
+#include "core/run/state/resume.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_log/diff.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/run/allocation.hpp"
+#include "core/run/component/allocation.hpp"
 #include "core/types/wire.hpp"
 #include "workshop.hpp"
 

@@ -2,7 +2,7 @@
 // Nobody flies on what a stopped writer left behind, whatever wire leads from it; who may stay silent may.
 #include <doctest/doctest.h>
 
-#include "core/run/ports.hpp"
+#include "core/run/component/ports.hpp"
 #include "core/run/test/lab.hpp"
 #include "core/types/named.hpp"
 

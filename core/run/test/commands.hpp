@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "core/run/command.hpp"
+#include "core/run/command/command.hpp"
 #include "core/run/flight.hpp"
 
 namespace fulmar::core {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The end of a flight without a flight: every state with every cue, and what a tick makes of its facts.
-#include "core/run/ending.hpp"
+#include "core/run/state/ending.hpp"
 
 #include <doctest/doctest.h>
 

@@ -13,8 +13,8 @@
 #include <fstream>
 
 #include "core/log/reader.hpp"
-#include "core/run/allocation.hpp"
-#include "core/run/published.hpp"
+#include "core/run/component/allocation.hpp"
+#include "core/run/state/published.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 #include "core/run/verdict.hpp"

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "core/log/reader.hpp"
-#include "core/run/async.hpp"
+#include "core/run/component/async.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 

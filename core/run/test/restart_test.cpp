@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A host that is started again while its aircraft flies: what it takes from the log of its predecessor.
-#include "core/run/resume.hpp"
+#include "core/run/state/resume.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/craft.hpp"
 

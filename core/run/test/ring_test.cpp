@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The ring under stress: what comes out is what went in, in order, whatever the sizes and wherever the memory
 // wraps.
-#include "core/run/ring.hpp"
+#include "core/run/component/ring.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <thread>
 
-#include "core/run/stats.hpp"
+#include "core/run/component/stats.hpp"
 
 namespace ring_test {
 

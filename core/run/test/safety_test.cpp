@@ -7,7 +7,7 @@
 #include <clocale>
 #include <csignal>
 
-#include "core/run/allocation.hpp"
+#include "core/run/component/allocation.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A component's file is swapped on the ground, in a host that goes on: parameters stay, a bad newcomer leaves
 // the old one flying-ready.
-#include "core/run/swap.hpp"
-
 #include "core/log/reader.hpp"
+#include "core/run/command/swap_checks.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 #include "core/types/named.hpp"

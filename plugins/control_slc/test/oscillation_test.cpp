@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <fulmar/flight/oscillation.hpp>
+#include <fulmar/flight/control/oscillation.hpp>
 #include <fulmar/testing.hpp>
 #include <functional>
 #include <string>

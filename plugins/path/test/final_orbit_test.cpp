@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fulmar/flight/route.hpp"
+#include "fulmar/flight/path/route.hpp"
 #include "fulmar/random.hpp"
 
 namespace final_orbit_test {

@@ -2,7 +2,7 @@
 // ROSplane's messages, out and in, against what its users expect of each field.
 #include <doctest/doctest.h>
 
-#include "fulmar/flight/attitude.hpp"
+#include "fulmar/flight/math/attitude.hpp"
 #include "fulmar/testing.hpp"
 #include "plugins/ros_bridge/rosplane_in.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "fulmar/flight/attitude.hpp"
+#include "fulmar/flight/math/attitude.hpp"
 #include "fulmar/testing.hpp"
 
 namespace scene_test {

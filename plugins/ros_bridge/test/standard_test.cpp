@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include "fulmar/flight/attitude.hpp"
+#include "fulmar/flight/math/attitude.hpp"
 #include "fulmar/testing.hpp"
 
 namespace standard_test {

@@ -2,7 +2,7 @@
 // Numbers of this plugin against closed forms and fine searches: the motor's thrust and its smoothing,
 // battery and delays at their thresholds, a drift, the circle of a glide; and a second flight that begins as
 // the first.
-#include "fulmar/flight/wind_triangle.hpp"
+#include "fulmar/flight/earth/wind_triangle.hpp"
 #include "kit.hpp"
 #include "plugins/safety/battery.hpp"
 #include "plugins/safety/home.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fly.hpp"
-#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
 
 namespace fulmar::sim {
 

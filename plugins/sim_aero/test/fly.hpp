@@ -3,14 +3,9 @@
 #pragma once
 #include "fulmar/testing.hpp"
 #include "plugins/sim_aero/aircraft.hpp"
-#include "sdk/test/flight/airframe_file.hpp"
+#include "sdk/test/sim/anaconda.hpp"
 
 namespace fulmar::sim {
-
-inline const Airframe& anaconda() {
-  static const Airframe airframe = test::airframe_file("anaconda");
-  return airframe;
-}
 
 /// Reads and writes once: the given actuators, or silence.
 inline void pass(Bench<Aircraft>& bench, const Actuators* actuators = nullptr) {

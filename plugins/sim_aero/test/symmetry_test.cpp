@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "fly.hpp"
-#include "fulmar/flight/angles.hpp"
-#include "fulmar/flight/attitude.hpp"
+#include "fulmar/flight/math/angles.hpp"
+#include "fulmar/flight/math/attitude.hpp"
 
 namespace symmetry_test {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "fly.hpp"
-#include "fulmar/flight/attitude.hpp"
+#include "fulmar/flight/math/attitude.hpp"
 
 namespace x8_test {
 

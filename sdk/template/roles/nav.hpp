@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fulmar/eigen.hpp>
-#include <fulmar/flight/angles.hpp>
-#include <fulmar/flight/atmosphere.hpp>
+#include <fulmar/flight/earth/atmosphere.hpp>
+#include <fulmar/flight/math/angles.hpp>
 #include <fulmar/msg/baro.hpp>
 #include <fulmar/msg/gnss.hpp>
 #include <fulmar/msg/imu.hpp>

@@ -5,7 +5,7 @@
 // proportional. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6.
 #pragma once
 #include <algorithm>
-#include <fulmar/flight/angles.hpp>
+#include <fulmar/flight/math/angles.hpp>
 #include <fulmar/msg/attitude_command.hpp>
 #include <fulmar/msg/guidance_command.hpp>
 #include <fulmar/msg/vehicle_state.hpp>

@@ -6,7 +6,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <fulmar/flight/atmosphere.hpp>
+#include <fulmar/flight/earth/atmosphere.hpp>
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/arm_request.hpp>
 #include <fulmar/msg/baro.hpp>

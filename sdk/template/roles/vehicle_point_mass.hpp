@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fulmar/eigen.hpp>
-#include <fulmar/flight/angles.hpp>
-#include <fulmar/flight/atmosphere.hpp>
-#include <fulmar/flight/magnetic_model.hpp>
+#include <fulmar/flight/earth/atmosphere.hpp>
+#include <fulmar/flight/earth/magnetic_model.hpp>
+#include <fulmar/flight/math/angles.hpp>
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/airframe.hpp>
 #include <fulmar/msg/arm_request.hpp>

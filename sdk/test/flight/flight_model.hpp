@@ -2,11 +2,11 @@
 // An aircraft for closed-loop tests of control laws: the nonlinear six degrees of freedom of flight/, servos
 // and motor with a lag, perfect state. The figures are those of the Anaconda (4.5 kg, 2.08 m).
 #pragma once
-#include <fulmar/flight/aerodynamics.hpp>
-#include <fulmar/flight/atmosphere.hpp>
-#include <fulmar/flight/attitude.hpp>
-#include <fulmar/flight/dryden.hpp>
-#include <fulmar/flight/propulsion.hpp>
+#include <fulmar/flight/earth/atmosphere.hpp>
+#include <fulmar/flight/earth/dryden.hpp>
+#include <fulmar/flight/math/attitude.hpp>
+#include <fulmar/flight/model/aerodynamics.hpp>
+#include <fulmar/flight/model/propulsion.hpp>
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/vehicle_state.hpp>
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "fulmar/flight/angles.hpp"
-#include "fulmar/flight/attitude.hpp"
+#include "fulmar/flight/math/angles.hpp"
+#include "fulmar/flight/math/attitude.hpp"
 #include "fulmar/msg/attitude_command.hpp"
 #include "fulmar/msg/guidance_command.hpp"
 #include "fulmar/msg/path.hpp"

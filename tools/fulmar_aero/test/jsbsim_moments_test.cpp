@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fulmar/flight/tables.hpp"
+#include "fulmar/flight/math/tables.hpp"
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/import/import.hpp"
 #include "tools/fulmar_aero/import/rosflight.hpp"

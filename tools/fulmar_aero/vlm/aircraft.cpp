@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
 
 namespace fulmar::aero {
 namespace {

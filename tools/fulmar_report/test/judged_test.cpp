@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/log/events.hpp"
-#include "fulmar/flight/geodesy.hpp"
+#include "fulmar/flight/earth/geodesy.hpp"
 #include "fulmar/msg/filter_check.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/navigation_health.hpp"

@@ -15,7 +15,7 @@
 
 #include "core/loader/library.hpp"
 #include "core/log/reader.hpp"
-#include "core/run/flight_control.hpp"
+#include "core/run/control.hpp"
 #include "core/types/ros_parse.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_ros2/interface_package.hpp"

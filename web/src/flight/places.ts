@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fence, places to come down at, and runway, in the local plane: out of records as sdk/include/fulmar/flight/fence.hpp and
+// Fence, places to come down at, and runway, in the local plane: out of records as sdk/include/fulmar/flight/path/fence.hpp and
 // msg/runway.hpp have them.
 import { LocalPlane, type Place } from "./tiles";
 

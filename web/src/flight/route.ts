@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The route that a plan describes, as sdk/include/fulmar/flight/route.hpp and dubins.hpp have it: the page draws
+// The route that a plan describes, as sdk/include/fulmar/flight/path/route.hpp and dubins.hpp have it: the page draws
 // what will be flown. Sources: Beard & McLain (2012), sections 11.1 and 11.2; Shkel & Lumelsky (2001).
 
 export interface Waypoint {

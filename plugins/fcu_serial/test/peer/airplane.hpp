@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "firmware.hpp"
-#include "fulmar/flight/magnetic_model.hpp"
+#include "fulmar/flight/earth/magnetic_model.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "plugins/sim_aero/sensors.hpp"

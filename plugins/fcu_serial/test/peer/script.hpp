@@ -11,8 +11,8 @@
 #include "airplane.hpp"
 #include "firmware.hpp"
 #include "fulmar/eigen.hpp"
-#include "fulmar/flight/attitude.hpp"
-#include "fulmar/flight/trim.hpp"
+#include "fulmar/flight/math/attitude.hpp"
+#include "fulmar/flight/model/trim.hpp"
 #include "sensor_failure.hpp"
 
 namespace fulmar::fcu::peer {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "fulmar/flight/attitude.hpp"
+#include "fulmar/flight/math/attitude.hpp"
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/plugin.hpp"
 #include "plugins/fcu_serial/test/peer/script.hpp"

@@ -23,8 +23,9 @@ struct PathPiece {
 };
 
 /// The piece of path to be followed now. Beard & McLain, chapter 10.
-/// A cubic Bezier curve (fulmar/flight/curve.hpp) is published as the line or orbit that touches it where the
-/// aircraft is, beside its four control points: so who knows lines and orbits alone follows it as well.
+/// A cubic Bezier curve (fulmar/flight/path/curve.hpp) is published as the line or orbit that touches it
+/// where the aircraft is, beside its four control points: so who knows lines and orbits alone follows it as
+/// well.
 struct Path {
   PathKind kind = PathKind::line;
   Turn turn = Turn::right;             ///< orbit

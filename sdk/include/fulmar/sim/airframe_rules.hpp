@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "fulmar/flight/mixer.hpp"
+#include "fulmar/flight/model/mixer.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/sim/gear_legs.hpp"
 

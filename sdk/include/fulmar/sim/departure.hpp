@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <string>
 
-#include "fulmar/flight/aerodynamics.hpp"
-#include "fulmar/flight/rigid_body.hpp"
+#include "fulmar/flight/model/aerodynamics.hpp"
+#include "fulmar/flight/model/rigid_body.hpp"
 
 namespace fulmar::sim {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "fulmar/flight/dryden.hpp"
-#include "fulmar/flight/dryden_height.hpp"
-#include "fulmar/flight/dryden_rotation.hpp"
-#include "fulmar/flight/rigid_body.hpp"
+#include "fulmar/flight/earth/dryden.hpp"
+#include "fulmar/flight/earth/dryden_height.hpp"
+#include "fulmar/flight/earth/dryden_rotation.hpp"
+#include "fulmar/flight/model/rigid_body.hpp"
 #include "fulmar/sim/gust.hpp"
 #include "fulmar/sim/updraft.hpp"
 #include "fulmar/sim/weather.hpp"

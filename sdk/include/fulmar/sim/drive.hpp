@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "fulmar/flight/aerodynamics.hpp"
+#include "fulmar/flight/model/aerodynamics.hpp"
 #include "fulmar/sim/fault.hpp"
 #include "fulmar/sim/servo.hpp"
 

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "fulmar/eigen.hpp"
-#include "fulmar/flight/atmosphere.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
 #include "fulmar/msg/airframe.hpp"
 
 namespace fulmar::sim {

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fulmar/flight/rigid_body.hpp"
+#include "fulmar/flight/model/rigid_body.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/sim/gear_legs.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "fulmar/flight/propellers.hpp"
-#include "fulmar/flight/trim.hpp"
+#include "fulmar/flight/model/propellers.hpp"
+#include "fulmar/flight/model/trim.hpp"
 
 namespace fulmar::sim {
 

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include "fulmar/flight/aerodynamics.hpp"
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/earth.hpp"
-#include "fulmar/flight/propulsion.hpp"
-#include "fulmar/flight/rigid_body.hpp"
-#include "fulmar/flight/trim.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
+#include "fulmar/flight/model/aerodynamics.hpp"
+#include "fulmar/flight/model/propulsion.hpp"
+#include "fulmar/flight/model/rigid_body.hpp"
+#include "fulmar/flight/model/round_earth.hpp"
+#include "fulmar/flight/model/trim.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/sim/battery.hpp"
 #include "fulmar/sim/departure.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fulmar/flight/mixer.hpp"
+#include "fulmar/flight/model/mixer.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/sim/second_order.hpp"
 

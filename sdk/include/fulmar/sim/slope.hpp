@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "fulmar/flight/rigid_body.hpp"
+#include "fulmar/flight/model/rigid_body.hpp"
 
 namespace fulmar::sim {
 

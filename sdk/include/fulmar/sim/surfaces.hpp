@@ -3,7 +3,7 @@
 // and fails is the servo and its surface: with a mixer an elevon or a ruddervator (mixer.hpp says whose place
 // it takes).
 #pragma once
-#include "fulmar/flight/mixer.hpp"
+#include "fulmar/flight/model/mixer.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/sim/drive.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "fulmar/flight/atmosphere.hpp"
-#include "fulmar/flight/dryden.hpp"
+#include "fulmar/flight/earth/atmosphere.hpp"
+#include "fulmar/flight/earth/dryden.hpp"
 #include "fulmar/msg/thermals.hpp"
 
 namespace fulmar::sim {

@@ -4,7 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <fulmar/flight/angles.hpp>
+#include <fulmar/flight/math/angles.hpp>
 #include <fulmar/msg/guidance_command.hpp>
 #include <fulmar/msg/path.hpp>
 #include <fulmar/msg/vehicle_state.hpp>

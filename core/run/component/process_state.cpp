@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stands in front of the C library's functions that change what is everybody's, for plugins and whatever they
+// link: the dynamic linker finds those of the program first. What does not come through them is not seen.
+#include "core/run/component/process_state.hpp"
+
+#include <dlfcn.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <clocale>
+#include <csignal>
+#include <cstdarg>
+#include <cstring>
+
+#include "core/original.hpp"
+#include "core/run/component/problem.hpp"
+
+namespace fulmar::core {
+
+constinit thread_local const char* refused_call = nullptr;
+constinit thread_local bool refuses_calls = false;
+constinit thread_local bool refuses_processes = false;
+
+namespace {
+
+constexpr const char* shared = "what that changes is everybody's";
+thread_local const char* refused_since = shared;
+
+}  // namespace
+
+void end_forked_copy() noexcept {
+  const char* const component = in_step.load(std::memory_order_relaxed);
+  for (const char* const word :
+       {"fulmar: ", component ? component : "a component", " has forked the host; the copy ends\n"})
+    if (write(STDERR_FILENO, word, std::strlen(word)) < 0) break;
+  end_copy();
+}
+
+std::uint32_t put_right(fulmar_error& problem) noexcept {
+  if (!plain_arithmetic()) {
+    make_arithmetic_plain();
+    put_problem(problem, "%s", changed_arithmetic);
+  } else {
+    put_problem(problem, "calls %s in flight; %s", refused_call, refused_since);
+  }
+  refused_call = nullptr;
+  return FULMAR_FAILED;
+}
+
+void pass_on_signals() noexcept {
+  sigset_t pending, one;
+  if (sigpending(&pending) != 0 || sigisemptyset(&pending)) return;
+  const timespec at_once{};
+  for (int signal = 1; signal < NSIG; ++signal) {
+    if (sigismember(&pending, signal) != 1) continue;
+    sigemptyset(&one);
+    sigaddset(&one, signal);
+    if (sigtimedwait(&one, nullptr, &at_once) == signal) kill(getpid(), signal);
+  }
+}
+
+namespace {
+
+const pid_t program = getpid();
+
+/// Whether the call is refused. `changes`: it asks for more than what is set. A process that the component
+/// has forked is not the host.
+bool refuse(const char* call, bool changes = true, const char* since = shared) noexcept {
+  if (!changes || !refuses_calls || getpid() != program) return false;
+  refused_call = call;
+  refused_since = since;
+  return true;
+}
+
+bool refuse_process(const char* call) noexcept {
+  return refuses_processes && refuse(call, true, "the loop would wait for it");
+}
+
+bool refuse_fork(const char* call) noexcept { return refuse(call, true, copy_would_fly); }
+
+using Words = char* const*;
+
+/// The words of a function with dots, as those without take them. On the stack: between a fork and an exec
+/// nothing allocates.
+struct WordList {
+  std::array<char*, 1000> at;
+
+  /// False when there are too many. What `more` holds behind them comes next in it.
+  bool gather(const char* first, std::va_list* more) noexcept {
+    std::size_t n = 0;
+    for (const char* word = first; n < at.size(); word = va_arg(*more, const char*)) {
+      at[n++] = const_cast<char*>(word);
+      if (word == nullptr) return true;
+    }
+    errno = E2BIG;
+    return false;
+  }
+};
+
+template <class Function>
+Function behind(const char* name) noexcept {
+  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+}  // namespace
+}  // namespace fulmar::core
+
+using fulmar::core::refuse_fork;
+#include "core/fork_hooks.hpp"
+
+using fulmar::core::behind;
+using fulmar::core::refuse;
+using fulmar::core::refuse_process;
+using fulmar::core::WordList;
+using fulmar::core::Words;
+
+extern "C" {
+
+int chdir(const char* path) noexcept {
+  if (refuse("chdir")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(const char*)>("chdir");
+  return next(path);
+}
+
+int fchdir(int folder) noexcept {
+  if (refuse("fchdir")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(int)>("fchdir");
+  return next(folder);
+}
+
+char* setlocale(int category, const char* locale) noexcept {
+  if (refuse("setlocale", locale != nullptr)) return nullptr;
+  static const auto next = behind<char* (*)(int, const char*)>("setlocale");
+  return next(category, locale);
+}
+
+locale_t uselocale(locale_t locale) noexcept {
+  if (refuse("uselocale", locale != nullptr)) return errno = EPERM, nullptr;
+  static const auto next = behind<locale_t (*)(locale_t)>("uselocale");
+  return next(locale);
+}
+
+int sigprocmask(int how, const sigset_t* set, sigset_t* old) noexcept {
+  if (refuse("sigprocmask", set != nullptr)) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(int, const sigset_t*, sigset_t*)>("sigprocmask");
+  return next(how, set, old);
+}
+
+int pthread_sigmask(int how, const sigset_t* set, sigset_t* old) noexcept {
+  if (refuse("pthread_sigmask", set != nullptr)) return EPERM;
+  static const auto next = behind<int (*)(int, const sigset_t*, sigset_t*)>("pthread_sigmask");
+  return next(how, set, old);
+}
+
+int sigaction(int number, const struct sigaction* action, struct sigaction* old) noexcept {
+  if (refuse("sigaction", action != nullptr)) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(int, const struct sigaction*, struct sigaction*)>("sigaction");
+  return next(number, action, old);
+}
+
+sighandler_t signal(int number, sighandler_t handler) noexcept {
+  if (refuse("signal")) return errno = EPERM, SIG_ERR;
+  static const auto next = behind<sighandler_t (*)(int, sighandler_t)>("signal");
+  return next(number, handler);
+}
+
+int execve(const char* file, char* const words[], char* const environment[]) noexcept {
+  if (refuse("execve")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(const char*, char* const[], char* const[])>("execve");
+  return next(file, words, environment);
+}
+
+int execv(const char* file, char* const words[]) noexcept {
+  if (refuse("execv")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(const char*, char* const[])>("execv");
+  return next(file, words);
+}
+
+int execvp(const char* file, char* const words[]) noexcept {
+  if (refuse("execvp")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(const char*, char* const[])>("execvp");
+  return next(file, words);
+}
+
+int execvpe(const char* file, char* const words[], char* const environment[]) noexcept {
+  if (refuse("execvpe")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(const char*, Words, Words)>("execvpe");
+  return next(file, words, environment);
+}
+
+int fexecve(int file, char* const words[], char* const environment[]) noexcept {
+  if (refuse("fexecve")) return errno = EPERM, -1;
+  static const auto next = behind<int (*)(int, Words, Words)>("fexecve");
+  return next(file, words, environment);
+}
+
+int execl(const char* file, const char* first, ...) noexcept {
+  if (refuse("execl")) return errno = EPERM, -1;
+  WordList words;
+  std::va_list more;
+  va_start(more, first);
+  const bool all = words.gather(first, &more);
+  va_end(more);
+  return all ? execv(file, words.at.data()) : -1;
+}
+
+int execlp(const char* file, const char* first, ...) noexcept {
+  if (refuse("execlp")) return errno = EPERM, -1;
+  WordList words;
+  std::va_list more;
+  va_start(more, first);
+  const bool all = words.gather(first, &more);
+  va_end(more);
+  return all ? execvp(file, words.at.data()) : -1;
+}
+
+int execle(const char* file, const char* first, ...) noexcept {
+  if (refuse("execle")) return errno = EPERM, -1;
+  WordList words;
+  std::va_list more;
+  va_start(more, first);
+  const bool all = words.gather(first, &more);
+  const Words environment = all ? va_arg(more, Words) : nullptr;
+  va_end(more);
+  return all ? execve(file, words.at.data(), environment) : -1;
+}
+
+int posix_spawn(pid_t* process, const char* file, const posix_spawn_file_actions_t* actions,
+                const posix_spawnattr_t* attributes, char* const words[], char* const environment[]) {
+  if (refuse_process("posix_spawn")) return EPERM;
+  static const auto next = behind<decltype(&posix_spawn)>("posix_spawn");
+  return next(process, file, actions, attributes, words, environment);
+}
+
+int posix_spawnp(pid_t* process, const char* file, const posix_spawn_file_actions_t* actions,
+                 const posix_spawnattr_t* attributes, char* const words[], char* const environment[]) {
+  if (refuse_process("posix_spawnp")) return EPERM;
+  static const auto next = behind<decltype(&posix_spawnp)>("posix_spawnp");
+  return next(process, file, actions, attributes, words, environment);
+}
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Control of a flight. Commands are checked and prepared in the thread that gives them, cross into the
+// loop through a lock-free queue, take effect between two ticks, and go back through another one to be
+// answered and freed.
+#pragma once
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/run/command/command.hpp"
+#include "core/run/flight.hpp"
+#include "core/tap/control.hpp"
+
+namespace fulmar::core {
+
+class Unit;
+
+/// One producer, one consumer, pointers; full: refused.
+template <class T, std::size_t N>
+class PointerQueue {
+ public:
+  bool push(T* p) noexcept {
+    const std::size_t at = head_.load(std::memory_order_relaxed);
+    if (at - tail_.load(std::memory_order_acquire) == N) return false;
+    room_[at % N] = p;
+    head_.store(at + 1, std::memory_order_release);
+    return true;
+  }
+  T* pop() noexcept {
+    const std::size_t at = tail_.load(std::memory_order_relaxed);
+    if (at == head_.load(std::memory_order_acquire)) return nullptr;
+    T* const p = room_[at % N];
+    tail_.store(at + 1, std::memory_order_release);
+    return p;
+  }
+
+ private:
+  std::array<T*, N> room_{};
+  alignas(64) std::atomic<std::size_t> head_{0};
+  alignas(64) std::atomic<std::size_t> tail_{0};
+};
+
+class FlightControl final : public Control {
+ public:
+  explicit FlightControl(Flight::Impl& flight);
+  ~FlightControl() override;
+
+  /// [tick] Between two ticks. So many commands at most: who sends thousands does not starve the loop. False
+  /// when there was work among them that is done on the ground alone and allocates: a swap, a reset.
+  bool apply() noexcept;
+  /// [tick] Paused: no tick may begin. `apply` is asked again and again meanwhile.
+  bool stands() const noexcept { return clock_.paused && clock_.left == 0; }
+  /// [tick] Paused, also while ticks are flown that it was asked for: nobody waits for the clock.
+  bool paused() const noexcept { return clock_.paused; }
+  /// [tick] One more has been flown, and noted.
+  void ticked() noexcept;
+  /// [tick] What `view` tells of the flight.
+  void note(int phase, std::int64_t now_ns, bool armed) noexcept;
+  void note_unit(std::size_t component, const Unit& unit) noexcept;
+  /// The flight is over: nothing is taken any more, what waits is answered.
+  void end();
+
+  FlightView view() const override;
+  void set_parameter(const std::string& component, const std::string& param, const std::string& text,
+                     Answer answer) override;
+  void request(const std::string& component, const std::string& port, const std::string& text,
+               Answer answer) override;
+  void request(const std::string& component, const std::string& port, std::vector<std::byte> message,
+               Answer answer) override;
+  bool publish(const std::string& component, const std::string& port,
+               std::vector<std::byte> message) override;
+  void enter_phase(const std::string& phase, Answer answer) override;
+  void swap(const std::string& component, const std::string& file, Answer answer) override;
+  void reset_guards(Answer answer) override;
+  void pace(const PaceOrder& order, Answer answer) override;
+  void on_parameter(std::function<void(const std::string&, const std::string&)> changed) override;
+  std::uint64_t lost_samples() const override { return lost_samples_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Waiting;
+  struct Directory;
+  static constexpr std::size_t most_waiting = 1024, most_per_tick = 32, most_of_import = 64;
+
+  void send(Command command, Answer answer);
+  bool take(Waiting& waiting) noexcept;
+  bool apply(Waiting& waiting);
+  bool apply_pace(Waiting& waiting);
+  void end_steps() noexcept;
+  void go_on() noexcept;
+  void enqueue(std::unique_ptr<Waiting> waiting);
+  bool refuse(Waiting& waiting, const char* why) noexcept;
+  void done(Waiting& waiting) noexcept;
+  std::shared_ptr<const Directory> directory() const;
+  void run() noexcept;
+  void answer_done();
+
+  struct Queues {
+    PointerQueue<Waiting, most_waiting> in, samples;  // nobody's samples keep a parameter waiting
+    PointerQueue<Waiting, 2 * most_waiting> out;
+  };
+  /// The loop's: requests for which there was no room yet, in their order.
+  struct Held {
+    std::array<Waiting*, most_waiting> list{};
+    std::size_t count = 0;
+    bool grounded = false;  // something was done that is done on the ground alone
+  };
+  /// What the loop tells of the flight.
+  struct Seen {
+    explicit Seen(std::size_t count) : components(std::make_unique<Component[]>(count)) {}
+    std::atomic<int> phase{0};
+    std::atomic<std::int64_t> now_ns{0};
+    std::atomic<bool> armed{false}, paused{false};
+    std::atomic<double> speed{1};
+    struct Component {
+      std::atomic<bool> active{false}, stopped{false};
+      std::atomic<std::uint64_t> steps{0};
+      std::atomic<double> step_us{0}, step_max_us{0};
+    };
+    std::unique_ptr<Component[]> components;
+  };
+  /// The loop's: whether time stands still.
+  struct Clock {
+    bool paused = false;
+    std::uint64_t left = 0;      // ticks to fly, though paused
+    Waiting* stepper = nullptr;  // who has asked for them
+  };
+  /// All that waits to be applied or answered.
+  struct Account {
+    std::map<Waiting*, std::unique_ptr<Waiting>> all;
+    std::size_t samples = 0;             // of them
+    std::vector<std::size_t> of_import;  // samples per import
+  };
+
+  Flight::Impl& flight_;
+  Queues queues_;
+  Held held_;
+  Clock clock_;
+  Seen seen_;
+  std::atomic<bool> over_{false}, stop_{false};
+  std::atomic<std::uint64_t> lost_samples_{0};
+
+  mutable std::mutex mutex_;  // never the loop's; guards what follows
+  std::shared_ptr<const Directory> directory_;
+  std::vector<std::vector<ParamValue>> base_;  // what the loop has taken over
+  Account waiting_;
+  std::vector<std::function<void(const std::string&, const std::string&)>> changed_;
+  std::thread thread_;
+};
+
+}  // namespace fulmar::core

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/flight/end.hpp"
+
+#include <cstdio>
+
+namespace fulmar::core {
+namespace {
+
+std::string short_number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", x);
+  return text;
+}
+
+}  // namespace
+
+bool FlightEnd::reached() {
+  const Graph& graph = state_.graph;
+  const FlightOptions& options = state_.options;
+  Ending::Facts facts;
+  facts.now_ns = state_.now_ns;
+  facts.armed = protection_.armed_hardware();
+  facts.done =
+      graph.done && ending_.asks_done() && wiring_.held_for(*graph.done, graph.done_for_ns, done_since_ns_);
+  facts.failed = graph.failed && ending_.asks_failed() &&
+                 wiring_.held_for(*graph.failed, graph.failed_for_ns, failed_since_ns_);
+  if (graph.flown && !flown_) flown_ = wiring_.held_for(*graph.flown, graph.flown_for_ns, flown_since_ns_);
+  facts.duration =
+      options.duration_s && state_.now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9);
+  facts.timeout = graph.timeout_ns > 0 && !state_.on_hardware() && state_.now_ns >= graph.timeout_ns;
+  facts.signal = options.interrupt && options.interrupt->load(std::memory_order_relaxed) != 0;
+  for (const Ending::Act act : ending_.tick(facts)) carry_out(act);
+  return ending_.over();
+}
+
+void FlightEnd::failsafe(const Event& why) {
+  if (ending_.in_failsafe()) return;
+  end_by(Ending::Cue::nobody);
+  failsafe_words_ = why.words;
+  recorder_.note(why);
+}
+
+void FlightEnd::carry_out(Ending::Act act) {
+  switch (act) {
+    case Ending::Act::none: return;
+    case Ending::Act::tell_done: return tell_verdict(Code::concluded, "done: ");
+    case Ending::Act::tell_failed: return tell_verdict(Code::concluded, "failed: ");
+    case Ending::Act::tell_duration: return tell_verdict(Code::duration_reached, "");
+    case Ending::Act::tell_silent: {
+      Event e = event_of(Code::silent);
+      say(e, "silent until disarmed: the aircraft is its pilot's");
+      return recorder_.note(e);
+    }
+    case Ending::Act::refuse_signal: return refuse_signal();
+    case Ending::Act::give_up: return give_up();
+    case Ending::Act::end: return conclude();
+  }
+}
+
+void FlightEnd::conclude() {
+  FlightResult& result = state_.result;
+  result.outcome = Ending::outcome(ending_.reason());
+  result.reason = reason_text();
+  const bool short_of_it = ending_.reason() == Ending::Reason::done && state_.graph.flown && !flown_;
+  if (!short_of_it) return;
+  result.outcome = Outcome::aborted;
+  result.reason += "; never held: " + state_.graph.flown->text();
+}
+
+/// What the signal's handler does meanwhile is in run_command.cpp.
+void FlightEnd::refuse_signal() {
+  state_.options.interrupt->store(0, std::memory_order_relaxed);
+  Event e = event_of(Code::signal_refused);
+  say(e, "the aircraft is armed: Ctrl-C once more within 5 s gives up control");
+  recorder_.note(e);
+}
+
+void FlightEnd::give_up() {
+  Event why = event_of(Code::gave_up);
+  say(why, "control given up by a signal: the aircraft is its pilot's");
+  failsafe_words_ = why.words;
+  recorder_.note(why);
+}
+
+void FlightEnd::tell_verdict(Code code, const char* what) {
+  Event e = event_of(code);
+  if (Ending::outcome(ending_.reason()) == Outcome::failed) e.severity = Severity::error;
+  say(e, "%s%s; flies on until disarmed", what, reason_text().c_str());
+  recorder_.note(e);
+}
+
+std::string FlightEnd::reason_text() const {
+  switch (ending_.reason()) {
+    case Ending::Reason::none: break;
+    case Ending::Reason::done: return state_.graph.done->text();
+    case Ending::Reason::failed: return state_.graph.failed->text();
+    case Ending::Reason::duration: return "duration reached";
+    case Ending::Reason::timeout:
+      return "not done within " + short_number(1e-9 * static_cast<double>(state_.graph.timeout_ns)) +
+             " s of flight";
+    case Ending::Reason::failsafe:
+    case Ending::Reason::gave_up: return failsafe_words_.data();
+    case Ending::Reason::signal: return "by a signal";
+    case Ending::Reason::vehicle_failed:
+      return "the vehicle failed: " + std::string(wiring_.vehicle().problem.text);
+    case Ending::Reason::abandoned: return state_.restart ? "ended for a new flight" : "ended by its owner";
+  }
+  return "";
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Steps, and what happens when one goes wrong.
+#include "core/run/flight/roles.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/types/named.hpp"
+
+namespace fulmar::core {
+namespace {
+
+/// What a component said of itself when a guard stopped it, or `code`.
+Event guard_event(Code code, Unit& unit, const char* problem) noexcept {
+  const bool dead = unit.runner().dead();
+  Event e = event_of(!dead                  ? code
+                     : unit.runner().hung() ? Code::hung
+                                            : Code::died,
+                     unit.component->name, dead ? unit.runner().died_in() : "");
+  put(e.cause, problem);
+  say(e, "%s", problem);
+  return e;
+}
+
+}  // namespace
+
+Roles::Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end,
+             Stopwatch& stopwatch)
+    : state_(state),
+      wiring_(wiring),
+      recorder_(recorder),
+      protection_(protection),
+      end_(end),
+      stopwatch_(stopwatch),
+      active_(state.graph.roles.size(), -1),
+      any_since_(state.graph.any.size(), never_ns) {
+  std::size_t most = 0;
+  for (const auto& unit : wiring.units) most = std::max(most, unit->out.slots.size());
+  hand_over_.reserve(most);
+}
+
+void Roles::connect() {
+  const Graph& graph = state_.graph;
+  streams_.connect(wiring_, state_);
+  drives_vehicle_.assign(graph.roles.size(), false);
+  control_roles_.assign(graph.roles.size(), false);
+  for (const int role : graph.control) nth(control_roles_, role) = true;
+  if (graph.vehicle < 0) return;
+  for (const Wire& w : nth(graph.components, graph.vehicle).wires)
+    if (w.from.kind == Source::Kind::role) nth(drives_vehicle_, w.from.index) = true;
+}
+
+const std::vector<Overlay>* Roles::overlay_of(int component) const noexcept {
+  for (const Assignment& a : present().roles)
+    if (a.component == component && !a.set.empty()) return &a.set;
+  return nullptr;
+}
+
+// ---- steps
+
+void Roles::step(int component) {
+  Unit& unit = wiring_.unit(component);
+  if (unit.runner().remote() && !collect(unit, component)) return;
+  if (!unit.active || unit.stopped || !unit.due(state_.now_ns) || !ready_to_step(unit, component)) return;
+  const StepResult result = unit.step(state_.now_ns, state_.index);
+  if (!unit.in.refusals.empty()) recorder_.note_refusals(unit);
+  const bool bad = result == StepResult::bad;
+  if (has_stepped(result)) wiring_.publish(unit, recorder_);
+  if (has_stepped(result) || bad) charge(unit);
+  if (bad) stop(component);
+}
+
+/// Who begins is activated first, with nobody before it. Who is held begins anew in every step, so that
+/// nothing winds up while the vehicle does not obey; in another thread once, when control returns.
+bool Roles::ready_to_step(Unit& unit, int component) {
+  const bool held = protection_.out_of_control() && is_held(unit);
+  if (!unit.fresh_start && (!held || unit.runner().remote())) return true;
+  if (!unit.in.ready()) {
+    if (unit.in.in_vain(unit.problem)) stop(component);
+    return false;
+  }
+  if (unit.activate(state_.now_ns, state_.index, {})) return true;
+  if (!held || unit.runner().dead())
+    stop(component);
+  else
+    unit.fresh_start = true;  // it flies nothing now; what is in its way may have passed when it does
+  return false;
+}
+
+bool Roles::is_held(const Unit& unit) const noexcept {
+  for (const int role : unit.component->roles)
+    if (nth(control_roles_, role)) return true;
+  return false;
+}
+
+void Roles::begin_anew() noexcept {
+  for (const auto& unit : wiring_.units)
+    if (unit->active && unit->runner().remote() && is_held(*unit)) unit->fresh_start = true;
+}
+
+void Roles::charge(Unit& unit) {
+  if (!stopwatch_.charge(unit)) return;
+  unit.fail("was over its time budget in 5 steps in a row");
+  stop(wiring_.index_of(unit), Code::over_budget);
+}
+
+/// Results and samples that come from other threads. True when the unit can also be stepped.
+bool Roles::collect(Unit& unit, int component) {
+  StepResult result = unit.collect(state_.now_ns);
+  tell_late(unit);
+  for (; has_stepped(result); result = unit.collect(state_.now_ns))
+    if (unit.active && !unit.stopped) wiring_.publish(unit, recorder_);
+  tell_late(unit);
+  if (!unit.in.refusals.empty()) recorder_.note_refusals(unit);
+  if (result == StepResult::bad && unit.active) stop(component);
+  stopwatch_.skip();
+  return unit.runner().stepped_by_loop();
+}
+
+void Roles::note_late(const Unit& unit, std::int64_t due_ns) {
+  Event e = event_of(Code::late_result, unit.component->name);
+  e.value_ns = due_ns;
+  say(e, "took late a result that was due at %lld ns", static_cast<long long>(due_ns));
+  recorder_.note(e);
+}
+
+/// A replay takes them as late as the flight did.
+void Roles::tell_late(Unit& unit) {
+  for (const std::int64_t due_ns : unit.runner().late_due_ns) note_late(unit, due_ns);
+  unit.runner().late_due_ns.clear();
+}
+
+/// What has not come counts as taken after the last tick.
+void Roles::tell_overdue() {
+  for (const auto& unit : wiring_.units) {
+    const auto due_ns = unit->runner().overdue_ns(state_.now_ns);
+    if (!due_ns) continue;
+    const std::int64_t last_ns = std::exchange(state_.now_ns, state_.now_ns + 1);
+    note_late(*unit, *due_ns);
+    state_.now_ns = last_ns;
+  }
+}
+
+// ---- guards and hand-over
+
+void Roles::stop(int component, Code code) {
+  Unit& unit = wiring_.unit(component);
+  if (unit.stopped) return;
+  unit.stopped = true;
+  unit.in.refuse_requests("was stopped");
+  make_printable(unit.problem.text);
+  const std::string what = unit.problem.text;
+  const std::string& name = unit.component->name;
+  recorder_.note(guard_event(code, unit, what.c_str()));
+  std::vector<GuardEvent>& guards = state_.result.guards;
+  guards.push_back({state_.now_ns, name, what, "held"});
+  const std::size_t guard = guards.size() - 1;
+  fall_back(component, guard);
+  end_tenures([component](int who, int) { return who == component; });
+  tell_blind("done", state_.graph.done.get(), component);
+  tell_blind("failed", state_.graph.failed.get(), component);
+  tell_blind(state_.graph.any, component);
+  tell_blind(present().next, component);
+  if (!nobody_drives(component)) return;
+  guards[guard].action = "failsafe";
+  nobody_flies(name, what);
+}
+
+void Roles::nobody_flies(const std::string& name, const std::string& what) {
+  Event why = event_of(Code::failsafe, "", name);
+  put(why.cause, what);
+  say(why, "failsafe: %s: %s", name.c_str(), what.c_str());
+  end_.failsafe(why);
+  end_tenures([this](int, int role) { return nth(drives_vehicle_, role); });
+}
+
+/// What the vehicle obeys has stopped coming, though nobody in a role was stopped: a component without one
+/// gives it, or the mission says how old it may be.
+void Roles::watch_commands() {
+  const std::vector<std::vector<std::byte>>& commands = state_.graph.failsafe;
+  if (end_.in_failsafe()) return;
+  const Slot* const mute = streams_.watch(protection_.out_of_control(), state_, recorder_);
+  if (mute) stop_if_mute(*mute);
+  if (mute && end_.in_failsafe()) return;
+  Unit& vehicle = wiring_.vehicle();
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    if (commands[i].empty() || !vehicle.in.too_old(i, state_.now_ns, vehicle.problem)) continue;
+    const std::string what = vehicle.problem.text, &name = vehicle.component->name;
+    state_.result.guards.push_back({state_.now_ns, name, what, "failsafe"});
+    return nobody_flies(name, what);
+  }
+}
+
+/// A law that says nothing to the vehicle, though all that it needs keeps coming, is as lost as one that says
+/// nonsense. Others may have a reason: an estimator without samples, a law without a path.
+void Roles::stop_if_mute(const Slot& slot) {
+  Unit& unit = *slot.owner;
+  bool drives = false;
+  for (const int role : unit.component->roles) drives = drives || nth(drives_vehicle_, role);
+  if (!drives || !slot.role || !unit.in.all_younger_than(Streams::least_silence_ns, state_.now_ns)) return;
+  put_problem(unit.problem, "nothing on '%s', though it steps and all its inputs come",
+              slot.port->name.c_str());
+  stop(wiring_.index_of(unit));
+}
+
+/// A condition on what was stopped does not hold any more, whatever happens: a geofence without its watchman.
+void Roles::tell_blind(const char* what, const Condition* condition, int stopped) {
+  if (!condition) return;
+  const std::vector<Source>& ports = condition->ports();
+  const bool looks_at = std::any_of(ports.begin(), ports.end(), [&](const Source& port) {
+    if (port.kind == Source::Kind::role) return active(port.index) == stopped;
+    return port.kind == Source::Kind::component && port.index == stopped;
+  });
+  if (!looks_at) return;
+  Event e = event_of(Code::notice, wiring_.unit(stopped).component->name);
+  e.severity = Severity::warning;
+  say(e, "was stopped: '%s: %s' cannot come true any more", what, condition->text().c_str());
+  recorder_.note(e);
+}
+
+void Roles::tell_blind(const std::vector<Transition>& list, int stopped) {
+  for (const Transition& t : list)
+    tell_blind(nth(state_.graph.phases, t.to).name.c_str(), t.when.get(), stopped);
+}
+
+/// In each role that it has left: the present phase's fallback, if it can fly, in this same tick. Who feeds
+/// others comes first.
+void Roles::fall_back(int stopped, std::size_t guard) {
+  std::string names;
+  const std::string& name = wiring_.unit(stopped).component->name;
+  for (const int next : state_.graph.order)
+    for (std::size_t r = 0; r < active_.size(); ++r) {
+      const Assignment& a = present().roles[r];
+      if (active_[r] != stopped || a.fallback != next || next == stopped || wiring_.unit(next).stopped)
+        continue;
+      if (!take_over(next, a)) continue;
+      const std::string& other = wiring_.unit(next).component->name;
+      names += (names.empty() ? "" : ", ") + other;
+      state_.result.guards[guard].action = names + (names == other ? " takes over" : " take over");
+      Event e = event_of(Code::took_over, name, other);
+      say(e, "%s takes over", other.c_str());
+      recorder_.note(e);
+    }
+}
+
+/// Whether it was what moved the aircraft, and still has that role.
+bool Roles::nobody_drives(int stopped) const noexcept {
+  for (std::size_t r = 0; r < active_.size(); ++r)
+    if (active_[r] == stopped && drives_vehicle_[r]) return true;
+  return false;
+}
+
+/// The outputs last applied in the role, as far as the newcomer's messages are of the same make.
+void Roles::fill_hand_over(const Unit& unit) {
+  hand_over_.assign(unit.out.slots.size(), nullptr);
+  for (std::size_t i = 0; i < unit.out.slots.size(); ++i) {
+    const Slot& own = unit.out.slots[i];
+    const Slot* const applied = own.role ? own.role->current : nullptr;
+    if (applied && applied->port->type->hash == own.port->type->hash) hand_over_[i] = applied;
+  }
+}
+
+bool Roles::fills_any(int component) const noexcept {
+  return std::find(active_.begin(), active_.end(), component) != active_.end();
+}
+
+bool Roles::nobody_has_flown(const Component& component) const noexcept {
+  return std::all_of(component.roles.begin(), component.roles.end(),
+                     [&](int role) { return active(role) < 0 || wiring_.unit(active(role)).fresh_start; });
+}
+
+void Roles::rest(Unit& unit) noexcept {
+  unit.active = false;
+  unit.in.refuse_requests("does not fly any more");
+  if (!unit.fresh_start) unit.deactivate();
+}
+
+/// From now on another one fills the role.
+void Roles::note_tenure(int role) {
+  end_tenures([role](int, int of) { return of == role; });
+  state_.result.tenures.push_back({nth(state_.graph.roles, role).name,
+                                   wiring_.unit(active(role)).component->name, state_.now_ns, never_ns});
+}
+
+/// Of those for whom `ends(component, role)`: who fills a role and was stopped does not fly any more.
+template <class Ends>
+void Roles::end_tenures(const Ends& ends) {
+  for (std::size_t r = 0; r < active_.size(); ++r) {
+    const int role = static_cast<int>(r);
+    if (!ends(active_[r], role)) continue;
+    for (Tenure& tenure : state_.result.tenures)
+      if (tenure.role == state_.graph.roles[r].name && tenure.to_ns == never_ns) tenure.to_ns = state_.now_ns;
+  }
+}
+
+void Roles::fly_again(int component) {
+  for (std::size_t r = 0; r < active_.size(); ++r)
+    if (active_[r] == component) note_tenure(static_cast<int>(r));
+}
+
+void Roles::conclude() {
+  end_tenures([](int, int) { return true; });
+}
+
+std::string Roles::idle_role() const {
+  std::string first;
+  bool commanded = true;
+  for (std::size_t r = 0; r < active_.size(); ++r) {
+    if (active_[r] < 0 || wiring_.has_published(r)) continue;
+    if (first.empty()) first = state_.graph.roles[r].name;
+    commanded = commanded && !drives_vehicle_[r];
+  }
+  return commanded ? "" : first;
+}
+
+/// It fills all its roles from now on; who fills none any more rests.
+void Roles::occupy(int component) {
+  for (const int role : wiring_.unit(component).component->roles) {
+    const int old = std::exchange(active(role), component);
+    if (old != component) note_tenure(role);
+    if (old >= 0 && old != component && !fills_any(old)) rest(wiring_.unit(old));
+  }
+  wiring_.unit(component).active = true;
+  wiring_.expect_from(wiring_.unit(component));
+}
+
+bool Roles::take_over(int component, const Assignment& assignment) {
+  Unit& unit = wiring_.unit(component);
+  const bool tuned = unit.retune(component == assignment.component ? &assignment.set : nullptr);
+  if (tuned && !unit.in.ready() &&
+      nobody_has_flown(*unit.component)) {  // it begins when its inputs are there
+    unit.fresh_start = true;
+    occupy(component);
+    return true;
+  }
+  fill_hand_over(unit);
+  unit.in.forget_queues();
+  if (!tuned || !unit.activate(state_.now_ns, state_.index, hand_over_)) {
+    cannot_take_over(unit, active(unit.component->roles.front()) >= 0);
+    return false;
+  }
+  occupy(component);
+  unit.call_now(state_.now_ns);
+  step(component);
+  return true;
+}
+
+/// A component that fills several roles gives up all of them or none: where one of those who were to follow
+/// it could not take over, it goes on.
+void Roles::keep_groups_whole() {
+  for (const int component : state_.graph.order) {
+    Unit& unit = wiring_.unit(component);
+    if (unit.component->roles.size() < 2 || unit.stopped || !fills_any(component)) continue;
+    const auto has = [&](int role) { return active(role) == component; };
+    const std::vector<int>& roles = unit.component->roles;
+    if (std::all_of(roles.begin(), roles.end(), has)) continue;
+    occupy(component);
+    for (Slot& slot : unit.out.slots)
+      if (slot.role && slot.sequence > 0) slot.role->current = &slot;
+  }
+}
+
+void Roles::cannot_take_over(Unit& unit, bool somebody_stays) {
+  make_printable(unit.problem.text);
+  const std::string& name = unit.component->name;
+  Event e = guard_event(Code::cannot_take_over, unit, unit.problem.text);
+  say(e, "cannot take over: %s", unit.problem.text);
+  recorder_.note(e);
+  state_.result.guards.push_back(
+      {state_.now_ns, name, e.words.data(), somebody_stays ? "the old one stays" : "nobody flies"});
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who flies: the present phase, who fills which role in it, hand-over, guards and fallbacks.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/log/events.hpp"
+#include "core/run/flight/end.hpp"
+#include "core/run/flight/protection.hpp"
+#include "core/run/flight/stopwatch.hpp"
+#include "core/run/flight/streams.hpp"
+#include "core/run/flight/wiring.hpp"
+#include "core/run/record/recorder.hpp"
+#include "core/run/state/state.hpp"
+#include "core/types/named.hpp"
+
+namespace fulmar::core {
+
+class Roles {
+ public:
+  Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end,
+        Stopwatch& stopwatch);
+  /// [setup] Which roles feed the vehicle, and which are held while it does not obey; anew when units were
+  /// exchanged.
+  void connect();
+
+  int phase() const noexcept { return phase_; }
+  /// What the present phase lays over a component's parameters, or nullptr.
+  const std::vector<Overlay>* overlay_of(int component) const noexcept;
+
+  // phases.cpp
+  /// [tick] In another phase than the first one. Before `begin`.
+  void begin_in(int phase) noexcept { phase_ = phase; }
+  /// [tick] Before the vehicle is read for the first time: what the first phase says of it.
+  void prepare_vehicle();
+  /// [tick] In the first tick: nobody has flown before, so each component is activated when its inputs have
+  /// arrived.
+  void begin();
+  void transitions();
+  /// [tick] Before the vehicle writes.
+  void watch_commands();
+  void enter(int phase, const std::string& because = {});
+
+  // roles.cpp
+  /// [tick] Steps a component if it is due, and takes what has arrived from elsewhere.
+  void step(int component);
+  /// [tick] Of the time it took; a component over its budget is stopped.
+  void charge(Unit& unit);
+  /// [tick] Whoever works in another thread begins anew, now that control has returned.
+  void begin_anew() noexcept;
+  /// [tick] A guard has fired: the last good output is held; the fallback takes over; when nobody is left,
+  /// failsafe.
+  void stop(int component, Code code = Code::guard);
+  /// At the end of a flight: a result that has not come is not there in a replay either.
+  void tell_overdue();
+  /// Who flew when, up to now; and when nobody has ever commanded the vehicle, the first role that nothing
+  /// has come from.
+  void conclude();
+  /// A guard was reset: it fills its roles again.
+  void fly_again(int component);
+  std::string idle_role() const;
+
+ private:
+  bool try_transitions(const std::vector<Transition>& list, std::vector<std::int64_t>& since);
+  void note_phase(const Phase& entered, const std::string& because);
+  void lay_over(int component, const std::vector<Overlay>* set);
+  void fill(int role, bool overlaid);
+  int group_wanted_in(int role) const;
+  bool take_over(int component, const Assignment& assignment);
+  void occupy(int component);
+  void note_tenure(int role);
+  template <class Ends>
+  void end_tenures(const Ends& ends);
+  void rest(Unit& unit) noexcept;
+  void keep_groups_whole();
+  bool fills_any(int component) const noexcept;
+  bool nobody_has_flown(const Component& component) const noexcept;
+  void fill_hand_over(const Unit& unit);
+  void cannot_take_over(Unit& unit, bool somebody_stays);
+  void stop_if_mute(const Slot& slot);
+  void tell_blind(const char* what, const Condition* condition, int stopped);
+  void tell_blind(const std::vector<Transition>& list, int stopped);
+  void fall_back(int stopped, std::size_t guard);
+  bool nobody_drives(int stopped) const noexcept;
+  void nobody_flies(const std::string& name, const std::string& what);
+  bool collect(Unit& unit, int component);
+  bool ready_to_step(Unit& unit, int component);
+  bool is_held(const Unit& unit) const noexcept;
+  void note_late(const Unit& unit, std::int64_t due_ns);
+  void tell_late(Unit& unit);
+  const Phase& present() const noexcept { return nth(state_.graph.phases, phase_); }
+  int& active(int role) noexcept { return nth(active_, role); }
+  int active(int role) const noexcept { return nth(active_, role); }
+
+  FlightState& state_;
+  Wiring& wiring_;
+  Recorder& recorder_;
+  Protection& protection_;
+  FlightEnd& end_;
+  Stopwatch& stopwatch_;
+  int phase_ = 0;
+  std::vector<int> active_;                           // per role: the component that fills it now, or -1
+  std::vector<bool> drives_vehicle_, control_roles_;  // per role
+  std::vector<std::int64_t> any_since_, next_since_;  // since when a transition's condition holds
+  std::vector<const Slot*> hand_over_;                // room for what was last applied
+  Streams streams_;
+};
+
+}  // namespace fulmar::core

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which channels the tap has, what the log stores of them, and what is attached to it.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/log/sbom.hpp"
+#include "core/run/record/flown_plugin.hpp"
+#include "core/run/record/recorder.hpp"
+#include "core/run/state/published.hpp"
+#include "core/types/named.hpp"
+#include "core/types/text.hpp"
+#include "core/types/wire.hpp"
+
+namespace fulmar::core {
+namespace {
+
+constexpr std::size_t events_for_latecomers = 100;
+constexpr std::int64_t default_period_ns = 100'000'000;  // 10 Hz for what a replay computes anew
+
+}  // namespace
+
+/// The channels of a tap, each topic once.
+class Recorder::ChannelList {
+ public:
+  std::size_t add(const std::string& port, const TypePtr& type) {
+    list.push_back({"/" + slashed(port), type});
+    return list.size() - 1;
+  }
+  /// Who fills a role publishes as the role: one topic, whoever flies. Under its own name when its message
+  /// has other fields than theirs.
+  std::size_t add_shared(const std::string& name, const std::string& own, const TypePtr& type) {
+    const auto there = std::find_if(list.begin(), list.end(),
+                                    [&](const TapChannel& c) { return c.topic == "/" + slashed(name); });
+    if (there == list.end()) return add(name, type);
+    return there->type->hash == type->hash ? static_cast<std::size_t>(there - list.begin()) : add(own, type);
+  }
+  std::vector<TapChannel> list;
+};
+
+void Recorder::open(const Units& units, bool with_log) {
+  tap_ = std::make_unique<Tap>(channels(units));
+  if (with_log) open_log(units);
+}
+
+std::vector<TapChannel> Recorder::channels(const Units& units) {
+  ChannelList list;
+  channels_.event = list.add("fulmar.event", host_type<Event>());
+  list.list[channels_.event].past = events_for_latecomers;
+  channels_.ticks = list.add("fulmar.ticks", host_type<Ticks>());
+  channels_.parameter = list.add("fulmar.parameter", host_type<CommandNote>());
+  channels_.command = list.add("fulmar.command", host_type<CommandNote>());
+  for (const auto& unit : units) add_channels(list, *unit);
+  for (const auto& unit : units) add_further_requests(list, *unit);
+  channels_.lines = list.add("rosout", host_type<LogLine>());
+  return std::move(list.list);
+}
+
+void Recorder::add_channels(ChannelList& list, Unit& unit) {
+  const Component& c = *unit.component;
+  const bool stored_whole = c.info().vehicle || c.run == RunMode::driver;
+  for (std::size_t i = 0; i < unit.out.slots.size(); ++i) {
+    Slot& slot = unit.out.slots[i];
+    if (!slot.port->type) continue;
+    const std::string name = topic_name(state_.graph, c, i);
+    slot.log.channel = list.add_shared(name, c.name + "." + slot.port->name, slot.port->type);
+    if (slot.port->kind == FULMAR_OUT_EVENT) list.list[slot.log.channel].may_stay_silent = true;
+    slot.log.period_ns = record_period(name, slot);
+    if (!stored_whole) slot.hash = std::make_unique<MessageHash>(*slot.port->type);
+  }
+  bool asked = false;
+  for (Reader& reader : unit.in.readers) {
+    const bool request = reader.port->kind == FULMAR_IN_REQUEST;
+    if (!(request && asked) && (request || reader.wire->import >= 0))
+      reader.channel = static_cast<int>(list.add(c.name + "." + reader.port->name, reader.port->type));
+    asked = asked || request;
+  }
+  Probes& probes = unit.out.probes;
+  if (probes.outputs.empty()) return;
+  probes.log.period_ns = record_period(c.name + ".probes", unit.out.slots[probes.outputs.front()]);
+  probes.log.channel = list.add(c.name + ".probes", probes_type(*c.plugin, c.info()));
+}
+
+/// Behind all others of components: the hashes of the ticks are made with the numbers of the channels, and a
+/// component that has got another request leaves those of the logs there are, and so their replays, as they
+/// were.
+void Recorder::add_further_requests(ChannelList& list, Unit& unit) {
+  for (Reader& reader : unit.in.readers)
+    if (reader.port->kind == FULMAR_IN_REQUEST && reader.channel < 0)
+      reader.channel =
+          static_cast<int>(list.add(unit.component->name + "." + reader.port->name, reader.port->type));
+}
+
+std::int64_t Recorder::record_period(const std::string& port, const Slot& slot) const {
+  const Component& component = *slot.owner->component;
+  if (component.info().vehicle || component.run == RunMode::driver) return 0;  // a replay needs all of it
+  const std::int64_t usual = slot.port->kind == FULMAR_OUT_QUEUE ? 0 : default_period_ns;
+  for (const RecordRule& rule : state_.graph.record_rules)
+    for (const std::string& pattern : rule.ports)
+      if (port_matches(port, pattern)) return rule.period_ns == RecordRule::usual ? usual : rule.period_ns;
+  return state_.graph.record_rules.empty() ? usual : -1;
+}
+
+void Recorder::open_log(const Units& units) {
+  const Graph& graph = state_.graph;
+  Log::Options o;
+  o.file = state_.options.log_file, o.held = state_.options.log_held;
+  o.epoch_ns = graph.epoch_ns;
+  o.wait = state_.unpaced();
+  o.rotate_bytes = graph.rotate_bytes, o.rotate_ns = graph.rotate_ns;
+  o.lasting = lasting();
+  // What the host says and what comes from outside, always. A role's topic when anybody who fills it is
+  // recorded.
+  o.channels.assign(tap_->channels().size(), true);
+  const auto each = [&](auto&& set) {
+    for (const auto& unit : units) {
+      for (const Slot& slot : unit->out.slots)
+        if (slot.port->type) set(slot.log);
+      if (!unit->out.probes.outputs.empty()) set(unit->out.probes.log);
+    }
+  };
+  each([&](const LogPlace& place) { o.channels[place.channel] = false; });
+  each([&](const LogPlace& place) {
+    o.channels[place.channel] = o.channels[place.channel] || place.period_ns >= 0;
+  });
+  log_ = std::make_unique<Log>(o, *tap_);
+  attach_texts(units);
+}
+
+/// What every file of a log begins with, for it to be read, and resumed from, without the one before: see
+/// Log::Options.
+std::function<std::string(std::size_t, const std::byte*)> Recorder::lasting() const {
+  return [at = channels_](std::size_t channel, const std::byte* message) {
+    std::string name;
+    if (channel == at.event && reinterpret_cast<const Event*>(message)->code == Code::phase_entered)
+      name = "phase";
+    if (channel != at.parameter && channel != at.command) return name;
+    const auto* const note = reinterpret_cast<const CommandNote*>(message);
+    const std::string component = note->component.data();
+    if (note->kind == CommandKind::parameter) name = "parameter " + component + "." + note->name.data();
+    if (note->kind == CommandKind::swap) name = "swap " + component;
+    return name;
+  };
+}
+
+namespace {
+
+nlohmann::json parameter_json(const ParamInfo& p, const ParamValue& v) {
+  switch (p.kind) {
+    case FULMAR_NUMBER: return v.number[0];
+    case FULMAR_FLAG: return v.integer != 0;
+    case FULMAR_COUNT: return v.integer;
+    case FULMAR_CHOICE: return p.choices.at(static_cast<std::size_t>(v.integer));
+    case FULMAR_VECTOR: return {v.number[0], v.number[1], v.number[2]};
+    case FULMAR_RECORD: return to_json(*p.type, v.data.data(), false);
+    default: return v.text;
+  }
+}
+
+std::string parameters_text(const Units& units) {
+  nlohmann::json all = nlohmann::json::object();
+  for (const auto& unit : units) {
+    nlohmann::json& mine = all[unit->component->name] = nlohmann::json::object();
+    for (std::size_t i = 0; i < unit->base.size(); ++i)
+      mine[unit->info->params[i].name] = parameter_json(unit->info->params[i], unit->base[i]);
+  }
+  return all.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+/// What the command line changed, so that a replay can do the same.
+Pairs overrides_text(const Overrides& o) {
+  Pairs pairs;
+  if (o.io) pairs.emplace_back("io", *o.io);
+  if (o.arm) pairs.emplace_back("arm", *o.arm);
+  if (o.seed) pairs.emplace_back("seed", std::to_string(*o.seed));
+  for (const auto& [role, component] : o.roles) pairs.emplace_back("role " + role, component);
+  for (const auto& [param, value] : o.set) pairs.emplace_back("set " + param, value);
+  for (std::size_t i = 0; i < o.record.size(); ++i)
+    pairs.emplace_back("record " + std::to_string(i + 1), o.record[i]);
+  return pairs;
+}
+
+}  // namespace
+
+void Recorder::attach_texts(const Units& units) {
+  const Graph& graph = state_.graph;
+  for (const auto& [name, text] : graph.attachments) log_->attach(name, "application/yaml", text);
+  log_->attach("parameters.json", "application/json", parameters_text(units));
+  std::string order;
+  for (const int i : graph.order) order += nth(graph.components, i).name + "\n";
+  log_->attach("order.txt", "text/plain", order);
+  Pairs plugins;
+  std::vector<const PluginInfo*> loaded;
+  for (const Component& c : graph.components) {
+    const PluginInfo& p = *c.plugin;
+    for (const auto& [key, value] : flown_pairs(p)) plugins.emplace_back(c.name + "." + key, value);
+    if (std::find(loaded.begin(), loaded.end(), &p) == loaded.end()) loaded.push_back(&p);
+  }
+  log_->attach("sbom.json", "application/json", sbom_text(loaded));
+  log_->metadata("plugins", plugins);
+  log_->metadata("overrides", overrides_text(graph.overrides));
+  log_->metadata("fulmar",
+                 {{"version", FULMAR_VERSION},
+                  {"abi", std::to_string(FULMAR_ABI_MAJOR) + "." + std::to_string(FULMAR_ABI_MINOR)},
+                  {"toolchain", __VERSION__},
+                  {"mission", graph.mission},
+                  {"io", io_word(graph.io)},
+                  {"epoch_ns", std::to_string(graph.epoch_ns)},
+                  {"seed", std::to_string(graph.seed)}});
+}
+
+void Recorder::note_swap(const std::string& component, const PluginInfo& plugin) {
+  if (!log_) return;
+  auto pairs = flown_pairs(plugin);
+  pairs.emplace(pairs.begin(), "component", component);
+  log_->metadata("swap", pairs);
+}
+
+// ---- texts for people
+
+void Recorder::listen(const Units& units) {
+  told_.clear();
+  const auto unit = [&](int index) -> const Unit& { return *nth(units, index); };
+  for (const Source& source : state_.graph.tell) {
+    if (source.kind == Source::Kind::component) listen_to(unit(source.index), source.output);
+    if (source.kind != Source::Kind::role) continue;
+    const Role& role = nth(state_.graph.roles, source.index);
+    for (std::size_t f = 0; f < role.fillers.size(); ++f)
+      listen_to(unit(role.fillers[f]), nth(role.provides[f], source.output));
+  }
+}
+
+void Recorder::listen_to(const Unit& unit, int output) {
+  if (output < 0) return;
+  const Slot& slot = nth(unit.out.slots, output);
+  // One component may fill two roles whose notices are listed.
+  if (std::any_of(told_.begin(), told_.end(), [&](const Told& t) { return t.slot == &slot; })) return;
+  Told told{&slot,
+            slot.port->type->find("text"),
+            slot.port->type->find("severity"),
+            slot.port->type->find("cause"),
+            {}};
+  if (!told.text || told.text->kind != FULMAR_TEXT) return;
+  if (!told.severity) told.severity = slot.port->type->find("level");
+  for (const Field** word : {&told.severity, &told.cause})
+    if (*word && ((*word)->kind != FULMAR_ENUM || (*word)->shape != FULMAR_SCALAR)) *word = nullptr;
+  if (slot.port->kind == FULMAR_OUT_VALUE) told.last.assign(told.text->stride, '\0');
+  told_.push_back(std::move(told));
+}
+
+}  // namespace fulmar::core

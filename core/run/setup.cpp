@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Set-up of a flight: its components are created, connected and configured, its log and its doors opened.
+#include <algorithm>
+
+#include "core/dds/bridge.hpp"
+#include "core/live/gate.hpp"
+#include "core/live/server.hpp"
+#include "core/loader/home.hpp"
+#include "core/run/control.hpp"
+#include "core/run/flight_impl.hpp"
+#include "core/types/named.hpp"
+
+namespace fulmar::core {
+namespace {
+
+const FlightOptions& checked(const Graph& graph, const FlightOptions& options) {
+  const bool driven = std::any_of(graph.components.begin(), graph.components.end(),
+                                  [](const Component& c) { return c.run == RunMode::driver; });
+  if (!options.drivers_from.empty() && !driven)
+    throw Error("--drivers-from " + options.drivers_from.string() + ": the mission " + graph.mission +
+                " has no component with 'run: driver'");
+  return options;
+}
+
+}  // namespace
+
+Flight::Impl::Impl(const Graph& graph, const FlightOptions& options, const Flight& whose)
+    : state{graph, checked(graph, options), 0, 0, {}},
+      wiring(state),
+      recorder(state),
+      protection(state),
+      end(state, wiring, recorder, protection),
+      stopwatch(state, recorder),
+      roles(state, wiring, recorder, protection, end, stopwatch),
+      owner(whose) {
+  connect();
+  for (const auto& unit : wiring.units) unit->configure();
+  if (graph.vehicle >= 0) wiring.vehicle().prepare_last_frame(graph.failsafe);
+  commands = std::make_shared<const CommandTable>(state.graph);
+  open_tap();
+  if (graph.arm) request_arming();
+  state.result.phases.reserve(64);
+  state.result.guards.reserve(64);
+}
+
+Flight::Impl::~Impl() = default;
+
+void Flight::Impl::connect() {
+  wiring.connect();
+  recorder.listen(wiring.units);
+  protection.connect(wiring);
+  roles.connect();
+}
+
+/// `arm: auto`: asks the vehicle's request port `arm`, in its first tick.
+void Flight::Impl::request_arming() {
+  Unit& vehicle = wiring.vehicle();
+  const int port = vehicle.info->input("arm");
+  Reader* const reader = port < 0 ? nullptr : &nth(vehicle.in.readers, port);
+  const Field* const armed = reader ? reader->port->type->find("armed") : nullptr;
+  if (!armed || armed->kind != FULMAR_BOOL || reader->port->kind != FULMAR_IN_REQUEST)
+    throw Error(vehicle.component->where.text() +
+                ": arm: auto needs a vehicle with a request 'arm' that has a field 'armed'; " +
+                vehicle.component->name + " has none");
+  std::vector<std::byte> message(reader->port->type->size);
+  message[armed->offset] = std::byte{1};
+  reader->push(message.data(), 0);
+}
+
+void Flight::Impl::open_tap() {
+  const Graph& graph = state.graph;
+  const bool logs = state.options.log && graph.record;
+  const bool shown =
+      !state.unpaced() && (graph.live.on || graph.dds.on);  // as fast as possible is too fast for onlookers
+  if (!logs && !shown) return;
+  recorder.open(wiring.units, logs);
+  if (shown) open_to_others();
+}
+
+/// Threads of onlookers are begun here, before the loop's thread is bound to a CPU and given its priority,
+/// which they must not inherit.
+void Flight::Impl::open_to_others() {
+  const Graph& graph = state.graph;
+  if (graph.live.on) {
+    try {
+      live::check_options(graph.live);
+    } catch (const Error& fault) {
+      throw Error(graph.live.where.text() + ": " + fault.what());
+    }
+  }
+  onlookers.control = std::make_unique<FlightControl>(*this);
+  if (graph.dds.on)
+    onlookers.dds = std::make_unique<DdsBridge>(*recorder.tap(), *onlookers.control, graph.dds);
+  if (!graph.live.on) return;
+  try {
+    onlookers.live =
+        std::make_unique<LiveServer>(*recorder.tap(), *onlookers.control, graph.live, page_folder());
+  } catch (const Error& fault) {  // another flight on this computer is no reason not to fly
+    if (state.options.say)
+      state.options.say(std::string("nobody can watch this flight: ") + fault.what(), true);
+  }
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Energy per mass and its rate: what throttle adds to and pitch shares out between speed and height.
+// Lambregts, "Vertical flight path and speed control autopilot design using total energy principles", AIAA
+// 83-2239 (1983).
+#pragma once
+#include <cmath>
+
+#include "fulmar/flight/earth/atmosphere.hpp"
+#include "fulmar/flight/math/filters.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+
+namespace fulmar {
+
+/// Acceleration along the air velocity, from what the accelerometer and the attitude say: leads a
+/// differentiated airspeed and has its noise not. The change of the wind is not in it.
+inline double airspeed_rate(const VehicleState& state) {
+  const double ca = std::cos(state.alpha_rad), sa = std::sin(state.alpha_rad), cb = std::cos(state.beta_rad),
+               sb = std::sin(state.beta_rad);
+  const double cp = std::cos(state.pitch_rad);
+  const Vec3<Body> gravity_b{-std::sin(state.pitch_rad), cp * std::sin(state.roll_rad),
+                             cp * std::cos(state.roll_rad)};
+  const Vec3<Body> a_b = state.specific_force_mps2 + isa::g0 * gravity_b;
+  return ca * cb * a_b.x + sb * a_b.y + sa * cb * a_b.z;
+}
+
+/// Airspeed without its gusts, m/s: integrates the acceleration of the body and is drawn to the measured
+/// airspeed. A change that the aircraft makes has no lag, one that the air makes is averaged. Complementary
+/// filter, as in Lambregts (1983).
+class SteadyAirspeed {
+ public:
+  double step(double airspeed_mps, double airspeed_rate_mps2, double time_constant_s, double dt_s) {
+    if (!started_) return reset_to(airspeed_mps);
+    const double pole = time_constant_s > 0 ? decay_.of(dt_s / time_constant_s) : 0;
+    return y_ = airspeed_mps + pole * (y_ + airspeed_rate_mps2 * dt_s - airspeed_mps);
+  }
+  double reset_to(double airspeed_mps) { return started_ = true, y_ = airspeed_mps; }
+  void reset() { started_ = false; }
+
+ private:
+  double y_ = 0;
+  bool started_ = false;
+  Decay decay_;
+};
+
+/// Rates of the specific energies, m2/s3.
+struct EnergyRates {
+  double potential = 0;  ///< g hdot
+  double kinetic = 0;    ///< V Vdot
+  double total() const { return potential + kinetic; }
+  /// What height gains minus what speed gains, each with its weight in [0, 1].
+  double balance(double height_weight, double speed_weight) const {
+    return height_weight * potential - speed_weight * kinetic;
+  }
+};
+
+}  // namespace fulmar

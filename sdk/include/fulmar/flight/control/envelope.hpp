@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What keeps an outer law off the stall, and brings it out of one: least airspeed by load factor, mass and
+// angle of attack; most bank by airspeed; most pitch by angle of attack. At cruise airspeed none of them
+// holds but the bank: no airspeed above cruise is asked for, and pitch is free. Lift of a turn: Anderson,
+// Introduction to Flight, turning flight. Recovery - less angle of attack, wings level, full power - as in
+// FAA, Airplane Flying Handbook, chapter 5.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "fulmar/flight/control/energy.hpp"
+#include "fulmar/flight/control/takeoff.hpp"
+#include "fulmar/flight/control/turn_trim.hpp"
+#include "fulmar/flight/math/filters.hpp"
+#include "fulmar/flight/model/most_lift.hpp"
+
+namespace fulmar {
+
+/// Lift over the angle of attack, of an airframe's own model: a line from no lift up to the most.
+struct WingEnvelope {
+  double mass_kg = 0, area_m2 = 1;
+  double most_lift = 0;               ///< CL, trimmed; 0: the airframe has no model of its lift
+  double stall_alpha_rad = 0.2618;    ///< of the most lift
+  double zero_alpha_rad = -0.05;      ///< of no lift
+  double share_per_rad = 1 / 0.3118;  ///< of the most lift
+
+  WingEnvelope() = default;
+  explicit WingEnvelope(const Airframe& a) : mass_kg(a.mass_kg), area_m2(a.wing.area_m2) {
+    const MostLift most = fulmar::most_lift(a);
+    constexpr double step = 0.05;
+    const Aerodynamic aero(a);
+    const double CL = trimmed_lift(aero, a, 0), slope = (trimmed_lift(aero, a, step) - CL) / step;
+    if (!(slope > 0.5 && most.coefficient > 0.1 && most.alpha_rad > step)) return;
+    most_lift = most.coefficient, stall_alpha_rad = most.alpha_rad;
+    zero_alpha_rad = -CL / slope, share_per_rad = slope / most_lift;
+  }
+
+  /// Of the most lift. Beyond the stall it goes on: how far the angle of attack is too large.
+  double share(double alpha_rad) const { return share_per_rad * (alpha_rad - zero_alpha_rad); }
+  double alpha_of(double share) const { return zero_alpha_rad + share / share_per_rad; }
+
+  /// Slowest level flight: by the model, and no slower than the limits' minimum over 1.2.
+  double stall_mps(const FlightLimits& limits, double density_kgm3) const {
+    return std::max(by_limits_mps(limits), by_model_mps(density_kgm3));
+  }
+  /// The same for the bank: a twentieth above the model's stall is enough, a tenth above that of the limits.
+  double bank_stall_mps(const FlightLimits& limits, double density_kgm3) const {
+    constexpr double share = 1.05 / 1.1;
+    return std::max(by_limits_mps(limits), share * by_model_mps(density_kgm3));
+  }
+
+ private:
+  static double by_limits_mps(const FlightLimits& limits) { return limits.airspeed_min_mps / 1.2; }
+  double by_model_mps(double density_kgm3) const {
+    constexpr double g = 9.80665;
+    return most_lift > 0 ? std::sqrt(2 * mass_kg * g / (density_kgm3 * area_m2 * most_lift)) : 0;
+  }
+};
+
+inline constexpr double least_bank_rad = 0.26;
+
+/// Bank, rad, to which the wing carries a level turn at airspeed `Va` with a tenth of speed left above the
+/// stall: its lift has to be 1 / cos(bank) of the weight. Slower than that some bank is left, to steer with.
+inline double bank_carried(double Va, double stall_mps) {
+  constexpr double above_stall_ratio = 1.1;
+  const double slowest = above_stall_ratio * stall_mps;
+  const double cosine = slowest * slowest / std::max(Va * Va, 1e-3);
+  return std::max(least_bank_rad, std::acos(std::min(cosine, 1.0)));
+}
+
+/// What a law may ask for at this moment.
+struct Envelope {
+  double airspeed_min_mps = 0;  ///< least airspeed to ask for
+  double slowest_mps = 0;       ///< below it airspeed comes before height: no angle of attack is in it
+  double pitch_max_rad = 1.57;  ///< near the stall
+
+  /// The airspeed to hold for one that is commanded.
+  double airspeed(double commanded_mps, const FlightLimits& limits) const {
+    return std::clamp(commanded_mps, airspeed_min_mps, limits.airspeed_max_mps);
+  }
+  /// 0 at the slowest airspeed and above, 1 at `band`, a share of it, below.
+  double underspeed(double airspeed_mps, double band) const {
+    const double full = slowest_mps * (1 - band);
+    return std::clamp((slowest_mps - airspeed_mps) / (slowest_mps - full), 0.0, 1.0);
+  }
+};
+
+class EnvelopeGuard {
+ public:
+  void configure(const Airframe& a) { wing_ = WingEnvelope(a), configured_ = true; }
+  bool configured() const { return configured_; }
+
+  /// A hand-over, a reset of the state, flight on the ground: what was seen is over.
+  void reset() {
+    lift_.reset(), gust_.reset(), gusty_.reset();
+    learnt_ = false, above_s_ = below_s_ = unloaded_s_ = falls_s_ = peak_ = 0, stalled_ = regains_ = false;
+  }
+
+  double bank_max(double Va, const FlightLimits& limits, double density_kgm3) const {
+    if (regains_) return least_bank_rad;
+    return bank_carried(Va, wing_.bank_stall_mps(limits, density_kgm3));
+  }
+
+  /// `bank_rad` is commanded, `climb_rate_mps` asked for. Not `guarded`: a flare, whose speed is to go.
+  Envelope step(const VehicleState& state, const FlightLimits& limits, double density_kgm3, double bank_rad,
+                double climb_rate_mps, bool guarded, double dt_s) {
+    Envelope e;
+    const double stall = wing_.stall_mps(limits, density_kgm3), load = load_factor(bank_rad);
+    const double least = std::max(limits.airspeed_min_mps, above_stall * stall);
+    V_ = state.airspeed_valid ? std::max(state.airspeed_mps, 0.5 * limits.airspeed_min_mps)
+                              : limits.airspeed_cruise_mps;
+    climb_rad_ = std::asin(std::clamp(state.climb_rate_mps / V_, -1.0, 1.0));
+    alpha_ = alpha(state);
+    lift(state, density_kgm3, dt_s);
+    // The path of a flight at cruise comes before a margin that its turns leave the airframe without.
+    const double most = std::min(std::max(least, limits.airspeed_cruise_mps), limits.airspeed_max_mps);
+    e.slowest_mps = std::min(least * std::sqrt(load), most);
+    e.airspeed_min_mps = e.slowest_mps;
+    const bool seen = sees_alpha(state);
+    if (state.airspeed_valid) e.pitch_max_rad = pitch_ceiling(state, limits, e.slowest_mps);
+    if (!guarded) {
+      reset();
+      return e;
+    }
+    if (seen) {
+      const double gusts = for_gusts(state, stall * std::sqrt(load), dt_s);
+      const double least_mps = std::max(for_alpha(e, load, stall, limits, dt_s), gusts);
+      e.airspeed_min_mps = std::clamp(least_mps, e.slowest_mps, most);
+    }
+    if (state.airspeed_valid && state.velocity_valid)
+      e.pitch_max_rad = std::min(e.pitch_max_rad, pitch_max(state, limits, e.slowest_mps));
+    look(state, e.slowest_mps, stall * std::sqrt(load), climb_rate_mps, seen, dt_s);
+    return e;
+  }
+
+  bool stalled() const { return stalled_; }
+  double alpha_rad() const { return alpha_; }
+  /// Of the recovery: six tenths of the most lift above the present flight path.
+  double recovery_pitch(const FlightLimits& limits) const {
+    constexpr double share = 0.6;
+    return std::clamp(climb_rad_ + wing_.alpha_of(share), limits.pitch_min_rad, limits.pitch_max_rad);
+  }
+
+  /// After a stall, or where it fell though nothing asked it to: the law is to rest until the height that is
+  /// commanded is near. Airspeed is held by pitch, at full power.
+  bool regains(const VehicleState& s, double height_error_m, double climb_rate_mps, double dt_s) {
+    constexpr double fall_mps = 3, falls_s = 0.5, held_mps = 1, below_m = 5, ahead_s = 2;
+    const double sink = std::min(climb_rate_mps, 0.0) - s.climb_rate_mps;
+    const double left_m = height_error_m - ahead_s * std::max(s.climb_rate_mps, 0.0);
+    if (!s.height_valid || (!stalled_ && sink < held_mps && left_m < below_m)) regains_ = false;
+    // The sink that a hand-over brings along ends without that.
+    falls_s_ = sink > fall_mps && height_error_m > below_m ? falls_s_ + dt_s : 0;
+    if (stalled_ || falls_s_ > falls_s) regains_ = s.height_valid;
+    return regains_ && s.airspeed_valid && s.velocity_valid;
+  }
+  /// Airspeed that is too much becomes height, airspeed that is missing comes from height. Between them the
+  /// wing's own lift holds, as the accelerometer measures it: no more than nine tenths of it, and not so
+  /// little that the aircraft falls. `pitch_rad` was commanded last.
+  double regaining_pitch(const VehicleState& s, const Envelope& e, double pitch_rad, double dt_s) const {
+    constexpr double above_slowest = 1.1, most_share = 0.9, least_share = 0.3;
+    constexpr double error_gain = 0.05, rate_gain = 0.1;  // 0.7 rad/s, damping 0.7
+    const double error = s.airspeed_mps - above_slowest * e.slowest_mps;
+    const double rate = error_gain * error + rate_gain * airspeed_rate(s);
+    const double least = s.pitch_rad + (least_share - lift_.value()) / wing_.share_per_rad;
+    const double most = s.pitch_rad + (most_share - used()) / wing_.share_per_rad;
+    return std::min({std::max(pitch_rad + rate * dt_s, least), most, e.pitch_max_rad});
+  }
+
+ private:
+  static constexpr double above_stall = 1.15;
+
+  static bool sees_alpha(const VehicleState& s) {
+    return s.airspeed_valid && s.wind_valid && s.velocity_valid && !s.airspeed_from_model;
+  }
+  /// By the estimate where wind and airspeed are known, else what pitch and flight path leave.
+  double alpha(const VehicleState& s) const {
+    if (!s.velocity_valid) return wing_.zero_alpha_rad;
+    if (sees_alpha(s)) return s.alpha_rad;
+    return (s.pitch_rad - climb_rad_) / std::max(std::cos(s.roll_rad), 0.5);
+  }
+
+  /// Share of the most lift, by what the accelerometer says: the wing's own, vertical air or not.
+  void lift(const VehicleState& s, double density_kgm3, double dt_s) {
+    constexpr double smoothed_s = 0.1, remembered_s = 0.3;
+    const double most = 0.5 * density_kgm3 * V_ * V_ * wing_.area_m2 * wing_.most_lift;
+    lift_.step(most > 0 ? -s.specific_force_mps2.z * wing_.mass_kg / most : 1, smoothed_s, dt_s);
+    peak_ = std::max(lift_.value(), decay_.of(dt_s / remembered_s) * peak_);
+  }
+  /// Of the most lift, as far as the flight path and the accelerometer agree: in air that sinks the angle
+  /// over the flight path is large, and that of the wing is not. Beyond the stall lift is small as well: the
+  /// largest of the last moment counts. The mass may be a fifth more than it should.
+  double used() const { return std::min(wing_.share(alpha_), 1.2 * peak_); }
+
+  /// Gusts take airspeed faster than an engine gives it: the faster part of them, times four, above the
+  /// stall.
+  double for_gusts(const VehicleState& s, double stall_mps, double dt_s) {
+    constexpr double follows_s = 3, averaged_s = 20, times = 4, of_stall = 0.95;
+    const double gust = s.airspeed_mps - gust_.step(s.airspeed_mps, airspeed_rate(s), follows_s, dt_s);
+    return of_stall * stall_mps + times * std::sqrt(gusty_.step(gust * gust, averaged_s, dt_s));
+  }
+
+  /// V^2 CL / (n CL_max) is the square of the slowest level flight at the present weight, of which mass,
+  /// centre of gravity and ice are known to nothing else. Vertical air is in the angle of attack: it counts
+  /// only where the aircraft is slow, and is forgotten where it is not.
+  double for_alpha(const Envelope& e, double load, double stall_mps, const FlightLimits& limits,
+                   double dt_s) {
+    constexpr double learns_s = 1.5, forgets_s = 10, near_ratio = 1.25, most_ratio = 1.4;
+    const double nominal = stall_mps * stall_mps;
+    if (!learnt_) learnt_ = true, stall_squared_.reset_to(nominal);
+    const bool near = V_ * V_ * load < near_ratio * near_ratio * e.slowest_mps * e.slowest_mps;
+    const double seen = near ? V_ * V_ * std::clamp(used(), 0.0, 2.0) / load : nominal;
+    const double squared = load * stall_squared_.step(seen, near ? learns_s : forgets_s, dt_s);
+    if (above_stall * above_stall * squared <= e.slowest_mps * e.slowest_mps) return e.slowest_mps;
+    const double most = std::min(most_ratio * e.slowest_mps, limits.airspeed_max_mps);
+    return std::max(e.slowest_mps, std::min(above_stall * std::sqrt(squared), most));
+  }
+
+  /// No more than nine tenths of the lift above the flight path, where the lift that is used nears that and
+  /// the aircraft is slower than cruise or falls. No lower than the pitch limit, and half of it where the
+  /// aircraft is fast: the flight path may be the air's.
+  double pitch_max(const VehicleState& s, const FlightLimits& limits, double slowest_mps) const {
+    constexpr double share = 0.9, free_rad = 0.6, free_share = 0.65, full_share = 0.85, slow_ratio = 0.9;
+    constexpr double held_mps = 2, fall_mps = 4;
+    const double flies = 1 - smoothly(-s.climb_rate_mps, held_mps, fall_mps);
+    const double cruise = limits.airspeed_cruise_mps;
+    const double slack = free_rad * std::max(smoothly(used(), full_share, free_share),
+                                             flies * smoothly(V_, slow_ratio * cruise, cruise));
+    const double lowest =
+        limits.pitch_min_rad * (1 - 0.5 * smoothly(V_, 1.2 * slowest_mps, 1.5 * slowest_mps));
+    return std::max(lowest, climb_rad_ + wing_.alpha_of(share) * std::cos(s.roll_rad) + slack);
+  }
+
+  /// A stall: the angle of attack is beyond that of the most lift, the aircraft is slow, and sinks though
+  /// nothing asked it to, though the wing pushes up: in a downdraft it does not. Without wind or airspeed the
+  /// angle is known less well: more of it, for longer. Well above the stalling speed it is mostly the air
+  /// that sinks: longer, too. Where the nose goes down and takes all lift away, it was no stall.
+  void look(const VehicleState& s, double slowest_mps, double stall_mps, double climb_rate_mps, bool seen,
+            double dt_s) {
+    constexpr double left_share = 0.8, left_s = 0.2, unloaded_s = 0.1, fast_ratio = 1.35, sink_mps = 1,
+                     carries = 0.1, near_ratio = 1.2;
+    const double beyond_rad = seen ? 0.02 : 0.07, for_s = seen && V_ < near_ratio * stall_mps ? 0.3 : 1;
+    const bool slow = !s.airspeed_valid || regains_ || V_ < fast_ratio * slowest_mps;
+    const bool unloaded = lift_.value() < carries && V_ > stall_mps;
+    const bool sinks = s.climb_rate_mps < std::min(climb_rate_mps, 0.0) - sink_mps;
+    const bool above =
+        s.velocity_valid && slow && sinks && !unloaded && alpha_ > wing_.stall_alpha_rad + beyond_rad;
+    above_s_ = std::clamp(above ? above_s_ + dt_s : above_s_ - dt_s, 0.0, for_s);
+    const bool left = !s.velocity_valid || wing_.share(alpha_) < left_share;
+    below_s_ = left ? below_s_ + dt_s : 0;
+    unloaded_s_ = unloaded ? unloaded_s_ + dt_s : 0;
+    if (above_s_ >= for_s)
+      stalled_ = true;
+    else if (below_s_ >= left_s || unloaded_s_ >= unloaded_s)
+      stalled_ = false;
+  }
+
+  WingEnvelope wing_;
+  LowPass stall_squared_, lift_, gusty_;
+  SteadyAirspeed gust_;
+  double V_ = 0, climb_rad_ = 0, alpha_ = 0, above_s_ = 0, below_s_ = 0, unloaded_s_ = 0, falls_s_ = 0,
+         peak_ = 0;
+  Decay decay_;
+  bool configured_ = false, learnt_ = false, stalled_ = false, regains_ = false;
+};
+
+}  // namespace fulmar

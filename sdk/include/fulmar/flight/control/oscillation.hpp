@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A loop whose gain is too high oscillates where its phase is gone: at a frequency of its own, with an
+// amplitude that does not die. Recognised by the swings of its output - a limit cycle, Åström & Hägglund,
+// Advanced PID Control (2006), section 7.3 - and quietened by less gain.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "fulmar/flight/math/filters.hpp"
+
+namespace fulmar {
+
+/// Counts swings: half waves of a signal, each beyond a threshold, none much smaller than the one before,
+/// each as long as a half wave of 8 to 63 rad/s. Gusts and manoeuvres make two or three in a row. What the
+/// command alone makes of the signal is no oscillation of the loop: where it swings half as far, nothing
+/// counts.
+class Swings {
+ public:
+  /// Swings in a row that are an oscillation.
+  static constexpr int many = 5;
+
+  /// True once `many` have been counted; then it counts anew. `caused`: the part of `signal` that comes from
+  /// the command, through gains and feed-forward.
+  bool step(double signal, double caused, double threshold, double dt_s) {
+    const double y = fast_.step(signal, wash_out_radps, dt_s),
+                 c = std::abs(commanded_.step(caused, wash_out_radps, dt_s));
+    time_s_ += dt_s;
+    if ((y > 0) != positive_) {
+      count();
+      positive_ = y > 0;
+      before_ = peak_;
+      time_s_ = peak_ = caused_ = 0;
+    }
+    peak_ = std::max(peak_, std::abs(y));
+    caused_ = std::max(caused_, c);
+    large_ = peak_ > threshold && peak_ > 0.7 * before_ && caused_ < 0.5 * peak_;
+    if (count_ < many) return false;
+    count_ = 0;
+    return true;
+  }
+  void reset() { *this = {}; }
+
+ private:
+  static constexpr double wash_out_radps = 6, shortest_s = 0.05, longest_s = 0.4;
+
+  void count() { count_ = large_ && time_s_ >= shortest_s && time_s_ <= longest_s ? count_ + 1 : 0; }
+
+  WashOut fast_, commanded_;
+  double time_s_ = 0, peak_ = 0, before_ = 0, caused_ = 0;
+  int count_ = 0;
+  bool positive_ = false, large_ = false;
+};
+
+/// What the gains of a loop are multiplied by: by `share` with each oscillation, down to `least`, and kept
+/// until `restore()`.
+class Quietening {
+ public:
+  static constexpr double share = 0.4, least = 0.1;
+
+  /// True when the gains were cut in this step. The rest as in Swings.
+  bool step(double signal, double caused, double threshold, double dt_s) {
+    if (!swings_.step(signal, caused, threshold, dt_s) || gain_ <= least) return false;
+    gain_ = std::max(share * gain_, least);
+    return true;
+  }
+  /// Nothing has swung yet: after a hand-over, on the ground. The gain stays.
+  void begin() { swings_.reset(); }
+  void restore() { *this = {}; }
+  double gain() const { return gain_; }
+
+ private:
+  Swings swings_;
+  double gain_ = 1;
+};
+
+}  // namespace fulmar

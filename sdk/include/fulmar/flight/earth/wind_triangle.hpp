@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wind triangle: ground velocity = air velocity + wind. Beard & McLain, Small Unmanned Aircraft (2012),
+// section 2.4, in the horizontal plane.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "fulmar/flight/math/angles.hpp"
+#include "fulmar/frames.hpp"
+
+namespace fulmar {
+
+/// What it takes to fly a course. When the wind leaves no way, `feasible` is false and the nose points as far
+/// against the cross wind as it can without going backwards.
+struct WindTriangle {
+  double heading_rad = 0;       ///< direction of the air velocity
+  double ground_speed_mps = 0;  ///< along the course; negative: blown backwards
+  bool feasible = true;         ///< the course can be made good, with a ground speed above 0
+};
+
+/// `airspeed_mps` is the horizontal part of the true airspeed: Va cos(gamma_a).
+inline WindTriangle fly_course(double course_rad, double airspeed_mps, double wind_north_mps,
+                               double wind_east_mps) {
+  const double c = std::cos(course_rad), s = std::sin(course_rad);
+  const double along = c * wind_north_mps + s * wind_east_mps;
+  const double across = -s * wind_north_mps + c * wind_east_mps;  // from the left
+  if (airspeed_mps <= 0) return {course_rad, along, false};
+  const double sine = -across / airspeed_mps;  // of the crab angle
+  WindTriangle triangle;
+  triangle.heading_rad = wrap_pi(course_rad + std::asin(std::clamp(sine, -1.0, 1.0)));
+  const double forward = airspeed_mps * std::sqrt(std::max(1 - sine * sine, 0.0));
+  triangle.ground_speed_mps = along + forward;
+  triangle.feasible = std::abs(sine) < 1 && triangle.ground_speed_mps > 0;
+  return triangle;
+}
+
+inline WindTriangle fly_course(double course_rad, double airspeed_mps, const Vec3<Ned>& wind_mps) {
+  return fly_course(course_rad, airspeed_mps, wind_mps.north, wind_mps.east);
+}
+
+/// Air velocity from ground velocity and wind.
+inline Vec3<Ned> air_velocity(const Vec3<Ned>& ground_mps, const Vec3<Ned>& wind_mps) {
+  return ground_mps - wind_mps;
+}
+
+/// Least airspeed that makes good `ground_speed_mps` on a course.
+inline double airspeed_for_ground_speed(double course_rad, double ground_speed_mps,
+                                        const Vec3<Ned>& wind_mps) {
+  const double north = ground_speed_mps * std::cos(course_rad) - wind_mps.north;
+  const double east = ground_speed_mps * std::sin(course_rad) - wind_mps.east;
+  return std::hypot(north, east);
+}
+
+/// Bank of a coordinated level turn of signed curvature (1/m, right positive) flown over the ground. Beard &
+/// McLain, chapter 10: the centripetal acceleration is that of the ground path, V_g^2 kappa, and lift tilts
+/// about the air velocity: tan(phi) = V_g^2 kappa / (g cos(chi - psi)).
+inline double bank_for_curvature(double curvature_ratio, double ground_speed_mps, double crab_rad,
+                                 double gravity_mps2 = 9.80665) {
+  return std::atan(ground_speed_mps * ground_speed_mps * curvature_ratio /
+                   (gravity_mps2 * std::max(std::cos(crab_rad), 0.1)));
+}
+
+}  // namespace fulmar

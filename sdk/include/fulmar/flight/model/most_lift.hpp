@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lift that a trimmed wing carries, by the airframe's own model: derivatives, stall blending and tables.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "fulmar/flight/model/aerodynamics.hpp"
+
+namespace fulmar {
+
+/// Of the pitching moment, what tables say at an angle of attack, all else 0.
+inline double tables_at(const Airframe& a, double alpha) {
+  double sum = 0;
+  for (const CoefficientTable& t : a.aero.tables)
+    if (t.coefficient == Coefficient::pitch) sum += value_of<double>(t, {0, alpha, 0, 0, 0, 0, 0});
+  return sum;
+}
+
+/// CL at an angle of attack, with the elevator holding the pitching moment as far as its throw goes.
+inline double trimmed_lift(const Aerodynamic& aero, const Airframe& a, double alpha) {
+  const Derivatives &M = a.aero.pitch, &L = a.aero.lift;
+  const Load load =
+      aero.load({std::cos(alpha), 0, std::sin(alpha)}, Eigen::Vector3d::Zero(), {}, 2 / a.wing.area_m2);
+  const double elevator =
+      M.elevator_ratio != 0
+          ? std::clamp(-(M.zero_ratio + M.alpha_ratio * alpha + tables_at(a, alpha)) / M.elevator_ratio,
+                       -a.elevator.limit_rad, a.elevator.limit_rad)
+          : 0;
+  return load.force_b.x() * std::sin(alpha) - load.force_b.z() * std::cos(alpha) +
+         L.elevator_ratio * elevator;
+}
+
+/// The most that the wing carries, with the elevator holding the pitching moment: CL and its angle of attack.
+struct MostLift {
+  double coefficient = 0, alpha_rad = 0;
+};
+inline MostLift most_lift(const Airframe& a) {
+  const Aerodynamic aero(a);
+  MostLift most;
+  for (double alpha = 0; alpha < std::min(a.wing.stall_alpha_rad + 0.1, 1.0); alpha += 1e-3) {
+    const double CL = trimmed_lift(aero, a, alpha);
+    if (CL > most.coefficient) most = {CL, alpha};
+  }
+  return most;
+}
+
+}  // namespace fulmar

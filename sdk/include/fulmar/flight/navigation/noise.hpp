@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Noise that samples tell of themselves: of an inertial unit, and the part of a receiver's velocity error
+// that changes from fix to fix.
+#pragma once
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fulmar/flight/navigation/witness.hpp"
+
+namespace fulmar::navigation {
+
+/// White noise of three axes of an inertial unit, as a spectral density, from third differences: of white
+/// noise of deviation s their mean square is (1 + 9 + 9 + 1) s^2, while a motion of w rad/s gets by with (w
+/// dt)^3 of itself: at 100 Hz and 2 Hz with 0.002. A unit below 80 Hz tells nothing: the motion is in its
+/// differences.
+class UnitNoise {
+ public:
+  void sampled(const Eigen::Vector3d& values, double dt) {
+    if (!(dt < longest_s)) count_ = 0;
+    const Eigen::Vector3d third = values - past_[2] - 3 * (past_[0] - past_[1]);
+    past_ = {values, past_[0], past_[1]};
+    if (count_ < 3) {
+      ++count_;
+      return;
+    }
+    seen_s_ = std::min(seen_s_ + dt, window_s);
+    const double variance = third.squaredNorm() / (3 * 20);
+    mean_ += dt / seen_s_ * (variance * dt - mean_);
+  }
+  /// In unit/sqrt(Hz); `told`: before it is learnt. Neither so quiet that nothing else would be wrong with
+  /// the unit, nor, shaken, so loud that nothing else would count.
+  double density(double told) const {
+    if (seen_s_ < least_s) return told;
+    return std::min(std::sqrt(mean_ + least_share * told * least_share * told), most_share * told);
+  }
+
+ private:
+  static constexpr double longest_s = 0.0125, window_s = 5, least_s = 0.5, least_share = 0.5, most_share = 5;
+
+  std::array<Eigen::Vector3d, 3> past_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                       Eigen::Vector3d::Zero()};  ///< the last one first
+  double mean_ = 0, seen_s_ = 0;
+  int count_ = 0;
+};
+
+/// A receiver states one deviation of its velocity. What of it changes from fix to fix, the innovations'
+/// successive differences tell (von Neumann, Annals of Mathematical Statistics 12 (1941)); the rest is slow,
+/// and of that n fixes within twice its correlation time know as much as one.
+class FixNoise {
+ public:
+  /// Innovations, NED, m/s, and the deviation that the receiver states.
+  void add(const Eigen::Vector3d& innovation_mps, double std_mps, double time_s) {
+    const double dt = time_s - last_s_;
+    last_s_ = time_s;
+    told_ = std_mps * std_mps;
+    const Eigen::Vector3d step = innovation_mps - before_;
+    before_ = innovation_mps;
+    if (!(dt > 0 && dt < longest_s)) return;
+    seen_s_ = std::min(seen_s_ + dt, window_s);
+    const double of_mean = dt / seen_s_;
+    level_ += of_mean * (0.25 * step.head<2>().squaredNorm() - level_);
+    climb_ += of_mean * (0.5 * step.z() * step.z() - climb_);
+  }
+  /// Variances of a fix, (m/s)^2, whose slow part counts `n` times. Until it is learnt the level velocity is
+  /// taken to be white, and the climb to be slow: that would be integrated to a height.
+  double level(double n) const { return white_level() + n * (told_ - white_level()); }
+  double climb(double n) const {
+    const double white = known() ? std::min(climb_, told_) : 0;
+    return white + n * (told_ - white);
+  }
+  /// m/s, of one axis of the level velocity: what of `shared` is more than the slow part that is counted.
+  double beyond(double shared_mps) const {
+    return std::sqrt(std::max(shared_mps * shared_mps - (told_ - white_level()), 0.0));
+  }
+
+ private:
+  static constexpr double window_s = 30, least_s = 5, longest_s = 1;
+
+  bool known() const { return seen_s_ > least_s; }
+  double white_level() const { return known() ? std::min(level_, told_) : told_; }
+
+  Eigen::Vector3d before_ = Eigen::Vector3d::Zero();
+  double level_ = 0, climb_ = 0, told_ = 0, last_s_ = never, seen_s_ = 0;
+};
+
+}  // namespace fulmar::navigation

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/graph/record.hpp"
+#include "core/graph/shipped.hpp"
+#include "core/loader/table.hpp"
+#include "core/types/text.hpp"
+#include "fulmar/schema.hpp"
+#include "tools/fulmar_aero/vlm/geometry.hpp"
+#include "tools/fulmar_aero/vlm/planform.hpp"
+#include "tools/fulmar_aero/words.hpp"
+
+namespace fulmar::aero {
+namespace {
+
+std::string metres(double x) { return figures(x, 5) + " m"; }
+std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+/// What the types cannot say, each fault at its line.
+class GeometryRules {
+ public:
+  GeometryRules(const GeometryFile& file, core::Report& report)
+      : file_(file), g_(*file.geometry), report_(report) {}
+
+  void check() {
+    for (std::size_t i = 0; i < g_.airfoils.size(); ++i) airfoil(i);
+    for (std::size_t i = 0; i < g_.surfaces.size(); ++i) surface(i);
+    if (g_.surfaces.empty())
+      add(file_.where("surfaces", 0), "surfaces: there is none; an aircraft has at least a wing");
+    if (report_.empty()) reference();
+    if (report_.empty()) panels();
+  }
+
+ private:
+  void add(const core::Where& where, const std::string& sentence) { report_.add(where, sentence); }
+
+  void airfoil(std::size_t i) {
+    const Airfoil& a = g_.airfoils[i];
+    const std::string own = "airfoils[" + std::to_string(i) + "]";
+    const core::Where where = file_.where("airfoils", i);
+    for (std::size_t k = 0; k < i; ++k)
+      if (g_.airfoils[k].name == a.name) add(where, own + ": " + quoted(a.name.view()) + " is there twice");
+    const int shapes =
+        int(!a.naca.view().empty()) + int(a.alpha_zero_rad < 1e8) + int(!a.camber_x_frac.empty());
+    if (shapes != 1)
+      add(where, own + ": " + quoted(a.name.view()) + " has " +
+                     (shapes == 0 ? "no shape" : "several shapes") +
+                     "; give one of naca (four digits), alpha_zero and camber_x_frac with camber_z_frac");
+    if (const std::string_view digits = a.naca.view();
+        !digits.empty() &&
+        (digits.size() != 4 || digits.find_first_not_of("0123456789") != std::string_view::npos))
+      add(where, own + ".naca: " + quoted(digits) + " is not of four digits, as in \"2412\"");
+    if (a.camber_x_frac.size() != a.camber_z_frac.size() || a.camber_x_frac.size() == 1)
+      add(where, own + ": camber_x_frac has " + std::to_string(a.camber_x_frac.size()) +
+                     " places and camber_z_frac " + std::to_string(a.camber_z_frac.size()) +
+                     " heights; as many are needed, and at least 2");
+    if (a.alpha_zero_rad < 1e8 && std::abs(a.alpha_zero_rad) > 0.35)
+      add(where,
+          own + ".alpha_zero: " + core::number_text(a.alpha_zero_rad) + " rad is outside -0.35 .. 0.35 rad");
+  }
+
+  void surface(std::size_t i) {
+    const LiftingSurface& s = g_.surfaces[i];
+    const std::string own = "surfaces[" + std::to_string(i) + "]";
+    for (std::size_t k = 0; k < i; ++k)
+      if (g_.surfaces[k].name == s.name)
+        add(file_.where("surfaces", i), own + ".name: " + quoted(s.name.view()) + " is there twice");
+    if (s.sections.size() < 2)
+      return add(file_.where("surfaces", i), own + ": " + quoted(s.name.view()) + " has " +
+                                                 std::to_string(s.sections.size()) +
+                                                 (s.sections.size() == 1 ? " section" : " sections") +
+                                                 "; it needs at least 2, from the root to the tip");
+    sections(i, own);
+    controls(i, own);
+  }
+
+  void sections(std::size_t i, const std::string& own) {
+    const LiftingSurface& s = g_.surfaces[i];
+    double before_y = 0, before_z = 0;
+    for (std::size_t k = 0; k < s.sections.size(); ++k) {
+      const WingSection& now = s.sections[k];
+      const core::Where where = file_.where("surfaces", i, "sections", k);
+      const std::string path = own + ".sections[" + std::to_string(k) + "]";
+      if (s.mirror && now.y_m < 0)
+        add(where, path + ".y: " + metres(now.y_m) +
+                       " is on the left; of a surface with mirror the right half is given");
+      if (!now.airfoil.view().empty() &&
+          std::none_of(g_.airfoils.begin(), g_.airfoils.end(),
+                       [&](const Airfoil& a) { return a.name == now.airfoil; })) {
+        std::vector<std::string> names;
+        for (const Airfoil& a : g_.airfoils) names.emplace_back(a.name.view());
+        add(where, path + ".airfoil: there is no airfoil " + quoted(now.airfoil.view()) + "." +
+                       core::choices_text(std::string(now.airfoil.view()), names));
+      }
+      if (k == 0) continue;
+      const WingSection& last = s.sections[k - 1];
+      const double dy = now.y_m - last.y_m, dz = now.z_m - last.z_m, length = std::hypot(dy, dz);
+      if (length < 1e-6)
+        add(where, path + ": it is at the same y and z as the section before it");
+      else if (k > 1 && dy * before_y + dz * before_z < -1e-6 * length)
+        add(where, path + ": the sections cross: this one goes back from y = " + metres(last.y_m) + " to " +
+                       metres(now.y_m) + "; they go from the root to the tip");
+      before_y = length < 1e-6 ? 0 : dy / length;
+      before_z = length < 1e-6 ? 0 : dz / length;
+    }
+  }
+
+  void controls(std::size_t i, const std::string& own) {
+    const LiftingSurface& s = g_.surfaces[i];
+    double span = 0, across = 0, up = 0;
+    for (std::size_t k = 1; k < s.sections.size(); ++k) {
+      const double dy = s.sections[k].y_m - s.sections[k - 1].y_m,
+                   dz = s.sections[k].z_m - s.sections[k - 1].z_m;
+      span += std::hypot(dy, dz);
+      across += std::abs(dy);
+      up += std::abs(dz);
+    }
+    for (std::size_t k = 0; k < s.controls.size(); ++k) {
+      const ControlSurface& c = s.controls[k];
+      const core::Where where = file_.where("surfaces", i, "controls", k);
+      const std::string path = own + ".controls[" + std::to_string(k) + "]";
+      if (!(c.from_m >= 0 && c.to_m <= span * (1 + 1e-3)))
+        add(where, path + ": from " + metres(c.from_m) + " to " + metres(c.to_m) +
+                       " is outside its surface " + quoted(s.name.view()) + ", which is " + metres(span) +
+                       " long");
+      else if (!(c.to_m > c.from_m))
+        add(where, path + ": it ends at " + metres(c.to_m) + " and begins at " + metres(c.from_m));
+      for (std::size_t j = 0; j < k; ++j)
+        if (c.from_m < s.controls[j].to_m - 1e-9 && s.controls[j].from_m < c.to_m - 1e-9)
+          add(where, path + ": it lies over controls[" + std::to_string(j) + "] of the same surface");
+      const bool pair =
+          c.drives == Drives::aileron || c.drives == Drives::elevons || c.drives == Drives::v_tail;
+      if (pair && !s.mirror)
+        add(where, path + ".drives: this takes a surface on each side, and " + quoted(s.name.view()) +
+                       " has no mirror");
+      const bool needs_across = c.drives != Drives::rudder,
+                 needs_up = c.drives == Drives::rudder || c.drives == Drives::v_tail;
+      if (needs_across && across < 0.05 * span)
+        add(where, path + ".drives: " + quoted(s.name.view()) +
+                       " stands upright; only a rudder does something there");
+      if (needs_up && up < 0.05 * span)
+        add(where, path + ".drives: " + quoted(s.name.view()) + " lies flat; a rudder does nothing there");
+    }
+  }
+
+  /// The lattice is a full matrix of the panels with one another, which takes memory and time.
+  void panels() {
+    constexpr std::int64_t most = 4000;
+    std::int64_t sum = 0, largest = 0;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < g_.surfaces.size(); ++i) {
+      const LiftingSurface& s = g_.surfaces[i];
+      const std::int64_t own = std::int64_t{s.chordwise} * s.spanwise * (s.mirror ? 2 : 1);
+      sum += own;
+      if (own <= largest) continue;
+      largest = own;
+      at = i;
+    }
+    if (sum <= most) return;
+    add(file_.where("surfaces", at),
+        "surfaces: they have " + std::to_string(sum) + " panels, of which " +
+            quoted(g_.surfaces[at].name.view()) + " has " + std::to_string(largest) +
+            " (chordwise times spanwise, both halves); at most " + std::to_string(most) + " are solved");
+  }
+
+  /// A slip of unit or of half and whole: coefficients would be right for an aircraft of another size.
+  void reference() {
+    double area = 0, span = 0;
+    for (const LiftingSurface& s : g_.surfaces) {
+      double own = 0, reach = 0;
+      for (std::size_t k = 1; k < s.sections.size(); ++k)
+        own += 0.5 * (s.sections[k].chord_m + s.sections[k - 1].chord_m) *
+               std::abs(s.sections[k].y_m - s.sections[k - 1].y_m);
+      for (const WingSection& w : s.sections) reach = std::max(reach, std::abs(w.y_m));
+      area = std::max(area, s.mirror ? 2 * own : own);
+      span = std::max(span, 2 * reach);
+    }
+    const core::Node::Entry* at = nullptr;
+    for (const core::Node::Entry& entry : file_.root.entries)
+      if (entry.key == "reference") at = &entry;
+    const core::Where where = at ? at->where() : core::Where{file_.name, 0};
+    const auto far = [](double said, double drawn) { return said < 0.6 * drawn || said > 1.7 * drawn; };
+    if (far(g_.reference.area_m2, area))
+      add(where, "reference.area: " + core::number_text(g_.reference.area_m2) +
+                     " m^2, but the largest surface has " + figures(area, 5) + " m^2, both halves");
+    if (far(g_.reference.span_m, span))
+      add(where,
+          "reference.span: " + metres(g_.reference.span_m) + ", but the surfaces span " + metres(span));
+    if (far(g_.reference.chord_m * g_.reference.span_m, g_.reference.area_m2))
+      add(where, "reference.chord: " + metres(g_.reference.chord_m) + ", but area over span is " +
+                     metres(g_.reference.area_m2 / g_.reference.span_m));
+  }
+
+  const GeometryFile& file_;
+  const Geometry& g_;
+  core::Report& report_;
+};
+
+/// Surfaces are drawn here or elsewhere, not both.
+void complete(GeometryFile& file, core::Report& report) {
+  Geometry& g = *file.geometry;
+  const std::string planform(g.planform.view());
+  const auto says = [&](const char* key) { return file.root.find(key) != nullptr; };
+  const core::Where whole{file.name, 0};
+  if (planform.empty()) {
+    if (!says("surfaces"))
+      report.add(whole,
+                 "this is no whole geometry, missing: surfaces, or a planform as in planform: wing.avl");
+    if (!says("reference"))
+      report.add(whole, "this is no whole geometry, missing: reference (area, span, chord)");
+    if (says("controls"))
+      report.add(file.where("controls", 0),
+                 "controls: they stand with their surface, unless planform names a file");
+    return;
+  }
+  const core::Where where = file.root.find("planform")->where();
+  if (says("surfaces")) return report.add(where, "planform: surfaces are given as well; one of both");
+  const std::string elsewhere =
+      core::named_file(std::filesystem::path(file.root.file->path).parent_path(), planform).string();
+  if (std::error_code fault; !std::filesystem::is_regular_file(elsewhere, fault))
+    return report.add(where, "planform: there is no file '" + planform + "' beside the drawing");
+  const ReferenceQuantities own = g.reference;
+  add_planform(elsewhere, planform, g);
+  if (says("reference")) g.reference = own;
+  if (!(g.reference.area_m2 > 0))
+    report.add(whole, "this is no whole geometry, missing: reference (area, span, chord)");
+  for (std::size_t i = 0; i < g.controls.size(); ++i) {
+    std::vector<std::string> names;
+    LiftingSurface* found = nullptr;
+    for (LiftingSurface& s : g.surfaces) {
+      names.emplace_back(s.name.view());
+      if (s.name == g.controls[i].surface) found = &s;
+    }
+    const std::string path = "controls[" + std::to_string(i) + "]";
+    if (!found)
+      report.add(file.where("controls", i),
+                 path + ".surface: there is no surface " + quoted(g.controls[i].surface.view()) + "." +
+                     core::choices_text(std::string(g.controls[i].surface.view()), names));
+    else if (!found->controls.push_back(g.controls[i].control))
+      report.add(file.where("controls", i), path + ": more controls than 16 on one surface");
+  }
+}
+
+}  // namespace
+
+core::Where GeometryFile::where(const std::string& list, std::size_t i, const std::string& inner,
+                                std::size_t k) const {
+  core::Where at{name, 0};
+  const core::Node* node = root.find(list);
+  if (!node) return at;
+  at = node->where();
+  if (i >= node->items.size()) return at;
+  at = node->items[i].where();
+  if (const core::Node* const deep = inner.empty() ? nullptr : node->items[i].find(inner);
+      deep && k < deep->items.size())
+    at = deep->items[k].where();
+  return at;
+}
+
+GeometryFile read_geometry_file(const std::string& name) {
+  GeometryFile file;
+  file.name = name;
+  file.geometry = std::make_unique<Geometry>();
+  core::Report report;
+  file.root = core::parse_yaml(core::read_source(core::named_file({}, name), name), report);
+  if (report.empty() && !file.root.is(core::Node::Kind::map))
+    report.add({name, 0},
+               "expected a map with the parts of an aircraft; found " + core::found_words(file.root));
+  const auto type = core::copy_type(describe<Geometry>());
+  if (report.empty())
+    core::fill_record(*type, file.root, reinterpret_cast<std::byte*>(file.geometry.get()), "", report);
+  if (report.empty())
+    if (const std::vector<std::string> missing = core::missing_in_record(*type, file.root); !missing.empty())
+      report.add({name, 0}, "this is no whole geometry, missing: " + core::join(missing));
+  if (report.empty()) complete(file, report);
+  if (report.empty()) GeometryRules(file, report).check();
+  report.throw_if_any();
+  return file;
+}
+
+double camber_slope(const Airfoil& airfoil, double x) {
+  if (const std::string_view digits = airfoil.naca.view(); !digits.empty()) {
+    const double m = (digits[0] - '0') / 100.0, p = (digits[1] - '0') / 10.0;
+    if (m == 0 || p == 0) return 0;
+    return 2 * m * (p - x) / (x < p ? p * p : (1 - p) * (1 - p));
+  }
+  if (!airfoil.camber_x_frac.empty()) {
+    std::size_t i = 1;
+    while (i + 1 < airfoil.camber_x_frac.size() && airfoil.camber_x_frac[i] < x) ++i;
+    return (airfoil.camber_z_frac[i] - airfoil.camber_z_frac[i - 1]) /
+           (airfoil.camber_x_frac[i] - airfoil.camber_x_frac[i - 1]);
+  }
+  return airfoil.alpha_zero_rad < 1e8 ? std::tan(airfoil.alpha_zero_rad) : 0;
+}
+
+}  // namespace fulmar::aero

@@ -12,13 +12,6 @@
 namespace fulmar::core {
 
 struct Component;
-struct Node;
-
-/// Those of a whole record, in place of all before.
-SaidPlacesPtr places_of(const Node& node);
-
-/// With those of `node`, a part of it.
-SaidPlacesPtr with_place(const SaidPlacesPtr& places, const std::string& field, const Node& node);
 
 /// Of a sentence that begins with a parameter or a part of one, "airframe.inertia.xz: ...": the place of it,
 /// or of the nearest thing around it that a file says. Nothing when no file says it.

@@ -22,6 +22,7 @@
 #include "core/loader/probe.hpp"
 #include "core/loader/script.hpp"
 #include "core/loader/shared_object.hpp"
+#include "core/loader/store.hpp"
 #include "core/loader/table.hpp"
 #include "core/loader/unique.hpp"
 
@@ -136,6 +137,14 @@ struct Library::Handle {
     file.unload();
   }
 };
+
+void check_content(const Expected& expected, const std::string& name, const std::string& sha256) {
+  if (expected.sha256.empty()) return;
+  if (std::find(expected.sha256.begin(), expected.sha256.end(), sha256) != expected.sha256.end()) return;
+  throw Error(name + " has the SHA-256 " + sha256 + ", but " + join(expected.sha256) + " is listed" +
+              (expected.where.empty() ? "" : " in " + expected.where) +
+              "; a file that was changed or built anew is listed anew");
+}
 
 std::shared_ptr<Library> Library::open(const fs::path& file, const Expected& expected) {
   const std::string name = file.filename().string();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/loader/file_sum.hpp"
 #include "core/types/type.hpp"
 
 namespace fulmar::core {
@@ -54,8 +55,5 @@ class Library {
 
 /// Reads a plugin's entry in the calling process; the probing child and `Library` share it. Throws Error.
 PluginInfo read_entry(const fulmar_plugin& entry, const std::string& file_name);
-
-std::string sha256_hex(const void* data, std::size_t size);
-std::string sha256_file(const std::filesystem::path& file);
 
 }  // namespace fulmar::core

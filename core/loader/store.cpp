@@ -16,8 +16,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/loader/library.hpp"
-#include "core/types/sha256.hpp"
+#include "core/loader/file_sum.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -134,33 +133,6 @@ void prune(const fs::path& folder) {
 }
 
 }  // namespace
-
-std::string sha256_hex(const void* data, std::size_t size) {
-  std::string hex = Sha256::of({static_cast<const char*>(data), size});
-  if (hex.empty()) throw Error("SHA-256 is not available.");
-  return hex;
-}
-
-std::string sha256_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  Sha256 sum;
-  std::vector<char> bytes(1u << 20);  // a log can be longer than memory
-  while (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || in.gcount() > 0)
-    sum.add(bytes.data(), static_cast<std::size_t>(in.gcount()));
-  if (!in.eof())
-    throw Error("cannot read " + file.string() + ": " + std::strerror(errno != 0 ? errno : EIO) + ".");
-  std::string hex = sum.hex();
-  if (hex.empty()) throw Error("SHA-256 is not available.");
-  return hex;
-}
-
-void check_content(const Expected& expected, const std::string& name, const std::string& sha256) {
-  if (expected.sha256.empty()) return;
-  if (std::find(expected.sha256.begin(), expected.sha256.end(), sha256) != expected.sha256.end()) return;
-  throw Error(name + " has the SHA-256 " + sha256 + ", but " + join(expected.sha256) + " is listed" +
-              (expected.where.empty() ? "" : " in " + expected.where) +
-              "; a file that was changed or built anew is listed anew");
-}
 
 fs::path keep_copy(std::span<const std::byte> bytes, const std::string& sha256, const std::string& suffix) {
   if (!is_suffix(suffix)) throw Error("the plugin store keeps no " + suffix + " files.");

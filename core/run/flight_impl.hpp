@@ -16,6 +16,7 @@
 #include "core/run/flight/wiring.hpp"
 #include "core/run/record/recorder.hpp"
 #include "core/run/state/state.hpp"
+#include "core/tap/control.hpp"
 
 namespace fulmar::core {
 
@@ -34,7 +35,7 @@ struct Flight::Impl {
   Impl(const Graph& graph, const FlightOptions& options, const Flight& owner);
   ~Impl();
 
-  // flight_setup.cpp
+  // setup.cpp
   void connect();  // as the graph says; whatever was connected before is not any more
   void open_tap();
   void open_to_others();
@@ -50,7 +51,7 @@ struct Flight::Impl {
   void tell_control() noexcept;
   void note_behind(double seconds);
 
-  // standstill.cpp
+  // pause.cpp
   bool stand_still();  // between two ticks, as long as the flight is paused; false: it has ended meanwhile
   void tell_pace(const PaceOrder& order);
 

@@ -108,7 +108,6 @@ bool same_inputs(const ComponentInfo& a, const ComponentInfo& b) {
                     });
 }
 
-/// What comes in from outside, in order: requests and imported inputs.
 bool same_entrances(const Component& a, const Component& b) {
   const auto entrances = [](const Component& c) {
     std::vector<std::tuple<std::string, std::uint32_t, std::uint64_t, int>> list;

@@ -16,6 +16,9 @@ void rehearse(const Component& component, std::int64_t tick_ns, std::uint64_t se
 /// Whether what one has seen can be shown to the other.
 bool same_inputs(const ComponentInfo& a, const ComponentInfo& b);
 
+/// Whether what comes in from outside, requests and imported inputs, is the same in order.
+bool same_entrances(const Component& a, const Component& b);
+
 /// Throws Error when the code of `was` could not be unloaded, so that `is` would fly it.
 void check_unloads(const PluginInfo& was, const ComponentInfo& component);
 

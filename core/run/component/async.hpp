@@ -10,12 +10,10 @@
 #include <vector>
 
 #include "core/run/component/allocation.hpp"
+#include "core/run/component/reply.hpp"
 #include "core/types/type.hpp"
 
 namespace fulmar::core {
-
-/// Tells whoever asked: "" when accepted, else why not. Called by the loop.
-using Reply = std::function<void(const char* refusal)>;
 
 /// Room for what a component publishes in a thread of its own; `views` point to the rest.
 struct OutputRoom {

@@ -13,6 +13,7 @@
 #include "core/due.hpp"
 #include "core/graph/graph.hpp"
 #include "core/run/component/problem.hpp"
+#include "core/run/component/reply.hpp"
 #include "core/types/hash.hpp"
 #include "core/types/named.hpp"
 
@@ -20,7 +21,7 @@ namespace fulmar::core {
 
 struct Reader;
 
-/// What the ports ask of the component that publishes.
+/// What the ports ask of the component that publishes. Each one in a flight is a Unit.
 struct Publisher {
   const Component* component = nullptr;
   const ComponentInfo* info = nullptr;
@@ -202,5 +203,4 @@ void Outlets::publish(F&& each) {
   }
 }
 
-[[gnu::format(printf, 2, 3)]]
 }  // namespace fulmar::core

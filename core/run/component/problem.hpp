@@ -4,6 +4,7 @@
 
 namespace fulmar::core {
 
-void put_problem(fulmar_error& problem, const char* format, ...) noexcept;
+/// Writes a formatted sentence, cut to the room of `problem`.
+[[gnu::format(printf, 2, 3)]] void put_problem(fulmar_error& problem, const char* format, ...) noexcept;
 
 }  // namespace fulmar::core

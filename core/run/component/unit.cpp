@@ -10,12 +10,10 @@ namespace fulmar::core {
 // ---- before and between flights
 
 Unit::Unit(const Component& c, UnitOptions options)
-    : component(&c),
-      info(&c.info()),
+    : Publisher{&c, &c.info(), c.roles.empty()},
       in(c),
       out(c, *this),
       base(c.params),
-      active(c.roles.empty()),
       arguments_{std::vector<fulmar_input>(info->outputs.size()),
                  std::vector<fulmar_value>(info->params.size())},
       schedule_{options.tick_ns, Schedule::never, {}} {

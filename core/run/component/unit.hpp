@@ -104,4 +104,7 @@ class Unit : public Publisher {
   std::unique_ptr<Runner> runner_;
 };
 
+/// The component that publishes there.
+inline Unit& unit_of(const Slot& slot) noexcept { return static_cast<Unit&>(*slot.owner); }
+
 }  // namespace fulmar::core

@@ -194,7 +194,7 @@ void Roles::watch_commands() {
 /// A law that says nothing to the vehicle, though all that it needs keeps coming, is as lost as one that says
 /// nonsense. Others may have a reason: an estimator without samples, a law without a path.
 void Roles::stop_if_mute(const Slot& slot) {
-  Unit& unit = *slot.owner;
+  Unit& unit = unit_of(slot);
   bool drives = false;
   for (const int role : unit.component->roles) drives = drives || nth(drives_vehicle_, role);
   if (!drives || !slot.role || !unit.in.all_younger_than(Streams::least_silence_ns, state_.now_ns)) return;

@@ -80,7 +80,7 @@ const Slot* Streams::watch(bool held, FlightState& state, Recorder& recorder) no
   if (streams_.empty()) return nullptr;
   if (++looked_at_ >= streams_.size()) looked_at_ = 0;
   Stream& s = streams_[looked_at_];
-  const Unit& unit = *s.slot->owner;
+  const Unit& unit = unit_of(*s.slot);
   if (!unit.active || unit.stopped) {
     s.samples = 0;
     s.silent_ns = 0;

@@ -203,7 +203,7 @@ const std::byte* Wiring::sample(const Source& source) const noexcept {
   const Slot* const slot = slot_of(source);
   if (!slot || slot->sequence == 0 || slot->owner->stopped) return nullptr;
   if (source.kind == Source::Kind::role) {
-    const Unit* const filler = nth(nth(roles_, source.index), source.output).filler;
+    const Publisher* const filler = nth(nth(roles_, source.index), source.output).filler;
     if (filler && filler->stopped) return nullptr;
   }
   return message_of(source);

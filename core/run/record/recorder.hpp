@@ -23,7 +23,7 @@ class Recorder {
  public:
   explicit Recorder(FlightState& state) : state_(state) {}
 
-  /// [setup] recorder_setup.cpp: makes the tap, and the log when there is to be one. Throws Error.
+  /// [setup] setup.cpp: makes the tap, and the log when there is to be one. Throws Error.
   void open(const Units& units, bool with_log);
   /// [setup] Whose texts are told; anew when units were exchanged.
   void listen(const Units& units);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fulmar/sim/batch.hpp"
+#include "fulmar/testing.hpp"
 #include "sdk/test/sim/anaconda.hpp"
 
 using namespace fulmar;

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+
+namespace fulmar::core {
+
+/// Tells whoever asked: "" when accepted, else why not. Called by the loop.
+using Reply = std::function<void(const char* refusal)>;
+
+}  // namespace fulmar::core

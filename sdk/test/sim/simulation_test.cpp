@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The model as a library: one aircraft, and many in one call.
+#define FULMAR_COUNT_ALLOCATIONS
 #include "fulmar/sim/simulation.hpp"
 
 #include <doctest/doctest.h>

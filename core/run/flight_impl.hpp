@@ -12,6 +12,7 @@
 #include "core/run/flight/end.hpp"
 #include "core/run/flight/protection.hpp"
 #include "core/run/flight/roles.hpp"
+#include "core/run/flight/stepper.hpp"
 #include "core/run/flight/stopwatch.hpp"
 #include "core/run/flight/wiring.hpp"
 #include "core/run/record/recorder.hpp"
@@ -85,6 +86,7 @@ struct Flight::Impl {
   FlightEnd end;
   Stopwatch stopwatch;
   Roles roles;
+  Stepper stepper;
   std::shared_ptr<const CommandTable> commands;  // what the graph has to command
   Onlookers onlookers;
   std::int64_t heard_ns = never_ns;    // the vehicle's first word, while it is open whether to resume

@@ -46,18 +46,18 @@ bool Flight::Impl::tick() {
   }
   if (state.index == 0) begin();
   wiring.publish(vehicle, recorder);
-  if (protection.watch()) roles.begin_anew();
+  if (protection.watch()) stepper.restart_held();
   if (state.options.resume) resume_if_armed();
-  roles.charge(vehicle);
+  stepper.charge(vehicle);
 
-  for (const int component : state.graph.order) roles.step(component);
+  for (const int component : state.graph.order) stepper.step(component);
   roles.transitions();
   roles.watch_commands();
 
   const StepResult written = vehicle.write(state.now_ns, state.index, end.steering(), state.graph.failsafe);
   if (written == StepResult::bad) return vehicle_failed();
   vehicle.in.refusals.clear();  // not noted: in a replay there is nobody to refuse anything
-  roles.charge(vehicle);
+  stepper.charge(vehicle);
   wiring.latch();
   recorder.note_tick();
   ++state.index;
@@ -146,7 +146,7 @@ FlightResult Flight::Impl::finish() {
   if (onlookers.control) onlookers.control->end();
   if (onlookers.live) result.live = onlookers.live->stats();
   if (onlookers.dds) result.dds = onlookers.dds->stats();
-  roles.tell_overdue();
+  stepper.report_overdue();
   roles.conclude();
   if (!protection.has_flown()) result.idle = roles.idle_role();
   conclude();

@@ -31,7 +31,8 @@ Flight::Impl::Impl(const Graph& graph, const FlightOptions& options, const Fligh
       protection(state),
       end(state, wiring, recorder, protection),
       stopwatch(state, recorder),
-      roles(state, wiring, recorder, protection, end, stopwatch),
+      roles(state, wiring, recorder, protection, end),
+      stepper(state, wiring, recorder, protection, stopwatch, roles),
       owner(whose) {
   connect();
   for (const auto& unit : wiring.units) unit->configure();
@@ -50,6 +51,7 @@ void Flight::Impl::connect() {
   recorder.listen(wiring.units);
   protection.connect(wiring);
   roles.connect();
+  stepper.connect();
 }
 
 /// `arm: auto`: asks the vehicle's request port `arm`, in its first tick.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps, and what happens when one goes wrong.
+// A guard has fired: fallback, hand-over, failsafe.
 #include "core/run/flight/roles.hpp"
 
 #include <algorithm>
@@ -24,14 +24,12 @@ Event guard_event(Code code, Unit& unit, const char* problem) noexcept {
 
 }  // namespace
 
-Roles::Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end,
-             Stopwatch& stopwatch)
+Roles::Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end)
     : state_(state),
       wiring_(wiring),
       recorder_(recorder),
       protection_(protection),
       end_(end),
-      stopwatch_(stopwatch),
       active_(state.graph.roles.size(), -1),
       any_since_(state.graph.any.size(), never_ns) {
   std::size_t most = 0;
@@ -43,8 +41,6 @@ void Roles::connect() {
   const Graph& graph = state_.graph;
   streams_.connect(wiring_, state_);
   drives_vehicle_.assign(graph.roles.size(), false);
-  control_roles_.assign(graph.roles.size(), false);
-  for (const int role : graph.control) nth(control_roles_, role) = true;
   if (graph.vehicle < 0) return;
   for (const Wire& w : nth(graph.components, graph.vehicle).wires)
     if (w.from.kind == Source::Kind::role) nth(drives_vehicle_, w.from.index) = true;
@@ -54,91 +50,6 @@ const std::vector<Overlay>* Roles::overlay_of(int component) const noexcept {
   for (const Assignment& a : present().roles)
     if (a.component == component && !a.set.empty()) return &a.set;
   return nullptr;
-}
-
-// ---- steps
-
-void Roles::step(int component) {
-  Unit& unit = wiring_.unit(component);
-  if (unit.runner().remote() && !collect(unit, component)) return;
-  if (!unit.active || unit.stopped || !unit.due(state_.now_ns) || !ready_to_step(unit, component)) return;
-  const StepResult result = unit.step(state_.now_ns, state_.index);
-  if (!unit.in.refusals.empty()) recorder_.note_refusals(unit);
-  const bool bad = result == StepResult::bad;
-  if (has_stepped(result)) wiring_.publish(unit, recorder_);
-  if (has_stepped(result) || bad) charge(unit);
-  if (bad) stop(component);
-}
-
-/// Who begins is activated first, with nobody before it. Who is held begins anew in every step, so that
-/// nothing winds up while the vehicle does not obey; in another thread once, when control returns.
-bool Roles::ready_to_step(Unit& unit, int component) {
-  const bool held = protection_.out_of_control() && is_held(unit);
-  if (!unit.fresh_start && (!held || unit.runner().remote())) return true;
-  if (!unit.in.ready()) {
-    if (unit.in.in_vain(unit.problem)) stop(component);
-    return false;
-  }
-  if (unit.activate(state_.now_ns, state_.index, {})) return true;
-  if (!held || unit.runner().dead())
-    stop(component);
-  else
-    unit.fresh_start = true;  // it flies nothing now; what is in its way may have passed when it does
-  return false;
-}
-
-bool Roles::is_held(const Unit& unit) const noexcept {
-  for (const int role : unit.component->roles)
-    if (nth(control_roles_, role)) return true;
-  return false;
-}
-
-void Roles::begin_anew() noexcept {
-  for (const auto& unit : wiring_.units)
-    if (unit->active && unit->runner().remote() && is_held(*unit)) unit->fresh_start = true;
-}
-
-void Roles::charge(Unit& unit) {
-  if (!stopwatch_.charge(unit)) return;
-  unit.fail("was over its time budget in 5 steps in a row");
-  stop(wiring_.index_of(unit), Code::over_budget);
-}
-
-/// Results and samples that come from other threads. True when the unit can also be stepped.
-bool Roles::collect(Unit& unit, int component) {
-  StepResult result = unit.collect(state_.now_ns);
-  tell_late(unit);
-  for (; has_stepped(result); result = unit.collect(state_.now_ns))
-    if (unit.active && !unit.stopped) wiring_.publish(unit, recorder_);
-  tell_late(unit);
-  if (!unit.in.refusals.empty()) recorder_.note_refusals(unit);
-  if (result == StepResult::bad && unit.active) stop(component);
-  stopwatch_.skip();
-  return unit.runner().stepped_by_loop();
-}
-
-void Roles::note_late(const Unit& unit, std::int64_t due_ns) {
-  Event e = event_of(Code::late_result, unit.component->name);
-  e.value_ns = due_ns;
-  say(e, "took late a result that was due at %lld ns", static_cast<long long>(due_ns));
-  recorder_.note(e);
-}
-
-/// A replay takes them as late as the flight did.
-void Roles::tell_late(Unit& unit) {
-  for (const std::int64_t due_ns : unit.runner().late_due_ns) note_late(unit, due_ns);
-  unit.runner().late_due_ns.clear();
-}
-
-/// What has not come counts as taken after the last tick.
-void Roles::tell_overdue() {
-  for (const auto& unit : wiring_.units) {
-    const auto due_ns = unit->runner().overdue_ns(state_.now_ns);
-    if (!due_ns) continue;
-    const std::int64_t last_ns = std::exchange(state_.now_ns, state_.now_ns + 1);
-    note_late(*unit, *due_ns);
-    state_.now_ns = last_ns;
-  }
 }
 
 // ---- guards and hand-over

@@ -7,7 +7,6 @@
 #include "core/log/events.hpp"
 #include "core/run/flight/end.hpp"
 #include "core/run/flight/protection.hpp"
-#include "core/run/flight/stopwatch.hpp"
 #include "core/run/flight/streams.hpp"
 #include "core/run/flight/wiring.hpp"
 #include "core/run/record/recorder.hpp"
@@ -18,10 +17,8 @@ namespace fulmar::core {
 
 class Roles {
  public:
-  Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end,
-        Stopwatch& stopwatch);
-  /// [setup] Which roles feed the vehicle, and which are held while it does not obey; anew when units were
-  /// exchanged.
+  Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end);
+  /// [setup] Which roles feed the vehicle. Again when units were exchanged.
   void connect();
 
   int phase() const noexcept { return phase_; }
@@ -42,17 +39,9 @@ class Roles {
   void enter(int phase, const std::string& because = {});
 
   // roles.cpp
-  /// [tick] Steps a component if it is due, and takes what has arrived from elsewhere.
-  void step(int component);
-  /// [tick] Of the time it took; a component over its budget is stopped.
-  void charge(Unit& unit);
-  /// [tick] Whoever works in another thread begins anew, now that control has returned.
-  void begin_anew() noexcept;
   /// [tick] A guard has fired: the last good output is held; the fallback takes over; when nobody is left,
   /// failsafe.
   void stop(int component, Code code = Code::guard);
-  /// At the end of a flight: a result that has not come is not there in a replay either.
-  void tell_overdue();
   /// Who flew when, up to now; and when nobody has ever commanded the vehicle, the first role that nothing
   /// has come from.
   void conclude();
@@ -83,11 +72,6 @@ class Roles {
   void fall_back(int stopped, std::size_t guard);
   bool nobody_drives(int stopped) const noexcept;
   void nobody_flies(const std::string& name, const std::string& what);
-  bool collect(Unit& unit, int component);
-  bool ready_to_step(Unit& unit, int component);
-  bool is_held(const Unit& unit) const noexcept;
-  void note_late(const Unit& unit, std::int64_t due_ns);
-  void tell_late(Unit& unit);
   const Phase& present() const noexcept { return nth(state_.graph.phases, phase_); }
   int& active(int role) noexcept { return nth(active_, role); }
   int active(int role) const noexcept { return nth(active_, role); }
@@ -97,10 +81,9 @@ class Roles {
   Recorder& recorder_;
   Protection& protection_;
   FlightEnd& end_;
-  Stopwatch& stopwatch_;
   int phase_ = 0;
   std::vector<int> active_;                           // per role: the component that fills it now, or -1
-  std::vector<bool> drives_vehicle_, control_roles_;  // per role
+  std::vector<bool> drives_vehicle_;                  // per role
   std::vector<std::int64_t> any_since_, next_since_;  // since when a transition's condition holds
   std::vector<const Slot*> hand_over_;                // room for what was last applied
   Streams streams_;

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/flight/stepper.hpp"
+
+#include <utility>
+
+namespace fulmar::core {
+
+Stepper::Stepper(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection,
+                 Stopwatch& stopwatch, Roles& roles)
+    : state_(state),
+      wiring_(wiring),
+      recorder_(recorder),
+      protection_(protection),
+      stopwatch_(stopwatch),
+      roles_(roles) {}
+
+void Stepper::connect() {
+  control_roles_.assign(state_.graph.roles.size(), false);
+  for (const int role : state_.graph.control) nth(control_roles_, role) = true;
+}
+
+void Stepper::step(int component) {
+  Unit& unit = wiring_.unit(component);
+  if (unit.runner().remote() && !collect(unit, component)) return;
+  if (!unit.active || unit.stopped || !unit.due(state_.now_ns) || !ready_to_step(unit, component)) return;
+  const StepResult result = unit.step(state_.now_ns, state_.index);
+  if (!unit.in.refusals.empty()) recorder_.note_refusals(unit);
+  const bool bad = result == StepResult::bad;
+  if (has_stepped(result)) wiring_.publish(unit, recorder_);
+  if (has_stepped(result) || bad) charge(unit);
+  if (bad) roles_.stop(component);
+}
+
+/// A component that starts is activated first, without a predecessor. A held component starts again in every
+/// step, so that nothing winds up while the vehicle does not obey; in another thread once, when control
+/// returns.
+bool Stepper::ready_to_step(Unit& unit, int component) {
+  const bool held = protection_.out_of_control() && is_held(unit);
+  if (!unit.fresh_start && (!held || unit.runner().remote())) return true;
+  if (!unit.in.ready()) {
+    if (unit.in.in_vain(unit.problem)) roles_.stop(component);
+    return false;
+  }
+  if (unit.activate(state_.now_ns, state_.index, {})) return true;
+  if (!held || unit.runner().dead())
+    roles_.stop(component);
+  else
+    unit.fresh_start = true;  // it flies nothing now; what is in its way may have passed when it does
+  return false;
+}
+
+bool Stepper::is_held(const Unit& unit) const noexcept {
+  for (const int role : unit.component->roles)
+    if (nth(control_roles_, role)) return true;
+  return false;
+}
+
+void Stepper::restart_held() noexcept {
+  for (const auto& unit : wiring_.units)
+    if (unit->active && unit->runner().remote() && is_held(*unit)) unit->fresh_start = true;
+}
+
+void Stepper::charge(Unit& unit) {
+  if (!stopwatch_.charge(unit)) return;
+  unit.fail("was over its time budget in 5 steps in a row");
+  roles_.stop(wiring_.index_of(unit), Code::over_budget);
+}
+
+/// Results and samples that come from other threads. True when the unit can also be stepped.
+bool Stepper::collect(Unit& unit, int component) {
+  StepResult result = unit.collect(state_.now_ns);
+  report_late(unit);
+  for (; has_stepped(result); result = unit.collect(state_.now_ns))
+    if (unit.active && !unit.stopped) wiring_.publish(unit, recorder_);
+  report_late(unit);
+  if (!unit.in.refusals.empty()) recorder_.note_refusals(unit);
+  if (result == StepResult::bad && unit.active) roles_.stop(component);
+  stopwatch_.skip();
+  return unit.runner().stepped_by_loop();
+}
+
+void Stepper::note_late(const Unit& unit, std::int64_t due_ns) {
+  Event e = event_of(Code::late_result, unit.component->name);
+  e.value_ns = due_ns;
+  say(e, "took late a result that was due at %lld ns", static_cast<long long>(due_ns));
+  recorder_.note(e);
+}
+
+/// A replay takes them as late as the flight did.
+void Stepper::report_late(Unit& unit) {
+  for (const std::int64_t due_ns : unit.runner().late_due_ns) note_late(unit, due_ns);
+  unit.runner().late_due_ns.clear();
+}
+
+/// What has not come counts as taken after the last tick.
+void Stepper::report_overdue() {
+  for (const auto& unit : wiring_.units) {
+    const auto due_ns = unit->runner().overdue_ns(state_.now_ns);
+    if (!due_ns) continue;
+    const std::int64_t last_ns = std::exchange(state_.now_ns, state_.now_ns + 1);
+    note_late(*unit, *due_ns);
+    state_.now_ns = last_ns;
+  }
+}
+
+}  // namespace fulmar::core

@@ -85,8 +85,8 @@ struct Flight::Impl {
   Protection protection;
   FlightEnd end;
   Stopwatch stopwatch;
-  Roles roles;
   Stepper stepper;
+  Roles roles;
   std::shared_ptr<const CommandTable> commands;  // what the graph has to command
   Onlookers onlookers;
   std::int64_t heard_ns = never_ns;    // the vehicle's first word, while it is open whether to resume

@@ -48,16 +48,16 @@ bool Flight::Impl::tick() {
   wiring.publish(vehicle, recorder);
   if (protection.watch()) stepper.restart_held();
   if (state.options.resume) resume_if_armed();
-  stepper.charge(vehicle);
+  roles.charge(vehicle);
 
-  for (const int component : state.graph.order) stepper.step(component);
+  for (const int component : state.graph.order) roles.step(component);
   roles.transitions();
   roles.watch_commands();
 
   const StepResult written = vehicle.write(state.now_ns, state.index, end.steering(), state.graph.failsafe);
   if (written == StepResult::bad) return vehicle_failed();
   vehicle.in.refusals.clear();  // not noted: in a replay there is nobody to refuse anything
-  stepper.charge(vehicle);
+  roles.charge(vehicle);
   wiring.latch();
   recorder.note_tick();
   ++state.index;

@@ -31,8 +31,8 @@ Flight::Impl::Impl(const Graph& graph, const FlightOptions& options, const Fligh
       protection(state),
       end(state, wiring, recorder, protection),
       stopwatch(state, recorder),
-      roles(state, wiring, recorder, protection, end),
-      stepper(state, wiring, recorder, protection, stopwatch, roles),
+      stepper(state, wiring, recorder, protection, stopwatch),
+      roles(state, wiring, recorder, protection, end, stepper),
       owner(whose) {
   connect();
   for (const auto& unit : wiring.units) unit->configure();
@@ -50,8 +50,8 @@ void Flight::Impl::connect() {
   wiring.connect();
   recorder.listen(wiring.units);
   protection.connect(wiring);
-  roles.connect();
   stepper.connect();
+  roles.connect();
 }
 
 /// `arm: auto`: asks the vehicle's request port `arm`, in its first tick.

@@ -24,12 +24,14 @@ Event guard_event(Code code, Unit& unit, const char* problem) noexcept {
 
 }  // namespace
 
-Roles::Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end)
+Roles::Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end,
+             Stepper& stepper)
     : state_(state),
       wiring_(wiring),
       recorder_(recorder),
       protection_(protection),
       end_(end),
+      stepper_(stepper),
       active_(state.graph.roles.size(), -1),
       any_since_(state.graph.any.size(), never_ns) {
   std::size_t most = 0;
@@ -50,6 +52,14 @@ const std::vector<Overlay>* Roles::overlay_of(int component) const noexcept {
   for (const Assignment& a : present().roles)
     if (a.component == component && !a.set.empty()) return &a.set;
   return nullptr;
+}
+
+void Roles::step(int component) {
+  if (const std::optional<Code> code = stepper_.step(component)) stop(component, *code);
+}
+
+void Roles::charge(Unit& unit) {
+  if (stepper_.over_budget(unit)) stop(wiring_.index_of(unit), Code::over_budget);
 }
 
 // ---- guards and hand-over

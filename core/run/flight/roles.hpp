@@ -7,6 +7,7 @@
 #include "core/log/events.hpp"
 #include "core/run/flight/end.hpp"
 #include "core/run/flight/protection.hpp"
+#include "core/run/flight/stepper.hpp"
 #include "core/run/flight/streams.hpp"
 #include "core/run/flight/wiring.hpp"
 #include "core/run/record/recorder.hpp"
@@ -17,7 +18,8 @@ namespace fulmar::core {
 
 class Roles {
  public:
-  Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end);
+  Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end,
+        Stepper& stepper);
   /// [setup] Which roles feed the vehicle. Again when units were exchanged.
   void connect();
 
@@ -39,6 +41,10 @@ class Roles {
   void enter(int phase, const std::string& because = {});
 
   // roles.cpp
+  /// [tick] Steps a component, and stops it when its step or its budget says so.
+  void step(int component);
+  /// [tick] The same for the time that the vehicle took.
+  void charge(Unit& unit);
   /// [tick] A guard has fired: the last good output is held; the fallback takes over; when nobody is left,
   /// failsafe.
   void stop(int component, Code code = Code::guard);
@@ -81,6 +87,7 @@ class Roles {
   Recorder& recorder_;
   Protection& protection_;
   FlightEnd& end_;
+  Stepper& stepper_;
   int phase_ = 0;
   std::vector<int> active_;                           // per role: the component that fills it now, or -1
   std::vector<bool> drives_vehicle_;                  // per role

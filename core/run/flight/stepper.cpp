@@ -6,47 +6,43 @@
 namespace fulmar::core {
 
 Stepper::Stepper(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection,
-                 Stopwatch& stopwatch, Roles& roles)
-    : state_(state),
-      wiring_(wiring),
-      recorder_(recorder),
-      protection_(protection),
-      stopwatch_(stopwatch),
-      roles_(roles) {}
+                 Stopwatch& stopwatch)
+    : state_(state), wiring_(wiring), recorder_(recorder), protection_(protection), stopwatch_(stopwatch) {}
 
 void Stepper::connect() {
   control_roles_.assign(state_.graph.roles.size(), false);
   for (const int role : state_.graph.control) nth(control_roles_, role) = true;
 }
 
-void Stepper::step(int component) {
+std::optional<Code> Stepper::step(int component) {
   Unit& unit = wiring_.unit(component);
-  if (unit.runner().remote() && !collect(unit, component)) return;
-  if (!unit.active || unit.stopped || !unit.due(state_.now_ns) || !ready_to_step(unit, component)) return;
+  if (unit.runner().remote() && !collect(unit)) return Code::guard;
+  if (unit.runner().remote() && !unit.runner().stepped_by_loop()) return std::nullopt;
+  if (!unit.active || unit.stopped || !unit.due(state_.now_ns)) return std::nullopt;
+  switch (prepare(unit)) {
+    case Ready::no: return std::nullopt;
+    case Ready::refused: return Code::guard;
+    case Ready::yes: break;
+  }
   const StepResult result = unit.step(state_.now_ns, state_.index);
   if (!unit.in.refusals.empty()) recorder_.note_refusals(unit);
   const bool bad = result == StepResult::bad;
   if (has_stepped(result)) wiring_.publish(unit, recorder_);
-  if (has_stepped(result) || bad) charge(unit);
-  if (bad) roles_.stop(component);
+  if ((has_stepped(result) || bad) && over_budget(unit)) return Code::over_budget;
+  return bad ? std::optional(Code::guard) : std::nullopt;
 }
 
 /// A component that starts is activated first, without a predecessor. A held component starts again in every
 /// step, so that nothing winds up while the vehicle does not obey; in another thread once, when control
 /// returns.
-bool Stepper::ready_to_step(Unit& unit, int component) {
+Stepper::Ready Stepper::prepare(Unit& unit) {
   const bool held = protection_.out_of_control() && is_held(unit);
-  if (!unit.fresh_start && (!held || unit.runner().remote())) return true;
-  if (!unit.in.ready()) {
-    if (unit.in.in_vain(unit.problem)) roles_.stop(component);
-    return false;
-  }
-  if (unit.activate(state_.now_ns, state_.index, {})) return true;
-  if (!held || unit.runner().dead())
-    roles_.stop(component);
-  else
-    unit.fresh_start = true;  // it flies nothing now; what is in its way may have passed when it does
-  return false;
+  if (!unit.fresh_start && (!held || unit.runner().remote())) return Ready::yes;
+  if (!unit.in.ready()) return unit.in.in_vain(unit.problem) ? Ready::refused : Ready::no;
+  if (unit.activate(state_.now_ns, state_.index, {})) return Ready::yes;
+  if (!held || unit.runner().dead()) return Ready::refused;
+  unit.fresh_start = true;  // it controls nothing now; the cause may have passed when it does
+  return Ready::no;
 }
 
 bool Stepper::is_held(const Unit& unit) const noexcept {
@@ -60,23 +56,23 @@ void Stepper::restart_held() noexcept {
     if (unit->active && unit->runner().remote() && is_held(*unit)) unit->fresh_start = true;
 }
 
-void Stepper::charge(Unit& unit) {
-  if (!stopwatch_.charge(unit)) return;
+bool Stepper::over_budget(Unit& unit) {
+  if (!stopwatch_.charge(unit)) return false;
   unit.fail("was over its time budget in 5 steps in a row");
-  roles_.stop(wiring_.index_of(unit), Code::over_budget);
+  return true;
 }
 
-/// Results and samples that come from other threads. True when the unit can also be stepped.
-bool Stepper::collect(Unit& unit, int component) {
+/// Takes results and samples that have arrived from other threads. False when a guard refuses one of an
+/// active component.
+bool Stepper::collect(Unit& unit) {
   StepResult result = unit.collect(state_.now_ns);
   report_late(unit);
   for (; has_stepped(result); result = unit.collect(state_.now_ns))
     if (unit.active && !unit.stopped) wiring_.publish(unit, recorder_);
   report_late(unit);
   if (!unit.in.refusals.empty()) recorder_.note_refusals(unit);
-  if (result == StepResult::bad && unit.active) roles_.stop(component);
   stopwatch_.skip();
-  return unit.runner().stepped_by_loop();
+  return result != StepResult::bad || !unit.active;
 }
 
 void Stepper::note_late(const Unit& unit, std::int64_t due_ns) {

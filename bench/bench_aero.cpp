@@ -87,7 +87,10 @@ std::string finer(const std::string& drawing, int times) {
 
 int main(int argc, char** argv) {
   const bool json = argc == 2 && std::strcmp(argv[1], "--json") == 0;
-  if (argc > 1 && !json) return std::fprintf(stderr, "usage: bench_aero [--json]\n"), 2;
+  if (argc > 1 && !json) {
+    std::fprintf(stderr, "usage: bench_aero [--json]\n");
+    return 2;
+  }
   const std::string bin = fs::read_symlink("/proc/self/exe").parent_path().string() + "/",
                     source = FULMAR_SOURCE_DIR;
   const std::string aero = bin + "fulmar-aero", tern = source + "/tools/fulmar_aero/test/import/";

@@ -67,8 +67,10 @@ int main(int argc, char** argv) {
       json = true;
     else if (word[0] != '-' && only.empty())
       only = word;
-    else
-      return std::fprintf(stderr, "usage: bench_airspeed [--json] [--seeds N] [NAME]\n"), 2;
+    else {
+      std::fprintf(stderr, "usage: bench_airspeed [--json] [--seeds N] [NAME]\n");
+      return 2;
+    }
   }
   const fs::path folder = fs::temp_directory_path() / ("fulmar-airspeed-" + std::to_string(getpid()));
   try {

@@ -165,6 +165,7 @@ int main(int argc, char** argv) {
   try {
     return run(options(argc, argv));
   } catch (const std::exception& e) {
-    return std::fprintf(stderr, "bench_attitude: %s\n", e.what()), 2;
+    std::fprintf(stderr, "bench_attitude: %s\n", e.what());
+    return 2;
   }
 }

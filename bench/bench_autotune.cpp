@@ -68,7 +68,9 @@ struct AxisRow {
       return;
     }
     ++kept;
-    kp.push_back(r.kp_ratio[i]), ki.push_back(r.ki_ratio[i]), kd.push_back(r.kd_ratio[i]);
+    kp.push_back(r.kp_ratio[i]);
+    ki.push_back(r.ki_ratio[i]);
+    kd.push_back(r.kd_ratio[i]);
     measured_db = std::min(measured_db, 20 * std::log10(r.gain_margin_ratio[i]));
     measured_deg = std::min(measured_deg, r.phase_margin_rad[i] / degree);
     true_db = std::min(true_db, f.unstable ? 0 : f.truth[i].least_gain_db());
@@ -179,12 +181,12 @@ int main(int argc, char** argv) {
     else if (word[0] != '-' && only.empty() &&
              std::any_of(aircraft.begin(), aircraft.end(), [&](const Aircraft& a) { return a.name == word; }))
       only = word;
-    else
-      return std::fprintf(
-                 stderr,
-                 "usage: bench_autotune [--json] [--first SEED] [--seeds N] [--factor F] [--wind MPS] "
-                 "[--turbulence none|light|moderate] [anaconda|aerosonde|x8]\n"),
-             2;
+    else {
+      std::fprintf(stderr,
+                   "usage: bench_autotune [--json] [--first SEED] [--seeds N] [--factor F] [--wind MPS] "
+                   "[--turbulence none|light|moderate] [anaconda|aerosonde|x8]\n");
+      return 2;
+    }
   }
   const fs::path folder = fs::temp_directory_path() / ("fulmar-autotune-" + std::to_string(getpid()));
   try {

@@ -77,8 +77,12 @@ struct Sum {
   int flights = 0, ended = 0, crashed = 0, stalled_long = 0, reported = 0, lost_height = 0;
   double stalled_s = 0, lowest_m = 1e9;
   void add(const Flown& f) {
-    ++flights, ended += f.ended, crashed += f.crashed, stalled_long += f.stalled_s > most_stalled_s;
-    reported += f.reported, lost_height += f.lost_height;
+    ++flights;
+    ended += f.ended;
+    crashed += f.crashed;
+    stalled_long += f.stalled_s > most_stalled_s;
+    reported += f.reported;
+    lost_height += f.lost_height;
     stalled_s = std::max(stalled_s, f.stalled_s);
     lowest_m = std::min(lowest_m, f.lowest_m);
   }

@@ -38,8 +38,10 @@ int main(int argc, char** argv) {
     else if (std::strcmp(argv[i], "--seeds") == 0 && i + 1 < argc &&
              std::sscanf(argv[i + 1], "%u-%u", &from, &to) == 2)
       ++i;
-    else
-      return std::fprintf(stderr, "usage: bench_failures [--seeds FROM-TO] [--flights]\n"), 2;
+    else {
+      std::fprintf(stderr, "usage: bench_failures [--seeds FROM-TO] [--flights]\n");
+      return 2;
+    }
   }
   const fs::path folder = fs::temp_directory_path() / ("fulmar-failures-" + std::to_string(getpid()));
   std::map<std::string, Row> rows;

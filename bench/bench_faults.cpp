@@ -50,7 +50,11 @@ struct Row {
   After worst;
 
   void add(const After& a) {
-    flown += a.flown, down += a.down, aloft += !a.flown && !a.down, told += a.told, admitted += a.admitted;
+    flown += a.flown;
+    down += a.down;
+    aloft += !a.flown && !a.down;
+    told += a.told;
+    admitted += a.admitted;
     guards += a.guards;
     worst.plan_m = std::max(worst.plan_m, a.plan_m);
     worst.lowest_m = std::min(worst.lowest_m, a.lowest_m);
@@ -132,8 +136,10 @@ int main(int argc, char** argv) {
       c.json = true;
     else if (word[0] != '-' && c.only.size() < 2)
       c.only.push_back(word);
-    else
-      return std::fprintf(stderr, "usage: bench_faults [--json] [--seeds N] [WHAT [HOW]]\n"), 2;
+    else {
+      std::fprintf(stderr, "usage: bench_faults [--json] [--seeds N] [WHAT [HOW]]\n");
+      return 2;
+    }
   }
   c.folder = fs::temp_directory_path() / ("fulmar-faults-" + std::to_string(getpid()));
   try {

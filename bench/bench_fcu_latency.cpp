@@ -241,7 +241,8 @@ nlohmann::json run(const fs::path& folder, double seconds, bool real) {
   end(host);
   const Figures after = echoed();
   bare.trip_us.insert(bare.trip_us.end(), after.trip_us.begin(), after.trip_us.end());
-  bare.samples += after.samples, bare.unanswered += after.unanswered;
+  bare.samples += after.samples;
+  bare.unanswered += after.unanswered;
   real_time(0);
   nlohmann::json excess;
   for (const auto& [name, q] : {std::pair{"p50_us", 0.5}, {"p99_us", 0.99}, {"max_us", 1.0}})
@@ -275,8 +276,10 @@ int main(int argc, char** argv) try {
       json = true;
     else if (std::strcmp(argv[i], "--seconds") == 0 && i + 1 < argc)
       seconds = std::atof(argv[++i]);
-    else
-      return std::fprintf(stderr, "bench_fcu_latency [--json] [--seconds N]\n"), 2;
+    else {
+      std::fprintf(stderr, "bench_fcu_latency [--json] [--seconds N]\n");
+      return 2;
+    }
   }
   ::prctl(PR_SET_TIMERSLACK, 1000UL, 0UL, 0UL, 0UL);
   const fs::path folder = fs::temp_directory_path() / ("fulmar_latency_" + std::to_string(::getpid()));

@@ -176,11 +176,12 @@ std::vector<Row> fly_all(const Settings& s, const std::filesystem::path& folder)
 
 int main(int argc, char** argv) {
   Settings s;
-  if (!read(argc, argv, s))
-    return std::fprintf(stderr,
-                        "usage: bench_hardware [--seeds N] [--first SEED] [--only WORDS] [--no-replay] "
-                        "[--lines] [--json]\n"),
-           2;
+  if (!read(argc, argv, s)) {
+    std::fprintf(stderr,
+                 "usage: bench_hardware [--seeds N] [--first SEED] [--only WORDS] [--no-replay] "
+                 "[--lines] [--json]\n");
+    return 2;
+  }
   const auto folder =
       std::filesystem::temp_directory_path() / ("fulmar-bench-hardware-" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);

@@ -72,7 +72,10 @@ class Echo {
                                          std::vector<std::string>{"--echo"},
                                          ChildFiles{-1, STDERR_FILENO, STDERR_FILENO, memory_.descriptor()});
   }
-  void spin(bool on) { words_.spins.store(on), trip(); }
+  void spin(bool on) {
+    words_.spins.store(on);
+    trip();
+  }
   void trip() {
     words_.request.set(n_ + 1);
     words_.answer.await(n_++, words_.spins.load(std::memory_order_relaxed) != 0);
@@ -132,8 +135,14 @@ struct Law {
   void step() {
     tick.now_ns += 2'500'000;
     ++tick.index;
-    for (fulmar_input& i : inputs) ++i.sequence, i.valid_at_ns = tick.now_ns;
-    for (fulmar_output& o : outputs) o.valid_at_ns = tick.now_ns, o.count = 0;
+    for (fulmar_input& i : inputs) {
+      ++i.sequence;
+      i.valid_at_ns = tick.now_ns;
+    }
+    for (fulmar_output& o : outputs) {
+      o.valid_at_ns = tick.now_ns;
+      o.count = 0;
+    }
     if (functions->step(instance, &tick, inputs.data(), outputs.data(), &error) != FULMAR_OK)
       throw Error(error.text);
   }

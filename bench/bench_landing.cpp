@@ -270,9 +270,10 @@ Options options_of(int argc, char** argv) {
       o.jobs = std::atoi(argv[++i]);
     else if (word == "--first" && more)
       o.first = std::strtoull(argv[++i], nullptr, 10);
-    else if (word == "--log" && more)
-      o.log = argv[++i], o.flights = 1;
-    else if (word == "--wind" && more)
+    else if (word == "--log" && more) {
+      o.log = argv[++i];
+      o.flights = 1;
+    } else if (word == "--wind" && more)
       o.wind_mps = std::atof(argv[++i]);
     else if (word == "--off" && more)
       o.off_deg = std::atof(argv[++i]);

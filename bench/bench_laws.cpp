@@ -88,8 +88,10 @@ int main(int argc, char** argv) {
       o.mended = true;
     else if (word == "--seeds" && i + 1 < argc && std::atoi(argv[i + 1]) > 0)
       o.seeds = std::atoi(argv[++i]);
-    else
-      return std::fprintf(stderr, "usage: bench_laws [--json | --markdown] [--seeds N] [--mended]\n"), 2;
+    else {
+      std::fprintf(stderr, "usage: bench_laws [--json | --markdown] [--seeds N] [--mended]\n");
+      return 2;
+    }
   }
   setenv("FULMAR_PLUGIN_PATH", FULMAR_BENCH_PLUGIN_DIR, 1);
   int bad = 0;
@@ -125,7 +127,8 @@ int main(int argc, char** argv) {
       std::fflush(stdout);
     }
   } catch (const std::exception& e) {
-    return std::fprintf(stderr, "%s\n", e.what()), 1;
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
   }
   if (o.format == "json") std::printf("%s\n", all.dump(2).c_str());
   return bad == 0 ? 0 : 1;

@@ -77,9 +77,11 @@ void gaps_row(Campaign& c, double height_m, bool gnss, double length_s) {
     c.bar(fault.empty(), std::to_string(height_m) + " m, gap of " + std::to_string(length_s) + " s " +
                              (gnss ? "with" : "without") + " GNSS, seed " + std::to_string(seed) + ": " +
                              fault);
-    blind += a.blind, lost = worst(lost, a.lost_m);
+    blind += a.blind;
+    lost = worst(lost, a.lost_m);
     lowest = std::min(lowest, a.lowest_m);
-    back_least = std::min(back_least, a.back_s), back_most = worst(back_most, a.back_s);
+    back_least = std::min(back_least, a.back_s);
+    back_most = worst(back_most, a.back_s);
     returned = worst(returned, a.returned_s);
     told += a.told_blind;
   }
@@ -114,9 +116,11 @@ void fixes_row(Campaign& c, double length_s) {
     off.push_back(a.plan_m);
     reckoned.push_back(a.reckoned_m);
     w.std_m = worst(w.std_m, a.std_m);
-    w.circle_s = worst(w.circle_s, a.circle_s), circle_least = std::min(circle_least, a.circle_s);
+    w.circle_s = worst(w.circle_s, a.circle_s);
+    circle_least = std::min(circle_least, a.circle_s);
     turned = std::min(turned, a.turned_deg);
-    told_lost = worst(told_lost, a.told_lost_s), told_back = worst(told_back, a.told_back_s);
+    told_lost = worst(told_lost, a.told_lost_s);
+    told_back = worst(told_back, a.told_back_s);
     resumed = worst(resumed, a.resumed_s);
   }
   std::sort(off.begin(), off.end());
@@ -154,15 +158,23 @@ int main(int argc, char** argv) {
       c.seeds = static_cast<unsigned>(std::atoi(argv[++i]));
     else if (word == "gaps" || word == "fixes")
       only = word;
-    else
-      return std::fprintf(stderr, "usage: bench_link_gaps [--seeds N] [gaps | fixes]\n"), 2;
+    else {
+      std::fprintf(stderr, "usage: bench_link_gaps [--seeds N] [gaps | fixes]\n");
+      return 2;
+    }
   }
   c.folder = fs::temp_directory_path() / ("fulmar-link-gaps-" + std::to_string(getpid()));
   try {
     fs::create_directories(c.folder);
     std::printf("%s", heading);
-    if (only != "fixes") std::printf("%s", about_gaps), gaps(c);
-    if (only != "gaps") std::printf("%s", about_fixes), fixes(c);
+    if (only != "fixes") {
+      std::printf("%s", about_gaps);
+      gaps(c);
+    }
+    if (only != "gaps") {
+      std::printf("%s", about_fixes);
+      fixes(c);
+    }
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     ++c.missed;

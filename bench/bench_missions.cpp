@@ -113,10 +113,10 @@ int main(int argc, char** argv) {
       seeds = std::atoi(argv[++i]);
     else if (std::strcmp(argv[i], "--mission") == 0 && i + 1 < argc)
       mission = argv[++i];
-    else
-      return std::fprintf(stderr,
-                          "usage: bench_missions [--json | --markdown] [--seeds N] [--mission FILE]\n"),
-             2;
+    else {
+      std::fprintf(stderr, "usage: bench_missions [--json | --markdown] [--seeds N] [--mission FILE]\n");
+      return 2;
+    }
   }
   int bad = 0;
   nlohmann::json all = nlohmann::json::object();

@@ -103,8 +103,10 @@ nlohmann::json json_of(const Aided& a) {
 void tell(const Options& o, const std::vector<Outcome>& all, const Aided& aided) {
   std::vector<double> errors, claims, heights, height_claims;
   for (const Outcome& each : all) {
-    errors.push_back(each.horizontal_m), claims.push_back(each.claimed_m);
-    heights.push_back(std::abs(each.height_m)), height_claims.push_back(each.height_claimed_m);
+    errors.push_back(each.horizontal_m);
+    claims.push_back(each.claimed_m);
+    heights.push_back(std::abs(each.height_m));
+    height_claims.push_back(each.height_claimed_m);
   }
   const Summary horizontal(errors, claims), height(heights, height_claims);
   if (o.json) {
@@ -142,7 +144,8 @@ int main(int count, char** words) {
   try {
     o = options_of(count, words);
   } catch (const std::logic_error&) {
-    return std::fprintf(stderr, "%s\n", usage), 2;
+    std::fprintf(stderr, "%s\n", usage);
+    return 2;
   }
   try {
     const Outages outages(o.recipe);
@@ -150,7 +153,8 @@ int main(int count, char** words) {
     for (const double start_s : o.starts_s) all.push_back(outages.fly(start_s, o.seconds));
     tell(o, all, outages.aided());
   } catch (const std::exception& e) {
-    return std::fprintf(stderr, "%s\n", e.what()), 1;
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
   }
   return 0;
 }

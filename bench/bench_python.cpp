@@ -47,7 +47,11 @@ class Stepper {
     for (std::uint32_t i = 0; i < c.param_count; ++i)
       std::memcpy(values[i].number, c.params[i].initial, sizeof c.params[i].initial);
     if (c.configure(instance_, values.data(), &error) != FULMAR_OK) throw std::runtime_error(error.text);
-    for (fulmar_input& in : inputs_) in.count = 1, in.sequence = 1, in.flags = FULMAR_FRESH;
+    for (fulmar_input& in : inputs_) {
+      in.count = 1;
+      in.sequence = 1;
+      in.flags = FULMAR_FRESH;
+    }
     inputs_[0].data = &state_;
     inputs_[1].data = &command_;
   }

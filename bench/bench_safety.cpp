@@ -16,10 +16,14 @@ struct Worst {
   std::array<unsigned, 4> ends{};
   double told_s = -1, sink_mps = 0, home_m = 0, outside_m = -1e9, seconds = 0;
   void add(const Row& row, const Flown& f) {
-    ++flown, kept += f.kept(row), told_else += f.told_else;
+    ++flown;
+    kept += f.kept(row);
+    told_else += f.told_else;
     ++ends[static_cast<std::size_t>(f.end)];
-    told_s = std::max(told_s, f.told_s), sink_mps = std::max(sink_mps, f.touch_sink_mps);
-    home_m = std::max(home_m, f.home_m), outside_m = std::max(outside_m, f.outside_m);
+    told_s = std::max(told_s, f.told_s);
+    sink_mps = std::max(sink_mps, f.touch_sink_mps);
+    home_m = std::max(home_m, f.home_m);
+    outside_m = std::max(outside_m, f.outside_m);
     seconds = std::max(seconds, f.seconds);
   }
 };
@@ -66,7 +70,8 @@ nlohmann::json json_of(const Row& row, const Worst& w) {
 }
 
 int usage() {
-  return std::fprintf(stderr, "usage: bench_safety [--json] [--flights N] [AIRFRAME [NAME]]\n"), 2;
+  std::fprintf(stderr, "usage: bench_safety [--json] [--flights N] [AIRFRAME [NAME]]\n");
+  return 2;
 }
 
 }  // namespace

@@ -44,10 +44,14 @@ struct Worst {
 
   void add(const Flown& f) {
     ++flown;
-    shown += f.shown, down += f.crashed;
+    shown += f.shown;
+    down += f.crashed;
     told += f.told_s >= 0;
     recovered += f.recovered_s >= 0;
-    if (f.told_s > of.told_s) of.told_s = f.told_s, of.told_by = f.told_by;
+    if (f.told_s > of.told_s) {
+      of.told_s = f.told_s;
+      of.told_by = f.told_by;
+    }
     for (std::size_t i = 0; i < whats; ++i) {
       of.most[i] = std::max(of.most[i], f.most[i]);
       of.most_valid[i] = std::max(of.most_valid[i], f.most_valid[i]);
@@ -168,8 +172,10 @@ int main(int argc, char** argv) {
       json = true;
     else if (word[0] != '-' && only.empty())
       only = word;
-    else
-      return std::fprintf(stderr, "usage: bench_sensor_faults [--json] [--seeds N] [NAME]\n"), 2;
+    else {
+      std::fprintf(stderr, "usage: bench_sensor_faults [--json] [--seeds N] [NAME]\n");
+      return 2;
+    }
   }
   const fs::path folder = fs::temp_directory_path() / ("fulmar-sensor-faults-" + std::to_string(getpid()));
   try {

@@ -24,7 +24,8 @@ struct Options {
 };
 
 int usage() {
-  return std::fprintf(stderr, "usage: bench_sensors FILE.yaml... [--hours N] [--seed N] [--json]\n"), 2;
+  std::fprintf(stderr, "usage: bench_sensors FILE.yaml... [--hours N] [--seed N] [--json]\n");
+  return 2;
 }
 
 bool read(int argc, char** argv, Options& o) {
@@ -83,7 +84,8 @@ int main(int argc, char** argv) {
       within = tell("accel", ug, accel, s.accel_sheet, o, into) && within;
     }
   } catch (const std::exception& e) {
-    return std::fprintf(stderr, "%s\n", e.what()), 2;
+    std::fprintf(stderr, "%s\n", e.what());
+    return 2;
   }
   all["within"] = within;
   if (o.json) std::printf("%s\n", all.dump(2).c_str());

@@ -13,7 +13,10 @@ using namespace fulmar::six_dof;
 
 namespace {
 
-int usage() { return std::fprintf(stderr, "usage: bench_six_dof DIR [--json]\n"), 2; }
+int usage() {
+  std::fprintf(stderr, "usage: bench_six_dof DIR [--json]\n");
+  return 2;
+}
 
 void print(const Case& c, const std::vector<Figure>& figures) {
   std::printf("%s  %s\n", c.number, c.what);
@@ -50,7 +53,8 @@ int main(int argc, char** argv) {
       if (!json) print(c, figures);
     }
   } catch (const std::exception& e) {
-    return std::fprintf(stderr, "%s\n", e.what()), 2;
+    std::fprintf(stderr, "%s\n", e.what());
+    return 2;
   }
   all["within"] = within;
   if (json) std::printf("%s\n", all.dump(2).c_str());

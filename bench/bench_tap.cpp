@@ -88,7 +88,8 @@ int be_reader(const std::string& domain) {
     waker.wait(std::chrono::milliseconds(50));
     for (std::size_t i = 0; i < readers.size(); ++i)
       while (const std::size_t n = readers[i]->take(64, [](const dds::Reader::Sample&) {})) {
-        all += n, states += i == 0 ? n : 0;
+        all += n;
+        states += i == 0 ? n : 0;
         heard = steady_clock::now();
       }
   }
@@ -138,7 +139,8 @@ Graph graph_of(const Sinks& sinks) {
   Graph graph = load_mission(mission);
   graph.record_rules = {{{"*"}, 0}};
   graph.live.on = has(sinks, "live");
-  graph.live.host = "127.0.0.1", graph.live.port = 0;
+  graph.live.host = "127.0.0.1";
+  graph.live.port = 0;
   graph.dds.on = has(sinks, "dds");
   graph.dds.domain = 1 + static_cast<int>(getpid() % 200);
   for (const auto& [port, type] : exported)
@@ -199,10 +201,16 @@ int fly(double seconds, const Sinks& sinks) {
                {"wall_s", r.wall.took_s}};
   std::uint64_t lost = r.log.dropped;
   if (o.log) told["log_dropped"] = r.log.dropped;
-  if (r.live)
-    told["live_sent"] = r.live->sent, told["live_dropped"] = r.live->dropped + r.live->lost,
+  if (r.live) {
+    told["live_sent"] = r.live->sent;
+    told["live_dropped"] = r.live->dropped + r.live->lost;
     lost += r.live->dropped + r.live->lost;
-  if (r.dds) told["dds_sent"] = r.dds->sent, told["dds_dropped"] = r.dds->lost, lost += r.dds->lost;
+  }
+  if (r.dds) {
+    told["dds_sent"] = r.dds->sent;
+    told["dds_dropped"] = r.dds->lost;
+    lost += r.dds->lost;
+  }
   told["dropped"] = lost;
   for (Process& other : others) told["received"].push_back(other.result());
   return print(told);
@@ -303,11 +311,12 @@ int main(int argc, char** argv) {
         seconds = std::atof(argv[++i]);
       else if (word == "--rounds" && i + 1 < argc)
         rounds = std::atoi(argv[++i]);
-      else
-        return std::fprintf(stderr,
-                            "usage: bench_tap [--json] [--seconds N] [--rounds N] [--each] | bench_tap "
-                            "--sizes [--json]\n"),
-               2;
+      else {
+        std::fprintf(stderr,
+                     "usage: bench_tap [--json] [--seconds N] [--rounds N] [--each] | bench_tap "
+                     "--sizes [--json]\n");
+        return 2;
+      }
     }
     return sizes ? bench_sizes(as_json) : bench_loop(seconds, rounds, each, as_json);
   } catch (const std::exception& e) {

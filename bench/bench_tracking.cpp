@@ -91,8 +91,10 @@ int main(int argc, char** argv) {
       json = true;
     else if (std::strcmp(argv[i], "--seeds") == 0 && i + 1 < argc && std::atoi(argv[i + 1]) > 0)
       seeds = std::atoi(argv[++i]);
-    else
-      return std::fprintf(stderr, "usage: bench_tracking [--seeds N] [--json]\n"), 2;
+    else {
+      std::fprintf(stderr, "usage: bench_tracking [--seeds N] [--json]\n");
+      return 2;
+    }
   }
   int bad = 0;
   nlohmann::json all = nlohmann::json::object();
@@ -123,7 +125,8 @@ int main(int argc, char** argv) {
           std::fflush(stdout);
         }
   } catch (const std::exception& e) {
-    return std::fprintf(stderr, "%s\n", e.what()), 1;
+    std::fprintf(stderr, "%s\n", e.what());
+    return 1;
   }
   if (json) std::printf("%s\n", all.dump(2).c_str());
   return bad == 0 ? 0 : 1;

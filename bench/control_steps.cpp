@@ -16,11 +16,18 @@ using namespace fulmar;
 VehicleState climbing_turn() {
   VehicleState s;
   s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
-  s.roll_rad = 0.35, s.pitch_rad = 0.08, s.yaw_rad = 1, s.course_rad = 1.02;
+  s.roll_rad = 0.35;
+  s.pitch_rad = 0.08;
+  s.yaw_rad = 1;
+  s.course_rad = 1.02;
   s.rate_radps = {-0.01, 0.07, 0.19};
   s.specific_force_mps2 = {0.8, 0.02, -10.4};
-  s.height_m = 60, s.climb_rate_mps = 0.5, s.ground_speed_mps = 18;
-  s.airspeed_mps = 16.8, s.alpha_rad = 0.06, s.beta_rad = 0.01;
+  s.height_m = 60;
+  s.climb_rate_mps = 0.5;
+  s.ground_speed_mps = 18;
+  s.airspeed_mps = 16.8;
+  s.alpha_rad = 0.06;
+  s.beta_rad = 0.01;
   return s;
 }
 

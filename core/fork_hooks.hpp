@@ -12,7 +12,10 @@
 extern "C" {
 
 pid_t fork() noexcept {
-  if (refuse_fork("fork")) return errno = EPERM, -1;
+  if (refuse_fork("fork")) {
+    errno = EPERM;
+    return -1;
+  }
   static const auto next = reinterpret_cast<pid_t (*)()>(dlsym(RTLD_NEXT, "fork"));
   return next();
 }
@@ -20,26 +23,38 @@ pid_t fork() noexcept {
 /// A caller of vfork may not tell it from fork (POSIX), and a function that returns twice cannot stand in
 /// front of it.
 pid_t vfork() noexcept {
-  if (refuse_fork("vfork")) return errno = EPERM, -1;
+  if (refuse_fork("vfork")) {
+    errno = EPERM;
+    return -1;
+  }
   return fork();
 }
 
 #if __GLIBC_PREREQ(2, 34)
 pid_t _Fork() noexcept {  // NOLINT(bugprone-reserved-identifier): POSIX's name
-  if (refuse_fork("_Fork")) return errno = EPERM, -1;
+  if (refuse_fork("_Fork")) {
+    errno = EPERM;
+    return -1;
+  }
   static const auto next = reinterpret_cast<pid_t (*)()>(dlsym(RTLD_NEXT, "_Fork"));
   return next();
 }
 #endif
 
 int forkpty(int* master, char* name, const termios* settings, const winsize* window) noexcept {
-  if (refuse_fork("forkpty")) return errno = EPERM, -1;
+  if (refuse_fork("forkpty")) {
+    errno = EPERM;
+    return -1;
+  }
   static const auto next = reinterpret_cast<decltype(&forkpty)>(dlsym(RTLD_NEXT, "forkpty"));
   return next(master, name, settings, window);
 }
 
 int daemon(int stay, int keep) noexcept {
-  if (refuse_fork("daemon")) return errno = EPERM, -1;
+  if (refuse_fork("daemon")) {
+    errno = EPERM;
+    return -1;
+  }
   static const auto next = reinterpret_cast<decltype(&daemon)>(dlsym(RTLD_NEXT, "daemon"));
   return next(stay, keep);
 }

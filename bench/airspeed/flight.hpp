@@ -32,8 +32,13 @@ struct Flown {
   double claimed() const { return std::sqrt(variance / std::max(ticks, 1.0)); }
   double share(double n) const { return n / std::max(ticks, 1.0); }
   void add(const Flown& f) {
-    ticks += f.ticks, square += f.square, variance += f.variance;
-    within_1 += f.within_1, within_2 += f.within_2, valid += f.valid, modelled += f.modelled;
+    ticks += f.ticks;
+    square += f.square;
+    variance += f.variance;
+    within_1 += f.within_1;
+    within_2 += f.within_2;
+    valid += f.valid;
+    modelled += f.modelled;
     most = std::max(most, f.most);
     least_true = std::min(least_true, f.least_true);
     crashed = crashed || f.crashed;
@@ -59,7 +64,8 @@ inline fs::path mission_of(const Case& c, const std::string& sensors, bool wired
 class Watched {
  public:
   Watched(const Case& c, const core::Graph& graph) : case_(c), flight_(graph, unlogged()) {
-    truth_ = output_of(graph, "sim", "truth"), state_ = output_of(graph, "ekf", "state");
+    truth_ = output_of(graph, "sim", "truth");
+    state_ = output_of(graph, "ekf", "state");
   }
 
   Flown fly() {
@@ -98,7 +104,10 @@ class Watched {
     engine_bad_ = bad;
     FaultRequest r{FaultTarget::engine, FaultKind::none};
     if (bad) r.kind = case_.left_ratio > 0 ? FaultKind::weak : FaultKind::off;
-    if (bad) r.size_ratio = case_.left_ratio, r.ramp_s = case_.ramp_s;
+    if (bad) {
+      r.size_ratio = case_.left_ratio;
+      r.ramp_s = case_.ramp_s;
+    }
     core::request(flight_, "sim", "fault", r);
   }
   void look(const VehicleState& x, const VehicleState& s) {

@@ -15,13 +15,16 @@ TEST_CASE("episodes begin and aim within the published ranges, and fill them") {
   double slow = 99, fast = 0, slow_aim = 99, fast_aim = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const Episode e = episode(5, i);
-    roll = std::max(roll, std::abs(e.start.roll_rad)), pitch = std::max(pitch, std::abs(e.start.pitch_rad));
-    v = std::max(v, std::abs(e.start.v_mps)), w = std::max(w, std::abs(e.start.w_mps));
+    roll = std::max(roll, std::abs(e.start.roll_rad));
+    pitch = std::max(pitch, std::abs(e.start.pitch_rad));
+    v = std::max(v, std::abs(e.start.v_mps));
+    w = std::max(w, std::abs(e.start.w_mps));
     for (const double r : e.start.rate_radps) rate = std::max(rate, std::abs(r));
     aim_roll = std::max(aim_roll, std::abs(e.target.roll_rad));
     aim_pitch = std::max(aim_pitch, std::abs(e.target.pitch_rad));
     apart = std::max(apart, std::abs(e.target.airspeed_mps - e.start.airspeed_mps));
-    slow = std::min(slow, e.start.airspeed_mps), fast = std::max(fast, e.start.airspeed_mps);
+    slow = std::min(slow, e.start.airspeed_mps);
+    fast = std::max(fast, e.start.airspeed_mps);
     slow_aim = std::min(slow_aim, e.target.airspeed_mps);
     fast_aim = std::max(fast_aim, e.target.airspeed_mps);
   }
@@ -141,7 +144,9 @@ TEST_CASE(
 TEST_CASE("the published PID has its gains, signs and limits") {
   PublishedPid pid;
   VehicleState s;
-  s.roll_rad = 0.1, s.pitch_rad = 0.02, s.airspeed_mps = 20;
+  s.roll_rad = 0.1;
+  s.pitch_rad = 0.02;
+  s.airspeed_mps = 20;
   s.rate_radps = {0.2, 0.3, 0};
   const Actuators u = pid.step(s, {0.3, 0.05, 21});
   CHECK(u.aileron_rad == Approx(0.2 - 0.1));

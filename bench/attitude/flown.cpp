@@ -42,7 +42,9 @@ VehicleState seen(const sim::Simulation& sim) {
   s.climb_rate_mps = -x.v_n.z();
   s.ground_speed_mps = std::hypot(x.v_n.x(), x.v_n.y());
   s.course_rad = std::atan2(x.v_n.y(), x.v_n.x());
-  s.airspeed_mps = air.Va, s.alpha_rad = air.alpha, s.beta_rad = air.beta;
+  s.airspeed_mps = air.Va;
+  s.alpha_rad = air.alpha;
+  s.beta_rad = air.beta;
   s.wind_mps = from_eigen<Ned>(sim.plant().wind_n());
   s.origin_altitude_m = -300;
   s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
@@ -117,7 +119,8 @@ struct ShippedLaw {
   bool begun = false;
 
   ShippedLaw(const Airframe& a, const Params& params) {
-    airspeed.params = params.airspeed, inner.params = params.inner;
+    airspeed.params = params.airspeed;
+    inner.params = params.inner;
     airspeed.params.airframe.value = inner.params.airframe.value = a;
   }
   Actuators step(const VehicleState& state, const Target& target) {

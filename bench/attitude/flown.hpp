@@ -43,7 +43,8 @@ struct PublishedPid {
   Actuators step(const VehicleState& s, const Target& target) {
     const double e_V = target.airspeed_mps - s.airspeed_mps, e_phi = target.roll_rad - s.roll_rad;
     const double e_theta = target.pitch_rad - s.pitch_rad;
-    airspeed_integral += dt_s * e_V, pitch_integral += dt_s * e_theta;
+    airspeed_integral += dt_s * e_V;
+    pitch_integral += dt_s * e_theta;
     Actuators u;
     u.throttle_frac = std::clamp(0.5 * e_V + 0.1 * airspeed_integral, 0.0, 1.0);
     u.aileron_rad = std::clamp(e_phi - 0.5 * s.rate_radps.x, -30 * deg, 30 * deg);

@@ -46,11 +46,14 @@ inline Episode episode(std::uint64_t seed, std::uint64_t number) {
   Random random(mix_seed(seed, number));
   const auto within = [&](double most) { return random.uniform(-most, most); };
   Episode e;
-  e.start.roll_rad = within(60 * deg), e.start.pitch_rad = within(25 * deg);
+  e.start.roll_rad = within(60 * deg);
+  e.start.pitch_rad = within(25 * deg);
   e.start.airspeed_mps = random.uniform(slowest_mps, fastest_mps);
-  e.start.v_mps = within(5), e.start.w_mps = within(5);
+  e.start.v_mps = within(5);
+  e.start.w_mps = within(5);
   for (double& rate : e.start.rate_radps) rate = within(40 * deg);
-  e.target.roll_rad = within(15 * deg), e.target.pitch_rad = within(10 * deg);
+  e.target.roll_rad = within(15 * deg);
+  e.target.pitch_rad = within(10 * deg);
   e.target.airspeed_mps = e.start.airspeed_mps + within(target_apart_mps);
   e.seed = random.bits();
   return e;

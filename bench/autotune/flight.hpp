@@ -104,8 +104,12 @@ inline fs::path mission_of(const Case& c, const aero::InnerLaw& law, const fs::p
 inline void judge(const Case& c, const aero::AirframeFile& file, aero::InnerLaw law, Flown& out) {
   constexpr double altitude_m = 1457;
   const AutotuneReport& r = out.report;
-  law.roll_kp.value = r.kp_ratio[0], law.roll_ki.value = r.ki_ratio[0], law.roll_kd.value = r.kd_ratio[0];
-  law.pitch_kp.value = r.kp_ratio[1], law.pitch_ki.value = r.ki_ratio[1], law.pitch_kd.value = r.kd_ratio[1];
+  law.roll_kp.value = r.kp_ratio[0];
+  law.roll_ki.value = r.ki_ratio[0];
+  law.roll_kd.value = r.kd_ratio[0];
+  law.pitch_kp.value = r.kp_ratio[1];
+  law.pitch_ki.value = r.ki_ratio[1];
+  law.pitch_kd.value = r.kd_ratio[1];
   law.yaw_kd.value = r.kd_ratio[2];
   const AircraftModel m(file.airframe, altitude_m);
   SteadyCondition condition;
@@ -141,7 +145,11 @@ inline Flown fly(const Case& c, const fs::path& folder) {
     if (!r || !x) continue;
     out.report = *r;
     if (r->stage == AutotuneStage::idle || r->done) continue;
-    if (!begun) begun = true, begun_m = x->height_m, begun_pitch = x->pitch_rad;
+    if (!begun) {
+      begun = true;
+      begun_m = x->height_m;
+      begun_pitch = x->pitch_rad;
+    }
     out.roll_rad = std::max(out.roll_rad, std::abs(x->roll_rad));
     out.pitch_rad = std::max(out.pitch_rad, std::abs(x->pitch_rad - begun_pitch));
     out.height_m = std::max(out.height_m, std::abs(x->height_m - begun_m));

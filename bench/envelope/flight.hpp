@@ -108,7 +108,8 @@ class Watched {
   Watched(const core::Graph& graph, const Dispersion& d, double stall_rad)
       : stall_rad_(stall_rad), flight_(graph, unlogged()) {
     out_.seed = d.seed;
-    truth_ = output_of(graph, "sim", "truth"), internals_ = output_of(graph, d.law, "internals");
+    truth_ = output_of(graph, "sim", "truth");
+    internals_ = output_of(graph, d.law, "internals");
   }
   Flown fly() {
     while (flight_.step()) look();
@@ -132,12 +133,16 @@ class Watched {
     if (!x || !said || flight_.phase() != "cruise") return;
     const double now = 1e-9 * static_cast<double>(flight_.now_ns());
     if (x->alpha_rad < stall_rad_) since_s_ = now;
-    if (now - since_s_ > out_.stalled_s) out_.stalled_s = now - since_s_, out_.stalled_at_s = now;
+    if (now - since_s_ > out_.stalled_s) {
+      out_.stalled_s = now - since_s_;
+      out_.stalled_at_s = now;
+    }
     out_.lowest_m = std::min(out_.lowest_m, x->height_m);
     out_.reported += said->stalled && !before_.stalled;
     out_.lost_height += said->height_uncontrolled && !before_.height_uncontrolled;
     before_ = *said;
-    squares_ += said->height_error_m * said->height_error_m, ++n_;
+    squares_ += said->height_error_m * said->height_error_m;
+    ++n_;
   }
 
   double stall_rad_;

@@ -97,7 +97,10 @@ class FailingFlight {
   void set(double share) {
     if (d_.fault.kind != FaultKind::none) {
       FaultRequest r = d_.fault;
-      if (share <= 0) r.kind = FaultKind::none, r.size_ratio = 0;
+      if (share <= 0) {
+        r.kind = FaultKind::none;
+        r.size_ratio = 0;
+      }
       core::request(flight_, "sim", "fault", r);
       return;
     }

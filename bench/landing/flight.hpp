@@ -133,9 +133,12 @@ class Watched {
   Watched(const core::Graph& graph, const Airframe& flown, std::uint64_t seed, const std::string& log)
       : flown_(flown), most_lift_(most_lift(flown).coefficient), flight_(graph, logged_to(log)) {
     out_.seed = seed;
-    truth_ = output_of(graph, "sim", "truth"), contact_ = output_of(graph, "sim", "contact");
-    gnss_ = output_of(graph, "sim", "gnss"), progress_ = output_of(graph, "land", "progress");
-    ground_ = output_of(graph, "ground", "state"), actuators_ = output_of(graph, "attitude", "actuators");
+    truth_ = output_of(graph, "sim", "truth");
+    contact_ = output_of(graph, "sim", "contact");
+    gnss_ = output_of(graph, "sim", "gnss");
+    progress_ = output_of(graph, "land", "progress");
+    ground_ = output_of(graph, "ground", "state");
+    actuators_ = output_of(graph, "attitude", "actuators");
   }
 
   Landed fly() {
@@ -149,7 +152,10 @@ class Watched {
     // A touch-down that is a crash ends the flight in that tick.
     out_.crashed =
         result.outcome != core::Outcome::flown && result.reason.find("crashed") != std::string::npos;
-    if (out_.crashed) out_.sink_mps = -before_.climb_rate_mps, out_.touched = true;
+    if (out_.crashed) {
+      out_.sink_mps = -before_.climb_rate_mps;
+      out_.touched = true;
+    }
     return out_;
   }
 
@@ -176,7 +182,10 @@ class Watched {
     recognise(x);
     const bool landing = p.stage == LandingStage::approach || p.stage >= LandingStage::flare;
     receiver(x);
-    if (touching && flight_.phase() == "takeoff") recent_.clear(), sum_ = 0;
+    if (touching && flight_.phase() == "takeoff") {
+      recent_.clear();
+      sum_ = 0;
+    }
     if (!touching && !landing_begun(p) && !out_.touched) aloft(x);
     if (touching && landing && p.stage != LandingStage::go_around && flight_.phase() != "takeoff" &&
         !out_.touched) {
@@ -225,8 +234,12 @@ class Watched {
   }
   void aloft(const VehicleState& x) {
     constexpr std::size_t second = 400;
-    recent_.push_back(x.airspeed_mps), sum_ += x.airspeed_mps;
-    if (recent_.size() > second) sum_ -= recent_.front(), recent_.pop_front();
+    recent_.push_back(x.airspeed_mps);
+    sum_ += x.airspeed_mps;
+    if (recent_.size() > second) {
+      sum_ -= recent_.front();
+      recent_.pop_front();
+    }
     if (recent_.size() < second) return;
     const double rho = standard_air(x.origin_altitude_m + x.height_m).density_kgm3;
     const double stall = std::sqrt(2 * flown_.mass_kg * isa::g0 / (rho * flown_.wing.area_m2 * most_lift_));

@@ -23,7 +23,10 @@ enum class Zone : std::uint8_t { take_off, climb, altitude_hold };
 struct Integrator {
   double I = 0, e_prev = 0;
 
-  void add(double e, double Ts) { I += Ts / 2 * (e + e_prev), e_prev = e; }
+  void add(double e, double Ts) {
+    I += Ts / 2 * (e + e_prev);
+    e_prev = e;
+  }
   /// sat( u0 + ki I, min, max ), with this step's integration taken back when it is cut.
   double output(double u0, double ki, double e, double min, double max, double Ts, bool mended) {
     const double before = I;
@@ -187,10 +190,12 @@ struct Controller {  // fills the roles `outer` and `inner` at once
         break;
       case Zone::climb:
         if (h >= h_c - p.alt_hz) {
-          airspeed_ = {}, altitude_ = {};
+          airspeed_ = {};
+          altitude_ = {};
           enter(Zone::altitude_hold, p);
         } else if (h <= p.alt_toz) {
-          airspeed_ = {}, altitude_ = {};
+          airspeed_ = {};
+          altitude_ = {};
           enter(Zone::take_off, p);
         }
         break;
@@ -204,7 +209,10 @@ struct Controller {  // fills the roles `outer` and `inner` at once
   }
   void enter(Zone zone, const Params& p) {
     zone_ = zone;
-    if (p.law == Law::total_energy) total_ = {}, balance_ = {};
+    if (p.law == Law::total_energy) {
+      total_ = {};
+      balance_ = {};
+    }
   }
 
   Zone zone_ = Zone::take_off;

@@ -33,7 +33,8 @@ struct Flown : Bench<Controller> {
   GuidanceCommand c{.course_rad = 0, .height_m = 70, .airspeed_mps = 17};
   void fly(int steps = 1) {
     for (int i = 0; i < steps; ++i) {
-      set(in.state, s), set(in.command, c);
+      set(in.state, s);
+      set(in.command, c);
       step(0.01);
     }
   }
@@ -41,10 +42,15 @@ struct Flown : Bench<Controller> {
   void reach_hold() {
     const auto wanted = c;
     const auto is = s;
-    c.height_m = 70, c.course_rad = 0, c.airspeed_mps = 17, c.roll_feedforward_rad = 0, s = flying(70);
+    c.height_m = 70;
+    c.course_rad = 0;
+    c.airspeed_mps = 17;
+    c.roll_feedforward_rad = 0;
+    s = flying(70);
     fly(2);
     REQUIRE(out.zone_ratio.value == 1);
-    c = wanted, s = is;
+    c = wanted;
+    s = is;
   }
   void without_integrals() {
     for (Param* ki : {&params.c_ki, &params.a_ki, &params.a_t_ki, &params.e_ki, &params.l_ki}) ki->value = 0;
@@ -96,19 +102,25 @@ TEST_CASE("successive loops: gain times error, both signs, and their limits") {
   for (const double side : {1.0, -1.0}) {
     Flown f;
     f.without_integrals();
-    f.c.course_rad = 0.1 * side, f.c.height_m = 70 + 4 * side, f.c.airspeed_mps = 17 + 2 * side;
+    f.c.course_rad = 0.1 * side;
+    f.c.height_m = 70 + 4 * side;
+    f.c.airspeed_mps = 17 + 2 * side;
     f.c.roll_feedforward_rad = 0.05 * side;
     f.s.course_rad = 6.2831853 * side;  // as far from it as north is from itself
     f.reach_hold();
-    f.s.pitch_rad = 0.02 * side, f.s.rate_radps = {0.1 * side, 0.2 * side, 0};
+    f.s.pitch_rad = 0.02 * side;
+    f.s.rate_radps = {0.1 * side, 0.2 * side, 0};
     f.fly();
     CHECK(f.out.attitude.roll_rad / side == Approx(2 * 0.1 + 0.05).epsilon(1e-6));
     CHECK(f.out.attitude.pitch_rad / side == Approx(0.015 * 4));
     CHECK(f.out.attitude.throttle_frac == Approx(0.5 + 0.1 * 2 * side));
     CHECK(f.out.actuators.aileron_rad / side == Approx(0.55 * 0.25 - 0.2 * 0.1).epsilon(1e-6));
     CHECK(f.out.actuators.elevator_rad == Approx(-(0.075 + side * (4.25 * (0.06 - 0.02) - 0.6 * 0.2))));
-    f.c.course_rad = 2 * side, f.c.height_m = 70 + 100 * side, f.c.airspeed_mps = 17 + 30 * side;
-    f.params.a_kp.value = 0.1, f.retune();
+    f.c.course_rad = 2 * side;
+    f.c.height_m = 70 + 100 * side;
+    f.c.airspeed_mps = 17 + 30 * side;
+    f.params.a_kp.value = 0.1;
+    f.retune();
     f.fly();
     CHECK(f.out.attitude.roll_rad == Approx(side * 0.7853982));
     CHECK(f.out.attitude.pitch_rad == Approx(side * 0.3490659));
@@ -127,10 +139,12 @@ TEST_CASE("total energy: the shares of the energy that is wanted, both signs; tr
     const double U = 9.8 * 3 / (0.5 * 17 * 17);
     CHECK(f.out.attitude.pitch_rad == Approx(side * 0.5 * U));
     CHECK(f.out.attitude.throttle_frac == Approx(side > 0 ? 0.5 + 0.5 * U : 0.5));  // never below trim
-    f.params.mended.value = true, f.retune();
+    f.params.mended.value = true;
+    f.retune();
     f.fly();
     CHECK(f.out.attitude.throttle_frac == Approx(0.5 + side * 0.5 * U));
-    f.c.height_m = 70, f.s.airspeed_mps = 17 - 3 * side;
+    f.c.height_m = 70;
+    f.s.airspeed_mps = 17 - 3 * side;
     f.fly();
     const double K = 1 - std::pow((17 - 3 * side) / 17, 2);
     CHECK(f.out.attitude.pitch_rad == Approx(-0.5 * K));
@@ -140,10 +154,12 @@ TEST_CASE("total energy: the shares of the energy that is wanted, both signs; tr
   f.params.law.value = Law::total_energy;
   f.reach_hold();
   f.s.airspeed_mps = 34;
-  f.params.l_kp.value = 1, f.retune();
+  f.params.l_kp.value = 1;
+  f.retune();
   f.fly();
   CHECK(f.out.attitude.pitch_rad == Approx(0.7853982));
-  f.params.mended.value = true, f.retune();
+  f.params.mended.value = true;
+  f.retune();
   f.fly();
   CHECK(f.out.attitude.pitch_rad == Approx(0.3490659));
   f.c.airspeed_mps = 0;
@@ -156,12 +172,14 @@ TEST_CASE("a saturated integral stays where it is; mended it unwinds") {
     CAPTURE(mended);
     Flown f;
     f.params.mended.value = mended;
-    f.params.a_t_kp.value = 0, f.params.a_t_ki.value = 1;
+    f.params.a_t_kp.value = 0;
+    f.params.a_t_ki.value = 1;
     f.reach_hold();
     f.c.airspeed_mps = 18;
     f.fly(600);  // to the limit of the throttle, and long against it
     CHECK(f.out.attitude.throttle_frac > 0.98);
-    f.params.trim_t.value = 1, f.retune();  // now half a throttle beyond it
+    f.params.trim_t.value = 1;
+    f.retune();  // now half a throttle beyond it
     f.c.airspeed_mps = 16;
     f.fly(100);
     CHECK((f.out.attitude.throttle_frac < 0.7) == mended);
@@ -181,12 +199,15 @@ TEST_CASE("the yaw damper is a 37th of what was meant at 5 rad/s; mended it is t
 TEST_CASE("the follower's line and orbit, both sides; behind the line's point it climbs the wrong way") {
   Bench<Follower> f;
   Path path;
-  path.origin_m = {10, 20, -70}, path.direction_ratio = {0, 0.8, -0.6}, path.airspeed_mps = 18;
+  path.origin_m = {10, 20, -70};
+  path.direction_ratio = {0, 0.8, -0.6};
+  path.airspeed_mps = 18;
   VehicleState s = flying(70);
   s.position_m = {14, 60, -70};
   s.course_rad = 1.5;
   const auto step = [&]() -> const GuidanceCommand& {
-    f.set(f.in.state, s), f.set(f.in.path, path);
+    f.set(f.in.state, s);
+    f.set(f.in.path, path);
     f.step(0.1);
     return f.out.command;
   };
@@ -197,7 +218,8 @@ TEST_CASE("the follower's line and orbit, both sides; behind the line's point it
   CHECK(f.out.command.airspeed_mps == 18);
   s.position_m.east = -20;
   CHECK(step().height_m > 90);  // 40 m before it the path is 30 m lower, not higher
-  path.kind = PathKind::orbit, path.radius_m = 50;
+  path.kind = PathKind::orbit;
+  path.radius_m = 50;
   for (const double side : {1.0, -1.0}) {
     path.turn = side > 0 ? Turn::right : Turn::left;
     s.position_m = {10, 80, -70};  // 60 m east of the centre

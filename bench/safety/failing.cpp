@@ -55,11 +55,15 @@ struct Failing {
       if (asked || kind == FaultKind::none || tick.now_s() < at_s) return false;
       return asked = true;
     };
-    if (due(asked_, p.kind.value, first_s))
-      r.what = p.what.value, r.kind = p.kind.value, r.size_ratio = p.size, r.for_s = p.lasts;
-    else if (due(then_asked_, p.then_kind.value, then_s))
-      r.what = p.then_what.value, r.kind = p.then_kind.value;
-    else
+    if (due(asked_, p.kind.value, first_s)) {
+      r.what = p.what.value;
+      r.kind = p.kind.value;
+      r.size_ratio = p.size;
+      r.for_s = p.lasts;
+    } else if (due(then_asked_, p.then_kind.value, then_s)) {
+      r.what = p.then_what.value;
+      r.kind = p.then_kind.value;
+    } else
       return Status::ok;
     out.fault.publish(r, tick.now_ns);
     return Status::ok;

@@ -146,7 +146,10 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
     top_m = std::max(top_m, x->height_m);
     if (at_s > 1e8 && top_m > 40 && x->height_m < row.below_m) at_s = now;
     flew = flew || x->height_m > 5;
-    if (flew && v->touching && touched_s < 0) touched_s = now, f.touch_sink_mps = -climb_mps;
+    if (flew && v->touching && touched_s < 0) {
+      touched_s = now;
+      f.touch_sink_mps = -climb_mps;
+    }
     climb_mps = x->climb_rate_mps;
     f.home_m = std::hypot(x->position_m.north, x->position_m.east);
     if (touched_s >= 0 && row.cause == &SafetyState::wind_excessive && now - touched_s > 5) break;

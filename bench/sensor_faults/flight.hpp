@@ -65,8 +65,10 @@ class Watched {
   Watched(const Row& row, const core::Graph& graph, const Each& usual)
       : row_(row), flight_(graph, unlogged()) {
     for (std::size_t i = 0; i < whats; ++i) bound_[i] = std::max(1.5 * usual[i], least[i]);
-    truth_ = output_of(graph, "sim", "truth"), state_ = output_of(graph, "ekf", "state");
-    health_ = output_of(graph, "ekf", "health"), spoilt_ = output_of(graph, "wires", "spoilt_ratio");
+    truth_ = output_of(graph, "sim", "truth");
+    state_ = output_of(graph, "ekf", "state");
+    health_ = output_of(graph, "ekf", "health");
+    spoilt_ = output_of(graph, "wires", "spoilt_ratio");
   }
 
   Flown fly() {

@@ -100,7 +100,8 @@ inline std::vector<Row> rows() {
       .most[attitude] = 40;
   on_wires("accel_saturated", "no axis beyond 11 m/s2", "kind: accel_clipped, size: 11", {"accel"});
   f = &on_wires("imu_vibration", "white noise, 5 m/s2 and 0.25 rad/s", "kind: imu_vibration, size: 5", imu);
-  f->most[attitude] = 8, f->most[velocity] = 5;
+  f->most[attitude] = 8;
+  f->most[velocity] = 5;
   on_wires("imu_stamps", "every tenth stamp 0.1 s too early", "kind: imu_stamps, size: 0.1", imu);
   f = &on_wires("imu_clock", "all stamps 0.4 s too early", "kind: imu_clock, size: 0.4", imu);
   f->unrecovered =
@@ -116,7 +117,8 @@ inline std::vector<Row> rows() {
   switched("pitot_off", "off and on again by request", {pitot}, {"pitot"});
   f = &switched("gnss_pitot_off", "receiver and tube off together", {gnss_position, pitot},
                 {"gnss_position", "gnss_velocity", "gnss_height", "pitot"});
-  f->most[airspeed] = 3, f->most_over_std = 4;
+  f->most[airspeed] = 3;
+  f->most_over_std = 4;
   r.push_back({.name = "no_mag",
                .words = "no magnetometer in the whole flight, from the ground on",
                .sim = "mag_works: false",

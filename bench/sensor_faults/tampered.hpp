@@ -143,7 +143,8 @@ struct Wires {
       mag_ = s;
     if (kind_ == Kind::mag_motor && in.status) {
       const double off_tesla = p.size * in.status->battery_amp / std::numbers::sqrt2;
-      s.field_tesla.x += off_tesla, s.field_tesla.y += off_tesla;
+      s.field_tesla.x += off_tesla;
+      s.field_tesla.y += off_tesla;
     }
     return true;
   }

@@ -45,7 +45,8 @@ std::string compared_estimates(const std::filesystem::path& before, const std::f
                                  "--changed", "--names", "before,now"};
   if (json) words.push_back("--json");
   ChildFiles files;
-  files.out = fileno(out.get()), files.error = STDERR_FILENO;
+  files.out = fileno(out.get());
+  files.error = STDERR_FILENO;
   Process process(program.string(), words, files);
   while (!process.wait(50ms))
     if (stop) throw Error("interrupted");

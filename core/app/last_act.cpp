@@ -56,7 +56,8 @@ void note_code(const std::string& file, const void* function) {
       end = std::max<std::uintptr_t>(end, object->dlpi_addr + part.p_vaddr + part.p_memsz);
     }
     if (c.begin < begin || c.begin >= end) return 0;
-    c.begin = begin, c.end = end;
+    c.begin = begin;
+    c.end = end;
     return 1;
   };
   if (dl_iterate_phdr(look, &code) == 0) return;

@@ -171,7 +171,8 @@ struct Commands {
         "replay",
         "fly a log again: what entered the flight is fed to its mission, and what comes out is compared");
     command->callback([this] {
-      replay.changes.set = pairs(replay_set), replay.changes.with = pairs(replay_with);
+      replay.changes.set = pairs(replay_set);
+      replay.changes.with = pairs(replay_with);
       action = [this] { return replay_command(replay); };
     });
     command->add_option("LOG", replay.log, "log of a flight (MCAP)")->required();
@@ -216,7 +217,10 @@ struct Commands {
   }
 
   int parse(int argc, char** argv) {
-    if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
+    if (asked_for_rows(argc, argv)) {
+      std::fputs(command_rows(app).c_str(), stdout);
+      return 0;
+    }
     become_own_command(argv);
     const std::vector<std::string> known = names();
     if (argc > 1 && argv[1][0] != '-' && std::find(known.begin(), known.end(), argv[1]) == known.end())

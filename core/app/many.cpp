@@ -99,7 +99,9 @@ json spread(const std::vector<json>& results) {
   for (const auto& [path, values] : values_of(results)) {
     const json::json_pointer at(path);
     const Spread s = spread_of(values);
-    mean[at] = s.mean, least[at] = s.least, most[at] = s.most;
+    mean[at] = s.mean;
+    least[at] = s.least;
+    most[at] = s.most;
     deviation[at] = values.size() > 1 ? json(s.deviation) : json(nullptr);
   }
   return {{"mean", mean},

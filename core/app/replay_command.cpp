@@ -166,7 +166,9 @@ int experiment(const Recording& recording, const ReplayWords& words, json& out) 
                             estimates = compared_estimates(recording.path(), log, words.json, stop);
                           });
   out = result_of(recording, is);
-  out["before"] = was.figures, out["after"] = is.figures, out["before_equals_log"] = was.result.equal();
+  out["before"] = was.figures;
+  out["after"] = is.figures;
+  out["before_equals_log"] = was.result.equal();
   if (!was.result.equal()) warn("without the change, too, the replay differs from the log");
   if (words.json) {
     const json compared = json::parse(estimates, nullptr, false);

@@ -153,7 +153,11 @@ std::string progress_line(const Graph& graph, const Flight& flight) {
       continue;
     }
     double value = number_at(*shown.field.field, message + shown.field.offset);
-    if (unit == "rad") value *= 180 / std::numbers::pi, unit = "deg", name = name.substr(0, name.size() - 4);
+    if (unit == "rad") {
+      value *= 180 / std::numbers::pi;
+      unit = "deg";
+      name = name.substr(0, name.size() - 4);
+    }
     line += fmt::format("  {} {:.{}f}{}{}", split_unit(name).first, value,
                         is_real(shown.field.field->kind) ? 1 : 0, unit.empty() ? "" : " ", unit);
   }

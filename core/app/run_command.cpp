@@ -165,7 +165,9 @@ class Session {
     Graph graph = load_mission(options_.mission, options_.overrides);
     if (!options_.live.empty()) {
       const LiveOptions asked = parse_live(options_.live);
-      graph.live.on = asked.on, graph.live.host = asked.host, graph.live.port = asked.port;
+      graph.live.on = asked.on;
+      graph.live.host = asked.host;
+      graph.live.port = asked.port;
       graph.live.where = asked.where;
     }
     if (const char* token = std::getenv("FULMAR_TOKEN"); token && *token) graph.live.token = token;
@@ -260,7 +262,8 @@ class Session {
     const std::shared_ptr<void> name(nullptr, [&](void*) {  // a flight that cannot begin leaves no file
       if (log.held) OutFile::let_go(log.file);
     });
-    o.log_file = log.file, o.log_held = log.held;
+    o.log_file = log.file;
+    o.log_held = log.held;
     o.log = !o.log_file.empty();
     fs::path report;
     if (options_.report && o.log)

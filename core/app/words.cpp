@@ -35,7 +35,10 @@ bool write_all(int descriptor, const char* data, std::size_t size, int limit_ms)
     if (!wait_for(descriptor, POLLOUT, limit_ms)) return false;
     const ssize_t n = write(descriptor, data, size);
     if (n < 0 && errno != EINTR && errno != EAGAIN) return false;
-    if (n > 0) data += n, size -= static_cast<std::size_t>(n);
+    if (n > 0) {
+      data += n;
+      size -= static_cast<std::size_t>(n);
+    }
   }
   return true;
 }

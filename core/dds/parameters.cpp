@@ -15,18 +15,29 @@ RclValue rcl_value(const ParameterView& parameter) {
   const ParamValue& base = parameter.base;
   RclValue value;
   switch (info.kind) {
-    case FULMAR_NUMBER: value.type = RclType::number, value.number = base.number[0]; break;
-    case FULMAR_FLAG: value.type = RclType::boolean, value.boolean = base.integer != 0; break;
-    case FULMAR_COUNT: value.type = RclType::integer, value.integer = base.integer; break;
+    case FULMAR_NUMBER:
+      value.type = RclType::number;
+      value.number = base.number[0];
+      break;
+    case FULMAR_FLAG:
+      value.type = RclType::boolean;
+      value.boolean = base.integer != 0;
+      break;
+    case FULMAR_COUNT:
+      value.type = RclType::integer;
+      value.integer = base.integer;
+      break;
     case FULMAR_VECTOR:
-      value.type = RclType::numbers, value.numbers.assign(base.number, base.number + 3);
+      value.type = RclType::numbers;
+      value.numbers.assign(base.number, base.number + 3);
       break;
     case FULMAR_CHOICE: {
       const auto i = static_cast<std::size_t>(base.integer);
-      value.type = RclType::text, value.text = i < info.choices.size() ? info.choices[i] : "";
+      value.type = RclType::text;
+      value.text = i < info.choices.size() ? info.choices[i] : "";
       break;
     }
-    default: value.type = RclType::text, value.text = base.text;
+    default: value.type = RclType::text; value.text = base.text;
   }
   return value;
 }

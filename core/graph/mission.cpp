@@ -222,8 +222,10 @@ class MissionReader {
                     path + ".out: '" + port.key + "' is not a name; an optional port ends in '?'");
       else if (find_named(role.out, text.name))
         report_.add(port.where(), path + ".out: '" + text.name + "' is there twice, with '?' and without");
-      else if (type)
-        text.type = *type, role.out.push_back(text);
+      else if (type) {
+        text.type = *type;
+        role.out.push_back(text);
+      }
     }
     if (const Node* flags = keys.get("flags"); flags && vehicle) vehicle_flags(*flags, path + ".flags", role);
     m_.roles.push_back(std::move(role));

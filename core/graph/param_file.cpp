@@ -394,7 +394,8 @@ std::string diff_text(const FileEdit& edit) {
   std::size_t i = 0, j = 0;
   while (i < old.size() || j < now.size()) {
     if (i < old.size() && j < now.size() && old[i] == now[j]) {
-      ++i, ++j;
+      ++i;
+      ++j;
       continue;
     }
     const bool added = i >= old.size() || (now.size() - j > old.size() - i &&

@@ -159,12 +159,16 @@ class UnitParser {
     int exponent = 1;
     auto symbol = find_symbol(word);
     if (!symbol) {  // s2, s²
-      if (word.ends_with("\u00b2"))
-        word = word.substr(0, word.size() - 2), exponent = 2;
-      else if (word.ends_with("\u00b3"))
-        word = word.substr(0, word.size() - 2), exponent = 3;
-      else if (word.size() > 1 && word.back() >= '1' && word.back() <= '9')
-        exponent = word.back() - '0', word = word.substr(0, word.size() - 1);
+      if (word.ends_with("\u00b2")) {
+        word = word.substr(0, word.size() - 2);
+        exponent = 2;
+      } else if (word.ends_with("\u00b3")) {
+        word = word.substr(0, word.size() - 2);
+        exponent = 3;
+      } else if (word.size() > 1 && word.back() >= '1' && word.back() <= '9') {
+        exponent = word.back() - '0';
+        word = word.substr(0, word.size() - 1);
+      }
       symbol = find_symbol(word);
     }
     if (!symbol) return std::nullopt;

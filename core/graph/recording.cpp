@@ -138,8 +138,11 @@ void add_record_options(MissionText& mission, const std::vector<std::string>& op
       report.add({option, 0}, fault.what());
     }
   }
-  if (mission.record_rules.empty())  // the rest stays as it would have been
-    rules.push_back({{"*"}, RecordRule::usual}), places.push_back({"--record", 0});
+  if (mission.record_rules.empty()) {
+    // the rest stays as it would have been
+    rules.push_back({{"*"}, RecordRule::usual});
+    places.push_back({"--record", 0});
+  }
   mission.record_rules.insert(mission.record_rules.begin(), rules.begin(), rules.end());
   mission.record_where.insert(mission.record_where.begin(), places.begin(), places.end());
 }

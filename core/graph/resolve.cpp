@@ -58,7 +58,8 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
       if (!part.empty()) component = part;
     }
     const FoundPlugin found = catalogue.open(plugin);
-    candidate.plugin = found.info, candidate.library = found.library;
+    candidate.plugin = found.info;
+    candidate.library = found.library;
     const auto& components = found.info->components;
     if (components.empty()) throw Error(plugin + " holds no component");
     if (!unnamed.empty() && index_named(components, component) < 0) {
@@ -385,7 +386,8 @@ Graph load_mission(const std::string& file, const Overrides& overrides) {
 bool port_matches(const std::string& text, const std::string& pattern, std::size_t t, std::size_t p) {
   while (p < pattern.size() && pattern[p] != '*') {
     if (t >= text.size() || text[t] != pattern[p]) return false;
-    ++t, ++p;
+    ++t;
+    ++p;
   }
   if (p == pattern.size()) return t == text.size();
   while (p < pattern.size() && pattern[p] == '*') ++p;

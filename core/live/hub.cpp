@@ -309,9 +309,10 @@ void Hub::keep(const Tap::Sample& sample) {
   std::deque<Kept>& past = channel.past;
   const bool soon = !past.empty() && sample.now_ns - past.back().now_ns <= stream_gap_ns;
   channel.in_a_row = soon ? channel.in_a_row + 1 : 0;
-  if (past.size() == channel.most_past)
-    past.push_back(std::move(past.front())), past.pop_front();
-  else
+  if (past.size() == channel.most_past) {
+    past.push_back(std::move(past.front()));
+    past.pop_front();
+  } else
     past.emplace_back();
   past.back().now_ns = sample.now_ns;
   past.back().data.assign(sample.data(), sample.data() + tapped.type->size);

@@ -202,7 +202,10 @@ void Hub::set_one(Client& asker, const std::shared_ptr<Pending>& pending, const 
 
 void Hub::subscribe_parameters(Client& client, const json& message) {
   const std::vector<std::string> names = names_at(message), known = parameter_names(view());
-  if (names.empty()) return client.watched.insert(known.begin(), known.end()), void();
+  if (names.empty()) {
+    client.watched.insert(known.begin(), known.end());
+    return;
+  }
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       refuse_parameter(client, name, known);

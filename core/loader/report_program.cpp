@@ -65,7 +65,8 @@ void make_report(const fs::path& log, const fs::path& out, const std::string& re
   if (!result.empty()) words.insert(words.end(), {"--result", "-"});
   words.insert(words.end(), {"--", log.string()});
   ChildFiles files;
-  files.in = file.descriptor(), files.error = STDERR_FILENO;
+  files.in = file.descriptor();
+  files.error = STDERR_FILENO;
   Process process(own_program(program).string(), words, files);
   if (!process.wait(patience)) throw Error("the report of " + log.string() + " is not made after 30 minutes");
   if (process.signal() != 0 || process.exit_code() != 0)

@@ -236,7 +236,8 @@ MessageDiff diff_messages(const std::filesystem::path& file_a, const std::filesy
   Comparison comparison{{file_a, options.last_ns}, {file_b, options.last_ns}, options.whole_topics};
   comparison.run();
   MessageDiff diff = std::move(comparison.diff);
-  diff.log_a = comparison.a.stream.take_log(), diff.log_b = comparison.b.stream.take_log();
+  diff.log_a = comparison.a.stream.take_log();
+  diff.log_b = comparison.b.stream.take_log();
   return diff;
 }
 

@@ -72,7 +72,8 @@ Field enum_field(const char* name, std::size_t offset, std::vector<std::string> 
 
 Field array_field(const char* name, fulmar_kind kind, std::size_t offset, std::size_t count) {
   Field field = host_field(name, kind, offset);
-  field.shape = FULMAR_ARRAY, field.count = static_cast<std::uint32_t>(count);
+  field.shape = FULMAR_ARRAY;
+  field.count = static_cast<std::uint32_t>(count);
   return field;
 }
 
@@ -80,7 +81,8 @@ Field array_field(const char* name, fulmar_kind kind, std::size_t offset, std::s
 Field list_field(const char* name, fulmar_kind kind, std::size_t offset, std::size_t items,
                  std::size_t count) {
   Field field = array_field(name, kind, offset, count);
-  field.shape = FULMAR_LIST, field.items = static_cast<std::uint32_t>(items - offset);
+  field.shape = FULMAR_LIST;
+  field.items = static_cast<std::uint32_t>(items - offset);
   return field;
 }
 
@@ -142,7 +144,10 @@ const TypePtr& host_type<LogLine>() {
       return std::make_shared<const Type>(std::move(named));
     };
     Field stamp;
-    stamp.name = "stamp", stamp.kind = FULMAR_STRUCT, stamp.offset = offsetof(L, sec), stamp.stride = 8;
+    stamp.name = "stamp";
+    stamp.kind = FULMAR_STRUCT;
+    stamp.offset = offsetof(L, sec);
+    stamp.stride = 8;
     stamp.type = ros("Time", "builtin_interfaces/msg/Time", 8, 4,
                      {host_field("sec", FULMAR_I32, 0), host_field("nanosec", FULMAR_U32, 4)});
     return ros("Log", "rcl_interfaces/msg/Log", sizeof(L), alignof(L),
@@ -164,8 +169,10 @@ const char* kind_words(Code code) noexcept {
 
 Event event_of(Code code, std::string_view component, std::string_view name) noexcept {
   Event e;
-  e.code = code, e.severity = row_of(code).severity;
-  put(e.component, component), put(e.name, name);
+  e.code = code;
+  e.severity = row_of(code).severity;
+  put(e.component, component);
+  put(e.name, name);
   return e;
 }
 
@@ -228,7 +235,8 @@ HostMessages::HostMessages(const McapFile& file, const char* topic, TypePtr type
   for (const auto& [id, channel] : file.channels) {
     if (channel.topic != topic) continue;
     const auto schema = file.schemas.find(channel.schema);
-    there_ = true, channel_ = id;
+    there_ = true;
+    channel_ = id;
     same_ = schema != file.schemas.end() && schema->second.text == ros_definition(*type_);
   }
 }

@@ -89,14 +89,18 @@ struct McapWriter::Impl {
       next = begin_file(part_name(parts.size() + 2));
     } catch (const Error& e) {
       trouble = std::string(e.what()) + "; the log went on in '" + out->name().string() + "'";
-      options.rotate_bytes = 0, options.rotate_ns = 0;
+      options.rotate_bytes = 0;
+      options.rotate_ns = 0;
       return;
     }
     end_file();
     out = std::move(next);
     file = {};
     for (Schema& s : schemas) s.begun = s.stored = false;
-    for (Channel& c : channels) c.begun = c.stored = false, c.messages = 0;
+    for (Channel& c : channels) {
+      c.begun = c.stored = false;
+      c.messages = 0;
+    }
     begin_ns = log_ns;
     store_extras();
     repeat();
@@ -153,7 +157,8 @@ struct McapWriter::Impl {
   /// The message that was just ended.
   void keep(const std::string& name) {
     Kept& kept = name.empty() ? channels[message.channel].last : lasting[name];
-    kept.channel = message.channel, kept.log_ns = message.log_ns;
+    kept.channel = message.channel;
+    kept.log_ns = message.log_ns;
     kept.record.assign(chunk.data() + message.start, chunk.data() + chunk.size());
   }
 

@@ -244,7 +244,8 @@ void Playback::prepare_entries(const Graph& graph) {
 void Playback::prepare_resume(const Graph& graph) {
   if (!survey_.resumed) return;
   resume_.emplace();
-  resume_->phase = survey_.resumed->phase, resume_->if_armed = survey_.resumed->begun;
+  resume_->phase = survey_.resumed->phase;
+  resume_->if_armed = survey_.resumed->begun;
   for (const CommandNote& note : survey_.resumed->params) {
     Command set = logged_command(note, graph);
     resume_->params.push_back({set.component, set.name, std::move(set.value)});

@@ -232,9 +232,12 @@ void find_differences(const fs::path& was, const fs::path& is, std::int64_t epoc
   const auto last_ns = static_cast<std::uint64_t>(result.last_ns + epoch_ns);
   const MessageDiff diff = diff_messages(was, is, {.last_ns = last_ns, .whole_topics = true});
   result.messages = diff.messages;
-  result.differing_messages = diff.differing_messages, result.differing_bytes = diff.differing_bytes;
-  if (diff.first_tick)
-    result.first_tick = diff.first_tick->index, result.first_tick_ns = diff.first_tick->time_ns;
+  result.differing_messages = diff.differing_messages;
+  result.differing_bytes = diff.differing_bytes;
+  if (diff.first_tick) {
+    result.first_tick = diff.first_tick->index;
+    result.first_tick_ns = diff.first_tick->time_ns;
+  }
   if (!diff.first) return;
   const MessageDiff::First& first = *diff.first;
   const auto word = [&](const std::string& text) {
@@ -257,7 +260,8 @@ std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recordi
   result.notes = player.playback().gaps();
   result.cut_off = !log.log.complete;
   result.recorded_ticks = log.ticks;
-  result.first_ns = log.first_ns, result.last_ns = log.last_ns;
+  result.first_ns = log.first_ns;
+  result.last_ns = log.last_ns;
   std::unique_ptr<Flight> flight = player.fly(options.stop);
   result.ticks = result.flight.ticks;
   if (!result.flight.log.error.empty()) throw Error("the replay's log: " + result.flight.log.error);

@@ -107,7 +107,10 @@ struct Survey::Reading {
         break;
       case Code::signal_refused:
       case Code::gave_up:
-        if (e.component[0] == '\0') to.signals.push_back(log_ns), count(sizeof log_ns);
+        if (e.component[0] == '\0') {
+          to.signals.push_back(log_ns);
+          count(sizeof log_ns);
+        }
         break;
       case Code::guard:
       case Code::hung:
@@ -152,7 +155,8 @@ struct Survey::Reading {
   void take_resume(const Event& e) {
     if (e.component[0] == '\0') {
       to.resumed.emplace();
-      to.resumed->phase = e.name.data(), to.resumed->begun = to.begun_at < to.messages;
+      to.resumed->phase = e.name.data();
+      to.resumed->begun = to.begun_at < to.messages;
       return;
     }
     if (e.code == Code::not_resumed || !to.resumed || !set) return;  // of a parameter: it was not set

@@ -174,7 +174,8 @@ bool FlightControl::apply_pace(Waiting& w) {
     case What::step:
       if (!clock_.paused) return refuse(w, "the flight is not paused: nothing to step");
       if (clock_.stepper) return refuse(w, "other ticks are being flown; ask again");
-      clock_.left = order.ticks, clock_.stepper = &w;
+      clock_.left = order.ticks;
+      clock_.stepper = &w;
       return true;
     case What::restart:
       end_steps();
@@ -204,7 +205,8 @@ std::shared_ptr<const FlightControl::Directory> FlightControl::directory() const
 void FlightControl::send(Command command, Answer answer) {
   directory()->commands->prepare(command);
   auto waiting = std::make_unique<Waiting>();
-  waiting->command = std::move(command), waiting->answer = std::move(answer);
+  waiting->command = std::move(command);
+  waiting->answer = std::move(answer);
   enqueue(std::move(waiting));
 }
 
@@ -255,7 +257,8 @@ void FlightControl::answer_done() {
       waiting = std::move(at->second);
       waiting_.all.erase(at);
       if (c.kind == CommandKind::import) {
-        --waiting_.samples, --waiting_.of_import[c.part];
+        --waiting_.samples;
+        --waiting_.of_import[c.part];
         if (!accepted) lost_samples_.fetch_add(1, std::memory_order_relaxed);
       }
       if (accepted && !w->pace && c.kind == CommandKind::parameter) {
@@ -288,8 +291,11 @@ FlightView FlightControl::view() const {
   for (std::size_t i = 0; i < v.components.size(); ++i) {
     ComponentView& c = v.components[i];
     const Seen::Component& seen = seen_.components[i];
-    c.active = seen.active, c.stopped = seen.stopped;
-    c.steps = seen.steps, c.step_us = seen.step_us, c.step_max_us = seen.step_max_us;
+    c.active = seen.active;
+    c.stopped = seen.stopped;
+    c.steps = seen.steps;
+    c.step_us = seen.step_us;
+    c.step_max_us = seen.step_max_us;
     for (std::size_t k = 0; k < c.params.size(); ++k) c.params[k].base = base_[i][k];
   }
   for (const auto& [component, param] : directory_->overlaid[phase])
@@ -305,7 +311,8 @@ void FlightControl::set_parameter(const std::string& component, const std::strin
   {
     const std::lock_guard lock(mutex_);
     commands = directory_->commands;
-    at = commands->component(component), part = commands->param(at, param);
+    at = commands->component(component);
+    part = commands->param(at, param);
     command.value = base_[at][part];
   }
   if (text.size() > longest_value)
@@ -352,7 +359,8 @@ bool FlightControl::publish(const std::string& component, const std::string& por
     lost_samples_.fetch_add(1, std::memory_order_relaxed);
     return false;
   }
-  ++waiting_.samples, ++waiting_.of_import[c.part];
+  ++waiting_.samples;
+  ++waiting_.of_import[c.part];
   waiting_.all.emplace(w, std::move(waiting));
   return true;
 }
@@ -379,7 +387,8 @@ void FlightControl::pace(const PaceOrder& order, Answer answer) {
   if (order.what == What::restart && !flight_.state.options.no_restart.empty())
     throw Error("no new flight: " + flight_.state.options.no_restart);
   auto waiting = std::make_unique<Waiting>();
-  waiting->pace = order, waiting->answer = std::move(answer);
+  waiting->pace = order;
+  waiting->answer = std::move(answer);
   enqueue(std::move(waiting));
 }
 

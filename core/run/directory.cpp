@@ -52,7 +52,10 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
   static constexpr const char* modes[] = {"tick", "process", "async", "driver"};
   const Component& c = *unit.component;
   ComponentView v;
-  v.name = c.name, v.use = c.use, v.doc = c.info().doc, v.run = modes[static_cast<std::size_t>(c.run)];
+  v.name = c.name;
+  v.use = c.use;
+  v.doc = c.info().doc;
+  v.run = modes[static_cast<std::size_t>(c.run)];
   v.budget_us = 1e-3 * static_cast<double>(c.budget_ns);
   for (const int role : c.roles)
     v.role += (v.role.empty() ? "" : ", ") + nth(flight.state.graph.roles, role).name;
@@ -79,10 +82,13 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
 FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(flight.commands) {
   if (!flight.state.graph.file.empty())
     view.file = std::filesystem::absolute(flight.state.graph.file).string();
-  view.mission = flight.state.graph.mission, view.io = io_word(flight.state.graph.io),
-  view.epoch_ns = flight.state.graph.epoch_ns, view.seed = flight.state.graph.seed;
+  view.mission = flight.state.graph.mission;
+  view.io = io_word(flight.state.graph.io);
+  view.epoch_ns = flight.state.graph.epoch_ns;
+  view.seed = flight.state.graph.seed;
   view.origin = origin_of(flight.state.graph);
-  view.tiles = flight.state.graph.live.tiles, view.attribution = flight.state.graph.live.attribution;
+  view.tiles = flight.state.graph.live.tiles;
+  view.attribution = flight.state.graph.live.attribution;
   view.no_save = live::why_no_save(flight.state.graph.live);
   for (const auto& [name, text] : flight.state.graph.overrides.set) view.set.push_back(name);
   for (const Phase& p : flight.state.graph.phases) {

@@ -124,7 +124,8 @@ void Flight::Impl::install(int at, Graph&& next, const std::string& words) {
   graph.phases = std::move(next.phases);
   graph.any = std::move(next.any);
   graph.roles = std::move(next.roles);
-  graph.done = std::move(next.done), graph.failed = std::move(next.failed);
+  graph.done = std::move(next.done);
+  graph.failed = std::move(next.failed);
   graph.overrides = std::move(next.overrides);
   put_in_place(at, std::move(fresh), "was swapped");
   swapped[at] = words;

@@ -66,7 +66,9 @@ struct Compiler {
     const bool whole = loop.what == Op::list && loop.body == 1 && item.what == Op::copy && item.offset == 0 &&
                        item.bytes == loop.stride && loop.stride % item.align == 0;
     if (whole) {  // the items are copied in one go
-      loop.align = item.align, loop.bytes = loop.stride, loop.body = 0;
+      loop.align = item.align;
+      loop.bytes = loop.stride;
+      loop.body = 0;
       ops.pop_back();
     }
     mergeable_from = ops.size();

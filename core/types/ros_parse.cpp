@@ -151,13 +151,19 @@ class Parser {
   /// Cuts "[3]", "[<=8]", "[]" off.
   static bool shape(std::string_view& element, Field& field) {
     const std::size_t open = element.find('[');
-    if (open == std::string_view::npos) return field.count = 1, true;
+    if (open == std::string_view::npos) {
+      field.count = 1;
+      return true;
+    }
     if (element.back() != ']') return false;
     std::string_view inside = element.substr(open + 1, element.size() - open - 2);
     element = element.substr(0, open);
     field.shape = FULMAR_ARRAY;
     if (inside.empty() || inside.starts_with("<=")) field.shape = FULMAR_LIST;
-    if (inside.empty()) return field.count = 0, true;
+    if (inside.empty()) {
+      field.count = 0;
+      return true;
+    }
     if (inside.starts_with("<=")) inside.remove_prefix(2);
     return read_number(inside, field.count) && field.count > 0;
   }

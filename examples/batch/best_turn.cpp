@@ -28,7 +28,10 @@ int main() try {
   double best = 0, best_error = 1e9;
   for (double aileron = 0; aileron < 20.5; aileron += 1) {
     const double error = std::abs(bank_after_half_a_second(sim, aileron * degree) - 30 * degree);
-    if (error < best_error) best = aileron, best_error = error;
+    if (error < best_error) {
+      best = aileron;
+      best_error = error;
+    }
   }
   std::printf("%.0f deg of aileron: %.1f deg of bank\n", best,
               bank_after_half_a_second(sim, best * degree) / degree);

@@ -91,7 +91,8 @@ struct law {
 static double within(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 
 static void* create(uint64_t seed, fulmar_error* error) {
-  (void)seed, (void)error;
+  (void)seed;
+  (void)error;
   return calloc(1, sizeof(struct law));
 }
 
@@ -106,7 +107,8 @@ static uint32_t take_params(void* self, const fulmar_value* values, fulmar_error
 
 static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out,
                      fulmar_error* error) {
-  (void)tick, (void)error;
+  (void)tick;
+  (void)error;
   const double* p = ((const struct law*)self)->param;
   const struct state* x = in[IN_STATE].data;
   const struct command* c = in[IN_COMMAND].data;

@@ -92,7 +92,10 @@ struct Indi {  // fills the role `inner`
     }
     const Eigen::Vector3d gain(p.roll_rate, p.pitch_rate, p.yaw_rate);
     Eigen::Vector3d nu = gain.cwiseProduct(wanted_rates(s, command, p, Va, dt) - omega);
-    if (fresh_) left_ = nu - omega_dot, throttle_left_ = throttle_ - command.throttle_frac;
+    if (fresh_) {
+      left_ = nu - omega_dot;
+      throttle_left_ = throttle_ - command.throttle_frac;
+    }
     fresh_ = false;
     nu -= left_;  // what is asked for at once comes gradually: no surface steps
     left_ *= std::exp(-dt / p.fade);
@@ -119,12 +122,17 @@ struct Indi {  // fills the role `inner`
     u_ = last ? Eigen::Vector3d(last->aileron_rad, last->elevator_rad, last->rudder_rad)
               : Eigen::Vector3d(a.aileron.trim_rad, a.elevator.trim_rad, a.rudder.trim_rad);
     servo_ = u_;
-    for (int i = 0; i < 3; ++i) surface_[i].reset_to(u_(i)), rate_[i].reset_to(eigen(s.rate_radps)(i));
+    for (int i = 0; i < 3; ++i) {
+      surface_[i].reset_to(u_(i));
+      rate_[i].reset_to(eigen(s.rate_radps)(i));
+    }
     roll_command_rate_.reset_to(command.roll_rad);
     airspeed_.reset_to(scheduling_airspeed(s, a.limits));
-    left_.setZero(), throttle_left_ = 0;
+    left_.setZero();
+    throttle_left_ = 0;
     throttle_ = last ? last->throttle_frac : 0;
-    begun_ = true, fresh_ = last != nullptr;
+    begun_ = true;
+    fresh_ = last != nullptr;
   }
 
   /// Where surface `i` is by now: its lag and its rate limit.

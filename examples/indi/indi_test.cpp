@@ -45,21 +45,26 @@ struct Flight {
   Eigen::Vector3d more_moment = Eigen::Vector3d::Zero();  // N m
 
   explicit Flight(double Va = 17) {
-    indi.params.airframe.value = real, indi.params.airframe.is_given = true;
+    indi.params.airframe.value = real;
+    indi.params.airframe.is_given = true;
     x.v_n = Eigen::Vector3d(Va, 0, 0);
     x.q_nb = quaternion_from({0, 0.0054, 0});
     look();
-    indi.set(indi.in.state, s), indi.set(indi.in.attitude, command);
+    indi.set(indi.in.state, s);
+    indi.set(indi.in.attitude, command);
     Indi::Outputs last;
     last.actuators = {0.5, 0, 0.1212, 0};
     REQUIRE(indi.activate(last) == Status::ok);
   }
   void look() {
     const Euler e = euler_from(x.q_nb);
-    s.roll_rad = e.roll_rad, s.pitch_rad = e.pitch_rad, s.yaw_rad = e.yaw_rad;
+    s.roll_rad = e.roll_rad;
+    s.pitch_rad = e.pitch_rad;
+    s.yaw_rad = e.yaw_rad;
     s.rate_radps = from_eigen<Body>(x.omega_b);
     s.airspeed_mps = s.ground_speed_mps = x.v_n.norm();
-    s.height_m = 70, s.origin_altitude_m = field_m;
+    s.height_m = 70;
+    s.origin_altitude_m = field_m;
     s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
   }
   template <class Observe>
@@ -69,13 +74,15 @@ struct Flight {
     for (int k = 0; k < static_cast<int>(std::lround(seconds / dt)); ++k) {
       look();
       command.roll_rad += std::clamp(roll_wanted - command.roll_rad, -dt, dt);
-      indi.set(indi.in.state, s), indi.set(indi.in.attitude, command);
+      indi.set(indi.in.state, s);
+      indi.set(indi.in.attitude, command);
       REQUIRE(allocations([&] { indi.step(dt); }) == 0);
       REQUIRE(indi.fault() == "");
       const Actuators& u = indi.out.actuators;
       const double lag = 1 - std::exp(-dt / 0.012), Va = x.v_n.norm();
-      d.aileron += lag * (u.aileron_rad - d.aileron), d.elevator += lag * (u.elevator_rad - d.elevator),
-          d.rudder += lag * (u.rudder_rad - d.rudder);
+      d.aileron += lag * (u.aileron_rad - d.aileron);
+      d.elevator += lag * (u.elevator_rad - d.elevator);
+      d.rudder += lag * (u.rudder_rad - d.rudder);
       const auto load_at = [&](const RigidBody& b, double) {
         Load load = Aerodynamic(real).load(b.q_nb.conjugate() * b.v_n, b.omega_b, d, rho);
         load.moment_b += more_moment;
@@ -128,7 +135,8 @@ TEST_CASE("a step of the attitude is followed, both signs, slow and fast") {
       CHECK(most < 24 * deg);
       flight.run(2);
       CHECK(flight.s.roll_rad * side / (20 * deg) == doctest::Approx(1).epsilon(0.03));
-      flight.roll_wanted = 0, flight.command.pitch_rad += 5 * deg * side;
+      flight.roll_wanted = 0;
+      flight.command.pitch_rad += 5 * deg * side;
       flight.run(2);
       CHECK(std::abs(flight.s.pitch_rad - flight.command.pitch_rad) < 0.5 * deg);
       CHECK(std::abs(flight.s.roll_rad) < 0.5 * deg);
@@ -200,8 +208,11 @@ TEST_CASE("at a limit nothing winds up, and without an attitude it damps the rat
 
   Bench<Indi>& indi = flight.indi;
   flight.s = VehicleState{};
-  flight.s.height_m = 70, flight.s.airspeed_mps = 17, flight.s.airspeed_valid = true;
-  flight.s.velocity_valid = true, flight.s.ground_speed_mps = 17;
+  flight.s.height_m = 70;
+  flight.s.airspeed_mps = 17;
+  flight.s.airspeed_valid = true;
+  flight.s.velocity_valid = true;
+  flight.s.ground_speed_mps = 17;
   flight.s.rate_radps = {1, -1, 0};
   indi.set(indi.in.state, flight.s);
   indi.activate();
@@ -216,7 +227,8 @@ TEST_CASE("an airframe that its surfaces cannot turn is refused, and so is none"
   Bench<Indi> bench;
   CHECK(bench.configure() == Status::failed);
   CHECK(bench.error() == "the inversion needs an airframe");
-  bench.params.airframe.value = anaconda(), bench.params.airframe.is_given = true;
+  bench.params.airframe.value = anaconda();
+  bench.params.airframe.is_given = true;
   bench.params.airframe.value.aero.yaw.rudder_ratio = bench.params.airframe.value.aero.roll.rudder_ratio = 0;
   CHECK(bench.configure() == Status::failed);
   CHECK(bench.error() == "the surfaces of this airframe do not turn it about three axes");

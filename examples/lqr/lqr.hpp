@@ -74,7 +74,8 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     const double most = params.airframe->limits.roll_max_rad;
     u_ << u.throttle_frac, u.elevator_rad, u.aileron_rad, u.rudder_rad;
     take_up_ = last.has(u) ? TakeUp::integrals : TakeUp::nothing;
-    integrals_.setZero(), bump_.setZero();
+    integrals_.setZero();
+    bump_.setZero();
     x_ = plant_.x0;
     bank_.reset_to(in.state->attitude_valid ? std::clamp(in.state->roll_rad, -most, most) : 0);
     known_ = knowledge(*in.state, *in.command);
@@ -141,7 +142,8 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
   Status wait(const Params& params, Outputs& out) {
     const Airframe& a = *params.airframe;
     bank_.reset_to(0);
-    integrals_.setZero(), bump_.setZero();
+    integrals_.setZero();
+    bump_.setZero();
     x_ = plant_.x0;
     take_up_ = TakeUp::nothing;
     out.attitude = {};
@@ -173,7 +175,9 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     x_ref_(X::theta) = x_ref_(X::alpha) * std::cos(phi) + gamma;
     x_ref_(X::phi) = phi;
     const TurnRates rates = turn_rates(phi, x_ref_(X::theta), Va);
-    x_ref_(X::p) = rates.p_radps + bank_.rate(), x_ref_(X::q) = rates.q_radps, x_ref_(X::r) = rates.r_radps;
+    x_ref_(X::p) = rates.p_radps + bank_.rate();
+    x_ref_(X::q) = rates.q_radps;
+    x_ref_(X::r) = rates.r_radps;
     u_ref_ = plant_.u0;
     u_ref_(X::elevator) += turn.elevator_rad - level.elevator_rad;
     // What holds the roll rate without sideslip: the rows of roll and yaw of A x + B u = 0.
@@ -185,7 +189,8 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
 
   /// x - x_ref, as far as it is known: what is not is taken to be as it should.
   void deviate(const VehicleState& s, const GuidanceCommand& c) {
-    dx_.setZero(), e_.setZero();
+    dx_.setZero();
+    e_.setZero();
     dx_(X::theta) = s.pitch_rad - x_ref_(X::theta);
     dx_(X::phi) = s.roll_rad - x_ref_(X::phi);
     dx_(X::p) = s.rate_radps.x - x_ref_(X::p);
@@ -211,7 +216,10 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     e_.setZero();
     dx_ = x_ - x_ref_;
     dx_(X::h) = dx_(X::chi) = 0;
-    if (!(dx_.norm() < 10)) x_ = x_ref_, dx_.setZero();  // so far from it, no model knows
+    if (!(dx_.norm() < 10)) {
+      x_ = x_ref_;
+      dx_.setZero();  // so far from it, no model knows
+    }
   }
 
   /// Errors of height and course count as far as the pitch and the bank lie within limits that they ask for.

@@ -36,7 +36,8 @@ Airframe anaconda() {
 
 struct Flown : Bench<Lqr> {
   Flown() {
-    params.airframe.value = anaconda(), params.airframe.is_given = true;
+    params.airframe.value = anaconda();
+    params.airframe.is_given = true;
     params.origin.value.alt_msl_m = field_m;
     configure();
   }
@@ -100,13 +101,19 @@ struct Flight {
     const Euler e = euler_from(x.q_nb);
     const AirData air(x.q_nb.conjugate() * x.v_n);
     state = flying(air.Va, std::atan2(x.v_n.y(), x.v_n.x()), e.roll_rad);
-    state.pitch_rad = e.pitch_rad, state.yaw_rad = e.yaw_rad;
+    state.pitch_rad = e.pitch_rad;
+    state.yaw_rad = e.yaw_rad;
     state.ground_speed_mps = x.v_n.head<2>().norm();
-    state.height_m = -x.p_n.z(), state.climb_rate_mps = -x.v_n.z();
-    state.alpha_rad = air.alpha, state.beta_rad = air.beta;
+    state.height_m = -x.p_n.z();
+    state.climb_rate_mps = -x.v_n.z();
+    state.alpha_rad = air.alpha;
+    state.beta_rad = air.beta;
     state.rate_radps = from_eigen<Body>(x.omega_b);
     state.attitude_valid = known;
-    if (!known) state.roll_rad = state.pitch_rad = state.alpha_rad = 0, state.rate_radps = {};
+    if (!known) {
+      state.roll_rad = state.pitch_rad = state.alpha_rad = 0;
+      state.rate_radps = {};
+    }
   }
   void air(double dt) {
     Eigen::Matrix3d J = Eigen::Vector3d(a.inertia.xx_kgm2, a.inertia.yy_kgm2, a.inertia.zz_kgm2).asDiagonal();
@@ -186,8 +193,9 @@ TEST_CASE("the solution leaves no residual, and what it closes is stable, with a
   const auto& model = lqr.component().plant();
   CHECK(decays(model.A - model.B * K, 0.1));
   CHECK_FALSE(decays(model.A, 0));
-  CHECK_FALSE(decays(model.A - model.B * K, 0.13));      // an integral of 8 s is no faster
-  K.col(X::chi).setZero(), K.col(X::int_chi).setZero();  // an acceleration is commanded: all but these two
+  CHECK_FALSE(decays(model.A - model.B * K, 0.13));  // an integral of 8 s is no faster
+  K.col(X::chi).setZero();
+  K.col(X::int_chi).setZero();  // an acceleration is commanded: all but these two
   Square closed = model.A - model.B * K;
   closed(X::chi, X::chi) = closed(X::int_chi, X::int_chi) = -1;
   CHECK(decays(closed, 0.1));
@@ -224,7 +232,8 @@ TEST_CASE("an aircraft that cannot fly level at its cruise speed is refused, and
   Bench<Lqr> bench;
   CHECK(bench.configure() == Status::failed);
   CHECK(bench.error() == "the regulator needs an airframe");
-  bench.params.airframe.value = anaconda(), bench.params.airframe.is_given = true;
+  bench.params.airframe.value = anaconda();
+  bench.params.airframe.is_given = true;
   bench.params.airframe.value.mass_kg = 40;
   CHECK(bench.configure() == Status::failed);
   CHECK(bench.error() == "this airframe has no level flight at its cruise speed");
@@ -284,7 +293,8 @@ TEST_CASE("new weights are a new gain and no step of a surface, without memory")
   for (int i = 0; i < 50; ++i) lqr.fly();
   const Eigen::Vector4d before = lqr.u();
   const Lqr::Gain gain = lqr.component().gain();
-  lqr.params.height.value = 0.3, lqr.params.aileron.value = 0.5;
+  lqr.params.height.value = 0.3;
+  lqr.params.aileron.value = 0.5;
   REQUIRE(allocations([&] { lqr.retune(); }) == 0);
   CHECK((lqr.component().gain() - gain).norm() > 0.5);
   lqr.fly();
@@ -296,15 +306,22 @@ TEST_CASE("whatever it is told, what it says is finite and within throws") {
   for (int i = 0; i < 3000; ++i) {
     const auto wave = [&](double k) { return std::sin(k * i); };
     VehicleState s = flying(15 + 15 * wave(0.11), wrap_pi(0.07 * i), 3 * wave(0.05));
-    s.pitch_rad = 1.5 * wave(0.03), s.alpha_rad = wave(0.17), s.beta_rad = wave(0.13);
+    s.pitch_rad = 1.5 * wave(0.03);
+    s.alpha_rad = wave(0.17);
+    s.beta_rad = wave(0.13);
     s.rate_radps = {5 * wave(0.2), 5 * wave(0.3), 5 * wave(0.4)};
     s.height_m = 1000 * wave(0.01);
-    s.attitude_valid = i % 7 != 0, s.velocity_valid = i % 5 != 0, s.height_valid = i % 11 != 0;
-    s.airspeed_valid = i % 13 != 0, s.wind_valid = i % 3 != 0;
+    s.attitude_valid = i % 7 != 0;
+    s.velocity_valid = i % 5 != 0;
+    s.height_valid = i % 11 != 0;
+    s.airspeed_valid = i % 13 != 0;
+    s.wind_valid = i % 3 != 0;
     GuidanceCommand c = cruise(wrap_pi(0.2 * i));
-    c.airspeed_mps = 60 * wave(0.02), c.climb_rate_mps = 30 * wave(0.06);
+    c.airspeed_mps = 60 * wave(0.02);
+    c.climb_rate_mps = 30 * wave(0.06);
     c.lateral = i % 100 < 50 ? LateralMode::course : LateralMode::acceleration;
-    c.roll_feedforward_rad = 2 * wave(0.08), c.lateral_acceleration_mps2 = 100 * wave(0.09);
+    c.roll_feedforward_rad = 2 * wave(0.08);
+    c.lateral_acceleration_mps2 = 100 * wave(0.09);
     lqr.see(s, c);
     if (i % 200 == 0) lqr.activate();
     lqr.fly(i % 17 == 0 ? 3.0 : 0.01);

@@ -49,7 +49,9 @@ struct Plant {
     dot(beta) = (a_b.y() - std::sin(x(beta)) * dot(V)) / (x(V) * std::cos(x(beta)));
     dot(phi) = x(p) + std::tan(x(theta)) * (std::sin(x(phi)) * x(q) + std::cos(x(phi)) * x(r));  // (3.16)
     dot(theta) = std::cos(x(phi)) * x(q) - std::sin(x(phi)) * x(r);
-    dot(p) = d.omega_b.x(), dot(q) = d.omega_b.y(), dot(r) = d.omega_b.z();
+    dot(p) = d.omega_b.x();
+    dot(q) = d.omega_b.y();
+    dot(r) = d.omega_b.z();
     dot(h) = -body.v_n.z();
     dot(chi) = (body.v_n.x() * d.v_n.y() - body.v_n.y() * d.v_n.x()) / body.v_n.head<2>().squaredNorm();
     return dot;
@@ -62,7 +64,9 @@ struct Plant {
     Plant plant;
     plant.rho_kgm3 = rho;
     plant.x0(V) = airframe.limits.airspeed_cruise_mps;
-    plant.x0(alpha) = trim.alpha_rad, plant.x0(beta) = trim.beta_rad, plant.x0(theta) = trim.pitch_rad;
+    plant.x0(alpha) = trim.alpha_rad;
+    plant.x0(beta) = trim.beta_rad;
+    plant.x0(theta) = trim.pitch_rad;
     plant.u0 << trim.throttle_frac, trim.deflections.elevator, trim.deflections.aileron,
         trim.deflections.rudder;
     const double d = 1e-5;

@@ -75,7 +75,9 @@ struct Flight {
     s.velocity_std_mps = {0.1, 0.1, 0.1};
     s.position_std_m = {1, 1, 2};
     s.wind_std_mps = {1, 1, unknown_std};
-    s.origin_latitude_deg = 40, s.origin_longitude_deg = -111, s.origin_altitude_m = alt0;
+    s.origin_latitude_deg = 40;
+    s.origin_longitude_deg = -111;
+    s.origin_altitude_m = alt0;
     s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = true;
     s.airspeed_valid = s.wind_valid = true;
     return last;

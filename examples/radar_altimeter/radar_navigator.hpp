@@ -26,7 +26,8 @@ struct RadarNavigator {  // fills the role `nav`
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     return ekf_.step(tick, in.sensors, p.nav, out.nav, [&](Navigator& navigator) {
       for (const auto& range : in.range) radar_.fuse(navigator, range.value, range.valid_at_s(), p.radar);
-      out.radar_ratio = radar_.aid.ratio, out.radar_refused_ratio = radar_.aid.refused;
+      out.radar_ratio = radar_.aid.ratio;
+      out.radar_refused_ratio = radar_.aid.refused;
     });
   }
 

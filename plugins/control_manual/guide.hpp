@@ -65,7 +65,10 @@ struct Guide {
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
     const VehicleState& state = *in.state;
-    if (!begun_) command_ = flown(state, p.airframe->limits), begun_ = true;
+    if (!begun_) {
+      command_ = flown(state, p.airframe->limits);
+      begun_ = true;
+    }
     const GuidanceCommand* automatic = in.automatic && !in.automatic.stale() ? &*in.automatic : nullptr;
     const Sticks hand = sticks(in.rc, tick, p.sticks);
     const GuidanceCommand now = flown(state, p.airframe->limits);
@@ -81,7 +84,8 @@ struct Guide {
  private:
   static GuidanceCommand flown(const VehicleState& state, const FlightLimits& limits) {
     GuidanceCommand c;
-    c.course_rad = state.course_rad, c.height_m = state.height_m;
+    c.course_rad = state.course_rad;
+    c.height_m = state.height_m;
     c.airspeed_mps = state.airspeed_valid ? state.airspeed_mps : limits.airspeed_cruise_mps;
     return c;
   }
@@ -122,7 +126,8 @@ struct Guide {
               const GuidanceCommand* automatic, const GuidanceCommand& now, double dt) {
     const Axis axis = p.height;
     if (axis == Axis::automatic && automatic) {
-      command_.height_m = automatic->height_m, command_.climb_rate_mps = automatic->climb_rate_mps;
+      command_.height_m = automatic->height_m;
+      command_.climb_rate_mps = automatic->climb_rate_mps;
       return true;
     }
     command_.climb_rate_mps = 0;

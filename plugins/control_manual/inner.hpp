@@ -53,11 +53,14 @@ struct Inner {
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
-    p_loop_.reset(), q_loop_.reset();
+    p_loop_.reset();
+    q_loop_.reset();
     for (Blend* blend : {&aileron_, &elevator_, &rudder_, &throttle_}) blend->reset();
     if (last.has(last->actuators)) {
-      aileron_.begin(last->actuators.aileron_rad), elevator_.begin(last->actuators.elevator_rad);
-      rudder_.begin(last->actuators.rudder_rad), throttle_.begin(last->actuators.throttle_frac);
+      aileron_.begin(last->actuators.aileron_rad);
+      elevator_.begin(last->actuators.elevator_rad);
+      rudder_.begin(last->actuators.rudder_rad);
+      throttle_.begin(last->actuators.throttle_frac);
     }
     airspeed_.reset_to(scheduling_airspeed(*in.state, p.airframe->limits));
     washout_.reset();
@@ -131,7 +134,8 @@ struct Inner {
   /// The rates that lead to the ends of the envelope, as an attitude does: rate = gain (limit - attitude).
   static void limit(Demand& d, const Params& p, double turn, double gain, double attitude, double min,
                     double max, double most) {
-    d.low = -no_limit, d.high = no_limit;
+    d.low = -no_limit;
+    d.high = no_limit;
     if (!p.envelope.protection) return;
     d.low = turn + std::min(gain * (min - attitude), most);
     d.high = turn + std::max(gain * (max - attitude), -most);

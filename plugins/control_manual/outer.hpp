@@ -42,8 +42,11 @@ struct Outer {
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
-    roll_.reset(), pitch_.reset(), throttle_.reset();
-    roll_slew_.reset(), pitch_slew_.reset();
+    roll_.reset();
+    pitch_.reset();
+    throttle_.reset();
+    roll_slew_.reset();
+    pitch_slew_.reset();
     if (last.has(last->attitude)) {
       begin_attitude(last->attitude.roll_rad, last->attitude.pitch_rad);
       throttle_.begin(last->attitude.throttle_frac);
@@ -96,8 +99,10 @@ struct Outer {
             std::clamp(a.throttle_frac, e.throttle_min, e.throttle_max)};
   }
   void begin_attitude(double roll_rad, double pitch_rad) {
-    roll_.begin(roll_rad), pitch_.begin(pitch_rad);
-    roll_slew_.reset_to(roll_rad), pitch_slew_.reset_to(pitch_rad);
+    roll_.begin(roll_rad);
+    pitch_.begin(pitch_rad);
+    roll_slew_.reset_to(roll_rad);
+    pitch_slew_.reset_to(pitch_rad);
   }
   /// Of level flight at cruise speed, rad: where the pitch stick has its middle.
   static double level_pitch(const VehicleState& state, const Params& p) {

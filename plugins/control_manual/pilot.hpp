@@ -44,19 +44,26 @@ inline Sticks sticks(const Optional<Rc>& rc, const Tick& tick, const StickParams
 class Blend {
  public:
   /// Somebody else's value was applied last.
-  void begin(double applied) { value_ = applied, known_ = true, source_ = -1; }
+  void begin(double applied) {
+    value_ = applied;
+    known_ = true;
+    source_ = -1;
+  }
   void reset() { *this = {}; }
   /// What a limit has left of the last value: the next source begins there.
   double kept(double applied) { return value_ = applied; }
   /// `decay`: exp(-dt / time constant), one for all blends of a step.
   double step(double wanted, int source, double decay) {
     if (source != source_) {
-      offset_ = known_ ? value_ - wanted : 0, rate_ = 0;
+      offset_ = known_ ? value_ - wanted : 0;
+      rate_ = 0;
     } else {
       const double moved = -std::log(decay) * (rate_ + offset_);
-      offset_ = decay * (offset_ + moved), rate_ = decay * (rate_ - moved);
+      offset_ = decay * (offset_ + moved);
+      rate_ = decay * (rate_ - moved);
     }
-    source_ = source, known_ = true;
+    source_ = source;
+    known_ = true;
     return value_ = wanted + offset_;
   }
 

@@ -108,8 +108,13 @@ struct Airspeed {
 
   /// Standing: engine off, nothing is remembered.
   Status rest(Outputs& out) {
-    loop_.reset(), airspeed_.reset(), command_rate_.reset();
-    throttle_.reset_to(0), roll_left_.reset_to(0), pitch_left_.reset_to(0), traded_.reset();
+    loop_.reset();
+    airspeed_.reset();
+    command_rate_.reset();
+    throttle_.reset_to(0);
+    roll_left_.reset_to(0);
+    pitch_left_.reset_to(0);
+    traded_.reset();
     take_up_ = false;
     out.attitude.throttle_frac = 0;
     return Status::ok;

@@ -66,7 +66,10 @@ struct Autotune {
 
   Status activate(const Tick& tick, const Inputs& in, const Params&, const Applied<Outputs>& last) {
     if (running()) end("somebody else has flown");
-    for (std::size_t i = 0; i < axes; ++i) use(i, goal_[i]), left_s_[i] = 0;  // no surface is bound to these
+    for (std::size_t i = 0; i < axes; ++i) {
+      use(i, goal_[i]);
+      left_s_[i] = 0;  // no surface is bound to these
+    }
     strength_ = 0;
     return inner_.activate(tick, in.law, law_, last.part(last->law));
   }
@@ -115,14 +118,25 @@ struct Autotune {
   }
   void use(std::size_t axis, const AxisGains& g) {
     used_[axis] = g;
-    if (axis == roll) law_.roll_kp.value = g.kp, law_.roll_ki.value = g.ki, law_.roll_kd.value = g.kd;
-    if (axis == pitch) law_.pitch_kp.value = g.kp, law_.pitch_ki.value = g.ki, law_.pitch_kd.value = g.kd;
+    if (axis == roll) {
+      law_.roll_kp.value = g.kp;
+      law_.roll_ki.value = g.ki;
+      law_.roll_kd.value = g.kd;
+    }
+    if (axis == pitch) {
+      law_.pitch_kp.value = g.kp;
+      law_.pitch_ki.value = g.ki;
+      law_.pitch_kd.value = g.kd;
+    }
     if (axis == yaw) law_.yaw_kd.value = g.kd;
   }
   static AxisGains times(const AxisGains& g, double by) { return {g.kp * by, g.ki * by, g.kd * by}; }
 
   /// Gains move within change_s: no surface steps.
-  void change_to(std::size_t axis, const AxisGains& g) { goal_[axis] = g, left_s_[axis] = change_s; }
+  void change_to(std::size_t axis, const AxisGains& g) {
+    goal_[axis] = g;
+    left_s_[axis] = change_s;
+  }
   void change_over(std::size_t axis, double dt) {
     if (left_s_[axis] <= 0) return;
     const double part = std::min(1.0, dt / left_s_[axis]);
@@ -151,15 +165,21 @@ struct Autotune {
     inner_.retune(law_);
     begun_m_ = in.law.state->height_m;
     time_s_ = 0;
-    verdict_ = {}, reason_ = {}, before_ = {}, after_ = {}, noise_ = {};
+    verdict_ = {};
+    reason_ = {};
+    before_ = {};
+    after_ = {};
+    noise_ = {};
     next_axis(roll, p);
   }
   /// They count, whatever was measured with others.
   void set_by_somebody(std::size_t axis, const AxisGains& now) {
     given_[axis] = kept_[axis] = used_[axis] = goal_[axis] = now;
     if (running()) end("gains were set");
-    verdict_[axis] = Verdict::open, reason_[axis] = Reason::none;
-    before_[axis].reset(), after_[axis].reset();
+    verdict_[axis] = Verdict::open;
+    reason_[axis] = Reason::none;
+    before_[axis].reset();
+    after_[axis].reset();
   }
   void begin_axis(std::size_t axis) {
     axis_ = axis;
@@ -171,7 +191,8 @@ struct Autotune {
     for (std::size_t next = first; next < axes; ++next) {
       const Reason why = in_the_way(next, p);
       if (why == Reason::none) return begin_axis(next);
-      verdict_[next] = Verdict::left_out, reason_[next] = why;
+      verdict_[next] = Verdict::left_out;
+      reason_[next] = why;
       say(Severity::info, "%s: not tuned: %s", names[next], words(why));
     }
     go_to(Stage::finished);
@@ -197,7 +218,8 @@ struct Autotune {
     }
   }
   void go_to(Stage stage) {
-    stage_ = stage, stage_s_ = 0;
+    stage_ = stage;
+    stage_s_ = 0;
     fitting_ = false;
     lines_.begin();
   }
@@ -211,7 +233,8 @@ struct Autotune {
   void go_back() { change_to(axis_, kept_[axis_]); }
   void revert(Reason reason, std::string_view why) {
     go_back();
-    verdict_[axis_] = Verdict::reverted, reason_[axis_] = reason;
+    verdict_[axis_] = Verdict::reverted;
+    reason_[axis_] = reason;
     say(Severity::warning, "%s: old gains: %.*s", names[axis_], static_cast<int>(why.size()), why.data());
   }
 
@@ -320,7 +343,10 @@ struct Autotune {
   void excite(const Inputs& in, const Params& p, double dt, Inner::Outputs& out) {
     const bool wanted =
         (stage_ == Stage::exciting || stage_ == Stage::verifying) && stage_s_ >= settle_s && !fitting_;
-    if (strength_ == 0) excited_ = axis_, phase_s_ = 0;  // what is left of one stays on its surface
+    if (strength_ == 0) {
+      excited_ = axis_;
+      phase_s_ = 0;  // what is left of one stays on its surface
+    }
     strength_ = std::clamp(strength_ + (wanted ? dt / fade_s : -5 * dt), 0.0, 1.0);
     if (strength_ == 0) return;
     phase_s_ += dt;
@@ -357,12 +383,20 @@ struct Autotune {
     r.stage = stage_;
     r.done = stage_ == Stage::finished || stage_ == Stage::aborted;
     r.axis = running() ? static_cast<AutotuneAxis>(axis_ + 1) : AutotuneAxis::none;
-    r.roll = verdict_[roll], r.pitch = verdict_[pitch], r.yaw = verdict_[yaw];
-    r.roll_reason = reason_[roll], r.pitch_reason = reason_[pitch], r.yaw_reason = reason_[yaw];
+    r.roll = verdict_[roll];
+    r.pitch = verdict_[pitch];
+    r.yaw = verdict_[yaw];
+    r.roll_reason = reason_[roll];
+    r.pitch_reason = reason_[pitch];
+    r.yaw_reason = reason_[yaw];
     r.time_s = time_s_;
     for (std::size_t i = 0; i < axes; ++i) {
-      r.before_kp_ratio[i] = old_[i].kp, r.before_ki_ratio[i] = old_[i].ki, r.before_kd_ratio[i] = old_[i].kd;
-      r.kp_ratio[i] = used_[i].kp, r.ki_ratio[i] = used_[i].ki, r.kd_ratio[i] = used_[i].kd;
+      r.before_kp_ratio[i] = old_[i].kp;
+      r.before_ki_ratio[i] = old_[i].ki;
+      r.before_kd_ratio[i] = old_[i].kd;
+      r.kp_ratio[i] = used_[i].kp;
+      r.ki_ratio[i] = used_[i].ki;
+      r.kd_ratio[i] = used_[i].kd;
       tell_margins(before_[i], r.before_gain_margin_ratio[i], r.before_phase_margin_rad[i]);
       tell_margins(after_[i], r.gain_margin_ratio[i], r.phase_margin_rad[i]);
       r.crossover_radps[i] = after_[i] ? after_[i]->crossover_radps : 0;

@@ -43,8 +43,11 @@ inline std::array<Complex, Lines::count> loop_with(const LoopRecord& r, const Ax
 class GainSearch {
  public:
   void begin(const LoopRecord& record, const AxisGains& from, const MarginsWanted& wanted) {
-    record_ = record, from_ = from, wanted_ = wanted;
-    next_ = 0, found_ = false;
+    record_ = record;
+    from_ = from;
+    wanted_ = wanted;
+    next_ = 0;
+    found_ = false;
     best_off_ = 1e300;
   }
   /// One candidate. True when there are no more.
@@ -72,7 +75,8 @@ class GainSearch {
   void try_attitude(const AxisGains& g) {
     if (found_ && g.kp <= best_.kp * 1.05) return;
     if (!wanted_.kept(margins_of(loop_with(record_, from_, g)))) return;
-    best_ = g, found_ = true;
+    best_ = g;
+    found_ = true;
   }
   void try_damper(const AxisGains& g) {
     const auto loop = loop_with(record_, from_, g);
@@ -80,7 +84,9 @@ class GainSearch {
     for (std::size_t i = 0; i < Lines::count; ++i) peak = std::max(peak, std::abs(loop[i]));
     const double off = std::abs(std::log(peak / damper_loop));
     if (!(off < best_off_) || !wanted_.kept(margins_of(loop))) return;
-    best_ = g, found_ = true, best_off_ = off;
+    best_ = g;
+    found_ = true;
+    best_off_ = off;
   }
 
   LoopRecord record_;

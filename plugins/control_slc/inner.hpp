@@ -70,7 +70,10 @@ struct Inner {
     // to begin with.
     take_up_ = last.has(last->actuators);
     fading_ = false;
-    if (!take_up_) roll_.reset(), pitch_.reset();
+    if (!take_up_) {
+      roll_.reset();
+      pitch_.reset();
+    }
     blind_ = false;
     roll_command_rate_.reset_to(in.attitude->roll_rad);
     airspeed_.reset_to(scheduling_airspeed(*in.state, params.airframe->limits));
@@ -109,7 +112,10 @@ struct Inner {
     const double scale =
         std::clamp(speed_ratio * speed_ratio, 1 / params.scale_limit, params.scale_limit.value);
     const bool integrating = flying(state, params.airframe->limits);
-    if (!integrating) roll_.reset(), pitch_.reset();
+    if (!integrating) {
+      roll_.reset();
+      pitch_.reset();
+    }
     const double integrate = integrating ? dt : 0;  // the ground holds the attitude: its error means nothing
 
     out.actuators.throttle_frac = std::clamp(command.throttle_frac, 0.0, 1.0);

@@ -71,7 +71,8 @@ class LoopLines {
     return size_ * sum();
   }
   void begin() {
-    sums_ = {}, drift_ = {};
+    sums_ = {};
+    drift_ = {};
     samples_ = limited_ = 0;
     scale_ = step_s_ = 0;
   }
@@ -113,7 +114,8 @@ class LoopLines {
       const double between =
           std::sqrt(0.5 * (std::norm(s.below - ramp(0, bin - 1)) + std::norm(s.above - ramp(0, bin + 1))));
       r.noise[i] = between * std::abs(1.0 + r.loop[i]) / std::abs(total - feedback);
-      at[i] = std::abs(feedback), off[i] = between;
+      at[i] = std::abs(feedback);
+      off[i] = between;
     }
     r.scale = scale_ / n;
     r.step_s = step_s_ / n;
@@ -190,7 +192,8 @@ inline double noise_of(const LoopRecord& r) {
   for (std::size_t i = 0; i < Lines::count; ++i) {
     const double gain = std::abs(r.loop[i]);
     if (gain < std::min(0.3, 0.5 * most) || gain > 3) continue;
-    sum += r.noise[i] * r.noise[i], ++n;
+    sum += r.noise[i] * r.noise[i];
+    ++n;
   }
   return n > 0 ? std::sqrt(sum / n) : 1e9;
 }

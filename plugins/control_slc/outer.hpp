@@ -44,7 +44,10 @@ struct Outer {
   void configure(const Params& p) { loop_.configure(p.common); }
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
-    if (!loop_.activate(*in.state, p.common, last)) altitude_.reset(), airspeed_.reset();
+    if (!loop_.activate(*in.state, p.common, last)) {
+      altitude_.reset();
+      airspeed_.reset();
+    }
     late_.reset();
     return Status::ok;
   }
@@ -53,7 +56,11 @@ struct Outer {
     const VehicleState& state = *in.state;
     const GuidanceCommand& command = *in.command;
     out.climb_rate_demand_mps = 0.0;
-    const auto rest = [&] { altitude_.reset(), airspeed_.reset(), late_.reset(); };
+    const auto rest = [&] {
+      altitude_.reset();
+      airspeed_.reset();
+      late_.reset();
+    };
     const auto hold = [&](const LevelTurn& turn, double dt) -> PitchThrottle {
       const double theta = height_to_pitch(state, command, p, turn, dt, out);
       const double feedforward = p.climb_kff * out.climb_rate_demand_mps.value + turn.drag_newton / p.thrust;

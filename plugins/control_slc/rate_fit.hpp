@@ -15,8 +15,11 @@ class RateFit {
 
   /// `gains`: with which the record was taken. `more`: the law feeds back more than attitude and rate.
   void begin(const LoopRecord& record, const AxisGains& gains, bool more) {
-    record_ = record, gains_ = gains, more_ = more;
-    next_ = 0, misfit_ = 1e300;
+    record_ = record;
+    gains_ = gains;
+    more_ = more;
+    next_ = 0;
+    misfit_ = 1e300;
     for (std::size_t i = 0; i < Lines::count; ++i) {
       const double noise = 1.3 * smoothed(record.noise, i) + model_error;
       const Complex L = record.loop[i];
@@ -28,7 +31,10 @@ class RateFit {
     if (next_ > delays) return true;
     Each fitted{};
     const double tau = 0.005 * next_++, off = fit(tau, fitted);
-    if (off < misfit_) misfit_ = off, best_ = fitted;
+    if (off < misfit_) {
+      misfit_ = off;
+      best_ = fitted;
+    }
     return false;
   }
   /// Mean square of what is left, in variances of the noise: 1 when the aircraft is one of these.

@@ -54,14 +54,21 @@ struct ErrorLaw {
   void configure(const Params& p) { loop_.configure(p.common); }
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
-    if (!loop_.activate(*in.state, p.common, last)) pitch_.reset(), throttle_.reset();
+    if (!loop_.activate(*in.state, p.common, last)) {
+      pitch_.reset();
+      throttle_.reset();
+    }
     airspeed_.reset();
     return Status::ok;
   }
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const auto rest = [&] {
-      pitch_.reset(), throttle_.reset(), airspeed_.reset(), late_climb_.reset(), late_rate_.reset();
+      pitch_.reset();
+      throttle_.reset();
+      airspeed_.reset();
+      late_climb_.reset();
+      late_rate_.reset();
       out.total_error_ratio = 0.0;
       out.balance_error_ratio = 0.0;
       out.underspeed_ratio = 0.0;
@@ -102,7 +109,8 @@ struct ErrorLaw {
     const FlightLimits& limits = p.common.airframe->limits;
     const double error = command.height_m - state.height_m;
     Errors e;
-    e.most = isa::g0 * limits.climb_rate_max_mps, e.least = -isa::g0 * limits.sink_rate_max_mps;
+    e.most = isa::g0 * limits.climb_rate_max_mps;
+    e.least = -isa::g0 * limits.sink_rate_max_mps;
     e.climb_rate_mps =
         std::clamp(command.climb_rate_mps, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
     e.potential = isa::g0 * error;

@@ -66,7 +66,10 @@ struct Outer {
   void configure(const Params& p) { loop_.configure(p.common); }
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
-    if (!loop_.activate(*in.state, p.common, last)) pitch_.reset(), throttle_.reset();
+    if (!loop_.activate(*in.state, p.common, last)) {
+      pitch_.reset();
+      throttle_.reset();
+    }
     climb_rate_.reset_to(in.state->climb_rate_mps);
     acceleration_.reset();
     airspeed_.reset();

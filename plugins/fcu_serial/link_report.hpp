@@ -32,9 +32,15 @@ class LinkReport {
     s.open = link.open;
     s.synchronised = link.synchronised;
     s.heard_age_s = link.heard_ns == 0 ? 1e9 : seconds(std::max<std::int64_t>(host_ns - link.heard_ns, 0));
-    s.frames = link.frames, s.bad = link.bad, s.missing = link.missing, s.dropped = link.lost_in_queue;
-    s.unusable = unusable, s.commands = commands, s.unsent = unsent;
-    s.connections = link.connections, s.reboots = link.reboots;
+    s.frames = link.frames;
+    s.bad = link.bad;
+    s.missing = link.missing;
+    s.dropped = link.lost_in_queue;
+    s.unusable = unusable;
+    s.commands = commands;
+    s.unsent = unsent;
+    s.connections = link.connections;
+    s.reboots = link.reboots;
     s.imu_gaps = gaps_;
     s.worst_gap_s = seconds(worst_ns_);
     s.imu_rate_hz = rate_hz_;

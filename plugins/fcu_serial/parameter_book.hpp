@@ -26,7 +26,9 @@ class ParameterBook {
   /// The controller, or another one, may have other values.
   void restart() {
     heard_.reset();
-    at_ = 0, rounds_ = 0, changes_ = 0;
+    at_ = 0;
+    rounds_ = 0;
+    changes_ = 0;
     told_ = false;
   }
   /// It did not get through to the reader: asked for again.

@@ -202,7 +202,10 @@ class Readiness {
   static bool handed(const VehicleStatus& s) { return s.armed && !s.override && !s.failsafe; }
 
   void look_for_flight(const Facts& f, bool complete) {
-    if (!f.status.armed) met_disarmed_ = true, flown_ = false;
+    if (!f.status.armed) {
+      met_disarmed_ = true;
+      flown_ = false;
+    }
     if (f.status.in_control && complete && f.state->ground_speed_mps > flies_mps) flown_ = true;
   }
 

@@ -185,7 +185,8 @@ inline Status Follower::step(const Tick& tick, const Inputs& in, const Params& p
   slot_.reached = slot_.reached || e.norm() < p.reached;
   if (slot_.reached) {
     const double dt = 1e-9 * static_cast<double>(tick.dt_ns);
-    square_sum_m2_s_ += dt * e.squaredNorm(), time_s_ += dt;
+    square_sum_m2_s_ += dt * e.squaredNorm();
+    time_s_ += dt;
     slot_.rms_m = time_s_ > 0 ? std::sqrt(square_sum_m2_s_ / time_s_) : e.norm();
     slot_.worst_m = slot_.worst_m == unknown_std ? e.norm() : std::max(slot_.worst_m, e.norm());
   }

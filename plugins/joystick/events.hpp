@@ -80,7 +80,8 @@ class JsState {
     const bool is_button =
         kind == JsEvent::button && e.number < most_buttons && (e.value == 0 || e.value == 1);
     if (!is_axis && !is_button) {
-      ++unknown_, ++in_a_row_;
+      ++unknown_;
+      ++in_a_row_;
       return;
     }
     in_a_row_ = 0;

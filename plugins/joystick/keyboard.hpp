@@ -29,7 +29,9 @@ class Keys {
   /// The sticks return by as much flight time as has gone by.
   void pass(double dt_s, const Sizes& sizes) {
     const double left = std::exp(-std::max(0.0, dt_s) / sizes.return_s);
-    roll_ *= left, pitch_ *= left, yaw_ *= left;
+    roll_ *= left;
+    pitch_ *= left;
+    yaw_ *= left;
   }
 
   Rc frame() const {
@@ -42,10 +44,19 @@ class Keys {
   /// The letter of an arrow, which comes as ESC [ A or ESC O A; 0: not yet a whole key.
   char key(char c) {
     const char before = std::exchange(escape_, '\0');
-    if (c == '\x1b') return escape_ = c, '\0';
-    if (before == '\x1b' && (c == '[' || c == 'O')) return escape_ = '[', '\0';
+    if (c == '\x1b') {
+      escape_ = c;
+      return '\0';
+    }
+    if (before == '\x1b' && (c == '[' || c == 'O')) {
+      escape_ = '[';
+      return '\0';
+    }
     if (before != '[') return c;
-    if ((c >= '0' && c <= '9') || c == ';') return escape_ = '[', '\0';  // a key with a modifier
+    if ((c >= '0' && c <= '9') || c == ';') {
+      escape_ = '[';
+      return '\0';  // a key with a modifier
+    }
     switch (c) {
       case 'A': return 'w';
       case 'B': return 's';

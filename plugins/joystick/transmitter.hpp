@@ -32,7 +32,8 @@ class Transmitter {
   void tell(bool link, const std::string& device, const char* why, Notices& notices) {
     if (told_ && link == was_) return;
     const bool lost = told_ && !link, back = told_ && link;
-    told_ = true, was_ = link;
+    told_ = true;
+    was_ = link;
     char words[192];
     if (link)
       std::snprintf(words, sizeof words, "%s: the pilot is %s", device.c_str(), back ? "back" : "there");

@@ -138,9 +138,11 @@ class Epochs {
   void add_velocity(Gnss& out) const {
     std::optional<double> v, chi;
     if (now_.rmc && now_.rmc->valid) {
-      v = now_.rmc->speed_mps, chi = now_.rmc->course_rad;
+      v = now_.rmc->speed_mps;
+      chi = now_.rmc->course_rad;
     } else if (!now_.rmc && now_.vtg) {
-      v = now_.vtg->speed_mps, chi = now_.vtg->course_rad;
+      v = now_.vtg->speed_mps;
+      chi = now_.vtg->course_rad;
     }
     if (v && chi) out.velocity_mps = {*v * std::cos(*chi), *v * std::sin(*chi), 0};
   }

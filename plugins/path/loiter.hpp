@@ -99,7 +99,8 @@ struct Loiter {
     const double azimuth = aim.path_course - side * std::numbers::pi / 2;
     if (near && azimuth_known_)
       progress_.laps_ratio += side * angle_difference(azimuth, azimuth_rad_) / (2 * std::numbers::pi);
-    azimuth_rad_ = azimuth, azimuth_known_ = near;
+    azimuth_rad_ = azimuth;
+    azimuth_known_ = near;
     progress_.cross_m = aim.cross;
     progress_.height_error_m = s.height_m - wanted;
     progress_.there = near && std::abs(progress_.height_error_m) < level_m;

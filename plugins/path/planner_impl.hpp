@@ -113,10 +113,17 @@ inline void Planner::tell(const Tick& tick, const PlanEditResult& result, Output
     say({digits.data(), static_cast<std::size_t>(end - digits.data())});
   };
   say("plan edit ");
-  if (result.id != 0) count(result.id), say(" ");
+  if (result.id != 0) {
+    count(result.id);
+    say(" ");
+  }
   say("refused: ");
   say(result.reason.view());
-  if (untold_ > 0) say(" (and "), count(untold_), say(" before)");
+  if (untold_ > 0) {
+    say(" (and ");
+    count(untold_);
+    say(" before)");
+  }
   out.notices.push(notice, tick.now_ns);
   told_reason_ = result.reason;
   told_ns_ = tick.now_ns;

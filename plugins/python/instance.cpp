@@ -26,10 +26,17 @@ T* meta_of(std::byte* at, std::size_t meta) {
 Instance::Instance(const py::handle& described, const std::string& file, std::uint64_t seed)
     : file_(file), instance_(runtime().attr("_make")(described, seed)) {
   const auto method = [&](const char* name) { return py::object(instance_.attr(name)); };
-  step_ = method("step"), read_ = method("read"), write_ = method("write"), configure_ = method("configure"),
+  step_ = method("step");
+  read_ = method("read");
+  write_ = method("write");
+  configure_ = method("configure");
   retune_ = method("retune");
-  activate_ = method("activate"), deactivate_ = method("deactivate");
-  tick_ = method("tick"), inp_ = method("inp"), out_ = method("out"), last_ = method("last"),
+  activate_ = method("activate");
+  deactivate_ = method("deactivate");
+  tick_ = method("tick");
+  inp_ = method("inp");
+  out_ = method("out");
+  last_ = method("last");
   p_ = method("p");
   read_places(instance_);
 }
@@ -48,8 +55,12 @@ void Instance::read_places(const py::handle& instance) {
         one);  // kind, name, address, size, meta, capacity, head, own, previous
     Output o;
     o.kind = py::cast<std::uint32_t>(t[0]);
-    o.name = t[1], o.own = t[7], o.previous = t[8];
-    o.at = place(t[2]), o.size = py::cast<std::size_t>(t[3]), o.meta = py::cast<std::size_t>(t[4]);
+    o.name = t[1];
+    o.own = t[7];
+    o.previous = t[8];
+    o.at = place(t[2]);
+    o.size = py::cast<std::size_t>(t[3]);
+    o.meta = py::cast<std::size_t>(t[4]);
     o.capacity = py::cast<std::uint32_t>(t[5]);
     o.head = reinterpret_cast<QueueHead*>(place(t[6]));
     if (!o.previous.is_none()) o.previous_at = place(runtime().attr("_address")(o.previous));
@@ -59,8 +70,12 @@ void Instance::read_places(const py::handle& instance) {
     const auto t = py::reinterpret_borrow<py::tuple>(one);  // kind, name, choices, address, size, meta, value
     Parameter p;
     p.kind = py::cast<std::uint32_t>(t[0]);
-    p.name = t[1], p.choices = t[2], p.value = t[6];
-    p.at = place(t[3]), p.size = py::cast<std::size_t>(t[4]), p.meta = py::cast<std::size_t>(t[5]);
+    p.name = t[1];
+    p.choices = t[2];
+    p.value = t[6];
+    p.at = place(t[3]);
+    p.size = py::cast<std::size_t>(t[4]);
+    p.meta = py::cast<std::size_t>(t[5]);
     params_.push_back(std::move(p));
   }
 }

@@ -134,13 +134,17 @@ class OpenScript {
     fulmar_component c = tables_.component(described);
     prototypes[slot] = new Prototype{py::reinterpret_borrow<py::object>(described), file};
     slots_.push_back(slot);
-    c.create = creators[slot], c.destroy = &destroy, c.configure = &configure, c.retune = &retune;
+    c.create = creators[slot];
+    c.destroy = &destroy;
+    c.configure = &configure;
+    c.retune = &retune;
     const py::object cls = described.attr("cls");
     if (py::hasattr(cls, "activate")) c.activate = &activate;
     if (py::hasattr(cls, "deactivate")) c.deactivate = &deactivate;
-    if ((c.flags & FULMAR_VEHICLE) != 0)
-      c.read = &read, c.write = &write;
-    else
+    if ((c.flags & FULMAR_VEHICLE) != 0) {
+      c.read = &read;
+      c.write = &write;
+    } else
       c.step = &step;
     components_.push_back(c);
   }

@@ -182,7 +182,9 @@ struct RosplaneWaypoints {
     Waypoint& w = edit.waypoint;
     if (from.lla) {
       w.frame = WaypointFrame::geodetic;
-      w.latitude_deg = at(0), w.longitude_deg = at(1), w.altitude_m = at(2);
+      w.latitude_deg = at(0);
+      w.longitude_deg = at(1);
+      w.altitude_m = at(2);
     } else {
       w.position_m = {at(0), at(1), at(2)};
     }
@@ -229,16 +231,21 @@ inline Status RosplaneEstimator::step(const Tick&, const Inputs& in, const Param
   s.position_m = {d(m.p_n), d(m.p_e), d(m.p_d)};
   s.attitude = from_eigen(q.normalized());
   s.velocity_mps = to_ned(s.attitude, Vec3<Body>{d(m.v_x), d(m.v_y), d(m.v_z)});
-  s.roll_rad = d(m.phi), s.pitch_rad = d(m.theta), s.yaw_rad = d(m.psi);
+  s.roll_rad = d(m.phi);
+  s.pitch_rad = d(m.theta);
+  s.yaw_rad = d(m.psi);
   s.rate_radps = {d(m.p), d(m.q), d(m.r)};
   s.gyro_bias_radps = {d(m.b_x), d(m.b_y), d(m.b_z)};
   s.height_m = -s.position_m.down;
   s.climb_rate_mps = -s.velocity_mps.down;
   s.ground_speed_mps = std::hypot(s.velocity_mps.north, s.velocity_mps.east);
   s.course_rad = d(m.chi);
-  s.airspeed_mps = d(m.va), s.alpha_rad = d(m.alpha), s.beta_rad = d(m.beta);
+  s.airspeed_mps = d(m.va);
+  s.alpha_rad = d(m.alpha);
+  s.beta_rad = d(m.beta);
   s.wind_mps = {d(m.w_n), d(m.w_e), 0};
-  s.origin_latitude_deg = m.initial_lat, s.origin_longitude_deg = m.initial_lon,
+  s.origin_latitude_deg = m.initial_lat;
+  s.origin_longitude_deg = m.initial_lon;
   s.origin_altitude_m = m.initial_alt;
   s.origin_valid = m.initial_lat != 0 || m.initial_lon != 0;
   s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = s.wind_valid =

@@ -121,17 +121,32 @@ inline void Rosplane::state(const Inputs& in, Outputs& out) const {
   if (!s.position_valid || !s.height_valid) return;  // ROSplane's message has no word for it
   RosplaneState m;
   m.header = header;
-  m.p_n = f32(s.position_m.north), m.p_e = f32(s.position_m.east), m.p_d = f32(s.position_m.down);
+  m.p_n = f32(s.position_m.north);
+  m.p_e = f32(s.position_m.east);
+  m.p_d = f32(s.position_m.down);
   const Vec3<Body> v = to_body(s.attitude, s.velocity_mps);
-  m.v_x = f32(v.x), m.v_y = f32(v.y), m.v_z = f32(v.z);
-  m.p = f32(s.rate_radps.x), m.q = f32(s.rate_radps.y), m.r = f32(s.rate_radps.z);
-  m.phi = f32(s.roll_rad), m.theta = f32(s.pitch_rad), m.psi = f32(s.yaw_rad);
-  m.b_x = f32(s.gyro_bias_radps.x), m.b_y = f32(s.gyro_bias_radps.y), m.b_z = f32(s.gyro_bias_radps.z);
+  m.v_x = f32(v.x);
+  m.v_y = f32(v.y);
+  m.v_z = f32(v.z);
+  m.p = f32(s.rate_radps.x);
+  m.q = f32(s.rate_radps.y);
+  m.r = f32(s.rate_radps.z);
+  m.phi = f32(s.roll_rad);
+  m.theta = f32(s.pitch_rad);
+  m.psi = f32(s.yaw_rad);
+  m.b_x = f32(s.gyro_bias_radps.x);
+  m.b_y = f32(s.gyro_bias_radps.y);
+  m.b_z = f32(s.gyro_bias_radps.z);
   m.quat = as_is(s.attitude);
-  m.initial_lat = s.origin_latitude_deg, m.initial_lon = s.origin_longitude_deg,
+  m.initial_lat = s.origin_latitude_deg;
+  m.initial_lon = s.origin_longitude_deg;
   m.initial_alt = s.origin_altitude_m;
-  m.w_n = f32(s.wind_mps.north), m.w_e = f32(s.wind_mps.east);
-  m.va = f32(s.airspeed_mps), m.alpha = f32(s.alpha_rad), m.beta = f32(s.beta_rad), m.chi = f32(s.course_rad);
+  m.w_n = f32(s.wind_mps.north);
+  m.w_e = f32(s.wind_mps.east);
+  m.va = f32(s.airspeed_mps);
+  m.alpha = f32(s.alpha_rad);
+  m.beta = f32(s.beta_rad);
+  m.chi = f32(s.course_rad);
   out.estimated_state.publish(m, at);
 }
 
@@ -140,10 +155,14 @@ inline void Rosplane::controller(const Inputs& in, Outputs& out) const {
     const std::int64_t at = in.command.valid_at_ns();
     RosplaneControllerCommands m;
     m.header = clock_.header(at, {});
-    m.va_c = f32(in.command->airspeed_mps), m.h_c = f32(in.command->height_m),
+    m.va_c = f32(in.command->airspeed_mps);
+    m.h_c = f32(in.command->height_m);
     m.chi_c = f32(in.command->course_rad);
     m.phi_ff = f32(in.command->roll_feedforward_rad);
-    if (in.attitude) m.theta_c = f32(in.attitude->pitch_rad), m.phi_c = f32(in.attitude->roll_rad);
+    if (in.attitude) {
+      m.theta_c = f32(in.attitude->pitch_rad);
+      m.phi_c = f32(in.attitude->roll_rad);
+    }
     out.controller_command.publish(m, at);
   }
   if (in.attitude && in.attitude.fresh()) {
@@ -175,7 +194,8 @@ inline void Rosplane::paths(const Tick& tick, const Inputs& in, Outputs& out) {
     m.header = clock_.header(at, {});
     m.va_d = f32(path.airspeed_mps);
     if (path.kind == PathKind::line) {
-      m.r = f32(path.origin_m), m.q = f32(path.direction_ratio);
+      m.r = f32(path.origin_m);
+      m.q = f32(path.direction_ratio);
     } else {
       m.path_type = 0;
       m.c = f32(path.origin_m);
@@ -255,9 +275,14 @@ inline void Rosplane::gnss(const Inputs& in, Outputs& out) const {
   m.header = clock_.header(at, {});
   m.fix_type = rosflight_fix(g.fix);
   m.num_sat = g.satellites;
-  m.lat = g.latitude_deg, m.lon = g.longitude_deg, m.alt = f32(g.altitude_m);
-  m.horizontal_accuracy = f32(g.horizontal_std_m), m.vertical_accuracy = f32(g.vertical_std_m);
-  m.vel_n = f32(g.velocity_mps.north), m.vel_e = f32(g.velocity_mps.east), m.vel_d = f32(g.velocity_mps.down);
+  m.lat = g.latitude_deg;
+  m.lon = g.longitude_deg;
+  m.alt = f32(g.altitude_m);
+  m.horizontal_accuracy = f32(g.horizontal_std_m);
+  m.vertical_accuracy = f32(g.vertical_std_m);
+  m.vel_n = f32(g.velocity_mps.north);
+  m.vel_e = f32(g.velocity_mps.east);
+  m.vel_d = f32(g.velocity_mps.down);
   m.speed_accuracy = f32(g.speed_std_mps);
   m.gnss_unix_seconds = g.utc_ns / second_ns;
   m.gnss_unix_nanos = static_cast<std::int32_t>(g.utc_ns % second_ns);
@@ -287,7 +312,9 @@ inline void Rosplane::vehicle(const Inputs& in, const Params& p, Outputs& out) c
   const std::int64_t at = in.status.valid_at_ns();
   RosflightStatus m;
   m.header = clock_.header(at, {});
-  m.armed = s.armed, m.failsafe = s.failsafe, m.offboard = s.offboard;
+  m.armed = s.armed;
+  m.failsafe = s.failsafe;
+  m.offboard = s.offboard;
   const std::uint32_t reasons = s.override_reasons & 0xffffu;
   m.rc_override = static_cast<std::uint16_t>(s.override && reasons == 0 ? 1u : reasons);  // bit 0: the switch
   m.error_code = static_cast<std::uint8_t>(s.errors & 0xffu);

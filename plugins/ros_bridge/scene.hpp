@@ -87,7 +87,9 @@ inline std::uint64_t content_of(const Plan& plan) {
   add(plan.turn_radius_m);
   add(plan.waypoints.count);
   for (const Waypoint& w : plan.waypoints) {
-    add(w.position_m.north), add(w.position_m.east), add(w.position_m.down);
+    add(w.position_m.north);
+    add(w.position_m.east);
+    add(w.position_m.down);
     add(w.has_course ? w.course_rad : 10);
   }
   return h;

@@ -18,7 +18,9 @@ inline constexpr std::size_t labelled_waypoints = 32;
 inline void draw_aircraft(const Wing& wing, double times, List<RosPoint, 128>& to) {
   const double b = wing.span_m * times, c = wing.chord_m * times;
   const auto triangle = [&](const RosPoint& p, const RosPoint& q, const RosPoint& r) {
-    to.push_back(p), to.push_back(q), to.push_back(r);
+    to.push_back(p);
+    to.push_back(q);
+    to.push_back(r);
   };
   const double nose = 0.3 * b, tail = -0.45 * b, half = 0.05 * b;
   const std::array<RosPoint, 4> ring{{{0, half, 0}, {0, 0, half}, {0, -half, 0}, {0, 0, -half}}};

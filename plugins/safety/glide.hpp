@@ -55,8 +55,10 @@ struct Glide {
     const double height = s.height_m - (told ? in.progress->ground_m : p.ground.value);
     out.sink_expected_mps = out.flare_ratio = 0.0;
     const double sink = std::max(-s.climb_rate_mps, 1.0);
-    if (s.height_valid && height < p.level_time * sink)
-      c.lateral = LateralMode::acceleration, c.lateral_acceleration_mps2 = 0;
+    if (s.height_valid && height < p.level_time * sink) {
+      c.lateral = LateralMode::acceleration;
+      c.lateral_acceleration_mps2 = 0;
+    }
     const auto rest = [&] { airspeed_.reset(); };
     const auto hold = [&](const LevelTurn& turn, double dt) -> PitchThrottle {
       return {pitch(s, c, p, turn, height, dt, out), 0};
@@ -76,7 +78,11 @@ struct Glide {
     out.sink_expected_mps = sink;
     const double sinks = std::max(-s.climb_rate_mps, sink);
     if (flares_ && height > 2 * from_m_ + 5) flares_ = false;  // the ground has fallen away
-    if (!flares_ && height < p.flare_time * sinks) flares_ = true, from_m_ = height, sink_mps_ = sinks;
+    if (!flares_ && height < p.flare_time * sinks) {
+      flares_ = true;
+      from_m_ = height;
+      sink_mps_ = sinks;
+    }
     if (flares_) {
       out.flare_ratio = 1.0;
       const double left = from_m_ > 0 ? std::clamp(height / from_m_, 0.0, 1.0) : 0;

@@ -41,7 +41,10 @@ inline BestGlide best_glide(const Airframe& a, double rho, double head_wind_mps,
   for (int i = 0; i <= 40; ++i) {
     const double Va = from + (to - from) * i / 40, sink = std::max(sink_rate(a, Va, 0, rho), 1e-3);
     const double ratio = (Va - head_wind_mps) / sink;
-    if (ratio > best_ratio) best_ratio = ratio, best = {Va, sink};
+    if (ratio > best_ratio) {
+      best_ratio = ratio;
+      best = {Va, sink};
+    }
   }
   return best;
 }

@@ -64,19 +64,27 @@ struct Home {
     if (spots_.empty()) spots_.push_back({});
   }
   void retune(const Params& p) {
-    if (p.mode.value != mode_) mode_ = p.mode.value, begun_ = false;
+    if (p.mode.value != mode_) {
+      mode_ = p.mode.value;
+      begun_ = false;
+    }
   }
   Status activate(const Tick&, const Inputs&, const Params& p, const Applied<Outputs>&) {
-    mode_ = p.mode.value, begun_ = false;
+    mode_ = p.mode.value;
+    begun_ = false;
     return Status::ok;
   }
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
     const VehicleState& s = *in.state;
-    if (!begun_) begin(in, p), round_ = in.safety ? in.safety->turn : SafetyTurn::either;
+    if (!begun_) {
+      begin(in, p);
+      round_ = in.safety ? in.safety->turn : SafetyTurn::either;
+    }
     out.command = {};
     out.progress = {};
-    out.progress.distance_m = level_distance(s, target_), out.progress.ground_m = target_.up_m;
+    out.progress.distance_m = level_distance(s, target_);
+    out.progress.ground_m = target_.up_m;
     switch (mode_) {
       case HomeMode::home: home(in, p, out); break;
       case HomeMode::glide: glide(s, p, out); break;
@@ -102,9 +110,12 @@ struct Home {
 
   void begin(const Inputs& in, const Params& p) {
     const VehicleState& s = *in.state;
-    begun_ = true, final_ = false, reckons_ = true, into_wind_ = false;
+    begun_ = true;
+    final_ = false;
+    reckons_ = true;
+    into_wind_ = false;
     target_ = spots_[0];
-    height_m_ = within_fence(std::max(s.height_m, target_.up_m + p.least_height), in, p),
+    height_m_ = within_fence(std::max(s.height_m, target_.up_m + p.least_height), in, p);
     course_rad_ = s.course_rad;
     resets_ = s.reset_count;
     if (mode_ == HomeMode::glide) choose(s, p);
@@ -123,7 +134,10 @@ struct Home {
     for (const Spot& spot : spots_) {
       const double d = level_distance(s, spot);
       const double cost = d + (d > reach(s, spot, p) ? 1e9 : 0);
-      if (cost < best) best = cost, target_ = spot;
+      if (cost < best) {
+        best = cost;
+        target_ = spot;
+      }
     }
   }
   /// Over the ground, until the ground; the first turn's height is not counted.
@@ -204,7 +218,10 @@ struct Home {
     constexpr double ahead_rad = 1.8;
     const double side = round_ == SafetyTurn::right ? 1 : -1;
     const double left = wrap_2pi(side * (c.course_rad - s.course_rad));
-    if (left < ahead_rad || left > 2 * std::numbers::pi - 0.3) return round_ = SafetyTurn::either, void();
+    if (left < ahead_rad || left > 2 * std::numbers::pi - 0.3) {
+      round_ = SafetyTurn::either;
+      return;
+    }
     c.course_rad = wrap_pi(s.course_rad + side * ahead_rad);
     c.roll_feedforward_rad = 0;
   }
@@ -212,7 +229,10 @@ struct Home {
   /// Home and a circle there as long as the reckoned position is good enough; beyond, through the air, by
   /// bank alone: a course would need a velocity.
   void wait(const VehicleState& s, const Params& p, Outputs& out) {
-    if (s.reset_count != resets_) height_m_ -= s.reset_position_m.down, resets_ = s.reset_count;
+    if (s.reset_count != resets_) {
+      height_m_ -= s.reset_position_m.down;
+      resets_ = s.reset_count;
+    }
     hold(s, p, out.command);
     reckons_ = s.position_valid || (reckons_ && located(s, p.reckon_std));
     if (reckons_) return orbit(s, target_, gentle_radius(s, p), p, out.command);

@@ -110,7 +110,8 @@ inline void Monitor::configure(const Params& p) {
   if (places_.empty()) places_.push_back({});
   if (p.fence.is_given) {
     polygon_.set(*p.fence, *p.origin);
-    floor_m_ = now_.floor_m = p.fence->floor_m, ceiling_m_ = now_.ceiling_m = p.fence->ceiling_m;
+    floor_m_ = now_.floor_m = p.fence->floor_m;
+    ceiling_m_ = now_.ceiling_m = p.fence->ceiling_m;
     const double room = polygon_.room_m(places_[0].north_m, places_[0].east_m);
     if (room < p.fencing.fence_margin)
       throw std::runtime_error("fence.corners: home, " + std::to_string(std::lround(places_[0].north_m)) +
@@ -221,9 +222,14 @@ inline void Monitor::fence(const VehicleState& s, const Params& p, double dt) {
   }
   if (known) {
     TurnBack t;
-    t.north_m = s.position_m.north, t.east_m = s.position_m.east;
-    t.v_north_mps = s.velocity_mps.north, t.v_east_mps = s.velocity_mps.east;
-    if (s.wind_valid) t.w_north_mps = s.wind_mps.north, t.w_east_mps = s.wind_mps.east;
+    t.north_m = s.position_m.north;
+    t.east_m = s.position_m.east;
+    t.v_north_mps = s.velocity_mps.north;
+    t.v_east_mps = s.velocity_mps.east;
+    if (s.wind_valid) {
+      t.w_north_mps = s.wind_mps.north;
+      t.w_east_mps = s.wind_mps.east;
+    }
     t.roll_rad = f.fence_bank_ratio * p.airframe->limits.roll_max_rad;
     t.reaction_s = f.fence_reaction;
     const WayBack way = way_back(polygon_, t, places_[0], f.fence_margin + f.fence_clear);

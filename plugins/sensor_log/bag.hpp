@@ -91,7 +91,9 @@ class Bag {
 
   void new_schema(Cursor& record) {
     Schema& s = schemas_[record.number<std::uint16_t>()];
-    s.name = record.text(), s.encoding = record.text(), s.text = record.text();
+    s.name = record.text();
+    s.encoding = record.text();
+    s.text = record.text();
   }
 
   void new_channel(Cursor& record) {

@@ -20,12 +20,16 @@ inline std::array<Name, 3> axes_of(const std::string& stem, bool numbered) {
 /// Bags are stamped in the message's header, or by their recorder; ULogs in microseconds since the start.
 inline void assume_time(Source& from, const Topic& topic) {
   if (said(from.time)) return;
-  if (topic.has("header.stamp"))
-    from.time = "header.stamp", from.unit = TimeUnit::ns;
-  else if (topic.has("timestamp"))
-    from.time = "timestamp", from.unit = TimeUnit::us;
-  else if (topic.has("log_time"))
-    from.time = "log_time", from.unit = TimeUnit::ns;
+  if (topic.has("header.stamp")) {
+    from.time = "header.stamp";
+    from.unit = TimeUnit::ns;
+  } else if (topic.has("timestamp")) {
+    from.time = "timestamp";
+    from.unit = TimeUnit::us;
+  } else if (topic.has("log_time")) {
+    from.time = "log_time";
+    from.unit = TimeUnit::ns;
+  }
 }
 
 inline void assume(ImuLog& log, const Topic& topic) {
@@ -77,8 +81,10 @@ inline void assume(PitotLog& log, const Topic& topic) {
   if (topic.type == "differential_pressure")
     log.pressure.column =
         topic.has("differential_pressure_pa") ? "differential_pressure_pa" : "differential_pressure_raw_pa";
-  if (topic.type == "airspeed")
-    log.pressure.column = "indicated_airspeed_m_s", log.pressure.unit = PitotUnit::mps;
+  if (topic.type == "airspeed") {
+    log.pressure.column = "indicated_airspeed_m_s";
+    log.pressure.unit = PitotUnit::mps;
+  }
 }
 
 /// Where a receiver's message has what. "": it has none.
@@ -149,12 +155,16 @@ inline void assume(GnssLog& log, const Topic& topic) {
   const std::string type = topic.type == "vehicle_gps_position" ? "sensor_gps" : topic.type;
   for (const GnssLayout& each : gnss_layouts) {
     if (type != each.type) continue;
-    if (three(log.position.columns, each.place))
-      log.position.unit = each.angle, log.position.altitude_unit = each.length;
+    if (three(log.position.columns, each.place)) {
+      log.position.unit = each.angle;
+      log.position.altitude_unit = each.length;
+    }
     three(log.velocity.columns, each.velocity);
     if (!said(log.fix.column)) log.fix.code = each.code;
-    one(log.fix.column, each.fix), one(log.satellites, each.satellites);
-    one(log.horizontal_std, each.horizontal_std), one(log.vertical_std, each.vertical_std);
+    one(log.fix.column, each.fix);
+    one(log.satellites, each.satellites);
+    one(log.horizontal_std, each.horizontal_std);
+    one(log.vertical_std, each.vertical_std);
     one(log.speed_std, each.speed_std);
   }
 }

@@ -66,7 +66,9 @@ class Reader {
   Series<M> read(Make make) {
     table_ = files_.read(from_, key_, wanted_);
     Series<M> series;
-    series.key = key_, series.path = path_, series.cut_at = table_.cut_at;
+    series.key = key_;
+    series.path = path_;
+    series.cut_at = table_.cut_at;
     if (!files_.has_lines(from_)) series.line_word = "message";
     series.delay_ns = ns_of(from_.delay_s);
     std::vector<std::int64_t> stamps_ns;

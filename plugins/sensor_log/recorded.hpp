@@ -99,7 +99,11 @@ struct Recorded {
 
   template <class Use>
   void each(Use use) {
-    use(imu_), use(gnss_), use(mag_), use(baro_), use(pitot_);
+    use(imu_);
+    use(gnss_);
+    use(mag_);
+    use(baro_);
+    use(pitot_);
   }
 
   /// Flight time counts from the first sample of all.

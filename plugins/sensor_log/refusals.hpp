@@ -26,7 +26,11 @@ inline std::string files_of(const Description& d) {
     const std::string name(log.from.file.view());
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
-  add(d.imu), add(d.mag), add(d.baro), add(d.pitot), add(d.gnss);
+  add(d.imu);
+  add(d.mag);
+  add(d.baro);
+  add(d.pitot);
+  add(d.gnss);
   return all_of(names);
 }
 
@@ -63,7 +67,11 @@ class Meeting {
   template <class M>
   void with(const Series<M>& s) {
     if (s.at_ns.empty()) return;
-    if (path_.empty()) path_ = s.path, first_ns_ = s.at_ns.front(), last_ns_ = s.at_ns.back();
+    if (path_.empty()) {
+      path_ = s.path;
+      first_ns_ = s.at_ns.front();
+      last_ns_ = s.at_ns.back();
+    }
     if (s.at_ns.front() <= last_ns_ && s.at_ns.back() >= first_ns_) return;
     refuse(s.key + ".from", "the times of " + s.path + ", " + seconds_of(s.at_ns.front()) + " to " +
                                 seconds_of(s.at_ns.back()) + ", and of " + path_ + ", " +
@@ -98,8 +106,9 @@ std::string words_of(const Series<M>& s) {
   const auto add = [&](std::uint64_t n, const char* why) {
     if (n > 0) reasons.push_back(std::to_string(n) + why);
   };
-  add(out.not_finite, " not finite"), add(out.out_of_range, " out of range"),
-      add(out.out_of_order, " out of order");
+  add(out.not_finite, " not finite");
+  add(out.out_of_range, " out of range");
+  add(out.out_of_order, " out of order");
   return s.path.substr(s.path.rfind('/') + 1) + ": left out " + std::to_string(out.all()) +
          (out.all() == 1 ? " row, the first" : " rows, the first") + " is " + s.line_word + " " +
          std::to_string(out.first_line) + ": " + all_of(reasons);

@@ -172,7 +172,10 @@ class RosType {
                    Table* table) {
     for (const RosField& f : fields) {
       std::size_t count = f.count;
-      if (f.sequence) align(bytes, 4), count = bytes.number<std::uint32_t>();
+      if (f.sequence) {
+        align(bytes, 4);
+        count = bytes.number<std::uint32_t>();
+      }
       if (count > bytes.left()) bytes.fault("the message ends early");
       for (std::size_t i = 0; i < count; ++i) {
         if (f.prim == Prim::structure)

@@ -107,7 +107,11 @@ class Ulog {
     const std::string name(record.take(record.left()));
     const std::string topic = instance == 0 ? name : name + "#" + std::to_string(instance);
     if (std::find(topics_.begin(), topics_.end(), topic) == topics_.end()) topics_.push_back(topic);
-    if (topic == topic_) logged_ = true, id_ = id, name_ = name;
+    if (topic == topic_) {
+      logged_ = true;
+      id_ = id;
+      name_ = name;
+    }
   }
 
   /// "sensor_mag:uint64_t timestamp;float x;"

@@ -77,7 +77,10 @@ class Excitation {
   /// Its component was asked to take over. After another's commands the phase's signal begins from its start;
   /// while the pilot flies nothing is left of one, and none begins for that it is over.
   void take_over(bool somebody_flew) {
-    if (somebody_flew) request_ = {}, aborted_ = false;
+    if (somebody_flew) {
+      request_ = {};
+      aborted_ = false;
+    }
     if (!somebody_flew && running_) abort(not_obeyed);
     running_ = false;
     last_ = left_ = {};
@@ -117,13 +120,16 @@ class Excitation {
     let_go();
     request_ = now;
     wave_ = Waveform(p);
-    begun_ns_ = tick.now_ns, begun_m_ = height_m;
+    begun_ns_ = tick.now_ns;
+    begun_m_ = height_m;
     running_ = now.shape != Shape::none;
     aborted_ = false;
   }
   void abort(std::string_view why) {
     let_go();
-    running_ = false, aborted_ = true, untold_ = why;
+    running_ = false;
+    aborted_ = true;
+    untold_ = why;
   }
   void let_go() {
     left_ = last_;

@@ -89,7 +89,10 @@ class SensorLine {
     // Each nominal time is early by the jitter, and the sample waits from 0 to twice of it: less than a
     // period, but perhaps until the tick at which the next one begins to wait.
     bool taken = false;
-    if (waiting_ && now_ns >= shift_to_ns_) taken = true, waiting_ = false;
+    if (waiting_ && now_ns >= shift_to_ns_) {
+      taken = true;
+      waiting_ = false;
+    }
     if (!waiting_ && due_(now_ns)) {
       shift_to_ns_ = now_ns + std::llround(jitter_ns_ * random_.uniform(0, 2));
       waiting_ = taken || shift_to_ns_ > now_ns;

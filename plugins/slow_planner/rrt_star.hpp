@@ -127,7 +127,10 @@ class RrtStar {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const double n = nodes_[i].at.north_m - x.north_m, e = nodes_[i].at.east_m - x.east_m,
                    square = n * n + e * e;
-      if (square < least) least = square, best = i;
+      if (square < least) {
+        least = square;
+        best = i;
+      }
     }
     return best;
   }
@@ -144,7 +147,10 @@ class RrtStar {
     double time_s = nodes_[next].time_s + flight_time(s_, nodes_[next].at, x);
     for (const std::size_t i : near) {
       const double t = nodes_[i].time_s + flight_time(s_, nodes_[i].at, x);
-      if (t < time_s && free(nodes_[i].at, x)) time_s = t, parent = i;
+      if (t < time_s && free(nodes_[i].at, x)) {
+        time_s = t;
+        parent = i;
+      }
     }
     const std::size_t added = nodes_.size();
     nodes_.push_back({x, time_s, parent, {}});

@@ -99,10 +99,15 @@ TEST_CASE("values find their way into groups, in configure, retune and step") {
   REQUIRE(instance != nullptr);
   std::vector<fulmar_value> v(c.param_count);
   v[0].integer = 0;
-  v[1].number[0] = 4, v[2].number[0] = 0.75, v[3].number[0] = 0.125;
-  v[4].integer = 1, v[5].integer = 7;
+  v[1].number[0] = 4;
+  v[2].number[0] = 0.75;
+  v[3].number[0] = 0.125;
+  v[4].integer = 1;
+  v[5].integer = 7;
   const Gains gains{6};
-  v[6].data = &gains, v[6].size = sizeof gains, v[6].integer = 1;
+  v[6].data = &gains;
+  v[6].size = sizeof gains;
+  v[6].integer = 1;
   v[7].text = "xyz";
   v[8].number[0] = 1.5;
   REQUIRE(c.configure(instance, v.data(), &error) == FULMAR_OK);

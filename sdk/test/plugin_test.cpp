@@ -106,8 +106,10 @@ struct Successor {
   struct Params {};
   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last) {
     given = last.given();
-    had_actuators = last.has(last->actuators), had_wish = last.has(last->wish);
-    had_made = last.has(last->made), had_spare = last.has(last->spare);
+    had_actuators = last.has(last->actuators);
+    had_wish = last.has(last->wish);
+    had_made = last.has(last->made);
+    had_spare = last.has(last->spare);
     aileron_rad = last->actuators.aileron_rad;
     return given ? Status::ok : Status::degraded;
   }
@@ -400,7 +402,9 @@ TEST_CASE("activated by the host, it knows whether somebody flew and what he mad
   CHECK_FALSE(component.had_wish);
   CHECK_FALSE(component.had_made);
   const AttitudeCommand wish;
-  last[0].data = &other, last[1].data = &wish, last[3].data = nullptr;
+  last[0].data = &other;
+  last[1].data = &wish;
+  last[3].data = nullptr;
   CHECK(c.activate(instance, &tick, nullptr, last.data(), &error) == FULMAR_OK);
   CHECK(component.had_actuators);
   CHECK(component.had_wish);
@@ -465,11 +469,17 @@ TEST_CASE("values of every kind cross into Params") {
   v[2].integer = 4;
   v[3].integer = 1;
   v[4].text = "longer than eight";
-  v[5].number[0] = 1, v[5].number[1] = 2, v[5].number[2] = 3;
+  v[5].number[0] = 1;
+  v[5].number[1] = 2;
+  v[5].number[2] = 3;
   const Gains gains{6};
-  v[6].data = &gains, v[6].size = sizeof gains, v[6].integer = 1;
+  v[6].data = &gains;
+  v[6].size = sizeof gains;
+  v[6].integer = 1;
   const char bytes[] = "xyz";
-  v[7].data = bytes, v[7].size = 3, v[7].text = "table.bin";
+  v[7].data = bytes;
+  v[7].size = 3;
+  v[7].text = "table.bin";
   v[8].number[0] = 5;
   REQUIRE(c.configure(instance, v.data(), &error) == FULMAR_OK);
   const Everything::Params& p = static_cast<detail::Instance<Everything>*>(instance)->params;

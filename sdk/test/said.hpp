@@ -26,7 +26,10 @@ Said shell(const std::string& command, Each&& each) {
   FILE* const pipe = popen(command.c_str(), "r");
   REQUIRE(pipe != nullptr);
   char line[4096];
-  while (std::fgets(line, sizeof line, pipe) != nullptr) each(std::string(line)), said.out += line;
+  while (std::fgets(line, sizeof line, pipe) != nullptr) {
+    each(std::string(line));
+    said.out += line;
+  }
   const int status = pclose(pipe);
   said.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return said;

@@ -61,7 +61,10 @@ Legend legend_of(const FigurePanel& panel, double wide) {
   double x = 0;
   for (const FigureCurve& curve : panel.curves) {
     const double needs = sample_wide + text_wide(curve.name) + 4;
-    if (x > 0 && x + needs > wide) x = 0, ++legend.rows;
+    if (x > 0 && x + needs > wide) {
+      x = 0;
+      ++legend.rows;
+    }
     legend.places.push_back({x, legend.rows});
     x += needs;
   }
@@ -102,12 +105,24 @@ class Drawing {
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       for (const FigureCurve& curve : figure_.panels[i].curves)
         for (const ChartPoint& p : curve.points)
-          if (is_there(p)) all.take(p.x), boxes_[i].y.take(p.y);
-      if (boxes_[i].y.empty()) boxes_[i].y.min = 0, boxes_[i].y.max = 1;
-      if (boxes_[i].y.min == 0 && boxes_[i].y.max == 0) boxes_[i].y.min = -1, boxes_[i].y.max = 1;
+          if (is_there(p)) {
+            all.take(p.x);
+            boxes_[i].y.take(p.y);
+          }
+      if (boxes_[i].y.empty()) {
+        boxes_[i].y.min = 0;
+        boxes_[i].y.max = 1;
+      }
+      if (boxes_[i].y.min == 0 && boxes_[i].y.max == 0) {
+        boxes_[i].y.min = -1;
+        boxes_[i].y.max = 1;
+      }
       boxes_[i].y.widen();
     }
-    if (all.empty()) all.min = 0, all.max = 1;
+    if (all.empty()) {
+      all.min = 0;
+      all.max = 1;
+    }
     if (figure_.track || all.span() <= 0) all.widen();
     for (Box& box : boxes_) box.x = all;
     shape_ = boxes_.empty() ? 1 : boxes_[0].y.span() / all.span();
@@ -149,7 +164,10 @@ class Drawing {
         label_wide = std::max(label_wide, text_wide(value_text(i * step, step)));
     }
     const double left = edge + type_size + 2.5 + label_wide, wide = figure_.wide_mm - left - edge - 2;
-    for (Box& box : boxes_) box.left = left, box.wide = wide;
+    for (Box& box : boxes_) {
+      box.left = left;
+      box.wide = wide;
+    }
     const double names = names_high();
     double rest = figure_.high_mm - edge - under_high - names;
     for (const FigurePanel& panel : figure_.panels) {
@@ -161,7 +179,8 @@ class Drawing {
     double top = edge + names;
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       top += static_cast<double>(legends_[i].rows) * row_high;
-      boxes_[i].top = top, boxes_[i].high = high_;
+      boxes_[i].top = top;
+      boxes_[i].high = high_;
       top += high_ + gap;
       if (!figure_.even) continue;
       Box& box = boxes_[i];

@@ -171,7 +171,10 @@ class Design {
     for (double kd = 0; kd < 3; kd += 0.01) {
       p.yaw_kd.value = kd / relations_.scale;
       const double damping = dutch_roll_damping(plant_, p);
-      if (damping > best) best = damping, gain = kd;
+      if (damping > best) {
+        best = damping;
+        gain = kd;
+      }
       if (damping >= 0.7 || damping < best - 0.05) break;
     }
     p.yaw_kd.value = gain / relations_.scale;
@@ -206,7 +209,11 @@ class Design {
       for (const double more : {0.0, 0.02, 0.04, 0.07, 0.1, 0.15}) {
         set_roll(roll, more);
         const double found = merit(evaluate(plant_, out_.laws, OuterScheme::none), {"roll", "yaw damper"});
-        if (found > best) best = found, best_roll = roll, best_damping = more;
+        if (found > best) {
+          best = found;
+          best_roll = roll;
+          best_damping = more;
+        }
         if (found >= 1) return true;
       }
       return false;
@@ -237,7 +244,10 @@ class Design {
         // Late as it comes, the rate feedback alone may be too much.
         if (w.pitch < 0.7 * first_.pitch || !again) again |= fall(damping_share_, 0, 0.3);
       }
-      if (too_fast(now, "yaw damper")) out_.laws.inner.yaw_kd.value *= slower, again = true;
+      if (too_fast(now, "yaw damper")) {
+        out_.laws.inner.yaw_kd.value *= slower;
+        again = true;
+      }
       if (!again) return;
     }
   }

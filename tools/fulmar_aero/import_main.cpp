@@ -25,7 +25,10 @@ int main(int argc, char** argv) {
   return core::run_program(
       app,
       [&] {
-        if (core::asked_for_rows(argc, argv)) return std::fputs(core::command_rows(app).c_str(), stdout), 0;
+        if (core::asked_for_rows(argc, argv)) {
+          std::fputs(core::command_rows(app).c_str(), stdout);
+          return 0;
+        }
         app.parse(argc, argv);
         return fulmar::aero::rosplane_command(folder, out);
       },

@@ -150,11 +150,14 @@ int main(int argc, char** argv) {
   return core::run_program(
       line.app,
       [&] {
-        if (core::asked_for_rows(argc, argv))
-          return std::fputs(core::command_rows(line.app).c_str(), stdout), 0;
-        if (const std::string sentence = line.unknown(argc, argv); !sentence.empty())
-          return std::fprintf(stderr, "%s\n", core::for_terminal(sentence).c_str()),
-                 int(core::ExitCode::usage);
+        if (core::asked_for_rows(argc, argv)) {
+          std::fputs(core::command_rows(line.app).c_str(), stdout);
+          return 0;
+        }
+        if (const std::string sentence = line.unknown(argc, argv); !sentence.empty()) {
+          std::fprintf(stderr, "%s\n", core::for_terminal(sentence).c_str());
+          return int(core::ExitCode::usage);
+        }
         line.app.parse(argc, argv);
         return line.run();
       },

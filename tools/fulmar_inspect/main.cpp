@@ -31,9 +31,15 @@ int main(int argc, char** argv) {
   return run_program(
       app,
       [&] {
-        if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
+        if (asked_for_rows(argc, argv)) {
+          std::fputs(command_rows(app).c_str(), stdout);
+          return 0;
+        }
         app.parse(argc, argv);
-        const auto print = [](const std::string& text) { return std::fputs(text.c_str(), stdout), 0; };
+        const auto print = [](const std::string& text) {
+          std::fputs(text.c_str(), stdout);
+          return 0;
+        };
         if (graph->parsed())
           return print(print_graph(load_mission(mission.mission, mission.overrides(graph)), format));
         const std::shared_ptr<Library> library = Library::open(plugin);

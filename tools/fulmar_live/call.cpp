@@ -65,7 +65,10 @@ json message_of(const std::vector<std::string>& words) {
 }
 
 int tell(const Session::Verdict& verdict, const std::string& what) {
-  if (verdict.accepted) return std::printf("%s: accepted\n", what.c_str()), 0;
+  if (verdict.accepted) {
+    std::printf("%s: accepted\n", what.c_str());
+    return 0;
+  }
   std::fprintf(stderr, "%s: refused: %s\n", what.c_str(), verdict.reason.c_str());
   return 1;
 }
@@ -123,7 +126,8 @@ int call_command(const LiveAddress& target, const std::string& request,
     return tell(session.order(service, message), name);
   } catch (const Session::NoAnswer&) {
     if (!paused) throw;
-    return std::printf("%s: taken, and answered in the next tick: the flight is paused\n", name.c_str()), 0;
+    std::printf("%s: taken, and answered in the next tick: the flight is paused\n", name.c_str());
+    return 0;
   }
 }
 

@@ -108,7 +108,9 @@ void draw_series(Dots& dots, const Series& s, std::size_t index, double from, do
     const int x = static_cast<int>(std::lround((time - from) / seconds * (dots.width() - 1)));
     const int y = static_cast<int>(std::lround((value - low) / (high - low) * (dots.height() - 1)));
     dots.line(joined ? x_before : x, joined ? y_before : y, x, y, index);
-    joined = true, x_before = x, y_before = y;
+    joined = true;
+    x_before = x;
+    y_before = y;
   }
 }
 

@@ -87,7 +87,10 @@ struct Client::Impl {
     while (!done) {
       const auto left = end - Clock::now();
       context.restart();
-      if (left <= left.zero()) return context.poll(), done;
+      if (left <= left.zero()) {
+        context.poll();
+        return done;
+      }
       if (context.run_one_for(left) == 0 && context.stopped() && !done) return false;
     }
     return true;
@@ -98,7 +101,10 @@ struct Client::Impl {
   error_code wait(Clock::time_point end, Start start) {
     bool done = false;
     error_code fault;
-    start([&](error_code code, auto&&...) { done = true, fault = code; });
+    start([&](error_code code, auto&&...) {
+      done = true;
+      fault = code;
+    });
     if (run_until(done, end)) return fault;
     close();  // its handler still refers to what lies here
     while (!done && context.run_one_for(std::chrono::seconds(1)) > 0) {
@@ -156,9 +162,12 @@ struct Client::Impl {
 
   std::optional<Message> receive(std::chrono::milliseconds limit) {
     if (!reading) {
-      reading = true, read_done = false;
-      stream.async_read(
-          buffer, OnBytes([this](error_code code, std::size_t) { read_done = true, read_fault = code; }));
+      reading = true;
+      read_done = false;
+      stream.async_read(buffer, OnBytes([this](error_code code, std::size_t) {
+                          read_done = true;
+                          read_fault = code;
+                        }));
     }
     if (!run_until(read_done, Clock::now() + limit)) return std::nullopt;
     reading = false;

@@ -112,7 +112,10 @@ std::vector<std::string> Dashboard::choose(const std::map<std::string, std::stri
     if (!shown.contains(type)) continue;
     const bool truth = type == "VehicleState" && topic.find("truth") != std::string::npos;
     const int liked = (roles.contains(topic.substr(1, topic.find('/', 1) - 1)) ? 2 : 0) + (truth ? 0 : 1) + 1;
-    if (liked > best[type]) best[type] = liked, newest_[type].topic = topic;
+    if (liked > best[type]) {
+      best[type] = liked;
+      newest_[type].topic = topic;
+    }
   }
   std::vector<std::string> chosen;
   for (const auto& [type, newest] : newest_) chosen.push_back(newest.topic);
@@ -125,7 +128,10 @@ void Dashboard::take(const std::string& topic, double time_s, const ordered_json
   if (topic != event_topic) {
     now_s_ = std::max(now_s_, time_s);
     for (auto& [type, newest] : newest_)
-      if (newest.topic == topic) newest.message = message, newest.time_s = time_s;
+      if (newest.topic == topic) {
+        newest.message = message;
+        newest.time_s = time_s;
+      }
     return;
   }
   const std::string severity = text_at(message, "severity"), code = text_at(message, "code"),
@@ -181,7 +187,10 @@ std::string Dashboard::asked_for(const std::string& type, const std::string& val
                                  const std::string& unit) const {
   const bool turns = path == "course_deg";
   double is = flag(type, valid) ? number(type, path) : NAN, asked = number(asked_type, asked_path);
-  if (turns) is = bearing(is), asked = bearing(asked);
+  if (turns) {
+    is = bearing(is);
+    asked = bearing(asked);
+  }
   if (!std::isfinite(asked)) return with_unit(is, decimals, unit);
   return (std::isfinite(is) ? fixed(is, decimals) : none) + " → " + with_unit(asked, decimals, unit);
 }
@@ -339,7 +348,10 @@ Dashboard::Cell Dashboard::steps() const {
   for (const Step& s : list) {
     words += (words.empty() ? "" : ", ") + s.name + " " + fixed(s.mean_us, s.mean_us < 10 ? 1 : 0) + " (" +
              fixed(s.most_us, 0) + ") us";
-    if (s.budget_us > 0 && s.most_us > s.budget_us) words += " of " + fixed(s.budget_us, 0), over = true;
+    if (s.budget_us > 0 && s.most_us > s.budget_us) {
+      words += " of " + fixed(s.budget_us, 0);
+      over = true;
+    }
   }
   return {"slowest", words.empty() ? none : one_line(words), over ? Look::bad : Look::plain};
 }
@@ -393,7 +405,10 @@ std::string Dashboard::text(const PlotSize& size, const std::string& lost) const
   for (const Cell& cell : cells()) {
     const std::size_t needs = name_width + width_of(cell.words) + 1,
                       taken = std::min(across, (needs + room - 1) / room);
-    if (column == 0 || column + taken > across) lines.emplace_back(), column = 0;
+    if (column == 0 || column + taken > across) {
+      lines.emplace_back();
+      column = 0;
+    }
     const std::string words = first_of(cell.words, room * taken - name_width);
     lines.back() += painted(padded(cell.name, name_width), Look::faint) + painted(words, cell.look);
     column += taken;
@@ -414,7 +429,8 @@ std::string Dashboard::text(const PlotSize& size, const std::string& lost) const
   for (const Happened& event : events_)
     for (const std::string& line : wrapped(event.words, width)) {
       if (left == 0) return text;
-      --left, text += painted(line, event.look) + "\n";
+      --left;
+      text += painted(line, event.look) + "\n";
     }
   return text;
 }

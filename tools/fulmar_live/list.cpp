@@ -19,7 +19,10 @@ using Clock = std::chrono::steady_clock;
 /// Samples per second of wall time of every topic, counted for a second.
 std::map<std::string, double> measure(Session& session) {
   std::map<std::string, double> counts;
-  for (const auto& [topic, channel] : session.channels()) session.subscribe(topic), counts[topic] = 0;
+  for (const auto& [topic, channel] : session.channels()) {
+    session.subscribe(topic);
+    counts[topic] = 0;
+  }
   const auto begin = Clock::now(), end = begin + std::chrono::seconds(1);
   for (auto now = begin; now < end; now = Clock::now())
     if (const auto sample = session.next(std::chrono::duration_cast<Session::Milliseconds>(end - now)))

@@ -14,7 +14,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   const RemoteCommands commands(app, extern_commands());
   return run_program(app, [&] {
-    if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
+    if (asked_for_rows(argc, argv)) {
+      std::fputs(command_rows(app).c_str(), stdout);
+      return 0;
+    }
     app.parse(argc, argv);
     return commands.run();
   });

@@ -17,10 +17,13 @@ constexpr auto as_long_as_it_takes = std::chrono::hours(24);
 int order(Session& session, const std::string& service, const nlohmann::json& request,
           const std::string& what) {
   const Session::Verdict verdict = session.order(service, request);
-  if (!verdict.accepted)
-    return std::fprintf(stderr, "%s: refused: %s\n", what.c_str(), verdict.reason.c_str()), 1;
+  if (!verdict.accepted) {
+    std::fprintf(stderr, "%s: refused: %s\n", what.c_str(), verdict.reason.c_str());
+    return 1;
+  }
   const double now_s = 1e-9 * static_cast<double>(session.view().value("now_ns", std::int64_t{0}));
-  return std::printf("%s: accepted, at %.4f s of flight\n", what.c_str(), now_s), 0;
+  std::printf("%s: accepted, at %.4f s of flight\n", what.c_str(), now_s);
+  return 0;
 }
 
 /// What cannot be meant is wrong usage, whether there is a flight or not.
@@ -75,11 +78,15 @@ int restart_command(const LiveAddress& target, const std::string& seed) {
   Session session(target);
   const std::string old = session.id();
   const auto [accepted, reason] = session.order("/fulmar/restart", {{"seed", seed}});
-  if (!accepted) return std::fprintf(stderr, "restart: refused: %s\n", reason.c_str()), 1;
+  if (!accepted) {
+    std::fprintf(stderr, "restart: refused: %s\n", reason.c_str());
+    return 1;
+  }
   if (!another_comes(target, old))
     throw Error("restart: accepted, but no new flight listens on " + target.text() +
                 "; the terminal of the flight says why");
-  return std::printf("restart: accepted, a new flight has begun\n"), 0;
+  std::printf("restart: accepted, a new flight has begun\n");
+  return 0;
 }
 
 }  // namespace fulmar::core

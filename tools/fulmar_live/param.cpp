@@ -161,7 +161,10 @@ int param_save_command(const LiveAddress& target, const SaveOptions& options) {
     return code;
   }
   if (options.dry_run) return code;
-  if (!options.yes && !agreed()) return std::printf("Nothing was written.\n"), 1;
+  if (!options.yes && !agreed()) {
+    std::printf("Nothing was written.\n");
+    return 1;
+  }
   for (const FileEdit& file : plan.files) {
     write_edit(file);
     std::printf("written: %s\n", file.path.string().c_str());

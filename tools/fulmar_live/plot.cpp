@@ -53,7 +53,8 @@ Curve find_curve(Session& session, const std::string& name, Series& series) {
   curve.field = resolve_field(*curve.port.type, curve.port.field);
   const fulmar_kind kind = curve.field.field->kind;
   if (kind == FULMAR_TEXT || kind == FULMAR_STRUCT) throw Error(curve.port.label + " is no number");
-  series.label = curve.port.label, series.unit = curve.field.unit;
+  series.label = curve.port.label;
+  series.unit = curve.field.unit;
   if (const std::string unit = degrees_unit(curve.port.field); !unit.empty()) {
     curve.factor = 180 / std::numbers::pi;
     series.unit = unit;
@@ -100,7 +101,8 @@ class Plot {
     const double time_s = static_cast<double>(sample.time_ns - epoch_ns_) * 1e-9;
     if (!begun_ || time_s < last_s_ - 1) {  // a host that flies again begins at 0
       for (Series& s : series_) s.points.clear();
-      first_s_ = time_s, begun_ = true;
+      first_s_ = time_s;
+      begun_ = true;
       last_s_ = time_s;
     }
     last_s_ = std::max(last_s_, time_s);
@@ -152,7 +154,10 @@ int picture_command(const plot::LogPlotWords& words) {
   for (const chart::FigurePanel& panel : figure.panels)
     for (const chart::FigureCurve& curve : panel.curves)
       for (const chart::ChartPoint& p : curve.points)
-        if (std::isfinite(p.x)) begin_s = std::min(begin_s, p.x), end_s = std::max(end_s, p.x);
+        if (std::isfinite(p.x)) {
+          begin_s = std::min(begin_s, p.x);
+          end_s = std::max(end_s, p.x);
+        }
   PlotSize size = terminal_size();
   size.rows = std::clamp(size.rows / static_cast<int>(figure.panels.size()), 12, 24);
   for (const chart::FigurePanel& panel : figure.panels) {

@@ -273,7 +273,10 @@ struct RemoteCommands::Impl {
         ->check(CLI::IsMember({"bash", "zsh"}))
         ->type_name("");
     script->footer("Example: source <(fulmar completion bash)");
-    actions.emplace_back(script, [this] { return std::fputs(completion_script(shell).c_str(), stdout), 0; });
+    actions.emplace_back(script, [this] {
+      std::fputs(completion_script(shell).c_str(), stdout);
+      return 0;
+    });
     CLI::App* complete = app.add_subcommand("complete", "words of a running flight, for shells")->group("");
     complete->add_option("KIND", kind)->required();
     complete->add_option("PREFIX", prefix);

@@ -18,8 +18,10 @@ void catch_interrupts() {
 PlotSize terminal_size() {
   PlotSize size;
   winsize window{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0)
-    size.columns = window.ws_col, size.rows = window.ws_row;
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0) {
+    size.columns = window.ws_col;
+    size.rows = window.ws_row;
+  }
   const char* no_colour = std::getenv("NO_COLOR");
   size.colours = isatty(STDOUT_FILENO) != 0 && (!no_colour || !*no_colour);
   return size;

@@ -104,7 +104,10 @@ void Session::handle_binary(const std::string& bytes) {
     const std::size_t encoding = read_le<std::uint32_t>(bytes, 9);
     if (encoding > bytes.size() - answer_header) return;
     answer_ = std::make_unique<json>(tamed(bytes.substr(answer_header + encoding)));
-    if (answer_->is_discarded()) *answer_ = json(nullptr), failure_ = "the answer is no JSON";
+    if (answer_->is_discarded()) {
+      *answer_ = json(nullptr);
+      failure_ = "the answer is no JSON";
+    }
   }
 }
 
@@ -154,7 +157,8 @@ void Session::subscribe(const std::string& topic) {
 std::optional<Session::Sample> Session::next(Milliseconds limit) {
   const auto end = Clock::now() + limit;
   while (taken_ == samples_.size()) {
-    samples_.clear(), taken_ = 0;
+    samples_.clear();
+    taken_ = 0;
     const auto left = std::chrono::duration_cast<Milliseconds>(end - Clock::now());
     if (!pump(std::max(left, Milliseconds(0))) && left.count() <= 0) return std::nullopt;
   }
@@ -180,7 +184,8 @@ json Session::call(const std::string& service, const json& request) {
   append_u32(bytes, ++calls_);
   append_u32(bytes, static_cast<std::uint32_t>(encoding.size()));
   bytes += encoding + request.dump();
-  answer_.reset(), failure_.clear();
+  answer_.reset();
+  failure_.clear();
   client_.send_binary(bytes);
   pump_until([this] { return answer_ != nullptr; }, "answer");
   if (!failure_.empty()) throw Error(failure_);

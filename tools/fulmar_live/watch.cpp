@@ -106,7 +106,9 @@ int watch_command(const LiveAddress& target) {
       const auto* ended = dynamic_cast<const FlightEnded*>(&fault);
       if (flight) {
         why = ended != nullptr ? ended->what() : "connection lost";
-        shown = flight->board(), heard = flight->heard(), tried = Clock::now();
+        shown = flight->board();
+        heard = flight->heard();
+        tried = Clock::now();
         flight.reset();
       }
     }

@@ -148,8 +148,10 @@ int compare_command(const CompareWords& words) {
     if (words.changed && pair.made.equal) continue;
     if (words.json)
       all.push_back(json_of(pair));
-    else
-      std::printf("%s%s", all.empty() ? "" : "\n", text_of(pair).c_str()), all.push_back(nullptr);
+    else {
+      std::printf("%s%s", all.empty() ? "" : "\n", text_of(pair).c_str());
+      all.push_back(nullptr);
+    }
   }
   if (words.json) core::print_json({{"estimates", all}});
   return some ? 0 : 1;

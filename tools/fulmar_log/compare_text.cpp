@@ -121,8 +121,11 @@ json errors_json(const Side& side, const Errors& e) {
     json& row = o["channels"][quantities()[i].key] = {{"rms", e.all[i].rms()},    {"mean", e.all[i].mean()},
                                                       {"largest", e.all[i].most}, {"claimed", nullptr},
                                                       {"within_1", nullptr},      {"within_2", nullptr}};
-    if (const consistency::Channel& c = e.claimed[i]; c.n > 0)
-      row["claimed"] = c.claim(), row["within_1"] = c.share_1(), row["within_2"] = c.share_2();
+    if (const consistency::Channel& c = e.claimed[i]; c.n > 0) {
+      row["claimed"] = c.claim();
+      row["within_1"] = c.share_1();
+      row["within_2"] = c.share_2();
+    }
   }
   if (e.nees_n > 0)
     o["nees"] = {{"mean", e.nees.mean()}, {"inside", e.nees.inside()}, {"correlated", e.correlated}};

@@ -67,7 +67,10 @@ class OneSide {
     if (topic == side_.topic) take_state(valid_ns);
     if (topic == side_.truth) take_truth(valid_ns);
     if (topic == side_.fixes) fixes_.add_sparse(valid_ns, read(fix_reader_, Gnss()));
-    if (topic == side_.check) check_ = read(check_reader_, FilterCheck()), check_ns_ = valid_ns;
+    if (topic == side_.check) {
+      check_ = read(check_reader_, FilterCheck());
+      check_ns_ = valid_ns;
+    }
     const auto truth = [this](const auto& sparse, const auto& dense) { by_truth(sparse, dense); };
     const auto fix = [this](const auto& sparse, const auto& dense) { by_fix(sparse, dense); };
     truths_.settle(now_ns, truth);
@@ -228,10 +231,14 @@ Comparison compare(const Side& first, const Side& second, const Span& span) {
   out.difference.resize(quantities().size());
   OneSide a(first, span, out.first), b(second, span, out.second);
   TwoSides states(first_says_when(of(first, first.topic), of(second, second.topic))), truths(true);
-  a.on_state = states.taker(true), b.on_state = states.taker(false);
+  a.on_state = states.taker(true);
+  b.on_state = states.taker(false);
   const bool two_truths =
       first.log->file != second.log->file && !first.truth.empty() && !second.truth.empty();
-  if (two_truths) a.on_truth = truths.taker(true), b.on_truth = truths.taker(false);
+  if (two_truths) {
+    a.on_truth = truths.taker(true);
+    b.on_truth = truths.taker(false);
+  }
   CommonFrame frame;
   double apart_m = 0;
   bool same_flags = true;
@@ -253,7 +260,8 @@ Comparison compare(const Side& first, const Side& second, const Span& span) {
     states.settle(now_ns, differ);
     truths.settle(now_ns, part);
   }
-  out.pairs = states.paired(), out.times = states.paired() + states.alone();
+  out.pairs = states.paired();
+  out.times = states.paired() + states.alone();
   if (two_truths && apart_m > 0) out.truths_apart_m = apart_m;
   out.equal = all_zero(out.difference) && same_flags && states.alone() == 0 &&
               out.first.samples == out.second.samples;

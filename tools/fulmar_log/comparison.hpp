@@ -20,7 +20,9 @@ struct Moments {
   double sum = 0, squares = 0, most = 0;
   std::uint64_t n = 0;
   void add(double x) {
-    sum += x, squares += x * x, ++n;
+    sum += x;
+    squares += x * x;
+    ++n;
     if (std::abs(x) > std::abs(most)) most = x;
   }
   double over_n(double x) const { return n > 0 ? x / static_cast<double>(n) : 0; }

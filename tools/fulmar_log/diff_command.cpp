@@ -138,7 +138,8 @@ int diff_command(const std::string& a, const std::string& b, bool as_json, bool 
                         result_b.is_null() ? log_figures(b).figures : result_b, as_json);
   Compared c{diff_logs(a, b), {}, {}, {}};
   if (!c.logs.messages_equal()) {
-    c.a = log_figures(a), c.b = log_figures(b);
+    c.a = log_figures(a);
+    c.b = log_figures(b);
     c.figures = figure_changes(c.a.figures, c.b.figures);
   }
   as_json ? print_json(diff_json(c)) : print_diff(c);

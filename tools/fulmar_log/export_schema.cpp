@@ -31,14 +31,19 @@ RosField table_field(const Field& f, std::size_t& count) {
 template <class T>
 Cell number_cell(T x) {
   Cell cell;
-  if constexpr (std::is_same_v<T, float>)
-    cell.kind = Cell::Kind::single, cell.single = x;
-  else if constexpr (std::is_same_v<T, double>)
-    cell.kind = Cell::Kind::real, cell.real = x;
-  else if constexpr (std::is_signed_v<T>)
-    cell.kind = Cell::Kind::whole, cell.whole = x;
-  else
-    cell.kind = Cell::Kind::natural, cell.natural = x;
+  if constexpr (std::is_same_v<T, float>) {
+    cell.kind = Cell::Kind::single;
+    cell.single = x;
+  } else if constexpr (std::is_same_v<T, double>) {
+    cell.kind = Cell::Kind::real;
+    cell.real = x;
+  } else if constexpr (std::is_signed_v<T>) {
+    cell.kind = Cell::Kind::whole;
+    cell.whole = x;
+  } else {
+    cell.kind = Cell::Kind::natural;
+    cell.natural = x;
+  }
   return cell;
 }
 
@@ -47,7 +52,8 @@ Cell value(const RosField& f, CdrReader& in) {
     return with_number(f.kind, in.take(primitive_size(f.kind)), [](auto x) { return number_cell(x); });
   const std::string_view text = in.text();
   Cell cell;
-  cell.kind = Cell::Kind::text, cell.text = text.substr(0, text.find('\0'));
+  cell.kind = Cell::Kind::text;
+  cell.text = text.substr(0, text.find('\0'));
   return cell;
 }
 
@@ -108,7 +114,8 @@ void decode_field(const RosField& f, CdrReader& in, Cell* to) {
 
 RosField parse_ros2msg(const std::string& name, const std::string& text) {
   Field root;
-  root.kind = FULMAR_STRUCT, root.type = parse_ros_schema(name, text);
+  root.kind = FULMAR_STRUCT;
+  root.type = parse_ros_schema(name, text);
   std::size_t count = 0;
   return table_field(root, count);
 }

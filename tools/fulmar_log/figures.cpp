@@ -68,7 +68,8 @@ struct FlightReading {
 
   explicit FlightReading(const std::filesystem::path& file) : stream(file) {
     while (const McapFile::Message* m = stream.next()) {
-      first_ns = std::min(first_ns, m->log_ns), last_ns = std::max(last_ns, m->log_ns);
+      first_ns = std::min(first_ns, m->log_ns);
+      last_ns = std::max(last_ns, m->log_ns);
       if (stream.log().channels.at(m->channel).topic == Event::topic)
         events.emplace_back(m->log_ns, Bytes(m->data.begin(), m->data.end()));
       else

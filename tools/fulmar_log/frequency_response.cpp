@@ -75,7 +75,8 @@ struct Spectra {
     for (std::size_t begin = 0; begin + length <= x.size(); begin += length / 2, ++segments) {
       const std::vector<Complex> X = transformed(x, begin, window), Y = transformed(y, begin, window);
       for (std::size_t k = 0; k < xx.size(); ++k) {
-        xx[k] += std::norm(X[k]), yy[k] += std::norm(Y[k]);
+        xx[k] += std::norm(X[k]);
+        yy[k] += std::norm(Y[k]);
         xy[k] += std::conj(X[k]) * Y[k];
       }
     }
@@ -119,7 +120,8 @@ FrequencyResponse frequency_response(const Series& input, const Series& output, 
     const Complex H = s.xy[k] / s.xx[k];
     Frequency f;
     f.hz = static_cast<double>(k) / out.segment_s;
-    f.gain = std::abs(H), f.phase_rad = std::arg(H);
+    f.gain = std::abs(H);
+    f.phase_rad = std::arg(H);
     if (!out.at.empty())
       f.phase_rad +=
           2 * std::numbers::pi * std::round((out.at.back().phase_rad - f.phase_rad) / (2 * std::numbers::pi));

@@ -35,8 +35,10 @@ struct Weight {
     const std::size_t before = open.size();
     open.resize(before + head + m.data.size());
     std::byte* at = open.data() + before + mcap::record_head;
-    std::memcpy(at, &m.channel, 2), std::memcpy(at + 2, &m.sequence, 4), std::memcpy(at + 6, &m.log_ns, 8),
-        std::memcpy(at + 14, &m.publish_ns, 8);
+    std::memcpy(at, &m.channel, 2);
+    std::memcpy(at + 2, &m.sequence, 4);
+    std::memcpy(at + 6, &m.log_ns, 8);
+    std::memcpy(at + 14, &m.publish_ns, 8);
     if (!m.data.empty()) std::memcpy(open.data() + before + head, m.data.data(), m.data.size());
     topic.bytes += head + m.data.size();
     ++topic.messages;
@@ -104,7 +106,10 @@ struct Reading {
     }
     double all = 0, extras = 0;
     for (const McapFile::Attachment& a : log.attachments) extras += static_cast<double>(a.content.size());
-    for (auto& [name, w] : weights) w.press(), all += static_cast<double>(w.compressed);
+    for (auto& [name, w] : weights) {
+      w.press();
+      all += static_cast<double>(w.compressed);
+    }
     const double indexed = static_cast<double>(index_bytes * info.messages);
     const double rest = std::max(0.0, static_cast<double>(info.bytes) - extras - indexed);
     for (auto& [name, w] : weights) {

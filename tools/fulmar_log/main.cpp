@@ -15,7 +15,10 @@ int main(int argc, char** argv) {
   const LogCommand log(app);
   const fulmar::response::ResponseCommand response(app);
   return run_program(app, [&] {
-    if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
+    if (asked_for_rows(argc, argv)) {
+      std::fputs(command_rows(app).c_str(), stdout);
+      return 0;
+    }
     app.parse(argc, argv);
     return response.parsed() ? response.run() : log.run();
   });

@@ -123,7 +123,10 @@ void sort_by_time(Samples& s) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return s.t_s[a] < s.t_s[b]; });
   Samples sorted{s.number, {}, {}};
-  for (const std::size_t i : order) sorted.t_s.push_back(s.t_s[i]), sorted.value.push_back(s.value[i]);
+  for (const std::size_t i : order) {
+    sorted.t_s.push_back(s.t_s[i]);
+    sorted.value.push_back(s.value[i]);
+  }
   s = std::move(sorted);
 }
 
@@ -310,7 +313,8 @@ class FigureMaker {
 /// A log may hold any bytes; a figure is UTF-8.
 void clean_texts(chart::Figure& figure) {
   const auto clean = [](std::string& text) { core::make_printable(text.data()); };
-  clean(figure.title), clean(figure.x);
+  clean(figure.title);
+  clean(figure.x);
   for (chart::FigureBand& band : figure.bands) clean(band.name);
   for (chart::FigurePanel& panel : figure.panels) {
     clean(panel.y);

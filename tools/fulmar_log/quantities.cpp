@@ -157,7 +157,10 @@ VehicleState between(const VehicleState& a, const VehicleState& b, double t) {
 const LocalFrame& CommonFrame::frame_of(const VehicleState& base) {
   const double lat = base.origin_latitude_deg, lon = base.origin_longitude_deg, alt = base.origin_altitude_m;
   if (!known_ || lat != lat_deg_ || lon != lon_deg_ || alt != alt_m_) frame_ = LocalFrame(lat, lon, alt);
-  lat_deg_ = lat, lon_deg_ = lon, alt_m_ = alt, known_ = true;
+  lat_deg_ = lat;
+  lon_deg_ = lon;
+  alt_m_ = alt;
+  known_ = true;
   return frame_;
 }
 

@@ -90,7 +90,8 @@ std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::
         ++out[i].left_out;
         continue;
       }
-      s.t_s.push_back(t), s.x.push_back(x);
+      s.t_s.push_back(t);
+      s.x.push_back(x);
     }
   };
   tables.rows([](std::size_t) { return true; }, take);

@@ -86,7 +86,10 @@ void Salvage::read_summary() {
 }
 
 void Salvage::name_place(std::uint8_t code, Cursor of) {
-  if (code == mcap::chunk_index) of.take(16), named_[of.number<std::uint64_t>()] = mcap::chunk;
+  if (code == mcap::chunk_index) {
+    of.take(16);
+    named_[of.number<std::uint64_t>()] = mcap::chunk;
+  }
   if (code == mcap::attachment_index) named_[of.number<std::uint64_t>()] = mcap::attachment;
   if (code == mcap::metadata_index) named_[of.number<std::uint64_t>()] = mcap::metadata;
 }

@@ -24,7 +24,10 @@ double mean(const Series& s, double a_s, double b_s) {
   double sum = 0;
   std::size_t n = 0;
   for (std::size_t i = 0; i < s.x.size(); ++i)
-    if (s.t_s[i] >= a_s && s.t_s[i] <= b_s) sum += s.x[i], ++n;
+    if (s.t_s[i] >= a_s && s.t_s[i] <= b_s) {
+      sum += s.x[i];
+      ++n;
+    }
   if (n > 0) return sum / static_cast<double>(n);
   const auto after = std::upper_bound(s.t_s.begin(), s.t_s.end(), a_s) - s.t_s.begin();
   return s.x[static_cast<std::size_t>(std::max<std::ptrdiff_t>(after, 1) - 1)];
@@ -91,8 +94,10 @@ StepFigures step_figures(const Series& input, const Series& output, double band)
     }
   Series y;  // from a second before the step to its end
   for (std::size_t i = 0; i < output.x.size(); ++i)
-    if (output.t_s[i] >= f.at_s - 1 && output.t_s[i] <= f.until_s)
-      y.t_s.push_back(output.t_s[i]), y.x.push_back(output.x[i]);
+    if (output.t_s[i] >= f.at_s - 1 && output.t_s[i] <= f.until_s) {
+      y.t_s.push_back(output.t_s[i]);
+      y.x.push_back(output.x[i]);
+    }
   const auto after = std::upper_bound(y.t_s.begin(), y.t_s.end(), f.at_s) - y.t_s.begin();
   const auto begin = static_cast<std::size_t>(after);
   if (y.x.size() - begin < 10 || begin == 0)

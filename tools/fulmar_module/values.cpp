@@ -52,8 +52,12 @@ py::object field_dtype(const Field& field) {
   const py::object array = py::make_tuple(numpy()->attr("dtype")(element), py::make_tuple(field.count));
   if (field.shape == FULMAR_ARRAY) return array;
   py::list names, formats, offsets;
-  names.append("count"), formats.append("u4"), offsets.append(0);
-  names.append("items"), formats.append(array), offsets.append(field.items);
+  names.append("count");
+  formats.append("u4");
+  offsets.append(0);
+  names.append("items");
+  formats.append(array);
+  offsets.append(field.items);
   return make_dtype(names, formats, offsets, field.items + field.count * field.stride);
 }
 

@@ -25,7 +25,10 @@ int main(int argc, char** argv) {
   command->add_option("--dir", options.folder, "folder to write; default ./NAME");
   command->footer("Example: fulmar new my_law --role outer");
   return run_program(app, [&] {
-    if (asked_for_rows(argc, argv)) return std::fputs(command_rows(app).c_str(), stdout), 0;
+    if (asked_for_rows(argc, argv)) {
+      std::fputs(command_rows(app).c_str(), stdout);
+      return 0;
+    }
     app.parse(argc, argv);
     return new_command(options);
   });

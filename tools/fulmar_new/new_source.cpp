@@ -191,8 +191,10 @@ class SourceWriter {
     text += "    return Status::ok;\n  }\n\n  Status write(const Tick&, const Inputs& in, const Params&) {\n";
     bool asked = false;
     for (const ContractInput& input : c_.inputs)
-      if (input.kind == FULMAR_IN_REQUEST)
-        text += "    for (auto request : in." + input.name + ") request.accept();\n", asked = true;
+      if (input.kind == FULMAR_IN_REQUEST) {
+        text += "    for (auto request : in." + input.name + ") request.accept();\n";
+        asked = true;
+      }
     if (!asked) text += "    (void)in;\n";
     return text +
            "    return Status::ok;\n  }\n\n private:\n  std::int64_t period_ns_ = 2500000, now_ns_ = 0;\n";

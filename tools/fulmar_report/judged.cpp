@@ -38,7 +38,8 @@ constexpr Watched watched[] = {{"GNSS position, larger axis", &NavigationHealth:
 
 JudgedSeries series_of(const std::string& words, const std::string& unit, std::size_t columns) {
   JudgedSeries s;
-  s.words = words, s.unit = unit;
+  s.words = words;
+  s.unit = unit;
   s.columns.values.resize(columns);
   return s;
 }
@@ -121,7 +122,8 @@ class InnovationReading {
 JudgedEstimate judged_estimate(const states::StateLog& log, const std::string& topic) {
   const states::Side side = states::usual_side(log, topic);
   JudgedEstimate out;
-  out.topic = topic, out.truth = !side.truth.empty();
+  out.topic = topic;
+  out.truth = !side.truth.empty();
   out.reference = out.truth ? side.truth : side.fixes;
   if (out.reference.empty()) return out;
   for (const states::Quantity& q : states::quantities()) out.series.push_back(series_of(q.words, q.unit, 2));

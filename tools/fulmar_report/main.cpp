@@ -128,7 +128,10 @@ int main(int argc, char** argv) {
   app.add_option("--result", words.result,
                  "what fulmar run --json has printed of this flight, or - for standard input: step times");
   return core::run_program(app, [&] {
-    if (core::asked_for_rows(argc, argv)) return std::fputs(core::command_rows(app).c_str(), stdout), 0;
+    if (core::asked_for_rows(argc, argv)) {
+      std::fputs(core::command_rows(app).c_str(), stdout);
+      return 0;
+    }
     app.parse(argc, argv);
     return write_report(words);
   });

@@ -137,7 +137,9 @@ std::unique_ptr<Reading> begin(const McapFile& log, std::uint16_t channel, doubl
   const bool event = c.topic == core::Event::topic;
   if (found == list.end() && !event) return nullptr;
   auto reading = std::make_unique<Reading>();
-  reading->shown.topic = c.topic, reading->shown.type = type, reading->shown.schema = schema->second.text;
+  reading->shown.topic = c.topic;
+  reading->shown.type = type;
+  reading->shown.schema = schema->second.text;
   reading->shown.whole = event || found->form == Form::whole;
   if (reading->shown.whole) return reading;
   const bool slow = found->form == Form::slow;

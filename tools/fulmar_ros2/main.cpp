@@ -68,7 +68,10 @@ int main(int argc, char** argv) {
   package->add_option("PLUGIN", options.plugins, "names or files of plugins; none: all that are installed");
   package->add_option("--mission", options.mission, "the plugins of this mission")->check(CLI::ExistingFile);
   return core::run_program(app, [&] {
-    if (core::asked_for_rows(argc, argv)) return std::fputs(core::command_rows(app).c_str(), stdout), 0;
+    if (core::asked_for_rows(argc, argv)) {
+      std::fputs(core::command_rows(app).c_str(), stdout);
+      return 0;
+    }
     app.parse(argc, argv);
     return write_interfaces(options);
   });

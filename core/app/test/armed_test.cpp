@@ -52,7 +52,10 @@ struct Program {
     }
   }
   ~Program() {
-    if (pid > 0) kill(pid, SIGKILL), waitpid(pid, nullptr, 0);
+    if (pid > 0) {
+      kill(pid, SIGKILL);
+      waitpid(pid, nullptr, 0);
+    }
   }
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;

@@ -70,9 +70,14 @@ TEST_CASE("a sensor that fails and recovers is believed again: the estimate is b
     if (!x || !s) continue;
     const double error_m =
         std::hypot(s->position_m.north - x->position_m.north, s->position_m.east - x->position_m.east);
-    if (flight.phase() == "failing")
-      off_m = std::max(off_m, error_m), admitted = admitted || !s->position_valid;
-    if (flight.phase() == "again") after_m = error_m, valid = s->position_valid;
+    if (flight.phase() == "failing") {
+      off_m = std::max(off_m, error_m);
+      admitted = admitted || !s->position_valid;
+    }
+    if (flight.phase() == "again") {
+      after_m = error_m;
+      valid = s->position_valid;
+    }
   }
   flight.finish();
   CHECK(off_m > 10);

@@ -117,10 +117,14 @@ FlightResult trouble(const fs::path& folder, const fs::path& log, double until_s
     REQUIRE(f.fly_while([t_s](const Row& r) { return r.script_s < t_s; }));
     f.set(param, value);
   };
-  at(28, "gap_from", 30), at(28, "gap_until", 31);
-  at(33, "no_fix_from", 34), at(33, "no_fix_until", 41);
-  at(43, "gnss_silent_from", 44), at(43, "gnss_silent_until", 50);
-  at(44, "pilot_from", 45), at(44, "pilot_until", 46);
+  at(28, "gap_from", 30);
+  at(28, "gap_until", 31);
+  at(33, "no_fix_from", 34);
+  at(33, "no_fix_until", 41);
+  at(43, "gnss_silent_from", 44);
+  at(43, "gnss_silent_until", 50);
+  at(44, "pilot_from", 45);
+  at(44, "pilot_until", 46);
   REQUIRE(f.fly_while([until_s](const Row& r) { return r.script_s < until_s; }));
   return f.finish();
 }

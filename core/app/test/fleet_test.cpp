@@ -111,12 +111,16 @@ Link link(const Flight& own, const std::string& name, const Flight& other) {
   std::vector<double> shifts;
   const States& heard = own.heard.at(name);
   for (const auto& l : heard)
-    if (const auto when = said.find({l.value.position_m.north, l.value.position_m.east}); when != said.end())
-      link.words.push_back({l.t, when->second}), shifts.push_back(l.t - when->second);
+    if (const auto when = said.find({l.value.position_m.north, l.value.position_m.east});
+        when != said.end()) {
+      link.words.push_back({l.t, when->second});
+      shifts.push_back(l.t - when->second);
+    }
   if (shifts.empty()) return {};
   const auto middle = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() / 2);
   std::nth_element(shifts.begin(), middle, shifts.end());
-  link.share = static_cast<double>(shifts.size()) / static_cast<double>(heard.size()), link.shift_s = *middle;
+  link.share = static_cast<double>(shifts.size()) / static_cast<double>(heard.size());
+  link.shift_s = *middle;
   return link;
 }
 
@@ -132,7 +136,8 @@ double slot_rms(const Flight& f, const Flight& leader, const Eigen::Vector3d& of
     const double chi = std::atan2(lead.velocity_mps.east, lead.velocity_mps.north), c = std::cos(chi),
                  s = std::sin(chi);
     const Eigen::Vector3d slot(c * offset.x() - s * offset.y(), s * offset.x() + c * offset.y(), offset.z());
-    square += (place(l.value) - place(lead) - slot).squaredNorm(), ++n;
+    square += (place(l.value) - place(lead) - slot).squaredNorm();
+    ++n;
   }
   return n > 0 ? std::sqrt(square / n) : NAN;
 }
@@ -234,7 +239,8 @@ Flight read(const Hosts& hosts, const std::string& name, Process& process,
             const std::vector<std::string>& imports) {
   Flight f;
   f.code = process.wait(1);
-  f.json = process.out(), f.said = process.err();
+  f.json = process.out();
+  f.said = process.err();
   if (f.code != 0) return f;
   const core::McapFile file = core::read_mcap(hosts.log(name));
   f.nav = logged<VehicleState>(file, "/nav/state");
@@ -260,7 +266,9 @@ void fly_all(Fleet& f) {
   f.right = read(f.hosts, "fleet_right", *right, {"leader", "other"});
   f.left = read(f.hosts, "fleet_left", *left, {"leader", "other"});
   f.far = read(f.hosts, "far", *far, {});
-  f.laptop.code = laptop->wait(1), f.laptop.json = laptop->out(), f.laptop.said = laptop->err();
+  f.laptop.code = laptop->wait(1);
+  f.laptop.json = laptop->out();
+  f.laptop.said = laptop->err();
   if (f.far.code == 0)
     f.plans = logged<fulmar::Plan>(core::read_mcap(f.hosts.log("far")), "/manage/plan").size();
 }

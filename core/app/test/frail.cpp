@@ -109,8 +109,10 @@ struct Whole {
   Status activate(const Tick& tick, const Inputs& in, const Params&, const Applied<Outputs>& last) {
     Applied<slc::Outer::Outputs> outer;
     Applied<slc::Inner::Outputs> inner;
-    outer.outputs.attitude = last->attitude, inner.outputs.actuators = last->actuators;
-    outer.made_bits = last.has(last->attitude), inner.made_bits = last.has(last->actuators);
+    outer.outputs.attitude = last->attitude;
+    inner.outputs.actuators = last->actuators;
+    outer.made_bits = last.has(last->attitude);
+    inner.made_bits = last.has(last->actuators);
     attitude_ = last->attitude;
     const Status status = outer_.activate(tick, {in.state, in.command}, outer_params_, outer);
     return status == Status::failed ? status : inner_.activate(tick, inputs(in), inner_params_, inner);

@@ -36,8 +36,10 @@ class Trial {
  public:
   explicit Trial(bool held) : graph_(mission(held)), flight_(graph_, options()) {}
   void pilot(double roll, double pitch, double throttle) {
-    set("stick_roll", roll), set("stick_pitch", pitch), set("stick_throttle", throttle),
-        set("pilot_flies", 0, 1);
+    set("stick_roll", roll);
+    set("stick_pitch", pitch);
+    set("stick_throttle", throttle);
+    set("pilot_flies", 0, 1);
   }
   void give_back() { set("pilot_flies", 0, 0); }
   void fly_until(double t_s) {
@@ -49,7 +51,8 @@ class Trial {
  private:
   void set(const char* param, double number, std::int64_t integer = 0) {
     ParamValue v;
-    v.number[0] = number, v.integer = integer;
+    v.number[0] = number;
+    v.integer = integer;
     set_parameter(flight_, "sim", param, v);
   }
   double field(const char* component, const char* port, const char* name) const {
@@ -88,8 +91,10 @@ TEST_CASE(
     trial.fly_until(80.0025);  // the first command that the aircraft obeys
     kick[held] = std::abs(trial.elevator() + trim_stick * throw_rad);
     lowest[held] = 1e9;
-    for (double t = 80; t < 100; t += 0.1)
-      trial.fly_until(t), lowest[held] = std::min(lowest[held], trial.truth("height_m"));
+    for (double t = 80; t < 100; t += 0.1) {
+      trial.fly_until(t);
+      lowest[held] = std::min(lowest[held], trial.truth("height_m"));
+    }
   }
   MESSAGE("elevator's kick: " << kick[false] << " rad without, " << kick[true] << " rad with; lowest "
                               << lowest[false] << " m, " << lowest[true] << " m");

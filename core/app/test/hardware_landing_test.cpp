@@ -71,7 +71,10 @@ TEST_CASE("the verdict of a flight names the first thing that was not as asked")
   c.phases = {"takeoff", "cruise"};
   c.told = {"barometer"};
   Landing l;
-  l.landed = true, l.takeoff_m = 30, l.recognised_s = 0.1, l.last_event_s = 50;
+  l.landed = true;
+  l.takeoff_m = 30;
+  l.recognised_s = 0.1;
+  l.last_event_s = 50;
   l.phases = {"hold", "takeoff", "cruise"};
   l.said = {{40, "barometer silent"}};
   CHECK(verdict(c, l) == "no line with \"barometer\"");

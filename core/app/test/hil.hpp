@@ -55,7 +55,10 @@ class Process {
     posix_spawn_file_actions_destroy(&files);
   }
   ~Process() {
-    if (running()) signal(SIGKILL), ::waitpid(pid_, nullptr, 0);
+    if (running()) {
+      signal(SIGKILL);
+      ::waitpid(pid_, nullptr, 0);
+    }
   }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -205,7 +208,9 @@ inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std:
   f.wall = wall_s() - begun;
   peer.signal(SIGTERM);
   peer.wait(5);
-  f.json = host.out(), f.said = host.err(), f.peer = peer.out() + peer.err();
+  f.json = host.out();
+  f.said = host.err();
+  f.peer = peer.out() + peer.err();
   f.truth = rows(file("truth.csv"));
   const double late = number(f.peer, "worst_late_ms", "worst_late_wall_ms");
   f.stood_still = std::max(machine.worst_s(), std::isnan(late) ? 0 : 1e-3 * late);
@@ -251,7 +256,8 @@ inline Flown fly_sim(const Scratch& s, const Plan& plan) {
   if (plan.duration > 0) words.insert(words.end(), {"--duration", std::to_string(plan.duration)});
   Process host(words, s.folder / "sim.json", s.folder / "sim.err");
   f.code = host.wait(120);
-  f.json = host.out(), f.said = host.err();
+  f.json = host.out();
+  f.said = host.err();
   return f;
 }
 

@@ -33,7 +33,8 @@ std::vector<Logged<T>> logged(const core::McapFile& file, const std::string& top
   for (const core::McapFile::Message& m : file.messages) {
     if (m.channel != channel) continue;
     Logged<T>& l = all.emplace_back();
-    l.t = flight_s(m.log_ns), l.valid_t = flight_s(m.publish_ns);
+    l.t = flight_s(m.log_ns);
+    l.valid_t = flight_s(m.publish_ns);
     core::cdr_decode(*type, m.data.data(), m.data.size(), reinterpret_cast<std::byte*>(&l.value));
   }
   return all;

@@ -47,7 +47,9 @@ Touch landed(double wind_mps, double from_deg, std::uint64_t seed, const std::st
       if (flight.phase() == "approach") t.slowest_mps = std::min(t.slowest_mps, x->airspeed_mps);
     } else if (t.cross_m == 1e9) {  // the runway begins at the origin, to the south-east
       const double c = std::sqrt(0.5), n = x->position_m.north, e = x->position_m.east;
-      t.along_m = -c * n + c * e, t.cross_m = -c * n - c * e, t.sink_mps = sink;
+      t.along_m = -c * n + c * e;
+      t.cross_m = -c * n - c * e;
+      t.sink_mps = sink;
       t.nose_rad = std::abs(x->yaw_rad - 135 * std::acos(-1.0) / 180);
     }
   }

@@ -82,7 +82,10 @@ class Maiden {
     const double until = f_.row().t_s + seconds;
     return f_.fly_while([until](const Row& r) { return r.t_s < until; });
   }
-  void take_back() { f_.set("pilot_from", -100), f_.set("pilot_until", 1e9); }
+  void take_back() {
+    f_.set("pilot_from", -100);
+    f_.set("pilot_until", 1e9);
+  }
   void hand_over() { f_.set("pilot_until", -100); }
   /// The pilot takes off and climbs, and flies straight for a while.
   bool pilot_climbs() {

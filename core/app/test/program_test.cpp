@@ -46,7 +46,8 @@ std::string heard(const std::function<void()>& words) {
   dup2(to, STDERR_FILENO);
   words();
   dup2(own, STDERR_FILENO);
-  close(own), close(to);
+  close(own);
+  close(to);
   std::ifstream in(file);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   std::filesystem::remove(file);

@@ -92,7 +92,10 @@ Flown fly(const Graph& graph, const std::string& surface) {
     before = u;
     squares.push_back(rate * rate / 4);
     sum += squares.back();
-    if (squares.size() > 120) sum -= squares.front(), squares.pop_front();
+    if (squares.size() > 120) {
+      sum -= squares.front();
+      squares.pop_front();
+    }
     if (now_s < 51 || sum / 120 < 2 * 2) continue;
     if (flown.from_s < 0) flown.from_s = now_s;
     flown.last_s = now_s;

@@ -31,7 +31,9 @@ class Draw {
   explicit Draw(unsigned seed) : random_(seed) {
     for (const char* name : {"truth", "plan", "manage", "follow", "slc", "tecs", "attitude"})
       frail_.emplace_back(name);
-    second_chain_ = chance(0.5), whole_ = chance(0.5), second_inner_ = chance(0.5);
+    second_chain_ = chance(0.5);
+    whole_ = chance(0.5);
+    second_inner_ = chance(0.5);
     components();
     phases();
   }

@@ -177,7 +177,8 @@ TEST_CASE("in flight the loop has it, its isolated component has one less, the l
   const pid_t host = fork();
   if (host == 0) {
     const int null = open("/dev/null", O_WRONLY);
-    dup2(null, 1), dup2(null, 2);
+    dup2(null, 1);
+    dup2(null, 2);
     if (chdir(folder.c_str()) != 0) _exit(126);
     execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", "mission.yaml", "--speed", "real", "--duration", "60",
           "--realtime=75", nullptr);

@@ -106,7 +106,8 @@ class Trial {
       const auto* const u = reinterpret_cast<const fulmar::Actuators*>(flight_.sample(actuators_));
       if (!u) continue;
       if (known_) most.add(last_, *u);
-      last_ = *u, known_ = true;
+      last_ = *u;
+      known_ = true;
     }
     return most;
   }
@@ -134,7 +135,10 @@ std::vector<std::size_t> all_pairs(std::size_t n) {
   std::vector<std::size_t> way;
   for (std::size_t i = 0; i < n; ++i) {
     way.push_back(i);
-    for (std::size_t j = i + 1; j < n; ++j) way.push_back(j), way.push_back(i);
+    for (std::size_t j = i + 1; j < n; ++j) {
+      way.push_back(j);
+      way.push_back(i);
+    }
   }
   return way;
 }
@@ -211,7 +215,8 @@ TEST_CASE("the total energy law of errors flies Aerosonde and X8 with the gains 
     const Graph graph = load_mission(file.string());
     fs::remove(file);
     FlightOptions options;
-    options.log = false, options.duration_s = 180;
+    options.log = false;
+    options.duration_s = 180;
     Flight flight(graph, options);
     const Source truth = output_of(graph, "sim", "truth"), command = output_of(graph, "follow", "command");
     double height2 = 0, airspeed2 = 0, n = 0;
@@ -219,8 +224,8 @@ TEST_CASE("the total energy law of errors flies Aerosonde and X8 with the gains 
       const auto* const x = reinterpret_cast<const fulmar::VehicleState*>(flight.sample(truth));
       const auto* const c = reinterpret_cast<const fulmar::GuidanceCommand*>(flight.sample(command));
       if (!x || !c || flight.now_ns() < 30'000'000'000) continue;
-      height2 += std::pow(x->height_m - c->height_m, 2),
-          airspeed2 += std::pow(x->airspeed_mps - c->airspeed_mps, 2);
+      height2 += std::pow(x->height_m - c->height_m, 2);
+      airspeed2 += std::pow(x->airspeed_mps - c->airspeed_mps, 2);
       ++n;
     }
     CHECK(flight.finish().guards.empty());

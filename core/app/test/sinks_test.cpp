@@ -52,7 +52,8 @@ constexpr double stall_s =
 std::uint16_t free_port() {
   const int fd = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in at{};
-  at.sin_family = AF_INET, at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  at.sin_family = AF_INET;
+  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof at;
   REQUIRE(bind(fd, reinterpret_cast<sockaddr*>(&at), size) == 0);
   REQUIRE(getsockname(fd, reinterpret_cast<sockaddr*>(&at), &size) == 0);
@@ -80,7 +81,10 @@ class Running {
     if (pid_ == 0) be_flight(preload);
   }
   ~Running() {
-    if (pid_ > 0) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+    if (pid_ > 0) {
+      kill(pid_, SIGKILL);
+      waitpid(pid_, nullptr, 0);
+    }
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
   }
@@ -107,9 +111,12 @@ class Running {
   [[noreturn]] void be_flight(const std::string& preload) const {
     const int out = open((folder_ / "result.json").c_str(), O_WRONLY | O_CREAT, 0600),
               told = open((folder_ / "told").c_str(), O_WRONLY | O_CREAT, 0600);
-    dup2(out, 1), dup2(told, 2);
-    if (!preload.empty())
-      setenv("LD_PRELOAD", preload.c_str(), 1), setenv("FULMAR_HANG", marker().c_str(), 1);
+    dup2(out, 1);
+    dup2(told, 2);
+    if (!preload.empty()) {
+      setenv("LD_PRELOAD", preload.c_str(), 1);
+      setenv("FULMAR_HANG", marker().c_str(), 1);
+    }
     const std::string mission = (folder_ / "mission.yaml").string(), file = log().string(),
                       live = "127.0.0.1:" + std::to_string(port_), duration = std::to_string(flown_s);
     execl(FULMAR_BIN_DIR "/fulmar", "fulmar", "run", mission.c_str(), "--speed", "real", "--duration",
@@ -166,7 +173,8 @@ class Onlooker {
         if (!sample || sample->topic != "/vehicle/imu") continue;
         times_ns_.push_back(sample->time_ns);
         const std::int64_t late_ns = steady_clock::now().time_since_epoch().count() - sample->time_ns;
-        best_ns_ = std::min(best_ns_, late_ns), worst_ns_ = std::max(worst_ns_, late_ns);
+        best_ns_ = std::min(best_ns_, late_ns);
+        worst_ns_ = std::max(worst_ns_, late_ns);
         ++heard_;
       }
     } catch (const Error&) {
@@ -251,7 +259,8 @@ const std::string state_words = "rt/nav/state fulmar_msgs::msg::dds_::VehicleSta
 /// An edit that the planner refuses: nothing of the flight changes.
 std::string edit_in_hex() {
   fulmar::PlanEdit edit;
-  edit.kind = fulmar::PlanEditKind::remove, edit.index = 60000;
+  edit.kind = fulmar::PlanEditKind::remove;
+  edit.index = 60000;
   std::vector<std::byte> bytes;
   CdrEncoder(*copy_type(*fulmar::detail::type_table<fulmar::PlanEdit>()))
       .encode(reinterpret_cast<const std::byte*>(&edit), bytes);
@@ -265,7 +274,9 @@ class StuckClient {
     const int room = 4096;
     setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
     sockaddr_in at{};
-    at.sin_family = AF_INET, at.sin_addr.s_addr = htonl(INADDR_LOOPBACK), at.sin_port = htons(target.port);
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    at.sin_port = htons(target.port);
     REQUIRE(connect(fd_, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0);
     say("GET / HTTP/1.1\r\nHost: " + target.text() +
         "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: "

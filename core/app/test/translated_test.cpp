@@ -331,10 +331,13 @@ const std::vector<std::string> old_kinds = {"phase", "guard",  "request", "param
 
 Type old_event_type() {
   Type t;
-  t.name = "Event", t.size = sizeof(OldEvent);
+  t.name = "Event";
+  t.size = sizeof(OldEvent);
   const auto add = [&](const char* name, fulmar_kind kind, std::size_t offset, std::size_t stride) {
     Field f;
-    f.name = name, f.kind = kind, f.offset = static_cast<std::uint32_t>(offset),
+    f.name = name;
+    f.kind = kind;
+    f.offset = static_cast<std::uint32_t>(offset);
     f.stride = static_cast<std::uint32_t>(stride);
     t.fields.push_back(f);
   };
@@ -414,8 +417,11 @@ TEST_CASE("an event of any code, its fields empty or full, is read without fault
         Event other = event_of(static_cast<Code>(code));
         if (!full) return bytes_of(other);
         const std::string most(other.words.size() - 1, '\xff');
-        put(other.component, most), put(other.name, most), put(other.cause, most), put(other.words, most);
-        other.value_ns = std::numeric_limits<std::int64_t>::min(),
+        put(other.component, most);
+        put(other.name, most);
+        put(other.cause, most);
+        put(other.words, most);
+        other.value_ns = std::numeric_limits<std::int64_t>::min();
         other.value = std::numeric_limits<double>::infinity();
         return bytes_of(other);
       });

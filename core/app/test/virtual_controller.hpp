@@ -55,9 +55,12 @@ struct Row {
 class Flown {
  public:
   Flown(const Graph& graph, const FlightOptions& options) : flight_(graph, watched(options)) {
-    truth_ = look(graph, "sim", "truth"), state_ = look(graph, "ekf", "state");
-    script_ = look(graph, "sim", "script_s"), host_ = look(graph, "sim", "host_ratio");
-    blind_ = look(graph, "sim", "blind_ratio"), sticks_ = look(graph, "sim", "sticks_ratio");
+    truth_ = look(graph, "sim", "truth");
+    state_ = look(graph, "ekf", "state");
+    script_ = look(graph, "sim", "script_s");
+    host_ = look(graph, "sim", "host_ratio");
+    blind_ = look(graph, "sim", "blind_ratio");
+    sticks_ = look(graph, "sim", "sticks_ratio");
     cross_ = look(graph, "follow", "cross_track_m");
   }
   bool step() {
@@ -85,8 +88,11 @@ class Flown {
     r.script_s = probe(script_);
     r.host = probe(host_) > 0.5;
     if (const auto* x = at<fulmar::VehicleState>(truth_)) {
-      r.north_m = x->position_m.north, r.east_m = x->position_m.east, r.height_m = x->height_m;
-      r.roll_rad = x->roll_rad, r.course_rad = x->course_rad;
+      r.north_m = x->position_m.north;
+      r.east_m = x->position_m.east;
+      r.height_m = x->height_m;
+      r.roll_rad = x->roll_rad;
+      r.course_rad = x->course_rad;
       if (const auto* s = at<fulmar::VehicleState>(state_)) {
         r.off_estimate_m = std::hypot(s->position_m.north - r.north_m, s->position_m.east - r.east_m);
         r.std_m = std::max(s->position_std_m.north, s->position_std_m.east);
@@ -172,8 +178,12 @@ inline AfterGap fly(const Gap& gap, const std::filesystem::path& folder, const F
   const double at_s = f.row().script_s, begin_s = f.row().t_s, end_s = begin_s + gap.length_s,
                fix_s = begin_s + gap_without_fix_s;
   f.rows.clear();
-  f.set("gap_from", at_s), f.set("gap_until", at_s + gap.length_s);
-  if (!gap.gnss) f.set("no_fix_from", at_s), f.set("no_fix_until", at_s + gap_without_fix_s);
+  f.set("gap_from", at_s);
+  f.set("gap_until", at_s + gap.length_s);
+  if (!gap.gnss) {
+    f.set("no_fix_from", at_s);
+    f.set("no_fix_until", at_s + gap_without_fix_s);
+  }
   a.crashed = a.crashed || !for_s(gap.gnss ? gap.length_s + 30 : gap_without_fix_s + 20);
   double from_m = gap.height_m;
   bool host = true;
@@ -187,7 +197,8 @@ inline AfterGap fly(const Gap& gap, const std::filesystem::path& folder, const F
     if (!gap.gnss && r.t_s >= fix_s && a.returned_s < 0) a.returned_s = r.t_s - fix_s;
   }
   a.crashed = a.crashed || a.lowest_m < 1;
-  a.blind = f.blind(), a.sticks = f.sticks();
+  a.blind = f.blind();
+  a.sticks = f.sticks();
   a.told_blind =
       f.told_s("the attitude is not known: no command is sent, the pilot has the aircraft", begin_s) >= 0;
   a.told_known = f.told_s("the attitude is known again: commands are sent", begin_s) >= 0;
@@ -250,7 +261,8 @@ inline AfterOutage fly(const Outage& outage, const std::filesystem::path& folder
   a.crashed = a.crashed || !f.fly_while([=](const Row& x) { return x.t_s < reckoned_s && !x.circles; });
   const Row r = f.row();
   a.plan_m = plan.distance_m(r.north_m, r.east_m);
-  a.reckoned_m = r.off_estimate_m, a.std_m = r.std_m;
+  a.reckoned_m = r.off_estimate_m;
+  a.std_m = r.std_m;
   until(end_s);
   const auto circle = std::find_if(f.rows.begin(), f.rows.end(), [](const Row& x) { return x.circles; });
   if (circle != f.rows.end()) a.circle_s = circle->t_s - begin_s;

@@ -39,7 +39,10 @@ struct Host {
     close(ends[1]);
   }
   ~Host() {
-    if (process > 0) kill(process, SIGKILL), waitpid(process, nullptr, 0);
+    if (process > 0) {
+      kill(process, SIGKILL);
+      waitpid(process, nullptr, 0);
+    }
     close(ends[0]);
   }
   /// A reader that has stopped before the first word.

@@ -36,7 +36,10 @@ static int read_topic(dds_entity_t participant, dds_entity_t topic, const dds_qo
     void* sample = NULL;
     dds_sample_info_t info;
     while (n > 0 && dds_take(reader, &sample, &info, 1, 1) > 0) {
-      if (info.valid_data) print(sample), --n;
+      if (info.valid_data) {
+        print(sample);
+        --n;
+      }
       dds_return_loan(reader, &sample, 1);
       sample = NULL;
     }
@@ -57,12 +60,25 @@ static int write_topic(dds_entity_t participant, dds_entity_t topic, const dds_q
   Leg legs[1] = {{1, true, 0.5, {3, 4, 5}}};
   Mixed m;
   memset(&m, 0, sizeof m);
-  m.armed = true, m.count = 7, m.mode = 1, m.stamp_ns = -2, m.load_ratio = 0.25F, m.offset = -3;
-  m.gains_ratio[0] = 1, m.gains_ratio[1] = 2, m.gains_ratio[2] = -2;
-  m.name = "ab", m.tags[0] = "x", m.tags[1] = "yzw";
-  m.samples_volt._length = m.samples_volt._maximum = 2, m.samples_volt._buffer = volts;
-  m.attitude_std_rad.north = 0.5, m.attitude_std_rad.east = 1, m.attitude_std_rad.down = 2;
-  m.legs._length = m.legs._maximum = 1, m.legs._buffer = legs;
+  m.armed = true;
+  m.count = 7;
+  m.mode = 1;
+  m.stamp_ns = -2;
+  m.load_ratio = 0.25F;
+  m.offset = -3;
+  m.gains_ratio[0] = 1;
+  m.gains_ratio[1] = 2;
+  m.gains_ratio[2] = -2;
+  m.name = "ab";
+  m.tags[0] = "x";
+  m.tags[1] = "yzw";
+  m.samples_volt._length = m.samples_volt._maximum = 2;
+  m.samples_volt._buffer = volts;
+  m.attitude_std_rad.north = 0.5;
+  m.attitude_std_rad.east = 1;
+  m.attitude_std_rad.down = 2;
+  m.legs._length = m.legs._maximum = 1;
+  m.legs._buffer = legs;
   for (int i = 0; i < n; ++i) {
     m.speed_mps = 1.5 + i;
     if (dds_write(writer, &m) != DDS_RETCODE_OK) return 1;

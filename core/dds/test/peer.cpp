@@ -150,7 +150,10 @@ int publish(Peer& peer, std::vector<std::string> a) {
     for (std::string line; std::getline(file, line);) a.push_back(line);
   }
   fd::DataWriter* writer = peer.writer(a[0], a[1], a[2] == "best_effort");
-  if (!wait_for([&] { return matched(writer); })) return std::puts("no reader"), 1;
+  if (!wait_for([&] { return matched(writer); })) {
+    std::puts("no reader");
+    return 1;
+  }
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the reader has to find this writer, too
   const double rate = std::stod(a[3]);
   auto due = std::chrono::steady_clock::now();
@@ -177,9 +180,14 @@ int read(Peer& peer, const std::vector<std::string>& a) {
   Bytes bytes;
   fd::SampleInfo info;
   for (int left = std::stoi(a[2]); left > 0;) {
-    if (!wait_for([&] { return reader->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK; }))
-      return std::puts("nothing"), 1;
-    if (info.valid_data) print_hex(bytes), --left;
+    if (!wait_for([&] { return reader->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK; })) {
+      std::puts("nothing");
+      return 1;
+    }
+    if (info.valid_data) {
+      print_hex(bytes);
+      --left;
+    }
   }
   return 0;
 }
@@ -190,7 +198,10 @@ Bytes call(Peer& peer, const std::string& service, const std::string& type, Byte
   const std::string base = type.substr(0, slash) + "::srv::dds_::" + type.substr(slash + 1);
   fd::DataReader* reader = peer.reader("rr/" + service + "Reply", base + "_Response_", false);
   fd::DataWriter* writer = peer.writer("rq/" + service + "Request", base + "_Request_");
-  if (!wait_for([&] { return matched(writer) && matched(reader); })) return std::puts("no service"), Bytes{};
+  if (!wait_for([&] { return matched(writer) && matched(reader); })) {
+    std::puts("no service");
+    return Bytes{};
+  }
   rtps::WriteParams params;
   params.related_sample_identity().writer_guid(reader->guid());
   writer->write(&request, params);
@@ -285,7 +296,10 @@ int param(Peer& peer, const std::vector<std::string>& a) {
     type = "ListParameters";
     out.cdr << std::vector<std::string>{} << uint64_t{0};
   } else if (sets) {
-    if (what == "set_many") service += "_atomically", type += "Atomically";
+    if (what == "set_many") {
+      service += "_atomically";
+      type += "Atomically";
+    }
     out.cdr << static_cast<uint32_t>((a.size() - 2) / 2);
     for (std::size_t i = 2; i + 1 < a.size(); i += 2) {
       Value value;
@@ -315,7 +329,10 @@ int param(Peer& peer, const std::vector<std::string>& a) {
     return 0;
   }
   if (what != "set_many") cdr >> n;
-  if (sets) return results(cdr, n), 0;
+  if (sets) {
+    results(cdr, n);
+    return 0;
+  }
   for (uint32_t i = 0; i < n; ++i) {
     if (what == "describe") {
       describe(cdr);

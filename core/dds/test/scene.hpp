@@ -103,7 +103,9 @@ struct Scene {
     slc.name = "slc";
     slc.params = {number_param("roll_kp", 0.55, true), number_param("span_m", 2, false)};
     ParameterView law;
-    law.info.name = "law", law.info.kind = FULMAR_CHOICE, law.info.choices = {"takeoff", "level"},
+    law.info.name = "law";
+    law.info.kind = FULMAR_CHOICE;
+    law.info.choices = {"takeoff", "level"};
     law.info.live = true;
     law.base.integer = 1;
     slc.params.push_back(law);
@@ -115,7 +117,8 @@ struct Scene {
     state.topic = "/nav/state";
     options.exports = {state};
     DdsOptions::Import leader;
-    leader.component = 0, leader.input = 0;
+    leader.component = 0;
+    leader.input = 0;
     leader.topic = "/leader/state";
     options.imports = {leader};
   }

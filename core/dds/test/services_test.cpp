@@ -59,7 +59,10 @@ TEST_CASE(
   Scene scene;
   scene.open();
   Leg leg{};
-  leg.kind = 1, leg.has_course = true, leg.course_rad = 0.5, leg.position_m = {3, 4, 5};
+  leg.kind = 1;
+  leg.has_course = true;
+  leg.course_rad = 0.5;
+  leg.position_m = {3, 4, 5};
   std::vector<std::byte> bytes;
   CdrEncoder(*leg_type()).encode(bytes_of(leg), bytes);
   auto call = [&] {

@@ -34,27 +34,34 @@ struct Folder {
 SavedParam number(const std::string& name, double value, const std::string& unit = "",
                   const std::string& component = "slc") {
   SavedParam p;
-  p.component = component, p.use = "control_slc/Outer";
-  p.info.name = name, p.info.unit = unit, p.info.live = true;
-  p.info.min = -std::numeric_limits<double>::infinity(), p.info.max = -p.info.min;
+  p.component = component;
+  p.use = "control_slc/Outer";
+  p.info.name = name;
+  p.info.unit = unit;
+  p.info.live = true;
+  p.info.min = -std::numeric_limits<double>::infinity();
+  p.info.max = -p.info.min;
   p.value.number[0] = value;
   return p;
 }
 SavedParam vector(const std::string& name, double a, double b, double c, const std::string& unit) {
   SavedParam p = number(name, a, unit);
   p.info.kind = FULMAR_VECTOR;
-  p.value.number[1] = b, p.value.number[2] = c;
+  p.value.number[1] = b;
+  p.value.number[2] = c;
   return p;
 }
 SavedParam text(const std::string& name, const std::string& value) {
   SavedParam p = number(name, 0);
-  p.info.kind = FULMAR_STRING, p.info.capacity = 64;
+  p.info.kind = FULMAR_STRING;
+  p.info.capacity = 64;
   p.value.text = value;
   return p;
 }
 SavedParam choice(const std::string& name, std::int64_t value) {
   SavedParam p = number(name, 0);
-  p.info.kind = FULMAR_CHOICE, p.info.choices = {"none", "light", "severe"};
+  p.info.kind = FULMAR_CHOICE;
+  p.info.choices = {"none", "light", "severe"};
   p.value.integer = value;
   return p;
 }

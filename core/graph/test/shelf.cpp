@@ -72,7 +72,8 @@ Shelf::Shelf() {
   wind.unit = "m/s";
   wind.kind = FULMAR_VECTOR;
   wind.type = type_of<Vec3<Ned>>();
-  wind.min = -30, wind.max = 30;
+  wind.min = -30;
+  wind.max = 30;
   wind.live = true;
   auto outputs = vehicle_out();
   outputs.push_back(out<VehicleState>("truth"));
@@ -92,7 +93,8 @@ Shelf::Shelf() {
   ParamInfo count;
   count.name = "skip";
   count.kind = FULMAR_COUNT;
-  count.min = 0, count.max = 10;
+  count.min = 0;
+  count.max = 10;
   ParamInfo flag;
   flag.name = "use_mag";
   flag.kind = FULMAR_FLAG;
@@ -127,7 +129,8 @@ Shelf::Shelf() {
   ParamInfo epoch;
   epoch.name = "epoch";
   epoch.kind = FULMAR_COUNT;
-  epoch.min = 0, epoch.max = 4e9;
+  epoch.min = 0;
+  epoch.max = 4e9;
   add("score", "Score",
       {in<VehicleState>("state"), optional<VehicleState>("truth"), in<Path>("path"),
        in<GuidanceCommand>("command"), in<AttitudeCommand>("attitude")},

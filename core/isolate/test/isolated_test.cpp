@@ -59,7 +59,8 @@ bool same_message(const Type* type, const std::byte* a, const std::byte* b) {
   if (!type) return std::memcmp(a, b, sizeof(double)) == 0;
   const CdrEncoder encoder(*type);
   std::vector<std::byte> x(encoder.max_size()), y(encoder.max_size());
-  x.resize(encoder.encode(a, x.data())), y.resize(encoder.encode(b, y.data()));
+  x.resize(encoder.encode(a, x.data()));
+  y.resize(encoder.encode(b, y.data()));
   return x == y;
 }
 
@@ -116,9 +117,10 @@ TEST_CASE("a component in a child computes the same bytes as in the host, whatev
   for (std::uint64_t n = 0; n < 3000; ++n) {
     for (Rig* rig : {&here, &there}) {
       give_anything(*rig, n);
-      if (n % 500 == 100)
-        rig->choose("law", static_cast<int>(n / 500 % 3)),
-            rig->value("gain").number[0] = 0.001 * static_cast<double>(n);
+      if (n % 500 == 100) {
+        rig->choose("law", static_cast<int>(n / 500 % 3));
+        rig->value("gain").number[0] = 0.001 * static_cast<double>(n);
+      }
       if (n % 500 == 100) rig->value("tag").text = n % 1000 == 100 ? "a longer tag" : "";
     }
     if (n % 500 == 100) wrong += here.retune() != there.retune();
@@ -130,7 +132,10 @@ TEST_CASE("a component in a child computes the same bytes as in the host, whatev
         }
       wrong += here.activate() != there.activate();
     }
-    if (n % 700 == 600) here.table->deactivate(here.instance), there.table->deactivate(there.instance);
+    if (n % 700 == 600) {
+      here.table->deactivate(here.instance);
+      there.table->deactivate(there.instance);
+    }
     wrong += here.step() != there.step();
     for (std::size_t i = 0; i < here.outputs.size(); ++i) wrong += same_output(here, there, i) ? 0 : 1;
     wrong += same_answers(here, there) ? 0 : 1;

@@ -43,7 +43,10 @@ TEST_CASE("the memory may have the number in the host that it has in the child")
     CHECK(fs::read_symlink("/proc/self/fd/3").string().starts_with("/memfd:fulmar-child"));
     CHECK(isolated.alive());
   }
-  if (kept >= 0) ::dup2(kept, shared_descriptor), ::close(kept);
+  if (kept >= 0) {
+    ::dup2(kept, shared_descriptor);
+    ::close(kept);
+  }
 }
 
 TEST_CASE("a child that finds another component than its host knows is refused") {

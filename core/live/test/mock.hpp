@@ -45,7 +45,8 @@ class MockControl : public Control {
     v.paused = paused;
     v.seed = 18'000'000'000'000'000'001u;
     v.origin = Geodetic{40.25, -111.65, 1387};
-    v.tiles = "https://a.b/{z}/{x}/{y}", v.attribution = "Example";
+    v.tiles = "https://a.b/{z}/{x}/{y}";
+    v.attribution = "Example";
     v.epoch_ns = 1'767'225'600'000'000'000;
     v.components = {controller(), planner()};
     return v;
@@ -149,7 +150,10 @@ class MockControl : public Control {
     c.role = "outer";
     c.run = "tick";
     c.active = true;
-    c.steps = 42, c.step_us = 3.5, c.step_max_us = 9, c.budget_us = 250;
+    c.steps = 42;
+    c.step_us = 3.5;
+    c.step_max_us = 9;
+    c.budget_us = 250;
     c.params = {number("roll_kp", values_.contains("roll_kp") ? std::stod(values_.at("roll_kp")) : 0.55),
                 number("law", 0),
                 number("note", 0),
@@ -164,7 +168,8 @@ class MockControl : public Control {
     c.params[2].base.text = "40 deg";
     c.params[3].info.kind = FULMAR_VECTOR;
     c.params[3].base.number[1] = -4;
-    c.params[3].info.min = -50, c.params[3].info.max = 50;
+    c.params[3].info.min = -50;
+    c.params[3].info.max = 50;
     c.params[4].info.kind = FULMAR_COUNT;
     c.params[4].base.integer = 7;
     c.params[4].info.max = 100;

@@ -103,7 +103,8 @@ TEST_CASE_FIXTURE(Folder, "why nothing can be written is one sentence") {
   CHECK_FALSE(off.accepted);
   CHECK((off.lines.empty() && off.mark.empty()));
   CHECK(off.reason == "nothing is written from here: the mission says live: {save: off}");
-  other = view, other.file = "";
+  other = view;
+  other.file = "";
   CHECK(save(other, "", "").reason == "this flight has no mission file that could be written");
   put("mission: another\n");
   holds(save(view, "", "").reason, "is the mission 'another', but 'mock <1>' flies: nothing was written");

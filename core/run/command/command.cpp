@@ -25,7 +25,9 @@ void put_whole(std::array<char, N>& to, const std::string& text, const char* wha
 
 Command command_of(CommandKind kind, std::string component, std::string name) {
   Command c;
-  c.kind = kind, c.component = std::move(component), c.name = std::move(name);
+  c.kind = kind;
+  c.component = std::move(component);
+  c.name = std::move(name);
   return c;
 }
 

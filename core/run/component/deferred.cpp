@@ -42,7 +42,10 @@ Async::Job* AsyncRunner::job(Async::Job::Call call, std::int64_t due_ns) noexcep
 bool AsyncRunner::retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept {
   if (!functions_.retune) return true;
   Async::Job* const j = job(Async::Job::Call::retune, 0);
-  if (!j) return put_problem(problem, "has too many calls on their way"), false;
+  if (!j) {
+    put_problem(problem, "has too many calls on their way");
+    return false;
+  }
   j->values = values;
   async_->submit();
   return true;
@@ -53,7 +56,10 @@ bool AsyncRunner::activate(const fulmar_tick& tick, const std::vector<fulmar_inp
   async_->drop();
   if (!functions_.activate) return true;
   Async::Job* const j = job(Async::Job::Call::activate, tick.now_ns);
-  if (!j) return put_problem(problem, "has too many calls on their way"), false;
+  if (!j) {
+    put_problem(problem, "has too many calls on their way");
+    return false;
+  }
   j->tick = tick;
   Async::copy_inputs(inputs, component_.info(), *j);
   for (std::size_t i = 0; i < last.size(); ++i) {
@@ -192,7 +198,8 @@ DriverRunner::DriverRunner(const Component& component, std::uint64_t seed, Compo
 
 bool DriverRunner::retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept {
   if (!functions_.retune || !arrivals_.started()) return Direct::retune(values, problem);
-  return put_problem(problem, "is a driver: its parameters are fixed in flight"), false;
+  put_problem(problem, "is a driver: its parameters are fixed in flight");
+  return false;
 }
 
 bool DriverRunner::activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,

@@ -185,7 +185,10 @@ void Outlets::publish(F&& each) {
     Slot& s = slots[i];
     const fulmar_output& out = views[i];
     if (s.port->kind == FULMAR_OUT_PROBE) {
-      if (out.count > 0) std::memcpy(s.published.data(), s.staging.data(), sizeof(double)), ++s.sequence;
+      if (out.count > 0) {
+        std::memcpy(s.published.data(), s.staging.data(), sizeof(double));
+        ++s.sequence;
+      }
       continue;
     }
     const std::uint32_t samples = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;

@@ -74,8 +74,11 @@ void SampleTrack::add_probes(const McapFile::Message& m) {
     if (types_[i]) continue;
     if (8 * k + 8 > values.size()) throw Error("the log has other probes of " + name_);
     if (k == 0) first = i;
-    if (std::memcmp(values.data() + 8 * k, probes_.data() + 8 * k, 8) != 0)
-      changed = i, changed_at = k, any = true;
+    if (std::memcmp(values.data() + 8 * k, probes_.data() + 8 * k, 8) != 0) {
+      changed = i;
+      changed_at = k;
+      any = true;
+    }
     ++k;
   }
   if (any || alone) {

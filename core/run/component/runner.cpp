@@ -29,9 +29,13 @@ void* create_instance(const Component& c, const fulmar_component& functions, std
 
 std::unique_ptr<Isolated> spawn(const Component& c, std::uint64_t seed, std::int64_t hang_ns) {
   IsolatedOptions o;
-  o.name = c.name, o.copy = c.plugin->copy, o.script = c.plugin->script, o.file = c.plugin->file,
+  o.name = c.name;
+  o.copy = c.plugin->copy;
+  o.script = c.plugin->script;
+  o.file = c.plugin->file;
   o.path = c.plugin->path;
-  o.index = c.index_in_plugin, o.seed = seed;
+  o.index = c.index_in_plugin;
+  o.seed = seed;
   o.hang_ns = hang_ns;
   auto child = std::make_unique<Isolated>(c.info(), o);
   wait_for_child(child->pid());

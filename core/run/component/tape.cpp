@@ -12,10 +12,15 @@ constexpr std::size_t most_bytes = 1u << 20;  // per input
 Tape::Tape(const ComponentInfo& info, std::size_t steps) : entries_(steps) {
   for (const Port& port : info.inputs) {
     Samples s;
-    s.item = port.type->size, s.capacity = port.capacity, s.value = port.kind == FULMAR_IN_VALUE;
+    s.item = port.type->size;
+    s.capacity = port.capacity;
+    s.value = port.kind == FULMAR_IN_VALUE;
     s.slots = std::clamp<std::size_t>(most_bytes / (std::size_t{s.item} * s.capacity), 2, steps + 1);
     s.data.resize(s.slots * s.capacity * s.item);
-    if (!s.value) s.stamps.resize(s.slots * s.capacity), s.answers.resize(s.capacity);
+    if (!s.value) {
+      s.stamps.resize(s.slots * s.capacity);
+      s.answers.resize(s.capacity);
+    }
     samples_.push_back(std::move(s));
   }
   for (Entry& entry : entries_) entry.inputs.resize(samples_.size());

@@ -55,7 +55,11 @@ void Wiring::connect() {
   delayed_.clear();
   roles_.resize(state_.graph.roles.size());
   for (const auto& unit : units)
-    for (Slot& slot : unit->out.slots) slot.queues.clear(), slot.role = nullptr, slot.filler = -1;
+    for (Slot& slot : unit->out.slots) {
+      slot.queues.clear();
+      slot.role = nullptr;
+      slot.filler = -1;
+    }
   for (std::size_t r = 0; r < roles_.size(); ++r) connect_role(r);
   for (const auto& unit : units)
     for (Reader& reader : unit->in.readers) connect_reader(reader);
@@ -119,7 +123,8 @@ void Wiring::connect_reader(Reader& reader) {
   const Source& from = reader.wire->from;
   const bool value = reader.port->kind == FULMAR_IN_VALUE;
   reader.plans.clear();
-  reader.slot = nullptr, reader.role = nullptr;
+  reader.slot = nullptr;
+  reader.role = nullptr;
   reader.copied = 0;
   if (reader.wire->import >= 0) return connect_import(reader);
   if (from.kind == Source::Kind::none) return;

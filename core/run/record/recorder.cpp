@@ -113,7 +113,10 @@ void Recorder::note_tick() {
   const std::int64_t since_last_ns = state_.index == 0 ? 0 : state_.now_ns - state_.result.last_ns;
   if (since_last_ns > std::int64_t{UINT32_MAX})
     put_ticks();  // a period that has no room: the next message tells the time
-  if (ticks_.hashes == 0) ticks_.first = state_.index, ticks_.time_ns = state_.now_ns;
+  if (ticks_.hashes == 0) {
+    ticks_.first = state_.index;
+    ticks_.time_ns = state_.now_ns;
+  }
   ticks_.period_ns[ticks_.periods++] =
       static_cast<std::uint32_t>(std::clamp<std::int64_t>(since_last_ns, 0, UINT32_MAX));
   ticks_.hash[ticks_.hashes++] = static_cast<std::uint32_t>(tick_hash_ ^ (tick_hash_ >> 32));

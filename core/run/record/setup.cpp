@@ -104,10 +104,12 @@ std::int64_t Recorder::record_period(const std::string& port, const Slot& slot) 
 void Recorder::open_log(const Units& units) {
   const Graph& graph = state_.graph;
   Log::Options o;
-  o.file = state_.options.log_file, o.held = state_.options.log_held;
+  o.file = state_.options.log_file;
+  o.held = state_.options.log_held;
   o.epoch_ns = graph.epoch_ns;
   o.wait = state_.unpaced();
-  o.rotate_bytes = graph.rotate_bytes, o.rotate_ns = graph.rotate_ns;
+  o.rotate_bytes = graph.rotate_bytes;
+  o.rotate_ns = graph.rotate_ns;
   o.lasting = lasting();
   // What the host says and what comes from outside, always. A role's topic when anybody who fills it is
   // recorded.

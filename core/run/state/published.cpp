@@ -13,8 +13,10 @@ namespace fulmar::core {
 std::uint64_t component_seed(std::uint64_t mission_seed, const std::string& name) {
   std::uint64_t h = mission_seed ^ 0x9e3779b97f4a7c15ull;
   for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  h ^= h >> 30, h *= 0xbf58476d1ce4e5b9ull, h ^= h >> 27,
-      h *= 0x94d049bb133111ebull;  // splitmix64's finaliser
+  h ^= h >> 30;
+  h *= 0xbf58476d1ce4e5b9ull;
+  h ^= h >> 27;
+  h *= 0x94d049bb133111ebull;  // splitmix64's finaliser
   return h ^ (h >> 31);
 }
 
@@ -42,8 +44,10 @@ TypePtr probes_type(const PluginInfo& plugin, const ComponentInfo& component) {
     if (port.type) continue;
     Field f;
     f.name = port.name;
-    f.offset = probes.size, f.stride = 8;
-    f.min = -std::numeric_limits<double>::infinity(), f.max = -f.min;
+    f.offset = probes.size;
+    f.stride = 8;
+    f.min = -std::numeric_limits<double>::infinity();
+    f.max = -f.min;
     probes.fields.push_back(f);
     probes.size += 8;
   }

@@ -46,7 +46,8 @@ inline FlightOptions listening(Said& said) {
   FlightOptions o;
   o.log = false;
   o.say = [&said](const std::string& line, bool warning) {
-    said.lines.push_back(line), said.warnings.push_back(warning);
+    said.lines.push_back(line);
+    said.warnings.push_back(warning);
   };
   return o;
 }

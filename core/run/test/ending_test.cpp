@@ -209,11 +209,17 @@ TEST_CASE(
 
 TEST_CASE("a signal without an armed aircraft ends the flight, but for what had been decided before") {
   Ending e(2 * second);
-  CHECK(armed(e, 1, [](Facts& f) { f.signal = true, f.armed = false; }) == std::vector{Act::end});
+  CHECK(armed(e, 1, [](Facts& f) {
+          f.signal = true;
+          f.armed = false;
+        }) == std::vector{Act::end});
   CHECK(e.reason() == Reason::signal);
   Ending decided(2 * second);
   armed(decided, 1, [](Facts& f) { f.done = true; });
-  armed(decided, 2, [](Facts& f) { f.signal = true, f.armed = false; });
+  armed(decided, 2, [](Facts& f) {
+    f.signal = true;
+    f.armed = false;
+  });
   CHECK(decided.reason() == Reason::done);
 }
 

@@ -280,7 +280,8 @@ struct Worker {
   ComponentInfo info;
   std::unique_ptr<Async> async;
   explicit Worker(std::size_t depth) {
-    functions.step = fail, functions.retune = accept;
+    functions.step = fail;
+    functions.retune = accept;
     async = std::make_unique<Async>("worker", functions, &times, info, depth);
   }
   bool submit(Async::Job::Call call) const {

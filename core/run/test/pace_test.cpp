@@ -209,7 +209,8 @@ TEST_CASE("a paused flight ends by a signal, and its log is whole") {
 TEST_CASE(
     "a flight that was paused, stepped and hurried leaves the same log as one that was not, byte for byte") {
   const fs::path plain = folder().path / "plain.mcap", paced = folder().path / "paced.mcap";
-  fs::remove(plain), fs::remove(paced);
+  fs::remove(plain);
+  fs::remove(paced);
   const std::string async =
       "  two: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {id: 2, u: 0.2}}\n"
       "phases:\n  fly: {law: two}\n";
@@ -340,7 +341,8 @@ TEST_CASE("a flight whose owner begins no other refuses to make room, and flies 
 TEST_CASE("a flight that is asked before its first tick makes room behind it") {
   const Graph g = mission(std::string(one_phase) + watched);
   FlightOptions o = options(1);
-  o.speed = 1, o.no_restart = "";
+  o.speed = 1;
+  o.no_restart = "";
   Flight flight(g, o);
   flight.control()->pace(order(PaceOrder::What::restart), {});
   const FlightResult result = flight.run();

@@ -116,7 +116,11 @@ TEST_CASE("a swap tells which values it keeps, which parameters are new, and whi
 TEST_CASE("what a swap did to the parameters: values that both have by default are not worth a word") {
   const auto number = [](const char* name, double initial) {
     ParamInfo p;
-    p.name = name, p.unit = "s", p.initial[0] = initial, p.min = 0, p.max = 100;
+    p.name = name;
+    p.unit = "s";
+    p.initial[0] = initial;
+    p.min = 0;
+    p.max = 100;
     return p;
   };
   ComponentInfo old, fresh;
@@ -168,8 +172,13 @@ TEST_CASE("what the mission says of a swapped component is found in the newcomer
 TEST_CASE("a choice is carried over while its words are the same, a number while it is in range") {
   ComponentInfo old;
   ParamInfo choice{}, number{};
-  choice.name = "law", choice.kind = FULMAR_CHOICE, choice.choices = {"takeoff", "cruise"};
-  number.name = "gain", number.kind = FULMAR_NUMBER, number.min = 0, number.max = 2;
+  choice.name = "law";
+  choice.kind = FULMAR_CHOICE;
+  choice.choices = {"takeoff", "cruise"};
+  number.name = "gain";
+  number.kind = FULMAR_NUMBER;
+  number.min = 0;
+  number.max = 2;
   old.params = {choice, number};
   ComponentInfo fresh = old;
   std::vector<ParamValue> values(2), into(2);
@@ -183,7 +192,8 @@ TEST_CASE("a choice is carried over while its words are the same, a number while
   carry_parameters(old, values, fresh, into);
   CHECK(into[0].integer == 0);
   for (const auto& [min, max] : {std::pair{1.6, 2.0}, std::pair{0.0, 1.4}}) {
-    fresh.params[1].min = min, fresh.params[1].max = max;
+    fresh.params[1].min = min;
+    fresh.params[1].max = max;
     CHECK_THROWS_WITH(carry_parameters(old, values, fresh, into),
                       "its parameter 'gain' does not allow the present value 1.5");
   }
@@ -216,7 +226,8 @@ TEST_CASE("a child that has died is started anew on the ground, and never in the
     CHECK(value(g, flight, "sim", "applied", "by") == 2);  // the fallback
     CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.2);
     ParamValue u, never;
-    u.number[0] = 0.3, never.number[0] = 1e9;
+    u.number[0] = 0.3;
+    never.number[0] = 1e9;
     set_parameter(flight, "one", "u", u);
     set_parameter(flight, "one", "fault_at", never);
     said.clear();
@@ -292,7 +303,9 @@ TEST_CASE("a tape keeps the stamps of a queue with its items, whatever comes int
   std::vector<fulmar_input> inputs(watch->info().inputs.size());
   std::vector<std::byte> item(watch->info().inputs[burst].type->size);
   std::int64_t stamp_ns = 0;
-  inputs[burst].data = item.data(), inputs[burst].stamps_ns = &stamp_ns, inputs[burst].count = 1;
+  inputs[burst].data = item.data();
+  inputs[burst].stamps_ns = &stamp_ns;
+  inputs[burst].count = 1;
   Tape tape(watch->info(), 4);
   for (std::uint64_t n = 1; n <= 3; ++n) {
     stamp_ns = static_cast<std::int64_t>(10 * n);

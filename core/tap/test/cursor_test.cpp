@@ -28,9 +28,15 @@ struct Block {
 
 std::vector<TapChannel> channels() {
   Field number, words;
-  number.name = "number", number.kind = FULMAR_U64, number.stride = 8;
-  words.name = "words", words.kind = FULMAR_U64, words.shape = FULMAR_ARRAY, words.offset = 8,
-  words.count = 40, words.stride = 8;
+  number.name = "number";
+  number.kind = FULMAR_U64;
+  number.stride = 8;
+  words.name = "words";
+  words.kind = FULMAR_U64;
+  words.shape = FULMAR_ARRAY;
+  words.offset = 8;
+  words.count = 40;
+  words.stride = 8;
   const TypePtr block = make_type("Block", sizeof(Block), 8, {number, words}),
                 small = make_type("Small", 8, 8, {number});
   return {{"/block", block}, {"/small", small}};

@@ -58,7 +58,8 @@ TEST_CASE("a run killed in flight leaves a file whose whole chunks, mission incl
   ::kill(child, SIGKILL);
   int status = 0;
   ::waitpid(child, &status, 0);
-  ::close(pipe_ends[0]), ::close(pipe_ends[1]);
+  ::close(pipe_ends[0]);
+  ::close(pipe_ends[1]);
   REQUIRE(WIFSIGNALED(status));
   CHECK_FALSE(fs::exists(file));
   const McapFile log = read_mcap(file.string() + ".part");

@@ -147,8 +147,13 @@ TEST_CASE(
     const Number n{value};
     log.write(channel, ms * 1'000'000, ms * 1'000'000 - 500, bytes_of(n));
   };
-  write(1, 0, 3), write(1, 100, 4), write(1, 200, -1), write(3, 300, 8), write(1, 900, -2), write(3, 990, 9),
-      write(1, 1000, -3);
+  write(1, 0, 3);
+  write(1, 100, 4);
+  write(1, 200, -1);
+  write(3, 300, 8);
+  write(1, 900, -2);
+  write(3, 990, 9);
+  write(1, 1000, -3);
   const LogResult result = log.close();
   REQUIRE(result.files == 2);
   CHECK(result.messages == 7);

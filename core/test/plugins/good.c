@@ -112,13 +112,17 @@ static void* create(uint64_t seed, fulmar_error* error) {
 static void destroy(void* self) { free(self); }
 
 static uint32_t configure(void* self, const fulmar_value* values, fulmar_error* error) {
-  (void)self, (void)values, (void)error;
+  (void)self;
+  (void)values;
+  (void)error;
   return FULMAR_OK;
 }
 
 static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out,
                      fulmar_error* error) {
-  (void)self, (void)tick, (void)error;
+  (void)self;
+  (void)tick;
+  (void)error;
   *(struct sample*)out[0].data = *(const struct sample*)in[0].data;
   ((struct sample*)out[0].data)->airspeed_mps *= FACTOR;
   return FULMAR_OK;

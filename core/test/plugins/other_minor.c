@@ -48,18 +48,24 @@ static const param params[] = {
 };
 
 static void* create(uint64_t seed, fulmar_error* error) {
-  (void)seed, (void)error;
+  (void)seed;
+  (void)error;
   static int self;
   return &self;
 }
 static void destroy(void* self) { (void)self; }
 static uint32_t configure(void* self, const fulmar_value* values, fulmar_error* error) {
-  (void)self, (void)values, (void)error;
+  (void)self;
+  (void)values;
+  (void)error;
   return FULMAR_OK;
 }
 static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out,
                      fulmar_error* error) {
-  (void)self, (void)tick, (void)in, (void)error;
+  (void)self;
+  (void)tick;
+  (void)in;
+  (void)error;
   ((double*)out[1].data)[1] = 42;
   return FULMAR_OK;
 }

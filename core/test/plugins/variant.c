@@ -58,20 +58,27 @@ static const fulmar_param params[] = {
     {"gain", "", "", "", NULL, NULL, NULL, 0, PARAM_KIND, 0, 0, {DEFAULT, 0, 0}, 0, 2}};
 
 static void* create(uint64_t seed, fulmar_error* error) {
-  (void)seed, (void)error;
+  (void)seed;
+  (void)error;
   static int self;
   return &self;
 }
 static void destroy(void* self) { (void)self; }
 static uint32_t configure(void* self, const fulmar_value* values, fulmar_error* error) {
-  (void)self, (void)values, (void)error;
+  (void)self;
+  (void)values;
+  (void)error;
   return FULMAR_OK;
 }
 uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out,
               fulmar_error* error);
 uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in, fulmar_output* out,
               fulmar_error* error) {
-  (void)self, (void)tick, (void)in, (void)out, (void)error;
+  (void)self;
+  (void)tick;
+  (void)in;
+  (void)out;
+  (void)error;
   return FULMAR_OK;
 }
 

@@ -49,17 +49,26 @@ TEST_CASE("a message of every kind has the bytes that XCDR1 asks for") {
   Mixed m;
   std::memset(&m, 0xAA, sizeof m);  // padding of the struct must not reach the wire
   const Mixed value = mixed_value();
-  m.armed = value.armed, m.speed_mps = value.speed_mps, m.count = value.count,
-  m.gains_ratio = value.gains_ratio, m.name = value.name;
-  m.samples_volt.count = 2, m.samples_volt.items = value.samples_volt.items, m.mode = value.mode,
+  m.armed = value.armed;
+  m.speed_mps = value.speed_mps;
+  m.count = value.count;
+  m.gains_ratio = value.gains_ratio;
+  m.name = value.name;
+  m.samples_volt.count = 2;
+  m.samples_volt.items = value.samples_volt.items;
+  m.mode = value.mode;
   m.stamp_ns = value.stamp_ns;
-  m.load_ratio = value.load_ratio, m.offset = value.offset, m.attitude_std_rad = value.attitude_std_rad,
+  m.load_ratio = value.load_ratio;
+  m.offset = value.offset;
+  m.attitude_std_rad = value.attitude_std_rad;
   m.tags = value.tags;
   m.legs.count = 2;
   for (std::size_t i = 0; i < 2; ++i) {
     Leg& leg = m.legs.items[i];
-    leg.kind = value.legs.items[i].kind, leg.has_course = value.legs.items[i].has_course;
-    leg.course_rad = value.legs.items[i].course_rad, leg.position_m = value.legs.items[i].position_m;
+    leg.kind = value.legs.items[i].kind;
+    leg.has_course = value.legs.items[i].has_course;
+    leg.course_rad = value.legs.items[i].course_rad;
+    leg.position_m = value.legs.items[i].position_m;
   }
   const Blob expected =
       hex("00010000"             // CDR_LE
@@ -225,8 +234,15 @@ struct Maker {
     const std::array kinds{FULMAR_BOOL, FULMAR_U8,  FULMAR_I32,  FULMAR_U32,  FULMAR_I64,   FULMAR_U64,
                            FULMAR_F32,  FULMAR_F64, FULMAR_ENUM, FULMAR_TEXT, FULMAR_STRUCT};
     f.kind = kinds[below(depth > 0 ? 11 : 10)];
-    if (f.kind == FULMAR_TEXT) return f.stride = 1 + below(6), 1;
-    if (f.kind == FULMAR_STRUCT) return f.type = type(depth - 1), f.stride = f.type->size, f.type->align;
+    if (f.kind == FULMAR_TEXT) {
+      f.stride = 1 + below(6);
+      return 1;
+    }
+    if (f.kind == FULMAR_STRUCT) {
+      f.type = type(depth - 1);
+      f.stride = f.type->size;
+      return f.type->align;
+    }
     const std::array<std::uint32_t, 9> sizes{1, 1, 4, 4, 8, 8, 4, 8, 1};
     return f.stride = sizes[static_cast<std::size_t>(f.kind - 1)];
   }

@@ -35,20 +35,24 @@ struct Flight {
   }
   void protect(bool on) {
     outer.params.envelope.protection.value = inner.params.envelope.protection.value = on;
-    outer.configure(), inner.configure();
+    outer.configure();
+    inner.configure();
   }
 
   template <class Observe>
   void run(double seconds, Observe observe) {
-    slowest = lowest = 1e9, fastest = alpha = bank = 0;
+    slowest = lowest = 1e9;
+    fastest = alpha = bank = 0;
     for (int i = 0; i < static_cast<int>(seconds * 100); ++i) {
       state = model.state();
       outer.fly(rc, state);
       inner.set(inner.in.attitude, outer.out.attitude);
       inner.fly(rc, state);
       for (int k = 0; k < 4; ++k) model.step(inner.out.actuators, 0.0025);
-      slowest = std::min(slowest, state.airspeed_mps), fastest = std::max(fastest, state.airspeed_mps);
-      alpha = std::max(alpha, state.alpha_rad), bank = std::max(bank, std::abs(state.roll_rad));
+      slowest = std::min(slowest, state.airspeed_mps);
+      fastest = std::max(fastest, state.airspeed_mps);
+      alpha = std::max(alpha, state.alpha_rad);
+      bank = std::max(bank, std::abs(state.roll_rad));
       lowest = std::min(lowest, state.height_m);
       observe();
     }

@@ -24,7 +24,10 @@ namespace {
 
 struct Folder {
   fs::path path = fs::temp_directory_path() / ("fulmar_manual_" + std::to_string(getpid()));
-  Folder() { fs::remove_all(path), fs::create_directories(path); }
+  Folder() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
   ~Folder() { fs::remove_all(path); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;

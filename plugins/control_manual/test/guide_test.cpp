@@ -37,7 +37,9 @@ TEST_CASE("the command begins with what is flown, and stays with the sticks in t
   s.course_rad = 2.5;
   bench.set(bench.in.state, s);
   bench.activate();
-  s.course_rad = 2.4, s.height_m = 68, s.airspeed_mps = 16;
+  s.course_rad = 2.4;
+  s.height_m = 68;
+  s.airspeed_mps = 16;
   fly(bench, 100, stick(0, 0, 0.5), s);
   CHECK(bench.out.command.course_rad == doctest::Approx(2.5));
   CHECK(bench.out.command.height_m == 70);
@@ -143,7 +145,8 @@ TEST_CASE("an axis from the path is the other guide's to the last field, beside 
   bench.set(bench.in.state, level());
   bench.activate();
   GuidanceCommand path = along_path();
-  path.lateral = LateralMode::acceleration, path.lateral_acceleration_mps2 = 2;
+  path.lateral = LateralMode::acceleration;
+  path.lateral_acceleration_mps2 = 2;
   bench.set(bench.in.automatic, path);
   for (int i = 0; i < 100; ++i) {
     bench.set(bench.in.automatic, path);
@@ -178,7 +181,8 @@ TEST_CASE("what is flown is commanded while the pilot is there, and held without
   bench.set(bench.in.state, level());
   bench.activate();
   VehicleState s = level(20);
-  s.course_rad = -0.7, s.height_m = 44;
+  s.course_rad = -0.7;
+  s.height_m = 44;
   CHECK(bench.fly(stick(), s) == Status::ok);
   CHECK(bench.out.command.course_rad == -0.7);
   CHECK(bench.out.command.height_m == 44);
@@ -235,7 +239,9 @@ TEST_CASE("without velocity or height the stick does not move what it cannot see
   bench.set(bench.in.state, level());
   bench.activate();
   VehicleState s = level();
-  s.velocity_valid = s.height_valid = false, s.height_m = 0, s.course_rad = 3;
+  s.velocity_valid = s.height_valid = false;
+  s.height_m = 0;
+  s.course_rad = 3;
   CHECK(bench.fly(stick(1, 1), s) == Status::degraded);
   CHECK(bench.out.command.course_rad == 0);
   CHECK(bench.out.command.height_m == 70);

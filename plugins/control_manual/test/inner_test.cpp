@@ -18,7 +18,8 @@ struct Bench : kit::Hand<Inner> {
   explicit Bench(Law law) {
     params.aileron.value = params.elevator.value = law;
     params.rudder.value = law == Law::surface ? Inner::Rudder::surface : Inner::Rudder::damper;
-    params.blend.value = 0.01, params.integral.value = 0;
+    params.blend.value = 0.01;
+    params.integral.value = 0;
   }
   Actuators settle(const Rc& rc, const VehicleState& state = level(), int steps = 100) {
     for (int i = 0; i < steps; ++i) fly(rc, state);
@@ -74,7 +75,8 @@ TEST_CASE("a pitch rate takes the elevator of its lift and damping, and is dampe
 TEST_CASE("sticks in the middle of a banked turn ask for the rates of the turn") {
   Bench bench(Law::rate);
   VehicleState s = level();
-  s.roll_rad = 0.6, s.pitch_rad = 0.1;
+  s.roll_rad = 0.6;
+  s.pitch_rad = 0.1;
   const double psi = 9.80665 * std::tan(0.6) / 17;
   bench.settle(stick(), s);
   CHECK(bench.out.roll_rate_demand_radps.value == doctest::Approx(-psi * std::sin(0.1)));
@@ -155,7 +157,9 @@ TEST_CASE("without the pilot each axis holds the outer law's attitude, without t
 TEST_CASE("without an attitude a stick moves its surface, and an axis that was to be held goes to its trim") {
   Bench bench(Law::rate);
   VehicleState s = level();
-  s.attitude_valid = false, s.roll_rad = 2, s.rate_radps = {9, 9, 9};
+  s.attitude_valid = false;
+  s.roll_rad = 2;
+  s.rate_radps = {9, 9, 9};
   Actuators u = bench.settle(stick(0.3, 0.2), s);
   CHECK(u.aileron_rad == doctest::Approx(0.3 * end));
   CHECK(u.elevator_rad == doctest::Approx(trim - 0.2 * end));
@@ -229,7 +233,9 @@ TEST_CASE("whatever stick and state, what is commanded is finite and within the 
         for (const double airspeed : {0.0, 8.0, 40.0}) {
           Bench bench(law);
           VehicleState s = level(airspeed);
-          s.roll_rad = roll, s.pitch_rad = pitch, s.rate_radps = {5, -5, 5};
+          s.roll_rad = roll;
+          s.pitch_rad = pitch;
+          s.rate_radps = {5, -5, 5};
           const Actuators u = bench.settle(stick(1, -1, 2, 1), s, 10);
           CHECK(bench.fault() == "");
           for (double surface : {u.aileron_rad, u.elevator_rad, u.rudder_rad})

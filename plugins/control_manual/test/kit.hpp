@@ -27,7 +27,10 @@ inline fulmar::VehicleState level(double airspeed = 17) {
 /// Sticks without dead zone and expo, and the throttle where cruise is.
 inline fulmar::Rc stick(double roll = 0, double pitch = 0, double throttle = 0.57, double yaw = 0) {
   fulmar::Rc rc;
-  rc.roll_frac = roll, rc.pitch_frac = pitch, rc.yaw_frac = yaw, rc.throttle_frac = throttle;
+  rc.roll_frac = roll;
+  rc.pitch_frac = pitch;
+  rc.yaw_frac = yaw;
+  rc.throttle_frac = throttle;
   rc.link = true;
   return rc;
 }
@@ -36,7 +39,8 @@ inline fulmar::Rc stick(double roll = 0, double pitch = 0, double throttle = 0.5
 template <class C>
 struct Hand : fulmar::Bench<C> {
   Hand() {
-    this->params.airframe.value = fulmar::test::anaconda(), this->params.airframe.is_given = true;
+    this->params.airframe.value = fulmar::test::anaconda();
+    this->params.airframe.is_given = true;
     this->params.sticks.dead_zone.value = this->params.sticks.expo.value = 0;
   }
   /// A frame and a state now, then a step.

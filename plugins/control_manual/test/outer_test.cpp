@@ -127,7 +127,8 @@ TEST_CASE("what is flown is commanded while the pilot flies it further in; witho
   Bench bench;
   bench.params.roll.value = bench.params.pitch.value = bench.params.throttle.value = Outer::Source::flown;
   VehicleState s = level();
-  s.roll_rad = 0.5, s.pitch_rad = -0.2;
+  s.roll_rad = 0.5;
+  s.pitch_rad = -0.2;
   AttitudeCommand a = bench.settle(stick(-1, 1, 0.3), s);
   CHECK(a.roll_rad == doctest::Approx(0.5));
   CHECK(a.pitch_rad == doctest::Approx(-0.2));
@@ -175,7 +176,8 @@ TEST_CASE("a stick that is thrown to its end moves the angles no faster than the
 TEST_CASE("when nobody's command is in force the angles begin with those of the aircraft") {
   kit::Hand<Outer> bench;
   VehicleState s = level();
-  s.roll_rad = 0.35, s.pitch_rad = -0.1;
+  s.roll_rad = 0.35;
+  s.pitch_rad = -0.1;
   bench.set(bench.in.state, s);
   bench.activate();
   bench.fly(stick(), s);

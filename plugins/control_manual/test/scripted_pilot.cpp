@@ -25,9 +25,14 @@ struct ScriptedPilot {
     rc.link = true;
     if (t >= 0 && t < 60) {
       const auto& now = switches[static_cast<int>(t / 10)];
-      rc.aux1_frac = now[0], rc.aux2_frac = now[1], rc.aux3_frac = now[2];
+      rc.aux1_frac = now[0];
+      rc.aux2_frac = now[1];
+      rc.aux3_frac = now[2];
       const double within = t - 10 * static_cast<int>(t / 10);
-      if (within >= 2 && within < 4) rc.roll_frac = 0.4, rc.pitch_frac = 0.15;
+      if (within >= 2 && within < 4) {
+        rc.roll_frac = 0.4;
+        rc.pitch_frac = 0.15;
+      }
     }
     if (tick.now_s() >= p.lost && tick.now_s() < p.lost + 1.5) rc = {};
     out.rc = rc;

@@ -19,10 +19,17 @@ constexpr double g = 9.80665, mass = 4, cruise = 18, trim = 0.4, thrust = 20, rh
 Airframe simple() {
   Airframe a;
   a.mass_kg = mass;
-  a.wing.area_m2 = area, a.wing.span_m = 2, a.wing.chord_m = 0.25, a.wing.oswald_ratio = 0.9;
+  a.wing.area_m2 = area;
+  a.wing.span_m = 2;
+  a.wing.chord_m = 0.25;
+  a.wing.oswald_ratio = 0.9;
   a.aero = {};
-  a.aero.lift.alpha_ratio = 5, a.aero.pitch.elevator_ratio = -1, a.aero.parasite_drag_ratio = 0.03;
-  a.limits.airspeed_min_mps = 12, a.limits.airspeed_cruise_mps = cruise, a.limits.airspeed_max_mps = 30;
+  a.aero.lift.alpha_ratio = 5;
+  a.aero.pitch.elevator_ratio = -1;
+  a.aero.parasite_drag_ratio = 0.03;
+  a.limits.airspeed_min_mps = 12;
+  a.limits.airspeed_cruise_mps = cruise;
+  a.limits.airspeed_max_mps = 30;
   a.limits.throttle_cruise_frac = trim;
   return a;
 }
@@ -46,9 +53,14 @@ struct Loop : Bench<Airspeed> {
     state.airspeed_valid = state.attitude_valid = true;
     wanted.pitch_rad = alpha(cruise);
   }
-  void give() { set(in.state, state), set(in.wanted, wanted), set(in.command, command); }
+  void give() {
+    set(in.state, state);
+    set(in.wanted, wanted);
+    set(in.command, command);
+  }
   double throttle(int steps = 1) {
-    give(), retune();
+    give();
+    retune();
     for (int i = 0; i < steps; ++i) step(0.01);
     return out.attitude.throttle_frac;
   }
@@ -134,7 +146,8 @@ TEST_CASE("the throttle moves no faster than it may, and goes on from what was a
   loop.params.throttle_rate_limit.value = 1;
   loop.give();
   Airspeed::Outputs last;
-  last.attitude = loop.wanted, last.attitude.throttle_frac = 0.55;
+  last.attitude = loop.wanted;
+  last.attitude.throttle_frac = 0.55;
   loop.activate(last);
   CHECK(loop.throttle() == Approx(0.55));  // the integral takes it up: nothing to move
   CHECK(loop.throttle(50) == Approx(0.55));
@@ -208,7 +221,8 @@ TEST_CASE("pitch is given up for airspeed where the throttle is at its stop, and
 TEST_CASE("activation forgets the airspeed of before") {
   Loop loop;
   loop.params.energy_kff.value = 0;
-  loop.params.speed_kp.value = 2, loop.params.speed_ki.value = 1;
+  loop.params.speed_kp.value = 2;
+  loop.params.speed_ki.value = 1;
   loop.state.airspeed_mps = 12;
   loop.throttle(300);
   CHECK(loop.out.attitude.throttle_frac == 1);
@@ -221,7 +235,8 @@ TEST_CASE("activation forgets the airspeed of before") {
 
 TEST_CASE("without an airspeed: trim and feed-forward, degraded; standing: engine off") {
   Loop loop;
-  loop.state.airspeed_valid = false, loop.state.airspeed_mps = 3;
+  loop.state.airspeed_valid = false;
+  loop.state.airspeed_mps = 3;
   loop.params.speed_ki.value = 1;
   loop.wanted.pitch_rad = alpha(cruise) + 0.05;
   CHECK(loop.throttle(200) - trim == Approx(mass * g * std::sin(0.05) / thrust));

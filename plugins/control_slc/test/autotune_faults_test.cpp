@@ -56,7 +56,10 @@ TEST_CASE("commands that move while it measures: the margins kept are those of a
       const double t = f.t;
       if (disturbed == 1) f.command.course_rad = std::fmod(t, 8) < 4 ? 0.1 : -0.1;
       if (disturbed == 2) f.command.height_m = std::fmod(t, 10) < 5 ? 70 : 74;
-      if (disturbed == 3) f.command.course_rad = 0.05 * t, f.command.roll_feedforward_rad = 0.09;
+      if (disturbed == 3) {
+        f.command.course_rad = 0.05 * t;
+        f.command.roll_feedforward_rad = 0.09;
+      }
       return f.done();
     });
     const AutotuneReport& r = f.report();
@@ -141,7 +144,8 @@ TEST_CASE("a record that leaves no gains is taken again, larger, as long as ther
   for (const double limit_s : {90.0, 49.0, 30.0}) {
     CAPTURE(limit_s);
     Flight f;
-    f.tuner.params.law.roll_kp.value = 6, f.tuner.params.law.roll_kd.value = 0.1;
+    f.tuner.params.law.roll_kp.value = 6;
+    f.tuner.params.law.roll_kd.value = 0.1;
     f.tuner.params.wanted_delay_margin.value = 1;  // more than a sixth of these has
     f.tuner.params.time_limit.value = limit_s;
     f.fly(3);
@@ -175,9 +179,17 @@ TEST_CASE("ended in the middle, what was verified stays with its margins, what w
   };
   const std::vector<End> ends{
       {"commands do not move", [](Flight& f) { f.status.in_control = false; }},
-      {"switched off", [](Flight& f) { f.tuner.params.tune.value = false, f.tuner.retune(); }},
+      {"switched off",
+       [](Flight& f) {
+         f.tuner.params.tune.value = false;
+         f.tuner.retune();
+       }},
       {"somebody else", [](Flight& f) { f.tuner.activate(); }},
-      {"gains were set", [](Flight& f) { f.tuner.params.law.yaw_kd.value = 0.4, f.tuner.retune(); }},
+      {"gains were set",
+       [](Flight& f) {
+         f.tuner.params.law.yaw_kd.value = 0.4;
+         f.tuner.retune();
+       }},
       {"roll is beyond", [](Flight& f) { f.seen = [](VehicleState& s) { s.roll_rad = 0.8; }; }}};
   for (const End& end : ends) {
     CAPTURE(end.words);

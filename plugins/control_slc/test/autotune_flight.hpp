@@ -36,11 +36,14 @@ struct Flight {
 
   explicit Flight(double factor = 1, Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1)
       : model(test::anaconda(), turbulence, seed) {
-    for (Record<Airframe>* record : {&outer.params.common.airframe, &tuner.params.law.airframe})
-      record->value = model.airframe, record->is_given = true;
+    for (Record<Airframe>* record : {&outer.params.common.airframe, &tuner.params.law.airframe}) {
+      record->value = model.airframe;
+      record->is_given = true;
+    }
     status.in_control = true;
     slc::Inner::Params& p = tuner.params.law;
-    p.roll_kff.value = 0.21, p.pitch_kd.value = 0.28;
+    p.roll_kff.value = 0.21;
+    p.pitch_kd.value = 0.28;
     for (Param* gain : {&p.roll_kp, &p.roll_ki, &p.roll_kd, &p.pitch_kp, &p.pitch_ki, &p.pitch_kd, &p.yaw_kd})
       gain->value *= factor;
   }

@@ -130,9 +130,17 @@ TEST_CASE("what is out of its bounds ends it, with the old gains, no excitation,
       {"height has moved", [](Flight& f) { f.seen = [](VehicleState& s) { s.height_m -= 21; }; }},
       {"near the stall", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_mps = 10.9; }; }},
       {"above the maximum", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_mps = 25.1; }; }},
-      {"switched off", [](Flight& f) { f.tuner.params.tune.value = false, f.tuner.retune(); }},
+      {"switched off",
+       [](Flight& f) {
+         f.tuner.params.tune.value = false;
+         f.tuner.retune();
+       }},
       {"somebody else", [](Flight& f) { f.tuner.activate(); }},
-      {"time_limit", [](Flight& f) { f.tuner.params.time_limit.value = 20, f.tuner.retune(), f.fly(9); }}};
+      {"time_limit", [](Flight& f) {
+         f.tuner.params.time_limit.value = 20;
+         f.tuner.retune();
+         f.fly(9);
+       }}};
   for (const End& end : ends) {
     CAPTURE(end.words);
     Flight f;
@@ -206,7 +214,8 @@ TEST_CASE("a pilot who has flown, and gains that somebody sets, count") {
 TEST_CASE("a surface that answers the wrong way is not tuned") {
   Flight f(0.01);
   f.tuner.params.law.roll_kff.value = 0;  // or the course loop rolls it over
-  f.tuner.params.law.pitch_kp.value = 4, f.tuner.params.law.pitch_kd.value = 0.28;
+  f.tuner.params.law.pitch_kp.value = 4;
+  f.tuner.params.law.pitch_kd.value = 0.28;
   f.fly(3);
   f.tune();
   f.tuner.params.roll_size.value = 0.02;

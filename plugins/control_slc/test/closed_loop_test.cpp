@@ -26,8 +26,10 @@ struct Flight {
 
   explicit Flight(Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1)
       : model(test::anaconda(), turbulence, seed) {
-    for (Record<Airframe>* record : {&outer.params.common.airframe, &inner.params.airframe})
-      record->value = model.airframe, record->is_given = true;
+    for (Record<Airframe>* record : {&outer.params.common.airframe, &inner.params.airframe}) {
+      record->value = model.airframe;
+      record->is_given = true;
+    }
     state = model.state();
   }
 
@@ -54,7 +56,10 @@ struct Flight {
 struct Rms {
   double sum = 0;
   int count = 0;
-  void add(double error) { sum += error * error, ++count; }
+  void add(double error) {
+    sum += error * error;
+    ++count;
+  }
   double value() const { return std::sqrt(sum / count); }
 };
 }  // namespace
@@ -172,7 +177,8 @@ TEST_CASE("without airspeed the aircraft keeps its height on trim throttle") {
   double lowest = 1e9;
   for (int i = 0; i < 3000; ++i) {
     VehicleState s = flight.model.state();
-    s.airspeed_valid = false, s.airspeed_mps = 0;
+    s.airspeed_valid = false;
+    s.airspeed_mps = 0;
     flight.outer.set(flight.outer.in.state, s);
     CHECK(flight.outer.step(0.01) == Status::degraded);
     flight.inner.set(flight.inner.in.state, s);

@@ -75,7 +75,8 @@ TEST_CASE("gains fall with the square of the airspeed, within their bounds") {
   CHECK(step(bench, flying(50), c).aileron_rad == doctest::Approx(0.12 / 2.5));
   CHECK(step(bench, flying(3.5), c).aileron_rad == doctest::Approx(0.12 * 2.5));
   VehicleState blind = flying(0);
-  blind.ground_speed_mps = 15, blind.airspeed_valid = false;
+  blind.ground_speed_mps = 15;
+  blind.airspeed_valid = false;
   CHECK(step(bench, blind, c).aileron_rad == doctest::Approx(0.12));
 }
 
@@ -107,7 +108,8 @@ TEST_CASE("the yaw damper's frequency response is kd s / (s + p)") {
       bench.step(dt);
       if (k * dt < start) continue;
       const std::complex<double> phasor = std::exp(std::complex<double>(0, -omega * k * dt));
-      in += s.rate_radps.z * phasor, out += bench.out.actuators.rudder_rad * phasor;
+      in += s.rate_radps.z * phasor;
+      out += bench.out.actuators.rudder_rad * phasor;
     }
     const std::complex<double> s(0, omega), analytic = kd * s / (s + pole);
     const std::complex<double> over = out / in / analytic;
@@ -121,7 +123,8 @@ TEST_CASE(
   Bench<Inner> bench;
   no_integrals(bench);
   VehicleState s = flying();
-  s.roll_rad = 0.7, s.pitch_rad = 0.05;
+  s.roll_rad = 0.7;
+  s.pitch_rad = 0.05;
   // Body rates of psi' = g tan(phi) / Va, B&M (3.3).
   const double psi_dot = 9.80665 * std::tan(0.7) / cruise;
   s.rate_radps = {0, std::sin(0.7) * std::cos(0.05) * psi_dot, std::cos(0.7) * std::cos(0.05) * psi_dot};
@@ -151,7 +154,9 @@ TEST_CASE("a saturated elevator's integral unwinds as soon as the error turns") 
 TEST_CASE("on the ground nothing is integrated") {
   Bench<Inner> bench;
   VehicleState s = flying(0);
-  s.height_m = 0, s.pitch_rad = 0.1, s.roll_rad = -0.05;
+  s.height_m = 0;
+  s.pitch_rad = 0.1;
+  s.roll_rad = -0.05;
   const Actuators first = step(bench, s, {}, 1);
   const Actuators later = step(bench, s, {}, 6000);
   CHECK(later.elevator_rad == doctest::Approx(first.elevator_rad));
@@ -203,7 +208,9 @@ TEST_CASE(
     bench.step(0.01);
     CHECK(u.throttle_frac == 0.5);
     bench.set(bench.in.state, flying());
-    bench.activate(last), bench.step(0.01), bench.activate();  // nor after a pilot
+    bench.activate(last);
+    bench.step(0.01);
+    bench.activate();  // nor after a pilot
     bench.step(0.01);
     CHECK(u.throttle_frac == 0.5);
   }
@@ -213,9 +220,11 @@ TEST_CASE("surfaces at zero in a glide are somebody's command; after nobody the 
   for (const bool somebody : {true, false}) {
     Bench<Inner> bench;
     auto& airframe = bench.params.airframe.value;
-    airframe.elevator.trim_rad = -0.04, airframe.aileron.trim_rad = 0.03;
+    airframe.elevator.trim_rad = -0.04;
+    airframe.aileron.trim_rad = 0.03;
     VehicleState s = flying();
-    s.pitch_rad = 0.02, s.roll_rad = 0.01;
+    s.pitch_rad = 0.02;
+    s.roll_rad = 0.01;
     bench.set(bench.in.state, s);
     bench.set(bench.in.attitude, AttitudeCommand{0.02, 0.03, 0});
     REQUIRE((somebody ? bench.activate(Inner::Outputs{}) : bench.activate()) == Status::ok);
@@ -234,7 +243,8 @@ TEST_CASE("deflections stay within the throws and throttle in 0 to 1, for any st
   for (int i = 0; i < 20000; ++i) {
     VehicleState s = flying(random.uniform(0, 60));
     s.airspeed_valid = random.uniform() < 0.8;
-    s.roll_rad = random.uniform(-3.14, 3.14), s.pitch_rad = random.uniform(-1.5, 1.5);
+    s.roll_rad = random.uniform(-3.14, 3.14);
+    s.pitch_rad = random.uniform(-1.5, 1.5);
     s.rate_radps = {random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-10, 10)};
     bench.set(bench.in.state, s);
     bench.set(bench.in.attitude,
@@ -257,7 +267,9 @@ TEST_CASE("without an attitude the surfaces follow the command's rate alone, and
   no_integrals(bench);
   VehicleState s = flying();
   s.attitude_valid = false;
-  s.roll_rad = 0.6, s.pitch_rad = -0.2, s.rate_radps = {1, 1, 1};  // stand-ins: nothing may follow them
+  s.roll_rad = 0.6;
+  s.pitch_rad = -0.2;
+  s.rate_radps = {1, 1, 1};  // stand-ins: nothing may follow them
   const Actuators& u = step(bench, s, {0.2, 0.05, 0.5});
   CHECK(u.aileron_rad == doctest::Approx(0).epsilon(1e-6));
   CHECK(u.elevator_rad == doctest::Approx(0).epsilon(1e-6));
@@ -280,7 +292,8 @@ TEST_CASE("when attitude is known again it is held once the command answers to i
   step(bench, s, {0, 0.05, 0.5});
   const Actuators last = bench.out.actuators;
   s = flying();
-  s.roll_rad = 0.5, s.pitch_rad = 0.2;
+  s.roll_rad = 0.5;
+  s.pitch_rad = 0.2;
   bench.tick.now_ns += 1'000'000;  // the command is older than this state
   bench.set(bench.in.state, s);
   CHECK(bench.step(0.01) == Status::degraded);
@@ -295,9 +308,11 @@ TEST_CASE("when attitude is known again it is held once the command answers to i
 TEST_CASE("when a pilot hands back the surfaces begin at their trim: what nobody commanded is not taken up") {
   Bench<Inner> bench;
   auto& airframe = bench.params.airframe.value;
-  airframe.elevator.trim_rad = -0.12, airframe.aileron.trim_rad = 0.03;
+  airframe.elevator.trim_rad = -0.12;
+  airframe.aileron.trim_rad = 0.03;
   VehicleState s = flying();
-  s.roll_rad = 0.02, s.pitch_rad = 0.05;
+  s.roll_rad = 0.02;
+  s.pitch_rad = 0.05;
   bench.set(bench.in.state, s);
   bench.set(bench.in.attitude, AttitudeCommand{0.02, 0.05, 0.5});
   for (int i = 0; i < 100; ++i) {
@@ -338,9 +353,12 @@ TEST_CASE("a sideslip that is asked for is held by rudder and aileron, until nob
     Bench<Inner> bench;
     no_integrals(bench);
     Airframe& a = bench.params.airframe.value;
-    a.aero.yaw.beta_ratio = 0.13, a.aero.yaw.rudder_ratio = -0.065;
-    a.aero.roll.beta_ratio = -0.12, a.aero.roll.aileron_ratio = 0.16;
-    a.rudder.trim_rad = 0.01, a.aileron.trim_rad = 0.02;
+    a.aero.yaw.beta_ratio = 0.13;
+    a.aero.yaw.rudder_ratio = -0.065;
+    a.aero.roll.beta_ratio = -0.12;
+    a.aero.roll.aileron_ratio = 0.16;
+    a.rudder.trim_rad = 0.01;
+    a.aileron.trim_rad = 0.02;
     step(bench, flying(), {});
     // Air from the right: nose left, positive rudder; the dihedral rolls away from it, positive aileron.
     bench.set(bench.in.sideslip, SideslipCommand{side * 0.1});
@@ -374,7 +392,8 @@ TEST_CASE("the aileron works against sideslip where it is asked to, and only whi
     no_integrals(bench);
     bench.params.airspeed_smoothing.value = 0;
     VehicleState s = flying(20);
-    s.yaw_rad = 2, s.beta_rad = beta;
+    s.yaw_rad = 2;
+    s.beta_rad = beta;
     bench.params.roll_from_sideslip.value = 0;
     bench.retune();
     CHECK(step(bench, s, {}, 1).aileron_rad == 0);
@@ -383,7 +402,8 @@ TEST_CASE("the aileron works against sideslip where it is asked to, and only whi
     CHECK(step(bench, s, {}, 1).aileron_rad == doctest::Approx(0.5625 * 0.6 * beta));  // (15/20)^2
     s.airspeed_valid = false;                                                          // a stand-in
     CHECK(step(bench, s, {}, 1).aileron_rad == 0);
-    s.airspeed_valid = true, s.attitude_valid = false;  // nothing is known of it
+    s.airspeed_valid = true;
+    s.attitude_valid = false;  // nothing is known of it
     CHECK(step(bench, s, {}, 1).aileron_rad == 0);
   }
 }
@@ -391,9 +411,11 @@ TEST_CASE("the aileron works against sideslip where it is asked to, and only whi
 TEST_CASE("on the ground a surface is its gain times the error to the last digit: no integral of one step") {
   Bench<Inner> bench;
   VehicleState s = flying(0);
-  s.height_m = 0, s.roll_rad = -0.05;
+  s.height_m = 0;
+  s.roll_rad = -0.05;
   CHECK(step(bench, s, {}, 10).aileron_rad == doctest::Approx(2.5 * 1.2 * 0.05));
-  s.roll_rad = 0, s.pitch_rad = 0.02;
+  s.roll_rad = 0;
+  s.pitch_rad = 0.02;
   CHECK(step(bench, s, {}, 10).elevator_rad == doctest::Approx(2.5 * 4 * 0.02));
 }
 

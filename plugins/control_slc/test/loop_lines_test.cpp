@@ -38,7 +38,8 @@ struct Axis {
       const double u = passes * before + disturbance;
       const double next = keep * rate + (1 - keep) / lag * power * sign * u;
       angle += T * (rate + next) / 2;  // of the trapezoid, as the fit takes it
-      rate = next, before = total;
+      rate = next;
+      before = total;
     }
     return lines.record();
   }
@@ -109,7 +110,8 @@ TEST_CASE("the excitation has size 1, is periodic and ends where it began") {
   double most = 0, sum = 0;
   for (int k = 0; k < 500; ++k) {
     const double x = lines.at(T * k);
-    most = std::max(most, std::abs(x)), sum += x * x;
+    most = std::max(most, std::abs(x));
+    sum += x * x;
     CHECK(std::abs(x - lines.at(T * k + Lines::record_s / 2)) < 1e-9);
   }
   CHECK(most < 1.02);
@@ -188,7 +190,8 @@ TEST_CASE("an axis that answers stands out of the noise, and one that does not n
     stuck.random = Random(static_cast<std::uint64_t>(k + 1));
     stuck.passes = 0;
     const double answer = stuck.fly().answer;
-    sum += answer, most = std::max(most, answer);
+    sum += answer;
+    most = std::max(most, answer);
   }
   CHECK(std::abs(sum / flights - 1) < 0.3);
   CHECK(most < 2.5);
@@ -274,7 +277,11 @@ TEST_CASE("a damper gets the gain whose loop is nearest to 1.25 at its peak, or 
 
 TEST_CASE("an axis that leaves no margin at all has no gains") {
   LoopRecord r;
-  for (std::size_t i = 0; i < Lines::count; ++i) r.loop[i] = -20.0, r.rate[i] = -1.0, r.attitude[i] = 0;
+  for (std::size_t i = 0; i < Lines::count; ++i) {
+    r.loop[i] = -20.0;
+    r.rate[i] = -1.0;
+    r.attitude[i] = 0;
+  }
   GainSearch search;
   search.begin(r, {0, 0, 0.3}, {});
   while (!search.step()) {
@@ -284,8 +291,12 @@ TEST_CASE("an axis that leaves no margin at all has no gains") {
 
 TEST_CASE("the noise that counts is that of the lines near |L| = 1, or of the highest") {
   LoopRecord r;
-  for (std::size_t i = 0; i < Lines::count; ++i) r.loop[i] = 50, r.noise[i] = 0.9;
-  r.loop[7] = 1, r.noise[7] = 0.1;
+  for (std::size_t i = 0; i < Lines::count; ++i) {
+    r.loop[i] = 50;
+    r.noise[i] = 0.9;
+  }
+  r.loop[7] = 1;
+  r.noise[7] = 0.1;
   r.loop[8] = 0.01;
   CHECK(std::abs(noise_of(r) - 0.1) < 1e-12);
   for (std::size_t i = 0; i < Lines::count; ++i) r.loop[i] = 0.001;

@@ -29,10 +29,17 @@ struct Throttle : Bench<slc::Airspeed> {
   Throttle() {
     Airframe& a = params.airframe.value;
     a.mass_kg = 4;
-    a.wing.area_m2 = 0.5, a.wing.span_m = 2, a.wing.chord_m = 0.25, a.wing.oswald_ratio = 0.9;
+    a.wing.area_m2 = 0.5;
+    a.wing.span_m = 2;
+    a.wing.chord_m = 0.25;
+    a.wing.oswald_ratio = 0.9;
     a.aero = {};
-    a.aero.lift.alpha_ratio = 5, a.aero.pitch.elevator_ratio = -1, a.aero.parasite_drag_ratio = 0.03;
-    a.limits.airspeed_min_mps = 12, a.limits.airspeed_cruise_mps = 18, a.limits.airspeed_max_mps = 30;
+    a.aero.lift.alpha_ratio = 5;
+    a.aero.pitch.elevator_ratio = -1;
+    a.aero.parasite_drag_ratio = 0.03;
+    a.limits.airspeed_min_mps = 12;
+    a.limits.airspeed_cruise_mps = 18;
+    a.limits.airspeed_max_mps = 30;
     a.limits.throttle_cruise_frac = 0.4;
     params.thrust.value = 40;
     params.speed_kp.value = params.speed_ki.value = 0;
@@ -41,7 +48,9 @@ struct Throttle : Bench<slc::Airspeed> {
   double begin(double airspeed_mps, double command_mps) {
     GuidanceCommand command;
     command.airspeed_mps = command_mps;
-    set(in.state, flying(airspeed_mps)), set(in.wanted, AttitudeCommand{}), set(in.command, command);
+    set(in.state, flying(airspeed_mps));
+    set(in.wanted, AttitudeCommand{});
+    set(in.command, command);
     retune();
     activate();
     return again();

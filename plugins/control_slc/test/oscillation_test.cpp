@@ -48,7 +48,8 @@ struct Shaken : Bench<Inner> {
   void fly(double seconds, const std::function<void(Shaken&, double)>& shake) {
     for (const int end = k + static_cast<int>(std::lround(seconds * 100)); k < end; ++k) {
       shake(*this, std::sin(20 * 0.01 * k));
-      set(in.state, s), set(in.attitude, command);
+      set(in.state, s);
+      set(in.attitude, command);
       REQUIRE(allocations([&] { status = step(0.01); }) == 0);
       notices += static_cast<int>(out.notices.count);
       if (out.notices.count > 0) told = out.notices.items[0].text.bytes.data();
@@ -59,10 +60,17 @@ struct Shaken : Bench<Inner> {
     Shaken& self = *this;
     self.s = flying();
     command = {};
-    for (int i = 0; i < 300; ++i) set(in.state, s), set(in.attitude, command), step(0.01);
+    for (int i = 0; i < 300; ++i) {
+      set(in.state, s);
+      set(in.attitude, command);
+      step(0.01);
+    }
     const Actuators before = out.actuators;
-    s.roll_rad = -0.01, s.pitch_rad = -0.01, s.rate_radps.z = 0.01;
-    set(in.state, s), step(0.01);
+    s.roll_rad = -0.01;
+    s.pitch_rad = -0.01;
+    s.rate_radps.z = 0.01;
+    set(in.state, s);
+    step(0.01);
     return {0, (out.actuators.aileron_rad - before.aileron_rad) / 0.01,
             -(out.actuators.elevator_rad - before.elevator_rad) / 0.01,
             (out.actuators.rudder_rad - before.rudder_rad) / 0.01};
@@ -166,8 +174,10 @@ TEST_CASE("a hand-over leaves what was learnt, other gains begin anew, the same 
 
 TEST_CASE("the command, the ground, an attitude that is not known and an aileron's yaw are no oscillations") {
   Shaken swept;
-  swept.fly(
-      3, [](Shaken& f, double wave) { f.command.roll_rad = 0.3 * wave, f.command.pitch_rad = 0.05 * wave; });
+  swept.fly(3, [](Shaken& f, double wave) {
+    f.command.roll_rad = 0.3 * wave;
+    f.command.pitch_rad = 0.05 * wave;
+  });
   CHECK(swept.notices == 0);
   Shaken ground;
   ground.fly(3, [](Shaken& f, double wave) {

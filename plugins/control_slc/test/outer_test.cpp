@@ -79,10 +79,14 @@ TEST_CASE("a reset of the state that is told is answered as by a law that has ne
     bench.params.common.throttle_rate_limit.value = 20;
   };
   VehicleState after = flying();
-  after.height_m += 10, after.position_m.down -= 10;
-  after.velocity_mps.north += 3, after.airspeed_mps += 3, after.ground_speed_mps += 3;
+  after.height_m += 10;
+  after.position_m.down -= 10;
+  after.velocity_mps.north += 3;
+  after.airspeed_mps += 3;
+  after.ground_speed_mps += 3;
   after.reset_count = 1;
-  after.reset_position_m.down = -10, after.reset_velocity_mps.north = 3;
+  after.reset_position_m.down = -10;
+  after.reset_velocity_mps.north = 3;
   Bench<Outer> fresh;
   prepare(fresh);
   const AttitudeCommand wanted = settle(fresh, after, level());
@@ -106,10 +110,14 @@ TEST_CASE("the runway does not turn when the yaw is reset; a course that was mea
   const FlightLimits limits;
   for (const double ground_speed : {0.0, 5.0}) {
     VehicleState s = flying();
-    s.yaw_rad = 0.1, s.course_rad = 0.1, s.ground_speed_mps = ground_speed;
+    s.yaw_rad = 0.1;
+    s.course_rad = 0.1;
+    s.ground_speed_mps = ground_speed;
     TakeoffRun run;
     run.begin(s);
-    s.yaw_rad = 0.5, s.reset_count = 1, s.reset_yaw_rad = 0.4;
+    s.yaw_rad = 0.5;
+    s.reset_count = 1;
+    s.reset_yaw_rad = 0.4;
     (void)run.step(s, tuning, limits);
     (void)run.step(s, tuning, limits);
     CHECK(run.course_rad() == doctest::Approx(ground_speed > 3 ? 0.1 : 0.5));
@@ -120,11 +128,13 @@ TEST_CASE("course error wraps through north") {
   Bench<Outer> bench;
   VehicleState s = flying();
   GuidanceCommand c = level();
-  s.course_rad = 3.1, c.course_rad = -3.1;
+  s.course_rad = 3.1;
+  c.course_rad = -3.1;
   settle(bench, s, c);
   CHECK(bench.out.internals.course_error_rad == doctest::Approx(2 * 3.14159265358979 - 6.2));
   CHECK(bench.out.attitude.roll_rad > 0);
-  s.course_rad = -0.05, c.course_rad = 6.2;
+  s.course_rad = -0.05;
+  c.course_rad = 6.2;
   CHECK(settle(bench, s, c).roll_rad == doctest::Approx(2 * (6.2 - 2 * 3.14159265358979 + 0.05)));
 }
 
@@ -155,7 +165,8 @@ TEST_CASE("pitch follows the height law") {
   s.climb_rate_mps = 1.35;
   CHECK(settle(bench, s, level()).pitch_rad == doctest::Approx(0.09));
   GuidanceCommand c = level();
-  c.height_m = 69, c.climb_rate_mps = 1.5;
+  c.height_m = 69;
+  c.climb_rate_mps = 1.5;
   s.climb_rate_mps = 1.5;
   CHECK(settle(bench, s, c).pitch_rad == doctest::Approx(0.1));
 }
@@ -163,9 +174,11 @@ TEST_CASE("pitch follows the height law") {
 TEST_CASE("far from the height wanted the climb and sink limits govern and nothing is integrated") {
   Bench<Outer> bench;
   VehicleState s = flying();
-  s.height_m = 20, s.climb_rate_mps = 4;
+  s.height_m = 20;
+  s.climb_rate_mps = 4;
   CHECK(settle(bench, s, level(), 60).pitch_rad == doctest::Approx(4 / cruise));
-  s.height_m = 200, s.climb_rate_mps = -3;
+  s.height_m = 200;
+  s.climb_rate_mps = -3;
   CHECK(settle(bench, s, level(), 60).pitch_rad == doctest::Approx(-3 / cruise));
   CHECK(bench.out.pitch_integral_rad.value == 0);
 }
@@ -177,7 +190,8 @@ TEST_CASE("throttle is trim, feed-forward, proportion and integral") {
   s.airspeed_mps = 14;
   CHECK(settle(bench, s, level()).throttle_frac == doctest::Approx(0.5 + 0.15));
   GuidanceCommand c = level();
-  s.airspeed_mps = 17, c.airspeed_mps = 17;
+  s.airspeed_mps = 17;
+  c.airspeed_mps = 17;
   CHECK(settle(bench, s, c).throttle_frac == doctest::Approx(0.5 + 2 * 0.03));
   c.climb_rate_mps = 2;
   CHECK(settle(bench, s, c).throttle_frac == doctest::Approx(0.5 + 2 * 0.03 + 2 * 0.04));
@@ -211,11 +225,14 @@ TEST_CASE("throttle stays in 0 to 1, pitch and roll in their limits, for any sta
     bench.params.common.law.value = law;
     for (int i = 0; i < 20000; ++i) {
       VehicleState s = flying();
-      s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15),
+      s.height_m = random.uniform(-50, 500);
+      s.climb_rate_mps = random.uniform(-15, 15);
       s.airspeed_mps = random.uniform(0, 60);
-      s.ground_speed_mps = random.uniform(0, 60), s.course_rad = random.uniform(-3.14, 3.14),
+      s.ground_speed_mps = random.uniform(0, 60);
+      s.course_rad = random.uniform(-3.14, 3.14);
       s.roll_rad = random.uniform(-3.14, 3.14);
-      s.pitch_rad = random.uniform(-1.5, 1.5), s.airspeed_valid = random.uniform() < 0.8;
+      s.pitch_rad = random.uniform(-1.5, 1.5);
+      s.airspeed_valid = random.uniform() < 0.8;
       const GuidanceCommand c{random.uniform(-10, 10), random.uniform(-100, 1000), random.uniform(-10, 10),
                               random.uniform(-5, 60), random.uniform(-2, 2)};
       bench.set(bench.in.state, s);
@@ -232,7 +249,8 @@ TEST_CASE("throttle stays in 0 to 1, pitch and roll in their limits, for any sta
 TEST_CASE("near the stall the nose may not rise") {
   Bench<Outer> bench;
   VehicleState s = flying();
-  s.height_m = 20, s.airspeed_mps = 8;  // 0.8 of the minimum
+  s.height_m = 20;
+  s.airspeed_mps = 8;  // 0.8 of the minimum
   CHECK(settle(bench, s, level()).pitch_rad <= 0);
   s.airspeed_mps = 10;
   CHECK(settle(bench, s, level()).pitch_rad > 0.3);
@@ -243,7 +261,8 @@ TEST_CASE("taking over is bumpless from any last command") {
   for (int i = 0; i < 200; ++i) {
     Bench<Outer> bench;
     VehicleState s = flying();
-    s.height_m = random.uniform(40, 100), s.airspeed_mps = random.uniform(11, 20),
+    s.height_m = random.uniform(40, 100);
+    s.airspeed_mps = random.uniform(11, 20);
     s.course_rad = random.uniform(-3, 3);
     bench.set(bench.in.state, s);
     bench.set(bench.in.command, level());
@@ -295,14 +314,17 @@ TEST_CASE("the take-off law keeps the runway's course, waits with the rotation, 
   Bench<Outer> bench;
   bench.params.common.law.value = OuterLaw::takeoff;
   VehicleState s = flying();
-  s.height_m = 0.3, s.airspeed_mps = s.ground_speed_mps = 0, s.yaw_rad = s.course_rad = 1.0;
+  s.height_m = 0.3;
+  s.airspeed_mps = s.ground_speed_mps = 0;
+  s.yaw_rad = s.course_rad = 1.0;
   GuidanceCommand c = level();
   c.course_rad = -2;
   const AttitudeCommand& a = settle(bench, s, c);
   CHECK(a.throttle_frac == 1);
   CHECK(a.pitch_rad == 0);
   CHECK(a.roll_rad == 0);
-  s.airspeed_mps = s.ground_speed_mps = 12.9, s.course_rad = 1.05;
+  s.airspeed_mps = s.ground_speed_mps = 12.9;
+  s.course_rad = 1.05;
   settle(bench, s, c);
   CHECK(bench.out.attitude.pitch_rad == 0);
   CHECK(bench.out.attitude.roll_rad == 0);
@@ -321,7 +343,8 @@ TEST_CASE("the take-off law keeps the runway's course, waits with the rotation, 
 TEST_CASE("an aircraft that stands has its engine off and learns nothing") {
   Bench<Outer> bench;
   VehicleState s = flying();
-  s.height_m = 0, s.airspeed_mps = s.ground_speed_mps = 0.3;
+  s.height_m = 0;
+  s.airspeed_mps = s.ground_speed_mps = 0.3;
   for (bool valid : {true, false}) {
     s.airspeed_valid = valid;
     settle(bench, s, level(), 60);
@@ -335,9 +358,11 @@ TEST_CASE("an aircraft that stands has its engine off and learns nothing") {
 TEST_CASE("without airspeed the throttle is trim and climb feed-forward, and the step says degraded") {
   Bench<Outer> bench;
   VehicleState s = flying();
-  s.airspeed_valid = false, s.airspeed_mps = 0;
+  s.airspeed_valid = false;
+  s.airspeed_mps = 0;
   GuidanceCommand c = level();
-  c.climb_rate_mps = 2, s.climb_rate_mps = 2;
+  c.climb_rate_mps = 2;
+  s.climb_rate_mps = 2;
   bench.set(bench.in.state, s);
   bench.set(bench.in.command, c);
   for (int i = 0; i < 6000; ++i) CHECK_EQ(bench.step(0.01), Status::degraded);
@@ -354,7 +379,9 @@ TEST_CASE(
     Bench<Outer> bench;
     VehicleState s = flying();
     settle(bench, s, level());
-    s.airspeed_mps = airspeed, s.roll_rad = 0.5, s.pitch_rad = -0.1;
+    s.airspeed_mps = airspeed;
+    s.roll_rad = 0.5;
+    s.pitch_rad = -0.1;
     pilot_flies(bench, s, level());
     CHECK(std::abs(bench.out.attitude.throttle_frac - 0.5) <= 0.0201);  // 2 per second
     CHECK(std::abs(bench.out.attitude.roll_rad - 0.5) <= 0.0101);
@@ -362,7 +389,10 @@ TEST_CASE(
     CHECK(std::abs(bench.out.throttle_integral_frac.value) < 0.001);
     CHECK(std::abs(bench.out.pitch_integral_rad.value) < 0.001);
     double least = 1;
-    for (int i = 0; i < 50; ++i) bench.step(0.01), least = std::min(least, bench.out.attitude.throttle_frac);
+    for (int i = 0; i < 50; ++i) {
+      bench.step(0.01);
+      least = std::min(least, bench.out.attitude.throttle_frac);
+    }
     CHECK(least > 0.3);  // half a metre per second too fast asks for that
   }
 }
@@ -371,7 +401,9 @@ TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins 
   for (const bool somebody : {true, false}) {
     Bench<Outer> bench;
     VehicleState s = flying();
-    s.roll_rad = 0.3, s.pitch_rad = 0.1, s.height_m = 60;  // too low: the law asks for more than trim
+    s.roll_rad = 0.3;
+    s.pitch_rad = 0.1;
+    s.height_m = 60;  // too low: the law asks for more than trim
     bench.set(bench.in.state, s);
     bench.set(bench.in.command, level());
     REQUIRE((somebody ? bench.activate(Outer::Outputs{}) : bench.activate()) == Status::ok);
@@ -401,9 +433,12 @@ TEST_CASE(
     Bench<Outer> bench;
     VehicleState s = flying();
     GuidanceCommand c = level();
-    c.course_rad = 1, c.height_m = 90;
+    c.course_rad = 1;
+    c.height_m = 90;
     CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.785));
-    s.roll_rad = 0.6, s.airspeed_mps = 5, s.airspeed_valid = false;  // stand-ins: nothing may follow them
+    s.roll_rad = 0.6;
+    s.airspeed_mps = 5;
+    s.airspeed_valid = false;  // stand-ins: nothing may follow them
     (attitude ? s.height_valid : s.attitude_valid) = false;
     CHECK(settle(bench, s, c, 0.3).roll_rad > 0.785 - 0.3 - 1e-9);
     CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0).epsilon(1e-6));
@@ -421,7 +456,8 @@ TEST_CASE("when attitude is known again the command goes on from it") {
   s.attitude_valid = s.velocity_valid = s.height_valid = s.airspeed_valid = false;
   settle(bench, s, level());
   s = flying();
-  s.roll_rad = -0.4, s.pitch_rad = 0.12;
+  s.roll_rad = -0.4;
+  s.pitch_rad = 0.12;
   bench.set(bench.in.state, s);
   CHECK(bench.step(0.01) == Status::ok);
   CHECK(std::abs(bench.out.attitude.roll_rad + 0.4) <= 0.0401);  // smoothed towards 0 with 0.1 s
@@ -436,7 +472,9 @@ TEST_CASE("without a velocity there is no course to hold: wings level, height go
   VehicleState s = flying();
   s.velocity_valid = false;
   GuidanceCommand c = level();
-  c.course_rad = 1, c.roll_feedforward_rad = 0.3, c.height_m = 72;
+  c.course_rad = 1;
+  c.roll_feedforward_rad = 0.3;
+  c.height_m = 72;
   CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0));
   CHECK(bench.out.attitude.pitch_rad > 0.1);
   CHECK(bench.step(0.01) == Status::degraded);
@@ -447,7 +485,8 @@ TEST_CASE(
   Bench<Outer> bench;
   bench.params.climb_kff.value = 0.5;
   VehicleState s = flying();
-  s.airspeed_valid = false, s.height_m = 20;
+  s.airspeed_valid = false;
+  s.height_m = 20;
   CHECK(settle(bench, s, level()).throttle_frac == 1);  // of 0.5 + 0.5 * 4 m/s
   s.height_m = 70;
   CHECK(settle(bench, s, level(), 0.25).throttle_frac == doctest::Approx(0.5));  // at 2 per second

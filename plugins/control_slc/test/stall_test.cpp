@@ -28,8 +28,10 @@ struct Flight {
 
   Flight(const Airframe& nominal, const Airframe& body, Turbulence turbulence, std::uint64_t seed)
       : model(body, turbulence, seed) {
-    for (Record<Airframe>* record : {&outer.params.common.airframe, &inner.params.airframe})
-      record->value = nominal, record->is_given = true;
+    for (Record<Airframe>* record : {&outer.params.common.airframe, &inner.params.airframe}) {
+      record->value = nominal;
+      record->is_given = true;
+    }
   }
 
   /// What an estimator sees of the air is level: an updraft is in its angle of attack.
@@ -55,7 +57,8 @@ struct Flight {
       for (int i = 0; i < 4; ++i) model.step(inner.out.actuators, 0.0025);
       const bool stalled = model.state().alpha_rad > model.airframe.wing.stall_alpha_rad;
       stalled_s = stalled ? stalled_s + 0.01 : 0;
-      longest_s = std::max(longest_s, stalled_s), lowest_m = std::min(lowest_m, state.height_m);
+      longest_s = std::max(longest_s, stalled_s);
+      lowest_m = std::min(lowest_m, state.height_m);
       reported += outer.out.internals.stalled;
     }
   }

@@ -120,14 +120,16 @@ TEST_CASE_TEMPLATE("what no aircraft can do is limited, told, and not followed i
     CAPTURE(w.climb_mps);
     FlightOf<Law> flight;
     flight.run(10);
-    flight.command.height_m = w.height_m, flight.command.climb_rate_mps = w.climb_mps;
+    flight.command.height_m = w.height_m;
+    flight.command.climb_rate_mps = w.climb_mps;
     flight.command.airspeed_mps = w.airspeed_mps;
     double slowest = 99, fastest = 0;
     unsigned told = 0, steps = 0;
     flight.run(8, [&] {
       slowest = std::min(slowest, flight.state.airspeed_mps);
       fastest = std::max(fastest, flight.state.airspeed_mps);
-      ++steps, told += flight.outer.out.internals.pitch_saturated;
+      ++steps;
+      told += flight.outer.out.internals.pitch_saturated;
     });
     CHECK(slowest > 11);  // it stalls at 10, and 12 is the least that is flown
     CHECK(fastest < 28);

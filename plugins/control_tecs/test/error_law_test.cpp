@@ -43,7 +43,8 @@ struct Flown : Bench<tecs::ErrorLaw> {
   }
   const AttitudeCommand& settle(const VehicleState& state, const GuidanceCommand& command,
                                 double seconds = 3) {
-    set(in.state, state), set(in.command, command);
+    set(in.state, state);
+    set(in.command, command);
     for (int i = 0; i < static_cast<int>(seconds * 100 + 0.5); ++i) step(0.01);
     return out.attitude;
   }
@@ -92,7 +93,8 @@ TEST_CASE("far away the climb and sink limits govern, that of the path included,
       Flown law(true);
       const double trim = law.settle(flying(17), level(17), 0.5).pitch_rad;
       GuidanceCommand command = level(17);
-      command.height_m += 200 * side, command.climb_rate_mps = path;
+      command.height_m += 200 * side;
+      command.climb_rate_mps = path;
       const double rate = side > 0 ? 4 : -3;
       VehicleState s = flying(17);
       s.climb_rate_mps = rate;  // what is demanded is flown
@@ -109,7 +111,8 @@ TEST_CASE("far away the climb and sink limits govern, that of the path included,
 TEST_CASE("the path's climb and the turn's drag are fed forward") {
   Flown law;
   const Airframe a = test::anaconda();
-  law.params.common.airframe.value = a, law.params.common.airframe.is_given = true;
+  law.params.common.airframe.value = a;
+  law.params.common.airframe.is_given = true;
   const AttitudeCommand straight = law.settle(flying(20), level(20));
   GuidanceCommand command = level(20);
   command.climb_rate_mps = 1.5;
@@ -191,12 +194,17 @@ TEST_CASE("whatever it is told, what it says is finite and within its limits, wi
   law.settle(flying(15), level(15), 0.1);
   for (int i = 0; i < 3000; ++i) {
     VehicleState s = flying(30 * random.uniform(), 6 * random.uniform() - 3);
-    s.height_m = 1000 * random.uniform() - 500, s.pitch_rad = random.uniform(-0.3, 0.3);
+    s.height_m = 1000 * random.uniform() - 500;
+    s.pitch_rad = random.uniform(-0.3, 0.3);
     s.climb_rate_mps = 40 * random.uniform() - 20;
-    s.airspeed_valid = i % 3 != 0, s.height_valid = i % 5 != 0, s.attitude_valid = i % 7 != 0;
+    s.airspeed_valid = i % 3 != 0;
+    s.height_valid = i % 5 != 0;
+    s.attitude_valid = i % 7 != 0;
     GuidanceCommand c = level(60 * random.uniform() - 10, 3);
-    c.height_m = 1e4 * random.uniform(), c.climb_rate_mps = 100 * random.uniform() - 50;
-    law.set(law.in.state, s), law.set(law.in.command, c);
+    c.height_m = 1e4 * random.uniform();
+    c.climb_rate_mps = 100 * random.uniform() - 50;
+    law.set(law.in.state, s);
+    law.set(law.in.command, c);
     CHECK(allocations([&] { law.step(0.01); }) == 0);
     CHECK(law.fault() == "");
     CHECK(std::abs(law.out.attitude.pitch_rad) <= 0.35 + 1e-9);
@@ -214,7 +222,8 @@ TEST_CASE(
     GuidanceCommand c = level(15);
     for (int i = 0; i < 36000; ++i) {
       if (i == 24000) c.height_m = s.height_m + side * 200;
-      law.set(law.in.state, s), law.set(law.in.command, c);
+      law.set(law.in.state, s);
+      law.set(law.in.command, c);
       law.step(0.01);
       const double level_pitch = i < 24000 ? before_rad * std::min(1.0, i / 18000.0) : after_rad;
       s.climb_rate_mps = 15 * (law.out.attitude.pitch_rad - level_pitch);
@@ -238,7 +247,8 @@ TEST_CASE("a throttle that has learnt too much does not hold off a limited desce
   GuidanceCommand c = level(15);
   const auto fly = [&](double lost_frac) {
     for (int i = 0; i < 24000; ++i) {
-      law.set(law.in.state, s), law.set(law.in.command, c);
+      law.set(law.in.state, s);
+      law.set(law.in.command, c);
       law.step(0.01);
       const double level = 0.5 + lost_frac * std::min(1.0, i / 18000.0);
       s.climb_rate_mps = (law.out.attitude.throttle_frac - level) * 50 / (4.5 * g) * 15;

@@ -27,7 +27,8 @@ struct PointMassFlight : Bench<Law> {
     Airframe& a = p.common.airframe.value;
     a.mass_kg = 4.5;
     a.limits.climb_rate_max_mps = a.limits.sink_rate_max_mps = 5;
-    a.limits.airspeed_cruise_mps = 16, a.limits.throttle_cruise_frac = 0.5;
+    a.limits.airspeed_cruise_mps = 16;
+    a.limits.throttle_cruise_frac = 0.5;
     p.speed_weight.value = speed_weight;
     p.airspeed_kff.value = 0;                 // of this mass: no drag that grows with speed
     p.thrust.value = 4.5 * g * 5 / 16 / 0.5;  // its engine
@@ -36,10 +37,14 @@ struct PointMassFlight : Bench<Law> {
     for (double t = 0; t < seconds - 0.5 * dt; t += dt) {
       VehicleState s;
       s.airspeed_valid = s.attitude_valid = s.velocity_valid = s.height_valid = s.position_valid = true;
-      s.airspeed_mps = V, s.ground_speed_mps = V * std::cos(gamma), s.height_m = h;
-      s.climb_rate_mps = V * std::sin(gamma), s.pitch_rad = gamma;
+      s.airspeed_mps = V;
+      s.ground_speed_mps = V * std::cos(gamma);
+      s.height_m = h;
+      s.climb_rate_mps = V * std::sin(gamma);
+      s.pitch_rad = gamma;
       s.specific_force_mps2 = {V_dot + g * std::sin(gamma), 0, -g * std::cos(gamma)};
-      this->set(this->in.state, s), this->set(this->in.command, command);
+      this->set(this->in.state, s);
+      this->set(this->in.command, command);
       this->step(dt);
       gamma = this->out.attitude.pitch_rad;
       const double energy_rate = g * 10 * (this->out.attitude.throttle_frac - 0.5);  // m2/s3

@@ -96,7 +96,8 @@ TEST_CASE(
     "airspeed without gusts: what the body does has no lag, what the air does goes through a first order") {
   constexpr double dt = 0.01, tau = 0.5;
   SteadyAirspeed own, gust;
-  own.step(15, 0, tau, dt), gust.step(15, 0, tau, dt);
+  own.step(15, 0, tau, dt);
+  gust.step(15, 0, tau, dt);
   for (int k = 1; k <= 300; ++k) {
     CHECK(own.step(15 + 0.7 * k * dt, 0.7, tau, dt) == doctest::Approx(15 + 0.7 * k * dt));
     CHECK(gust.step(17, 0, tau, dt) - 15 == doctest::Approx(2 * (1 - std::exp(-k * dt / tau))));
@@ -130,12 +131,15 @@ TEST_CASE(
 TEST_CASE("the acceleration along the air velocity is that of the body, gravity included") {
   VehicleState s = flying();
   CHECK(airspeed_rate(s) == doctest::Approx(0));
-  s.pitch_rad = 0.1, s.alpha_rad = 0.02, s.specific_force_mps2 = {0.3, 0, -9.5};
+  s.pitch_rad = 0.1;
+  s.alpha_rad = 0.02;
+  s.specific_force_mps2 = {0.3, 0, -9.5};
   // Climbing at gamma = theta - alpha: V_dot = f . v_hat - g sin(gamma)
   CHECK(airspeed_rate(s) ==
         doctest::Approx(0.3 * std::cos(0.02) - 9.5 * std::sin(0.02) - g * std::sin(0.08)));
   // Banked, with sideslip: gravity in body axes from B&M (4.2).
-  s.roll_rad = 0.5, s.beta_rad = 0.1;
+  s.roll_rad = 0.5;
+  s.beta_rad = 0.1;
   const double along = std::cos(0.02) * std::cos(0.1), side = std::sin(0.1),
                down = std::sin(0.02) * std::cos(0.1);
   const double ax = 0.3 - g * std::sin(0.1), ay = g * std::cos(0.1) * std::sin(0.5),
@@ -172,11 +176,14 @@ TEST_CASE(
     bench.params.common.airframe.value.limits.throttle_cruise_frac = 0.9;
     for (int i = 0; i < 20000; ++i) {
       VehicleState s = flying();
-      s.height_m = random.uniform(-50, 500), s.climb_rate_mps = random.uniform(-15, 15),
+      s.height_m = random.uniform(-50, 500);
+      s.climb_rate_mps = random.uniform(-15, 15);
       s.airspeed_mps = random.uniform(0, 60);
-      s.ground_speed_mps = random.uniform(0, 60), s.course_rad = random.uniform(-3.14, 3.14),
+      s.ground_speed_mps = random.uniform(0, 60);
+      s.course_rad = random.uniform(-3.14, 3.14);
       s.roll_rad = random.uniform(-3.14, 3.14);
-      s.pitch_rad = random.uniform(-1.5, 1.5), s.airspeed_valid = random.uniform() < 0.8;
+      s.pitch_rad = random.uniform(-1.5, 1.5);
+      s.airspeed_valid = random.uniform() < 0.8;
       s.specific_force_mps2 = {random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-40, 20)};
       const GuidanceCommand c{random.uniform(-10, 10), random.uniform(-100, 1000), random.uniform(-10, 10),
                               random.uniform(-5, 60), random.uniform(-2, 2)};
@@ -187,7 +194,8 @@ TEST_CASE(
       REQUIRE((a.throttle_frac >= 0 && a.throttle_frac <= 1));
       REQUIRE(std::abs(a.pitch_rad) <= 0.35);
       REQUIRE(std::abs(a.roll_rad) <= 0.785);
-      least = std::min(least, a.throttle_frac), most = std::max(most, a.throttle_frac);
+      least = std::min(least, a.throttle_frac);
+      most = std::max(most, a.throttle_frac);
     }
   }
   CHECK(least == 0);  // below trim as well as above it
@@ -225,7 +233,8 @@ TEST_CASE("taking over is bumpless, and in trim keeps what the last controller h
   for (int i = 0; i < 200; ++i) {
     Bench<Outer> bench;
     VehicleState s = flying();
-    s.height_m = random.uniform(40, 100), s.airspeed_mps = random.uniform(11, 20),
+    s.height_m = random.uniform(40, 100);
+    s.airspeed_mps = random.uniform(11, 20);
     s.course_rad = random.uniform(-3, 3);
     bench.set(bench.in.state, s);
     bench.set(bench.in.command, level());
@@ -252,12 +261,14 @@ TEST_CASE("standing it learns nothing; without airspeed it flies on trim and say
   Bench<Outer> bench;
   configure(bench);
   VehicleState s = flying();
-  s.height_m = 0, s.airspeed_mps = s.ground_speed_mps = 0.2;
+  s.height_m = 0;
+  s.airspeed_mps = s.ground_speed_mps = 0.2;
   CHECK(settle(bench, s, level(), 60).throttle_frac == 0);
   CHECK(bench.out.pitch_integral_rad.value == 0);
   CHECK(bench.out.throttle_integral_frac.value == 0);
   s = flying();
-  s.airspeed_valid = false, s.airspeed_mps = 0;
+  s.airspeed_valid = false;
+  s.airspeed_mps = 0;
   CHECK(settle(bench, s, level(), 10).throttle_frac == doctest::Approx(0.5));
   CHECK(bench.step(0.01) == Status::degraded);
 }
@@ -280,7 +291,9 @@ TEST_CASE(
     configure(bench);
     VehicleState s = flying();
     settle(bench, s, level());
-    s.airspeed_mps = airspeed, s.roll_rad = 0.5, s.pitch_rad = -0.1;
+    s.airspeed_mps = airspeed;
+    s.roll_rad = 0.5;
+    s.pitch_rad = -0.1;
     pilot_flies(bench, s, level());
     CHECK(std::abs(bench.out.attitude.throttle_frac - 0.5) <= 0.0201);  // 2 per second
     CHECK(std::abs(bench.out.attitude.roll_rad - 0.5) <= 0.0101);
@@ -288,7 +301,10 @@ TEST_CASE(
     CHECK(std::abs(bench.out.throttle_integral_frac.value) < 0.001);
     CHECK(std::abs(bench.out.pitch_integral_rad.value) < 0.001);
     double least = 1;
-    for (int i = 0; i < 50; ++i) bench.step(0.01), least = std::min(least, bench.out.attitude.throttle_frac);
+    for (int i = 0; i < 50; ++i) {
+      bench.step(0.01);
+      least = std::min(least, bench.out.attitude.throttle_frac);
+    }
     CHECK(least > 0.3);  // half a metre per second too fast asks for that
   }
 }
@@ -298,7 +314,9 @@ TEST_CASE("a glide, all zeros, is somebody's command; after nobody a law begins 
     Bench<Outer> bench;
     configure(bench);
     VehicleState s = flying();
-    s.roll_rad = 0.3, s.pitch_rad = 0.1, s.height_m = 60;  // too low: the law asks for more than trim
+    s.roll_rad = 0.3;
+    s.pitch_rad = 0.1;
+    s.height_m = 60;  // too low: the law asks for more than trim
     bench.set(bench.in.state, s);
     bench.set(bench.in.command, level());
     REQUIRE((somebody ? bench.activate(Outer::Outputs{}) : bench.activate()) == Status::ok);
@@ -333,9 +351,12 @@ TEST_CASE(
     configure(bench);
     VehicleState s = flying();
     GuidanceCommand c = level();
-    c.course_rad = 1, c.height_m = 90;
+    c.course_rad = 1;
+    c.height_m = 90;
     CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0.785));
-    s.roll_rad = 0.6, s.airspeed_mps = 5, s.airspeed_valid = false;  // stand-ins: nothing may follow them
+    s.roll_rad = 0.6;
+    s.airspeed_mps = 5;
+    s.airspeed_valid = false;  // stand-ins: nothing may follow them
     (attitude ? s.height_valid : s.attitude_valid) = false;
     CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0).epsilon(1e-6));
     CHECK(bench.out.attitude.pitch_rad ==
@@ -343,7 +364,8 @@ TEST_CASE(
     CHECK(bench.out.attitude.throttle_frac == doctest::Approx(0.5));
     CHECK(bench.step(0.01) == Status::degraded);
     s = flying();
-    s.roll_rad = -0.4, s.pitch_rad = 0.12;
+    s.roll_rad = -0.4;
+    s.pitch_rad = 0.12;
     bench.set(bench.in.state, s);
     bench.set(bench.in.command, level());
     CHECK(bench.step(0.01) == Status::ok);
@@ -359,7 +381,8 @@ TEST_CASE("without a velocity there is no course to hold: wings level") {
   VehicleState s = flying();
   s.velocity_valid = false;
   GuidanceCommand c = level();
-  c.course_rad = 1, c.roll_feedforward_rad = 0.3;
+  c.course_rad = 1;
+  c.roll_feedforward_rad = 0.3;
   CHECK(settle(bench, s, c).roll_rad == doctest::Approx(0));
   CHECK(bench.step(0.01) == Status::degraded);
 }
@@ -396,7 +419,8 @@ TEST_CASE("too slow by the whole band the nose goes down for speed, however much
   bench.params.pitch_damping.value = bench.params.pitch_integral.value = 0;
   bench.params.throttle_damping.value = 0;  // the engine gives what is asked for: nothing is missing
   VehicleState s = flying();
-  s.airspeed_mps = 8.5, s.height_m = 20;
+  s.airspeed_mps = 8.5;
+  s.height_m = 20;
   const double V_dot = 0.5 * g * 4 / 8.5;  // half of what the engine can give
   CHECK(settle(bench, s, level()).pitch_rad / (-V_dot / g) == doctest::Approx(1));
 }

@@ -258,8 +258,10 @@ void Link::Impl::stay_with_loop() noexcept {
   const int policy = loop == 0 ? -1 : sched_getscheduler(loop);
   if (policy >= 0 && sched_getparam(loop, &priority) == 0 &&
       (policy != own_policy || priority.sched_priority != own_priority))
-    if (sched_setscheduler(0, policy, &priority) == 0)
-      own_policy = policy, own_priority = priority.sched_priority;
+    if (sched_setscheduler(0, policy, &priority) == 0) {
+      own_policy = policy;
+      own_priority = priority.sched_priority;
+    }
   cpu_set_t cpus;
   if (policy < 0 || sched_getaffinity(loop, sizeof cpus, &cpus) != 0 || CPU_EQUAL(&cpus, &own_cpus)) return;
   if (sched_setaffinity(0, sizeof cpus, &cpus) == 0) own_cpus = cpus;

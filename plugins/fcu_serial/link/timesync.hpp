@@ -165,9 +165,12 @@ class ClockSync {
                             static_cast<double>(n);  // what the least of n delays has above none
     each([&](const Sample& s) {
       const double w = weight(s, side);
-      side.w += w, side.t += w * age(s), side.y += w * bound(s, sign);
+      side.w += w;
+      side.t += w * age(s);
+      side.y += w * bound(s, sign);
     });
-    side.t /= side.w, side.y /= side.w;
+    side.t /= side.w;
+    side.y /= side.w;
     return side;
   }
 
@@ -184,7 +187,8 @@ class ClockSync {
       for (const Side& side : sides) {
         each([&](const Sample& s) {
           const double w = weight(s, side), t = age(s) - side.t;
-          tt += w * t * t, ty += w * t * (bound(s, side.sign) - side.y);
+          tt += w * t * t;
+          ty += w * t * (bound(s, side.sign) - side.y);
         });
       }
       slope_ = std::clamp(ty / tt, -drift_limit, drift_limit);

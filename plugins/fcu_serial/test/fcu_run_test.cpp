@@ -119,8 +119,14 @@ TEST_CASE("a controller: it is flown for as long as was asked, armed by its pilo
     fcu.inputs.rc_us[4] =
         t > 1'000'000 && t < 6'500'000 ? 2000 : 1000;  // the flight does not end while it is armed
     fcu.inputs.rc_us[5] = t > 1'000'000 && t < 1'500'000 ? 2000 : 1000;
-    if (!pulled && t > 4'000'000) pty.pull(), pulled = true;
-    if (!back && t > 5'000'000) pty.plug(), back = true;
+    if (!pulled && t > 4'000'000) {
+      pty.pull();
+      pulled = true;
+    }
+    if (!back && t > 5'000'000) {
+      pty.plug();
+      back = true;
+    }
     serve(fcu, pty);
   });
   const Result r = fly(device.name(), "--duration 7");
@@ -153,7 +159,10 @@ TEST_CASE(
     const std::int64_t t = begun == 0 ? 0 : wall_us() - begun;
     fcu.inputs.rc_us[4] = t > 500'000 && !landed ? 2000 : 1000;
     fcu.inputs.rc_us[5] = t > 500'000 && t < 1'000'000 ? 2000 : 1000;
-    if (!crashed && t > 2'000'000) fcu.crash(wall_us()), crashed = true;  // it arms itself again
+    if (!crashed && t > 2'000'000) {
+      fcu.crash(wall_us());
+      crashed = true;  // it arms itself again
+    }
     serve(fcu, pty);
   });
   const std::string run = FULMAR_BIN_DIR "/fulmar run " FULMAR_SOURCE_DIR

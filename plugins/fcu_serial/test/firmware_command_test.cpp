@@ -199,9 +199,12 @@ TEST_CASE("auxiliary outputs take what the mixer does not own, and keep it when 
   Companion c;
   c.fcu.provision();
   RosflightAuxCmd m;
-  m.aux_cmd_array[0] = 1, m.type_array[0] = 1;  // the mixer's
-  m.aux_cmd_array[10] = 0.5f, m.type_array[10] = 1;
-  m.aux_cmd_array[11] = 0.5f, m.type_array[11] = 2;  // a motor, disarmed
+  m.aux_cmd_array[0] = 1;
+  m.type_array[0] = 1;  // the mixer's
+  m.aux_cmd_array[10] = 0.5f;
+  m.type_array[10] = 1;
+  m.aux_cmd_array[11] = 0.5f;
+  m.type_array[11] = 2;  // a motor, disarmed
   c.send(m);
   c.wait(0.05);
   CHECK(c.fcu.outputs()[0] == doctest::Approx(0.5));
@@ -212,7 +215,8 @@ TEST_CASE("auxiliary outputs take what the mixer does not own, and keep it when 
   c.wait(0.05);
   CHECK(c.fcu.outputs()[10] == doctest::Approx(0.75));
   m.type_array[13] = 3;
-  m.type_array[10] = 1, m.aux_cmd_array[10] = -1;
+  m.type_array[10] = 1;
+  m.aux_cmd_array[10] = -1;
   c.send(m);  // dropped whole
   c.wait(0.05);
   CHECK(c.fcu.outputs()[10] == doctest::Approx(0.75));

@@ -144,7 +144,10 @@ TEST_CASE("a computer's command moves the outputs, and 100 ms after the last one
   CHECK(c.last<RosflightStatus>().control_mode == 0);
   c.send(passed(0.5f, 0.2f, -0.4f, 0.6f));
   double after = 0;
-  while (c.fcu.outputs()[4] > 0.1f && after < 1) c.wait(0.001), after += 0.001;
+  while (c.fcu.outputs()[4] > 0.1f && after < 1) {
+    c.wait(0.001);
+    after += 0.001;
+  }
   CHECK(after > 0.09);
   CHECK(after < 0.115);
   CHECK(c.fcu.outputs()[0] == doctest::Approx(0.5));
@@ -214,7 +217,10 @@ TEST_CASE("the pilot's stick overrides for the lag time, counted from its first 
   CHECK(c.fcu.outputs()[0] == doctest::Approx(0.5 + 0.5 * 0.4));
   c.fcu.inputs.rc_us[0] = 1500;
   double after = 0;
-  while (c.fcu.override_reasons() && after < 2) c.command(m, 0.02), after += 0.02;
+  while (c.fcu.override_reasons() && after < 2) {
+    c.command(m, 0.02);
+    after += 0.02;
+  }
   CHECK(after > 0.7);  // 1 s from the first deviation, which was 0.2 s ago
   CHECK(after < 0.85);
 }

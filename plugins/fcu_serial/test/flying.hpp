@@ -50,9 +50,15 @@ struct Flying {
     const Status result = bench.read();
     auto& out = bench.out;
     ticks_ns.push_back(bench.tick.now_ns);
-    count("gnss", out.gnss), count("mag", out.mag), count("baro", out.baro), count("pitot", out.pitot);
-    count("attitude", out.attitude), count("outputs", out.outputs), count("link", out.link),
-        count("rc", out.rc), count("status", out.status);
+    count("gnss", out.gnss);
+    count("mag", out.mag);
+    count("baro", out.baro);
+    count("pitot", out.pitot);
+    count("attitude", out.attitude);
+    count("outputs", out.outputs);
+    count("link", out.link);
+    count("rc", out.rc);
+    count("status", out.status);
     if (out.imu.written) imu_ns.push_back(out.imu.valid_at_ns);
     if (out.status.written) status = out.status.value;
     if (out.rc.written) rc = out.rc.value;

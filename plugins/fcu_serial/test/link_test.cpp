@@ -110,7 +110,10 @@ TEST_CASE("packets come out in order and whole, behind the event of the connecti
   for (std::uint64_t i = 1; i <= 500; ++i) REQUIRE(c.listen_until([&] { return c.send_imu(i * 2500); }));
   std::uint64_t next = 2500;
   Received r;
-  REQUIRE(pop_until(link, c, [&](const Received& got) { return r = got, true; }));
+  REQUIRE(pop_until(link, c, [&](const Received& got) {
+    r = got;
+    return true;
+  }));
   CHECK(r.event == LinkEvent::connected);
   std::int64_t arrived = 0, valid = 0;
   REQUIRE(pop_until(link, c, [&](const Received& got) {
@@ -237,7 +240,10 @@ TEST_CASE("a controller that starts anew is told once, asked for its parameters 
       c.send_imu(static_cast<std::uint64_t>(c.clock_ns() / 1000));
       c.listen(2);
       for (Received r; link.pop(r);) {
-        if (r.event == LinkEvent::rebooted) ++reboots, again = true;
+        if (r.event == LinkEvent::rebooted) {
+          ++reboots;
+          again = true;
+        }
         if (r.event != LinkEvent::packet || !r.packet.is<SmallImu>()) continue;
         CHECK(r.valid_at_ns > last_valid);
         CHECK(r.valid_at_ns <= r.arrived_ns);

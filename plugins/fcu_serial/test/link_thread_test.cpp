@@ -31,7 +31,10 @@ TEST_CASE("unplugged and plugged in elsewhere: told both, nothing is sent meanwh
   c.clock_ns = [&] { return link.now_ns() + 100 * second; };
   c.answer_parameter("RC_X_CHN", 0);
   REQUIRE(c.listen_until([&] { return link.state().synchronised; }));
-  for (int i = 0; i < 50; ++i) c.send_imu(static_cast<std::uint64_t>(c.clock_ns() / 1000)), c.listen(2);
+  for (int i = 0; i < 50; ++i) {
+    c.send_imu(static_cast<std::uint64_t>(c.clock_ns() / 1000));
+    c.listen(2);
+  }
 
   const std::string before = c.pty.device();
   c.pty.pull();
@@ -63,7 +66,10 @@ TEST_CASE("unplugged and plugged in elsewhere: told both, nothing is sent meanwh
   REQUIRE(c.listen_until([&] {
     return !c.asked_for().empty() && !c.heard[Heartbeat::id].empty() && !c.heard[OffboardControl::id].empty();
   }));
-  for (int i = 0; i < 200; ++i) c.send_imu(static_cast<std::uint64_t>(c.clock_ns() / 1000)), c.listen(2);
+  for (int i = 0; i < 200; ++i) {
+    c.send_imu(static_cast<std::uint64_t>(c.clock_ns() / 1000));
+    c.listen(2);
+  }
   const LinkState s = link.state();
   CHECK(s.connections == 2);
   CHECK(s.reboots == 0);

@@ -105,7 +105,10 @@ std::vector<Field> wire_order(const std::string& text) {
         f);
   }
   std::size_t at = 0;
-  for (Field& f : fields) f.offset = at, at += f.bytes();
+  for (Field& f : fields) {
+    f.offset = at;
+    at += f.bytes();
+  }
   return fields;
 }
 

@@ -48,7 +48,8 @@ class Child {
     }
     char c;
     REQUIRE(::read(done[0], &c, 1) == 1);
-    close(done[0]), close(done[1]);
+    close(done[0]);
+    close(done[1]);
   }
   ~Child() {
     kill(pid_, SIGKILL);

@@ -63,7 +63,10 @@ class Pty {
   void pull() {
     std::error_code fault;
     std::filesystem::remove(link_, fault);
-    if (master_ >= 0) close(master_), close(slave_);
+    if (master_ >= 0) {
+      close(master_);
+      close(slave_);
+    }
     master_ = slave_ = -1;
   }
 

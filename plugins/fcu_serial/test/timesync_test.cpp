@@ -264,7 +264,10 @@ TEST_CASE("dates of inertial samples keep their distance while the line bends") 
     if (t % (100 * ms) == 0) take(dater.clock, ask(dater.clock, c, t));
     const std::int64_t at = dater.date_imu(static_cast<std::uint64_t>(c.clock_ns(t) / us), t + 5 * ms);
     CHECK(at <= t + 5 * ms);
-    if (t > 5 * second) shortest = std::min(shortest, at - last), longest = std::max(longest, at - last);
+    if (t > 5 * second) {
+      shortest = std::min(shortest, at - last);
+      longest = std::max(longest, at - last);
+    }
     last = at;
   }
   CHECK(shortest > 2'400 * us);

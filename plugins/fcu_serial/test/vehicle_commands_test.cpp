@@ -88,9 +88,12 @@ TEST_CASE("an airframe without throws is refused, and the surface is named") {
 
 TEST_CASE("auxiliary outputs have their kinds and bounds; those that are off count for nothing") {
   AuxOutputs a;
-  a.kinds[1] = AuxKind::servo, a.values_ratio[1] = -1.5;
-  a.kinds[13] = AuxKind::motor, a.values_ratio[13] = -0.5;
-  a.kinds[4] = AuxKind::motor, a.values_ratio[4] = 0.75;
+  a.kinds[1] = AuxKind::servo;
+  a.values_ratio[1] = -1.5;
+  a.kinds[13] = AuxKind::motor;
+  a.values_ratio[13] = -0.5;
+  a.kinds[4] = AuxKind::motor;
+  a.values_ratio[4] = 0.75;
   a.values_ratio[0] = not_a_number;  // off
   const auto c = to_aux(a);
   REQUIRE(c);
@@ -110,8 +113,10 @@ TEST_CASE(
     "alone") {
   std::array<bool, 14> motors{};
   AuxOutputs a;
-  a.kinds[10] = AuxKind::motor, a.values_ratio[10] = 0.6;
-  a.kinds[11] = AuxKind::servo, a.values_ratio[11] = 0.5;
+  a.kinds[10] = AuxKind::motor;
+  a.values_ratio[10] = 0.6;
+  a.kinds[11] = AuxKind::servo;
+  a.values_ratio[11] = 0.5;
   const auto sent = [&] {
     RosflightAuxCmd c = *to_aux(a);
     stop_motors(c, motors);

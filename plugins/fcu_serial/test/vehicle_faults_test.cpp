@@ -215,7 +215,10 @@ TEST_CASE("samples that waited too long are passed over; a burst of a few is flo
   f.fly(1);
   const std::size_t samples = f.imu_ns.size(), ticks = f.ticks_ns.size();
   f.world.run(f.world.now_ns + 10'000'000, false);  // the host slept: four samples wait
-  f.tick(), f.tick(), f.tick(), f.tick();
+  f.tick();
+  f.tick();
+  f.tick();
+  f.tick();
   CHECK(f.imu_ns.size() - samples == 4);
   CHECK(f.ticks_ns.size() - ticks == 4);
   f.world.run(f.world.now_ns + 2'000'000'000, false);  // two seconds
@@ -227,7 +230,8 @@ TEST_CASE("a fix that comes twice is one fix") {
   Flying f;
   f.fly(1);
   RosflightGnss fix;
-  fix.fix_type = 3, fix.rosflight_timestamp = 77;
+  fix.fix_type = 3;
+  fix.rosflight_timestamp = 77;
   const int before = f.published["gnss"];
   f.world.inject(fix);
   f.tick();

@@ -79,10 +79,17 @@ TEST_CASE("a fix keeps place, velocity, accuracies and date") {
   RosflightGnss m;
   m.seconds = 1767225600;  // 2026-01-01
   m.nanos = -250000000;    // u-blox counts backwards, too
-  m.lat = 40.2463724, m.lon = -111.6474138, m.height = 1387.5f;
-  m.vel_n = 1, m.vel_e = -2, m.vel_d = 0.5f;
-  m.h_acc = 0.5f, m.v_acc = 0.75f, m.s_acc = 0.125f;
-  m.fix_type = 3, m.num_sat = 17;
+  m.lat = 40.2463724;
+  m.lon = -111.6474138;
+  m.height = 1387.5f;
+  m.vel_n = 1;
+  m.vel_e = -2;
+  m.vel_d = 0.5f;
+  m.h_acc = 0.5f;
+  m.v_acc = 0.75f;
+  m.s_acc = 0.125f;
+  m.fix_type = 3;
+  m.num_sat = 17;
   const auto g = to_gnss(m);
   REQUIRE(g);
   CHECK(g->latitude_deg == 40.2463724);
@@ -112,7 +119,9 @@ TEST_CASE("all kinds of fixes keep their meaning, unknown ones are none") {
 
 TEST_CASE("an accuracy that a receiver does not give is unknown, and so is its date") {
   RosflightGnss m;
-  m.h_acc = 0, m.v_acc = not_a_number, m.s_acc = -1;
+  m.h_acc = 0;
+  m.v_acc = not_a_number;
+  m.s_acc = -1;
   m.seconds = 315964800;  // the epoch of GPS: a receiver without a date
   CHECK(to_gnss(m)->horizontal_std_m == unknown_std);
   CHECK(to_gnss(m)->vertical_std_m == unknown_std);
@@ -156,8 +165,14 @@ TEST_CASE("outputs that are not finite are told as none") {
 
 TEST_CASE("sticks follow the controller's map: right roll is positive") {
   RcChannels m;
-  m.chan1_raw = 2000, m.chan2_raw = 1250, m.chan3_raw = 1600, m.chan4_raw = 1500;
-  m.chan5_raw = 2000, m.chan6_raw = 1000, m.chan7_raw = 1500, m.chan8_raw = 1750;
+  m.chan1_raw = 2000;
+  m.chan2_raw = 1250;
+  m.chan3_raw = 1600;
+  m.chan4_raw = 1500;
+  m.chan5_raw = 2000;
+  m.chan6_raw = 1000;
+  m.chan7_raw = 1500;
+  m.chan8_raw = 1750;
   const Rc rc = to_rc(m, RcMap{}, Throws{}, true);
   CHECK(rc.roll_frac == 1);
   CHECK(rc.pitch_frac == 0.5);
@@ -170,8 +185,11 @@ TEST_CASE("sticks follow the controller's map: right roll is positive") {
   CHECK(rc.link);
 
   RcMap other;
-  other.take("RC_X_CHN", 3), other.take("RC_F_CHN", 0), other.take("RC_Z_CHN", 2), other.take("RC_Y_CHN", 7),
-      other.take("RC_TYPE", 1);
+  other.take("RC_X_CHN", 3);
+  other.take("RC_F_CHN", 0);
+  other.take("RC_Z_CHN", 2);
+  other.take("RC_Y_CHN", 7);
+  other.take("RC_TYPE", 1);
   const Rc moved = to_rc(m, other, Throws{}, false);
   CHECK(moved.roll_frac == 0);
   CHECK(moved.throttle_frac == 1);
@@ -187,7 +205,8 @@ TEST_CASE("a stick that moves a surface as a command does has that command's mea
     const auto right_up_right =
         to_offboard({0, 0.25, -0.25, -0.25}, throws);  // roll right, nose up, nose right
     RcChannels m;
-    m.chan1_raw = us(right_up_right->u[3]), m.chan2_raw = us(right_up_right->u[4]),
+    m.chan1_raw = us(right_up_right->u[3]);
+    m.chan2_raw = us(right_up_right->u[4]);
     m.chan4_raw = us(right_up_right->u[5]);
     const Rc rc = to_rc(m, RcMap{}, throws, true);
     CHECK(rc.roll_frac == Approx(0.5));
@@ -198,7 +217,9 @@ TEST_CASE("a stick that moves a surface as a command does has that command's mea
 
 TEST_CASE("sticks beyond their ends and channels that are not there stay within bounds") {
   RcChannels m;
-  m.chan1_raw = 2150, m.chan2_raw = 850, m.chan3_raw = 980;
+  m.chan1_raw = 2150;
+  m.chan2_raw = 850;
+  m.chan3_raw = 980;
   RcMap map;
   map.take("RC_Z_CHN", -1);
   const Rc rc = to_rc(m, map, Throws{}, true);

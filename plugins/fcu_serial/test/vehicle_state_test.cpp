@@ -110,8 +110,11 @@ TEST_CASE("a controller that is back is not told to have no radio before that co
   h.frame(now + 5000 * ms);
   CHECK((evaluate(h, now + 5010 * ms).errors & own_error_rc_silent) == 0);
   CHECK_FALSE(evaluate(h, now + 5010 * ms).in_control);
-  h.frame(now + 5100 * ms), h.frame(now + 5200 * ms), h.frame(now + 5300 * ms), h.frame(now + 5400 * ms),
-      h.frame(now + 5510 * ms);
+  h.frame(now + 5100 * ms);
+  h.frame(now + 5200 * ms);
+  h.frame(now + 5300 * ms);
+  h.frame(now + 5400 * ms);
+  h.frame(now + 5510 * ms);
   CHECK((evaluate(h, now + 5510 * ms).errors & own_error_rc_silent) != 0);
 }
 
@@ -297,7 +300,8 @@ TEST_CASE("what is wrong with a device is one sentence that says what to do") {
   Greeting g;
   const auto why = [&] { return objection(g, link, "/dev/ttyACM0", 115200); };
   CHECK(why() == "nothing comes from /dev/ttyACM0: is the flight controller powered, and is this its port?");
-  link.bytes = 1000, link.text_bytes = 999;
+  link.bytes = 1000;
+  link.text_bytes = 999;
   CHECK(why().find("/dev/ttyACM0 sends text, not MAVLink") == 0);
   link.text_bytes = 400;
   CHECK(why().find("of 1000 bytes from /dev/ttyACM0 at 115200 baud none is a MAVLink 1 frame") == 0);
@@ -315,7 +319,8 @@ TEST_CASE("what is wrong with a device is one sentence that says what to do") {
   g.autopilot = 0;
   g.imu = true;
   CHECK(why().find("does not say its version: it is older than ROSflight 2.0; flash") != std::string::npos);
-  g.versioned = true, g.version = "v1.3.1";
+  g.versioned = true;
+  g.version = "v1.3.1";
   CHECK(why() == "the flight controller at /dev/ttyACM0 runs ROSflight v1.3.1: flash version 2.0 or later");
   g.version = "v2.0.1";
   CHECK(why() == "");
@@ -324,7 +329,8 @@ TEST_CASE("what is wrong with a device is one sentence that says what to do") {
   CHECK(why().find("write, and power-cycle it") != std::string::npos);  // an H7 board cannot reboot itself
   g.parameters[0] = 1;
   CHECK(why() == "");
-  g.versioned = false, g.armed = true;
+  g.versioned = false;
+  g.armed = true;
   CHECK(why() == "");
 }
 

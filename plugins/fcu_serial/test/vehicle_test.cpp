@@ -96,7 +96,8 @@ TEST_CASE("auxiliary outputs and attitude are sent when they are wired and wante
   Flying f;
   f.fly(0.5);
   AuxOutputs aux;
-  aux.kinds[10] = AuxKind::servo, aux.values_ratio[10] = -0.5;
+  aux.kinds[10] = AuxKind::servo;
+  aux.values_ratio[10] = -0.5;
   f.bench.set(f.bench.in.aux, aux);
   f.tick();
   CHECK(f.world.last<RosflightAuxCmd>().aux_cmd_array[10] == -0.5f);
@@ -121,8 +122,10 @@ TEST_CASE("auxiliary outputs and attitude are sent when they are wired and wante
 TEST_CASE("no tick allocates") {
   Flying f;
   f.arm();
-  f.ticks_ns.reserve(10000), f.imu_ns.reserve(10000);
-  f.world.sent.reserve(10000), f.world.sent_ns.reserve(10000);
+  f.ticks_ns.reserve(10000);
+  f.imu_ns.reserve(10000);
+  f.world.sent.reserve(10000);
+  f.world.sent_ns.reserve(10000);
   // The controller beside it allocates: only the vehicle's own calls are counted.
   std::uint64_t made = 0;
   for (int i = 0; i < 400; ++i) {

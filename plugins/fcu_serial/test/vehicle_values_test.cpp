@@ -27,7 +27,9 @@ constexpr std::int64_t ms = 1'000'000, second = 1000 * ms;
 
 ParamValue parameter(std::uint16_t index, std::uint16_t count, float value, std::string_view name = "P") {
   ParamValue p;
-  p.param_index = index, p.param_count = count, p.param_value = std::bit_cast<std::uint32_t>(value);
+  p.param_index = index;
+  p.param_count = count;
+  p.param_value = std::bit_cast<std::uint32_t>(value);
   std::copy(name.begin(), name.end(), p.param_id.begin());
   return p;
 }
@@ -96,8 +98,16 @@ TEST_CASE("a fix passes on the Earth and below its speeds, with its deviations a
   CHECK(deviation(0.99e6f) == Approx(0.99e6));
   CHECK(deviation(1.01e6f) == unknown_std);
   CHECK(deviation(0) == unknown_std);
-  m.h_acc = 1, m.v_acc = 2, m.s_acc = 3, m.vel_n = 4, m.vel_e = 5, m.vel_d = 6, m.num_sat = 11;
-  m.lat = 40, m.lon = -111, m.height = 1400;
+  m.h_acc = 1;
+  m.v_acc = 2;
+  m.s_acc = 3;
+  m.vel_n = 4;
+  m.vel_e = 5;
+  m.vel_d = 6;
+  m.num_sat = 11;
+  m.lat = 40;
+  m.lon = -111;
+  m.height = 1400;
   const Gnss g = *to_gnss(m);
   CHECK(g.horizontal_std_m == 1);
   CHECK(g.vertical_std_m == 2);
@@ -108,7 +118,8 @@ TEST_CASE("a fix passes on the Earth and below its speeds, with its deviations a
   CHECK(g.altitude_m == 1400);
   CHECK(g.satellites == 11);
   const auto utc = [&](std::int64_t seconds, std::int32_t nanos) {
-    m.seconds = seconds, m.nanos = nanos;
+    m.seconds = seconds;
+    m.nanos = nanos;
     return to_gnss(m)->utc_ns;
   };
   CHECK(utc(1'000'000'000, 0) == 0);  // 2001: a receiver without a date
@@ -148,7 +159,9 @@ TEST_CASE("an attitude is that of its quaternion, of any length near one, about 
     m.q2 = length * static_cast<float>(sr * cp * cy - cr * sp * sy);
     m.q3 = length * static_cast<float>(cr * sp * cy + sr * cp * sy);
     m.q4 = length * static_cast<float>(cr * cp * sy - sr * sp * cy);
-    m.rollspeed = 1, m.pitchspeed = -2, m.yawspeed = 3;
+    m.rollspeed = 1;
+    m.pitchspeed = -2;
+    m.yawspeed = 3;
     const auto a = to_attitude(m);
     REQUIRE(a);
     CHECK(a->roll_rad == Approx(0.4));
@@ -280,7 +293,8 @@ TEST_CASE("each calibration stands at its own place, and a whole number is one")
     (void)book.take(parameter(i, 8, 0.125f * static_cast<float>(i + 1), names[i]));
   (void)book.take(parameter(6, 8, -3.5f, pitot_zero));
   ParamValue whole = parameter(7, 8, 0);
-  whole.param_type = param_int32, whole.param_value = static_cast<std::uint32_t>(-42);
+  whole.param_type = param_int32;
+  whole.param_value = static_cast<std::uint32_t>(-42);
   const auto taken = book.take(whole);
   REQUIRE(taken);
   CHECK(taken->whole);
@@ -294,11 +308,20 @@ TEST_CASE("each calibration stands at its own place, and a whole number is one")
 TEST_CASE("the report of a link: rate of a second, gaps beyond 6 ms, the longest turnaround since the last") {
   LinkReport r;
   LinkState link;
-  link.heard_ns = 3 * second, link.round_trip_ns = 2 * ms, link.drift_ppm = 12, link.offset_ns = 77;
-  link.frames = 1, link.bad = 2, link.missing = 3, link.lost_in_queue = 4, link.connections = 5,
+  link.heard_ns = 3 * second;
+  link.round_trip_ns = 2 * ms;
+  link.drift_ppm = 12;
+  link.offset_ns = 77;
+  link.frames = 1;
+  link.bad = 2;
+  link.missing = 3;
+  link.lost_in_queue = 4;
+  link.connections = 5;
   link.reboots = 6;
   link.open = true;
-  r.unusable = 7, r.commands = 8, r.unsent = 9;
+  r.unusable = 7;
+  r.commands = 8;
+  r.unsent = 9;
   CHECK(r.due(0));
   std::int64_t t = 50 * ms;
   for (int k = 0; k < 200; ++k) r.imu(t += 5 * ms);
@@ -316,9 +339,15 @@ TEST_CASE("the report of a link: rate of a second, gaps beyond 6 ms, the longest
   CHECK((s.reboots == 6 && s.unusable == 7 && s.commands == 8 && s.unsent == 9));
   CHECK_FALSE(r.due(100 * ms - 1));
   CHECK(r.due(100 * ms));
-  r.imu(t += 6 * ms), r.imu(t += 6 * ms + 1), r.imu(t += 9 * ms), r.imu(t += 5 * ms);
-  link.open = false, link.synchronised = true;
-  r.turnaround(3 * ms), r.turnaround(8 * ms), r.turnaround(5 * ms);
+  r.imu(t += 6 * ms);
+  r.imu(t += 6 * ms + 1);
+  r.imu(t += 9 * ms);
+  r.imu(t += 5 * ms);
+  link.open = false;
+  link.synchronised = true;
+  r.turnaround(3 * ms);
+  r.turnaround(8 * ms);
+  r.turnaround(5 * ms);
   s = r.take(link, 2 * second, second);
   CHECK(s.imu_rate_hz == Approx(204));
   CHECK(s.imu_gaps == 2);
@@ -338,8 +367,14 @@ TEST_CASE("the report of a link: rate of a second, gaps beyond 6 ms, the longest
 
 TEST_CASE("channels go to their sticks by the map and by the sense of each surface, and end at full throw") {
   RcChannels m;
-  m.chan1_raw = 1250, m.chan2_raw = 1600, m.chan3_raw = 1900, m.chan4_raw = 1300, m.chan5_raw = 1000;
-  m.chan6_raw = 2000, m.chan7_raw = 1450, m.chan8_raw = 1700;
+  m.chan1_raw = 1250;
+  m.chan2_raw = 1600;
+  m.chan3_raw = 1900;
+  m.chan4_raw = 1300;
+  m.chan5_raw = 1000;
+  m.chan6_raw = 2000;
+  m.chan7_raw = 1450;
+  m.chan8_raw = 1700;
   const Rc one = to_rc(m, {}, {}, true);
   CHECK(one.roll_frac == Approx(-0.5));
   CHECK(one.pitch_frac == Approx(-0.2));
@@ -355,7 +390,10 @@ TEST_CASE("channels go to their sticks by the map and by the sense of each surfa
   CHECK(reversed.pitch_frac == Approx(0.2));
   CHECK(reversed.yaw_frac == Approx(-0.4));
   RcMap map;
-  map.take("RC_X_CHN", 7), map.take("RC_Y_CHN", 0), map.take("RC_Z_CHN", 1), map.take("RC_F_CHN", 6);
+  map.take("RC_X_CHN", 7);
+  map.take("RC_Y_CHN", 0);
+  map.take("RC_Z_CHN", 1);
+  map.take("RC_F_CHN", 6);
   map.take("RC_NUM_CHN", 3);
   const Rc other = to_rc(m, map, {}, true);
   CHECK(other.roll_frac == Approx(0.4));
@@ -396,7 +434,8 @@ TEST_CASE(
   list.answered("P3");
   CHECK(burst(100 * ms) == "P10 ");
   CHECK(burst(200 * ms - 1) == "");
-  list.answered("P0"), list.answered("P1");
+  list.answered("P0");
+  list.answered("P1");
   CHECK(burst(200 * ms) == "P11 P2 P4 P5 P6 P7 P8 P9 ");
   for (const std::string& name : names) list.answered(name);
   CHECK(burst(900 * ms) == "");

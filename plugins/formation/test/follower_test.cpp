@@ -290,8 +290,11 @@ TEST_CASE(
   s.bench.params.offset.value = {-20, 20, 5};
   s.bench.params.timeout.value = 1;
   Point leader, own;
-  leader.wind_north = own.wind_north = 2, leader.wind_east = own.wind_east = -3;
-  own.north = -70, own.east = -70, own.height = 90;
+  leader.wind_north = own.wind_north = 2;
+  leader.wind_east = own.wind_east = -3;
+  own.north = -70;
+  own.east = -70;
+  own.height = 90;
   std::vector<VehicleState> past;
   double square = 0, worst = 0;
   int n = 0;
@@ -303,7 +306,8 @@ TEST_CASE(
     const VehicleState l = leader.state();
     lead.course_rad = wrap_pi(l.course_rad);
     lead.roll_feedforward_rad = turn * std::atan(l.ground_speed_mps * l.ground_speed_mps / (120 * 9.80665));
-    lead.airspeed_mps = 17, lead.height_m = 70;
+    lead.airspeed_mps = 17;
+    lead.height_m = 70;
     past.push_back(l);
     s.bench.set(s.bench.in.state, own.state());
     if (k >= 10 && k % 5 == 0) s.bench.set(s.bench.in.leader, past[static_cast<std::size_t>(k - 10)], 0.1);
@@ -318,7 +322,9 @@ TEST_CASE(
     const double dn = me.position_m.north - (now.position_m.north - 20 * c - 20 * si);
     const double de = me.position_m.east - (now.position_m.east - 20 * si + 20 * c);
     const double d = std::hypot(dn, de, me.height_m - 65);
-    square += d * d, worst = std::max(worst, d), ++n;
+    square += d * d;
+    worst = std::max(worst, d);
+    ++n;
   }
   MESSAGE("rms " << std::sqrt(square / n) << " m, worst " << worst << " m");
   CHECK(std::sqrt(square / n) < 2.6);  // twice what it is

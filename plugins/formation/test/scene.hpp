@@ -19,7 +19,9 @@ inline VehicleState flying(Vec3<Ned> at, double course, double speed = 17) {
   s.height_m = -at.down;
   s.course_rad = s.yaw_rad = course;
   s.ground_speed_mps = s.airspeed_mps = speed;
-  s.origin_latitude_deg = 40.25, s.origin_longitude_deg = -111.6, s.origin_altitude_m = 1387;
+  s.origin_latitude_deg = 40.25;
+  s.origin_longitude_deg = -111.6;
+  s.origin_altitude_m = 1387;
   s.origin_valid = s.attitude_valid = s.position_valid = s.velocity_valid = s.height_valid = s.wind_valid =
       true;
   return s;

@@ -134,7 +134,8 @@ TEST_CASE("a terminal of another program is left as it is") {
   CHECK_FALSE(frame(bench).link);
   tcgetattr(slave, &after);
   CHECK(after.c_lflag == before.c_lflag);
-  close(master), close(slave);
+  close(master);
+  close(slave);
 }
 
 }  // namespace keyboard_test

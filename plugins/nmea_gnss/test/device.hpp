@@ -24,7 +24,10 @@ class Device {
     fcntl(master_, F_SETFL, O_NONBLOCK);
   }
   void pull() {
-    if (master_ >= 0) close(master_), close(slave_);
+    if (master_ >= 0) {
+      close(master_);
+      close(slave_);
+    }
     master_ = slave_ = -1;
     std::filesystem::remove(link_);
   }

@@ -108,7 +108,10 @@ TEST_CASE("the twin and the comparison take no memory in flight") {
   twin.step(0.2);
   compare.step(0.2);
   CHECK(allocations([&] {
-          for (int i = 0; i < 20; ++i) twin.step(0.2), compare.step(0.2);
+          for (int i = 0; i < 20; ++i) {
+            twin.step(0.2);
+            compare.step(0.2);
+          }
         }) == 0);
 }
 

@@ -37,17 +37,23 @@ struct Asker {
   void ask(const Tick& tick, const Params& p, Outputs& out) {
     asked_ = true;
     PlanEdit edit;
-    edit.group = 1, edit.group_size = 3;
+    edit.group = 1;
+    edit.group_size = 3;
     for (const double north : {700.0, 900.0}) {
       ++edit.id;
       edit.waypoint.position_m = {north, 300, -70};
       out.edits.push(edit, tick.now_ns);
     }
     PlanEdit speed = edit_of(PlanSetting::airspeed);
-    speed.id = 3, speed.group = 1, speed.group_size = 3, speed.airspeed_mps = p.airspeed;
+    speed.id = 3;
+    speed.group = 1;
+    speed.group_size = 3;
+    speed.airspeed_mps = p.airspeed;
     out.edits.push(speed, tick.now_ns);
     PlanEdit wrong;
-    wrong.id = 4, wrong.kind = PlanEditKind::remove, wrong.waypoint_id = 99;
+    wrong.id = 4;
+    wrong.kind = PlanEditKind::remove;
+    wrong.waypoint_id = 99;
     out.edits.push(wrong, tick.now_ns);
   }
 
@@ -62,7 +68,9 @@ struct Asker {
     if (result.id == 5) tally_.taken_away = result.waypoint_id;
     if (result.id != 3) return;
     PlanEdit away;
-    away.id = 5, away.kind = PlanEditKind::remove, away.waypoint_id = added_;
+    away.id = 5;
+    away.kind = PlanEditKind::remove;
+    away.waypoint_id = added_;
     out.edits.push(away, tick.now_ns);
   }
 

@@ -22,9 +22,14 @@ struct Strip {
   VehicleState s;
   explicit Strip(double length_m = 400) {
     Runway& r = bench.params.runway.value;
-    r.north_m = 100, r.east_m = -200, r.up_m = 20, r.heading_rad = 90 * deg, r.length_m = length_m;
+    r.north_m = 100;
+    r.east_m = -200;
+    r.up_m = 20;
+    r.heading_rad = 90 * deg;
+    r.length_m = length_m;
     FlightLimits& limits = bench.params.airframe.value.limits;
-    limits.airspeed_min_mps = 12, limits.airspeed_cruise_mps = 17;
+    limits.airspeed_min_mps = 12;
+    limits.airspeed_cruise_mps = 17;
     bench.params.runway.is_given = true;
     bench.configure();
     s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;

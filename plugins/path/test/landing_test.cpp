@@ -84,7 +84,10 @@ TEST_CASE("off the centre line, off the slope or without a position it goes arou
     Strip strip;
     strip.approach();
     if (what == 2) strip.s.position_valid = false;
-    if (what == 4) strip.bench.params.go_around.value = true, strip.bench.retune();
+    if (what == 4) {
+      strip.bench.params.go_around.value = true;
+      strip.bench.retune();
+    }
     const LandingProgress& p = strip.at(230, what == 0 ? 9 : 0, strip.slope(230) + (what == 1 ? 6.5 : 0));
     if (what == 3) {
       CHECK(p.stage == LandingStage::approach);
@@ -175,7 +178,8 @@ TEST_CASE(
   for (const auto& w : winds) {
     CAPTURE(w.from_east_mps);
     Strip strip;  // to the east
-    strip.s.wind_mps.east = -w.from_east_mps, strip.s.wind_mps.north = 5;
+    strip.s.wind_mps.east = -w.from_east_mps;
+    strip.s.wind_mps.north = 5;
     strip.s.wind_valid = w.known;
     strip.approach();
     strip.at(300, 0, strip.slope(300));
@@ -191,9 +195,12 @@ TEST_CASE("in the flare the nose is turned to the runway, with the bank that the
     Strip strip;
     strip.bench.params.decrab.value = 0.1;
     Airframe& a = strip.bench.params.airframe.value;
-    a.mass_kg = 4.5, a.wing.area_m2 = 0.52;
-    a.aero.side.beta_ratio = -0.98, a.aero.side.rudder_ratio = 0.19;
-    a.aero.yaw.beta_ratio = 0.13, a.aero.yaw.rudder_ratio = -0.065;
+    a.mass_kg = 4.5;
+    a.wing.area_m2 = 0.52;
+    a.aero.side.beta_ratio = -0.98;
+    a.aero.side.rudder_ratio = 0.19;
+    a.aero.yaw.beta_ratio = 0.13;
+    a.aero.yaw.rudder_ratio = -0.065;
     strip.bench.configure();
     strip.s.yaw_rad = (90 + side * 8) * deg;  // into a wind from that side
     strip.approach();
@@ -221,7 +228,8 @@ TEST_CASE("in the flare the nose is turned to the runway, with the bank that the
     Strip none;
     none.bench.params.decrab.value = 0.1;
     Airframe& a = none.bench.params.airframe.value;
-    a.aero.yaw.beta_ratio = 0.13, a.aero.yaw.rudder_ratio = by_power ? 0 : -0.065;
+    a.aero.yaw.beta_ratio = 0.13;
+    a.aero.yaw.rudder_ratio = by_power ? 0 : -0.065;
     if (!by_power) a.rudder.limit_rad = 0;
     check_no_slip(none);
   }
@@ -253,7 +261,8 @@ TEST_CASE("while it rolls the rudder leads back to the centre line, from either 
     CHECK(slip(0, side * 0.05) == doctest::Approx(side * 4 * 0.05));
     CHECK(slip(side * 20, -side * 0.15) == doctest::Approx(side * 4 * 0.05));  // no more than 0.2 rad across
     CHECK(slip(side * 20, side * 0.3) == doctest::Approx(side * 0.35));
-    strip.bench.params.decrab.value = 0, strip.bench.retune();  // nothing is wired
+    strip.bench.params.decrab.value = 0;
+    strip.bench.retune();  // nothing is wired
     CHECK(slip(side * 20, side * 0.3) == 0);
   }
 }
@@ -304,7 +313,8 @@ TEST_CASE("a runway that is too short is refused with what it takes") {
 TEST_CASE("a glide slope that sinks more than the aircraft may is refused with what it takes") {
   Strip strip;
   FlightLimits& limits = strip.bench.params.airframe.value.limits;
-  limits.airspeed_min_mps = 12.9, limits.airspeed_cruise_mps = 16.75;
+  limits.airspeed_min_mps = 12.9;
+  limits.airspeed_cruise_mps = 16.75;
   limits.sink_rate_max_mps = 0.67;
   CHECK(strip.bench.configure() == Status::failed);
   // 1.1 12.9 sin 0.07 = 0.9925; asin(0.67 / 14.19) = 0.04723
@@ -316,7 +326,8 @@ TEST_CASE("a glide slope that sinks more than the aircraft may is refused with w
   strip.bench.params.glide_slope.value = 0.07;
   limits.sink_rate_max_mps = 0.993;
   CHECK(strip.bench.configure() == Status::ok);
-  limits.airspeed_cruise_mps = 13.5, limits.sink_rate_max_mps = 0.945;  // no faster than cruise
+  limits.airspeed_cruise_mps = 13.5;
+  limits.sink_rate_max_mps = 0.945;  // no faster than cruise
   CHECK(strip.bench.configure() == Status::ok);
 }
 
@@ -331,7 +342,7 @@ TEST_CASE("a geodetic runway is the local one, by the mission's origin or the st
     // 100 m north, 200 m west, 20 m up of 40 N, 111 W, 1387 m: a degree is 111 034 m and 85 393 m there
     // (Bowring's series of the meridian and the parallel on WGS-84), and (1 + h / a) times that at height h.
     r = {.heading_rad = 90 * deg, .length_m = 400};
-    r.lat_deg = 40 + 100 / (111034.6 * (1 + 1407 / 6.36e6)),
+    r.lat_deg = 40 + 100 / (111034.6 * (1 + 1407 / 6.36e6));
     r.lon_deg = -111 - 200 / (85393.9 * (1 + 1407 / 6.387e6));
     r.alt_msl_m = 1407;
     if (given) {
@@ -344,7 +355,9 @@ TEST_CASE("a geodetic runway is the local one, by the mission's origin or the st
       CHECK(strip.bench.step(0.01) == Status::degraded);
       CHECK(strip.bench.out.command.course_rad == strip.s.course_rad);
       CHECK(strip.bench.out.command.height_m == strip.s.height_m);
-      strip.s.origin_latitude_deg = 40, strip.s.origin_longitude_deg = -111, strip.s.origin_altitude_m = 1387;
+      strip.s.origin_latitude_deg = 40;
+      strip.s.origin_longitude_deg = -111;
+      strip.s.origin_altitude_m = 1387;
       strip.s.origin_valid = true;
     }
     strip.approach();
@@ -368,7 +381,8 @@ TEST_CASE(
   strip.bench.params.plan.value.runway.length_m = 200;
   CHECK(strip.bench.configure() == Status::failed);
   CHECK(std::string(strip.bench.error()).starts_with("plan.runway.length: 200 m is too short"));
-  strip.bench.params.runway.value = own, strip.bench.params.runway.is_given = true;
+  strip.bench.params.runway.value = own;
+  strip.bench.params.runway.is_given = true;
   REQUIRE(strip.bench.configure() == Status::ok);
   CHECK(strip.at(300, 0, 25).height_m == doctest::Approx(25));
 
@@ -392,8 +406,15 @@ TEST_CASE("a runway that is half local or half geodetic is refused") {
     Runway& r = strip.bench.params.runway.value;
     if (what == 0) r.up_m = unknown_std;
     if (what == 1) r.lat_deg = 40;
-    if (what == 2) r.lat_deg = 40, r.lon_deg = -111, r.alt_msl_m = 1387;
-    if (what == 3) r.north_m = r.east_m = r.up_m = unknown_std, r.lat_deg = 40;
+    if (what == 2) {
+      r.lat_deg = 40;
+      r.lon_deg = -111;
+      r.alt_msl_m = 1387;
+    }
+    if (what == 3) {
+      r.north_m = r.east_m = r.up_m = unknown_std;
+      r.lat_deg = 40;
+    }
     CHECK(strip.bench.configure() == Status::failed);
     CHECK(std::string(strip.bench.error()) == "runway: needs either north, east, up or lat, lon, alt_msl");
   }

@@ -23,7 +23,8 @@ struct Rounds : Bench<Manager> {
 
   void jump_to(double north, double east) {
     plan.waypoints[0].position_m = {north, east, -70};
-    ++plan.revision, ++plan.jumps;
+    ++plan.revision;
+    ++plan.jumps;
     set(in.plan, plan);
   }
   /// From azimuth `from`, so many radians to the `side`.
@@ -34,7 +35,8 @@ struct Rounds : Bench<Manager> {
       VehicleState s;
       s.position_m = {centre.north + 50 * std::cos(azimuth), centre.east + 50 * std::sin(azimuth), -70};
       s.velocity_mps = {17 * std::cos(course), 17 * std::sin(course), 0};
-      s.height_m = 70, s.ground_speed_mps = s.airspeed_mps = 17;
+      s.height_m = 70;
+      s.ground_speed_mps = s.airspeed_mps = 17;
       s.course_rad = s.yaw_rad = wrap_pi(course);
       s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
       set(in.state, s);
@@ -53,7 +55,8 @@ VehicleState on_final(double along_m, double course_rad) {
                   -(20 + std::tan(0.07) * along_m)};
   s.height_m = -s.position_m.down;
   s.ground_speed_mps = s.airspeed_mps = 14;
-  s.course_rad = course_rad, s.yaw_rad = runway_rad;
+  s.course_rad = course_rad;
+  s.yaw_rad = runway_rad;
   s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
   return s;
 }
@@ -61,7 +64,9 @@ VehicleState on_final(double along_m, double course_rad) {
 /// A waypoint that is passed in this course, with its own id.
 Waypoint passed(std::uint32_t id, double north, double east, double course_rad) {
   Waypoint w = point(north, east);
-  w.id = id, w.has_course = true, w.course_rad = course_rad;
+  w.id = id;
+  w.has_course = true;
+  w.course_rad = course_rad;
   return w;
 }
 
@@ -85,13 +90,15 @@ TEST_CASE("a second orbit counts its own circles, not the rest of the first one,
 TEST_CASE("on the slope the climb rate is that of the way along it: half at 60 degrees to it, none across") {
   Bench<Landing> bench;
   Runway& runway = bench.params.runway.value;
-  runway.up_m = 20, runway.heading_rad = runway_rad;
+  runway.up_m = 20;
+  runway.heading_rad = runway_rad;
   runway.north_m = 100 - bench.params.aim * std::cos(runway_rad);
   runway.east_m = -150 - bench.params.aim * std::sin(runway_rad);
   runway.length_m = 400;
   bench.params.runway.is_given = true;
   FlightLimits& limits = bench.params.airframe.value.limits;
-  limits.airspeed_min_mps = 12, limits.airspeed_cruise_mps = 17;
+  limits.airspeed_min_mps = 12;
+  limits.airspeed_cruise_mps = 17;
   bench.configure();
   bench.set(bench.in.state, on_final(450, runway_rad));
   bench.step(0.01);
@@ -115,7 +122,8 @@ TEST_CASE("a climbing line asks for the climb rate of the way along it and the h
       path.origin_m = {30, -40, -60};
       const double level = 1 / std::hypot(1, 0.1);
       path.direction_ratio = {level * std::cos(course), level * std::sin(course), -0.1 * level};
-      path.airspeed_mps = 17, path.remaining_m = 1e3;
+      path.airspeed_mps = 17;
+      path.remaining_m = 1e3;
       VehicleState s = on_final(0, course + off);
       // 200 m along it, 12 m to its right
       s.position_m = {30 + 200 * std::cos(course) - 12 * std::sin(course),
@@ -137,9 +145,14 @@ TEST_CASE("a climbing circle asks for the height of its azimuth, to either side"
   for (const double side : {1.0, -1.0})
     for (const double swept : {-1.2, 0.8, 2.0}) {
       Path path;
-      path.kind = PathKind::orbit, path.turn = side > 0 ? Turn::right : Turn::left;
-      path.origin_m = {10, 20, -60}, path.radius_m = 80, path.start_rad = 0.9, path.climb_ratio = 0.05;
-      path.airspeed_mps = 17, path.remaining_m = 1e3;
+      path.kind = PathKind::orbit;
+      path.turn = side > 0 ? Turn::right : Turn::left;
+      path.origin_m = {10, 20, -60};
+      path.radius_m = 80;
+      path.start_rad = 0.9;
+      path.climb_ratio = 0.05;
+      path.airspeed_mps = 17;
+      path.remaining_m = 1e3;
       const double azimuth = 0.9 + side * swept, course = azimuth + side * pi / 2;
       VehicleState s = on_final(0, wrap_pi(course));
       s.position_m = {10 + 80 * std::cos(azimuth), 20 + 80 * std::sin(azimuth), -60};
@@ -298,8 +311,10 @@ TEST_CASE(
 TEST_CASE("from its first step on the field follows the path, also while the position is not valid") {
   Path path;
   path.kind = PathKind::line;
-  path.origin_m = {0, 0, -80}, path.direction_ratio = {0, 1, 0};
-  path.airspeed_mps = 18, path.remaining_m = 1e3;
+  path.origin_m = {0, 0, -80};
+  path.direction_ratio = {0, 1, 0};
+  path.airspeed_mps = 18;
+  path.remaining_m = 1e3;
   VehicleState s = on_final(0, 0.2);
   s.position_valid = false;
   Bench<VectorField> field;

@@ -36,7 +36,9 @@ struct Desk {
   Desk() {
     for (const double north : {0.0, 300.0, 600.0}) {
       PlanFileWaypoint w;
-      w.north_m = north, w.east_m = 100, w.up_m = 70;
+      w.north_m = north;
+      w.east_m = 100;
+      w.up_m = 70;
       bench.params.plan.value.waypoints.push_back(w);
     }
     step();
@@ -187,7 +189,8 @@ TEST_CASE("of a group with one fault nothing takes effect, and each of its edits
 TEST_CASE("waypoints of a group may be anywhere on the way, but are apart at its end") {
   Desk desk;
   PlanEdit first = edit(PlanEditKind::replace, 1, 300), second = edit(PlanEditKind::replace, 2, 0);
-  first.waypoint_id = 1, second.waypoint_id = 2;
+  first.waypoint_id = 1;
+  second.waypoint_id = 2;
   desk.push(first);
   CHECK(desk.result().reason == "less than 1 m from the waypoint after it");
   desk.push(of_group(first, 8, 2));
@@ -237,7 +240,9 @@ TEST_CASE("end, radius and airspeed of the plan are edited, within their ranges"
   Desk desk;
   PlanEdit end = edit_of(PlanSetting::end), radius = edit_of(PlanSetting::turn_radius),
            speed = edit_of(PlanSetting::airspeed);
-  end.end = PlanEnd::orbit, radius.turn_radius_m = 80, speed.airspeed_mps = 21;
+  end.end = PlanEnd::orbit;
+  radius.turn_radius_m = 80;
+  speed.airspeed_mps = 21;
   for (const PlanEdit& e : {of_group(end, 1, 3), of_group(radius, 1, 3), of_group(speed, 1, 3)}) desk.push(e);
   CHECK(desk.plan.end == PlanEnd::orbit);
   CHECK(desk.plan.turn_radius_m == 80);

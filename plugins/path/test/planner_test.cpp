@@ -280,8 +280,10 @@ TEST_CASE("a file that is wrong is refused with a sentence that names the waypoi
   CHECK(fault([](PlanFile& f) { f.waypoints[0] = {}; }).find("waypoint 1") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.airspeed_mps = 0; }).find("airspeed") != std::string::npos);
   CHECK(fault([](PlanFile& f) { f.turn_radius_m = 0; }).find("turn_radius") != std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.waypoints.count = 0, f.given = true; }).find("the plan has no waypoints") !=
-        std::string::npos);  // {turn_radius: 80 m} alone
+  CHECK(fault([](PlanFile& f) {
+          f.waypoints.count = 0;
+          f.given = true;
+        }).find("the plan has no waypoints") != std::string::npos);  // {turn_radius: 80 m} alone
   CHECK(fault([](PlanFile& f) { f.waypoints[0].airspeed_mps = -3; }).find("airspeed") != std::string::npos);
 }
 
@@ -359,7 +361,9 @@ TEST_CASE("of a geodetic waypoint the local position means nothing, as long as n
   bench.step(0.01);
   PlanEdit e = edit(PlanEditKind::append, 0, 2e5, 0);  // 200 km away
   e.waypoint.frame = WaypointFrame::geodetic;
-  e.waypoint.latitude_deg = 40.25, e.waypoint.longitude_deg = -111.65, e.waypoint.altitude_m = 1450;
+  e.waypoint.latitude_deg = 40.25;
+  e.waypoint.longitude_deg = -111.65;
+  e.waypoint.altitude_m = 1450;
   CHECK(ask(bench, e) == "accepted");
 }
 

@@ -33,11 +33,14 @@ Plan random_plan(Random& rng) {
 VehicleState wandering(double t, double height_m = 60) {
   Kinematic k;
   k.psi = 0.4 + 0.9 * std::sin(0.11 * t) + 0.05 * t;
-  k.north = 40 + 150 * std::sin(0.07 * t), k.east = -90 + 11 * t - 0.03 * t * t;
+  k.north = 40 + 150 * std::sin(0.07 * t);
+  k.east = -90 + 11 * t - 0.03 * t * t;
   k.height = height_m + 9 * std::sin(0.2 * t);
-  k.Va = 17 + 2 * std::sin(0.3 * t), k.climb = 1.8 * std::cos(0.2 * t);
+  k.Va = 17 + 2 * std::sin(0.3 * t);
+  k.climb = 1.8 * std::cos(0.2 * t);
   k.roll = 0.3 * std::sin(0.17 * t + 0.4);
-  k.wind_north = 3, k.wind_east = -4 + std::sin(0.1 * t);
+  k.wind_north = 3;
+  k.wind_east = -4 + std::sin(0.1 * t);
   return k.state();
 }
 
@@ -49,9 +52,11 @@ TEST_CASE("manager and field fly a mirrored, turned and moved plan as they fly t
     Random rng(seed);
     const Plan plan = random_plan(rng);
     Flight here(plan);
-    here.aircraft.north = rng.uniform(-300, 300), here.aircraft.east = rng.uniform(-300, 300);
+    here.aircraft.north = rng.uniform(-300, 300);
+    here.aircraft.east = rng.uniform(-300, 300);
     here.aircraft.psi = rng.uniform(-3, 3);
-    here.aircraft.wind_north = rng.uniform(-6, 6), here.aircraft.wind_east = rng.uniform(-6, 6);
+    here.aircraft.wind_north = rng.uniform(-6, 6);
+    here.aircraft.wind_east = rng.uniform(-6, 6);
     const World& w = worlds[seed % worlds.size()];
     Bench<path::Manager> manager;
     Bench<path::VectorField> field;
@@ -89,8 +94,10 @@ TEST_CASE("the field asks for the same on any line and orbit of a mirrored, turn
     const double course = rng.uniform(-3, 3), climb = rng.uniform(-0.2, 0.2), norm = 1 / std::hypot(1, climb);
     path.direction_ratio = {std::cos(course) * norm, std::sin(course) * norm, -climb * norm};
     path.radius_m = rng.uniform(40, 120);
-    path.climb_ratio = climb, path.start_rad = rng.uniform(-3, 3);
-    path.remaining_m = rng.uniform(0, 40), path.next_curvature_ratio = rng.uniform(-0.02, 0.02);
+    path.climb_ratio = climb;
+    path.start_rad = rng.uniform(-3, 3);
+    path.remaining_m = rng.uniform(0, 40);
+    path.next_curvature_ratio = rng.uniform(-0.02, 0.02);
     const VehicleState s = wandering(rng.uniform(0, 60));
     Bench<path::VectorField> here;
     here.set(here.in.state, s);
@@ -119,7 +126,8 @@ TEST_CASE("a loiter in another world is the same loiter, and a second one is as 
           b->params.airframe.value.limits.airspeed_cruise_mps = 17;
           b->params.at.value = at;
           b->params.turn.value = other ? w.turn(turn) : turn;
-          b->params.north.value = middle.north, b->params.east.value = middle.east;
+          b->params.north.value = middle.north;
+          b->params.east.value = middle.east;
           b->params.height.value = 74;
         }
         again.set(again.in.state, wandering(300, 30));  // somewhere else, before
@@ -156,7 +164,10 @@ struct Lands {
   Lands(const World& w, Turn circle) : world(w) {
     Runway& r = strip.bench.params.runway.value;
     const Vec3<Ned> begin = w.place({80, -40, 0});
-    r.north_m = begin.north, r.east_m = begin.east, r.heading_rad = w.course(0.6), r.up_m = 4;
+    r.north_m = begin.north;
+    r.east_m = begin.east;
+    r.heading_rad = w.course(0.6);
+    r.up_m = 4;
     strip.bench.params.circle.value = w.turn(circle);
     strip.bench.params.decrab.value = 0.15;
     strip.bench.params.wind.value = path::WindAnswer::warn;
@@ -177,7 +188,9 @@ void check_landing(const World& w, Turn circle, bool second) {
   Lands here({}, circle), there(w, circle);
   if (second) {
     Kinematic before;
-    before.north = -300, before.height = 30, before.wind_east = 5;
+    before.north = -300;
+    before.height = 30;
+    before.wind_east = 5;
     for (int i = 0; i < 3000; ++i) {
       there.step(before.state(), Contact::air);
       before.step(there.strip.bench.out.command, 0.01);
@@ -185,7 +198,12 @@ void check_landing(const World& w, Turn circle, bool second) {
     REQUIRE(there.strip.bench.activate() == Status::ok);
   }
   Kinematic k;
-  k.north = -250, k.east = -420, k.height = 60, k.psi = 1.1, k.wind_north = -2, k.wind_east = 3;
+  k.north = -250;
+  k.east = -420;
+  k.height = 60;
+  k.psi = 1.1;
+  k.wind_north = -2;
+  k.wind_east = 3;
   bool down = false;
   std::uint32_t stages = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -195,9 +213,10 @@ void check_landing(const World& w, Turn circle, bool second) {
     there.step(s, down ? Contact::ground : Contact::air);
     const auto &a = here.strip.bench.out, &b = there.strip.bench.out;
     stages |= 1U << static_cast<unsigned>(a.progress.stage);
-    if (down)
-      k.Va = std::max(k.Va - 0.015, 0.5), k.height = 4;
-    else
+    if (down) {
+      k.Va = std::max(k.Va - 0.015, 0.5);
+      k.height = 4;
+    } else
       k.step(a.command, 0.01);
     if (i % 100 != 0) continue;
     CAPTURE(i);

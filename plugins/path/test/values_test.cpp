@@ -28,10 +28,13 @@ using Words = std::array<char, 96>;
 
 VehicleState at(double north, double east, double course, double speed = 16) {
   VehicleState s;
-  s.position_m = {north, east, -83}, s.height_m = 83;
+  s.position_m = {north, east, -83};
+  s.height_m = 83;
   s.velocity_mps = {speed * std::cos(course), speed * std::sin(course), -0.5};
-  s.course_rad = course, s.yaw_rad = course + 0.2;
-  s.ground_speed_mps = speed, s.airspeed_mps = 18;
+  s.course_rad = course;
+  s.yaw_rad = course + 0.2;
+  s.ground_speed_mps = speed;
+  s.airspeed_mps = 18;
   s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = true;
   return s;
 }
@@ -41,13 +44,15 @@ Path climbing_line() {
   p.kind = PathKind::line;
   p.origin_m = {100, -200, -60};
   p.direction_ratio = {0.6, -0.7, -0.1};
-  p.airspeed_mps = 19, p.remaining_m = 500;
+  p.airspeed_mps = 19;
+  p.remaining_m = 500;
   return p;
 }
 
 struct Field : Bench<VectorField> {
   const GuidanceCommand& fly(const VehicleState& s, const Path& p) {
-    set(in.state, s), set(in.path, p);
+    set(in.state, s);
+    set(in.path, p);
     step(0.02);
     return out.command;
   }
@@ -82,8 +87,14 @@ TEST_CASE("the bank of a circle is fed forward whole near it, by a share beside 
     for (const auto& [off, share] : {std::pair{0.3, 1.0}, {-0.45, 1.0}, {0.7, 0.8}, {1.2, 0.3}, {1.6, 0.0}}) {
       const double side = turn == Turn::right ? 1 : -1, R = 120;
       Path p;
-      p.kind = PathKind::orbit, p.turn = turn, p.radius_m = R, p.origin_m = {30, -50, -70};
-      p.climb_ratio = 0.05, p.start_rad = 2.9, p.remaining_m = 1e9, p.airspeed_mps = 17;
+      p.kind = PathKind::orbit;
+      p.turn = turn;
+      p.radius_m = R;
+      p.origin_m = {30, -50, -70};
+      p.climb_ratio = 0.05;
+      p.start_rad = 2.9;
+      p.remaining_m = 1e9;
+      p.airspeed_mps = 17;
       const double azimuth = -2.8, d = R * (1 + off), tangent = azimuth + side * pi / 2;
       const VehicleState s =
           at(30 + d * std::cos(azimuth), -50 + d * std::sin(azimuth), wrap_pi(tangent + 0.3));
@@ -104,8 +115,10 @@ TEST_CASE("the next piece's bank is commanded within the time that a roll takes,
   const auto bank = [&](double remaining_m, double off_m, double course_off, double radius_m = 5) {
     Path p = climbing_line();
     p.radius_m = radius_m;
-    p.direction_ratio = {0, 1, 0}, p.origin_m = {0, 0, -80};
-    p.remaining_m = remaining_m, p.next_curvature_ratio = -0.01;
+    p.direction_ratio = {0, 1, 0};
+    p.origin_m = {0, 0, -80};
+    p.remaining_m = remaining_m;
+    p.next_curvature_ratio = -0.01;
     return f.fly(at(off_m, 300, pi / 2 + course_off), p).roll_feedforward_rad;
   };
   const double whole = std::atan(-16 * 16 * 0.01 / (g * std::cos(0.2)));
@@ -134,7 +147,9 @@ TEST_CASE("without a position a circle to the right at the height and speed last
     f.fly(s, p);
     const GuidanceCommand last = f.out.command;
     CHECK(f.out.notices.count == (again ? 1 : 0));  // it is back
-    s.position_valid = false, s.position_std_m = {3, 60, 0}, s.course_rad = -1.2;
+    s.position_valid = false;
+    s.position_std_m = {3, 60, 0};
+    s.course_rad = -1.2;
     const GuidanceCommand& c = f.fly(s, p);
     CHECK(f.out.notices.count == 1);
     CHECK(c.height_m == last.height_m);
@@ -144,7 +159,8 @@ TEST_CASE("without a position a circle to the right at the height and speed last
     CHECK(c.roll_feedforward_rad == Approx(std::atan(18.0 * 18 / (g * f.params.lost_radius))));
     CHECK(f.out.cross_track_m.value == 0);
     CHECK(f.out.height_error_m.value == 0);
-    s.attitude_valid = false, s.course_rad = 2;
+    s.attitude_valid = false;
+    s.course_rad = 2;
     f.fly(s, p);
     CHECK(f.out.notices.count == 0);
     CHECK(f.out.command.course_rad == -1.2);
@@ -160,15 +176,18 @@ TEST_CASE("a position is reckoned on for its time and up to its deviation, north
   s.position_valid = false;
   CHECK_FALSE(r.located(s, 0, 50, 20));  // there was none
   for (std::int64_t begin = 10 * second; begin < 300 * second; begin += 100 * second) {
-    s.position_valid = true, s.position_std_m = {99, 99, 0};
+    s.position_valid = true;
+    s.position_std_m = {99, 99, 0};
     CHECK(r.located(s, begin, 50, 20));
-    s.position_valid = false, s.position_std_m = {49, 10, 99};
+    s.position_valid = false;
+    s.position_std_m = {49, 10, 99};
     CHECK(r.located(s, begin + second, 50, 20));
     CHECK(r.located(s, begin + 21 * second, 50, 20));
     CHECK_FALSE(r.located(s, begin + 21 * second + 1000, 50, 20));
     s.velocity_valid = false;
     CHECK_FALSE(r.located(s, begin + 2 * second, 50, 20));
-    s.velocity_valid = true, s.attitude_valid = false;
+    s.velocity_valid = true;
+    s.attitude_valid = false;
     CHECK_FALSE(r.located(s, begin + 2 * second, 50, 20));
     s.attitude_valid = true;
     CHECK(r.located(s, begin + 2 * second, 50, 20));
@@ -183,8 +202,11 @@ TEST_CASE(
     "a circle begins beside the aircraft, counts its laps near it, and goes to its height by its rate") {
   for (const Turn turn : {Turn::left, Turn::right}) {
     Bench<Loiter> l;
-    l.params.airframe.value = test::anaconda(), l.params.airframe.is_given = true;
-    l.params.turn.value = turn, l.params.height.value = 90, l.params.radius.value = 100;
+    l.params.airframe.value = test::anaconda();
+    l.params.airframe.is_given = true;
+    l.params.turn.value = turn;
+    l.params.height.value = 90;
+    l.params.radius.value = 100;
     const double side = turn == Turn::right ? 1 : -1, chi = 0.7;
     VehicleState s = at(40, -25, chi);
     l.set(l.in.state, s);
@@ -239,9 +261,13 @@ TEST_CASE(
 
 TEST_CASE("a loiter's own airspeed, point and the height at which it takes over are taken when asked for") {
   Bench<Loiter> l;
-  l.params.airframe.value = test::anaconda(), l.params.airframe.is_given = true;
-  l.params.airspeed.value = 21, l.params.at.value = LoiterAt::point;
-  l.params.north.value = -30, l.params.east.value = 70, l.params.radius.value = 60;
+  l.params.airframe.value = test::anaconda();
+  l.params.airframe.is_given = true;
+  l.params.airspeed.value = 21;
+  l.params.at.value = LoiterAt::point;
+  l.params.north.value = -30;
+  l.params.east.value = 70;
+  l.params.radius.value = 60;
   const VehicleState s = at(50, 10, 0.3);
   l.set(l.in.state, s);
   REQUIRE(l.activate() == Status::ok);
@@ -292,10 +318,12 @@ TEST_CASE("a waypoint outside the fence, above its ceiling or below its floor is
   safety::Fence fence;
   for (const auto& [n, e] : {std::pair{300.0, -100.0}, {300.0, 200.0}, {-50.0, 200.0}, {-50.0, -100.0}}) {
     safety::FencePoint corner;
-    corner.north_m = n, corner.east_m = e;
+    corner.north_m = n;
+    corner.east_m = e;
     fence.corners.push_back(corner);
   }
-  fence.floor_m = 20, fence.ceiling_m = 100;
+  fence.floor_m = 20;
+  fence.ceiling_m = 100;
   const auto refused = [&](double north, double east, double up) {
     Plan plan;
     for (const Vec3<Ned>& p : {Vec3<Ned>{0, 0, -50}, Vec3<Ned>{north, east, -up}}) {

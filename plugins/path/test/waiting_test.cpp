@@ -37,7 +37,8 @@ struct Point {
     for (double t = 0; t < seconds - 1e-9; t += 0.01) {
       const GuidanceCommand& c = step();
       s.course_rad = s.yaw_rad = c.course_rad;
-      s.position_m.north += 0.2 * std::cos(s.course_rad), s.position_m.east += 0.2 * std::sin(s.course_rad);
+      s.position_m.north += 0.2 * std::cos(s.course_rad);
+      s.position_m.east += 0.2 * std::sin(s.course_rad);
       s.height_m += 0.01 * c.climb_rate_mps;
     }
   }
@@ -70,7 +71,8 @@ TEST_CASE("it begins on a circle beside it, along its course, with the bank of t
 TEST_CASE("it finds the circle round a point from far away, and counts laps from there on") {
   Point p(Turn::right);
   p.bench.params.at.value = path::LoiterAt::point;
-  p.bench.params.north.value = -400, p.bench.params.east.value = 300;
+  p.bench.params.north.value = -400;
+  p.bench.params.east.value = 300;
   p.fly(5);
   CHECK_FALSE(p.bench.out.progress.there);
   CHECK(p.bench.out.progress.laps_ratio == 0);
@@ -88,7 +90,8 @@ TEST_CASE("up and down the height that is asked for goes by its rate, and says w
     Point p;
     p.bench.set(p.bench.in.state, p.s);
     p.bench.activate();
-    p.bench.params.height.value = height, p.bench.params.rate.value = 3;
+    p.bench.params.height.value = height;
+    p.bench.params.rate.value = 3;
     p.bench.params.airspeed.value = 15;
     p.bench.retune();
     p.fly(5);

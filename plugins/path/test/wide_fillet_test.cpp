@@ -185,8 +185,10 @@ TEST_CASE(
     Plan plan = square();
     if (open)
       plan.end = PlanEnd::orbit;
-    else
-      plan.waypoints[0].has_course = true, plan.waypoints[0].course_rad = pi / 2;
+    else {
+      plan.waypoints[0].has_course = true;
+      plan.waypoints[0].course_rad = pi / 2;
+    }
     Flight flight(plan);
     flight.aircraft.wind_east = 10;  // along the leg to waypoint 1
     double widest = 0;

@@ -35,7 +35,9 @@ class Law:
   CHECK((law.c->flags & FULMAR_RESIDENT) != 0);
   REQUIRE(law.configure() == FULMAR_OK);
   VehicleState state;
-  state.course_rad = 0.25, state.position_m.east = 7, state.attitude.w = 0.5;
+  state.course_rad = 0.25;
+  state.position_m.east = 7;
+  state.attitude.w = 0.5;
   GuidanceCommand command;
   command.course_rad = 1;
   law.show("state", state);
@@ -97,10 +99,16 @@ class Law:
 )");
   REQUIRE(law.configure() == FULMAR_OK);
   PlanEdit edits[3];
-  for (std::uint32_t i = 0; i < 3; ++i) edits[i].index = 10 + i, edits[i].waypoint.position_m.north = i;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    edits[i].index = 10 + i;
+    edits[i].waypoint.position_m.north = i;
+  }
   const std::int64_t stamps[3] = {100, 200, 300};
   fulmar_input& queue = law.inputs[law.input("edits")];
-  queue.data = edits, queue.stamps_ns = stamps, queue.count = 3, queue.lost = 6;
+  queue.data = edits;
+  queue.stamps_ns = stamps;
+  queue.count = 3;
+  queue.lost = 6;
   REQUIRE(law.step() == FULMAR_OK);
   CHECK(law.result<double>("lost_ratio") == 6);
   CHECK(law.out("copies").count == 2);
@@ -114,7 +122,10 @@ class Law:
   fulmar_answer answers[2] = {};
   fulmar_input& requests = law.inputs[law.input("edit")];
   edits[1].kind = PlanEditKind::remove;
-  requests.data = edits, requests.stamps_ns = stamps, requests.count = 2, requests.answers = answers;
+  requests.data = edits;
+  requests.stamps_ns = stamps;
+  requests.count = 2;
+  requests.answers = answers;
   REQUIRE(law.step() == FULMAR_OK);
   CHECK(law.out("copies").count == 2);
   CHECK(law.out("copies").lost == 0);
@@ -170,9 +181,13 @@ class Law:
   Airframe airframe;
   airframe.mass_kg = 4.5;
   fulmar_value& record = law.values[law.param("airframe")];
-  record.data = &airframe, record.size = sizeof airframe, record.integer = 1;
+  record.data = &airframe;
+  record.size = sizeof airframe;
+  record.integer = 1;
   fulmar_value& blob = law.values[law.param("table")];
-  blob.data = "12345", blob.size = 5, blob.text = "polar.bin";
+  blob.data = "12345";
+  blob.size = 5;
+  blob.text = "polar.bin";
   REQUIRE(law.configure() == FULMAR_OK);
   REQUIRE(law.step() == FULMAR_OK);
   CHECK(law.result<double>("sum_ratio") == 1.5 + 10 + 300 - 4e4);

@@ -21,8 +21,11 @@ RosPoseStamped goal(double east, double north, double up) {
 
 VehicleState cruising() {
   VehicleState s;
-  s.height_m = 80, s.height_valid = true;
-  s.course_rad = 1, s.airspeed_mps = 17, s.ground_speed_mps = 20;
+  s.height_m = 80;
+  s.height_valid = true;
+  s.course_rad = 1;
+  s.airspeed_mps = 17;
+  s.ground_speed_mps = 20;
   return s;
 }
 
@@ -91,7 +94,9 @@ TEST_CASE("a twist to the left turns the course to the left at its rate, with th
   Bench<Velocity> bench;
   bench.set(bench.in.state, cruising());
   RosTwist twist;
-  twist.linear.x = 19, twist.linear.z = 2, twist.angular.z = 0.2;
+  twist.linear.x = 19;
+  twist.linear.z = 2;
+  twist.angular.z = 0.2;
   bench.set(bench.in.twist, twist);
   bench.step(0.01);
   for (int i = 0; i < 100; ++i) {
@@ -112,7 +117,8 @@ TEST_CASE("a twist that is old, absent or no number flies straight on and level"
   CHECK(bench.step(0.01) == Status::degraded);
   CHECK(bench.out.command.course_rad == 1);
   RosTwist twist;
-  twist.linear.x = 99, twist.angular.z = 0.2;
+  twist.linear.x = 99;
+  twist.angular.z = 0.2;
   bench.set(bench.in.twist, twist);
   bench.step(0.01);
   CHECK(bench.out.command.airspeed_mps == 25);

@@ -17,7 +17,9 @@ constexpr double pi = std::numbers::pi;
 
 Airframe anaconda() {
   Airframe a;
-  a.aileron.limit_rad = 0.4, a.elevator.limit_rad = 0.5, a.rudder.limit_rad = 0.3;
+  a.aileron.limit_rad = 0.4;
+  a.elevator.limit_rad = 0.5;
+  a.rudder.limit_rad = 0.3;
   return a;
 }
 
@@ -25,13 +27,20 @@ VehicleState flying() {
   VehicleState s;
   s.position_m = {1, 2, -70};
   s.height_m = 70;
-  s.roll_rad = 0.1, s.pitch_rad = 0.05, s.yaw_rad = pi / 2;
+  s.roll_rad = 0.1;
+  s.pitch_rad = 0.05;
+  s.yaw_rad = pi / 2;
   s.attitude = from_eigen(quaternion_from({0, 0, pi / 2}));  // nose to the east
   s.velocity_mps = {3, 17, 0.5};
   s.rate_radps = {0.1, 0.2, 0.3};
-  s.course_rad = 1.4, s.airspeed_mps = 16, s.alpha_rad = 0.04, s.beta_rad = -0.01;
+  s.course_rad = 1.4;
+  s.airspeed_mps = 16;
+  s.alpha_rad = 0.04;
+  s.beta_rad = -0.01;
   s.wind_mps = {3, -4, 0};
-  s.origin_latitude_deg = 40.25, s.origin_longitude_deg = -111.5, s.origin_altitude_m = 1387;
+  s.origin_latitude_deg = 40.25;
+  s.origin_longitude_deg = -111.5;
+  s.origin_altitude_m = 1387;
   s.attitude_valid = s.position_valid = s.height_valid = s.velocity_valid = true;
   return s;
 }
@@ -109,7 +118,8 @@ TEST_CASE("current_path: a right orbit is clockwise, 1; a line has its point and
   Path path;
   path.kind = PathKind::orbit;
   path.origin_m = {10, 20, -50};
-  path.radius_m = 60, path.airspeed_mps = 17;
+  path.radius_m = 60;
+  path.airspeed_mps = 17;
   bench.set(bench.in.path, path);
   bench.step(0.01);
   CHECK(int{bench.out.current_path.value.path_type} == 0);
@@ -164,11 +174,15 @@ TEST_CASE(
   Baro baro;
   baro.pressure_pa = 84556;  // 1500 m in the tables of the standard atmosphere
   Rc rc;
-  rc.roll_frac = 0.5, rc.pitch_frac = 0.2, rc.throttle_frac = 0.25, rc.yaw_frac = 1;
+  rc.roll_frac = 0.5;
+  rc.pitch_frac = 0.2;
+  rc.throttle_frac = 0.25;
+  rc.yaw_frac = 1;
   VehicleStatus status;
   status.armed = status.override = true;
   Gnss gnss;
-  gnss.fix = FixType::rtk_fixed, gnss.utc_ns = 1'700'000'000'123'000'000;
+  gnss.fix = FixType::rtk_fixed;
+  gnss.utc_ns = 1'700'000'000'123'000'000;
   bench.set(bench.in.imu, imu);
   bench.set(bench.in.baro, baro);
   bench.set(bench.in.rc, rc);
@@ -194,7 +208,10 @@ TEST_CASE(
   Bench<RosplaneFollower> bench;
   CHECK(bench.step(0.01) == Status::degraded);
   RosplaneControllerCommands c;
-  c.va_c = 17, c.h_c = 80, c.chi_c = -1.5f, c.phi_ff = 0.2f;
+  c.va_c = 17;
+  c.h_c = 80;
+  c.chi_c = -1.5f;
+  c.phi_ff = 0.2f;
   bench.set(bench.in.controller_command, c);
   CHECK(bench.step(0.01) == Status::ok);
   REQUIRE(bench.out.command.written);
@@ -228,7 +245,8 @@ TEST_CASE("a controller's command of another mode, or that is no number, is a fa
   c.mode = 2;
   bench.set(bench.in.command, c);
   CHECK(bench.step(0.01) == Status::failed);
-  c.mode = 0, c.u[0] = std::nanf("");
+  c.mode = 0;
+  c.u[0] = std::nanf("");
   bench.set(bench.in.command, c);
   CHECK(bench.step(0.01) == Status::failed);
 }
@@ -236,12 +254,17 @@ TEST_CASE("a controller's command of another mode, or that is no number, is a fa
 TEST_CASE("a manager's line is normalised, its orbit keeps its sense, and nonsense leaves the last piece") {
   Bench<RosplanePath> bench;
   RosplaneCurrentPath c;
-  c.q = {3, 4, 0}, c.r = {1, 2, -30}, c.va_d = 18;
+  c.q = {3, 4, 0};
+  c.r = {1, 2, -30};
+  c.va_d = 18;
   bench.set(bench.in.current_path, c);
   bench.step(0.01);
   CHECK(bench.out.path.value.direction_ratio.east == doctest::Approx(0.8));
   CHECK(bench.out.path.value.origin_m.down == -30);
-  c.path_type = 0, c.rho = 75, c.lamda = -1, c.c = {5, 6, -40};
+  c.path_type = 0;
+  c.rho = 75;
+  c.lamda = -1;
+  c.c = {5, 6, -40};
   bench.set(bench.in.current_path, c);
   bench.step(0.01);
   CHECK(bench.out.path.value.kind == PathKind::orbit);
@@ -257,8 +280,13 @@ TEST_CASE("a planner's waypoints become edits: clear, local, geodetic, with a co
   Bench<RosplaneWaypoints> bench;
   RosplaneWaypoint clear, local, geodetic, bad;
   clear.clear_wp_list = true;
-  local.w = {100, 50, -70}, local.va_d = 16, local.chi_d = 1, local.use_chi = true;
-  geodetic.w = {40.5f, -111.5f, 1500}, geodetic.lla = true, geodetic.chi_d = 1;
+  local.w = {100, 50, -70};
+  local.va_d = 16;
+  local.chi_d = 1;
+  local.use_chi = true;
+  geodetic.w = {40.5f, -111.5f, 1500};
+  geodetic.lla = true;
+  geodetic.chi_d = 1;
   bad.w[1] = std::nanf("");
   for (const RosplaneWaypoint& w : {clear, local, bad, geodetic}) bench.push(bench.in.waypoint_path, w);
   bench.step(0.01);
@@ -277,7 +305,8 @@ TEST_CASE("a planner's waypoints become edits: clear, local, geodetic, with a co
 TEST_CASE("the service add_waypoint appends, and refuses what is no number") {
   Bench<RosplaneWaypoints> bench;
   RosplaneAddWaypoint good, bad;
-  good.w = {1, 2, -60}, good.va_d = 14;
+  good.w = {1, 2, -60};
+  good.va_d = 14;
   bad.va_d = std::nanf("");
   bench.push(bench.in.add_waypoint, good);
   bench.push(bench.in.add_waypoint, bad);

@@ -21,7 +21,9 @@ VehicleState at(double north, double east, double up) {
   s.position_m = {north, east, -up};
   s.attitude = from_eigen(quaternion_from({0, 0, pi / 2}));
   s.attitude_valid = s.position_valid = s.height_valid = s.origin_valid = true;
-  s.origin_latitude_deg = 40, s.origin_longitude_deg = -111, s.origin_altitude_m = 1400;
+  s.origin_latitude_deg = 40;
+  s.origin_longitude_deg = -111;
+  s.origin_altitude_m = 1400;
   return s;
 }
 
@@ -108,7 +110,10 @@ TEST_CASE("an origin that moves is followed") {
 
 TEST_CASE("without a place of its own the aircraft is on the map where its receiver says, or nowhere") {
   Gnss gnss;
-  gnss.latitude_deg = 47, gnss.longitude_deg = 8, gnss.altitude_m = 500, gnss.fix = FixType::fix_3d;
+  gnss.latitude_deg = 47;
+  gnss.longitude_deg = 8;
+  gnss.altitude_m = 500;
+  gnss.fix = FixType::fix_3d;
   Bench<Scene> bench;
   VehicleState s = at(1000, 0, 80);
   s.origin_valid = false;
@@ -116,7 +121,8 @@ TEST_CASE("without a place of its own the aircraft is on the map where its recei
   bench.step(0.1);
   CHECK(bench.out.tf.written);
   CHECK_FALSE(bench.out.fix.written);
-  s.origin_valid = true, s.origin_latitude_deg = 95;  // no place at all
+  s.origin_valid = true;
+  s.origin_latitude_deg = 95;  // no place at all
   bench.set(bench.in.state, s);
   bench.step(0.1);
   CHECK_FALSE(bench.out.fix.written);
@@ -160,7 +166,8 @@ TEST_CASE("a circuit is drawn with its fillets, closed, at the heights of its le
   double nearest = 1e9, lowest = 1e9, highest = 0;
   for (const RosPoseStamped& p : poses) {
     nearest = std::min(nearest, from(p, 400, 0));
-    lowest = std::min(lowest, p.pose.position.z), highest = std::max(highest, p.pose.position.z);
+    lowest = std::min(lowest, p.pose.position.z);
+    highest = std::max(highest, p.pose.position.z);
   }
   CHECK(nearest == doctest::Approx(50 * (std::sqrt(2) - 1)).epsilon(1e-6));  // the middle of the fillet
   CHECK(lowest == doctest::Approx(70));
@@ -221,7 +228,8 @@ TEST_CASE("route and markers are told when the plan changes, and once a minute")
   CHECK(bench.out.markers.written);
   int again = 0;
   for (int i = 0; i < 598; ++i) {
-    plan.revision++, plan.jumps++;  // what is drawn is the same
+    plan.revision++;
+    plan.jumps++;  // what is drawn is the same
     bench.set(bench.in.plan, plan);
     bench.step(0.1);
     again += bench.out.route.written || bench.out.markers.written;
@@ -275,7 +283,8 @@ TEST_CASE("the largest plan takes its steps, has room, and leads past every wayp
 TEST_CASE("the aircraft is as wide as its wing, the same on both sides, and goes with its frame") {
   Bench<Scene> bench;
   Airframe airframe;
-  airframe.wing.span_m = 2.5, airframe.wing.chord_m = 0.3;
+  airframe.wing.span_m = 2.5;
+  airframe.wing.chord_m = 0.3;
   bench.params.airframe.value = airframe;
   bench.params.magnify.value = 4;
   bench.step(0.1);
@@ -291,8 +300,10 @@ TEST_CASE("the aircraft is as wide as its wing, the same on both sides, and goes
   CHECK(m.points.count % 3 == 0);
   double left = 0, right = 0, front = 0, back = 0, sum_y = 0, up = 0;
   for (const RosPoint& p : m.points) {
-    left = std::max(left, p.y), right = std::min(right, p.y);
-    front = std::max(front, p.x), back = std::min(back, p.x);
+    left = std::max(left, p.y);
+    right = std::min(right, p.y);
+    front = std::max(front, p.x);
+    back = std::min(back, p.x);
     up = std::max(up, p.z);
     sum_y += p.y;
   }

@@ -167,8 +167,11 @@ TEST_CASE("fixes: altitude above the ellipsoid, covariance east north up, no fix
   Bench<Standard> bench;
   bench.params.geoid_separation.value = -17;
   Gnss gnss;
-  gnss.latitude_deg = 40.25, gnss.longitude_deg = -111.5, gnss.altitude_m = 1400;
-  gnss.horizontal_std_m = 1.5, gnss.vertical_std_m = 3;
+  gnss.latitude_deg = 40.25;
+  gnss.longitude_deg = -111.5;
+  gnss.altitude_m = 1400;
+  gnss.horizontal_std_m = 1.5;
+  gnss.vertical_std_m = 3;
   gnss.fix = FixType::fix_3d;
   bench.set(bench.in.gnss, gnss);
   bench.step(0.01);

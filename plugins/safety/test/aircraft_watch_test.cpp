@@ -132,7 +132,10 @@ TEST_CASE("the rates of bank and pitch are those of the Euler angles, in a steep
 TEST_CASE(
     "nothing is reported of commands that move nothing: on the ground, by the pilot, without attitude") {
   Watching ground, pilot, blind;
-  for (Watching* w : {&ground, &pilot, &blind}) w->asked.pitch_rad = 30 * deg, w->asked.roll_rad = 40 * deg;
+  for (Watching* w : {&ground, &pilot, &blind}) {
+    w->asked.pitch_rad = 30 * deg;
+    w->asked.roll_rad = 40 * deg;
+  }
   ground.ground.contact = Contact::ground;
   pilot.status.in_control = false;
   blind.state.attitude_valid = false;

@@ -14,7 +14,8 @@ Fence fence_of(std::initializer_list<std::pair<double, double>> corners) {
   Fence f;
   for (const auto& [north, east] : corners) {
     FencePoint p;
-    p.north_m = north, p.east_m = east;
+    p.north_m = north;
+    p.east_m = east;
     f.corners.push_back(p);
   }
   return f;
@@ -35,9 +36,12 @@ std::string refusal(const Fence& f, const Origin& origin = {}) {
 }
 TurnBack flying(double north, double east, double course, double Vg = 20) {
   TurnBack t;
-  t.north_m = north, t.east_m = east;
-  t.v_north_mps = Vg * std::cos(course), t.v_east_mps = Vg * std::sin(course);
-  t.roll_rad = 0.5, t.reaction_s = 1;
+  t.north_m = north;
+  t.east_m = east;
+  t.v_north_mps = Vg * std::cos(course);
+  t.v_east_mps = Vg * std::sin(course);
+  t.roll_rad = 0.5;
+  t.reaction_s = 1;
   return t;
 }
 
@@ -65,14 +69,17 @@ TEST_CASE("what is no fence is refused in one sentence that names the corner") {
         std::string::npos);
   CHECK(refusal(fence_of({{0, 0}, {100, 0}, {100, 100}, {0, 100}})) == "");
   Fence f = fence_of({{0, 0}, {100, 0}, {100, 100}});
-  f.floor_m = 100, f.ceiling_m = 50;
+  f.floor_m = 100;
+  f.ceiling_m = 50;
   CHECK(refusal(f).find("fence.floor_m: 100 m is not below the ceiling, 50 m") == 0);
   f = fence_of({{0, 0}, {100, 0}, {100, 100}});
-  f.corners[1].lat_deg = 40, f.corners[1].lon_deg = 10;
+  f.corners[1].lat_deg = 40;
+  f.corners[1].lon_deg = 10;
   CHECK(refusal(f).find("fence.corners[1]: both") == 0);
   f.corners[1] = {};
   CHECK(refusal(f).find("fence.corners[1]: give north and east, or lat and lon") == 0);
-  f.corners[1].lat_deg = 40, f.corners[1].lon_deg = 10;
+  f.corners[1].lat_deg = 40;
+  f.corners[1].lon_deg = 10;
   CHECK(refusal(f).find("fence.corners[1]: lat and lon need the mission's origin") == 0);
 }
 
@@ -80,9 +87,12 @@ TEST_CASE("latitude and longitude are metres from the origin") {
   // Length of a degree at 40 deg: 111132.95 - 559.85 cos 2 phi + 1.175 cos 4 phi, and 111412.88 cos phi
   // - 93.5 cos 3 phi (Snyder, Map Projections, 1987), at sea level.
   Origin origin;
-  origin.lat_deg = 40, origin.lon_deg = -111, origin.given = true;
+  origin.lat_deg = 40;
+  origin.lon_deg = -111;
+  origin.given = true;
   FencePoint p;
-  p.lat_deg = 40.001, p.lon_deg = -110.998;
+  p.lat_deg = 40.001;
+  p.lon_deg = -110.998;
   const Spot at = spot_of(p, origin, "it");
   const double phi = 40 * kit::deg;
   CHECK(at.north_m == doctest::Approx(111.13295 - 0.55985 * std::cos(2 * phi)).epsilon(0.0005));
@@ -115,8 +125,11 @@ TEST_CASE("with the wind behind it takes as much more as a fine integration of t
     t.w_north_mps = wind;
     double n = 200 + (20 + wind) * 1, most = n, psi = 0;
     const double omega = 9.80665 * std::tan(0.5) / 20;
-    for (double now = 0; now < std::numbers::pi / omega; now += 1e-3)
-      psi += omega * 1e-3, n += (20 * std::cos(psi) + wind) * 1e-3, most = std::max(most, n);
+    for (double now = 0; now < std::numbers::pi / omega; now += 1e-3) {
+      psi += omega * 1e-3;
+      n += (20 * std::cos(psi) + wind) * 1e-3;
+      most = std::max(most, n);
+    }
     CHECK(room_of_turn(wide, t, {-1000, 0, 0}, 1) == doctest::Approx(500 - most).epsilon(0.01));
   }
 }
@@ -128,8 +141,10 @@ TEST_CASE("the turn ends when the track over the ground points home, not the nos
   const Spot home{10000, 10100, 0};
   double e = 100 + 10, psi = 0;
   const double omega = 9.80665 * std::tan(0.5) / 20;
-  while (std::atan2(20 * std::sin(psi) + 10, 20 * std::cos(psi)) < 45 * kit::deg)
-    psi += omega * 1e-3, e += (20 * std::sin(psi) + 10) * 1e-3;
+  while (std::atan2(20 * std::sin(psi) + 10, 20 * std::cos(psi)) < 45 * kit::deg) {
+    psi += omega * 1e-3;
+    e += (20 * std::sin(psi) + 10) * 1e-3;
+  }
   CHECK(std::abs(room_of_turn(wide, t, home, 1) - (200 - e)) < 8);
 }
 
@@ -146,7 +161,9 @@ TEST_CASE("a place that is named twice is refused, one that lies a metre off is 
   Places places;
   const auto refused = [&](double north, double east) {
     places.places.clear();
-    places.places.push_back({9, 0}), places.places.push_back({0, 0}), places.places.push_back({north, east});
+    places.places.push_back({9, 0});
+    places.places.push_back({0, 0});
+    places.places.push_back({north, east});
     try {
       return std::to_string(places_of(places, {}).size());
     } catch (const std::runtime_error& e) {

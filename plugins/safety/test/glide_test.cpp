@@ -17,7 +17,8 @@ struct Law : Bench<Glide> {
   Law() {
     kit::give_anaconda(params.common);
     params.airspeed_ki.value = params.airspeed_kd.value = 0;
-    command.course_rad = 0.5, command.airspeed_mps = 14;
+    command.course_rad = 0.5;
+    command.airspeed_mps = 14;
     state.climb_rate_mps = -4;
   }
   AttitudeCommand fly(double seconds = 3) {
@@ -97,7 +98,8 @@ TEST_CASE(
     HomeProgress progress;
     progress.ground_m = ground;
     law.set(law.in.progress, progress);
-    law.command.lateral = LateralMode::acceleration, law.command.lateral_acceleration_mps2 = 3;
+    law.command.lateral = LateralMode::acceleration;
+    law.command.lateral_acceleration_mps2 = 3;
     law.state.height_m = ground + 4.5 * 2.6;
     const AttitudeCommand above = law.fly();
     CHECK(above.roll_rad > 0.2);
@@ -125,7 +127,8 @@ TEST_CASE(
 TEST_CASE("an airspeed that is reckoned too low pulls no more in the flare than the stalling speed takes") {
   const auto pitch = [](double airspeed) {
     Law law;
-    law.state.height_m = 1, law.state.airspeed_mps = airspeed;
+    law.state.height_m = 1;
+    law.state.airspeed_mps = airspeed;
     return law.fly(4).pitch_rad;
   };
   const double stall = 12 / 1.2, rho = standard_air(test::FlightModel::field_m + 1).density_kgm3;

@@ -20,8 +20,10 @@ struct Way : Bench<Home> {
   Way() { kit::give_anaconda(params); }
   void place(double north, double east) {
     Place p;
-    p.north_m = north, p.east_m = east;
-    params.places.value.places.push_back(p), params.places.is_given = true;
+    p.north_m = north;
+    p.east_m = east;
+    params.places.value.places.push_back(p);
+    params.places.is_given = true;
   }
   void begin(HomeMode mode) {
     params.mode.value = mode;
@@ -43,7 +45,8 @@ struct Way : Bench<Home> {
       const double to = state.course_rad +
                         std::clamp(angle_difference(c.course_rad, state.course_rad), -rate * dt, rate * dt);
       const WindTriangle way = fly_course(to, c.airspeed_mps, wind);
-      state.course_rad = wrap_pi(to), state.yaw_rad = way.heading_rad;
+      state.course_rad = wrap_pi(to);
+      state.yaw_rad = way.heading_rad;
       state.ground_speed_mps = way.ground_speed_mps;
       state.position_m.north += way.ground_speed_mps * std::cos(to) * dt;
       state.position_m.east += way.ground_speed_mps * std::sin(to) * dt;
@@ -104,7 +107,8 @@ TEST_CASE("the way round that the fence leaves is flown, either side, until home
 TEST_CASE("the heights of home and of waiting stay within floor and ceiling of the fence") {
   Way w;
   SafetyState safety;
-  safety.floor_m = 20, safety.ceiling_m = 60;
+  safety.floor_m = 20;
+  safety.ceiling_m = 60;
   w.set(w.in.safety, safety);
   w.begin(HomeMode::home);
   CHECK(w.look().height_m == 50);
@@ -119,7 +123,8 @@ TEST_CASE("waiting is a bank through the air at the height that it had, 40 m at 
   CHECK(w.look().lateral == LateralMode::acceleration);
   CHECK(w.out.command.lateral_acceleration_mps2 == doctest::Approx(9.80665 * std::tan(0.26)));
   CHECK(w.out.command.height_m == 70);
-  w.state.reset_count = 1, w.state.reset_position_m = {0, 0, 5};  // all heights are 5 m lower now
+  w.state.reset_count = 1;
+  w.state.reset_position_m = {0, 0, 5};  // all heights are 5 m lower now
   CHECK(w.look().height_m == 65);
   w.state.height_m = 12;
   w.begin(HomeMode::wait);
@@ -142,7 +147,9 @@ TEST_CASE("level is straight on") {
 TEST_CASE("a glide goes to the nearest place, circles, and comes down onto it into the wind") {
   for (const double from : {0.0, 90 * kit::deg, 200 * kit::deg}) {
     Way w;
-    w.place(2000, 0), w.place(-60, 80), w.place(0, 900);
+    w.place(2000, 0);
+    w.place(-60, 80);
+    w.place(0, 900);
     w.state.height_m = 200;
     w.wind = {-5 * std::cos(from), -5 * std::sin(from), 0};
     w.begin(HomeMode::glide);
@@ -175,7 +182,8 @@ TEST_CASE("its reach is the height times the ratio of ground speed and sink, les
 
 TEST_CASE("low down it goes straight on, whatever the wind") {
   Way w;
-  w.state.height_m = 10, w.state.course_rad = 1;
+  w.state.height_m = 10;
+  w.state.course_rad = 1;
   w.wind = {5, 0, 0};
   w.begin(HomeMode::glide);
   CHECK(w.look().course_rad == 1);
@@ -188,7 +196,8 @@ TEST_CASE("places that are none, or have no position, are refused") {
   CHECK(none.configure() == Status::failed);
   CHECK(none.error().find("places.places: there are none") == 0);
   Way lost;
-  lost.params.places.value.places.push_back({}), lost.params.places.is_given = true;
+  lost.params.places.value.places.push_back({});
+  lost.params.places.is_given = true;
   CHECK(lost.configure() == Status::failed);
   CHECK(lost.error().find("places.places[0]: give north and east") == 0);
 }

@@ -31,7 +31,8 @@ inline fulmar::VehicleState level(double north_m = 0, double east_m = 0, double 
 
 template <class P>
 void give_anaconda(P& params) {
-  params.airframe.value = fulmar::test::anaconda(), params.airframe.is_given = true;
+  params.airframe.value = fulmar::test::anaconda();
+  params.airframe.is_given = true;
 }
 
 }  // namespace kit

@@ -175,7 +175,8 @@ TEST_CASE("the radio is lost when it was heard, or has to be there") {
   demanded.params.radio.radio_required.value = true;
   CHECK(demanded.fly(5).radio_lost);
   Watch w;
-  w.has_rc = true, w.rc.link = true;
+  w.has_rc = true;
+  w.rc.link = true;
   w.fly(3);
   w.has_rc = false;  // 1 s of time-out, 2 s until it is said
   CHECK(w.raised_after(&SafetyState::radio_lost) == doctest::Approx(3).epsilon(0.02));
@@ -185,7 +186,8 @@ TEST_CASE("the radio is lost when it was heard, or has to be there") {
   CHECK_FALSE(w.fly(3).radio_lost);
   CHECK(w.out.safety.answer == SafetyAnswer::none);
   Watch linkless;  // frames that say that nobody is there
-  linkless.has_rc = true, linkless.rc.link = true;
+  linkless.has_rc = true;
+  linkless.rc.link = true;
   linkless.fly(3);
   linkless.rc.link = false;
   CHECK(linkless.fly(4).radio_lost);
@@ -240,7 +242,8 @@ TEST_CASE("an excessive attitude, either way, is levelled at once and taken back
     CHECK(w.fly(5).attitude_excessive);
     w.state.roll_rad = sign * 0.5;
     CHECK_FALSE(w.fly(1.5).attitude_excessive);
-    w.state.roll_rad = 0, w.state.pitch_rad = sign * 0.8;
+    w.state.roll_rad = 0;
+    w.state.pitch_rad = sign * 0.8;
     CHECK(w.fly(1).attitude_excessive);
   }
 }
@@ -256,14 +259,16 @@ TEST_CASE("the motor: the trim's throttle holds level flight, and no motor sinks
   CHECK(w.told.find("no thrust from the motor: glides down") != std::string::npos);
   w.actuators.throttle_frac = 0;  // nothing is demanded: nothing is learnt
   CHECK(w.fly(30).engine_failed);
-  w.actuators.throttle_frac = 0.57, w.state.climb_rate_mps = 0;
+  w.actuators.throttle_frac = 0.57;
+  w.state.climb_rate_mps = 0;
   CHECK_FALSE(w.fly(10).engine_failed);
   Watch slows;
   slows.fly(3);
   slows.state.specific_force_mps2.x = -4.1;  // level, and 18.6 N are missing
   CHECK(slows.fly(4).engine_failed);
   Watch glides;  // as commanded
-  glides.actuators.throttle_frac = 0, glides.state.climb_rate_mps = -7.1;
+  glides.actuators.throttle_frac = 0;
+  glides.state.climb_rate_mps = -7.1;
   CHECK_FALSE(glides.fly(30).engine_failed);
   Watch sinks;  // air that sinks by 1 m/s
   sinks.fly(3);
@@ -300,7 +305,8 @@ TEST_CASE("an estimate that is not valid levels the wings") {
 
 TEST_CASE("of several failures the graver one is answered: motor, attitude, position, battery, radio") {
   Watch w;
-  w.has_rc = true, w.rc.link = true;
+  w.has_rc = true;
+  w.rc.link = true;
   w.fly(2);
   w.rc.link = false;
   CHECK(w.fly(4).answer == SafetyAnswer::home);
@@ -325,7 +331,8 @@ TEST_CASE("on the ground nothing is answered, and a bounce of a second is no fli
   CHECK(w.fly(1.3).answer == SafetyAnswer::none);
   CHECK(w.fly(0.5).answer == SafetyAnswer::glide);
   Watch disarmed;
-  disarmed.status.armed = false, disarmed.status.battery_frac = 0.05;
+  disarmed.status.armed = false;
+  disarmed.status.battery_frac = 0.05;
   CHECK(disarmed.fly(10).answer == SafetyAnswer::none);
 }
 

@@ -24,7 +24,8 @@ struct Lost : Bench<Monitor> {
     VehicleState state = kit::level();
     state.position_valid = position;
     VehicleStatus status;
-    status.armed = true, status.battery_volt = 24;
+    status.armed = true;
+    status.battery_volt = 24;
     for (double t = 0; t < seconds - 0.01; t += 0.02) {
       set(in.state, state, -0.02);
       set(in.status, status, -0.02);
@@ -43,10 +44,12 @@ void fence(Bench<Monitor>& w) {
   Fence& f = w.params.fence.value;
   for (const auto& [n, e] : {std::pair{600.0, -600.0}, {600.0, 600.0}, {-600.0, 600.0}, {-600.0, -600.0}}) {
     FencePoint corner;
-    corner.north_m = n, corner.east_m = e;
+    corner.north_m = n;
+    corner.east_m = e;
     f.corners.push_back(corner);
   }
-  f.floor_m = 20, f.ceiling_m = 120;
+  f.floor_m = 20;
+  f.ceiling_m = 120;
   w.params.fence.is_given = true;
 }
 
@@ -97,7 +100,8 @@ TEST_CASE("on the glide the airspeed is the one that goes farthest on the course
     home.params.mode.value = HomeMode::glide;
     REQUIRE(home.retune() == Status::ok);
     VehicleState s = kit::level(-3000, 0, 0);
-    s.position_m.down = -400, s.height_m = 400;
+    s.position_m.down = -400;
+    s.height_m = 400;
     s.wind_mps = {-head, 0, 0};
     home.set(home.in.state, s);
     REQUIRE(home.activate() == Status::ok);
@@ -128,7 +132,8 @@ TEST_CASE("home outside of the fence, to the north or to the east, is named by i
     fence(w);
     for (const auto& [n, e] : {std::pair{north, east}, {10.0, 20.0}}) {
       Place place;
-      place.north_m = n, place.east_m = e;
+      place.north_m = n;
+      place.east_m = e;
       w.params.places.value.places.push_back(place);
     }
     w.params.places.is_given = true;
@@ -145,7 +150,8 @@ TEST_CASE(
     if (fenced) fence(w);
     REQUIRE(w.configure() == Status::ok);
     VehicleStatus status;
-    status.armed = true, status.battery_volt = 24;
+    status.armed = true;
+    status.battery_volt = 24;
     for (int i = 0; i < 150; ++i) {
       const bool there = i >= 100;
       w.set(w.in.state, kit::level(there ? north : 0, there ? east : 0, there ? course : 0), -0.02);
@@ -175,7 +181,8 @@ TEST_CASE("a fence that is taken away is gone: configured a second time without 
   w.params.fence.is_given = false;
   REQUIRE(w.configure() == Status::ok);
   VehicleStatus status;
-  status.armed = true, status.battery_volt = 24;
+  status.armed = true;
+  status.battery_volt = 24;
   for (int i = 0; i < 150; ++i) {
     w.set(w.in.state, kit::level(i < 100 ? 0 : 590, 0, 0), -0.02);
     w.set(w.in.status, status, -0.02);
@@ -188,10 +195,13 @@ TEST_CASE("a second glide does not begin in the flare of the first") {
   Bench<Glide> law;
   kit::give_anaconda(law.params.common);
   GuidanceCommand command;
-  command.course_rad = 0.5, command.airspeed_mps = 14;
+  command.course_rad = 0.5;
+  command.airspeed_mps = 14;
   const auto fly = [&](double height_m, double climb_mps) {
     VehicleState s = kit::level(0, 0, 0.5, 14);
-    s.height_m = height_m, s.position_m.down = -height_m, s.climb_rate_mps = climb_mps;
+    s.height_m = height_m;
+    s.position_m.down = -height_m;
+    s.climb_rate_mps = climb_mps;
     for (int i = 0; i < 20; ++i) {
       law.set(law.in.state, s, -0.01);
       law.set(law.in.command, command, -0.01);
@@ -217,9 +227,12 @@ TEST_CASE(
     law.params.airspeed_ki.value = law.params.airspeed_kd.value = law.params.flare_kd.value = 0;
     VehicleState s = kit::level(0, 0, 0.5, Va);
     GuidanceCommand command;
-    command.course_rad = 0.5, command.airspeed_mps = 14;
+    command.course_rad = 0.5;
+    command.airspeed_mps = 14;
     const auto fly = [&](double height_m, double climb_mps, double seconds) {
-      s.height_m = height_m, s.position_m.down = -height_m, s.climb_rate_mps = climb_mps;
+      s.height_m = height_m;
+      s.position_m.down = -height_m;
+      s.climb_rate_mps = climb_mps;
       for (double t = 0; t < seconds; t += 0.01) {
         law.set(law.in.state, s, -0.01);
         law.set(law.in.command, command, -0.01);

@@ -26,9 +26,12 @@ VehicleState wandering(double t, double north_m = 0) {
   s.velocity_mps = s.velocity_mps + s.wind_mps;
   s.course_rad = std::atan2(s.velocity_mps.east, s.velocity_mps.north);
   s.ground_speed_mps = std::hypot(s.velocity_mps.north, s.velocity_mps.east);
-  s.climb_rate_mps = 1.8 * std::cos(0.2 * t), s.velocity_mps.down = -s.climb_rate_mps;
-  s.height_m += 9 * std::sin(0.2 * t), s.position_m.down = -s.height_m;
-  s.roll_rad = 0.3 * std::sin(0.17 * t + 0.4), s.pitch_rad = 0.05 * std::sin(0.2 * t);
+  s.climb_rate_mps = 1.8 * std::cos(0.2 * t);
+  s.velocity_mps.down = -s.climb_rate_mps;
+  s.height_m += 9 * std::sin(0.2 * t);
+  s.position_m.down = -s.height_m;
+  s.roll_rad = 0.3 * std::sin(0.17 * t + 0.4);
+  s.pitch_rad = 0.05 * std::sin(0.2 * t);
   s.rate_radps = {0.05 * std::cos(0.17 * t), 0.02, 0.1};
   s.position_std_m = {2, 2, 2};
   return s;
@@ -42,8 +45,11 @@ void place(Bench<Home>& b, const World& w, HomeMode mode) {
   for (const Vec3<Ned>& at : {Vec3<Ned>{30, -20, 0}, Vec3<Ned>{260, 140, 0}, Vec3<Ned>{-330, 45, 0}}) {
     const Vec3<Ned> there = w.place(at);
     Place p;
-    p.north_m = there.north, p.east_m = there.east, p.up_m = 6;
-    b.params.places.value.places.push_back(p), b.params.places.is_given = true;
+    p.north_m = there.north;
+    p.east_m = there.east;
+    p.up_m = 6;
+    b.params.places.value.places.push_back(p);
+    b.params.places.is_given = true;
   }
   b.params.mode.value = mode;
   REQUIRE(b.retune() == Status::ok);
@@ -51,7 +57,8 @@ void place(Bench<Home>& b, const World& w, HomeMode mode) {
 VehicleState sinking(double t, HomeMode mode) {
   VehicleState s = wandering(t);
   if (mode == HomeMode::glide || mode == HomeMode::descend) {
-    s.height_m = std::max(130 - 2.2 * t, 8.0), s.position_m.down = -s.height_m;
+    s.height_m = std::max(130 - 2.2 * t, 8.0);
+    s.position_m.down = -s.height_m;
     s.climb_rate_mps = -2.2;
   }
   s.position_valid = mode != HomeMode::wait || t < 30;  // satellites are lost on the way
@@ -67,13 +74,15 @@ TEST_CASE("the ways home are the same in a mirrored, turned and moved world") {
       if (w.mirrored && mode != HomeMode::level) continue;
       CAPTURE(static_cast<int>(mode));
       Bench<Home> here, there;
-      place(here, {}, mode), place(there, w, mode);
+      place(here, {}, mode);
+      place(there, w, mode);
       for (int i = 0; i < 3000; ++i) {
         const VehicleState s = sinking(0.02 * i, mode);
         here.set(here.in.state, s);
         there.set(there.in.state, w.of(s));
         if (i == 0) REQUIRE((here.activate() == Status::ok && there.activate() == Status::ok));
-        here.step(0.02), there.step(0.02);
+        here.step(0.02);
+        there.step(0.02);
         if (i % 50 != 0) continue;
         CAPTURE(i);
         check_same(there.out.command, w.of(here.out.command));
@@ -92,17 +101,23 @@ TEST_CASE("a way home that is begun a second time is as the first, whatever was 
       CAPTURE(static_cast<int>(mode));
       CAPTURE(static_cast<int>(before));
       Bench<Home> here, again;
-      place(here, {}, mode), place(again, {}, before);
+      place(here, {}, mode);
+      place(again, {}, before);
       again.set(again.in.state, sinking(20, before));
       REQUIRE(again.activate() == Status::ok);
-      for (int i = 0; i < 2500; ++i) again.set(again.in.state, sinking(0.02 * i, before)), again.step(0.02);
+      for (int i = 0; i < 2500; ++i) {
+        again.set(again.in.state, sinking(0.02 * i, before));
+        again.step(0.02);
+      }
       again.params.mode.value = mode;
       REQUIRE(again.retune() == Status::ok);
       for (int i = 0; i < 1000; ++i) {
         const VehicleState s = sinking(0.02 * i, mode);
-        here.set(here.in.state, s), again.set(again.in.state, s);
+        here.set(here.in.state, s);
+        again.set(again.in.state, s);
         if (i == 0) REQUIRE((here.activate() == Status::ok && again.activate() == Status::ok));
-        here.step(0.02), again.step(0.02);
+        here.step(0.02);
+        again.step(0.02);
         if (i % 50 == 0) check_same(again.out.command, here.out.command);
         CHECK(again.out.progress.final == here.out.progress.final);
       }
@@ -120,11 +135,14 @@ struct Sinks {
   }
   void feed(double t, double north_m = 0) {
     VehicleState s = wandering(t, north_m);
-    s.height_m = std::max(90 - 2.6 * t, 12.0), s.position_m.down = -s.height_m;
-    s.climb_rate_mps = -2.6, s.velocity_mps.down = 2.6;
+    s.height_m = std::max(90 - 2.6 * t, 12.0);
+    s.position_m.down = -s.height_m;
+    s.climb_rate_mps = -2.6;
+    s.velocity_mps.down = 2.6;
     GuidanceCommand c;
     c.course_rad = wrap_pi(s.course_rad + 0.5 * std::sin(0.3 * t) - 0.2);
-    c.airspeed_mps = 15, c.roll_feedforward_rad = 0.1;
+    c.airspeed_mps = 15;
+    c.roll_feedforward_rad = 0.1;
     bench.set(bench.in.state, world.of(s));
     bench.set(bench.in.command, world.of(c));
   }
@@ -137,7 +155,10 @@ TEST_CASE("a glide in another world banks to its side, and a second one is as th
     Sinks here({}), there(w), again({});
     again.feed(0, 400);
     REQUIRE(again.bench.activate() == Status::ok);
-    for (int i = 0; i < 3200; ++i) again.feed(0.01 * i, 400), again.bench.step(0.01);
+    for (int i = 0; i < 3200; ++i) {
+      again.feed(0.01 * i, 400);
+      again.bench.step(0.01);
+    }
     bool flared = false;
     for (int i = 0; i < 3200; ++i) {
       for (Sinks* each : {&here, &there, &again}) {
@@ -167,15 +188,19 @@ TEST_CASE("the monitor reports the same of a flight in a mirrored, turned and mo
            {std::pair{170.0, -260.0}, {420.0, 380.0}, {-150.0, 190.0}, {-190.0, -230.0}}) {
         const Vec3<Ned> at = (b == &there ? w : World{}).place({n, e, 0});
         FencePoint corner;
-        corner.north_m = at.north, corner.east_m = at.east;
+        corner.north_m = at.north;
+        corner.east_m = at.east;
         b->params.fence.value.corners.push_back(corner);
       }
-      b->params.fence.value.floor_m = 20, b->params.fence.value.ceiling_m = 95,
+      b->params.fence.value.floor_m = 20;
+      b->params.fence.value.ceiling_m = 95;
       b->params.fence.is_given = true;
       const Vec3<Ned> home = (b == &there ? w : World{}).place({20, -40, 0});
       Place p;
-      p.north_m = home.north, p.east_m = home.east;
-      b->params.places.value.places.push_back(p), b->params.places.is_given = true;
+      p.north_m = home.north;
+      p.east_m = home.east;
+      b->params.places.value.places.push_back(p);
+      b->params.places.is_given = true;
       b->params.fencing.keep_fence.value = false;
       REQUIRE(b->configure() == Status::ok);
     }
@@ -183,14 +208,16 @@ TEST_CASE("the monitor reports the same of a flight in a mirrored, turned and mo
     for (int i = 0; i < 4000; ++i) {
       const VehicleState s = wandering(0.02 * i);
       VehicleStatus status;
-      status.armed = status.in_control = true, status.battery_volt = 24;
+      status.armed = status.in_control = true;
+      status.battery_volt = 24;
       for (auto* b : {&here, &there}) {
         b->set(b->in.state, b == &there ? w.of(s) : s, -0.02);
         b->set(b->in.status, status, -0.02);
         REQUIRE(b->step(0.02) == Status::ok);
       }
       const SafetyState &a = here.out.safety, &b = there.out.safety;
-      raised += a.fence ? 1 : 0, inside += a.fence ? 0 : 1;
+      raised += a.fence ? 1 : 0;
+      inside += a.fence ? 0 : 1;
       if (i % 25 != 0) continue;
       CAPTURE(i);
       CHECK(b.answer == a.answer);
@@ -214,7 +241,8 @@ TEST_CASE("the room of a turn is that of a fine integration of the turn in wind,
     Fence f;
     for (const auto& [n, e] : {std::pair{370.0, -460.0}, {520.0, 480.0}, {-250.0, 390.0}, {-390.0, -330.0}}) {
       FencePoint corner;
-      corner.north_m = n, corner.east_m = e;
+      corner.north_m = n;
+      corner.east_m = e;
       f.corners.push_back(corner);
     }
     Polygon fence;
@@ -222,7 +250,8 @@ TEST_CASE("the room of a turn is that of a fine integration of the turn in wind,
     const double psi = rng.uniform(-3, 3), Va = rng.uniform(13, 22), side = i % 2 == 0 ? 1 : -1;
     TurnBack t{rng.uniform(-150, 250), rng.uniform(-200, 200), 0, 0, rng.uniform(-5, 5), rng.uniform(-5, 5),
                rng.uniform(0.4, 0.8),  rng.uniform(0.5, 2)};
-    t.v_north_mps = Va * std::cos(psi) + t.w_north_mps, t.v_east_mps = Va * std::sin(psi) + t.w_east_mps;
+    t.v_north_mps = Va * std::cos(psi) + t.w_north_mps;
+    t.v_east_mps = Va * std::sin(psi) + t.w_east_mps;
     const double bearing = psi + side * rng.uniform(0.6, 4);
     const Spot home{3000 * std::cos(bearing), 3000 * std::sin(bearing), 0};  // ahead on that side, far away
     // The same by steps of 1 ms, and one coarse step of 0.15 rad longer: room lies between.
@@ -233,7 +262,8 @@ TEST_CASE("the room of a turn is that of a fine integration of the turn in wind,
     for (double turned = 0; turned < std::min(6.3, points_at + 0.15); turned += 1e-3 * rate) {
       heading += side * 1e-3 * rate;
       const double vn = Va * std::cos(heading) + t.w_north_mps, ve = Va * std::sin(heading) + t.w_east_mps;
-      n += 1e-3 * vn, e += 1e-3 * ve;
+      n += 1e-3 * vn;
+      e += 1e-3 * ve;
       longer = std::min(longer, fence.room_m(n, e));
       if (points_at > 9) room = longer;
       const double left =
@@ -255,7 +285,8 @@ TEST_CASE("room to floor and ceiling is what a flown pull-out leaves, climbing a
     for (double t = 0; t < 20; t += 1e-3) {
       if (t > reaction) v = climb > 0 ? std::max(v - 1e-3 * pull, 0.0) : std::min(v + 1e-3 * pull, 0.0);
       h += 1e-3 * v;
-      low = std::min(low, h), high = std::max(high, h);
+      low = std::min(low, h);
+      high = std::max(high, h);
     }
     const double room = std::min(120 - high, low - 20);
     CHECK(std::abs(room_of_height(height, climb, 20, 120, pull, reaction) - room) < 0.05);

@@ -27,7 +27,9 @@ struct Thrust {
   double expected() const { return thrust_of(a, throttle, Va, rho()); }
   VehicleState state(double share, bool by_climb, double roll_rad = 0) const {
     VehicleState s = kit::level(0, 0, 0.7, Va);
-    s.origin_altitude_m = 0, s.height_m = height_m, s.roll_rad = roll_rad;
+    s.origin_altitude_m = 0;
+    s.height_m = height_m;
+    s.roll_rad = roll_rad;
     const double gain = share * expected() - turn_trim(a, roll_rad, Va, rho()).drag_newton;
     if (by_climb)
       s.climb_rate_mps = gain * Va / (a.mass_kg * g);
@@ -158,7 +160,8 @@ TEST_CASE("without demand, below the stall and without an airspeed the motor is 
   CHECK(ratio(slow, t.throttle) != 1);
   VehicleState blind = t.state(0.4, true);  // no tube: the air velocity, its climb as well
   blind.airspeed_valid = false;
-  blind.velocity_mps = {3, 17, 5}, blind.wind_mps = {-5, 5, 0};
+  blind.velocity_mps = {3, 17, 5};
+  blind.wind_mps = {-5, 5, 0};
   blind.airspeed_mps = 0;
   CHECK(ratio(blind, t.throttle) == Approx([&] {
                                       Thrust other = t;
@@ -175,7 +178,10 @@ TEST_CASE("a flag rises and falls after its delays, and what is neither bad nor 
   const auto steps = [&](bool bad, bool good) {
     int n = 0;
     const bool before = a.raised();
-    while (a.raised() == before && n < 1000) a.step(bad, good, 1.5, 3, 0.1), ++n;
+    while (a.raised() == before && n < 1000) {
+      a.step(bad, good, 1.5, 3, 0.1);
+      ++n;
+    }
     return n;
   };
   for (int again = 0; again < 2; ++again) {
@@ -196,7 +202,8 @@ TEST_CASE("a battery is low and empty by charge or voltage, on both sides of eac
   const BatteryLimits b;
   const auto after = [&](safety::Battery& battery, double volt_share, double frac, double seconds) {
     VehicleStatus s;
-    s.battery_volt = 22 * volt_share, s.battery_frac = frac;
+    s.battery_volt = 22 * volt_share;
+    s.battery_frac = frac;
     for (double t = 0; t < seconds; t += 0.1) battery.step(s, 22, b, 0.1);
   };
   for (const bool by_volt : {true, false}) {
@@ -230,16 +237,19 @@ TEST_CASE("a battery is low and empty by charge or voltage, on both sides of eac
 TEST_CASE("a reckoned position is the state's until it is too unsure, then it drifts with the wind") {
   Reckoned r;
   VehicleState s = kit::level(100, -40);
-  s.position_valid = false, s.position_std_m = {10, 30, 99};
+  s.position_valid = false;
+  s.position_std_m = {10, 30, 99};
   r.step(s, {1, 1, 0}, 50, dt);
   CHECK_FALSE(r.known());
   for (int again = 0; again < 2; ++again) {
-    s.position_valid = true, s.position_std_m = {10, 30, 99};
+    s.position_valid = true;
+    s.position_std_m = {10, 30, 99};
     r.step(s, {4, -3, 0}, 50, dt);
     CHECK(r.known());
     CHECK_FALSE(r.drifts());
     CHECK(r.std_m() == 30);
-    s.position_valid = false, s.position_m = {120, -50, -70};
+    s.position_valid = false;
+    s.position_m = {120, -50, -70};
     r.step(s, {4, -3, 0}, 50, dt);
     CHECK(r.north_m() == 120);
     CHECK(r.east_m() == -50);
@@ -253,9 +263,11 @@ TEST_CASE("a reckoned position is the state's until it is too unsure, then it dr
     r.step(s, {4, -3, 0}, 50, dt);
     CHECK(r.drifts());
   }
-  s.velocity_valid = false, s.position_valid = true;
+  s.velocity_valid = false;
+  s.position_valid = true;
   CHECK_FALSE(located(s, 50));
-  s.velocity_valid = true, s.attitude_valid = false;
+  s.velocity_valid = true;
+  s.attitude_valid = false;
   CHECK_FALSE(located(s, 50));
 }
 
@@ -266,10 +278,14 @@ TEST_CASE("the circle of a glide lies down wind of the place by the way of the l
     kit::give_anaconda(home.params);
     home.params.mode.value = HomeMode::glide;
     Place place;
-    place.north_m = 100, place.east_m = -50;
-    home.params.places.value.places.push_back(place), home.params.places.is_given = true;
+    place.north_m = 100;
+    place.east_m = -50;
+    home.params.places.value.places.push_back(place);
+    home.params.places.is_given = true;
     VehicleState s = kit::level(160, -130, 0.4);
-    s.height_m = 300, s.position_m.down = -300, s.wind_mps = wind;
+    s.height_m = 300;
+    s.position_m.down = -300;
+    s.wind_mps = wind;
     home.set(home.in.state, s);
     REQUIRE(home.activate() == Status::ok);
     home.set(home.in.state, s);
@@ -309,10 +325,12 @@ TEST_CASE("a second flight begins as the first, whatever was wrong at the end of
   }
   twice.fly(5);
   twice.state.roll_rad = 1.4;
-  twice.state.position_m = {990, 0, -115}, twice.state.height_m = 115;
+  twice.state.position_m = {990, 0, -115};
+  twice.state.height_m = 115;
   twice.state.wind_mps = {14, 0, 0};
   twice.health.pitot.state = SensorState::silent;
-  twice.state.position_valid = false, twice.actuators.throttle_frac = 1;
+  twice.state.position_valid = false;
+  twice.actuators.throttle_frac = 1;
   twice.state.climb_rate_mps = -4;
   twice.fly(30);
   const SafetyState& bad = twice.out.safety;
@@ -320,11 +338,14 @@ TEST_CASE("a second flight begins as the first, whatever was wrong at the end of
   REQUIRE(bad.wind_excessive);
   REQUIRE(bad.pitot_lost);
   REQUIRE(bad.gnss_lost);
-  twice.state = once.state, twice.actuators = once.actuators, twice.health = once.health;
+  twice.state = once.state;
+  twice.actuators = once.actuators;
+  twice.health = once.health;
   twice.ground.contact = Contact::ground;
   twice.fly(8);
   twice.ground.contact = Contact::air;
-  once.fly(1.5), twice.fly(1.5);
+  once.fly(1.5);
+  twice.fly(1.5);
   const SafetyState &a = once.out.safety, &b = twice.out.safety;
   CHECK(b.airborne);
   CHECK(b.fence == a.fence);

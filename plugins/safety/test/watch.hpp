@@ -34,10 +34,12 @@ struct Watch : Bench<Monitor> {
     for (const auto& [n, e] :
          {std::pair{1000.0, -1000.0}, {1000.0, 1000.0}, {south, 1000.0}, {south, -1000.0}}) {
       FencePoint p;
-      p.north_m = n, p.east_m = e;
+      p.north_m = n;
+      p.east_m = e;
       f.corners.push_back(p);
     }
-    f.floor_m = 20, f.ceiling_m = 120;
+    f.floor_m = 20;
+    f.ceiling_m = 120;
     params.fence.is_given = true;
   }
   const SafetyState& fly(double seconds, double dt = 0.02) {

@@ -75,8 +75,14 @@ TEST_CASE("a sample that is no newer than the last one is left out") {
 
 TEST_CASE("what is compared of a state is each number from its own place, velocity in body axes") {
   VehicleState s;
-  s.position_m = {1, 2, -3}, s.height_m = 4, s.airspeed_mps = 5, s.wind_mps = {6, 7, 8};
-  s.roll_rad = 0.1, s.pitch_rad = 0.2, s.yaw_rad = 0.3, s.course_rad = 0.4;
+  s.position_m = {1, 2, -3};
+  s.height_m = 4;
+  s.airspeed_mps = 5;
+  s.wind_mps = {6, 7, 8};
+  s.roll_rad = 0.1;
+  s.pitch_rad = 0.2;
+  s.yaw_rad = 0.3;
+  s.course_rad = 0.4;
   s.velocity_mps = {10, 11, 12};
   s.attitude = {std::sqrt(0.5), 0, 0, std::sqrt(0.5)};  // nose to the east: body x is east, y is south
   check_same(compared(s), {1, 2, 4, 11, -10, 12, 5, 6, 7, 0.1, 0.2, 0.3, 0.4});

@@ -63,8 +63,12 @@ TEST_CASE("a climb of 10 % exactly on a line has no error; beside it the error i
 TEST_CASE("a climbing circle has no error on it, to either side; above it the error is what was put in") {
   for (const double side : {1.0, -1.0}) {
     Path path;
-    path.kind = PathKind::orbit, path.turn = side > 0 ? Turn::right : Turn::left;
-    path.origin_m = {100, -50, -60}, path.radius_m = 80, path.start_rad = 1.1, path.climb_ratio = 0.05;
+    path.kind = PathKind::orbit;
+    path.turn = side > 0 ? Turn::right : Turn::left;
+    path.origin_m = {100, -50, -60};
+    path.radius_m = 80;
+    path.start_rad = 1.1;
+    path.climb_ratio = 0.05;
     const auto place = [&](double t, double right) {
       const double azimuth = 1.1 + side * 17 * t / 80, R = 80 - side * right;
       VehicleState s;
@@ -83,12 +87,16 @@ TEST_CASE("on the final circle the error is the way to it, off its middle by the
        {std::tuple{0.0, 0.0, 60.0, 0.0}, {70 * 0.6, 70 * 0.8, 6.0, 8.0}, {-50 * 0.8, 50 * 0.6, 8.0, 6.0}}) {
     Bench<Score> bench;
     Plan plan;
-    plan.revision = 1, plan.end = PlanEnd::orbit, plan.turn_radius_m = 60;
+    plan.revision = 1;
+    plan.end = PlanEnd::orbit;
+    plan.turn_radius_m = 60;
     Waypoint w;
     w.position_m = {100, -50, -70};
     plan.waypoints.push_back(w);
     Progress progress;
-    progress.items = progress.reached = 1, progress.plan_revision = 1, progress.finished = true;
+    progress.items = progress.reached = 1;
+    progress.plan_revision = 1;
+    progress.finished = true;
     TrackingError error;
     for (int i = 0; i < 200; ++i) {
       VehicleState s;
@@ -115,8 +123,10 @@ TEST_CASE("an estimate counts only while position, attitude and velocity are val
       VehicleState s;
       s.position_m = {0.2 * i, 0, -70};
       s.velocity_mps = {20, 0, 0};
-      s.height_m = 70, s.airspeed_mps = s.ground_speed_mps = 20;
-      s.origin_latitude_deg = 40, s.origin_valid = true;
+      s.height_m = 70;
+      s.airspeed_mps = s.ground_speed_mps = 20;
+      s.origin_latitude_deg = 40;
+      s.origin_valid = true;
       s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid = s.airspeed_valid = true;
       bench.set(bench.in.truth, s);
       if (invalid == 1) s.position_valid = false;

@@ -273,9 +273,19 @@ TEST_CASE(
   Figures figures;
   double published_at = 0, circuits_at = 0;
   for (int i = 1; i <= 2345; ++i) {
-    if (i == 500) progress.reached = 2, progress.miss_m = 3;
-    if (i == 1000) progress.reached = 3, progress.miss_m = 1;
-    if (i == 2345) progress.reached = 5, progress.circuits = 1, circuits_at = 0.01 * i;
+    if (i == 500) {
+      progress.reached = 2;
+      progress.miss_m = 3;
+    }
+    if (i == 1000) {
+      progress.reached = 3;
+      progress.miss_m = 1;
+    }
+    if (i == 2345) {
+      progress.reached = 5;
+      progress.circuits = 1;
+      circuits_at = 0.01 * i;
+    }
     VehicleState state = north_at(0.01 * i);
     state.airspeed_mps = i == 1500 ? 12.5 : 18;
     Actuators actuators;
@@ -421,7 +431,10 @@ TEST_CASE("the distance from a curve is that of its closest point, its height th
     const double north = 3 * v * v * u * 60 + 3 * v * u * u * 120 + u * u * u * 120,
                  east = 3 * v * u * u * 60 + u * u * u * 120;
     const double d = std::hypot(north - off.position_m.north, east - off.position_m.east);
-    if (d < least) least = d, height = (v * v * v + 3 * v * v * u) * 60 + (3 * v * u * u + u * u * u) * 68;
+    if (d < least) {
+      least = d;
+      height = (v * v * v + 3 * v * v * u) * 60 + (3 * v * u * u + u * u * u) * 68;
+    }
   }
   REQUIRE(least > 1);
   Bench<Score> bench;

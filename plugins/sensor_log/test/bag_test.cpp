@@ -13,13 +13,17 @@ namespace {
 Description all_topics() {
   Description d;
   d.imu.from.file = d.mag.from.file = d.baro.from.file = d.pitot.from.file = d.gnss.from.file = "flight.mcap";
-  d.imu.from.topic = "/imu/data", d.mag.from.topic = "/mag", d.baro.from.topic = "/pressure";
-  d.pitot.from.topic = "/airspeed", d.gnss.from.topic = "/gnss";
+  d.imu.from.topic = "/imu/data";
+  d.mag.from.topic = "/mag";
+  d.baro.from.topic = "/pressure";
+  d.pitot.from.topic = "/airspeed";
+  d.gnss.from.topic = "/gnss";
   return d;
 }
 Description imu_topic() {
   Description d;
-  d.imu.from.file = "flight.mcap", d.imu.from.topic = "/imu/data";
+  d.imu.from.file = "flight.mcap";
+  d.imu.from.topic = "/imu/data";
   return d;
 }
 Flown flown(const Description& d, const std::string& bytes) {
@@ -63,7 +67,9 @@ TEST_CASE("topics of sensor_msgs and rosflight_msgs need no column: their types 
 TEST_CASE(
     "a NavSatFix has no velocity, and an altitude above the ellipsoid, which the description may take off") {
   Description d;
-  d.gnss.from.file = "flight.mcap", d.gnss.from.topic = "/fix", d.gnss.position.geoid_m = -17;
+  d.gnss.from.file = "flight.mcap";
+  d.gnss.from.topic = "/fix";
+  d.gnss.position.geoid_m = -17;
   const Flown f = flown(d, bag());
   REQUIRE(f.fault == "");
   const Gnss& g = f.gnss.at(0).value;
@@ -88,8 +94,10 @@ TEST_CASE(
 
 TEST_CASE("of a fix, too, what the description names is read, and the rest goes without saying") {
   Description d;
-  d.gnss.from.file = "flight.mcap", d.gnss.from.topic = "/gnss";
-  d.gnss.horizontal_std = "vertical_accuracy", d.gnss.satellites = "fix_type";
+  d.gnss.from.file = "flight.mcap";
+  d.gnss.from.topic = "/gnss";
+  d.gnss.horizontal_std = "vertical_accuracy";
+  d.gnss.satellites = "fix_type";
   d.gnss.fix = {"fix_type", FixCode::px4};
   d.gnss.velocity.columns = {"vel_e", "vel_n", "vel_d"};
   Flown f = flown(d, bag());
@@ -102,8 +110,10 @@ TEST_CASE("of a fix, too, what the description names is read, and the rest goes 
   CHECK(g.velocity_mps == Vec3<Ned>{-4, 3, 0.5});
   CHECK(g.latitude_deg == 40.25);
   d = Description{};
-  d.gnss.from.file = "flight.mcap", d.gnss.from.topic = "/gnss";
-  d.gnss.position.columns = {"lat", "lat", "alt"}, d.gnss.position.altitude_unit = LengthUnit::cm;
+  d.gnss.from.file = "flight.mcap";
+  d.gnss.from.topic = "/gnss";
+  d.gnss.position.columns = {"lat", "lat", "alt"};
+  d.gnss.position.altitude_unit = LengthUnit::cm;
   f = flown(d, bag());
   REQUIRE(f.fault == "");
   CHECK(f.gnss.at(0).value.longitude_deg == 40.25);
@@ -125,7 +135,9 @@ TEST_CASE("text, bounded text, sequences and arrays of structures are stepped ov
   c.put(std::int8_t{1}).put(std::int64_t{2}).put(std::int8_t{3}).put(std::int64_t{4});
   c.put(6.25F).header(5, 6, "f");
   Description d;
-  d.baro.from.file = "flight.mcap", d.baro.from.topic = "/own", d.baro.pressure.column = "x",
+  d.baro.from.file = "flight.mcap";
+  d.baro.from.topic = "/own";
+  d.baro.pressure.column = "x";
   d.baro.pressure.unit = PressureUnit::hpa;
   const Flown f = flown(d, mcap_begin() + mcap_schema(1, "pkg/msg/Own", definition) +
                                mcap_channel(1, 1, "/own") + mcap_message(1, 0, c.bytes()) + mcap_end());
@@ -145,14 +157,18 @@ TEST_CASE("a topic without a header is stamped by its recorder; both stamps of a
            message(~std::uint64_t{0}, t - 7, 1.02e5F) + mcap_end();
   };
   Description d;
-  d.baro.from.file = "flight.mcap", d.baro.from.topic = "/own", d.baro.pressure.column = "x";
+  d.baro.from.file = "flight.mcap";
+  d.baro.from.topic = "/own";
+  d.baro.pressure.column = "x";
   const Flown f = flown(d, file("float32 x\n"));
   REQUIRE(f.fault == "");
   CHECK(f.ticks_ns == std::vector<std::int64_t>{0, 7});
   CHECK(f.last.not_finite == 1);  // a stamp of 584 years
-  d.baro.from.time = "publish_time", d.baro.from.unit = TimeUnit::ns;
+  d.baro.from.time = "publish_time";
+  d.baro.from.unit = TimeUnit::ns;
   CHECK(flown(d, file("float32 x\n")).ticks_ns == std::vector<std::int64_t>{0, 1, 2});
-  d.baro.from.time = "log_time", d.baro.from.unit = TimeUnit::s;
+  d.baro.from.time = "log_time";
+  d.baro.from.unit = TimeUnit::s;
   CHECK(flown(d, file("float32 x\n")).fault.find("none of its 3 rows") != std::string::npos);
   // a field of that name comes first
   CHECK(flown(d, file("float32 log_time\n")).fault.find("no column 'x' in /own of") != std::string::npos);
@@ -251,7 +267,9 @@ TEST_CASE("a structure of nothing is one byte, and arrays of such have an end") 
   Cdr c;
   c.put(std::uint8_t{0}).put(6.25F).header(5, 6, "f");
   Description d;
-  d.baro.from.file = "flight.mcap", d.baro.from.topic = "/own", d.baro.pressure.column = "x",
+  d.baro.from.file = "flight.mcap";
+  d.baro.from.topic = "/own";
+  d.baro.pressure.column = "x";
   d.baro.pressure.unit = PressureUnit::hpa;
   const auto file = [&](const std::string& words, const std::string& message) {
     return mcap_begin() + mcap_schema(1, "pkg/msg/Own", words) + mcap_channel(1, 1, "/own") +

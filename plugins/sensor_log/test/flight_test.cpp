@@ -298,7 +298,8 @@ TEST_CASE(
     const auto off = [&](const char* rad, const char* deg) {
       return std::remainder(state[rad][k] * 180 / std::numbers::pi - reference[deg][i], 360);
     };
-    roll += std::pow(off("roll_rad", "roll_deg"), 2), pitch += std::pow(off("pitch_rad", "pitch_deg"), 2);
+    roll += std::pow(off("roll_rad", "roll_deg"), 2);
+    pitch += std::pow(off("pitch_rad", "pitch_deg"), 2);
     ++n;
   }
   REQUIRE(n > 10000);

@@ -14,7 +14,8 @@ using doctest::Approx;
 namespace {
 
 void mag_columns(Description& d) {
-  d.mag.from.file = "mag.csv", d.mag.from.time = "t";
+  d.mag.from.file = "mag.csv";
+  d.mag.from.time = "t";
   d.mag.field.columns = {"x", "y", "z"};
 }
 
@@ -40,8 +41,11 @@ Vec3<Body> one_field(FieldUnit unit, const std::string& cells) {
 double one_pressure(PressureUnit unit, double zero_m, const std::string& cell) {
   const Folder folder;
   Description d;
-  d.baro.from.file = "air.csv", d.baro.from.time = "t";
-  d.baro.pressure.column = "p", d.baro.pressure.unit = unit, d.baro.pressure.height_zero_m = zero_m;
+  d.baro.from.file = "air.csv";
+  d.baro.from.time = "t";
+  d.baro.pressure.column = "p";
+  d.baro.pressure.unit = unit;
+  d.baro.pressure.height_zero_m = zero_m;
   folder.write("air.csv", "t,p\n0," + cell + "\n");
   const Flown f = fly(d, folder);
   REQUIRE(f.fault == "");
@@ -51,7 +55,8 @@ double one_pressure(PressureUnit unit, double zero_m, const std::string& cell) {
 Pitot one_pitot(PitotColumn column, const std::string& cell) {
   const Folder folder;
   Description d;
-  d.pitot.from.file = "air.csv", d.pitot.from.time = "t";
+  d.pitot.from.file = "air.csv";
+  d.pitot.from.time = "t";
   d.pitot.pressure = column;
   d.pitot.pressure.column = "p";
   folder.write("air.csv", "t,p\n0," + cell + "\n");
@@ -63,7 +68,8 @@ Pitot one_pitot(PitotColumn column, const std::string& cell) {
 
 Description gnss_alone() {
   Description d;
-  d.gnss.from.file = "gps.csv", d.gnss.from.time = "t";
+  d.gnss.from.file = "gps.csv";
+  d.gnss.from.time = "t";
   d.gnss.position.columns = {"lat", "lon", "alt"};
   return d;
 }
@@ -91,7 +97,10 @@ TEST_CASE("each column goes where the description says: axes, angles, fix, satel
   Description g = gnss_alone();
   g.gnss.velocity.columns = {"a", "b", "c"};
   g.gnss.fix = {"fix", FixCode::dimensions};
-  g.gnss.satellites = "n", g.gnss.horizontal_std = "h", g.gnss.vertical_std = "v", g.gnss.speed_std = "s";
+  g.gnss.satellites = "n";
+  g.gnss.horizontal_std = "h";
+  g.gnss.vertical_std = "v";
+  g.gnss.speed_std = "s";
   const Gnss fix = gnss(g, ",a,b,c,fix,n,h,v,s", "0,-37.5,144.7,25,1,2,3,3,9,1.5,2.5,0.2\n").gnss[0].value;
   CHECK(fix.latitude_deg == -37.5);
   CHECK(fix.longitude_deg == 144.7);
@@ -106,7 +115,8 @@ TEST_CASE("each column goes where the description says: axes, angles, fix, satel
 
 TEST_CASE("units of rates, forces and fields") {
   Description d = imu_alone();
-  d.imu.rate.unit = RateUnit::degps, d.imu.specific_force.unit = ForceUnit::g;
+  d.imu.rate.unit = RateUnit::degps;
+  d.imu.specific_force.unit = ForceUnit::g;
   const Imu imu = one_imu(d, "180,-90,0,0,0.5,-1");
   CHECK(imu.rate_radps.x == Approx(3.14159265358979).epsilon(1e-12));
   CHECK(imu.rate_radps.y == Approx(-1.57079632679490).epsilon(1e-12));
@@ -150,8 +160,10 @@ TEST_CASE("a pitot tube in pascal, hectopascal or as indicated airspeed says the
 
 TEST_CASE("units and axes of a fix") {
   Description d = gnss_alone();
-  d.gnss.position.unit = AngleUnit::deg_e7, d.gnss.position.altitude_unit = LengthUnit::mm;
-  d.gnss.velocity.columns = {"e", "n", "u"}, d.gnss.velocity.axes = LocalAxes::enu,
+  d.gnss.position.unit = AngleUnit::deg_e7;
+  d.gnss.position.altitude_unit = LengthUnit::mm;
+  d.gnss.velocity.columns = {"e", "n", "u"};
+  d.gnss.velocity.axes = LocalAxes::enu;
   d.gnss.velocity.unit = SpeedUnit::kmph;
   const Gnss fix = gnss(d, ",e,n,u", "0,-379596764,1447648038,15780,36,72,-18\n").gnss[0].value;
   CHECK(fix.latitude_deg == Approx(-37.9596764).epsilon(1e-12));
@@ -165,7 +177,8 @@ TEST_CASE("units and axes of a fix") {
   d.gnss.velocity.unit = SpeedUnit::kt;
   CHECK(gnss(d, ",e,n,u", "0,-379596764,1447648038,15780,36,72,-18\n").gnss[0].value.velocity_mps.north ==
         Approx(37.04).epsilon(1e-4));  // 1 kt = 1.852 km/h
-  d.gnss.position.unit = AngleUnit::rad, d.gnss.position.altitude_unit = LengthUnit::cm;
+  d.gnss.position.unit = AngleUnit::rad;
+  d.gnss.position.altitude_unit = LengthUnit::cm;
   const Gnss radians = gnss(d, ",e,n,u", "0,0.5,-1.5,100,0,0,0\n").gnss[0].value;
   CHECK(radians.latitude_deg == Approx(28.6478897565).epsilon(1e-10));
   CHECK(radians.longitude_deg == Approx(-85.9436692696).epsilon(1e-10));
@@ -239,7 +252,9 @@ TEST_CASE("a delay makes what a row says older, a shift moves its clock, and bot
   const Folder folder;
   Description d = imu_alone();
   mag_columns(d);
-  d.mag.from.unit = TimeUnit::us, d.mag.from.shift_s = -100, d.mag.from.delay_s = 0.015;
+  d.mag.from.unit = TimeUnit::us;
+  d.mag.from.shift_s = -100;
+  d.mag.from.delay_s = 0.015;
   folder.write("imu.csv", level(3));
   folder.write("mag.csv", "t,x,y,z\n100010000,1,0,0\n");
   const Flown f = fly(d, folder);
@@ -275,7 +290,9 @@ TEST_CASE(
   const Folder folder;
   Description d = imu_alone();
   folder.write("imu.csv", level(10));
-  d.use = {0.02, 0.08}, d.armed = {0.03, 0.07}, d.airborne = {0.04, 0.06};
+  d.use = {0.02, 0.08};
+  d.armed = {0.03, 0.07};
+  d.airborne = {0.04, 0.06};
   const Flown f = fly(d, folder);
   REQUIRE(f.status.size() == 6);  // 0.02 to 0.07
   CHECK(f.ticks_ns.front() == 20'000'000);
@@ -288,7 +305,8 @@ TEST_CASE(
     CHECK_FALSE(f.status[i].in_control);
   }
   Description g = gnss_alone();
-  g.utc_at_zero_s = 1'384'992'000, g.gnss.from.delay_s = 0.2;
+  g.utc_at_zero_s = 1'384'992'000;
+  g.gnss.from.delay_s = 0.2;
   const Flown fixes = gnss(g, "", "7.5,1,2,3\n8.5,1,2,3\n");
   REQUIRE(fixes.gnss.size() == 2);
   CHECK(fixes.gnss[1].value.utc_ns == 1'384'992'000'800'000'000);
@@ -330,8 +348,11 @@ TEST_CASE("numbers that are finite and mean nothing on Earth are left out and co
   CHECK(gnss(d, "", "0,1,2,3\n1,91,2,3\n2,1,999,3\n3,1,2,1e7\n4,1,2,3\n").last.out_of_range == 3);
   const Folder folder;
   Description b = imu_alone();
-  b.imu.specific_force.unit = ForceUnit::g, b.imu.specific_force.scale_ratio = {10, 1, 1};
-  b.baro.from.file = "air.csv", b.baro.from.time = "t", b.baro.pressure.column = "p";
+  b.imu.specific_force.unit = ForceUnit::g;
+  b.imu.specific_force.scale_ratio = {10, 1, 1};
+  b.baro.from.file = "air.csv";
+  b.baro.from.time = "t";
+  b.baro.pressure.column = "p";
   folder.write(
       "imu.csv",
       "t,p,q,r,x,y,z\n0,0,0,0,1,0,0\n1,0,0,0,1.7e308,0,0\n2,0,0,0,1,0,0\n");  // finite, until it is in m/s2
@@ -409,8 +430,9 @@ TEST_CASE("set up again it begins again") {
 
 TEST_CASE("what cannot be flown is refused in one sentence that begins with the key of the description") {
   const Folder folder;
-  folder.write("imu.csv", level(5)), folder.write("mag.csv", "t,x,y,z\n1000,1,2,3\n"),
-      folder.write("empty.csv", "t,p,q,r,x,y,z\nnan,0,0,0,0,0,0\n");
+  folder.write("imu.csv", level(5));
+  folder.write("mag.csv", "t,x,y,z\n1000,1,2,3\n");
+  folder.write("empty.csv", "t,p,q,r,x,y,z\nnan,0,0,0,0,0,0\n");
   const std::string at = folder.path.string() + "/";
   const auto refusal = [&](auto change) {
     Description d = imu_alone();
@@ -436,7 +458,8 @@ TEST_CASE("what cannot be flown is refused in one sentence that begins with the 
         "log.mag.from.file: names no file; without one there is no such sensor, and its other keys mean "
         "nothing");
   CHECK(refusal([](Description& d) {
-          d.imu.withhold.count = 1, d.imu.withhold.items[0] = {3, 2};
+          d.imu.withhold.count = 1;
+          d.imu.withhold.items[0] = {3, 2};
         }) == "log.imu.withhold[0]: from 3 s to 2 s is no time; `to` is after `from`");
   CHECK(refusal([](Description& d) {
           d.use = {5, 6};

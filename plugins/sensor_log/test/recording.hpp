@@ -69,8 +69,11 @@ inline Flown fly(const Description& description, const Folder& folder) {
   while (!f.last.ended && f.fault.empty()) {
     REQUIRE(bench.read() == Status::ok);
     f.ticks_ns.push_back(bench.tick.now_ns);
-    note(bench.out.imu, f.imu), note(bench.out.gnss, f.gnss), note(bench.out.mag, f.mag);
-    note(bench.out.baro, f.baro), note(bench.out.pitot, f.pitot);
+    note(bench.out.imu, f.imu);
+    note(bench.out.gnss, f.gnss);
+    note(bench.out.mag, f.mag);
+    note(bench.out.baro, f.baro);
+    note(bench.out.pitot, f.pitot);
     f.status.push_back(bench.out.status);
     f.last = bench.out.recording;
     f.fault = bench.fault();
@@ -91,7 +94,8 @@ inline Flown flown(const Description& d, const std::string& file, const std::str
 }
 
 inline void imu_columns(Description& d) {
-  d.imu.from.file = "imu.csv", d.imu.from.time = "t";
+  d.imu.from.file = "imu.csv";
+  d.imu.from.time = "t";
   d.imu.rate.columns = {"p", "q", "r"};
   d.imu.specific_force.columns = {"x", "y", "z"};
 }

@@ -13,14 +13,17 @@ namespace {
 Description all_topics() {
   Description d;
   d.imu.from.file = d.mag.from.file = d.baro.from.file = d.pitot.from.file = d.gnss.from.file = "flight.ulg";
-  d.imu.from.topic = "sensor_combined", d.mag.from.topic = "sensor_mag#1",
+  d.imu.from.topic = "sensor_combined";
+  d.mag.from.topic = "sensor_mag#1";
   d.baro.from.topic = "vehicle_air_data";
-  d.pitot.from.topic = "differential_pressure", d.gnss.from.topic = "sensor_gps";
+  d.pitot.from.topic = "differential_pressure";
+  d.gnss.from.topic = "sensor_gps";
   return d;
 }
 Description imu_topic() {
   Description d;
-  d.imu.from.file = "flight.ulg", d.imu.from.topic = "sensor_combined";
+  d.imu.from.file = "flight.ulg";
+  d.imu.from.topic = "sensor_combined";
   return d;
 }
 Flown flown(const Description& d, const std::string& bytes) {
@@ -60,7 +63,8 @@ TEST_CASE("topics of PX4 need no column: their names say what they are; # is an 
 
 TEST_CASE("the fixes of a PX4 before 1.14 are whole numbers of 1e-7 degrees and of millimetres") {
   Description d;
-  d.gnss.from.file = "flight.ulg", d.gnss.from.topic = "vehicle_gps_position";
+  d.gnss.from.file = "flight.ulg";
+  d.gnss.from.topic = "vehicle_gps_position";
   std::string file = ulog_begin() +
                      ulog_format(
                          "vehicle_gps_position:uint64_t timestamp;int32_t lat;int32_t lon;int32_t alt;float "
@@ -81,7 +85,9 @@ TEST_CASE("the fixes of a PX4 before 1.14 are whole numbers of 1e-7 degrees and 
 
 TEST_CASE("a description may name any field, nested ones and elements included") {
   Description d;
-  d.imu.from.file = "flight.ulg", d.imu.from.topic = "own", d.imu.from.time = "timestamp",
+  d.imu.from.file = "flight.ulg";
+  d.imu.from.topic = "own";
+  d.imu.from.time = "timestamp";
   d.imu.from.unit = TimeUnit::us;
   d.imu.rate.columns = {"points[0].a", "points[1].b", "good"};
   d.imu.specific_force.columns = {"points[0].b", "points[1].a", "good"};

@@ -33,8 +33,11 @@ std::string published(const std::string& folder, const char* file, const std::ar
   Bench<Recorded> bench;
   Description& d = bench.params.log.value;
   d.imu.from.file = d.mag.from.file = d.baro.from.file = d.pitot.from.file = d.gnss.from.file = file;
-  d.imu.from.topic = topics[0], d.mag.from.topic = topics[1], d.baro.from.topic = topics[2];
-  d.pitot.from.topic = topics[3], d.gnss.from.topic = topics[4];
+  d.imu.from.topic = topics[0];
+  d.mag.from.topic = topics[1];
+  d.baro.from.topic = topics[2];
+  d.pitot.from.topic = topics[3];
+  d.gnss.from.topic = topics[4];
   bench.params.folder.value = Text<256>(folder);
   Rows imu, mag, baro, pitot, gnss;
   do {

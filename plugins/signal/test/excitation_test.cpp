@@ -21,7 +21,8 @@ const Actuators surfaces{0.5, 0.02, -0.05, 0.01};
 /// Pitch is excited; the angle that is added in each step.
 struct Pitch : Stand<Attitude> {
   explicit Pitch(Shape shape, double duration = 4) {
-    params.signal.shape.value = shape, params.signal.duration.value = duration;
+    params.signal.shape.value = shape;
+    params.signal.duration.value = duration;
     params.size.value = 3 * deg;
   }
   double go(int steps = 1) {
@@ -39,8 +40,12 @@ TEST_CASE("without a signal, before one and after one, every bit of a command go
   Stand<Guidance> guidance;
   Stand<Surfaces> actuators;
   GuidanceCommand asked;
-  asked.course_rad = -3.1415926, asked.height_m = 0.1 + 0.2, asked.climb_rate_mps = -1.0 / 3;
-  asked.airspeed_mps = 1e-300, asked.roll_feedforward_rad = 9, asked.lateral_acceleration_mps2 = -0.0;
+  asked.course_rad = -3.1415926;
+  asked.height_m = 0.1 + 0.2;
+  asked.climb_rate_mps = -1.0 / 3;
+  asked.airspeed_mps = 1e-300;
+  asked.roll_feedforward_rad = 9;
+  asked.lateral_acceleration_mps2 = -0.0;
   const Actuators wild{1.7, -2.5, 0.1 + 0.2, -0.0};  // beyond every limit: not for this to judge
   for (int i = 0; i < 3; ++i) {
     CHECK(guidance.fly(guidance.in.command, asked) == Status::ok);
@@ -96,7 +101,9 @@ TEST_CASE("each channel gets its own size, and tells what it got") {
   move(Surfaces::Channel::rudder, &Actuators::rudder_rad, s.out.rudder_excitation_rad, 0.0524);
   move(Surfaces::Channel::throttle, &Actuators::throttle_frac, s.out.throttle_excitation_frac, 0.1);
   GuidanceCommand asked;
-  asked.course_rad = 3.1, asked.height_m = 70, asked.airspeed_mps = 17;
+  asked.course_rad = 3.1;
+  asked.height_m = 70;
+  asked.airspeed_mps = 17;
   const auto lead = [&](Guidance::Channel c) {
     g.params.channel.value = c;
     for (int i = 0; i < 25; ++i) g.fly(g.in.command, asked);
@@ -126,14 +133,16 @@ TEST_CASE("the sum stays within the airframe's limits, and what was really added
   s.fly(s.in.actuators, surfaces);
   CHECK(s.out.actuators.elevator_rad == doctest::Approx(-0.1));
   CHECK(s.out.elevator_excitation_rad.value == doctest::Approx(-0.05));
-  s.params.channel.value = Surfaces::Channel::throttle, s.params.throttle_size.value = 0.5;
+  s.params.channel.value = Surfaces::Channel::throttle;
+  s.params.throttle_size.value = 0.5;
   Actuators full = surfaces;
   full.throttle_frac = 0.9;
   for (int i = 0; i < 25; ++i) s.fly(s.in.actuators, full);
   CHECK(s.out.actuators.throttle_frac == 1);
   Stand<Guidance> g;
   g.params.signal.shape.value = Shape::step;
-  g.params.channel.value = Guidance::Channel::airspeed, g.params.airspeed_size.value = -10;
+  g.params.channel.value = Guidance::Channel::airspeed;
+  g.params.airspeed_size.value = -10;
   GuidanceCommand asked;
   asked.airspeed_mps = 17;
   g.fly(g.in.command, asked);
@@ -187,16 +196,20 @@ TEST_CASE("each bound aborts: the rest is gone within 0.2 s, it is told once, an
 TEST_CASE("just within every bound it goes on; wider bounds and a stated stall count") {
   Pitch p(Shape::step, 10);
   p.go();
-  p.state.roll_rad = 44.9 * deg, p.state.pitch_rad = -28.6 * deg, p.state.height_m = 89.9;
+  p.state.roll_rad = 44.9 * deg;
+  p.state.pitch_rad = -28.6 * deg;
+  p.state.height_m = 89.9;
   p.state.airspeed_mps = 11.1;
   CHECK(p.go() == doctest::Approx(3 * deg));
   p.params.bounds.stall_airspeed.value = 10.2;  // times 1.1 is 11.22
   p.go();
   CHECK(p.out.told.aborted_ratio.value == 1);
   Pitch wide(Shape::step, 10);
-  wide.params.bounds.roll_bound.value = 1.2, wide.params.bounds.height_bound.value = 100;
+  wide.params.bounds.roll_bound.value = 1.2;
+  wide.params.bounds.height_bound.value = 100;
   wide.go();
-  wide.state.roll_rad = 1.1, wide.state.height_m = 165;
+  wide.state.roll_rad = 1.1;
+  wide.state.height_m = 165;
   CHECK(wide.go() == doctest::Approx(3 * deg));
 }
 
@@ -264,7 +277,8 @@ TEST_CASE("the pilot: aborted while commands do not move the aircraft, and not b
 
 TEST_CASE("a course is not excited while guidance asks for an acceleration, and that is told") {
   Stand<Guidance> g;
-  g.params.signal.shape.value = Shape::step, g.params.channel.value = Guidance::Channel::course;
+  g.params.signal.shape.value = Shape::step;
+  g.params.channel.value = Guidance::Channel::course;
   GuidanceCommand asked;
   asked.lateral = LateralMode::acceleration;
   CHECK(g.fly(g.in.command, asked) == Status::degraded);

@@ -23,7 +23,10 @@ struct Folder {
   static inline int count = 0;
   fs::path path = fs::temp_directory_path() /
                   ("fulmar_signal_" + std::to_string(getpid()) + "_" + std::to_string(count++));
-  Folder() { fs::remove_all(path), fs::create_directories(path); }
+  Folder() {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  }
   ~Folder() { fs::remove_all(path); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;

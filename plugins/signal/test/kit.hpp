@@ -30,8 +30,10 @@ inline VehicleState level() {
 
 inline signal::SignalParams signal_of(Shape shape, double duration = 4, double f0 = 0.5, double f1 = 3) {
   signal::SignalParams p;
-  p.shape.value = shape, p.duration.value = duration;
-  p.frequency.value = f0, p.frequency_end.value = f1;
+  p.shape.value = shape;
+  p.duration.value = duration;
+  p.frequency.value = f0;
+  p.frequency_end.value = f1;
   return p;
 }
 
@@ -40,7 +42,8 @@ template <class C>
 struct Stand : Bench<C> {
   VehicleState state = level();
   Stand() {
-    this->params.bounds.airframe.value = test::anaconda(), this->params.bounds.airframe.is_given = true;
+    this->params.bounds.airframe.value = test::anaconda();
+    this->params.bounds.airframe.is_given = true;
     this->params.signal.delay.value = 0;
   }
   template <class Command>

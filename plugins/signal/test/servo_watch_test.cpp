@@ -21,7 +21,9 @@ struct Sweep : Stand<Surfaces> {
   explicit Sweep(Shape shape, double size, double f0 = 0.5, double f1 = 1) {
     Airframe& a = params.bounds.airframe.value;
     for (Surface* s : {&a.aileron, &a.elevator, &a.rudder}) {
-      s->limit_rad = 0.4, s->rate_limit_radps = 2, s->time_constant_s = 0.02;
+      s->limit_rad = 0.4;
+      s->rate_limit_radps = 2;
+      s->time_constant_s = 0.02;
       s->trim_rad = s == &a.elevator ? 0.05 : 0;
     }
     params.signal = signal_of(shape, 8, f0, f1);

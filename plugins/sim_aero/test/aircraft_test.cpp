@@ -217,7 +217,8 @@ TEST_CASE("a start in the air is carried along its steady flight and passes the 
 TEST_CASE("a wind is a velocity, or a speed and where it comes from") {
   const auto wind = [](double speed, double from, double north = 0, double east = 0) {
     Aircraft::Params p;
-    p.wind_speed.value = speed, p.wind_from.value = from;
+    p.wind_speed.value = speed;
+    p.wind_from.value = from;
     p.wind_ned.value = {north, east, 0};
     return Aircraft::steady_wind(p);
   };
@@ -246,7 +247,10 @@ TEST_CASE("an airframe without lift or thrust is refused: some of its fields are
     CHECK(b->configure() == Status::failed);
     return std::string(b->error());
   };
-  CHECK(fault([](Airframe& a) { a = Airframe{}, a.mass_kg = 5; }).find("has no lift") != std::string::npos);
+  CHECK(fault([](Airframe& a) {
+          a = Airframe{};
+          a.mass_kg = 5;
+        }).find("has no lift") != std::string::npos);
   CHECK(fault([](Airframe& a) { a.propulsion = {}; }).find("has no thrust") != std::string::npos);
 }
 

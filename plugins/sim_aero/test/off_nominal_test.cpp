@@ -16,7 +16,8 @@ TEST_CASE("the propeller turns by the voltage that is left") {
   Airframe a = anaconda();
   const double full = a.propulsion.battery_volt;
   a.propulsion.pack.resistance_ohm = 0;
-  a.propulsion.pack.capacity_ah = 0.05, a.propulsion.pack.empty_volt = 0.6 * full;
+  a.propulsion.pack.capacity_ah = 0.05;
+  a.propulsion.pack.empty_volt = 0.6 * full;
   Plant plant(a, {}, 1387, 1);
   REQUIRE(plant.fly({0, 0, -300}, 0, 17));
   const RigidBody held = plant.state();

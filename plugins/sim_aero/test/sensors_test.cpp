@@ -292,7 +292,8 @@ TEST_CASE("the scale of a pitot tube is off either way, by chance") {
     Sensors s(spec, 400, LocalFrame(40.2463724, -111.6474138, 1387), field, seed);
     const double scale = s.pitot(plant).pressure_pa / right;
     sum += scale;
-    least = std::min(least, scale), most = std::max(most, scale);
+    least = std::min(least, scale);
+    most = std::max(most, scale);
   }
   CHECK(std::abs(sum / seeds - 1) < 0.004);  // 0.04 / sqrt(3 seeds): three deviations
   CHECK(least / 0.96 == Approx(1).epsilon(0.002));

@@ -126,7 +126,10 @@ TEST_CASE("an accelerometer off the centre of gravity feels what its own motion 
   Eigen::Quaterniond q = p.state().q_nb;
   for (int i = 0; i < 3; ++i) {
     at.push_back(p.state().p_n + p.state().q_nb * r);
-    if (i == 1) said = eigen(s.imu(p).specific_force_mps2), q = p.state().q_nb;
+    if (i == 1) {
+      said = eigen(s.imu(p).specific_force_mps2);
+      q = p.state().q_nb;
+    }
     p.advance(a, 1, h);
   }
   const Vector3d acceleration = (at[2] - 2 * at[1] + at[0]) / (h * h);
@@ -262,7 +265,8 @@ TEST_CASE("vibration grows with the square of the motor's speed and turns with i
   for (int i = 0; i < 2000; ++i) {
     const Vector3d v = eigen(s.imu(p).specific_force_mps2) - eigen(still.imu(p).specific_force_mps2);
     CHECK(std::hypot(v.y(), v.z()) / size == Approx(1));
-    most = std::max(most, v.z()), along = std::max(along, v.x());
+    most = std::max(most, v.z());
+    along = std::max(along, v.x());
   }
   CHECK(most / size == Approx(1).epsilon(0.01));
   CHECK(along / (0.5 * size) == Approx(1).epsilon(0.01));
@@ -304,7 +308,10 @@ TEST_CASE("the parameter calibrates a built-in set, too") {
     int n = 0;
     for (int i = 0; i < 400; ++i) {
       pass(*b, &level);
-      if (b->out.truth.written) sum += eigen(b->out.truth.value.gyro_bias_radps).norm(), ++n;
+      if (b->out.truth.written) {
+        sum += eigen(b->out.truth.value.gyro_bias_radps).norm();
+        ++n;
+      }
     }
     CHECK((sum / n > 0.02) == !calibrated);  // the drift of 0.3 mrad/s stays
   }
@@ -327,13 +334,18 @@ TEST_CASE("samples come late, jittering, lost in gaps, with stamps that only gro
     if (b->out.imu.written) {
       CHECK(b->out.imu.valid_at_ns > last_imu);
       CHECK(now - b->out.imu.valid_at_ns >= 20000000);
-      last_imu = b->out.imu.valid_at_ns, ++imu;
+      last_imu = b->out.imu.valid_at_ns;
+      ++imu;
     }
     if (b->out.gnss.written) {
       CHECK(now - b->out.gnss.valid_at_ns >= 250000000);
       const double s = 1e-9 * static_cast<double>(b->out.gnss.valid_at_ns - last_gnss);
-      if (last_gnss >= 0) least_s = std::min(least_s, s), most_s = std::max(most_s, s);
-      last_gnss = b->out.gnss.valid_at_ns, ++gnss;
+      if (last_gnss >= 0) {
+        least_s = std::min(least_s, s);
+        most_s = std::max(most_s, s);
+      }
+      last_gnss = b->out.gnss.valid_at_ns;
+      ++gnss;
     }
     mag += b->out.mag.written;
     baro += b->out.baro.written;

@@ -134,7 +134,8 @@ TEST_CASE("a surface that is lost has no moment; found again, it has") {
 
 TEST_CASE("a slow servo takes as many times as long as it has lost speed, rate and lag") {
   Tunnel right, slow;
-  right.blow(0.5, neutral), slow.blow(0.5, neutral);
+  right.blow(0.5, neutral);
+  slow.blow(0.5, neutral);
   slow.fail(SurfaceFault::slow, SurfaceFault::slow, none);
   const Actuators command{0.5, 0.4, -0.4, 0};
   for (int i = 0; i < 20; ++i) {

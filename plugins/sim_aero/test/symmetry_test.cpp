@@ -88,7 +88,9 @@ TEST_CASE("the barometer and the pitot tube have errors of their own") {
       baro += s.baro(plant).pressure_pa - plant.air().pressure_pa;
       pitot += s.pitot(plant).pressure_pa;
     }
-    baro_2 += baro * baro, pitot_2 += pitot * pitot, both += baro * pitot;
+    baro_2 += baro * baro;
+    pitot_2 += pitot * pitot;
+    both += baro * pitot;
   }
   CHECK(std::abs(both / std::sqrt(baro_2 * pitot_2)) < 0.25);
 }

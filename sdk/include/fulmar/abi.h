@@ -28,39 +28,39 @@
 extern "C" {
 #endif
 
-/* ---- what a message looks like
- * ------------------------------------------------------------------------------------------ */
+/* ---- what a message looks like ------------------------------------------------------------------------- */
 
-enum fulmar_kind {                  /* kind of one element */
-                   FULMAR_BOOL = 1, /* one byte, 0 or 1 */
-                   FULMAR_U8 = 2,
-                   FULMAR_I32 = 3,
-                   FULMAR_U32 = 4,
-                   FULMAR_I64 = 5,
-                   FULMAR_U64 = 6,
-                   FULMAR_F32 = 7,
-                   FULMAR_F64 = 8,
-                   FULMAR_ENUM = 9,    /* one byte; `labels` names its values 0, 1, ... */
-                   FULMAR_TEXT = 10,   /* char[stride], NUL-terminated */
-                   FULMAR_STRUCT = 11, /* described by `type` */
-                   FULMAR_I8 = 12,     /* from ABI 1.2 on, for foreign messages; so the next two */
-                   FULMAR_I16 = 13,
-                   FULMAR_U16 = 14
+/* clang-format off */
+enum fulmar_kind {    /* kind of one element */
+  FULMAR_BOOL = 1,    /* one byte, 0 or 1 */
+  FULMAR_U8 = 2,
+  FULMAR_I32 = 3,
+  FULMAR_U32 = 4,
+  FULMAR_I64 = 5,
+  FULMAR_U64 = 6,
+  FULMAR_F32 = 7,
+  FULMAR_F64 = 8,
+  FULMAR_ENUM = 9,    /* one byte; `labels` names its values 0, 1, ... */
+  FULMAR_TEXT = 10,   /* char[stride], NUL-terminated */
+  FULMAR_STRUCT = 11, /* described by `type` */
+  FULMAR_I8 = 12,     /* from ABI 1.2 on, for foreign messages; so the next two */
+  FULMAR_I16 = 13,
+  FULMAR_U16 = 14
 };
 
 enum fulmar_shape {
   FULMAR_SCALAR = 0,
   FULMAR_ARRAY = 1, /* `count` elements, always all of them */
-  FULMAR_LIST = 2 /* a uint32_t at `offset` says how many of at most `count` elements are there; they begin at
-                     `offset` + `items` */
+  FULMAR_LIST = 2   /* a uint32_t at `offset` says how many of at most `count` elements are there; they begin
+                       at `offset` + `items` */
 };
 
 typedef struct fulmar_type fulmar_type;
 
 typedef struct fulmar_field {
-  const char* name; /* ends in its unit: airspeed_mps */
-  const char*
-      unit; /* as printed: "m/s"; "" for none, and inside a Vec3, whose unit stands at the outer field */
+  const char* name;          /* ends in its unit: airspeed_mps */
+  const char* unit;          /* as printed: "m/s"; "" for none, and inside a Vec3, whose unit stands at the
+                                outer field */
   const fulmar_type* type;   /* of FULMAR_STRUCT, else NULL */
   const char* const* labels; /* of FULMAR_ENUM, else NULL */
   uint32_t label_count;
@@ -73,6 +73,7 @@ typedef struct fulmar_field {
   double min, max; /* range that the host enforces in flight; -inf and inf when there is none */
   uint32_t flags;  /* fulmar_field_flags; 0 in tables from before it was here */
 } fulmar_field;
+/* clang-format on */
 
 enum fulmar_field_flags {
   FULMAR_FIELD_APPENDED = 1, /* a writer from before this field may feed its reader, who then sees zeros */
@@ -93,9 +94,7 @@ struct fulmar_type {
   uint32_t align;
 };
 
-/* ---- ports
- * ---------------------------------------------------------------------------------------------------------------
- */
+/* ---- ports --------------------------------------------------------------------------------------------- */
 
 enum fulmar_port_kind {
   FULMAR_IN_VALUE = 1,   /* the latest sample */
@@ -159,9 +158,7 @@ typedef struct fulmar_output {
   uint32_t lost;       /* queue: items that found no room */
 } fulmar_output;
 
-/* ---- parameters
- * ----------------------------------------------------------------------------------------------------------
- */
+/* ---- parameters ---------------------------------------------------------------------------------------- */
 
 enum fulmar_param_kind {
   FULMAR_NUMBER = 1, /* number[0] */
@@ -204,9 +201,7 @@ typedef struct fulmar_value { /* valid until configure or retune returns; data o
   uint64_t size;
 } fulmar_value;
 
-/* ---- components
- * ----------------------------------------------------------------------------------------------------------
- */
+/* ---- components ---------------------------------------------------------------------------------------- */
 
 enum fulmar_status { FULMAR_OK = 0, FULMAR_DEGRADED = 1, FULMAR_FAILED = 2 };
 
@@ -231,23 +226,25 @@ typedef struct fulmar_component {
   uint32_t port_stride, param_stride;
   uint32_t flags;
 
+  /* clang-format off */
   void* (*create)(uint64_t seed, fulmar_error*);                           /* [setup] NULL on failure */
   void (*destroy)(void*);                                                  /* [setup] not active */
   uint32_t (*configure)(void*, const fulmar_value* values, fulmar_error*); /* [setup] all parameters */
-  uint32_t (*retune)(void*, const fulmar_value* values,
-                     fulmar_error*); /* [tick] all parameters, between steps; may be NULL */
+  uint32_t (*retune)(void*, const fulmar_value* values, fulmar_error*);
+                                                /* [tick] all parameters, between steps; may be NULL */
   uint32_t (*activate)(void*, const fulmar_tick*,
                        const fulmar_input* inputs, /* [tick] may be NULL; last: one per output, */
-                       const fulmar_input* last,
-                       fulmar_error*); /*        what was last applied in its role */
-  void (*deactivate)(void*);           /* [tick] may be NULL */
-  uint32_t (*step)(void*, const fulmar_tick*, const fulmar_input*, fulmar_output*,
-                   fulmar_error*); /* [tick] */
-  uint32_t (*read)(void*, fulmar_tick*, fulmar_output*,
-                   fulmar_error*); /* [tick] vehicle: sets now_ns, strictly increasing */
-  uint32_t (*write)(void*, const fulmar_tick*, const fulmar_input*,
-                    fulmar_error*);             /* [tick] vehicle: drives the actuators */
+                       const fulmar_input* last, fulmar_error*);
+                                                /*        what was last applied in its role */
+  void (*deactivate)(void*);                    /* [tick] may be NULL */
+  uint32_t (*step)(void*, const fulmar_tick*, const fulmar_input*, fulmar_output*, fulmar_error*);
+                                                /* [tick] */
+  uint32_t (*read)(void*, fulmar_tick*, fulmar_output*, fulmar_error*);
+                                                /* [tick] vehicle: sets now_ns, strictly increasing */
+  uint32_t (*write)(void*, const fulmar_tick*, const fulmar_input*, fulmar_error*);
+                                                /* [tick] vehicle: drives the actuators */
   const void* (*get_extension)(const char* id); /* [setup] may be NULL; NULL: not supported */
+  /* clang-format on */
 } fulmar_component;
 
 /* Extension "fulmar.last_frame" of a vehicle: const fulmar_last_frame* (*)(void* instance, const

@@ -18,6 +18,7 @@
 #include "fulmar/abi.h"
 #include "fulmar/detail/members.hpp"
 #include "fulmar/detail/units.hpp"
+#include "fulmar/detail/words.hpp"
 #include "fulmar/message.hpp"
 
 #ifdef __FAST_MATH__
@@ -48,42 +49,6 @@ consteval const char* value_signature() {
 template <class T>
 consteval const char* type_signature() {
   return __PRETTY_FUNCTION__;
-}
-
-constexpr bool word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
-/// The last identifier in a signature, before what the compiler closes it with.
-constexpr std::string_view last_word(std::string_view s) {
-  while (!s.empty() && !word(s.back())) s.remove_suffix(1);
-  std::size_t b = s.size();
-  while (b > 0 && word(s[b - 1])) --b;
-  return s.substr(b);
-}
-
-/// Texts that are cut out of a signature, each closed with a NUL, one after the other.
-template <std::size_t count, std::size_t room>
-struct Words {
-  std::array<char, room> bytes{};
-  std::array<std::size_t, count> begin{};
-};
-/// Where each of `count` words lies in a signature, and what all of them take with their NULs.
-template <std::size_t count>
-struct Found {
-  std::array<std::string_view, count> words{};
-  std::size_t room = 0;
-};
-template <std::size_t count, std::size_t room>
-consteval Words<count, room> cut_out(const Found<count>& found) {
-  Words<count, room> out;
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    out.begin[i] = at;
-    for (const char c : found.words[i]) out.bytes[at++] = c;
-    out.bytes[at++] = '\0';
-  }
-  return out;
 }
 
 /// Address of a member as a template argument of class type: clang 14 accepts it so, and not bare.
@@ -411,7 +376,10 @@ consteval bool marked_exist() {
 template <class T>
 constexpr void take_range(fulmar_field& field, std::string_view name) {
   for (const FieldRange& range : field_ranges<T>)
-    if (range.field == name) field.min = range.min, field.max = range.max;
+    if (range.field == name) {
+      field.min = range.min;
+      field.max = range.max;
+    }
 }
 template <class T, class... M>
 consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {

@@ -67,7 +67,10 @@ inline std::string fault_in(const fulmar_field& field, const std::byte* at, cons
       double x = 0;
       float f = 0;
       if (field.kind == FULMAR_F64) std::memcpy(&x, item, sizeof x);
-      if (field.kind == FULMAR_F32) std::memcpy(&f, item, sizeof f), x = static_cast<double>(f);
+      if (field.kind == FULMAR_F32) {
+        std::memcpy(&f, item, sizeof f);
+        x = static_cast<double>(f);
+      }
       if (!std::isfinite(x)) return place + " is " + number_words(x);
       if (x < field.min || x > field.max)
         return place + " is " + number_words(x) + ", beyond [" + number_words(field.min) + ", " +

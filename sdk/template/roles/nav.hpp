@@ -54,7 +54,9 @@ struct MyLaw {  // fills the role `nav`
     gyro_bias_ = eigen(s.gyro_bias_radps);
     accel_bias_ = eigen(s.accel_bias_mps2);
     wind_ = eigen(s.wind_mps);
-    lat0_ = s.origin_latitude_deg, lon0_ = s.origin_longitude_deg, alt0_ = s.origin_altitude_m;
+    lat0_ = s.origin_latitude_deg;
+    lon0_ = s.origin_longitude_deg;
+    alt0_ = s.origin_altitude_m;
     heading_offset_ = wrap_pi(s.yaw_rad - compass(in));
     baro_offset_ = s.height_m - pressure_height(in);
     begun_ = true;
@@ -110,7 +112,9 @@ struct MyLaw {  // fills the role `nav`
     q_ = Eigen::AngleAxisd(compass(in) + p.declination, Eigen::Vector3d::UnitZ()) * q_;
     heading_offset_ = p.declination;
     gyro_bias_ = eigen(in.imu->rate_radps);
-    lat0_ = in.gnss->latitude_deg, lon0_ = in.gnss->longitude_deg, alt0_ = in.gnss->altitude_m;
+    lat0_ = in.gnss->latitude_deg;
+    lon0_ = in.gnss->longitude_deg;
+    alt0_ = in.gnss->altitude_m;
     baro_offset_ = -pressure_height(in);
     begun_ = true;
   }
@@ -151,9 +155,10 @@ struct MyLaw {  // fills the role `nav`
     s.course_rad = s.ground_speed_mps > 1 ? std::atan2(v_.y(), v_.x()) : s.yaw_rad;
     s.airspeed_mps = Va_;
     const Eigen::Vector3d v_r = q_.conjugate() * (v_ - wind_);
-    if (Va_ > 5)
-      s.alpha_rad = std::atan2(v_r.z(), v_r.x()),
+    if (Va_ > 5) {
+      s.alpha_rad = std::atan2(v_r.z(), v_r.x());
       s.beta_rad = std::asin(std::clamp(v_r.y() / v_r.norm(), -1.0, 1.0));
+    }
     s.wind_mps = from_eigen<Ned>(wind_);
     s.gyro_bias_radps = from_eigen<Body>(gyro_bias_);
     s.accel_bias_mps2 = from_eigen<Body>(accel_bias_);
@@ -162,7 +167,9 @@ struct MyLaw {  // fills the role `nav`
     s.attitude_std_rad = {0.03, 0.03, 0.1};
     s.wind_std_mps = {1, 1, 1};
     s.airspeed_std_mps = 1;
-    s.origin_latitude_deg = lat0_, s.origin_longitude_deg = lon0_, s.origin_altitude_m = alt0_;
+    s.origin_latitude_deg = lat0_;
+    s.origin_longitude_deg = lon0_;
+    s.origin_altitude_m = alt0_;
     s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
         s.airspeed_valid = s.wind_valid = true;
   }

@@ -176,7 +176,9 @@ struct MyLaw {  // fills the role `vehicle`
     s.position_m = from_eigen<Ned>(p_n_);
     s.velocity_mps = from_eigen<Ned>(v_n_);
     s.attitude = from_eigen(q);
-    s.roll_rad = phi_, s.pitch_rad = theta_, s.yaw_rad = psi_;
+    s.roll_rad = phi_;
+    s.pitch_rad = theta_;
+    s.yaw_rad = psi_;
     s.rate_radps = from_eigen<Body>(rate_b);
     s.height_m = -p_n_.z();
     s.climb_rate_mps = -v_n_.z();
@@ -186,7 +188,8 @@ struct MyLaw {  // fills the role `vehicle`
     s.alpha_rad = theta_ - gamma_;
     s.position_std_m = s.velocity_std_mps = s.attitude_std_rad = s.wind_std_mps = {};
     s.airspeed_std_mps = 0;
-    s.origin_latitude_deg = origin_.lat_deg, s.origin_longitude_deg = origin_.lon_deg,
+    s.origin_latitude_deg = origin_.lat_deg;
+    s.origin_longitude_deg = origin_.lon_deg;
     s.origin_altitude_m = origin_.alt_msl_m;
     s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
         s.airspeed_valid = s.wind_valid = true;

@@ -49,7 +49,10 @@ inline Airframe anaconda() {
                   .propellers = {},
                   .pack = {},
                   .disc = {}};
-  for (Surface* s : {&a.aileron, &a.elevator, &a.rudder}) s->limit_rad = 0.698, s->time_constant_s = 0.02;
+  for (Surface* s : {&a.aileron, &a.elevator, &a.rudder}) {
+    s->limit_rad = 0.698;
+    s->time_constant_s = 0.02;
+  }
   a.elevator.trim_rad = 0.12;
   a.limits = {.airspeed_min_mps = 12,
               .airspeed_cruise_mps = 17,
@@ -133,14 +136,18 @@ struct FlightModel {
     s.position_m = from_eigen<Ned>(x.p_n);
     s.velocity_mps = from_eigen<Ned>(x.v_n);
     s.attitude = from_eigen(x.q_nb);
-    s.roll_rad = e.roll_rad, s.pitch_rad = e.pitch_rad, s.yaw_rad = e.yaw_rad;
+    s.roll_rad = e.roll_rad;
+    s.pitch_rad = e.pitch_rad;
+    s.yaw_rad = e.yaw_rad;
     s.rate_radps = from_eigen<Body>(x.omega_b);
     s.specific_force_mps2 = from_eigen<Body>(specific_force_b);
     s.height_m = -x.p_n.z();
     s.climb_rate_mps = -x.v_n.z();
     s.ground_speed_mps = x.v_n.head<2>().norm();
     s.course_rad = s.ground_speed_mps > 0.5 ? std::atan2(x.v_n.y(), x.v_n.x()) : s.yaw_rad;
-    s.airspeed_mps = air.Va, s.alpha_rad = air.alpha, s.beta_rad = air.beta;
+    s.airspeed_mps = air.Va;
+    s.alpha_rad = air.alpha;
+    s.beta_rad = air.beta;
     s.wind_mps = from_eigen<Ned>(wind_n);
     s.origin_altitude_m = field_m;
     s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =

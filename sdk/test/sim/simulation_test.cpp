@@ -65,7 +65,10 @@ TEST_CASE("a copy flies on by itself, the same with the same commands, another w
   for (int i = 0; i < 400; ++i) a.step(weaving(i), dt);
   Simulation b = a, c = a;
   const Row before = row(a);
-  for (int i = 0; i < 400; ++i) b.step(weaving(i), dt), c.step(weaving(i, 0.5), dt);
+  for (int i = 0; i < 400; ++i) {
+    b.step(weaving(i), dt);
+    c.step(weaving(i, 0.5), dt);
+  }
   CHECK(same(row(a), before));
   for (int i = 0; i < 400; ++i) a.step(weaving(i), dt);
   CHECK(same(row(a), row(b)));
@@ -235,7 +238,8 @@ TEST_CASE(
     "turbulence of one height and one airspeed is the Dryden model's, however fast the aircraft flies") {
   Weather w;
   w.turbulence = Turbulence::severe;
-  w.fixed_height_m = 100, w.gust_airspeed_mps = 25;
+  w.fixed_height_m = 100;
+  w.gust_airspeed_mps = 25;
   Disturbances air(w, 5);
   Dryden model(dryden_scales_at(Turbulence::severe, 100), 5);
   bool all = true;

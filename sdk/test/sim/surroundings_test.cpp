@@ -224,7 +224,10 @@ TEST_CASE("a slope is the ground to fly into") {
   Plant p = plant(anaconda(), {}, sloping(0.3, 0));
   REQUIRE(p.fly({0, 0, -30}, 0, 17));  // towards the hill, whose height there is 97 m after 313 m
   double t = 0;
-  while (!p.crashed() && t < 20) run(p, 0.1, {0.5667, 0.0041, 0.1212, 0}), t += 0.1;
+  while (!p.crashed() && t < 20) {
+    run(p, 0.1, {0.5667, 0.0041, 0.1212, 0});
+    t += 0.1;
+  }
   CHECK(p.crashed());
   CHECK(t == Approx(30 / std::tan(0.3) / 17).epsilon(0.05));
 }

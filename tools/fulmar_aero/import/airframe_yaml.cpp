@@ -183,7 +183,9 @@ void complete(Aircraft& a) {
     const double b2 = a.mass_kg.x * a.span_m.x * a.span_m.x;
     const std::string why =
         "assumption: usual radius of gyration, of the span 0.115, 0.14, 0.18 (--inertia, or a mass table)";
-    a.xx = {0.115 * 0.115 * b2, why}, a.yy = {0.14 * 0.14 * b2, why}, a.zz = {0.18 * 0.18 * b2, why};
+    a.xx = {0.115 * 0.115 * b2, why};
+    a.yy = {0.14 * 0.14 * b2, why};
+    a.zz = {0.18 * 0.18 * b2, why};
     a.xz = {0, "assumption"};
   }
 }
@@ -239,7 +241,8 @@ Imported written(Aircraft aircraft, const ImportOptions& options, const std::str
   const double cruise = cruise_of(out.aircraft, options);
   Writer writer(out.aircraft, out.assumptions);
   Flown flown;
-  flown.slowest = 0.7 * cruise, flown.fastest = 1.5 * cruise;
+  flown.slowest = 0.7 * cruise;
+  flown.fastest = 1.5 * cruise;
   flown = flown_of(airframe_of_text(writer.text(flown, cruise), name).airframe, cruise);
   out.text = writer.text(flown, cruise);
   out.file = airframe_of_text(out.text, name);

@@ -58,7 +58,10 @@ Aircraft json_aircraft(const Lines& lines) {
   for (const Value* value : {&a.area_m2, &a.span_m, &a.chord_m})
     if (!(value->x > 0)) throw core::Error(value->from + ": expected more than 0");
   a.mass_kg = set.value("mass");
-  a.xx = set.value("Jx"), a.yy = set.value("Jy"), a.zz = set.value("Jz"), a.xz = set.value("Jxz");
+  a.xx = set.value("Jx");
+  a.yy = set.value("Jy");
+  a.zz = set.value("Jz");
+  a.xz = set.value("Jxz");
   if (set.has("e")) a.oswald = set.value("e");
   a.stall_alpha = set.has("a_0") ? set.value("a_0") : Value(15 * degree, "assumption");
   a.stall_sharpness = set.has("M") ? set.value("M") : Value(50, "assumption");

@@ -34,7 +34,10 @@ std::optional<std::complex<double>> take_nearest(std::vector<std::complex<double
   for (std::size_t i = 0; i < from.size(); ++i) {
     if ((from[i].imag() > 0) != (to.imag() > 0)) continue;
     const double distance = std::abs(from[i] - to) / std::abs(to);
-    if (distance < least) least = distance, best = i;
+    if (distance < least) {
+      least = distance;
+      best = i;
+    }
   }
   if (best == from.size()) return {};
   const std::complex<double> value = from[best];

@@ -162,7 +162,10 @@ ControlColumns control_columns(const std::vector<Control>& controls) {
     Role missing = Role::mixed;
     int number = 0;
     for (const Role role : {Role::aileron, Role::elevator, Role::rudder})
-      if (sorted.by_role[std::size_t(role)].empty()) missing = role, ++number;
+      if (sorted.by_role[std::size_t(role)].empty()) {
+        missing = role;
+        ++number;
+      }
     if (number == 1) {
       out.notes.push_back(told(*mixed[0]) + " is taken as the " + role_name(missing) +
                           ", which no other control is");

@@ -58,7 +58,9 @@ void rescale(Analysis& a, const Analysis& to) {
   column(a.slope[q], c);
   column(a.slope[r], b);
   for (Control& control : a.controls) column(control.of, 1);
-  a.area_m2 = to.area_m2, a.chord_m = to.chord_m, a.span_m = to.span_m;
+  a.area_m2 = to.area_m2;
+  a.chord_m = to.chord_m;
+  a.span_m = to.span_m;
 }
 
 void refuse_another_aircraft(const Chosen& first, const Chosen& other) {
@@ -143,9 +145,16 @@ void set_body(const std::vector<Input>& inputs, const ImportOptions& options, Ai
       from = short_name(input);
       continue;
     }
-    if (!body.xx.known && own.xx.known)
-      body.xx = own.xx, body.yy = own.yy, body.zz = own.zz, body.xz = own.xz;
-    if (!body.has_cg && own.has_cg) body.cg_m = own.cg_m, body.has_cg = true;
+    if (!body.xx.known && own.xx.known) {
+      body.xx = own.xx;
+      body.yy = own.yy;
+      body.zz = own.zz;
+      body.xz = own.xz;
+    }
+    if (!body.has_cg && own.has_cg) {
+      body.cg_m = own.cg_m;
+      body.has_cg = true;
+    }
     if (std::abs(own.mass_kg.x - body.mass_kg.x) > 0.01 * body.mass_kg.x)
       out.warnings.push_back("the mass is " + figures(body.mass_kg.x, 4) + " kg in " + from + " and " +
                              figures(own.mass_kg.x, 4) + " kg in " + short_name(input) +
@@ -159,7 +168,10 @@ void set_body(const std::vector<Input>& inputs, const ImportOptions& options, Ai
     body.xz = {options.inertia[3], "--inertia"};
   }
   out.mass_kg = body.mass_kg;
-  out.xx = body.xx, out.yy = body.yy, out.zz = body.zz, out.xz = body.xz;
+  out.xx = body.xx;
+  out.yy = body.yy;
+  out.zz = body.zz;
+  out.xz = body.xz;
 }
 
 void move_to_gravity(Analysis& a, const Body& body, const Input& input, Aircraft& out) {
@@ -208,13 +220,17 @@ void set_drag(const Analysis& a, const std::vector<Input>& inputs, const ImportO
     double CD = 0, CL = 0;
     std::string from;
     if (const PolarPoint* const point = nearest_point(input.polar, a.alpha_rad.x)) {
-      CD = point->CD.x, CL = point->CL, from = point->CD.from;
+      CD = point->CD.x;
+      CL = point->CL;
+      from = point->CD.from;
       if (const double far = std::abs(point->alpha_rad - a.alpha_rad.x); CL != 0 && far > polar_reach)
         out.warnings.push_back(short_name(input) + ": its nearest point is " + degrees(far, 1) +
                                " from the angle that was analysed: is it of another sweep, or cut off?");
     } else if (wins && !input.analyses.empty()) {
       const Analysis& other = input.analyses[0];
-      CD = other.base[drag].x, CL = other.base[lift].x, from = other.base[drag].from;
+      CD = other.base[drag].x;
+      CL = other.base[lift].x;
+      from = other.base[drag].from;
     } else {
       continue;
     }
@@ -371,7 +387,8 @@ Aircraft aircraft_of(const std::vector<Input>& inputs, const ImportOptions& opti
     rescale(all[i].analysis, first.analysis);
     tell_differences(first, all[i], out.notes);
   }
-  out.area_m2 = first.analysis.area_m2, out.chord_m = first.analysis.chord_m,
+  out.area_m2 = first.analysis.area_m2;
+  out.chord_m = first.analysis.chord_m;
   out.span_m = first.analysis.span_m;
   for (Chosen& one : all) move_to_gravity(one.analysis, body, *one.input, out);
   std::vector<Control> controls;

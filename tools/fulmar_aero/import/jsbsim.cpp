@@ -15,11 +15,6 @@
 namespace fulmar::aero::imports {
 namespace {
 
-const Element& needed_child(const Lines& lines, const Element& parent, const std::string& name) {
-  if (const Element* const found = parent.child(name)) return *found;
-  refuse(lines.where(parent.line), "<" + parent.name + ">: expected <" + name + "> and did not find it");
-}
-
 double number_in(const Lines& lines, const Element& element) {
   std::string text = trimmed(element.text);
   return number_at(lines_of(lines.where(element.line).text(), text.empty() ? "?" : text), 0, 0,
@@ -152,19 +147,24 @@ struct Product {
 };
 
 void take_property(std::string property, Product& out, std::string& unknown) {
-  if (begins(property, "-")) out.number = -out.number, property = property.substr(1);
+  if (begins(property, "-")) {
+    out.number = -out.number;
+    property = property.substr(1);
+  }
   for (const State& one : states)
     if (property == one.property) {
-      ++out.states_in, out.term = one.term;
+      ++out.states_in;
+      out.term = one.term;
       return;
     }
   if (property == "aero/qbar-psf")
     ++out.pressure;
   else if (property == "metrics/Sw-sqft")
     ++out.area;
-  else if (property == "aero/qbar-area")
-    ++out.pressure, ++out.area;
-  else if (property == "metrics/bw-ft")
+  else if (property == "aero/qbar-area") {
+    ++out.pressure;
+    ++out.area;
+  } else if (property == "metrics/bw-ft")
     ++out.span;
   else if (property == "metrics/cbarw-ft")
     ++out.chord;

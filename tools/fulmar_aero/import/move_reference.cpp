@@ -32,7 +32,8 @@ class Move {
         cs_(std::cos(a.alpha_rad.x)),
         sn_(std::sin(a.alpha_rad.x)) {
     // what has no moment in the tool must not get one here
-    CL_ = a.base[lift].x, CD_ = a.base[drag].x - a.drag_without_moment;
+    CL_ = a.base[lift].x;
+    CD_ = a.base[drag].x - a.drag_without_moment;
     CL_a_ = a.slope[alpha][lift].x;
     CY_b_ = a.slope[beta][side].x + a.drag_without_moment;
     const Value& given = a.slope[alpha][drag];

@@ -86,7 +86,9 @@ Body sum_of(const std::vector<MassRow>& rows, const MassUnits& units, const std:
     y += row[0] * row[2];
     z += row[0] * row[3];
   }
-  x /= mass, y /= mass, z /= mass;
+  x /= mass;
+  y /= mass;
+  z /= mass;
   double xx = 0, yy = 0, zz = 0, xz = 0;
   for (const MassRow& row : rows) {
     const double dx = row[1] - x, dy = row[2] - y, dz = row[3] - z;

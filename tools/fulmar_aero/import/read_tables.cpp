@@ -123,8 +123,10 @@ Body point_masses(const Lines& lines, double length, double mass_unit_kg) {
     const double m = element_number(lines, "Mass", *own) * mass_unit_kg;
     const std::vector<double> x = triple(lines, "coordinates", *place);
     mass += m;
-    for (std::size_t k = 0; k < 3; ++k)
-      at[k] += m * x[k] * length, square[k] += m * x[k] * x[k] * length * length;
+    for (std::size_t k = 0; k < 3; ++k) {
+      at[k] += m * x[k] * length;
+      square[k] += m * x[k] * x[k] * length * length;
+    }
     xz += m * x[0] * x[2] * length * length;
   }
   Body body;

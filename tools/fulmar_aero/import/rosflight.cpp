@@ -153,7 +153,10 @@ void mend_signs(Aircraft& a) {
                        (CD.x < 0 ? ", as is C_D_delta_e, which is CX" : ""));
   CL.x = -CL.x;
   CL.from += ", sign turned";
-  if (CD.x < 0) CD.x = -CD.x, CD.from += ", sign turned";
+  if (CD.x < 0) {
+    CD.x = -CD.x;
+    CD.from += ", sign turned";
+  }
 }
 
 void tell_doubts(const Lines& lines, const Parameters& all, Aircraft& a) {
@@ -256,7 +259,10 @@ Aircraft rosflight_aircraft(const Lines& lines, bool mend) {
     a.stall_sharpness = M->of;
   else
     a.stall_sharpness = {50, "assumption"};
-  if (find(all, "CT_0")) a.parts = motor(lines, all), a.surfaces = surface_words(all);
+  if (find(all, "CT_0")) {
+    a.parts = motor(lines, all);
+    a.surfaces = surface_words(all);
+  }
   take_coefficients(lines, all, a);
   if (const auto speed = in_words(lines, "trim at about")) a.cruise_mps = *speed;
   tell_doubts(lines, all, a);

@@ -148,9 +148,10 @@ std::vector<RosWaypoint> waypoints(const Lines& lines) {
     const std::size_t colon = lines.all[i].find(':');
     if (colon == std::string::npos) continue;
     const std::string value = lower(trimmed(lines.all[i].substr(colon + 1)));
-    if (begins(text, "w:"))
-      last.at = three(lines, i), last.placed = true;
-    else if (begins(text, "va_d"))
+    if (begins(text, "w:")) {
+      last.at = three(lines, i);
+      last.placed = true;
+    } else if (begins(text, "va_d"))
       last.airspeed = number_at(lines, i, colon + 1, "va_d");
     else if (begins(text, "chi_d"))
       last.course = number_at(lines, i, colon + 1, "chi_d");

@@ -29,6 +29,11 @@ struct Element {
   }
 };
 
+inline const Element& needed_child(const Lines& lines, const Element& parent, const std::string& name) {
+  if (const Element* const found = parent.child(name)) return *found;
+  refuse(lines.where(parent.line), "<" + parent.name + ">: expected <" + name + "> and did not find it");
+}
+
 class XmlReader {
  public:
   explicit XmlReader(const Lines& lines) : lines_(lines), text_(lines.text) {}

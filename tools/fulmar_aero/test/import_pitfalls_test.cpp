@@ -135,12 +135,15 @@ TEST_CASE("10: a group belongs to its row, whatever its name; halves of pairs ar
   CHECK(says(two.notes, "'slat' is left out"));
 
   Control left, right;
-  left.name = "left", right.name = "right";
+  left.name = "left";
+  right.name = "right";
   for (std::size_t i = 0; i < forces; ++i) left.of[i] = right.of[i] = {0, "here"};
   left.of[pitch].x = right.of[pitch].x = -0.1;
   left.of[lift].x = right.of[lift].x = 0.2;
-  left.of[roll].x = 0.06, right.of[roll].x = -0.06;
-  left.of[yaw].x = -0.002, right.of[yaw].x = 0.002;
+  left.of[roll].x = 0.06;
+  right.of[roll].x = -0.06;
+  left.of[yaw].x = -0.002;
+  right.of[yaw].x = 0.002;
   const ControlColumns elevons = control_columns({left, right});
   CHECK(elevons.elevons);
   CHECK(elevons.of[1][pitch].x == Approx(-0.2));
@@ -149,9 +152,12 @@ TEST_CASE("10: a group belongs to its row, whatever its name; halves of pairs ar
   CHECK(elevons.of[0][yaw].x == Approx(-0.004));
   CHECK(std::abs(elevons.of[1][roll].x) < 1e-12);
   // a V-tail, its right half with the other sense
-  left.of[yaw].x = 0.08, right.of[yaw].x = 0.08;
-  left.of[roll].x = 0.01, right.of[roll].x = 0.01;
-  right.of[pitch].x = 0.1, right.of[lift].x = -0.2;
+  left.of[yaw].x = 0.08;
+  right.of[yaw].x = 0.08;
+  left.of[roll].x = 0.01;
+  right.of[roll].x = 0.01;
+  right.of[pitch].x = 0.1;
+  right.of[lift].x = -0.2;
   const ControlColumns tail = control_columns({left, right});
   CHECK(tail.v_tail);
   CHECK(tail.of[1][pitch].x == Approx(-0.2));

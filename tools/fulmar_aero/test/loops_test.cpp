@@ -35,10 +35,14 @@ struct Aircraft {
   double growth(int input, double factor) const {
     Bench<slc::Inner> bench;
     bench.params.airframe.value = plant.airframe;
-    bench.params.roll_kp.value = laws.inner.roll_kp, bench.params.roll_ki.value = laws.inner.roll_ki;
-    bench.params.roll_kd.value = laws.inner.roll_kd, bench.params.roll_kff.value = laws.inner.roll_kff;
-    bench.params.pitch_kp.value = laws.inner.pitch_kp, bench.params.pitch_ki.value = laws.inner.pitch_ki;
-    bench.params.pitch_kd.value = laws.inner.pitch_kd, bench.params.yaw_kd.value = laws.inner.yaw_kd;
+    bench.params.roll_kp.value = laws.inner.roll_kp;
+    bench.params.roll_ki.value = laws.inner.roll_ki;
+    bench.params.roll_kd.value = laws.inner.roll_kd;
+    bench.params.roll_kff.value = laws.inner.roll_kff;
+    bench.params.pitch_kp.value = laws.inner.pitch_kp;
+    bench.params.pitch_ki.value = laws.inner.pitch_ki;
+    bench.params.pitch_kd.value = laws.inner.pitch_kd;
+    bench.params.yaw_kd.value = laws.inner.yaw_kd;
     bench.params.yaw_washout.value = laws.inner.yaw_washout;
     bench.params.roll_from_sideslip.value = laws.inner.roll_from_sideslip;
     bench.params.scale_limit.value = laws.inner.scale_limit;
@@ -56,7 +60,8 @@ struct Aircraft {
       const Eigen::Vector3d v = plant.flight.x.segment<3>(model::u);
       s.airspeed_mps = Va + v.dot(x.segment<3>(model::u)) / Va;
       s.ground_speed_mps = Va;
-      s.roll_rad = x(model::roll), s.pitch_rad = theta + x(model::pitch);
+      s.roll_rad = x(model::roll);
+      s.pitch_rad = theta + x(model::pitch);
       s.rate_radps = {x(model::p), x(model::q), x(model::r)};
       s.beta_rad = x(model::v) / Va;
       bench.set(bench.in.state, s);

@@ -20,10 +20,16 @@ namespace {
 /// The same forces and moments, by other reference lengths: of area x, span y and chord z times as large.
 Input by_other_lengths(Input input, double x, double y, double z) {
   Analysis& a = input.analyses.at(0);
-  a.area_m2.x *= x, a.span_m.x *= y, a.chord_m.x *= z;
+  a.area_m2.x *= x;
+  a.span_m.x *= y;
+  a.chord_m.x *= z;
   const auto divide = [&](Column& c, double rate) {
-    c[lift].x /= x * rate, c[drag].x /= x * rate, c[side].x /= x * rate;
-    c[roll].x /= x * y * rate, c[yaw].x /= x * y * rate, c[pitch].x /= x * z * rate;
+    c[lift].x /= x * rate;
+    c[drag].x /= x * rate;
+    c[side].x /= x * rate;
+    c[roll].x /= x * y * rate;
+    c[yaw].x /= x * y * rate;
+    c[pitch].x /= x * z * rate;
   };
   divide(a.base, 1);
   const double rates[] = {1, 1, y, z, y};  // alpha, beta, p, q, r

@@ -55,7 +55,8 @@ TEST_CASE("a damper without a crossover has a dash, and null in JSON") {
   fulmar::aero::Judged judged;
   judged.loops.resize(2);
   judged.loops[0].name = "yaw damper";
-  judged.loops[1].name = "roll", judged.loops[1].bandwidth_radps = 12;
+  judged.loops[1].name = "roll";
+  judged.loops[1].bandwidth_radps = 12;
   const std::string text = fulmar::aero::loops_text("shipped", judged);
   CHECK(text.find("  yaw damper        -    0.00") != std::string::npos);
   CHECK(text.find("  roll          12.00    0.00") != std::string::npos);

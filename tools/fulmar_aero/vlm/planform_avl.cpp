@@ -120,7 +120,10 @@ class AvlFile {
   void add_to_surface(const std::string& key) {
     ++at_;
     if (key == "YDUP") {
-      if (numbers(1, "Ydupl")[0] != 0) --at_, fail("YDUPLICATE: only about y = 0");
+      if (numbers(1, "Ydupl")[0] != 0) {
+        --at_;
+        fail("YDUPLICATE: only about y = 0");
+      }
       surface_->mirror = true;
     } else if (key == "ANGL") {
       surface_->incidence_rad = numbers(1, "dAinc")[0] * degree;
@@ -149,8 +152,10 @@ class AvlFile {
     w.z_m = n[2] * scale_[2] + shift_[2];
     w.chord_m = n[3] * scale_[0];
     w.twist_rad = n[4] * degree;
-    if (!(w.chord_m > 0))
-      --at_, fail("SECTION: the chord is " + core::number_text(w.chord_m) + " and must be more than 0");
+    if (!(w.chord_m > 0)) {
+      --at_;
+      fail("SECTION: the chord is " + core::number_text(w.chord_m) + " and must be more than 0");
+    }
     if (!surface_->sections.push_back(w)) fail("more sections than 32");
     sections_.emplace_back();
     polars_.emplace_back();
@@ -176,8 +181,10 @@ class AvlFile {
       foil.name = std::string_view(std::filesystem::path(file).stem().string());
       ++at_;
     } else if (key == "CLAF") {
-      if (std::abs(numbers(1, "CLaf")[0] - 1) > 1e-6)
-        --at_, fail("CLAF: a lift slope other than that of a plate is not read");
+      if (std::abs(numbers(1, "CLaf")[0] - 1) > 1e-6) {
+        --at_;
+        fail("CLAF: a lift slope other than that of a plate is not read");
+      }
     } else {
       const auto p = numbers(6, "CL1 CD1 CL2 CD2 CL3 CD3");
       foil.cd_min_ratio = p[3];

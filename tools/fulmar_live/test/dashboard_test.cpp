@@ -171,7 +171,8 @@ TEST_CASE("what is old or not valid is not shown as what is") {
   b.take("/vehicle/rc", 83.6, {{"link", true}});
   CHECK(has(b.text(size(80, 24)), "70.2 → 75.0 m"));
   ordered_json blind = state();
-  blind["position_valid"] = false, blind["height_valid"] = false;
+  blind["position_valid"] = false;
+  blind["height_valid"] = false;
   b.take("/nav/state", 86, blind);
   const std::string text = b.text(size(80, 24));
   CHECK(has(text, "height    -  "));
@@ -184,7 +185,9 @@ TEST_CASE("what is old or not valid is not shown as what is") {
 TEST_CASE("what has gone wrong is told: guards, sensors, the vehicle, the link") {
   Dashboard b = board();
   json guarded = view();
-  guarded["components"][2]["stopped"] = true, guarded["paused"] = true, guarded["over"] = true;
+  guarded["components"][2]["stopped"] = true;
+  guarded["paused"] = true;
+  guarded["over"] = true;
   b.take_view(guarded);
   b.take("/nav/health", 83.5, {{"gyro", {{"state", "ok"}}}, {"baro", {{"state", "stuck"}}}});
   b.take("/vehicle/status", 83.5, {{"failsafe", true}, {"health", "degraded"}, {"battery_frac", 0.1}});
@@ -227,7 +230,9 @@ TEST_CASE("events: the newest above, what is bad marked, a slider's many values 
   Dashboard b = board();
   for (const char* value : {"slc.roll_kp = 1", "slc.roll_kp = 2"}) {
     ordered_json set = event(value);
-    set["code"] = "parameter_set", set["component"] = "slc", set["name"] = "roll_kp";
+    set["code"] = "parameter_set";
+    set["component"] = "slc";
+    set["name"] = "roll_kp";
     b.take("/fulmar/event", 14, set);
   }
   b.take("/fulmar/event", 15, event("the motor has stopped", "error"));
@@ -245,7 +250,10 @@ TEST_CASE("no text of the flight commands the terminal") {
   Dashboard b;
   json hostile = view();
   hostile["mission"] = hostile["phase"] = bad;
-  for (json& c : hostile["components"]) c["name"] = bad, c["role"] = bad;
+  for (json& c : hostile["components"]) {
+    c["name"] = bad;
+    c["role"] = bad;
+  }
   b.take_view(hostile);
   b.choose(topics);
   b.take("/nav/health", 1, {{bad, {{"state", bad}}}});

@@ -20,11 +20,19 @@ struct HostileControl : test::MockControl {
                       eight_bits =
                           "\xc2\x9b"
                           "2J";
-    v.mission += clear, v.phase += title, v.io += eight_bits;
+    v.mission += clear;
+    v.phase += title;
+    v.io += eight_bits;
     for (std::string& phase : v.phases) phase += clear;
     for (ComponentView& c : v.components) {
-      c.name += clear, c.use += title, c.role += eight_bits;
-      for (ParameterView& p : c.params) p.info.name += clear, p.info.doc += title, p.info.unit += eight_bits;
+      c.name += clear;
+      c.use += title;
+      c.role += eight_bits;
+      for (ParameterView& p : c.params) {
+        p.info.name += clear;
+        p.info.doc += title;
+        p.info.unit += eight_bits;
+      }
       for (PortView& p : c.outputs) p.name += title;
       for (PortView& p : c.inputs) p.name += title;
     }

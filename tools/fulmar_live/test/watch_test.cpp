@@ -75,7 +75,10 @@ class Terminal {
     }
   }
   ~Terminal() {
-    if (pid_ > 0) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+    if (pid_ > 0) {
+      kill(pid_, SIGKILL);
+      waitpid(pid_, nullptr, 0);
+    }
     close(fd_);
   }
   Terminal(const Terminal&) = delete;
@@ -86,7 +89,8 @@ class Terminal {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (std::chrono::steady_clock::now() < end) {
       if (const std::size_t at = said_.find(what); at != std::string::npos) {
-        last_ = said_.substr(0, at + what.size()), said_.erase(0, at + what.size());
+        last_ = said_.substr(0, at + what.size());
+        said_.erase(0, at + what.size());
         return true;
       }
       fd_set ready;

@@ -36,13 +36,17 @@ TEST_CASE("a log of an older layout is read as far as it goes; fields that mean 
     return f.name.find("_std_") != std::string::npos || f.name.ends_with("_valid") || f.name == "wind_mps";
   });
   for (core::Field& field : feet.fields)
-    if (field.name == "airspeed_mps") field.kind = FULMAR_F32, field.stride = 4;
+    if (field.name == "airspeed_mps") {
+      field.kind = FULMAR_F32;
+      field.stride = 4;
+    }
   {
     Log out(log), second(other);
     for (int i = 0; i < 20; ++i) {
       VehicleState s = state();
       out.write("/vehicle/truth", i * 100 * ms, s);
-      s.position_m.north = 3, s.position_valid = false;
+      s.position_m.north = 3;
+      s.position_valid = false;
       out.write_as("/nav/state", old, i * 100 * ms, s);
       out.write("/second/state", i * 100 * ms, state());
       second.write_as("/nav/state", feet, i * 100 * ms, s);
@@ -127,11 +131,14 @@ TEST_CASE("two logs: the states that both have, each beside its own truth; that 
   const std::string a = folder.path / "a.mcap", b = folder.path / "b.mcap", c = folder.path / "c.mcap";
   const auto write = [](const std::string& file, double truth_m, double error_m) {
     write_three(file, 50, [&](int i, VehicleState& first, VehicleState& second, VehicleState& truth) {
-      truth.position_m.north = truth_m * i, first.position_m.north = truth_m * i + error_m;
+      truth.position_m.north = truth_m * i;
+      first.position_m.north = truth_m * i + error_m;
       second.position_m.north = truth_m * i;
     });
   };
-  write(a, 1, 2), write(b, 1, 5), write(c, 1.1, 5);
+  write(a, 1, 2);
+  write(b, 1, 5);
+  write(c, 1.1, 5);
   const json j = compared("--changed " + a + " " + b);  // second is the same in both
   CHECK(j.at("first").at("topic") == "/nav/state");
   CHECK(j.at("first").at("name") == "first");

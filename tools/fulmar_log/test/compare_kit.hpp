@@ -59,7 +59,9 @@ class Log {
 /// Valid throughout, with deviations that are known.
 inline VehicleState state(double std = 1) {
   VehicleState s;
-  s.origin_latitude_deg = 47, s.origin_longitude_deg = 8, s.origin_altitude_m = 400;
+  s.origin_latitude_deg = 47;
+  s.origin_longitude_deg = 8;
+  s.origin_altitude_m = 400;
   s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
       s.airspeed_valid = s.wind_valid = true;
   s.position_std_m = s.velocity_std_mps = s.attitude_std_rad = s.wind_std_mps = {std, std, std};
@@ -69,7 +71,8 @@ inline VehicleState state(double std = 1) {
 inline void turn_to(VehicleState& s, const Eigen::Quaterniond& q) {
   const Eigen::Matrix3d R = q.toRotationMatrix();
   s.attitude = {q.w(), q.x(), q.y(), q.z()};
-  s.roll_rad = std::atan2(R(2, 1), R(2, 2)), s.pitch_rad = std::asin(-R(2, 0));
+  s.roll_rad = std::atan2(R(2, 1), R(2, 2));
+  s.pitch_rad = std::asin(-R(2, 0));
   s.yaw_rad = std::atan2(R(1, 0), R(0, 0));
 }
 inline Eigen::Quaterniond euler(double roll, double pitch, double yaw) {

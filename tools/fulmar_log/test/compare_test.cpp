@@ -10,7 +10,8 @@ TEST_CASE("a filter beside itself: no difference at all, and that is told") {
   const Folder folder;
   const std::string log = folder.path / "a.mcap";
   write_three(log, 100, [](int i, VehicleState& first, VehicleState& second, VehicleState&) {
-    first.position_m.north = 0.1 * i, first.yaw_rad = 3.1 + 0.01 * i;
+    first.position_m.north = 0.1 * i;
+    first.yaw_rad = 3.1 + 0.01 * i;
     second = first;
   });
   const json j = compared(log);
@@ -29,13 +30,15 @@ TEST_CASE("known differences, second minus first, each in its unit; angles the s
   const Folder folder;
   const std::string log = folder.path / "a.mcap";
   write_three(log, 100, [](int i, VehicleState& first, VehicleState& second, VehicleState&) {
-    first.yaw_rad = 179 * degree, second.yaw_rad = -179 * degree;
+    first.yaw_rad = 179 * degree;
+    second.yaw_rad = -179 * degree;
     second.roll_rad = -3 * degree;
     second.position_m.north = 2;
     second.height_m = i == 40 ? -7 : 1;
     second.velocity_mps.down = i % 2 == 0 ? 0.5 : -0.5;
     second.wind_mps.east = -0.25;
-    second.gyro_bias_radps.z = 0.5 * degree, second.accel_bias_mps2.x = 0.125;
+    second.gyro_bias_radps.z = 0.5 * degree;
+    second.accel_bias_mps2.x = 0.125;
   });
   const json d = compared(log).at("difference");
   const auto row = [&](const char* key, double mean, double rms, double largest) {
@@ -60,9 +63,13 @@ TEST_CASE("errors are the estimate's minus the truth, and what is claimed stands
   const Folder folder;
   const std::string log = folder.path / "a.mcap";
   write_three(log, 100, [](int i, VehicleState& first, VehicleState& second, VehicleState& truth) {
-    truth.position_m.north = 10, first.position_m.north = 12, second.position_m.north = 7;
+    truth.position_m.north = 10;
+    first.position_m.north = 12;
+    second.position_m.north = 7;
     second.position_std_m.north = 2;
-    truth.airspeed_mps = 17, first.airspeed_mps = i < 25 ? 17.5 : 18.5, second.airspeed_mps = 17;
+    truth.airspeed_mps = 17;
+    first.airspeed_mps = i < 25 ? 17.5 : 18.5;
+    second.airspeed_mps = 17;
     first.wind_std_mps = {unknown_std, unknown_std, unknown_std};
   });
   const json j = compared(log), first = j.at("errors").at("first"), second = j.at("errors").at("second");
@@ -95,7 +102,8 @@ TEST_CASE(
     double times = 1;
     for (VehicleState* s : {&first, &second}) {
       const auto draw = [&](double std) { return times * std * normal(random); };
-      s->position_std_m = {3, 2, 1}, s->velocity_std_mps = {0.3, 0.2, 0.1};
+      s->position_std_m = {3, 2, 1};
+      s->velocity_std_mps = {0.3, 0.2, 0.1};
       s->attitude_std_rad = {attitude_std.x(), attitude_std.y(), attitude_std.z()};
       s->position_m = {draw(3), draw(2), draw(1)};
       s->height_m = -s->position_m.down;
@@ -158,7 +166,8 @@ TEST_CASE("streams with clocks of their own are compared at one time, the dense 
   const Folder folder;
   const auto at = [](double t_s) {  // constant speed and rate of turn, through south
     VehicleState s = state();
-    s.position_m.north = 20 * t_s, s.velocity_mps.north = 20;
+    s.position_m.north = 20 * t_s;
+    s.velocity_mps.north = 20;
     s.yaw_rad = std::remainder((170 + 10 * t_s) * degree, 2 * std::numbers::pi);
     return s;
   };
@@ -263,10 +272,13 @@ TEST_CASE("two estimates with origins of their own are seen from one") {
                north_deg = (meridian + 400) * degree,
                east_deg = (normal + 400) * degree * std::cos(47 * degree);
   write_three(log, 10, [&](int, VehicleState& first, VehicleState& second, VehicleState& truth) {
-    first.position_m = truth.position_m = {200, 50, -30}, first.height_m = truth.height_m = 30;
-    second.origin_latitude_deg += 100 / north_deg, second.origin_longitude_deg -= 40 / east_deg;
+    first.position_m = truth.position_m = {200, 50, -30};
+    first.height_m = truth.height_m = 30;
+    second.origin_latitude_deg += 100 / north_deg;
+    second.origin_longitude_deg -= 40 / east_deg;
     second.origin_altitude_m += 25;
-    second.position_m = {101, 90, -5}, second.height_m = 5;  // a metre too far north
+    second.position_m = {101, 90, -5};
+    second.height_m = 5;  // a metre too far north
   });
   const json j = compared(log);
   CHECK(j.at("difference").at("position_north_m").at("mean").get<double>() ==
@@ -285,22 +297,30 @@ TEST_CASE("without a truth the fixes judge, at the time for which they hold, wit
                w = std::sqrt(1 - e2 * sine * sine), north_deg = (a * (1 - e2) / (w * w * w) + 400) * degree;
   const auto fix_at = [&](double t_s) {
     Gnss fix;
-    fix.latitude_deg = 47 + 20 * t_s / north_deg, fix.longitude_deg = 8, fix.altitude_m = 410;
+    fix.latitude_deg = 47 + 20 * t_s / north_deg;
+    fix.longitude_deg = 8;
+    fix.altitude_m = 410;
     fix.velocity_mps = {20, 0, 0};
-    fix.horizontal_std_m = 4, fix.fix = FixType::fix_3d;
+    fix.horizontal_std_m = 4;
+    fix.fix = FixType::fix_3d;
     return fix;
   };
   {
     Log out(log);
     for (int t = 0; t < 10'000; t += 20) {
       VehicleState s = state(3);
-      s.position_m = {20e-3 * t, 0, -12}, s.height_m = 12, s.velocity_mps = {20.5, 0, 0};
+      s.position_m = {20e-3 * t, 0, -12};
+      s.height_m = 12;
+      s.velocity_mps = {20.5, 0, 0};
       out.write("/nav/state", t * ms, s);
       s.position_m.north += 6;
       out.write("/second/state", t * ms, s);
       if (t % 200 != 0 || t < 400) continue;
       Gnss fix = fix_at(1e-3 * (t - 230));
-      if (t % 1000 == 0) fix.fix = FixType::time_only, fix.latitude_deg = 0;
+      if (t % 1000 == 0) {
+        fix.fix = FixType::time_only;
+        fix.latitude_deg = 0;
+      }
       out.write("/vehicle/gnss", t * ms, fix, 230 * ms);
     }
   }

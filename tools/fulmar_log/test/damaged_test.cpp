@@ -343,8 +343,12 @@ TEST_CASE("schemas without end are not kept in memory") {
     out.write("\x89MCAP0\r\n", 8);
     constexpr std::uint32_t text = 2u << 20;
     for (std::uint16_t id = 1; id <= 20; ++id) {  // the texts are holes in the file
-      put('\3'), put(std::uint64_t{2 + 4 + 4 + 4 + text});
-      put(id), put(std::uint32_t{0}), put(std::uint32_t{0}), put(text);
+      put('\3');
+      put(std::uint64_t{2 + 4 + 4 + 4 + text});
+      put(id);
+      put(std::uint32_t{0});
+      put(std::uint32_t{0});
+      put(text);
       out.seekp(text, std::ios::cur);
     }
     put('\0');

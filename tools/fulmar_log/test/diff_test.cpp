@@ -164,7 +164,10 @@ TEST_CASE("where the components differed without a message of it, the hash of th
     const std::uint16_t ticks = sample.channel("/fulmar/ticks", *host_type<Ticks>());
     for (std::uint32_t i = 0; i < 3; ++i) {
       Ticks t{i * 4, i * 40, 4, {10, 10, 10, 10}, 4, {1, 2, 3, 4}};
-      if (other && i == 1) t.hash[2] = 9, t.period_ns[3] = 11;
+      if (other && i == 1) {
+        t.hash[2] = 9;
+        t.period_ns[3] = 11;
+      }
       sample.write(ticks, i * 40 + 30, bytes_of(t));
     }
     sample.writer.close();

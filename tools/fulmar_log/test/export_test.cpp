@@ -22,9 +22,10 @@ std::string inflated(const std::string& bytes, std::size_t size, int window) {
   std::string out(size, '\0');
   z_stream z{};
   REQUIRE(::inflateInit2(&z, window) == Z_OK);
-  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data())),
+  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   z.avail_in = static_cast<uInt>(bytes.size());
-  z.next_out = reinterpret_cast<Bytef*>(out.data()), z.avail_out = static_cast<uInt>(out.size());
+  z.next_out = reinterpret_cast<Bytef*>(out.data());
+  z.avail_out = static_cast<uInt>(out.size());
   const int code = ::inflate(&z, Z_FINISH);
   CHECK((code == Z_STREAM_END || code == Z_BUF_ERROR));
   out.resize(z.total_out);
@@ -82,7 +83,9 @@ struct Element {
   Element(const std::string& file, std::size_t place) {
     const auto word = at<std::uint32_t>(file, place);
     if (word >> 16 != 0) {
-      type = word & 0xffff, bytes = file.substr(place + 4, word >> 16), next = place + 8;
+      type = word & 0xffff;
+      bytes = file.substr(place + 4, word >> 16);
+      next = place + 8;
       return;
     }
     type = word;
@@ -99,7 +102,8 @@ struct Matrix {
   explicit Matrix(const std::string& b) : bytes(b) {
     const Element flags(bytes, 0), dims(bytes, flags.next), title(bytes, dims.next);
     shape = at<std::uint32_t>(flags.bytes, 0);
-    rows = at<std::int32_t>(dims.bytes, 0), columns = at<std::int32_t>(dims.bytes, 4);
+    rows = at<std::int32_t>(dims.bytes, 0);
+    columns = at<std::int32_t>(dims.bytes, 4);
     name = title.bytes;
     body = title.next;
   }

@@ -75,23 +75,30 @@ inline ReadCurve read_curve(const std::string& tag, const AxisScale& x, const Ax
 inline ReadFigure read_figure(const std::string& svg) {
   ReadFigure figure;
   const std::string head = between(svg, "<svg", ">").at(0);
-  figure.wide_mm = length(head, "width"), figure.high_mm = length(head, "height");
+  figure.wide_mm = length(head, "width");
+  figure.high_mm = length(head, "height");
   CHECK(attribute(head, "width").ends_with("mm"));
   figure.title = between(svg, "<title>", "</title>").at(0);
   figure.x_words = texts(svg, "x-axis").at(0).words;
   std::vector<double> x_mm;
-  for (const ReadText& t : texts(svg, "x")) x_mm.push_back(t.x), figure.x_marks.push_back(std::stod(t.words));
+  for (const ReadText& t : texts(svg, "x")) {
+    x_mm.push_back(t.x);
+    figure.x_marks.push_back(std::stod(t.words));
+  }
   for (const ReadText& t : texts(svg, "phase")) figure.phase_words.push_back(t.words);
   const AxisScale x = scale_of(x_mm, figure.x_marks);
   for (const std::string& one : between(svg, "<g class=\"panel\">", "</g>")) {
     ReadPanel panel;
     panel.y_words = texts(one, "y-axis").at(0).words;
     std::vector<double> y_mm;
-    for (const ReadText& t : texts(one, "y"))
-      y_mm.push_back(t.y - 1), panel.y_marks.push_back(std::stod(t.words));
+    for (const ReadText& t : texts(one, "y")) {
+      y_mm.push_back(t.y - 1);
+      panel.y_marks.push_back(std::stod(t.words));
+    }
     for (const ReadText& t : texts(one, "legend")) panel.legend.push_back(t.words);
     const AxisScale y = scale_of(y_mm, panel.y_marks);
-    panel.x_per_mm = x.per_place, panel.y_per_mm = -y.per_place;
+    panel.x_per_mm = x.per_place;
+    panel.y_per_mm = -y.per_place;
     for (const std::string& tag : between(one, "<path class=\"curve\"", "</path>"))
       panel.curves.push_back(read_curve(tag, x, y));
     for (const std::string& tag : between(one, "<rect class=\"phase\"", "</rect>"))

@@ -21,7 +21,10 @@ std::string shape_of(const std::string& d) {
   for (std::size_t at = 0; (at = d.find_first_of("MLa", at)) != std::string::npos; ++at) {
     char* next = nullptr;
     const double x = std::strtod(d.c_str() + at + 1, &next), y = std::strtod(next, nullptr);
-    if (at == 0) x0 = x, y0 = y;
+    if (at == 0) {
+      x0 = x;
+      y0 = y;
+    }
     shape += d[at] == 'a' ? "a"
                           : std::to_string(std::lround(10 * (x - x0))) + "," +
                                 std::to_string(std::lround(10 * (y - y0))) + " ";
@@ -31,7 +34,8 @@ std::string shape_of(const std::string& d) {
 
 TEST_CASE("curves can be told apart without colours; equal logs give equal figures") {
   chart::Figure figure;
-  figure.high_mm = 200, figure.x = "time [s]";
+  figure.high_mm = 200;
+  figure.x = "time [s]";
   figure.panels.resize(1);
   for (std::size_t i = 0; i < chart::most_curves; ++i)
     figure.panels[0].curves.push_back(
@@ -59,7 +63,9 @@ TEST_CASE("an axis has two numbers at least, whatever the range and however litt
       CAPTURE(high);
       CAPTURE(high_mm);
       chart::Figure figure;
-      figure.wide_mm = 50, figure.high_mm = high_mm, figure.x = "time [s]";
+      figure.wide_mm = 50;
+      figure.high_mm = high_mm;
+      figure.x = "time [s]";
       figure.panels.push_back({"y", {{"c", {{low, low}, {high, high}}, false}}});
       CHECK(chart::too_small(figure) == "");
       const ReadFigure f = read_figure(chart::figure_svg(figure));
@@ -75,7 +81,8 @@ TEST_CASE("an axis has two numbers at least, whatever the range and however litt
 
 TEST_CASE("a name that is longer than its room is written in smaller letters") {
   chart::Figure figure;
-  figure.wide_mm = 80, figure.x = "time [s]";
+  figure.wide_mm = 80;
+  figure.x = "time [s]";
   figure.panels.push_back(
       {"y", {{"short", {{0, 0}, {1, 1}}, false}, {std::string(100, 'n'), {{0, 0}}, false}}});
   const std::vector<std::string> texts =
@@ -138,7 +145,11 @@ TEST_CASE("noisy curves of a panel have marks in place of dashes, and smooth one
       figure.panels[0].curves.back().points.push_back(
           {0.1 * i, std::sin(0.02 * i) + noise * std::sin(1.7 * i)});
   };
-  add("a", 0), add("b", 0), add("c", 0.3), add("d", 0.3), add("e", 0.001);
+  add("a", 0);
+  add("b", 0);
+  add("c", 0.3);
+  add("d", 0.3);
+  add("e", 0.001);
   const std::string svg = chart::figure_svg(figure);
   const ReadFigure f = read_figure(svg);
   std::vector<bool> dashed;
@@ -163,7 +174,8 @@ TEST_CASE("a track with one scale on both axes fills the figure that is fitted t
     CAPTURE(east);
     CAPTURE(north);
     chart::Figure figure;
-    figure.x = "east [m]", figure.track = figure.even = true;
+    figure.x = "east [m]";
+    figure.track = figure.even = true;
     figure.panels.push_back({"north [m]", {{"flown", {{0, 0}, {east, north}}, false}}});
     chart::fit_even(figure);
     CHECK(chart::too_small(figure) == "");

@@ -227,7 +227,8 @@ TEST_CASE(
     "of a long flight what can be seen is drawn: peaks of one sample stay, and each point is a sample") {
   const Folder folder;
   Flight flight;
-  flight.samples = 20000, flight.hz = 400;
+  flight.samples = 20000;
+  flight.hz = 400;
   flight.change = [](int i, State& s) {
     s.height_m = i == 7003 ? 500 : i == 15009 ? -300 : 100 + std::sin(i);
   };

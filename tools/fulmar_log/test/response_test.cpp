@@ -25,8 +25,10 @@ constexpr double turn = 2 * std::numbers::pi;
 /// x(t) from `begin` to `end`, at `hz`.
 Series sampled(const std::function<double(double)>& x, double begin, double end, double hz) {
   Series s;
-  for (int i = 0; i <= std::lround((end - begin) * hz); ++i)
-    s.t_s.push_back(begin + i / hz), s.x.push_back(x(s.t_s.back()));
+  for (int i = 0; i <= std::lround((end - begin) * hz); ++i) {
+    s.t_s.push_back(begin + i / hz);
+    s.x.push_back(x(s.t_s.back()));
+  }
   return s;
 }
 Series step_of(double size, double end, double hz = 200) {
@@ -132,8 +134,12 @@ struct Swept {
     double state = 0;
     for (int i = -40000; i <= 640000; ++i) {
       const double t = i * dt;
-      if (i % every == 0)
-        x.t_s.push_back(t), x.x.push_back(chirp(t)), y.t_s.push_back(t), y.x.push_back(gain * state);
+      if (i % every == 0) {
+        x.t_s.push_back(t);
+        x.x.push_back(chirp(t));
+        y.t_s.push_back(t);
+        y.x.push_back(gain * state);
+      }
       state += (chirp(t + dt / 2) - state) * -std::expm1(-dt / tau);
     }
   }
@@ -179,14 +185,18 @@ TEST_CASE(
   std::normal_distribution<double> normal;
   Series x, y;
   for (int i = 0; i < 40000; ++i) {
-    x.t_s.push_back(0.01 * i), x.x.push_back(normal(engine));
-    y.t_s.push_back(0.01 * i), y.x.push_back(3 * (x.x.back() + 0.5 * normal(engine)));
+    x.t_s.push_back(0.01 * i);
+    x.x.push_back(normal(engine));
+    y.t_s.push_back(0.01 * i);
+    y.x.push_back(3 * (x.x.back() + 0.5 * normal(engine)));
   }
   const FrequencyResponse r = response::frequency_response(x, y, 2);
   CHECK(r.segments == 399);
   double coherence = 0, gain = 0, squares = 0, claimed = 0;
   for (const response::Frequency& f : r.at) {
-    coherence += f.coherence, gain += f.gain, claimed += f.gain_std;
+    coherence += f.coherence;
+    gain += f.gain;
+    claimed += f.gain_std;
     squares += (f.gain / 3 - 1) * (f.gain / 3 - 1);
   }
   const auto n = static_cast<double>(r.at.size());
@@ -203,7 +213,10 @@ TEST_CASE("a dead time: the phase goes on below half a turn, without jumps") {
   std::mt19937 engine(6);
   std::normal_distribution<double> normal;
   Series x, y;
-  for (int i = 0; i < 8000; ++i) x.t_s.push_back(0.01 * i), x.x.push_back(normal(engine));
+  for (int i = 0; i < 8000; ++i) {
+    x.t_s.push_back(0.01 * i);
+    x.x.push_back(normal(engine));
+  }
   y.t_s = x.t_s;
   for (std::size_t i = 0; i < x.x.size(); ++i) y.x.push_back(i < 10 ? 0 : x.x[i - 10]);  // 0.1 s
   const FrequencyResponse r = response::frequency_response(x, y, 8);

@@ -27,7 +27,10 @@ TEST_CASE("columns come back bit by bit, times before the flight and what is no 
 TEST_CASE("a stream whose values hardly change is short") {
   Columns steady;
   steady.values.resize(1);
-  for (int i = 0; i < 10'000; ++i) steady.t.push_back(100 * i), steady.values[0].push_back(17);
+  for (int i = 0; i < 10'000; ++i) {
+    steady.t.push_back(100 * i);
+    steady.values[0].push_back(17);
+  }
   CHECK(report::packed(steady).size() < 400);  // 80 kB as it is
 }
 

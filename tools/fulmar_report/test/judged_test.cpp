@@ -77,13 +77,19 @@ TEST_CASE("without a truth a receiver's fixes stand in for it, and it is said th
     const LocalFrame frame(47, 8, 400);
     for (int i = 0; i < 50; ++i) {
       VehicleState s = state(1);
-      s.origin_latitude_deg = 47, s.origin_longitude_deg = 8, s.origin_altitude_m = 400;
-      s.position_m = {10, 20, -30}, s.height_m = 30;
+      s.origin_latitude_deg = 47;
+      s.origin_longitude_deg = 8;
+      s.origin_altitude_m = 400;
+      s.position_m = {10, 20, -30};
+      s.height_m = 30;
       log.write("/nav/state", i * 20 * ms, s);
       Gnss fix;
       const LocalFrame::Geodetic at = frame.from_ned({7, 20, -30});
-      fix.latitude_deg = at.lat_deg, fix.longitude_deg = at.lon_deg, fix.altitude_m = at.alt_m;
-      fix.fix = FixType::fix_3d, fix.horizontal_std_m = fix.vertical_std_m = fix.speed_std_mps = 1;
+      fix.latitude_deg = at.lat_deg;
+      fix.longitude_deg = at.lon_deg;
+      fix.altitude_m = at.alt_m;
+      fix.fix = FixType::fix_3d;
+      fix.horizontal_std_m = fix.vertical_std_m = fix.speed_std_mps = 1;
       log.write("/vehicle/gnss", i * 20 * ms, fix);
     }
   }
@@ -118,9 +124,12 @@ TEST_CASE("an innovation counts once, however often it is told; fixes are told b
     Log a(with), b(without);
     for (int i = 0; i < 40; ++i) {
       NavigationHealth h;
-      h.baro.accepted = static_cast<std::uint32_t>(i / 4 + 1), h.baro.innovation_ratio = i < 4 ? 3 : -0.5;
-      h.gnss_height.refused = static_cast<std::uint32_t>(i + 1), h.gnss_height.innovation_ratio = 1.5;
-      a.write("/nav/health", i * 100 * ms, h), b.write("/nav/health", i * 100 * ms, h);
+      h.baro.accepted = static_cast<std::uint32_t>(i / 4 + 1);
+      h.baro.innovation_ratio = i < 4 ? 3 : -0.5;
+      h.gnss_height.refused = static_cast<std::uint32_t>(i + 1);
+      h.gnss_height.innovation_ratio = 1.5;
+      a.write("/nav/health", i * 100 * ms, h);
+      b.write("/nav/health", i * 100 * ms, h);
       FilterCheck check;
       check.position_innovation_ratio = {0.5, -0.5, 2.5};
       a.write("/ekf/check", i * 100 * ms, check);
@@ -148,7 +157,8 @@ TEST_CASE("times between ticks: mean, the 99th percentile, the largest") {
     other.write("/nav/state", 0, state(1));
     for (int i = 0; i < 10; ++i) {
       core::Ticks ticks;
-      ticks.first = static_cast<std::uint64_t>(10 * i), ticks.periods = ticks.hashes = 10;
+      ticks.first = static_cast<std::uint64_t>(10 * i);
+      ticks.periods = ticks.hashes = 10;
       for (std::size_t k = 0; k < 10; ++k) ticks.period_ns[k] = 2'500'000;
       if (i == 0) ticks.period_ns[0] = 0;  // the first of the flight
       if (i == 7) ticks.period_ns[3] = 4'000'000;

@@ -36,7 +36,8 @@ void write_flight(const std::filesystem::path& file, const char* parameters, con
   log.sample.writer.attach("parameters.json", "application/json", parameters, epoch);
   for (int i = 0; i < 100; ++i) {
     VehicleState s = state(1);
-    s.height_m = 0.1 * i, s.position_valid = i >= 50;
+    s.height_m = 0.1 * i;
+    s.position_valid = i >= 50;
     log.write("/nav/state", i * 20 * ms - 1000 * ms, s);
     log.write("/vehicle/truth", i * 20 * ms - 1000 * ms, state(0));
   }
@@ -72,7 +73,8 @@ TEST_CASE("streams are thinned out to the rate, what is slow by nature to 2 Hz, 
     Log log(file);
     for (int i = 0; i < 200; ++i) {
       VehicleState s = state(1);
-      s.height_m = i, s.height_valid = i > 100;
+      s.height_m = i;
+      s.height_valid = i > 100;
       log.write("/nav/state", i * 10 * ms, s);
       log.write("/vehicle/truth", i * 10 * ms, s);
       log.write("/vehicle/rc", i * 10 * ms, Rc{});
@@ -109,7 +111,8 @@ TEST_CASE("a guide that commands lateral accelerations asks for no course") {
   {
     Log log(file);
     GuidanceCommand c;
-    c.course_rad = 1, c.height_m = 70;
+    c.course_rad = 1;
+    c.height_m = 70;
     log.write("/guide/command", 0, c);
     c.lateral = LateralMode::acceleration;
     log.write("/guide/command", 1000 * ms, c);
@@ -198,7 +201,8 @@ TEST_CASE("what is too large is thinned out until it fits, or cannot be thinned 
     Log log(file);
     for (int i = 0; i < 3000; ++i) {
       VehicleState s = state(1);
-      s.height_m = std::sin(1e4 * i), s.roll_rad = std::cos(1e5 * i);
+      s.height_m = std::sin(1e4 * i);
+      s.roll_rad = std::cos(1e5 * i);
       log.write("/nav/state", i * 100 * ms, s);
     }
   }

@@ -177,9 +177,12 @@ TEST_CASE("two different messages of one name are refused") {
   const auto type = [](fulmar_kind kind) {
     auto t = std::make_shared<fulmar::core::Type>();
     t->name = "Thing";
-    t->size = 8, t->align = 8;
+    t->size = 8;
+    t->align = 8;
     fulmar::core::Field f;
-    f.name = "x_m", f.kind = kind, f.stride = 8;
+    f.name = "x_m";
+    f.kind = kind;
+    f.stride = 8;
     t->fields.push_back(f);
     return t;
   };

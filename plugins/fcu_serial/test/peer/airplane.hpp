@@ -37,7 +37,9 @@ class Airplane {
                  magnetic_field_ned(world.latitude_deg, world.longitude_deg, world.altitude_m, 2026.0),
                  world.seed),
         dt_(1 / rates.imu) {
-    mag_ = sim::Due(rates.mag, 0), baro_ = sim::Due(rates.baro, 0), pitot_ = sim::Due(rates.pitot, 0),
+    mag_ = sim::Due(rates.mag, 0);
+    baro_ = sim::Due(rates.baro, 0);
+    pitot_ = sim::Due(rates.pitot, 0);
     gnss_ = sim::Due(rates.gnss, 0);
   }
 
@@ -88,7 +90,11 @@ class Airplane {
   /// The sensor set's errors at the rates of the board.
   static sim::SensorSpec spec(sim::SensorSet set, const Rates& r) {
     sim::SensorSpec s = sim::sensor_spec(set);
-    s.imu_hz = r.imu, s.mag_hz = r.mag, s.baro_hz = r.baro, s.pitot_hz = r.pitot, s.gnss_hz = r.gnss;
+    s.imu_hz = r.imu;
+    s.mag_hz = r.mag;
+    s.baro_hz = r.baro;
+    s.pitot_hz = r.pitot;
+    s.gnss_hz = r.gnss;
     return s;
   }
 
@@ -119,9 +125,15 @@ class Airplane {
     const auto f = [](double v) { return static_cast<float>(v); };
     m.seconds = g.utc_ns / 1000000000;
     m.nanos = static_cast<std::int32_t>(g.utc_ns % 1000000000);
-    m.lat = g.latitude_deg, m.lon = g.longitude_deg, m.height = f(g.altitude_m);
-    m.vel_n = f(g.velocity_mps.north), m.vel_e = f(g.velocity_mps.east), m.vel_d = f(g.velocity_mps.down);
-    m.h_acc = f(g.horizontal_std_m), m.v_acc = f(g.vertical_std_m), m.s_acc = f(g.speed_std_mps);
+    m.lat = g.latitude_deg;
+    m.lon = g.longitude_deg;
+    m.height = f(g.altitude_m);
+    m.vel_n = f(g.velocity_mps.north);
+    m.vel_e = f(g.velocity_mps.east);
+    m.vel_d = f(g.velocity_mps.down);
+    m.h_acc = f(g.horizontal_std_m);
+    m.v_acc = f(g.vertical_std_m);
+    m.s_acc = f(g.speed_std_mps);
     m.fix_type = 3;
     m.num_sat = static_cast<std::uint8_t>(g.satellites);
     firmware_.inputs.gnss_age_us = (time_ns_ - valid_ns) / 1000;

@@ -42,7 +42,10 @@ struct Settings {
 std::uint64_t seed_of_sim(std::uint64_t mission_seed) {
   std::uint64_t h = mission_seed ^ 0x9e3779b97f4a7c15ull;
   for (const char c : {'s', 'i', 'm'}) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  h ^= h >> 30, h *= 0xbf58476d1ce4e5b9ull, h ^= h >> 27, h *= 0x94d049bb133111ebull;
+  h ^= h >> 30;
+  h *= 0xbf58476d1ce4e5b9ull;
+  h ^= h >> 27;
+  h *= 0x94d049bb133111ebull;
   return h ^ (h >> 31);
 }
 
@@ -65,7 +68,10 @@ void read_options(CLI::App& app, Settings& s) {
   app.add_option("--seed", s.seed, "of noise, air and faults");
   app.add_option(
       "--mission-seed",
-      [&s](const std::vector<std::string>& v) { return s.seed = seed_of_sim(std::stoull(v[0])), true; },
+      [&s](const std::vector<std::string>& v) {
+        s.seed = seed_of_sim(std::stoull(v[0]));
+        return true;
+      },
       "the biases that `io: sim` has with this seed of the mission, in a component called sim");
   app.add_option("--truth", s.truth, "CSV of the true flight, 100 Hz");
   app.add_flag("--realtime", s.realtime, "SCHED_FIFO");
@@ -305,8 +311,10 @@ void Peer::wait_until(std::int64_t at_us) const {
   const auto ns = static_cast<std::int64_t>(1e3 * wall);
   const timespec time{ns / 1000000000, ns % 1000000000};
   pollfd p{end_->descriptor(), POLLIN, 0};
-  if (p.fd >= 0 && !end_->attended())
-    p.events = 0, p.fd = -1;  // nobody there: a hang-up would end every wait at once
+  if (p.fd >= 0 && !end_->attended()) {
+    p.events = 0;
+    p.fd = -1;  // nobody there: a hang-up would end every wait at once
+  }
   ::ppoll(&p, 1, &time, nullptr);
 }
 
@@ -353,7 +361,9 @@ int main(int argc, char** argv) {
   s.script.rc_silent.until = s.rc_silent_until;
   s.script.rc_lost.until = s.rc_lost_until;
   s.script.override.until = s.override_until;
-  s.script.mag = !s.no_mag, s.script.baro = !s.no_baro, s.script.pitot = !s.no_pitot;
+  s.script.mag = !s.no_mag;
+  s.script.baro = !s.no_baro;
+  s.script.pitot = !s.no_pitot;
   std::copy_n(s.moved_accel.begin(), 3, s.script.moved_accel.begin());
   std::copy_n(s.moved_gyro.begin(), 3, s.script.moved_gyro.begin());
   s.script.mute.until = s.script.mute.at + s.mute_for;
@@ -363,8 +373,10 @@ int main(int argc, char** argv) {
   std::signal(SIGUSR1, [](int) { disarm_asked = 1; });
   ::prctl(PR_SET_TIMERSLACK, 1000UL, 0UL, 0UL, 0UL);
   const sched_param priority{70};
-  if (s.realtime && ::sched_setscheduler(0, SCHED_FIFO, &priority) != 0)
-    return std::perror("fcu_peer: --realtime"), 1;
+  if (s.realtime && ::sched_setscheduler(0, SCHED_FIFO, &priority) != 0) {
+    std::perror("fcu_peer: --realtime");
+    return 1;
+  }
   try {
     Peer peer(s);
     std::printf("port %s\n", peer.endpoint().name().c_str());

@@ -19,10 +19,17 @@ void Firmware::boot(std::int64_t now_us, bool crashed) {
     t.due(clock_us_);  // a clock that begins late
     return t;
   };
-  imu_ = timer(r.imu), mag_ = timer(r.mag), baro_ = timer(r.baro), pitot_ = timer(r.pitot),
+  imu_ = timer(r.imu);
+  mag_ = timer(r.mag);
+  baro_ = timer(r.baro);
+  pitot_ = timer(r.pitot);
   gnss_ = timer(r.gnss);
-  battery_ = timer(r.battery), rc_ = timer(r.rc), range_ = timer(r.range), pass_ = timer(r.passes);
-  heartbeat_ = timer(1), status_ = timer(10);
+  battery_ = timer(r.battery);
+  rc_ = timer(r.rc);
+  range_ = timer(r.range);
+  pass_ = timer(r.passes);
+  heartbeat_ = timer(1);
+  status_ = timer(10);
   reboot_at_us_ = -1;
   fifo_.clear();
   texts_.clear();

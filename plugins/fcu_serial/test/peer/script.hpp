@@ -42,7 +42,9 @@ struct Script {
 
 /// What fails of the sensors, after they have been felt.
 inline void fail(const Script& s, double t, Inputs& in) {
-  in.mag_works = s.mag, in.baro_works = s.baro, in.pitot_works = s.pitot;
+  in.mag_works = s.mag;
+  in.baro_works = s.baro;
+  in.pitot_works = s.pitot;
   in.gnss_works = !s.gnss_silent.holds(t);
   if (s.no_fix.holds(t)) {
     in.gnss.fix_type = 0;
@@ -85,7 +87,10 @@ class Pilot {
     if (script_.gesture) {
       for (std::size_t k = 0; k < 3; ++k)
         in.rc_us[4 + k] = static_cast<std::uint16_t>(std::lround(1500 + 500 * script_.aux[k]));
-      if (armed && t < script_.arm_at + gesture_s) in.rc_us[2] = 1000, in.rc_us[3] = 2000;
+      if (armed && t < script_.arm_at + gesture_s) {
+        in.rc_us[2] = 1000;
+        in.rc_us[3] = 2000;
+      }
     } else {
       in.rc_us[4] = armed ? 2000 : 1000;
     }

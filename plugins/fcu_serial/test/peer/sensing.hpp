@@ -18,7 +18,10 @@ inline double norm(const Vec& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + 
 /// Averages 1001 samples of gyro or accelerometer.
 class ImuCalibration {
  public:
-  void start() { *this = {}, running_ = true; }
+  void start() {
+    *this = {};
+    running_ = true;
+  }
   bool running() const { return running_; }
   /// True with the last sample.
   bool add(const Vec& v, double temperature) {

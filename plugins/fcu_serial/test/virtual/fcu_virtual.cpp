@@ -117,8 +117,14 @@ class VirtualController {
   Status read(Tick& tick, const Params&, Outputs& out) {
     Inner::Outputs from{};
     const Status status = inner_->read(tick, inner_params_, from);
-    out.imu = from.imu, out.gnss = from.gnss, out.mag = from.mag, out.baro = from.baro;
-    out.pitot = from.pitot, out.rc = from.rc, out.status = from.status, out.attitude = from.attitude;
+    out.imu = from.imu;
+    out.gnss = from.gnss;
+    out.mag = from.mag;
+    out.baro = from.baro;
+    out.pitot = from.pitot;
+    out.rc = from.rc;
+    out.status = from.status;
+    out.attitude = from.attitude;
     for (std::uint32_t i = 0; i < from.notices.count; ++i)
       out.notices.push(from.notices.items[i], from.notices.stamps_ns[i]);
     out.truth.publish(truth());
@@ -174,7 +180,9 @@ class VirtualController {
     failing_ = {p.fails_from, p.fails_until};
     pilot_throttle_ = p.pilot_throttle;
     pilot_lands_ = p.pilot_lands;
-    script_.mag = p.mag, script_.baro = p.baro, script_.pitot = p.pitot;
+    script_.mag = p.mag;
+    script_.baro = p.baro;
+    script_.pitot = p.pitot;
     script_.moved_at = p.moved_at;
     const Eigen::Vector3d accel = eigen(p.moved_accel.value), gyro = eigen(p.moved_gyro.value);
     script_.moved_accel = {accel.x(), accel.y(), accel.z()};
@@ -251,14 +259,17 @@ class VirtualController {
     s.position_m = from_eigen<Ned>(x.p_n);
     s.velocity_mps = from_eigen<Ned>(x.v_n);
     s.attitude = from_eigen(x.q_nb);
-    s.roll_rad = e.roll_rad, s.pitch_rad = e.pitch_rad, s.yaw_rad = e.yaw_rad;
+    s.roll_rad = e.roll_rad;
+    s.pitch_rad = e.pitch_rad;
+    s.yaw_rad = e.yaw_rad;
     s.height_m = -x.p_n.z();
     s.climb_rate_mps = -x.v_n.z();
     s.ground_speed_mps = std::hypot(x.v_n.x(), x.v_n.y());
     s.course_rad = s.ground_speed_mps > 0.1 ? std::atan2(x.v_n.y(), x.v_n.x()) : s.yaw_rad;
     s.airspeed_mps = plane_->plant().air_velocity_b().norm();
     s.wind_mps = from_eigen<Ned>(plane_->plant().wind_n());
-    s.origin_latitude_deg = world_.latitude_deg, s.origin_longitude_deg = world_.longitude_deg;
+    s.origin_latitude_deg = world_.latitude_deg;
+    s.origin_longitude_deg = world_.longitude_deg;
     s.origin_altitude_m = world_.altitude_m;
     s.wind_valid = s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
         s.airspeed_valid = true;

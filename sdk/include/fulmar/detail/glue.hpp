@@ -324,12 +324,19 @@ consteval fulmar_component described() {
   fulmar_component e{};
   e.name = TypeName<C>::c_str;
   e.doc = doc_of<C>();
-  e.inputs = In_::table.data(), e.input_count = static_cast<std::uint32_t>(In_::count);
-  e.outputs = Out_::table.data(), e.output_count = static_cast<std::uint32_t>(Out_::count);
-  e.params = Params_::table.data(), e.param_count = static_cast<std::uint32_t>(Params_::count);
-  e.port_stride = sizeof(fulmar_port), e.param_stride = sizeof(fulmar_param);
+  e.inputs = In_::table.data();
+  e.input_count = static_cast<std::uint32_t>(In_::count);
+  e.outputs = Out_::table.data();
+  e.output_count = static_cast<std::uint32_t>(Out_::count);
+  e.params = Params_::table.data();
+  e.param_count = static_cast<std::uint32_t>(Params_::count);
+  e.port_stride = sizeof(fulmar_port);
+  e.param_stride = sizeof(fulmar_param);
   e.flags = vehicle ? FULMAR_VEHICLE : 0;
-  e.create = &T::create, e.destroy = &T::destroy, e.configure = &T::configure, e.retune = &T::retune;
+  e.create = &T::create;
+  e.destroy = &T::destroy;
+  e.configure = &T::configure;
+  e.retune = &T::retune;
   if constexpr (TakesOutputs<C> || TakesApplied<C>) e.activate = &T::activate;
   if constexpr (requires(C c) { c.deactivate(); }) e.deactivate = &T::deactivate;
   if constexpr (vehicle) {

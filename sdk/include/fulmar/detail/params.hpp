@@ -19,57 +19,86 @@ constexpr fulmar_param blank_param() {
 }
 constexpr fulmar_param param_entry(const Param& p) {
   fulmar_param e = blank_param();
-  e.unit = p.unit, e.doc = p.doc, e.kind = FULMAR_NUMBER, e.flags = access_flags(p.access);
-  e.initial[0] = p.value, e.min = p.min, e.max = p.max;
+  e.unit = p.unit;
+  e.doc = p.doc;
+  e.kind = FULMAR_NUMBER;
+  e.flags = access_flags(p.access);
+  e.initial[0] = p.value;
+  e.min = p.min;
+  e.max = p.max;
   return e;
 }
 constexpr fulmar_param param_entry(const Flag& p) {
   fulmar_param e = blank_param();
-  e.doc = p.doc, e.kind = FULMAR_FLAG, e.flags = access_flags(p.access), e.initial[0] = p.value ? 1 : 0,
+  e.doc = p.doc;
+  e.kind = FULMAR_FLAG;
+  e.flags = access_flags(p.access);
+  e.initial[0] = p.value ? 1 : 0;
   e.max = 1;
   return e;
 }
 constexpr fulmar_param param_entry(const Count& p) {
   fulmar_param e = blank_param();
-  e.doc = p.doc, e.kind = FULMAR_COUNT, e.flags = access_flags(p.access),
+  e.doc = p.doc;
+  e.kind = FULMAR_COUNT;
+  e.flags = access_flags(p.access);
   e.initial[0] = static_cast<double>(p.value);
-  e.min = static_cast<double>(p.min), e.max = static_cast<double>(p.max);
+  e.min = static_cast<double>(p.min);
+  e.max = static_cast<double>(p.max);
   return e;
 }
 template <class E>
 constexpr fulmar_param param_entry(const Choice<E>& p) {
   fulmar_param e = blank_param();
-  e.doc = p.doc, e.kind = FULMAR_CHOICE, e.flags = access_flags(p.access),
+  e.doc = p.doc;
+  e.kind = FULMAR_CHOICE;
+  e.flags = access_flags(p.access);
   e.initial[0] = static_cast<double>(p.value);
-  e.choices = Labels<E>::names.data(), e.choice_count = Labels<E>::count,
+  e.choices = Labels<E>::names.data();
+  e.choice_count = Labels<E>::count;
   e.max = static_cast<double>(Labels<E>::count - 1);
   return e;
 }
 template <std::size_t N>
 constexpr fulmar_param param_entry(const TextParam<N>& p) {
   fulmar_param e = blank_param();
-  e.doc = p.doc, e.kind = FULMAR_STRING, e.initial_text = p.value.bytes.data(), e.capacity = N;
+  e.doc = p.doc;
+  e.kind = FULMAR_STRING;
+  e.initial_text = p.value.bytes.data();
+  e.capacity = N;
   return e;
 }
 template <class F>
 constexpr fulmar_param param_entry(const Vector<F>& p) {
   fulmar_param e = blank_param();
-  e.unit = p.unit, e.doc = p.doc, e.kind = FULMAR_VECTOR, e.flags = access_flags(p.access),
+  e.unit = p.unit;
+  e.doc = p.doc;
+  e.kind = FULMAR_VECTOR;
+  e.flags = access_flags(p.access);
   e.type = type_table<Vec3<F>>();
   const auto& [a, b, c] = p.value;
-  e.initial[0] = a, e.initial[1] = b, e.initial[2] = c, e.min = p.min, e.max = p.max;
+  e.initial[0] = a;
+  e.initial[1] = b;
+  e.initial[2] = c;
+  e.min = p.min;
+  e.max = p.max;
   return e;
 }
 template <class T>
 constexpr fulmar_param param_entry(const Record<T>& p) {
   fulmar_param e = blank_param();
-  e.doc = p.doc, e.kind = FULMAR_RECORD, e.flags = need_flags(p.need), e.type = type_table<T>(),
+  e.doc = p.doc;
+  e.kind = FULMAR_RECORD;
+  e.flags = need_flags(p.need);
+  e.type = type_table<T>();
   e.initial_data = &p.value;
   return e;
 }
 constexpr fulmar_param param_entry(const Blob& p) {
   fulmar_param e = blank_param();
-  e.doc = p.doc, e.kind = FULMAR_BLOB, e.flags = need_flags(p.need);
+  e.doc = p.doc;
+  e.kind = FULMAR_BLOB;
+  e.flags = need_flags(p.need);
   return e;
 }
 
@@ -280,7 +309,10 @@ struct ParamTable {
   static constexpr std::array<fulmar_param, count> table = make();
   /// By hand: clang 14 counts each step of a standard comparison, and gives up after a million.
   static constexpr bool same(const char* a, const char* b) {
-    while (*a == *b && *a != 0) ++a, ++b;
+    while (*a == *b && *a != 0) {
+      ++a;
+      ++b;
+    }
     return *a == *b;
   }
   static constexpr bool names_differ() {

@@ -19,7 +19,8 @@ VehicleState level(double airspeed_mps, double alpha_rad = 0.05) {
   VehicleState s;
   s.airspeed_mps = s.ground_speed_mps = airspeed_mps;
   s.pitch_rad = s.alpha_rad = alpha_rad;
-  s.height_m = 70, s.specific_force_mps2.z = -g;
+  s.height_m = 70;
+  s.specific_force_mps2.z = -g;
   s.attitude_valid = s.velocity_valid = s.height_valid = s.airspeed_valid = s.wind_valid = true;
   return s;
 }
@@ -46,7 +47,8 @@ void own_acceleration(VehicleState& s, double mps2) {
 /// Nose 20 degrees up, on the way down: the angle of attack is the sum of both.
 VehicleState mushing(double sink_mps, double airspeed_mps = 13) {
   VehicleState s = level(airspeed_mps);
-  s.pitch_rad = 0.35, s.climb_rate_mps = -sink_mps;
+  s.pitch_rad = 0.35;
+  s.climb_rate_mps = -sink_mps;
   s.alpha_rad = s.pitch_rad + std::asin(sink_mps / airspeed_mps);
   s.specific_force_mps2.z = -0.6 * g;
   return s;
@@ -133,7 +135,8 @@ TEST_CASE(
   for (const double cruise : {15.0, 17.0}) {
     CAPTURE(cruise);
     Guarded f;
-    f.airframe.limits.airspeed_min_mps = 13, f.airframe.limits.airspeed_cruise_mps = cruise;
+    f.airframe.limits.airspeed_min_mps = 13;
+    f.airframe.limits.airspeed_cruise_mps = cruise;
     const double used = WingEnvelope(f.airframe).alpha_of(1.0);
     for (int i = 0; i < 3000; ++i) {
       VehicleState s = level(cruise + 2 * std::sin(0.02 * i), used);
@@ -188,7 +191,9 @@ TEST_CASE(
     CAPTURE(tube);
     Guarded f;
     VehicleState s = mushing(5);
-    s.alpha_rad = 0, s.wind_valid = false, s.airspeed_valid = tube;
+    s.alpha_rad = 0;
+    s.wind_valid = false;
+    s.airspeed_valid = tube;
     f.fly(s, 0.8);
     CHECK_FALSE(f.guard.stalled());
     f.fly(s, 0.4);
@@ -318,7 +323,8 @@ TEST_CASE(
   VehicleState s = level(13);
   s.climb_rate_mps = -2;
   ControllerInternals said;
-  said.height_error_m = 15, said.pitch_saturated = true;
+  said.height_error_m = 15;
+  said.pitch_saturated = true;
   const auto after = [&](double seconds, const AttitudeCommand& asked) {
     HeightWatch watch;
     Finding found = Finding::held;
@@ -333,9 +339,11 @@ TEST_CASE(
   CHECK(after(60, power) == Finding::lost);  // a motor that is dead is no fault of the law
   said.pitch_saturated = false;
   CHECK(after(60, idle) == Finding::held);
-  said.pitch_saturated = true, said.height_error_m = 5;
+  said.pitch_saturated = true;
+  said.height_error_m = 5;
   CHECK(after(60, idle) == Finding::held);
-  said.height_error_m = 15, s.climb_rate_mps = 0.5;
+  said.height_error_m = 15;
+  s.climb_rate_mps = 0.5;
   CHECK(after(60, idle) == Finding::held);
 }
 

@@ -10,7 +10,9 @@ using namespace fulmar;
 namespace {
 VehicleState at(double airspeed, double ground_speed, double height, bool airspeed_valid = true) {
   VehicleState s;
-  s.airspeed_mps = airspeed, s.ground_speed_mps = ground_speed, s.height_m = height,
+  s.airspeed_mps = airspeed;
+  s.ground_speed_mps = ground_speed;
+  s.height_m = height;
   s.airspeed_valid = airspeed_valid;
   return s;
 }
@@ -31,7 +33,8 @@ TEST_CASE(
     "the pitch ceiling comes down from the limit to level between the minimum airspeed and four fifths of "
     "it") {
   FlightLimits limits;
-  limits.airspeed_min_mps = 10, limits.pitch_max_rad = 0.4;
+  limits.airspeed_min_mps = 10;
+  limits.pitch_max_rad = 0.4;
   CHECK(pitch_ceiling(at(10, 10, 50), limits) == doctest::Approx(0.4));
   CHECK(pitch_ceiling(at(9, 10, 50), limits) == doctest::Approx(0.2));
   CHECK(pitch_ceiling(at(8, 10, 50), limits) == 0);
@@ -108,7 +111,8 @@ TEST_CASE(
     "the take-off run takes the runway from the nose when it stands and from the course when it moves") {
   TakeoffRun run;
   VehicleState s = at(0, 0, 0);
-  s.yaw_rad = 0.7, s.course_rad = -2;
+  s.yaw_rad = 0.7;
+  s.course_rad = -2;
   run.begin(s);
   CHECK(run.course_rad() == 0.7);
   s.ground_speed_mps = 8;
@@ -131,7 +135,9 @@ TEST_CASE("without airspeed the take-off run rotates by ground speed") {
 
 TEST_CASE("the motor waits for a throw, its delay after it, and the course is that of the nose then") {
   TakeoffTuning tuning;
-  tuning.launch_mps2 = 15, tuning.launch_mps = 4, tuning.motor_delay_s = 0.3;
+  tuning.launch_mps2 = 15;
+  tuning.launch_mps = 4;
+  tuning.motor_delay_s = 0.3;
   FlightLimits limits;
   limits.airspeed_min_mps = 10;
   TakeoffRun run;
@@ -147,7 +153,8 @@ TEST_CASE("the motor waits for a throw, its delay after it, and the course is th
   CHECK(fly(600).throttle_frac == 0);
   CHECK(!run.rotated());
   s.yaw_rad = s.course_rad = -0.4;  // the launcher has turned
-  s.specific_force_mps2.x = 15.5, s.ground_speed_mps = 5;
+  s.specific_force_mps2.x = 15.5;
+  s.ground_speed_mps = 5;
   CHECK(fly(0.09).throttle_frac == 0);
   CHECK(!run.launched());
   CHECK(fly(0.02).throttle_frac == 0);
@@ -213,7 +220,8 @@ TEST_CASE(
 
 TEST_CASE("a stumble, a push without speed and a ride without a push start no motor") {
   TakeoffTuning tuning;
-  tuning.launch_mps2 = 15, tuning.launch_mps = 4;
+  tuning.launch_mps2 = 15;
+  tuning.launch_mps = 4;
   const struct {
     double mps2, for_s, speed_mps, later_s;
     bool launched;
@@ -253,7 +261,9 @@ TEST_CASE(
     "where nobody's command is in force a law begins at the aircraft's attitude within its limits, and at "
     "cruise throttle") {
   FlightLimits limits;
-  limits.airspeed_min_mps = 10, limits.throttle_cruise_frac = 0.5, limits.pitch_min_rad = -0.35,
+  limits.airspeed_min_mps = 10;
+  limits.throttle_cruise_frac = 0.5;
+  limits.pitch_min_rad = -0.35;
   limits.pitch_max_rad = 0.4;
   OuterTuning tuning;
   tuning.course.roll_max_rad = 0.785;
@@ -267,11 +277,13 @@ TEST_CASE(
   const AttitudeCommand turn{0.2, 0, 0}, glide;
   VehicleState s = at(15, 15, 70);
   s.attitude_valid = true;
-  s.roll_rad = 2.5, s.pitch_rad = -1.2;
+  s.roll_rad = 2.5;
+  s.pitch_rad = -1.2;
   CHECK(begins(s, nullptr).roll_rad == 0.785);
   CHECK(commands.last().pitch_rad == -0.35);
   CHECK(commands.last().throttle_frac == 0.5);
-  s.roll_rad = 0.3, s.pitch_rad = 0.1;
+  s.roll_rad = 0.3;
+  s.pitch_rad = 0.1;
   CHECK(begins(s, nullptr).roll_rad == 0.3);
   CHECK(commands.last().pitch_rad == 0.1);
   CHECK(begins(s, &glide).roll_rad == 0);  // zeros are a command
@@ -284,7 +296,8 @@ TEST_CASE(
   CHECK(commands.last().throttle_frac == 0);
   for (const double wind : {0.0, 5.0}) {  // on the ground the engine stays off
     VehicleState ground = at(wind, 0, 0.2);
-    ground.attitude_valid = true, ground.pitch_rad = 0.15;
+    ground.attitude_valid = true;
+    ground.pitch_rad = 0.15;
     CHECK(begins(ground, nullptr).throttle_frac == 0);
     CHECK(commands.last().pitch_rad == 0);
   }
@@ -292,7 +305,9 @@ TEST_CASE(
 
 TEST_CASE("of two lowest pitches the higher one holds, and near the stall the ceiling") {
   FlightLimits limits;
-  limits.airspeed_min_mps = 10, limits.pitch_max_rad = 0.4, limits.pitch_min_rad = -0.2;
+  limits.airspeed_min_mps = 10;
+  limits.pitch_max_rad = 0.4;
+  limits.pitch_min_rad = -0.2;
   CHECK(PitchLimits(Envelope{}, limits, 0.35).min == -0.2);
   CHECK(PitchLimits(Envelope{}, limits, 0.1).min == -0.1);
   CHECK(PitchLimits(Envelope{}, limits, 0.35).max == 0.35);
@@ -303,7 +318,8 @@ TEST_CASE("of two lowest pitches the higher one holds, and near the stall the ce
 TEST_CASE(
     "the airspeed that a law divides by is never below half the minimum, and cruise when it is not known") {
   FlightLimits limits;
-  limits.airspeed_min_mps = 10, limits.airspeed_cruise_mps = 16;
+  limits.airspeed_min_mps = 10;
+  limits.airspeed_cruise_mps = 16;
   CHECK(scheduling_airspeed(at(12, 12, 70), limits) == 12);
   CHECK(scheduling_airspeed(at(1, 12, 70), limits) == 5);
   CHECK(scheduling_airspeed(at(1, 12, 70, false), limits) == 16);
@@ -312,7 +328,8 @@ TEST_CASE(
 TEST_CASE("a take-off run that loses its airspeed after rotation lowers the nose") {
   TakeoffRun run;
   FlightLimits limits;
-  limits.airspeed_min_mps = 10, limits.pitch_max_rad = 0.4;
+  limits.airspeed_min_mps = 10;
+  limits.pitch_max_rad = 0.4;
   const TakeoffTuning tuning{
       .throttle_frac = 1, .pitch_rad = 0.25, .rotate_mps = 12, .course_kp = 1, .roll_max_rad = 0.1};
   run.begin(at(0, 0, 0));

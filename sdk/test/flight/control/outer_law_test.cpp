@@ -20,7 +20,8 @@ struct Outputs {
 
 VehicleState flying() {
   VehicleState s;
-  s.height_m = 70, s.origin_altitude_m = 1387;
+  s.height_m = 70;
+  s.origin_altitude_m = 1387;
   s.airspeed_mps = s.ground_speed_mps = 17;
   s.airspeed_valid = s.attitude_valid = s.velocity_valid = s.height_valid = s.position_valid = true;
   return s;
@@ -41,7 +42,9 @@ struct Counting {
     tick.dt_ns = static_cast<std::int64_t>(1e9 * after_s);
     const auto rest = [&] { ++rests; };
     const auto hold = [&](const LevelTurn& wanted, double dt) {
-      ++holds, turn = wanted, dt_s = dt;
+      ++holds;
+      turn = wanted;
+      dt_s = dt;
       return answer;
     };
     return loop.step(tick, state, command, params, out, rest, hold);
@@ -52,12 +55,21 @@ struct Counting {
 
 TEST_CASE("every shared parameter comes to its place, and of two roll limits the smaller one holds") {
   OuterParams p;
-  p.course_kp.value = 1.5, p.course_ki.value = 0.25, p.roll_limit.value = 0.6, p.roll_rate_limit.value = 0.75;
-  p.roll_smoothing.value = 0.125, p.pitch_rate_limit.value = 0.3, p.throttle_rate_limit.value = 3;
-  p.takeoff_throttle.value = 0.9, p.takeoff_pitch.value = 0.2, p.takeoff_airspeed.value = 12;
-  p.takeoff_kp.value = 0.7, p.takeoff_roll_limit.value = 0.1;
+  p.course_kp.value = 1.5;
+  p.course_ki.value = 0.25;
+  p.roll_limit.value = 0.6;
+  p.roll_rate_limit.value = 0.75;
+  p.roll_smoothing.value = 0.125;
+  p.pitch_rate_limit.value = 0.3;
+  p.throttle_rate_limit.value = 3;
+  p.takeoff_throttle.value = 0.9;
+  p.takeoff_pitch.value = 0.2;
+  p.takeoff_airspeed.value = 12;
+  p.takeoff_kp.value = 0.7;
+  p.takeoff_roll_limit.value = 0.1;
   FlightLimits& limits = p.airframe.value.limits;
-  limits.airspeed_cruise_mps = 18, limits.roll_max_rad = 0.8;
+  limits.airspeed_cruise_mps = 18;
+  limits.roll_max_rad = 0.8;
   const OuterTuning t = tuning(p);
   CHECK(t.course.kp == 1.5);
   CHECK(t.course.ki == 0.25);
@@ -124,14 +136,16 @@ TEST_CASE("near the stall the bank is what the wing carries, to both sides; at c
       law.params.airframe.value.limits.roll_max_rad = 1;
       law.params.roll_limit.value = 0.7;
       VehicleState s = flying();
-      s.airspeed_mps = c.airspeed_mps, s.airspeed_valid = c.valid;
+      s.airspeed_mps = c.airspeed_mps;
+      s.airspeed_valid = c.valid;
       GuidanceCommand command;
       command.course_rad = side * 1.5;
       for (int i = 0; i < 400; ++i) law.step(s, command);
       CHECK(law.out.attitude.roll_rad == doctest::Approx(side * c.roll_rad).epsilon(3e-3));
       CHECK(law.out.internals.roll_saturated);
       CHECK(law.out.internals.bank_limited == (c.roll_rad < 0.7));
-      s.airspeed_mps = 20, s.airspeed_valid = true;  // fast again
+      s.airspeed_mps = 20;
+      s.airspeed_valid = true;  // fast again
       for (int i = 0; i < 400; ++i) law.step(s, command);
       CHECK(law.out.attitude.roll_rad == doctest::Approx(side * 0.7).epsilon(1e-3));
     }
@@ -252,13 +266,19 @@ TEST_CASE("a stall takes the law out: nose down, wings level, full power, degrad
   Counting law;
   law.params.airframe.value = test::anaconda();
   GuidanceCommand command;
-  command.course_rad = 1.5, command.height_m = 70, command.airspeed_mps = 12;
+  command.course_rad = 1.5;
+  command.height_m = 70;
+  command.airspeed_mps = 12;
   VehicleState s = flying();
-  s.airspeed_mps = 13, s.wind_valid = true, s.specific_force_mps2.z = -9.8;
+  s.airspeed_mps = 13;
+  s.wind_valid = true;
+  s.specific_force_mps2.z = -9.8;
   for (int i = 0; i < 300; ++i) law.step(s, command);
   REQUIRE(law.out.attitude.roll_rad > 0.3);
   VehicleState stalled = s;
-  stalled.pitch_rad = 0.3, stalled.climb_rate_mps = -5, stalled.alpha_rad = 0.7;
+  stalled.pitch_rad = 0.3;
+  stalled.climb_rate_mps = -5;
+  stalled.alpha_rad = 0.7;
   Status status = Status::ok;
   for (int i = 0; i < 150; ++i) status = law.step(stalled, command);
   CHECK(status == Status::degraded);
@@ -286,9 +306,12 @@ TEST_CASE("after a fall the loop climbs at full power and little bank, then the 
   Counting law;
   law.params.airframe.value = test::anaconda();
   GuidanceCommand command;
-  command.course_rad = 1.5, command.height_m = 90, command.airspeed_mps = 12;
+  command.course_rad = 1.5;
+  command.height_m = 90;
+  command.airspeed_mps = 12;
   VehicleState s = flying();
-  s.wind_valid = true, s.specific_force_mps2.z = -9.8;
+  s.wind_valid = true;
+  s.specific_force_mps2.z = -9.8;
   for (int i = 0; i < 200; ++i) law.step(s, command);
   REQUIRE(law.out.attitude.roll_rad > 0.5);
   s.climb_rate_mps = -4;
@@ -302,7 +325,8 @@ TEST_CASE("after a fall the loop climbs at full power and little bank, then the 
   CHECK(law.out.attitude.throttle_frac == 1);
   CHECK(law.out.attitude.roll_rad < 0.27);
   CHECK_EQ(law.out.internals.height_error_m, 20);
-  s.climb_rate_mps = 1, s.height_m = 89;
+  s.climb_rate_mps = 1;
+  s.height_m = 89;
   const double throttle = law.out.attitude.throttle_frac;
   law.step(s, command);
   CHECK_EQ(law.holds, held + 1);
@@ -320,7 +344,8 @@ TEST_CASE("a law that sinks at its pitch limit with the throttle closed is refus
     tick.dt_ns = 10'000'000;
     const auto rest = [] {};
     const auto asks = [&](const LevelTurn&, double) {
-      law.out.internals.height_error_m = 20, law.out.internals.pitch_saturated = true;
+      law.out.internals.height_error_m = 20;
+      law.out.internals.pitch_saturated = true;
       return law.answer;
     };
     return law.loop.step(tick, s, GuidanceCommand{}, law.params, law.out, rest, asks);

@@ -23,7 +23,10 @@ void fourier(std::vector<std::complex<double>>& x) {
   const std::size_t n = x.size();
   if (n == 1) return;
   std::vector<std::complex<double>> even(n / 2), odd(n / 2);
-  for (std::size_t i = 0; i < n / 2; ++i) even[i] = x[2 * i], odd[i] = x[2 * i + 1];
+  for (std::size_t i = 0; i < n / 2; ++i) {
+    even[i] = x[2 * i];
+    odd[i] = x[2 * i + 1];
+  }
   fourier(even);
   fourier(odd);
   for (std::size_t k = 0; k < n / 2; ++k) {

@@ -31,14 +31,17 @@ TEST_CASE("rolling gusts have the deviation that their spectrum integrates to") 
 TEST_CASE("the rolling gust is a process of that deviation and of the time 4 b/(pi V)" *
           doctest::test_suite("amounts")) {
   DrydenScales scales;
-  scales.length = {250, 250, 100}, scales.sigma = {0, 0, 2};
+  scales.length = {250, 250, 100};
+  scales.sigma = {0, 0, 2};
   DrydenRotation air(span, 3);
   const double dt = 0.01, sigma = DrydenRotation::deviation_p(scales, span);
   double square = 0, product = 0, before = 0;
   constexpr int n = 400'000;
   for (int i = 0; i < n; ++i) {
     const double p = air.advance(dt, Va, {0, 0, 0}, scales).x();
-    square += p * p, product += p * before, before = p;
+    square += p * p;
+    product += p * before;
+    before = p;
   }
   CHECK(std::sqrt(square / n) / sigma == Approx(1).epsilon(0.02));
   CHECK(product / square == Approx(std::exp(-pi * Va / (4 * span) * dt)).epsilon(0.01));

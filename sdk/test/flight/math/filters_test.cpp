@@ -22,7 +22,8 @@ Complex response(double omega, double dt, double settle_s, Step step) {
     const double t = static_cast<double>(k) * dt, u = std::sin(omega * t), y = step(u);
     if (t < start) continue;
     const Complex phasor = std::exp(Complex(0, -omega * t));
-    in += u * phasor, out += y * phasor;
+    in += u * phasor;
+    out += y * phasor;
   }
   return out / in;
 }

@@ -111,7 +111,8 @@ TEST_CASE("stamps that go back are a disorder at the third within 1.4 s, and it 
 
 TEST_CASE("mean and deviation of innovations are first-order means over four and two seconds") {
   Innovations constant, alternating;
-  constant.add({2.5}, 10), alternating.add({1.2}, 10);
+  constant.add({2.5}, 10);
+  alternating.add({1.2}, 10);
   CHECK(near(constant.mean(), 2.5 * 0.5 / 4.5));  // the first counts for half a second
   CHECK(near(constant.std(), 1));
   for (int k = 1; k <= 30; ++k) {
@@ -208,7 +209,8 @@ TEST_CASE("the book of a sensor counts what was let in and what was refused, and
   CHECK(aid.ratio == 1.5);
   CHECK(aid.accepted_s == 3);
   CHECK(aid.refused_from_s == never);
-  aid.told(refused(-8), 4), aid.told(refused(9), 5);
+  aid.told(refused(-8), 4);
+  aid.told(refused(9), 5);
   CHECK(aid.ratio == 9);
   CHECK(aid.accepted_s == 3);
   CHECK(aid.refused_from_s == 4);
@@ -271,13 +273,18 @@ TEST_CASE("a fix is good when it is solved, and where the Earth is, with numbers
   const auto with = [](auto set) {
     Gnss g;
     g.fix = FixType::fix_3d;
-    g.latitude_deg = -90, g.longitude_deg = -360, g.altitude_m = 500;
+    g.latitude_deg = -90;
+    g.longitude_deg = -360;
+    g.altitude_m = 500;
     g.velocity_mps = {1, 2, 3};
     set(g);
     return good(g);
   };
   CHECK(with([](Gnss&) {}));
-  CHECK(with([](Gnss& g) { g.latitude_deg = 90, g.longitude_deg = 360; }));
+  CHECK(with([](Gnss& g) {
+    g.latitude_deg = 90;
+    g.longitude_deg = 360;
+  }));
   CHECK_FALSE(with([](Gnss& g) { g.latitude_deg = 90.1; }));
   CHECK_FALSE(with([](Gnss& g) { g.latitude_deg = nan; }));
   CHECK_FALSE(with([](Gnss& g) { g.longitude_deg = -360.1; }));

@@ -24,9 +24,16 @@ struct Aircraft {
   Propulsion engine = [] {
     Propulsion p;
     p.propeller_diameter_m = 0.381;
-    p.ct0_ratio = 0.06288743, p.ct1_ratio = -0.02704452, p.ct2_ratio = -0.31320732;
-    p.cq0_ratio = 0.00614891, p.cq1_ratio = -0.0106795, p.cq2_ratio = -0.011779;
-    p.torque_constant_ratio = 0.01705, p.resistance_ohm = 0.042, p.no_load_amp = 1.5, p.battery_volt = 24;
+    p.ct0_ratio = 0.06288743;
+    p.ct1_ratio = -0.02704452;
+    p.ct2_ratio = -0.31320732;
+    p.cq0_ratio = 0.00614891;
+    p.cq1_ratio = -0.0106795;
+    p.cq2_ratio = -0.011779;
+    p.torque_constant_ratio = 0.01705;
+    p.resistance_ohm = 0.042;
+    p.no_load_amp = 1.5;
+    p.battery_volt = 24;
     return p;
   }();
   double mass_kg = 4.6, wing_m2 = 0.52, rho = 1.225;
@@ -122,7 +129,8 @@ TEST_CASE("errors of the airspeed are as large as claimed, also where those of t
       const AirspeedModel::Said said = asked(model, 0.55, 17, 17);
       CHECK(said.known);
       const double off = std::abs(said.Va_mps - 17);
-      within_1 += off < said.model_std_mps, within_2 += off < 2 * said.model_std_mps;
+      within_1 += off < said.model_std_mps;
+      within_2 += off < 2 * said.model_std_mps;
       ++n;
     }
     CAPTURE(r);
@@ -195,9 +203,11 @@ struct Seen {
     early += x.t < lost_s && s.airspeed_from_model;
     if (x.t < lost_s + 1.1) return;
     const double off = s.airspeed_mps - x.airspeed();
-    most = std::max(most, std::abs(off)), most_std = std::max(most_std, s.airspeed_std_mps);
+    most = std::max(most, std::abs(off));
+    most_std = std::max(most_std, s.airspeed_std_mps);
     square += off * off;
-    flagged += s.airspeed_from_model, invalid += !s.airspeed_valid;
+    flagged += s.airspeed_from_model;
+    invalid += !s.airspeed_valid;
     ++n;
   }
   double rms() const { return std::sqrt(square / n); }
@@ -244,7 +254,10 @@ TEST_CASE("a motor that does not do what is commanded, more or less, ends it wit
     int before = 0, n = 0, after = 0;
     double most = 0;
     flight.watch = [&](const Truth& x, const VehicleState& s, Status) {
-      if (x.t > lost_s + 1.1 && x.t < fails_s) before += s.airspeed_from_model, ++n;
+      if (x.t > lost_s + 1.1 && x.t < fails_s) {
+        before += s.airspeed_from_model;
+        ++n;
+      }
       if (x.t < fails_s + 0.5) return;
       after += s.airspeed_from_model;
       most = std::max(most, std::abs(s.airspeed_mps - x.airspeed()) / s.airspeed_std_mps);
@@ -272,7 +285,10 @@ TEST_CASE("a motor that gains or loses a third over seconds: what is claimed gro
       int before = 0, n = 0, after = 0;
       double most = 0, most_valid_mps = 0;
       flight.watch = [&](const Truth& x, const VehicleState& s, Status) {
-        if (x.t > lost_s + 1.1 && x.t < fades_s) before += s.airspeed_from_model, ++n;
+        if (x.t > lost_s + 1.1 && x.t < fades_s) {
+          before += s.airspeed_from_model;
+          ++n;
+        }
         const double off = std::abs(s.airspeed_mps - x.airspeed());
         if (x.t < fades_s) return;
         most = std::max(most, off / s.airspeed_std_mps);
@@ -294,7 +310,10 @@ TEST_CASE("a tube that is lost before the model has learnt leaves the airspeed a
     flight.plan.duration_s = 60;
     flight.quality = ublox;
     flight.alter = [](const Truth& x, Samples& s) {
-      if (x.t > 25) s.gnss.reset(), s.pitot.reset();
+      if (x.t > 25) {
+        s.gnss.reset();
+        s.pitot.reset();
+      }
     };
     if (wired) flight.throttle = throttle_of;
     int flagged = 0;

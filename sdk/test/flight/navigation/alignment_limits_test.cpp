@@ -61,7 +61,8 @@ TEST_CASE("a unit rests whatever it reads, and says the mean of its last second"
     steps.quiet(50);
     CHECK(steps.still.still() == (block >= 3));
     if (block == 5) break;
-    steps.omega += Vector3d(0.005, -0.01, 0.015), steps.f += Vector3d(0.1, -0.2, 0.05);
+    steps.omega += Vector3d(0.005, -0.01, 0.015);
+    steps.f += Vector3d(0.1, -0.2, 0.05);
   }
   CHECK((steps.still.omega() - (steps.omega - 1.5 * Vector3d(0.005, -0.01, 0.015))).norm() < 1e-9);
   CHECK((steps.still.f() - (steps.f - 1.5 * Vector3d(0.1, -0.2, 0.05))).norm() < 1e-9);
@@ -74,7 +75,8 @@ TEST_CASE("noise and steps of the means beyond a limit are no rest, on any axis,
         Unit u;
         for (int block = 0; block < 6; ++block) {
           u.samples(50, gyro_noise * axis, accel_noise * axis);
-          u.omega += side * gyro_step * axis, u.f += side * accel_step * axis;
+          u.omega += side * gyro_step * axis;
+          u.f += side * accel_step * axis;
         }
         return u.still.still();
       };
@@ -182,9 +184,11 @@ TEST_CASE("an alignment that begins again after a gap finds what a fresh one fin
   };
   FlightAlignment fresh, again;
   Motion other;
-  other.rate = {-0.5, 0.1, 0.2}, other.a = {-1, 4, 2};
+  other.rate = {-0.5, 0.1, 0.2};
+  other.a = {-1, 4, 2};
   other.feel(again, 0, 201, 0.0037);
-  again.mag({1e-5, 2e-5, -3e-5}), again.mag({1e-5, 3e-5, -3e-5});
+  again.mag({1e-5, 2e-5, -3e-5});
+  again.mag({1e-5, 3e-5, -3e-5});
   (void)again.fix({20, 1, 2}, known);
   other.feel(again, 0.8, 60);
   again.imu({1, 1, 1}, {2, 2, 2}, 0.2);
@@ -229,7 +233,8 @@ TEST_CASE("a window lasts from 0.45 to 2.2 s, and each begins with the fix that 
 TEST_CASE("near free fall and with the field along the force there is no direction in a window") {
   const auto found = [&](const Vector3d& a, const Vector3d* by_field, const Vector3d* wind) {
     Motion m;
-    m.a = a, m.rate.setZero();
+    m.a = a;
+    m.rate.setZero();
     FlightAlignment alignment;
     const FlightAlignment::Known known{g, by_field, wind, 0};
     (void)alignment.fix(m.v0, known);
@@ -280,7 +285,9 @@ TEST_CASE("the samples since a fix are those of its age, each for the time that 
     double time = 0;
     Vector3d omega = Vector3d::Zero(), f = Vector3d::Zero();
     alignment.since(age_s, [&](const Vector3d& w, const Vector3d& a, double dt) {
-      time += dt, omega += dt * w, f += dt * a;
+      time += dt;
+      omega += dt * w;
+      f += dt * a;
     });
     CHECK(time == doctest::Approx(age_s));
     double sum = 0;  // integral of k over the last age_s: pieces of 10 ms with k = 99, 98, ...
@@ -299,7 +306,8 @@ TEST_CASE(
     for (int i = 0; i < n; ++i) {
       const Vector3d m = (q.conjugate() * field).normalized();
       d.add(turned * m, turned, m, 7 + dt * i);
-      q = q * exp_map(dt * rate), turned = turned * exp_map(dt * (rate + scale * bias));
+      q = q * exp_map(dt * rate);
+      turned = turned * exp_map(dt * (rate + scale * bias));
     }
     return d;
   };
@@ -371,7 +379,8 @@ TEST_CASE("what errors and claims of a quantity come to: means, shares, and chi-
   consistency::Innovations i;
   CHECK(i.nis() == 0);
   CHECK(i.correlation(1) == 0);
-  i.add_flight({2, 1, -1}), i.add_flight({3});
+  i.add_flight({2, 1, -1});
+  i.add_flight({3});
   CHECK(i.nis() == doctest::Approx(15.0 / 4));
   CHECK(i.correlation(1) == doctest::Approx(1.0 / 15));
   CHECK(i.correlation(2) == doctest::Approx(-2.0 / 15));
@@ -384,7 +393,8 @@ TEST_CASE("what errors and claims of a quantity come to: means, shares, and chi-
   CHECK(nees.inside() == 0.5);
   consistency::Nees::Errors error = consistency::Nees::Errors::Zero(), std;
   std << 1, 2, 3, 4, 5, 6, 7, 8, 9;
-  error(0) = 1, error(4) = 5;
+  error(0) = 1;
+  error(4) = 5;
   std::array<double, 36> correlation{};
   CHECK(consistency::Nees::of(error, std, correlation) == doctest::Approx(2));
   correlation[6] = 0.5;  // of the fifth with the first: x' [1 r; r 1]^-1 x = 2 / (1 + r)
@@ -392,10 +402,14 @@ TEST_CASE("what errors and claims of a quantity come to: means, shares, and chi-
   VehicleState truth, estimate;
   const Quaterniond q = quaternion_from({0.1, 0.2, 2});
   const Vector3d small(0.01, -0.02, 0.03);
-  estimate.attitude = from_eigen(q), truth.attitude = from_eigen(Quaterniond(exp_map(small) * q));
-  truth.velocity_mps = {1, 2, 4}, estimate.velocity_mps = {0, 4, 1};
-  truth.position_m = {9, 7, 5}, estimate.position_m = {8, 5, 9};
-  estimate.attitude_std_rad = {1, 2, 3}, estimate.velocity_std_mps = {4, 5, 6},
+  estimate.attitude = from_eigen(q);
+  truth.attitude = from_eigen(Quaterniond(exp_map(small) * q));
+  truth.velocity_mps = {1, 2, 4};
+  estimate.velocity_mps = {0, 4, 1};
+  truth.position_m = {9, 7, 5};
+  estimate.position_m = {8, 5, 9};
+  estimate.attitude_std_rad = {1, 2, 3};
+  estimate.velocity_std_mps = {4, 5, 6};
   estimate.position_std_m = {7, 8, 9};
   consistency::Nees::Errors wanted;
   wanted << small, 1, -2, 3, 1, 2, -4;

@@ -147,7 +147,8 @@ TEST_CASE("the field tells the biases of the gyros across it, and how little it 
   for (int i = 0; i <= 50; ++i) {
     const Vector3d m = (q.conjugate() * field).normalized();
     drift.add(turned * m, turned, m, 0.02 * i);
-    q = q * exp_map(0.02 * rate), turned = turned * exp_map(0.02 * (rate + bias));
+    q = q * exp_map(0.02 * rate);
+    turned = turned * exp_map(0.02 * (rate + bias));
   }
   const FieldDrift::Bias found = drift.bias(0.15, 0);
   const Vector3d along = (exp_map(-0.5 * rate) * field).normalized(), off = bias - found.bias_b;
@@ -198,7 +199,8 @@ TEST_CASE("started in a bank with a delay that is told wrong, no flag is up whil
         };
         f.set = [&](Ekf::Params& p) {
           p.gnss_delay.value = 0.25 + wrong;
-          p.gyro_bias_std.value = 0.02, p.accel_bias_std.value = 0.1;
+          p.gyro_bias_std.value = 0.02;
+          p.accel_bias_std.value = 0.1;
         };
         f.watch = [&](const Truth& x, const VehicleState& s, Status) {
           const Vector3d down = Vector3d::UnitZ();
@@ -227,7 +229,10 @@ TEST_CASE("within two seconds the nose is no second witness: the same gust pushe
   Flown f{.quality = ublox, .from_s = 27.5};
   f.plan.bank_rad = 0.5;
   f.plan.duration_s = 30.5;
-  f.set = [](Ekf::Params& p) { p.gyro_bias_std.value = 0.02, p.accel_bias_std.value = 0.1; };
+  f.set = [](Ekf::Params& p) {
+    p.gyro_bias_std.value = 0.02;
+    p.accel_bias_std.value = 0.1;
+  };
   double after_s[3] = {0.5, 1.9, 2.5}, std_rad[3] = {};
   f.watch = [&](const Truth& x, const VehicleState& s, Status) {
     for (int i = 0; i < 3; ++i)
@@ -266,7 +271,9 @@ TEST_CASE("fixes that contradict the first attitude in flight end it: it is look
   n.start(p);
   const auto fix = [](double north_mps) {
     Gnss f;
-    f.latitude_deg = 40, f.longitude_deg = -111, f.altitude_m = 1400;
+    f.latitude_deg = 40;
+    f.longitude_deg = -111;
+    f.altitude_m = 1400;
     f.velocity_mps = {north_mps, 0, 0};
     f.speed_std_mps = 0.1;
     f.fix = FixType::fix_3d;
@@ -276,16 +283,22 @@ TEST_CASE("fixes that contradict the first attitude in flight end it: it is look
   const auto run = [&](double until_s) {
     for (; t < until_s - 1e-9; t += dt) n.imu({0.1, 0, 0}, {0.3 * std::sin(40 * t), 0, -g}, t + dt, p);
   };
-  run(0.1), n.gnss(fix(17), t, p);
-  run(0.7), n.gnss(fix(17), t, p);
+  run(0.1);
+  n.gnss(fix(17), t, p);
+  run(0.7);
+  n.gnss(fix(17), t, p);
   REQUIRE(n.aligned());
   CHECK(n.settling());
-  run(0.8), n.gnss(fix(40), t, p);
+  run(0.8);
+  n.gnss(fix(40), t, p);
   CHECK(n.aligned());  // one may be an outlier
-  run(0.9), n.gnss(fix(40), t, p);
+  run(0.9);
+  n.gnss(fix(40), t, p);
   CHECK_FALSE(n.aligned());
-  run(1.0), n.gnss(fix(17), t, p);
-  run(1.6), n.gnss(fix(17), t, p);
+  run(1.0);
+  n.gnss(fix(17), t, p);
+  run(1.6);
+  n.gnss(fix(17), t, p);
   CHECK(n.aligned());
 }
 

@@ -69,8 +69,10 @@ struct Flight {
 
 Plan windy(double duration_s) {
   Plan plan;
-  plan.duration_s = duration_s, plan.rate_hz = 200;
-  plan.wind = {3, -4, 0}, plan.gust_mps = 1.2;
+  plan.duration_s = duration_s;
+  plan.rate_hz = 200;
+  plan.wind = {3, -4, 0};
+  plan.gust_mps = 1.2;
   return plan;
 }
 bool same(double a, double b) { return std::abs(a - b) < 1e-9 * (1 + std::abs(b)); }
@@ -127,19 +129,22 @@ TEST_CASE("what is claimed is the filter's, widened by what it does not know, wi
       if (x.t > fixes_until_s) s.gnss.reset();
     };
     navigation::Params& p = f.bench.params.nav;
-    p.pitot_scale_std.value = 0.03, p.rate_filter.value = 0;
+    p.pitot_scale_std.value = 0.03;
+    p.rate_filter.value = 0;
     int wrong = 0, renewed = 0, out = 0;
     Vec3<Ned> before{};
     double most_speed = 0;
     f.run([&](const Truth& x, const VehicleState& s, const Navigator& n) {
       if (x.t < 20 || !n.airborne() || s.attitude_std_rad.down == before.down) return;
-      before = s.attitude_std_rad, ++renewed;
+      before = s.attitude_std_rad;
+      ++renewed;
       const ErrorStateEkf& filter = n.filter();
       const auto P = [&](int i) { return filter.covariance()(i, i); };
       const double silent_s = n.time_s() - n.health().velocity.accepted_s, T = silent_s > 1.5 ? silent_s : 0;
       const double speed = n.gusts().std_mps(p) * (1 - std::exp(-T / n.gusts().time_s(p))),
                    way = speed * T / 2, shared = n.shared_speed_mps();
-      out += T > 0, most_speed = std::max(most_speed, speed);
+      out += T > 0;
+      most_speed = std::max(most_speed, speed);
       const Vector3d u_n = ekf::air_velocity(filter.state());
       const double v_north2 = P(ekf::vel) + shared * shared + speed * speed,
                    v_east2 = P(ekf::vel + 1) + shared * shared + speed * speed, yaw2 = P(ekf::theta + 2);
@@ -185,7 +190,8 @@ TEST_CASE("the published rate lags behind the filter's by a first-order low-pass
     const Vector3d rate = n.filter().rate_b();
     lag = begun ? Vector3d(lag + (1 - std::exp(-2 * std::numbers::pi * 3 * 0.005)) * (rate - lag)) : rate;
     begun = true;
-    off = std::max(off, (eigen(s.rate_radps) - lag).norm()), most = std::max(most, (rate - lag).norm());
+    off = std::max(off, (eigen(s.rate_radps) - lag).norm());
+    most = std::max(most, (rate - lag).norm());
   });
   CHECK(off < 1e-9);
   CHECK(most > 0.01);
@@ -231,7 +237,8 @@ TEST_CASE("probes and the check say of each sensor its own, and correlations are
 TEST_CASE("where the aircraft was while it accelerated is remembered to a millimetre") {
   ErrorStateEkf filter;
   ekf::Nominal x;
-  x.v_n = {15, -4, 1}, x.p_n = {100, 50, -70};
+  x.v_n = {15, -4, 1};
+  x.p_n = {100, 50, -70};
   filter.reset(x, ekf::Vector::Ones(), 3);
   const Vector3d a(3, -2, 1.5);
   for (int k = 0; k < 120; ++k)

@@ -167,8 +167,10 @@ TEST_CASE("the whole covariance follows the motion: Phi P Phi' + Q, Phi by finit
     expected(n, n) += 0.02 * 0.02 * 0.01;
     expected(n + 1, n + 1) += 0.2 * 0.2 * -std::expm1(-2 * 0.01 / 0.5);
     for (const int i : {+ekf::gust, +ekf::heading}) {
-      expected.row(i).setZero(), expected.col(i).setZero();
-      expected.row(i) = got.row(i), expected.col(i) = got.col(i);
+      expected.row(i).setZero();
+      expected.col(i).setZero();
+      expected.row(i) = got.row(i);
+      expected.col(i) = got.col(i);
     }
     CHECK((got - expected).cwiseAbs().maxCoeff() < 5e-4 * expected.cwiseAbs().maxCoeff());
     CHECK((got - expected).bottomRows<2>().cwiseAbs().maxCoeff() <

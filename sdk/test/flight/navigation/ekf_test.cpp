@@ -323,9 +323,12 @@ TEST_CASE("a static port that sees a share of the dynamic pressure makes the bar
 
 TEST_CASE("gust, heading deviation and the receiver's error grow to their deviations, and stay there") {
   ErrorStateEkf f;
-  f.noise.gust_std = 1.3, f.noise.gust_time = 0.5;
-  f.noise.heading_std = 0.04, f.noise.heading_time = 0.7;
-  f.noise.gnss_std = 2.5, f.noise.gnss_time = 0.6;
+  f.noise.gust_std = 1.3;
+  f.noise.gust_time = 0.5;
+  f.noise.heading_std = 0.04;
+  f.noise.heading_time = 0.7;
+  f.noise.gnss_std = 2.5;
+  f.noise.gnss_time = 0.6;
   f.noise.port_walk = 0.02;
   f.reset({}, ekf::Vector::Zero(), 0);
   for (int i = 0; i < 2000; ++i) f.predict(Vector3d::Zero(), {0, 0, -9.80665}, 0.005);
@@ -338,7 +341,8 @@ TEST_CASE("gust, heading deviation and the receiver's error grow to their deviat
 TEST_CASE(
     "what a receiver is off is in the position's deviation for good, and its correction is not shared") {
   ErrorStateEkf f;
-  f.noise.gnss_std = 1.5, f.noise.gnss_time = 100;
+  f.noise.gnss_std = 1.5;
+  f.noise.gnss_time = 100;
   ekf::Vector std = ekf::Vector::Constant(0.1);
   std.segment<2>(ekf::pos).setConstant(1e3);
   std.segment<2>(ekf::gnss).setConstant(1.5);
@@ -358,8 +362,10 @@ TEST_CASE(
   const auto after = [](double sink_mps, double load) {
     ErrorStateEkf f;
     f.noise = {};
-    f.noise.wind_walk = 0.02, f.noise.wind_shear = 0.05;
-    f.noise.accel = 0.02, f.noise.accel_scale = 0.05,
+    f.noise.wind_walk = 0.02;
+    f.noise.wind_shear = 0.05;
+    f.noise.accel = 0.02;
+    f.noise.accel_scale = 0.05;
     f.noise.gyro = f.noise.gyro_bias_walk = 0;  // else a tilt's share of the load
     ekf::Nominal x;
     x.v_n.z() = sink_mps;

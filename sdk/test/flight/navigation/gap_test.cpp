@@ -103,8 +103,15 @@ void Gap::judge(const Truth& x) {
   const double before_it = error;
   error = attitude_error(last, x);
   const Vector3d position_error = eigen(last.position_m) - x.p_n;
-  if (x.t <= from_s) before = last, offset = position_error, mean_before = mean_wind;
-  if (silent(x.t)) coasted_attitude = error, coasted_position = (position_error - offset).norm();
+  if (x.t <= from_s) {
+    before = last;
+    offset = position_error;
+    mean_before = mean_wind;
+  }
+  if (silent(x.t)) {
+    coasted_attitude = error;
+    coasted_position = (position_error - offset).norm();
+  }
   if (x.t < from_s + length_s) return;
   if (valid_after_s >= 0) step_attitude = std::max(step_attitude, std::abs(error - before_it));
   if (valid_after_s < 0 && all_valid(last)) {
@@ -314,7 +321,10 @@ TEST_CASE("a barometer that reads 500 Pa more after the gap does not move the he
 TEST_CASE("gyros whose bias has changed in the gap are learnt anew") {
   Gap g{.length_s = 5, .after_s = 30};
   g.alter = [](const Truth& x, Samples& s) {
-    if (x.t > 70) s.imu.rate_radps.x += 0.02, s.imu.rate_radps.z -= 0.02;
+    if (x.t > 70) {
+      s.imu.rate_radps.x += 0.02;
+      s.imu.rate_radps.z -= 0.02;
+    }
   };
   g.watch = [](const Truth& x, const VehicleState& s, Status, double since) {
     if (since > 15) CHECK(attitude_error(s, x) < 3 * deg);

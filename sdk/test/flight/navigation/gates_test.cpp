@@ -145,7 +145,8 @@ TEST_CASE("where the field is steep the needle knows less of the yaw") {
   const auto yaw_std = [](double lat, double lon) {
     Flown f{};
     f.plan.duration_s = f.plan.rest_s;
-    f.plan.lat_deg = lat, f.plan.lon_deg = lon;
+    f.plan.lat_deg = lat;
+    f.plan.lon_deg = lon;
     f.quality.accel_bias = 0;
     f.set = [](Ekf::Params& p) {
       p.mag_deviation.value = 0;

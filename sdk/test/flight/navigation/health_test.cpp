@@ -447,7 +447,10 @@ TEST_CASE("health comes at 5 Hz, with an attitude or without, in gaps as well") 
   Bench<Ekf> bench;
   int published = 0, imu = 0;
   for (int i = 0; i < 4000; ++i) {
-    if (i < 1000 || i > 3000) bench.set(bench.in.imu, Imu{{0, 0, -9.8 + 1e-3 * (i % 7)}, {}}, -0.0025), ++imu;
+    if (i < 1000 || i > 3000) {
+      bench.set(bench.in.imu, Imu{{0, 0, -9.8 + 1e-3 * (i % 7)}, {}}, -0.0025);
+      ++imu;
+    }
     bench.step(0.0025);
     published += bench.out.health.written;
   }

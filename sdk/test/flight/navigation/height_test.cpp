@@ -24,9 +24,13 @@ struct Heights {
     if (x.t < from_s) return;
     const double e = s.height_m + x.p_n.z();
     ++n;
-    mean_m += e, rms_m += e * e;
+    mean_m += e;
+    rms_m += e * e;
   }
-  void end() { mean_m /= n, rms_m = std::sqrt(rms_m / n); }
+  void end() {
+    mean_m /= n;
+    rms_m = std::sqrt(rms_m / n);
+  }
 };
 
 /// The aircraft changes its speed; `share` of the dynamic pressure gets into the static port.
@@ -243,7 +247,8 @@ TEST_CASE("a receiver whose position scatters by 60 m for half a minute moves ne
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     CAPTURE(seed);
     Flown f{};
-    f.plan.seed = seed, f.plan.duration_s = 95;
+    f.plan.seed = seed;
+    f.plan.duration_s = 95;
     f.quality.height_walk_m = 0;
     Random random(seed);
     f.alter = [&](const Truth& x, Samples& s) {

@@ -36,7 +36,9 @@ Learnt learnt(double std, double time_s, double offset, std::uint64_t seed, doub
     if (t > silent_from_s && t < silent_from_s + 20) continue;
     strength.add(excess + (t > silent_from_s ? 10 : 0), t, p);
     if (t < duration_s / 2) continue;
-    mean.std_mps += strength.std_mps(p), mean.time_s += strength.time_s(p), ++n;
+    mean.std_mps += strength.std_mps(p);
+    mean.time_s += strength.time_s(p);
+    ++n;
   }
   return {mean.std_mps / n, mean.time_s / n};
 }
@@ -46,7 +48,8 @@ Learnt learnt_mean(double std, double time_s, double offset) {
   constexpr int seeds = 8;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     const Learnt one = learnt(std, time_s, offset, seed);
-    sum.std_mps += one.std_mps / seeds, sum.time_s += one.time_s / seeds;
+    sum.std_mps += one.std_mps / seeds;
+    sum.time_s += one.time_s / seeds;
   }
   return sum;
 }
@@ -94,7 +97,8 @@ TEST_CASE("the gust along the flight is as sure as it says, and its covariance s
       if (t < 100 || k % 50 != 0) continue;
       const Vector2d e = gust - gusts.gust_mps();
       const double ratio2 = e.dot(P.inverse() * e);
-      normalised += ratio2, ++n;
+      normalised += ratio2;
+      ++n;
       within += ratio2 < 2.296;  // of chi-square of 2 degrees of freedom 68.3 % are below
     }
   }
@@ -109,9 +113,11 @@ TEST_CASE("a receiver whose error lasts minutes: the position is as sure as it s
   int n = 0;
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     Flown f{.quality = ublox};
-    f.plan.seed = seed, f.plan.duration_s = 130;
+    f.plan.seed = seed;
+    f.plan.duration_s = 130;
     f.quality.position_walk_m = f.quality.reported_horizontal = 1.5;
-    f.quality.position_tau = 30, f.quality.position_white = 0.3;
+    f.quality.position_tau = 30;
+    f.quality.position_white = 0.3;
     f.set = [](Ekf::Params& p) { p.gnss_position_time.value = 30; };
     double next = 60;
     f.watch = [&](const Truth& x, const VehicleState& s, Status) {
@@ -143,7 +149,10 @@ TEST_CASE(
       const double fresh = 0.3 * std::sqrt(1 - ratio * ratio);
       slow = ratio * slow + fresh * Vector2d(random.normal(), random.normal());
       shared.add(slow + 0.1 * Vector2d(random.normal(), random.normal()), 0.1 * k);
-      if (k > 1000) mean += shared.std_mps(), ++n;
+      if (k > 1000) {
+        mean += shared.std_mps();
+        ++n;
+      }
     }
     mean /= n;
     if (ratio == 0)
@@ -159,7 +168,8 @@ TEST_CASE(
   double errors = 0, claims = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Flown f{.quality = ublox};
-    f.plan.seed = seed, f.plan.duration_s = 130;
+    f.plan.seed = seed;
+    f.plan.duration_s = 130;
     Random random(seed + 100);
     Markov north{0.2, 2, 0}, east{0.2, 2, 0};
     f.alter = [&](const Truth&, Samples& s) {
@@ -183,7 +193,9 @@ TEST_CASE("half a minute without GNSS in gusts: the claim grows, and the error s
   double errors = 0, claims = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Flown f{.quality = ublox};
-    f.plan.seed = seed, f.plan.duration_s = 110, f.plan.gust_mps = 1.5;
+    f.plan.seed = seed;
+    f.plan.duration_s = 110;
+    f.plan.gust_mps = 1.5;
     f.alter = [](const Truth& x, Samples& s) {
       if (x.t > 80) s.gnss.reset();
     };
@@ -200,13 +212,15 @@ TEST_CASE("wind with gusts is better known than the mean wind alone") {
   double with = 0, without = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Flown f{.quality = ublox};
-    f.plan.seed = seed, f.plan.gust_mps = 1.5;
+    f.plan.seed = seed;
+    f.plan.gust_mps = 1.5;
     double next = 60;
     f.watch = [&](const Truth& x, const VehicleState& s, Status) {
       if (x.t < next) return;
       next += 1;
       const Vector2d e = (eigen(s.wind_mps) - x.wind_n).head<2>();
-      with += e.squaredNorm(), without += (f.plan.wind - x.wind_n).head<2>().squaredNorm();
+      with += e.squaredNorm();
+      without += (f.plan.wind - x.wind_n).head<2>().squaredNorm();
     };
     f.run();
   }

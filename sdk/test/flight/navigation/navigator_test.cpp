@@ -27,7 +27,9 @@ VehicleState flying() {
   VehicleState s;
   s.velocity_mps = {17, 0, 0};
   s.position_m = {0, 0, -70};
-  s.origin_latitude_deg = lat, s.origin_longitude_deg = lon, s.origin_altitude_m = alt;
+  s.origin_latitude_deg = lat;
+  s.origin_longitude_deg = lon;
+  s.origin_altitude_m = alt;
   s.origin_valid = s.position_valid = true;
   return s;
 }
@@ -40,9 +42,13 @@ Navigator resumed(const VehicleState& s, const Params& p = {}) {
 
 Gnss fix(double north_mps = 17, double east_mps = 0, double down_mps = 0) {
   Gnss g;
-  g.latitude_deg = lat, g.longitude_deg = lon, g.altitude_m = alt + 70;
+  g.latitude_deg = lat;
+  g.longitude_deg = lon;
+  g.altitude_m = alt + 70;
   g.velocity_mps = {north_mps, east_mps, down_mps};
-  g.horizontal_std_m = 1, g.vertical_std_m = 2, g.speed_std_mps = 0.2;
+  g.horizontal_std_m = 1;
+  g.vertical_std_m = 2;
+  g.speed_std_mps = 0.2;
   g.fix = FixType::fix_3d;
   return g;
 }
@@ -195,7 +201,8 @@ TEST_CASE("near a magnetic pole the needle is not asked") {
   const Params p;
   const auto asked = [&](double at_lat, double at_lon) {
     VehicleState s = flying();
-    s.origin_latitude_deg = at_lat, s.origin_longitude_deg = at_lon;
+    s.origin_latitude_deg = at_lat;
+    s.origin_longitude_deg = at_lon;
     Navigator n = resumed(s, p);
     n.imu(still_omega, level_f, 10.0025, p);
     const Vector3d field = magnetic_field_ned(at_lat, at_lon, alt, 2026);
@@ -266,7 +273,8 @@ TEST_CASE("an alignment in the air begins after the gap, not with a fix of befor
 
 TEST_CASE("what is kept over a gap becomes unsure as a walk does: with the root of the time") {
   Params p;
-  p.accel_bias_std.value = 0.01, p.accel_bias_walk.value = 0.1;
+  p.accel_bias_std.value = 0.01;
+  p.accel_bias_walk.value = 0.1;
   VehicleState s = flying();
   Navigator n = resumed(s, p);
   n.imu(still_omega, level_f, 10.0025, p);
@@ -287,11 +295,13 @@ TEST_CASE("the magnetic field is that of the year which the receiver tells, also
   constexpr double there_lat = 55,
                    there_lon = -125;  // the declination goes west by a fifth of a degree a year
   VehicleState s = flying();
-  s.origin_latitude_deg = there_lat, s.origin_longitude_deg = there_lon;
+  s.origin_latitude_deg = there_lat;
+  s.origin_longitude_deg = there_lon;
   Navigator n = resumed(s, p);
   n.imu(still_omega, level_f, 10.0025, p);
   Gnss g = fix();
-  g.latitude_deg = there_lat, g.longitude_deg = there_lon;
+  g.latitude_deg = there_lat;
+  g.longitude_deg = there_lon;
   g.utc_ns = 1893456000'000'000'000 - 86400'000'000'000;  // a day before 2030
   n.gnss(g, n.time_s(), p);
   const Vector3d now = magnetic_field_ned(there_lat, there_lon, alt, decimal_year(g.utc_ns)),

@@ -21,12 +21,20 @@ constexpr double lat = 40.25, lon = -111.65, alt = 1387;
 VehicleState odd() {
   VehicleState s;
   s.attitude = from_eigen(quaternion_from({0.2, -0.1, 2.4}));
-  s.velocity_mps = {-12, 11, 1.5}, s.position_m = {130, -240, -75};
-  s.gyro_bias_radps = {0.01, -0.02, 0.03}, s.accel_bias_mps2 = {0.1, 0.2, -0.3};
-  s.wind_mps = {3, -4, 0}, s.wind_std_mps = {0.8, 1.7, 0};
-  s.origin_latitude_deg = lat, s.origin_longitude_deg = lon, s.origin_altitude_m = alt;
+  s.velocity_mps = {-12, 11, 1.5};
+  s.position_m = {130, -240, -75};
+  s.gyro_bias_radps = {0.01, -0.02, 0.03};
+  s.accel_bias_mps2 = {0.1, 0.2, -0.3};
+  s.wind_mps = {3, -4, 0};
+  s.wind_std_mps = {0.8, 1.7, 0};
+  s.origin_latitude_deg = lat;
+  s.origin_longitude_deg = lon;
+  s.origin_altitude_m = alt;
   s.origin_valid = s.position_valid = true;
-  s.reset_count = 4, s.reset_position_m = {1, 2, 3}, s.reset_velocity_mps = {4, 5, 6}, s.reset_yaw_rad = 0.7;
+  s.reset_count = 4;
+  s.reset_position_m = {1, 2, 3};
+  s.reset_velocity_mps = {4, 5, 6};
+  s.reset_yaw_rad = 0.7;
   return s;
 }
 Navigator resumed(const VehicleState& s, const Params& p = {}) {
@@ -41,9 +49,13 @@ Gnss fix_at(const Navigator& n, const Vector3d& off_m, const Vector3d& off_mps) 
   const LocalFrame frame(lat, lon, alt);
   const auto at = frame.from_ned(n.filter().state().p_n + off_m);
   Gnss g;
-  g.latitude_deg = at.lat_deg, g.longitude_deg = at.lon_deg, g.altitude_m = at.alt_m;
+  g.latitude_deg = at.lat_deg;
+  g.longitude_deg = at.lon_deg;
+  g.altitude_m = at.alt_m;
   g.velocity_mps = from_eigen<Ned>(Vector3d(n.filter().state().v_n + off_mps));
-  g.horizontal_std_m = 3, g.vertical_std_m = 6, g.speed_std_mps = 0.4;
+  g.horizontal_std_m = 3;
+  g.vertical_std_m = 6;
+  g.speed_std_mps = 0.4;
   g.fix = FixType::fix_3d;
   return g;
 }
@@ -134,7 +146,8 @@ TEST_CASE("a fix moves the position by the share of its variance, north and east
     const double P = std::pow(std_of(n, ekf::pos), 2), R = std_m * std_m,
                  B = std::pow(p.gnss_horizontal_std, 2);
     Gnss g = fix_at(n, {2, -3, 0}, Vector3d::Zero());
-    g.horizontal_std_m = std_m, g.speed_std_mps = 1e5;
+    g.horizontal_std_m = std_m;
+    g.speed_std_mps = 1e5;
     const Vector3d before = n.filter().state().p_n;
     n.gnss(g, 10.01, p);
     const Vector3d moved = n.filter().state().p_n - before;

@@ -48,7 +48,8 @@ TEST_CASE("a velocity that is believed after all is the one of when it was measu
   };
   f.watch = [&](const Truth&, const VehicleState& s, Status) {
     if (s.reset_count == count) return;
-    count = s.reset_count, set_mps = s.reset_velocity_mps.north;
+    count = s.reset_count;
+    set_mps = s.reset_velocity_mps.north;
   };
   f.run();
   REQUIRE(count == 1);
@@ -59,8 +60,11 @@ TEST_CASE("without a status and a fix a smooth flight is no rest when the tube f
   const auto speed_after = [](double airspeed_mps) {
     const Params p;
     VehicleState s;
-    s.velocity_mps = {17, 0, 0}, s.position_m = {0, 0, -70};
-    s.origin_latitude_deg = 40.25, s.origin_longitude_deg = -111.65, s.origin_altitude_m = 1387;
+    s.velocity_mps = {17, 0, 0};
+    s.position_m = {0, 0, -70};
+    s.origin_latitude_deg = 40.25;
+    s.origin_longitude_deg = -111.65;
+    s.origin_altitude_m = 1387;
     s.origin_valid = s.position_valid = true;
     Navigator n;
     n.resume(s, p, 10);

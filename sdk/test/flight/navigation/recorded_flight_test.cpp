@@ -139,7 +139,8 @@ TEST_CASE(
     north += s.wind_mps.north;
     east += s.wind_mps.east;
     const double steady = s.wind_mps.north - estimate.gust_north_mps;
-    mean += steady, squares += steady * steady;
+    mean += steady;
+    squares += steady * steady;
     ++n;
     CHECK_MESSAGE((s.attitude_valid && s.velocity_valid && s.position_valid && s.height_valid &&
                    s.airspeed_valid && s.wind_valid),
@@ -197,7 +198,8 @@ TEST_CASE("on a real flight ten and thirty seconds without GNSS stay within the 
     for (double t0 = 280; t0 <= 520; t0 += 30) {
       const Outage o = outage(*f, t0, duration);
       errors.push_back(o.error_m);
-      squares += o.error_m * o.error_m, claimed += o.claimed_m * o.claimed_m;
+      squares += o.error_m * o.error_m;
+      claimed += o.claimed_m * o.claimed_m;
     }
     std::sort(errors.begin(), errors.end());
     const double seconds = duration;

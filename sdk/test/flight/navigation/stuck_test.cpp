@@ -19,7 +19,9 @@ struct Worst {
     const Vector3d p = eigen(s.position_m) - x.p_n, v = eigen(s.velocity_mps) - x.v_n;
     const Euler e = euler_from(x.q_nb);
     const auto most = [](double& worst, double now) { worst = std::max(worst, std::abs(now)); };
-    most(level_m, p.head<2>().norm()), most(height_m, p.z()), most(velocity_mps, v.norm());
+    most(level_m, p.head<2>().norm());
+    most(height_m, p.z());
+    most(velocity_mps, v.norm());
     most(tilt_rad, std::hypot(wrap_pi(s.roll_rad - e.roll_rad), s.pitch_rad - e.pitch_rad));
     most(yaw_rad, wrap_pi(s.yaw_rad - e.yaw_rad));
     most(airspeed_mps, s.airspeed_mps - x.airspeed());

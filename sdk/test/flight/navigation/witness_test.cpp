@@ -36,7 +36,8 @@ struct Receiver {
   Vector2d p{30, -20}, v{12, -7};
   void fix(double extra_mps, double jump_m = 0, double dt = 0.2) {
     const Vector2d way = Vector2d(3, 4) / 5;  // neither north nor east
-    t += dt, p += dt * v + (dt * extra_mps + jump_m) * way;
+    t += dt;
+    p += dt * v + (dt * extra_mps + jump_m) * way;
     wander.fix(p, v, std_m, t);
   }
   void fixes(int n, double extra_mps) {
@@ -49,7 +50,8 @@ struct Tube {
   double noise = 0.05, std = 1, t = 0, otherwise = 17;
   TubeSteps steps{};
   void sample(double excess, double dt = 0.02) {
-    t += dt, steps.sampled(otherwise + excess, otherwise, noise, std, t);
+    t += dt;
+    steps.sampled(otherwise + excess, otherwise, noise, std, t);
   }
   void samples(int n, double excess) {
     for (int i = 0; i < n; ++i) sample(excess);
@@ -271,12 +273,16 @@ TEST_CASE("a tube steps by 1.2 m/s, by eight times its noise or by six times wha
 TEST_CASE("one odd sample, a ramp, a gap or a step of what the tube is compared with are no step of it") {
   Tube odd;
   odd.samples(20, 0);
-  odd.sample(5), odd.samples(20, 0);
-  odd.sample(5), odd.sample(-5), odd.sample(5);
+  odd.sample(5);
+  odd.samples(20, 0);
+  odd.sample(5);
+  odd.sample(-5);
+  odd.sample(5);
   CHECK_FALSE(odd.steps.stepped());
   Tube between;  // one sample on the way
   between.samples(20, 0);
-  between.sample(0.6), between.samples(2, 3);
+  between.sample(0.6);
+  between.samples(2, 3);
   CHECK_FALSE(between.steps.stepped());
   between.sample(3);
   CHECK(between.steps.stepped());
@@ -286,7 +292,8 @@ TEST_CASE("one odd sample, a ramp, a gap or a step of what the tube is compared 
   for (const double gap_s : {0.14, 0.16}) {
     Tube gap;
     gap.samples(20, 0);
-    gap.sample(3, gap_s), gap.samples(2, 3);
+    gap.sample(3, gap_s);
+    gap.samples(2, 3);
     CHECK(gap.steps.stepped() == (gap_s < 0.15));
   }
   Tube moved;
@@ -300,14 +307,16 @@ TEST_CASE("one odd sample, a ramp, a gap or a step of what the tube is compared 
   both.samples(10, 0);
   CHECK_FALSE(both.steps.stepped());
   Tube few;
-  few.samples(3, 0), few.samples(3, 5);  // six samples have no group before
+  few.samples(3, 0);
+  few.samples(3, 5);  // six samples have no group before
   CHECK_FALSE(few.steps.stepped());
 }
 
 TEST_CASE("a tube has stepped back when half of the step is left, and not before") {
   const auto after = [](double first, double second) {
     Tube tube;
-    tube.samples(20, 0), tube.samples(20, first);
+    tube.samples(20, 0);
+    tube.samples(20, first);
     CHECK(tube.steps.stepped());
     tube.samples(20, first + second);
     return tube.steps.stepped();
@@ -319,7 +328,9 @@ TEST_CASE("a tube has stepped back when half of the step is left, and not before
   CHECK(after(-3, 1.9));
   CHECK(after(3, 3));
   Tube twice;
-  twice.samples(20, 0), twice.samples(20, 3), twice.samples(20, 0);
+  twice.samples(20, 0);
+  twice.samples(20, 3);
+  twice.samples(20, 0);
   CHECK_FALSE(twice.steps.stepped());
   twice.samples(20, -3);
   CHECK(twice.steps.stepped());
@@ -342,7 +353,8 @@ TEST_CASE("a step of the tube is forgotten after half a minute, if what is left 
   for (const double step : {3.4, 3.6, -3.4, -3.6}) {
     CAPTURE(step);
     Tube tube{.std = 2};
-    tube.samples(60, 0), tube.samples(3, step);
+    tube.samples(60, 0);
+    tube.samples(3, step);
     REQUIRE(tube.steps.stepped());
     tube.samples(1490, step);
     CHECK(tube.steps.stepped());
@@ -359,14 +371,23 @@ TEST_CASE("a tube that creeps away is off beyond five deviations, and back after
       const double limit = 5 * std::max(std, 2.0);
       double e = 0;
       tube.samples(60, 0);
-      while (e < 40 && !tube.steps.off()) e += 0.02, tube.sample(side * e);  // 1 m/s2
-      CHECK(e == doctest::Approx(limit + 0.6).epsilon(0.01));                // the mean is 0.6 s behind
+      while (e < 40 && !tube.steps.off()) {
+        e += 0.02;
+        tube.sample(side * e);  // 1 m/s2
+      }
+      CHECK(e == doctest::Approx(limit + 0.6).epsilon(0.01));  // the mean is 0.6 s behind
       // Back for six seconds within two and a half deviations, and within what can be borne.
       const double agreed = std::min(2.5 * std, 3.5);
-      while (e > agreed + 0.2) e -= 0.02, tube.sample(side * e);
+      while (e > agreed + 0.2) {
+        e -= 0.02;
+        tube.sample(side * e);
+      }
       tube.samples(1000, side * e);
       CHECK(tube.steps.off());
-      while (e > agreed - 0.2) e -= 0.02, tube.sample(side * e);
+      while (e > agreed - 0.2) {
+        e -= 0.02;
+        tube.sample(side * e);
+      }
       const int n = count(
           1000, [&](int) { tube.sample(side * e); }, [&] { return !tube.steps.off(); });
       CHECK(std::abs(0.02 * n - 6) < 0.7);  // the mean comes within in the first of them
@@ -408,7 +429,8 @@ TEST_CASE("a field has changed beyond 15 %, is as before within 8 %, and what la
     CHECK(f.seconds(1, 1.15 * unit) == 50);  // 0.145: its mean is 0.3 s behind
     CHECK_FALSE(f.strength.changed());
     Field more, less;
-    more.seconds(20, unit), less.seconds(20, unit);
+    more.seconds(20, unit);
+    less.seconds(20, unit);
     const double mean_s = -0.3 * std::log(1 - 0.15 / 0.5);
     CHECK(std::abs(more.seconds(1, 1.5 * unit) * 0.02 - mean_s) < 0.021);
     CHECK(std::abs(less.seconds(1, 0.5 * unit) * 0.02 - mean_s) < 0.021);
@@ -419,7 +441,8 @@ TEST_CASE("a field has changed beyond 15 %, is as before within 8 %, and what la
     CHECK(more.seconds(400, 1.5 * unit) * 0.02 == doctest::Approx(180).epsilon(0.05));
     // What is no change is followed in half a minute.
     Field slow;
-    slow.seconds(20, unit), slow.seconds(30, 1.14 * unit);
+    slow.seconds(20, unit);
+    slow.seconds(30, 1.14 * unit);
     Field beyond = slow;
     CHECK(slow.seconds(3, 1.24 * unit) == 150);
     CHECK(beyond.seconds(3, 1.27 * unit) < 100);

@@ -33,11 +33,13 @@ struct MyLaw {
     if (path.kind == PathKind::line) {
       const double q_n = path.direction_ratio.north, q_e = path.direction_ratio.east;
       const double along = q_n * n + q_e * e + p.distance;
-      ahead_n = along * q_n - n, ahead_e = along * q_e - e;
+      ahead_n = along * q_n - n;
+      ahead_e = along * q_e - e;
     } else {
       const double side = path.turn == Turn::right ? 1 : -1, R = path.radius_m;
       const double azimuth = std::atan2(e, n) + side * std::min(p.distance / R, 2.0);
-      ahead_n = R * std::cos(azimuth) - n, ahead_e = R * std::sin(azimuth) - e;
+      ahead_n = R * std::cos(azimuth) - n;
+      ahead_e = R * std::sin(azimuth) - e;
     }
     const double eta = wrap_pi(std::atan2(ahead_e, ahead_n) - in.state->course_rad);
     const double a = 2 * Vg * Vg / p.distance * std::sin(std::clamp(eta, -1.5, 1.5));

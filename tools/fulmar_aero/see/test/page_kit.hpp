@@ -53,11 +53,18 @@ inline ReadChart read_chart(const std::string& figure) {
     REQUIRE(std::regex_search(one, m, text));
     if (m[3] == "xaxis") chart.x_words = m[4];
     if (m[3] == "yaxis") chart.y_words = m[4];
-    if (m[3] == "x") x_px.push_back(std::stod(m[1])), chart.x_marks.push_back(std::stod(m[4]));
-    if (m[3] == "y") y_px.push_back(std::stod(m[2]) - 4), chart.y_marks.push_back(std::stod(m[4]));
+    if (m[3] == "x") {
+      x_px.push_back(std::stod(m[1]));
+      chart.x_marks.push_back(std::stod(m[4]));
+    }
+    if (m[3] == "y") {
+      y_px.push_back(std::stod(m[2]) - 4);
+      chart.y_marks.push_back(std::stod(m[4]));
+    }
   }
   const AxisScale x = scale_of(x_px, chart.x_marks), y = scale_of(y_px, chart.y_marks);
-  chart.x_per_px = std::abs(x.per_place), chart.y_per_px = std::abs(y.per_place);
+  chart.x_per_px = std::abs(x.per_place);
+  chart.y_per_px = std::abs(y.per_place);
   for (const std::string& one : between(svg, "<path ", "/>")) {  // long: no regular expression
     const std::string kind = between(one, "class=\"", "\"").at(0), d = between(one, " d=\"", "\"").at(0);
     if (!kind.starts_with("line ") && !kind.starts_with("mark ")) continue;

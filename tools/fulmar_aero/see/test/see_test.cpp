@@ -62,7 +62,10 @@ TEST_CASE("trim curves lie where `trim --json` says") {
       // there is a point at that speed itself, but for half a pixel
       double nearest = 1e9, value = 0;
       for (const ChartPoint& p : chart.all("line s0").at(0).points())
-        if (std::abs(p.x - speed) < nearest) nearest = std::abs(p.x - speed), value = p.y;
+        if (std::abs(p.x - speed) < nearest) {
+          nearest = std::abs(p.x - speed);
+          value = p.y;
+        }
       CHECK(nearest < 0.5 * chart.x_per_px);
       CHECK(std::abs(value - wanted) < 0.5 * chart.y_per_px);
     }
@@ -204,7 +207,8 @@ TEST_CASE("a drawing whose surfaces are in another program's file is seen as if 
   double right = -10, left = 10, wing_tip_x = 10;  // y to the right along the page's x
   for (const ReadCurve& curve : above.all("line s0"))
     for (const ChartPoint& point : curve.points()) {
-      right = std::max(right, point.x), left = std::min(left, point.x);
+      right = std::max(right, point.x);
+      left = std::min(left, point.x);
       if (point.x > 1.099) wing_tip_x = std::min(wing_tip_x, std::abs(point.y));
     }
   CHECK(std::abs(right - 1.1) < 2 * above.x_per_px);

@@ -33,7 +33,10 @@ class SteadyAirspeed {
     const double pole = time_constant_s > 0 ? decay_.of(dt_s / time_constant_s) : 0;
     return y_ = airspeed_mps + pole * (y_ + airspeed_rate_mps2 * dt_s - airspeed_mps);
   }
-  double reset_to(double airspeed_mps) { return started_ = true, y_ = airspeed_mps; }
+  double reset_to(double airspeed_mps) {
+    started_ = true;
+    return y_ = airspeed_mps;
+  }
   void reset() { started_ = false; }
 
  private:

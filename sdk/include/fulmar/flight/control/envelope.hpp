@@ -31,8 +31,10 @@ struct WingEnvelope {
     const Aerodynamic aero(a);
     const double CL = trimmed_lift(aero, a, 0), slope = (trimmed_lift(aero, a, step) - CL) / step;
     if (!(slope > 0.5 && most.coefficient > 0.1 && most.alpha_rad > step)) return;
-    most_lift = most.coefficient, stall_alpha_rad = most.alpha_rad;
-    zero_alpha_rad = -CL / slope, share_per_rad = slope / most_lift;
+    most_lift = most.coefficient;
+    stall_alpha_rad = most.alpha_rad;
+    zero_alpha_rad = -CL / slope;
+    share_per_rad = slope / most_lift;
   }
 
   /// Of the most lift. Beyond the stall it goes on: how far the angle of attack is too large.
@@ -87,13 +89,20 @@ struct Envelope {
 
 class EnvelopeGuard {
  public:
-  void configure(const Airframe& a) { wing_ = WingEnvelope(a), configured_ = true; }
+  void configure(const Airframe& a) {
+    wing_ = WingEnvelope(a);
+    configured_ = true;
+  }
   bool configured() const { return configured_; }
 
   /// A hand-over, a reset of the state, flight on the ground: what was seen is over.
   void reset() {
-    lift_.reset(), gust_.reset(), gusty_.reset();
-    learnt_ = false, above_s_ = below_s_ = unloaded_s_ = falls_s_ = peak_ = 0, stalled_ = regains_ = false;
+    lift_.reset();
+    gust_.reset();
+    gusty_.reset();
+    learnt_ = false;
+    above_s_ = below_s_ = unloaded_s_ = falls_s_ = peak_ = 0;
+    stalled_ = regains_ = false;
   }
 
   double bank_max(double Va, const FlightLimits& limits, double density_kgm3) const {
@@ -206,7 +215,10 @@ class EnvelopeGuard {
                    double dt_s) {
     constexpr double learns_s = 1.5, forgets_s = 10, near_ratio = 1.25, most_ratio = 1.4;
     const double nominal = stall_mps * stall_mps;
-    if (!learnt_) learnt_ = true, stall_squared_.reset_to(nominal);
+    if (!learnt_) {
+      learnt_ = true;
+      stall_squared_.reset_to(nominal);
+    }
     const bool near = V_ * V_ * load < near_ratio * near_ratio * e.slowest_mps * e.slowest_mps;
     const double seen = near ? V_ * V_ * std::clamp(used(), 0.0, 2.0) / load : nominal;
     const double squared = load * stall_squared_.step(seen, near ? learns_s : forgets_s, dt_s);

@@ -34,7 +34,9 @@ class OuterCommands {
   /// trim and is not taken up.
   void start(OuterLaw law, const VehicleState& state, const AttitudeCommand& last) {
     taking_up_ = !(started_ && law_ == OuterLaw::takeoff);
-    law_ = law, last_ = last, started_ = true;
+    law_ = law;
+    last_ = last;
+    started_ = true;
     course_.reset_to(last.roll_rad);
     pitch_.reset_to(last.pitch_rad);
     throttle_.reset_to(last.throttle_frac);
@@ -65,7 +67,8 @@ class OuterCommands {
   /// `sense` in what is asked for: level.
   OuterAction begin(OuterLaw law, const VehicleState& state, bool sense = true) {
     if (!started_) {  // nobody flew before: there is nothing to go on from
-      law_ = law, started_ = true;
+      law_ = law;
+      started_ = true;
       run_.begin(state);
     }
     if (law != law_) start(law, state, last_);

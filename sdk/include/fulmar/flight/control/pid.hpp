@@ -44,7 +44,10 @@ class Pid {
     integral_ = std::clamp(output - direct, -integral_limit, integral_limit);
     saturated_ = false;
   }
-  void reset() { integral_ = 0, saturated_ = false; }
+  void reset() {
+    integral_ = 0;
+    saturated_ = false;
+  }
 
   double integral() const { return integral_; }  ///< in units of the output
   bool saturated() const { return saturated_; }  ///< at a limit, or kept from growing into one

@@ -11,7 +11,10 @@ namespace fulmar {
 class Decay {
  public:
   double of(double x) {
-    if (x != x_) x_ = x, decay_ = std::exp(-x);
+    if (x != x_) {
+      x_ = x;
+      decay_ = std::exp(-x);
+    }
     return decay_;
   }
 
@@ -27,8 +30,14 @@ class LowPass {
     const double pole = time_constant_s > 0 ? decay_.of(dt_s / time_constant_s) : 0;
     return y_ = pole * y_ + (1 - pole) * u;
   }
-  double reset_to(double y) { return started_ = true, y_ = y; }
-  void reset() { started_ = false, y_ = 0; }
+  double reset_to(double y) {
+    started_ = true;
+    return y_ = y;
+  }
+  void reset() {
+    started_ = false;
+    y_ = 0;
+  }
   double value() const { return y_; }
 
  private:
@@ -52,9 +61,15 @@ class WashOut {
     return y_;
   }
   double reset_to(double u) {
-    return started_ = true, u_ = u, y_ = 0;
+    started_ = true;
+    u_ = u;
+    return y_ = 0;
   }  ///< `u` counts as having stayed for ever
-  void reset() { started_ = false, u_ = 0, y_ = 0; }
+  void reset() {
+    started_ = false;
+    u_ = 0;
+    y_ = 0;
+  }
   double value() const { return y_; }
 
  private:
@@ -77,8 +92,16 @@ class SecondOrder {
     rate_ = decay * (v * (c - z * w * s) - e * w * w * s);
     return y_;
   }
-  double reset_to(double y) { return started_ = true, rate_ = 0, y_ = y; }
-  void reset() { started_ = false, y_ = 0, rate_ = 0; }
+  double reset_to(double y) {
+    started_ = true;
+    rate_ = 0;
+    return y_ = y;
+  }
+  void reset() {
+    started_ = false;
+    y_ = 0;
+    rate_ = 0;
+  }
   double value() const { return y_; }
   double rate() const { return rate_; }
 
@@ -109,8 +132,14 @@ class RateLimiter {
     if (!started_) return reset_to(u);
     return y_ = std::clamp(u, y_ + fall_rate * dt_s, y_ + rise_rate * dt_s);
   }
-  double reset_to(double y) { return started_ = true, y_ = y; }
-  void reset() { started_ = false, y_ = 0; }
+  double reset_to(double y) {
+    started_ = true;
+    return y_ = y;
+  }
+  void reset() {
+    started_ = false;
+    y_ = 0;
+  }
   double value() const { return y_; }
 
  private:

@@ -235,7 +235,10 @@ struct Health {
   }
 
   /// A sample was left out, as its stamp lies before that of the last one.
-  void early(const Imu&, double now_s) { gyro.arrivals.early(now_s), accel.arrivals.early(now_s); }
+  void early(const Imu&, double now_s) {
+    gyro.arrivals.early(now_s);
+    accel.arrivals.early(now_s);
+  }
   void early(const Mag&, double now_s) { heading.arrivals.early(now_s); }
   void early(const Baro&, double now_s) { baro.arrivals.early(now_s); }
   void early(const Pitot&, double now_s) { pitot.arrivals.early(now_s); }

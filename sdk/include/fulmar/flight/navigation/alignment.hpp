@@ -100,7 +100,11 @@ class FieldDrift {
   void add(const Vector3d& y, const Quaterniond& q, const Vector3d& field_b, double time_s) {
     const Matrix3d rate = q.toRotationMatrix() * skew(field_b);
     if (n_ > 0) G_ += 0.5 * (time_s - last_s_) * (rate + rate_);
-    if (n_ == 0) first_s_ = time_s, y0_ = y, q0_ = q;
+    if (n_ == 0) {
+      first_s_ = time_s;
+      y0_ = y;
+      q0_ = q;
+    }
     rate_ = rate;
     last_s_ = time_s;
     turned_rad_ = q0_.angularDistance(q);

@@ -140,8 +140,10 @@ struct Ekf {
   }
   /// What comes without an inertial sample beside it is not used, but it came.
   void missed(const Inputs& in, const Tick& tick) {
-    take(in.mag, mag_ns_, tick), take(in.baro, baro_ns_, tick);
-    take(in.gnss, gnss_ns_, tick), take(in.pitot, pitot_ns_, tick);
+    take(in.mag, mag_ns_, tick);
+    take(in.baro, baro_ns_, tick);
+    take(in.gnss, gnss_ns_, tick);
+    take(in.pitot, pitot_ns_, tick);
   }
   void sensors(const Inputs& in, const Tick& tick, const Params& p) {
     if (take(in.mag, mag_ns_, tick)) navigator_.mag(eigen(in.mag->field_tesla), p);
@@ -390,8 +392,10 @@ inline void Ekf::fill_wind_deviations(const Params& p) {
   if (T > 0 && navigator_.airborne()) {
     const double speed = g.std_mps(p) * -std::expm1(-T / tau), way = 0.5 * speed * T;
     const auto wider = [](double& std, double more) { std = std::hypot(std, more); };
-    wider(s.velocity_std_mps.north, speed), wider(s.velocity_std_mps.east, speed);
-    wider(s.position_std_m.north, way), wider(s.position_std_m.east, way);
+    wider(s.velocity_std_mps.north, speed);
+    wider(s.velocity_std_mps.east, speed);
+    wider(s.position_std_m.north, way);
+    wider(s.position_std_m.east, way);
   }
   const Vector3d u_n = ekf::air_velocity(f.state());
   const Eigen::Vector2d gust = g.covariance().diagonal().cwiseSqrt(),

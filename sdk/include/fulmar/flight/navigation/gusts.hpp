@@ -169,8 +169,10 @@ class MeanWindError {
     const double dt = std::clamp(time_s - time_s_, 0.0, 1e3);
     time_s_ = time_s;
     const double phi = gust_decay_.of(dt / tau_s), own = own_decay_.of(dt / p.gust_time);
-    M_.middleRows<2>(2) *= phi, M_.middleCols<2>(2) *= phi;
-    M_.row(4) *= own, M_.col(4) *= own;
+    M_.middleRows<2>(2) *= phi;
+    M_.middleCols<2>(2) *= phi;
+    M_.row(4) *= own;
+    M_.col(4) *= own;
     M_.diagonal().segment<2>(2).array() += std * std * (1 - phi * phi);
   }
 

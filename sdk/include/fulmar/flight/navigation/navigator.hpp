@@ -186,13 +186,7 @@ class Navigator {
 
   bool at_stop() const { return time_s_ - clipped_s_ < clipped_for_s; }  ///< or was a moment ago
   /// A sample that is held at a stop has no noise of its own, and what went past it is not over when it is.
-  void learn_noise(const Vector3d& omega_b, const Vector3d& f_b, double dt, const Params& p) {
-    if (health_.rates.was_clipped() || health_.forces.was_clipped()) clipped_s_ = time_s_;
-    const bool told = at_stop();
-    if (!told) gyro_noise_.sampled(omega_b, dt), accel_noise_.sampled(f_b, dt);
-    filter_.noise.gyro = told ? p.gyro_noise.value : gyro_noise_.density(p.gyro_noise);
-    filter_.noise.accel = told ? p.accel_noise.value : accel_noise_.density(p.accel_noise);
-  }
+  void learn_noise(const Vector3d& omega_b, const Vector3d& f_b, double dt, const Params& p);
   /// One inertial sample, valid at `time_s`. False: it is not newer than the last one and was ignored.
   bool imu(const Vector3d& omega_b, const Vector3d& f_b, double time_s, const Params& p) {
     const double dt = time_s - time_s_;

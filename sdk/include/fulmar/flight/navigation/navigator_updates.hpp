@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the navigator (navigator.hpp) does with each sample of GNSS and magnetometer; navigator_air.hpp has
-// barometer and pitot tube.
+// What the navigator (navigator.hpp) does with each sample of GNSS and magnetometer, and the noise of the
+// inertial unit; navigator_air.hpp has barometer and pitot tube.
 #pragma once
 #include <utility>
 
@@ -24,6 +24,17 @@ inline void Navigator::doubt(std::initializer_list<int> parts, double std, Aid& 
   for (const int i : parts)
     filter_.inflate(i, 1, std::sqrt(std::max(std * std - filter_.std(i) * filter_.std(i), 0.0)));
   aid.refused_from_s = never;
+}
+
+inline void Navigator::learn_noise(const Vector3d& omega_b, const Vector3d& f_b, double dt, const Params& p) {
+  if (health_.rates.was_clipped() || health_.forces.was_clipped()) clipped_s_ = time_s_;
+  const bool told = at_stop();
+  if (!told) {
+    gyro_noise_.sampled(omega_b, dt);
+    accel_noise_.sampled(f_b, dt);
+  }
+  filter_.noise.gyro = told ? p.gyro_noise.value : gyro_noise_.density(p.gyro_noise);
+  filter_.noise.accel = told ? p.accel_noise.value : accel_noise_.density(p.accel_noise);
 }
 
 /// Origin by averaging on the ground, by the first fix in the air.

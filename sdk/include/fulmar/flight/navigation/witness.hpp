@@ -69,7 +69,9 @@ class Wander {
     const double dt = time_s - time_s_;
     const bool known = !std::exchange(missed_, false);
     const Eigen::Vector2d step = known ? p_n - p_n_ - 0.5 * dt * (v_n + v_n_) : Eigen::Vector2d(0, 0);
-    time_s_ = time_s, p_n_ = p_n, v_n_ = v_n;
+    time_s_ = time_s;
+    p_n_ = p_n;
+    v_n_ = v_n;
     if (!(dt > 0 && dt < longest_s && step.norm() < jump * std_m)) {
       off_.setZero();
       wanders_ = false;
@@ -107,8 +109,13 @@ class BaroStep {
   std::optional<double> sampled(double innovation_m, double std_m, bool accepted, double time_s) {
     const bool at_once =
         took_ && time_s - time_s_ < longest_s && std::abs(innovation_m - before_m_) > most * std_m;
-    took_ = accepted, time_s_ = time_s, before_m_ = innovation_m;
-    if (at_once) since_s_ = time_s, count_ = 0;
+    took_ = accepted;
+    time_s_ = time_s;
+    before_m_ = innovation_m;
+    if (at_once) {
+      since_s_ = time_s;
+      count_ = 0;
+    }
     if (accepted) since_s_ = never;
     if (!may_be()) return std::nullopt;
     mean_m_ += (innovation_m - mean_m_) / ++count_;

@@ -81,7 +81,10 @@ struct Curve {
     double least = square(0);
     for (int i = 1; i <= places; ++i) {
       const double d = square(static_cast<double>(i) / places);
-      if (d < least) least = d, best = i;
+      if (d < least) {
+        least = d;
+        best = i;
+      }
     }
     double from = std::max(best - 1, 0) / double{places}, to = std::min(best + 1, places) / double{places};
     constexpr double golden = 0.6180339887498949;

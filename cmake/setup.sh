@@ -51,7 +51,7 @@ configure_and_build() {
   NINJA_STATUS="[%f/%t, %e s] " ninja -C "$folder" "${targets[@]}"
 }
 
-# What the hourglass mission needs: the host and eight plugins.
+# What the hourglass mission needs: the host and the plugins that it names.
 build_first() {
   configure_and_build build -- first_flight
 }

@@ -105,7 +105,7 @@ function(fulmar_test name)
   endif()
   # The sanitizers see these plugins and the headers under them when other tests fly them; their own tests are hours of flight.
   if(FULMAR_SANITIZE AND NOT FULMAR_ALL_TESTS
-     AND (name MATCHES "^(navigation|sim)_test$" OR CMAKE_CURRENT_SOURCE_DIR MATCHES "/plugins/(sim_aero|path|control_slc|control_tecs|score)$"))
+     AND (name MATCHES "^(navigation|sim)_test$" OR CMAKE_CURRENT_SOURCE_DIR MATCHES "/plugins/(sim_aero|path|control_slc|control_tecs|control_manual|signal|safety|score)$"))
     return()
   endif()
   cmake_parse_arguments(arg "REAL_TIME;ALONE;WAITS;FLIES;THREADS" "COST;ENVIRONMENT" "LINK;PARTS" ${ARGN})

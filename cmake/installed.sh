@@ -4,10 +4,15 @@
 # written, built with warnings as errors, tested and flown. The packages hold the same files, programs without their symbols. In each, a
 # plugin for one role is written and flown; a plugin is built by pkg-config alone; the debugger stops in a plugin in flight; the model as a
 # library flies from C++ and from Python.
-#   installed.sh [BUILD]
+#   installed.sh [--one] [BUILD]     --one: the prefix and the plugin for one role alone
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
+one=
+if [ "${1:-}" = --one ]; then
+  one=yes
+  shift
+fi
 build=$PWD/${1:-build}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -193,6 +198,13 @@ page() {
   wait "$flight" 2>/dev/null || true
   [[ "$got" == *page.js* ]] || fail "the installed host does not serve the page"
 }
+
+if [ -n "$one" ]; then
+  quietly cmake --install "$build" --prefix "$scratch/prefix"
+  mkdir "$scratch/work" && cd "$scratch/work"
+  project "$scratch/prefix" my_outer "" --role outer
+  exit 0
+fi
 
 echo "hardening"
 bash cmake/hardening.sh "$build"

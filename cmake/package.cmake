@@ -4,8 +4,23 @@ set(shipped fulmar_tables fulmar_records fulmar_tick fulmar_core fulmar_live_wor
 foreach(target IN LISTS shipped)
   if(TARGET ${target})
     fulmar_harden(${target})
+    get_target_property(type ${target} TYPE)
+    if(type MATCHES "EXECUTABLE|MODULE|SHARED" AND NOT target STREQUAL fulmar_module)
+      list(APPEND shipped_files $<TARGET_FILE:${target}>)
+    endif()
   endif()
 endforeach()
+# A build that ./fly began and did not end is installed without the rest, and says so.
+install(CODE "foreach(file ${shipped_files})
+  if(NOT EXISTS \"\${file}\")
+    get_filename_component(name \"\${file}\" NAME)
+    list(APPEND absent \${name})
+  endif()
+endforeach()
+if(absent)
+  list(JOIN absent \" \" absent)
+  message(STATUS \"Not installed, because not built: \${absent}. To build them: cmake --build build --target flight tools\")
+endif()")
 
 # Hardware: the unit that flies a mission, its account, the name of the serial port. Literal lib/: where systemd and udev look.
 install(FILES cmake/systemd/fulmar@.service DESTINATION lib/systemd/system)

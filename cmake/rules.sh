@@ -37,4 +37,11 @@ for folder in $(git ls-files 'core/*.cpp' 'tools/*.cpp' 'plugins/*.cpp' | grep -
   done | sort | awk '$1 == "main" { next } $1 == last { print $1 ": " file ", " $2 } { last = $1; file = $2 }'
 done | refuse "A name is given once in a folder:"
 python3 cmake/mutate.py --only-list 2>&1 | refuse "Each listed fault has a place of its own:"
+# Subjects of commits since the first one that this rule is asked of: `area: verb what`. A clone without it, a shallow one, has nothing to ask.
+first=d2c08a6718df44440e1e08a9b19a3b70e239fb27
+if git merge-base --is-ancestor "$first" HEAD 2>/dev/null; then
+  git log --no-merges --format='%h %s' "$first..HEAD" | grep -vE '^[0-9a-f]+ [a-z0-9_./-]+(, [a-z0-9_./-]+)*: [a-z][^ ]* .' |
+    refuse "The subject of a commit is 'area: verb what' (CONTRIBUTING.md):"
+  git log --no-merges --format='%s' "$first..HEAD" | awk 'length($0) > 72 { print length($0) ": " $0 }' | refuse "The subject of a commit has at most 72 characters:"
+fi
 exit $bad

@@ -7,10 +7,10 @@ packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libyaml-cpp-de
 # Without these the plugin for Python and its module are left out.
 python_packages=(python3 python3-dev pybind11-dev python3-numpy)
 
-# The page of a running flight is made with these; without them all else is there.
-install_page_packages() {
-  command -v npm >/dev/null || command -v apt-get >/dev/null || return 0
+# The page of a running flight and components in Python need these; without them all else is there.
+install_optional_packages() {
   command -v npm >/dev/null || ( install_missing nodejs npm ) || echo "No nodejs and npm: Fulmar is built without the page of a flight." >&2
+  ( install_missing "${python_packages[@]}" ) || echo "Without ${python_packages[*]} Fulmar is built without components in Python." >&2
 }
 
 # Installs those of the named packages that are missing. Needs root or sudo only when there is something to install.
@@ -33,7 +33,7 @@ install_missing() {
 install_packages() {
   command -v apt-get >/dev/null || { echo "No apt-get here: install ${packages[*]} by hand." >&2; return 0; }
   install_missing "${packages[@]}"
-  install_page_packages
+  install_optional_packages
 }
 
 # configure_and_build FOLDER [cmake option...] -- [ninja target...]
@@ -48,10 +48,20 @@ configure_and_build() {
     echo "Configuring $folder"
     cmake -S . -B "$folder" -G Ninja "${options[@]}" >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log"; exit 1; }
   fi
-  NINJA_STATUS="[%f/%t] " ninja -C "$folder" "${targets[@]}"
+  NINJA_STATUS="[%f/%t, %e s] " ninja -C "$folder" "${targets[@]}"
 }
 
-# What a flight needs: the host and the plugins, without tests.
-build_all() {
-  configure_and_build build -- flight tools
+# What the hourglass mission needs: the host and the plugins that it names.
+build_first() {
+  configure_and_build build -- first_flight
+}
+
+# What the build leaves out, each with the packages that it needs; empty where it leaves out nothing.
+left_out() { grep -hE 'is left out: |^-- No page of the flight: ' build/configure.log | sed 's/^-- //'; }
+
+# All that flies and the programs for the ground, without tests. Configures again where packages were missing: they may be there now.
+build_rest() {
+  if left_out >/dev/null; then cmake -S . -B build >build/configure.log 2>&1 || { cat build/configure.log; return 1; }; fi
+  configure_and_build build -- flight tools || return
+  left_out || true
 }

@@ -242,7 +242,7 @@ class Terminal:
         self.home, self.limit_s = home, limit_s
         self.state = home / ".state"
         (home / "fulmar").symlink_to(prefix)
-        keep = ("CCACHE_DIR", "CC", "CXX", "ASAN_OPTIONS", "UBSAN_OPTIONS")
+        keep = ("CCACHE_DIR", "CCACHE_BASEDIR", "CCACHE_NOHASHDIR", "CMAKE_CXX_COMPILER_LAUNCHER", "CC", "CXX", "ASAN_OPTIONS", "UBSAN_OPTIONS")
         environment = {name: os.environ[name] for name in keep if name in os.environ}
         ccache = pathlib.Path(os.environ.get("XDG_CACHE_HOME", os.path.expanduser("~/.cache"))) / "ccache"
         environment.setdefault("CCACHE_DIR", str(ccache))
@@ -396,7 +396,8 @@ class Page:
 
 def do_page(path, prefix, given):
     """What went wrong, or ""."""
-    home = pathlib.Path(tempfile.mkdtemp(prefix="fulmar-page-"))
+    # Beside the prefix, so that the path from one to the other is the same in each run: ccache keeps what was compiled.
+    home = pathlib.Path(tempfile.mkdtemp(prefix="fulmar-page-", dir=None if given.keep else given.homes))
     terminal = Terminal(home, prefix, given.limit)
     page, begin, fault = Page(path, terminal, given), time.monotonic(), ""
     try:
@@ -437,10 +438,11 @@ def main(arguments=None):
     parser.add_argument("pages", nargs="*", default=default_pages())
     given = parser.parse_args(arguments)
     with contextlib.ExitStack() as stack:
+        given.homes = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="fulmar-pages-")))
         if given.prefix:
             prefix = pathlib.Path(given.prefix).resolve()
         else:
-            prefix = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="fulmar-prefix-")))
+            prefix = given.homes / "prefix"
             subprocess.run(["cmake", "--install", given.build, "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
         with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
             faults = list(pool.map(lambda page: do_page(page, prefix, given), given.pages))

@@ -10,8 +10,10 @@
 #include <cfenv>
 #include <cstring>
 #include <random>
+#include <span>
 #include <sstream>
 
+#include "core/loader/build_id.hpp"
 #include "tools/fulmar_inspect/inspect.hpp"
 #include "workshop.hpp"
 
@@ -355,6 +357,23 @@ TEST_CASE("the field tables tell kind, unit, frame and place") {
   CHECK(text.find("  position_m        Vec3  m     ned    8\n") != std::string::npos);
   CHECK(text.find("  position_m.north  f64   m            8\n") != std::string::npos);
   CHECK(text.find("  mode              enum               32    idle, glide\n") != std::string::npos);
+}
+
+TEST_CASE("notes are read with their padding, and bent ones give nothing") {
+  // two notes, the first of another owner with 3 bytes of content: the second begins at the next multiple of
+  // 4
+  const unsigned char notes[] = {4, 0, 0, 0, 3, 0, 0, 0, 9, 0, 0, 0, 'X', 'Y', 'Z', 0,   1, 2,    3,
+                                 0, 4, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0,   'G', 'N', 'U', 0, 0xab, 0x0c};
+  const auto bytes = std::as_bytes(std::span(notes));
+  CHECK(build_id_in_notes(bytes) == "ab0c");
+  CHECK(build_id_in_notes(bytes.first(bytes.size() - 1)) == "");
+  CHECK(build_id_in_notes(bytes.first(30)) == "");
+  CHECK(build_id_in_notes({}) == "");
+  unsigned char huge[sizeof notes];
+  std::copy(std::begin(notes), std::end(notes), huge);
+  huge[3] = 0xff;  // a name of 4 GB
+  CHECK(build_id_in_notes(std::as_bytes(std::span(huge))) == "");
+  CHECK(build_id(bytes) == "");
 }
 
 }  // namespace library_test

@@ -7,11 +7,8 @@
 #include <spawn.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <clocale>
 #include <csignal>
-#include <cstdarg>
 #include <cstring>
 
 #include "core/original.hpp"
@@ -80,25 +77,6 @@ bool refuse_process(const char* call) noexcept {
 
 bool refuse_fork(const char* call) noexcept { return refuse(call, true, copy_would_fly); }
 
-using Words = char* const*;
-
-/// The words of a function with dots, as those without take them. On the stack: between a fork and an exec
-/// nothing allocates.
-struct WordList {
-  std::array<char*, 1000> at;
-
-  /// False when there are too many. What `more` holds behind them comes next in it.
-  bool gather(const char* first, std::va_list* more) noexcept {
-    std::size_t n = 0;
-    for (const char* word = first; n < at.size(); word = va_arg(*more, const char*)) {
-      at[n++] = const_cast<char*>(word);
-      if (word == nullptr) return true;
-    }
-    errno = E2BIG;
-    return false;
-  }
-};
-
 template <class Function>
 Function behind(const char* name) noexcept {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
@@ -113,34 +91,8 @@ using fulmar::core::refuse_fork;
 using fulmar::core::behind;
 using fulmar::core::refuse;
 using fulmar::core::refuse_process;
-using fulmar::core::WordList;
-using fulmar::core::Words;
 
 extern "C" {
-
-int chdir(const char* path) noexcept {
-  if (refuse("chdir")) return errno = EPERM, -1;
-  static const auto next = behind<int (*)(const char*)>("chdir");
-  return next(path);
-}
-
-int fchdir(int folder) noexcept {
-  if (refuse("fchdir")) return errno = EPERM, -1;
-  static const auto next = behind<int (*)(int)>("fchdir");
-  return next(folder);
-}
-
-char* setlocale(int category, const char* locale) noexcept {
-  if (refuse("setlocale", locale != nullptr)) return nullptr;
-  static const auto next = behind<char* (*)(int, const char*)>("setlocale");
-  return next(category, locale);
-}
-
-locale_t uselocale(locale_t locale) noexcept {
-  if (refuse("uselocale", locale != nullptr)) return errno = EPERM, nullptr;
-  static const auto next = behind<locale_t (*)(locale_t)>("uselocale");
-  return next(locale);
-}
 
 int sigprocmask(int how, const sigset_t* set, sigset_t* old) noexcept {
   if (refuse("sigprocmask", set != nullptr)) return errno = EPERM, -1;
@@ -164,67 +116,6 @@ sighandler_t signal(int number, sighandler_t handler) noexcept {
   if (refuse("signal")) return errno = EPERM, SIG_ERR;
   static const auto next = behind<sighandler_t (*)(int, sighandler_t)>("signal");
   return next(number, handler);
-}
-
-int execve(const char* file, char* const words[], char* const environment[]) noexcept {
-  if (refuse("execve")) return errno = EPERM, -1;
-  static const auto next = behind<int (*)(const char*, char* const[], char* const[])>("execve");
-  return next(file, words, environment);
-}
-
-int execv(const char* file, char* const words[]) noexcept {
-  if (refuse("execv")) return errno = EPERM, -1;
-  static const auto next = behind<int (*)(const char*, char* const[])>("execv");
-  return next(file, words);
-}
-
-int execvp(const char* file, char* const words[]) noexcept {
-  if (refuse("execvp")) return errno = EPERM, -1;
-  static const auto next = behind<int (*)(const char*, char* const[])>("execvp");
-  return next(file, words);
-}
-
-int execvpe(const char* file, char* const words[], char* const environment[]) noexcept {
-  if (refuse("execvpe")) return errno = EPERM, -1;
-  static const auto next = behind<int (*)(const char*, Words, Words)>("execvpe");
-  return next(file, words, environment);
-}
-
-int fexecve(int file, char* const words[], char* const environment[]) noexcept {
-  if (refuse("fexecve")) return errno = EPERM, -1;
-  static const auto next = behind<int (*)(int, Words, Words)>("fexecve");
-  return next(file, words, environment);
-}
-
-int execl(const char* file, const char* first, ...) noexcept {
-  if (refuse("execl")) return errno = EPERM, -1;
-  WordList words;
-  std::va_list more;
-  va_start(more, first);
-  const bool all = words.gather(first, &more);
-  va_end(more);
-  return all ? execv(file, words.at.data()) : -1;
-}
-
-int execlp(const char* file, const char* first, ...) noexcept {
-  if (refuse("execlp")) return errno = EPERM, -1;
-  WordList words;
-  std::va_list more;
-  va_start(more, first);
-  const bool all = words.gather(first, &more);
-  va_end(more);
-  return all ? execvp(file, words.at.data()) : -1;
-}
-
-int execle(const char* file, const char* first, ...) noexcept {
-  if (refuse("execle")) return errno = EPERM, -1;
-  WordList words;
-  std::va_list more;
-  va_start(more, first);
-  const bool all = words.gather(first, &more);
-  const Words environment = all ? va_arg(more, Words) : nullptr;
-  va_end(more);
-  return all ? execve(file, words.at.data(), environment) : -1;
 }
 
 int posix_spawn(pid_t* process, const char* file, const posix_spawn_file_actions_t* actions,

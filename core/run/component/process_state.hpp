@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a component must leave as it is while it flies: the floating-point mode of the thread, and of the
-// process the working directory, the locale, the signal mask, what signals do, and the program itself. All of
-// that is everybody's.
+// What a component must leave as it is while it flies: the floating-point mode and the signal mask of the
+// thread, and what signals do. The host shares all of that.
 #pragma once
 #include <cstdint>
 
@@ -11,7 +10,8 @@
 
 namespace fulmar::core {
 
-/// The call that was refused to the component whose code runs in this thread, as in "chdir"; nullptr: none.
+/// The call that was refused to the component whose code runs in this thread, as in "sigaction"; nullptr:
+/// none.
 extern constinit thread_local const char* refused_call;
 /// Such calls are refused now: a component flies in this thread.
 extern constinit thread_local bool refuses_calls;

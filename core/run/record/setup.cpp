@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/log/sbom.hpp"
 #include "core/run/record/flown_plugin.hpp"
 #include "core/run/record/recorder.hpp"
 #include "core/run/state/published.hpp"
@@ -194,13 +193,10 @@ void Recorder::attach_texts(const Units& units) {
   for (const int i : graph.order) order += nth(graph.components, i).name + "\n";
   log_->attach("order.txt", "text/plain", order);
   Pairs plugins;
-  std::vector<const PluginInfo*> loaded;
   for (const Component& c : graph.components) {
     const PluginInfo& p = *c.plugin;
     for (const auto& [key, value] : flown_pairs(p)) plugins.emplace_back(c.name + "." + key, value);
-    if (std::find(loaded.begin(), loaded.end(), &p) == loaded.end()) loaded.push_back(&p);
   }
-  log_->attach("sbom.json", "application/json", sbom_text(loaded));
   log_->metadata("plugins", plugins);
   log_->metadata("overrides", overrides_text(graph.overrides));
   log_->metadata("fulmar",

@@ -10,7 +10,6 @@
 #include <atomic>
 #include <cfenv>
 #include <chrono>
-#include <clocale>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -45,12 +44,9 @@ enum class Fault : std::uint8_t {
   divides,
   quits,
   rounds,
-  moves,
-  speaks,
   masks,
   deafens,
   listens,
-  replaces,
   fosters,
   spawns,
   raises_usr1,
@@ -207,8 +203,6 @@ struct Law {
 #endif
         break;
       }
-      case Fault::moves: std::ignore = chdir("/"); break;
-      case Fault::speaks: std::setlocale(LC_ALL, "C"); break;
       case Fault::masks: {
         sigset_t all;
         sigfillset(&all);
@@ -220,19 +214,6 @@ struct Law {
         struct sigaction action {};
         action.sa_handler = SIG_IGN;
         sigaction(SIGSEGV, &action, nullptr);
-        break;
-      }
-      case Fault::replaces: {
-        char name[] = "false";
-        char* const words[] = {name, nullptr};
-        execve("/bin/false", words, environ);
-        execvp("false", words);
-        execvpe("false", words, environ);
-        execl("/bin/false", "false", nullptr);
-        execlp("false", "false", nullptr);
-        execle("/bin/false", "false", nullptr, environ);
-        fexecve(open("/bin/false", O_RDONLY | O_CLOEXEC), words, environ);
-        execv("/bin/false", words);
         break;
       }
       case Fault::fosters: {  // a process of its own, in which it may do as it likes

@@ -95,7 +95,10 @@ using fulmar::core::refuse_process;
 extern "C" {
 
 int sigprocmask(int how, const sigset_t* set, sigset_t* old) noexcept {
-  if (refuse("sigprocmask", set != nullptr)) return errno = EPERM, -1;
+  if (refuse("sigprocmask", set != nullptr)) {
+    errno = EPERM;
+    return -1;
+  }
   static const auto next = behind<int (*)(int, const sigset_t*, sigset_t*)>("sigprocmask");
   return next(how, set, old);
 }
@@ -107,13 +110,19 @@ int pthread_sigmask(int how, const sigset_t* set, sigset_t* old) noexcept {
 }
 
 int sigaction(int number, const struct sigaction* action, struct sigaction* old) noexcept {
-  if (refuse("sigaction", action != nullptr)) return errno = EPERM, -1;
+  if (refuse("sigaction", action != nullptr)) {
+    errno = EPERM;
+    return -1;
+  }
   static const auto next = behind<int (*)(int, const struct sigaction*, struct sigaction*)>("sigaction");
   return next(number, action, old);
 }
 
 sighandler_t signal(int number, sighandler_t handler) noexcept {
-  if (refuse("signal")) return errno = EPERM, SIG_ERR;
+  if (refuse("signal")) {
+    errno = EPERM;
+    return SIG_ERR;
+  }
   static const auto next = behind<sighandler_t (*)(int, sighandler_t)>("signal");
   return next(number, handler);
 }

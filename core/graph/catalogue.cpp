@@ -88,14 +88,15 @@ FoundPlugin PluginCatalogue::open(const std::string& name) {
   if (code) key = file;
   const auto it = opened_.find(key);
   if (it != opened_.end()) return it->second;
-  const Expected expected = admit ? admit(file) : Expected{};
-  // a script runs inside the plugin that hosts its language: that one needs leave too, and its content is
-  // looked at as well
+  if (admit) admit(file);
+  // a script runs inside the plugin that hosts its language, so that file is checked as well
   std::shared_ptr<Library> host;
-  if (admit && !script_host(file).empty())
-    host = Library::open(Library::host_of(file), admit(Library::host_of(file)));
+  if (admit && !script_host(file).empty()) {
+    admit(Library::host_of(file));
+    host = Library::open(Library::host_of(file));
+  }
   FoundPlugin found;
-  found.library = Library::open(file, expected);
+  found.library = Library::open(file);
   auto info = std::make_shared<PluginInfo>(found.library->info());
   info->path = file.string();  // of two files with equal bytes one is loaded: each keeps its own name
   info->file = file.filename().string();

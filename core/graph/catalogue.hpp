@@ -21,9 +21,8 @@ struct FoundPlugin {
 
 struct Catalogue {
   virtual ~Catalogue() = default;
-  /// Asked before a file is opened: throws Error when it may not be, and tells the content that it must have.
-  /// See Trust.
-  std::function<Expected(const std::filesystem::path&)> admit;
+  /// Called before a file is opened: throws Error when it may not be.
+  std::function<void(const std::filesystem::path&)> admit;
   /// `name` is a plugin ("control_slc") or a file ("my_law.so", "build/my_law.so"). Throws Error with a
   /// sentence.
   virtual FoundPlugin open(const std::string& name) = 0;

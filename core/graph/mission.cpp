@@ -18,10 +18,9 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::vector<std::string> mission_keys = {
-    "mission",  "extends", "io",       "airframe", "origin",     "rate",    "seed",
-    "arm",      "done",    "failed",   "flown",    "verdict",    "timeout", "epoch",
-    "progress", "summary", "failsafe", "roles",    "components", "phases",  "record",
-    "plugins",  "control", "tell",     "resume",   "live",       "dds",     "hardware"};
+    "mission",    "extends", "io",      "airframe", "origin", "rate",     "seed",    "arm",      "done",
+    "failed",     "flown",   "verdict", "timeout",  "epoch",  "progress", "summary", "failsafe", "roles",
+    "components", "phases",  "record",  "control",  "tell",   "resume",   "live",    "dds",      "hardware"};
 const std::vector<std::string> component_keys = {"fills", "use",     "in",     "params",  "rate",   "only",
                                                  "run",   "latency", "budget", "max_age", "memory", "hang"};
 
@@ -45,7 +44,6 @@ class MissionReader {
     scalars(keys);
     if (const Node* node = keys.get("airframe")) m_.airframe = *node;
     if (const Node* node = keys.get("origin")) m_.origin = *node;
-    if (const Node* node = keys.get("plugins")) m_.plugins = *node;
     shown(keys);
     failsafe(keys);
     each(keys, "roles", component_room, &MissionReader::role);

@@ -104,7 +104,6 @@ struct MissionText : Settings {
   std::vector<std::pair<std::string, Word>> summary;
   std::vector<Word> control, tell;
   std::vector<std::pair<std::string, Word>> resume;  // parameter -> field
-  Node plugins;                                      // what may be loaded
   Node failsafe;
   HardwareText hardware;
   std::vector<RoleText> roles;

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/private_file.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/graph/shipped.hpp"
-#include "core/graph/trust.hpp"
 #include "core/loader/home.hpp"
 #include "core/loader/script.hpp"
 #include "core/types/names.hpp"
@@ -334,12 +334,11 @@ bool asked_for(const fs::path& file, const fs::path& plugin) {
 
 /// A log is data, whoever wrote it: what runs comes from the installation, from the store of copies, or is
 /// asked for by name, and never from where the log says that it lay.
-Expected admit_again(const fs::path& plugin, const Overrides& overrides) {
-  check_private_file(plugin);
+void admit_again(const fs::path& plugin, const Overrides& overrides) {
   const std::vector<fs::path> ours = plugin_folders();
-  if (std::find(ours.begin(), ours.end(), plugin.parent_path()) != ours.end()) return {};
+  if (std::find(ours.begin(), ours.end(), plugin.parent_path()) != ours.end()) return;
   for (const auto& [component, use] : overrides.with)
-    if (asked_for(split_use(use).first, plugin)) return {};
+    if (asked_for(split_use(use).first, plugin)) return;
   const std::string sha256 = sha256_file(plugin);
   const bool flew =
       std::find(overrides.flown.begin(), overrides.flown.end(), sha256) != overrides.flown.end();
@@ -360,8 +359,9 @@ Graph load_mission(const std::string& file, const Overrides& given, Catalogue& c
   const MissionText text = parse_mission(file, given, report);
   if (!given.files) check_hardware(text, given, report);  // a log was flown already
   const Overrides overrides = with_components(text, given, report);
-  catalogue.admit = [trust = Trust(text, report), &overrides](const fs::path& plugin) {
-    return overrides.files ? admit_again(plugin, overrides) : trust.check(plugin);
+  catalogue.admit = [&overrides](const fs::path& plugin) {
+    check_private_file(plugin);
+    if (overrides.files) admit_again(plugin, overrides);
   };
   FileStore files(report, overrides.files.get());
   for (const FilePtr& read : text.files) files.keep(read);

@@ -12,24 +12,14 @@
 
 namespace fulmar::core {
 
-/// The content that a mission lists for a file: SHA-256 in hex, and where they are listed. Without any, every
-/// content will do.
-struct Expected {
-  std::vector<std::string> sha256;
-  std::string where;
-};
-
-/// Throws Error, naming both, when `sha256` is not what is expected of the file `name`.
-void check_content(const Expected& expected, const std::string& name, const std::string& sha256);
-
 /// A loaded plugin. The last owner unloads it; the host verifies that it is gone.
 class Library {
  public:
   /// Probes and loads `file`. Throws Error with a sentence: no such file, not a plugin, wrong ABI, wrong
   /// architecture, missing dependency, unknown port kind, contradictory table, floating-point flags, crash or
-  /// time-out in the probing child. Content that is not expected is refused before anything looks into it. A
+  /// time-out in the probing child. A
   /// script is opened by the plugin that hosts its language, found by host_of.
-  static std::shared_ptr<Library> open(const std::filesystem::path& file, const Expected& expected = {});
+  static std::shared_ptr<Library> open(const std::filesystem::path& file);
   /// The plugin file that hosts the language of a script. Throws Error when there is none.
   static std::filesystem::path host_of(const std::filesystem::path& script);
   ~Library();

@@ -326,14 +326,6 @@ TEST_CASE("a motion that leaves the model ends the flight with its cause and a w
       "angle of attack ");
 }
 
-TEST_CASE("a list of allowed plugins is understood in a mission that is named without a folder") {
-  mission(plan + "plugins: {allow: [control_slc]}\n");
-  const Result r = shell("cd " + folder().string() + " && " + program + "check mission.yaml");
-  CHECK(r.code == 4);
-  CHECK(r.err.find("filesystem error") == std::string::npos);
-  CHECK(r.err.find("sim_aero") != std::string::npos);
-}
-
 TEST_CASE("an interrupt during a build ends the build and the program") {
   const fs::path place = folder() / "slow_build";
   fs::create_directories(place);

@@ -25,7 +25,7 @@ const std::string keys =
     "mission, extends, io, airframe, origin, rate, seed, arm, done, failed, flown, verdict, timeout, epoch, "
     "progress, "
     "summary, failsafe, roles, "
-    "components, phases, record, plugins, control, tell, resume, live, dds, hardware";
+    "components, phases, record, control, tell, resume, live, dds, hardware";
 
 }  // namespace
 

@@ -203,7 +203,7 @@ TEST_CASE(
         "hourglass.yaml:3: unknown key 'sed'. Did you mean 'seed'? Valid: mission, extends, io, airframe, "
         "origin, rate, seed, arm, done, "
         "failed, flown, verdict, timeout, epoch, progress, summary, "
-        "failsafe, roles, components, phases, record, plugins, control, tell, resume, live, dds, hardware.\n"
+        "failsafe, roles, components, phases, record, control, tell, resume, live, dds, hardware.\n"
         "hourglass.yaml:6: components.sim.params.turbulence: unknown word 'nne'. Did you mean 'none'? Valid: "
         "none, light, moderate.\n"
         "base/common.yaml:21: components.sim.params.wind_ned.down: 'm' is not a number");

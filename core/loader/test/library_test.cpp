@@ -289,30 +289,6 @@ TEST_CASE("copies with a flipped byte hardly ever bring the host down") {
   CHECK(seen[brought_down] * 200 <= flips);  // 46 of 1000 without a probe
 }
 
-TEST_CASE(
-    "of a thousand copies with a flipped byte none is opened when the SHA-256 of the good one is listed") {
-  const Expected expected{{sha256_file(plugin("good"))}, "first.yaml:3"};
-  const fs::path store = folder() / "empty store";
-  const Environment own_store("FULMAR_STORE", store.string());
-  {
-    const Environment no_probe("FULMAR_PROBE",
-                               "/nowhere/fulmar-probe");  // whatever asked for a child would say so
-    for (const std::string& bytes : flipped_copies(1000)) {
-      const std::string sha256 = sha256_hex(bytes.data(), bytes.size());
-      std::string said = "accepted";
-      try {
-        Library::open(write("flipped.so", bytes), expected);
-      } catch (const Error& e) {
-        said = e.what();
-      }
-      REQUIRE(said == "flipped.so has the SHA-256 " + sha256 + ", but " + expected.sha256[0] +
-                          " is listed in first.yaml:3; a file that was changed or built anew is listed anew");
-    }
-  }
-  CHECK_FALSE(fs::exists(store));
-  CHECK(scaled(*Library::open(plugin("good"), expected)) == 20);
-}
-
 TEST_CASE("the description of a plugin lines up") {
   PluginInfo info = Library::open(plugin("good"))->info();
   info.sha256 = std::string(64, 'a');

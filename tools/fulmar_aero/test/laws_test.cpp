@@ -151,7 +151,8 @@ TEST_CASE("names, defaults, units and ranges are those of the components") {
   check_table<TecsLaw, tecs::Outer::Params>({});
 }
 
-TEST_CASE("control_slc/Inner answers small sines of every sensor and command as its linear law") {
+TEST_CASE("control_slc/Inner answers small sines of every sensor and command as its linear law" *
+          doctest::test_suite("amounts")) {
   InnerLaw law;
   law.roll_from_sideslip.value = 0.3;
   for (const double speed : {0.85, 1.2}) {
@@ -194,14 +195,15 @@ TEST_CASE("without a rudder nothing is damped with it") {
   CHECK(linear.of_sensors.row(model::rudder).norm() == 0);
 }
 
-TEST_CASE("control_slc/Outer answers small sines of every sensor and goal as its linear law") {
+TEST_CASE("control_slc/Outer answers small sines of every sensor and goal as its linear law" *
+          doctest::test_suite("amounts")) {
   check_outer<slc::Outer>(
       Place("anaconda.yaml", 1.2),
       [](const LawPoint& at, Complex z) -> OuterResponse { return response(SlcLaw{}, at, z); },
       [](slc::Outer::Params&) {});
 }
 
-TEST_CASE("control_tecs/Outer does, with both weights") {
+TEST_CASE("control_tecs/Outer does, with both weights" * doctest::test_suite("amounts")) {
   for (const double weight : {0.4, 1.6}) {
     static double shared;
     shared = weight;

@@ -29,7 +29,7 @@ namespace {
 constexpr double deg = std::numbers::pi / 180;
 // The bars: no flag while the tilt is off by more; all flags so soon after the second fix, in this share of
 // the starts.
-constexpr double most_tilt_rad = 5 * deg, soon_s = 1.5, share_soon = 0.95;
+constexpr double max_tilt_rad = 5 * deg, soon_s = 1.5, share_soon = 0.95;
 constexpr double watched_s = 10;  // after the second fix
 constexpr double tick_s = 1.0 / 400;
 // What a calibration on the ground leaves of the biases, and the estimator is told.
@@ -148,7 +148,7 @@ class Flown {
       return;
     begun_.tilt_rad = std::max(begun_.tilt_rad, tilt);
     begun_.heading_rad = std::max(begun_.heading_rad, heading);
-    begun_.wrong += tilt > most_tilt_rad;
+    begun_.wrong += tilt > max_tilt_rad;
   }
 
   Start start_;

@@ -25,13 +25,13 @@ nlohmann::json json_of(const Case& c, const std::string& sensors, bool wired, co
           {"within_2_std", f.share(f.within_2)},
           {"valid", f.share(f.valid)},
           {"from_model", f.share(f.modelled)},
-          {"least_true_airspeed_mps", f.least_true}};
+          {"least_true_airspeed_mps", f.min_true}};
 }
 
 void print(const Case& c, const std::string& sensors, bool wired, const Flown& f, unsigned down) {
   std::printf("| %s | `%s` | %s | %.2f | %.1f | %.2f | %.2f | %.2f | %.2f | %.2f | %.1f | %u |\n",
               c.words.c_str(), sensors.c_str(), wired ? "yes" : "no", f.rms(), f.most, f.claimed(),
-              f.share(f.within_1), f.share(f.within_2), f.share(f.valid), f.share(f.modelled), f.least_true,
+              f.share(f.within_1), f.share(f.within_2), f.share(f.valid), f.share(f.modelled), f.min_true,
               down);
   std::fflush(stdout);
 }
@@ -46,10 +46,10 @@ unsigned missed(const Case& c, const std::string& sensors, const Flown& f, unsig
   };
   bar(down == 0, "flights not flown:", down);
   bar(f.rms() <= c.rms_mps, "rms", f.rms());
-  bar(f.most <= c.most_mps, "an error of", f.most);
+  bar(f.most <= c.max_mps, "an error of", f.most);
   bar(f.share(f.within_2) >= c.within_2, "within two deviations", f.share(f.within_2));
   bar(!c.modelled || f.share(f.modelled) >= 0.95, "flagged", f.share(f.modelled));
-  bar(f.share(f.modelled) <= c.most_modelled, "flagged", f.share(f.modelled));
+  bar(f.share(f.modelled) <= c.max_modelled, "flagged", f.share(f.modelled));
   return n;
 }
 

@@ -73,7 +73,7 @@ struct AxisRow {
     kd.push_back(r.kd_ratio[i]);
     measured_db = std::min(measured_db, 20 * std::log10(r.gain_margin_ratio[i]));
     measured_deg = std::min(measured_deg, r.phase_margin_rad[i] / degree);
-    true_db = std::min(true_db, f.unstable ? 0 : f.truth[i].least_gain_db());
+    true_db = std::min(true_db, f.unstable ? 0 : f.truth[i].min_gain_db());
     true_deg = std::min(true_deg, f.unstable ? 0 : std::min(180.0, f.truth[i].phase_rad / degree));
     noise = std::max(noise, r.noise_ratio[i]);
   }
@@ -145,7 +145,7 @@ Row fly_row(Case c, unsigned first, unsigned seeds, const fs::path& folder) {
     for (std::size_t i = 0; i < axes.size(); ++i) {
       if (!promised(f.report, i)) miss(axes[i]);
       const bool kept = verdict(f.report, i) == AutotuneVerdict::kept;
-      if (kept && (f.unstable > 0 || f.truth[i].least_gain_db() < 6 || f.truth[i].phase_rad < 45 * degree))
+      if (kept && (f.unstable > 0 || f.truth[i].min_gain_db() < 6 || f.truth[i].phase_rad < 45 * degree))
         miss("kept gains whose margins are not true");
       row.axis[i].add(f, i);
     }

@@ -20,8 +20,8 @@ using namespace fulmar::envelope_bench;
 namespace {
 
 // The bars: flights on the ground, of 1000, and the longest time beyond the stall.
-constexpr int most_on_ground = 2;
-constexpr double most_stalled_s = 2;
+constexpr int max_on_ground = 2;
+constexpr double max_stalled_s = 2;
 
 struct Options {
   int flights = 1000, jobs = 1;
@@ -80,7 +80,7 @@ struct Sum {
     ++flights;
     ended += f.ended;
     crashed += f.crashed;
-    stalled_long += f.stalled_s > most_stalled_s;
+    stalled_long += f.stalled_s > max_stalled_s;
     reported += f.reported;
     lost_height += f.lost_height;
     stalled_s = std::max(stalled_s, f.stalled_s);
@@ -130,7 +130,7 @@ void print(const Options& o, const std::vector<Flown>& all, const std::map<std::
   for (const auto& [name, sum] : sums) row(name, sum);
   std::printf("\nOn the ground, or too long beyond the stall:\n\n");
   for (const Flown& f : all)
-    if (o.each || f.crashed || f.stalled_s > most_stalled_s || !f.ended)
+    if (o.each || f.crashed || f.stalled_s > max_stalled_s || !f.ended)
       std::printf(
           "- seed %llu: %s; %s%.0f s, beyond the stall %.2f s at %.0f s, lowest %.0f m, %d reported, height "
           "error %.1f m\n",
@@ -186,7 +186,7 @@ int main(int argc, char** argv) try {
   } else {
     print(o, all, sums);
   }
-  const bool met = sum.crashed * 1000 <= most_on_ground * std::max(sum.flights, 1000) &&
+  const bool met = sum.crashed * 1000 <= max_on_ground * std::max(sum.flights, 1000) &&
                    sum.stalled_long == 0 && sum.ended == sum.flights && sum.flights == o.flights;
   return met ? 0 : 1;
 } catch (const std::exception& e) {

@@ -20,7 +20,7 @@ using namespace fulmar::landing_bench;
 namespace {
 
 // The bars.
-constexpr double least_over_stall = 1.1, most_sink_mps = 1.5, most_cross_m = 5;
+constexpr double min_over_stall = 1.1, max_sink_mps = 1.5, max_cross_m = 5;
 constexpr double share_sink = 0.99, share_cross = 0.95;
 
 struct Options {
@@ -93,10 +93,10 @@ struct Statistics {
     crashed = count(all, [](const Landed& l) { return l.crashed; });
     went_around = count(all, [](const Landed& l) { return l.go_arounds > 0; });
     short_of_it = count(all, [](const Landed& l) { return l.touched && l.along_m < 0; });
-    for (const Landed& l : all) over_stall = std::min(over_stall, l.least_over_stall);
+    for (const Landed& l : all) over_stall = std::min(over_stall, l.min_over_stall);
     const double n = std::max(flights, 1);
-    soft = count(all, [](const Landed& l) { return l.touched && l.sink_mps < most_sink_mps; }) / n;
-    near = count(all, [](const Landed& l) { return l.touched && l.beside_receiver_m() < most_cross_m; }) / n;
+    soft = count(all, [](const Landed& l) { return l.touched && l.sink_mps < max_sink_mps; }) / n;
+    near = count(all, [](const Landed& l) { return l.touched && l.beside_receiver_m() < max_cross_m; }) / n;
     sink_50 = quantile(all, 0.5, [](const Landed& l) { return l.sink_mps; });
     sink_99 = quantile(all, 0.99, [](const Landed& l) { return l.sink_mps; });
     sink_most = quantile(all, 1, [](const Landed& l) { return l.sink_mps; });
@@ -119,7 +119,7 @@ struct Statistics {
     roll_out_95 = quantile(all, 0.95, [](const Landed& l) { return l.roll_out_m; });
   }
   bool kept() const {
-    return flights > 0 && flown == flights && crashed == 0 && over_stall >= least_over_stall &&
+    return flights > 0 && flown == flights && crashed == 0 && over_stall >= min_over_stall &&
            soft >= share_sink && near >= share_cross;
   }
   int flights, flown = 0, crashed = 0, went_around = 0, short_of_it = 0;
@@ -194,15 +194,15 @@ void print(const Options& o, const std::vector<Landed>& all, const Statistics& s
       s.yaw_most, s.bank_50, s.bank_95, s.bank_most, s.along_5, s.along_50, s.along_95);
   std::printf(
       "Bars: all flown, none crashed; from lift-off to the flare the mean of a second of true airspeed at "
-      "least %.1f times the flight's own stall (`most_lift`, fulmar/flight/model/steady_flight.hpp); sink at "
+      "least %.1f times the flight's own stall (`max_lift`, fulmar/flight/model/steady_flight.hpp); sink at "
       "touch-down below %.1f m/s in %.0f %% (%.1f %%); within %.0f m of the centre line beside the "
       "receiver's "
       "own error in %.0f %% (%.1f %%).\n\n"
       "The worst, with what was more than 15 %% off:\n\n| of | | seed | | derivatives "
       "|\n|---|---|---|---|---|\n",
-      least_over_stall, most_sink_mps, 100 * share_sink, 100 * s.soft, most_cross_m, 100 * share_cross,
+      min_over_stall, max_sink_mps, 100 * share_sink, 100 * s.soft, max_cross_m, 100 * share_cross,
       100 * s.near);
-  print_worst(o, all, "airspeed over stall", "%.2f", [](const Landed& l) { return -l.least_over_stall; });
+  print_worst(o, all, "airspeed over stall", "%.2f", [](const Landed& l) { return -l.min_over_stall; });
   print_worst(o, all, "sink", "%.2f m/s", [](const Landed& l) { return l.sink_mps; });
   print_worst(o, all, "centre line", "%.1f m", [](const Landed& l) { return l.beside_receiver_m(); });
   print_worst(o, all, "nose", "%.1f deg", [](const Landed& l) { return std::abs(l.yaw_off_rad) / deg; });
@@ -245,7 +245,7 @@ void print_each(const Options& o, const std::vector<Landed>& all) {
                  "deg, roll-out "
                  "%.1f m, stop %.0f m; %s%s%s\n",
                  static_cast<unsigned long long>(l.seed), l.flown ? "" : " NOT FLOWN",
-                 l.crashed ? " CRASHED" : "", l.least_over_stall, l.sink_mps, l.cross_m, l.receiver_m,
+                 l.crashed ? " CRASHED" : "", l.min_over_stall, l.sink_mps, l.cross_m, l.receiver_m,
                  l.along_m, l.yaw_off_rad / deg, l.roll_rad / deg, l.go_arounds, l.recognised_s, l.early_m,
                  l.nose_down_s, l.roll_out_m, l.stopped_m, words(dispersion_of(o, l.seed)).c_str(),
                  o.hard ? "; " : "", o.hard ? hard_words(dispersion_of(o, l.seed)).c_str() : "");

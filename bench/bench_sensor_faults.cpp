@@ -54,7 +54,7 @@ struct Worst {
     }
     for (std::size_t i = 0; i < whats; ++i) {
       of.most[i] = std::max(of.most[i], f.most[i]);
-      of.most_valid[i] = std::max(of.most_valid[i], f.most_valid[i]);
+      of.max_valid[i] = std::max(of.max_valid[i], f.max_valid[i]);
       of.step[i] = std::max(of.step[i], f.step[i]);
     }
     of.over_std = std::max(of.over_std, f.over_std);
@@ -90,7 +90,7 @@ void print(const Row& row, const Worst& w) {
               w.of.told_by.c_str());
   constexpr std::array<int, whats> digits{1, 1, 1, 1, 1};
   for (std::size_t i = 0; i < whats; ++i) {
-    const std::string valid = number(w.of.most_valid[i], digits[i]), all = number(w.of.most[i], digits[i]);
+    const std::string valid = number(w.of.max_valid[i], digits[i]), all = number(w.of.most[i], digits[i]);
     std::printf(" %s |", valid == all ? valid.c_str() : (valid + " / " + all).c_str());
   }
   std::printf(" %.1f | %.1f | %.1f | %s | %s |\n", w.of.over_std, w.of.step[position], w.of.step[height],
@@ -107,7 +107,7 @@ nlohmann::json json_of(const Row& row, const Worst& w) {
           {"told", w.told},
           {"told_s", or_null(w.told > 0, w.of.told_s)},
           {"by", w.of.told_by},
-          {"error_valid", w.of.most_valid},
+          {"error_valid", w.of.max_valid},
           {"error", w.of.most},
           {"airspeed_error_over_std", w.of.over_std},
           {"step", w.of.step},
@@ -138,12 +138,12 @@ unsigned missed(const Row& row, const Worst& w) {
     bar(w.of.recovered_s <= recovered_within_s, "right again after " + number(w.of.recovered_s, 2) + " s");
   }
   for (std::size_t i = 0; i < whats; ++i)
-    bar(w.of.most_valid[i] <= row.most[i],
-        "an error of " + number(w.of.most_valid[i], 2) + ", at most " + number(row.most[i], 2));
+    bar(w.of.max_valid[i] <= row.most[i],
+        "an error of " + number(w.of.max_valid[i], 2) + ", at most " + number(row.most[i], 2));
   for (std::size_t i = 0; i < whats; ++i)
-    bar(w.of.step[i] <= row.most_step[i], "a step of " + number(w.of.step[i], 2));
+    bar(w.of.step[i] <= row.max_step[i], "a step of " + number(w.of.step[i], 2));
   if (row.name == "nothing") bar(w.told == 0 && w.of.accused.empty(), "something was said");
-  bar(w.of.over_std <= row.most_over_std, "airspeed wrong by " + number(w.of.over_std, 1) + " deviations");
+  bar(w.of.over_std <= row.max_over_std, "airspeed wrong by " + number(w.of.over_std, 1) + " deviations");
   return n;
 }
 

@@ -18,9 +18,9 @@ struct Case {
   double left_ratio = 0;  ///< and gets this share of the voltage
   std::string turbulence = "light";
   // With the model, m/s and shares of the time:
-  double rms_mps = 0.8, most_mps = 3.5, within_2 = 0.9;
-  bool modelled = true;      ///< for at least 0.95 of the time
-  double most_modelled = 1;  ///< share of the time, at most
+  double rms_mps = 0.8, max_mps = 3.5, within_2 = 0.9;
+  bool modelled = true;     ///< for at least 0.95 of the time
+  double max_modelled = 1;  ///< share of the time, at most
 };
 
 inline std::vector<Case> cases() {
@@ -36,44 +36,44 @@ inline std::vector<Case> cases() {
                .words = "both, 12 s after arming, 60 s: nothing is learnt yet",
                .from_s = 12,
                .rms_mps = 2,
-               .most_mps = 6,
+               .max_mps = 6,
                .modelled = false,
-               .most_modelled = 0});
+               .max_modelled = 0});
   c.push_back({.name = "motor_off",
                .words = "both, and 10 s later the motor stops for 15 s",
                .lost_s = 30,
                .engine_s = 10,
                .engine_for_s = 15,
                .rms_mps = 1.5,
-               .most_mps = 5,
+               .max_mps = 5,
                .modelled = false,
-               .most_modelled = 0.36});
+               .max_modelled = 0.36});
   c.push_back({.name = "motor_off_at_once",
                .words = "both, 30 s, and the motor at the same time, 15 s",
                .lost_s = 30,
                .engine_s = 0,
                .engine_for_s = 15,
                .rms_mps = 1.5,
-               .most_mps = 5,
+               .max_mps = 5,
                .modelled = false,
-               .most_modelled = 0.05});
+               .max_modelled = 0.05});
   c.push_back({.name = "motor_weak",
                .words = "both, and from 10 s on the motor gets 0.7 of its voltage",
                .engine_s = 10,
                .ramp_s = 0.1,
                .left_ratio = 0.7,
                .rms_mps = 2,
-               .most_mps = 8,
+               .max_mps = 8,
                .within_2 = 0.92,
                .modelled = false,
-               .most_modelled = 0.5});
+               .max_modelled = 0.5});
   c.push_back({.name = "motor_fades",
                .words = "both, and from 10 to 20 s it falls to 0.7",
                .engine_s = 10,
                .ramp_s = 10,
                .left_ratio = 0.7,
                .rms_mps = 2,
-               .most_mps = 8,
+               .max_mps = 8,
                .within_2 = 0.92,
                .modelled = false});
   c.push_back({.name = "motor_a_little_weak",
@@ -82,7 +82,7 @@ inline std::vector<Case> cases() {
                .ramp_s = 10,
                .left_ratio = 0.9,
                .rms_mps = 1.3,
-               .most_mps = 3.5,
+               .max_mps = 3.5,
                .within_2 = 0.85,
                .modelled = false});
   return c;

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 /// From the loss until the sensors are back.
 struct Flown {
   double ticks = 0, square = 0, variance = 0, most = 0, within_1 = 0, within_2 = 0, valid = 0, modelled = 0,
-         least_true = 1e9;  ///< m/s, m2/s2, ticks
+         min_true = 1e9;  ///< m/s, m2/s2, ticks
   bool crashed = false;
 
   double rms() const { return std::sqrt(square / std::max(ticks, 1.0)); }
@@ -40,7 +40,7 @@ struct Flown {
     valid += f.valid;
     modelled += f.modelled;
     most = std::max(most, f.most);
-    least_true = std::min(least_true, f.least_true);
+    min_true = std::min(min_true, f.min_true);
     crashed = crashed || f.crashed;
   }
 };
@@ -120,7 +120,7 @@ class Watched {
     out_.within_2 += e < 2 * s.airspeed_std_mps;
     out_.valid += s.airspeed_valid;
     out_.modelled += s.airspeed_from_model;
-    out_.least_true = std::min(out_.least_true, x.airspeed_mps);
+    out_.min_true = std::min(out_.min_true, x.airspeed_mps);
   }
 
   Case case_;

@@ -28,7 +28,7 @@ TEST_CASE("without tube and receiver the airspeed comes from the throttle, throu
     CHECK_FALSE(with.crashed);
     CHECK(with.rms() < c.rms_mps);
     CHECK(with.rms() < 0.7 * without.rms());
-    CHECK(with.most < c.most_mps);
+    CHECK(with.most < c.max_mps);
     CHECK(with.share(with.within_2) > c.within_2);
     CHECK(with.share(with.modelled) > 0.95);
     CHECK(without.modelled == 0);
@@ -39,9 +39,9 @@ TEST_CASE("a motor that stops meanwhile is no airspeed") {
   const Folder folder;
   const Case c = case_of("motor_off");
   const Flown f = fly(c, "ublox", true, 3, folder.path);
-  CHECK(f.share(f.modelled) < c.most_modelled);
+  CHECK(f.share(f.modelled) < c.max_modelled);
   CHECK(f.share(f.modelled) > 0.25);  // it was in use before
-  CHECK(f.most < c.most_mps);
+  CHECK(f.most < c.max_mps);
 }
 
 TEST_CASE("a motor that gets 0.7 of its voltage is found by what it moves the airspeed by, not by a jump") {

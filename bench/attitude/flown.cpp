@@ -149,7 +149,7 @@ Result fly(const Airframe& a, Law law, const Episode& e, Turbulence turbulence) 
   Variation variation;
   Result result;
   VehicleState state = seen(sim);
-  while (!result.success && streak.steps < longest_steps) {
+  while (!result.success && streak.steps < max_steps) {
     const Actuators u = law.step(state, target);
     variation.step({u.elevator_rad, u.aileron_rad, u.throttle_frac});
     sim.step(u, dt_s);

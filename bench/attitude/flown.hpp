@@ -67,7 +67,7 @@ inline Row summary(const std::vector<Result>& results) {
   Row row;
   for (const Result& r : results) {
     row.success_percent += r.success ? 100 : 0;
-    row.settling_steps += r.success ? r.steps : longest_steps;
+    row.settling_steps += r.success ? r.steps : max_steps;
     row.variation_per_s += r.variation_per_s;
   }
   const double n = static_cast<double>(std::max<std::size_t>(results.size(), 1));

@@ -16,7 +16,7 @@ namespace fulmar::attitude {
 
 inline constexpr double deg = std::numbers::pi / 180;
 inline constexpr double dt_s = 0.01;
-inline constexpr int longest_steps = 1500, streak_steps = 100;
+inline constexpr int max_steps = 1500, streak_steps = 100;
 inline constexpr double angle_bound_rad = 5 * deg, airspeed_bound_mps = 2;
 /// Turbulence: of this height above the ground, carried past at this airspeed.
 inline constexpr double turbulence_height_m = 100, turbulence_airspeed_mps = 25;
@@ -104,7 +104,7 @@ struct Variation {
 
 struct Result {
   bool success = false;
-  int steps = longest_steps;  ///< at which the streak ended
+  int steps = max_steps;  ///< at which the streak ended
   double variation_per_s = 0;
 };
 

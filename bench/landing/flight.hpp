@@ -43,13 +43,13 @@ struct Dispersion {
   std::vector<std::pair<const char*, double>> derivatives;  ///< each times that
 };
 
-/// `most_wind_mps` at most `most_off_rad` off the runway.
-inline Dispersion dispersion(std::uint64_t seed, double most_wind_mps = 12, double most_off_rad = 30 * deg) {
+/// `max_wind_mps` at most `max_off_rad` off the runway.
+inline Dispersion dispersion(std::uint64_t seed, double max_wind_mps = 12, double max_off_rad = 30 * deg) {
   Dispersion d;
   Random random(mix_seed(seed, 1));
   d.seed = seed;
-  d.wind_mps = random.uniform(0, most_wind_mps);
-  d.wind_off_rad = random.uniform(-most_off_rad, most_off_rad);
+  d.wind_mps = random.uniform(0, max_wind_mps);
+  d.wind_off_rad = random.uniform(-max_off_rad, max_off_rad);
   d.mass_ratio = random.uniform(0.9, 1.1);
   d.delay_s = random.uniform(0, 0.1);
   d.ublox = seed % 2 == 0;
@@ -62,7 +62,7 @@ inline Dispersion dispersion(std::uint64_t seed, double most_wind_mps = 12, doub
 }
 
 /// The same, and another aircraft, centre of gravity, motor, slope, height, sensors, turbulence.
-inline Dispersion hard_dispersion(std::uint64_t seed, double most_height_off_m = 6) {
+inline Dispersion hard_dispersion(std::uint64_t seed, double max_height_off_m = 6) {
   Dispersion d = dispersion(seed);
   Random random(mix_seed(seed, 2));
   constexpr std::array aircraft{"anaconda", "aerosonde", "x8"};
@@ -73,7 +73,7 @@ inline Dispersion hard_dispersion(std::uint64_t seed, double most_height_off_m =
   d.cg_share = random.uniform(-0.1, 0.2);
   d.engine_share = random.uniform(0.75, 1);
   d.slope_rad = random.uniform(-1.5, 1.5) * deg;
-  d.height_off_m = random.uniform(-most_height_off_m, most_height_off_m);
+  d.height_off_m = random.uniform(-max_height_off_m, max_height_off_m);
   d.moderate = random.uniform(0, 1) < 0.3;
   return d;
 }
@@ -112,12 +112,12 @@ inline Airframe dispersed(const Airframe& nominal, const Dispersion& d) {
 struct Landed {
   std::uint64_t seed = 0;
   bool flown = false, crashed = false, touched = false;
-  double least_over_stall = 1e9;  ///< 1 s mean of the true airspeed over this aircraft's stall, aloft
-  double sink_mps = 0;            ///< when it touches
-  double cross_m = 0;             ///< of the centre line, right positive, then
-  double receiver_m = 0;          ///< how far the receiver is off across the runway, then
-  double along_m = 0;             ///< behind the threshold, then
-  double yaw_off_rad = 0;         ///< of the nose, to the right of the runway, then
+  double min_over_stall = 1e9;  ///< 1 s mean of the true airspeed over this aircraft's stall, aloft
+  double sink_mps = 0;          ///< when it touches
+  double cross_m = 0;           ///< of the centre line, right positive, then
+  double receiver_m = 0;        ///< how far the receiver is off across the runway, then
+  double along_m = 0;           ///< behind the threshold, then
+  double yaw_off_rad = 0;       ///< of the nose, to the right of the runway, then
   double roll_rad = 0;
   double roll_out_m = 0;  ///< largest distance from the centre line while it rolls
   std::uint32_t go_arounds = 0;
@@ -131,7 +131,7 @@ struct Landed {
 class Watched {
  public:
   Watched(const core::Graph& graph, const Airframe& flown, std::uint64_t seed, const std::string& log)
-      : flown_(flown), most_lift_(most_lift(flown).coefficient), flight_(graph, logged_to(log)) {
+      : flown_(flown), max_lift_(max_lift(flown).coefficient), flight_(graph, logged_to(log)) {
     out_.seed = seed;
     truth_ = output_of(graph, "sim", "truth");
     contact_ = output_of(graph, "sim", "contact");
@@ -242,8 +242,8 @@ class Watched {
     }
     if (recent_.size() < second) return;
     const double rho = standard_air(x.origin_altitude_m + x.height_m).density_kgm3;
-    const double stall = std::sqrt(2 * flown_.mass_kg * isa::g0 / (rho * flown_.wing.area_m2 * most_lift_));
-    out_.least_over_stall = std::min(out_.least_over_stall, sum_ / second / stall);
+    const double stall = std::sqrt(2 * flown_.mass_kg * isa::g0 / (rho * flown_.wing.area_m2 * max_lift_));
+    out_.min_over_stall = std::min(out_.min_over_stall, sum_ / second / stall);
   }
   /// Mean over a second or so of what the receiver is off, across the runway.
   void receiver(const VehicleState& x) {
@@ -256,7 +256,7 @@ class Watched {
   }
 
   Airframe flown_;
-  double most_lift_;
+  double max_lift_;
   core::Flight flight_;
   core::Source truth_, contact_, gnss_, progress_, ground_, actuators_;
   bool estimated_ = false;

@@ -30,7 +30,7 @@ struct Flown {
   std::string told_by{};   ///< a sensor's state, or a flag
   std::string accused{};   ///< sensors that are in order, of which something was said
   Each most{};             ///< errors from the fault's begin on
-  Each most_valid{};       ///< the same, of what was called valid
+  Each max_valid{};        ///< the same, of what was called valid
   Each step{};             ///< changes of the error from one tick to the next
   double over_std = 0;     ///< airspeed error, at most, in deviations that the estimate says
   double recovered_s = 0;  ///< from the fault's end on; -1: not within the flight
@@ -126,7 +126,7 @@ class Watched {
                                         s.airspeed_valid};
     for (std::size_t i = 0; i < whats; ++i) {
       out_.most[i] = std::max(out_.most[i], e[i]);
-      if (valid[i]) out_.most_valid[i] = std::max(out_.most_valid[i], e[i]);
+      if (valid[i]) out_.max_valid[i] = std::max(out_.max_valid[i], e[i]);
       if (t_s > 0.01) out_.step[i] = std::max(out_.step[i], std::abs(e[i] - out_.before_[i]));
       if (!valid[i]) told(t_s, flags[i]);
       if (t_s > row_.lasts_s && (!valid[i] || e[i] > bound_[i])) bad_s_ = t_s;

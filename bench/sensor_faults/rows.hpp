@@ -19,13 +19,13 @@ struct Row {
   std::string name{}, words{};
   std::string wires{};  ///< parameters of `tampered/Wires`, but `from`
   double lasts_s = 20;
-  std::vector<FaultTarget> off{};           ///< by request, in place of the wires
-  std::string sim{};                        ///< parameters of the aircraft, of the whole flight
-  std::vector<std::string> sensors{};       ///< that have to be named, of the port `health`
-  std::string untold{}, unrecovered{};      ///< why it cannot be; "": it is, and the command holds it
-  Each most{4, 2, 10, 5, 3};                ///< errors from the fault on, of what is called valid
-  Each most_step{1e9, 1e9, 1e9, 1e9, 1e9};  ///< from one tick to the next
-  double most_over_std = 5;                 ///< of the airspeed, in deviations that the estimate claims
+  std::vector<FaultTarget> off{};          ///< by request, in place of the wires
+  std::string sim{};                       ///< parameters of the aircraft, of the whole flight
+  std::vector<std::string> sensors{};      ///< that have to be named, of the port `health`
+  std::string untold{}, unrecovered{};     ///< why it cannot be; "": it is, and the command holds it
+  Each most{4, 2, 10, 5, 3};               ///< errors from the fault on, of what is called valid
+  Each max_step{1e9, 1e9, 1e9, 1e9, 1e9};  ///< from one tick to the next
+  double max_over_std = 5;                 ///< of the airspeed, in deviations that the estimate claims
 };
 
 constexpr std::array<std::pair<const char*, SensorHealth NavigationHealth::*>, 8> sensors{{
@@ -65,7 +65,7 @@ inline std::vector<Row> rows() {
                 "kind: gnss_pull, size: 8, rate: 4", fix);
   f->unrecovered = "the receiver was believed after 9 s, and the truth has to contradict as long";
   f->most = {20, 10, 200, 5, 12};  // 17.8 deg in one of 40 flights
-  f->most_over_std = 20;
+  f->max_over_std = 20;
   f = &on_wires("gnss_pull", "the same, 1 m/s after 4 s", "kind: gnss_pull, size: 1, rate: 0.25", fix);
   f->untold = "position and velocity agree, and 0.25 m/s2 are a tilt of 1.5 deg";
   f->most[position] = 35;
@@ -83,14 +83,14 @@ inline std::vector<Row> rows() {
   f->untold = "it reads what it should as long as the aircraft keeps its speed";
   f->unrecovered = "free again it steps, and a tube that has stepped is doubted for 30 s";
   f->most[airspeed] = 8;
-  f->most_over_std = 40;
+  f->max_over_std = 40;
   f = &on_wires("pitot_iced", "falls to nothing, time constant 1 s", "kind: pitot_iced, size: 1", {"pitot"});
   f->most[airspeed] = 16;
-  f->most_over_std = 100;
+  f->max_over_std = 100;
   f = &on_wires("pitot_iced_slowly", "the same, 10 s", "kind: pitot_iced, size: 10", {"pitot"});
   f->untold = "it falls no faster than gusts come; it is told when it is off by more than they are";
   f->most[airspeed] = 16;
-  f->most_over_std = 100;
+  f->max_over_std = 100;
   on_wires("pitot_zeroed", "zeroed in flight", "kind: pitot_zeroed", {"pitot"});
   on_wires("imu_short_gap", "no sample for 0.25 s", "kind: imu_gap", imu).lasts_s = 0.25;
   f = &on_wires("imu_gap", "no sample for 2 s", "kind: imu_gap", imu);
@@ -108,17 +108,17 @@ inline std::vector<Row> rows() {
       "fixes seem later than the delay that is learnt, and what the attitude took from them goes with the "
       "turns";
   f->most = {15, 6, 30, 5, 5};
-  f->most_over_std = 25;
+  f->max_over_std = 25;
   on_wires("gnss_stamps", "every other stamp 1 s too early", "kind: gnss_stamps, size: 1", fix);
   on_wires("baro_stamps", "all stamps 30 s too early", "kind: baro_stamps, size: 30", {"baro"});
   switched("gnss_off", "off and on again by request", {gnss_position}, fix);
   switched("mag_off", "off and on again by request", {mag}, {"mag"});
-  switched("baro_off", "off and on again by request", {baro}, {"baro"}).most_step[height] = 0.2;
+  switched("baro_off", "off and on again by request", {baro}, {"baro"}).max_step[height] = 0.2;
   switched("pitot_off", "off and on again by request", {pitot}, {"pitot"});
   f = &switched("gnss_pitot_off", "receiver and tube off together", {gnss_position, pitot},
                 {"gnss_position", "gnss_velocity", "gnss_height", "pitot"});
   f->most[airspeed] = 3;
-  f->most_over_std = 4;
+  f->max_over_std = 4;
   r.push_back({.name = "no_mag",
                .words = "no magnetometer in the whole flight, from the ground on",
                .sim = "mag_works: false",

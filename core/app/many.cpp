@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint64_t most_seeds = 100'000;
+constexpr std::uint64_t max_seeds = 100'000;
 
 bool whole(const std::string& text, std::uint64_t& number) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -77,7 +77,7 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
   std::vector<std::uint64_t> seeds;
   const auto wrong = [&] {
     return Error("--seeds '" + text + "': give seeds such as 1..20 or 3,5,8..10, at most " +
-                 std::to_string(most_seeds));
+                 std::to_string(max_seeds));
   };
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t comma = std::min(text.find(',', from), text.size());
@@ -86,7 +86,7 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
     std::uint64_t first = 0, last = 0;
     if (!whole(part.substr(0, dots), first) ||
         !whole(dots == std::string::npos ? part : part.substr(dots + 2), last) || last < first ||
-        last - first >= most_seeds - std::min<std::uint64_t>(seeds.size(), most_seeds))
+        last - first >= max_seeds - std::min<std::uint64_t>(seeds.size(), max_seeds))
       throw wrong();
     for (std::uint64_t n = 0; n <= last - first; ++n) seeds.push_back(first + n);
     from = comma + 1;

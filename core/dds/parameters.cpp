@@ -73,7 +73,7 @@ std::string parameter_text(const ParamInfo& info, const RclValue& value) {
   }
 }
 
-constexpr std::size_t most_at_once = 256;  // parameters in one call
+constexpr std::size_t max_at_once = 256;  // parameters in one call
 
 RclType type_of(const ParameterView* p) { return p ? rcl_value(*p).type : RclType::not_set; }
 
@@ -218,8 +218,8 @@ void set_parameters(Control& control, CdrReader in, const Server::Reply& reply, 
   if (several)
     return results->set(
         0, "several parameters cannot be set in one instant; set_parameters sets them one after the other");
-  if (list.size() > most_at_once)
-    throw Error("more than " + std::to_string(most_at_once) + " parameters in one call");
+  if (list.size() > max_at_once)
+    throw Error("more than " + std::to_string(max_at_once) + " parameters in one call");
   const FlightView view = control.view();
   for (std::size_t i = 0; i < list.size(); ++i)
     set_one(control, view, list[i], [results, i](const std::string& refusal) { results->set(i, refusal); });

@@ -13,7 +13,7 @@
 namespace fulmar::core::dds {
 namespace {
 
-constexpr int most_unanswered = 64;  // of one service: more are refused at once
+constexpr int max_unanswered = 64;  // of one service: more are refused at once
 
 Bytes response(const CdrEncoder& encoder, const std::string& refusal) {
   ServiceResponse r;
@@ -41,8 +41,8 @@ struct Requests {
       reply(response(*encoder, refusal));
     };
     if (!guard.check(message.data())) return answer(guard.explain(message.data()));
-    if (unanswered->load() >= most_unanswered)
-      return answer(std::to_string(most_unanswered) + " requests wait for their answer already");
+    if (unanswered->load() >= max_unanswered)
+      return answer(std::to_string(max_unanswered) + " requests wait for their answer already");
     ++*unanswered;
     try {
       control.request(component, port, std::move(message),

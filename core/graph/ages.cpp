@@ -8,7 +8,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::int64_t least_age_ns = 1'000'000'000;  // of what a mission says nothing about
+constexpr std::int64_t min_age_ns = 1'000'000'000;  // of what a mission says nothing about
 
 std::vector<int> writers_of(const Graph& graph, const Wire& wire) {
   if (wire.from.kind == Source::Kind::component) return {wire.from.index};
@@ -48,7 +48,7 @@ std::int64_t usual_age_ns(const Graph& graph, const Component& reader, const Wir
   if (from_vehicle(graph, wire)) return 0;
   if (wire.import >= 0 && reader.roles.empty())
     return 0;  // a plan from another host, say: it comes when it changes
-  std::int64_t age_ns = least_age_ns;
+  std::int64_t age_ns = min_age_ns;
   for (const int i : writers_of(graph, wire)) {
     const Component& writer = nth(graph.components, i);
     age_ns = std::max(age_ns, 3 * writer.period_ns + writer.latency_ns);

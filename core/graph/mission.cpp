@@ -24,7 +24,7 @@ const std::vector<std::string> mission_keys = {
 const std::vector<std::string> component_keys = {"fills", "use",     "in",     "params",  "rate",   "only",
                                                  "run",   "latency", "budget", "max_age", "memory", "hang"};
 
-constexpr std::size_t most_names = 1000;  // of roles, components, phases: each is compared with the others
+constexpr std::size_t max_names = 1000;  // of roles, components, phases: each is compared with the others
 constexpr const char* default_epoch = "2026-01-01T00:00Z";
 
 /// Nothing for any other word.
@@ -59,9 +59,9 @@ class MissionReader {
   void each(const Keys& keys, const std::string& key, std::size_t room,
             void (MissionReader::*read_entry)(const Node::Entry&)) {
     const std::vector<Node::Entry>& entries = keys.entries(key, "a map of names");
-    if (entries.size() > most_names)
+    if (entries.size() > max_names)
       return report_.add(keys.where(key), key + ": " + std::to_string(entries.size()) +
-                                              " of them; a mission has " + std::to_string(most_names) +
+                                              " of them; a mission has " + std::to_string(max_names) +
                                               " at most");
     for (const Node::Entry& entry : entries) {
       if (entry.key.size() >= room)

@@ -70,8 +70,8 @@ class RecordReader {
  private:
   /// "100 MB" or "10 min". A smaller file than the least would hold little but what each file begins with.
   void rotate(const Keys& keys) {
-    constexpr std::uint64_t least_bytes = 1'000'000;
-    constexpr std::int64_t least_ns = 1'000'000'000;
+    constexpr std::uint64_t min_bytes = 1'000'000;
+    constexpr std::int64_t min_ns = 1'000'000'000;
     const std::string text = keys.text("rotate").value_or("");
     if (text.empty()) return;
     if (text.ends_with('B'))
@@ -81,8 +81,7 @@ class RecordReader {
                                             " has no unit; give an amount or a time, as in 100 MB or 10 min");
     else
       m_.rotate_ns = keys.duration_ns("rotate").value_or(0);
-    if ((m_.rotate_bytes > 0 && m_.rotate_bytes < least_bytes) ||
-        (m_.rotate_ns > 0 && m_.rotate_ns < least_ns))
+    if ((m_.rotate_bytes > 0 && m_.rotate_bytes < min_bytes) || (m_.rotate_ns > 0 && m_.rotate_ns < min_ns))
       report_.add(keys.where("rotate"),
                   "record.rotate: " + text + " is too little for a file; give at least 1 MB, or 1 s");
   }

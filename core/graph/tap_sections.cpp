@@ -13,7 +13,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr int most_domain = 232;        // of DDS: the ports of the next one would lie above 65535
+constexpr int max_domain = 232;         // of DDS: the ports of the next one would lie above 65535
 constexpr double slowest_hz = 1 / 9e9;  // the nanoseconds of a longer period are no 64-bit number
 
 bool is_ipv4(const std::string& text) {
@@ -89,9 +89,9 @@ class DdsReader {
     DdsOptions& dds = m_.dds;
     dds.on = true;
     if (const auto domain = keys.positive("domain", "", true)) {
-      if (*domain > most_domain || std::floor(*domain) != *domain)
+      if (*domain > max_domain || std::floor(*domain) != *domain)
         report_.add(keys.where("domain"),
-                    "dds.domain: expected a whole number from 0 to " + std::to_string(most_domain));
+                    "dds.domain: expected a whole number from 0 to " + std::to_string(max_domain));
       else
         dds.domain = static_cast<int>(*domain);
     }

@@ -17,7 +17,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t most_faults = 100;  // nobody reads more, and each is compared with those before it
+constexpr std::size_t max_faults = 100;  // nobody reads more, and each is compared with those before it
 
 }  // namespace
 
@@ -32,17 +32,17 @@ std::size_t Report::rank(const std::string& file) {
 
 void Report::opened(const std::string& file) { rank(file); }
 
-bool Report::full() const { return faults_.size() > most_faults; }
+bool Report::full() const { return faults_.size() > max_faults; }
 
 void Report::add(const Where& where, const std::string& sentence) {
   if (full()) return;
   for (const Fault& fault : faults_)
     if (fault.where.line == where.line && fault.where.file == where.file && fault.sentence == sentence)
       return;
-  if (faults_.size() < most_faults) return faults_.push_back({rank(where.file), where, sentence});
+  if (faults_.size() < max_faults) return faults_.push_back({rank(where.file), where, sentence});
   constexpr std::size_t last = std::numeric_limits<std::size_t>::max();
   faults_.push_back(
-      {last, {where.file, 0}, "there are more faults than these " + std::to_string(most_faults)});
+      {last, {where.file, 0}, "there are more faults than these " + std::to_string(max_faults)});
 }
 
 void Report::taken_away(const std::string& name, const Where& where) {

@@ -15,8 +15,8 @@ namespace fulmar::core {
 namespace {
 
 constexpr int deepest = 60;
-constexpr std::size_t most_values = 500'000;
-constexpr std::size_t most_text = 32u << 20;  // twice the largest file: only aliases come here
+constexpr std::size_t max_values = 500'000;
+constexpr std::size_t max_text = 32u << 20;  // twice the largest file: only aliases come here
 
 /// What a tree holds. Aliases copy, so a short text can become a large tree.
 struct Size {
@@ -135,10 +135,10 @@ class Builder : public YAML::EventHandler {
     values_ += size.values;
     text_ += size.text;
     const std::string as_often = ", each alias counted as what it stands for";
-    if (values_ > most_values)
-      throw Refused{line_of(mark), "more than " + std::to_string(most_values) + " values" + as_often};
-    if (text_ > most_text)
-      throw Refused{line_of(mark), "more than " + std::to_string(most_text >> 20) + " MB of text" + as_often};
+    if (values_ > max_values)
+      throw Refused{line_of(mark), "more than " + std::to_string(max_values) + " values" + as_often};
+    if (text_ > max_text)
+      throw Refused{line_of(mark), "more than " + std::to_string(max_text >> 20) + " MB of text" + as_often};
   }
 
   void open(Node node, const YAML::Mark& mark, YAML::anchor_t anchor) {

@@ -302,11 +302,11 @@ std::uint32_t Isolated::call(Call what, std::int64_t limit_ns, fulmar_error* err
 
 // The child's crash handler wakes the host; of an exit or a kill the host learns by asking between naps.
 bool Isolated::wait(std::int64_t limit_ns) noexcept {
-  constexpr std::int64_t first_nap_ns = 200'000, longest_nap_ns = 1'000'000;
+  constexpr std::int64_t first_nap_ns = 200'000, max_nap_ns = 1'000'000;
   ControlBlock& c = control();
   if (spin_until(std::min(options_.spin_ns, limit_ns), [&] { return answered(); })) return true;
   const std::int64_t end = monotonic_ns() + limit_ns;
-  for (std::int64_t nap_ns = first_nap_ns;; nap_ns = std::min(2 * nap_ns, longest_nap_ns)) {
+  for (std::int64_t nap_ns = first_nap_ns;; nap_ns = std::min(2 * nap_ns, max_nap_ns)) {
     c.host_sleeps.store(1);
     const std::uint32_t seen = c.answer.load();
     if (seen != number_) futex_wait(c.answer, seen, nap_ns);

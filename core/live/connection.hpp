@@ -97,7 +97,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
 
   void begin() {
     cut_after(handshake_limit);
-    parser_.header_limit(most_header_bytes);
+    parser_.header_limit(max_header_bytes);
     http::async_read_header(corked(), buffer_, parser_,
                             OnBytes([self = shared_from_this()](error_code ec, std::size_t) {
                               if (!ec) return self->answer();
@@ -121,7 +121,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   void finish() { close(1001, "the flight has ended"); }
 
   bool offer(const Message& message) override {
-    if (closing_ || queued_ + message.size() > most_queued_bytes)
+    if (closing_ || queued_ + message.size() > max_queued_bytes)
       return closing_;  // one that is going misses nothing
     push(message);
     return true;
@@ -129,7 +129,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
 
   void send(Message message) override {
     if (closing_) return;
-    if (queued_ + message.size() > most_owed_bytes) return close(1008, "too slow for its own requests");
+    if (queued_ + message.size() > max_owed_bytes) return close(1008, "too slow for its own requests");
     push(std::move(message));
   }
 
@@ -147,13 +147,13 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
 
  private:
   static constexpr seconds handshake_limit{5}, idle_limit{120}, farewell_limit{1}, page_limit{60};
-  static constexpr std::uint32_t most_header_bytes = 8192;
+  static constexpr std::uint32_t max_header_bytes = 8192;
   static constexpr std::size_t small_body_bytes = 64u << 10;
   static constexpr std::size_t most_message_bytes = 1u << 20;
-  static constexpr std::size_t most_clients = 16;
+  static constexpr std::size_t max_clients = 16;
   static constexpr int kernel_bytes = 512 << 10;  // that the system holds for a client: it is late already
-  static constexpr std::size_t most_queued_bytes = 4u << 20;        // then data is left out
-  static constexpr std::size_t most_owed_bytes = 16u << 20;         // then the client is closed
+  static constexpr std::size_t max_queued_bytes = 4u << 20;         // then data is left out
+  static constexpr std::size_t max_owed_bytes = 16u << 20;          // then the client is closed
   static constexpr double messages_per_s = 10'000, burst = 20'000;  // one per KiB of a message, at least one
   static constexpr milliseconds busy_pause{5};
 
@@ -250,8 +250,8 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     if (protocol.empty())
       return respond(
           400, "This flight speaks the WebSocket subprotocols foxglove.sdk.v1 and foxglove.websocket.v1.");
-    if (context_.hub.clients() >= most_clients)
-      return respond(503, "This flight has " + std::to_string(most_clients) + " clients already.");
+    if (context_.hub.clients() >= max_clients)
+      return respond(503, "This flight has " + std::to_string(max_clients) + " clients already.");
     timer_.cancel();  // the WebSocket has time-outs of its own
     corked().socket().set_option(tcp::no_delay(true));
     corked().socket().set_option(net::socket_base::send_buffer_size(kernel_bytes));
@@ -271,7 +271,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   }
 
   void join() {
-    if (context_.hub.clients() >= most_clients) {  // others were quicker
+    if (context_.hub.clients() >= max_clients) {  // others were quicker
       ++context_.counters.refused;
       return cut();
     }

@@ -44,7 +44,7 @@ class Corked {
     const std::size_t size = boost::beast::buffer_bytes(buffers), before = held_.size();
     held_.resize(before + size);
     boost::asio::buffer_copy(boost::asio::buffer(held_.data() + before, size), buffers);
-    if (corked_ && held_.size() < most_held)
+    if (corked_ && held_.size() < max_held)
       return boost::asio::post(get_executor(), [size, done = std::forward<Handler>(handler)]() mutable {
         done(error_code(), size);
       });
@@ -63,7 +63,7 @@ class Corked {
   friend void beast_close_socket(Corked& corked) { corked.close(); }
 
  private:
-  static constexpr std::size_t most_held = 64u << 10;
+  static constexpr std::size_t max_held = 64u << 10;
   Socket socket_;
   std::vector<char> held_, going_;
   bool corked_ = false;

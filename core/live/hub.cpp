@@ -13,8 +13,8 @@ namespace {
 using nlohmann::json;
 using std::chrono::steady_clock;
 
-constexpr std::size_t most_unanswered = 4096;
-constexpr std::size_t most_refusals = 10;       // of one message that are told
+constexpr std::size_t max_unanswered = 4096;
+constexpr std::size_t max_refusals = 10;        // of one message that are told
 constexpr std::size_t samples_per_turn = 8192;  // then clients are heard again
 constexpr std::chrono::milliseconds time_period{50};
 constexpr std::chrono::seconds drops_period{1};
@@ -146,7 +146,7 @@ void Hub::stop_listening(Client& client, std::uint32_t subscription) {
 
 bool Hub::busy(ClientId id) const {
   const Client* client = find(id);
-  return client != nullptr && client->unanswered >= most_unanswered;
+  return client != nullptr && client->unanswered >= max_unanswered;
 }
 
 Hub::Client* Hub::find(ClientId id) const {
@@ -169,7 +169,7 @@ void Hub::guarded(ClientId id, const Work& work) {
   client->refusals = 0;
   try {
     work(*client);
-    if (client->refusals > most_refusals)
+    if (client->refusals > max_refusals)
       status(*client, 2, "more of this message is refused; these are the first reasons");
   } catch (const Malformed& e) {
     refuse(*client, e.what());
@@ -236,10 +236,10 @@ void Hub::refuse(Client& client, const std::string& why, const std::function<std
 }
 
 void Hub::complain(Client& client, const std::string& why, const std::function<std::string()>& hint) {
-  if (++client.refusals <= most_refusals) status(client, 2, why + (hint ? hint() : ""));
+  if (++client.refusals <= max_refusals) status(client, 2, why + (hint ? hint() : ""));
 }
 
-bool Hub::told_enough(const Client& client) { return client.refusals >= most_refusals; }
+bool Hub::told_enough(const Client& client) { return client.refusals >= max_refusals; }
 
 void Hub::answers() {
   for (const auto& task : mailbox_->take()) task();
@@ -309,7 +309,7 @@ void Hub::keep(const Tap::Sample& sample) {
   std::deque<Kept>& past = channel.past;
   const bool soon = !past.empty() && sample.now_ns - past.back().now_ns <= stream_gap_ns;
   channel.in_a_row = soon ? channel.in_a_row + 1 : 0;
-  if (past.size() == channel.most_past) {
+  if (past.size() == channel.max_past) {
     past.push_back(std::move(past.front()));
     past.pop_front();
   } else

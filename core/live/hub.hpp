@@ -92,10 +92,10 @@ class Hub {
   struct Channel {
     CdrEncoder encoder;
     std::vector<std::pair<Client*, std::uint32_t>> listeners;  // and their subscription
-    bool seldom = false;        // published now and then: no sample may be missed, and the last one holds
-    std::size_t most_past = 1;  // so many of the last samples are for who subscribes later
-    std::size_t in_a_row = 0;   // samples that came soon after the one before
-    std::deque<Kept> past{};    // the oldest first
+    bool seldom = false;       // published now and then: no sample may be missed, and the last one holds
+    std::size_t max_past = 1;  // so many of the last samples are for who subscribes later
+    std::size_t in_a_row = 0;  // samples that came soon after the one before
+    std::deque<Kept> past{};   // the oldest first
   };
   using json = nlohmann::json;
   using Op = void (Hub::*)(Client&, const json&);

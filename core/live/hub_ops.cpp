@@ -11,8 +11,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t most_imports = 64;   // of one client
-constexpr std::size_t most_sets = 10'000;  // of one message: others wait for its answer
+constexpr std::size_t max_imports = 64;   // of one client
+constexpr std::size_t max_sets = 10'000;  // of one message: others wait for its answer
 
 std::uint32_t id_of(const json& value) {
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffu)
@@ -105,8 +105,8 @@ void Hub::import_channel(Client& client, const json& channel) {
     return refuse(client, topic + ": there is no encoding '" + encoding + "'. Valid: cdr, json.");
   if (client.imports.contains(id))
     return refuse(client, "channel " + std::to_string(id) + " is advertised already");
-  if (client.imports.size() >= most_imports)
-    return refuse(client, "a client may advertise " + std::to_string(most_imports) + " channels");
+  if (client.imports.size() >= max_imports)
+    return refuse(client, "a client may advertise " + std::to_string(max_imports) + " channels");
   std::vector<std::string> topics;
   for (const ComponentView& c : view().components) {
     for (const PortView& p : c.inputs) {
@@ -156,8 +156,8 @@ void Hub::get_parameters(Client& client, const json& message) {
 
 void Hub::set_parameters(Client& client, const json& message) {
   const json& list = array_at(message, "parameters");
-  if (list.size() > most_sets)
-    return refuse(client, "a message sets at most " + std::to_string(most_sets) + " parameters");
+  if (list.size() > max_sets)
+    return refuse(client, "a message sets at most " + std::to_string(max_sets) + " parameters");
   auto pending = std::make_shared<Pending>();
   pending->client = client.id;
   pending->id = request_id(message);

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_file_bytes = 8u << 20;
+constexpr std::uintmax_t max_file_bytes = 8u << 20;
 
 std::string content_type(const fs::path& file) {
   const std::string ending = file.extension().string();
@@ -22,7 +22,7 @@ std::string content_type(const fs::path& file) {
 
 std::string content(const fs::path& file) {
   std::error_code fault;
-  if (const auto size = fs::file_size(file, fault); fault || size > most_file_bytes) return "";
+  if (const auto size = fs::file_size(file, fault); fault || size > max_file_bytes) return "";
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }

@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 namespace net = boost::asio;
 
 constexpr milliseconds turn{5}, idle_turn{50}, accept_pause{100}, farewell_limit{1500};
-constexpr std::size_t most_connections = 64;
+constexpr std::size_t max_connections = 64;
 
 net::ip::address address_of(const std::string& host) {
   const std::string bare =
@@ -88,9 +88,9 @@ struct LiveServer::Impl {
   void accept() {
     acceptor.async_accept([this](error_code fault, live::tcp::socket socket) {
       if (stopping) return;
-      if (!fault && context.connections.size() >= most_connections) live::Connection::make_room(context);
+      if (!fault && context.connections.size() >= max_connections) live::Connection::make_room(context);
       if (!fault &&
-          context.connections.size() < 2 * most_connections) {  // one that is cut goes a little later
+          context.connections.size() < 2 * max_connections) {  // one that is cut goes a little later
         std::make_shared<live::Connection>(std::move(socket), io, context)->begin();
       } else {
         ++counters.refused;

@@ -11,9 +11,9 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::uint32_t most_components = 256, most_ports = 256, most_params = 1024, most_choices = 1024;
-constexpr std::uint32_t most_items = 1u << 16;      // of a queue, per step
-constexpr std::uint32_t longest_string = 1u << 16;  // bytes of a string parameter
+constexpr std::uint32_t max_components = 256, max_ports = 256, max_params = 1024, max_choices = 1024;
+constexpr std::uint32_t max_items = 1u << 16;   // of a queue, per step
+constexpr std::uint32_t max_string = 1u << 16;  // bytes of a string parameter
 
 std::string version_text(std::uint32_t major, std::uint32_t minor) {
   return std::to_string(major) + "." + std::to_string(minor);
@@ -41,7 +41,7 @@ Port read_port(TableReader& tables, const fulmar_port& from, const std::string& 
   port.optional = (from.flags & FULMAR_PORT_OPTIONAL) != 0;
   const bool queue =
       port.kind == FULMAR_IN_QUEUE || port.kind == FULMAR_IN_REQUEST || port.kind == FULMAR_OUT_QUEUE;
-  if (queue && (from.capacity == 0 || from.capacity > most_items))
+  if (queue && (from.capacity == 0 || from.capacity > max_items))
     throw Error(what + " is a queue with room for " + std::to_string(from.capacity) + " items");
   port.capacity = queue ? from.capacity : 1;
   if (port.kind != FULMAR_OUT_PROBE) port.type = tables.type(from.type, what);
@@ -51,8 +51,8 @@ Port read_port(TableReader& tables, const fulmar_port& from, const std::string& 
 std::vector<Port> read_ports(TableReader& tables, const fulmar_port* from, std::uint32_t count,
                              std::uint32_t stride, const std::string& owner, bool input) {
   const std::string what = std::string(input ? "the inputs" : "the outputs") + " of " + owner;
-  if (count > most_ports)
-    throw Error(what + " are " + std::to_string(count) + "; " + std::to_string(most_ports) + " is the limit");
+  if (count > max_ports)
+    throw Error(what + " are " + std::to_string(count) + "; " + std::to_string(max_ports) + " is the limit");
   std::vector<Port> ports;
   for (std::uint32_t i = 0; i < count; ++i) {
     Port port = read_port(tables, tables.element(from, stride, i, what), owner, input);
@@ -83,7 +83,7 @@ void read_kind(TableReader& tables, const fulmar_param& from, ParamInfo& param, 
         throw Error(what + " has a default that is neither 0 nor 1");
       return;
     case FULMAR_CHOICE:
-      if (from.choice_count == 0 || from.choice_count > most_choices)
+      if (from.choice_count == 0 || from.choice_count > max_choices)
         throw Error(what + " offers " + std::to_string(from.choice_count) + " choices");
       param.choices = tables.texts(from.choices, from.choice_count, what + ": the choices");
       if (!(param.initial[0] >= 0 && param.initial[0] < from.choice_count))
@@ -91,7 +91,7 @@ void read_kind(TableReader& tables, const fulmar_param& from, ParamInfo& param, 
       return;
     case FULMAR_STRING:
       param.initial_text = tables.text(from.initial_text, what + ": the default");
-      if (param.capacity > longest_string || param.initial_text.size() >= param.capacity)
+      if (param.capacity > max_string || param.initial_text.size() >= param.capacity)
         throw Error(what + " has a default that does not fit into " + std::to_string(param.capacity) +
                     " bytes");
       return;
@@ -162,9 +162,9 @@ ComponentInfo read_component(TableReader& tables, const fulmar_component& from) 
   info.activates = from.activate != nullptr;
   info.inputs = read_ports(tables, from.inputs, from.input_count, from.port_stride, owner, true);
   info.outputs = read_ports(tables, from.outputs, from.output_count, from.port_stride, owner, false);
-  if (from.param_count > most_params)
+  if (from.param_count > max_params)
     throw Error(owner + " has " + std::to_string(from.param_count) + " parameters; " +
-                std::to_string(most_params) + " is the limit");
+                std::to_string(max_params) + " is the limit");
   for (std::uint32_t i = 0; i < from.param_count; ++i) {
     ParamInfo param = read_param(
         tables, tables.element(from.params, from.param_stride, i, "the parameters of " + owner), owner);
@@ -180,7 +180,7 @@ void read_plugin(TableReader& tables, const fulmar_plugin& entry, PluginInfo& in
   info.toolchain = tables.text(entry.toolchain, "the toolchain");
   info.flags = tables.text(entry.flags, "the build flags");
   const bool hosts_scripts = entry.open_script != nullptr;
-  if ((entry.component_count == 0 && !hosts_scripts) || entry.component_count > most_components)
+  if ((entry.component_count == 0 && !hosts_scripts) || entry.component_count > max_components)
     throw Error("it has " + std::to_string(entry.component_count) + " components");
   check_function(tables, entry.open_script, false, "open_script", "the plugin");
   check_function(tables, entry.close_script, hosts_scripts, "close_script", "the plugin");

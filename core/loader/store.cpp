@@ -22,7 +22,7 @@ namespace fulmar::core {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t most_copies = 128;            // the least recently used go
+constexpr std::size_t max_copies = 128;             // the least recently used go
 constexpr const char* suffixes[] = {".so", ".py"};  // of what is kept
 
 // Throws with what the system says.
@@ -127,9 +127,9 @@ void prune(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, fault))
     if (is_suffix(entry.path().extension().string()))
       copies.emplace_back(entry.last_write_time(fault), entry.path());
-  if (copies.size() <= most_copies) return;
+  if (copies.size() <= max_copies) return;
   std::sort(copies.begin(), copies.end());
-  for (std::size_t i = 0; i + most_copies < copies.size(); ++i) fs::remove(copies[i].second, fault);
+  for (std::size_t i = 0; i + max_copies < copies.size(); ++i) fs::remove(copies[i].second, fault);
 }
 
 }  // namespace

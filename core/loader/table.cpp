@@ -10,10 +10,10 @@
 namespace fulmar::core {
 namespace {
 
-constexpr int deepest = 16;                  // levels of nesting
-constexpr std::uint32_t most_fields = 1024;  // of one struct
+constexpr int deepest = 16;                 // levels of nesting
+constexpr std::uint32_t max_fields = 1024;  // of one struct
 constexpr std::uint32_t largest_struct = 1u << 26;
-constexpr std::uint32_t most_labels = 256;  // an enum is one byte
+constexpr std::uint32_t max_labels = 256;  // an enum is one byte
 
 std::uint64_t hash_of(const Type& type) {
   Fnv hash;
@@ -102,7 +102,7 @@ Field TableReader::read_field(const fulmar_field& from, const std::string& owner
   field.items = field.shape == FULMAR_LIST ? from.items : 0;
   if (field.kind == FULMAR_STRUCT) field.type = type(from.type, what);
   if (field.kind == FULMAR_ENUM) {
-    if (from.label_count == 0 || from.label_count > most_labels)
+    if (from.label_count == 0 || from.label_count > max_labels)
       throw Error(what + " is an enum with " + std::to_string(from.label_count) + " labels");
     field.labels = texts(from.labels, from.label_count, what + ": the labels");
   }
@@ -127,9 +127,9 @@ std::shared_ptr<Type> TableReader::read_type(const fulmar_type& from, const std:
   type->ros = text(from.ros, self + ": the ROS name");
   type->size = from.size;
   type->align = from.align;
-  if (from.field_count > most_fields)
-    throw Error(self + " has " + std::to_string(from.field_count) + " fields; " +
-                std::to_string(most_fields) + " is the limit");
+  if (from.field_count > max_fields)
+    throw Error(self + " has " + std::to_string(from.field_count) + " fields; " + std::to_string(max_fields) +
+                " is the limit");
   for (std::uint32_t i = 0; i < from.field_count; ++i) {
     Field field = read_field(element(from.fields, from.field_stride, i, self + ": the fields"), self);
     if (type->find(field.name) != nullptr) throw Error(self + " has two fields '" + field.name + "'");

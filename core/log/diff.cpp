@@ -16,9 +16,9 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t most_compared_values = 100'000;
-constexpr std::size_t most_at_once = 32u << 20;  // bytes of one log time
-constexpr std::size_t most_waiting = 100'000;    // ticks, where the other log has none
+constexpr std::size_t max_compared_values = 100'000;
+constexpr std::size_t max_at_once = 32u << 20;  // bytes of one log time
+constexpr std::size_t max_waiting = 100'000;    // ticks, where the other log has none
 using MessageBytes = std::span<const std::byte>;
 
 struct Stored {
@@ -77,8 +77,8 @@ struct Side {
     for (; ahead != nullptr && ahead->log_ns == ns; ahead = next()) {
       const std::string& topic = stream.log().channels.at(ahead->channel).topic;
       channels.try_emplace(topic, ahead->channel);
-      if ((taken += ahead->data.size() + sizeof(Stored)) > most_at_once)
-        throw Error("the log has more than " + std::to_string(most_at_once >> 20) +
+      if ((taken += ahead->data.size() + sizeof(Stored)) > max_at_once)
+        throw Error("the log has more than " + std::to_string(max_at_once >> 20) +
                     " MB of messages at one time");
       if (now[topic].empty()) order.push_back(topic);
       now[topic].push_back({bytes.size(), ahead->data.size(), ahead->publish_ns});
@@ -88,7 +88,7 @@ struct Side {
   }
   void take_ticks(std::span<const std::byte> data) try {
     if (!tick_topic) tick_topic.emplace(stream.log());
-    if (!tick_topic->same() || ticks.size() > most_waiting) return;
+    if (!tick_topic->same() || ticks.size() > max_waiting) return;
     const Ticks t = tick_topic->read(data);
     each_tick(t, [&](std::uint32_t i, std::int64_t time_ns) {
       ticks.push_back({t.first + i, time_ns, t.hash[i]});
@@ -115,7 +115,7 @@ std::vector<CdrValue> values(const Side& side, const std::string& topic, Message
       channel.encoding == "cdr" && schema != log.schemas.end() && schema->second.encoding == "ros2msg";
   if (!ours) return {};
   return cdr_values(*parse_ros_schema(schema->second.name, schema->second.text), message,
-                    most_compared_values);
+                    max_compared_values);
 } catch (const Error&) {
   return {};
 }

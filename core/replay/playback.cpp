@@ -13,7 +13,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t most_ahead_bytes = 64u << 20;  // a flight has less than one by the tick, for 40 ticks
+constexpr std::size_t max_ahead_bytes = 64u << 20;  // a flight has less than one by the tick, for 40 ticks
 
 }  // namespace
 
@@ -66,8 +66,8 @@ bool Playback::read() {
   if (m->channel < takes_.size() && !takes_[m->channel].empty()) {
     ahead_bytes_ += m->data.size() + sizeof *m;
     for (const Take& take : takes_[m->channel]) take(*m);
-    if (ahead_bytes_ > most_ahead_bytes)
-      throw Error("the log holds more than " + std::to_string(most_ahead_bytes >> 20) +
+    if (ahead_bytes_ > max_ahead_bytes)
+      throw Error("the log holds more than " + std::to_string(max_ahead_bytes >> 20) +
                   " MB between two messages about its ticks");
   }
   ++place_;

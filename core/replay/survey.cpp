@@ -8,7 +8,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t most_told_bytes = 32u << 20;  // two million late results
+constexpr std::size_t max_told_bytes = 32u << 20;  // two million late results
 
 }  // namespace
 
@@ -140,9 +140,9 @@ struct Survey::Reading {
   }
 
   void count(std::size_t bytes) {
-    if ((told_bytes += bytes) > most_told_bytes)
+    if ((told_bytes += bytes) > max_told_bytes)
       throw Error("the log tells of more guards, signals and late results than the " +
-                  std::to_string(most_told_bytes >> 20) + " MB that a replay has room for");
+                  std::to_string(max_told_bytes >> 20) + " MB that a replay has room for");
   }
 
   void take_parameter(const McapFile::Message& m) try {

@@ -19,7 +19,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t longest_value = 4096;  // of a parameter's text
+constexpr std::size_t max_value = 4096;  // of a parameter's text
 constexpr auto nap =
     std::chrono::milliseconds(2);  // of the thread that answers; the loop never pays for waking it
 
@@ -76,19 +76,19 @@ bool FlightControl::apply() noexcept {
   std::size_t applied = 0, left = 0;
   held_.grounded = false;
   for (std::size_t i = 0; i < held_.count; ++i)
-    if (applied < most_per_tick && take(*held_.list[i]))
+    if (applied < max_per_tick && take(*held_.list[i]))
       ++applied;
     else
       held_.list[left++] = held_.list[i];
   held_.count = left;
-  for (; applied < most_per_tick; ++applied) {
+  for (; applied < max_per_tick; ++applied) {
     Waiting* const waiting = queues_.in.pop();
     if (!waiting) break;
     const bool paces = waiting->pace.has_value();
     if (!take(*waiting)) held_.list[held_.count++] = waiting;
     if (paces) break;  // what was asked for afterwards has its turn afterwards
   }
-  for (std::size_t n = 0; n < most_per_tick; ++n) {
+  for (std::size_t n = 0; n < max_per_tick; ++n) {
     Waiting* const sample = queues_.samples.pop();
     if (!sample) break;
     take(*sample);
@@ -215,7 +215,7 @@ void FlightControl::enqueue(std::unique_ptr<Waiting> waiting) {
   const std::lock_guard lock(mutex_);
   if (over_.load()) throw Error("the flight has ended");
   if (const std::size_t commands = waiting_.all.size() - waiting_.samples;
-      commands >= most_waiting || !queues_.in.push(w))
+      commands >= max_waiting || !queues_.in.push(w))
     throw Error(std::to_string(commands) + " commands are waiting for the flight; there is no room for more");
   waiting_.all.emplace(w, std::move(waiting));
 }
@@ -315,9 +315,9 @@ void FlightControl::set_parameter(const std::string& component, const std::strin
     part = commands->param(at, param);
     command.value = base_[at][part];
   }
-  if (text.size() > longest_value)
+  if (text.size() > max_value)
     throw Error(component + "." + param + ": a value of " + std::to_string(text.size()) + " characters; " +
-                std::to_string(longest_value) + " are allowed");
+                std::to_string(max_value) + " are allowed");
   const ParamInfo& info = commands->info(at).params[part];
   check_live(component, info);
   Report report;
@@ -355,7 +355,7 @@ bool FlightControl::publish(const std::string& component, const std::string& por
   Waiting* const w = waiting.get();
   const std::lock_guard lock(mutex_);
   // So many of each: a flood of one import takes no other's place.
-  if (over_.load() || waiting_.of_import[c.part] >= most_of_import || !queues_.samples.push(w)) {
+  if (over_.load() || waiting_.of_import[c.part] >= max_of_import || !queues_.samples.push(w)) {
     lost_samples_.fetch_add(1, std::memory_order_relaxed);
     return false;
   }

@@ -86,7 +86,7 @@ class FlightControl final : public Control {
  private:
   struct Waiting;
   struct Directory;
-  static constexpr std::size_t most_waiting = 1024, most_per_tick = 32, most_of_import = 64;
+  static constexpr std::size_t max_waiting = 1024, max_per_tick = 32, max_of_import = 64;
 
   void send(Command command, Answer answer);
   bool take(Waiting& waiting) noexcept;
@@ -102,12 +102,12 @@ class FlightControl final : public Control {
   void answer_done();
 
   struct Queues {
-    PointerQueue<Waiting, most_waiting> in, samples;  // nobody's samples keep a parameter waiting
-    PointerQueue<Waiting, 2 * most_waiting> out;
+    PointerQueue<Waiting, max_waiting> in, samples;  // nobody's samples keep a parameter waiting
+    PointerQueue<Waiting, 2 * max_waiting> out;
   };
   /// The loop's: requests for which there was no room yet, in their order.
   struct Held {
-    std::array<Waiting*, most_waiting> list{};
+    std::array<Waiting*, max_waiting> list{};
     std::size_t count = 0;
     bool grounded = false;  // something was done that is done on the ground alone
   };

@@ -9,7 +9,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::uint64_t most_ticks = 1'000'000;
+constexpr std::uint64_t max_ticks = 1'000'000;
 // One tick may take so much longer than in reality: in between nobody is heard.
 constexpr double slowest = 0.01, fastest = 1e6;
 
@@ -35,8 +35,8 @@ std::string speed_text(double speed) {
 PaceOrder step_order(const std::string& ticks) {
   std::uint64_t n = 0;
   const auto [end, code] = std::from_chars(ticks.data(), ticks.data() + ticks.size(), n);
-  if (code != std::errc{} || end != ticks.data() + ticks.size() || n < 1 || n > most_ticks)
-    throw Error("step '" + ticks + "': give a whole number of ticks from 1 to " + std::to_string(most_ticks));
+  if (code != std::errc{} || end != ticks.data() + ticks.size() || n < 1 || n > max_ticks)
+    throw Error("step '" + ticks + "': give a whole number of ticks from 1 to " + std::to_string(max_ticks));
   return {PaceOrder::What::step, n, 0};
 }
 

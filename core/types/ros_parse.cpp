@@ -22,8 +22,8 @@ namespace {
 constexpr std::uint32_t text_room = 4096;
 constexpr std::uint32_t list_room = 256;
 constexpr std::uint64_t largest_struct = 1u << 26;
-constexpr std::size_t most_fields = 20'000;  // of all structs together
-constexpr std::size_t longest_name = 256;
+constexpr std::size_t max_fields = 20'000;  // of all structs together
+constexpr std::size_t max_name = 256;
 constexpr int deepest = 16;
 
 /// Of a number, bool or text.
@@ -122,8 +122,8 @@ class Parser {
     Field field;
     field.name = std::string(take_word(words));  // what may follow is a default value
     if (field.name.empty()) fail(name, line, "a field needs a type and a name");
-    if (field.name.size() > longest_name) fail(name, line, "the name is too long");
-    if (++fields_ > most_fields) fail(name, line, "too many fields");
+    if (field.name.size() > max_name) fail(name, line, "the name is too long");
+    if (++fields_ > max_fields) fail(name, line, "too many fields");
     const std::string note(hash == std::string::npos ? "" : trimmed(std::string_view(line).substr(hash + 1)));
     std::string_view element = type_word;
     if (!shape(element, field)) fail(name, line, "a list's length cannot be read");

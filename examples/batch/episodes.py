@@ -3,7 +3,7 @@
 import fulmar_sim
 import numpy
 
-n, longest_s, period_s = 200, 20, 0.02
+n, max_s, period_s = 200, 20, 0.02
 sim = fulmar_sim.Simulation("fulmar:airframes/anaconda.yaml", n=n, threads=2, seed=1, turbulence="moderate")
 names = {name: i for i, name in enumerate(sim.row_names)}
 rng = numpy.random.default_rng(1)
@@ -23,7 +23,7 @@ for _ in range(1500):
     rows = sim.step(actions, steps=8)
     age_s += period_s
     crashed, departed = rows[:, names["crashed"]] > 0, rows[:, names["departed"]] > 0
-    over = crashed | departed | (age_s >= longest_s)
+    over = crashed | departed | (age_s >= max_s)
     if over.any():
         ended["crashed"] += int(crashed.sum())
         ended["departed"] += int((departed & ~crashed).sum())

@@ -18,7 +18,7 @@ using namespace fulmar;
 struct ExpandingSquare {
   static constexpr const char* doc =
       "An expanding-square search that is put into the plan and taken out again.";
-  static constexpr std::size_t most_corners = 24;
+  static constexpr std::size_t max_corners = 24;
   struct Inputs {
     In<VehicleState> state;
     In<Progress> progress;
@@ -26,7 +26,7 @@ struct ExpandingSquare {
     Queue<PlanEditResult> results;  // what the planner says of our edits, and of others'
   };
   struct Outputs {
-    OutQueue<PlanEdit, most_corners + 1> edits;
+    OutQueue<PlanEdit, max_corners + 1> edits;
     OutQueue<Notice, 2> notices;
     Probe corners_ratio;  // of the search that were reached
   };
@@ -34,7 +34,7 @@ struct ExpandingSquare {
     Count after{2, 1, 1000, "waypoints before the search"};
     Param spacing{120, "m", 5, 5000, "between tracks"};
     Param first_leg{0, "rad", -3.15, 3.15, "course of the first leg"};
-    Count corners{9, 1, most_corners, "of the square"};
+    Count corners{9, 1, max_corners, "of the square"};
     Flag left{false, "turn left at the corners, in place of right"};
   };
 
@@ -91,7 +91,7 @@ struct ExpandingSquare {
   }
 
   void hear(const Tick& tick, const PlanEditResult& result, Outputs& out) {
-    if (result.id < first_id || result.id > first_id + most_corners) return;  // somebody else's
+    if (result.id < first_id || result.id > first_id + max_corners) return;  // somebody else's
     if (!result.accepted && (phase_ == Phase::asked || phase_ == Phase::tidying)) {
       tell(tick, phase_ == Phase::asked ? "search refused" : "the search stays in the plan", result.reason,
            out);
@@ -138,5 +138,5 @@ struct ExpandingSquare {
 
   Phase phase_ = Phase::waiting;
   std::uint32_t count_ = 0, corners_ = 0, revision_ = 0;
-  std::array<std::uint32_t, most_corners> ids_{};  // of the corners in the plan
+  std::array<std::uint32_t, max_corners> ids_{};  // of the corners in the plan
 };

@@ -109,7 +109,7 @@ struct Autotune {
   using Verdict = AutotuneVerdict;
   using Reason = AutotuneReason;
   /// Of `LoopRecord::answer`: without an answer it is 1 +- 0.3, with one 3.5 and more in moderate turbulence.
-  static constexpr double least_answer = 2.5;
+  static constexpr double min_answer = 2.5;
 
   static AxisGains gains_of(const Inner::Params& p, std::size_t axis) {
     if (axis == roll) return {p.roll_kp, p.roll_ki, p.roll_kd};
@@ -244,11 +244,11 @@ struct Autotune {
     const double phase_deg = std::min(m.phase_rad / degree, 180.0);
     const char* const name = names[axis_];
     if (g.damper())
-      say(Severity::info, "%s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name, g.kd, m.least_gain_db(),
+      say(Severity::info, "%s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name, g.kd, m.min_gain_db(),
           phase_deg);
     else
       say(Severity::info, "%s_kp: %.3g, %s_ki: %.3g, %s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name,
-          g.kp, name, g.ki, name, g.kd, m.least_gain_db(), phase_deg);
+          g.kp, name, g.ki, name, g.kd, m.min_gain_db(), phase_deg);
   }
 
   template <class... Values>
@@ -337,7 +337,7 @@ struct Autotune {
   static bool answers(const LoopRecord& r) {
     Complex sum = 0;
     for (std::size_t i = 2; i < 8; ++i) sum += r.rate[i];
-    return sum.real() > 0 && r.answer > least_answer;
+    return sum.real() > 0 && r.answer > min_answer;
   }
 
   void excite(const Inputs& in, const Params& p, double dt, Inner::Outputs& out) {
@@ -406,7 +406,7 @@ struct Autotune {
     said_ = 0;
   }
   static void tell_margins(const std::optional<Margins>& m, double& gain_ratio, double& phase_rad) {
-    gain_ratio = m ? std::min(std::pow(10, m->least_gain_db() / 20), 1e9) : 0;
+    gain_ratio = m ? std::min(std::pow(10, m->min_gain_db() / 20), 1e9) : 0;
     phase_rad = m ? std::min(m->phase_rad, std::numbers::pi) : 0;
   }
 

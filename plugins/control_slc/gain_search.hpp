@@ -15,7 +15,7 @@ struct AxisGains {
 struct MarginsWanted {
   double gain_db = 8, phase_rad = 0.96, delay_s = 0;
   bool kept(const Margins& m) const {
-    return m.least_gain_db() >= gain_db && m.phase_rad >= phase_rad && m.delay_s >= delay_s;
+    return m.min_gain_db() >= gain_db && m.phase_rad >= phase_rad && m.delay_s >= delay_s;
   }
 };
 

@@ -86,14 +86,14 @@ struct Outer {
     // is missing of a demand counts as the height error that would demand it, in a second at the fastest.
     const double gain = turn.Va_mps * std::max<double>({p.altitude_kp, p.altitude_ki, 1e-6});
     const double missing = late_.missing(climb_rate != wanted, climb_rate, state.climb_rate_mps,
-                                         altitude_.integral(), -most_bias, dt);
+                                         altitude_.integral(), -max_bias, dt);
     const PidInput in{.error = climb_rate == wanted ? error : missing / gain,
                       .rate = state.climb_rate_mps - climb_rate,
                       .feedforward = turn.pitch_rad + climb_rate / turn.Va_mps,
                       .min = pitch.min,
                       .max = pitch.max};
     const PidGains gains{0, p.altitude_ki, p.altitude_kd};
-    if (loop_.commands.taking_up()) altitude_.reset_to(loop_.commands.last().pitch_rad, gains, in, most_bias);
+    if (loop_.commands.taking_up()) altitude_.reset_to(loop_.commands.last().pitch_rad, gains, in, max_bias);
     const double theta = altitude_.step(gains, in, dt);
     out.internals.height_error_m = error;
     out.internals.pitch_saturated = altitude_.saturated() || climb_rate != wanted;
@@ -122,7 +122,7 @@ struct Outer {
     return throttle;
   }
 
-  static constexpr double most_bias = 0.1;  // rad
+  static constexpr double max_bias = 0.1;  // rad
   OuterLoop loop_;
   Pid altitude_, airspeed_;
   LateDemand late_;

@@ -11,7 +11,7 @@ class RateFit {
  public:
   static constexpr int unknown = 5;             ///< tau with them
   static constexpr double model_error = 0.015;  ///< of 1 + L, which any low order leaves
-  static constexpr double most_misfit = 2.5;    ///< beyond: the aircraft is none of these
+  static constexpr double max_misfit = 2.5;     ///< beyond: the aircraft is none of these
 
   /// `gains`: with which the record was taken. `more`: the law feeds back more than attitude and rate.
   void begin(const LoopRecord& record, const AxisGains& gains, bool more) {
@@ -43,7 +43,7 @@ class RateFit {
   /// The record without most of the noise, or as it was when the aircraft is none of these.
   LoopRecord record() const {
     LoopRecord r = record_;
-    if (!(misfit_ < most_misfit)) return r;
+    if (!(misfit_ < max_misfit)) return r;
     for (std::size_t i = 0; i < Lines::count; ++i) {
       r.rate[i] = best_[i];
       if (gains_.damper()) {
@@ -56,7 +56,7 @@ class RateFit {
         };
         r.loop[i] = law(r) + (more_ ? record_.loop[i] - law(record_) : 0.0);
       }
-      r.noise[i] *= std::sqrt(std::clamp(misfit_, 0.2, most_misfit) * unknown / (2.0 * Lines::count));
+      r.noise[i] *= std::sqrt(std::clamp(misfit_, 0.2, max_misfit) * unknown / (2.0 * Lines::count));
     }
     return r;
   }

@@ -148,7 +148,7 @@ struct ErrorLaw {
     const double ahead = (1 - e.underspeed) * e.climb_rate_mps;
     const double climb_rate = ahead + p.balance_gain * w_h * held.potential / isa::g0;
     const double missing = late_climb_.missing(limited, climb_rate, state.climb_rate_mps, pitch_.integral(),
-                                               -most_pitch_bias, dt);
+                                               -max_pitch_bias, dt);
     const PidInput in{
         .error = limited ? missing / (gain_of(p.balance_gain, p.balance_integral) * turn.Va_mps) : B * per_gV,
         .rate = 0,
@@ -157,7 +157,7 @@ struct ErrorLaw {
         .max = pitch.max};
     const PidGains gains{0, p.balance_integral, 0};
     if (loop_.commands.taking_up())
-      pitch_.reset_to(loop_.commands.last().pitch_rad, gains, in, most_pitch_bias);
+      pitch_.reset_to(loop_.commands.last().pitch_rad, gains, in, max_pitch_bias);
     const double theta = pitch_.step(gains, in, dt);
     out.internals.pitch_saturated = pitch_.saturated() || limited;
     out.balance_error_ratio = B;
@@ -182,7 +182,7 @@ struct ErrorLaw {
     const double rate = isa::g0 * e.climb_rate_mps + p.total_gain * E;
     const double flown = isa::g0 * state.climb_rate_mps + state.airspeed_mps * airspeed_rate(state);
     const double missing =
-        late_rate_.missing(limited, rate, flown, throttle_.integral(), -most_throttle_bias, dt);
+        late_rate_.missing(limited, rate, flown, throttle_.integral(), -max_throttle_bias, dt);
     const double learnt = limited ? missing / gain_of(p.total_gain, p.total_integral) : E;
     const PidInput in{.error = e.underspeed == 0 ? per_rate * learnt : 0,
                       .rate = 0,
@@ -191,13 +191,13 @@ struct ErrorLaw {
                       .max = 1};
     const PidGains gains{0, p.total_integral, 0};
     if (loop_.commands.taking_up())
-      throttle_.reset_to(loop_.commands.last().throttle_frac, gains, in, most_throttle_bias);
+      throttle_.reset_to(loop_.commands.last().throttle_frac, gains, in, max_throttle_bias);
     const double throttle = throttle_.step(gains, in, dt);
     out.internals.throttle_saturated = throttle_.saturated();
     return e.underspeed + (1 - e.underspeed) * throttle;
   }
 
-  static constexpr double most_pitch_bias = 0.1, most_throttle_bias = 0.2;  // rad, of 1
+  static constexpr double max_pitch_bias = 0.1, max_throttle_bias = 0.2;  // rad, of 1
   OuterLoop loop_;
   Pid pitch_, throttle_;
   LateDemand late_climb_, late_rate_;

@@ -52,7 +52,7 @@ class ParameterBook {
 
   /// The one to ask for now.
   std::optional<std::int16_t> next(std::int64_t now_ns) {
-    if (now_ns < next_ns_ || rounds_ >= most_rounds || heard_.count() >= count_) return {};
+    if (now_ns < next_ns_ || rounds_ >= max_rounds || heard_.count() >= count_) return {};
     while (at_ < count_ && heard_[at_]) ++at_;
     if (at_ >= count_) {
       at_ = 0;
@@ -67,7 +67,7 @@ class ParameterBook {
   /// Once all are known, or given up.
   void tell(Notices& out) {
     const bool complete = heard_.count() >= count_;
-    if (told_ || count_ == 0 || (!complete && rounds_ < most_rounds)) return;
+    if (told_ || count_ == 0 || (!complete && rounds_ < max_rounds)) return;
     told_ = true;
     const auto all = static_cast<std::int64_t>(count_),
                lacking = all - static_cast<std::int64_t>(heard_.count());
@@ -86,7 +86,7 @@ class ParameterBook {
 
  private:
   static constexpr std::size_t most = 512;
-  static constexpr int most_rounds = 5;
+  static constexpr int max_rounds = 5;
   static constexpr std::int64_t period_ns = 10'000'000, pause_ns = 500'000'000;
   static constexpr std::array<std::string_view, 7> biases{
       "ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS", "GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS", pitot_zero};

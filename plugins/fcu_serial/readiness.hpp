@@ -32,15 +32,15 @@ class Hold {
  public:
   bool open(std::int64_t now_ns) const { return now_ns - told_ns_ >= hold_ns_; }
   void told(std::int64_t now_ns) {
-    hold_ns_ = now_ns - told_ns_ < 2 * repeat_ns ? std::min(2 * hold_ns_, repeat_ns) : least_ns;
+    hold_ns_ = now_ns - told_ns_ < 2 * repeat_ns ? std::min(2 * hold_ns_, repeat_ns) : min_ns;
     told_ns_ = now_ns;
   }
   /// The next one is told at once.
   void release() { told_ns_ = never_ns; }
 
  private:
-  static constexpr std::int64_t least_ns = 1'000'000'000;
-  std::int64_t told_ns_ = never_ns, hold_ns_ = least_ns;
+  static constexpr std::int64_t min_ns = 1'000'000'000;
+  std::int64_t told_ns_ = never_ns, hold_ns_ = min_ns;
 };
 
 /// Tells the loss of the fix, and its return. A slow receiver gets the time of two and a half fixes; while
@@ -59,7 +59,7 @@ class FixWatch {
       lost_ = false;
     }
     const std::int64_t silent_ns = now_ns - std::max(fix_ns, link_ns);
-    if (lost_ || !link || silent_ns < std::max(least_ns, period_ns_ * 5 / 2)) return;
+    if (lost_ || !link || silent_ns < std::max(min_ns, period_ns_ * 5 / 2)) return;
     lost_ = true;
     told_ = hold_.open(now_ns);
     if (!told_) return;
@@ -71,7 +71,7 @@ class FixWatch {
 
  private:
   using Severity = fulmar::Severity;
-  static constexpr std::int64_t least_ns = 700'000'000;
+  static constexpr std::int64_t min_ns = 700'000'000;
   std::int64_t last_ns_ = never_ns,
                period_ns_ = 2'000'000'000;  ///< until two fixes have told it: the slowest receiver's
   bool lost_ = false, told_ = false;

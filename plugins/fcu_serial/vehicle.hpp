@@ -115,7 +115,7 @@ class Vehicle {
       run_.heard.resumed_ns = flight_ns(host_ns);
     run_.read_ns = host_ns;
     run_.now_ns = std::max(flight_ns(run_.arrived_ns != never_ns ? run_.arrived_ns : host_ns),
-                           run_.now_ns + least_step_ns);
+                           run_.now_ns + min_step_ns);
     tick.now_ns = run_.now_ns;
     last_frame_.fd = link_->descriptor();
     return report(host_ns, out);
@@ -144,7 +144,7 @@ class Vehicle {
 
  private:
   static constexpr std::int64_t wait_ns = 10'000'000;
-  static constexpr std::int64_t least_step_ns =
+  static constexpr std::int64_t min_step_ns =
       100'000;  ///< samples that arrive together are ticks of their own
   static constexpr std::int64_t backlog_ns =
       50'000'000;  ///< older samples than this are not flown by any more
@@ -190,7 +190,7 @@ class Vehicle {
     std::int64_t zero_ns = never_ns,
                  arrived_ns = never_ns;  ///< host: of flight time 0; arrival of this tick's inertial sample
     std::int64_t read_ns = never_ns;     ///< host: of the tick before
-    std::int64_t now_ns = -least_step_ns, imu_valid_ns = never_ns, status_ns = never_ns, aux_ns = never_ns;
+    std::int64_t now_ns = -min_step_ns, imu_valid_ns = never_ns, status_ns = never_ns, aux_ns = never_ns;
     std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns, attitude_from_ns = never_ns;
     std::uint64_t gnss_stamp_us = 0, clock_us = 0;  ///< the controller's; 0 at its boot
     std::uint32_t told_kinds = 0;

@@ -24,7 +24,7 @@ struct JsEvent {
 /// Takes bytes in any pieces. A record that no joystick sends is counted and changes nothing.
 class JsState {
  public:
-  static constexpr std::size_t most_axes = 32, most_buttons = 64;
+  static constexpr std::size_t max_axes = 32, max_buttons = 64;
   static constexpr std::uint64_t patience = 8;  ///< so many foreign records in a row: no joystick
 
   void take(std::span<const char> bytes) {
@@ -48,7 +48,7 @@ class JsState {
 
   /// -1 to 1, or what is said for an axis that has not been heard of.
   double axis(std::int64_t number, double otherwise) const {
-    if (number < 0 || number >= static_cast<std::int64_t>(most_axes)) return otherwise;
+    if (number < 0 || number >= static_cast<std::int64_t>(max_axes)) return otherwise;
     const Axis& a = axes_[static_cast<std::size_t>(number)];
     return a.known ? a.value : otherwise;
   }
@@ -70,15 +70,15 @@ class JsState {
   };
 
   const Button* of_button(std::int64_t number) const {
-    const bool there = number >= 0 && number < static_cast<std::int64_t>(most_buttons);
+    const bool there = number >= 0 && number < static_cast<std::int64_t>(max_buttons);
     return there ? &buttons_[static_cast<std::size_t>(number)] : nullptr;
   }
 
   void take(const JsEvent& e) {
     const auto kind = static_cast<std::uint8_t>(e.type & ~JsEvent::init);
-    const bool is_axis = kind == JsEvent::axis && e.number < most_axes;
+    const bool is_axis = kind == JsEvent::axis && e.number < max_axes;
     const bool is_button =
-        kind == JsEvent::button && e.number < most_buttons && (e.value == 0 || e.value == 1);
+        kind == JsEvent::button && e.number < max_buttons && (e.value == 0 || e.value == 1);
     if (!is_axis && !is_button) {
       ++unknown_;
       ++in_a_row_;
@@ -97,8 +97,8 @@ class JsState {
 
   std::array<std::uint8_t, JsEvent::size> partial_{};
   std::size_t filled_ = 0;
-  std::array<Axis, most_axes> axes_{};
-  std::array<Button, most_buttons> buttons_{};
+  std::array<Axis, max_axes> axes_{};
+  std::array<Button, max_buttons> buttons_{};
   bool heard_ = false;
   std::uint64_t unknown_ = 0, in_a_row_ = 0;
 };

@@ -190,7 +190,7 @@ inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleSt
     item_ = 0;
     target_ = plan.waypoints[0].position_m;
     RouteOrbit orbit{target_.north, target_.east, route.height_m(0), route.radius_m(), orbit_.turn};
-    if (!same) orbit.turn = least_turning(pose_of(state), orbit.north_m, orbit.east_m, orbit.radius_m);
+    if (!same) orbit.turn = min_turning(pose_of(state), orbit.north_m, orbit.east_m, orbit.radius_m);
     if (!same) progress_.finished = false;
     same ? void(orbit_ = orbit) : begin_orbit(orbit);
     return;

@@ -16,7 +16,7 @@ class Reckoning {
   /// Whether the plan can be flown by this position: a valid one, or one that has been and is reckoned on.
   /// Once it was too far off it stays so until the next valid one, whatever deviation is said later: who
   /// circles does not go on for a second.
-  bool located(const VehicleState& s, std::int64_t now_ns, double most_std_m, double longest_s) {
+  bool located(const VehicleState& s, std::int64_t now_ns, double max_std_m, double max_s) {
     if (s.position_valid) {
       lost_ns_.reset();
       known_ = true;
@@ -25,9 +25,9 @@ class Reckoning {
     }
     if (!lost_ns_) lost_ns_ = now_ns;
     const double std_m = std::max(s.position_std_m.north, s.position_std_m.east);
-    too_far_ = too_far_ || std_m > most_std_m;
+    too_far_ = too_far_ || std_m > max_std_m;
     return known_ && s.attitude_valid && s.velocity_valid && !too_far_ &&
-           1e-9 * static_cast<double>(now_ns - *lost_ns_) <= longest_s;
+           1e-9 * static_cast<double>(now_ns - *lost_ns_) <= max_s;
   }
 
  private:

@@ -25,8 +25,8 @@ struct Prototype {
   std::string file;
 };
 
-constexpr std::size_t most_classes = 256;  // that are open at once in one process
-std::array<Prototype*, most_classes> prototypes{};
+constexpr std::size_t max_classes = 256;  // that are open at once in one process
+std::array<Prototype*, max_classes> prototypes{};
 
 Instance& self(void* instance) { return *static_cast<Instance*>(instance); }
 
@@ -52,7 +52,7 @@ template <std::size_t... I>
 constexpr auto make_creators(std::index_sequence<I...>) {
   return std::array<decltype(fulmar_component::create), sizeof...(I)>{&create_of<I>...};
 }
-constexpr auto creators = make_creators(std::make_index_sequence<most_classes>{});
+constexpr auto creators = make_creators(std::make_index_sequence<max_classes>{});
 
 void destroy(void* instance) {
   const Gil gil;
@@ -128,9 +128,9 @@ class OpenScript {
  private:
   void add(const py::handle& described, const std::string& file) {
     std::size_t slot = 0;
-    while (slot < most_classes && prototypes[slot] != nullptr) ++slot;
-    if (slot == most_classes)
-      throw std::runtime_error("more than " + std::to_string(most_classes) + " Python classes are open");
+    while (slot < max_classes && prototypes[slot] != nullptr) ++slot;
+    if (slot == max_classes)
+      throw std::runtime_error("more than " + std::to_string(max_classes) + " Python classes are open");
     fulmar_component c = tables_.component(described);
     prototypes[slot] = new Prototype{py::reinterpret_borrow<py::object>(described), file};
     slots_.push_back(slot);

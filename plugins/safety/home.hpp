@@ -196,8 +196,8 @@ struct Home {
     if (!into_wind_) return;
     const double upwind = std::atan2(-wind(s).east, -wind(s).north);
     constexpr double bank_per_rad = 1.0;
-    const double most_bank = 0.7 * p.airframe->limits.roll_max_rad;
-    const double bank = std::clamp(bank_per_rad * angle_difference(upwind, s.yaw_rad), -most_bank, most_bank);
+    const double max_bank = 0.7 * p.airframe->limits.roll_max_rad;
+    const double bank = std::clamp(bank_per_rad * angle_difference(upwind, s.yaw_rad), -max_bank, max_bank);
     c.airspeed_mps = most;
     c.course_rad = s.course_rad;
     c.lateral = LateralMode::acceleration;

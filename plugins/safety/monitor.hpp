@@ -346,8 +346,8 @@ inline void Monitor::gate(const Inputs& in, const Params& p, double dt) {
   const bool fresh = in.health && !in.health.stale();
   const double throttle = in.actuators ? in.actuators->throttle_frac : 0;
   const bool run = in.status && in.status->armed && obeyed(in) && !now_.airborne && s.velocity_valid;
-  const double most_wind = p.gate.take_off_wind * p.airframe->limits.airspeed_cruise_mps;
-  const bool windy = ground_wind_.mps() > (now_.not_ready.wind ? 0.8 : 1.0) * most_wind;
+  const double max_wind = p.gate.take_off_wind * p.airframe->limits.airspeed_cruise_mps;
+  const bool windy = ground_wind_.mps() > (now_.not_ready.wind ? 0.8 : 1.0) * max_wind;
   run_up_.step(run, throttle, forward_speed(s), windy, p.gate.motor_test, dt);
   NotReady& n = now_.not_ready;
   n = {};

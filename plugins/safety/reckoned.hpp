@@ -9,9 +9,9 @@
 namespace fulmar::safety {
 
 /// Whether the position is good enough to fly by: valid, or one that was and is reckoned on.
-inline bool located(const VehicleState& s, double most_std_m) {
+inline bool located(const VehicleState& s, double max_std_m) {
   return s.velocity_valid && s.attitude_valid &&
-         (s.position_valid || std::max(s.position_std_m.north, s.position_std_m.east) < most_std_m);
+         (s.position_valid || std::max(s.position_std_m.north, s.position_std_m.east) < max_std_m);
 }
 
 class Reckoned {
@@ -23,10 +23,10 @@ class Reckoned {
   /// It is no longer flown by: the circle drifts with the wind.
   bool drifts() const { return drifts_; }
 
-  void step(const VehicleState& s, const Vec3<Ned>& wind_mps, double most_std_m, double dt) {
+  void step(const VehicleState& s, const Vec3<Ned>& wind_mps, double max_std_m, double dt) {
     known_ = known_ || s.position_valid;
     if (!known_) return;
-    drifts_ = !s.position_valid && (drifts_ || !located(s, most_std_m));
+    drifts_ = !s.position_valid && (drifts_ || !located(s, max_std_m));
     if (drifts_) {
       constexpr double wind_std_mps = 1;
       at_ = at_ + dt * wind_mps;
@@ -34,7 +34,7 @@ class Reckoned {
       return;
     }
     at_ = s.position_m;
-    std_m_ = std::min(std::max(s.position_std_m.north, s.position_std_m.east), most_std_m);
+    std_m_ = std::min(std::max(s.position_std_m.north, s.position_std_m.east), max_std_m);
   }
 
  private:

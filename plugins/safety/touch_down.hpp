@@ -68,9 +68,9 @@ class TouchDown {
     const double sink = sink_.step(-s.climb_rate_mps, 0.8, dt);
     const double pushed = pushes(s, e, dt), ended = sink_ends(s, e, p, dt);
     // Level flight is asked for at times: there an end of the sink is no evidence.
-    const bool sinks = e.sinks || (e.slow && usual_sink_.value() > least_sink_mps);
+    const bool sinks = e.sinks || (e.slow && usual_sink_.value() > min_sink_mps);
     // Who climbs touches nothing.
-    log_ratio_ += (sink > least_sink_mps ? pushed : std::min(pushed, 0.0)) * dt / new_push_s;
+    log_ratio_ += (sink > min_sink_mps ? pushed : std::min(pushed, 0.0)) * dt / new_push_s;
     log_ratio_ += (sinks ? ended : std::min(ended, 0.0)) * dt / new_rate_s;
     if (log_ratio_ <= 0) {
       log_ratio_ = 0;
@@ -104,7 +104,7 @@ class TouchDown {
     const double ground = 0.5 * normal(rate, p.touch_still) + 0.5 * normal(rate, sloped);
     const double usual = usual_sink_.step(-rate, 3, dt);
     const double air = normal(rate + std::max(usual, e.sinks ? asked_mps : 0), gust_s * gust_.usual());
-    return std::clamp(std::log(ground / std::max(air, 1e-9)), -most_rate, most_rate);
+    return std::clamp(std::log(ground / std::max(air, 1e-9)), -max_rate, max_rate);
   }
   static double normal(double x, double deviation) {
     const double z = x / deviation;
@@ -112,10 +112,10 @@ class TouchDown {
   }
 
   static constexpr double wider = 4, hit_share = 0.02, gust_share = 1e-5, new_push_s = 0.01;
-  static constexpr double asked_mps = 0.4;       ///< least sink of a flare
-  static constexpr double least_sink_mps = 0.1;  ///< of the last second, or seconds
-  static constexpr double gust_s = 0.8;          ///< for which a gust accelerates
-  static constexpr double most_rate = 3, new_rate_s = 0.4;
+  static constexpr double asked_mps = 0.4;     ///< least sink of a flare
+  static constexpr double min_sink_mps = 0.1;  ///< of the last second, or seconds
+  static constexpr double gust_s = 0.8;        ///< for which a gust accelerates
+  static constexpr double max_rate = 3, new_rate_s = 0.4;
   static constexpr double unknown_ground = 20;  ///< no height is less likely than this
   Sudden up_{0.005, 0.025, 0.36}, back_{0.005, 0.025, 0.2}, brake_{0.02, 0.1, 0.2}, side_{0.01, 0.06, 0.1},
       gust_{0.1, 0.5, 0.2};

@@ -31,7 +31,7 @@ struct SignalParams {
 /// One signal. `at` is within -1 and 1, and exactly 0 before 0 s and from end_s() on.
 class Waveform {
  public:
-  static constexpr int most_harmonics = 64;
+  static constexpr int max_harmonics = 64;
 
   Waveform() = default;
   explicit Waveform(const SignalParams& p)
@@ -77,7 +77,7 @@ class Waveform {
 
  private:
   static constexpr double rounding = 1e-7;  // s: a tick that falls on an edge lies behind it
-  static constexpr int most_points = 2048;
+  static constexpr int max_points = 2048;
   static constexpr double faded = 0.05;  // share of a chirp, at either end
 
   static int part(double t, double length) { return static_cast<int>((t + rounding) / length); }
@@ -100,16 +100,16 @@ class Waveform {
     first_ = std::max(1, static_cast<int>(std::ceil(low * T - rounding)));
     const int last = std::max(first_, static_cast<int>(std::floor(high * T + rounding)));
     const int all = (last - first_) / static_cast<int>(every) + 1;
-    stride_ = static_cast<int>(every) * ((all + most_harmonics - 1) / most_harmonics);
+    stride_ = static_cast<int>(every) * ((all + max_harmonics - 1) / max_harmonics);
     count_ = (last - first_) / stride_ + 1;
     for (int i = 0; i < count_; ++i)
       phase_[static_cast<std::size_t>(i)] = -std::numbers::pi * i * (i + 1) / count_;
-    find_peak_and_zero(std::clamp(24 * last, 128, most_points));
+    find_peak_and_zero(std::clamp(24 * last, 128, max_points));
   }
 
   /// By the recursion cos(a + b) = 2 cos(a) cos(b) - cos(a - b): a step of the flight waits for it.
   void find_peak_and_zero(int points) {
-    std::array<double, most_points + 1> s{};
+    std::array<double, max_points + 1> s{};
     const double dt = end_s_ / points;
     for (int i = 0; i < count_; ++i) {
       const double by = 2 * std::numbers::pi * harmonic(i) * dt, cosine = std::cos(by);
@@ -140,7 +140,7 @@ class Waveform {
   Shape shape_ = Shape::none;
   double end_s_ = 0, f0_ = 1, f1_ = 1;
   int first_ = 1, stride_ = 1, count_ = 0;  // of the harmonics, in units of 1 / T
-  std::array<double, most_harmonics> phase_{};
+  std::array<double, max_harmonics> phase_{};
   double peak_ = 1e-9, zero_s_ = 0;
 };
 

@@ -51,7 +51,7 @@ inline std::string trim_words(const Airframe& a, const SteadyFlight& f, const st
     case TrimLimit::stall:
       return at(airspeed_from, "the wing stalls: it would have to carry CL " +
                                    figures(a.mass_kg * isa::g0 / (q * a.wing.area_m2)) +
-                                   ", and the most is " + figures(most_lift(a).coefficient));
+                                   ", and the most is " + figures(max_lift(a).coefficient));
     case TrimLimit::elevator: return surface("elevator", f.input(model::elevator), a.elevator.limit_rad);
     case TrimLimit::aileron: return surface("aileron", f.input(model::aileron), a.aileron.limit_rad);
     case TrimLimit::rudder: return surface("rudder", f.input(model::rudder), a.rudder.limit_rad);

@@ -40,7 +40,7 @@ struct Figure {
 };
 
 /// So many curves of one panel can be told apart.
-constexpr std::size_t most_curves = 36;
+constexpr std::size_t max_curves = 36;
 
 /// What there is to say when a figure of that size has no room for so many panels; "": it has.
 std::string too_small(const Figure& figure);

@@ -16,7 +16,7 @@ namespace {
 constexpr double column = 0.1;       // of what is seen along an axis of time
 constexpr double seen_apart = 0.03;  // points of a track
 constexpr double mark_apart = 14;
-constexpr double swing = 1.2, most_swings = 0.5;  // mm; in a mm
+constexpr double swing = 1.2, max_swings = 0.5;  // mm; in a mm
 
 // Colours of Okabe & Ito, Color Universal Design (2008), dark enough for white paper; dashes tell the lines
 // apart where there are no colours, marks where the dashes are used up.
@@ -26,8 +26,8 @@ constexpr std::array<const char*, 6> dashes{
     "", "2.4 1", "0.5 0.7", "3 0.9 0.5 0.9", "4.5 0.9", "1.6 0.6 0.4 0.6 0.4 0.6"};
 constexpr std::array<Mark, 6> marks{Mark::none,    Mark::circle, Mark::square,
                                     Mark::diamond, Mark::plus,   Mark::cross};
-static_assert(most_solid == marks.size());
-static_assert(most_curves == dashes.size() * marks.size());
+static_assert(max_solid == marks.size());
+static_assert(max_curves == dashes.size() * marks.size());
 
 const char* colour_of(const Look& look) { return colours[look.curve % colours.size()]; }
 
@@ -120,7 +120,7 @@ bool is_noisy(const FigureCurve& curve, const Box& box) {
     extreme = y;
     ++turns;
   }
-  return turns > 4 && turns > most_swings * x.span();
+  return turns > 4 && turns > max_swings * x.span();
 }
 
 std::string curve_svg(const FigureCurve& curve, const Look& look, const Box& box, bool track) {

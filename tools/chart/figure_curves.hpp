@@ -30,7 +30,7 @@ struct Look {
   std::string marks_svg(const std::string& d) const;
 };
 /// So many curves of a panel can be solid.
-constexpr std::size_t most_solid = 6;
+constexpr std::size_t max_solid = 6;
 
 /// Whether it turns back so often, by more than can be overlooked, that dashes cannot be seen.
 bool is_noisy(const FigureCurve& curve, const Box& box);

@@ -13,13 +13,13 @@ namespace {
 
 // Millimetres.
 constexpr double type_size = 2.8;  // 8 point
-constexpr double least_type = 1.1;
+constexpr double min_type = 1.1;
 constexpr double letter_wide = 0.52 * type_size;
 constexpr double edge = 2, gap = 3.5, row_high = 4, band_high = 4.5, under_high = 10.5, sample_wide = 9;
-constexpr double least_plot = 8;     // of a panel's height and width
-constexpr double most_upright = 14;  // of a name above the first panel
+constexpr double min_plot = 8;      // of a panel's height and width
+constexpr double max_upright = 14;  // of a name above the first panel
 constexpr double even_plot = 130,
-                 least_even = 45;  // sides of a track: the longer one, the other one at least
+                 min_even = 45;  // sides of a track: the longer one, the other one at least
 
 double text_wide(const std::string& text) {
   const auto letters = std::count_if(text.begin(), text.end(),
@@ -84,7 +84,7 @@ class Drawing {
   double plot_high() const { return high_; }
   /// Height by width of what is drawn in a panel, in the units of the axes.
   double shape() const { return shape_; }
-  double plot_wide() const { return boxes_.empty() ? least_plot : boxes_[0].wide; }
+  double plot_wide() const { return boxes_.empty() ? min_plot : boxes_[0].wide; }
 
   std::string svg() const {
     const std::string wide = figures(figure_.wide_mm, 6), high = figures(figure_.high_mm, 6);
@@ -131,7 +131,7 @@ class Drawing {
   /// Where dashes turn into fur, in a panel of few curves, marks are in their place.
   std::vector<Look> looks_of(std::size_t i) const {
     const auto& curves = figure_.panels[i].curves;
-    const bool can_be_solid = !figure_.track && curves.size() > 1 && curves.size() <= most_solid;
+    const bool can_be_solid = !figure_.track && curves.size() > 1 && curves.size() <= max_solid;
     std::vector<Look> looks;
     for (std::size_t k = 0; k < curves.size(); ++k)
       looks.push_back({k, can_be_solid && is_noisy(curves[k], boxes_[i]), curves[k].behind});
@@ -151,8 +151,8 @@ class Drawing {
   double names_high() const {
     double high = figure_.bands.empty() ? 0 : band_high;
     for (const FigureBand& band : figure_.bands)
-      if (const double size = upright_size(band); size > least_type)
-        high = std::max(high, std::min(most_upright, text_wide(band.name) * size / type_size) + 2);
+      if (const double size = upright_size(band); size > min_type)
+        high = std::max(high, std::min(max_upright, text_wide(band.name) * size / type_size) + 2);
     return high;
   }
 
@@ -225,9 +225,9 @@ class Drawing {
       const double size = upright_size(band);
       if (size == 0)
         out += text_at("phase", middle, box.top - 1.2, band.name, "middle");
-      else if (size > least_type)
+      else if (size > min_type)
         out += text_at("phase", middle + 0.35 * size, box.top - 1, band.name, "start",
-                       std::min(most_upright, text_wide(band.name) * size / type_size), true);
+                       std::min(max_upright, text_wide(band.name) * size / type_size), true);
     }
     return out;
   }
@@ -283,8 +283,8 @@ class Drawing {
 
 std::string too_small(const Figure& figure) {
   const Drawing drawing(figure);
-  const double higher = (least_plot - drawing.plot_high()) * static_cast<double>(figure.panels.size()),
-               wider = 3 * least_plot - drawing.plot_wide();
+  const double higher = (min_plot - drawing.plot_high()) * static_cast<double>(figure.panels.size()),
+               wider = 3 * min_plot - drawing.plot_wide();
   if (higher <= 0 && wider <= 0) return "";
   return "has no room for its axes and " + std::to_string(figure.panels.size()) +
          (figure.panels.size() == 1 ? " panel" : " panels") + "; it takes at least " +
@@ -297,8 +297,8 @@ void fit_even(Figure& figure) {
     const Drawing drawing(figure);
     const double wide = even_plot / std::max(1.0, drawing.shape()),
                  high = even_plot * std::min(1.0, drawing.shape());
-    figure.wide_mm = std::round(figure.wide_mm + std::max(wide, least_even) - drawing.plot_wide());
-    figure.high_mm = std::round(figure.high_mm + std::max(high, least_even) - drawing.plot_high());
+    figure.wide_mm = std::round(figure.wide_mm + std::max(wide, min_even) - drawing.plot_wide());
+    figure.high_mm = std::round(figure.high_mm + std::max(high, min_even) - drawing.plot_high());
   }
 }
 

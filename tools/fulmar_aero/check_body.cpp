@@ -18,11 +18,11 @@ constexpr std::array<UnitOfInertia, 5> inertia_units{
     {{"kg cm^2", 1e-4}, {"g cm^2", 1e-7}, {"kg mm^2", 1e-6}, {"lb in^2", 2.9264e-4}, {"slug ft^2", 1.35582}}};
 
 /// What the radius of gyration is of the span in aircraft that fly: 0.08 to 0.2; a rod's is 0.289.
-constexpr double least_gyration = 0.04, most_gyration = 0.26;
+constexpr double min_gyration = 0.04, max_gyration = 0.26;
 
 bool plausible(double inertia, const Airframe& a) {
   const double part = std::sqrt(inertia / a.mass_kg) / a.wing.span_m;
-  return part >= least_gyration && part <= most_gyration;
+  return part >= min_gyration && part <= max_gyration;
 }
 
 void check_gyration(Findings& f, const char* field, double inertia) {
@@ -40,7 +40,7 @@ void check_gyration(Findings& f, const char* field, double inertia) {
       break;
     }
   const double part = radius / a.wing.span_m;
-  if (part < least_gyration / 4 || part > 4 * most_gyration)
+  if (part < min_gyration / 4 || part > 4 * max_gyration)
     f.fault(field, inertia, sentence);
   else
     f.warn(field, inertia, sentence);

@@ -50,7 +50,7 @@ void check_pitch_power(Findings& f) {
   const double reach = std::abs(m.elevator_ratio * a.elevator.limit_rad / m.alpha_ratio);
   f.figure("elevator_reach_deg", reach / degree, "full elevator",
            degrees(reach, 1) + " of angle of attack either way");
-  const double alpha = most_lift(a).alpha_rad,
+  const double alpha = max_lift(a).alpha_rad,
                elevator = -(m.zero_ratio + m.alpha_ratio * alpha) / m.elevator_ratio;
   if (std::abs(elevator) > a.elevator.limit_rad)
     f.warn("aero.pitch.elevator_ratio", m.elevator_ratio,

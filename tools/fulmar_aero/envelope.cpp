@@ -44,7 +44,7 @@ double rate_at_throttle(const AircraftModel& m, double airspeed, double throttle
 
 double stall_speed(const AircraftModel& m) {
   const Airframe& a = m.airframe();
-  const double CL = most_lift(a).coefficient;
+  const double CL = max_lift(a).coefficient;
   return CL > 0 ? std::sqrt(2 * a.mass_kg * isa::g0 / (detail::density_of(m) * a.wing.area_m2 * CL)) : 0;
 }
 

@@ -15,7 +15,7 @@ double lift_needed(const AircraftModel& model, const SteadyFlight& f) {
 }
 
 std::string stall_words(const AirframeFile& file, const AircraftModel& model, const SteadyFlight& f) {
-  const MostLift most = most_lift(file.airframe);
+  const MostLift most = max_lift(file.airframe);
   const double needed = lift_needed(model, f);
   std::string text = "the wing stalls: it would have to carry CL " + fixed(needed, 2) + ", and the most is " +
                      fixed(most.coefficient, 2) + " at " + degrees(most.alpha_rad, 1);

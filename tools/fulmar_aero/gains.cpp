@@ -118,7 +118,7 @@ void round_law(Law& law, const Law& was, std::vector<std::string>& beyond) {
 }
 
 constexpr double slower = 0.94;
-constexpr int most_tries = 60;
+constexpr int max_tries = 60;
 
 /// One design: bandwidths become gains, margins say which are to fall.
 class Design {
@@ -193,8 +193,8 @@ class Design {
     double least = 1e9;
     for (const char* name : names)
       if (const LoopFigures* f = find_loop(report, name))
-        least = std::min({least, f->least_gain_db() / wanted_margins.gain_db,
-                          f->least_phase_rad() / wanted_margins.phase_rad});
+        least = std::min({least, f->min_gain_db() / wanted_margins.gain_db,
+                          f->min_phase_rad() / wanted_margins.phase_rad});
     return least;
   }
 
@@ -235,7 +235,7 @@ class Design {
 
   void settle_pitch_and_yaw() {
     Bandwidths& w = out_.chosen;
-    for (int i = 0; i < most_tries; ++i) {
+    for (int i = 0; i < max_tries; ++i) {
       relations_.pitch(w.pitch, damping_share_, out_.laws.inner);
       const LoopReport now = evaluate(plant_, out_.laws, OuterScheme::none);
       bool again = false;
@@ -256,7 +256,7 @@ class Design {
     Bandwidths& w = out_.chosen;
     Laws& l = out_.laws;
     l.slc.airspeed_kff.value = l.tecs.airspeed_kff.value = throttle_per_speed();
-    for (int i = 0; i < most_tries; ++i) {
+    for (int i = 0; i < max_tries; ++i) {
       relations_.course(w.course, l.slc);
       relations_.height(w.height, l.slc);
       relations_.airspeed(w.airspeed, l.slc);
@@ -275,7 +275,7 @@ class Design {
   void total_energy() {
     Laws& l = out_.laws;
     double height = out_.chosen.height, airspeed = 0.6 * out_.chosen.airspeed;
-    for (int i = 0; i < most_tries; ++i) {
+    for (int i = 0; i < max_tries; ++i) {
       relations_.tecs(height, airspeed, l.tecs);
       const LoopReport now = evaluate(plant_, l, OuterScheme::tecs);
       bool again = false;
@@ -309,7 +309,7 @@ class Design {
 
 }  // namespace
 
-double most_bandwidth(double lag_s) { return 0.5 / lag_s; }
+double max_bandwidth(double lag_s) { return 0.5 / lag_s; }
 
 Tuning tune(const Plant& plant, const Laws& start, const Bandwidths& given) {
   return Design(plant, start, given).run();

@@ -18,11 +18,11 @@ struct Bandwidths {
 struct MarginRule {
   double gain_db, phase_rad;
   bool kept(const LoopFigures& f) const {
-    return f.least_gain_db() >= gain_db && f.least_phase_rad() >= phase_rad;
+    return f.min_gain_db() >= gain_db && f.min_phase_rad() >= phase_rad;
   }
 };
 inline constexpr double margin_degree = std::numbers::pi / 180;
-inline constexpr MarginRule least_margins{6, 45 * margin_degree}, wanted_margins{8, 55 * margin_degree};
+inline constexpr MarginRule min_margins{6, 45 * margin_degree}, wanted_margins{8, 55 * margin_degree};
 
 struct Tuning {
   Laws laws;
@@ -33,7 +33,7 @@ struct Tuning {
 
 /// The most bandwidth of a loop that acts through a lag, rad/s: beyond it the lag alone takes the phase that
 /// the margin needs.
-double most_bandwidth(double lag_s);
+double max_bandwidth(double lag_s);
 
 /// `start`: what is not computed stays as it is there. Loops whose bandwidth is `given` keep it.
 Tuning tune(const Plant& plant, const Laws& start, const Bandwidths& given);

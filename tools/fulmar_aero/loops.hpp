@@ -55,9 +55,9 @@ struct LoopFigures {
   double bandwidth_radps = 0;  ///< of the answer to the command, -3 dB; of a damper, the crossover
   double damping_ratio = 0;  ///< of a second-order system with this resonance, 0.71 where there is none; of a
                              ///< damper, of the Dutch roll
-  double least_gain_db() const { return std::min(at_actuator.least_gain_db(), at_sensor.least_gain_db()); }
-  double least_phase_rad() const { return std::min(at_actuator.phase_rad, at_sensor.phase_rad); }
-  double least_delay_s() const { return std::min(at_actuator.delay_s, at_sensor.delay_s); }
+  double min_gain_db() const { return std::min(at_actuator.min_gain_db(), at_sensor.min_gain_db()); }
+  double min_phase_rad() const { return std::min(at_actuator.phase_rad, at_sensor.phase_rad); }
+  double min_delay_s() const { return std::min(at_actuator.delay_s, at_sensor.delay_s); }
 };
 
 struct LoopReport {

@@ -8,7 +8,7 @@
 namespace fulmar::aero {
 namespace {
 
-constexpr std::size_t most_speeds = 500;
+constexpr std::size_t max_speeds = 500;
 
 /// A number in `unit`; a bare one is in that unit.
 double in_unit(const char* option, const std::string& text, const std::string& unit) {
@@ -105,9 +105,9 @@ std::vector<double> FlightOptions::airspeeds(const Airframe& a, const std::strin
   const double to = positive_speed(last), by = step.empty() ? 1 : in_unit("--step", step, "m/s");
   if (from > to)
     throw CLI::ValidationError("--airspeed", "'" + airspeed + "': the first speed is above the last one");
-  if (!(by > 0) || (to - from) / by > double(most_speeds))
+  if (!(by > 0) || (to - from) / by > double(max_speeds))
     throw CLI::ValidationError("--step",
-                               "at most " + std::to_string(most_speeds) + " speeds, in steps of more than 0");
+                               "at most " + std::to_string(max_speeds) + " speeds, in steps of more than 0");
   std::vector<double> speeds;
   for (int i = 0; from + i * by <= to + 1e-9 * by; ++i) speeds.push_back(from + i * by);
   return speeds;

@@ -66,7 +66,7 @@ std::string milliseconds(double s) { return figures(1000 * s) + " ms"; }
 /// A bandwidth that the actuator's lag forbids, in a sentence; "" when there is none.
 std::string beyond_actuators(const AirframeFile& file, const Plant& plant, const Bandwidths& given) {
   for (const BandwidthName& b : bandwidth_names) {
-    const double w = given.*b.value, lag = plant.lag_s(b.input), most = most_bandwidth(lag);
+    const double w = given.*b.value, lag = plant.lag_s(b.input), most = max_bandwidth(lag);
     if (w <= most) continue;
     const std::string own = std::string(b.input == model::throttle ? "motor " : "servo ") +
                             milliseconds(lag - 0.5 * plant.step_s - plant.delay_s);

@@ -95,7 +95,7 @@ bool needs_launch(const Airframe& a) {
 
 std::string stall_of(const FlightTrack& track, const Airframe& a) {
   constexpr double moment_s = 1;
-  const MostLift most = most_lift(a);
+  const MostLift most = max_lift(a);
   const TrackPoint* since = nullptr;
   bool flies = false;
   for (const TrackPoint& p : track.truth) {

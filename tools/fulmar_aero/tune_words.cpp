@@ -33,12 +33,12 @@ nlohmann::json margin_json(const std::string& at, const Margins& m) {
 void add_faults(const std::string& loop, const std::string& at, const Margins& m,
                 std::vector<std::string>& all) {
   const std::string where = loop + ", broken at the " + at + ": ";
-  if (m.gain_db < least_margins.gain_db)
+  if (m.gain_db < min_margins.gain_db)
     all.push_back(where + "the gain may grow by " + fixed(m.gain_db, 1) + " dB only, 6 dB are the least");
-  if (m.reduction_db < least_margins.gain_db)
+  if (m.reduction_db < min_margins.gain_db)
     all.push_back(where + "the gain may fall by " + fixed(m.reduction_db, 1) +
                   " dB only, 6 dB are the least");
-  if (m.phase_rad < least_margins.phase_rad)
+  if (m.phase_rad < min_margins.phase_rad)
     all.push_back(where + "the phase margin is " + fixed(m.phase_rad / degree, 0) +
                   " deg, 45 deg are the least");
 }

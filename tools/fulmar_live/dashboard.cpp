@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr std::size_t name_width = 10, cell_width = 26, most_events = 100, least_events = 3;
+constexpr std::size_t name_width = 10, cell_width = 26, max_events = 100, min_events = 3;
 constexpr double stale_s = 2;  // of flight: what is older is not shown as what is
 const char* const event_topic = "/fulmar/event";
 const char* const none = "-";
@@ -144,7 +144,7 @@ void Dashboard::take(const std::string& topic, double time_s, const ordered_json
   // a slider or a stick sets a parameter many times: its last value is enough
   if (!event.of.empty() && !events_.empty() && events_.front().of == event.of) events_.pop_front();
   events_.push_front(std::move(event));
-  if (events_.size() > most_events) events_.pop_back();
+  if (events_.size() > max_events) events_.pop_back();
 }
 
 bool Dashboard::whole() const {
@@ -419,7 +419,7 @@ std::string Dashboard::text(const PlotSize& size, const std::string& lost) const
   }
   for (const Cell& cell : words()) put(cell.name, cell.words, cell.look);
 
-  if (lines.size() + least_events > most) lines.resize(most - std::min(most, least_events));
+  if (lines.size() + min_events > most) lines.resize(most - std::min(most, min_events));
   std::string text;
   for (std::string& line : lines) {
     line.erase(line.find_last_not_of(' ') + 1);

@@ -16,9 +16,9 @@ namespace {
 using core::printable;
 using core::seconds;
 using nlohmann::json;
-constexpr std::size_t longest_name = 20;
+constexpr std::size_t max_name = 20;
 
-std::string name_of(const std::string& name) { return printable(name.substr(0, longest_name)); }
+std::string name_of(const std::string& name) { return printable(name.substr(0, max_name)); }
 
 std::string head_of(const Side& side, const std::string& name, const Judged& judged) {
   std::string out = fmt::format("{:<8} {} of {}: {} samples", name, printable(side.topic),

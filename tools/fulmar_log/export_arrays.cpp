@@ -12,7 +12,7 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::size_t batch_bytes = 200u << 20;
-constexpr std::int64_t most_labels = 256;
+constexpr std::int64_t max_labels = 256;
 
 /// Whole numbers in lists are doubles: only these have a nan for what is missing.
 fulmar_kind array_kind(const Column& c) {
@@ -23,7 +23,7 @@ fulmar_kind array_kind(const Column& c) {
 std::vector<std::string> labels(const RosField& f) {
   std::vector<std::string> list;
   for (const auto& [value, label] : f.labels) {
-    if (value < 0 || value >= most_labels) continue;
+    if (value < 0 || value >= max_labels) continue;
     if (list.size() <= static_cast<std::size_t>(value)) list.resize(static_cast<std::size_t>(value) + 1);
     list[static_cast<std::size_t>(value)] = label;
   }

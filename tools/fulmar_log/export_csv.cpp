@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t buffer_bytes = 1u << 18;
-constexpr std::size_t most_open = 200;  // files at a time; more topics are written in further readings
+constexpr std::size_t max_open = 200;  // files at a time; more topics are written in further readings
 
 std::string csv_text(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
@@ -74,9 +74,9 @@ void export_csv(const Tables& tables, const fs::path& folder) {
   fs::create_directories(folder, error);
   if (error) throw Error("cannot make the folder '" + folder.string() + "': " + error.message());
   const std::vector<Table>& list = tables.list();
-  for (std::size_t first = 0; first < list.size(); first += most_open) {
+  for (std::size_t first = 0; first < list.size(); first += max_open) {
     std::vector<std::unique_ptr<Csv>> files(list.size());
-    for (std::size_t i = first; i < std::min(list.size(), first + most_open); ++i)
+    for (std::size_t i = first; i < std::min(list.size(), first + max_open); ++i)
       if (list[i].rows > 0) files[i] = std::make_unique<Csv>(folder, list[i]);
     tables.rows([&](std::size_t i) { return files[i] != nullptr; },
                 [&](const Tables::Row& row) { files[row.table]->row(list[row.table], row); });

@@ -12,11 +12,11 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t most_table_fields = 20'000;  // nested ones counted each time
+constexpr std::size_t max_table_fields = 20'000;  // nested ones counted each time
 
 /// A field as a table has it, with all that is in it.
 RosField table_field(const Field& f, std::size_t& count) {
-  if (++count > most_table_fields) throw Error("its messages have too many fields");
+  if (++count > max_table_fields) throw Error("its messages have too many fields");
   RosField made{f.name, f.kind == FULMAR_ENUM ? FULMAR_U8 : f.kind, f.shape, f.count, f.constants};
   made.unit = f.unit;
   if (f.kind != FULMAR_STRUCT) return made;

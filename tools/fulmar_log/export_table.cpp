@@ -10,7 +10,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t most_columns = 10'000;
+constexpr std::size_t max_columns = 10'000;
 
 /// "/nav/state" -> "nav.state": a name for a file and for an array.
 std::string table_name(const std::string& topic, const std::vector<Table>& others) {
@@ -85,7 +85,7 @@ void Tables::lay_out_all() {
     if (source.table < 0 || !source.why.empty()) continue;
     Table& table = tables_[static_cast<std::size_t>(source.table)];
     try {
-      table.columns = lay_out(table.root, most_columns);
+      table.columns = lay_out(table.root, max_columns);
     } catch (const Error& e) {
       source.why = e.what();
     }

@@ -18,8 +18,8 @@ namespace {
 using core::Error;
 using Complex = std::complex<double>;
 
-constexpr double least_power = 1e-3;  // of the largest density of the input
-constexpr std::size_t least_segments = 3;
+constexpr double min_power = 1e-3;  // of the largest density of the input
+constexpr std::size_t min_segments = 3;
 
 std::string seconds(double s) {
   char text[32];
@@ -109,14 +109,14 @@ FrequencyResponse frequency_response(const Series& input, const Series& output, 
     throw Error("segments of " + seconds(static_cast<double>(length) * dt) + " in " +
                 seconds(std::max(0.0, end_s - begin_s)) + " at " + seconds(dt) +
                 " from sample to sample: a segment needs 16 samples, and the time " +
-                std::to_string(least_segments) + " segments that overlap by half");
+                std::to_string(min_segments) + " segments that overlap by half");
   const Spectra s(even(input, begin_s, dt, n), even(output, begin_s, dt, n), length);
   FrequencyResponse out{1 / dt, static_cast<double>(length) * dt, s.segments, {}};
   const auto last = static_cast<std::size_t>(0.4 * static_cast<double>(length));
   const double most = *std::max_element(s.xx.begin() + 2, s.xx.end());
   const double averages = static_cast<double>(n / length);  // of those that share no sample
   for (std::size_t k = 2; k < std::min(last + 1, s.xx.size()); ++k) {
-    if (!(s.xx[k] > least_power * most)) continue;
+    if (!(s.xx[k] > min_power * most)) continue;
     const Complex H = s.xy[k] / s.xx[k];
     Frequency f;
     f.hz = static_cast<double>(k) / out.segment_s;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t sample_bytes = 128u << 10;  // of a topic, compressed in one go
 constexpr std::size_t index_bytes = 16;           // of a message in its chunk's index
-constexpr std::size_t most_events = 100'000;
+constexpr std::size_t max_events = 100'000;
 constexpr std::array severities{"info", "warning", "error", "critical"};
 
 /// How well the bytes of one topic compress.
@@ -89,7 +89,7 @@ struct Reading {
       last_ns = std::max(last_ns, m->log_ns);
       ++info.messages;
       if (w.topic.topic == core::Event::topic) {
-        if (events.size() == most_events) events.pop_back();  // the last one has the verdict
+        if (events.size() == max_events) events.pop_back();  // the last one has the verdict
         events.emplace_back(m->log_ns, std::vector<std::byte>(m->data.begin(), m->data.end()));
         event_channel = m->channel;
       }

@@ -14,7 +14,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t longest_name = 63;
+constexpr std::size_t max_name = 63;
 constexpr std::size_t largest_variable = 0x7fffffff;  // bytes of a variable
 
 enum MatKind : std::uint32_t {
@@ -113,7 +113,7 @@ std::string unlike(const std::string& name, std::set<std::string>& taken) {
   std::string unique = name;
   for (int i = 2; !taken.insert(unique).second; ++i) {
     const std::string number = "_" + std::to_string(i);
-    unique = name.substr(0, longest_name - number.size()) + number;
+    unique = name.substr(0, max_name - number.size()) + number;
   }
   return unique;
 }
@@ -129,7 +129,7 @@ std::string mat_name(const std::string& name) {
   }
   while (!s.empty() && s.back() == '_') s.pop_back();
   if (s.empty() || (s[0] >= '0' && s[0] <= '9')) s = "x" + s;
-  return s.substr(0, longest_name);
+  return s.substr(0, max_name);
 }
 
 std::string MatValue::named(const std::string& name) const {
@@ -161,12 +161,12 @@ MatValue MatValue::structure(const std::vector<std::pair<std::string, MatValue>>
   std::set<std::string> taken;
   for (const auto& [name, value] : fields) {
     std::string field = unlike(mat_name(name), taken);
-    field.resize(longest_name + 1, '\0');
+    field.resize(max_name + 1, '\0');
     names += field;
   }
   MatValue v;
   v.flags_dims_ = flags_and_dims(mx_struct, 1, 1);
-  v.body_ = u32(4u << 16 | mi_int32) + u32(longest_name + 1) +
+  v.body_ = u32(4u << 16 | mi_int32) + u32(max_name + 1) +
             mat_element(mi_int8, names);  // a small element: size and type in one word
   for (const auto& [name, value] : fields) v.body_ += value.named("");
   return v;

@@ -18,8 +18,8 @@ VehicleState between(const VehicleState& a, const VehicleState& b, double t);
 template <class Sparse>
 class Pairing {
  public:
-  static constexpr std::int64_t longest_gap_ns = 250'000'000;  // between two states that are interpolated
-  static constexpr std::int64_t patience_ns = 5'000'000'000;   // with fixes that come late
+  static constexpr std::int64_t max_gap_ns = 250'000'000;     // between two states that are interpolated
+  static constexpr std::int64_t patience_ns = 5'000'000'000;  // with fixes that come late
 
   void add_sparse(std::int64_t valid_ns, const Sparse& sample) { sparse_.emplace_back(valid_ns, sample); }
   void add_dense(std::int64_t valid_ns, const VehicleState& state) {
@@ -56,7 +56,7 @@ class Pairing {
     while (after < dense_.size() && dense_[after].first < time_ns) ++after;
     const bool there = after < dense_.size() && dense_[after].first == time_ns;
     const bool around =
-        after > 0 && after < dense_.size() && dense_[after].first - dense_[after - 1].first <= longest_gap_ns;
+        after > 0 && after < dense_.size() && dense_[after].first - dense_[after - 1].first <= max_gap_ns;
     if (!there && !around) {
       ++alone_;
       return;

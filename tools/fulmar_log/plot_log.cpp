@@ -250,9 +250,9 @@ class FigureMaker {
         if (!one_unit && !s.number.unit.empty()) name += " [" + s.number.unit + "]";
         panel.curves.push_back({name, points_of(s, log.x_of(f)), s.number.held && !over_});
       }
-    if (panel.curves.size() > chart::most_curves)
+    if (panel.curves.size() > chart::max_curves)
       throw Error("a panel would have " + std::to_string(panel.curves.size()) + " curves; " +
-                  std::to_string(chart::most_curves) + " can be told apart");
+                  std::to_string(chart::max_curves) + " can be told apart");
     figure.panels.push_back(std::move(panel));
   }
 

@@ -21,7 +21,7 @@ using core::Error;
 using core::printable;
 using nlohmann::json;
 
-constexpr std::size_t most_rows = 24;  // of the table; --json has all
+constexpr std::size_t max_rows = 24;  // of the table; --json has all
 
 double degrees(double rad) { return rad * 180 / std::numbers::pi; }
 double decibel(double gain) { return 20 * std::log10(gain); }
@@ -95,8 +95,8 @@ std::string frequency_text(const FrequencyResponse& r) {
   // equal steps of their logarithm, when there are more than a screen has room for
   double next_hz = 0;
   for (const Frequency& f : r.at) {
-    if (r.at.size() > most_rows && f.hz < next_hz && &f != &r.at.back()) continue;
-    next_hz = f.hz * std::pow(r.at.back().hz / r.at.front().hz, 1.0 / most_rows);
+    if (r.at.size() > max_rows && f.hz < next_hz && &f != &r.at.back()) continue;
+    next_hz = f.hz * std::pow(r.at.back().hz / r.at.front().hz, 1.0 / max_rows);
     out += fmt::format("{:12.3f} {:11.4g} {:9.2f} {:9.1f} {:11.1f} {:10.3f}\n", f.hz, f.gain, decibel(f.gain),
                        100 * f.gain_std, degrees(f.phase_rad), f.coherence);
   }

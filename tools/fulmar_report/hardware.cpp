@@ -89,8 +89,8 @@ class ControllerReading {
     if (s.battery_volt <= 0) return;
     if (first_volt_ < 0) first_volt_ = s.battery_volt;
     last_volt_ = s.battery_volt;
-    least_volt_ = std::min(least_volt_, s.battery_volt);
-    most_amp_ = std::max(most_amp_, s.battery_amp);
+    min_volt_ = std::min(min_volt_, s.battery_volt);
+    max_amp_ = std::max(max_amp_, s.battery_amp);
   }
 
   void parameter(const LoggedParameter& p) {
@@ -114,8 +114,8 @@ class ControllerReading {
     if (first_volt_ < 0) return nullptr;
     return {{"first_volt", first_volt_},
             {"last_volt", last_volt_},
-            {"least_volt", least_volt_},
-            {"most_amp", most_amp_}};
+            {"least_volt", min_volt_},
+            {"most_amp", max_amp_}};
   }
 
   template <class Message>
@@ -132,7 +132,7 @@ class ControllerReading {
   std::map<std::string, double> flown_;
   const char* who_ = nullptr;
   std::uint64_t since_ns_ = 0;
-  double radio_age_s_ = -1, first_volt_ = -1, last_volt_ = 0, least_volt_ = 1e9, most_amp_ = 0;
+  double radio_age_s_ = -1, first_volt_ = -1, last_volt_ = 0, min_volt_ = 1e9, max_amp_ = 0;
 };
 
 }  // namespace

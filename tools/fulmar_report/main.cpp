@@ -43,8 +43,8 @@ std::string page() {
 }
 
 void check(const Words& words) {
-  if (words.logs.size() > report::most_logs)
-    throw CLI::ValidationError("a report has room for " + std::to_string(report::most_logs) + " logs, not " +
+  if (words.logs.size() > report::max_logs)
+    throw CLI::ValidationError("a report has room for " + std::to_string(report::max_logs) + " logs, not " +
                                std::to_string(words.logs.size()));
   if (!words.names.empty() && words.names.size() != words.logs.size())
     throw CLI::ValidationError(

@@ -16,8 +16,8 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr std::string_view place = "LOG_OF_THE_FLIGHT";
-constexpr std::size_t most_rows = 2000, least_rows = 300;  // of a curve that is judged
-constexpr std::size_t most_told = 100;                     // events
+constexpr std::size_t max_rows = 2000, min_rows = 300;  // of a curve that is judged
+constexpr std::size_t max_told = 100;                   // events
 constexpr std::size_t thinnest = 64;
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
@@ -55,7 +55,7 @@ json told_events(const core::LogInfo& info) {
   std::size_t all = 0;
   for (const core::LogInfo::Event& e : info.events) {
     if (!is_told(e)) continue;
-    if (++all <= most_told)
+    if (++all <= max_told)
       rows.push_back({{"t", seconds(e.time_ns)},
                       {"kind", e.kind},
                       {"component", e.component},
@@ -80,7 +80,7 @@ json verdict_of(const core::LogInfo& info) {
 }
 
 json log_json(const ReportedLog& log, std::size_t every_nth) {
-  const std::size_t rows = std::max(least_rows, most_rows / every_nth);
+  const std::size_t rows = std::max(min_rows, max_rows / every_nth);
   json topics = json::array(), estimates = json::array(), sensors = json::array();
   for (const ShownTopic& t : log.topics) topics.push_back(topic_json(t, every_nth));
   for (const JudgedEstimate& e : log.estimates) estimates.push_back(judged_json(e, rows));

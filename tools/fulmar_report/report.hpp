@@ -15,7 +15,7 @@
 
 namespace fulmar::report {
 
-inline constexpr std::size_t most_logs = 6;  ///< so many colours can be told apart
+inline constexpr std::size_t max_logs = 6;  ///< so many colours can be told apart
 
 /// All that a report says of one log.
 struct ReportedLog {

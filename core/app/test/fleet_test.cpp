@@ -24,7 +24,7 @@ namespace {
 constexpr double speed = 5;         // of flight to wall: three simulations and DDS take a third of one CPU
 constexpr double duration_s = 105;  // of flight: take-off, joining, two corners
 constexpr double rate_hz = 20;      // of the exports
-constexpr int most_flights =
+constexpr int max_flights =
     4;  // until the machine has not held one up; the second also for the sake of a quiet one
 
 /// A copy of the shipped missions in a folder of its own, in a DDS domain that other tests do not use.
@@ -278,7 +278,7 @@ const Fleet& fleet() {
   static const bool flown = [] {
     for (const char* name : {"fleet_leader", "fleet_right", "fleet_left"}) f.hosts.adapt(name, "nav.state");
     write_planner(f.hosts);
-    for (int k = 0; k < most_flights && !f.quiet() && (k < 2 || f.held_up()); ++k) fly_all(f);
+    for (int k = 0; k < max_flights && !f.quiet() && (k < 2 || f.held_up()); ++k) fly_all(f);
     return true;
   }();
   REQUIRE(flown);
@@ -303,7 +303,7 @@ TEST_CASE("three hosts on one computer fly in formation by what they tell each o
   }
   if (f.held_up())
     FAIL_CHECK("this machine stood still for "
-               << 1e3 * f.stood_still_s << " ms in the last of " << most_flights
+               << 1e3 * f.stood_still_s << " ms in the last of " << max_flights
                << " flights: how well they keep their slots is not known; it has too much else to do");
 }
 

@@ -195,11 +195,11 @@ TEST_CASE(
   CHECK(d.worst(64, 75) < 60);
   CHECK(d.worst(76, 79) < 5);
   d.no_step("pilot", 69.1, 79);
-  double least_throttle = 1;
+  double min_throttle = 1;
   for (const Row& r : f.truth)
-    if (r.t > 69.1 && r.t < 71) least_throttle = std::min(least_throttle, r.u[0]);
-  MESSAGE("pilot: lowest throttle within 2 s of the hand-back " << least_throttle);
-  CHECK(least_throttle > 0.2);
+    if (r.t > 69.1 && r.t < 71) min_throttle = std::min(min_throttle, r.u[0]);
+  MESSAGE("pilot: lowest throttle within 2 s of the hand-back " << min_throttle);
+  CHECK(min_throttle > 0.2);
 
   MESSAGE("no radio: " << d.worst(79, 86) << " m off the track; 100 ms of silence: " << d.worst(88, 90)
                        << " m");

@@ -100,7 +100,7 @@ namespace {
 
 struct Thrown {
   bool stopped = false, crashed = false;
-  double lowest_m = 1e9, motor_s = 1e9, most_bank_rad = 0;  ///< motor_s: after it was let go
+  double lowest_m = 1e9, motor_s = 1e9, max_bank_rad = 0;  ///< motor_s: after it was let go
   bool motor_at_end = false;
 };
 
@@ -128,7 +128,7 @@ Thrown thrown(const std::vector<std::pair<std::string, std::string>>& set, doubl
     t.crashed = t.crashed || s->crashed;
     if (free_s < 0 || flight.phase() != "takeoff") continue;
     t.lowest_m = std::min(t.lowest_m, x->height_m);
-    t.most_bank_rad = std::max(t.most_bank_rad, std::abs(x->roll_rad));
+    t.max_bank_rad = std::max(t.max_bank_rad, std::abs(x->roll_rad));
   }
   const FlightResult result = flight.finish();
   t.crashed = result.outcome != Outcome::flown;
@@ -154,7 +154,7 @@ TEST_CASE(
     CHECK(t.lowest_m > 0.7);  // let go at 2 m, in a calm below its stall
     CHECK(t.motor_s > 0.2);
     CHECK(t.motor_s < 1);
-    CHECK(t.most_bank_rad < 0.2);
+    CHECK(t.max_bank_rad < 0.2);
     if (!counts_allocations()) break;
   }
 }
@@ -164,7 +164,7 @@ TEST_CASE("thrown with a dead motor it comes down ahead, whole, and stops asking
     CAPTURE(speed);
     const Thrown t = thrown({{"sim.motor", "false"}, {"sim.launch_speed", speed}}, 30);
     CHECK_FALSE(t.crashed);
-    CHECK(t.most_bank_rad < 0.2);
+    CHECK(t.max_bank_rad < 0.2);
     CHECK_FALSE(t.motor_at_end);
   }
 }

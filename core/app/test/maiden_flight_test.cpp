@@ -111,7 +111,7 @@ class Maiden {
   Flown f_;
 };
 
-double most_bank_deg(const std::vector<Row>& rows) {
+double max_bank_deg(const std::vector<Row>& rows) {
   double most = 0;
   for (const Row& r : rows) most = std::max(most, std::abs(r.roll_rad) / deg);
   return most;
@@ -140,7 +140,7 @@ TEST_CASE("step 3: handed over for 2, 5 and 10 s it keeps its wings level") {
     CAPTURE(seconds);
     const double height_m = m.now().height_m;
     const auto rows = m.given(seconds);
-    CHECK(most_bank_deg(rows) < 10);
+    CHECK(max_bank_deg(rows) < 10);
     CHECK(std::abs(rows.back().height_m - height_m) < 5);
     m.take_back();
     REQUIRE(m.wait(6));
@@ -152,7 +152,7 @@ TEST_CASE("step 4: it keeps height and speed with level wings") {
   Maiden m(4, folder.path);
   REQUIRE(m.pilot_climbs());
   const auto rows = m.given(40);
-  CHECK(most_bank_deg(rows) < 10);
+  CHECK(max_bank_deg(rows) < 10);
   for (const Row& r : rows) REQUIRE(std::abs(r.height_m - rows.front().height_m) < 5);
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("step 5: the path is flown with little bank, step 6: as in any flight"
     Maiden m(step, folder.path);
     REQUIRE(m.pilot_climbs());
     const auto rows = m.given(120);
-    CHECK(most_bank_deg(rows) < (step == 5 ? 28 : 55));
+    CHECK(max_bank_deg(rows) < (step == 5 ? 28 : 55));
     const Hourglass plan;
     double nearest_m = 1e9;
     for (const Row& r : rows) nearest_m = std::min(nearest_m, plan.distance_m(r.north_m, r.east_m));

@@ -144,7 +144,7 @@ std::vector<std::size_t> all_pairs(std::size_t n) {
 }
 
 // Of docs/loop.md; the second where the attitude that is asked for stays.
-constexpr double most_rad = 0.08, same_attitude_rad = 0.02, most_throttle_frac = 0.05;
+constexpr double most_rad = 0.08, same_attitude_rad = 0.02, max_throttle_frac = 0.05;
 
 bool attitude_of_slc(const Scheme& s) { return std::string(s.phase).find("outer: slc") == 0; }
 
@@ -161,7 +161,7 @@ Moved flown(const std::vector<Scheme>& schemes, const Graph& graph) {
     const Moved m = trial.hand_over(to.name);
     const bool same = &schemes == &inner && attitude_of_slc(from) && attitude_of_slc(to);
     CHECK(m.surface_rad < (same ? same_attitude_rad : most_rad));
-    CHECK(m.throttle_frac < most_throttle_frac);
+    CHECK(m.throttle_frac < max_throttle_frac);
     worst.surface_rad = std::max(worst.surface_rad, m.surface_rad);
     worst.throttle_frac = std::max(worst.throttle_frac, m.throttle_frac);
     trial.fly(3);

@@ -224,7 +224,7 @@ inline std::string missed(const Gap& gap, const AfterGap& a) {
 struct Outage {
   double length_s = 100;
   unsigned seed = 1;
-  double most_std_m = 50;  ///< up to which the plan goes on
+  double max_std_m = 50;  ///< up to which the plan goes on
 };
 
 struct AfterOutage {
@@ -244,7 +244,7 @@ inline AfterOutage fly(const Outage& outage, const std::filesystem::path& folder
   constexpr double before_s = 100, after_s = 60, reckons_s = 100, near_m = 10;
   const Hourglass plan;
   const Graph graph =
-      mission(folder, 70, outage.seed, {{"follow.reckon_std", std::to_string(outage.most_std_m) + " m"}});
+      mission(folder, 70, outage.seed, {{"follow.reckon_std", std::to_string(outage.max_std_m) + " m"}});
   Flown f(graph, options);
   AfterOutage a;
   a.crashed = !f.fly_while([&](const Row& r) { return f.phase() != "cruise" && r.t_s < 60; });

@@ -46,11 +46,7 @@ void OutputRoom::prepare(std::int64_t now_ns) noexcept {
 
 Async::Async(const std::string& name, const fulmar_component& functions, void* instance,
              const ComponentInfo& info, std::size_t depth)
-    : name_(name),
-      functions_(functions),
-      instance_(instance),
-      jobs_(depth + other_calls),
-      most_steps_(depth) {
+    : name_(name), functions_(functions), instance_(instance), jobs_(depth + other_calls), max_steps_(depth) {
   for (Job& job : jobs_) prepare(job, info);
   thread_ = quiet_thread("fulmar-async", [this] { run(); });
 }
@@ -62,7 +58,7 @@ Async::~Async() {
 }
 
 Async::Job* Async::room(Job::Call call) noexcept {
-  if (call == Job::Call::step && steps_ >= most_steps_) return nullptr;
+  if (call == Job::Call::step && steps_ >= max_steps_) return nullptr;
   const std::uint64_t n = submitted_.load(std::memory_order_relaxed);
   return n - taken_ < jobs_.size() ? &at(n) : nullptr;
 }

@@ -86,7 +86,7 @@ class Async {
   void* instance_;
   std::vector<Job> jobs_;
   std::uint64_t taken_ = 0;                  // the loop's
-  std::size_t most_steps_, steps_ = 0;       // on their way; the loop's
+  std::size_t max_steps_, steps_ = 0;        // on their way; the loop's
   std::atomic<std::uint64_t> submitted_{0};  // counts for ever; the top bit asks the thread to end
   std::atomic<std::uint64_t> finished_{0};
   static constexpr std::uint64_t ending = std::uint64_t{1} << 63;

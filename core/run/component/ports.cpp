@@ -272,7 +272,7 @@ bool probe_good(const Slot& s, const fulmar_output& out, fulmar_error& problem) 
 
 /// How far ahead of its tick a sample may be dated. A vehicle dates by arrival, and the samples of a host
 /// that stood still have arrived before their ticks. Others pass on what they read.
-constexpr std::uint64_t vehicle_ahead_ns = 60'000'000'000, most_ahead_ns = 1'000'000'000;
+constexpr std::uint64_t vehicle_ahead_ns = 60'000'000'000, max_ahead_ns = 1'000'000'000;
 constexpr std::int64_t earliest_ns = -7'200'000'000'000;  // before any flight
 
 /// Whether the time of validity is one of this flight; what came without one is of now. A sample of the
@@ -284,7 +284,7 @@ bool well_dated(std::int64_t& valid_at_ns, std::int64_t now_ns, std::uint64_t ah
 }
 
 bool times_good(Slot& s, fulmar_output& out, std::int64_t now_ns, fulmar_error& problem) noexcept {
-  const std::uint64_t ahead_ns = s.owner->info->vehicle ? vehicle_ahead_ns : most_ahead_ns;
+  const std::uint64_t ahead_ns = s.owner->info->vehicle ? vehicle_ahead_ns : max_ahead_ns;
   const bool queue = s.port->kind == FULMAR_OUT_QUEUE;
   const std::uint32_t count = queue ? out.count : 1;
   for (std::uint32_t k = 0; k < count; ++k) {

@@ -12,7 +12,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t most_waiting_bytes = 32u << 20;  // of a driver that nobody asks for its samples
+constexpr std::size_t max_waiting_bytes = 32u << 20;  // of a driver that nobody asks for its samples
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void SampleTrack::take(const McapFile::Message& m) {
 }
 
 void SampleTrack::store(Stored sample) {
-  if (waiting_bytes_ > most_waiting_bytes) {
+  if (waiting_bytes_ > max_waiting_bytes) {
     ++lost_;
     return;
   }

@@ -118,7 +118,7 @@ void Roles::stop_if_mute(const Slot& slot) {
   Unit& unit = unit_of(slot);
   bool drives = false;
   for (const int role : unit.component->roles) drives = drives || nth(drives_vehicle_, role);
-  if (!drives || !slot.role || !unit.in.all_younger_than(Streams::least_silence_ns, state_.now_ns)) return;
+  if (!drives || !slot.role || !unit.in.all_younger_than(Streams::min_silence_ns, state_.now_ns)) return;
   put_problem(unit.problem, "nothing on '%s', though it steps and all its inputs come",
               slot.port->name.c_str());
   stop(wiring_.index_of(unit));

@@ -28,7 +28,7 @@ void Streams::add_source(const Source& from, std::int64_t limit_ns, const Wiring
                          const Graph& graph) {
   const auto add_of = [&](int component, int output) {
     const Component& c = nth(graph.components, component);
-    const std::int64_t usual_ns = std::max(least_silence_ns, 3 * c.period_ns + c.latency_ns);
+    const std::int64_t usual_ns = std::max(min_silence_ns, 3 * c.period_ns + c.latency_ns);
     add(nth(wiring.unit(component).out.slots, output), limit_ns > 0 ? limit_ns : usual_ns);
   };
   if (from.kind == Source::Kind::component) add_of(from.index, from.output);
@@ -96,13 +96,12 @@ const Slot* Streams::watch(bool held, FlightState& state, Recorder& recorder) no
   const bool explained = std::exchange(s.degraded, unit.stats.degraded) != unit.stats.degraded;
   s.silent_ns = held || explained ? 0 : s.silent_ns + stepped_ns;
   if (news == 0) {
-    if (s.told || s.samples < habit || s.silent_ns <= std::max(s.limit_ns, pauses * s.longest_ns))
-      return nullptr;
+    if (s.told || s.samples < habit || s.silent_ns <= std::max(s.limit_ns, pauses * s.max_ns)) return nullptr;
     s.told = true;
     tell(s, true, state, recorder);
     return s.slot;
   }
-  if (!s.told && s.samples > 0) s.longest_ns = std::max(s.longest_ns, s.silent_ns);
+  if (!s.told && s.samples > 0) s.max_ns = std::max(s.max_ns, s.silent_ns);
   if (s.told) tell(s, false, state, recorder);
   s.told = false;
   s.silent_ns = 0;

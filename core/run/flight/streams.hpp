@@ -14,7 +14,7 @@ namespace fulmar::core {
 
 class Streams {
  public:
-  static constexpr std::int64_t least_silence_ns = 1'000'000'000;  // where no wire says more
+  static constexpr std::int64_t min_silence_ns = 1'000'000'000;  // where no wire says more
 
   /// [setup] Those that lead to the vehicle and whose age counts from their writer's steps, and those that
   /// the mission's conditions look at.
@@ -30,8 +30,8 @@ class Streams {
     std::int64_t limit_ns = 0;
     std::uint64_t sequence = 0, degraded = 0;
     std::int64_t completed_ns = 0;
-    std::int64_t silent_ns = 0, longest_ns = 0;  // of its steps without a sample: now, and ever
-    std::uint64_t samples = 0;                   // since its owner is active
+    std::int64_t silent_ns = 0, max_ns = 0;  // of its steps without a sample: now, and ever
+    std::uint64_t samples = 0;               // since its owner is active
     bool told = false, ever_told = false;
   };
   void add_source(const Source& from, std::int64_t limit_ns, const Wiring& wiring, const Graph& graph);

@@ -78,10 +78,10 @@ TEST_CASE("who begins has not lost what came to its queue while another one flew
 TEST_CASE("the first step after an absence is a tick long, not the absence") {
   const Graph g = with_watches(back_and_forth);
   Flight flight(g, options(0.4));
-  double longest_s = 0;
-  while (flight.step()) longest_s = std::max(longest_s, value(g, flight, "w1", "tally", "dt_s"));
+  double max_s = 0;
+  while (flight.step()) max_s = std::max(max_s, value(g, flight, "w1", "tally", "dt_s"));
   CHECK(flight.phase() == "third");
-  CHECK(longest_s == doctest::Approx(0.0025));
+  CHECK(max_s == doctest::Approx(0.0025));
 }
 
 TEST_CASE("a phase lays its parameters over the vehicle's, from its first tick to its last") {

@@ -155,7 +155,7 @@ TEST_CASE("noise is told as large as it is, the estimate has no bias to speak of
   axis.noise = 0.01;
   constexpr int flights = 60;
   std::array<Complex, Lines::count> mean{};
-  double told = 0, was = 0, after = 0, most_bias = 0, misfits = 0;
+  double told = 0, was = 0, after = 0, max_bias = 0, misfits = 0;
   for (int k = 0; k < flights; ++k) {
     const LoopRecord r = axis.fly();
     double misfit = 0;
@@ -169,12 +169,12 @@ TEST_CASE("noise is told as large as it is, the estimate has no bias to speak of
       after += std::norm((f.loop[i] - exact_loop) / (1.0 + exact_loop));
     }
   }
-  for (std::size_t i = 0; i < Lines::count; ++i) most_bias = std::max(most_bias, std::abs(mean[i] - 1.0));
+  for (std::size_t i = 0; i < Lines::count; ++i) max_bias = std::max(max_bias, std::abs(mean[i] - 1.0));
   CAPTURE(std::sqrt(was / flights / Lines::count));
   CHECK(std::sqrt(told / was) > 0.6);
   CHECK(std::sqrt(told / was) < 1.7);
   CHECK(after < was / 2.5);
-  CHECK(most_bias < 0.08);
+  CHECK(max_bias < 0.08);
   CHECK(misfits > 0.1);
   CHECK(misfits < 2);
 }
@@ -209,7 +209,7 @@ TEST_CASE("an axis that no fit describes stays as it was measured") {
   }
   double misfit = 0;
   const LoopRecord f = fitted(r, axis.gains, &misfit);
-  CHECK(misfit > RateFit::most_misfit);
+  CHECK(misfit > RateFit::max_misfit);
   for (std::size_t i = 0; i < Lines::count; ++i) CHECK(f.loop[i] == r.loop[i]);
 }
 
@@ -237,7 +237,7 @@ TEST_CASE(
     CAPTURE(factor);
     CAPTURE(best.kp);
     const Margins m = exact(best), more = exact({1.3 * best.kp, 1.3 * best.ki, 1.3 * best.kd});
-    CHECK(m.least_gain_db() > 8);
+    CHECK(m.min_gain_db() > 8);
     CHECK(m.phase_rad > 53.5 * degree);
     CHECK(m.delay_s > 0.047);
     CHECK_FALSE((more.phase_rad > 57 * degree && more.delay_s > 0.052));

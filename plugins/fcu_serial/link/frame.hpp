@@ -164,7 +164,7 @@ class Parser {
   /// A frame that comes twice, or behind its successor, as over UDP, is not 255 that were lost.
   void count_missing(std::uint8_t sequence) {
     const auto between = static_cast<std::uint8_t>(sequence - sequence_ - 1);
-    if (has_sequence_ && between >= 256 - most_late) return;
+    if (has_sequence_ && between >= 256 - max_late) return;
     if (has_sequence_) counts_.missing += between;
     has_sequence_ = true;
     sequence_ = sequence;
@@ -175,7 +175,7 @@ class Parser {
     return 1;
   }
 
-  static constexpr int most_late = 8;
+  static constexpr int max_late = 8;
   std::array<std::uint8_t, 512> buffer_{};
   std::size_t size_ = 0;
   std::uint8_t sequence_ = 0;

@@ -22,7 +22,7 @@ class ClockSync {
   static constexpr std::int64_t jump_ns = 10'000'000;         ///< more than that is another clock
   static constexpr std::int64_t patience_ns = 1'000'000'000;  ///< an answer that takes longer is none
   static constexpr double drift_limit = 500e-6;
-  static constexpr std::int64_t longest_ns =
+  static constexpr std::int64_t max_ns =
       300'000'000'000'000'000;  ///< nothing runs for ten years: a stamp beyond is garbage
 
   enum class Verdict : std::uint8_t { ignored, taken, jumped };
@@ -32,7 +32,7 @@ class ClockSync {
 
   /// TIMESYNC came. `jumped`: the clock is another one than before, and all is forgotten but this answer.
   Verdict answered(std::int64_t ts1, std::int64_t tc1, std::int64_t now_ns) {
-    if (tc1 <= 0 || tc1 > longest_ns || ts1 > now_ns || now_ns - ts1 > patience_ns || !was_asked(ts1))
+    if (tc1 <= 0 || tc1 > max_ns || ts1 > now_ns || now_ns - ts1 > patience_ns || !was_asked(ts1))
       return Verdict::ignored;
     const Sample sample{now_ns, now_ns - ts1, ts1 + (now_ns - ts1) / 2 - tc1};
     const std::int64_t apart_ns = synchronised() ? beyond_bounds(sample) : 0;
@@ -58,7 +58,7 @@ class ClockSync {
   void forget_questions() { question_count_ = 0; }
 
   bool synchronised() const { return count_ > 0; }
-  std::int64_t round_trip_ns() const { return least_ns_; }
+  std::int64_t round_trip_ns() const { return min_ns_; }
   double drift_ppm() const { return slope_ * 1e6; }
   /// Host time = controller's time + offset, for an event about now.
   std::int64_t offset_ns(std::int64_t now_ns) const {
@@ -100,7 +100,7 @@ class ClockSync {
   /// apart since the last one.
   std::int64_t beyond_bounds(const Sample& s) const {
     const std::int64_t distance =
-        std::llabs(s.offset_ns - offset_ns(s.at_ns)) - s.round_trip_ns / 2 - least_ns_ / 2;
+        std::llabs(s.offset_ns - offset_ns(s.at_ns)) - s.round_trip_ns / 2 - min_ns_ / 2;
     return distance - std::llround(drift_limit * static_cast<double>(s.at_ns - newest().at_ns));
   }
   bool confirms(const Sample& s) const {
@@ -111,7 +111,7 @@ class ClockSync {
   void restart_line() {
     count_ = 0;
     slope_ = step_ns_ = 0;
-    line_ns_ = line_at_ns_ = bent_at_ns_ = least_ns_ = 0;
+    line_ns_ = line_at_ns_ = bent_at_ns_ = min_ns_ = 0;
   }
 
   const Sample& newest() const { return samples_[(count_ - 1) % samples_.size()]; }
@@ -177,8 +177,8 @@ class ClockSync {
   /// Least squares over both sides with a common slope and a prior on it. The weights depend on the slope:
   /// twice.
   void fit(std::int64_t now_ns) {
-    least_ns_ = newest().round_trip_ns;
-    each([&](const Sample& s) { least_ns_ = std::min(least_ns_, s.round_trip_ns); });
+    min_ns_ = newest().round_trip_ns;
+    each([&](const Sample& s) { min_ns_ = std::min(min_ns_, s.round_trip_ns); });
     std::array<Side, 2> sides;
     for (int pass = 0; pass < 3; ++pass) {
       sides = {look_at(-1), look_at(1)};
@@ -203,7 +203,7 @@ class ClockSync {
   std::array<std::int64_t, 16> questions_{};
   std::uint64_t question_count_ = 0;
   std::optional<Sample> suspect_;
-  std::int64_t line_ns_ = 0, line_at_ns_ = 0, bent_at_ns_ = 0, least_ns_ = 0;
+  std::int64_t line_ns_ = 0, line_at_ns_ = 0, bent_at_ns_ = 0, min_ns_ = 0;
   double slope_ = 0, step_ns_ = 0;
 };
 
@@ -246,7 +246,7 @@ class Dater {
 
   /// Of an inertial sample: strictly increasing. Arrivals must be.
   std::int64_t date_imu(std::uint64_t stamp_us, std::int64_t arrived_ns) {
-    if (stamp_us < static_cast<std::uint64_t>(ClockSync::longest_ns / 1000))
+    if (stamp_us < static_cast<std::uint64_t>(ClockSync::max_ns / 1000))
       imu_bound_.take(arrived_ns - static_cast<std::int64_t>(stamp_us) * 1000, arrived_ns);
     last_imu_ns_ = std::min(arrived_ns, std::max(date_us(stamp_us, arrived_ns), last_imu_ns_ + 1));
     return last_imu_ns_;
@@ -302,7 +302,7 @@ class Dater {
   std::int64_t date(std::uint64_t stamp, std::int64_t unit_ns, std::int64_t middle_ns,
                     std::int64_t arrived_ns) {
     if (!clock.synchronised()) return arrived_ns;
-    const bool possible = stamp < static_cast<std::uint64_t>(ClockSync::longest_ns / unit_ns);
+    const bool possible = stamp < static_cast<std::uint64_t>(ClockSync::max_ns / unit_ns);
     const std::int64_t at =
         possible ? static_cast<std::int64_t>(stamp) * unit_ns + middle_ns + clock.offset_ns(arrived_ns) : 0;
     if (!possible || at > arrived_ns + tolerance_ns || at < arrived_ns - oldest_ns) {

@@ -12,7 +12,7 @@ namespace fulmar::fcu {
 class WatchList {
  public:
   static constexpr std::int64_t patience_ns = 200'000'000;
-  static constexpr int most_in_flight = 10;  ///< a burst would overrun the controller's queue
+  static constexpr int max_in_flight = 10;  ///< a burst would overrun the controller's queue
 
   explicit WatchList(const std::vector<std::string>& names) {
     for (const std::string& name : names) entries_.push_back({name, never, false});
@@ -36,7 +36,7 @@ class WatchList {
       else if (longest == nullptr || e.asked_ns < longest->asked_ns)
         longest = &e;
     }
-    if (longest == nullptr || in_flight >= most_in_flight) return {};
+    if (longest == nullptr || in_flight >= max_in_flight) return {};
     longest->asked_ns = now_ns;
     return longest->name;
   }

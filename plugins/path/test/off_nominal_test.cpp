@@ -198,7 +198,7 @@ TEST_CASE("as far either way round: to the right; a hair nearer one way: that on
     const auto turn = [&](double off_m) {  // 200 m before the centre, so far to the left of the way there
       const double n = -200 * std::cos(course) + off_m * std::sin(course),
                    e = -200 * std::sin(course) - off_m * std::cos(course);
-      return least_turning({n, e, course}, 0, 0, 50);
+      return min_turning({n, e, course}, 0, 0, 50);
     };
     CHECK(turn(0) == Turn::right);
     CHECK(turn(1) == Turn::right);

@@ -158,8 +158,8 @@ TEST_CASE("two multisines with every second harmonic, one harmonic apart, do not
 
 TEST_CASE("more harmonics than there is room for: fewer of them, over the same band") {
   const Waveform w(signal_of(Shape::multisine, 100, 0.1, 5));  // 491
-  CHECK(w.harmonics() <= Waveform::most_harmonics);
-  CHECK(w.harmonics() > Waveform::most_harmonics / 2);
+  CHECK(w.harmonics() <= Waveform::max_harmonics);
+  CHECK(w.harmonics() > Waveform::max_harmonics / 2);
   CHECK(w.harmonic(0) == doctest::Approx(0.1));
   CHECK(w.harmonic(w.harmonics() - 1) > 4.8);
   CHECK(Waveform(signal_of(Shape::multisine, 2, 0.6, 0.9)).harmonic(0) == 1);  // none in the band: the next

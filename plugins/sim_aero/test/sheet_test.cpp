@@ -326,7 +326,7 @@ TEST_CASE("samples come late, jittering, lost in gaps, with stamps that only gro
   auto b = with(suite);
   std::int64_t last_imu = -1, last_gnss = -1;
   int imu = 0, gnss = 0, mag = 0, baro = 0, gap = 0, longest = 0;
-  double least_s = 1, most_s = 0;
+  double min_s = 1, most_s = 0;
   constexpr int ticks = 80000;
   for (int i = 1; i <= ticks; ++i) {
     pass(*b, &level);
@@ -341,7 +341,7 @@ TEST_CASE("samples come late, jittering, lost in gaps, with stamps that only gro
       CHECK(now - b->out.gnss.valid_at_ns >= 250000000);
       const double s = 1e-9 * static_cast<double>(b->out.gnss.valid_at_ns - last_gnss);
       if (last_gnss >= 0) {
-        least_s = std::min(least_s, s);
+        min_s = std::min(min_s, s);
         most_s = std::max(most_s, s);
       }
       last_gnss = b->out.gnss.valid_at_ns;
@@ -354,9 +354,9 @@ TEST_CASE("samples come late, jittering, lost in gaps, with stamps that only gro
   }
   CHECK(imu / (0.8 * ticks) == Approx(1).epsilon(0.01));
   CHECK(std::abs(gnss - 2000) <= 4);
-  CHECK(least_s < 0.06);
+  CHECK(min_s < 0.06);
   CHECK(most_s > 0.14);
-  CHECK(least_s >= 0.04);
+  CHECK(min_s >= 0.04);
   CHECK(most_s <= 0.16);
   CHECK(mag == ticks);
   CHECK(baro / (0.7 * ticks / 4) == Approx(1).epsilon(0.15));

@@ -19,7 +19,7 @@ Search search_of(std::initializer_list<Zone> zones, std::int64_t samples) {
   return s;
 }
 
-double least_clearance(const Search& s, const std::vector<Point>& way) {
+double min_clearance(const Search& s, const std::vector<Point>& way) {
   double least = 1e9;
   for (std::size_t i = 1; i < way.size(); ++i)
     least = std::min(least, clearance(s.zones, way[i - 1], way[i]));
@@ -55,7 +55,7 @@ TEST_CASE("the way round one zone is within two percent of tangent, arc, tangent
   Random random(1);
   const std::vector<Point> way = RrtStar(s, {-300, 0}, {300, 0}, random).run();
   REQUIRE(way.size() > 2);
-  CHECK(least_clearance(s, way) >= 10);
+  CHECK(min_clearance(s, way) >= 10);
   const double shortest =
       2 * std::sqrt(300.0 * 300 - 100.0 * 100) + 100 * (std::numbers::pi - 2 * std::acos(100.0 / 300));
   CHECK(flight_time(s, way) * 15 > shortest);
@@ -68,7 +68,7 @@ TEST_CASE("of two gaps the nearer one is taken, and a way between many zones kee
   Random random(2);
   const std::vector<Point> way = RrtStar(s, {-500, 0}, {500, 0}, random).run();
   REQUIRE(way.size() > 2);
-  CHECK(least_clearance(s, way) >= 10);
+  CHECK(min_clearance(s, way) >= 10);
   double sideways = 0;
   for (const Point& p : way) sideways = std::max(sideways, std::abs(p.east_m));
   CHECK(sideways < 150);  // not round the outside

@@ -205,7 +205,7 @@ double cruise_of(const Aircraft& a, const ImportOptions& options) {
 Flown flown_of(const Airframe& airframe, double cruise) {
   Flown f;
   const AircraftModel model(airframe, 0);
-  const double stall_CL = std::max(0.3, most_lift(airframe).coefficient);
+  const double stall_CL = std::max(0.3, max_lift(airframe).coefficient);
   const double stall = std::sqrt(2 * airframe.mass_kg * g0 / (sea_level * airframe.wing.area_m2 * stall_CL));
   f.slowest = std::min(1.2 * stall, 0.95 * cruise);
   f.fastest = 1.6 * cruise;
@@ -218,7 +218,7 @@ Flown flown_of(const Airframe& airframe, double cruise) {
   while (f.slowest < 0.95 * cruise && !fly(model, {f.slowest}).found())
     f.slowest = std::min(1.03 * f.slowest, 0.951 * cruise);
   while (f.fastest > 1.05 * cruise && !fly(model, {f.fastest}).found()) f.fastest *= 0.97;
-  const auto most_rate = [&](double sign, double part) {  // of the steepest steady flight
+  const auto max_rate = [&](double sign, double part) {  // of the steepest steady flight
     double steepest = 0;
     for (int tenths = 1; tenths <= 40; ++tenths) {
       const double angle = sign * 0.01 * tenths;
@@ -227,8 +227,8 @@ Flown flown_of(const Airframe& airframe, double cruise) {
     }
     return std::clamp(part * cruise * std::sin(steepest), 0.3, 5.0);
   };
-  f.climb = most_rate(1, 0.5);
-  f.sink = most_rate(-1, 0.8);  // a good glider needs most of it to land
+  f.climb = max_rate(1, 0.5);
+  f.sink = max_rate(-1, 0.8);  // a good glider needs most of it to land
   return f;
 }
 

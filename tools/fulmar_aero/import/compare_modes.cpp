@@ -96,7 +96,7 @@ ModeComparison compare_modes(const Imported& imported) {
     pair.off_ratio = printed.apparent_mass ? std::abs(std::abs(pair.own) / std::abs(pair.tool) - 1)
                                            : std::abs(pair.own - pair.tool) / std::abs(pair.tool);
     // a spiral near 0 is a small difference of large numbers that are printed with five digits
-    if (mode.kind == ModeKind::spiral && std::abs(pair.own - pair.tool) < 0.003) pair.most_ratio = 0;
+    if (mode.kind == ModeKind::spiral && std::abs(pair.own - pair.tool) < 0.003) pair.max_ratio = 0;
     out.pairs.push_back(pair);
   }
   return out;

@@ -9,9 +9,9 @@ namespace fulmar::aero::imports {
 struct ModePair {
   std::string name;                ///< "short period"
   std::complex<double> tool, own;  ///< 1/s
-  double off_ratio = 0;   ///< |own - tool| / |tool|; of AVL's, which counts apparent mass, of the sizes
-  double most_ratio = 0;  ///< what is allowed; 0: nothing is, it is only shown
-  bool agrees() const { return most_ratio <= 0 || off_ratio <= most_ratio; }
+  double off_ratio = 0;  ///< |own - tool| / |tool|; of AVL's, which counts apparent mass, of the sizes
+  double max_ratio = 0;  ///< what is allowed; 0: nothing is, it is only shown
+  bool agrees() const { return max_ratio <= 0 || off_ratio <= max_ratio; }
 };
 struct ModeComparison {
   std::vector<ModePair> pairs;

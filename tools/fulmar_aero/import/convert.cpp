@@ -198,7 +198,7 @@ double parasite_of(double CD, double CL, const Aircraft& a) {
 /// What a potential flow has of parasite drag is what is left of the rounding.
 constexpr double no_friction = 0.002, assumed_friction = 0.03;
 /// A smooth plate's two sides at a million of Reynolds number: no aircraft has less.
-constexpr double least_friction = 0.008;
+constexpr double min_friction = 0.008;
 
 constexpr double polar_reach = 3 * degree;
 
@@ -240,7 +240,7 @@ void set_drag(const Analysis& a, const std::vector<Input>& inputs, const ImportO
     }
   }
   if (options.parasite_drag > 0) out.parasite = {options.parasite_drag, "--parasite-drag"};
-  if (out.parasite.x >= no_friction && out.parasite.x < least_friction)
+  if (out.parasite.x >= no_friction && out.parasite.x < min_friction)
     out.warnings.push_back(
         "CD_p is " + figures(out.parasite.x) + " (" + out.parasite.from +
         "), less than the friction of a smooth plate: the analysis has too little induced drag "

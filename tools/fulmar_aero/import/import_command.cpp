@@ -69,10 +69,10 @@ std::string modes_text(const ModeComparison& modes, const PrintedModes& printed)
   for (const ModePair& pair : modes.pairs)
     text += "  " + padded(pair.name, 32) + padded(complex_text(pair.tool), 22) +
             padded(complex_text(pair.own), 22) + fixed(100 * pair.off_ratio, 2) + " %" +
-            (pair.most_ratio <= 0 ? ""
+            (pair.max_ratio <= 0 ? ""
              : pair.agrees()
                  ? ""
-                 : ", more than " + fixed(100 * pair.most_ratio, 0) + " %: something was taken wrong") +
+                 : ", more than " + fixed(100 * pair.max_ratio, 0) + " %: something was taken wrong") +
             "\n";
   return text;
 }

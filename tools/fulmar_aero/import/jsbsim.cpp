@@ -71,7 +71,7 @@ constexpr std::array<Axis, 12> axes_of_tables{{{"aero/alpha-rad", "alpha", 1},
                                                {"fcs/aileron-pos-rad", "aileron", 1},
                                                {"fcs/rudder-pos-rad", "rudder", 1},
                                                {"fcs/rudder-pos-deg", "rudder", table_degree_rad}}};
-constexpr std::size_t most_tables = 8, most_rows = 32, most_columns = 16, most_cells = 256;
+constexpr std::size_t max_tables = 8, max_rows = 32, max_columns = 16, max_cells = 256;
 
 /// Over one state, or over two: values by rows.
 struct LookUp {
@@ -129,7 +129,7 @@ LookUp table_of(const Lines& lines, const Element& table, const std::string& who
     out.values.insert(out.values.end(), numbers.begin() + 1, numbers.end());
   }
   if (out.at.empty()) refuse(lines.where(data.line), who + ": the table is empty");
-  if (out.at.size() > most_rows || out.and_at.size() > most_columns || out.values.size() > most_cells)
+  if (out.at.size() > max_rows || out.and_at.size() > max_columns || out.values.size() > max_cells)
     refuse(lines.where(data.line), who + ": the table has " + std::to_string(out.at.size()) + " by " +
                                        std::to_string(std::max<std::size_t>(1, out.and_at.size())) +
                                        " points; at most 32 by 16 and 256 values are read");
@@ -258,7 +258,7 @@ void take_function(const Lines& lines, const Element& function, Force force, Air
   const std::string from = lines.place(function.line, function.attribute("name"));
   if (!product.tables.empty()) {
     LookUp table = product.tables[0];
-    if (tables.size() == most_tables)
+    if (tables.size() == max_tables)
       refuse(lines.where(function.line), who + ": it is the ninth table, and an airframe has at most 8");
     for (double& x : table.values) x *= value;
     tables.push_back({force, table, from});
@@ -428,7 +428,7 @@ void move_moments(const Lines& lines, const Element& metrics, const Element& mas
   move.derivatives();
   Tables more;
   for (const CoefficientLookUp& one : tables) move.table(one, more);
-  if (tables.size() + more.size() > most_tables)
+  if (tables.size() + more.size() > max_tables)
     refuse(lines.where(metrics.line),
            "AERORP and CG are not one point, and with tables of the moments that the forces have about the "
            "centre of gravity there are " +

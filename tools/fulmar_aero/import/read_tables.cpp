@@ -25,7 +25,7 @@ std::size_t column_named(const Lines& lines, std::size_t heading, const std::vec
 /// Columns by the names of the heading; more numbers than names are let be (version 6.2 has 21 under 20).
 std::vector<PolarPoint> polar_points(const Lines& lines, std::size_t heading, const char* angle,
                                      const char* CL, const char* CD, const char* sideslip,
-                                     const char* friction, double& most_friction) {
+                                     const char* friction, double& max_friction) {
   const std::vector<std::string> words = words_of(lines.all[heading]);
   const std::size_t a = column_named(lines, heading, words, angle),
                     l = column_named(lines, heading, words, CL), d = column_named(lines, heading, words, CD),
@@ -42,7 +42,7 @@ std::vector<PolarPoint> polar_points(const Lines& lines, std::size_t heading, co
                                  " numbers, as many as the heading has names; found " +
                                  std::to_string(values.size()) + "; is the file cut off?");
     if (has_sideslip && std::abs(values[s]) > 0.01) continue;
-    most_friction = std::max(most_friction, std::abs(values[f]));
+    max_friction = std::max(max_friction, std::abs(values[f]));
     points.push_back({values[a] * table_degree, values[l], {values[d], lines.place(i, CD)}});
   }
   if (points.empty()) refuse(lines.where(heading), "expected rows of numbers under the heading; found none");

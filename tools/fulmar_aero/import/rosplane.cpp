@@ -15,7 +15,7 @@
 namespace fulmar::aero::imports {
 namespace {
 
-constexpr std::size_t most_files = 500;
+constexpr std::size_t max_files = 500;
 constexpr double full_deflection = 40 * degree;  // rosflight_sim: of a command of 1
 
 std::vector<Lines> yaml_files(const std::string& folder) {
@@ -27,7 +27,7 @@ std::vector<Lines> yaml_files(const std::string& folder) {
     const std::string ending = entry.path().extension().string();
     if (entry.is_regular_file() && (ending == ".yaml" || ending == ".yml"))
       names.push_back(entry.path().string());
-    if (names.size() > most_files)
+    if (names.size() > max_files)
       throw core::Error(folder + ": it has more than 500 YAML files; give the folder of one aircraft");
   }
   std::sort(names.begin(), names.end());

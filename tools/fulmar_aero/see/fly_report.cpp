@@ -61,12 +61,12 @@ std::string margins_html(const std::string& title, const Judged& judged) {
   std::vector<std::vector<std::string>> rows{{"loop", "bandwidth, rad/s", "damping", "gain margin, dB",
                                               "phase margin, deg", "delay margin, ms", "least kept"}};
   for (const LoopFigures& f : judged.loops)
-    rows.push_back({f.name, bandwidth_words(f), fixed(f.damping_ratio, 2), number(f.least_gain_db(), 1),
-                    number(f.least_phase_rad() / degree, 0), number(1000 * f.least_delay_s(), 0),
-                    least_margins.kept(f) ? "yes" : "no"});
+    rows.push_back({f.name, bandwidth_words(f), fixed(f.damping_ratio, 2), number(f.min_gain_db(), 1),
+                    number(f.min_phase_rad() / degree, 0), number(1000 * f.min_delay_s(), 0),
+                    min_margins.kept(f) ? "yes" : "no"});
   return sentence_html(title + ": the lesser of the margins at actuator and sensor; the least are " +
-                       fixed(least_margins.gain_db, 0) + " dB and " +
-                       fixed(least_margins.phase_rad / degree, 0) + " deg.") +
+                       fixed(min_margins.gain_db, 0) + " dB and " + fixed(min_margins.phase_rad / degree, 0) +
+                       " deg.") +
          table_html(rows);
 }
 

@@ -79,7 +79,7 @@ std::string at_speed(double value, int decimals, double airspeed) {
 
 /// The largest value over the points, and where.
 template <class Points, class Value>
-std::string most_of(const Points& points, int decimals, const Value& value) {
+std::string max_of(const Points& points, int decimals, const Value& value) {
   double most = -1e300, at = 0;
   for (const auto& p : points)
     if (value(p) > most) {
@@ -131,14 +131,14 @@ Rows figure_rows(const std::vector<Seen>& all) {
   level("slowest level flight, m/s", &LevelSpeeds::slowest_mps, &LevelSpeeds::below);
   level("fastest level flight, m/s", &LevelSpeeds::fastest_mps, &LevelSpeeds::above);
   row("most L/D in level flight", [](const Seen& s) {
-    return most_of(s.curves.points, 1,
-                   [](const LevelPoint& p) { return p.forces.lift_newton / p.forces.drag_newton; });
+    return max_of(s.curves.points, 1,
+                  [](const LevelPoint& p) { return p.forces.lift_newton / p.forces.drag_newton; });
   });
   row("most rate of climb, m/s", [](const Seen& s) {
-    return most_of(s.curves.envelope, 1, [](const EnvelopePoint& p) { return p.climb_mps; });
+    return max_of(s.curves.envelope, 1, [](const EnvelopePoint& p) { return p.climb_mps; });
   });
   row("flattest sink without throttle, m/s up", [](const Seen& s) {
-    return most_of(s.curves.envelope, 2, [](const EnvelopePoint& p) { return p.glide_mps; });
+    return max_of(s.curves.envelope, 2, [](const EnvelopePoint& p) { return p.glide_mps; });
   });
   const auto cruise = [&](const char* name, const auto& text) {
     row(name, [&](const Seen& s) { return s.curves.cruise ? text(*s.curves.cruise) : std::string("-"); });

@@ -52,7 +52,7 @@ TEST_CASE("an XFLR5 log, trimmed and linearised by the simulator's model, has th
     CHECK_MESSAGE(std::abs(pair.own - pair.tool) <= 0.01 * std::abs(pair.tool), pair.name, " ",
                   pair.own.real());
     CHECK_MESSAGE(pair.agrees(), pair.name);
-    CHECK((pair.most_ratio == 0.01 || spiral));
+    CHECK((pair.max_ratio == 0.01 || spiral));
   }
 }
 
@@ -76,8 +76,8 @@ TEST_CASE("a log whose eigenvalues are not those of its derivatives fails") {
 TEST_CASE("a log's eigenvalues beside another tool's derivatives are shown, and accuse nobody") {
   const ModeComparison modes = compare_modes(imported({tern_folder + "tern.st", logs[0]}));
   REQUIRE(modes.pairs.size() == 5);
-  for (const ModePair& pair : modes.pairs) CHECK(pair.most_ratio == 0);
-  CHECK(compare_modes(imported({logs[0], tern_folder + "tern.st"})).pairs[0].most_ratio == 0.01);
+  for (const ModePair& pair : modes.pairs) CHECK(pair.max_ratio == 0);
+  CHECK(compare_modes(imported({logs[0], tern_folder + "tern.st"})).pairs[0].max_ratio == 0.01);
 }
 
 TEST_CASE("AVL's eigenvalues count apparent mass, and are compared by size") {
@@ -97,9 +97,9 @@ TEST_CASE("AVL's eigenvalues count apparent mass, and are compared by size") {
   REQUIRE(modes.pairs.size() == 5);
   CHECK(modes.airspeed_mps == 15);
   for (const ModePair& pair : modes.pairs) {
-    CHECK(pair.most_ratio == (pair.name == "roll"                               ? 0.2
-                              : pair.name == "phugoid" || pair.name == "spiral" ? 0
-                                                                                : 0.1));
+    CHECK(pair.max_ratio == (pair.name == "roll"                               ? 0.2
+                             : pair.name == "phugoid" || pair.name == "spiral" ? 0
+                                                                               : 0.1));
     CHECK(pair.off_ratio == Approx(std::abs(std::abs(pair.own) / std::abs(pair.tool) - 1)));
   }
   CHECK(compare_modes(imported({tern_folder + "tern.st", eig})).fault.find("give the .run file") !=

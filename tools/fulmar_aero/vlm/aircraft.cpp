@@ -14,7 +14,7 @@ namespace {
 
 /// Of a control's main moment, between a sixth of the panels and all: some two thirds of it are still missing
 /// with all, as the error goes with the panels' size.
-constexpr double most_power_change = 0.15;
+constexpr double max_power_change = 0.15;
 constexpr double steepest = 25 * degree;  // beyond, nothing about a lattice is right
 
 double lift_needed(const Geometry& g, const MassSum& mass, const Stream& s) {
@@ -181,7 +181,7 @@ void doubt(const SixDerivatives& few, Aircraft& a) {
   for (const Power& p : {Power{"Cm_elevator", few.control[to_elevator].Cm, all.control[to_elevator].Cm},
                          Power{"Cl_aileron", few.control[to_aileron].Cl, all.control[to_aileron].Cl},
                          Power{"Cn_rudder", few.control[to_rudder].Cn, all.control[to_rudder].Cn}}) {
-    if (std::abs(p.few - p.all) <= most_power_change * std::abs(p.all)) continue;
+    if (std::abs(p.few - p.all) <= max_power_change * std::abs(p.all)) continue;
     a.doubt += std::string(a.doubt.empty() ? "" : "; ") + "not converged: with a sixth of the panels " +
                p.name + " is " + figures(p.few) + " instead of " + figures(p.all) +
                "; give its surface more panels along the chord and the span";

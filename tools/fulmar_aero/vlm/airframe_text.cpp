@@ -112,7 +112,7 @@ std::string airframe_yaml(const GeometryFile& file, const Aircraft& aircraft) {
 
   const double least =
       1.2 * std::sqrt(isa::g0 * a.mass_kg /
-                      (0.5 * aircraft.stream.density_kgm3 * a.wing.area_m2 * most_lift(a).coefficient));
+                      (0.5 * aircraft.stream.density_kgm3 * a.wing.area_m2 * max_lift(a).coefficient));
   const auto trim = [&](int input) {
     return std::pair<std::string, std::string>("trim", figures(flight.input(input), 4) + " rad");
   };

@@ -210,7 +210,7 @@ TEST_CASE("what lies behind gigabytes that were never written is recovered witho
   const std::size_t last = p.places.at(chunk_code).at(9);
   const std::string chunk = p.bytes.substr(last, p.places.at(index_code).back() - last);
   const std::filesystem::path file = p.folder.path / "sparse.mcap.part";
-  constexpr std::uint64_t hole = std::uint64_t{5} << 30, most_read = 50'000'000;
+  constexpr std::uint64_t hole = std::uint64_t{5} << 30, max_read = 50'000'000;
   for (const bool behind : {false, true}) {
     CAPTURE(behind);
     store(file, p.bytes.substr(0, last + 40));
@@ -218,7 +218,7 @@ TEST_CASE("what lies behind gigabytes that were never written is recovered witho
     if (behind) std::ofstream(file, std::ios::binary | std::ios::app) << chunk;
     const std::uint64_t before = bytes_read();
     const Recovery r = recover_log(file, p.folder.path / "good.mcap");
-    CHECK(bytes_read() - before < most_read);
+    CHECK(bytes_read() - before < max_read);
     CHECK(r.left_out.chunks == 1);
     CHECK(r.written.messages == (behind ? 1000 : 900));
     std::filesystem::remove(p.folder.path / "good.mcap");

@@ -37,7 +37,7 @@ TEST_CASE("curves can be told apart without colours; equal logs give equal figur
   figure.high_mm = 200;
   figure.x = "time [s]";
   figure.panels.resize(1);
-  for (std::size_t i = 0; i < chart::most_curves; ++i)
+  for (std::size_t i = 0; i < chart::max_curves; ++i)
     figure.panels[0].curves.push_back(
         {"c" + std::to_string(i), {{0, double(i)}, {10, double(i) + 1}}, false});
   const std::string svg = chart::figure_svg(figure);
@@ -48,7 +48,7 @@ TEST_CASE("curves can be told apart without colours; equal logs give equal figur
     looks.insert(attribute(tag, "stroke-dasharray") + " " +
                  (mark.empty() ? "" : shape_of(attribute(mark[0], "d"))));
   }
-  CHECK(looks.size() == chart::most_curves);
+  CHECK(looks.size() == chart::max_curves);
   CHECK(svg == chart::figure_svg(figure));
 }
 

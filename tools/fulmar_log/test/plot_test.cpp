@@ -439,7 +439,7 @@ TEST_CASE("what cannot be drawn is told in a sentence with what there is") {
   CHECK(plot::names_a_log("flight.mcap.part"));
   CHECK_FALSE(plot::names_a_log("nav.state.height_m"));
   std::string panel = "slc.error_m";
-  for (std::size_t i = 0; i < chart::most_curves; ++i) panel += ",slc.error_m";
+  for (std::size_t i = 0; i < chart::max_curves; ++i) panel += ",slc.error_m";
   CHECK(refused({.words = {log}, .panels = {panel}, .out = "x.svg"}) ==
         "a panel would have 37 curves; 36 can be told apart");
 }

@@ -50,7 +50,7 @@ class ImuCalibration {
 /// again when they scatter.
 class PressureCalibration {
  public:
-  explicit PressureCalibration(double most_variance) : most_variance_(most_variance) {}
+  explicit PressureCalibration(double max_variance) : max_variance_(max_variance) {}
   void start() {
     done_ = scattered_ = false;
     count_ = 0;
@@ -72,7 +72,7 @@ class PressureCalibration {
     if (count_ < 128 + 127) return std::nullopt;
     const double mean = sum_ / 127, variance = squares_ / 127 - mean * mean;
     start();
-    if (variance >= most_variance_) {
+    if (variance >= max_variance_) {
       scattered_ = true;
       return std::nullopt;
     }
@@ -81,7 +81,7 @@ class PressureCalibration {
   }
 
  private:
-  double most_variance_;
+  double max_variance_;
   bool done_ = false, scattered_ = false;
   int count_ = 0;
   std::int64_t last_us_ = 0;

@@ -28,7 +28,7 @@ inline bool diverged(const RigidBody& x) {
 }
 
 /// Below this airspeed, m/s, the flow has no angles worth a table.
-inline constexpr double least_table_speed = 3;
+inline constexpr double min_table_speed = 3;
 
 /// Whether the flow `v_r` is beyond the tables of an aerodynamic model, if it has some.
 template <class Model>
@@ -37,7 +37,7 @@ Departure beyond_tables(const Model& model, const Eigen::Vector3d& v_r) {
     if (!std::isfinite(model.alpha_range().max) && !std::isfinite(model.beta_range().max))
       return Departure::none;
     const AirData air(v_r);
-    if (air.Va < least_table_speed) return Departure::none;
+    if (air.Va < min_table_speed) return Departure::none;
     if (!model.alpha_range().holds(air.alpha)) return Departure::beyond_alpha;
     if (!model.beta_range().holds(air.beta)) return Departure::beyond_beta;
   }

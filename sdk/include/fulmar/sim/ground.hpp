@@ -119,13 +119,13 @@ class Ground {
   }
 
   /// No more than friction holds, of a force or of the bristle behind it. A skid knows no heading.
-  static void hold(const Leg& l, double most_along, double most_across, double& along, double& across) {
+  static void hold(const Leg& l, double max_along, double max_across, double& along, double& across) {
     if (!l.skid) {
-      along = std::clamp(along, -most_along, most_along);
-      across = std::clamp(across, -most_across, most_across);
-    } else if (const double size = std::hypot(along, across); size > most_along) {
-      along *= most_along / size;
-      across *= most_along / size;
+      along = std::clamp(along, -max_along, max_along);
+      across = std::clamp(across, -max_across, max_across);
+    } else if (const double size = std::hypot(along, across); size > max_along) {
+      along *= max_along / size;
+      across *= max_along / size;
     }
   }
 

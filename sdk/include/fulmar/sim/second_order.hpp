@@ -18,12 +18,12 @@ class SecondOrder {
   void rest() { v_ = 0; }
 
   /// From `x` towards `aim` for `dt`; returns the new x.
-  double advance(double x, double aim, double most_rate, double dt) {
+  double advance(double x, double aim, double max_rate, double dt) {
     // pieces so short that the rate has one extremum at most in each
     const int pieces = std::max(1, static_cast<int>(std::ceil(omega_ * dt)));
     const Piece piece = piece_of(dt / pieces);
     double e = x - aim;
-    for (int i = 0; i < pieces; ++i) advance_piece(e, most_rate, piece);
+    for (int i = 0; i < pieces; ++i) advance_piece(e, max_rate, piece);
     return e + aim;
   }
 

@@ -50,7 +50,7 @@ struct FlightState {
 
 class Simulation {
  public:
-  static constexpr double longest_s = 0.1;  ///< beyond it the short period of small aircraft is not resolved
+  static constexpr double max_s = 0.1;  ///< beyond it the short period of small aircraft is not resolved
 
   /// At rest on the ground, heading north.
   explicit Simulation(const Airframe& a, const SimulationOptions& options = {}, std::uint64_t seed = 1)
@@ -121,7 +121,7 @@ class Simulation {
 
   /// Throws when no step can be so long.
   static void demand_step(double dt_s) {
-    if (!(dt_s > 0 && dt_s <= longest_s))
+    if (!(dt_s > 0 && dt_s <= max_s))
       throw std::invalid_argument("dt is " + shown(dt_s) + " s and must be in (0, 0.1] s");
   }
 

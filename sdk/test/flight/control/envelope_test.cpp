@@ -57,13 +57,13 @@ VehicleState mushing(double sink_mps, double airspeed_mps = 13) {
 
 TEST_CASE("the wing's own model says where lift ends: as far as the stall blending lets it grow") {
   const WingEnvelope w(test::anaconda());
-  CHECK(w.most_lift == doctest::Approx(1.515).epsilon(0.005));
+  CHECK(w.max_lift == doctest::Approx(1.515).epsilon(0.005));
   CHECK(w.stall_alpha_rad == doctest::Approx(0.209).epsilon(0.01));
   // Slope with the elevator that holds the moment: 5.61 - 0.13 * 2.74 / 0.99; no lift at -(0.506 + ..) over
   // it.
   const double slope = 5.61 - 0.13 * 2.74 / 0.99, zero = -(0.506 + 0.13 * 0.135 / 0.99) / slope;
   CHECK(w.zero_alpha_rad == doctest::Approx(zero).epsilon(0.01));
-  CHECK(w.share(zero + 0.1) == doctest::Approx(0.1 * slope / w.most_lift).epsilon(0.01));
+  CHECK(w.share(zero + 0.1) == doctest::Approx(0.1 * slope / w.max_lift).epsilon(0.01));
   CHECK(w.alpha_of(w.share(0.07)) == doctest::Approx(0.07));
 }
 
@@ -288,7 +288,7 @@ TEST_CASE("on the way up airspeed that is too much raises the nose, as far as th
   VehicleState s = level(25);
   f.fly(s, 2);
   const WingEnvelope w(f.airframe);
-  const double lift = 4.5 * g / (0.5 * rho * 25 * 25 * 0.52 * w.most_lift);
+  const double lift = 4.5 * g / (0.5 * rho * 25 * 25 * 0.52 * w.max_lift);
   // 25 m/s against 1.1 times the least; the flight is level, and pitch points 0.05 rad above it.
   const double rate = 0.05 * (25 - 1.1 * f.now.slowest_mps) + 0.1 * airspeed_rate(s);
   CHECK(f.guard.regaining_pitch(s, f.now, 0.1, 0.01) == doctest::Approx(0.1 + 0.01 * rate).epsilon(1e-3));

@@ -32,7 +32,7 @@ TEST_CASE("an integrator with a delay: all three margins in closed form") {
   CHECK(m.delay_s == Approx((pi / 2 - k * tau) / k).epsilon(1e-4).scale(0));
   CHECK(m.gain_db == Approx(20 * std::log10(pi / (2 * k * tau))).epsilon(1e-3).scale(0));
   CHECK(m.reduction_db == Margins::none);
-  CHECK(m.least_gain_db() == m.gain_db);
+  CHECK(m.min_gain_db() == m.gain_db);
 }
 
 TEST_CASE("three equal lags: the gain may grow to 8") {
@@ -48,7 +48,7 @@ TEST_CASE("what the loop keeps stable asks for gain: it may fall by so much only
   const Margins pair = of([](Complex s) { return 1.2 * s / (s * s - 0.4 * s + 1.0); });
   CHECK(pair.reduction_db == Approx(20 * std::log10(3.0)).epsilon(2e-3).scale(0));
   CHECK(pair.gain_db == Margins::none);
-  CHECK(pair.least_gain_db() == pair.reduction_db);
+  CHECK(pair.min_gain_db() == pair.reduction_db);
 }
 
 TEST_CASE("the phase margin is the least of all crossovers, whether by lag or by lead") {

@@ -196,7 +196,7 @@ void lose_both(const Truth& x, Samples& s) {
 }
 
 struct Seen {
-  double most = 0, most_std = 0, square = 0;
+  double most = 0, max_std = 0, square = 0;
   int flagged = 0, early = 0, n = 0, invalid = 0;
 
   void look(const Truth& x, const VehicleState& s) {
@@ -204,7 +204,7 @@ struct Seen {
     if (x.t < lost_s + 1.1) return;
     const double off = s.airspeed_mps - x.airspeed();
     most = std::max(most, std::abs(off));
-    most_std = std::max(most_std, s.airspeed_std_mps);
+    max_std = std::max(max_std, s.airspeed_std_mps);
     square += off * off;
     flagged += s.airspeed_from_model;
     invalid += !s.airspeed_valid;
@@ -236,7 +236,7 @@ TEST_CASE("without receiver and tube the throttle says the airspeed for a minute
     CHECK(with.invalid == 0);
     CHECK(with.rms() < 0.6);
     CHECK(with.most < 2);
-    CHECK(with.most_std < 1.5);
+    CHECK(with.max_std < 1.5);
     CHECK(without.flagged == 0);
     CHECK(without.rms() > 1.2 * with.rms());
   }
@@ -283,7 +283,7 @@ TEST_CASE("a motor that gains or loses a third over seconds: what is claimed gro
         return throttle_of(x) + more * std::clamp((x.t - fades_s) / ramp_s, 0.0, 1.0);
       };
       int before = 0, n = 0, after = 0;
-      double most = 0, most_valid_mps = 0;
+      double most = 0, max_valid_mps = 0;
       flight.watch = [&](const Truth& x, const VehicleState& s, Status) {
         if (x.t > lost_s + 1.1 && x.t < fades_s) {
           before += s.airspeed_from_model;
@@ -292,14 +292,14 @@ TEST_CASE("a motor that gains or loses a third over seconds: what is claimed gro
         const double off = std::abs(s.airspeed_mps - x.airspeed());
         if (x.t < fades_s) return;
         most = std::max(most, off / s.airspeed_std_mps);
-        if (s.airspeed_valid) most_valid_mps = std::max(most_valid_mps, off);
+        if (s.airspeed_valid) max_valid_mps = std::max(max_valid_mps, off);
         if (x.t > fades_s + ramp_s + 8) after += s.airspeed_from_model;
       };
       flight.run();
       CHECK(before == n);
       CHECK(after == 0);
       CHECK(most < 5);  // it was 14 by what the filter alone claims
-      CHECK(most_valid_mps < 6);
+      CHECK(max_valid_mps < 6);
     }
 }
 

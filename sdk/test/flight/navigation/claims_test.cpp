@@ -133,7 +133,7 @@ TEST_CASE("what is claimed is the filter's, widened by what it does not know, wi
     p.rate_filter.value = 0;
     int wrong = 0, renewed = 0, out = 0;
     Vec3<Ned> before{};
-    double most_speed = 0;
+    double max_speed = 0;
     f.run([&](const Truth& x, const VehicleState& s, const Navigator& n) {
       if (x.t < 20 || !n.airborne() || s.attitude_std_rad.down == before.down) return;
       before = s.attitude_std_rad;
@@ -144,7 +144,7 @@ TEST_CASE("what is claimed is the filter's, widened by what it does not know, wi
       const double speed = n.gusts().std_mps(p) * (1 - std::exp(-T / n.gusts().time_s(p))),
                    way = speed * T / 2, shared = n.shared_speed_mps();
       out += T > 0;
-      most_speed = std::max(most_speed, speed);
+      max_speed = std::max(max_speed, speed);
       const Vector3d u_n = ekf::air_velocity(filter.state());
       const double v_north2 = P(ekf::vel) + shared * shared + speed * speed,
                    v_east2 = P(ekf::vel + 1) + shared * shared + speed * speed, yaw2 = P(ekf::theta + 2);
@@ -176,7 +176,7 @@ TEST_CASE("what is claimed is the filter's, widened by what it does not know, wi
     CHECK(renewed > 2000);
     CHECK(renewed < 4100);  // at 100 Hz
     CHECK((out > 1000) == (fixes_until_s < 100));
-    CHECK((most_speed > 0.5) == (fixes_until_s < 100));
+    CHECK((max_speed > 0.5) == (fixes_until_s < 100));
   }
 }
 

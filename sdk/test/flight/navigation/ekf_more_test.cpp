@@ -215,7 +215,7 @@ TEST_CASE("a filter to which nothing was appended has room for four; what cannot
   CHECK_THROWS_AS(f.append({.std = 0}), std::invalid_argument);
   CHECK_THROWS_AS(f.append({.walk = -1}), std::invalid_argument);
   CHECK_THROWS_AS(f.append({.time_s = std::nan("")}), std::invalid_argument);
-  for (int i = 0; i < ekf::most_more; ++i) CHECK(f.append({.std = 1.0 + i}) == i);
+  for (int i = 0; i < ekf::max_more; ++i) CHECK(f.append({.std = 1.0 + i}) == i);
   CHECK_THROWS_AS(f.append({}), std::length_error);
   CHECK(f.more().std(3) == doctest::Approx(4));
 }

@@ -69,15 +69,15 @@ TEST_CASE("an inertial unit tells its own noise: that of both sets of sensors, f
     for (const double rate_hz : {100.0, 400.0}) {
       CAPTURE(times);
       CAPTURE(rate_hz);
-      const double dt = 1 / rate_hz, least_accel = 0.5 * 0.02, least_gyro = 0.5 * 5e-4;
+      const double dt = 1 / rate_hz, min_accel = 0.5 * 0.02, min_gyro = 0.5 * 5e-4;
       const auto density = [&](double std) { return times * std * std::sqrt(dt); };
       const double accel = learnt(times * 0.2, rate_hz, 20, 0.02);
-      CHECK(accel / std::min(std::hypot(density(0.2), least_accel), 0.1) == doctest::Approx(1).epsilon(0.06));
-      CHECK(learnt(times * 0.0139, rate_hz, 20, 0.02) / std::hypot(density(0.0139), least_accel) ==
+      CHECK(accel / std::min(std::hypot(density(0.2), min_accel), 0.1) == doctest::Approx(1).epsilon(0.06));
+      CHECK(learnt(times * 0.0139, rate_hz, 20, 0.02) / std::hypot(density(0.0139), min_accel) ==
             doctest::Approx(1).epsilon(0.06));
-      CHECK(learnt(times * 2.26e-3, rate_hz, 20, 5e-4) / std::hypot(density(2.26e-3), least_gyro) ==
+      CHECK(learnt(times * 2.26e-3, rate_hz, 20, 5e-4) / std::hypot(density(2.26e-3), min_gyro) ==
             doctest::Approx(1).epsilon(0.06));
-      CHECK(learnt(times * 0.987e-3, rate_hz, 20, 5e-4) / std::hypot(density(0.987e-3), least_gyro) ==
+      CHECK(learnt(times * 0.987e-3, rate_hz, 20, 5e-4) / std::hypot(density(0.987e-3), min_gyro) ==
             doctest::Approx(1).epsilon(0.06));
     }
 }

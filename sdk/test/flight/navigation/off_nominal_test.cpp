@@ -101,18 +101,18 @@ TEST_CASE(
 TEST_CASE("without fixes the wind is no better known than the velocity over the ground") {
   Flown f{};
   f.plan.duration_s = 100;
-  double least_ratio = 1e9, std_mps = 0;
+  double min_ratio = 1e9, std_mps = 0;
   f.alter = [](const Truth& x, Samples& s) {
     if (x.t > 60) s.gnss.reset();
   };
   f.watch = [&](const Truth&, const VehicleState& s, Status) {
-    least_ratio = std::min({least_ratio, s.wind_std_mps.north / s.velocity_std_mps.north,
-                            s.wind_std_mps.east / s.velocity_std_mps.east});
+    min_ratio = std::min({min_ratio, s.wind_std_mps.north / s.velocity_std_mps.north,
+                          s.wind_std_mps.east / s.velocity_std_mps.east});
     std_mps = s.velocity_std_mps.north;
   };
   f.run();
   CHECK(std_mps > 0.5);
-  CHECK(least_ratio >= 1);
+  CHECK(min_ratio >= 1);
 }
 
 TEST_CASE("a position that wanders is doubted for 30 s, then it is the velocity; the second time as well") {

@@ -268,7 +268,7 @@ TEST_CASE("the lesser turn onto a circle is the one whose tangent is closer in c
       turning[right ? 0 : 1] = std::abs(wrap_pi(course - from.course_rad));
     }
     if (std::abs(turning[0] - turning[1]) < 1e-6) continue;
-    CHECK(least_turning(from, 0, 0, 50) == (turning[0] < turning[1] ? Turn::right : Turn::left));
+    CHECK(min_turning(from, 0, 0, 50) == (turning[0] < turning[1] ? Turn::right : Turn::left));
   }
 }
 

@@ -12,29 +12,29 @@
 #include "fulmar/flight/control/takeoff.hpp"
 #include "fulmar/flight/control/turn_trim.hpp"
 #include "fulmar/flight/math/filters.hpp"
-#include "fulmar/flight/model/most_lift.hpp"
+#include "fulmar/flight/model/max_lift.hpp"
 
 namespace fulmar {
 
 /// Lift over the angle of attack, of an airframe's own model: a line from no lift up to the most.
 struct WingEnvelope {
   double mass_kg = 0, area_m2 = 1;
-  double most_lift = 0;               ///< CL, trimmed; 0: the airframe has no model of its lift
+  double max_lift = 0;                ///< CL, trimmed; 0: the airframe has no model of its lift
   double stall_alpha_rad = 0.2618;    ///< of the most lift
   double zero_alpha_rad = -0.05;      ///< of no lift
   double share_per_rad = 1 / 0.3118;  ///< of the most lift
 
   WingEnvelope() = default;
   explicit WingEnvelope(const Airframe& a) : mass_kg(a.mass_kg), area_m2(a.wing.area_m2) {
-    const MostLift most = fulmar::most_lift(a);
+    const MostLift most = fulmar::max_lift(a);
     constexpr double step = 0.05;
     const Aerodynamic aero(a);
     const double CL = trimmed_lift(aero, a, 0), slope = (trimmed_lift(aero, a, step) - CL) / step;
     if (!(slope > 0.5 && most.coefficient > 0.1 && most.alpha_rad > step)) return;
-    most_lift = most.coefficient;
+    max_lift = most.coefficient;
     stall_alpha_rad = most.alpha_rad;
     zero_alpha_rad = -CL / slope;
-    share_per_rad = slope / most_lift;
+    share_per_rad = slope / max_lift;
   }
 
   /// Of the most lift. Beyond the stall it goes on: how far the angle of attack is too large.
@@ -55,11 +55,11 @@ struct WingEnvelope {
   static double by_limits_mps(const FlightLimits& limits) { return limits.airspeed_min_mps / 1.2; }
   double by_model_mps(double density_kgm3) const {
     constexpr double g = 9.80665;
-    return most_lift > 0 ? std::sqrt(2 * mass_kg * g / (density_kgm3 * area_m2 * most_lift)) : 0;
+    return max_lift > 0 ? std::sqrt(2 * mass_kg * g / (density_kgm3 * area_m2 * max_lift)) : 0;
   }
 };
 
-inline constexpr double least_bank_rad = 0.26;
+inline constexpr double min_bank_rad = 0.26;
 
 /// Bank, rad, to which the wing carries a level turn at airspeed `Va` with a tenth of speed left above the
 /// stall: its lift has to be 1 / cos(bank) of the weight. Slower than that some bank is left, to steer with.
@@ -67,7 +67,7 @@ inline double bank_carried(double Va, double stall_mps) {
   constexpr double above_stall_ratio = 1.1;
   const double slowest = above_stall_ratio * stall_mps;
   const double cosine = slowest * slowest / std::max(Va * Va, 1e-3);
-  return std::max(least_bank_rad, std::acos(std::min(cosine, 1.0)));
+  return std::max(min_bank_rad, std::acos(std::min(cosine, 1.0)));
 }
 
 /// What a law may ask for at this moment.
@@ -106,7 +106,7 @@ class EnvelopeGuard {
   }
 
   double bank_max(double Va, const FlightLimits& limits, double density_kgm3) const {
-    if (regains_) return least_bank_rad;
+    if (regains_) return min_bank_rad;
     return bank_carried(Va, wing_.bank_stall_mps(limits, density_kgm3));
   }
 
@@ -133,8 +133,8 @@ class EnvelopeGuard {
     }
     if (seen) {
       const double gusts = for_gusts(state, stall * std::sqrt(load), dt_s);
-      const double least_mps = std::max(for_alpha(e, load, stall, limits, dt_s), gusts);
-      e.airspeed_min_mps = std::clamp(least_mps, e.slowest_mps, most);
+      const double min_mps = std::max(for_alpha(e, load, stall, limits, dt_s), gusts);
+      e.airspeed_min_mps = std::clamp(min_mps, e.slowest_mps, most);
     }
     if (state.airspeed_valid && state.velocity_valid)
       e.pitch_max_rad = std::min(e.pitch_max_rad, pitch_max(state, limits, e.slowest_mps));
@@ -166,12 +166,12 @@ class EnvelopeGuard {
   /// wing's own lift holds, as the accelerometer measures it: no more than nine tenths of it, and not so
   /// little that the aircraft falls. `pitch_rad` was commanded last.
   double regaining_pitch(const VehicleState& s, const Envelope& e, double pitch_rad, double dt_s) const {
-    constexpr double above_slowest = 1.1, most_share = 0.9, least_share = 0.3;
+    constexpr double above_slowest = 1.1, max_share = 0.9, min_share = 0.3;
     constexpr double error_gain = 0.05, rate_gain = 0.1;  // 0.7 rad/s, damping 0.7
     const double error = s.airspeed_mps - above_slowest * e.slowest_mps;
     const double rate = error_gain * error + rate_gain * airspeed_rate(s);
-    const double least = s.pitch_rad + (least_share - lift_.value()) / wing_.share_per_rad;
-    const double most = s.pitch_rad + (most_share - used()) / wing_.share_per_rad;
+    const double least = s.pitch_rad + (min_share - lift_.value()) / wing_.share_per_rad;
+    const double most = s.pitch_rad + (max_share - used()) / wing_.share_per_rad;
     return std::min({std::max(pitch_rad + rate * dt_s, least), most, e.pitch_max_rad});
   }
 
@@ -191,7 +191,7 @@ class EnvelopeGuard {
   /// Share of the most lift, by what the accelerometer says: the wing's own, vertical air or not.
   void lift(const VehicleState& s, double density_kgm3, double dt_s) {
     constexpr double smoothed_s = 0.1, remembered_s = 0.3;
-    const double most = 0.5 * density_kgm3 * V_ * V_ * wing_.area_m2 * wing_.most_lift;
+    const double most = 0.5 * density_kgm3 * V_ * V_ * wing_.area_m2 * wing_.max_lift;
     lift_.step(most > 0 ? -s.specific_force_mps2.z * wing_.mass_kg / most : 1, smoothed_s, dt_s);
     peak_ = std::max(lift_.value(), decay_.of(dt_s / remembered_s) * peak_);
   }
@@ -213,7 +213,7 @@ class EnvelopeGuard {
   /// only where the aircraft is slow, and is forgotten where it is not.
   double for_alpha(const Envelope& e, double load, double stall_mps, const FlightLimits& limits,
                    double dt_s) {
-    constexpr double learns_s = 1.5, forgets_s = 10, near_ratio = 1.25, most_ratio = 1.4;
+    constexpr double learns_s = 1.5, forgets_s = 10, near_ratio = 1.25, max_ratio = 1.4;
     const double nominal = stall_mps * stall_mps;
     if (!learnt_) {
       learnt_ = true;
@@ -223,7 +223,7 @@ class EnvelopeGuard {
     const double seen = near ? V_ * V_ * std::clamp(used(), 0.0, 2.0) / load : nominal;
     const double squared = load * stall_squared_.step(seen, near ? learns_s : forgets_s, dt_s);
     if (above_stall * above_stall * squared <= e.slowest_mps * e.slowest_mps) return e.slowest_mps;
-    const double most = std::min(most_ratio * e.slowest_mps, limits.airspeed_max_mps);
+    const double most = std::min(max_ratio * e.slowest_mps, limits.airspeed_max_mps);
     return std::max(e.slowest_mps, std::min(above_stall * std::sqrt(squared), most));
   }
 

@@ -41,9 +41,9 @@ class Swings {
   void reset() { *this = {}; }
 
  private:
-  static constexpr double wash_out_radps = 6, shortest_s = 0.05, longest_s = 0.4;
+  static constexpr double wash_out_radps = 6, shortest_s = 0.05, max_s = 0.4;
 
-  void count() { count_ = large_ && time_s_ >= shortest_s && time_s_ <= longest_s ? count_ + 1 : 0; }
+  void count() { count_ = large_ && time_s_ >= shortest_s && time_s_ <= max_s ? count_ + 1 : 0; }
 
   WashOut fast_, commanded_;
   double time_s_ = 0, peak_ = 0, before_ = 0, caused_ = 0;

@@ -26,7 +26,7 @@ struct Margins {
   double delay_s = none;       ///< that may come in addition
   double crossover_radps = 0;  ///< the highest frequency at which |L| is 1; 0: it never is
 
-  double least_gain_db() const { return std::min(gain_db, reduction_db); }
+  double min_gain_db() const { return std::min(gain_db, reduction_db); }
 };
 
 namespace detail {

@@ -14,8 +14,8 @@
 
 #include "fulmar/flight/math/dual.hpp"
 #include "fulmar/flight/model/aircraft_model.hpp"
+#include "fulmar/flight/model/max_lift.hpp"
 #include "fulmar/flight/model/mixer.hpp"
-#include "fulmar/flight/model/most_lift.hpp"
 #include "fulmar/flight/model/trim.hpp"
 
 namespace fulmar {
@@ -200,7 +200,7 @@ inline TrimLimit reason_of_none(const AircraftModel& m, const SteadyFlight& f) {
   const double load_factor = std::cos(f.condition.climb_rad) / std::cos(f.x(model::roll));
   const double CL =
       load_factor * m.airframe().mass_kg * isa::g0 / (0.5 * rho * Va * Va * m.airframe().wing.area_m2);
-  if (CL > most_lift(m.airframe()).coefficient) return TrimLimit::stall;
+  if (CL > max_lift(m.airframe()).coefficient) return TrimLimit::stall;
   const double thrust = thrust_needed(m, f.condition, CL, rho);
   const auto there = [&](double throttle) {
     const Propeller& propeller = m.propeller();

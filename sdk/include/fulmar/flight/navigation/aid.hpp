@@ -30,7 +30,7 @@ class Arrivals {
   void sampled(const std::array<double, 3>& values, double time_s) {
     const double dt = time_s - sampled_s_;
     if (interval_s_ == 0 && sampled_s_ != never)
-      interval_s_ = std::min(dt, longest_s);
+      interval_s_ = std::min(dt, max_s);
     else if (interval_s_ > 0)  // a gap says nothing of the rate, a slower sensor does
       interval_s_ += 0.1 * (std::min(dt, 3 * interval_s_) - interval_s_);
     repeated_ = sampled_s_ != never && values == values_ ? repeated_ + 1 : 0;
@@ -54,7 +54,7 @@ class Arrivals {
   bool disordered(double now_s) const { return early_in(now_s) > early_most; }
 
  private:
-  static constexpr double silent_intervals = 5, shortest_s = 0.2, longest_s = 1, stuck_s = 0.45;
+  static constexpr double silent_intervals = 5, shortest_s = 0.2, max_s = 1, stuck_s = 0.45;
   static constexpr std::int64_t stuck_samples = 4;
   static constexpr double early_time_s = 2,
                           early_most = 2.2;  ///< the third in a row within 1.4 s
@@ -136,11 +136,11 @@ class SharedError {
   }
 
  private:
-  static constexpr double window_s = 30, least_s = 2, most = 1.5;
+  static constexpr double window_s = 30, min_s = 2, most = 1.5;
 
   std::array<Eigen::Vector2d, 2> before_{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   std::array<double, 2> mean_{};  ///< m2/s2: with the one before, and with the one before that
-  double last_s_ = never, seen_s_ = least_s;
+  double last_s_ = never, seen_s_ = min_s;
 };
 
 /// Of one sensor. Times are those of the inertial samples, in seconds.

@@ -45,11 +45,11 @@ class AirspeedModel {
     const double R = square(std_mps2()) * alone(), S = phi.dot(P_phi) + R;
     const double off = b.f_x_mps2 - phi.dot(theta_);
     const Vector K = P_phi / S;
-    theta_ += K * std::clamp(off, -most_off * std::sqrt(S), most_off * std::sqrt(S));
+    theta_ += K * std::clamp(off, -max_off * std::sqrt(S), max_off * std::sqrt(S));
     P_ -= K * P_phi.transpose();
     P_ = (0.5 * (P_ + P_.transpose())).eval();
     seen_s_ += block_s;
-    const double share = block_s / (std::min(seen_s_, window_s) + least_s), left = off * R / S;
+    const double share = block_s / (std::min(seen_s_, window_s) + min_s), left = off * R / S;
     square_ += share * (off * left - square_);
     shared_ += share * (off * before_ - shared_);
     before_ = left;
@@ -77,18 +77,18 @@ class AirspeedModel {
   }
 
   double slope_per_s(const Block& b) const { return slopes(b).dot(theta_); }  ///< df_x/dV
-  double std_mps2() const { return std::sqrt(std::max(square_, square(least_mps2))); }
+  double std_mps2() const { return std::sqrt(std::max(square_, square(min_mps2))); }
   /// So many blocks know as much as one.
   double alone() const {
-    const double r = std::clamp(shared_ / std::max(square_, square(least_mps2)), 0.0, most_shared);
+    const double r = std::clamp(shared_ / std::max(square_, square(min_mps2)), 0.0, max_shared);
     return (1 + r) / (1 - r);
   }
   const Matrix& covariance() const { return P_; }
 
  private:
-  static constexpr double V0 = 15, g = 9.80665;                       ///< scales: m/s, m/s2
-  static constexpr double window_s = 60, least_s = 5, learnt_s = 20;  ///< of the residual; before it is used
-  static constexpr double least_mps2 = 0.02, most_shared = 0.9, most_off = 3;
+  static constexpr double V0 = 15, g = 9.80665;                     ///< scales: m/s, m/s2
+  static constexpr double window_s = 60, min_s = 5, learnt_s = 20;  ///< of the residual; before it is used
+  static constexpr double min_mps2 = 0.02, max_shared = 0.9, max_off = 3;
   static constexpr double sure = 3;     ///< deviations of the slope
   static constexpr double walk = 2e-3;  ///< of the prior deviation, per root of a second
 

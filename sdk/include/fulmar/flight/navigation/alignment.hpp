@@ -210,7 +210,7 @@ class FlightAlignment {
     const double T = time_ - known.late_s - first_s_;
     if (started_ && T < shortest_s) return found;
     if (piece_.dt > 0) close_piece();
-    if (started_ && T < longest_s) found = solve(v_n, T, known);
+    if (started_ && T < max_s) found = solve(v_n, T, known);
     started_ = true;
     first_s_ = time_ - known.late_s;
     v_first_ = v_n;
@@ -228,7 +228,7 @@ class FlightAlignment {
   }
 
  private:
-  static constexpr double piece_s = 0.01, shortest_s = 0.45, longest_s = 2.2, held_s = 0.5, edge_s = 0.05;
+  static constexpr double piece_s = 0.01, shortest_s = 0.45, max_s = 2.2, held_s = 0.5, edge_s = 0.05;
 
   struct Sums {                               ///< since the beginning, in the body axes of then
     Quaterniond q = Quaterniond::Identity();  ///< body now -> body at the beginning

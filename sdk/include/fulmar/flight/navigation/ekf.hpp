@@ -345,7 +345,7 @@ class ErrorStateEkf {
     P_.bottomLeftCorner<size - 9, 9>() = W.bottomRows<size - 9>();
     P_.topRightCorner<9, size - 9>() = W.bottomRows<size - 9>().transpose();
     if (more_.count() > 0) {
-      Eigen::Matrix<double, ekf::most_more, 9> turned;
+      Eigen::Matrix<double, ekf::max_more, 9> turned;
       shear(more_.cross(), turned);
       ekf::Vector moved = ekf::Vector::Zero();
       moved.head<9>() =

@@ -13,11 +13,11 @@
 
 namespace fulmar::ekf {
 
-inline constexpr int most_more = 4;  ///< states that can be appended
+inline constexpr int max_more = 4;  ///< states that can be appended
 
-using MoreVector = Eigen::Matrix<double, most_more, 1>;
-using MoreRow = Eigen::Matrix<double, 1, most_more>;
-using MoreCovariance = Eigen::Matrix<double, most_more, most_more>;
+using MoreVector = Eigen::Matrix<double, max_more, 1>;
+using MoreRow = Eigen::Matrix<double, 1, max_more>;
+using MoreCovariance = Eigen::Matrix<double, max_more, max_more>;
 
 /// What the inertial unit has felt over a step, biases taken off: means.
 struct Motion {
@@ -41,7 +41,7 @@ class MoreStates {
  public:
   /// Returns its index. Throws std::length_error: there is no room for it, or std::invalid_argument.
   int append(const MoreState& s) {
-    if (count_ == most_more) throw std::length_error("at most 4 states can be appended to the filter");
+    if (count_ == max_more) throw std::length_error("at most 4 states can be appended to the filter");
     if (!(s.std > 0 && s.walk >= 0 && s.time_s >= 0) || !std::isfinite(s.std + s.walk + s.time_s))
       throw std::invalid_argument("an appended state needs std > 0, walk >= 0 and time_s >= 0");
     models_[static_cast<std::size_t>(count_)] = s;
@@ -54,7 +54,7 @@ class MoreStates {
   const MoreVector& values() const { return y_; }
   const MoreCovariance& covariance() const { return P_; }
   /// Covariance with the filter's own states: a row for each appended one.
-  const Eigen::Matrix<double, most_more, size>& cross() const { return C_; }
+  const Eigen::Matrix<double, max_more, size>& cross() const { return C_; }
 
   /// A new value and deviation, without correlation with the rest.
   void set(int i, double value, double std) {
@@ -82,7 +82,7 @@ class MoreStates {
   void fused(const Eigen::Matrix<double, size, 1>& k, const MoreVector& k_more, double ratio) {
     C_.noalias() -= k_more * k.transpose();
     P_.noalias() -= k_more * k_more.transpose();
-    for (int i = 0; i < count_; ++i) P_(i, i) = std::max(P_(i, i), least_variance);
+    for (int i = 0; i < count_; ++i) P_(i, i) = std::max(P_(i, i), min_variance);
     y_ += k_more * ratio;
   }
   /// The filter's states were moved by the gain K, these were not; `PHt` is P H' of these rows.
@@ -92,9 +92,9 @@ class MoreStates {
   /// With G the columns of the drives and X' = C' Phi': Pxx += G X' + X G' + G Pyy G', C' <- Psi (X' + Pyy
   /// G'), Pyy <- Psi Pyy Psi + Q. `turned` is X' of the states 0 to 8. Returns G y, which moves the state.
   Eigen::Matrix<double, 9, 1> propagate(const Motion& motion,
-                                        const Eigen::Matrix<double, most_more, 9>& turned,
+                                        const Eigen::Matrix<double, max_more, 9>& turned,
                                         Eigen::Matrix<double, size, size>& Pxx) {
-    Eigen::Matrix<double, 9, most_more> G = Eigen::Matrix<double, 9, most_more>::Zero();
+    Eigen::Matrix<double, 9, max_more> G = Eigen::Matrix<double, 9, max_more>::Zero();
     for (int i = 0; i < count_; ++i)
       if (const Drive drive = models_[static_cast<std::size_t>(i)].drive) G.col(i) = drive(motion);
     C_.template leftCols<9>() = turned;
@@ -110,7 +110,7 @@ class MoreStates {
   }
 
  private:
-  static constexpr double least_variance = 1e-14;
+  static constexpr double min_variance = 1e-14;
 
   void walk(int i, double T_s) {
     const MoreState& m = models_[static_cast<std::size_t>(i)];
@@ -122,10 +122,10 @@ class MoreStates {
     P_(i, i) += m.time_s > 0 ? m.std * m.std * (1 - phi * phi) : m.walk * m.walk * T_s;
   }
 
-  std::array<MoreState, most_more> models_{};
+  std::array<MoreState, max_more> models_{};
   int count_ = 0;
   MoreVector y_ = MoreVector::Zero();
-  Eigen::Matrix<double, most_more, size> C_ = Eigen::Matrix<double, most_more, size>::Zero();
+  Eigen::Matrix<double, max_more, size> C_ = Eigen::Matrix<double, max_more, size>::Zero();
   MoreCovariance P_ = MoreCovariance::Zero();
 };
 

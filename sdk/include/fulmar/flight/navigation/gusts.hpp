@@ -45,7 +45,7 @@ class GustStrength {
   double time_s(const Params& p) const { return std_ < 0 ? p.wind_gust_time.value : time_; }
 
  private:
-  static constexpr double smooth_s = 0.2, window_s = 40, shortest_s = 2, least_mps = 0.1;
+  static constexpr double smooth_s = 0.2, window_s = 40, shortest_s = 2, min_mps = 0.1;
 
   static double square(double x) { return x * x; }
   void solve(const Params& p) {
@@ -56,7 +56,7 @@ class GustStrength {
     for (int i = 0; i < 4; ++i)  // Newton; the sum rises with r
       r = std::clamp(r - (1 + r * (1 + r * (1 + r)) - ratio) / (1 + r * (2 + 3 * r)), 1e-6, 1 - 1e-6);
     time_ = std::clamp(-1 / std::log(r), shortest_s, p.wind_gust_time.value);
-    std_ = std::max(std::sqrt(change_4 / (-2 * std::expm1(-4 / time_))), least_mps);
+    std_ = std::max(std::sqrt(change_4 / (-2 * std::expm1(-4 / time_))), min_mps);
   }
 
   std::array<double, 5> past_{};  ///< the excess, second by second, the last one first

@@ -39,8 +39,8 @@ inline constexpr double fix_stamp_std_s =
     0.004;  ///< from fix to fix: a receiver solves its epochs in some ms
 inline constexpr double clipped_for_s =
     10;  ///< so long after a sample at its stop a unit has the noise that is told of it
-inline constexpr double least_gust_mps = 1.2,
-                        most_gust_mps = 2;  ///< by how much a tube may be off for a second
+inline constexpr double min_gust_mps = 1.2,
+                        max_gust_mps = 2;  ///< by how much a tube may be off for a second
 inline constexpr double coasted_s =
     0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
 
@@ -140,8 +140,8 @@ class Navigator {
   /// Found in flight, and the next fixes still move it: commands that follow it would step.
   bool settling() const {
     if (mode_ == Mode::trying) return true;
-    constexpr double tilt_std = 0.025, longest_s = 0.5;
-    return mode_ == Mode::regained && time_s_ - aligned_s_ < longest_s &&
+    constexpr double tilt_std = 0.025, max_s = 0.5;
+    return mode_ == Mode::regained && time_s_ - aligned_s_ < max_s &&
            std::max(filter_.std(ekf::theta), filter_.std(ekf::theta + 1)) > tilt_std;
   }
   const Seen& seen() const { return seen_; }

@@ -68,7 +68,7 @@ inline bool Navigator::tube_contradicts(double Va, const Params& p) {
   ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
   z.H(ekf::gust) = 0;  // by what has been learnt of them
   const double without_tube = ekf::air_velocity(filter_.state()).norm();
-  const double doubt = std::hypot(std::clamp(gusts_.std_mps(p), least_gust_mps, most_gust_mps),
+  const double doubt = std::hypot(std::clamp(gusts_.std_mps(p), min_gust_mps, max_gust_mps),
                                   filter_.expected_std(z, 0), late_mps_);
   health_.tube.sampled(Va, without_tube, sample, doubt, time_s_);
   health_.pitot.contradicts = health_.tube.stepped() || health_.tube.off();

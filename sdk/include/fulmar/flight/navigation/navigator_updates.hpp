@@ -273,7 +273,7 @@ inline void Navigator::begin_in_flight(const Gnss& g, const FlightAlignment::Fou
 /// acceleration that it makes of the specific force is known; what tilt and the accelerometers' biases make
 /// of it together nobody can tell before a turn.
 inline void Navigator::try_attitude(const Params& p) {
-  constexpr double most_ratio = 3;
+  constexpr double max_ratio = 3;
   const double tilt_std = std::max(0.046, 1.3 * p.accel_bias_std / p.gravity);
   if (health_.velocity.accepted_s != time_s_) {
     if (health_.velocity.refused_from_s != time_s_) try_again();  // the second in a row
@@ -288,7 +288,7 @@ inline void Navigator::try_attitude(const Params& p) {
     std = std::max(std, filter_.expected_std(a, 0) / filter_.gravity_mps2);
   }
   std = std::max({std, filter_.std(ekf::theta), filter_.std(ekf::theta + 1)});
-  if (std < tilt_std && std::abs(health_.velocity.ratio) < most_ratio) mode_ = Mode::running;
+  if (std < tilt_std && std::abs(health_.velocity.ratio) < max_ratio) mode_ = Mode::running;
 }
 
 /// The first fix after a gap that ends an alignment. The barometer goes on from where it was, if the receiver

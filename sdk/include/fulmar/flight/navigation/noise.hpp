@@ -18,7 +18,7 @@ namespace fulmar::navigation {
 class UnitNoise {
  public:
   void sampled(const Eigen::Vector3d& values, double dt) {
-    if (!(dt < longest_s)) count_ = 0;
+    if (!(dt < max_s)) count_ = 0;
     const Eigen::Vector3d third = values - past_[2] - 3 * (past_[0] - past_[1]);
     past_ = {values, past_[0], past_[1]};
     if (count_ < 3) {
@@ -32,12 +32,12 @@ class UnitNoise {
   /// In unit/sqrt(Hz); `told`: before it is learnt. Neither so quiet that nothing else would be wrong with
   /// the unit, nor, shaken, so loud that nothing else would count.
   double density(double told) const {
-    if (seen_s_ < least_s) return told;
-    return std::min(std::sqrt(mean_ + least_share * told * least_share * told), most_share * told);
+    if (seen_s_ < min_s) return told;
+    return std::min(std::sqrt(mean_ + min_share * told * min_share * told), max_share * told);
   }
 
  private:
-  static constexpr double longest_s = 0.0125, window_s = 5, least_s = 0.5, least_share = 0.5, most_share = 5;
+  static constexpr double max_s = 0.0125, window_s = 5, min_s = 0.5, min_share = 0.5, max_share = 5;
 
   std::array<Eigen::Vector3d, 3> past_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                        Eigen::Vector3d::Zero()};  ///< the last one first
@@ -57,7 +57,7 @@ class FixNoise {
     told_ = std_mps * std_mps;
     const Eigen::Vector3d step = innovation_mps - before_;
     before_ = innovation_mps;
-    if (!(dt > 0 && dt < longest_s)) return;
+    if (!(dt > 0 && dt < max_s)) return;
     seen_s_ = std::min(seen_s_ + dt, window_s);
     const double of_mean = dt / seen_s_;
     level_ += of_mean * (0.25 * step.head<2>().squaredNorm() - level_);
@@ -76,9 +76,9 @@ class FixNoise {
   }
 
  private:
-  static constexpr double window_s = 30, least_s = 5, longest_s = 1;
+  static constexpr double window_s = 30, min_s = 5, max_s = 1;
 
-  bool known() const { return seen_s_ > least_s; }
+  bool known() const { return seen_s_ > min_s; }
   double white_level() const { return known() ? std::min(level_, told_) : told_; }
 
   Eigen::Vector3d before_ = Eigen::Vector3d::Zero();

@@ -72,14 +72,14 @@ class Wander {
     time_s_ = time_s;
     p_n_ = p_n;
     v_n_ = v_n;
-    if (!(dt > 0 && dt < longest_s && step.norm() < jump * std_m)) {
+    if (!(dt > 0 && dt < max_s && step.norm() < jump * std_m)) {
       off_.setZero();
       wanders_ = false;
       return;
     }
     off_ = std::exp(-dt / memory_s) * off_ + step;
     // What this receiver's positions and velocities differ by all the time, of which a fault teaches little.
-    const double least = least_share * std_m, seen = std::min(off_.norm(), 2 * std::max(usual_, least));
+    const double least = min_share * std_m, seen = std::min(off_.norm(), 2 * std::max(usual_, least));
     usual_ = std::sqrt(usual_ * usual_ + (seen * seen - usual_ * usual_) * std::min(dt / usual_s, 1.0));
     const double limit = std::max(limit_share * std_m, times * usual_);
     if (!wanders_) since_s_ = time_s;
@@ -92,7 +92,7 @@ class Wander {
   bool doubted() const { return wanders_ && time_s_ - since_s_ < doubted_s; }
 
  private:
-  static constexpr double memory_s = 3, usual_s = 60, longest_s = 1.5, jump = 5, least_share = 0.2,
+  static constexpr double memory_s = 3, usual_s = 60, max_s = 1.5, jump = 5, min_share = 0.2,
                           limit_share = 1.6, times = 4.5, doubted_s = 30;
 
   Eigen::Vector2d p_n_ = Eigen::Vector2d::Zero(), v_n_ = Eigen::Vector2d::Zero(),
@@ -108,7 +108,7 @@ class BaroStep {
   /// A sample's innovation, its own deviation, whether the gate took it. The step, once it has lasted.
   std::optional<double> sampled(double innovation_m, double std_m, bool accepted, double time_s) {
     const bool at_once =
-        took_ && time_s - time_s_ < longest_s && std::abs(innovation_m - before_m_) > most * std_m;
+        took_ && time_s - time_s_ < max_s && std::abs(innovation_m - before_m_) > most * std_m;
     took_ = accepted;
     time_s_ = time_s;
     before_m_ = innovation_m;
@@ -127,7 +127,7 @@ class BaroStep {
   bool may_be() const { return since_s_ != never; }
 
  private:
-  static constexpr double longest_s = 0.2, lasts_s = 2, most = 5;
+  static constexpr double max_s = 0.2, lasts_s = 2, most = 5;
 
   bool took_ = false;
   double time_s_ = never, since_s_ = never, before_m_ = 0, mean_m_ = 0;
@@ -144,7 +144,7 @@ class TubeSteps {
   void sampled(double tube, double otherwise, double noise, double std, double time_s) {
     const double dt = std::clamp(time_s - time_s_, 0.0, 1.0);
     time_s_ = time_s;
-    if (dt > longest_s) count_ = 0;
+    if (dt > max_s) count_ = 0;
     std::rotate(past_.begin(), past_.end() - 1, past_.end());
     past_[0] = {tube, tube - otherwise, time_s};
     count_ = std::min(count_ + 1, past_.size());
@@ -152,7 +152,7 @@ class TubeSteps {
     if (time_s - seconds_s_ >= 0.1) {
       std::rotate(second_.begin(), second_.end() - 1, second_.end());
       second_[0] = mean_;
-      seconds_ = dt > longest_s ? 0 : std::min(seconds_ + 1, second_.size());
+      seconds_ = dt > max_s ? 0 : std::min(seconds_ + 1, second_.size());
       seconds_s_ = time_s;
     }
     // Within a second a first-order Gauss-Markov gust changes by a share of what it is.
@@ -165,7 +165,7 @@ class TubeSteps {
     if (count_ < past_.size()) return;
     // By how much a first-order Gauss-Markov gust changes from the one group of samples to the other.
     const double change = std * std::sqrt(2 * (past_[1].time_s - past_[5].time_s) / gust_time_s);
-    step(std::max({least_mps, noise_times * noise, change_times * change}), std);
+    step(std::max({min_mps, noise_times * noise, change_times * change}), std);
   }
   bool stepped() const { return sum_ != 0; }
   bool off() const { return off_; }
@@ -174,8 +174,8 @@ class TubeSteps {
   struct Said {
     double tube = 0, excess = 0, time_s = 0;
   };
-  static constexpr double least_mps = 1.2, noise_times = 8, change_times = 6, gust_time_s = 10,
-                          forgotten_s = 30, longest_s = 0.15;
+  static constexpr double min_mps = 1.2, noise_times = 8, change_times = 6, gust_time_s = 10,
+                          forgotten_s = 30, max_s = 0.15;
   static constexpr double mean_s = 0.6, off_std = 5, back_std = 2.5, strong_mps = 2;
   static constexpr double bearable_mps = 3.5;  ///< an aircraft at its least airspeed does not stall by it
   static constexpr double agreed_s = 6;  ///< the wind estimated without the tube may drift past agreement

@@ -34,7 +34,7 @@ struct RouteOrbit {
 
 /// The direction of a circle that needs the least turning from a pose: of two tangents when outside, of two
 /// headings when inside.
-inline Turn least_turning(const Pose& from, double north_m, double east_m, double radius_m) {
+inline Turn min_turning(const Pose& from, double north_m, double east_m, double radius_m) {
   const double n = north_m - from.north_m, e = east_m - from.east_m, d = std::hypot(n, e);
   const double bearing = d > 1e-9 ? std::atan2(e, n) : from.course_rad;
   // outside, a right turn around the centre passes to the left of it; inside, it goes square to the bearing
@@ -158,7 +158,7 @@ inline RouteOrbit Route::final_orbit() const {
   Pose from{point(q).north, point(q).east,
             std::atan2(orbit.east_m - point(q).east, orbit.north_m - point(q).north)};
   if (p != q) from.course_rad = std::atan2(point(q).east - point(p).east, point(q).north - point(p).north);
-  orbit.turn = least_turning(from, orbit.north_m, orbit.east_m, orbit.radius_m);
+  orbit.turn = min_turning(from, orbit.north_m, orbit.east_m, orbit.radius_m);
   return orbit;
 }
 

@@ -34,7 +34,7 @@ inline double trimmed_lift(const Aerodynamic& aero, const Airframe& a, double al
 struct MostLift {
   double coefficient = 0, alpha_rad = 0;
 };
-inline MostLift most_lift(const Airframe& a) {
+inline MostLift max_lift(const Airframe& a) {
   const Aerodynamic aero(a);
   MostLift most;
   for (double alpha = 0; alpha < std::min(a.wing.stall_alpha_rad + 0.1, 1.0); alpha += 1e-3) {

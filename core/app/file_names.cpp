@@ -8,8 +8,8 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "core/app/report_program.hpp"
 #include "core/error.hpp"
-#include "core/loader/report_program.hpp"
 #include "core/log/out_file.hpp"
 #include "core/say.hpp"
 #include "core/terminal.hpp"

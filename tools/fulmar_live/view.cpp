@@ -15,9 +15,9 @@
 #include <sstream>
 #include <tuple>
 
+#include "core/app/report_program.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/loader/home.hpp"
-#include "core/loader/report_program.hpp"
 #include "core/terminal.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_live/commands.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // See report_program.hpp.
-#include "core/loader/report_program.hpp"
+#include "core/app/report_program.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -192,7 +192,10 @@ inline void Manager::adopt(const Route& route, const Plan& plan, const VehicleSt
     RouteOrbit orbit{target_.north, target_.east, route.height_m(0), route.radius_m(), orbit_.turn};
     if (!same) orbit.turn = min_turning(pose_of(state), orbit.north_m, orbit.east_m, orbit.radius_m);
     if (!same) progress_.finished = false;
-    same ? void(orbit_ = orbit) : begin_orbit(orbit);
+    if (same)
+      orbit_ = orbit;
+    else
+      begin_orbit(orbit);
     return;
   }
   if (jump) {

@@ -453,10 +453,11 @@ int run_command(const RunOptions& options) {
     worst = worse(worst, code.value_or(ExitCode::failed));
     if (session.restarts()) continue;
     if (code == ExitCode::interrupted || (flights > 0 ? flight >= flights : !options.watch)) break;
-    if (flights > 0)
-      options.watch ? session.take_changes() : void();
-    else if (!session.wait_for_change())
+    if (flights > 0) {
+      if (options.watch) session.take_changes();
+    } else if (!session.wait_for_change()) {
       break;
+    }
     alarm(0);
   }
   try {

@@ -366,7 +366,10 @@ TEST_CASE(
     const fs::path part = logs / "a.mcap.part";
     for (int i = 0; i < 1200 && !fs::exists(part); ++i) usleep(50'000);
     REQUIRE(flight.says(" m  airspeed"));  // it flies
-    removed ? void(fs::remove_all(logs)) : fs::rename(logs, kept);
+    if (removed)
+      fs::remove_all(logs);
+    else
+      fs::rename(logs, kept);
     const std::string what = removed ? "somebody has removed '" : "somebody has moved '";
     REQUIRE(flight.says("the flight goes on without its log: " + what));
     shell("kill -INT " + flight.pid);

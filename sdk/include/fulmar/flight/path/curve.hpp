@@ -90,7 +90,10 @@ struct Curve {
     constexpr double golden = 0.6180339887498949;
     for (int i = 0; i < 40; ++i) {
       const double a = to - golden * (to - from), b = from + golden * (to - from);
-      square(a) < square(b) ? void(to = b) : void(from = a);
+      if (square(a) < square(b))
+        to = b;
+      else
+        from = a;
     }
     return (from + to) / 2;
   }

@@ -14,11 +14,11 @@
 namespace fulmar::core {
 
 bool Flight::Impl::stand_still() {
-  constexpr auto nap = std::chrono::milliseconds(2);
+  constexpr auto interval = std::chrono::milliseconds(2);
   const std::int64_t since_ns = monotonic_ns();
   const std::atomic<int>* const interrupt = state.options.interrupt;
   while (onlookers.control->stands() && !end.over()) {
-    std::this_thread::sleep_for(nap);
+    std::this_thread::sleep_for(interval);
     onlookers.control->apply();
     stopwatch.skip();  // nobody's time
     if (interrupt && interrupt->load(std::memory_order_relaxed) != 0) end.end_by(Ending::Cue::signal);

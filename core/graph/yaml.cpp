@@ -17,7 +17,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t max_faults = 100;  // nobody reads more, and each is compared with those before it
+constexpr std::size_t max_faults = 100;  // more are not read, and each is compared with those before it
 
 }  // namespace
 

@@ -14,7 +14,7 @@ using nlohmann::json;
 using std::chrono::steady_clock;
 
 constexpr std::size_t max_unanswered = 4096;
-constexpr std::size_t max_refusals = 10;        // of one message that are told
+constexpr std::size_t max_refusals = 10;        // of one message that are reported
 constexpr std::size_t samples_per_turn = 8192;  // then clients are heard again
 constexpr std::chrono::milliseconds time_period{50};
 constexpr std::chrono::seconds drops_period{1};

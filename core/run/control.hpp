@@ -102,7 +102,7 @@ class FlightControl final : public Control {
   void answer_done();
 
   struct Queues {
-    PointerQueue<Waiting, max_waiting> in, samples;  // nobody's samples keep a parameter waiting
+    PointerQueue<Waiting, max_waiting> in, samples;  // samples do not delay a parameter
     PointerQueue<Waiting, 2 * max_waiting> out;
   };
   /// The loop's: requests for which there was no room yet, in their order.

@@ -57,7 +57,7 @@ struct Slot {
 /// One output of a role: the slot of whoever published last while active.
 struct RoleSlot {
   TypePtr type;
-  const Publisher* filler = nullptr;  // who is to publish now; nullptr: nobody has begun
+  const Publisher* filler = nullptr;  // publishes now; nullptr: no component has begun
   const Slot* current = nullptr;
   std::uint64_t sequence = 0;
   std::vector<std::pair<Reader*, std::vector<CopyPlan>>> queues;  // plans: one per filler

@@ -12,7 +12,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t max_waiting_bytes = 32u << 20;  // of a driver that nobody asks for its samples
+constexpr std::size_t max_waiting_bytes = 32u << 20;  // of a driver whose samples are not collected
 
 }  // namespace
 

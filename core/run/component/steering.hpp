@@ -4,7 +4,7 @@
 
 namespace fulmar::core {
 
-/// What the vehicle is told in a tick: the commands of those who fly, the failsafe's values, or nothing.
+/// The inputs of the vehicle in a tick: commands of active components, failsafe values, or none.
 enum class Steering : std::uint8_t { commands, failsafe, nothing };
 
 }  // namespace fulmar::core

@@ -61,7 +61,7 @@ struct Tenure {
   std::int64_t from_ns = 0, to_ns = 0;
 };
 
-/// Of the clock on the wall.
+/// By the wall clock.
 struct WallClock {
   double took_s = 0;        // first to last tick
   double behind_max_s = 0;  // how far a paced flight was behind it
@@ -70,8 +70,8 @@ struct WallClock {
 struct FlightResult {
   Outcome outcome = Outcome::failed;
   std::string reason;
-  std::string
-      idle;  // the role that nobody flew in, of an aircraft that never left the ground; "": it has begun
+  std::string idle;  // the role without an active component, of an aircraft that never left the ground; "":
+                     // it has begun
   std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and last tick
   std::uint64_t ticks = 0;
   WallClock wall;

@@ -313,7 +313,7 @@ void Peer::wait_until(std::int64_t at_us) const {
   pollfd p{end_->descriptor(), POLLIN, 0};
   if (p.fd >= 0 && !end_->attended()) {
     p.events = 0;
-    p.fd = -1;  // nobody there: a hang-up would end every wait at once
+    p.fd = -1;  // closed: a hang-up would end every wait at once
   }
   ::ppoll(&p, 1, &time, nullptr);
 }

@@ -101,7 +101,8 @@ bool SampleTrack::next(std::int64_t now_ns, SampleSource::Sample& sample) noexce
 // ---- a log that nobody else reads
 
 RecordedSamples::RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info,
-                                 const std::vector<std::string>& topics, std::int64_t epoch_ns)
+                                 const std::vector<std::string>& topics, const std::string& probes,
+                                 std::int64_t epoch_ns)
     : epoch_ns_(epoch_ns) {
   McapStream whole(log);  // a topic may begin anywhere
   std::set<std::uint16_t> late;
@@ -110,10 +111,10 @@ RecordedSamples::RecordedSamples(const std::filesystem::path& log, const Compone
     if (m->log_ns < latest_ns) late.insert(m->channel);
     latest_ns = std::max(latest_ns, m->log_ns);
   }
-  track_ = std::make_shared<SampleTrack>(whole.log(), info, topics, "", epoch_ns);
+  track_ = std::make_shared<SampleTrack>(whole.log(), info, topics, probes, epoch_ns);
   for (const auto& [channel, output] : track_->outputs())
     if (late.contains(channel))
-      throw Error("'" + log.string() + "' has samples of " + topics[output] +
+      throw Error("'" + log.string() + "' has samples of " + whole.log().channels.at(channel).topic +
                   " that are not in the order of time");
   stream_ = std::make_unique<McapStream>(log);
 }

@@ -43,9 +43,13 @@ std::unique_ptr<Unit> Wiring::make_unit(const Component& c) const {
 
 std::unique_ptr<SampleSource> Wiring::recorded_samples(const Component& c) const {
   std::vector<std::string> topics;
-  for (std::size_t i = 0; i < c.info().outputs.size(); ++i)
-    topics.push_back(c.info().outputs[i].type ? "/" + slashed(topic_name(state_.graph, c, i)) : "");
-  return std::make_unique<RecordedSamples>(state_.options.drivers_from, c.info(), topics,
+  std::string probes;
+  for (std::size_t i = 0; i < c.info().outputs.size(); ++i) {
+    const bool probe = !c.info().outputs[i].type;
+    topics.push_back(probe ? "" : "/" + slashed(topic_name(state_.graph, c, i)));
+    if (probe) probes = "/" + c.name + "/probes";
+  }
+  return std::make_unique<RecordedSamples>(state_.options.drivers_from, c.info(), topics, probes,
                                            state_.graph.epoch_ns);
 }
 

@@ -127,7 +127,7 @@ TEST_CASE("samples of a driver enter at the next tick, are recorded whole, and f
   o.log = true;
   o.log_file = folder().path / "driven.mcap";
   fs::remove(o.log_file);
-  o.speed = 4;
+  o.speed = 1;  // two or three publications in a tick, each with its probes
   Flight flight(g, o);
   const FlightResult r = flight.run();
   CHECK(r.guards.empty());
@@ -154,6 +154,8 @@ TEST_CASE("samples of a driver enter at the next tick, are recorded whole, and f
   };
   CHECK(stamps(a) == stamps(b));
   CHECK(messages("again.mcap", "/gauge/reading") == driven);
+  CHECK(messages("driven.mcap", "/gauge/probes").size() > 20);
+  CHECK(messages("again.mcap", "/gauge/probes") == messages("driven.mcap", "/gauge/probes"));
 }
 
 TEST_CASE("a driver that fails is stopped, and told of") {

@@ -51,6 +51,7 @@ void become(const fs::path& program, const std::string& word, char** words) {
 
 const std::vector<OwnCommand>& own_commands() {
   static const std::vector<OwnCommand> list = {
+      {"check", "fulmar-inspect", "check a mission file: every fault in one go"},
       {"graph", "fulmar-inspect", "print components, wires, order and phases of a mission"},
       {"inspect", "fulmar-inspect", "print what a plugin file offers"},
       {"new", "fulmar-new", "write the project of a plugin for a mission"},

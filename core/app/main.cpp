@@ -14,8 +14,6 @@
 #include "core/app/replay_command.hpp"
 #include "core/app/run_command.hpp"
 #include "core/error.hpp"
-#include "core/graph/graph.hpp"
-#include "core/run/command/trial.hpp"
 #include "core/run/component/realtime.hpp"
 #include "core/say.hpp"
 #include "core/types/text.hpp"
@@ -23,17 +21,6 @@
 namespace {
 
 using namespace fulmar::core;
-
-int check(const std::string& mission, const Overrides& overrides) {
-  const Graph graph = load_mission(mission, overrides);
-  for (const std::string& warning : graph.warnings) warn(warning);
-  std::string refused;
-  for (const std::string& fault : refused_set_ups(graph)) refused += (refused.empty() ? "" : "\n") + fault;
-  if (!refused.empty()) throw Error(refused);
-  std::printf("%s is in order: %zu components, %zu roles, %zu phases.\n", for_terminal(mission).c_str(),
-              graph.components.size(), graph.roles.size(), graph.phases.size());
-  return 0;
-}
 
 /// The commands of this program, in the order of the help, which names those of other programs too.
 std::vector<std::uint64_t> valid_seeds(const std::string& text) try {
@@ -62,7 +49,6 @@ struct Commands {
              ? ""
              : "\n\nPrograms beside this one: " + join(programs) + " (fulmar " + programs[0] + " --help)"));
     add_run();
-    add_check();
     for (const OwnCommand& command : own_commands()) {
       if (command.word == std::string_view("log")) add_replay();
       // what another program carries out stands here for the help alone
@@ -156,14 +142,6 @@ struct Commands {
                    "with --io fcu: begin at the beginning, also when the newest log ended in the air")
         ->excludes(resume);
     return resume;
-  }
-
-  void add_check() {
-    CLI::App* command = app.add_subcommand("check", "check a mission file: every fault in one go");
-    mission.add(command);
-    command->callback([this, command] {
-      action = [this, changes = mission.overrides(command)] { return check(mission.mission, changes); };
-    });
   }
 
   void add_replay() {

@@ -92,19 +92,9 @@ void guard_wires(Draft& draft);
 /// Per component: whether what it publishes can move the aircraft.
 std::vector<bool> chain_to_vehicle(const Graph& graph);
 
-// bypassed.cpp: of the built graph
-void tell_bypassed(Draft& draft);
-
-/// Components of the built graph whose outputs lead to what the role `vehicle` takes, or to a condition of a
-/// phase.
-std::vector<int> deciding_components(const Graph& graph, const MissionText& text);
-
 // hardware.cpp: of the built graph
 /// Steering components and conditions that read what only a simulator has: refused with io: fcu.
 void tell_simulator_ports(Draft& draft, Catalogue& catalogue);
-
-// unread.cpp: of the built graph, with what DDS exports
-void tell_unread(Draft& draft);
 
 // fences.cpp: of the built graph
 void tell_two_fences(Draft& draft);

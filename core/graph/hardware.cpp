@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/steering.hpp"
 
 namespace fulmar::core {
 

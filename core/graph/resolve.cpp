@@ -312,7 +312,6 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   compile_phases(draft);
   order_steps(draft);
   guard_wires(draft);
-  tell_bypassed(draft);
   tell_two_fences(draft);
   read_failsafe(draft);
   read_vehicle_flags(draft);
@@ -320,7 +319,6 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   const std::vector<std::string> ports = tap_ports(draft.graph);
   check_record_rules(draft, ports);
   resolve_dds(draft, ports);
-  tell_unread(draft);
   if (!draft.overrides.files) tell_simulator_ports(draft, catalogue);
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar inspect` and `fulmar graph`, as the program fulmar-inspect. Exit codes: 0 done; 1 it failed; 2
-// wrong usage.
+// `fulmar check`, `fulmar graph` and `fulmar inspect`, as the program fulmar-inspect. Exit codes: 0 done; 2
+// wrong usage; 4 refused.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "core/app/mission_options.hpp"
 #include "core/app/program.hpp"
 #include "core/loader/library.hpp"
+#include "tools/fulmar_inspect/check.hpp"
 #include "tools/fulmar_inspect/inspect.hpp"
 #include "tools/fulmar_inspect/print_graph.hpp"
 
@@ -14,9 +15,11 @@ int main(int argc, char** argv) {
   using namespace fulmar::core;
   CLI::App app{"What missions and plugins are made of.", "fulmar"};
   app.require_subcommand(1);
-  MissionOptions mission;
+  MissionOptions mission, checked;
   std::string format = "text", plugin;
   bool fields = false, markdown = false;
+  CLI::App* check = app.add_subcommand("check", "check a mission file: every fault in one go");
+  checked.add(check);
   CLI::App* graph = app.add_subcommand("graph", "print components, wires, order and phases of a mission");
   mission.add(graph);
   graph->add_option("--format", format, "text, dot or mermaid")
@@ -40,6 +43,7 @@ int main(int argc, char** argv) {
           std::fputs(text.c_str(), stdout);
           return 0;
         };
+        if (check->parsed()) return check_mission(checked.mission, checked.overrides(check));
         if (graph->parsed())
           return print(print_graph(load_mission(mission.mission, mission.overrides(graph)), format));
         const std::shared_ptr<Library> library = Library::open(plugin);

@@ -52,6 +52,14 @@ struct Mission {
   std::string faults(const Overrides& overrides = {});
 };
 
+/// The made-up hourglass as the lowest layer of a mission that says `text`.
+struct Layered : Mission {
+  explicit Layered(const std::string& top) {
+    folder.write("ground.yaml", text);
+    text = top;
+  }
+};
+
 /// The faults of the hourglass mission with `from` replaced by `to`; "hourglass.yaml:" is left out.
 std::string changed(const std::string& from, const std::string& to);
 

@@ -63,8 +63,7 @@ class RecordedSamples final : public SampleSource {
   /// Reads the log by itself. Throws Error as SampleTrack does, and when samples are not in the order of
   /// time.
   RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info,
-                  const std::vector<std::string>& topics, const std::string& probes,
-                  std::int64_t epoch_ns);
+                  const std::vector<std::string>& topics, const std::string& probes, std::int64_t epoch_ns);
   /// Of a track that somebody else fills; and when a guard stopped the driver, with what words, in the order
   /// of time.
   RecordedSamples(std::shared_ptr<SampleTrack> track,

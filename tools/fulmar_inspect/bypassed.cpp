@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who was replaced and is still listened to. A mission that brings a path of its own, say, wires it to the
-// follower; what goes on looking at the former manager, a scorer or `done`, then speaks of a flight that is
-// not flown. Who steered is what the layers below say.
+// Components that were replaced and are still read. A mission that brings a path of its own, for example,
+// wires it to the follower. A scorer or `done` that still reads the former manager then judges a flight that
+// is not flown. The layers below state which components steered.
 #include <algorithm>
 #include <cctype>
 #include <set>
 
-#include "core/graph/draft.hpp"
+#include "core/graph/steering.hpp"
+#include "tools/fulmar_inspect/advice.hpp"
 
 namespace fulmar::core {
 namespace {
 
 using Names = std::set<std::string>;
 
-/// Whoever exists in `io`.
+/// Whether the component is created in `io`.
 bool exists(const ComponentText& c, Io io) { return !c.only || *c.only == io; }
 
 /// Components of a layer whose outputs lead to what the role `vehicle` takes. What a vehicle has under wires
@@ -41,40 +42,10 @@ Names who_steers(const MissionText& text, Io io) {
   return steer;
 }
 
-/// Every component that leads to one of `ends`, the vehicle left out.
-std::vector<int> leading_to(const Graph& graph, std::vector<Source> ends) {
-  std::vector<int> found;
-  while (!ends.empty()) {
-    const Source end = ends.back();
-    ends.pop_back();
-    std::vector<int> writers;
-    if (end.kind == Source::Kind::component) writers = {end.index};
-    if (end.kind == Source::Kind::role) writers = nth(graph.roles, end.index).fillers;
-    for (const int writer : writers) {
-      if (writer == graph.vehicle || std::find(found.begin(), found.end(), writer) != found.end()) continue;
-      found.push_back(writer);
-      for (const Wire& wire : nth(graph.components, writer).wires) ends.push_back(wire.from);
-    }
-  }
-  return found;
-}
-
-/// What the vehicle obeys.
-std::vector<Source> commands(const Graph& graph, const MissionText& text) {
-  std::vector<Source> ends;
-  const RoleText* const role = text.role("vehicle");
-  if (graph.vehicle < 0 || !role) return ends;
-  const Component& vehicle = nth(graph.components, graph.vehicle);
-  for (const WireText& wire : role->in)
-    if (const int input = vehicle.info().input(wire.name); input >= 0)
-      ends.push_back(nth(vehicle.wires, input).from);
-  return ends;
-}
-
 /// The same of the built graph, which knows who has which input.
 Names who_steers(const Graph& graph, const MissionText& text) {
   Names steer;
-  for (const int i : leading_to(graph, commands(graph, text))) steer.insert(nth(graph.components, i).name);
+  for (const int i : steering_components(graph, text)) steer.insert(nth(graph.components, i).name);
   return steer;
 }
 
@@ -94,16 +65,16 @@ bool is_listed(const Bypassed& list, const std::string& name) {
   return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; });
 }
 
-Bypassed bypassed(const Draft& draft, const Names& steer) {
+Bypassed bypassed(const Graph& graph, const MissionText& text, const Names& steer) {
   Bypassed list;
-  for (const MissionText& layer : draft.text.below) {
-    const Names before = who_steers(layer, draft.text.io);
+  for (const MissionText& layer : text.below) {
+    const Names before = who_steers(layer, text.io);
     std::vector<std::string> newcomers;
     for (const std::string& name : steer)
       if (!layer.component(name)) newcomers.push_back(name);
     if (newcomers.empty()) continue;  // who steers is chosen, not replaced
     for (const std::string& name : before) {
-      const Component* const c = find_named(draft.graph.components, name);
+      const Component* const c = find_named(graph.components, name);
       if (!c || !c->roles.empty() || steer.count(name) > 0 || is_listed(list, name)) continue;
       list.emplace_back(name, name + ", which steers in " + layer.file->name + " and not here: " +
                                   join(newcomers) + (newcomers.size() == 1 ? " does" : " do"));
@@ -134,40 +105,27 @@ std::vector<std::pair<Where, std::string>> onlookers(const MissionText& text, co
   return list;
 }
 
-void tell_untold(Draft& draft) {
-  const std::vector<Word>& told = draft.text.tell;
-  if (told.empty()) return;
-  for (const MissionText& layer : draft.text.below)
+void add_untold(const MissionText& text, Advice& advice) {
+  if (text.tell.empty()) return;
+  for (const MissionText& layer : text.below)
     for (const Word& word : layer.tell) {
       const bool still =
-          std::any_of(told.begin(), told.end(), [&](const Word& w) { return w.text == word.text; });
+          std::any_of(text.tell.begin(), text.tell.end(), [&](const Word& w) { return w.text == word.text; });
       const std::string owner = word.text.substr(0, word.text.find('.'));
-      const bool there = draft.role(owner) >= 0 || draft.candidate(owner) >= 0;
+      const ComponentText* const component = text.component(owner);
+      const bool there = text.role(owner) || (component && exists(*component, text.io));
       if (!still && there)
-        draft.graph.warnings.push_back(told[0].where.text() + ": tell: leaves out " + word.text + ", which " +
-                                       word.where.text() + " lists; a list takes the place of the other");
+        advice.push_back(text.tell[0].where.text() + ": tell: leaves out " + word.text + ", which " +
+                         word.where.text() + " lists; a list takes the place of the other");
     }
 }
 
 }  // namespace
 
-std::vector<int> deciding_components(const Graph& graph, const MissionText& text) {
-  std::vector<Source> ends = commands(graph, text);
-  const auto add = [&](const std::vector<Transition>& next) {
-    for (const Transition& t : next)
-      if (t.when) ends.insert(ends.end(), t.when->ports().begin(), t.when->ports().end());
-  };
-  add(graph.any);
-  for (const Phase& phase : graph.phases) add(phase.next);
-  return leading_to(graph, ends);
-}
-
-void tell_bypassed(Draft& draft) {
-  Graph& graph = draft.graph;
-  const Bypassed list = bypassed(draft, who_steers(graph, draft.text));
-  const auto warn = [&](const std::string& sentence) {
-    if (std::find(graph.warnings.begin(), graph.warnings.end(), sentence) == graph.warnings.end())
-      graph.warnings.push_back(sentence);
+void add_bypassed(const Graph& graph, const MissionText& text, Advice& advice) {
+  const Bypassed list = bypassed(graph, text, who_steers(graph, text));
+  const auto add = [&](const std::string& sentence) {
+    if (std::find(advice.begin(), advice.end(), sentence) == advice.end()) advice.push_back(sentence);
   };
   for (const auto& [name, why] : list) {
     const int index = index_named(graph.components, name);
@@ -175,13 +133,12 @@ void tell_bypassed(Draft& draft) {
       for (std::size_t k = 0; k < reader.wires.size() && !is_listed(list, reader.name); ++k) {
         const Wire& wire = reader.wires[k];
         if (wire.from.kind == Source::Kind::component && wire.from.index == index)
-          warn(wire.where.text() + ": " + reader.name + "." + reader.info().inputs[k].name + " comes from " +
-               why);
+          add(wire.where.text() + ": " + reader.name + "." + reader.info().inputs[k].name + " comes from " +
+              why);
       }
-    for (const auto& [where, sentence] : onlookers(draft.text, name))
-      warn(where.text() + ": " + sentence + why);
+    for (const auto& [where, sentence] : onlookers(text, name)) add(where.text() + ": " + sentence + why);
   }
-  tell_untold(draft);
+  add_untold(text, advice);
 }
 
 }  // namespace fulmar::core

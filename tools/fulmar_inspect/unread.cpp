@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ports that may stay open and seem to belong together: an output that nobody reads and an input that nobody
-// feeds, of one type that nobody else speaks.
+// Ports that may stay open and seem to belong together: an output without a reader and an input without a
+// source, of one type that no other port has.
 #include <algorithm>
 
-#include "core/graph/draft.hpp"
+#include "tools/fulmar_inspect/advice.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -47,8 +47,7 @@ Open only_writer(const Graph& graph, const Port& input, const Component& reader)
 
 }  // namespace
 
-void tell_unread(Draft& draft) {
-  Graph& graph = draft.graph;
+void add_unread(const Graph& graph, Advice& advice) {
   for (const Component& reader : graph.components)
     for (std::size_t i = 0; i < reader.wires.size(); ++i) {
       const Port& input = reader.info().inputs[i];
@@ -64,11 +63,11 @@ void tell_unread(Draft& draft) {
           "; wire it, as in " + reader.name + ": {in: {" + input.name + ": " + writer.text() + "}}";
       const bool read = is_read(graph, *writer.owner, writer.owner->info().output(writer.port->name));
       if (!read && writer.port->kind != FULMAR_OUT_VALUE)
-        graph.warnings.push_back(writer.owner->where.text() + ": " + writer.text() + " is read by nobody; " +
-                                 to.text() + " takes " + input.type->name + wired);
+        advice.push_back(writer.owner->where.text() + ": " + writer.text() + " is read by nobody; " +
+                         to.text() + " takes " + input.type->name + wired);
       else if (read && input.kind == FULMAR_IN_QUEUE)
-        graph.warnings.push_back(reader.where.text() + ": " + to.text() + " is fed by nobody; " +
-                                 writer.text() + " gives " + input.type->name + wired);
+        advice.push_back(reader.where.text() + ": " + to.text() + " is fed by nobody; " + writer.text() +
+                         " gives " + input.type->name + wired);
     }
 }
 

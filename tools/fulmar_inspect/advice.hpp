@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Advice of `fulmar check`: a mission that can be flown and perhaps does not do what its author expects.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/graph/mission.hpp"
+
+namespace fulmar::core {
+
+using Advice = std::vector<std::string>;  // sentences, each begins with file and line
+
+// bypassed.cpp: components that another one has replaced and that are still read
+void add_bypassed(const Graph& graph, const MissionText& text, Advice& advice);
+// unread.cpp: an output without a reader and an input without a source that fit each other
+void add_unread(const Graph& graph, Advice& advice);
+
+/// `text`: of the mission that the graph was built of.
+inline Advice advice_on(const Graph& graph, const MissionText& text) {
+  Advice advice;
+  add_bypassed(graph, text, advice);
+  add_unread(graph, advice);
+  return advice;
+}
+
+}  // namespace fulmar::core

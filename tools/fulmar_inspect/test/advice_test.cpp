@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Advice on missions that can be flown: readers of a replaced component, ports that fit and are not wired.
+#include "tools/fulmar_inspect/advice.hpp"
+
+#include <doctest/doctest.h>
+
+#include "core/graph/test/shelf.hpp"
+#include "core/graph/test/shelf_types.hpp"
+#include "fulmar/msg/guidance_command.hpp"
+#include "fulmar/msg/notice.hpp"
+#include "fulmar/msg/plan.hpp"
+#include "fulmar/msg/plan_edit.hpp"
+#include "fulmar/msg/progress.hpp"
+#include "fulmar/msg/vehicle_state.hpp"
+
+namespace advice_test {
+
+using namespace fulmar;
+using namespace fulmar::core;
+using namespace fulmar::core::test;
+
+namespace {
+
+Advice advised(Mission& mission) {
+  const Graph graph = mission.load();
+  CHECK(graph.warnings.empty());
+  Report report;
+  return advice_on(graph, parse_mission(graph.file, {}, report));
+}
+
+}  // namespace
+
+TEST_CASE("who goes on listening to a manager that was replaced is warned of") {
+  Layered mission(
+      "extends: ground.yaml\nroles: {guide: {in: {path: mine_too.path}}}\ncomponents:\n"
+      "  mine_too: {use: path/Manager, in: {state: nav.state, plan: plan.plan}}\n");
+  const std::string why = "manage, which steers in ground.yaml and not here: mine_too does";
+  CHECK(advised(mission) == std::vector<std::string>{"ground.yaml:32: score.path comes from " + why,
+                                                     "ground.yaml:8: done looks at " + why,
+                                                     "ground.yaml:9: progress shows " + why});
+  mission.text +=
+      "  score: {in: {path: mine_too.path}}\ndone: \"mine_too.progress.circuits >= 2\"\nprogress: null\n";
+  CHECK(advised(mission).empty());  // the former one flies along, and nobody listens
+  Mission usual;
+  CHECK(advised(usual).empty());
+}
+
+TEST_CASE("also of a manager with messages of its own, by whatever looks at the former one, each once") {
+  Layered mission(
+      "extends: ground.yaml\ncomponents:\n  knots: {use: spline/Manager, in: {state: nav.state, plan: "
+      "plan.plan}}\n  follow: {use: spline/Follower, in: {way: knots.way}}\n"
+      "resume: {attitude.roll_kp: manage.progress.item}\nsummary: {progress: manage.progress}\n"
+      "progress: [manage.progress.item, manage.progress.circuits]\n"
+      "phases: {any: {next: [{to: hold, when: \"manage.progress.circuits > 9\"}]}}\n");
+  mission.shelf.add("spline", "Manager", {in<VehicleState>("state"), in<Plan>("plan")},
+                    {out<Progress>("way")});
+  mission.shelf.add("spline", "Follower", {in<VehicleState>("state"), in<Progress>("way")},
+                    {out<GuidanceCommand>("command")});
+  const std::string why = "manage, which steers in ground.yaml and not here: knots does";
+  CHECK(advised(mission) ==
+        std::vector<std::string>{
+            "ground.yaml:32: score.path comes from " + why, "ground.yaml:8: done looks at " + why,
+            "hourglass.yaml:7: progress shows " + why, "hourglass.yaml:6: summary.progress shows " + why,
+            "hourglass.yaml:5: resume.attitude.roll_kp takes up what was of " + why,
+            "hourglass.yaml:8: phases.any.next looks at " + why});
+}
+
+TEST_CASE("a list of what is told that takes the place of another one says what it leaves out") {
+  Layered mission("extends: middle.yaml\ntell: [plan.notices]\n");
+  mission.folder.write("middle.yaml", "extends: ground.yaml\ntell: [manage.notices, plan.notices]\n");
+  for (ComponentInfo& c : mission.shelf.plugins["path"]->components)
+    c.outputs.push_back(out<Notice>("notices", FULMAR_OUT_QUEUE));
+  CHECK(advised(mission) ==
+        std::vector<std::string>{
+            "hourglass.yaml:2: tell: leaves out manage.notices, which middle.yaml:2 lists; a "
+            "list takes the place of the other"});
+  mission.text = "extends: middle.yaml\ntell: null\n";
+  CHECK(advised(mission).empty());
+}
+
+TEST_CASE("an output that nobody reads and an input of its type that nobody feeds are proposed to be wired") {
+  Layered mission("extends: ground.yaml\ncomponents: {detour: {use: detour}}\n");
+  mission.shelf.add("detour", "Detour", {port<Notice>("results", FULMAR_IN_QUEUE)},
+                    {out<PlanEdit>("edits", FULMAR_OUT_QUEUE)});
+  CHECK(
+      advised(mission) ==
+      std::vector<std::string>{"hourglass.yaml:2: detour.edits is read by nobody; plan.edits takes PlanEdit; "
+                               "wire it, as in plan: {in: {edits: detour.edits}}"});
+  mission.text =
+      "extends: ground.yaml\ncomponents: {detour: {use: detour}, plan: {in: {edits: detour.edits}}, "
+      "log: {use: log, in: {notes: plan.results}}}\n";
+  for (ComponentInfo& c : mission.shelf.plugins["path"]->components)
+    if (c.name == "Planner") c.outputs.push_back(out<Notice>("results", FULMAR_OUT_QUEUE));
+  mission.shelf.add("log", "Log", {port<Notice>("notes", FULMAR_IN_QUEUE)}, {});
+  CHECK(advised(mission) ==
+        std::vector<std::string>{
+            "hourglass.yaml:2: detour.results is fed by nobody; plan.results gives Notice; "
+            "wire it, as in detour: {in: {results: plan.results}}"});
+}
+
+}  // namespace advice_test

@@ -23,8 +23,8 @@ constexpr const char* program_prefix = "fulmar-";
 /// A word that can be a command: no path, and no helper that only the host itself starts.
 bool is_command(const std::string& word) {
   constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  static const std::vector<std::string> parts{"child", "inspect", "live",
-                                              "log",   "new",     "probe"};  // of Fulmar, no commands
+  static const std::vector<std::string> parts{"campaign", "child", "inspect", "live",
+                                              "log",      "new",   "probe"};  // of Fulmar, no commands
   return !word.empty() && word[0] != '-' && word.find_first_not_of(letters) == std::string::npos &&
          std::find(parts.begin(), parts.end(), word) == parts.end();
 }
@@ -40,7 +40,7 @@ fs::path find_program(const std::string& name) {
   return {};
 }
 
-void become(const fs::path& program, const std::string& word, char** words) {
+[[noreturn]] void become(const fs::path& program, const std::string& word, char** words) {
   std::string name = program.string();
   words[0] = name.data();
   ::execv(name.c_str(), words);
@@ -82,11 +82,16 @@ void become_own_command(char** words) {
   const std::string word = words[1];
   for (const OwnCommand& command : own_commands()) {
     if (command.word != word) continue;
-    const fs::path program = own_program(command.program);
-    if (program.empty())
-      throw Error("fulmar " + word + ": the program " + command.program + " is missing beside this one");
-    become(program, word, words);
+    become_program(command.program, words);
   }
+}
+
+void become_program(const std::string& name, char** words) {
+  const fs::path program = own_program(name);
+  const std::string word = words[1];
+  if (program.empty())
+    throw Error("fulmar " + word + ": the program " + name + " is missing beside this one");
+  become(program, word, words);
 }
 
 std::vector<std::string> extern_commands() {

@@ -17,6 +17,9 @@ const std::vector<OwnCommand>& own_commands();
 /// Throws Error.
 void become_own_command(char** words);
 
+/// Becomes that program, which stands beside this one. Throws Error.
+[[noreturn]] void become_program(const std::string& program, char** words);
+
 /// The commands whose programs stand beside the host, sorted: {"aero", "fcu"}.
 std::vector<std::string> extern_commands();
 

@@ -2,19 +2,16 @@
 // The command line. Exit codes: 0 done; 1 the flight, check or file failed; 2 wrong usage; 130 interrupted.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <functional>
 #include <string_view>
 
 #include "core/app/extern_command.hpp"
-#include "core/app/many.hpp"
 #include "core/app/mission_options.hpp"
 #include "core/app/program.hpp"
 #include "core/app/replay_command.hpp"
 #include "core/app/run_command.hpp"
 #include "core/error.hpp"
-#include "core/run/component/realtime.hpp"
 #include "core/say.hpp"
 #include "core/types/text.hpp"
 
@@ -23,23 +20,15 @@ namespace {
 using namespace fulmar::core;
 
 /// The commands of this program, in the order of the help, which names those of other programs too.
-std::vector<std::uint64_t> valid_seeds(const std::string& text) try {
-  return parse_seeds(text);
-} catch (const Error& fault) {
-  throw CLI::ValidationError(fault.what());
-}
-
 struct Commands {
   CLI::App app{
       "Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
-  MissionOptions mission;
-  RunOptions run;
-  std::string speed = "max", resume_log, report_file, seeds;
+  RunWords run;
   ReplayWords replay;
   std::vector<std::string> replay_set, replay_with;
   std::function<int()> action;  // of the command that was given
 
-  Commands() {
+  explicit Commands(char** words) {
     app.set_version_flag("--version", "fulmar " FULMAR_VERSION);
     app.require_subcommand(1);
     const std::vector<std::string> programs = extern_commands();
@@ -48,7 +37,7 @@ struct Commands {
         (programs.empty()
              ? ""
              : "\n\nPrograms beside this one: " + join(programs) + " (fulmar " + programs[0] + " --help)"));
-    add_run();
+    add_run(words);
     for (const OwnCommand& command : own_commands()) {
       if (command.word == std::string_view("log")) add_replay();
       // what another program carries out stands here for the help alone
@@ -57,91 +46,16 @@ struct Commands {
     }
   }
 
-  /// An empty word, as of a variable that is not set, is not taken for the default.
-  static CLI::Validator a_file(const std::string& otherwise) {
-    return CLI::Validator(
-        [otherwise](const std::string& text) {
-          return text.empty() ? "'' names no file; without the option " + otherwise : std::string();
-        },
-        "");
-  }
-
-  /// What is wrong with a duration; empty: nothing.
-  static std::string not_seconds(const std::string& text) {
-    double x = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), x);
-    const bool good = code == std::errc{} && end == text.data() + text.size() && x > 0 && x <= 1e7;
-    return good ? std::string() : "give seconds, above 0 and up to 1e7, not '" + text + "'";
-  }
-
-  void add_run() {
+  /// Several flights, and what `--watch` flies, are the errand of another program.
+  void add_run(char** words) {
     CLI::App* command = app.add_subcommand("run", "fly a mission and tell how it went");
-    mission.add(command);
-    command->add_option("--speed", speed, "real, max, or a multiple of real time");
-    command->add_option("--duration", run.duration_s, "end after so many seconds of flight")
-        ->check(CLI::Validator(not_seconds, "SECONDS"));
-    command->add_option("--log", run.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap")
-        ->check(a_file("the log gets a name of its own in logs/"));
-    command->add_flag("--no-log", run.no_log, "write no log");
-    CLI::Option* const report =
-        command
-            ->add_option("--report", report_file,
-                         "make an HTML page of the log when the flight is over: beside the log, or FILE.html")
-            ->expected(0, 1)
-            ->type_name("[FILE.html]");
-    command->add_flag("--json", run.json, "print one JSON object instead of a table");
-    command->add_flag("--strict", run.strict,
-                      "exit code 3 when a guard has fired in a flight that was flown");
-    CLI::Option* repeat =
-        command->add_option("--repeat", run.repeat, "so many flights in one host, all with the same seed")
-            ->check(CLI::Range(1, 1000000));
-    CLI::Option* watch = command->add_flag(
-        "--watch", run.watch,
-        "after a flight wait until a plugin or file of the mission changes, fly again, and compare");
-    command
-        ->add_option("--seeds", seeds,
-                     "a flight with each seed, as in 1..20 or 3,5,8..10; ends with their figures' mean and "
-                     "deviation")
-        ->type_name("SEEDS")
-        ->excludes(repeat)
-        ->excludes(watch)
-        ->excludes(command->get_option("--seed"));
-    command->add_option("--build", run.build,
-                        "with --watch: command to run when a source file beside the mission has changed");
-    command
-        ->add_option("--live", run.live,
-                     "ADDRESS:PORT where onlookers connect, or off; default: what the mission says")
-        ->type_name("ADDRESS:PORT");
-    command
-        ->add_flag("--realtime{" + std::to_string(usual_priority) + "}", run.realtime,
-                   "real-time priority, 1 to 99 as in --realtime=70, and locked memory for the loop")
-        ->check(CLI::Range(1, 99));
-    command->add_option("--drivers-from", run.drivers_from,
-                        "take the samples of drivers from this log, in place of their devices");
-    CLI::Option* const resume = add_resume(command);
-    command->callback([this, command, resume, report] {
-      run.mission = mission.mission;
-      run.overrides = mission.overrides(command);
-      run.speed = parse_speed(speed);
-      if (!seeds.empty()) run.seeds = valid_seeds(seeds);
-      if (resume->count() > 0) run.resume = resume_log;
-      if (report->count() > 0) run.report = report_file;
-      action = [this] { return run_command(run); };
+    run.add(command);
+    command->callback([this, command, words] {
+      action = [this, command, words] {
+        if (run.many.asked()) become_program("fulmar-campaign", words);
+        return run_command(run.options(command));
+      };
     });
-  }
-
-  CLI::Option* add_resume(CLI::App* command) {
-    CLI::Option* resume =
-        command
-            ->add_option("--resume", resume_log,
-                         "go on where this log ended, or without a file the newest of the mission")
-            ->expected(0, 1)
-            ->type_name("[LOG]");
-    command
-        ->add_flag("--no-resume", run.no_resume,
-                   "with --io fcu: begin at the beginning, also when the newest log ended in the air")
-        ->excludes(resume);
-    return resume;
   }
 
   void add_replay() {
@@ -211,7 +125,7 @@ struct Commands {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Commands commands;
+  Commands commands(argv);
   return run_program(
       commands.app, [&] { return commands.parse(argc, argv); }, ExitCode::refused);
 }

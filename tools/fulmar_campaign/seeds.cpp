@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/app/many.hpp"
+#include "tools/fulmar_campaign/seeds.hpp"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -123,12 +123,6 @@ std::string spread_table(const std::vector<json>& results) {
                        s.most);
   }
   return out;
-}
-
-std::string short_result(const json& result) {
-  return fmt::format("seed {}: {} ({})", result.at("seed").get<std::uint64_t>(),
-                     result.value("verdict", result.at("result").get<std::string>()),
-                     result.value("reason", ""));
 }
 
 }  // namespace fulmar::core

@@ -17,7 +17,5 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text);
 nlohmann::json spread(const std::vector<nlohmann::json>& results);
 /// For people. `results` as above.
 std::string spread_table(const std::vector<nlohmann::json>& results);
-/// "seed 3: flown (manage.progress.circuits >= 2)"
-std::string short_result(const nlohmann::json& result);
 
 }  // namespace fulmar::core

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Waits for files to change: plugins and files of a mission, and the sources that a build makes plugins of.
+// Whether files have changed: plugins and files of a mission, and the sources that a build makes plugins of.
 #pragma once
-#include <atomic>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -26,13 +25,5 @@ class FileStamps {
   std::vector<std::filesystem::path> files_;
   std::map<std::filesystem::path, Stamp> stamps_;
 };
-
-/// Source files (.cpp .cc .c .hpp .h .py CMakeLists.txt) below a folder; hidden folders and build folders are
-/// passed over.
-std::vector<std::filesystem::path> source_files(const std::filesystem::path& folder);
-
-/// Runs a command of the user's through the shell, its output on standard error. True when it exits with 0;
-/// ended, with all that it has begun, when `interrupted`.
-bool run_build(const std::string& command, const std::atomic<int>& interrupted);
 
 }  // namespace fulmar::core

@@ -102,7 +102,7 @@ class Filler {
       fill_element(field, node.items[i], item + i * field.stride, {path, place.unit, place.rule});
       if (field.kind == FULMAR_STRUCT) check_whole(*field.type, node.items[i], path);
     }
-    if (field.rising) check_rising(field, node, item, place.path);
+    if (field.in_record.rising) check_rising(field, node, item, place.path);
   }
 
  private:
@@ -302,10 +302,10 @@ std::vector<std::string> missing_in_record(const Type& type, const Node& map) {
   std::vector<std::string> missing;
   const auto instead = std::find_if(map.entries.begin(), map.entries.end(), [&](const Node::Entry& entry) {
     const Field* const field = field_of_key(type, entry.key);
-    return field && field->instead;
+    return field && field->in_record.instead;
   });
   for (const Field& field : type.fields) {
-    if (instead != map.entries.end() ? !field.instead : !field.required) continue;
+    if (instead != map.entries.end() ? !field.in_record.instead : !field.in_record.required) continue;
     const auto said = std::find_if(map.entries.begin(), map.entries.end(), [&](const Node::Entry& entry) {
       return field_of_key(type, entry.key) == &field;
     });

@@ -31,7 +31,7 @@ std::int64_t useful_spin(std::int64_t wanted_ns) {
 
 const ComponentInfo& isolatable(const ComponentInfo& info, const IsolatedOptions& options) {
   if (info.vehicle) throw Error(options.name + ": a vehicle cannot run in a process of its own.");
-  if (info.name.size() >= sizeof ControlBlock::component)
+  if (info.name.size() >= sizeof ControlBlock::set_up.component)
     throw Error(options.name + ": the component's name is longer than 255 bytes.");
   return info;
 }
@@ -107,12 +107,12 @@ void Isolated::prepare() {
   ControlBlock& c = *new (memory_.data()) ControlBlock{};
   c.request = number_;
   c.call = Call::create;
-  c.version = shared_version;
-  c.spin_ns = options_.spin_ns;
-  c.host_pid = ::getpid();
-  c.signature = layout_.signature;
-  c.layout_size = layout_.size;
-  std::memcpy(c.component, info_.name.c_str(), info_.name.size() + 1);
+  c.set_up.version = shared_version;
+  c.set_up.spin_ns = options_.spin_ns;
+  c.set_up.host_pid = ::getpid();
+  c.set_up.signature = layout_.signature;
+  c.set_up.layout_size = layout_.size;
+  std::memcpy(c.set_up.component, info_.name.c_str(), info_.name.size() + 1);
 }
 
 void Isolated::refuse_setup() {
@@ -239,7 +239,7 @@ std::uint32_t Isolated::configure(const fulmar_value* values, fulmar_error* erro
     if (values[i].data && values[i].size > 0)
       std::memcpy(window.get() + heads[i].data_at, values[i].data, values[i].size);
   }
-  control().values_size = size;
+  control().set_up.values_size = size;
   return call(Call::configure, options_.setup_ns, error);
 }
 

@@ -45,11 +45,13 @@ struct ControlBlock {
   alignas(cache_line) std::atomic<std::uint32_t> signal;  // that ends the child, written in its handler
   std::atomic<std::uint32_t> stack_overflow;
   std::atomic<Stage> stage;
-  std::uint32_t version;
-  std::int64_t spin_ns;
-  std::int64_t host_pid;
-  std::uint64_t signature, layout_size, values_size;
-  char component[256];
+  struct {
+    std::uint32_t version;
+    std::int64_t spin_ns;
+    std::int64_t host_pid;
+    std::uint64_t signature, layout_size, values_size;
+    char component[256];
+  } set_up;  // by the host
   fulmar_error error;
 };
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free);

@@ -373,7 +373,7 @@ void Hub::flush_parameters() {
       values.push_back(parameter_json(name, *p));
       if (p->overlaid)
         status(*client, 1,
-               name + " is set, but the phase '" + now.phase + "' has another value for it while it lasts.");
+               name + " is set, but the phase '" + now.phase.now + "' has another value for it while it lasts.");
     }
     if (reply->id)
       send_json(*client, {{"op", "parameterValues"}, {"parameters", values}, {"id", *reply->id}});

@@ -54,7 +54,7 @@ const std::map<std::string, Hub::Op, std::less<>>& Hub::ops() {
 }
 
 void Hub::subscribe(Client& client, const json& message) {
-  const bool paused = view().paused;
+  const bool paused = view().pace.paused;
   for (const json& entry : array_at(message, "subscriptions")) {
     const std::uint32_t id = id_of(entry.at("id")), channel_id = id_of(entry.at("channelId"));
     if (channel_id == 0 || channel_id > channels_.size()) {

@@ -110,9 +110,9 @@ Field TableReader::read_field(const fulmar_field& from, const std::string& owner
   field.min = from.min;
   field.max = from.max;
   field.appended = (from.flags & FULMAR_FIELD_APPENDED) != 0;
-  field.required = (from.flags & FULMAR_FIELD_REQUIRED) != 0;
-  field.instead = (from.flags & FULMAR_FIELD_INSTEAD) != 0;
-  field.rising = (from.flags & FULMAR_FIELD_RISING) != 0;
+  field.in_record.required = (from.flags & FULMAR_FIELD_REQUIRED) != 0;
+  field.in_record.instead = (from.flags & FULMAR_FIELD_INSTEAD) != 0;
+  field.in_record.rising = (from.flags & FULMAR_FIELD_RISING) != 0;
   if (!(field.min <= field.max)) throw Error(what + " has a range that is empty");
   check_layout(field, what);
   return field;

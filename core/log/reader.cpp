@@ -52,17 +52,22 @@ struct McapStream::Impl {
   std::ifstream in;
   McapSalvage* salvage;
   McapFile file;
-  std::uint64_t size = 0, place = 0;          // of the file; of the next record
-  std::uint64_t place_before = 0;             // of the record that is read now
-  std::uint8_t code_before = 0;               // its code
-  bool framed = false;                        // it was there up to the end that it claims
-  std::uint32_t crc = 0;                      // of the section up to there: the data, then the summary
-  std::vector<std::byte> record, chunk_room;  // that the pending messages lie in
-  Data chunk;                                 // the last one, decompressed
-  std::vector<std::uint32_t> pending;         // where the content of each begins: a chunk can hold a million
-  std::size_t given = 0;                      // of the pending ones
-  bool in_chunk = false;                      // they lie in chunk_room, else in record
-  McapFile::Message present;                  // the one given last
+  std::uint64_t size = 0, place = 0;  // of the file; of the next record
+  struct {
+    std::uint64_t place = 0;
+    std::uint8_t code = 0;
+    bool whole = false;   // it was there up to the end that it claims
+  } now;                  // the record that is read
+  std::uint32_t crc = 0;  // of the section up to there: the data, then the summary
+  std::vector<std::byte> record;
+  Data chunk;  // the last one, decompressed
+  struct {
+    std::vector<std::byte> chunk;       // room for the messages of a chunk
+    bool in_chunk = false;              // they lie there, else in `record`
+    std::vector<std::uint32_t> starts;  // of the content of each: a chunk can hold a million
+    std::size_t given = 0;
+  } pending;                  // messages
+  McapFile::Message present;  // the one given last
   std::uint64_t messages = 0, defined_bytes = 0;
   bool damaged = false;                                    // something was left out, if only an index
   std::map<std::uint8_t, std::set<std::uint64_t>> places;  // of the chunks, attachments and metadata so far
@@ -99,23 +104,23 @@ struct McapStream::Impl {
 
   /// Reads records until there are messages. False at the end.
   bool fill() {
-    pending.clear();
-    given = 0;
+    pending.starts.clear();
+    pending.given = 0;
     try {
-      while (!ended && file.fault.empty() && pending.empty()) next_record_or_later();
+      while (!ended && file.fault.empty() && pending.starts.empty()) next_record_or_later();
     } catch (const std::bad_alloc&) {
       stop("there is not enough memory for a record");
     } catch (const Error& e) {
       stop(e.what());
     }
-    messages += pending.size();
+    messages += pending.starts.size();
     if (ended) file.complete = !damaged;
-    return !pending.empty();
+    return !pending.starts.empty();
   }
 
   void stop(const std::string& why) {
-    pending.clear();
-    file.fault = "byte " + std::to_string(place_before) + ": " + why;
+    pending.starts.clear();
+    file.fault = "byte " + std::to_string(now.place) + ": " + why;
   }
 
   /// Damage in the data costs the record in which it is, when damage is to be skipped.
@@ -124,32 +129,32 @@ struct McapStream::Impl {
       next_record();
     } catch (const Error&) {
       if (!salvage || summary_start > 0) throw;
-      const std::uint64_t next = salvage->go_on(place_before, code_before, framed ? place : 0);
+      const std::uint64_t next = salvage->go_on(now.place, now.code, now.whole ? place : 0);
       if (next == 0) throw;
       damaged = true;
-      pending.clear();
+      pending.starts.clear();
       chunk = {};
       seek(next);
     }
   }
 
   void next_record() {
-    place_before = place;
-    code_before = 0;
-    framed = false;
+    now.place = place;
+    now.code = 0;
+    now.whole = false;
     std::array<std::byte, mcap::record_head> head;
     read(head.data(), head.size());
     Cursor in_head{head};
-    const auto code = code_before = in_head.number<std::uint8_t>();
+    const auto code = now.code = in_head.number<std::uint8_t>();
     const auto length = in_head.number<std::uint64_t>();
     require(length <= size - place, "the file ends inside a record");
-    if (salvage && summary_start == 0) salvage->check_head(place_before, code, length);
+    if (salvage && summary_start == 0) salvage->check_head(now.place, code, length);
     require(length <= largest_record, "a record is longer than 256 MB");
     record.resize(length);
     read(record.data(), length);
-    framed = true;
-    in_chunk = false;
-    if (salvage) salvage->check_whole(place_before, code, length);
+    now.whole = true;
+    pending.in_chunk = false;
+    if (salvage) salvage->check_whole(now.place, code, length);
     if (code == mcap::footer) {
       footer(head);
       return;
@@ -164,7 +169,7 @@ struct McapStream::Impl {
     } else {
       content(code, record);
       if (code == mcap::chunk || code == mcap::attachment || code == mcap::metadata)
-        places[code].insert(place_before);
+        places[code].insert(now.place);
     }
   }
 
@@ -245,16 +250,16 @@ struct McapStream::Impl {
       return;
     }
     require(file.channels.contains(channel), "a message belongs to no channel");
-    const std::byte* const room = in_chunk ? chunk_room.data() : record.data();
-    pending.push_back(static_cast<std::uint32_t>(cursor.data.data() - room));
+    const std::byte* const room = pending.in_chunk ? pending.chunk.data() : record.data();
+    pending.starts.push_back(static_cast<std::uint32_t>(cursor.data.data() - room));
   }
 
   /// Its length stands in front of it, but of a record's own.
   McapFile::Message message(std::uint32_t at) const {
     Data content = record;
-    if (in_chunk) {
-      Cursor length{chunk_room, at - sizeof(std::uint64_t)};
-      content = Data(chunk_room).subspan(at, length.number<std::uint64_t>());
+    if (pending.in_chunk) {
+      Cursor length{pending.chunk, at - sizeof(std::uint64_t)};
+      content = Data(pending.chunk).subspan(at, length.number<std::uint64_t>());
     }
     Cursor cursor{content};
     McapFile::Message m;
@@ -278,9 +283,9 @@ struct McapStream::Impl {
     const auto sum = cursor.number<std::uint32_t>();
     const std::string compression = cursor.text();
     const Data stored = cursor.take(cursor.number<std::uint64_t>());
-    chunk = open_chunk(compression, stored, length, chunk_room);
+    chunk = open_chunk(compression, stored, length, pending.chunk);
     require(sum == 0 || sum == crc_of(0, chunk), "the checksum of a chunk is wrong");
-    in_chunk = true;
+    pending.in_chunk = true;
     Cursor inside{chunk};
     while (inside.more()) {
       const auto code = inside.number<std::uint8_t>();
@@ -353,8 +358,8 @@ McapStream::McapStream(const std::filesystem::path& file, McapSalvage* salvage)
 McapStream::~McapStream() = default;
 
 const McapFile::Message* McapStream::next() {
-  if (impl_->given == impl_->pending.size() && !impl_->fill()) return nullptr;
-  impl_->present = impl_->message(impl_->pending[impl_->given++]);
+  if (impl_->pending.given == impl_->pending.starts.size() && !impl_->fill()) return nullptr;
+  impl_->present = impl_->message(impl_->pending.starts[impl_->pending.given++]);
   return &impl_->present;
 }
 
@@ -383,12 +388,12 @@ McapFile read_mcap(const std::filesystem::path& path, std::uint64_t most_bytes) 
   // A flight is compressed to a third; what becomes a hundred times as large is no log.
   most_bytes = std::min(most_bytes, smallest_limit + 100 * s.size);
   while (s.fill()) {
-    std::vector<std::byte>& room = s.in_chunk ? s.chunk_room : s.record;
-    bytes += room.capacity() + s.pending.size() * sizeof(McapFile::Message);
+    std::vector<std::byte>& room = s.pending.in_chunk ? s.pending.chunk : s.record;
+    bytes += room.capacity() + s.pending.starts.size() * sizeof(McapFile::Message);
     if (bytes > most_bytes)
       throw Error("'" + path.string() + "' is too large to be read as a whole: its messages take more than " +
                   std::to_string(most_bytes >> 20) + " MB of memory");
-    for (const std::uint32_t at : s.pending) messages.push_back(s.message(at));
+    for (const std::uint32_t at : s.pending.starts) messages.push_back(s.message(at));
     s.file.memory.push_back(
         std::move(room));  // the bytes stay where they are: message indexes are still checked against them
     room = {};

@@ -22,16 +22,15 @@ Playback::Playback(const std::filesystem::path& log, const Survey& survey, const
     : survey_(survey),
       changed_(std::move(changed)),
       epoch_ns_(graph.epoch_ns),
-      stream_(log),
-      read_ns_(std::numeric_limits<std::int64_t>::min()),
-      now_ns_(read_ns_) {
-  if (!survey.tick_fault.empty()) throw Error(survey.tick_fault);
+      reading_{McapStream(log), std::numeric_limits<std::int64_t>::min(), 0, {}, 0},
+      now_ns_(reading_.now_ns) {
+  if (!survey.ticks.fault.empty()) throw Error(survey.ticks.fault);
   check_order(survey, survey.log.channel(Event::topic));
   if (!survey.event_fault.empty()) throw Error(survey.event_fault);
   const HostTopic<Ticks> ticks(survey.log);
   route(ticks.channel(), [this, ticks](const McapFile::Message& m) {
     each_tick(ticks.read(m.data), [this](std::uint32_t, std::int64_t ns) { ticks_.push_back(ns); });
-    ahead_bytes_ = 0;
+    reading_.ahead_bytes = 0;
   });
   prepare_vehicle(graph);
   prepare_entries(graph);
@@ -54,23 +53,23 @@ std::optional<double> Playback::duration_s() const {
 
 void Playback::route(std::uint16_t channel, Take take) {
   check_order(survey_, channel);
-  if (takes_.size() <= channel) takes_.resize(channel + std::size_t{1});
-  takes_[channel].push_back(std::move(take));
+  if (reading_.takes.size() <= channel) reading_.takes.resize(channel + std::size_t{1});
+  reading_.takes[channel].push_back(std::move(take));
 }
 
 /// One message; false at the end.
 bool Playback::read() {
-  const McapFile::Message* const m = stream_.next();
+  const McapFile::Message* const m = reading_.stream.next();
   if (!m) return false;
-  read_ns_ = flight_ns(m->log_ns);
-  if (m->channel < takes_.size() && !takes_[m->channel].empty()) {
-    ahead_bytes_ += m->data.size() + sizeof *m;
-    for (const Take& take : takes_[m->channel]) take(*m);
-    if (ahead_bytes_ > max_ahead_bytes)
+  reading_.now_ns = flight_ns(m->log_ns);
+  if (m->channel < reading_.takes.size() && !reading_.takes[m->channel].empty()) {
+    reading_.ahead_bytes += m->data.size() + sizeof *m;
+    for (const Take& take : reading_.takes[m->channel]) take(*m);
+    if (reading_.ahead_bytes > max_ahead_bytes)
       throw Error("the log holds more than " + std::to_string(max_ahead_bytes >> 20) +
                   " MB between two messages about its ticks");
   }
-  ++place_;
+  ++reading_.place;
   return true;
 }
 
@@ -79,7 +78,7 @@ void Playback::begin_tick() {
     if (!read()) throw Error("the log has changed since its flight began to be replayed");
   now_ns_ = ticks_.front();
   ticks_.pop_front();
-  while (read_ns_ <= now_ns_ && read()) {
+  while (reading_.now_ns <= now_ns_ && read()) {
   }
   vehicle_->begin_tick(now_ns_);
 }
@@ -120,7 +119,8 @@ void Playback::prepare_vehicle(const Graph& graph) {
     if (std::string gap = gap_in(survey_, channel); !gap.empty()) gaps_.push_back(std::move(gap));
     route(channel, [this, to = output](const McapFile::Message& m) { vehicle_->take(to, m); });
   }
-  vehicle_failed_ = survey_.vehicle_failed_ns && flight_ns(*survey_.vehicle_failed_ns) == survey_.last_ns;
+  vehicle_failed_ =
+      survey_.vehicle_failed_ns && flight_ns(*survey_.vehicle_failed_ns) == survey_.ticks.last_ns;
   if (vehicle_failed_) vehicle_->set_last_words(survey_.last_words);
 }
 
@@ -213,8 +213,8 @@ Command logged_command(const CommandNote& note, const Graph& graph) {
 
 void Playback::store(const McapFile::Message& m, Command command) {
   const std::int64_t now_ns = flight_ns(m.log_ns);
-  if (now_ns > survey_.last_ns) return;
-  entries_.push_back({place_ < survey_.begun_at, now_ns, std::move(command)});
+  if (now_ns > survey_.ticks.last_ns) return;
+  entries_.push_back({reading_.place < survey_.begun_at, now_ns, std::move(command)});
 }
 
 void Playback::prepare_entries(const Graph& graph) {
@@ -234,7 +234,7 @@ void Playback::prepare_entries(const Graph& graph) {
     topic.check();
     if (!topic.there()) continue;
     add(topic.channel(), [this, topic, &graph](const McapFile::Message& m) {
-      if (survey_.resumed && survey_.resumed->places.contains(place_)) return;  // see prepare_resume
+      if (survey_.resumed && survey_.resumed->places.contains(reading_.place)) return;  // see prepare_resume
       store(m, logged_command(topic.read(m.data), graph));
     });
   }

@@ -84,13 +84,16 @@ class Playback final : public Circumstances {
   std::shared_ptr<VehicleTrack> vehicle_;
   std::map<std::string, std::shared_ptr<SampleTrack>> drivers_;
 
-  McapStream stream_;
-  std::uint64_t place_ = 0;               // of the next message
-  std::vector<std::vector<Take>> takes_;  // by channel
-  std::size_t ahead_bytes_ = 0;           // read since the log has told of ticks
-  std::deque<std::int64_t> ticks_;        // told, and not flown yet
+  struct Reading {
+    McapStream stream;
+    std::int64_t now_ns;                   // of the message read last
+    std::uint64_t place = 0;               // of the next message
+    std::vector<std::vector<Take>> takes;  // by channel
+    std::size_t ahead_bytes = 0;           // read since the last message of ticks
+  } reading_;
+  std::deque<std::int64_t> ticks_;  // read, and not flown yet
   std::deque<Entry> entries_;
-  std::int64_t read_ns_, now_ns_;
+  std::int64_t now_ns_;
   bool over_ = false;
 };
 

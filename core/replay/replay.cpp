@@ -211,7 +211,7 @@ void Player::apply(Command command, std::uint64_t tick) try {
 }
 
 std::unique_ptr<Flight> Player::fly(const std::atomic<bool>* stop) {
-  const std::uint64_t ticks = recording_.survey().ticks;
+  const std::uint64_t ticks = recording_.survey().ticks.count;
   bool goes_on = true;
   for (std::uint64_t tick = 0; goes_on && tick <= ticks; ++tick) {
     if (tick < ticks)
@@ -259,9 +259,9 @@ std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recordi
   const Survey& log = recording.survey();
   result.notes = player.playback().gaps();
   result.cut_off = !log.log.complete;
-  result.recorded_ticks = log.ticks;
-  result.first_ns = log.first_ns;
-  result.last_ns = log.last_ns;
+  result.recorded_ticks = log.ticks.count;
+  result.first_ns = log.ticks.first_ns;
+  result.last_ns = log.ticks.last_ns;
   std::unique_ptr<Flight> flight = player.fly(options.stop);
   result.ticks = result.flight.ticks;
   if (!result.flight.log.error.empty()) throw Error("the replay's log: " + result.flight.log.error);

@@ -29,7 +29,7 @@ struct Survey::Reading {
     while (const McapFile::Message* const m = stream.next()) {
       follow(*m);
       open(stream.log().channels.at(m->channel).topic);
-      if (ticks && ticks->holds(*m) && to.tick_fault.empty()) take_ticks(*m);
+      if (ticks && ticks->holds(*m) && to.ticks.fault.empty()) take_ticks(*m);
       if (events && events->holds(*m) && to.event_fault.empty()) take_event(*m);
       if (parameters && parameters->holds(*m)) take_parameter(*m);
       ++to.messages;
@@ -55,33 +55,33 @@ struct Survey::Reading {
   }
 
   void conclude() try {
-    if (!to.tick_fault.empty()) return;
+    if (!to.ticks.fault.empty()) return;
     const HostTopic<Ticks> topic(to.log);
     if (!topic.there())
       throw Error("the log has no /fulmar/ticks: it is not a flight's, or older than replays");
     topic.check();
-    if (to.ticks == 0) throw Error("the log holds no tick");
+    if (to.ticks.count == 0) throw Error("the log holds no tick");
     if (!in_order) throw Error("the log's ticks are not in order");
   } catch (const Error& fault) {
-    to.tick_fault = fault.what();
+    to.ticks.fault = fault.what();
   }
 
   void take_ticks(const McapFile::Message& m) try {
     const Ticks now = ticks->read(m.data);
-    if (now.first != to.ticks || now.periods != now.hashes)
-      throw Error(to.ticks == 0
+    if (now.first != to.ticks.count || now.periods != now.hashes)
+      throw Error(to.ticks.count == 0
                       ? "the log begins with tick " + std::to_string(now.first) +
                             " of its flight; a replay begins with the first: give the file before it"
-                      : "the log has lost its ticks " + std::to_string(to.ticks) + " to " +
+                      : "the log has lost its ticks " + std::to_string(to.ticks.count) + " to " +
                             std::to_string(now.first) + ": it can be replayed no further than that");
     each_tick(now, [&](std::uint32_t, std::int64_t time_ns) {
-      if (to.ticks == 0) to.first_ns = time_ns;
-      in_order = in_order && (to.ticks == 0 || time_ns > to.last_ns);
-      to.last_ns = time_ns;
-      ++to.ticks;
+      if (to.ticks.count == 0) to.ticks.first_ns = time_ns;
+      in_order = in_order && (to.ticks.count == 0 || time_ns > to.ticks.last_ns);
+      to.ticks.last_ns = time_ns;
+      ++to.ticks.count;
     });
   } catch (const Error& fault) {
-    to.tick_fault = fault.what();
+    to.ticks.fault = fault.what();
   }
 
   void take_event(const McapFile::Message& m) try {

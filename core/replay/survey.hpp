@@ -45,9 +45,11 @@ struct Survey {
   std::map<std::uint16_t, std::uint64_t> lost;  // samples, by channel
   std::set<std::uint16_t> late;                 // channels with a message that is older than one before it
 
-  std::uint64_t ticks = 0;
-  std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and the last one
-  std::string tick_fault;                  // "" or why the ticks cannot be flown again
+  struct {
+    std::uint64_t count = 0;
+    std::int64_t first_ns = 0, last_ns = 0;  // flight time of the first and the last one
+    std::string fault;                       // "" or why they cannot be flown again
+  } ticks;
 
   std::string event_fault;                         // "" or why the host's events cannot be read
   std::map<std::string, Told> told;                // by component

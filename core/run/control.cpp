@@ -282,12 +282,12 @@ FlightView FlightControl::view() const {
   const std::lock_guard lock(mutex_);
   FlightView v = directory_->view;
   const auto phase = static_cast<std::size_t>(seen_.phase.load(std::memory_order_relaxed));
-  v.phase = v.phases.at(phase);
+  v.phase.now = v.phase.all.at(phase);
   v.now_ns = seen_.now_ns.load(std::memory_order_relaxed);
   v.armed = seen_.armed.load(std::memory_order_relaxed);
   v.over = over_.load();
-  v.paused = seen_.paused.load(std::memory_order_relaxed);
-  v.speed = seen_.speed.load(std::memory_order_relaxed);
+  v.pace.paused = seen_.paused.load(std::memory_order_relaxed);
+  v.pace.speed = seen_.speed.load(std::memory_order_relaxed);
   for (std::size_t i = 0; i < v.components.size(); ++i) {
     ComponentView& c = v.components[i];
     const Seen::Component& seen = seen_.components[i];

@@ -87,12 +87,12 @@ FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(fligh
   view.epoch_ns = flight.state.graph.epoch_ns;
   view.seed = flight.state.graph.seed;
   view.origin = origin_of(flight.state.graph);
-  view.tiles = flight.state.graph.live.tiles;
-  view.attribution = flight.state.graph.live.attribution;
+  view.map.tiles = flight.state.graph.live.tiles;
+  view.map.attribution = flight.state.graph.live.attribution;
   view.no_save = live::why_no_save(flight.state.graph.live);
   for (const auto& [name, text] : flight.state.graph.overrides.set) view.set.push_back(name);
   for (const Phase& p : flight.state.graph.phases) {
-    view.phases.push_back(p.name);
+    view.phase.all.push_back(p.name);
     overlaid.emplace_back();
     for (const Assignment& a : p.roles)
       for (const Overlay& o : a.set)

@@ -43,16 +43,24 @@ struct Geodetic {
   double lat_deg = 0, lon_deg = 0, alt_msl_m = 0;
 };
 struct FlightView {
-  std::string mission, io, phase;
-  std::vector<std::string> phases;
+  std::string mission, io;
+  struct {
+    std::string now;
+    std::vector<std::string> all;
+  } phase;
   std::int64_t now_ns = 0, epoch_ns = 0;
-  bool armed = false, over = false, paused = false;
-  double speed = 1;  // times real time; 0: as fast as the machine allows
+  bool armed = false, over = false;
+  struct {
+    bool paused = false;
+    double speed = 1;  // times real time; 0: as fast as the machine allows
+  } pace;
   std::vector<ComponentView> components;
   std::string file;  // of the mission
   std::uint64_t seed = 0;
   std::optional<Geodetic> origin;  // of the local frame, where the mission says it
-  std::string tiles, attribution;  // LiveOptions
+  struct {
+    std::string tiles, attribution;
+  } map;  // LiveOptions
   std::string no_save;             // why no client may write files; "": each may
   std::vector<std::string> set;    // parameters that the command line has set, "slc.roll_kp"
 };

@@ -58,13 +58,16 @@ struct Log::Impl {
   std::size_t max_message = 0;
   std::unique_ptr<McapWriter> writer;
   bool head_stored = false;  // the log thread has written what comes first
-  std::mutex mutex;
-  std::vector<Extra> head, tail;  // guarded
+  struct {
+    std::mutex mutex;
+    std::vector<Extra> head, tail;  // guarded
+  } extras;
   std::atomic<bool> stop{false}, broken{false};
   std::string trouble;  // written before `broken` is set, and never again
-  std::uint64_t
-      unstored = 0,
-      missed = 0;  // messages that the writer was not given; that had been written over before they were read
+  struct {
+    std::uint64_t unstored = 0;  // the writer was not given them
+    std::uint64_t missed = 0;    // written over before they were read
+  } lost;                        // messages
   McapWriter::Result result;
   std::thread thread;
 
@@ -110,7 +113,7 @@ struct Log::Impl {
   }
 
   void store_extras(std::vector<Extra>& list) {
-    const std::lock_guard lock(mutex);
+    const std::lock_guard lock(extras.mutex);
     for (const Extra& e : list) {
       if (e.media_type.empty()) {
         writer->metadata(e.name, e.pairs);
@@ -129,7 +132,7 @@ struct Log::Impl {
   void store(const Tap::Sample& sample) {
     if (!head_stored) {
       head_stored = true;
-      store_extras(head);
+      store_extras(extras.head);
     }
     const Channel& channel = channels[sample.channel];
     std::byte* room = writer->begin_message(channel.id, static_cast<std::uint32_t>(sample.sequence),
@@ -142,9 +145,9 @@ struct Log::Impl {
     while (const Tap::Sample* sample = cursor.next()) {
       Channel& channel = channels[sample->channel];
       if (!sample->for_log || !channel.stored) continue;
-      missed += sample->sequence - channel.expected;
+      lost.missed += sample->sequence - channel.expected;
       channel.expected = sample->sequence + 1;
-      if (writer->failed() || !guarded([&] { store(*sample); })) ++unstored;
+      if (writer->failed() || !guarded([&] { store(*sample); })) ++lost.unstored;
     }
     if (!writer->failed() || broken.load(std::memory_order_relaxed)) return;
     guarded([this] { trouble = writer->error(); });
@@ -159,8 +162,8 @@ struct Log::Impl {
       std::this_thread::sleep_for(nap);
     }
     guarded([this] {
-      store_extras(head);
-      store_extras(tail);
+      store_extras(extras.head);
+      store_extras(extras.tail);
     });
     result.error = "the log could not be ended";
     guarded([this] { result = writer->close(); });
@@ -185,14 +188,14 @@ Log::~Log() {
 }
 
 void Log::attach(const std::string& name, const std::string& media_type, const std::string& content) {
-  const std::lock_guard lock(impl_->mutex);
-  (impl_->begun() ? impl_->tail : impl_->head)
+  const std::lock_guard lock(impl_->extras.mutex);
+  (impl_->begun() ? impl_->extras.tail : impl_->extras.head)
       .push_back({name, media_type.empty() ? "application/octet-stream" : media_type, content, {}});
 }
 
 void Log::metadata(const std::string& name, const std::vector<std::pair<std::string, std::string>>& pairs) {
-  const std::lock_guard lock(impl_->mutex);
-  (impl_->begun() ? impl_->tail : impl_->head).push_back({name, "", "", pairs});
+  const std::lock_guard lock(impl_->extras.mutex);
+  (impl_->begun() ? impl_->extras.tail : impl_->extras.head).push_back({name, "", "", pairs});
 }
 
 bool Log::failed() const noexcept { return impl_->broken.load(std::memory_order_acquire); }
@@ -204,7 +207,7 @@ LogResult Log::close() {
   log.stop.store(true, std::memory_order_release);
   log.thread.join();
   const McapWriter::Result& r = log.result;
-  const std::uint64_t dropped = log.missed + log.unstored + r.lost;
+  const std::uint64_t dropped = log.lost.missed + log.lost.unstored + r.lost;
   return {r.file, r.sha256, r.messages, r.bytes, dropped, r.error, r.files.size()};
 }
 

@@ -28,9 +28,11 @@ struct Field {
   std::uint32_t offset = 0, count = 1, stride = 0, items = 0;
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   bool appended = false;  // a writer may lack it: its reader then sees zeros
-  bool required = false;  // of a record: who writes one has to name it
-  bool instead = false;   // named in a record, it stands in for the required fields beside it
-  bool rising = false;    // a list whose numbers a record writes in rising order
+  struct {
+    bool required = false;  // the writer has to name it
+    bool instead = false;   // named, it stands in for the required fields beside it
+    bool rising = false;    // a list whose numbers are written in rising order
+  } in_record{};
 };
 
 /// Of a struct of the host's own. `room`: of a text.

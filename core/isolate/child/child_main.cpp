@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
   if (memory == MAP_FAILED) return 2;
   ::madvise(memory, size, MADV_DONTFORK);  // a copy of this process writes no answer into it
   auto& control = *static_cast<ControlBlock*>(memory);
-  if (::getppid() != control.host_pid) return 1;  // it died before this process asked to die with it
+  if (::getppid() != control.set_up.host_pid) return 1;  // it died before this process asked to die with it
   tell_crashes(control);
   count_heap();
   const Order order{argv[2],

@@ -32,7 +32,7 @@ class Session {
 
   /// Loads the plugin and creates the component. Throws Error.
   void open(const Order& order) {
-    if (control().version != shared_version) throw Error("fulmar-child is of another version than the host");
+    if (control().set_up.version != shared_version) throw Error("fulmar-child is of another version than the host");
     load(order);
     check(read_entry(*plugin_, order.file).components, order);
     const TableReader tables;
@@ -91,12 +91,12 @@ class Session {
   std::uint32_t wait(std::uint32_t done) noexcept {
     ControlBlock& c = control();
     const auto asked = [&] { return c.request.load(std::memory_order_acquire) != done; };
-    if (spin_until(c.spin_ns, asked)) return c.request.load(std::memory_order_acquire);
+    if (spin_until(c.set_up.spin_ns, asked)) return c.request.load(std::memory_order_acquire);
     while (!asked()) {
       c.child_sleeps.store(1);
       if (c.request.load() == done) futex_wait(c.request, done, 1'000'000'000);
       c.child_sleeps.store(0, std::memory_order_relaxed);
-      if (!asked() && ::getppid() != c.host_pid) ::_exit(1);
+      if (!asked() && ::getppid() != c.set_up.host_pid) ::_exit(1);
     }
     return c.request.load(std::memory_order_acquire);
   }
@@ -117,13 +117,13 @@ class Session {
 
   // The tables once more: the copy may have changed since the host read it.
   void check(const std::vector<ComponentInfo>& components, const Order& order) {
-    const std::string wanted = control().component;
+    const std::string wanted = control().set_up.component;
     if (order.index >= components.size() || components[order.index].name != wanted)
       throw Error(std::string(order.file) + " has no component '" + wanted + "' in place " +
                   std::to_string(order.index) + " any more: its copy has changed");
     info_ = components[order.index];
     layout_.emplace_back(info_);
-    if (layout_[0].signature != control().signature || layout_[0].size != control().layout_size ||
+    if (layout_[0].signature != control().set_up.signature || layout_[0].size != control().set_up.layout_size ||
         layout_[0].size > size_)
       throw Error(std::string(order.file) + ": the ports or parameters of '" + wanted +
                   "' are not those that the host knows");
@@ -208,7 +208,7 @@ class Session {
   // What was given before stays until the component has taken the new.
   std::uint32_t configure(fulmar_error& error) {
     const SharedValue* heads = at<SharedValue>(layout_[0].values_at);
-    const std::size_t size = control().values_size;
+    const std::size_t size = control().set_up.values_size;
     void* window = nullptr;
     if (size > 0)
       window = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, shared_descriptor,

@@ -357,13 +357,13 @@ TEST_CASE("a phase is entered between two ticks, and onlookers see it") {
   Flight flight(g, quick());
   Control& control = *flight.control();
   REQUIRE(flight.step());
-  CHECK(control.view().phase == "fly");
+  CHECK(control.view().phase.now == "fly");
   Reply reply;
   control.enter_phase("rest", reply.take());
   REQUIRE(flight.step());
   CHECK(flight.phase() == "rest");
   CHECK(value(g, flight, "two", "command", "u_frac") == 0.2);
-  CHECK(control.view().phase == "rest");
+  CHECK(control.view().phase.now == "rest");
   CHECK(reply.wait() == "");
 }
 

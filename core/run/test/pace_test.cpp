@@ -106,10 +106,10 @@ constexpr std::int64_t tick_ns = 2'500'000;
 
 TEST_CASE("a paused flight stands still, answers, and takes parameters at once") {
   Aloft aloft;
-  CHECK_FALSE(aloft.view().paused);
-  CHECK(aloft.view().speed == 1);
+  CHECK_FALSE(aloft.view().pace.paused);
+  CHECK(aloft.view().pace.speed == 1);
   CHECK(aloft.pace(order(pause)) == "");
-  CHECK(aloft.view().paused);
+  CHECK(aloft.view().pace.paused);
   const std::int64_t then = aloft.now_ns();
   CHECK(aloft.pace(order(pause)) == "the flight is paused already");
   CHECK(aloft.set("0.5") == "");
@@ -118,7 +118,7 @@ TEST_CASE("a paused flight stands still, answers, and takes parameters at once")
     CHECK(aloft.now_ns() == then);
   }
   CHECK(aloft.pace(order(resume)) == "");
-  CHECK_FALSE(aloft.view().paused);
+  CHECK_FALSE(aloft.view().pace.paused);
   aloft.wait_until([&] { return aloft.now_ns() > then; });
   CHECK(aloft.pace(order(resume)) == "the flight is not paused");
   CHECK(aloft.end().outcome == Outcome::interrupted);
@@ -134,7 +134,7 @@ TEST_CASE("N ticks are flown, not one more or less, and whoever asked is answere
     const std::int64_t before = aloft.now_ns();
     CHECK(aloft.step(n) == "");
     CHECK(aloft.now_ns() == before + static_cast<std::int64_t>(n) * tick_ns);
-    CHECK(aloft.view().paused);
+    CHECK(aloft.view().pace.paused);
   }
   CHECK(aloft.now_ns() == then + 404 * tick_ns);
 }
@@ -171,7 +171,7 @@ TEST_CASE("many ticks can be cut short by a pause, by going on, and by the fligh
   aloft.pace(order(pause));
   for (const auto& [cut, stands] : {std::pair(order(pause), true), std::pair(order(resume), false),
                                     std::pair(PaceOrder{PaceOrder::What::speed, 0, 1}, false)}) {
-    if (!aloft.view().paused) aloft.pace(order(pause));
+    if (!aloft.view().pace.paused) aloft.pace(order(pause));
     std::promise<std::string> promise;
     auto answer = promise.get_future();
     const std::int64_t then = aloft.now_ns();
@@ -183,7 +183,7 @@ TEST_CASE("many ticks can be cut short by a pause, by going on, and by the fligh
     const std::string told = answer.get();
     CHECK(holds(told, "of 1000000 ticks"));
     CHECK(holds(told, "ended after "));
-    CHECK(aloft.view().paused == stands);
+    CHECK(aloft.view().pace.paused == stands);
     if (stands) CHECK(holds(told, "after " + std::to_string((aloft.now_ns() - then) / tick_ns) + " of "));
   }
   aloft.pace(order(pause));
@@ -254,11 +254,11 @@ TEST_CASE("a pause is nobody's time, and is not caught up") {
 TEST_CASE("a flight that is hurried flies on as fast as it can, and then in real time again") {
   Aloft aloft(one_phase, 1e6);
   CHECK(aloft.speed(0) == "");
-  CHECK(aloft.view().speed == 0);
+  CHECK(aloft.view().pace.speed == 0);
   const std::int64_t then = aloft.now_ns();
   aloft.wait_until([&] { return aloft.now_ns() > then + 60'000'000'000; });
   CHECK(aloft.speed(2) == "");
-  CHECK(aloft.view().speed == 2);
+  CHECK(aloft.view().pace.speed == 2);
   CHECK(aloft.end().outcome == Outcome::interrupted);
 }
 

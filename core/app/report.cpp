@@ -144,7 +144,7 @@ bool present(const Shown& shown, const std::byte* message) {
 
 std::string progress_line(const Graph& graph, const Flight& flight) {
   std::string line = fmt::format("{:8.1f} s  {:<10}", seconds(flight.now_ns()), flight.phase());
-  for (const Shown& shown : graph.progress) {
+  for (const Shown& shown : graph.judge.progress) {
     const std::byte* message = flight.sample(shown.from);
     std::string name = shown.text.substr(shown.text.rfind('.') + 1);
     std::string unit = shown.field.unit;
@@ -196,7 +196,7 @@ json result_json(const Graph& graph, const Flight& flight, const FlightResult& r
   j["misses"] = json::object();
   for (const ComponentStats& c : result.components)
     if (c.misses > 0) j["misses"][c.name] = c.misses;
-  for (const auto& [key, source] : graph.summary) j[key] = summary_of(graph, flight, source);
+  for (const auto& [key, source] : graph.judge.summary) j[key] = summary_of(graph, flight, source);
   j["live"] = nullptr;
   if (result.live)
     j["live"] = {{"sent", result.live->sent},
@@ -217,7 +217,8 @@ std::string result_table(const Graph& graph, const Flight& flight, const FlightR
                      result.wall.took_s, speedup(result));
   if (result.wall.behind_max_s > 0.5)
     out += fmt::format("  up to {:.1f} s behind the clock on the wall\n", result.wall.behind_max_s);
-  for (const auto& [key, source] : graph.summary) add_figures(out, key, summary_of(graph, flight, source));
+  for (const auto& [key, source] : graph.judge.summary)
+    add_figures(out, key, summary_of(graph, flight, source));
   out += "\nphases\n";
   for (const PhaseVisit& p : result.phases)
     out += fmt::format("  {:<22} {:10.1f} s to {:.1f} s\n", p.name, seconds(p.from_ns), seconds(p.to_ns));

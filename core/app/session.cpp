@@ -44,7 +44,7 @@ Session::Session(const RunOptions& options) : options_(options), start_(working_
   if (!graph_.record && !options.log_file.empty())
     throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
   if (options.report) check_report(*options.report, graph_);
-  for (const std::string& warning : graph_.warnings)
+  for (const std::string& warning : graph_.source.warnings)
     if (warning.starts_with("--")) warn(warning);  // asked on the command line, and without effect
 }
 
@@ -71,7 +71,7 @@ void Session::take_changes() {
 /// The next flight's.
 void Session::set_seed(std::uint64_t seed) {
   graph_.seed = seed;
-  graph_.overrides.seed = seed;
+  graph_.source.overrides.seed = seed;
 }
 
 /// That other one: the mission as its files are now, on the same port.
@@ -267,7 +267,7 @@ int Session::code_of(const FlightResult& result) const {
 }
 
 std::vector<fs::path> Session::files() const {
-  std::vector<fs::path> all = graph_.files;
+  std::vector<fs::path> all = graph_.source.files;
   for (const Component& c : graph_.components)
     if (std::find(all.begin(), all.end(), c.plugin->path) == all.end()) all.emplace_back(c.plugin->path);
   return all;

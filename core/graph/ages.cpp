@@ -85,7 +85,7 @@ void guard_wires(Draft& draft) {
       wire.by_steps = !said;
       wire.guarded = watched && wire.max_age_ns > 0;
       const bool blind = watched ? !wire.guarded : obeyed && wire.max_age_ns == 0;
-      if (blind && !from_vehicle(graph, wire)) graph.warnings.push_back(warning(reader, input, wire));
+      if (blind && !from_vehicle(graph, wire)) graph.source.warnings.push_back(warning(reader, input, wire));
     }
   }
 }

@@ -26,8 +26,8 @@ void tell_two_fences(Draft& draft) {
     if (!first)
       first = &c;
     else if (given_record(*first, "fence")->data != fence->data)
-      draft.graph.warnings.push_back(c.where.text() + ": " + c.name + ".fence is another one than " +
-                                     first->name + ".fence: the aircraft may leave one of them");
+      draft.graph.source.warnings.push_back(c.where.text() + ": " + c.name + ".fence is another one than " +
+                                            first->name + ".fence: the aircraft may leave one of them");
   }
 }
 

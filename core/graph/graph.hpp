@@ -248,25 +248,27 @@ struct Graph : Settings {
   std::vector<Transition> any;
   std::vector<int> order;  // steps, the vehicle left out
   int vehicle = -1;
-  VehicleFlags flags;                                    // of the vehicle; with Io::fcu it has all of them
-  std::shared_ptr<const Condition> done, failed, flown;  // may be empty
-  std::optional<VerdictPort> verdict;                    // what a component says of the flight
-  std::vector<std::pair<std::string, Source>> summary;   // key of the result -> port; none: left out
-  /// Keys that only report, of components that this flight does not have -> port.
-  std::vector<std::pair<std::string, std::string>> left_out;
-  std::vector<Shown> progress;
+  VehicleFlags flags;  // of the vehicle; with Io::fcu it has all of them
+  struct {
+    std::shared_ptr<const Condition> done, failed, flown;  // may be empty
+    std::optional<VerdictPort> verdict;                    // what a component says of the flight
+    std::vector<std::pair<std::string, Source>> summary;   // key of the result -> port; none: left out
+    /// Keys that only report, of components that this flight does not have -> port.
+    std::vector<std::pair<std::string, std::string>> left_out;
+    std::vector<Shown> progress;
+  } judge;                   // when the flight ends, and its figures
   std::vector<int> control;  // roles that begin anew as long as the vehicle says that it does not obey
   std::vector<Source> tell;  // ports whose texts are for people
   std::vector<ResumeRule> resume;
   std::vector<std::vector<std::byte>> failsafe;  // one per vehicle input: the struct to send; empty: not sent
-  /// Files whose contents cross into the flight, as read: mission, what it extends, airframe, plans. Name
-  /// without folders -> text.
-  std::vector<std::pair<std::string, std::string>> attachments;
-  /// Where all of this came from, so that it can be read again.
-  std::string file;
-  std::vector<std::string> warnings;  // what can be flown, but should be known
-  Overrides overrides;
-  std::vector<std::filesystem::path> files;  // mission, what it extends, airframe, plans
+  struct {
+    std::string file;
+    std::vector<std::filesystem::path> files;  // mission, what it extends, airframe, plans
+    /// Their contents as read: name without folders -> text.
+    std::vector<std::pair<std::string, std::string>> attachments;
+    Overrides overrides;
+    std::vector<std::string> warnings;  // what can be flown, but should be known
+  } source;                             // where all of this comes from, so that it can be read again
 };
 
 /// Loads a mission file - fulmar:missions/orbit.yaml is one of the installation - and everything that it

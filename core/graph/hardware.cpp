@@ -62,7 +62,7 @@ constexpr const char* contact_known = "contact_known";
 void object(Draft& draft, const Where& where, const std::string& sentence) {
   if (draft.graph.io == Io::fcu) return draft.report.add(where, sentence);
   const std::string warning = where.text() + ": " + sentence;
-  std::vector<std::string>& warnings = draft.graph.warnings;
+  std::vector<std::string>& warnings = draft.graph.source.warnings;
   if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
 }
 

@@ -42,8 +42,8 @@ class MissionReader {
     const Keys keys(root, "", mission_keys, report_);
     if (!root.is(Node::Kind::map)) return;
     scalars(keys);
-    if (const Node* node = keys.get("airframe")) m_.airframe = *node;
-    if (const Node* node = keys.get("origin")) m_.origin = *node;
+    if (const Node* node = keys.get("airframe")) m_.node.airframe = *node;
+    if (const Node* node = keys.get("origin")) m_.node.origin = *node;
     shown(keys);
     failsafe(keys);
     each(keys, "roles", component_room, &MissionReader::role);
@@ -117,16 +117,16 @@ class MissionReader {
   }
 
   void shown(const Keys& keys) {
-    ending(keys, "done", m_.done, m_.done_for_ns);
-    ending(keys, "failed", m_.failed, m_.failed_for_ns);
-    ending(keys, "flown", m_.flown, m_.flown_for_ns);
-    if (const auto port = keys.text("verdict")) m_.verdict = Word{*port, keys.get("verdict")->where()};
+    ending(keys, "done", m_.judge.done, m_.done_for_ns);
+    ending(keys, "failed", m_.judge.failed, m_.failed_for_ns);
+    ending(keys, "flown", m_.judge.flown, m_.flown_for_ns);
+    if (const auto port = keys.text("verdict")) m_.judge.verdict = Word{*port, keys.get("verdict")->where()};
     list(keys, "progress", "a list of fields such as [nav.state.height_m]",
-         "a field such as nav.state.height_m", m_.progress);
+         "a field such as nav.state.height_m", m_.judge.progress);
     list(keys, "control", "a list of roles such as [guide, outer, inner]", "the name of a role", m_.control);
     list(keys, "tell", "a list of ports such as [vehicle.notices]", "a port such as vehicle.notices",
          m_.tell);
-    map(keys, "summary", "a map {name: component.port}", "a port such as score.tracking", m_.summary);
+    map(keys, "summary", "a map {name: component.port}", "a port such as score.tracking", m_.judge.summary);
     map(keys, "resume", "a map {component.parameter: component.port.field}",
         "a field such as manage.progress.item", m_.resume);
   }
@@ -148,7 +148,7 @@ class MissionReader {
   void failsafe(const Keys& keys) {
     const Node* node = keys.get("failsafe");
     if (!node) return;
-    m_.failsafe = *node;
+    m_.node.failsafe = *node;
     m_.failsafe_ns = 2'000'000'000;
     Node own = *node;  // the other keys are fields: they are checked against the vehicle's inputs later
     std::erase_if(own.entries, [](const Node::Entry& entry) { return entry.key != "for"; });

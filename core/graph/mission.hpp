@@ -97,23 +97,28 @@ struct HardwareText {
 struct MissionText : Settings {
   FilePtr file;
   double rate_hz = 400;
-  Node airframe;  // text, a map, or missing
-  Node origin;
-  std::optional<Word> done, failed, flown, verdict;
-  std::vector<Word> progress;
-  std::vector<std::pair<std::string, Word>> summary;
+  struct {
+    Node airframe;  // text, a map, or missing
+    Node origin, failsafe;
+  } node;
+  struct {
+    std::optional<Word> done, failed, flown, verdict;
+    std::vector<Word> progress;
+    std::vector<std::pair<std::string, Word>> summary;
+  } judge;
   std::vector<Word> control, tell;
   std::vector<std::pair<std::string, Word>> resume;  // parameter -> field
-  Node failsafe;
   HardwareText hardware;
   std::vector<RoleText> roles;
   std::vector<ComponentText> components;
   std::vector<PhaseText> phases;  // without `any`
   std::vector<TransitionText> any;
-  std::vector<Where> record_where;      // one per rule
-  std::vector<ImportText> dds_imports;  // into components that may not exist
-  std::vector<FilePtr> files;           // the mission and what it extends
-  std::vector<MissionText> below;       // each layer under it with those that it extends, the lowest first
+  struct {
+    std::vector<Where> record;            // one per rule of `record:`
+    std::vector<ImportText> dds_imports;  // into components that may not exist
+  } tap;
+  std::vector<FilePtr> files;      // the mission and what it extends
+  std::vector<MissionText> below;  // each layer under it with those that it extends, the lowest first
 
   const RoleText* role(const std::string& name) const { return find_named(roles, name); }
   const ComponentText* component(const std::string& name) const { return find_named(components, name); }

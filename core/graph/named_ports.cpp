@@ -71,7 +71,7 @@ template <class F>
 bool report_of(Draft& draft, const Word& word, const std::string& path, F run) {
   const bool gone = is_left_out(draft, word);
   if (gone)
-    draft.graph.left_out.push_back({path, word.text});
+    draft.graph.judge.left_out.push_back({path, word.text});
   else
     guarded(draft, word.where, path, run);
   return !gone;
@@ -93,8 +93,8 @@ std::pair<Source, TypePtr> find_port(const Word& word, const std::string& exampl
 }
 
 void read_summary(Draft& draft, const FindPort& find) {
-  draft.graph.summary.clear();
-  for (const auto& entry : draft.text.summary) {
+  draft.graph.judge.summary.clear();
+  for (const auto& entry : draft.text.judge.summary) {
     const std::string& key = entry.first;
     const Word& word = entry.second;
     const bool stays = report_of(draft, word, "summary." + key, [&] {
@@ -102,9 +102,9 @@ void read_summary(Draft& draft, const FindPort& find) {
         throw Error("'" + key + "' is a key of every result; choose another name");
       const auto [source, type] = find_port(word, "score.tracking", find);
       if (!type) throw Error("'" + word.text + "' is a probe; a summary shows messages");
-      draft.graph.summary.emplace_back(key, source);
+      draft.graph.judge.summary.emplace_back(key, source);
     });
-    if (!stays) draft.graph.summary.emplace_back(key, Source{});
+    if (!stays) draft.graph.judge.summary.emplace_back(key, Source{});
   }
 }
 
@@ -127,9 +127,9 @@ void read_told(Draft& draft, const FindPort& find) {
 
 /// How the flight went, in a word and in words.
 void read_verdict(Draft& draft, const FindPort& find) {
-  draft.graph.verdict.reset();
-  if (!draft.text.verdict) return;
-  const Word& word = *draft.text.verdict;
+  draft.graph.judge.verdict.reset();
+  if (!draft.text.judge.verdict) return;
+  const Word& word = *draft.text.judge.verdict;
   report_of(draft, word, "verdict", [&] {
     const auto [source, type] = find_port(word, "score.verdict", find);
     const Field* const of = type ? type->find("word") : nullptr;
@@ -137,7 +137,7 @@ void read_verdict(Draft& draft, const FindPort& find) {
     if (!of || !text || of->kind != FULMAR_TEXT || text->kind != FULMAR_TEXT)
       throw Error("'" + word.text + "' is " + (type ? type->name : "a probe") +
                   ", which has no texts 'word' and 'text'");
-    draft.graph.verdict = VerdictPort{source, of->offset, text->offset, of->stride, text->stride};
+    draft.graph.judge.verdict = VerdictPort{source, of->offset, text->offset, of->stride, text->stride};
   });
 }
 
@@ -151,10 +151,10 @@ Shown shown(const Word& word, const FindPort& find) {
 }
 
 void read_shown(Draft& draft, const FindPort& find) {
-  draft.graph.progress.clear();
-  for (const Word& word : draft.text.progress) {
+  draft.graph.judge.progress.clear();
+  for (const Word& word : draft.text.judge.progress) {
     if (draft.report.full()) break;
-    guarded(draft, word.where, "progress", [&] { draft.graph.progress.push_back(shown(word, find)); });
+    guarded(draft, word.where, "progress", [&] { draft.graph.judge.progress.push_back(shown(word, find)); });
   }
 }
 
@@ -215,10 +215,10 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
 void compile_all(Draft& draft, bool built) {
   const FindPort find = finder(draft, built);
   Graph& graph = draft.graph;
-  graph.left_out.clear();
-  if (draft.text.done) graph.done = compiled(draft, *draft.text.done, "done", find);
-  if (draft.text.failed) graph.failed = compiled(draft, *draft.text.failed, "failed", find);
-  if (draft.text.flown) graph.flown = compiled(draft, *draft.text.flown, "flown", find);
+  graph.judge.left_out.clear();
+  if (draft.text.judge.done) graph.judge.done = compiled(draft, *draft.text.judge.done, "done", find);
+  if (draft.text.judge.failed) graph.judge.failed = compiled(draft, *draft.text.judge.failed, "failed", find);
+  if (draft.text.judge.flown) graph.judge.flown = compiled(draft, *draft.text.judge.flown, "flown", find);
   read_verdict(draft, find);
   read_shown(draft, find);
   read_summary(draft, find);
@@ -274,10 +274,10 @@ void compile_phases(Draft& draft) {
   }
   check_reachable(draft);
   std::vector<std::string> gone;
-  for (const auto& [key, port] : draft.graph.left_out) gone.push_back(key + " (" + port + ")");
+  for (const auto& [key, port] : draft.graph.judge.left_out) gone.push_back(key + " (" + port + ")");
   if (!gone.empty())
-    draft.graph.warnings.push_back(draft.text.file->name + ": without " + join(gone) +
-                                   ": the component or its output is not in this flight");
+    draft.graph.source.warnings.push_back(draft.text.file->name + ": without " + join(gone) +
+                                          ": the component or its output is not in this flight");
 }
 
 }  // namespace fulmar::core

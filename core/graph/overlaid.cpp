@@ -32,9 +32,9 @@ void tell_hidden_values(Draft& draft) {
     if (path.param < 0) continue;
     const std::vector<std::string> phases = phases_that_set(draft, i, path.param);
     if (!phases.empty())
-      draft.graph.warnings.push_back("--set " + name + "=" + value + " has no effect in " + join(phases) +
-                                     (phases.size() == 1 ? ": the phase sets" : ": the phases set") +
-                                     " this parameter");
+      draft.graph.source.warnings.push_back(
+          "--set " + name + "=" + value + " has no effect in " + join(phases) +
+          (phases.size() == 1 ? ": the phase sets" : ": the phases set") + " this parameter");
   }
 }
 
@@ -58,9 +58,9 @@ void tell_lost_settings(Draft& draft) {
         if (text.role != role || !text.set.is(Node::Kind::map) || text.use.text == component) continue;
         const std::vector<std::string> lost = lost_settings(draft, text, seated);
         if (!lost.empty())
-          draft.graph.warnings.push_back("--role " + role + "=" + component + ": it flies the phase " +
-                                         phase.name + ", too, which sets " + join(lost) + "; " + component +
-                                         " has no such live parameter");
+          draft.graph.source.warnings.push_back("--role " + role + "=" + component + ": it flies the phase " +
+                                                phase.name + ", too, which sets " + join(lost) + "; " +
+                                                component + " has no such live parameter");
       }
   }
 }

@@ -88,7 +88,7 @@ class RecordReader {
 
   void add_rule(const std::string& pattern, std::int64_t period_ns, const Where& where) {
     m_.record_rules.push_back({{pattern}, period_ns});
-    m_.record_where.push_back(where);
+    m_.tap.record.push_back(where);
   }
 
   MissionText& m_;
@@ -143,7 +143,7 @@ void add_record_options(MissionText& mission, const std::vector<std::string>& op
     places.push_back({"--record", 0});
   }
   mission.record_rules.insert(mission.record_rules.begin(), rules.begin(), rules.end());
-  mission.record_where.insert(mission.record_where.begin(), places.begin(), places.end());
+  mission.tap.record.insert(mission.tap.record.begin(), places.begin(), places.end());
 }
 
 }  // namespace fulmar::core

@@ -264,11 +264,11 @@ void check_record_rules(Draft& draft, const std::vector<std::string>& ports) {
         std::any_of(ports.begin(), ports.end(),
                     [&](const std::string& port) { return port_matches(port, pattern); }))
       continue;
-    if (taken_away(draft, pattern.substr(0, pattern.find('.')), draft.text.record_where[i], "record.ports"))
+    if (taken_away(draft, pattern.substr(0, pattern.find('.')), draft.text.tap.record[i], "record.ports"))
       continue;
     const std::string near = nearest(pattern, ports);
-    draft.report.add(draft.text.record_where[i], "record.ports: '" + pattern + "' matches no port." +
-                                                     (near.empty() ? "" : " Did you mean '" + near + "'?"));
+    draft.report.add(draft.text.tap.record[i], "record.ports: '" + pattern + "' matches no port." +
+                                                   (near.empty() ? "" : " Did you mean '" + near + "'?"));
   }
 }
 
@@ -290,7 +290,7 @@ void read_head(Draft& draft) {
   Graph& graph = draft.graph;
   static_cast<Settings&>(graph) = static_cast<const Settings&>(draft.text);
   graph.tick_ns = std::llround(1e9 / draft.text.rate_hz);
-  if (draft.text.airframe.is(Node::Kind::scalar)) graph.airframe = draft.text.airframe.text;
+  if (draft.text.node.airframe.is(Node::Kind::scalar)) graph.airframe = draft.text.node.airframe.text;
 }
 
 void resolve(Draft& draft, Catalogue& catalogue) {
@@ -369,10 +369,10 @@ Graph load_mission(const std::string& file, const Overrides& given, Catalogue& c
     if (!text.component(name) && !text.role(name))
       report.add({"--with " + name + "=" + with, 0}, not_there(draft, name));
   report.throw_if_any();
-  draft.graph.attachments = files.attachments();
-  draft.graph.file = text.file->path.string();
-  draft.graph.overrides = overrides;
-  draft.graph.files = files.paths();
+  draft.graph.source.attachments = files.attachments();
+  draft.graph.source.file = text.file->path.string();
+  draft.graph.source.overrides = overrides;
+  draft.graph.source.files = files.paths();
   return std::move(draft.graph);
 }
 

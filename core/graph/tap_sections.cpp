@@ -155,7 +155,7 @@ class DdsReader {
     const auto to = parse_port_name(entry.key, entry.where(), "dds.import", report_);
     const auto name = scalar_text(entry.value, path, "a topic such as /fulmar/plan_edits", report_);
     if (to && name && topic(*name, entry.where(), path))
-      m_.dds_imports.push_back({*to, *name, entry.where()});
+      m_.tap.dds_imports.push_back({*to, *name, entry.where()});
   }
 
   bool topic(const std::string& text, const Where& where, const std::string& path) {
@@ -225,8 +225,8 @@ void read_dds(const Keys& mission, MissionText& text, Report& report) {
 
 /// Inputs that are fed from outside. Before it is checked who feeds the others.
 void mark_imports(Draft& draft) {
-  for (std::size_t n = 0; n < draft.text.dds_imports.size(); ++n) {
-    const ImportText& import = draft.text.dds_imports[n];
+  for (std::size_t n = 0; n < draft.text.tap.dds_imports.size(); ++n) {
+    const ImportText& import = draft.text.tap.dds_imports[n];
     const std::string path = "dds.import." + import.to.text();
     const int index = draft.candidate(import.to.owner);
     if (index < 0) {
@@ -284,7 +284,7 @@ void resolve_dds(Draft& draft, const std::vector<std::string>& ports) {
     for (std::size_t i = 0; i < graph.components[c].wires.size(); ++i) {
       Wire& wire = graph.components[c].wires[i];
       if (wire.import < 0) continue;
-      const ImportText& import = nth(draft.text.dds_imports, wire.import);
+      const ImportText& import = nth(draft.text.tap.dds_imports, wire.import);
       wire.import = static_cast<int>(graph.dds.imports.size());
       graph.dds.imports.push_back({static_cast<int>(c), static_cast<int>(i), import.topic, import.where});
     }

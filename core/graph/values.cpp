@@ -18,7 +18,7 @@ struct AirframeSource {
 };
 
 AirframeSource airframe_source(Draft& draft) {
-  const Node& node = draft.text.airframe;
+  const Node& node = draft.text.node.airframe;
   if (node.is(Node::Kind::missing)) return {};
   if (node.is(Node::Kind::map)) return {&node, node.file->name, "airframe"};
   if (!scalar_text(node, "airframe", "the name of an airframe file, or a map", draft.report)) return {};
@@ -102,8 +102,9 @@ void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& 
     if (param.kind == FULMAR_RECORD && param.name == "airframe" && airframe.tree)
       read_record(param, *airframe.tree, airframe.path, airframe.name, value, draft.report,
                   keys_beside_fields(param));
-    if (param.kind == FULMAR_RECORD && param.name == "origin" && draft.text.origin.is(Node::Kind::map))
-      read_record(param, draft.text.origin, "origin", draft.text.origin.file->name, value, draft.report);
+    if (param.kind == FULMAR_RECORD && param.name == "origin" && draft.text.node.origin.is(Node::Kind::map))
+      read_record(param, draft.text.node.origin, "origin", draft.text.node.origin.file->name, value,
+                  draft.report);
     // whoever stamps its messages does it as the log does
     if (param.kind == FULMAR_COUNT && param.name == "epoch")
       value.integer = std::clamp(draft.text.epoch_ns / 1'000'000'000, static_cast<std::int64_t>(param.min),
@@ -147,8 +148,8 @@ void check_required(Draft& draft, const Candidate& candidate) {
     const ParamInfo& param = info.params[i];
     if (!param.required || candidate.params[i].integer != 0 || candidate.text->params.find(param.name))
       continue;
-    const Node* const whole = param.name == "airframe" ? &draft.text.airframe
-                              : param.name == "origin" ? &draft.text.origin
+    const Node* const whole = param.name == "airframe" ? &draft.text.node.airframe
+                              : param.name == "origin" ? &draft.text.node.origin
                                                        : nullptr;
     if (whole && !whole->is(Node::Kind::missing)) continue;  // it was refused: that is told already
     draft.report.add(candidate.where,
@@ -162,7 +163,7 @@ void check_required(Draft& draft, const Candidate& candidate) {
 
 void read_values(Draft& draft) {
   const AirframeSource airframe = airframe_source(draft);
-  const Node& origin = draft.text.origin;
+  const Node& origin = draft.text.node.origin;
   if (!origin.is(Node::Kind::missing))
     is_a(Node::Kind::map, origin, "origin", "a map such as {lat: 40.25, lon: -111.65, alt_msl: 1387 m}",
          draft.report);
@@ -184,7 +185,7 @@ void read_failsafe(Draft& draft) {
   Graph& graph = draft.graph;
   if (graph.vehicle < 0) return;
   const ComponentInfo& info = draft.vehicle().info();
-  const Node& node = draft.text.failsafe;
+  const Node& node = draft.text.node.failsafe;
   if (node.is(Node::Kind::missing) ||
       !is_a(Node::Kind::map, node, "failsafe", "a map such as {throttle_frac: 0, for: 2 s}", draft.report))
     return;

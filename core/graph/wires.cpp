@@ -73,7 +73,7 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
   const int input = info.input(text.name);
   if (input < 0 && is_exchanged(draft, candidate.name)) {
     const std::string sentence = path + " is left out: " + candidate.use + " of --with has no such input";
-    return draft.graph.warnings.push_back(text.where.text() + ": " + sentence);
+    return draft.graph.source.warnings.push_back(text.where.text() + ": " + sentence);
   }
   if (input < 0)
     return draft.report.add(text.where, path + ": " + candidate.use + " has no such input." +

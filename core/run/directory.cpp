@@ -80,8 +80,8 @@ ComponentView view_of(const Flight::Impl& flight, const Unit& unit) {
 }  // namespace
 
 FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(flight.commands) {
-  if (!flight.state.graph.file.empty())
-    view.file = std::filesystem::absolute(flight.state.graph.file).string();
+  if (!flight.state.graph.source.file.empty())
+    view.file = std::filesystem::absolute(flight.state.graph.source.file).string();
   view.mission = flight.state.graph.mission;
   view.io = io_word(flight.state.graph.io);
   view.epoch_ns = flight.state.graph.epoch_ns;
@@ -90,7 +90,7 @@ FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(fligh
   view.map.tiles = flight.state.graph.live.tiles;
   view.map.attribution = flight.state.graph.live.attribution;
   view.no_save = live::why_no_save(flight.state.graph.live);
-  for (const auto& [name, text] : flight.state.graph.overrides.set) view.set.push_back(name);
+  for (const auto& [name, text] : flight.state.graph.source.overrides.set) view.set.push_back(name);
   for (const Phase& p : flight.state.graph.phases) {
     view.phase.all.push_back(p.name);
     overlaid.emplace_back();

@@ -12,7 +12,7 @@ void Flight::Impl::swap(int at, const std::string& file) {
   const std::string& name = wiring.unit(at).component->name;
   if (at == state.graph.vehicle)
     throw Error(name + " is the vehicle: it holds the aircraft, and is changed when no flight goes on");
-  if (state.graph.file.empty())
+  if (state.graph.source.file.empty())
     throw Error("this flight was not read from a mission file: nothing can be swapped in it");
   if (const std::string why = protection.in_use(); !why.empty())
     throw Error(name + " cannot be swapped: " + why + ". A component is swapped on the ground, disarmed");
@@ -57,13 +57,13 @@ void Flight::Impl::replace(int at, const std::string& file) {
   const Unit& old = wiring.unit(at);
   const std::string name = old.component->name;
   check_unloads(*old.component->plugin, *old.info);
-  Overrides overrides = graph.overrides;
+  Overrides overrides = graph.source.overrides;
   std::erase_if(overrides.with, [&](const auto& with) { return with.first == name; });
   overrides.with.emplace_back(name, file);
   overrides.swaps = name;
-  Graph next = load_mission(graph.file, overrides);
+  Graph next = load_mission(graph.source.file, overrides);
   if (const std::string difference = structural_difference(graph, next); !difference.empty())
-    throw Error(graph.file + " has changed since this flight began (" + difference +
+    throw Error(graph.source.file + " has changed since this flight began (" + difference +
                 "): end it, and fly again");
   Component& newcomer = nth(next.components, at);
   check_ports(*old.component, newcomer);
@@ -124,9 +124,9 @@ void Flight::Impl::install(int at, Graph&& next, const std::string& words) {
   graph.phases = std::move(next.phases);
   graph.any = std::move(next.any);
   graph.roles = std::move(next.roles);
-  graph.done = std::move(next.done);
-  graph.failed = std::move(next.failed);
-  graph.overrides = std::move(next.overrides);
+  graph.judge.done = std::move(next.judge.done);
+  graph.judge.failed = std::move(next.judge.failed);
+  graph.source.overrides = std::move(next.source.overrides);
   put_in_place(at, std::move(fresh), "was swapped");
   swapped[at] = words;
   const PluginInfo& plugin = *graph.components[i].plugin;

@@ -21,7 +21,7 @@ std::string text_at(const std::byte* field, std::size_t room) {
 /// Which components report nothing, because this flight does not have them.
 std::string without(const Graph& graph) {
   std::vector<std::string> owners;
-  for (const auto& [key, port] : graph.left_out) {
+  for (const auto& [key, port] : graph.judge.left_out) {
     const std::string owner = port.substr(0, port.find('.'));
     if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
   }
@@ -49,10 +49,10 @@ std::string reason_of(const FlightResult& result) {
 }
 
 std::string verdict_line(const Graph& graph, const Flight& flight, const std::string& result_word) {
-  if (!graph.verdict && !graph.left_out.empty()) return result_word + ": " + without(graph);
-  const std::byte* const said = graph.verdict ? flight.sample(graph.verdict->from) : nullptr;
+  if (!graph.judge.verdict && !graph.judge.left_out.empty()) return result_word + ": " + without(graph);
+  const std::byte* const said = graph.judge.verdict ? flight.sample(graph.judge.verdict->from) : nullptr;
   if (!said) return result_word;
-  const VerdictPort& port = *graph.verdict;
+  const VerdictPort& port = *graph.judge.verdict;
   const std::string word = text_at(said + port.word, port.word_size),
                     text = text_at(said + port.text, port.text_size);
   const bool own = result_word == "failed" && !word.empty();

@@ -31,8 +31,8 @@ class Campaign {
     if (!seeds_.empty() && session_.graph().io == Io::fcu)
       throw CLI::ValidationError("--seeds belongs to a simulation: on hardware nothing is drawn by chance");
     if (!many.build.empty())
-      sources_ =
-          std::make_unique<FileStamps>(source_files(fs::absolute(session_.graph().file).parent_path()));
+      sources_ = std::make_unique<FileStamps>(
+          source_files(fs::absolute(session_.graph().source.file).parent_path()));
   }
 
   /// The exit code.

@@ -92,12 +92,12 @@ std::vector<std::pair<Where, std::string>> onlookers(const MissionText& text, co
   const auto transitions = [&](const std::vector<TransitionText>& next, const std::string& phase) {
     for (const TransitionText& t : next) look(t.when, "phases." + phase + ".next looks at ");
   };
-  if (text.done) look(*text.done, "done looks at ");
-  if (text.failed) look(*text.failed, "failed looks at ");
-  if (text.flown) look(*text.flown, "flown looks at ");
-  if (text.verdict) look(*text.verdict, "verdict comes from ");
-  for (const Word& word : text.progress) look(word, "progress shows ");
-  for (const auto& [key, word] : text.summary) look(word, "summary." + key + " shows ");
+  if (text.judge.done) look(*text.judge.done, "done looks at ");
+  if (text.judge.failed) look(*text.judge.failed, "failed looks at ");
+  if (text.judge.flown) look(*text.judge.flown, "flown looks at ");
+  if (text.judge.verdict) look(*text.judge.verdict, "verdict comes from ");
+  for (const Word& word : text.judge.progress) look(word, "progress shows ");
+  for (const auto& [key, word] : text.judge.summary) look(word, "summary." + key + " shows ");
   for (const auto& [param, word] : text.resume) look(word, "resume." + param + " takes up what was of ");
   for (const Word& word : text.tell) look(word, "tell listens to ");
   transitions(text.any, "any");

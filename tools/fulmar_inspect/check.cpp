@@ -39,7 +39,7 @@ std::vector<std::string> refused_set_ups(const Graph& graph) {
 
 int check_mission(const std::string& mission, const Overrides& overrides) {
   const Graph graph = load_mission(mission, overrides);
-  for (const std::string& warning : graph.warnings) warn(warning);
+  for (const std::string& warning : graph.source.warnings) warn(warning);
   Report unused;  // the mission is in order
   for (const std::string& sentence : advice_on(graph, parse_mission(mission, overrides, unused)))
     warn(sentence);

@@ -145,7 +145,7 @@ LogFigures log_figures(const std::filesystem::path& file) {
   reading.take_changes(out);
   if (reading.last_ns >= reading.first_ns)
     out.figures["flight_time_s"] = 1e-9 * static_cast<double>(reading.last_ns - reading.first_ns);
-  for (const auto& [key, port] : mission->summary) out.figures[key] = reading.shown(port.text);
+  for (const auto& [key, port] : mission->judge.summary) out.figures[key] = reading.shown(port.text);
   return out;
 }
 

@@ -39,7 +39,7 @@ std::string keyed(const std::string& key, const Overrides& o) {
 std::vector<std::string> warned(const std::string& from, const std::string& to,
                                 const std::string& io = "sim") {
   Mission mission;
-  std::vector<std::string> list = mission.replace(from, to).load(on(io)).warnings;
+  std::vector<std::string> list = mission.replace(from, to).load(on(io)).source.warnings;
   std::erase_if(list, [](const std::string& w) {
     return w.find("in simulation only") == std::string::npos &&
            w.find("does not measure") == std::string::npos;
@@ -122,7 +122,7 @@ TEST_CASE("a vehicle that measures contact, or whose contact_known is asked for,
     mission.replace("status: VehicleStatus", "wheels: Wheels, status: VehicleStatus")
         .replace(when, "\"not vehicle.wheels.on_ground\"");
     CHECK(mission.faults(on(io)) == "");
-    CHECK(mission.load(on(io)).warnings.empty());
+    CHECK(mission.load(on(io)).source.warnings.empty());
   }
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("a component that steers by the true state is told, one that only meas
   Mission mission;
   Overrides o = on("sim");
   o.roles = {{"nav", "truth"}};
-  const std::vector<std::string> truth = mission.load(o).warnings;
+  const std::vector<std::string> truth = mission.load(o).source.warnings;
   CHECK(std::none_of(truth.begin(), truth.end(),
                      [](const std::string& w) { return w.find("simulation only") != std::string::npos; }));
 }
@@ -160,11 +160,11 @@ TEST_CASE("a mission that is for simulation only, or has no other vehicle, is to
   const std::string crashed = "\"vehicle.status.crashed\"", when = "\"nav.state.height_m > 30 m\"";
   Mission mission;
   mission.replace(when, crashed).replace("seed: 7", "hardware: {fit: no, because: \"it is a toy\"}");
-  CHECK(mission.load().warnings.empty());
+  CHECK(mission.load().source.warnings.empty());
   Mission alone;
   alone.replace(when, crashed)
       .replace("  fcu:    {fills: vehicle, use: fcu_serial, params: {port: /dev/ttyACM0}}\n", "");
-  CHECK(alone.load().warnings.empty());
+  CHECK(alone.load().source.warnings.empty());
 }
 
 TEST_CASE("each shipped mission says whether it is for hardware") {

@@ -31,7 +31,7 @@ std::string component_names(const Graph& graph) { return join(names_of(graph.com
 
 std::string left_out(const Graph& graph) {
   std::vector<std::string> list;
-  for (const auto& [key, port] : graph.left_out) list.push_back(key + " (" + port + ")");
+  for (const auto& [key, port] : graph.judge.left_out) list.push_back(key + " (" + port + ")");
   return join(list);
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("a mission extends one that extends another one, to any depth, each re
   CHECK(graph.timeout_ns == 60'000'000'000);
   CHECK(nth(graph.components, 0).name == "sim");
   std::vector<std::string> files;
-  for (const auto& [name, text] : graph.attachments) files.push_back(name);
+  for (const auto& [name, text] : graph.source.attachments) files.push_back(name);
   CHECK(join(files) ==
         "hourglass.yaml, one.yaml, two.yaml, ground.yaml, anaconda.yaml, plans/hourglass.yaml");
 }
@@ -86,9 +86,9 @@ TEST_CASE("null takes away a wire, a component, a phase, a parameter, a key") {
   CHECK(param(graph, "sim", "wind_ned").number[0] == 0);
   CHECK(join(names_of(graph.phases)) == "hold, takeoff, cruise");
   CHECK(nth(graph.phases, 1).roles[3].set.empty());
-  CHECK_FALSE(graph.done);
-  REQUIRE(graph.summary.size() == 1);
-  CHECK(graph.summary[0].first == "estimation_rmse");
+  CHECK_FALSE(graph.judge.done);
+  REQUIRE(graph.judge.summary.size() == 1);
+  CHECK(graph.judge.summary[0].first == "estimation_rmse");
 }
 
 TEST_CASE("what is taken away below can be there again above") {
@@ -173,15 +173,15 @@ TEST_CASE("figures, verdict and texts go with the component that a layer takes a
   Layered mission("extends: ground.yaml\ncomponents:\n  score: null\n");
   mission.folder.write("ground.yaml", Mission().text + "\nverdict: score.verdict\ntell: [score.notices]\n");
   const Graph graph = mission.load();
-  CHECK_FALSE(graph.verdict);
+  CHECK_FALSE(graph.judge.verdict);
   CHECK(graph.tell.empty());
-  REQUIRE(graph.summary.size() == 2);  // their keys stay in the result, without a value
-  for (const auto& [key, from] : graph.summary) CHECK(from.kind == Source::Kind::none);
+  REQUIRE(graph.judge.summary.size() == 2);  // their keys stay in the result, without a value
+  for (const auto& [key, from] : graph.judge.summary) CHECK(from.kind == Source::Kind::none);
   CHECK(left_out(graph) ==
         "verdict (score.verdict), summary.tracking_rmse (score.tracking), "
         "summary.estimation_rmse (score.estimation), tell (score.notices)");
-  REQUIRE(graph.warnings.size() == 1);
-  CHECK(graph.warnings[0].find("score") != std::string::npos);
+  REQUIRE(graph.source.warnings.size() == 1);
+  CHECK(graph.source.warnings[0].find("score") != std::string::npos);
   mission.text += "done: \"score.tracking.circuits > 1\"\n";  // what decides does not go
   CHECK(mission.faults().find("hourglass.yaml:3: components.score is taken away here and still named by done "
                               "(hourglass.yaml:4)") == 0);

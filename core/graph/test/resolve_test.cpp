@@ -59,11 +59,11 @@ TEST_CASE("the hourglass mission resolves into components, order, roles and phas
   CHECK(graph.phases[1].next[0].to == 2);
   CHECK(graph.any.size() == 1);
   CHECK(names(graph, {graph.phases[3].roles[3].fallback}) == "tecs");
-  CHECK(graph.done->text() == "manage.progress.circuits >= 2");
-  REQUIRE(graph.progress.size() == 4);
-  CHECK(graph.progress[1].field.unit == "m/s");
-  CHECK(graph.progress[3].field.unit == "rad");
-  CHECK(graph.summary.size() == 2);
+  CHECK(graph.judge.done->text() == "manage.progress.circuits >= 2");
+  REQUIRE(graph.judge.progress.size() == 4);
+  CHECK(graph.judge.progress[1].field.unit == "m/s");
+  CHECK(graph.judge.progress[3].field.unit == "rad");
+  CHECK(graph.judge.summary.size() == 2);
 }
 
 TEST_CASE("one word flies the mission on hardware: only the chosen vehicle exists") {
@@ -132,7 +132,7 @@ TEST_CASE(
   Overrides hidden;
   hidden.set = {{"slc.law", "takeoff"}};
   const auto warned = [](const Graph& graph, const std::string& words) {
-    return std::count_if(graph.warnings.begin(), graph.warnings.end(),
+    return std::count_if(graph.source.warnings.begin(), graph.source.warnings.end(),
                          [&](const std::string& w) { return w.find(words) != std::string::npos; });
   };
   CHECK(warned(mission.load(hidden), "--set slc.law=takeoff has no effect in takeoff") == 1);
@@ -191,7 +191,7 @@ TEST_CASE(
   CHECK(graph.phases[1].roles[3].set.empty());  // what a phase says of a role is replaced
   CHECK(graph.phases[1].next.size() == 1);      // its transitions stay
   std::vector<std::string> files;
-  for (const auto& [name, text] : graph.attachments) files.push_back(name);
+  for (const auto& [name, text] : graph.source.attachments) files.push_back(name);
   CHECK(join(files) == "hourglass.yaml, common.yaml, anaconda.yaml, plans/hourglass.yaml");
 
   mission.replace("turbulence: none", "turbulence: nne").replace("seed: 3", "sed: 3");
@@ -212,12 +212,12 @@ TEST_CASE(
 TEST_CASE("two files of one name are both kept, and equal files once") {
   Mission mission;
   const Graph graph = mission.load();
-  REQUIRE(graph.attachments.size() == 3);
-  CHECK(graph.attachments[0].first == "hourglass.yaml");
-  CHECK(graph.attachments[0].second == mission.text);
-  CHECK(graph.attachments[1].first == "anaconda.yaml");
-  CHECK(graph.attachments[2].first == "plans/hourglass.yaml");
-  CHECK(graph.attachments[2].second == hourglass_plan);
+  REQUIRE(graph.source.attachments.size() == 3);
+  CHECK(graph.source.attachments[0].first == "hourglass.yaml");
+  CHECK(graph.source.attachments[0].second == mission.text);
+  CHECK(graph.source.attachments[1].first == "anaconda.yaml");
+  CHECK(graph.source.attachments[2].first == "plans/hourglass.yaml");
+  CHECK(graph.source.attachments[2].second == hourglass_plan);
 }
 
 TEST_CASE("recording is off, all, or by pattern") {

@@ -29,7 +29,7 @@ TEST_CASE("two fences that differ are reported, one for all is not") {
                     "fills: nav, use: estimator_ekf, params: {" + fence("1") + "}");
     Overrides o;
     o.set.emplace_back("plan.fence", fence(lat).substr(7));
-    return mission.load(o).warnings;
+    return mission.load(o).source.warnings;
   };
   CHECK(warnings("1").empty());
   REQUIRE(warnings("1.5").size() == 1);

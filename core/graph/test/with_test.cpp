@@ -29,15 +29,16 @@ std::string use_of(const Graph& graph, const std::string& name) {
 TEST_CASE("a role in --with stands for the component that fills it in this run") {
   Mission mission;
   const Graph usual = mission.load(with({{"nav", "estimator_ekf"}}));
-  CHECK(usual.overrides.with == Pairs{{"ekf", "estimator_ekf"}});  // as a swap finds it
+  CHECK(usual.source.overrides.with == Pairs{{"ekf", "estimator_ekf"}});  // as a swap finds it
   Overrides chosen = with({{"nav", "sim_aero"}});
   chosen.roles = {{"nav", "truth"}};
-  CHECK(mission.load(chosen).overrides.with == Pairs{{"truth", "sim_aero"}});
+  CHECK(mission.load(chosen).source.overrides.with == Pairs{{"truth", "sim_aero"}});
   Mission other;  // the first that exists: the one before it is of hardware alone
   other.replace("ekf:    {fills",
                 "real:   {fills: nav, use: sim_aero/TruthState, in: {truth: vehicle.truth}, "
                 "only: fcu}\n  ekf:    {fills");
-  CHECK(other.load(with({{"nav", "estimator_ekf"}})).overrides.with == Pairs{{"ekf", "estimator_ekf"}});
+  CHECK(other.load(with({{"nav", "estimator_ekf"}})).source.overrides.with ==
+        Pairs{{"ekf", "estimator_ekf"}});
 }
 
 TEST_CASE("a role that several fill in turn is refused, with their names; so is what is neither") {
@@ -47,7 +48,7 @@ TEST_CASE("a role that several fill in turn is refused, with their names; so is 
   Overrides one = with({{"outer", "control_slc/Outer"}});
   one.roles = {{"outer", "tecs"}};
   const Graph graph = mission.load(one);
-  CHECK(graph.overrides.with == Pairs{{"tecs", "control_slc/Outer"}});
+  CHECK(graph.source.overrides.with == Pairs{{"tecs", "control_slc/Outer"}});
   CHECK(use_of(graph, "tecs") == "control_slc/Outer");
   CHECK(mission.faults(with({{"navi", "x"}})).starts_with("--with navi=x: there is no component 'navi'."));
   CHECK(mission.faults(with({{"vehicle", "nothing"}})).find("components.sim: ") != std::string::npos);
@@ -62,8 +63,8 @@ TEST_CASE("a filter of one's own takes the place of the shipped one with the inp
   mission.shelf.add("my_filter", "MyFilter", inputs, ekf.outputs);
   const Graph graph = mission.load(with({{"nav", "my_filter"}}));
   CHECK(use_of(graph, "ekf") == "my_filter/MyFilter");
-  REQUIRE(graph.warnings.size() == 1);
-  CHECK(graph.warnings[0].find("components.ekf.in.status") != std::string::npos);
+  REQUIRE(graph.source.warnings.size() == 1);
+  CHECK(graph.source.warnings[0].find("components.ekf.in.status") != std::string::npos);
   mission.shelf.add("my_filter", "Other", inputs, ekf.outputs);
   CHECK(mission.faults(with({{"nav", "my_filter"}})).find("--with ekf=my_filter/MyFilter") !=
         std::string::npos);

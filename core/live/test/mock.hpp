@@ -40,13 +40,13 @@ class MockControl : public Control {
     FlightView v;
     v.mission = "mock <1>";
     v.io = "sim";
-    v.phase = "cruise";
-    v.phases = {"hold", "cruise"};
-    v.paused = paused;
+    v.phase.now = "cruise";
+    v.phase.all = {"hold", "cruise"};
+    v.pace.paused = paused;
     v.seed = 18'000'000'000'000'000'001u;
     v.origin = Geodetic{40.25, -111.65, 1387};
-    v.tiles = "https://a.b/{z}/{x}/{y}";
-    v.attribution = "Example";
+    v.map.tiles = "https://a.b/{z}/{x}/{y}";
+    v.map.attribution = "Example";
     v.epoch_ns = 1'767'225'600'000'000'000;
     v.components = {controller(), planner()};
     return v;

@@ -20,11 +20,12 @@ bool FlightEnd::reached() {
   Ending::Facts facts;
   facts.now_ns = state_.now_ns;
   facts.armed = protection_.armed_hardware();
-  facts.done =
-      graph.done && ending_.asks_done() && wiring_.held_for(*graph.done, graph.done_for_ns, done_since_ns_);
-  facts.failed = graph.failed && ending_.asks_failed() &&
-                 wiring_.held_for(*graph.failed, graph.failed_for_ns, failed_since_ns_);
-  if (graph.flown && !flown_) flown_ = wiring_.held_for(*graph.flown, graph.flown_for_ns, flown_since_ns_);
+  facts.done = graph.judge.done && ending_.asks_done() &&
+               wiring_.held_for(*graph.judge.done, graph.done_for_ns, done_since_ns_);
+  facts.failed = graph.judge.failed && ending_.asks_failed() &&
+                 wiring_.held_for(*graph.judge.failed, graph.failed_for_ns, failed_since_ns_);
+  if (graph.judge.flown && !flown_)
+    flown_ = wiring_.held_for(*graph.judge.flown, graph.flown_for_ns, flown_since_ns_);
   facts.duration =
       options.duration_s && state_.now_ns >= static_cast<std::int64_t>(*options.duration_s * 1e9);
   facts.timeout = graph.timeout_ns > 0 && !state_.on_hardware() && state_.now_ns >= graph.timeout_ns;
@@ -61,10 +62,10 @@ void FlightEnd::conclude() {
   FlightResult& result = state_.result;
   result.outcome = Ending::outcome(ending_.reason());
   result.reason = reason_text();
-  const bool short_of_it = ending_.reason() == Ending::Reason::done && state_.graph.flown && !flown_;
+  const bool short_of_it = ending_.reason() == Ending::Reason::done && state_.graph.judge.flown && !flown_;
   if (!short_of_it) return;
   result.outcome = Outcome::aborted;
-  result.reason += "; never held: " + state_.graph.flown->text();
+  result.reason += "; never held: " + state_.graph.judge.flown->text();
 }
 
 /// What the signal's handler does meanwhile is in run_command.cpp.
@@ -92,8 +93,8 @@ void FlightEnd::tell_verdict(Code code, const char* what) {
 std::string FlightEnd::reason_text() const {
   switch (ending_.reason()) {
     case Ending::Reason::none: break;
-    case Ending::Reason::done: return state_.graph.done->text();
-    case Ending::Reason::failed: return state_.graph.failed->text();
+    case Ending::Reason::done: return state_.graph.judge.done->text();
+    case Ending::Reason::failed: return state_.graph.judge.failed->text();
     case Ending::Reason::duration: return "duration reached";
     case Ending::Reason::timeout:
       return "not done within " + short_number(1e-9 * static_cast<double>(state_.graph.timeout_ns)) +

@@ -78,8 +78,8 @@ void Roles::stop(int component, Code code) {
   const std::size_t guard = guards.size() - 1;
   fall_back(component, guard);
   end_tenures([component](int who, int) { return who == component; });
-  tell_blind("done", state_.graph.done.get(), component);
-  tell_blind("failed", state_.graph.failed.get(), component);
+  tell_blind("done", state_.graph.judge.done.get(), component);
+  tell_blind("failed", state_.graph.judge.failed.get(), component);
   tell_blind(state_.graph.any, component);
   tell_blind(present().next, component);
   if (!nobody_drives(component)) return;

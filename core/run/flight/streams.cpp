@@ -52,8 +52,8 @@ void Streams::connect(const Wiring& wiring, const FlightState& state) {
       if (wire.by_steps && (wire.max_age_ns > 0 || unit->info->vehicle))
         add_source(wire.from, wire.max_age_ns, wiring, graph);
     }
-  add_condition(graph.done.get(), wiring, graph);
-  add_condition(graph.failed.get(), wiring, graph);
+  add_condition(graph.judge.done.get(), wiring, graph);
+  add_condition(graph.judge.failed.get(), wiring, graph);
   for (const Transition& t : graph.any) add_condition(t.when.get(), wiring, graph);
   for (const Phase& phase : graph.phases)
     for (const Transition& t : phase.next) add_condition(t.when.get(), wiring, graph);

@@ -187,7 +187,7 @@ Pairs overrides_text(const Overrides& o) {
 
 void Recorder::attach_texts(const Units& units) {
   const Graph& graph = state_.graph;
-  for (const auto& [name, text] : graph.attachments) log_->attach(name, "application/yaml", text);
+  for (const auto& [name, text] : graph.source.attachments) log_->attach(name, "application/yaml", text);
   log_->attach("parameters.json", "application/json", parameters_text(units));
   std::string order;
   for (const int i : graph.order) order += nth(graph.components, i).name + "\n";
@@ -198,7 +198,7 @@ void Recorder::attach_texts(const Units& units) {
     for (const auto& [key, value] : flown_pairs(p)) plugins.emplace_back(c.name + "." + key, value);
   }
   log_->metadata("plugins", plugins);
-  log_->metadata("overrides", overrides_text(graph.overrides));
+  log_->metadata("overrides", overrides_text(graph.source.overrides));
   log_->metadata("fulmar",
                  {{"version", FULMAR_VERSION},
                   {"abi", std::to_string(FULMAR_ABI_MAJOR) + "." + std::to_string(FULMAR_ABI_MINOR)},

@@ -105,13 +105,13 @@ TEST_CASE("who says 'max_age: off' flies on, and is warned before") {
       "  one:  {fills: law, use: lab/Law, in: {signal: {from: plan.signal, max_age: off}}}\n" +
           std::string(one_phase),
       {{"plan.stop_at", "0.1"}});
-  REQUIRE(g.warnings.size() == 1);
-  CHECK(g.warnings[0].find("one.signal leads to the vehicle and is flown on however old it is") !=
+  REQUIRE(g.source.warnings.size() == 1);
+  CHECK(g.source.warnings[0].find("one.signal leads to the vehicle and is flown on however old it is") !=
         std::string::npos);
   const FlightResult r = Flight(g, options(2)).run();
   REQUIRE(r.guards.size() == 1);
   CHECK(r.guards[0].component == "plan");
-  CHECK(mission(std::string(through_plan) + one_phase).warnings.empty());
+  CHECK(mission(std::string(through_plan) + one_phase).source.warnings.empty());
 }
 
 TEST_CASE("who waits for the first sample of a writer that was stopped does not wait for ever") {

@@ -412,9 +412,9 @@ TEST_CASE(
     "a vehicle that has not said anything yet counts as disarmed, on the ground and in control: a host can "
     "be ended at its desk") {
   const Graph g = strange(its_flags, "fcu", its_ports, "control: [law]\n");
-  Overrides mute = g.overrides;
+  Overrides mute = g.source.overrides;
   mute.set = {{"craft.speak_at", "1e6"}};
-  const Graph silent = load_mission(g.file, mute);
+  const Graph silent = load_mission(g.source.file, mute);
   std::atomic<int> interrupt{0};
   Said said;
   FlightOptions o = listening(said);

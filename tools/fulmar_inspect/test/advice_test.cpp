@@ -23,9 +23,9 @@ namespace {
 
 Advice advised(Mission& mission) {
   const Graph graph = mission.load();
-  CHECK(graph.warnings.empty());
+  CHECK(graph.source.warnings.empty());
   Report report;
-  return advice_on(graph, parse_mission(graph.file, {}, report));
+  return advice_on(graph, parse_mission(graph.source.file, {}, report));
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ struct HostileControl : test::MockControl {
                           "\xc2\x9b"
                           "2J";
     v.mission += clear;
-    v.phase += title;
+    v.phase.now += title;
     v.io += eight_bits;
-    for (std::string& phase : v.phases) phase += clear;
+    for (std::string& phase : v.phase.all) phase += clear;
     for (ComponentView& c : v.components) {
       c.name += clear;
       c.use += title;

@@ -113,17 +113,6 @@ class Layers(unittest.TestCase):
             (self.root / room / "README.md").unlink()
             self.refused(f"{room} has no README.md")
 
-    def test_a_long_file_and_a_fat_struct_of_run(self):
-        self.write("core/run/state/long.cpp", "int a;\n" * 450)
-        self.assertEqual(self.layers().returncode, 0)
-        self.write("core/run/state/long.cpp", "int a;\n" * 451)
-        self.refused("core/run/state/long.cpp has 451 lines; 450 is the limit in core/run")
-        members = "  int a = 0, b{1};\n  std::map<int, std::vector<int>> c;\n  void f() { int inside; }\n  static int s;\n  std::size_t d[2];\n"
-        self.write("core/run/record/fat.hpp", "struct Fat {\n" + members + "};\nenum class Kind { a, b };\n")
-        self.assertIn("   4 Fat (core/run/record/fat.hpp)", self.layers("--members").stdout)
-        self.write("core/run/record/fat.hpp", "class Fat final : public Base {\n" + "".join(f"  int m{i}_;\n" for i in range(16)) + "};\n")
-        self.refused("core/run/record/fat.hpp: Fat has 16 data members; 15 is the limit in core/run")
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -67,14 +67,14 @@ Hub::Hub(Tap& tap, Control& control, Counters& counters) : tap_(tap), control_(c
   mission_ = now.mission;
   services_ = services_of(now);
   for (const std::string& name : parameter_names(now))
-    if (find_parameter(now, name)->info.kind == FULMAR_STRING) text_parameters_.insert(name);
+    if (find_parameter(now, name)->info.kind == FULMAR_STRING) parameters_.texts.insert(name);
   std::size_t largest = 0;
   for (const TapChannel& c : tap_.channels()) {
     channels_.push_back(
         {CdrEncoder(*c.type), {}, c.may_stay_silent || c.past > 0, std::max<std::size_t>(c.past, 1)});
     largest = std::max(largest, channels_.back().encoder.max_size());
   }
-  scratch_.resize(largest);
+  feed_.scratch.resize(largest);
   const json info = {
       {"op", "serverInfo"},
       {"name", "Fulmar: " + now.mission},
@@ -83,19 +83,19 @@ Hub::Hub(Tap& tap, Control& control, Counters& counters) : tap_(tap), control_(c
       {"supportedEncodings", {"cdr", "json"}},
       {"metadata", {{"mission", now.mission}, {"io", now.io}, {"version", FULMAR_VERSION}}},
       {"sessionId", session_id()}};
-  info_ = shared(dumped(info));
-  advertisement_ = shared(dumped(advertise(tap_)));
-  service_list_ = shared(dumped(advertise_services(services_)));
+  greeting_.info = shared(dumped(info));
+  greeting_.advertisement = shared(dumped(advertise(tap_)));
+  greeting_.service_list = shared(dumped(advertise_services(services_)));
 }
 
 Hub::~Hub() { close(); }
 
 void Hub::begin(std::function<void()> wake) {
   mailbox_ = std::make_shared<Inbox<std::function<void()>>>(std::move(wake));
-  cursor_ = std::make_unique<Tap::Cursor>(tap_);
+  feed_.cursor = std::make_unique<Tap::Cursor>(tap_);
   for (std::size_t i = 0; i < channels_.size(); ++i) want_unseen(i);
   control_.on_parameter([this, mailbox = mailbox_](const std::string& component, const std::string& param) {
-    mailbox->put([this, name = component + "." + param] { changed_.insert(name); });
+    mailbox->put([this, name = component + "." + param] { parameters_.changed.insert(name); });
   });
 }
 
@@ -111,7 +111,8 @@ Hub::ClientId Hub::add(Peer& peer) {
   counters_.clients = clients_.size();
   if (clients_.size() == 1)
     for (std::size_t i = 0; i < channels_.size(); ++i) want_unseen(i);  // the time, from now on
-  for (const auto& message : {info_, advertisement_, service_list_}) send_text(client, message);
+  for (const auto& message : {greeting_.info, greeting_.advertisement, greeting_.service_list})
+    send_text(client, message);
   return id;
 }
 
@@ -131,9 +132,9 @@ void Hub::want_unseen(std::size_t index) {
   if (!channel.listeners.empty()) return;
   const bool clock = tap_.channels()[index].topic == "/fulmar/ticks";  // the time is for all clients
   if (clock)
-    cursor_->want(index, clients_.empty() ? -1 : 0);
+    feed_.cursor->want(index, clients_.empty() ? -1 : 0);
   else
-    cursor_->want(index, channel.seldom ? 0 : unseen_period_ns);
+    feed_.cursor->want(index, channel.seldom ? 0 : unseen_period_ns);
 }
 
 void Hub::stop_listening(Client& client, std::uint32_t subscription) {
@@ -156,7 +157,7 @@ Hub::Client* Hub::find(ClientId id) const {
 
 FlightView Hub::view() {
   FlightView now = control_.view();
-  epoch_ns_ = now.epoch_ns;
+  time_.epoch_ns = now.epoch_ns;
   return now;
 }
 
@@ -247,7 +248,7 @@ void Hub::answers() {
 
 bool Hub::tick() {
   answers();
-  if (!cursor_) return false;
+  if (!feed_.cursor) return false;
   const bool more = drain();
   flush_parameters();
   warn_of_drops();
@@ -258,17 +259,17 @@ bool Hub::drain() {
   Message message;
   std::size_t count = 0;
   const Tap::Sample* sample = nullptr;
-  while (count < samples_per_turn && (sample = cursor_->next()) != nullptr) {
+  while (count < samples_per_turn && (sample = feed_.cursor->next()) != nullptr) {
     ++count;
-    newest_ns_ = sample->now_ns;
-    time_known_ = true;
+    time_.newest_ns = sample->now_ns;
+    time_.known = true;
     Channel& channel = channels_[sample->channel];
     if (!channel.listeners.empty()) encode(channel, sample->data(), message);
     for (const auto& [client, subscription] : channel.listeners)
       give(*client, message, subscription, sample->now_ns, owed(channel));
     keep(*sample);
   }
-  counters_.lost += cursor_->lost() - std::exchange(lost_before_, cursor_->lost());
+  counters_.lost += feed_.cursor->lost() - std::exchange(feed_.lost_before, feed_.cursor->lost());
   if (count > 0) send_time();
   return count == samples_per_turn;
 }
@@ -276,7 +277,7 @@ bool Hub::drain() {
 /// To where the loop is now.
 void Hub::catch_up() {
   const std::uint64_t here = tap_.written();
-  while (cursor_->read() < here && drain()) {
+  while (feed_.cursor->read() < here && drain()) {
   }
 }
 
@@ -288,7 +289,7 @@ void Hub::give(Client& client, Message& message, std::uint32_t subscription, std
   message.head_size = message.head.size();
   message.head[0] = op_data;
   put(&message.head[1], subscription);
-  put(&message.head[5], static_cast<std::uint64_t>(std::max<std::int64_t>(0, epoch_ns_ + now_ns)));
+  put(&message.head[5], static_cast<std::uint64_t>(std::max<std::int64_t>(0, time_.epoch_ns + now_ns)));
   if (owed) client.peer->send(message);
   if (owed || client.peer->offer(message)) {
     ++counters_.sent;
@@ -299,8 +300,8 @@ void Hub::give(Client& client, Message& message, std::uint32_t subscription, std
 }
 
 void Hub::encode(Channel& channel, const std::byte* data, Message& message) {
-  const std::size_t size = channel.encoder.encode(data, scratch_.data());
-  message.body = shared(std::string(reinterpret_cast<const char*>(scratch_.data()), size));
+  const std::size_t size = channel.encoder.encode(data, feed_.scratch.data());
+  message.body = shared(std::string(reinterpret_cast<const char*>(feed_.scratch.data()), size));
 }
 
 void Hub::keep(const Tap::Sample& sample) {
@@ -325,7 +326,7 @@ void Hub::keep(const Tap::Sample& sample) {
 void Hub::give_past(Client& client, std::size_t index, std::uint32_t subscription, bool paused) {
   Channel& channel = channels_[index];
   for (const Kept& kept : channel.past) {
-    const bool holds = channel.seldom || (paused && newest_ns_ - kept.now_ns <= fresh_ns);
+    const bool holds = channel.seldom || (paused && time_.newest_ns - kept.now_ns <= fresh_ns);
     if (!holds) continue;
     Message sample;
     encode(channel, kept.data.data(), sample);
@@ -335,21 +336,22 @@ void Hub::give_past(Client& client, std::size_t index, std::uint32_t subscriptio
 
 void Hub::send_time() {
   const auto now = steady_clock::now();
-  if (!time_known_ || now - time_sent_ < time_period) return;
-  time_sent_ = now;
+  if (!time_.known || now - time_.sent < time_period) return;
+  time_.sent = now;
   Message message;
   message.binary = true;
   message.head_size = 9;
   message.head[0] = op_time;
   message.body = shared("");
-  put(&message.head[1], static_cast<std::uint64_t>(std::max<std::int64_t>(0, epoch_ns_ + newest_ns_)));
+  put(&message.head[1],
+      static_cast<std::uint64_t>(std::max<std::int64_t>(0, time_.epoch_ns + time_.newest_ns)));
   for (const auto& [id, client] : clients_) client->peer->offer(message);
 }
 
 void Hub::warn_of_drops() {
   const auto now = steady_clock::now();
-  if (now - drops_told_ < drops_period) return;
-  drops_told_ = now;
+  if (now - feed_.loss_reported < drops_period) return;
+  feed_.loss_reported = now;
   for (const auto& [id, client] : clients_) {
     if (client->dropped == client->told) continue;
     status(*client, 1,
@@ -361,9 +363,9 @@ void Hub::warn_of_drops() {
 
 /// Values as they are now: to who has set them, and to who watches them.
 void Hub::flush_parameters() {
-  if (replies_.empty() && changed_.empty()) return;
+  if (parameters_.replies.empty() && parameters_.changed.empty()) return;
   const FlightView now = view();
-  for (const std::shared_ptr<Pending>& reply : std::exchange(replies_, {})) {
+  for (const std::shared_ptr<Pending>& reply : std::exchange(parameters_.replies, {})) {
     Client* client = find(reply->client);
     if (client == nullptr) continue;
     json values = json::array();
@@ -372,13 +374,14 @@ void Hub::flush_parameters() {
       if (p == nullptr) continue;
       values.push_back(parameter_json(name, *p));
       if (p->overlaid)
-        status(*client, 1,
-               name + " is set, but the phase '" + now.phase.now + "' has another value for it while it lasts.");
+        status(
+            *client, 1,
+            name + " is set, but the phase '" + now.phase.now + "' has another value for it while it lasts.");
     }
     if (reply->id)
       send_json(*client, {{"op", "parameterValues"}, {"parameters", values}, {"id", *reply->id}});
   }
-  const std::set<std::string> changed = std::exchange(changed_, {});
+  const std::set<std::string> changed = std::exchange(parameters_.changed, {});
   for (const auto& [id, client] : clients_) {
     json values = json::array();
     for (const std::string& name : changed) {

@@ -160,21 +160,30 @@ class Hub {
   std::shared_ptr<Inbox<std::function<void()>>> mailbox_;  // from other threads into the hub's
   std::string mission_;
   FlightView begun_;  // the flight as it was when it began
-  std::int64_t epoch_ns_ = 0, newest_ns_ = 0;
-  bool time_known_ = false;
-  std::chrono::steady_clock::time_point time_sent_{}, drops_told_{};
+  struct {
+    std::int64_t epoch_ns = 0, newest_ns = 0;
+    bool known = false;
+    std::chrono::steady_clock::time_point sent{};
+  } time_;
   std::vector<Service> services_;
-  std::set<std::string> text_parameters_;  // whose value is a text: "40 deg" is no number there
+  struct {
+    std::set<std::string> texts;  // whose value is a text: "40 deg" is no number there
+    std::set<std::string> changed;
+    std::vector<std::shared_ptr<Pending>> replies;  // sets whose every answer is there
+  } parameters_;
   std::vector<Channel> channels_;
-  std::shared_ptr<const std::string> info_, advertisement_, service_list_;
-  std::vector<std::byte> scratch_;
-  // from `begin` on: what is published seldom is kept before there is a client
-  std::unique_ptr<Tap::Cursor> cursor_;
-  std::uint64_t lost_before_ = 0;  // of the cursor, in the counters already
+  struct {
+    std::shared_ptr<const std::string> info, advertisement, service_list;
+  } greeting_;  // of a new client
+  struct {
+    // from `begin` on: what is published seldom is kept before there is a client
+    std::unique_ptr<Tap::Cursor> cursor;
+    std::uint64_t lost_before = 0;  // of the cursor, in the counters already
+    std::chrono::steady_clock::time_point loss_reported{};
+    std::vector<std::byte> scratch;
+  } feed_;
   std::map<ClientId, std::unique_ptr<Client>> clients_;
   ClientId next_id_ = 1;
-  std::vector<std::shared_ptr<Pending>> replies_;  // sets whose every answer is there
-  std::set<std::string> changed_;                  // parameters
   Saving saving_;
 };
 

@@ -70,7 +70,7 @@ void Hub::subscribe(Client& client, const json& message) {
                          : "subscription " + std::to_string(id) + " is in use");
       continue;
     }
-    cursor_->want(index, 0);
+    feed_.cursor->want(index, 0);
     catch_up();  // what is in the ring may be one sample of many: the stream of a client has no gap
     client.subscriptions[id] = index;
     channel.listeners.emplace_back(&client, id);
@@ -170,7 +170,7 @@ void Hub::set_parameters(Client& client, const json& message) {
   pending->open = list.size() + 1;
   client.unanswered += list.size();
   for (const json& parameter : list) set_one(client, pending, parameter);
-  if (--pending->open == 0) replies_.push_back(pending);
+  if (--pending->open == 0) parameters_.replies.push_back(pending);
 }
 
 void Hub::set_one(Client& asker, const std::shared_ptr<Pending>& pending, const json& parameter) {
@@ -181,7 +181,7 @@ void Hub::set_one(Client& asker, const std::shared_ptr<Pending>& pending, const 
       --client->unanswered;
       if (!refusal.empty()) status(*client, 2, name + ": " + refusal);
     }
-    if (--pending->open == 0) replies_.push_back(pending);
+    if (--pending->open == 0) parameters_.replies.push_back(pending);
   };
   try {
     if (told_enough(asker)) throw Error("");
@@ -189,7 +189,7 @@ void Hub::set_one(Client& asker, const std::shared_ptr<Pending>& pending, const 
     const std::size_t dot = name.find('.');
     if (dot == std::string::npos) throw Error("a parameter is named COMPONENT.PARAMETER");
     if (value == parameter.end() || value->is_null()) throw Error("a parameter cannot be removed");
-    const std::string text = mission_text(*value, text_parameters_.contains(name));
+    const std::string text = mission_text(*value, parameters_.texts.contains(name));
     control_.set_parameter(name.substr(0, dot), name.substr(dot + 1), text,
                            [mailbox = mailbox_, done](const std::string& refusal) {
                              mailbox->put([done, refusal] { done(refusal); });

@@ -60,9 +60,9 @@ struct FlightView {
   std::optional<Geodetic> origin;  // of the local frame, where the mission says it
   struct {
     std::string tiles, attribution;
-  } map;  // LiveOptions
-  std::string no_save;             // why no client may write files; "": each may
-  std::vector<std::string> set;    // parameters that the command line has set, "slc.roll_kp"
+  } map;                         // LiveOptions
+  std::string no_save;           // why no client may write files; "": each may
+  std::vector<std::string> set;  // parameters that the command line has set, "slc.roll_kp"
 };
 
 /// The parameter "slc.roll_kp", or nullptr.

@@ -32,7 +32,8 @@ class Session {
 
   /// Loads the plugin and creates the component. Throws Error.
   void open(const Order& order) {
-    if (control().set_up.version != shared_version) throw Error("fulmar-child is of another version than the host");
+    if (control().set_up.version != shared_version)
+      throw Error("fulmar-child is of another version than the host");
     load(order);
     check(read_entry(*plugin_, order.file).components, order);
     const TableReader tables;
@@ -123,8 +124,8 @@ class Session {
                   std::to_string(order.index) + " any more: its copy has changed");
     info_ = components[order.index];
     layout_.emplace_back(info_);
-    if (layout_[0].signature != control().set_up.signature || layout_[0].size != control().set_up.layout_size ||
-        layout_[0].size > size_)
+    if (layout_[0].signature != control().set_up.signature ||
+        layout_[0].size != control().set_up.layout_size || layout_[0].size > size_)
       throw Error(std::string(order.file) + ": the ports or parameters of '" + wanted +
                   "' are not those that the host knows");
   }

@@ -182,6 +182,7 @@ usable() {
   other_law my_outer outer
   systemd_unit "$prefix"
   page "$prefix"
+  dds "$prefix"
   "$prefix/bin/fulmar" run "$prefix/share/fulmar/missions/hourglass.yaml" --duration 60 --no-log >/dev/null 2>&1 || fail "the installed hourglass does not fly"
 }
 
@@ -197,6 +198,20 @@ page() {
   kill "$flight"
   wait "$flight" 2>/dev/null || true
   [[ "$got" == *page.js* ]] || fail "the installed host does not serve the page"
+}
+
+# dds PREFIX: Fast DDS is loaded from the prefix for a mission that says dds:, and for no other
+dds() {
+  local libraries
+  libraries=$(ldd "$1/bin/fulmar")
+  ! grep -iE 'fastrtps|fastcdr|foonathan' <<<"$libraries" || fail "the host links Fast DDS"
+  printf 'mission: over_dds\nextends: %s\ndds: {domain: 231, export: [nav.state]}\n' "$1/share/fulmar/missions/hourglass.yaml" >over_dds.yaml
+  quietly "$1/bin/fulmar" run over_dds.yaml --speed 20 --duration 5 --no-log
+  mv "$1/lib/fulmar/host/fulmar_dds.so" fulmar_dds.so
+  if "$1/bin/fulmar" run over_dds.yaml --speed 20 --duration 5 --no-log >dds.log 2>&1; then fail "a flight without its DDS library is not refused"; fi
+  mv fulmar_dds.so "$1/lib/fulmar/host/fulmar_dds.so"
+  grep -qF "over_dds.yaml:3: dds: " dds.log || { cat dds.log; fail "the missing DDS library is not named"; }
+  echo "  dds: loaded where a mission has it"
 }
 
 if [ -n "$one" ]; then

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See bridge.hpp. Two threads beside those of Fast DDS: one sends what the loop publishes, one takes what
+// See library.hpp. Two threads beside those of Fast DDS: one sends what the loop publishes, one takes what
 // comes in.
-#include "core/dds/bridge.hpp"
-
 #include <atomic>
 #include <chrono>
 #include <thread>
 
+#include "core/build.hpp"
+#include "core/dds/library.hpp"
 #include "core/dds/services.hpp"
 #include "core/dds/topics.hpp"
 #include "core/error.hpp"
-#include "core/say.hpp"
 #include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
@@ -22,10 +21,9 @@ constexpr std::chrono::milliseconds nap{2};
 constexpr std::chrono::milliseconds breath{2};
 constexpr std::chrono::milliseconds longest{50};  // sleep of the thread that takes
 
-}  // namespace
-
-struct DdsBridge::Impl {
+struct Bridge final : DdsBridge {
   DdsOptions options;
+  DdsHost::Say say;
   std::shared_ptr<dds::Waker> waker = std::make_shared<dds::Waker>();
   dds::Others others;
   std::unique_ptr<dds::Participant> owner;  // made after the topics are known, ends after them
@@ -37,8 +35,13 @@ struct DdsBridge::Impl {
   std::atomic<bool> stop{false};
   std::thread sender, taker;
 
-  Impl(Tap& tap, Control& control, const FlightView& view, const DdsOptions& o)
-      : options(o), exports(tap, options, others), imports(control, view, options, others) {
+  Bridge(const DdsHost& host, const FlightView& view, const DdsOptions& o)
+      : options(o),
+        say(host.say),
+        others(host.say),
+        exports(host.tap, options, others),
+        imports(host, view, options, others) {
+    Control& control = host.control;
     owner = std::make_unique<dds::Participant>(
         options, [this](const std::string& topic, const std::string& type, bool writer, bool best_effort) {
           others.found(topic, type, writer, best_effort);
@@ -58,11 +61,13 @@ struct DdsBridge::Impl {
     }
     if (events) writers.push_back(events->writer().guid());
     node = node_info(participant, options, readers, writers);
-    sender = start("fulmar-dds-out", &Impl::send);
-    taker = start("fulmar-dds-in", &Impl::take);
+    sender = start("fulmar-dds-out", &Bridge::send);
+    taker = start("fulmar-dds-in", &Bridge::take);
   }
 
-  ~Impl() {
+  DdsStats stats() const override;
+
+  ~Bridge() override {
     stop.store(true);
     waker->wake();
     if (sender.joinable()) sender.join();
@@ -70,12 +75,12 @@ struct DdsBridge::Impl {
   }
 
   /// Whatever happens there, the flight goes on.
-  std::thread start(const char* name, void (Impl::*work)()) {
+  std::thread start(const char* name, void (Bridge::*work)()) {
     return quiet_thread(name, [this, work] {
       try {
         (this->*work)();
       } catch (const std::exception& e) {
-        say_aloud(std::string("dds ends early: ") + e.what(), Tone::error);
+        say(std::string("dds ends early: ") + e.what(), Tone::error);
       }
     });
   }
@@ -100,22 +105,15 @@ struct DdsBridge::Impl {
   }
 };
 
-DdsBridge::DdsBridge(Tap& tap, Control& control, const DdsOptions& options) {
-  const NoSignals quiet;
-  impl_ = std::make_unique<Impl>(tap, control, control.view(), options);
-}
-
-DdsBridge::~DdsBridge() = default;
-
-DdsStats DdsBridge::stats() const {
+DdsStats Bridge::stats() const {
   DdsStats stats;
-  stats.sent = impl_->exports.sent();
-  stats.lost = impl_->exports.lost();
-  for (const auto& server : impl_->servers) {
+  stats.sent = exports.sent();
+  stats.lost = exports.lost();
+  for (const auto& server : servers) {
     stats.requests += server->taken();
     stats.refused += server->refused();
   }
-  stats.imports = impl_->imports.stats();
+  stats.imports = imports.stats();
   for (const DdsStats::Import& i : stats.imports) {
     stats.received += i.received;
     stats.refused += i.refused;
@@ -124,4 +122,12 @@ DdsStats DdsBridge::stats() const {
   return stats;
 }
 
+std::unique_ptr<DdsBridge> open_bridge(const DdsHost& host, const DdsOptions& options) {
+  const NoSignals quiet;
+  return std::make_unique<Bridge>(host, host.control.view(), options);
+}
+
+}  // namespace
 }  // namespace fulmar::core
+
+const fulmar::core::DdsLibrary fulmar_dds_library{fulmar::core::build_identity, fulmar::core::open_bridge};

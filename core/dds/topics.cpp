@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/say.hpp"
 #include "core/types/text.hpp"
 
 namespace fulmar::core::dds {
@@ -39,14 +38,16 @@ void Others::found(const std::string& topic, const std::string& type, bool write
   const char* who = writer ? "writes" : "reads";
   if (t.type != type) {
     if (!std::exchange(t.told_type, true))
-      warn(std::string("dds: somebody ") + who + " " + topic + " with the type " + type + "; here it is " +
-           t.type + ": the two do not meet");
+      say_(std::string("dds: somebody ") + who + " " + topic + " with the type " + type + "; here it is " +
+               t.type + ": the two do not meet",
+           Tone::warning);
   } else if (writer && best_effort) {
     t.best_effort_writer = true;
   } else if (!writer && !best_effort && t.best_effort) {
     if (!std::exchange(t.told_effort, true))
-      warn("dds: somebody reads " + topic +
-           " reliably, but it is exported with best_effort: the two do not meet");
+      say_("dds: somebody reads " + topic +
+               " reliably, but it is exported with best_effort: the two do not meet",
+           Tone::warning);
   }
 }
 
@@ -128,8 +129,8 @@ std::vector<Guid> Exports::writers() const {
 
 // ---- imports
 
-Imports::Imports(Control& control, const FlightView& view, const DdsOptions& options, Others& others)
-    : control_(control), others_(others) {
+Imports::Imports(const DdsHost& host, const FlightView& view, const DdsOptions& options, Others& others)
+    : host_(host), others_(others) {
   for (const DdsOptions::Import& i : options.imports) {
     const ComponentView& component = view.components.at(static_cast<std::size_t>(i.component));
     const PortView& port = component.inputs.at(static_cast<std::size_t>(i.input));
@@ -179,7 +180,7 @@ void Imports::use(Topic& topic, const Reader::Sample& sample) {
   try {
     cdr_decode(*topic.type, sample.bytes.data(), sample.bytes.size(), message.data());
     if (topic.guard->check(message.data()))
-      taken = control_.publish(topic.component, topic.port, std::move(message));
+      taken = host_.control.publish(topic.component, topic.port, std::move(message));
     else
       why = topic.guard->explain(message.data());
   } catch (const Error& fault) {
@@ -189,8 +190,9 @@ void Imports::use(Topic& topic, const Reader::Sample& sample) {
   const double latency_s =
       static_cast<double>(std::chrono::nanoseconds(now).count() - sample.written_ns) * 1e-9;
   if (!why.empty() && !std::exchange(topic.told, true))
-    warn("dds: a sample of " + topic.stats.topic + " for " + topic.stats.port + " is refused: " + why +
-         "; more of them are counted, not told");
+    host_.say("dds: a sample of " + topic.stats.topic + " for " + topic.stats.port + " is refused: " + why +
+                  "; more of them are counted, not told",
+              Tone::warning);
   const std::lock_guard lock(mutex_);
   DdsStats::Import& stats = topic.stats;
   if (!why.empty() || !taken) {

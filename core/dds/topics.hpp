@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/dds/library.hpp"
 #include "core/dds/participant.hpp"
-#include "core/dds/stats.hpp"
 #include "core/due.hpp"
 #include "core/tap/control.hpp"
 #include "core/tap/tap.hpp"
@@ -22,6 +22,7 @@ namespace fulmar::core::dds {
 /// by the rules of DDS is said once, since nothing else would say why no sample comes.
 class Others {
  public:
+  explicit Others(DdsHost::Say say) : say_(say) {}
   /// A topic of this bridge. Before the participant is made.
   void expect(const std::string& topic, const std::string& type, bool we_write, bool best_effort);
   void found(const std::string& topic, const std::string& type, bool writer, bool best_effort);
@@ -34,6 +35,7 @@ class Others {
     bool we_write = false, best_effort = false, told_type = false, told_effort = false;
     bool best_effort_writer = false;
   };
+  DdsHost::Say say_;
   mutable std::mutex mutex_;
   std::map<std::string, Topic> topics_;
 };
@@ -72,7 +74,7 @@ class Exports {
 class Imports {
  public:
   /// Throws Error. `view`: of the flight; its components and inputs are numbered as the options number them.
-  Imports(Control& control, const FlightView& view, const DdsOptions& options, Others& others);
+  Imports(const DdsHost& host, const FlightView& view, const DdsOptions& options, Others& others);
   void open(Participant& participant, Waker& waker);
   /// Hands on a bounded number of samples per topic. False when more are there.
   bool pump(Participant& participant, Waker& waker);
@@ -94,7 +96,7 @@ class Imports {
   };
   void use(Topic& topic, const Reader::Sample& sample);
 
-  Control& control_;
+  DdsHost host_;
   Others& others_;
   mutable std::mutex mutex_;
   std::deque<Topic> topics_;

@@ -194,6 +194,7 @@ struct DdsOptions {
   std::vector<Import> imports;
   bool services = true, parameters = true;  // requests and parameters as ROS 2 services
   bool humble = false;  // ROS 2 Humble's form of the node's description, which differs from that of all since
+  Where where;          // of the section
 };
 
 class StoredFiles;

@@ -88,6 +88,7 @@ class DdsReader {
                     report_);
     DdsOptions& dds = m_.dds;
     dds.on = true;
+    dds.where = node.where();
     if (const auto domain = keys.positive("domain", "", true)) {
       if (*domain > max_domain || std::floor(*domain) != *domain)
         report_.add(keys.where("domain"),

@@ -66,10 +66,14 @@ void SharedObject::load(const std::filesystem::path& file, const std::string& na
   if (fault) throw Error(load_fault(name, ::dlerror()));
 }
 
+const void* SharedObject::find(const char* symbol) const {
+  return impl_->file.has(symbol) ? &impl_->file.get<const char>(symbol) : nullptr;
+}
+
 const fulmar_plugin& SharedObject::entry(const std::string& name) const {
-  if (!impl_->file.has(FULMAR_ENTRY_SYMBOL))
-    throw Error(name + " has no symbol " FULMAR_ENTRY_SYMBOL ": not a Fulmar plugin");
-  return impl_->file.get<const fulmar_plugin>(FULMAR_ENTRY_SYMBOL);
+  const void* const table = find(FULMAR_ENTRY_SYMBOL);
+  if (table == nullptr) throw Error(name + " has no symbol " FULMAR_ENTRY_SYMBOL ": not a Fulmar plugin");
+  return *static_cast<const fulmar_plugin*>(table);
 }
 
 void SharedObject::unload() { impl_->file.unload(); }

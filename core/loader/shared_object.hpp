@@ -17,6 +17,8 @@ class SharedObject {
 
   /// Throws Error with a sentence about `name`: what the file needs and does not find.
   void load(const std::filesystem::path& file, const std::string& name);
+  /// Of a file that has been loaded: the address of what it exports under that name, nullptr without it.
+  const void* find(const char* symbol) const;
   /// Of a file that has been loaded. Throws Error when it is no plugin.
   const fulmar_plugin& entry(const std::string& name) const;
   void unload();

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdio>
 
-#include "core/dds/bridge.hpp"
+#include "core/dds/library.hpp"
 #include "core/live/server.hpp"
 #include "core/run/component/allocation.hpp"
 #include "core/run/component/realtime.hpp"

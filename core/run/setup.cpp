@@ -2,12 +2,13 @@
 // Set-up of a flight: its components are created, connected and configured, its log and its doors opened.
 #include <algorithm>
 
-#include "core/dds/bridge.hpp"
 #include "core/live/gate.hpp"
 #include "core/live/server.hpp"
 #include "core/loader/home.hpp"
 #include "core/run/control.hpp"
+#include "core/run/dds_library.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/say.hpp"
 #include "core/types/named.hpp"
 
 namespace fulmar::core {
@@ -92,7 +93,8 @@ void Flight::Impl::open_to_others() {
   }
   onlookers.control = std::make_unique<FlightControl>(*this);
   if (graph.dds.on)
-    onlookers.dds = std::make_unique<DdsBridge>(*recorder.tap(), *onlookers.control, graph.dds);
+    onlookers.dds = dds_library(home_folders(), graph.dds.where)
+                        .open({*recorder.tap(), *onlookers.control, say_aloud}, graph.dds);
   if (!graph.live.on) return;
   try {
     onlookers.live =

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/dds/bridge.hpp"
+#include "core/dds/library.hpp"
 #include "core/dds/test/domain.hpp"
 #include "core/dds/test/mock_control.hpp"
 #include "core/tap/tap.hpp"
@@ -127,7 +127,7 @@ struct Scene {
     if (loop.joinable()) loop.join();
     bridge.reset();
   }
-  void open() { bridge = std::make_unique<DdsBridge>(tap, control, options); }
+  void open() { bridge = fulmar_dds_library.open({tap, control, say_aloud}, options); }
 
   /// The loop: message i at 2.5 ms * i of flight, speed_mps 1000 + i.
   void fly(std::chrono::microseconds pace = std::chrono::microseconds(2500)) {

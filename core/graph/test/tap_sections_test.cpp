@@ -124,6 +124,7 @@ TEST_CASE("ports are exported under ROS 2 names, inputs without a wire are fed b
                    "rate: 50 Hz, best_effort: true}], import: {plan.edits: /fulmar/plan_edits}}")
           .load();
   CHECK(g.dds.on);
+  CHECK(g.dds.where.line == 6);
   CHECK(g.dds.domain == 7);
   CHECK(g.dds.name_space == "uav1");
   REQUIRE(g.dds.exports.size() == 2);

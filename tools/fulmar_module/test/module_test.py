@@ -133,6 +133,19 @@ class Flights(unittest.TestCase):
         self.assertEqual(result["guards"], [])
         self.assertIn("mine", result["step_time_us"])
 
+    def test_fast_dds_is_loaded_for_a_mission_with_dds_and_its_faults_are_errors(self):
+        def mapped():
+            return "libfastrtps" in Path("/proc/self/maps").read_text()
+        with tempfile.TemporaryDirectory() as folder:
+            mission = Path(folder) / "over_dds.yaml"
+            mission.write_text(f"mission: over_dds\nextends: {hourglass}\ndds: {{domain: 230, interfaces: [192.0.2.1]}}\n")
+            fulmar.Sim(str(mission))  # as fast as possible: nothing is opened
+            self.assertFalse(mapped())
+            with self.assertRaises(fulmar.Error) as told:
+                fulmar.Sim(str(mission), speed=20)
+            self.assertIn("over_dds.yaml:3: dds.interfaces", str(told.exception))
+            self.assertTrue(mapped())
+
     def test_a_mission_with_faults_is_an_error(self):
         with self.assertRaises(fulmar.Error) as told:
             fulmar.Sim(hourglass, roles={"outer": "nobody"})

@@ -23,8 +23,8 @@ constexpr const char* program_prefix = "fulmar-";
 /// A word that can be a command: no path, and no helper that only the host itself starts.
 bool is_command(const std::string& word) {
   constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  static const std::vector<std::string> parts{"campaign", "child", "inspect", "live",
-                                              "log",      "new",   "probe"};  // of Fulmar, no commands
+  static const std::vector<std::string> parts{"campaign", "child", "inspect", "live", "log",
+                                              "new",      "probe", "save"};  // of Fulmar, no commands
   return !word.empty() && word[0] != '-' && word.find_first_not_of(letters) == std::string::npos &&
          std::find(parts.begin(), parts.end(), word) == parts.end();
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/graph/condition.hpp"
+
 namespace fulmar::core {
 namespace {
 

@@ -278,6 +278,22 @@ json view_json(const FlightView& view, const FlightView& begun, const Tap& tap) 
           {"components", components}};
 }
 
+json save_request(const FlightView& view, const std::string& component, const std::string& mark) {
+  json components = json::array();
+  for (const ComponentView& c : view.components) {
+    json params = json::array();
+    for (const ParameterView& p : c.params) {
+      params.push_back(param_json(p, nullptr));
+      if (p.info.kind != FULMAR_VECTOR || !p.info.type) continue;
+      for (const Field& field : p.info.type->fields) params.back()["fields"].push_back(field.name);
+    }
+    components.push_back({{"name", c.name}, {"use", c.use}, {"role", c.role}, {"params", params}});
+  }
+  return {{"component", component},  {"mark", mark},
+          {"set", view.set},         {"file", view.file},
+          {"mission", view.mission}, {"components", components}};
+}
+
 json record_json(const FlightView& view, const std::string& component, const std::string& name) {
   const ParameterView* const p = find_parameter(view, component + "." + name);
   if (!p) throw Error("there is no parameter '" + component + "." + name + "'");

@@ -60,6 +60,8 @@ nlohmann::json advertise_services(const std::vector<Service>& services);
 nlohmann::json connection_graph(const FlightView& view, const Tap& tap, const std::vector<Service>& services);
 /// `begun`: the view as the flight began; a parameter that it lacks began as it is.
 nlohmann::json view_json(const FlightView& view, const FlightView& begun, const Tap& tap);
+/// What the program fulmar-save reads: the parameters that fly, of all components, and where they come from.
+nlohmann::json save_request(const FlightView& view, const std::string& component, const std::string& mark);
 /// Fields of a parameter that is a record. Throws Error when there is no such parameter, or no record.
 nlohmann::json record_json(const FlightView& view, const std::string& component, const std::string& name);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parameters that fly, written back into the files that they came from, for a client: first the lines that
-// would change are shown, then those and no others are written. In a thread of its own, since a disk takes
-// its time.
+// would change are shown, then those and no others are written. The program fulmar-save does it; a thread of
+// its own waits for that, since a disk takes its time.
 #pragma once
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -19,8 +20,9 @@ struct SaveAnswer {
   std::string mark;  // of these lines, to write them; "": there are none to write, or they have been written
 };
 
-/// In the caller's thread. `mark`: "" only shows. Never throws.
-SaveAnswer save(const FlightView& view, const std::string& component, const std::string& mark) noexcept;
+/// In the caller's thread. `mark`: "" only shows. The program is stopped after `limit`. Never throws.
+SaveAnswer save(const FlightView& view, const std::string& component, const std::string& mark,
+                std::chrono::seconds limit = std::chrono::seconds(60)) noexcept;
 
 class Saving {
  public:

@@ -2,15 +2,16 @@
 // `fulmar param list|get|set|save`.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "core/graph/param_file.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/parameters.hpp"
 #include "tools/fulmar_live/session.hpp"
 #include "tools/fulmar_live/table.hpp"
+#include "tools/fulmar_save/answer.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -139,19 +140,12 @@ bool agreed() {
 int param_save_command(const LiveAddress& target, const SaveOptions& options) {
   Session session(target);
   const json view = session.view();
+  const std::vector<SavedParam> list = saved_params(view, options.component);
   const std::vector<NamedParam> params = params_of(view);
-  std::vector<SavedParam> list;
-  std::vector<std::string> flown;
-  for (const NamedParam& p : params) flown.push_back(p.use);
-  bool component_known = options.component.empty();
-  for (const NamedParam& p : params) {
-    component_known = component_known || p.component == options.component;
-    if (!options.component.empty() && p.component != options.component) continue;
-    if (p.vehicle && (p.info.name == "rate" || p.info.name == "epoch")) continue;  // the mission's own keys
-    list.push_back({p.component, p.use, p.info, p.value});
-  }
-  if (!component_known) find_param(params, options.component);
-  const SavePlan plan = plan_save(mission_file(view, options.mission), list, flown);
+  const auto of_component = [&](const NamedParam& p) { return p.component == options.component; };
+  if (!options.component.empty() && std::none_of(params.begin(), params.end(), of_component))
+    find_param(params, options.component);  // throws: it is unknown
+  const SavePlan plan = plan_save(mission_file(view, options.mission), list, flown_plugins(view));
   for (const FileEdit& file : plan.files) std::fputs(diff_text(file).c_str(), stdout);
   for (const std::string& sentence : plan.refused) std::fprintf(stderr, "%s\n", sentence.c_str());
   for (const std::string& sentence : plan.also) std::fprintf(stderr, "%s\n", sentence.c_str());

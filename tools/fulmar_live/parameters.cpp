@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/fulmar_live/parameters.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/graph/params.hpp"
@@ -14,18 +10,6 @@
 
 namespace fulmar::core {
 namespace {
-
-using nlohmann::json;
-
-const std::map<std::string, fulmar_param_kind> kinds{
-    {"number", FULMAR_NUMBER}, {"flag", FULMAR_FLAG},     {"count", FULMAR_COUNT},
-    {"choice", FULMAR_CHOICE}, {"text", FULMAR_STRING},   {"string", FULMAR_STRING},
-    {"vector", FULMAR_VECTOR}, {"record", FULMAR_RECORD}, {"blob", FULMAR_BLOB}};
-
-double number_or(const json& object, const char* key, double otherwise) {
-  const auto it = object.find(key);
-  return it != object.end() && it->is_number() ? it->get<double>() : otherwise;
-}
 
 /// What people read angles in, and what turns the number into it.
 std::string shown_unit(const std::string& unit) {
@@ -38,48 +22,6 @@ std::string shown_number(const ParamInfo& info, double value) {
 }
 
 }  // namespace
-
-ParamInfo param_info(const json& param) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  ParamInfo info;
-  info.name = param.value("name", "");
-  const std::string kind = param.value("kind", "");
-  const auto known = kinds.find(kind);
-  if (known == kinds.end())
-    throw Error("the parameter '" + info.name + "' is of a kind that is not known here: '" + kind + "'");
-  info.kind = known->second;
-  info.unit = param.value("unit", "");
-  info.doc = param.value("doc", "");
-  info.live = param.value("live", false);
-  info.choices = param.value("choices", std::vector<std::string>());
-  info.min = number_or(param, "min", -inf);
-  info.max = number_or(param, "max", inf);
-  info.capacity = std::numeric_limits<std::uint32_t>::max();  // the flight knows
-  const ParamValue initial = param_value(info, param.value("initial", json()));
-  std::copy(std::begin(initial.number), std::end(initial.number), std::begin(info.initial));
-  info.initial_text = initial.text;
-  return info;
-}
-
-ParamValue param_value(const ParamInfo& info, const json& value) {
-  ParamValue result;
-  if (value.is_boolean()) result.integer = value.get<bool>() ? 1 : 0;
-  if (value.is_number()) result.number[0] = value.get<double>();
-  if (value.is_number_integer()) result.integer = value.get<std::int64_t>();
-  if (value.is_array())
-    for (std::size_t i = 0; i < std::min<std::size_t>(value.size(), 3); ++i)
-      result.number[i] =
-          value[i].is_number() ? value[i].get<double>() : std::numeric_limits<double>::quiet_NaN();
-  if (value.is_string()) result.text = value.get<std::string>();
-  if (info.kind == FULMAR_CHOICE) {
-    const auto it = std::find(info.choices.begin(), info.choices.end(), result.text);
-    if (it != info.choices.end()) result.integer = it - info.choices.begin();
-  }
-  if (info.kind == FULMAR_RECORD || info.kind == FULMAR_BLOB) result.integer = result.text.empty() ? 0 : 1;
-  if (info.kind != FULMAR_NUMBER && info.kind != FULMAR_VECTOR)
-    result.number[0] = static_cast<double>(result.integer);
-  return result;
-}
 
 std::string shown_value(const ParamInfo& info, const ParamValue& value) {
   const std::string unit = info.unit.empty() ? "" : " " + shown_unit(info.unit);
@@ -98,25 +40,6 @@ std::string shown_range(const ParamInfo& info) {
   if (!to) return "from " + shown_number(info, info.min) + unit;
   if (!from) return "up to " + shown_number(info, info.max) + unit;
   return shown_number(info, info.min) + " .. " + shown_number(info, info.max) + unit;
-}
-
-std::vector<NamedParam> params_of(const json& view) {
-  std::vector<NamedParam> list;
-  for (const json& c : view.value("components", json::array())) {
-    for (const json& p : c.value("params", json::array())) {
-      NamedParam param;
-      param.component = c.value("name", "");
-      param.use = c.value("use", "");
-      param.vehicle = c.value("role", "") == "vehicle";
-      param.info = param_info(p);
-      param.value = param_value(param.info, p.value("value", json()));
-      param.name = param.component + "." + param.info.name;
-      param.overlaid = p.value("overlaid", false);
-      param.text = p.value("text", "");
-      list.push_back(std::move(param));
-    }
-  }
-  return list;
 }
 
 const NamedParam& find_param(const std::vector<NamedParam>& params, const std::string& name) {

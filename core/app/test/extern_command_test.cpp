@@ -80,6 +80,7 @@ TEST_CASE("a command that exists nowhere is told with what there is, and a built
   home.program("bin/fulmar-check", teller("check", 0));
   home.program("bin/fulmar-idle", teller("idle", 0), false);
   home.program("bin/fulmar-probe", teller("probe", 0));
+  home.program("bin/fulmar-save", teller("save", 0));
   home.program("other", teller("other", 0));
   const Said missing = home.fulmar("areo");
   CHECK(missing.code == 2);
@@ -87,7 +88,7 @@ TEST_CASE("a command that exists nowhere is told with what there is, and a built
               "there is no command 'areo'. Did you mean 'aero'? Valid: run, check, graph, inspect, new, "));
   CHECK(holds(missing.out, ", aero"));
   CHECK_FALSE(holds(home.fulmar("check none.yaml").out, "\ncheck"));
-  for (const char* word : {"idle", "probe", "/../other", "../other", "''"}) {
+  for (const char* word : {"idle", "probe", "save", "/../other", "../other", "''"}) {
     CAPTURE(word);
     const Said r = home.fulmar(word);
     CHECK(r.code == 2);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters that a client has written into the mission's file: shown first, and then those lines alone.
+// Who may have files written, and what a client is answered when the program that writes them fails.
 #include "core/live/saving.hpp"
 
-#include <fcntl.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "core/live/gate.hpp"
 #include "core/live/test/hub_fixture.hpp"
@@ -21,112 +20,91 @@ using namespace fulmar::core::live::test;
 
 namespace {
 
-const std::string text =
-    "mission: mock <1>\n"
-    "components:\n"
-    "  slc: {use: control_slc/Outer, params: {roll_kp: 0.5, law: climb, note: 40 deg}}  # mine\n";
-
-/// A mission's file, gone with this, and the flight of it.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("fulmar-saving-" + std::to_string(::getpid()));
-  fs::path file = path / "m.yaml";
-  FlightView view;
-  Folder() {
-    fs::remove_all(path);
-    fs::create_directories(path);
-    put(text);
-    view = MockControl().view();
-    view.file = file.string();
-    ComponentView& slc = view.components[0];
-    slc.params.resize(2);
+/// Stands in for fulmar-save, as a script, while this lives.
+struct Program {
+  fs::path file = fs::temp_directory_path() / ("fulmar-save-" + std::to_string(::getpid()));
+  FlightView view = MockControl().view();
+  explicit Program(const std::string& script) {
+    std::ofstream(file) << "#!/bin/sh\n" << script << "\n";
+    fs::permissions(file, fs::perms::owner_all);
+    ::setenv("FULMAR_SAVE", file.c_str(), 1);
+    view.file = "/nowhere/m.yaml";
   }
-  ~Folder() { fs::remove_all(path); }
-  void put(const std::string& content) const { std::ofstream(file, std::ios::binary) << content; }
-  std::string content() const {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+  ~Program() {
+    ::unsetenv("FULMAR_SAVE");
+    fs::remove(file);
+  }
+  SaveAnswer answer(std::chrono::seconds limit = std::chrono::seconds(60)) const {
+    return save(view, "slc", "", limit);
   }
 };
 
-bool holds(const std::string& words, const std::string& part) {
-  CAPTURE(words);
-  CHECK(words.find(part) != std::string::npos);
-  return words.find(part) != std::string::npos;
-}
-
 }  // namespace
 
-TEST_CASE_FIXTURE(Folder, "the lines are shown, and nothing is written; with their mark they are") {
-  const SaveAnswer shown = save(view, "slc", "");
-  CHECK(shown.accepted);
-  CHECK(shown.reason == "");
-  CHECK(shown.lines ==
-        "m.yaml:3\n"
-        "-   slc: {use: control_slc/Outer, params: {roll_kp: 0.5, law: climb, note: 40 deg}}  # mine\n"
-        "+   slc: {use: control_slc/Outer, params: {roll_kp: 0.55, law: climb, note: 40 deg}}  # mine\n");
-  CHECK(shown.mark.size() == 64);
-  CHECK(content() == text);
-  const SaveAnswer wrote = save(view, "slc", shown.mark);
-  CHECK(wrote.accepted);
-  CHECK(wrote.lines == "written: " + file.string());
-  CHECK(wrote.mark == "");
-  std::string expected = text;
-  expected.replace(expected.find("0.5"), 3, "0.55");
-  CHECK(content() == expected);
-  const SaveAnswer again = save(view, "slc", "");
-  CHECK(again.accepted);
-  CHECK((again.lines.empty() && again.mark.empty()));
-  CHECK_FALSE(save(view, "slc", shown.mark).accepted);  // twice
-  CHECK(content() == expected);
+TEST_CASE("the program gets what flies in JSON, and a client its answer") {
+  const Program program(
+      "cat > \"$0.in\"; echo '{\"accepted\":true,\"reason\":\"r\",\"lines\":\"l\",\"mark\":\"m\"}'");
+  const SaveAnswer answer = program.answer();
+  CHECK(answer.accepted);
+  CHECK(answer.reason == "r");
+  CHECK(answer.lines == "l");
+  CHECK(answer.mark == "m");
+  const fs::path copy = program.file.string() + ".in";
+  const json request = json::parse(std::ifstream(copy));
+  fs::remove(copy);
+  CHECK(request["component"] == "slc");
+  CHECK(request["mark"] == "");
+  CHECK(request["file"] == "/nowhere/m.yaml");
+  CHECK(request["mission"] == "mock <1>");
+  CHECK(request["components"][0]["use"] == "control_slc/Outer");
+  const json& params = request["components"][0]["params"];
+  CHECK(params[0]["name"] == "roll_kp");
+  CHECK(params[0]["value"] == 0.55);
 }
 
-TEST_CASE_FIXTURE(Folder,
-                  "what is not what was shown is not written: another file, another value, another mark") {
-  const SaveAnswer shown = save(view, "", "");
-  put(text + "# more\n");
-  holds(save(view, "", shown.mark).reason, "is not what was shown any more: look again");
-  CHECK(content() == text + "# more\n");
-  put(text);
-  view.components[0].params[0].base.number[0] = 0.6;
-  holds(save(view, "", shown.mark).reason, "look again");
-  holds(save(view, "", "0").reason, "look again");
-  CHECK(content() == text);
+TEST_CASE("a program that fails is one sentence: it crashes, ends, answers something else, or nothing") {
+  CHECK(Program("kill -SEGV $$").answer().reason.ends_with("was stopped by signal 11"));
+  CHECK(Program("exit 3").answer().reason.ends_with("ended with exit code 3"));
+  for (const char* const other : {"", "echo no", "echo []", "echo '{\"accepted\": 1}'"}) {
+    const SaveAnswer answer = Program(other).answer();
+    CHECK_FALSE(answer.accepted);
+    CHECK(answer.reason.starts_with("fulmar-save has answered something else than JSON"));
+  }
+  const SaveAnswer late = Program("exec sleep 100").answer(std::chrono::seconds(0));
+  CHECK_FALSE(late.accepted);
+  CHECK(late.reason.find("has not answered within 0 s") != std::string::npos);
+  const Program gone("");
+  fs::remove(gone.file);
+  CHECK(gone.answer().reason == "cannot start " + gone.file.string() + ": No such file or directory.");
 }
 
-TEST_CASE_FIXTURE(Folder, "why nothing can be written is one sentence") {
-  view.set = {"slc.roll_kp"};
-  CHECK(save(view, "slc", "").reason == "slc.roll_kp was given by --set: written, it is the mission's");
-  holds(save(view, "scl", "").reason, "there is no component 'scl'. Did you mean 'slc'?");
-  FlightView other = view;
-  other.no_save = "the mission says live: {save: off}";
-  const SaveAnswer off = save(other, "slc", "");
-  CHECK_FALSE(off.accepted);
-  CHECK((off.lines.empty() && off.mark.empty()));
-  CHECK(off.reason == "nothing is written from here: the mission says live: {save: off}");
-  other = view;
-  other.file = "";
-  CHECK(save(other, "", "").reason == "this flight has no mission file that could be written");
-  put("mission: another\n");
-  holds(save(view, "", "").reason, "is the mission 'another', but 'mock <1>' flies: nothing was written");
-  put("mission: [\n");
-  CHECK_FALSE(save(view, "", "").accepted);
-  fs::remove(file);
-  CHECK(save(view, "", "").reason == "the mission's file " + file.string() + " is gone");
+TEST_CASE("answers where there is no such program" * doctest::skip()) {
+  FlightView view = MockControl().view();
+  view.file = "/nowhere/m.yaml";
+  CHECK(save(view, "", "").reason ==
+        "the program fulmar-save is missing beside this one: it writes parameters into files; cmake --build "
+        "build --target flight");
 }
 
-TEST_CASE_FIXTURE(Folder, "a file that cannot be written is told, and stays as it is") {
-  const SaveAnswer shown = save(view, "", "");
-  // whatever user this is: what stands in a folder of /proc is written by nobody
-  FlightView link = view;
-  const int held = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  fs::remove(file);
-  link.file = "/proc/self/fd/" + std::to_string(held);
-  const SaveAnswer seen = save(link, "", "");
-  REQUIRE(seen.accepted);
-  const SaveAnswer answer = save(link, "", seen.mark);
-  ::close(held);
-  CHECK_FALSE(answer.accepted);
-  holds(answer.reason, "cannot be written: ");
+TEST_CASE("a host without fulmar-save beside it answers which program is missing, and how it is built") {
+  const fs::path home = fs::path(FULMAR_BIN_DIR).parent_path() / ("alone-" + std::to_string(::getpid()));
+  const fs::path self = home / "bin" / "live_test";
+  fs::create_directories(self.parent_path());
+  fs::create_hard_link(fs::canonical("/proc/self/exe"),
+                       self);  // programs are looked for beside the one that runs
+  const std::string command = self.string() + " -ns -tc='answers where there is no such program' >/dev/null";
+  CHECK(std::system(command.c_str()) == 0);
+  fs::remove_all(home);
+}
+
+TEST_CASE("nothing is started where no file may be written, or none is known") {
+  Program program("echo started > \"$0.in\"");
+  program.view.no_save = "the mission says live: {save: off}";
+  CHECK(program.answer().reason == "nothing is written from here: the mission says live: {save: off}");
+  program.view.no_save = "";
+  program.view.file = "";
+  CHECK(program.answer().reason == "this flight has no mission file that could be written");
+  CHECK_FALSE(fs::exists(program.file.string() + ".in"));
 }
 
 TEST_CASE("who may have files written: this computer, unless the mission says otherwise") {

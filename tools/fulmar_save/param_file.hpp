@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
+#include "tools/fulmar_save/file_edit.hpp"
 
 namespace fulmar::core {
 
@@ -15,12 +16,6 @@ struct SavedParam {
   std::string component, use;  // "slc", "control_slc/Outer"
   ParamInfo info;
   ParamValue value;  // base
-};
-
-struct FileEdit {
-  std::filesystem::path path;
-  std::string name;  // for people
-  std::string before, after;
 };
 
 struct SavePlan {
@@ -41,11 +36,5 @@ SavePlan plan_save(const std::filesystem::path& mission, const std::vector<Saved
 
 /// Throws Error when the file is another mission than the one that flies.
 void check_mission_name(const std::string& file, const std::string& flies);
-
-/// The lines that change, with those that replace them: "anaconda.yaml:54" and "-", "+".
-std::string diff_text(const FileEdit& edit);
-
-/// All of the file or nothing. Throws Error, also when the file has changed since it was read.
-void write_edit(const FileEdit& edit);
 
 }  // namespace fulmar::core

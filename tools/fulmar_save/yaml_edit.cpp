@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // yaml-cpp says where keys stand; from there on the text itself is read, so that an alias is seen as what it
 // is.
-#include "core/graph/yaml_edit.hpp"
+#include "tools/fulmar_save/yaml_edit.hpp"
 
 #include <yaml-cpp/yaml.h>
 

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/graph/param_file.hpp"
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include "tools/fulmar_save/param_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <map>
 #include <optional>
 
@@ -20,7 +14,7 @@
 #include "core/graph/quantity.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/graph/yaml.hpp"
-#include "core/graph/yaml_edit.hpp"
+#include "tools/fulmar_save/yaml_edit.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -352,25 +346,6 @@ class Saver {
   SavePlan plan_;
 };
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    lines.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return lines;
-}
-
-bool write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t n = ::write(file, text.data(), text.size());
-    if (n < 0 && errno != EINTR) return false;
-    text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
-  }
-  return true;
-}
-
 }  // namespace
 
 SavePlan plan_save(const fs::path& mission, const std::vector<SavedParam>& params,
@@ -385,51 +360,6 @@ void check_mission_name(const std::string& file, const std::string& flies) {
   const std::string name = parse_mission(file, {}, report).mission;
   if (name != flies)
     throw Error(file + " is the mission '" + name + "', but '" + flies + "' flies: nothing was written");
-}
-
-// Changes touch single lines or add some; so the next equal line behind a difference ends it.
-std::string diff_text(const FileEdit& edit) {
-  const std::vector<std::string> old = lines_of(edit.before), now = lines_of(edit.after);
-  std::string text;
-  std::size_t i = 0, j = 0;
-  while (i < old.size() || j < now.size()) {
-    if (i < old.size() && j < now.size() && old[i] == now[j]) {
-      ++i;
-      ++j;
-      continue;
-    }
-    const bool added = i >= old.size() || (now.size() - j > old.size() - i &&
-                                           std::find(now.begin() + static_cast<std::ptrdiff_t>(j), now.end(),
-                                                     old[i]) != now.end());
-    text += edit.name + ":" + std::to_string(j + 1) + "\n";
-    if (!added) text += "- " + old[i++] + "\n";
-    if (j < now.size()) text += "+ " + now[j++] + "\n";
-  }
-  return text;
-}
-
-void write_edit(const FileEdit& edit) {
-  if (read_source(edit.path, edit.path.string())->text != edit.before)
-    throw Error(edit.path.string() + " has changed meanwhile; nothing was written to it");
-  std::error_code fault;
-  const fs::path target = fs::canonical(edit.path, fault);
-  const auto mode = static_cast<mode_t>(fs::status(target, fault).permissions());
-  std::string fresh = (target.parent_path() / ("." + target.filename().string() + ".XXXXXX"))
-                          .string();  // a name that nobody has
-  const auto failed = [&](int code) {
-    throw Error(edit.path.string() + " cannot be written: " + std::strerror(code));
-  };
-  if (fault) failed(fault.value());
-  if ((mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0) failed(EACCES);  // the administrator could
-  const int file = ::mkostemp(fresh.data(), O_CLOEXEC);
-  if (file < 0) failed(errno);
-  // On the disk before it takes the name: else a loss of power could leave an empty file under it.
-  int code = write_all(file, edit.after) && ::fchmod(file, mode) == 0 && ::fsync(file) == 0 ? 0 : errno;
-  if (::close(file) != 0 && code == 0) code = errno;
-  if (code == 0 && ::rename(fresh.c_str(), target.c_str()) != 0) code = errno;
-  if (code == 0) return;
-  ::unlink(fresh.c_str());
-  failed(code);
 }
 
 }  // namespace fulmar::core

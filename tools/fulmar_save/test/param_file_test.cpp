@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parameters written back into mission and airframe files: the expected texts are written by hand.
-#include "core/graph/param_file.hpp"
+#include "tools/fulmar_save/param_file.hpp"
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
@@ -12,7 +12,7 @@
 #include <limits>
 #include <sstream>
 
-#include "core/graph/yaml_edit.hpp"
+#include "tools/fulmar_save/yaml_edit.hpp"
 
 namespace param_file_test {
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a client of a flight asks for: first the lines that would change are shown, then those and no others
+// are written.
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/fulmar_save/param_file.hpp"
+
+namespace fulmar::core {
+
+/// The parameters of a view that a file can have; of one component, unless it is "".
+std::vector<SavedParam> saved_params(const nlohmann::json& view, const std::string& component);
+std::vector<std::string> flown_plugins(const nlohmann::json& view);
+
+/// {component, mark, set, file, mission, components: as in a view} -> {accepted, reason, lines, mark}, as
+/// live/saving.hpp has them. A fault is a reason.
+nlohmann::json save_answer(const nlohmann::json& request);
+
+}  // namespace fulmar::core

@@ -81,12 +81,11 @@ void tell(std::initializer_list<const char*> words) {
   for (const char* word : words) write_last_words(word);
 }
 
-/// Somebody may have moved the log, or removed it, or it is not begun; of one that rotates the first file is
-/// whole.
+/// The log may have been moved or removed, or it is not begun.
 void tell_end() {
   if (log_name[0] == 0) return tell({no_log});
-  if (access(log_part, F_OK) == 0) return tell({". What was logged until then is in ", log_part, "\n"});
-  if (access(log_name, F_OK) == 0) return tell({". What was logged until then begins in ", log_name, "\n"});
+  for (const char* file : {log_part, log_name})
+    if (access(file, F_OK) == 0) return tell({". What was logged until then is in ", file, "\n"});
   tell({". There is no log in ", log_part, "\n"});
 }
 

@@ -244,7 +244,6 @@ std::string result_table(const Graph& graph, const Flight& flight, const FlightR
   if (!result.log.file.empty())
     out += fmt::format("\nlog {} ({:.1f} MB, {} messages, {} dropped)\n", result.log.file.string(),
                        1e-6 * static_cast<double>(result.log.bytes), result.log.messages, result.log.dropped);
-  if (result.log.files > 1) out += fmt::format("  in {} files\n", result.log.files);
   return out;
 }
 

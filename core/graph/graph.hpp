@@ -234,8 +234,6 @@ struct Settings {
   std::string record_file;  // "" : logs/<mission>-<UTC>.mcap
   bool record = true;
   std::vector<RecordRule> record_rules;
-  std::uint64_t rotate_bytes = 0;  // of the log: a new file then; 0: never
-  std::int64_t rotate_ns = 0;
   LiveOptions live;
   DdsOptions dds;
 };

@@ -36,13 +36,11 @@ class RecordReader {
     if (!node) return;
     if (node->is(Node::Kind::scalar)) {
       m_.record = node->text != "off";
-      if (m_.record)
-        is_a(Node::Kind::map, *node, "record", "'off' or a map {file, ports, rate, rotate}", report_);
+      if (m_.record) is_a(Node::Kind::map, *node, "record", "'off' or a map {file, ports, rate}", report_);
       return;
     }
-    const Keys keys(*node, "record", {"file", "ports", "rate", "rotate"}, report_);
+    const Keys keys(*node, "record", {"file", "ports", "rate"}, report_);
     m_.record_file = keys.text("file").value_or("");
-    if (keys.has("rotate")) rotate(keys);
     const auto rate = keys.positive("rate", "Hz");
     const std::int64_t period = rate ? std::llround(1e9 / *rate) : 0;
     const Node* ports = keys.get("ports");
@@ -68,24 +66,6 @@ class RecordReader {
   }
 
  private:
-  /// "100 MB" or "10 min". A smaller file than the least would hold little but what each file begins with.
-  void rotate(const Keys& keys) {
-    constexpr std::uint64_t min_bytes = 1'000'000;
-    constexpr std::int64_t min_ns = 1'000'000'000;
-    const std::string text = keys.text("rotate").value_or("");
-    if (text.empty()) return;
-    if (text.ends_with('B'))
-      m_.rotate_bytes = parse_bytes(text, keys.where("rotate"), "record.rotate", report_);
-    else if (text.find_first_not_of("0123456789.") == std::string::npos)
-      report_.add(keys.where("rotate"), "record.rotate: " + text +
-                                            " has no unit; give an amount or a time, as in 100 MB or 10 min");
-    else
-      m_.rotate_ns = keys.duration_ns("rotate").value_or(0);
-    if ((m_.rotate_bytes > 0 && m_.rotate_bytes < min_bytes) || (m_.rotate_ns > 0 && m_.rotate_ns < min_ns))
-      report_.add(keys.where("rotate"),
-                  "record.rotate: " + text + " is too little for a file; give at least 1 MB, or 1 s");
-  }
-
   void add_rule(const std::string& pattern, std::int64_t period_ns, const Where& where) {
     m_.record_rules.push_back({{pattern}, period_ns});
     m_.tap.record.push_back(where);

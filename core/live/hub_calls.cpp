@@ -32,22 +32,25 @@ std::vector<std::string> cdr_texts(std::string_view bytes, std::size_t count) tr
   throw Error(std::string("the request: ") + e.what());
 }
 
-std::vector<std::byte> from_cdr(const Type& type, const Guard& guard, std::string_view payload) {
+std::vector<std::byte> from_cdr(const Type& type, std::string_view payload) {
   std::vector<std::byte> message(type.size);
   cdr_decode(type, reinterpret_cast<const std::byte*>(payload.data()), payload.size(), message.data());
-  if (!guard.check(message.data())) throw Error(guard.explain(message.data()));
   return message;
 }
 
 /// JSON is YAML: names, units and faults are those of a mission file. Fields that are left out are zero.
-std::vector<std::byte> from_json(const Type& type, const Guard& guard, std::string_view payload) {
+/// `name` is what faults call the payload.
+std::vector<std::byte> from_json(const Type& type, const std::string& name, std::string_view payload) {
   std::vector<std::byte> message(type.size);
   Report report;
-  const Node node = parse_yaml(make_source(std::string(payload), type.name), report);
+  const Node node = parse_yaml(make_source(std::string(payload), name), report);
   if (report.empty()) fill_record(type, node, message.data(), "", report);
   report.throw_if_any();
-  if (!guard.check(message.data())) throw Error(guard.explain(message.data()));
   return message;
+}
+
+void check(const Guard& guard, const std::vector<std::byte>& message) {
+  if (!guard.check(message.data())) throw Error(guard.explain(message.data()));
 }
 
 /// The arguments of one of the host's own services.
@@ -83,9 +86,10 @@ void Hub::client_data(Client& client, std::string_view message) {
   const std::string_view payload = message.substr(data_head);
   try {
     if (import.as_json) check_json(payload);
-    if (!control_.publish(import.component, import.port,
-                          (import.as_json ? from_json : from_cdr)(*import.type, import.guard, payload)))
-      ++counters_.lost;
+    std::vector<std::byte> sample = import.as_json ? from_json(*import.type, import.type->name, payload)
+                                                   : from_cdr(*import.type, payload);
+    check(import.guard, sample);
+    if (!control_.publish(import.component, import.port, std::move(sample))) ++counters_.lost;
   } catch (const Error& e) {
     throw Error(import.topic + ": " + e.what());
   }
@@ -159,11 +163,15 @@ void Hub::call(Client& client, const Service& service, std::uint32_t service_id,
 
 void Hub::call_request(const Service& service, bool as_json, std::string_view payload,
                        Control::Answer answer) {
-  if (as_json)
-    return control_.request(service.component, service.port, payload.empty() ? "{}" : std::string(payload),
-                            std::move(answer));
-  control_.request(service.component, service.port, from_cdr(*service.type, Guard(*service.type), payload),
-                   std::move(answer));
+  std::vector<std::byte> message;
+  if (as_json) {  // the control checks its values
+    const std::string name = service.component + "." + service.port;
+    message = from_json(*service.type, name, payload.empty() ? "{}" : payload);
+  } else {
+    message = from_cdr(*service.type, payload);
+    check(Guard(*service.type), message);
+  }
+  control_.request(service.component, service.port, std::move(message), std::move(answer));
 }
 
 void Hub::call_save(Client& client, const std::vector<std::string>& texts,

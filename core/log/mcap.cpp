@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 
 #include "core/error.hpp"
 #include "core/log/mcap_bytes.hpp"
@@ -17,7 +16,7 @@
 namespace fulmar::core {
 namespace {
 
-using mcap::Bytes, mcap::Channel, mcap::Entry, mcap::Kept, mcap::Schema, mcap::Span;
+using mcap::Bytes, mcap::Channel, mcap::Entry, mcap::Schema, mcap::Span;
 
 struct ZstdFree {
   void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
@@ -28,138 +27,57 @@ struct ZstdFree {
 struct McapWriter::Impl {
   Options options;
   std::unique_ptr<OutFile> out;
-  std::vector<Part> parts;        // files that are closed
-  std::string trouble;            // with a file that is closed, or could not be begun
   std::vector<Schema> schemas;    // id = index + 1
   std::vector<Channel> channels;  // id = index
   std::unique_ptr<ZSTD_CCtx, ZstdFree> zstd{ZSTD_createCCtx()};
 
-  Bytes chunk;  // the open one
-  struct {
-    std::uint16_t channel = 0;
-    std::uint64_t log_ns = 0;
-    std::size_t start = 0;  // in the chunk
-  } message;                // that was begun last
+  Bytes chunk;                    // the open one
+  std::size_t message_start = 0;  // in the chunk, of the message that was begun last
   std::uint64_t chunk_messages = 0;
   Span chunk_span;
 
-  Bytes block;                          // what goes to the file in one piece
-  mcap::Totals file;                    // of the open file
-  std::uint64_t begin_ns = 0;           // the log time at which it was begun
-  Bytes extras;                         // records of attachments and metadata, for the files to come
-  std::map<std::string, Kept> lasting;  // by name
-  std::uint64_t offered = 0,
-                delivered = 0;  // messages begun; those of them that are in files that are closed
+  Bytes block;                // what goes to the file in one piece
+  mcap::Totals file;          // what is in it
+  std::uint64_t offered = 0;  // messages begun
 
   explicit Impl(const Options& o) : options(o) {
-    if (rotates()) OutFile::refuse(part_name(2));
-    out = begin_file(options.file, options.held);
+    begin_file();
     chunk.reserve(options.chunk_bytes + options.max_message_bytes);
   }
 
   bool broken() const { return !out->error().empty(); }
-  bool rotates() const { return options.rotate_bytes > 0 || options.rotate_ns > 0; }
 
-  /// "a.mcap", "a-2.mcap", "a-3.mcap"
-  std::filesystem::path part_name(std::size_t number) const {
-    const std::filesystem::path& first = options.file;
-    if (number == 1) return first;
-    return first.parent_path() /
-           (first.stem().string() + "-" + std::to_string(number) + first.extension().string());
-  }
-
-  std::unique_ptr<OutFile> begin_file(const std::filesystem::path& name, bool held = false) {
-    auto begun = std::make_unique<OutFile>(name, held);
-    block.clear();
+  void begin_file() {
+    out = std::make_unique<OutFile>(options.file, options.held);
     block.raw(mcap::magic.data(), mcap::magic.size());
     block.record(mcap::header, [&] { block.text(options.profile).text(options.library); });
-    if (begun->append(block.data(), block.size())) return begun;
-    const std::string why = begun->error();
-    begun.reset();
+    if (out->append(block.data(), block.size())) return;
+    const std::string why = out->error();
+    out.reset();
     std::error_code ignored;
-    std::filesystem::remove(name.string() + ".part", ignored);
+    std::filesystem::remove(options.file.string() + ".part", ignored);
     throw Error(why);
   }
 
-  /// The present file ends here, between two chunks. One that cannot be begun leaves the present one as it
-  /// is, for good.
-  void rotate(std::uint64_t log_ns) {
-    std::unique_ptr<OutFile> next;
-    try {
-      next = begin_file(part_name(parts.size() + 2));
-    } catch (const Error& e) {
-      trouble = std::string(e.what()) + "; the log went on in '" + out->name().string() + "'";
-      options.rotate_bytes = 0;
-      options.rotate_ns = 0;
-      return;
-    }
-    end_file();
-    out = std::move(next);
-    file = {};
-    for (Schema& s : schemas) s.begun = s.stored = false;
-    for (Channel& c : channels) {
-      c.begun = c.stored = false;
-      c.messages = 0;
-    }
-    begin_ns = log_ns;
-    store_extras();
-    repeat();
-  }
-
-  /// What could not be written whole is left as if it had been cut off: no summary, no name. Nobody shall
-  /// take it for a whole log.
-  void end_file() {
+  /// What could not be written whole is left as if it had been cut off: no summary, no name.
+  Result end_file() {
     if (!broken()) {
       block.clear();
       mcap::write_summary(block, *out, schemas, channels, file);
       if (out->append(block.data(), block.size())) out->finish();
     }
-    std::filesystem::path place = out->name();
-    if (broken()) {
-      trouble = out->error();
-      if (std::error_code none; !std::filesystem::exists(place, none)) {  // somebody has removed the file
-        file.messages = file.repeated = 0;
-        place.clear();
-      }
+    Result result;
+    result.file = out->name();
+    result.error = out->error();
+    if (std::error_code none; broken() && !std::filesystem::exists(result.file, none)) {  // it was removed
+      file.messages = 0;
+      result.file.clear();
     }
-    delivered += file.messages - file.repeated;
-    parts.push_back({place, out->sha256(), file.messages, out->size()});
-  }
-
-  /// The records that began the first file begin the next one, too, and then which one of them it is.
-  void store_extras() {
-    for (mcap::Cursor all{{extras.data(), extras.size()}}; all.more();) {
-      const std::size_t start = all.at;
-      all.take(1);
-      all.take(all.number<std::uint64_t>());
-      store_extra(extras.data() + start, all.at - start);
-    }
-    write_metadata(series_metadata, {{"file", std::to_string(parts.size() + 1)}});
-    store_extra(block.data(), block.size());
-  }
-
-  /// What was said last, in the order of its time, as a chunk of its own.
-  void repeat() {
-    std::vector<const Kept*> list;
-    for (const auto& [name, kept] : lasting) list.push_back(&kept);
-    for (const Channel& c : channels)
-      if (!c.last.record.empty()) list.push_back(&c.last);
-    std::stable_sort(list.begin(), list.end(),
-                     [](const Kept* a, const Kept* b) { return a->log_ns < b->log_ns; });
-    for (const Kept* kept : list) {
-      note_message(kept->channel, kept->log_ns);
-      chunk.raw(kept->record.data(), kept->record.size());
-    }
-    flush();
-    file.repeated = file.messages;
-  }
-
-  /// The message that was just ended.
-  void keep(const std::string& name) {
-    Kept& kept = name.empty() ? channels[message.channel].last : lasting[name];
-    kept.channel = message.channel;
-    kept.log_ns = message.log_ns;
-    kept.record.assign(chunk.data() + message.start, chunk.data() + chunk.size());
+    result.sha256 = out->sha256();
+    result.messages = file.messages;
+    result.bytes = out->size();
+    result.lost = offered - file.messages;
+    return result;
   }
 
   /// A message that comes next in the chunk.
@@ -170,27 +88,16 @@ struct McapWriter::Impl {
     ++chunk_messages;
   }
 
-  /// As the block.
-  void write_metadata(const std::string& name, const Pairs& pairs) {
-    block.clear();
-    block.record(mcap::metadata, [&] { block.text(name).pairs(pairs); });
-  }
-
-  /// An attachment or metadata, whole.
-  void extra(const std::byte* record, std::size_t size) {
-    extras.raw(record, size);
-    store_extra(record, size);
-  }
-
-  void store_extra(const std::byte* record, std::size_t size) {
+  /// The block is an attachment or metadata, whole.
+  void store_extra() {
     const std::uint64_t place = out->size();
-    if (!out->append(record, size)) return;
-    const bool attachment = static_cast<mcap::Code>(*record) == mcap::attachment;
+    if (!out->append(block.data(), block.size())) return;
+    const bool attachment = static_cast<mcap::Code>(*block.data()) == mcap::attachment;
     Bytes& index = attachment ? file.attachment_indexes : file.metadata_indexes;
     ++(attachment ? file.attachments : file.metadata_records);
     const std::size_t start = index.begin(attachment ? mcap::attachment_index : mcap::metadata_index);
-    index.number(place).number(std::uint64_t{size});
-    mcap::Cursor in{{record, size}, mcap::record_head};
+    index.number(place).number(std::uint64_t{block.size()});
+    mcap::Cursor in{{block.data(), block.size()}, mcap::record_head};
     if (attachment) {
       const mcap::Data times = in.take(16);
       const std::string name = in.text(), type = in.text();
@@ -202,24 +109,11 @@ struct McapWriter::Impl {
     index.end(start);
   }
 
-  /// Whether the message that comes at `log_ns` belongs to the next file.
-  bool full(std::uint64_t log_ns) const {
-    if (file.messages == file.repeated && chunk_messages == 0) return false;
-    if (options.rotate_ns > 0 && log_ns >= begin_ns + static_cast<std::uint64_t>(options.rotate_ns))
-      return true;
-    return options.rotate_bytes > 0 && chunk_messages == 0 &&
-           out->size() + file.largest_chunk > options.rotate_bytes;
-  }
-
-  /// Before a message: ends the chunk, and the file, that it does not belong to any more.
+  /// Before a message: ends the chunk that it does not belong to any more.
   void make_place(std::uint64_t log_ns) {
-    if (offered == 0) begin_ns = log_ns;
     const bool long_enough =
         chunk_messages > 0 && log_ns >= chunk_span.first + static_cast<std::uint64_t>(options.chunk_ns);
     if (long_enough || chunk.size() >= options.chunk_bytes) flush();
-    if (broken() || !full(log_ns)) return;
-    flush();
-    if (!broken()) rotate(log_ns);
   }
 
   /// The schema and channel records that a channel's first message needs before it.
@@ -305,7 +199,6 @@ struct McapWriter::Impl {
   void note_stored() {
     ++file.chunks;
     file.messages += chunk_messages;
-    file.largest_chunk = std::max<std::uint64_t>(file.largest_chunk, block.size());
     file.span.add(chunk_span.first);
     file.span.add(chunk_span.last);
     for (Channel& c : channels) {
@@ -315,13 +208,6 @@ struct McapWriter::Impl {
     }
   }
 };
-
-std::filesystem::path first_of_series(const std::filesystem::path& file, const std::string& number) {
-  std::filesystem::path first = file.extension() == ".part" ? file.parent_path() / file.stem() : file;
-  std::string stem = first.stem().string();
-  if (stem.ends_with("-" + number)) stem.resize(stem.size() - number.size() - 1);
-  return first.parent_path() / (stem + first.extension().string());
-}
 
 McapWriter::McapWriter(const Options& options) : impl_(std::make_unique<Impl>(options)) {}
 
@@ -347,18 +233,17 @@ std::byte* McapWriter::begin_message(std::uint16_t channel, std::uint32_t sequen
   w.make_place(log_ns);
   w.note_message(channel, log_ns);
   w.chunk.reserve(mcap::record_head + mcap::message_head + w.options.max_message_bytes);
-  w.message = {channel, log_ns, w.chunk.size()};
+  w.message_start = w.chunk.size();
   ++w.offered;
   w.chunk.begin(mcap::message);  // the length follows in end_message
   w.chunk.number(channel).number(sequence).number(log_ns).number(publish_ns);
   return w.chunk.data() + w.chunk.size();
 }
 
-void McapWriter::end_message(std::size_t size, const std::string& lasting) {
+void McapWriter::end_message(std::size_t size) {
   Impl& w = *impl_;
   w.chunk.grow(size);
-  w.chunk.end(w.message.start + mcap::record_head);
-  if (w.rotates()) w.keep(lasting);
+  w.chunk.end(w.message_start + mcap::record_head);
 }
 
 void McapWriter::attach(const std::string& name, const std::string& media_type, const std::string& content,
@@ -375,14 +260,15 @@ void McapWriter::attach(const std::string& name, const std::string& media_type, 
       .raw(content.data(), content.size());
   w.block.number(mcap::crc_of(0, {w.block.data() + start, w.block.size() - start}));
   w.block.end(start);
-  w.extra(w.block.data(), w.block.size());
+  w.store_extra();
 }
 
 void McapWriter::metadata(const std::string& name, const Pairs& pairs) {
   Impl& w = *impl_;
   if (w.broken()) return;
-  w.write_metadata(name, pairs);
-  w.extra(w.block.data(), w.block.size());
+  w.block.clear();
+  w.block.record(mcap::metadata, [&] { w.block.text(name).pairs(pairs); });
+  w.store_extra();
 }
 
 bool McapWriter::failed() const { return impl_->broken(); }
@@ -394,12 +280,7 @@ void McapWriter::fail(const std::string& why) { impl_->out->fail(why); }
 McapWriter::Result McapWriter::close() {
   Impl& w = *impl_;
   w.flush();
-  w.end_file();
-  Result result{.sha256 = w.parts[0].sha256, .error = w.trouble, .file = w.parts[0].file, .files = w.parts};
-  for (const Part& p : w.parts) result.bytes += p.bytes;
-  result.messages = w.delivered;
-  result.lost = w.offered - w.delivered;
-  return result;
+  return w.end_file();
 }
 
 }  // namespace fulmar::core

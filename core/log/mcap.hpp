@@ -16,11 +16,6 @@ namespace fulmar::core {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-/// Metadata of all files of a series but the first: "file", from 2 on.
-inline constexpr const char* series_metadata = "series";
-/// The name of the first of them: "a.mcap" of "a-3.mcap" and "3".
-std::filesystem::path first_of_series(const std::filesystem::path& file, const std::string& number);
-
 class McapWriter {
  public:
   struct Options {
@@ -33,29 +28,16 @@ class McapWriter {
     std::int64_t chunk_ns = 1'000'000'000;  // of log time
     std::size_t max_message_bytes = 1u << 20;
     bool sync = false;  // to the disk after each chunk: for flights that may end with a loss of power
-    // A file that would grow beyond so many bytes, or holds so much log time, is closed, and name-2.mcap goes
-    // on: whole, with all schemas, channels, attachments and metadata, and with what was said last, at its
-    // own times: the last message of every channel, and of every name (see end_message). 0: never. It happens
-    // between two chunks, at the same message in equal runs.
-    std::uint64_t rotate_bytes = 0;
-    std::int64_t rotate_ns = 0;
-  };
-  struct Part {
-    std::filesystem::path file;  // as it is named now; empty: it is not there any more
-    std::string sha256;
-    std::uint64_t messages = 0, bytes = 0;
   };
   struct Result {
-    std::string sha256;                     // of the first file
-    std::uint64_t messages = 0, bytes = 0;  // of all files; a message that further files repeat counts once
-    std::uint64_t lost = 0;                 // messages that are in no file
+    std::filesystem::path file;  // as it is named now; empty: it is not there any more
     std::string error;
-    std::filesystem::path file;  // the first, as it is named now
-    std::vector<Part> files;     // in the order of time
+    std::string sha256;
+    std::uint64_t messages = 0, bytes = 0;
+    std::uint64_t lost = 0;  // messages that are not in the file
   };
 
-  /// Throws Error when the file, or its ".part", is already there or cannot be written; so also for the
-  /// second one of those that rotate.
+  /// Throws Error when the file, or its ".part", is already there or cannot be written.
   explicit McapWriter(const Options& options);
   ~McapWriter();
   McapWriter(const McapWriter&) = delete;
@@ -69,9 +51,7 @@ class McapWriter {
   /// Room of max_message_bytes for the bytes of a message; `end_message` says how many there were.
   std::byte* begin_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t log_ns,
                            std::uint64_t publish_ns);
-  /// `lasting`: the name of what it tells and what holds until another of this name comes; "": until the
-  /// channel says something else.
-  void end_message(std::size_t size, const std::string& lasting = {});
+  void end_message(std::size_t size);
 
   void attach(const std::string& name, const std::string& media_type, const std::string& content,
               std::uint64_t time_ns);

@@ -26,13 +26,6 @@ struct Entry {
   std::uint64_t log_ns, offset;  // in the chunk
 };
 
-/// A message's record, for the files to come.
-struct Kept {
-  std::uint16_t channel = 0;
-  std::uint64_t log_ns = 0;
-  std::vector<std::byte> record{};
-};
-
 struct Channel {
   std::uint16_t schema = 0;
   std::string topic, encoding;
@@ -40,7 +33,6 @@ struct Channel {
   bool begun = false, stored = false;
   std::uint64_t messages = 0;  // in the file
   std::vector<Entry> index{};  // of the open chunk
-  Kept last{};                 // of those without a name
 
   void write(Bytes& out, std::uint16_t id) const {
     out.record(channel, [&] { out.number(id).number(schema).text(topic).text(encoding).pairs(metadata); });
@@ -59,7 +51,7 @@ struct Span {
 struct Totals {
   Bytes chunk_indexes, attachment_indexes, metadata_indexes;
   std::uint32_t chunks = 0, attachments = 0, metadata_records = 0;
-  std::uint64_t messages = 0, repeated = 0, largest_chunk = 0;
+  std::uint64_t messages = 0;
   Span span;
 };
 

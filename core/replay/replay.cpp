@@ -59,11 +59,6 @@ Recording::Recording(const fs::path& log) try : path_(log), survey_(log) {
   for (const McapFile::Attachment& a : survey_.log.attachments)
     if (a.media_type == "application/yaml") files.emplace_back(a.name, a.content);
   if (files.empty()) throw Error("no mission is attached to it: it is not the log of a flight");
-  if (const McapFile::Metadata* series = find_named(survey_.log.metadata, series_metadata))
-    throw Error("it is file " + series->pairs.at(0).second +
-                " of a log that rotated, and a replay begins with the first tick: give " +
-                first_of_series(log, series->pairs.at(0).second).string() +
-                ", which is replayed as far as that file goes");
   HostTopic<Event>(survey_.log).check();
   mission_file_ = files.front().first;
   read_overrides();

@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/graph/params.hpp"
-#include "core/graph/record.hpp"
 #include "core/run/control_impl.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/types/named.hpp"
@@ -22,10 +21,6 @@ namespace {
 constexpr std::size_t max_value = 4096;  // of a parameter's text
 constexpr auto nap =
     std::chrono::milliseconds(2);  // of the thread that answers; the loop never pays for waking it
-
-Node parsed(const std::string& text, const std::string& name, Report& report) {
-  return parse_yaml(make_source(text, name), report);
-}
 
 }  // namespace
 
@@ -322,21 +317,10 @@ void FlightControl::set_parameter(const std::string& component, const std::strin
   check_live(component, info);
   Report report;
   FileStore files(report);
-  read_param(info, parsed(text, component + "." + param, report), param, command.value, files, report);
+  const Node node = parse_yaml(make_source(text, component + "." + param), report);
+  read_param(info, node, param, command.value, files, report);
   report.throw_if_any();
   send(std::move(command), std::move(answer));
-}
-
-void FlightControl::request(const std::string& component, const std::string& port, const std::string& text,
-                            Answer answer) {
-  const std::shared_ptr<const CommandTable> commands = directory()->commands;
-  const TypePtr type = commands->entrance(commands->component(component), port, false).type;
-  std::vector<std::byte> message(type->size);
-  Report report;
-  const Node node = parsed(text.empty() ? "{}" : text, component + "." + port, report);
-  if (!node.is(Node::Kind::missing)) fill_record(*type, node, message.data(), "", report);
-  report.throw_if_any();
-  request(component, port, std::move(message), std::move(answer));
 }
 
 void FlightControl::request(const std::string& component, const std::string& port,

@@ -70,8 +70,6 @@ class FlightControl final : public Control {
   FlightView view() const override;
   void set_parameter(const std::string& component, const std::string& param, const std::string& text,
                      Answer answer) override;
-  void request(const std::string& component, const std::string& port, const std::string& text,
-               Answer answer) override;
   void request(const std::string& component, const std::string& port, std::vector<std::byte> message,
                Answer answer) override;
   bool publish(const std::string& component, const std::string& port,

@@ -95,11 +95,7 @@ class Control {
   /// Text as in a mission file: "0.6", "20 deg", "[1, 2, 3]", "true", a choice.
   virtual void set_parameter(const std::string& component, const std::string& param, const std::string& text,
                              Answer answer) = 0;
-  /// Text as in a mission file (JSON is that, too): {lat_deg: 40.1, radius_m: 80}. Fields that are left out
-  /// are zero.
-  virtual void request(const std::string& component, const std::string& port, const std::string& text,
-                       Answer answer) = 0;
-  /// The same, a struct of the request port's type.
+  /// `message`: a struct of the request port's type.
   virtual void request(const std::string& component, const std::string& port, std::vector<std::byte> message,
                        Answer answer) = 0;
   /// A sample for an input that `dds.import` names; a struct of its type. False: thrown away, counted, as

@@ -82,9 +82,7 @@ struct Log::Impl {
                                                               .held = options.held,
                                                               .zstd_level = options.zstd_level,
                                                               .max_message_bytes = max_message,
-                                                              .sync = !options.wait,
-                                                              .rotate_bytes = options.rotate_bytes,
-                                                              .rotate_ns = options.rotate_ns});
+                                                              .sync = !options.wait});
     add_channels(tap.channels());
     start();
   }
@@ -124,11 +122,6 @@ struct Log::Impl {
     list.clear();
   }
 
-  std::string lasting(const Tap::Sample& sample) const {
-    const bool rotates = options.rotate_bytes > 0 || options.rotate_ns > 0;
-    return rotates && options.lasting ? options.lasting(sample.channel, sample.data()) : "";
-  }
-
   void store(const Tap::Sample& sample) {
     if (!head_stored) {
       head_stored = true;
@@ -137,7 +130,7 @@ struct Log::Impl {
     const Channel& channel = channels[sample.channel];
     std::byte* room = writer->begin_message(channel.id, static_cast<std::uint32_t>(sample.sequence),
                                             time(sample.now_ns), time(sample.valid_ns));
-    writer->end_message(channel.encoder.encode(sample.data(), room), lasting(sample));
+    writer->end_message(channel.encoder.encode(sample.data(), room));
   }
 
   /// Takes all that there is. Whatever happens here goes on taking: an unpaced flight waits for that.
@@ -208,7 +201,7 @@ LogResult Log::close() {
   log.thread.join();
   const McapWriter::Result& r = log.result;
   const std::uint64_t dropped = log.lost.missed + log.lost.unstored + r.lost;
-  return {r.file, r.sha256, r.messages, r.bytes, dropped, r.error, r.files.size()};
+  return {r.file, r.sha256, r.messages, r.bytes, dropped, r.error};
 }
 
 }  // namespace fulmar::core

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -22,7 +21,6 @@ struct LogResult {
   std::uint64_t bytes = 0;
   std::uint64_t dropped = 0;  // messages lost because the disk was too slow or refused them
   std::string error;          // "" or what the disk said
-  std::size_t files = 1;      // of one log that rotates; `file` is the first
 };
 
 class Log {
@@ -34,11 +32,6 @@ class Log {
     bool wait = true;  // unpaced simulation: the loop waits for the log; else what it is too slow for is
                        // lost, counted
     std::vector<bool> channels = {};  // of the tap's: those that the file has; empty: all
-    std::uint64_t rotate_bytes = 0;   // then a new file goes on; 0: never
-    std::int64_t rotate_ns = 0;
-    // The name of what a message tells and what holds until another of this name comes; "": until the channel
-    // says something else. Every further file begins with these. Called in the log's thread.
-    std::function<std::string(std::size_t channel, const std::byte* message)> lasting = {};
     int zstd_level = 1;  // below 0: faster. -5 costs 0.6 of level 1 for 12 % more bytes; 0: not compressed
   };
   /// Throws Error when the file is there already or cannot be written.

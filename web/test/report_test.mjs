@@ -179,13 +179,11 @@ try {
     console.log("not flown on a controller: build the target `fcu_peer`");
   }
 
-  // a log that rotates is several, each whole; one that was cut off is shown as far as it goes, which is said
-  writeFileSync(file("turns.yaml"), `mission: turns\nextends: ${resolve("configs/missions/return_home.yaml")}\nrecord: {rotate: 10 s}\n`);
+  // fence and places of a mission; a log that was cut off is shown as far as it goes, which is said
+  writeFileSync(file("turns.yaml"), `mission: turns\nextends: ${resolve("configs/missions/return_home.yaml")}\n`);
   run("run", "turns.yaml", "--duration", "25", "--log", "turns.mcap");
-  run("report", "turns.mcap", "turns-2.mcap", "turns-3.mcap", "-o", "turns.html");
+  run("report", "turns.mcap", "-o", "turns.html");
   await open("turns.html");
-  assert.match(await page.locator("#flights").innerText(), /turns\.mcap\s+turns-2\.mcap\s+turns-3\.mcap/);
-  assert.match(await page.locator("#flights").innerText(), /file of its log\s+–\s+2\s+3/);
   await whole("turns");
   // fence, places and runway, as the mission names them, on the map of the summary and of the moment
   const places = (selector) => page.locator(selector).first().evaluate((e) => [e.dataset.fence, e.dataset.places, e.dataset.runway]);

@@ -70,9 +70,6 @@ class MockControl : public Control {
     }
     throw Error("there is no " + component + "." + param);
   }
-  void request(const std::string&, const std::string&, const std::string&, Answer) override {
-    throw Error("not by text");
-  }
   void request(const std::string&, const std::string&, std::vector<std::byte> message,
                Answer answer) override {
     const std::lock_guard lock(mutex);

@@ -13,7 +13,8 @@ using namespace fulmar::core::live::test;
 
 TEST_CASE_FIXTURE(Fixture, "a request is called in JSON and in CDR") {
   CHECK(call_json("/plan/add_leg", R"({"course_rad": 0.5})") == json({{"accepted", true}, {"reason", ""}}));
-  CHECK(control.heard().back() == R"(request plan.add_leg {"course_rad": 0.5})");
+  CHECK(control.heard().back() == "request plan.add_leg");
+  CHECK(reinterpret_cast<const Leg*>(control.message().data())->course_rad == 0.5);
   CHECK(call_json("/plan/add_leg", R"({"kind": "orbit"})") ==
         json({{"accepted", false}, {"reason", "no orbits here"}}));
 
@@ -32,11 +33,13 @@ TEST_CASE_FIXTURE(Fixture,
   std::string legs;
   for (int i = 0; i < 300; ++i)
     legs += std::string(i > 0 ? "," : "") + R"({"course_rad": 0.5, "limits": []})";
-  CHECK(call_json("/plan/add_leg", R"({"legs": [)" + legs + "]}")["reason"] == "");
-  CHECK(call_json("/plan/add_leg", R"({"name": ")" + std::string(300, '[') + R"("})")["reason"] == "");
+  const json many = call_json("/plan/add_leg", R"({"legs": [)" + legs + "]}"),
+             brackets = call_json("/plan/add_leg", R"({"name": ")" + std::string(300, '[') + R"("})");
+  CHECK(many["reason"].get<std::string>().find("'legs'") != std::string::npos);
+  CHECK(brackets["reason"].get<std::string>().find("'name'") != std::string::npos);
   const std::string deep = R"({"legs": )" + std::string(100, '[') + std::string(100, ']') + "}";
   CHECK(call_json("/plan/add_leg", deep)["reason"] == "the request is nested too deeply");
-  CHECK(control.heard().size() == 2);
+  CHECK(control.heard().empty());
 }
 
 TEST_CASE_FIXTURE(Fixture, "requests that do not hold what they should are answered, and reach nobody") {

@@ -70,18 +70,13 @@ class MockControl : public Control {
       if (!wrong && changed_) changed_("slc", param);
     });
   }
-  void request(const std::string& component, const std::string& port, const std::string& text,
-               Answer answer) override {
-    note("request " + component + "." + port + " " + text);
-    work([answer = std::move(answer), text] {
-      answer(text.find("\"orbit\"") == std::string::npos ? "" : "no orbits here");
-    });
-  }
   void request(const std::string& component, const std::string& port, std::vector<std::byte> message,
                Answer answer) override {
     note("request " + component + "." + port);
+    const auto* const leg = reinterpret_cast<const Leg*>(message.data());
+    const bool bare_orbit = leg->kind == 1 && !leg->has_course;
     take(std::move(message));
-    work([answer = std::move(answer)] { answer(""); });
+    work([answer = std::move(answer), bare_orbit] { answer(bare_orbit ? "no orbits here" : ""); });
   }
   bool publish(const std::string& component, const std::string& port,
                std::vector<std::byte> message) override {

@@ -4,7 +4,6 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -71,7 +70,6 @@ class Recorder {
   void add_further_requests(ChannelList& list, Unit& unit);
   void open_log(const Units& units);
   std::int64_t record_period(const std::string& port, const Slot& slot) const;  // -1: not recorded
-  std::function<std::string(std::size_t, const std::byte*)> lasting() const;
   void attach_texts(const Units& units);
   void listen_to(const Unit& unit, int output);
   void tell(Told& told);

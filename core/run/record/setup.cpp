@@ -107,9 +107,6 @@ void Recorder::open_log(const Units& units) {
   o.held = state_.options.log_held;
   o.epoch_ns = graph.epoch_ns;
   o.wait = state_.unpaced();
-  o.rotate_bytes = graph.rotate_bytes;
-  o.rotate_ns = graph.rotate_ns;
-  o.lasting = lasting();
   // What the host says and what comes from outside, always. A role's topic when anybody who fills it is
   // recorded.
   o.channels.assign(tap_->channels().size(), true);
@@ -126,22 +123,6 @@ void Recorder::open_log(const Units& units) {
   });
   log_ = std::make_unique<Log>(o, *tap_);
   attach_texts(units);
-}
-
-/// What every file of a log begins with, for it to be read, and resumed from, without the one before: see
-/// Log::Options.
-std::function<std::string(std::size_t, const std::byte*)> Recorder::lasting() const {
-  return [at = channels_](std::size_t channel, const std::byte* message) {
-    std::string name;
-    if (channel == at.event && reinterpret_cast<const Event*>(message)->code == Code::phase_entered)
-      name = "phase";
-    if (channel != at.parameter && channel != at.command) return name;
-    const auto* const note = reinterpret_cast<const CommandNote*>(message);
-    const std::string component = note->component.data();
-    if (note->kind == CommandKind::parameter) name = "parameter " + component + "." + note->name.data();
-    if (note->kind == CommandKind::swap) name = "swap " + component;
-    return name;
-  };
 }
 
 namespace {

@@ -143,8 +143,7 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
 
 namespace {
 
-/// Of a file in which nothing stands yet the one before knows more: a log that had just rotated, a host that
-/// died as it began.
+/// False for the log of a host that died as it began.
 bool holds_message(const fs::path& log) {
   try {
     return McapStream(log).next() != nullptr;

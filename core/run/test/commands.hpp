@@ -3,8 +3,10 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/run/command/command.hpp"
 #include "core/run/flight.hpp"
@@ -21,6 +23,11 @@ void send(Flight& flight, CommandKind kind, const std::string& component, const 
   const auto* const bytes = reinterpret_cast<const std::byte*>(&message);
   command.message.assign(bytes, bytes + sizeof message);
   flight.apply(std::move(command), std::move(answered));
+}
+/// The message of a request that is one number, such as the lab's Watch.ask.
+inline std::vector<std::byte> ask(double number) {
+  const auto bytes = std::as_bytes(std::span(&number, 1));
+  return {bytes.begin(), bytes.end()};
 }
 template <class Message>
 void request(Flight& flight, const std::string& component, const std::string& port, const Message& message,

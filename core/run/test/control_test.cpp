@@ -106,8 +106,7 @@ TEST_CASE("what cannot be is refused in the asker's thread, with what would be r
   CHECK(holds(refusal([&] { control.set_parameter("one", "fixed", "0", none); }), "set-up parameter"));
   CHECK(holds(refusal([&] { control.set_parameter("one", "fault", "nothing", none); }), "none"));
   CHECK(holds(refusal([&] { control.enter_phase("fli", none); }), "Did you mean 'fly'?"));
-  CHECK(holds(refusal([&] { control.request("watch", "asks", "{}", none); }), "Did you mean 'ask'?"));
-  CHECK(holds(refusal([&] { control.request("watch", "ask", "{too_m: 1}", none); }), "too_m"));
+  CHECK(holds(refusal([&] { control.request("watch", "asks", ask(0), none); }), "Did you mean 'ask'?"));
   CHECK(holds(refusal([&] { control.publish("watch", "burst", {}); }), "imported"));
   CHECK(holds(refusal([&] { control.swap("nobody", "x.so", none); }), "there is no component 'nobody'"));
   REQUIRE(flight.step());
@@ -125,11 +124,11 @@ TEST_CASE(
     Control& control = *flight.control();
     REQUIRE(flight.step());
     Reply good, bad;
-    control.request("watch", "ask", "{to_m: 1}", good.take());
+    control.request("watch", "ask", ask(1), good.take());
     CHECK(good.wait(flight) == "");
-    control.request("watch", "ask", "{to_m: -1}", bad.take());
+    control.request("watch", "ask", ask(-1), bad.take());
     CHECK(bad.wait(flight) == "cannot go back");
-    control.request("watch", "ask", "{to_m: 1}", late.take());
+    control.request("watch", "ask", ask(1), late.take());
     flight.finish();
     CHECK(refusal([&] { control.enter_phase("fly", {}); }) == "the flight has ended");
   }
@@ -227,7 +226,7 @@ TEST_CASE("requests wait for room in their order, hold up no parameter, and cost
   std::vector<int> order;
   std::mutex mutex;
   for (int n = 0; n < many; ++n)
-    control.request("watch", "ask", n % 10 == 9 ? "{to_m: -1}" : "{to_m: 1}",
+    control.request("watch", "ask", ask(n % 10 == 9 ? -1 : 1),
                     [&, n](const std::string& refusal) {
                       const std::lock_guard lock(mutex);
                       CHECK(refusal == (n % 10 == 9 ? "cannot go back" : ""));
@@ -252,9 +251,9 @@ TEST_CASE("a request to a component that does not fly is refused, not kept for t
   REQUIRE(flight.step());
   Reply stop, before, after;
   control.set_parameter("watch", "stop_at", "-100 s", stop.take());
-  control.request("watch", "ask", "{to_m: 1}", before.take());
+  control.request("watch", "ask", ask(1), before.take());
   CHECK(before.wait(flight) == "was not answered");  // that step threw
-  control.request("watch", "ask", "{to_m: 1}", after.take());
+  control.request("watch", "ask", ask(1), after.take());
   CHECK(after.wait(flight) == "does not fly now");
   CHECK(refusal([&] { request(flight, "watch", "ask", 0.0); }) == "watch does not fly now");
 }
@@ -267,7 +266,7 @@ TEST_CASE("a request that its component has not come to when the flight ends is 
   {
     Flight flight(g, quick());
     REQUIRE(flight.step());
-    flight.control()->request("watch", "ask", "{to_m: 1}", [&](const std::string& refusal) {
+    flight.control()->request("watch", "ask", ask(1), [&](const std::string& refusal) {
       ++answers;
       CHECK(refusal == "the flight has ended");
     });

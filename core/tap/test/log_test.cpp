@@ -131,55 +131,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "a file of a log that rotates begins with the last sample of each topic, and of each name that a message "
-    "is given") {
-  const Folder folder;
-  const auto positive = [](std::size_t channel, const std::byte* data) {
-    double value = 0;
-    std::memcpy(&value, data, sizeof value);
-    return channel == 1 && value > 0 ? "positive" : "";
-  };
-  TapedLog log(
-      {.file = folder.path / "a.mcap", .epoch_ns = epoch_ns, .rotate_ns = 1'000'000'000, .lasting = positive},
-      two_channels());
-  const auto write = [&](std::size_t channel, std::int64_t ms, double value) {
-    const Number n{value};
-    log.write(channel, ms * 1'000'000, ms * 1'000'000 - 500, bytes_of(n));
-  };
-  write(1, 0, 3);
-  write(1, 100, 4);
-  write(1, 200, -1);
-  write(3, 300, 8);
-  write(1, 900, -2);
-  write(3, 990, 9);
-  write(1, 1000, -3);
-  const LogResult result = log.close();
-  REQUIRE(result.files == 2);
-  CHECK(result.messages == 7);
-  CHECK(result.dropped == 0);
-  const McapFile second = read_mcap(folder.path / "a-2.mcap");
-  struct Wanted {
-    const char* topic;
-    std::uint32_t sequence;
-    std::int64_t ms;
-    double value;
-  };
-  const Wanted list[] = {
-      {"/number", 1, 100, 4}, {"/number", 3, 900, -2}, {"/other", 1, 990, 9}, {"/number", 4, 1000, -3}};
-  REQUIRE(second.messages.size() == 4);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const McapFile::Message& m = second.messages[i];
-    Number n{};
-    cdr_decode(*number_type(), m.data.data(), m.data.size(), bytes_of(n));
-    CHECK(second.channels.at(m.channel).topic == list[i].topic);
-    CHECK(m.sequence == list[i].sequence);
-    CHECK(m.log_ns == static_cast<std::uint64_t>(epoch_ns + list[i].ms * 1'000'000));
-    CHECK(m.publish_ns == m.log_ns - 500);
-    CHECK(n.value_ratio == list[i].value);
-  }
-}
-
 TEST_CASE("a file that is no log is refused") {
   const Folder folder;
   std::ofstream(folder.path / "a.mcap") << "hello";

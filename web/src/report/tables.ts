@@ -89,8 +89,6 @@ export function flight_table(logs: Log[]): HTMLElement {
     ["changed by the command line", (log) => Object.entries(log.metadata.overrides ?? {}).map(([k, v]) => `${k} ${v}`).join("; ") || "nothing"],
     ["log is whole", (log) => (log.fault ? "no: " + log.fault : "yes")],
   ];
-  // of a log that rotates each file begins with what was said before, so its time does not tell
-  if (logs.some((log) => log.metadata.series)) rows.splice(3, 0, ["file of its log", (log) => log.metadata.series?.file ?? none]);
   return table(["", ...logs.map((log) => log.name)], rows.map(([name, of]) => [name, ...logs.map(of)]), 99, "facts");
 }
 

@@ -8,11 +8,10 @@ export interface VerdictLine {
   bad: boolean;
 }
 
-export function verdict_of(log: Pick<Log, "verdict" | "fault" | "end_s" | "metadata">): VerdictLine {
+export function verdict_of(log: Pick<Log, "verdict" | "fault" | "end_s">): VerdictLine {
   const { words, severity } = log.verdict;
   if (words) return { words: words.charAt(0).toUpperCase() + words.slice(1), bad: severity === "error" || severity === "critical" };
   const at = `The log ends at ${clock(log.end_s)} without a verdict: `;
   if (log.fault) return { words: `${at}${log.fault}.`, bad: true };
-  if (log.metadata.series) return { words: `${at}another file of its flight may have it.`, bad: false };
   return { words: `${at}it is whole; its host wrote none, or it was recovered.`, bad: false };
 }

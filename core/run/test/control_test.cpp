@@ -226,12 +226,11 @@ TEST_CASE("requests wait for room in their order, hold up no parameter, and cost
   std::vector<int> order;
   std::mutex mutex;
   for (int n = 0; n < many; ++n)
-    control.request("watch", "ask", ask(n % 10 == 9 ? -1 : 1),
-                    [&, n](const std::string& refusal) {
-                      const std::lock_guard lock(mutex);
-                      CHECK(refusal == (n % 10 == 9 ? "cannot go back" : ""));
-                      order.push_back(n);
-                    });
+    control.request("watch", "ask", ask(n % 10 == 9 ? -1 : 1), [&, n](const std::string& refusal) {
+      const std::lock_guard lock(mutex);
+      CHECK(refusal == (n % 10 == 9 ? "cannot go back" : ""));
+      order.push_back(n);
+    });
   Reply set;
   control.set_parameter("one", "u", "0.5", set.take());
   const auto answered = [&] {

@@ -158,8 +158,7 @@ TEST_CASE("a request to a paused flight is answered in the next tick") {
   aloft.pace(order(pause));
   std::promise<std::string> promise;
   auto answer = promise.get_future();
-  aloft.control().request("watch", "ask", ask(-1),
-                          [&](const std::string& why) { promise.set_value(why); });
+  aloft.control().request("watch", "ask", ask(-1), [&](const std::string& why) { promise.set_value(why); });
   CHECK(aloft.set("0.3") == "");  // was taken behind the request
   CHECK(answer.wait_for(std::chrono::milliseconds(10)) == std::future_status::timeout);
   CHECK(aloft.step(1) == "");

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -55,6 +56,14 @@ struct MockFlight {
     for (const std::string& word : control.heard())
       if (word == what) return true;
     return false;
+  }
+  /// Of the request that came last.
+  test::Leg leg() const {
+    test::Leg leg;
+    const std::vector<std::byte> bytes = control.message();
+    REQUIRE(bytes.size() == sizeof leg);
+    std::memcpy(&leg, bytes.data(), sizeof leg);
+    return leg;
   }
 };
 

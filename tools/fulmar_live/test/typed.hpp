@@ -57,13 +57,17 @@ struct MockFlight {
       if (word == what) return true;
     return false;
   }
-  /// Of the request that came last.
-  test::Leg leg() const {
+  /// The request that came last, decoded.
+  std::string leg() const {
     test::Leg leg;
     const std::vector<std::byte> bytes = control.message();
     REQUIRE(bytes.size() == sizeof leg);
     std::memcpy(&leg, bytes.data(), sizeof leg);
-    return leg;
+    std::ostringstream text;
+    text << control.heard().back().substr(std::strlen("request ")) << ": kind " << int{leg.kind}
+         << ", course " << leg.has_course << ' ' << leg.course_rad << ", position " << leg.position_m.north
+         << ' ' << leg.position_m.east << ' ' << leg.position_m.down;
+    return text.str();
   }
 };
 

@@ -124,8 +124,7 @@ void Flight::Impl::install(int at, Graph&& next, const std::string& words) {
   graph.phases = std::move(next.phases);
   graph.any = std::move(next.any);
   graph.roles = std::move(next.roles);
-  graph.judge.done = std::move(next.judge.done);
-  graph.judge.failed = std::move(next.judge.failed);
+  graph.judge = std::move(next.judge);
   graph.source.overrides = std::move(next.source.overrides);
   put_in_place(at, std::move(fresh), "was swapped");
   swapped[at] = words;

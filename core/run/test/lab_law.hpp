@@ -123,8 +123,13 @@ struct Law {
   };
   struct Outputs {
     Command command;
+#ifdef LAB_WIDER
+    Probe taken_over_frac;
+    Probe error_m;
+#else
     Probe error_m;
     Probe taken_over_frac;
+#endif
   };
   struct Params {
 #ifdef LAB_WIDER

@@ -169,6 +169,18 @@ TEST_CASE("what the mission says of a swapped component is found in the newcomer
   CHECK(ground.u() == 0.6);
 }
 
+TEST_CASE("each condition on the flight reads the newcomer's output, wherever it has it") {
+  const std::string done = "done: \"vehicle.signal.tick_s > 0.1 s\"\n";
+  for (const std::string key : {"flown", "failed"}) {
+    CAPTURE(key);
+    Ground ground(mission(done + key + ": \"one.error_m > 300\"\n" + one_phase));
+    swap(*ground.flight, "one", variant("_wider"));  // outputs in another order
+    while (ground.flight->step()) {
+    }
+    CHECK(ground.flight->finish().outcome == (key == "flown" ? Outcome::flown : Outcome::failed));
+  }
+}
+
 TEST_CASE("a choice is carried over while its words are the same, a number while it is in range") {
   ComponentInfo old;
   ParamInfo choice{}, number{};

@@ -21,7 +21,7 @@ std::map<fs::path, FileStamps::Stamp> FileStamps::read() const {
 std::vector<fs::path> FileStamps::changed() {
   std::map<fs::path, Stamp> now = read();
   if (now == stamps_ || now.size() < stamps_.size()) return {};
-  for (std::map<fs::path, Stamp> before; before != now;) {  // until nobody writes any more
+  for (std::map<fs::path, Stamp> before; before != now;) {  // until the files are at rest
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     before = std::exchange(now, read());
   }

@@ -160,7 +160,7 @@ void Session::report_onlookers() const {
   if (graph_.dds.on && unpaced())
     warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
   if (!options_.live.empty() && graph_.live.on && unpaced())
-    warn("--live: nobody can follow as fast as the machine allows; fly with --speed real");
+    warn("--live: no client can follow as fast as the machine allows; fly with --speed real");
   if (last_->live_port() == 0 || options_.json) return;
   const bool v6 = graph_.live.host.find(':') != std::string::npos;
   say_aloud("live view: ws://" + (v6 ? "[" + graph_.live.host + "]" : graph_.live.host) + ":" +
@@ -308,7 +308,7 @@ bool Session::reload(const std::vector<fs::path>& changed) {
   }
 }
 
-/// The newcomers fly: what they replace is unloaded, for certain.
+/// The newcomers fly. The plugins that they replace are unloaded.
 void Session::forget_before() {
   if (!before_) return;
   std::vector<std::shared_ptr<Library>> libraries;

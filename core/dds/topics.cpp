@@ -38,14 +38,14 @@ void Others::found(const std::string& topic, const std::string& type, bool write
   const char* who = writer ? "writes" : "reads";
   if (t.type != type) {
     if (!std::exchange(t.told_type, true))
-      say_(std::string("dds: somebody ") + who + " " + topic + " with the type " + type + "; here it is " +
-               t.type + ": the two do not meet",
+      say_(std::string("dds: another participant ") + who + " " + topic + " with the type " + type +
+               "; here it is " + t.type + ": the two do not meet",
            Tone::warning);
   } else if (writer && best_effort) {
     t.best_effort_writer = true;
   } else if (!writer && !best_effort && t.best_effort) {
     if (!std::exchange(t.told_effort, true))
-      say_("dds: somebody reads " + topic +
+      say_("dds: another participant reads " + topic +
                " reliably, but it is exported with best_effort: the two do not meet",
            Tone::warning);
   }

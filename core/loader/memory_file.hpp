@@ -5,7 +5,7 @@
 
 namespace fulmar::core {
 
-/// Gone with this object. The child's end is `descriptor`; what it writes into an empty file is `contents`.
+/// Gone with this object. The child's end is `descriptor`; `contents` is the text that the child has written.
 class MemoryFile {
  public:
   /// Throws Error when there is no memory for the text.

@@ -63,10 +63,10 @@ void add_unread(const Graph& graph, Advice& advice) {
           "; wire it, as in " + reader.name + ": {in: {" + input.name + ": " + writer.text() + "}}";
       const bool read = is_read(graph, *writer.owner, writer.owner->info().output(writer.port->name));
       if (!read && writer.port->kind != FULMAR_OUT_VALUE)
-        advice.push_back(writer.owner->where.text() + ": " + writer.text() + " is read by nobody; " +
-                         to.text() + " takes " + input.type->name + wired);
+        advice.push_back(writer.owner->where.text() + ": " + writer.text() + " has no reader; " + to.text() +
+                         " takes " + input.type->name + wired);
       else if (read && input.kind == FULMAR_IN_QUEUE)
-        advice.push_back(reader.where.text() + ": " + to.text() + " is fed by nobody; " + writer.text() +
+        advice.push_back(reader.where.text() + ": " + to.text() + " has no source; " + writer.text() +
                          " gives " + input.type->name + wired);
     }
 }

@@ -133,6 +133,11 @@ TEST_CASE("a word of the host's own whose program is missing beside it is told w
     CHECK(r.code == 4);
     CHECK(holds(r.out, "fulmar " + entry.first + ": the program " + entry.second + " is missing beside"));
   }
+  for (const std::string several : {"--seeds 1..2", "--repeat 2", "--watch", "--build make"}) {
+    const Said r = home.fulmar("run x.yaml " + several);
+    CHECK(r.code == 4);
+    CHECK(holds(r.out, "fulmar run: the program fulmar-campaign is missing beside"));
+  }
 }
 
 TEST_CASE("the host's help names every word of the programs beside it, as their own help does") {

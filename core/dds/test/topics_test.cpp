@@ -261,10 +261,12 @@ TEST_CASE("what does not meet by the rules of DDS is told once, in a sentence") 
   }
   spdlog::set_default_logger(usual);
   scene.bridge.reset();
-  CHECK(told(
-      "dds: somebody reads rt/nav/state reliably, but it is exported with best_effort: the two do not meet"));
   CHECK(
-      told("dds: somebody writes rt/leader/state with the type geometry_msgs::msg::dds_::Pose_; here it is "
+      told("dds: another participant reads rt/nav/state reliably, but it is exported with best_effort: the "
+           "two do not meet"));
+  CHECK(
+      told("dds: another participant writes rt/leader/state with the type geometry_msgs::msg::dds_::Pose_; "
+           "here it is "
            "fulmar_msgs::msg::dds_::Mixed_: the two do not meet"));
 }
 

@@ -25,7 +25,7 @@ TEST_CASE("seeds are a list of numbers and ranges") {
   }
 }
 
-TEST_CASE("of many flights the mean and the deviation of what was flown is told; who failed is not in them") {
+TEST_CASE("the mean and the deviation of many flights leave out those that failed") {
   std::vector<json> results;
   for (const double north : {1, 2, 3, 4})
     results.push_back({{"result", north == 2 ? "flown with guards" : "flown"},

@@ -40,7 +40,7 @@ TEST_CASE("who goes on listening to a manager that was replaced is warned of") {
                                                      "ground.yaml:9: progress shows " + why});
   mission.text +=
       "  score: {in: {path: mine_too.path}}\ndone: \"mine_too.progress.circuits >= 2\"\nprogress: null\n";
-  CHECK(advised(mission).empty());  // the former one flies along, and nobody listens
+  CHECK(advised(mission).empty());  // the former one flies along without a reader
   Mission usual;
   CHECK(advised(usual).empty());
 }
@@ -65,7 +65,7 @@ TEST_CASE("also of a manager with messages of its own, by whatever looks at the 
             "hourglass.yaml:8: phases.any.next looks at " + why});
 }
 
-TEST_CASE("a list of what is told that takes the place of another one says what it leaves out") {
+TEST_CASE("a list under tell that replaces another one is reported with the ports that it leaves out") {
   Layered mission("extends: middle.yaml\ntell: [plan.notices]\n");
   mission.folder.write("middle.yaml", "extends: ground.yaml\ntell: [manage.notices, plan.notices]\n");
   for (ComponentInfo& c : mission.shelf.plugins["path"]->components)
@@ -78,14 +78,13 @@ TEST_CASE("a list of what is told that takes the place of another one says what 
   CHECK(advised(mission).empty());
 }
 
-TEST_CASE("an output that nobody reads and an input of its type that nobody feeds are proposed to be wired") {
+TEST_CASE("an output without a reader and an input of its type without a source are proposed to be wired") {
   Layered mission("extends: ground.yaml\ncomponents: {detour: {use: detour}}\n");
   mission.shelf.add("detour", "Detour", {port<Notice>("results", FULMAR_IN_QUEUE)},
                     {out<PlanEdit>("edits", FULMAR_OUT_QUEUE)});
-  CHECK(
-      advised(mission) ==
-      std::vector<std::string>{"hourglass.yaml:2: detour.edits is read by nobody; plan.edits takes PlanEdit; "
-                               "wire it, as in plan: {in: {edits: detour.edits}}"});
+  CHECK(advised(mission) ==
+        std::vector<std::string>{"hourglass.yaml:2: detour.edits has no reader; plan.edits takes PlanEdit; "
+                                 "wire it, as in plan: {in: {edits: detour.edits}}"});
   mission.text =
       "extends: ground.yaml\ncomponents: {detour: {use: detour}, plan: {in: {edits: detour.edits}}, "
       "log: {use: log, in: {notes: plan.results}}}\n";
@@ -93,9 +92,8 @@ TEST_CASE("an output that nobody reads and an input of its type that nobody feed
     if (c.name == "Planner") c.outputs.push_back(out<Notice>("results", FULMAR_OUT_QUEUE));
   mission.shelf.add("log", "Log", {port<Notice>("notes", FULMAR_IN_QUEUE)}, {});
   CHECK(advised(mission) ==
-        std::vector<std::string>{
-            "hourglass.yaml:2: detour.results is fed by nobody; plan.results gives Notice; "
-            "wire it, as in detour: {in: {results: plan.results}}"});
+        std::vector<std::string>{"hourglass.yaml:2: detour.results has no source; plan.results gives Notice; "
+                                 "wire it, as in detour: {in: {results: plan.results}}"});
 }
 
 }  // namespace advice_test

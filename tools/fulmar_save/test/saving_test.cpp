@@ -138,9 +138,9 @@ TEST_CASE_FIXTURE(
       "mission: mock <1>\ncomponents:\n  slc: {params: {arm: {front: 25 cm, down: 0.5 m, right: 0.1 m}}}\n");
 }
 
-TEST_CASE_FIXTURE(Folder, "a file that cannot be written is told, and stays as it is") {
+TEST_CASE_FIXTURE(Folder, "a file that cannot be written is reported, and stays as it is") {
   const SaveAnswer shown = save(view, "", "");
-  // whatever user this is: what stands in a folder of /proc is written by nobody
+  // No user can write a file in a folder of /proc.
   FlightView link = view;
   const int held = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   fs::remove(file);

@@ -36,3 +36,7 @@ target_link_libraries(bench_python PRIVATE fulmar::sdk ${CMAKE_DL_LIBS})
 target_compile_definitions(bench_python PRIVATE FULMAR_PYTHON_PLUGIN="$<TARGET_FILE:python>" FULMAR_LAW_SO="$<TARGET_FILE:bench_python_law>"
                            FULMAR_LAW_PY="${CMAKE_SOURCE_DIR}/examples/python/my_law.py")
 add_dependencies(bench_python python bench_python_law)
+if(TARGET benches)
+  set_target_properties(bench_python PROPERTIES EXCLUDE_FROM_ALL ON)
+  add_dependencies(benches bench_python)
+endif()

@@ -46,7 +46,7 @@ def wanted(entry):
 
 def look(entry, digest):
     """clang-tidy's words about one batch; "" when there are none."""
-    words = [w for w in entry["command"].split() if w not in ("-Wno-subobject-linkage", "-fno-gnu-unique")]  # gcc's own
+    words = [w for w in entry["command"].split() if w not in ("-Wno-subobject-linkage", "-fno-gnu-unique") and not w.startswith("--param=")]  # gcc's own
     words = words[next(i for i, w in enumerate(words) if w.startswith(("-D", "-I", "-isystem"))):]  # behind launcher and compiler
     words = [w.replace('\\"', '"') for w in words[:words.index("-o")]]
     tidy = subprocess.run(["clang-tidy", "--quiet", entry["file"], "--", "-Wno-unknown-warning-option", "-std=c++20", *words],

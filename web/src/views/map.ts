@@ -6,8 +6,8 @@ import { type Spot, label_side } from "../flight/labels";
 import type { State } from "../names";
 import type { Places } from "../flight/places";
 import type { Ground } from "./ground";
-import { type Lost, aircraft_shape, draw_crash, draw_lost, draw_places, words_on } from "./marks";
-import { bearing, degrees, digits, fixed } from "../units";
+import { type Lost, draw_aircraft, draw_crash, draw_home, draw_lost, draw_places, draw_scale, draw_wind, words_on } from "./marks";
+import { digits } from "../units";
 
 export type { Lost } from "./marks";
 export interface Track {
@@ -68,8 +68,8 @@ export class MapView {
   }
 
   // ---- where things are
-  private get width(): number { return this.canvas.clientWidth; }
-  private get height(): number { return this.canvas.clientHeight; }
+  get width(): number { return this.canvas.clientWidth; }
+  get height(): number { return this.canvas.clientHeight; }
   to_screen(p: Point): { x: number; y: number } {
     return { x: this.width / 2 + (p.e - this.centre.e) * this.px_per_m,
              y: this.height / 2 - (p.n - this.centre.n) * this.px_per_m };
@@ -177,7 +177,7 @@ export class MapView {
     scene.ground?.draw(g, this.to_ground(0, this.height), this.to_ground(this.width, 0), this.px_per_m, (p) => this.to_screen(p));
     this.attribution.hidden = !scene.ground?.attribution;
     say(this.attribution, scene.ground?.attribution ?? "");
-    this.scale(g, step);
+    draw_scale(g, step, this.px_per_m, this, Boolean(scene.ground));
     if (scene.places) draw_places(g, scene.places, (p) => this.to_screen(p), this.px_per_m);
     this.trail(g, scene.track);
     this.route(g, scene);
@@ -188,12 +188,12 @@ export class MapView {
     this.line(g, scene.piece);
     g.setLineDash([]);
     this.waypoints(g, scene);
-    if (!scene.places?.places.length) this.home(g);
+    if (!scene.places?.places.length) draw_home(g, this.to_screen({ n: 0, e: 0 }));
     if (scene.lost) draw_lost(g, scene.lost, (p) => this.to_screen(p), this.px_per_m);
     this.data(scene);
-    if (scene.state?.valid.position) this.aircraft(g, scene.state);
+    if (scene.state?.valid.position) draw_aircraft(g, scene.state.yaw, this.to_screen(scene.state));
     if (scene.crashed && scene.state) draw_crash(g, this.to_screen(scene.lost?.at ?? scene.state));
-    if (scene.state?.valid.wind) this.wind(g, scene.state);
+    if (scene.state?.valid.wind) draw_wind(g, scene.state, this.height);
   }
   /** What the picture shows, for who cannot see it. */
   private data(scene: Scene): void {
@@ -226,29 +226,6 @@ export class MapView {
     }
     g.stroke();
     return step;
-  }
-  private scale(g: CanvasRenderingContext2D, step: number): void {
-    const length = step * this.px_per_m, x = this.width - 14 - length, y = this.height - 12;
-    if (this.seen?.ground) {
-      g.fillStyle = colours.get("panel");
-      g.fillRect(x - 6, y - 20, length + 12, 26);
-      g.fillRect(8, this.height - 56, 30, 20);
-    }
-    g.font = "11px system-ui";
-    g.strokeStyle = g.fillStyle = colours.get("text");
-    g.lineWidth = 2;
-    g.beginPath();
-    g.moveTo(x, y - 5);
-    g.lineTo(x, y);
-    g.lineTo(x + length, y);
-    g.lineTo(x + length, y - 5);
-    g.stroke();
-    g.textAlign = "center";
-    g.textBaseline = "bottom";
-    g.fillText(step >= 1000 ? step / 1000 + " km" : step + " m", x + length / 2, y - 3);
-    g.textAlign = "left";
-    g.textBaseline = "middle";
-    g.fillText("N ↑", 12, this.height - 46);
   }
   private line(g: CanvasRenderingContext2D, points: Point[]): void {
     g.beginPath();
@@ -323,51 +300,5 @@ export class MapView {
     if (!chosen && places.some((p, k) => k !== i && Math.abs(p.y - y) < 17 && Math.abs(p.x - x) < half + 12)) return;
     g.textAlign = "center";
     words_on(g, words, x, y);
-  }
-  private home(g: CanvasRenderingContext2D): void {
-    const { x, y } = this.to_screen({ n: 0, e: 0 });
-    g.strokeStyle = g.fillStyle = colours.get("text");
-    g.lineWidth = 2;
-    g.strokeRect(x - 5, y - 3, 10, 8);
-    g.beginPath();
-    g.moveTo(x - 8, y - 3);
-    g.lineTo(x, y - 10);
-    g.lineTo(x + 8, y - 3);
-    g.stroke();
-    g.font = "11px system-ui";
-    g.textAlign = "center";
-    g.textBaseline = "top";
-    words_on(g, "origin", x, y + 8);
-  }
-  private aircraft(g: CanvasRenderingContext2D, s: State): void {
-    const { x, y } = this.to_screen(s);
-    g.save();
-    aircraft_shape(g, s.yaw, x, y);
-    g.fillStyle = colours.get("aircraft");
-    g.strokeStyle = colours.get("ground");
-    g.lineWidth = 1.5;
-    g.fill();
-    g.stroke();
-    g.restore();
-  }
-  private wind(g: CanvasRenderingContext2D, s: State): void {
-    const speed = Math.hypot(s.wind_n, s.wind_e), to = Math.atan2(s.wind_e, s.wind_n);
-    const words = "wind " + fixed(speed, 1, "m/s") + " from " + bearing(to + Math.PI);
-    g.font = "12px system-ui";
-    g.textAlign = "left";
-    g.textBaseline = "middle";
-    const width = g.measureText(words).width + 52, y = this.height - 22;
-    g.fillStyle = colours.get("panel");
-    g.fillRect(8, y - 15, width, 30);
-    g.fillStyle = g.strokeStyle = colours.get("text");
-    g.fillText(words, 44, y);
-    g.save();
-    g.translate(26, y);
-    g.rotate((Math.round(to * degrees) / degrees) || 0);
-    g.lineWidth = 2;
-    g.beginPath();
-    for (const [a, b] of [[0, 10], [0, -10], [-4, -4], [0, -10], [4, -4]] as const) g.lineTo(a, b);
-    g.stroke();
-    g.restore();
   }
 }

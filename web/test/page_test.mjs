@@ -22,37 +22,54 @@ const port = await free_port();
 const at = ["--at", `127.0.0.1:${port}`];
 /** The command line's word for it. */
 const ask = async (...words) => (await run(fulmar, [...words, ...at])).stdout.trim();
-const value_of = async (field) => Number((await ask("echo", field, "--count", "1", "--csv")).split("\n")[1].split(",")[1]);
+const value_of = async (field) =>
+  Number((await ask("echo", field, "--count", "1", "--csv")).split("\n")[1].split(",")[1]);
 
 // Names that would be markup, if a page took them for it.
 const folder = mkdtempSync(join(tmpdir(), "fulmar-page-"));
 const hostile = "<img src=x onerror=document.body.remove()>";
 copyFileSync("configs/airframes/anaconda.yaml", join(folder, "mine.yaml")); // what is saved goes into a file of our own
-writeFileSync(join(folder, "hostile.yaml"), `mission: "${hostile}"\nextends: ${resolve("configs/missions/hourglass.yaml")}\nairframe: mine.yaml\n`);
+writeFileSync(
+  join(folder, "hostile.yaml"),
+  `mission: "${hostile}"\nextends: ${resolve("configs/missions/hourglass.yaml")}\nairframe: mine.yaml\n`,
+);
 
 // A place of the mission's map that neither plan nor aircraft covers, by the radii of curvature of WGS 84 there (to 3 mm).
-const coloured = { n: 200, e: 200, lat: 40.2463724 + ((200 / 6363474) * 180) / Math.PI, lon: -111.6474138 + ((200 / 4876137) * 180) / Math.PI };
+const coloured = {
+  n: 200,
+  e: 200,
+  lat: 40.2463724 + ((200 / 6363474) * 180) / Math.PI,
+  lon: -111.6474138 + ((200 / 4876137) * 180) / Math.PI,
+};
 
 let page, flight, tiles;
-const faults = [], foreign = [];
+const faults = [],
+  foreign = [];
 const shots = shots_folder(modules);
 const text = (selector) => page.locator(selector).first().textContent();
 const tab = (name) => page.click(`#tabs button[data-page="${name}"]`);
-const seen = (what, selector, holds, patience) => until(what, async () => holds((await page.locator(selector).allTextContents()).join("\n")), patience);
+const seen = (what, selector, holds, patience) =>
+  until(what, async () => holds((await page.locator(selector).allTextContents()).join("\n")), patience);
 
 /** Nothing may be wider than its box, and the page not than its window. */
 async function whole(name) {
-  const cut = () => page.evaluate(() => {
-    const hidden = (e) => getComputedStyle(e).overflowX !== "visible"; // nobody scrolls to the right to read a number
-    const list = [...document.querySelectorAll("body *")].filter((e) => e.tagName !== "CANVAS" && e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1 && hidden(e));
-    if (document.documentElement.scrollWidth > innerWidth) list.push(document.documentElement);
-    return list.map((e) => `${e.tagName}.${e.className} ${(e.value ?? e.textContent ?? "").slice(0, 40)}`);
-  });
+  const cut = () =>
+    page.evaluate(() => {
+      const hidden = (e) => getComputedStyle(e).overflowX !== "visible"; // nobody scrolls to the right to read a number
+      const list = [...document.querySelectorAll("body *")].filter(
+        (e) => e.tagName !== "CANVAS" && e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1 && hidden(e),
+      );
+      if (document.documentElement.scrollWidth > innerWidth) list.push(document.documentElement);
+      return list.map((e) => `${e.tagName}.${e.className} ${(e.value ?? e.textContent ?? "").slice(0, 40)}`);
+    });
   await until("drawn for this window", async () => (await cut()).length === 0).catch(() => {}); // charts follow it by and by
   assert.deepEqual(await cut(), [], name + ": cut off");
 }
 async function shoot(name) {
-  for (const [width, height] of [[1280, 720], [1024, 768]]) {
+  for (const [width, height] of [
+    [1280, 720],
+    [1024, 768],
+  ]) {
     await page.setViewportSize({ width, height });
     await page.waitForTimeout(250);
     await whole(`${name} ${width}`);
@@ -79,7 +96,10 @@ const steps = () => ({
       // Words alone, and of the view, the answer of a service, a component of another name.
       server.onMessage((m) => {
         if (typeof m === "string") ws.send(m);
-        else if (m[0] === 3) ws.send(Buffer.from(m.toString("latin1").replaceAll('"name":"slc"', `"name":"${hostile}"`), "latin1"));
+        else if (m[0] === 3)
+          ws.send(
+            Buffer.from(m.toString("latin1").replaceAll('"name":"slc"', `"name":"${hostile}"`), "latin1"),
+          );
       });
     });
     other.on("pageerror", (e) => faults.push(e.message));
@@ -96,14 +116,28 @@ const steps = () => ({
     await page.click('button[data-speed="10"]');
     await seen("cruise", "#phase", (t) => t === "cruise", 15);
     await page.click('button[data-speed="1"]');
-    await until("real time", async () => (await ask("list")).includes("speed real") || !(await ask("list")).includes("speed 10"));
+    await until(
+      "real time",
+      async () => (await ask("list")).includes("speed real") || !(await ask("list")).includes("speed 10"),
+    );
   },
   async "Fly: what there is to see"() {
     await tab("Fly");
-    await seen("what happened before it was opened, too", ".events", (t) => /−0:05\.0.phase hold/.test(t) && t.includes("0:00.0·phase takeoff") && t.includes("phase cruise"));
+    await seen(
+      "what happened before it was opened, too",
+      ".events",
+      (t) =>
+        /−0:05\.0.phase hold/.test(t) && t.includes("0:00.0·phase takeoff") && t.includes("phase cruise"),
+    );
     await seen("a height", ".figures", (t) => /ground speed\d+\.\d m\/s/.test(t));
-    await seen("who flies", ".side .pairs", (t) => t.includes("outerslc") && t.includes("navekf") && t.includes("GNSS position✓ ok"));
-    await until("a picture of the aircraft", () => page.evaluate(() => document.querySelector(".chase canvas")?.width > 300));
+    await seen(
+      "who flies",
+      ".side .pairs",
+      (t) => t.includes("outerslc") && t.includes("navekf") && t.includes("GNSS position✓ ok"),
+    );
+    await until("a picture of the aircraft", () =>
+      page.evaluate(() => document.querySelector(".chase canvas")?.width > 300),
+    );
     await shoot("fly");
   },
   ...edit_steps({ page, fulmar, folder, run, ask, value_of, plan, position_of, near, tab, seen, shoot }),
@@ -117,7 +151,9 @@ const steps = () => ({
     assert.equal(await time(), stands);
     const late = await browser.newPage(); // who comes now sees how it stands
     await late.goto(`http://127.0.0.1:${port}/`);
-    await until("figures of a flight that stands", async () => /ground speed\d+\.\d m\/s.*waypoint\d of 4/s.test((await late.locator(".figures").textContent()) ?? ""));
+    await until("figures of a flight that stands", async () =>
+      /ground speed\d+\.\d m\/s.*waypoint\d of 4/s.test((await late.locator(".figures").textContent()) ?? ""),
+    );
     const [minutes, seconds] = (await late.locator("#clock").textContent()).split(":").map(Number);
     near(60 * minutes + seconds, stands, 0.06);
     await late.close();
@@ -133,13 +169,21 @@ const steps = () => ({
     await tab("Fly");
     await page.click("text=Take the sticks");
     await until("the pilot flies", async () => (await ask("param", "get", "sim.pilot_flies")) === "true");
-    await until("the sticks have the keys", () => page.locator(".sticks").evaluate((e) => e === document.activeElement));
+    await until("the sticks have the keys", () =>
+      page.locator(".sticks").evaluate((e) => e === document.activeElement),
+    );
     await page.keyboard.down("ArrowRight");
     await until("the stick", async () => Number(await ask("param", "get", "sim.stick_roll")) > 0.5);
     await page.keyboard.up("ArrowRight");
-    await until("let go, in the middle", async () => Math.abs(Number(await ask("param", "get", "sim.stick_roll"))) < 0.01);
+    await until(
+      "let go, in the middle",
+      async () => Math.abs(Number(await ask("param", "get", "sim.stick_roll"))) < 0.01,
+    );
     await page.click("text=Give them back");
-    await until("the autopilot flies", async () => (await ask("param", "get", "sim.pilot_flies")) === "false");
+    await until(
+      "the autopilot flies",
+      async () => (await ask("param", "get", "sim.pilot_flies")) === "false",
+    );
   },
   async "New flight: by two clicks, with another seed, on the same page"() {
     await tab("Simulation");
@@ -151,7 +195,9 @@ const steps = () => ({
     await shoot("new_flight");
     await until("asked no more", async () => (await button.textContent()) === "New flight");
     for (let i = 0; i < 2; ++i) await button.click();
-    await seen("what is no seed", ".sim [role=alert]", (t) => t.includes("Refused: seed 'eleven': give a whole number from 0"));
+    await seen("what is no seed", ".sim [role=alert]", (t) =>
+      t.includes("Refused: seed 'eleven': give a whole number from 0"),
+    );
     await page.getByLabel("Seed of the new flight").fill("11");
     const before = await value_of("nav.state.height_m");
     assert.ok(before > 20, "in the air");
@@ -159,13 +205,18 @@ const steps = () => ({
     for (let i = 0; i < 2; ++i) await button.click();
     await loaded;
     await seen("a flight from its beginning", "#clock", (t) => /^−?0:0\d/.test(t));
-    await until("its seed", async () => (await page.getByLabel("Seed of the new flight").inputValue()) === "11");
+    await until(
+      "its seed",
+      async () => (await page.getByLabel("Seed of the new flight").inputValue()) === "11",
+    );
     assert.ok(await page.locator("#banner").isHidden());
     assert.match(page.url(), /#simulation$/);
   },
   async "a flight that is gone is missed within a second, and found again"() {
     await tab("Fly");
-    await until("all of it is here", () => page.evaluate(() => document.querySelector(".chase canvas")?.width > 300));
+    await until("all of it is here", () =>
+      page.evaluate(() => document.querySelector(".chase canvas")?.width > 300),
+    );
     const hidden = () => page.locator("#banner").isHidden();
     assert.ok(await hidden());
     // what the bar says when it comes up: how long ago the flight was heard
@@ -185,8 +236,11 @@ const steps = () => ({
     await seen("the banner again", "#banner", (t) => t.includes("Connection lost"));
     tiles = await tile_server(coloured);
     const mission = join(folder, "tiles.yaml");
-    writeFileSync(mission, `mission: tiles\nextends: ${resolve("configs/missions/hourglass.yaml")}\n` +
-      `live: {tiles: "http://127.0.0.1:${tiles.port}/{z}/{x}/{y}.png", attribution: "Tiles of <b>nobody</b>"}\n`);
+    writeFileSync(
+      mission,
+      `mission: tiles\nextends: ${resolve("configs/missions/hourglass.yaml")}\n` +
+        `live: {tiles: "http://127.0.0.1:${tiles.port}/{z}/{x}/{y}.png", attribution: "Tiles of <b>nobody</b>"}\n`,
+    );
     const loaded = page.waitForEvent("load"); // of another flight the page is another one
     flight = await fly(fulmar, port, mission);
     await loaded;
@@ -200,22 +254,53 @@ const steps = () => ({
     await page.waitForTimeout(500);
     await shoot("tiles");
     // where four colours meet, the map has that place: to two pixels
-    const canvas = ".plan canvas.map", off = 2;
+    const canvas = ".plan canvas.map",
+      off = 2;
     const box = await page.locator(canvas).boundingBox();
-    await until("the colours", async () => {
-      const [n, e, px] = (await page.locator(canvas).getAttribute("data-view")).split(",").map(Number); // it moves as news come
-      const x = box.width / 2 + (coloured.e - e) * px, y = box.height / 2 - (coloured.n - n) * px;
-      const found = await colours_at(browser, page, canvas, [[x - off, y - off], [x + off, y - off], [x - off, y + off], [x + off, y + off]]);
-      return found.map(([r, g, b]) => (r > 150 && g < 120 ? "r" : r < 120 && g > 150 ? "g" : b > 150 ? "b" : r > 150 && g > 150 && b < 120 ? "y" : "?")).join("") === "rgby";
-    }, 60); // a picture of a page with 3-D takes seconds where others compute
+    await until(
+      "the colours",
+      async () => {
+        const [n, e, px] = (await page.locator(canvas).getAttribute("data-view")).split(",").map(Number); // it moves as news come
+        const x = box.width / 2 + (coloured.e - e) * px,
+          y = box.height / 2 - (coloured.n - n) * px;
+        const found = await colours_at(browser, page, canvas, [
+          [x - off, y - off],
+          [x + off, y - off],
+          [x - off, y + off],
+          [x + off, y + off],
+        ]);
+        return (
+          found
+            .map(([r, g, b]) =>
+              r > 150 && g < 120
+                ? "r"
+                : r < 120 && g > 150
+                  ? "g"
+                  : b > 150
+                    ? "b"
+                    : r > 150 && g > 150 && b < 120
+                      ? "y"
+                      : "?",
+            )
+            .join("") === "rgby"
+        );
+      },
+      60,
+    ); // a picture of a page with 3-D takes seconds where others compute
     for (let i = 0; i < 9; ++i) await page.keyboard.press("+"); // farther in than there are tiles
     await until("asked, and not there", () => tiles.asked.some((t) => t.z > 16));
     await page.waitForTimeout(500);
     await shoot("tiles_near");
     const zoomed = (await page.locator(canvas).getAttribute("data-view")).split(",").map(Number);
     const [first] = await colours_at(browser, page, canvas, [[box.width / 2, 8]]);
-    assert.ok(Math.max(...first) - Math.min(...first) > 15, `what is coarser stands in: ${first} at ${zoomed}`);
-    assert.ok(tiles.asked.every((t) => t.referer === `http://127.0.0.1:${port}/`), "the address of the page, which may hold a token, is not told");
+    assert.ok(
+      Math.max(...first) - Math.min(...first) > 15,
+      `what is coarser stands in: ${first} at ${zoomed}`,
+    );
+    assert.ok(
+      tiles.asked.every((t) => t.referer === `http://127.0.0.1:${port}/`),
+      "the address of the page, which may hold a token, is not told",
+    );
     assert.ok(tiles.asked.length < 300);
     await page.goto("about:blank"); // before what it still asks for is gone
     tiles.close();
@@ -231,7 +316,8 @@ const near = (a, b, room, strict = true) => {
   assert.ok(holds || !strict, `${a} is not ${b}`);
   return holds;
 };
-const plan = async () => JSON.parse((await ask("echo", "plan.plan", "--count", "1", "--json")).split("\n")[0]).value;
+const plan = async () =>
+  JSON.parse((await ask("echo", "plan.plan", "--count", "1", "--json")).split("\n")[0]).value;
 const position_of = async (i) => (await plan()).waypoints[i].position_m;
 
 const browser = await browse(modules, chromium);
@@ -241,8 +327,18 @@ try {
   page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
   page.setDefaultTimeout(15_000);
   page.on("pageerror", (e) => faults.push(e.message));
-  page.on("console", (m) => m.type() === "error" && !m.text().includes("WebSocket") && faults.push(`${m.text()} ${m.location().url}`));
-  page.on("request", (r) => new URL(r.url()).host !== `127.0.0.1:${port}` && !r.url().startsWith("data:") && foreign.push(r.url()));
+  page.on(
+    "console",
+    (m) =>
+      m.type() === "error" &&
+      !m.text().includes("WebSocket") &&
+      faults.push(`${m.text()} ${m.location().url}`),
+  );
+  page.on(
+    "request",
+    (r) =>
+      new URL(r.url()).host !== `127.0.0.1:${port}` && !r.url().startsWith("data:") && foreign.push(r.url()),
+  );
   for (const [name, step] of Object.entries(steps())) {
     const begun = Date.now();
     try {

@@ -37,8 +37,28 @@ function aircraft_shape(g: Canvas, yaw: number, x: number, y: number): void {
   g.translate(x, y);
   g.rotate(yaw);
   g.beginPath();
-  for (const [a, b] of [[0, -15], [3, -4], [16, 2], [16, 5], [3, 3], [2, 11], [6, 14], [6, 16], [0, 15]] as const) g.lineTo(a, b);
-  for (const [a, b] of [[6, 16], [6, 14], [2, 11], [3, 3], [16, 5], [16, 2], [3, -4]] as const) g.lineTo(-a, b);
+  for (const [a, b] of [
+    [0, -15],
+    [3, -4],
+    [16, 2],
+    [16, 5],
+    [3, 3],
+    [2, 11],
+    [6, 14],
+    [6, 16],
+    [0, 15],
+  ] as const)
+    g.lineTo(a, b);
+  for (const [a, b] of [
+    [6, 16],
+    [6, 14],
+    [2, 11],
+    [3, 3],
+    [16, 5],
+    [16, 2],
+    [3, -4],
+  ] as const)
+    g.lineTo(-a, b);
   g.closePath();
 }
 
@@ -63,10 +83,18 @@ function fence(g: Canvas, corners: Point[], to_screen: Screen): void {
 }
 
 function runway(g: Canvas, strip: NonNullable<Places["runway"]>, to_screen: Screen, px_per_m: number): void {
-  const { x, y } = to_screen(strip), end = to_screen({ n: strip.n + strip.length * Math.cos(strip.heading), e: strip.e + strip.length * Math.sin(strip.heading) });
+  const { x, y } = to_screen(strip),
+    end = to_screen({
+      n: strip.n + strip.length * Math.cos(strip.heading),
+      e: strip.e + strip.length * Math.sin(strip.heading),
+    });
   const width = Math.max(6, 12 * px_per_m);
   g.lineCap = "butt";
-  for (const [wide, colour, dash] of [[width + 2, "text", []], [width, "runway", []], [1.5, "on_tape", [8, 6]]] as const) {
+  for (const [wide, colour, dash] of [
+    [width + 2, "text", []],
+    [width, "runway", []],
+    [1.5, "on_tape", [8, 6]],
+  ] as const) {
     g.strokeStyle = colours.get(colour);
     g.lineWidth = wide;
     g.setLineDash(dash as unknown as number[]);
@@ -77,11 +105,16 @@ function runway(g: Canvas, strip: NonNullable<Places["runway"]>, to_screen: Scre
   }
   g.setLineDash([]);
   g.lineCap = "round";
-  const number = Math.round(((strip.heading * 180) / Math.PI + 360) % 360 / 10) || 36;
+  const number = Math.round((((strip.heading * 180) / Math.PI + 360) % 360) / 10) || 36;
   g.font = "bold 11px system-ui";
   g.textAlign = "center";
   g.textBaseline = "middle";
-  words_on(g, String(number).padStart(2, "0"), x - 20 * Math.sin(strip.heading), y + 20 * Math.cos(strip.heading));
+  words_on(
+    g,
+    String(number).padStart(2, "0"),
+    x - 20 * Math.sin(strip.heading),
+    y + 20 * Math.cos(strip.heading),
+  );
 }
 
 function spot(g: Canvas, { x, y }: { x: number; y: number }, letter: string): void {
@@ -123,7 +156,8 @@ export function draw_crash(g: Canvas, { x, y }: { x: number; y: number }): void 
 }
 
 export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: number): void {
-  const was = to_screen(lost.last), at = to_screen(lost.at);
+  const was = to_screen(lost.last),
+    at = to_screen(lost.at);
   g.strokeStyle = g.fillStyle = colours.get("bad");
   if (lost.radius !== null) {
     g.beginPath();
@@ -138,7 +172,10 @@ export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: nu
   }
   g.lineWidth = 3;
   g.beginPath();
-  for (const [a, b] of [[-7, 7], [7, -7]] as const) {
+  for (const [a, b] of [
+    [-7, 7],
+    [7, -7],
+  ] as const) {
     g.moveTo(was.x + a, was.y + a);
     g.lineTo(was.x + b, was.y + b);
     g.moveTo(was.x - a, was.y + a);
@@ -154,10 +191,16 @@ export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: nu
     g.stroke();
     g.restore();
   }
-  const lines = [`✕ position lost ${Math.round(lost.age_s)} s ago`, lost.radius === null ? "no estimate of where it is" : `95 %: within ${Math.round(lost.radius)} m of the estimate`];
+  const lines = [
+    `✕ position lost ${Math.round(lost.age_s)} s ago`,
+    lost.radius === null
+      ? "no estimate of where it is"
+      : `95 %: within ${Math.round(lost.radius)} m of the estimate`,
+  ];
   g.font = "bold 13px system-ui";
   g.fillStyle = colours.get("alarm");
-  const width = Math.max(...lines.map((l) => g.measureText(l).width)) + 16, top = width + 200 < g.canvas.clientWidth ? 8 : 42; // beside the keys, or below them
+  const width = Math.max(...lines.map((l) => g.measureText(l).width)) + 16,
+    top = width + 200 < g.canvas.clientWidth ? 8 : 42; // beside the keys, or below them
   g.fillRect(8, top, width, 42);
   g.fillStyle = "#fff";
   g.textAlign = "left";
@@ -166,8 +209,16 @@ export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: nu
 }
 
 /** `step` metres as a bar in one corner, and where north is; on tiles with a ground of their own. */
-export function draw_scale(g: Canvas, step: number, px_per_m: number, map: { width: number; height: number }, on_tiles: boolean): void {
-  const length = step * px_per_m, x = map.width - 14 - length, y = map.height - 12;
+export function draw_scale(
+  g: Canvas,
+  step: number,
+  px_per_m: number,
+  map: { width: number; height: number },
+  on_tiles: boolean,
+): void {
+  const length = step * px_per_m,
+    x = map.width - 14 - length,
+    y = map.height - 12;
   if (on_tiles) {
     g.fillStyle = colours.get("panel");
     g.fillRect(x - 6, y - 20, length + 12, 26);
@@ -218,22 +269,31 @@ export function draw_aircraft(g: Canvas, yaw: number, { x, y }: Spot): void {
 
 /** An arrow and words in the corner below, on a map of this height. */
 export function draw_wind(g: Canvas, s: State, height: number): void {
-  const speed = Math.hypot(s.wind_n, s.wind_e), to = Math.atan2(s.wind_e, s.wind_n);
+  const speed = Math.hypot(s.wind_n, s.wind_e),
+    to = Math.atan2(s.wind_e, s.wind_n);
   const words = "wind " + fixed(speed, 1, "m/s") + " from " + bearing(to + Math.PI);
   g.font = "12px system-ui";
   g.textAlign = "left";
   g.textBaseline = "middle";
-  const width = g.measureText(words).width + 52, y = height - 22;
+  const width = g.measureText(words).width + 52,
+    y = height - 22;
   g.fillStyle = colours.get("panel");
   g.fillRect(8, y - 15, width, 30);
   g.fillStyle = g.strokeStyle = colours.get("text");
   g.fillText(words, 44, y);
   g.save();
   g.translate(26, y);
-  g.rotate((Math.round(to * degrees) / degrees) || 0);
+  g.rotate(Math.round(to * degrees) / degrees || 0);
   g.lineWidth = 2;
   g.beginPath();
-  for (const [a, b] of [[0, 10], [0, -10], [-4, -4], [0, -10], [4, -4]] as const) g.lineTo(a, b);
+  for (const [a, b] of [
+    [0, 10],
+    [0, -10],
+    [-4, -4],
+    [0, -10],
+    [4, -4],
+  ] as const)
+    g.lineTo(a, b);
   g.stroke();
   g.restore();
 }

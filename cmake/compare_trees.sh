@@ -3,7 +3,7 @@
 # Does this tree fly as another revision did? Both are built; every mission that flies in simulation alone is flown with seeds 1 to 3 by both,
 # and the logs are compared message by message. Of the host's own topics (/fulmar/...) differences are told, of all others they fail. Two runs
 # of this tree give equal bytes, and each log is replayed. Logs of the other revision are read by info, export and diff.
-#   compare_trees.sh REV [BUILD]      REV is built in build/compare/REV once, BUILD (build) holds this tree's `flight`
+#   compare_trees.sh REV [BUILD]      REV is built in build/compare/REV once, BUILD (build) holds this tree's `flight` and `slow_planner`
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [ $# -ge 1 ] || { sed -n '6s/^# *//p' "$0"; exit 2; }
@@ -15,16 +15,22 @@ trap 'rm -rf "$scratch"' EXIT
 if [ ! -e "$other/build/bin/fulmar" ]; then
   mkdir -p "$other"
   git archive "$revision" | tar -x -C "$other"
-  (cd "$other" && configure_and_build build -DFULMAR_TESTS=OFF -- flight >"$other/build.log" 2>&1) || { tail -n 40 "$other/build.log"; exit 1; }
+  (cd "$other" && configure_and_build build -DFULMAR_TESTS=OFF -- flight slow_planner >"$other/build.log" 2>&1) || { tail -n 40 "$other/build.log"; exit 1; }
 fi
-ninja -C "$build" flight >/dev/null
+ninja -C "$build" flight slow_planner >/dev/null
 
+# mission_file TREE-BUILD MISSION: the shipped one, or that of the example of this name
+mission_file() {
+  local file
+  file=$(dirname "$1")/configs/missions/$2.yaml
+  if [ -e "$file" ]; then echo "$file"; else echo "$1/examples/$2/mission.yaml"; fi
+}
 fly() { # fly TREE-BUILD MISSION SEED LOG: in TREE-BUILD's own tree
-  (cd "$(dirname "$1")" && "$1/bin/fulmar" run "configs/missions/$2.yaml" --seed "$3" --log "$4" >"$scratch/fly.log" 2>&1) ||
+  (cd "$(dirname "$1")" && "$1/bin/fulmar" run "$(mission_file "$1" "$2")" --seed "$3" --log "$4" >"$scratch/fly.log" 2>&1) ||
     { cat "$scratch/fly.log"; echo "$2, seed $3: not flown by $1"; exit 1; }
 }
 for mission in hourglass two_schemes orbit lla calm reference_gnss slow_planner two_filters first second; do
-  [ -e "$other/configs/missions/$mission.yaml" ] || { echo "$mission: not there in $revision"; continue; }
+  [ -e "$(mission_file "$other/build" $mission)" ] || { echo "$mission: not there in $revision"; continue; }
   for seed in 1 2 3; do
     before=$scratch/before.mcap now=$scratch/now.mcap again=$scratch/again.mcap
     rm -f "$scratch"/*.mcap

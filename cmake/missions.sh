@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Every shipped mission is checked and flown; equal runs give equal bytes, on a loaded machine too; the hourglass meets its figures.
+# Every shipped mission and that of the example slow_planner is checked and flown; equal runs give equal bytes, on a loaded machine too; the hourglass meets its figures.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scratch=$(mktemp -d)
@@ -11,8 +11,9 @@ fulmar=build/bin/fulmar
 value() { sed -n "s/^  \"$2\": \"\{0,1\}\([^\",]*\)\"\{0,1\},\{0,1\}\$/\1/p" "$1"; }
 expect() { [ "$2" = "$3" ] || { echo "$1: expected $3, got $2"; exit 1; }; }
 
-for mission in hourglass runway_to_runway hand_launch return_home two_schemes orbit lla calm reference_gnss slow_planner two_filters excitation autotune; do
-  file=configs/missions/$mission.yaml
+for file in configs/missions/{hourglass,runway_to_runway,hand_launch,return_home,two_schemes,orbit,lla,calm,reference_gnss,two_filters,excitation,autotune}.yaml \
+  build/examples/slow_planner/mission.yaml; do
+  mission=$(sed -n 's/^mission: //p' "$file")
   $fulmar check "$file"
   $fulmar graph "$file" >"$scratch/$mission.txt"
   $fulmar run "$file" --json --log "$scratch/$mission.mcap" >"$scratch/$mission.json" 2>"$scratch/$mission.log" || { cat "$scratch/$mission.log"; exit 1; }
@@ -55,7 +56,7 @@ done
 [ "$(value "$scratch/other.json" log_sha256)" != "$sha" ] || { echo "another seed gives the same log"; exit 1; }
 echo "equal runs give equal bytes: $sha"
 
-for plugin in build/lib/fulmar/*.so; do expect "symbols of $plugin" "$(nm -D --defined-only "$plugin" | awk '{print $3}')" fulmar_plugin_entry; done
+for plugin in build/lib/fulmar/*.so build/examples/*/build/lib/fulmar/*.so; do expect "symbols of $plugin" "$(nm -D --defined-only "$plugin" | awk '{print $3}')" fulmar_plugin_entry; done
 echo "every plugin exports its entry alone"
 
 if command -v node >/dev/null && [ -d core/tap/test/node/node_modules ]; then

@@ -39,9 +39,9 @@ def output(entry):
 
 
 def wanted(entry):
-    """Host and plugins; tests and benches are held by their compilers alone."""
+    """Host, plugins and examples; tests and benches are held by their compilers alone."""
     out = output(entry)
-    return out.split("/")[0] in (("core", "plugins", "tools") if with_tools else ("core", "plugins")) and "/test" not in out and "_test.dir" not in out and "/abi_1" not in out
+    return out.split("/")[0] in ("core", "plugins", "examples", *["tools"] * with_tools) and "/test" not in out and "_test.dir" not in out and "/abi_1" not in out
 
 
 def look(entry, digest):

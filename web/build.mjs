@@ -25,18 +25,38 @@ buildSync({
   legalComments: "none",
   nodePaths: [modules],
 });
-buildSync({ entryPoints: { page: join(here, "src/style.css") }, outdir: out, bundle: true, minify: true, nodePaths: [modules] });
+buildSync({
+  entryPoints: { page: join(here, "src/style.css") },
+  outdir: out,
+  bundle: true,
+  minify: true,
+  nodePaths: [modules],
+});
 writeFileSync(join(out, "index.html"), readFileSync(join(here, "src/index.html")));
 
 // The report of a log: one file. Its policy allows the script and the style in it, by their sums, and nothing else.
-const report = buildSync({ entryPoints: [join(here, "src/report.ts")], bundle: true, minify: true, format: "esm", target: ["chrome103", "firefox113", "safari16.4"],
-  legalComments: "none", charset: "ascii", nodePaths: [modules], write: false }).outputFiles[0].text;
+const report = buildSync({
+  entryPoints: [join(here, "src/report.ts")],
+  bundle: true,
+  minify: true,
+  format: "esm",
+  target: ["chrome103", "firefox113", "safari16.4"],
+  legalComments: "none",
+  charset: "ascii",
+  nodePaths: [modules],
+  write: false,
+}).outputFiles[0].text;
 const style = readFileSync(join(out, "page.css"), "utf8").trim();
 // a text in the script that would end its element
-const script = report.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--").trim();
+const script = report
+  .replace(/<\/(script)/gi, "<\\/$1")
+  .replace(/<!--/g, "<\\!--")
+  .trim();
 const sum = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 const policy = `default-src 'none'; script-src ${sum(script)}; style-src ${sum(style)}; img-src data:; require-trusted-types-for 'script'; trusted-types 'none'`;
-writeFileSync(join(out, "report.html"), `<!doctype html>
+writeFileSync(
+  join(out, "report.html"),
+  `<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
@@ -51,8 +71,11 @@ writeFileSync(join(out, "report.html"), `<!doctype html>
 <script type="module">${script}</script>
 </body>
 </html>
-`);
-const licences = ["three", "uplot", "js-yaml"].map((name) => `${name}\n\n${readFileSync(join(modules, name, "LICENSE"), "utf8")}`);
+`,
+);
+const licences = ["three", "uplot", "js-yaml"].map(
+  (name) => `${name}\n\n${readFileSync(join(modules, name, "LICENSE"), "utf8")}`,
+);
 writeFileSync(join(out, "LICENSES.txt"), licences.join("\n\n"));
 let total = 0;
 for (const name of readdirSync(out).filter((n) => /\.(html|js|css)$/.test(n) && n !== "report.html")) {

@@ -1,25 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# cmake -DNODE= -DNPM= -DSOURCE= -DWORK= -DOUT= -DALL= -P page.cmake: fetches what the page is made of, as package-lock.json has it, and makes
-# the page. What cannot be fetched is no reason not to fly: it is told, and there is no page.
-file(READ ${SOURCE}/package-lock.json lock)
-set(lock "${ALL} ${lock}")
-set(fetched "")
-if(EXISTS ${WORK}/fetched)
-  file(READ ${WORK}/fetched fetched)
-endif()
-if(NOT lock STREQUAL fetched)
-  file(REMOVE ${WORK}/fetched)
-  file(MAKE_DIRECTORY ${WORK})
-  file(COPY ${SOURCE}/package.json ${SOURCE}/package-lock.json DESTINATION ${WORK})
-  set(options --ignore-scripts --no-audit --no-fund --prefer-offline --silent --fetch-retries=1 --fetch-retry-mintimeout=1000)
-  if(NOT ALL)
-    list(APPEND options --omit=dev)
-  endif()
-  execute_process(COMMAND ${NPM} ci ${options} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
-  if(NOT code EQUAL 0)
-    message("No page of the flight: npm could not fetch its packages. With a network, build again.\n${said}")
-    return()
-  endif()
-  file(WRITE ${WORK}/fetched "${lock}")
+# cmake -DNODE= -DNPM= -DSOURCE= -DWORK= -DOUT= -DALL= -P page.cmake: fetches what the page is made of, and makes the page. What cannot be
+# fetched is no reason not to fly: it is told, and there is no page.
+include(${CMAKE_CURRENT_LIST_DIR}/fetch.cmake)
+if(NOT EXISTS ${WORK}/fetched)
+  message("No page of the flight: npm could not fetch its packages. With a network, build again.\n${said}")
+  return()
 endif()
 execute_process(COMMAND ${NODE} ${SOURCE}/build.mjs ${WORK}/node_modules ${OUT} COMMAND_ERROR_IS_FATAL ANY)

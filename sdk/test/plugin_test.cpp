@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component as the host sees it: tables, thunks, life cycle; and the bench that authors test with.
+// A component as the host sees it: tables, thunks, exceptions, parameters; and the bench that authors test
+// with.
 #include <doctest/doctest.h>
 
 #include <stdexcept>
@@ -12,111 +13,13 @@
 #include "fulmar/msg/plan_edit.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/testing.hpp"
+#include "sdk/test/everything.hpp"
 
 namespace plugin_test {
 
 using namespace fulmar;
 
 namespace {
-
-enum class Law : std::uint8_t { hold, takeoff };
-
-struct Gains {
-  double roll_ratio = 1;
-};
-
-const std::string long_reason = [] {
-  std::string text = "because";
-  while (text.size() < 300) text += " of words";
-  return text;
-}();
-const std::string long_word = [] {
-  std::string text;
-  while (text.size() < 300) text += "\xc3\xbc";  // a letter of two bytes
-  return text;
-}();
-
-struct Everything {
-  static constexpr const char* doc = "Uses every kind of port and parameter.";
-  struct Inputs {
-    In<VehicleState> state;
-    Optional<AttitudeCommand> attitude;
-    Queue<PlanEdit> edits;
-    Request<PlanEdit> edit;
-  };
-  struct Outputs {
-    Actuators actuators;
-    Out<AttitudeCommand> wish;
-    OutQueue<PlanEdit, 2> made;
-    Probe roll_error_rad;
-  };
-  struct Params {
-    Param roll_kp{0.5, "rad/rad", 0, 2, "aileron per roll error"};
-    Flag on{true, "whether it works"};
-    Count n{3, 0, 10, "how many"};
-    Choice<Law> law{Law::hold, "which law"};
-    TextParam<8> word{"abc", "a word"};
-    Vector<Ned> wind{{3, -4, 0}, "m/s", -30, 30, "wind"};
-    Record<Gains> gains{"a record"};
-    Blob table{"bytes"};
-    Param mass{2, "kg", 0, 9, "fixed", setup};
-  };
-
-  void configure(const Params& p) {
-    if (p.n == 7) throw std::runtime_error("seven is unlucky");
-    configured = p.roll_kp;
-  }
-  void retune(const Params& p) { configured = p.roll_kp; }
-  Status activate(const Tick&, const Inputs&, const Params&, const Outputs& last) {
-    taken_over = last.actuators.aileron_rad;
-    return Status::ok;
-  }
-  Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
-    if (in.state->roll_rad > 3) throw std::runtime_error("upside down");
-    if (in.state->roll_rad < -3) return Status::failed;
-    out.actuators.aileron_rad = p.roll_kp * (in.attitude ? in.attitude->roll_rad - in.state->roll_rad : 0);
-    out.roll_error_rad = -in.state->roll_rad;
-    if (in.attitude.fresh()) out.wish.publish(*in.attitude, tick.now_ns - 5);
-    for (const auto& sample : in.edits) out.made.push(sample.value, sample.valid_at_ns);
-    for (auto request : in.edit) {
-      if (request.value().index == 100)
-        request.refuse(long_reason);
-      else if (request.value().index == 101)
-        request.refuse(long_word);
-      else if (request.value().index > 3)
-        request.refuse("there is no waypoint " + std::to_string(request.value().index));
-      else
-        request.accept();
-    }
-    last_dt = tick.dt_s();
-    return Status::ok;
-  }
-  double configured = 0, taken_over = 0, last_dt = 0;
-};
-
-/// Takes over as of today: knows whether somebody flew, and what he made.
-struct Successor {
-  struct Inputs {};
-  struct Outputs {
-    Actuators actuators;
-    Out<AttitudeCommand> wish;
-    OutQueue<PlanEdit, 2> made;
-    Actuators spare;
-  };
-  struct Params {};
-  Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last) {
-    given = last.given();
-    had_actuators = last.has(last->actuators);
-    had_wish = last.has(last->wish);
-    had_made = last.has(last->made);
-    had_spare = last.has(last->spare);
-    aileron_rad = last->actuators.aileron_rad;
-    return given ? Status::ok : Status::degraded;
-  }
-  Status step(const Tick&, const Inputs&, const Params&, Outputs&) { return Status::ok; }
-  bool given = false, had_actuators = false, had_wish = false, had_made = false, had_spare = false;
-  double aileron_rad = 0;
-};
 
 struct Seeded {
   struct Inputs {};
@@ -346,116 +249,6 @@ TEST_CASE("an exception without words, or whose words throw, fails its call and 
   thrown_in = Place::nowhere;
   CHECK(first_failure().first == Place::nowhere);
   CHECK((std::get_terminate() == before));
-}
-
-TEST_CASE("parameters arrive in configure and retune, the last outputs in activate") {
-  Bench<Everything> bench;
-  bench.params.roll_kp.value = 0.7;
-  REQUIRE(bench.configure() == Status::ok);
-  CHECK(bench.component().configured == 0.7);
-  bench.params.roll_kp.value = 0.9;
-  REQUIRE(bench.retune() == Status::ok);
-  CHECK(bench.component().configured == 0.9);
-  Everything::Outputs last;
-  last.actuators.aileron_rad = 0.25;
-  REQUIRE(bench.activate(last) == Status::ok);
-  CHECK(bench.component().taken_over == 0.25);
-}
-
-TEST_CASE("activated with nothing to go on from, a component does not get what was handed over before") {
-  const fulmar_component c = detail::component_entry<Everything>();
-  fulmar_error error{};
-  void* instance = c.create(1, &error);
-  REQUIRE(instance != nullptr);
-  const std::vector<fulmar_input> in(c.input_count);
-  std::vector<fulmar_input> last(c.output_count);
-  const fulmar_tick tick{};
-  Actuators actuators;
-  actuators.aileron_rad = 0.25;
-  last[0].data = &actuators;
-  const auto& component = static_cast<detail::Instance<Everything>*>(instance)->component;
-  REQUIRE(c.activate(instance, &tick, in.data(), last.data(), &error) == FULMAR_OK);
-  CHECK(component.taken_over == 0.25);
-  last[0].data = nullptr;
-  REQUIRE(c.activate(instance, &tick, in.data(), last.data(), &error) == FULMAR_OK);
-  CHECK(component.taken_over == 0);
-  c.destroy(instance);
-}
-
-TEST_CASE("activated by the host, it knows whether somebody flew and what he made: zeros are a command too") {
-  const fulmar_component c = detail::component_entry<Successor>();
-  REQUIRE((c.activate != nullptr));
-  fulmar_error error{};
-  void* instance = c.create(1, &error);
-  REQUIRE(instance != nullptr);
-  std::vector<fulmar_input> last(c.output_count);
-  const fulmar_tick tick{};
-  const auto& component = static_cast<detail::Instance<Successor>*>(instance)->component;
-  CHECK(c.activate(instance, &tick, nullptr, last.data(), &error) == FULMAR_DEGRADED);
-  CHECK_FALSE(component.given);
-  const Actuators glide, other{0.5, 0.25, 0, 0};
-  last[3].data = &glide;
-  CHECK(c.activate(instance, &tick, nullptr, last.data(), &error) == FULMAR_OK);
-  CHECK(component.given);
-  CHECK(component.had_spare);
-  CHECK_FALSE(component.had_actuators);
-  CHECK_FALSE(component.had_wish);
-  CHECK_FALSE(component.had_made);
-  const AttitudeCommand wish;
-  last[0].data = &other;
-  last[1].data = &wish;
-  last[3].data = nullptr;
-  CHECK(c.activate(instance, &tick, nullptr, last.data(), &error) == FULMAR_OK);
-  CHECK(component.had_actuators);
-  CHECK(component.had_wish);
-  CHECK_FALSE(component.had_spare);
-  CHECK(component.aileron_rad == 0.25);
-  last = std::vector<fulmar_input>(c.output_count);
-  CHECK(c.activate(instance, &tick, nullptr, last.data(), &error) ==
-        FULMAR_DEGRADED);  // nothing of the time before is left
-  CHECK_FALSE(component.had_actuators);
-  CHECK(component.aileron_rad == 0);
-  c.destroy(instance);
-}
-
-TEST_CASE("the bench activates after nobody, after somebody, and after one who made some of the outputs") {
-  Bench<Successor> bench;
-  const auto& component = bench.component();
-  CHECK(bench.activate() == Status::degraded);
-  CHECK_FALSE(component.given);
-  CHECK(bench.activate(Successor::Outputs{}) == Status::ok);
-  CHECK(component.had_actuators);
-  CHECK(component.had_wish);
-  CHECK(component.had_made);
-  CHECK(component.had_spare);
-  CHECK(bench.activate({}) == Status::ok);
-  Applied<Successor::Outputs> last;
-  last.made_bits = 0b0010;
-  CHECK(bench.activate(last) == Status::ok);
-  CHECK(component.had_wish);
-  CHECK_FALSE(component.had_actuators);
-  CHECK_FALSE(component.had_spare);
-
-  Bench<Everything> old;  // takes the outputs alone: unchanged
-  Everything::Outputs outputs;
-  outputs.actuators.aileron_rad = 0.5;
-  REQUIRE(old.activate(outputs) == Status::ok);
-  CHECK(old.component().taken_over == 0.5);
-  REQUIRE(old.activate() == Status::ok);
-  CHECK(old.component().taken_over == 0);
-  REQUIRE(old.activate(Applied<Everything::Outputs>::all(outputs)) == Status::ok);
-  CHECK(old.component().taken_over == 0.5);
-}
-
-TEST_CASE("what was applied reads as the outputs themselves") {
-  Successor::Outputs outputs;
-  outputs.spare.rudder_rad = 0.125;
-  const auto last = Applied<Successor::Outputs>::all(outputs);
-  CHECK(last.made_bits == 0b1111);
-  const Successor::Outputs& plain = last;
-  CHECK(plain.spare.rudder_rad == 0.125);
-  CHECK(last->spare.rudder_rad == 0.125);
-  CHECK_FALSE(last.has(outputs.spare));  // another struct's
 }
 
 TEST_CASE("values of every kind cross into Params") {

@@ -6,7 +6,9 @@ type Props = Record<string, unknown>;
 
 /** el("button", {class: "small", onclick: f, "aria-label": "Pause"}, "Pause") */
 export function el<K extends keyof HTMLElementTagNameMap>(
-  tag: K, props: Props = {}, ...children: Child[]
+  tag: K,
+  props: Props = {},
+  ...children: Child[]
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [key, value] of Object.entries(props)) {
@@ -21,7 +23,11 @@ export function el<K extends keyof HTMLElementTagNameMap>(
 }
 
 /** The same of a drawing: svg("line", {class: "wire", x1: 3}) */
-export function svg<K extends keyof SVGElementTagNameMap>(tag: K, props: Record<string, string | number> = {}, ...children: Child[]): SVGElementTagNameMap[K] {
+export function svg<K extends keyof SVGElementTagNameMap>(
+  tag: K,
+  props: Record<string, string | number> = {},
+  ...children: Child[]
+): SVGElementTagNameMap[K] {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
   for (const [key, value] of Object.entries(props)) element.setAttribute(key, String(value));
   for (const child of children) if (child) element.append(child);
@@ -42,7 +48,8 @@ export function fill(element: Element, ...children: Child[]): void {
 /** A canvas that is as sharp as the screen: sized to its box, in CSS pixels for who draws. */
 export function sharp(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
   const ratio = window.devicePixelRatio || 1;
-  const width = Math.round(canvas.clientWidth * ratio), height = Math.round(canvas.clientHeight * ratio);
+  const width = Math.round(canvas.clientWidth * ratio),
+    height = Math.round(canvas.clientHeight * ratio);
   if (canvas.width !== width || canvas.height !== height) {
     canvas.width = width;
     canvas.height = height;
@@ -64,7 +71,10 @@ export class Colours {
   get(name: string): string {
     let value = this.cache.get(name);
     if (value === undefined) {
-      value = getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim() || "#888";
+      value =
+        getComputedStyle(document.documentElement)
+          .getPropertyValue("--" + name)
+          .trim() || "#888";
       this.cache.set(name, value);
     }
     return value;

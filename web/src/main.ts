@@ -13,14 +13,18 @@ import { Tune } from "./views/tune";
 import { Wires } from "./views/wires";
 
 const flight = new Flight(location.href.replace(/^http/, "ws").replace(/#.*$/, ""));
-const lost_for_ms = 300, old_ms = 1000, behind_ms = 600, least_often_ms = 1000;
+const lost_for_ms = 300,
+  old_ms = 1000,
+  behind_ms = 600,
+  least_often_ms = 1000;
 
 function byId(id: string): HTMLElement {
   return document.getElementById(id) as HTMLElement;
 }
 
 const alerts = new AlertStrip(flight);
-const fly = new Fly(flight, alerts), tune = new Tune(flight);
+const fly = new Fly(flight, alerts),
+  tune = new Tune(flight);
 flight.heard_of_channels.push(() => alerts.begin());
 const pages: Page[] = [fly, new PlanPage(flight, fly.track), tune, new Wires(flight), new Simulation(flight)];
 let shown: Page | null = null;
@@ -54,7 +58,8 @@ function tabs(): void {
     bar.querySelector<HTMLElement>("[aria-selected=true]")?.focus();
   });
   document.addEventListener("keydown", (e) => {
-    if (e.ctrlKey || e.metaKey || e.altKey || (e.target as HTMLElement).closest("input, select, textarea")) return;
+    if (e.ctrlKey || e.metaKey || e.altKey || (e.target as HTMLElement).closest("input, select, textarea"))
+      return;
     const page = pages[Number(e.key) - 1];
     if (page) show(page);
   });
@@ -69,21 +74,34 @@ function link(now_ms: number): void {
   banner.hidden = !down;
   const seconds = Math.max(0, Math.floor((now_ms - since_ms) / 1000));
   const ended = why.includes("ended");
-  const what = flight.view === null ? "No answer from the flight" : ended ? "The flight has ended" : "Connection lost";
-  const shown = flight.view === null ? "" : ended ? " What is shown is its last moment." : " What is shown is old.";
+  const what =
+    flight.view === null ? "No answer from the flight" : ended ? "The flight has ended" : "Connection lost";
+  const shown =
+    flight.view === null ? "" : ended ? " What is shown is its last moment." : " What is shown is old.";
   mark(banner, "ended", ended); // an end is no fault
-  if (down) say(banner, `✕ ${what}, ${seconds} s ago.${shown} ${ended ? "Waiting for another one." : "Trying again."}`);
+  if (down)
+    say(
+      banner,
+      `✕ ${what}, ${seconds} s ago.${shown} ${ended ? "Waiting for another one." : "Trying again."}`,
+    );
 }
 
 /** The age of what is shown: on its way, in this browser, of the estimate itself, and since it was drawn. */
 function shown_age_ms(now_ms: number): number {
-  const view = flight.view, state = names_of(flight).state, stands = !view || view.paused || view.over;
+  const view = flight.view,
+    state = names_of(flight).state,
+    stands = !view || view.paused || view.over;
   const sample = stands || state === "" ? 0 : flight.age(state) / Math.max(1, view.speed);
   return Math.max(flight.age_ms(), Number.isFinite(sample) ? 1000 * sample : 0, now_ms - drawn_ms);
 }
 function age(now_ms: number): void {
-  const field = byId("age"), ms = Math.max(0, shown_age_ms(now_ms)), old = ms > old_ms && flight.view !== null;
-  say(field, flight.view === null ? "–" : ms < 10_000 ? (ms / 1000).toFixed(1) + " s" : Math.round(ms / 1000) + " s");
+  const field = byId("age"),
+    ms = Math.max(0, shown_age_ms(now_ms)),
+    old = ms > old_ms && flight.view !== null;
+  say(
+    field,
+    flight.view === null ? "–" : ms < 10_000 ? (ms / 1000).toFixed(1) + " s" : Math.round(ms / 1000) + " s",
+  );
   field.dataset.ms = String(Math.round(ms));
   mark(field, "old", old);
   mark(document.body, "stale", old);
@@ -98,7 +116,15 @@ function head(): void {
   say(byId("clock"), clock(flight.now));
   say(byId("armed"), view.armed ? "armed" : "disarmed");
   mark(byId("armed"), "warn", view.armed && view.io !== "sim");
-  const pace = view.paused ? "paused" : view.io !== "sim" ? "hardware" : view.speed === 0 ? "max speed" : view.speed === 1 ? "real time" : view.speed + " ×";
+  const pace = view.paused
+    ? "paused"
+    : view.io !== "sim"
+      ? "hardware"
+      : view.speed === 0
+        ? "max speed"
+        : view.speed === 1
+          ? "real time"
+          : view.speed + " ×";
   say(byId("pace"), pace);
   mark(byId("pace"), "warn", view.paused);
 }
@@ -118,7 +144,8 @@ flight.on_status = (level, words) => {
 tabs();
 const wanted = location.hash.slice(1);
 show(pages.find((p) => p.name.toLowerCase().replace(/ /g, "_") === wanted) ?? (pages[0] as Page));
-let last_ms = 0, took_ms = 0; // of the last picture
+let last_ms = 0,
+  took_ms = 0; // of the last picture
 function frame(now_ms: number): void {
   requestAnimationFrame(frame);
   // some 30 pictures a second; a browser that is behind first reads what has come, and draws a fifth of the time

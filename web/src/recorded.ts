@@ -14,7 +14,8 @@ interface Recorded {
 
 /** {a: {b: 1}} of "a.b"; flags are flags. */
 function put(message: Message, path: string, value: number): void {
-  const parts = path.split("."), last = parts.pop() as string;
+  const parts = path.split("."),
+    last = parts.pop() as string;
   let at = message;
   for (const part of parts) at = (at[part] ??= {}) as Message;
   at[last] = last.endsWith("_valid") ? value !== 0 : value;
@@ -25,7 +26,10 @@ async function recorded(packed: PackedTopic): Promise<Recorded> {
   if (packed.fields.length > 0) {
     const { t, values } = await unpack_columns(packed.data, packed.rows, packed.fields.length);
     return {
-      topic, t, series: new Map(), column: (path) => values[packed.fields.indexOf(path)],
+      topic,
+      t,
+      series: new Map(),
+      column: (path) => values[packed.fields.indexOf(path)],
       message: (i) => {
         const message: Message = {};
         packed.fields.forEach((field, k) => put(message, field, values[k]?.[i] ?? NaN));
@@ -33,10 +37,14 @@ async function recorded(packed: PackedTopic): Promise<Recorded> {
       },
     };
   }
-  const { view, places } = await unpack_messages(packed.data), { t } = await unpack_columns(packed.t ?? "", packed.rows, 0);
+  const { view, places } = await unpack_messages(packed.data),
+    { t } = await unpack_columns(packed.t ?? "", packed.rows, 0);
   const read: (Message | undefined)[] = [];
   return {
-    topic, t: t.slice(0, places.length), series: new Map(), column: () => undefined,
+    topic,
+    t: t.slice(0, places.length),
+    series: new Map(),
+    column: () => undefined,
     message: (i) => {
       try {
         return (read[i] ??= decode(topic.fields, view, places[i] ?? Infinity));
@@ -65,7 +73,8 @@ export class Recording implements Source {
   }
   /** How many messages there are until now. */
   private until(t: number[]): number {
-    let low = 0, high = t.length;
+    let low = 0,
+      high = t.length;
     while (low < high) {
       const middle = (low + high) >> 1;
       if ((t[middle] as number) <= this.now) low = middle + 1;
@@ -74,11 +83,13 @@ export class Recording implements Source {
     return low;
   }
   latest(topic: string): Message | undefined {
-    const r = this.all.get(topic), n = r ? this.until(r.t) : 0;
+    const r = this.all.get(topic),
+      n = r ? this.until(r.t) : 0;
     return r && n > 0 ? r.message(n - 1) : undefined;
   }
   age(topic: string): number {
-    const r = this.all.get(topic), n = r ? this.until(r.t) : 0;
+    const r = this.all.get(topic),
+      n = r ? this.until(r.t) : 0;
     return r && n > 0 ? this.now - (r.t[n - 1] as number) : Infinity;
   }
   /** Of the whole flight. */
@@ -100,7 +111,8 @@ export class Recording implements Source {
     return all;
   }
   series(topic: string, path: string): Series {
-    const all = this.whole(topic, path), n = this.until(all.t);
+    const all = this.whole(topic, path),
+      n = this.until(all.t);
     return { t: all.t.slice(0, n), v: all.v.slice(0, n) };
   }
   /** All of them, at once: those of the whole flight. */

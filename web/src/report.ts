@@ -10,10 +10,18 @@ const data = JSON.parse(document.getElementById("log")?.textContent ?? "{}") as 
 document.getElementById("log")?.remove();
 const sources = await Promise.all(data.logs.map((log) => Recording.of(log)));
 const missions = [...new Set(data.logs.map((log) => log.mission || log.name))].join(", ");
-const summary = new Summary(data, sources), moments = new Map<Recording, Moment>();
-const which = el("select", { "aria-label": "Log" }, ...data.logs.map((log, i) => el("option", { value: String(i) }, log.name)));
-const controls = el("div", { class: "controls" }), view = el("main", { id: "view", role: "tabpanel", tabIndex: -1 });
-const tabs = ["Report", "Flight"].map((name, i) => el("button", { role: "tab", title: `Key ${i + 1}`, onclick: () => show(i) }, name));
+const summary = new Summary(data, sources),
+  moments = new Map<Recording, Moment>();
+const which = el(
+  "select",
+  { "aria-label": "Log" },
+  ...data.logs.map((log, i) => el("option", { value: String(i) }, log.name)),
+);
+const controls = el("div", { class: "controls" }),
+  view = el("main", { id: "view", role: "tabpanel", tabIndex: -1 });
+const tabs = ["Report", "Flight"].map((name, i) =>
+  el("button", { role: "tab", title: `Key ${i + 1}`, onclick: () => show(i) }, name),
+);
 let shown = -1;
 
 /** The flight that was chosen; its views are made when they are first looked at. */
@@ -62,7 +70,8 @@ bar.addEventListener("keydown", (e) => {
   tabs[shown]?.focus();
 });
 document.addEventListener("keydown", (e) => {
-  if (e.ctrlKey || e.metaKey || e.altKey || (e.target as HTMLElement).closest("input, select, textarea")) return;
+  if (e.ctrlKey || e.metaKey || e.altKey || (e.target as HTMLElement).closest("input, select, textarea"))
+    return;
   if (e.key === "1" || e.key === "2") show(Number(e.key) - 1);
 });
 addEventListener("beforeprint", () => to_paper(true));

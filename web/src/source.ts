@@ -30,6 +30,10 @@ export interface Source {
 }
 
 /** The first topic of a type, "VehicleState", that a predicate likes. */
-export function topic_of_type(source: Source, type: string, likes: (t: Topic) => boolean = () => true): string {
+export function topic_of_type(
+  source: Source,
+  type: string,
+  likes: (t: Topic) => boolean = () => true,
+): string {
   return source.topics().find((t) => t.type.endsWith("/" + type) && likes(t))?.name ?? "";
 }

@@ -5,17 +5,31 @@ import { type Names, state_of } from "./names";
 import { type Message, number_at } from "./protocol/schema";
 import type { Source } from "./source";
 
-const gap_s = 0.2, most = 18_000;
+const gap_s = 0.2,
+  most = 18_000;
 const ring = 2.45; // of 95 % of a round normal distribution, in deviations
 const unknown_m = 1e6; // a deviation of that is none
 
 /** Where it was last, and a circle in which it is now by 95 %, as far as the estimate says. */
-export function lost_position(message: Message | undefined, last: { n: number; e: number; t: number } | null, now: number): Lost | null {
+export function lost_position(
+  message: Message | undefined,
+  last: { n: number; e: number; t: number } | null,
+  now: number,
+): Lost | null {
   const s = state_of(message);
   if (!s || s.valid.position || !last) return null;
-  const std = Math.max(number_at(message, "position_std_m.north") ?? Infinity, number_at(message, "position_std_m.east") ?? Infinity);
+  const std = Math.max(
+    number_at(message, "position_std_m.north") ?? Infinity,
+    number_at(message, "position_std_m.east") ?? Infinity,
+  );
   const estimated = Number.isFinite(s.n) && Number.isFinite(s.e) && std > 0 && std < unknown_m;
-  return { last, age_s: Math.max(0, now - last.t), at: estimated ? { n: s.n, e: s.e } : last, radius: estimated ? ring * std : null, yaw: s.yaw };
+  return {
+    last,
+    age_s: Math.max(0, now - last.t),
+    at: estimated ? { n: s.n, e: s.e } : last,
+    radius: estimated ? ring * std : null,
+    yaw: s.yaw,
+  };
 }
 
 export class TrackRecorder implements Track {
@@ -23,7 +37,10 @@ export class TrackRecorder implements Track {
   e: number[] = [];
   private last = -Infinity;
   private fix: { n: number; e: number; t: number } | null = null;
-  constructor(private readonly source: Source, private readonly names: () => Names) {}
+  constructor(
+    private readonly source: Source,
+    private readonly names: () => Names,
+  ) {}
   update(): void {
     const now = this.source.now;
     if (!(now - this.last >= gap_s)) return;

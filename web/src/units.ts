@@ -21,7 +21,10 @@ export function plain(value: number): string {
 export function fixed(value: number | undefined, places: number, unit: string): string {
   if (value === undefined || !Number.isFinite(value)) return none;
   const text = value.toFixed(places);
-  return (Number(text) === 0 ? text.replace("-", "") : text) + (unit === "" || unit.startsWith("°") ? unit : " " + unit);
+  return (
+    (Number(text) === 0 ? text.replace("-", "") : text) +
+    (unit === "" || unit.startsWith("°") ? unit : " " + unit)
+  );
 }
 
 /** What a parameter or field is shown in: its unit and how much of it one of the original is. */
@@ -46,6 +49,7 @@ export function bearing(rad: number | undefined): string {
 /** "12:05.3" of flight; before the first armed tick with a minus. */
 export function clock(seconds: number): string {
   if (!Number.isFinite(seconds)) return none;
-  const size = Math.abs(seconds), minutes = Math.floor(size / 60);
+  const size = Math.abs(seconds),
+    minutes = Math.floor(size / 60);
   return (seconds < -0.05 ? "−" : "") + minutes + ":" + (size - 60 * minutes).toFixed(1).padStart(4, "0");
 }

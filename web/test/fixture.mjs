@@ -10,9 +10,11 @@ import { join } from "node:path";
 
 /** Why nothing can be tested here; "" when it can. A chromium of snap sees no files but its own. */
 export function absent(modules, chromium) {
-  if (!existsSync(join(modules, "playwright-core"))) return "the page's packages are not there: build the target `page`";
+  if (!existsSync(join(modules, "playwright-core")))
+    return "the page's packages are not there: build the target `page`";
   if (!chromium || !existsSync(chromium)) return "there is no chromium here (apt-get install chromium)";
-  if (readFileSync(chromium).subarray(0, 4096).includes("snap")) return "this chromium is a snap, which cannot be driven from here";
+  if (readFileSync(chromium).subarray(0, 4096).includes("snap"))
+    return "this chromium is a snap, which cannot be driven from here";
   return "";
 }
 
@@ -27,8 +29,21 @@ export async function free_port() {
 /** Starts `fulmar run`; resolves when it listens. */
 export async function fly(fulmar, port, mission, ...options) {
   const folder = mkdtempSync(join(tmpdir(), "fulmar-page-"));
-  const child = spawn(fulmar, ["run", mission, "--speed", "real", "--live", `127.0.0.1:${port}`, "--log", join(folder, "flight.mcap"), ...options],
-    { stdio: ["ignore", "pipe", "pipe"] });
+  const child = spawn(
+    fulmar,
+    [
+      "run",
+      mission,
+      "--speed",
+      "real",
+      "--live",
+      `127.0.0.1:${port}`,
+      "--log",
+      join(folder, "flight.mcap"),
+      ...options,
+    ],
+    { stdio: ["ignore", "pipe", "pipe"] },
+  );
   let said = "";
   const listens = new Promise((resolve, reject) => {
     const hear = (bytes) => {
@@ -56,7 +71,13 @@ export async function browse(modules, chromium, ...more) {
   const { chromium: engine } = createRequire(join(modules, "x.js"))("playwright-core");
   return engine.launch({
     executablePath: chromium,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", ...more],
+    args: [
+      "--no-sandbox",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+      "--disable-dev-shm-usage",
+      ...more,
+    ],
   });
 }
 

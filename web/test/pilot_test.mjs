@@ -15,19 +15,34 @@ if (skipped) {
   process.exit(77);
 }
 const run = promisify(execFile);
-const port = await free_port(), shots = shots_folder(modules);
+const port = await free_port(),
+  shots = shots_folder(modules);
 const ask = async (...words) => (await run(fulmar, [...words, "--at", `127.0.0.1:${port}`])).stdout.trim();
 const set = (...words) => ask("param", "set", ...words);
 // Without an end of its own: on the ground return_home is over after 30 s.
-const folder = mkdtempSync(join(tmpdir(), "fulmar-pilot-")), mission = join(folder, "pilot.yaml");
-writeFileSync(mission, `mission: pilot\nextends: ${resolve("configs/missions/return_home.yaml")}\ndone: "time > 1 h"\n`);
-const phone = [390, 844], sizes = [[1280, 720], [1024, 768], [820, 1180], phone];
+const folder = mkdtempSync(join(tmpdir(), "fulmar-pilot-")),
+  mission = join(folder, "pilot.yaml");
+writeFileSync(
+  mission,
+  `mission: pilot\nextends: ${resolve("configs/missions/return_home.yaml")}\ndone: "time > 1 h"\n`,
+);
+const phone = [390, 844],
+  sizes = [[1280, 720], [1024, 768], [820, 1180], phone];
 let page;
 const faults = [];
 const until = (what, holds, patience = 60) => within(what, holds, patience); // where others compute, a flight is slower
 const tab = (name) => page.click(`#tabs button[data-page="${name}"]`);
-const data = (selector, name) => page.locator(selector).first().getAttribute("data-" + name);
-const is = (what, selector, name, value, patience) => until(what, async () => (await page.locator(selector).count()) > 0 && (await data(selector, name)) === value, patience);
+const data = (selector, name) =>
+  page
+    .locator(selector)
+    .first()
+    .getAttribute("data-" + name);
+const is = (what, selector, name, value, patience) =>
+  until(
+    what,
+    async () => (await page.locator(selector).count()) > 0 && (await data(selector, name)) === value,
+    patience,
+  );
 const alert = (key) => `.alert[data-alert="${key}"]`;
 const map = ".fly canvas.map";
 
@@ -35,9 +50,23 @@ const map = ".fly canvas.map";
 async function whole(name, at = sizes) {
   for (const [width, height] of at) {
     await page.setViewportSize({ width, height });
-    const cut = () => page.evaluate(() => [...document.querySelectorAll("td, th, input, .alert, .alert *, .flag, .command, .command *, .figures > div")]
-      .filter((e) => e.getClientRects().length > 0 && (e.getBoundingClientRect().right > innerWidth + 1 || (e.matches("input, .alert, .command, .figures > div") && (e.scrollWidth > e.clientWidth + 1 || (!e.matches("input") && e.scrollHeight > e.clientHeight + 2)))))
-      .map((e) => `${e.tagName}.${e.className} ${(e.value ?? e.textContent ?? "").slice(0, 30)}`));
+    const cut = () =>
+      page.evaluate(() =>
+        [
+          ...document.querySelectorAll(
+            "td, th, input, .alert, .alert *, .flag, .command, .command *, .figures > div",
+          ),
+        ]
+          .filter(
+            (e) =>
+              e.getClientRects().length > 0 &&
+              (e.getBoundingClientRect().right > innerWidth + 1 ||
+                (e.matches("input, .alert, .command, .figures > div") &&
+                  (e.scrollWidth > e.clientWidth + 1 ||
+                    (!e.matches("input") && e.scrollHeight > e.clientHeight + 2)))),
+          )
+          .map((e) => `${e.tagName}.${e.className} ${(e.value ?? e.textContent ?? "").slice(0, 30)}`),
+      );
     await until("drawn for this window", async () => (await cut()).length === 0, 3).catch(() => {});
     assert.deepEqual(await cut(), [], `${name} ${width}`);
     await page.screenshot({ path: join(shots, `pilot_${name}_${width}.png`) });
@@ -49,10 +78,24 @@ async function at_a_glance(key) {
   let seen;
   const sees = async () => {
     seen = await page.locator(alert(key)).evaluate((e) => {
-      const box = e.getBoundingClientRect(), words = e.querySelector(".what");
-      return { top: box.top, bottom: box.bottom, level: e.className, size: words ? parseFloat(getComputedStyle(words).fontSize) : 0, parts: [".does", ".pilot"].map((p) => e.querySelector(p)?.textContent.length ?? 0) };
+      const box = e.getBoundingClientRect(),
+        words = e.querySelector(".what");
+      return {
+        top: box.top,
+        bottom: box.bottom,
+        level: e.className,
+        size: words ? parseFloat(getComputedStyle(words).fontSize) : 0,
+        parts: [".does", ".pilot"].map((p) => e.querySelector(p)?.textContent.length ?? 0),
+      };
     });
-    return seen.top >= 0 && seen.bottom > 0 && seen.bottom < 360 && seen.size >= 18 && seen.level.includes("critical") && seen.parts.every((n) => n > 10);
+    return (
+      seen.top >= 0 &&
+      seen.bottom > 0 &&
+      seen.bottom < 360 &&
+      seen.size >= 18 &&
+      seen.level.includes("critical") &&
+      seen.parts.every((n) => n > 10)
+    );
   };
   await until("at a glance", sees, 5).catch((e) => assert.fail(`${e.message} ${JSON.stringify(seen)}`));
 }
@@ -70,12 +113,14 @@ const steps = {
     await is("ready again", ".prearm", "ready", "true");
   },
   async "a flight whose view comes late is asked for nothing that it does not have"() {
-    const other = await browser.newPage(), refused = [];
+    const other = await browser.newPage(),
+      refused = [];
     await other.routeWebSocket(/./, (ws) => {
       const server = ws.connectToServer();
       server.onMessage((m) => {
         if (typeof m === "string" && JSON.parse(m).op === "status") refused.push(m);
-        if (typeof m !== "string" && m[0] === 3) setTimeout(() => ws.send(m), 2500); // the answer of a service
+        if (typeof m !== "string" && m[0] === 3)
+          setTimeout(() => ws.send(m), 2500); // the answer of a service
         else ws.send(m);
       });
     });
@@ -105,7 +150,12 @@ const steps = {
     await set("slc.course_kp", "1.9");
     await page.goto(`http://127.0.0.1:${port}/#tune`);
     await page.reload();
-    await until("the change", async () => (await page.locator(".changed_list li").allTextContents()).join() === "slc.course_kp: 2.1 → 1.9 rad/rad");
+    await until(
+      "the change",
+      async () =>
+        (await page.locator(".changed_list li").allTextContents()).join() ===
+        "slc.course_kp: 2.1 → 1.9 rad/rad",
+    );
     assert.equal(await page.locator("button", { hasText: "Save slc" }).count(), 1);
     await page.click("text=All back to what they were");
     await until("as it was", async () => (await ask("param", "get", "slc.course_kp")).startsWith("2.1"));
@@ -134,7 +184,9 @@ const steps = {
     });
     assert.equal(between, "false", "to land takes two");
     await until("it is asked for", async () => (await ask("param", "get", "watch.asked")) === "land");
-    await until("flown", async () => ["home", "approach"].includes(await page.locator("#phase").textContent()));
+    await until("flown", async () =>
+      ["home", "approach"].includes(await page.locator("#phase").textContent()),
+    );
     await page.click('.command[data-command="land"]');
     await until("taken back", async () => (await ask("param", "get", "watch.asked")) === "none");
     await ask("phase", "cruise"); // from an approach only by hand
@@ -158,7 +210,9 @@ const steps = {
     const largest = await page.evaluate(async () => {
       const field = document.getElementById("age");
       let most = 0;
-      new MutationObserver(() => field.classList.contains("old") && (most = Math.max(most, Number(field.dataset.ms)))).observe(field, { attributes: true, attributeFilter: ["class", "data-ms"] });
+      new MutationObserver(
+        () => field.classList.contains("old") && (most = Math.max(most, Number(field.dataset.ms))),
+      ).observe(field, { attributes: true, attributeFilter: ["class", "data-ms"] });
       const end = performance.now() + 1600;
       while (performance.now() < end);
       for (let i = 0; i < 100 && most === 0; ++i) await new Promise((go) => setTimeout(go, 20));
@@ -172,10 +226,18 @@ const steps = {
     await is("the alert", alert("engine_failed"), "now", "true");
     await ask("speed", "real"); // it is on its way down
     await at_a_glance("engine_failed");
-    await until("no command that is not flown", async () => (await page.locator(".command:disabled").count()) === 3);
+    await until(
+      "no command that is not flown",
+      async () => (await page.locator(".command:disabled").count()) === 3,
+    );
     await page.screenshot({ path: join(shots, "pilot_motor.png") });
     await page.click(`${alert("engine_failed")} button`);
-    await until("one line", async () => (await page.locator(alert("engine_failed")).count()) === 0 && page.locator(".alert_lasting").isVisible());
+    await until(
+      "one line",
+      async () =>
+        (await page.locator(alert("engine_failed")).count()) === 0 &&
+        page.locator(".alert_lasting").isVisible(),
+    );
   },
   async "a crash is an alert, alone"() {
     await set("sim.pilot_flies", "true", "sim.stick_pitch", "-1");
@@ -183,7 +245,8 @@ const steps = {
     await at_a_glance("crashed");
     await is("the row", '.flag[data-flag="contact"]', "good", "false");
     assert.equal(await data(map, "crashed"), "true");
-    const lasting = () => page.locator(".alert.critical:not(.over)").evaluateAll((list) => list.map((e) => e.dataset.alert));
+    const lasting = () =>
+      page.locator(".alert.critical:not(.over)").evaluateAll((list) => list.map((e) => e.dataset.alert));
     assert.deepEqual(await lasting(), ["crashed"]);
     await whole("crash", [[1280, 720]]);
   },

@@ -3,12 +3,22 @@
 import assert from "node:assert/strict";
 
 const flying = (flags = {}, more = {}) => ({
-  safety: { airborne: true, answer: "none", turn: "either", fence_margin_m: 100, ...flags }, status: { armed: true, health: "ok", on_ground: false, crashed: false, ...more.status },
-  ground: undefined, contact: undefined, state: { position_valid: true, attitude_valid: true }, stopped: [], ...more.moment,
+  safety: { airborne: true, answer: "none", turn: "either", fence_margin_m: 100, ...flags },
+  status: { armed: true, health: "ok", on_ground: false, crashed: false, ...more.status },
+  ground: undefined,
+  contact: undefined,
+  state: { position_valid: true, attitude_valid: true },
+  stopped: [],
+  ...more.moment,
 });
 const keys = (list) => list.map((a) => a.key);
 
-export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, gate_of, not_ready }, { places_of }, { lost_position }, near) => ({
+export const pilot_tests = (
+  { AlertBook, alert_of_event, alerts_of, flags, gate_of, not_ready },
+  { places_of },
+  { lost_position },
+  near,
+) => ({
   "each flag of the safety monitor is an alert in the air and none on the ground, also one that the page has no words for"() {
     assert.deepEqual(alerts_of(flying()), []);
     for (const flag of [...Object.keys(flags), "spoiler_jammed"]) {
@@ -16,38 +26,92 @@ export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, gate_
       assert.equal(alert.key, flag);
       assert.deepEqual(others, []);
       assert.ok(alert.what && alert.pilot, flag);
-      assert.deepEqual(alerts_of(flying({ [flag]: true, airborne: false }, { status: { on_ground: true } })), []);
+      assert.deepEqual(
+        alerts_of(flying({ [flag]: true, airborne: false }, { status: { on_ground: true } })),
+        [],
+      );
     }
   },
   "what the aircraft does is said of every answer, and of the pilot or failsafe that flies instead"() {
     const does = (moment) => alerts_of(moment)[0].does;
-    const said = ["none", "level", "glide", "descend", "wait", "land", "home"].map((answer) => does(flying({ gnss_lost: true, answer })));
+    const said = ["none", "level", "glide", "descend", "wait", "land", "home"].map((answer) =>
+      does(flying({ gnss_lost: true, answer })),
+    );
     assert.equal(new Set(said).size, 7);
     const pilot = does(flying({ gnss_lost: true, answer: "wait" }, { status: { override: true } }));
     const failsafe = does(flying({ gnss_lost: true, answer: "wait" }, { status: { failsafe: true } }));
     assert.ok(!said.includes(pilot) && !said.includes(failsafe) && pilot !== failsafe);
   },
   "the worst comes first, and a crash stands alone"() {
-    assert.deepEqual(keys(alerts_of(flying({ radio_lost: true, engine_failed: true, battery_low: true, gnss_lost: true }))), ["engine_failed", "gnss_lost", "radio_lost", "battery_low"]);
-    assert.deepEqual(keys(alerts_of(flying({ engine_failed: true }, { status: { crashed: true, health: "failed" } }))), ["crashed"]);
-    assert.deepEqual(keys(alerts_of(flying({ engine_failed: true }, { moment: { contact: { crashed: true, part: "nose" } } }))), ["crashed"]);
+    assert.deepEqual(
+      keys(alerts_of(flying({ radio_lost: true, engine_failed: true, battery_low: true, gnss_lost: true }))),
+      ["engine_failed", "gnss_lost", "radio_lost", "battery_low"],
+    );
+    assert.deepEqual(
+      keys(alerts_of(flying({ engine_failed: true }, { status: { crashed: true, health: "failed" } }))),
+      ["crashed"],
+    );
+    assert.deepEqual(
+      keys(
+        alerts_of(flying({ engine_failed: true }, { moment: { contact: { crashed: true, part: "nose" } } })),
+      ),
+      ["crashed"],
+    );
   },
   "the vehicle's own troubles and stopped components are alerts, with or without a monitor; a lost position without one as well"() {
     assert.deepEqual(keys(alerts_of(flying({}, { status: { failsafe: true } }))), ["failsafe"]);
     assert.deepEqual(keys(alerts_of(flying({}, { status: { health: "failed" } }))), ["vehicle_failed"]);
     assert.deepEqual(keys(alerts_of(flying({}, { status: { health: "degraded" } }))), ["vehicle_degraded"]);
-    assert.deepEqual(keys(alerts_of(flying({}, { moment: { stopped: [{ name: "slc", role: "outer", heir: "tecs" }] } }))), ["guard slc"]);
-    assert.deepEqual(keys(alerts_of(flying({}, { moment: { safety: undefined, state: { position_valid: false, attitude_valid: true } } }))), ["gnss_lost"]);
-    assert.deepEqual(keys(alerts_of(flying({}, { moment: { safety: undefined, state: { position_valid: false, attitude_valid: false } } }))), ["estimator_failed"]);
-    assert.deepEqual(alerts_of(flying({}, { moment: { safety: undefined, state: { position_valid: false }, ground: { contact: "ground" } } })), []);
+    assert.deepEqual(
+      keys(alerts_of(flying({}, { moment: { stopped: [{ name: "slc", role: "outer", heir: "tecs" }] } }))),
+      ["guard slc"],
+    );
+    assert.deepEqual(
+      keys(
+        alerts_of(
+          flying(
+            {},
+            { moment: { safety: undefined, state: { position_valid: false, attitude_valid: true } } },
+          ),
+        ),
+      ),
+      ["gnss_lost"],
+    );
+    assert.deepEqual(
+      keys(
+        alerts_of(
+          flying(
+            {},
+            { moment: { safety: undefined, state: { position_valid: false, attitude_valid: false } } },
+          ),
+        ),
+      ),
+      ["estimator_failed"],
+    );
+    assert.deepEqual(
+      alerts_of(
+        flying(
+          {},
+          { moment: { safety: undefined, state: { position_valid: false }, ground: { contact: "ground" } } },
+        ),
+      ),
+      [],
+    );
   },
   "an alert stays until it is acknowledged, also when its cause is over, and comes again when its cause does"() {
-    const book = new AlertBook(), one = alerts_of(flying({ gnss_lost: true }));
+    const book = new AlertBook(),
+      one = alerts_of(flying({ gnss_lost: true }));
     book.update(one, 10);
     book.update(one, 11);
-    assert.deepEqual(book.list().map((h) => [h.alert.key, h.since_s, h.now]), [["gnss_lost", 10, true]]);
+    assert.deepEqual(
+      book.list().map((h) => [h.alert.key, h.since_s, h.now]),
+      [["gnss_lost", 10, true]],
+    );
     book.update([], 12);
-    assert.deepEqual(book.list().map((h) => h.now), [false]);
+    assert.deepEqual(
+      book.list().map((h) => h.now),
+      [false],
+    );
     book.acknowledge("gnss_lost");
     book.update([], 13);
     assert.deepEqual([book.list(), book.lasting()], [[], []]);
@@ -57,16 +121,29 @@ export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, gate_
     assert.deepEqual([book.list().length, book.lasting().length], [0, 1]);
     book.update([], 16);
     book.update(one, 17);
-    assert.deepEqual(book.list().map((h) => h.since_s), [17]);
+    assert.deepEqual(
+      book.list().map((h) => h.since_s),
+      [17],
+    );
   },
   "events of weight are alerts, but for what the strip says already"() {
-    const event = (code, severity, component, words) => alert_of_event({ code, severity, component, words }, ["watch"], "flies on");
+    const event = (code, severity, component, words) =>
+      alert_of_event({ code, severity, component, words }, ["watch"], "flies on");
     assert.equal(event("notice", "info", "land", "on the glide slope"), null);
     assert.equal(event("notice", "warning", "watch", "no position: wait"), null);
     assert.equal(event("guard", "warning", "slc", "slc was stopped"), null);
     assert.equal(event("notice", "warning", "fcu", "not ready: no GNSS fix"), null);
-    assert.deepEqual([event("notice", "warning", "land", "go around").level, event("failsafe", "critical", "slc", "failsafe").level], ["warning", "critical"]);
-    assert.equal(event("notice", "warning", "land", "2.5 m too high").key, event("notice", "warning", "land", "3.1 m too high").key);
+    assert.deepEqual(
+      [
+        event("notice", "warning", "land", "go around").level,
+        event("failsafe", "critical", "slc", "failsafe").level,
+      ],
+      ["warning", "critical"],
+    );
+    assert.equal(
+      event("notice", "warning", "land", "2.5 m too high").key,
+      event("notice", "warning", "land", "3.1 m too high").key,
+    );
     const book = new AlertBook();
     book.raise(event("notice", "warning", "land", "go around"), 5);
     book.update([], 6);
@@ -75,10 +152,16 @@ export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, gate_
     assert.deepEqual(book.list(), []);
   },
   "flag, estimate and every component that reports one cause are one alert, and its end is over for all"() {
-    const event = (severity, name, words) => alert_of_event({ code: "notice", severity, component: "sensors", name, words }, ["watch"], "flies on");
-    const book = new AlertBook(), now = () => book.list().map((h) => [h.alert.key, h.now]);
-    const by_event = event("warning", "gnss_lost", "GNSS position silent: dead reckoning"), [by_flag] = alerts_of(flying({ gnss_lost: true }));
-    assert.deepEqual([by_event.what, by_event.pilot, by_event.level], [by_flag.what, by_flag.pilot, by_flag.level]);
+    const event = (severity, name, words) =>
+      alert_of_event({ code: "notice", severity, component: "sensors", name, words }, ["watch"], "flies on");
+    const book = new AlertBook(),
+      now = () => book.list().map((h) => [h.alert.key, h.now]);
+    const by_event = event("warning", "gnss_lost", "GNSS position silent: dead reckoning"),
+      [by_flag] = alerts_of(flying({ gnss_lost: true }));
+    assert.deepEqual(
+      [by_event.what, by_event.pilot, by_event.level],
+      [by_flag.what, by_flag.pilot, by_flag.level],
+    );
     book.raise(by_event, 5);
     book.update([], 6);
     assert.deepEqual(now(), [["gnss_lost", true]]);
@@ -88,18 +171,39 @@ export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, gate_
     assert.deepEqual(now(), [["gnss_lost", false]]);
     book.raise(event("warning", "barometer", "barometer stuck: height by GNSS"), 9);
     book.update([], 10);
-    assert.deepEqual(now(), [["barometer", true], ["gnss_lost", false]]);
+    assert.deepEqual(now(), [
+      ["barometer", true],
+      ["gnss_lost", false],
+    ]);
     book.over("barometer");
-    assert.deepEqual(now().map(([, lasts]) => lasts), [false, false]);
+    assert.deepEqual(
+      now().map(([, lasts]) => lasts),
+      [false, false],
+    );
     book.acknowledge("barometer");
     book.update([], 11);
     assert.deepEqual(now(), [["gnss_lost", false]]);
   },
   "of an aircraft that lies on the ground nothing lasts but the crash"() {
-    const book = new AlertBook(), now = () => book.list().map((h) => [h.alert.key, h.now]).sort();
-    book.raise(alert_of_event({ code: "notice", severity: "critical", component: "sensors", name: "gyro", words: "gyro stuck" }, ["watch"], "flies on"), 5);
+    const book = new AlertBook(),
+      now = () =>
+        book
+          .list()
+          .map((h) => [h.alert.key, h.now])
+          .sort();
+    book.raise(
+      alert_of_event(
+        { code: "notice", severity: "critical", component: "sensors", name: "gyro", words: "gyro stuck" },
+        ["watch"],
+        "flies on",
+      ),
+      5,
+    );
     book.update(alerts_of({ ...flying({}), status: { crashed: true } }), 6);
-    assert.deepEqual(now(), [["crashed", true], ["gyro", false]]);
+    assert.deepEqual(now(), [
+      ["crashed", true],
+      ["gyro", false],
+    ]);
   },
   "what is missing before a take-off is a list"() {
     assert.deepEqual(not_ready("fcu: not ready: no GNSS fix, no height"), ["no GNSS fix", "no height"]);
@@ -110,27 +214,64 @@ export const pilot_tests = ({ AlertBook, alert_of_event, alerts_of, flags, gate_
     assert.deepEqual(alerts_of(flying({ ready: true })), []);
   },
   "fence, places and runway come out of records, by metres or by degrees; a runway of its own wins over the plan's"() {
-    const nothing = 1e9, origin = { lat_deg: 40, lon_deg: -111, alt_msl_m: 0 };
+    const nothing = 1e9,
+      origin = { lat_deg: 40, lon_deg: -111, alt_msl_m: 0 };
     const corner = (north_m, east_m) => ({ north_m, east_m, lat_deg: nothing, lon_deg: nothing });
-    const strip = (north_m, length_m) => ({ north_m, east_m: 5, heading_rad: 1, length_m, lat_deg: nothing, lon_deg: nothing });
-    const records = [{ name: "plan", runway: strip(70, 100) }, null, { corners: [corner(1, 2), corner(3, 4), corner(5, 6)] }, { places: [corner(7, 8), { north_m: nothing, east_m: nothing, lat_deg: 40.001, lon_deg: -111 }] }, strip(9, 300)];
+    const strip = (north_m, length_m) => ({
+      north_m,
+      east_m: 5,
+      heading_rad: 1,
+      length_m,
+      lat_deg: nothing,
+      lon_deg: nothing,
+    });
+    const records = [
+      { name: "plan", runway: strip(70, 100) },
+      null,
+      { corners: [corner(1, 2), corner(3, 4), corner(5, 6)] },
+      { places: [corner(7, 8), { north_m: nothing, east_m: nothing, lat_deg: 40.001, lon_deg: -111 }] },
+      strip(9, 300),
+    ];
     const found = places_of(records, origin);
-    assert.deepEqual(found.fence, [{ n: 1, e: 2 }, { n: 3, e: 4 }, { n: 5, e: 6 }]);
+    assert.deepEqual(found.fence, [
+      { n: 1, e: 2 },
+      { n: 3, e: 4 },
+      { n: 5, e: 6 },
+    ]);
     assert.deepEqual(found.places[0], { n: 7, e: 8 });
-    near(found.places[1].n, 111.04, 0.05, "a thousandth of a degree at 40 degrees, by the meridian's radius of 6361.8 km");
+    near(
+      found.places[1].n,
+      111.04,
+      0.05,
+      "a thousandth of a degree at 40 degrees, by the meridian's radius of 6361.8 km",
+    );
     near(found.places[1].e, 0, 0.001);
     assert.deepEqual(found.runway, { n: 9, e: 5, heading: 1, length: 300 });
     assert.equal(places_of(records.slice(0, 2), origin).runway.n, 70);
-    assert.deepEqual(places_of([{ places: [{ north_m: nothing, east_m: nothing, lat_deg: 40, lon_deg: -111 }] }, strip(0, 0)], null), { fence: [], places: [], runway: null });
+    assert.deepEqual(
+      places_of(
+        [{ places: [{ north_m: nothing, east_m: nothing, lat_deg: 40, lon_deg: -111 }] }, strip(0, 0)],
+        null,
+      ),
+      { fence: [], places: [], runway: null },
+    );
   },
   "a lost position is shown about the estimate, by its deviation, or where it was when there is none"() {
-    const state = (valid, std) => ({ position_valid: valid, position_m: { north: 30, east: 40 }, position_std_m: { north: std, east: std / 2 }, yaw_rad: 1 });
+    const state = (valid, std) => ({
+      position_valid: valid,
+      position_m: { north: 30, east: 40 },
+      position_std_m: { north: std, east: std / 2 },
+      yaw_rad: 1,
+    });
     const last = { n: 1, e: 2, t: 10 };
     assert.equal(lost_position(state(true, 3), last, 12), null);
     assert.equal(lost_position(state(false, 3), null, 12), null);
     const lost = lost_position(state(false, 20), last, 12);
     assert.deepEqual([lost.at, lost.last, lost.age_s], [{ n: 30, e: 40 }, last, 2]);
     near(lost.radius, 20 * Math.sqrt(-2 * Math.log(0.05)), 0.1); // of a round normal distribution
-    assert.deepEqual([lost_position(state(false, 1e9), last, 12).at, lost_position(state(false, 1e9), last, 12).radius], [last, null]);
+    assert.deepEqual(
+      [lost_position(state(false, 1e9), last, 12).at, lost_position(state(false, 1e9), last, 12).radius],
+      [last, null],
+    );
   },
 });

@@ -27,20 +27,20 @@ constexpr double rate_hz = 20;      // of the exports
 constexpr int max_flights =
     4;  // until the machine has not held one up; the second also for the sake of a quiet one
 
-/// A copy of the shipped missions in a folder of its own, in a DDS domain that other tests do not use.
+/// Copies of the examples `formation` and `slow_planner` in one folder, in a DDS domain that other tests do
+/// not use.
 struct Hosts {
   fs::path folder = fs::temp_directory_path() / ("fulmar_fleet_" + std::to_string(getpid()));
   Hosts() {
     fs::create_directories(folder);
-    fs::copy(FULMAR_SOURCE_DIR "/configs", folder / "configs",
-             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    for (const char* example : {"formation", "slow_planner"})
+      fs::copy(fs::path(FULMAR_BIN_DIR "/../examples") / example, folder,
+               fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
   ~Hosts() { fs::remove_all(folder); }
 
   fs::path log(const std::string& name) const { return folder / (name + ".mcap"); }
-  fs::path mission(const std::string& name) const {
-    return folder / "configs" / "missions" / (name + ".yaml");
-  }
+  fs::path mission(const std::string& name) const { return folder / (name + ".yaml"); }
   /// With every sample of these ports in the log.
   void adapt(const std::string& name, const std::string& ports) const {
     std::string text = Process::text(mission(name));
@@ -195,9 +195,9 @@ Separation separation(const Flight& own, const Flight& other, double shift_s,
 /// the ground.
 void write_planner(const Hosts& hosts) {
   const std::string place =
-      "io: sim\nairframe: ../airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: "
-      "1387 m}\n";
-  std::ofstream(hosts.mission("far")) << "mission: far\nextends: common.yaml\n"
+      "io: sim\nairframe: fulmar:airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, "
+      "alt_msl: 1387 m}\n";
+  std::ofstream(hosts.mission("far")) << "mission: far\nextends: fulmar:missions/common.yaml\n"
                                       << place << R"(
 seed: 7
 components: {sim: {params: {sensors: rosflight, start_heading: 135 deg}}}
@@ -212,8 +212,8 @@ rate: 100 Hz
 roles: {vehicle: {in: {}, out: {status: VehicleStatus}}}
 components:
   clock:  {fills: vehicle, use: sim_aero/Aircraft}
-  plan:   {use: path/Planner, rate: 5 Hz, params: {plan: ../plans/hourglass.yaml}}
-  detour: {use: slow_planner/Detour, run: async, rate: 2 Hz, latency: 200 ms, in: {plan: plan.plan}, params: {zones: ../plans/no_fly.yaml, iterations: 2000}}
+  plan:   {use: path/Planner, rate: 5 Hz, params: {plan: fulmar:plans/hourglass.yaml}}
+  detour: {use: build/lib/fulmar/slow_planner.so/Detour, run: async, rate: 2 Hz, latency: 200 ms, in: {plan: plan.plan}, params: {zones: no_fly.yaml, iterations: 2000}}
 phases: {think: {}}
 dds:
   namespace: laptop

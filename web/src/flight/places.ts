@@ -15,13 +15,17 @@ export interface Places {
 type Fields = Record<string, unknown>;
 
 const given = (x: unknown): x is number => typeof x === "number" && Math.abs(x) < 1e8; // a value that is not given is 1e9
-const list = (x: unknown): Fields[] => (Array.isArray(x) ? x.filter((i) => typeof i === "object" && i !== null) : []);
+const list = (x: unknown): Fields[] =>
+  Array.isArray(x) ? x.filter((i) => typeof i === "object" && i !== null) : [];
 
 /** By north and east, or by latitude and longitude, which take an origin. */
 function point_of(record: Fields, origin: Place | null): Point | null {
   if (given(record.north_m) && given(record.east_m)) return { n: record.north_m, e: record.east_m };
   if (!origin || !given(record.lat_deg) || !given(record.lon_deg)) return null;
-  const { n, e } = new LocalPlane(origin).to_plane((record.lat_deg * Math.PI) / 180, (record.lon_deg * Math.PI) / 180);
+  const { n, e } = new LocalPlane(origin).to_plane(
+    (record.lat_deg * Math.PI) / 180,
+    (record.lon_deg * Math.PI) / 180,
+  );
   return { n, e };
 }
 
@@ -40,5 +44,9 @@ export function places_of(records: readonly unknown[], origin: Place | null): Pl
   };
   const strips = [...all.filter((r) => "length_m" in r), ...list(all.map((r) => r.runway))];
   const fence = points("corners");
-  return { fence: fence.length > 2 ? fence : [], places: points("places"), runway: strips.map((r) => runway_of(r, origin)).find((r) => r !== null) ?? null };
+  return {
+    fence: fence.length > 2 ? fence : [],
+    places: points("places"),
+    runway: strips.map((r) => runway_of(r, origin)).find((r) => r !== null) ?? null,
+  };
 }

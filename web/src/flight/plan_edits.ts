@@ -12,27 +12,41 @@ export interface EditOf {
 
 function message_of(w: Waypoint): Edit {
   const m: Edit = w.geodetic
-    ? { frame: "geodetic", latitude_deg: w.geodetic.latitude, longitude_deg: w.geodetic.longitude, altitude_m: w.geodetic.altitude }
+    ? {
+        frame: "geodetic",
+        latitude_deg: w.geodetic.latitude,
+        longitude_deg: w.geodetic.longitude,
+        altitude_m: w.geodetic.altitude,
+      }
     : { frame: "local", position_m: { north: w.north, east: w.east, down: -w.up } };
   if (w.course !== null) Object.assign(m, { has_course: true, course_rad: w.course });
   return { ...m, airspeed_mps: w.airspeed };
 }
 
 function equal(a: Waypoint, b: Waypoint): boolean {
-  return !b.geodetic && a.north === b.north && a.east === b.east && a.up === b.up && a.course === b.course && a.airspeed === b.airspeed;
+  return (
+    !b.geodetic &&
+    a.north === b.north &&
+    a.east === b.east &&
+    a.up === b.up &&
+    a.course === b.course &&
+    a.airspeed === b.airspeed
+  );
 }
 
 /** The largest set of ids that stand in the same order in both: the others are moved. */
 function in_order(ids: number[], places: Map<number, number>): Set<number> {
   const list = ids.filter((id) => places.has(id));
-  const best: number[] = [], from: number[] = [];
+  const best: number[] = [],
+    from: number[] = [];
   let end = -1;
   list.forEach((id, i) => {
     best[i] = 1;
     from[i] = -1;
     for (let k = 0; k < i; ++k) {
       const before = (places.get(list[k] as number) as number) < (places.get(id) as number);
-      if (before && (best[k] as number) + 1 > (best[i] as number)) [best[i], from[i]] = [(best[k] as number) + 1, k];
+      if (before && (best[k] as number) + 1 > (best[i] as number))
+        [best[i], from[i]] = [(best[k] as number) + 1, k];
     }
     if (end < 0 || (best[i] as number) > (best[end] as number)) end = i;
   });
@@ -48,7 +62,10 @@ export function edits_between(now: Plan, wanted: Plan): EditOf[] {
   if (now.radius !== wanted.radius) whole({ setting: "turn_radius", turn_radius_m: wanted.radius });
   if (now.airspeed !== wanted.airspeed) whole({ setting: "airspeed", airspeed_mps: wanted.airspeed });
   const places = new Map(now.waypoints.map((w, i) => [w.id, i]));
-  const kept = in_order(wanted.waypoints.map((w) => w.id).filter((id) => id !== 0), places);
+  const kept = in_order(
+    wanted.waypoints.map((w) => w.id).filter((id) => id !== 0),
+    places,
+  );
   if (kept.size === 0 && now.waypoints.length > 0) {
     whole({ kind: "clear" });
   } else {

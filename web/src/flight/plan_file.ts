@@ -22,7 +22,9 @@ export interface PlanFile {
 }
 
 export interface Origin {
-  latitude: number; longitude: number; altitude: number; // degrees, m above mean sea level
+  latitude: number;
+  longitude: number;
+  altitude: number; // degrees, m above mean sea level
 }
 
 class Faults {
@@ -30,11 +32,15 @@ class Faults {
   number(value: unknown, kind: string, where: string): number {
     const table = units[kind] ?? {};
     if (typeof value === "number" && Number.isFinite(value)) return value;
-    const match = /^\s*([-+]?[0-9.]+(?:e[-+]?\d+)?)\s*(\S*)\s*$/i.exec(typeof value === "string" ? value : "");
+    const match = /^\s*([-+]?[0-9.]+(?:e[-+]?\d+)?)\s*(\S*)\s*$/i.exec(
+      typeof value === "string" ? value : "",
+    );
     const factor = match && match[2] ? table[match[2]] : match ? 1 : undefined;
     const result = match && factor !== undefined ? Number(match[1]) * factor : NaN;
     if (Number.isFinite(result)) return result;
-    this.list.push(`${where}: '${String(value)}' is no ${kind}${Object.keys(table).length ? ". Valid units: " + Object.keys(table).join(", ") : ""}`);
+    this.list.push(
+      `${where}: '${String(value)}' is no ${kind}${Object.keys(table).length ? ". Valid units: " + Object.keys(table).join(", ") : ""}`,
+    );
     return 0;
   }
   known(object: Record<string, unknown>, valid: string[], where: string): void {
@@ -45,7 +51,11 @@ class Faults {
 
 /** Metres from the origin, as the planner has them. */
 function local(at: Origin, origin: Origin): { north: number; east: number; up: number } {
-  const plane = new LocalPlane({ lat_deg: origin.latitude, lon_deg: origin.longitude, alt_msl_m: origin.altitude });
+  const plane = new LocalPlane({
+    lat_deg: origin.latitude,
+    lon_deg: origin.longitude,
+    alt_msl_m: origin.altitude,
+  });
   const p = plane.to_plane(at.latitude * to_rad, at.longitude * to_rad, at.altitude);
   return { north: p.n, east: p.e, up: p.up };
 }
@@ -67,7 +77,8 @@ function read_waypoint(entry: unknown, i: number, origin: Origin | null, faults:
     const degrees = (key: string) => {
       const text = String(map[key] ?? "").replace(/\s*deg\s*$/, "");
       const value = Number(text);
-      if (text === "" || !Number.isFinite(value)) faults.list.push(where + `${key}: '${String(map[key])}' is no latitude or longitude in degrees`);
+      if (text === "" || !Number.isFinite(value))
+        faults.list.push(where + `${key}: '${String(map[key])}' is no latitude or longitude in degrees`);
       return value;
     };
     w.geodetic = { latitude: degrees("lat"), longitude: degrees("lon"), altitude: at("alt_msl", "length") };
@@ -87,10 +98,16 @@ function read_waypoint(entry: unknown, i: number, origin: Origin | null, faults:
 export function read_plan_file(text: string, now: Plan, origin: Origin | null): Plan & { runway?: unknown } {
   const faults = new Faults();
   const file = load(text) as unknown;
-  if (typeof file !== "object" || file === null || Array.isArray(file)) throw new Error("This is no plan: it has to be a map with 'waypoints'.");
+  if (typeof file !== "object" || file === null || Array.isArray(file))
+    throw new Error("This is no plan: it has to be a map with 'waypoints'.");
   const map = file as Record<string, unknown>;
   faults.known(map, keys, "");
-  const plan: Plan & { runway?: unknown } = { end: now.end, radius: now.radius, airspeed: now.airspeed, waypoints: [] };
+  const plan: Plan & { runway?: unknown } = {
+    end: now.end,
+    radius: now.radius,
+    airspeed: now.airspeed,
+    waypoints: [],
+  };
   if (map.end !== undefined) {
     if (map.end === "circuit" || map.end === "orbit") plan.end = map.end;
     else faults.list.push(`end: '${String(map.end)}' is none. Valid: circuit, orbit`);
@@ -107,19 +124,36 @@ export function read_plan_file(text: string, now: Plan, origin: Origin | null): 
 /** Where a waypoint still stands where the file had it, to what the flight rounds: as the file had it. */
 function geodetic_of(w: Waypoint, file: PlanFile | null): Origin | null {
   const same = (a: number, b: number) => Math.abs(a - b) < same_m;
-  return w.geodetic ?? file?.waypoints.find((f) => f.geodetic && same(f.north, w.north) && same(f.east, w.east) && same(f.up, w.up))?.geodetic ?? null;
+  return (
+    w.geodetic ??
+    file?.waypoints.find(
+      (f) => f.geodetic && same(f.north, w.north) && same(f.east, w.east) && same(f.up, w.up),
+    )?.geodetic ??
+    null
+  );
 }
 
 /** `file`: what the plan was loaded from. */
 export function write_plan_file(plan: Plan, name: string, file: PlanFile | null = null): string {
-  const lines = [`name: ${JSON.stringify(name)}`, `end: ${plan.end}`, `airspeed: ${plain(plan.airspeed)} m/s`, `turn_radius: ${plain(plan.radius)} m`];
-  if (file?.runway !== undefined) lines.push(dump({ runway: file.runway }, { flowLevel: 1, lineWidth: -1 }).trimEnd());
+  const lines = [
+    `name: ${JSON.stringify(name)}`,
+    `end: ${plan.end}`,
+    `airspeed: ${plain(plan.airspeed)} m/s`,
+    `turn_radius: ${plain(plan.radius)} m`,
+  ];
+  if (file?.runway !== undefined)
+    lines.push(dump({ runway: file.runway }, { flowLevel: 1, lineWidth: -1 }).trimEnd());
   lines.push(plan.waypoints.length > 0 ? "waypoints:" : "waypoints: []");
   for (const w of plan.waypoints) {
-    const further = (w.course === null ? "" : `, course: ${plain(w.course / to_rad)} deg`) + (w.airspeed > 0 ? `, airspeed: ${plain(w.airspeed)} m/s` : "");
+    const further =
+      (w.course === null ? "" : `, course: ${plain(w.course / to_rad)} deg`) +
+      (w.airspeed > 0 ? `, airspeed: ${plain(w.airspeed)} m/s` : "");
     const place = geodetic_of(w, file);
-    lines.push(place ? `  - {lat: ${place.latitude}, lon: ${place.longitude}, alt_msl: ${Number(place.altitude.toFixed(3))} m${further}}`
-      : `  - {north: ${plain(w.north)} m, east: ${plain(w.east)} m, up: ${plain(w.up)} m${further}}`);
+    lines.push(
+      place
+        ? `  - {lat: ${place.latitude}, lon: ${place.longitude}, alt_msl: ${Number(place.altitude.toFixed(3))} m${further}}`
+        : `  - {north: ${plain(w.north)} m, east: ${plain(w.east)} m, up: ${plain(w.up)} m${further}}`,
+    );
   }
   return lines.join("\n") + "\n";
 }

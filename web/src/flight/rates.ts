@@ -15,7 +15,8 @@ export class Rates {
     const seconds = now_s - this.at_s;
     for (const [key, count] of counts) {
       const before = this.counts.get(key);
-      if (this.counted >= 2 && seconds > 0 && before !== undefined) this.rates.set(key, (count - before) / seconds);
+      if (this.counted >= 2 && seconds > 0 && before !== undefined)
+        this.rates.set(key, (count - before) / seconds);
       else this.rates.delete(key);
       this.counts.set(key, count);
     }

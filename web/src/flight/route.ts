@@ -3,7 +3,9 @@
 // what will be flown. Sources: Beard & McLain (2012), sections 11.1 and 11.2; Shkel & Lumelsky (2001).
 
 export interface Waypoint {
-  north: number; east: number; up: number;
+  north: number;
+  east: number;
+  up: number;
   course: number | null; // rad
   airspeed: number; // 0: the plan's
   id: number; // 0: the planner has not seen it
@@ -23,13 +25,22 @@ interface Pose extends Point {
   chi: number;
 }
 interface Corner {
-  in_chi: number; out_chi: number; in_m: number; out_m: number; tangent: number; wanted: boolean;
+  in_chi: number;
+  out_chi: number;
+  in_m: number;
+  out_m: number;
+  tangent: number;
+  wanted: boolean;
 }
 interface Passage {
-  entry: Pose; middle: Pose; exit: Pose; turn: number;
+  entry: Pose;
+  middle: Pose;
+  exit: Pose;
+  turn: number;
 }
 
-const same_place_m = 1, fillet_max = 2.62;
+const same_place_m = 1,
+  fillet_max = 2.62;
 
 export function wrap(angle: number): number {
   return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
@@ -46,9 +57,21 @@ function advance(from: Pose, curvature: number, length: number): Pose {
 }
 
 // rsr, rsl, lsr, lsl, rlr, lrl; of words that are equally long the first
-const words = [[1, 0, 1], [1, 0, -1], [-1, 0, 1], [-1, 0, -1], [1, -1, 1], [-1, 1, -1]] as const;
+const words = [
+  [1, 0, 1],
+  [1, 0, -1],
+  [-1, 0, 1],
+  [-1, 0, -1],
+  [1, -1, 1],
+  [-1, 1, -1],
+] as const;
 
-function word_parts(word: readonly [number, number, number], alpha: number, beta: number, d: number): number[] | null {
+function word_parts(
+  word: readonly [number, number, number],
+  alpha: number,
+  beta: number,
+  d: number,
+): number[] | null {
   const [first, middle, last] = word;
   const n = d - last * Math.sin(beta) + first * Math.sin(alpha);
   const e = last * Math.cos(beta) - first * Math.cos(alpha);
@@ -56,7 +79,8 @@ function word_parts(word: readonly [number, number, number], alpha: number, beta
   let course = l > 1e-9 ? Math.atan2(e, n) : alpha;
   if (middle !== 0) {
     if (l > 4) return null;
-    const gamma = Math.acos(l / 4), long = Math.PI + 2 * gamma;
+    const gamma = Math.acos(l / 4),
+      long = Math.PI + 2 * gamma;
     course += first * (gamma + Math.PI / 2);
     return [positive(first * (course - alpha)), long, positive(first * (beta - course) + long)];
   }
@@ -95,16 +119,30 @@ function draw(points: Point[], at: Pose, curvature: number, length: number): Pos
 export class Route {
   constructor(private readonly plan: Plan) {}
 
-  private get size(): number { return this.plan.waypoints.length; }
-  private get closed(): boolean { return this.plan.end === "circuit"; }
-  private get radius(): number { return Math.max(this.plan.radius, 1); }
-  private w(i: number): Waypoint { return this.plan.waypoints[i] as Waypoint; }
-  private before(i: number): number { return i > 0 ? i - 1 : this.closed ? this.size - 1 : 0; }
-  private after(i: number): number { return i + 1 < this.size ? i + 1 : this.closed ? 0 : i; }
+  private get size(): number {
+    return this.plan.waypoints.length;
+  }
+  private get closed(): boolean {
+    return this.plan.end === "circuit";
+  }
+  private get radius(): number {
+    return Math.max(this.plan.radius, 1);
+  }
+  private w(i: number): Waypoint {
+    return this.plan.waypoints[i] as Waypoint;
+  }
+  private before(i: number): number {
+    return i > 0 ? i - 1 : this.closed ? this.size - 1 : 0;
+  }
+  private after(i: number): number {
+    return i + 1 < this.size ? i + 1 : this.closed ? 0 : i;
+  }
   private same(i: number, j: number): boolean {
     return Math.hypot(this.w(i).north - this.w(j).north, this.w(i).east - this.w(j).east) < same_place_m;
   }
-  private is_entry(i: number): boolean { return !this.closed && i + 1 === this.size; }
+  private is_entry(i: number): boolean {
+    return !this.closed && i + 1 === this.size;
+  }
   private first_of(i: number): number {
     for (let k = 0; k < this.size; ++k) {
       const j = this.before(i);
@@ -130,21 +168,33 @@ export class Route {
   private final_turn(): number {
     const last = this.size - 1;
     if (last <= 0) return 1;
-    const q = this.first_of(last - 1), p = this.before(q);
-    const n = this.w(last).north - this.w(q).north, e = this.w(last).east - this.w(q).east, d = Math.hypot(n, e);
-    const chi = p !== q ? Math.atan2(this.w(q).east - this.w(p).east, this.w(q).north - this.w(p).north) : Math.atan2(e, n);
+    const q = this.first_of(last - 1),
+      p = this.before(q);
+    const n = this.w(last).north - this.w(q).north,
+      e = this.w(last).east - this.w(q).east,
+      d = Math.hypot(n, e);
+    const chi =
+      p !== q
+        ? Math.atan2(this.w(q).east - this.w(p).east, this.w(q).north - this.w(p).north)
+        : Math.atan2(e, n);
     const to = d > 1e-9 ? Math.atan2(e, n) : chi;
     const offset = d > this.radius ? Math.asin(this.radius / d) : Math.PI / 2;
     return Math.abs(wrap(to - offset - chi)) <= Math.abs(wrap(to + offset - chi)) + 1e-9 ? 1 : -1;
   }
   private entry(): Pose {
-    const last = this.size - 1, q = this.size > 1 ? this.first_of(last - 1) : 0;
-    const n = this.w(last).north - this.w(q).north, e = this.w(last).east - this.w(q).east, d = Math.hypot(n, e);
+    const last = this.size - 1,
+      q = this.size > 1 ? this.first_of(last - 1) : 0;
+    const n = this.w(last).north - this.w(q).north,
+      e = this.w(last).east - this.w(q).east,
+      d = Math.hypot(n, e);
     const side = this.final_turn();
     const chi = Math.atan2(e, n) - side * Math.asin(d > this.radius ? this.radius / d : 0);
     const azimuth = chi - (side * Math.PI) / 2;
-    return { n: this.w(last).north + this.radius * Math.cos(azimuth),
-             e: this.w(last).east + this.radius * Math.sin(azimuth), chi };
+    return {
+      n: this.w(last).north + this.radius * Math.cos(azimuth),
+      e: this.w(last).east + this.radius * Math.sin(azimuth),
+      chi,
+    };
   }
   private place(i: number): Pose {
     if (this.is_entry(i)) return this.entry();
@@ -152,17 +202,28 @@ export class Route {
     return { n: w.north, e: w.east, chi: 0 };
   }
   private corner(i: number): Corner {
-    const first = this.first_of(i), last = this.last_of(i);
-    const here = this.place(i), from = this.place(this.before(first)), to = this.place(this.after(last));
+    const first = this.first_of(i),
+      last = this.last_of(i);
+    const here = this.place(i),
+      from = this.place(this.before(first)),
+      to = this.place(this.after(last));
     const c: Corner = {
-      in_m: Math.hypot(here.n - from.n, here.e - from.e), out_m: Math.hypot(to.n - here.n, to.e - here.e),
-      in_chi: Math.atan2(here.e - from.e, here.n - from.n), out_chi: Math.atan2(to.e - here.e, to.n - here.n),
-      tangent: 0, wanted: false,
+      in_m: Math.hypot(here.n - from.n, here.e - from.e),
+      out_m: Math.hypot(to.n - here.n, to.e - here.e),
+      in_chi: Math.atan2(here.e - from.e, here.n - from.n),
+      out_chi: Math.atan2(to.e - here.e, to.n - here.n),
+      tangent: 0,
+      wanted: false,
     };
     if (this.before(first) === first) c.in_chi = c.out_chi;
     if (this.after(last) === last) c.out_chi = c.in_chi;
     const turn = Math.abs(wrap(c.out_chi - c.in_chi));
-    c.wanted = first === last && this.before(i) !== i && this.after(i) !== i && this.w(i).course === null && turn <= fillet_max;
+    c.wanted =
+      first === last &&
+      this.before(i) !== i &&
+      this.after(i) !== i &&
+      this.w(i).course === null &&
+      turn <= fillet_max;
     if (c.wanted) {
       c.tangent = this.radius * Math.tan(turn / 2);
       c.wanted = c.tangent <= Math.min(c.in_m, c.out_m);
@@ -188,7 +249,8 @@ export class Route {
         middle = advance(entry, Math.sign(turn) / this.radius, (this.radius * Math.abs(turn)) / 2);
         return { entry, middle, exit, turn };
       }
-      const w = this.w(i), alone = this.first_of(i) === this.last_of(i);
+      const w = this.w(i),
+        alone = this.first_of(i) === this.last_of(i);
       middle.chi = w.course ?? (alone && c.out_m > c.in_m ? c.out_chi : c.in_chi);
     }
     return { entry: middle, middle, exit: middle, turn: 0 };
@@ -200,14 +262,16 @@ export class Route {
   }
   /** From the middle of the corner before to the middle of waypoint `i`, as points. */
   leg(i: number): Point[] {
-    const from = this.passage(this.before(i)), to = this.passage(i);
+    const from = this.passage(this.before(i)),
+      to = this.passage(i);
     const points: Point[] = [from.middle];
     let at: Pose = this.half(points, from.middle, from);
     at = from.exit;
     if (from.turn !== 0 && to.turn !== 0) {
       points.push(to.entry);
     } else {
-      for (const part of dubins(at, to.entry, this.radius)) at = draw(points, at, part.curvature, part.length);
+      for (const part of dubins(at, to.entry, this.radius))
+        at = draw(points, at, part.curvature, part.length);
     }
     this.half(points, to.entry, to);
     points.push(to.middle);

@@ -16,7 +16,8 @@ const held_s = 0.5;
 
 /** The value that holds at time `t`; the first one before all. */
 export function value_at(s: Series, t: number): number {
-  let low = 0, high = s.t.length;
+  let low = 0,
+    high = s.t.length;
   while (low < high) {
     const middle = (low + high) >> 1;
     if ((s.t[middle] as number) <= t) low = middle + 1;
@@ -29,7 +30,14 @@ export function value_at(s: Series, t: number): number {
  * `least`: a smaller change is no step; one is over within `within_s` and then stays within a tenth of itself.
  * `turn`: what an angle counts from anew (2 pi), 0 for other quantities.
  */
-export function last_step(asked: Series, got: Series, since: number, least: number, within_s = 0.4, turn = 0): StepResponse | null {
+export function last_step(
+  asked: Series,
+  got: Series,
+  since: number,
+  least: number,
+  within_s = 0.4,
+  turn = 0,
+): StepResponse | null {
   const off = (x: number) => (turn > 0 ? x - turn * Math.round(x / turn) : x);
   const n = asked.t.length;
   if (n < 2) return null;
@@ -50,9 +58,14 @@ export function last_step(asked: Series, got: Series, since: number, least: numb
   // where it began: the newest sample that is away by the whole of it
   let begin = first;
   while (begin > 0 && Math.abs(off((asked.v[begin] as number) - to)) < Math.abs(size) * 0.95) --begin;
-  const at = asked.t[begin] as number, from = to + size;
+  const at = asked.t[begin] as number,
+    from = to + size;
   const share = (v: number) => 1 - off(v - to) / size; // 0 before, 1 when it is there
-  let t10: number | null = null, t90: number | null = null, most = 0, left: number | null = null, seen = 0;
+  let t10: number | null = null,
+    t90: number | null = null,
+    most = 0,
+    left: number | null = null,
+    seen = 0;
   for (let i = 0; i < got.t.length; ++i) {
     const t = got.t[i] as number;
     if (t < at) continue;
@@ -65,7 +78,9 @@ export function last_step(asked: Series, got: Series, since: number, least: numb
   }
   const settled = left === null ? at : left;
   return {
-    at, from, to,
+    at,
+    from,
+    to,
     rise_s: t10 !== null && t90 !== null ? t90 - t10 : null,
     overshoot: t90 !== null ? Math.max(0, most - 1) : null,
     settling_s: t90 !== null && seen - settled > 0.2 * (seen - at) ? settled - at : null,

@@ -18,8 +18,12 @@ interface Point {
   e: number;
 }
 
-const a_m = 6378137, f = 1 / 298.257223563, e2 = f * (2 - f), rad = Math.PI / 180;
-export const tile_px = 256, deepest = 19;
+const a_m = 6378137,
+  f = 1 / 298.257223563,
+  e2 = f * (2 - f),
+  rad = Math.PI / 180;
+export const tile_px = 256,
+  deepest = 19;
 
 /** Into so many parts along each side a tile is cut to be drawn as parallelograms: a side of S metres bends by S^2 tan(latitude) / R. */
 export const parts_at = (px_per_m: number): number => (px_per_m < 0.1 ? 4 : 1);
@@ -48,22 +52,28 @@ export class LocalPlane {
     this.at = this.earth_fixed(this.lat, this.lon);
   }
   private earth_fixed(lat: number, lon: number, h = this.h): [number, number, number] {
-    const across = a_m / Math.sqrt(1 - e2 * Math.sin(lat) ** 2), r = (across + h) * Math.cos(lat);
+    const across = a_m / Math.sqrt(1 - e2 * Math.sin(lat) ** 2),
+      r = (across + h) * Math.cos(lat);
     return [r * Math.cos(lon), r * Math.sin(lon), (across * (1 - e2) + h) * Math.sin(lat)];
   }
   /** Radians in, and a height as that of the origin is; without one it is as high. */
   to_plane(lat: number, lon: number, h = this.h): Point & { up: number } {
     const p = this.earth_fixed(lat, lon, h);
     const [x, y, z] = [p[0] - this.at[0], p[1] - this.at[1], p[2] - this.at[2]];
-    const sl = Math.sin(this.lon), cl = Math.cos(this.lon);
-    const out = cl * x + sl * y, s = Math.sin(this.lat), c = Math.cos(this.lat);
+    const sl = Math.sin(this.lon),
+      cl = Math.cos(this.lon);
+    const out = cl * x + sl * y,
+      s = Math.sin(this.lat),
+      c = Math.cos(this.lat);
     return { n: c * z - s * out, e: cl * y - sl * x, up: s * z + c * out };
   }
   /** The place of a point, in radians: by Newton's method with the radii of curvature, to a millimetre within 1000 km. */
   to_place(p: Point): { lat: number; lon: number } {
-    let lat = this.lat, lon = this.lon;
+    let lat = this.lat,
+      lon = this.lon;
     for (let i = 0; i < 5; ++i) {
-      const w = 1 - e2 * Math.sin(lat) ** 2, off = this.to_plane(lat, lon);
+      const w = 1 - e2 * Math.sin(lat) ** 2,
+        off = this.to_plane(lat, lon);
       lat += (p.n - off.n) / ((a_m * (1 - e2)) / w ** 1.5 + this.h);
       lon += (p.e - off.e) / ((a_m / Math.sqrt(w) + this.h) * Math.max(Math.cos(lat), 0.01));
     }
@@ -78,7 +88,8 @@ export class LocalPlane {
   /** The tiles that show any of a rectangle. At most `limit`, else none: nobody looks at that many. */
   tiles_of(low: Point, high: Point, z: number, limit = 200): Tile[] {
     const middle = { n: (low.n + high.n) / 2, e: (low.e + high.e) / 2 };
-    const x: number[] = [], y: number[] = [];
+    const x: number[] = [],
+      y: number[] = [];
     for (const n of [low.n, middle.n, high.n])
       for (const e of [low.e, middle.e, high.e]) {
         const place = this.to_place({ n, e });
@@ -87,8 +98,10 @@ export class LocalPlane {
         y.push(t.y);
       }
     const last = 2 ** z - 1;
-    const range = (list: number[]) => [Math.max(0, Math.floor(Math.min(...list))), Math.min(last, Math.floor(Math.max(...list)))] as const;
-    const [x0, x1] = range(x), [y0, y1] = range(y);
+    const range = (list: number[]) =>
+      [Math.max(0, Math.floor(Math.min(...list))), Math.min(last, Math.floor(Math.max(...list)))] as const;
+    const [x0, x1] = range(x),
+      [y0, y1] = range(y);
     if (!((x1 - x0 + 1) * (y1 - y0 + 1) <= limit)) return [];
     const list: Tile[] = [];
     for (let i = y0; i <= y1; ++i) for (let k = x0; k <= x1; ++k) list.push({ z, x: k, y: i });

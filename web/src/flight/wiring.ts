@@ -3,30 +3,49 @@
 // the longest way to each (Sugiyama, Tagawa & Toda, 1981), and between the boxes, never through one.
 
 export interface Part {
-  name: string; role: string;
+  name: string;
+  role: string;
   inputs: { name: string; source?: string }[];
   outputs: { name: string; type: string }[];
 }
 export interface Box {
-  name: string; layer: number; row: number; x: number; y: number; width: number; height: number;
+  name: string;
+  layer: number;
+  row: number;
+  x: number;
+  y: number;
+  width: number;
+  height: number;
 }
 export interface Wire {
   source: string; // "nav.state"
   from: string; // a component that publishes it
-  to: string; input: string;
+  to: string;
+  input: string;
   points: [number, number][]; // corners, from the output to the input
 }
 export interface Drawing {
-  width: number; height: number; boxes: Box[]; wires: Wire[];
+  width: number;
+  height: number;
+  boxes: Box[];
+  wires: Wire[];
 }
 
 /** Pixels: of a letter of the names and of the lines below, of the space between lines. */
-export const name_letter = 7.2, small_letter = 5.9;
-const pitch = 4, box_height = 52, margin = 8, least_width = 106, pin_gap = 4, apart = 1.7;
+export const name_letter = 7.2,
+  small_letter = 5.9;
+const pitch = 4,
+  box_height = 52,
+  margin = 8,
+  least_width = 106,
+  pin_gap = 4,
+  apart = 1.7;
 const roles_of = (part: Part) => part.role.split(", ").filter(Boolean);
 
 interface Net {
-  source: string; from: Part[]; readers: { part: Part; input: string }[];
+  source: string;
+  from: Part[];
+  readers: { part: Part; input: string }[];
 }
 
 /** One for each port that somebody reads. All that fill a role share its ports. */
@@ -38,7 +57,9 @@ function nets_of(parts: Part[]): Net[] {
       const [owner = "", port = ""] = source.split(/\.(.*)/);
       let net = nets.get(source);
       if (!net) {
-        const from = parts.filter((p) => (p.name === owner || roles_of(p).includes(owner)) && p.outputs.some((o) => o.name === port));
+        const from = parts.filter(
+          (p) => (p.name === owner || roles_of(p).includes(owner)) && p.outputs.some((o) => o.name === port),
+        );
         nets.set(source, (net = { source, from, readers: [] }));
       }
       net.readers.push({ part, input: name });
@@ -52,7 +73,8 @@ function layers_of(parts: Part[], nets: Net[]): Map<string, number> {
   const groups = [...new Set(parts.map(key))];
   const before = new Map(groups.map((g) => [g, new Set<string>()]));
   for (const net of nets)
-    for (const from of net.from) for (const { part } of net.readers) if (key(from) !== key(part)) before.get(key(part))?.add(key(from));
+    for (const from of net.from)
+      for (const { part } of net.readers) if (key(from) !== key(part)) before.get(key(part))?.add(key(from));
   const vehicle = parts.find((p) => p.outputs.some((o) => o.type.endsWith("/VehicleStatus")));
   const layer = new Map<string, number>();
   while (layer.size < groups.length) {
@@ -74,9 +96,12 @@ function layers_of(parts: Part[], nets: Net[]): Map<string, number> {
 
 /** `lines`: what a box has to have room for below its name. */
 export function draw_wiring(parts: Part[], lines: (part: Part) => number): Drawing {
-  const nets = nets_of(parts), layer = layers_of(parts, nets);
+  const nets = nets_of(parts),
+    layer = layers_of(parts, nets);
   const at = (p: Part) => layer.get(p.name) ?? 0;
-  const columns: Part[][] = Array.from({ length: Math.max(0, ...layer.values()) + 1 }, (_, i) => parts.filter((p) => at(p) === i));
+  const columns: Part[][] = Array.from({ length: Math.max(0, ...layer.values()) + 1 }, (_, i) =>
+    parts.filter((p) => at(p) === i),
+  );
   const rows = Math.max(1, ...columns.map((c) => c.length));
   const row = (p: Part) => columns[at(p)]?.indexOf(p) ?? 0;
 
@@ -98,7 +123,12 @@ export function draw_wiring(parts: Part[], lines: (part: Part) => number): Drawi
   }
 
   const gutter_width = (i: number) => (gutters[i]?.length ?? 0) * pitch + 2 * pin_gap + (i === 0 ? 0 : pitch);
-  const widths = columns.map((c) => Math.max(least_width, ...c.map((p) => Math.max((p.name.length + 3) * name_letter, lines(p) * small_letter) + 14)));
+  const widths = columns.map((c) =>
+    Math.max(
+      least_width,
+      ...c.map((p) => Math.max((p.name.length + 3) * name_letter, lines(p) * small_letter) + 14),
+    ),
+  );
   const lefts: number[] = [];
   let x = margin;
   widths.forEach((w, i) => {
@@ -107,38 +137,67 @@ export function draw_wiring(parts: Part[], lines: (part: Part) => number): Drawi
     x += w;
   });
   const pins = (p: Part) => Math.max(p.inputs.length, p.outputs.length);
-  const heights = Array.from({ length: rows }, (_, r) => Math.max(box_height, ...columns.map((c) => (c[r] ? (pins(c[r] as Part) + 1) * pitch : 0))));
+  const heights = Array.from({ length: rows }, (_, r) =>
+    Math.max(box_height, ...columns.map((c) => (c[r] ? (pins(c[r] as Part) + 1) * pitch : 0))),
+  );
   const tops: number[] = [];
   let y = margin;
   heights.forEach((h, r) => {
     tops.push(y);
     y += h + 2 * pin_gap + (lanes[r]?.length ?? 0) * pitch;
   });
-  const boxes = new Map(parts.map((p): [string, Box] => [p.name, {
-    name: p.name, layer: at(p), row: row(p), x: lefts[at(p)] as number, y: tops[row(p)] as number, width: widths[at(p)] as number, height: heights[row(p)] as number,
-  }]));
+  const boxes = new Map(
+    parts.map((p): [string, Box] => [
+      p.name,
+      {
+        name: p.name,
+        layer: at(p),
+        row: row(p),
+        x: lefts[at(p)] as number,
+        y: tops[row(p)] as number,
+        width: widths[at(p)] as number,
+        height: heights[row(p)] as number,
+      },
+    ]),
+  );
 
   const gutter_x = (i: number, net: Net) =>
-    (i === 0 ? margin : (lefts[i - 1] as number) + (widths[i - 1] as number)) + pin_gap + ((gutters[i]?.indexOf(net) ?? 0) + 0.5) * pitch;
+    (i === 0 ? margin : (lefts[i - 1] as number) + (widths[i - 1] as number)) +
+    pin_gap +
+    ((gutters[i]?.indexOf(net) ?? 0) + 0.5) * pitch;
   const lane_y = (net: Net) => {
     const r = lane_row(net);
-    return (tops[r] as number) + (heights[r] as number) + pin_gap + ((lanes[r]?.indexOf(net) ?? 0) + 0.5) * pitch;
+    return (
+      (tops[r] as number) + (heights[r] as number) + pin_gap + ((lanes[r]?.indexOf(net) ?? 0) + 0.5) * pitch
+    );
   };
   const pin = (list: { name: string }[], name: string, box: Box) =>
     box.y + (box.height * (list.findIndex((p) => p.name === name) + 1)) / (list.length + 1);
   const read = (p: Part) => p.inputs.filter((i) => i.source);
-  const written = (p: Part) => p.outputs.filter((o) => nets.some((n) => n.from.includes(p) && n.source.endsWith("." + o.name)));
+  const written = (p: Part) =>
+    p.outputs.filter((o) => nets.some((n) => n.from.includes(p) && n.source.endsWith("." + o.name)));
   const wires: Wire[] = [];
   for (const net of nets)
     for (const from of net.from)
       for (const { part, input } of net.readers) {
-        const a = boxes.get(from.name) as Box, b = boxes.get(part.name) as Box;
-        const y1 = pin(written(from), net.source.replace(/^[^.]*\./, ""), a), y2 = pin(read(part), input, b) + apart; // no output's line beside it
-        const x1 = gutter_x(a.layer + 1, net), x2 = gutter_x(b.layer, net);
-        const points: [number, number][] = [[a.x + a.width, y1], [x1, y1]];
+        const a = boxes.get(from.name) as Box,
+          b = boxes.get(part.name) as Box;
+        const y1 = pin(written(from), net.source.replace(/^[^.]*\./, ""), a),
+          y2 = pin(read(part), input, b) + apart; // no output's line beside it
+        const x1 = gutter_x(a.layer + 1, net),
+          x2 = gutter_x(b.layer, net);
+        const points: [number, number][] = [
+          [a.x + a.width, y1],
+          [x1, y1],
+        ];
         if (b.layer !== a.layer + 1) points.push([x1, lane_y(net)], [x2, lane_y(net)]);
         points.push([b.layer === a.layer + 1 ? x1 : x2, y2], [b.x, y2]);
         wires.push({ source: net.source, from: from.name, to: part.name, input, points });
       }
-  return { width: x + gutter_width(columns.length) + margin, height: y + margin, boxes: [...boxes.values()], wires };
+  return {
+    width: x + gutter_width(columns.length) + margin,
+    height: y + margin,
+    boxes: [...boxes.values()],
+    wires,
+  };
 }

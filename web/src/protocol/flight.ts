@@ -6,21 +6,63 @@ import type { Place } from "../flight/tiles";
 import type { Series, Source, Topic } from "../source";
 
 export interface Param {
-  name: string; kind: string; unit: string; doc: string; value: unknown; text: string; begun: unknown; initial: unknown;
-  min: number | null; max: number | null; choices: string[]; live: boolean; overlaid: boolean;
+  name: string;
+  kind: string;
+  unit: string;
+  doc: string;
+  value: unknown;
+  text: string;
+  begun: unknown;
+  initial: unknown;
+  min: number | null;
+  max: number | null;
+  choices: string[];
+  live: boolean;
+  overlaid: boolean;
 }
 export interface Port {
-  name: string; type: string; topic?: string; source?: string; request?: boolean; imported?: boolean;
+  name: string;
+  type: string;
+  topic?: string;
+  source?: string;
+  request?: boolean;
+  imported?: boolean;
 }
 export interface Component {
-  name: string; use: string; role: string; doc: string; run: string; swapped: string; active: boolean;
-  stopped: boolean; steps: number; step_us: number; step_max_us: number; budget_us: number; params: Param[];
-  inputs: Port[]; outputs: Port[];
+  name: string;
+  use: string;
+  role: string;
+  doc: string;
+  run: string;
+  swapped: string;
+  active: boolean;
+  stopped: boolean;
+  steps: number;
+  step_us: number;
+  step_max_us: number;
+  budget_us: number;
+  params: Param[];
+  inputs: Port[];
+  outputs: Port[];
 }
 export interface View {
-  mission: string; file: string; io: string; phase: string; phases: string[]; now_ns: number; epoch_ns: number;
-  armed: boolean; over: boolean; paused: boolean; speed: number; seed: string;
-  origin: Place | null; tiles: string; attribution: string; no_save: string; components: Component[];
+  mission: string;
+  file: string;
+  io: string;
+  phase: string;
+  phases: string[];
+  now_ns: number;
+  epoch_ns: number;
+  armed: boolean;
+  over: boolean;
+  paused: boolean;
+  speed: number;
+  seed: string;
+  origin: Place | null;
+  tiles: string;
+  attribution: string;
+  no_save: string;
+  components: Component[];
 }
 export interface Answer {
   accepted: boolean;
@@ -29,11 +71,17 @@ export interface Answer {
 
 /** Those whose output a topic is, or may be: of a role all that fill it. */
 export function publishers(flight: Flight, topic: string): Component[] {
-  return topic === "" ? [] : (flight.view?.components ?? []).filter((c) => c.outputs.some((p) => p.topic === topic));
+  return topic === ""
+    ? []
+    : (flight.view?.components ?? []).filter((c) => c.outputs.some((p) => p.topic === topic));
 }
 
-const series_gap_s = 0.02, series_length = 12_000; // four minutes at 50 a second
-const view_every_ms = 1000, too_old_ms = 1000, new_ms = 400, pace_ms = 100;
+const series_gap_s = 0.02,
+  series_length = 12_000; // four minutes at 50 a second
+const view_every_ms = 1000,
+  too_old_ms = 1000,
+  new_ms = 400,
+  pace_ms = 100;
 
 interface Heard {
   topic: Topic;
@@ -109,8 +157,16 @@ export class Flight implements Source {
       }
       const topic = { name: c.topic, type: c.schemaName, fields: parse_schema(c.schemaName, c.schema) };
       const heard: Heard = {
-        topic, id: c.id, schema: c.schema, raw: null, message: undefined, t: NaN, count: 0, wall_ms: 0,
-        series: new Map(), listeners: new Set(),
+        topic,
+        id: c.id,
+        schema: c.schema,
+        raw: null,
+        message: undefined,
+        t: NaN,
+        count: 0,
+        wall_ms: 0,
+        series: new Map(),
+        listeners: new Set(),
       };
       this.heard.set(c.topic, heard);
       this.by_id.set(c.id, heard);
@@ -155,10 +211,13 @@ export class Flight implements Source {
 
   /** A browser or a way that is too slow goes without samples until it has read what was sent, and then has the newest. */
   private pace(): void {
-    const age = this.socket.late_ms(), hold = !document.hidden && this.link.up && (this.held ? age > new_ms : age > too_old_ms);
+    const age = this.socket.late_ms(),
+      hold = !document.hidden && this.link.up && (this.held ? age > new_ms : age > too_old_ms);
     if (hold === this.held) return;
     this.held = hold;
-    this.socket.hold(hold ? new Set([...this.heard.values()].filter((h) => h.listeners.size > 0).map((h) => h.id)) : null);
+    this.socket.hold(
+      hold ? new Set([...this.heard.values()].filter((h) => h.listeners.size > 0).map((h) => h.id)) : null,
+    );
   }
   private held = false;
   /** How old what has come last can be at most: on its way from the flight, and in this browser. */
@@ -250,13 +309,22 @@ export class Flight implements Source {
 
   /** Records do not change in flight, but for a swap. */
   private async read_records(view: View): Promise<void> {
-    const wanted = view.components.flatMap((c) => c.params.filter((p) => p.kind === "record" && p.name !== "airframe" && p.name !== "origin" && p.text !== "not given")
-      .map((p) => ({ component: c.name, name: p.name, text: p.text, use: c.use })));
-    const key = JSON.stringify(wanted), service = this.services.get("/fulmar/record");
+    const wanted = view.components.flatMap((c) =>
+      c.params
+        .filter(
+          (p) =>
+            p.kind === "record" && p.name !== "airframe" && p.name !== "origin" && p.text !== "not given",
+        )
+        .map((p) => ({ component: c.name, name: p.name, text: p.text, use: c.use })),
+    );
+    const key = JSON.stringify(wanted),
+      service = this.services.get("/fulmar/record");
     if (key === this.read_for || !service) return;
     this.read_for = key;
     try {
-      const answers = await Promise.all(wanted.map((w) => this.socket.call(service.id, { component: w.component, name: w.name })));
+      const answers = await Promise.all(
+        wanted.map((w) => this.socket.call(service.id, { component: w.component, name: w.name })),
+      );
       this.records = answers.map((a) => (a as { record?: unknown }).record ?? null);
     } catch {
       this.read_for = ""; // with the next view

@@ -18,8 +18,19 @@ export interface Field {
 }
 
 const scalar_bytes: Record<string, number> = {
-  bool: 1, int8: 1, uint8: 1, byte: 1, char: 1, int16: 2, uint16: 2, int32: 4, uint32: 4, int64: 8, uint64: 8,
-  float32: 4, float64: 8,
+  bool: 1,
+  int8: 1,
+  uint8: 1,
+  byte: 1,
+  char: 1,
+  int16: 2,
+  uint16: 2,
+  int32: 4,
+  uint32: 4,
+  int64: 8,
+  uint64: 8,
+  float32: 4,
+  float64: 8,
 };
 const most_items = 100_000;
 
@@ -33,7 +44,11 @@ function parse_line(line: string): Line | null {
   const text = line.replace(/#.*$/, "").trim();
   const match = /^(\S+)\s+([A-Za-z_][A-Za-z0-9_]*)\s*(?:=\s*(\S+))?$/.exec(text);
   if (!match) return null;
-  return { type: match[1] ?? "", name: match[2] ?? "", constant: match[3] === undefined ? null : Number(match[3]) };
+  return {
+    type: match[1] ?? "",
+    name: match[2] ?? "",
+    constant: match[3] === undefined ? null : Number(match[3]),
+  };
 }
 
 /** Constants before a field are its labels, each with the field's name in front where that is needed. */
@@ -41,14 +56,29 @@ function labels_of(field: string, constants: Line[]): string[] {
   const labels: string[] = [];
   const prefix = field.toUpperCase() + "_";
   const all = constants.every((c) => c.name.startsWith(prefix));
-  for (const c of constants) labels[c.constant ?? 0] = (all ? c.name.slice(prefix.length) : c.name).toLowerCase();
+  for (const c of constants)
+    labels[c.constant ?? 0] = (all ? c.name.slice(prefix.length) : c.name).toLowerCase();
   return labels;
 }
 
 const units: [string, string][] = [
-  ["_radps", "rad/s"], ["_mps2", "m/s²"], ["_mps", "m/s"], ["_rad", "rad"], ["_deg", "°"], ["_kelvin", "K"],
-  ["_tesla", "T"], ["_volt", "V"], ["_amp", "A"], ["_newton", "N"], ["_pa", "Pa"], ["_ns", "ns"], ["_us", "µs"],
-  ["_m", "m"], ["_s", "s"], ["_frac", ""], ["_ratio", ""],
+  ["_radps", "rad/s"],
+  ["_mps2", "m/s²"],
+  ["_mps", "m/s"],
+  ["_rad", "rad"],
+  ["_deg", "°"],
+  ["_kelvin", "K"],
+  ["_tesla", "T"],
+  ["_volt", "V"],
+  ["_amp", "A"],
+  ["_newton", "N"],
+  ["_pa", "Pa"],
+  ["_ns", "ns"],
+  ["_us", "µs"],
+  ["_m", "m"],
+  ["_s", "s"],
+  ["_frac", ""],
+  ["_ratio", ""],
 ];
 /** Of a field, by the end of its name. */
 export function unit_of(field: string): string {
@@ -79,10 +109,13 @@ export function parse_schema(name: string, text: string): Field[] {
       const array = line.type.endsWith("]");
       const count = array ? Number(shape?.[3] || most_items) : 0;
       fields.push({
-        name: line.name, type, count,
+        name: line.name,
+        type,
+        count,
         labels: labels_of(line.name, constants),
         list: array && (shape?.[2] === "<=" || shape?.[3] === ""),
-        fields: type in scalar_bytes || type.startsWith("string") || depth > 16 ? [] : fields_of(type, depth + 1),
+        fields:
+          type in scalar_bytes || type.startsWith("string") || depth > 16 ? [] : fields_of(type, depth + 1),
         unit: unit_of(line.name),
       });
       constants = [];
@@ -98,7 +131,10 @@ class Reader {
   private at: number;
   private readonly begin: number;
   private readonly little: boolean;
-  constructor(private readonly view: DataView, offset: number) {
+  constructor(
+    private readonly view: DataView,
+    offset: number,
+  ) {
     this.begin = offset + 4; // behind the encapsulation; alignment counts from there
     this.at = this.begin;
     this.little = view.getUint8(offset + 1) === 1;
@@ -114,17 +150,28 @@ class Reader {
     const le = this.little;
     const at = this.take(scalar_bytes[type] ?? 1);
     switch (type) {
-      case "float64": return v.getFloat64(at, le);
-      case "float32": return v.getFloat32(at, le);
-      case "bool": return v.getUint8(at) !== 0;
-      case "int8": return v.getInt8(at);
-      case "int16": return v.getInt16(at, le);
-      case "uint16": return v.getUint16(at, le);
-      case "int32": return v.getInt32(at, le);
-      case "uint32": return v.getUint32(at, le);
-      case "int64": return Number(v.getBigInt64(at, le));
-      case "uint64": return Number(v.getBigUint64(at, le));
-      default: return v.getUint8(at);
+      case "float64":
+        return v.getFloat64(at, le);
+      case "float32":
+        return v.getFloat32(at, le);
+      case "bool":
+        return v.getUint8(at) !== 0;
+      case "int8":
+        return v.getInt8(at);
+      case "int16":
+        return v.getInt16(at, le);
+      case "uint16":
+        return v.getUint16(at, le);
+      case "int32":
+        return v.getInt32(at, le);
+      case "uint32":
+        return v.getUint32(at, le);
+      case "int64":
+        return Number(v.getBigInt64(at, le));
+      case "uint64":
+        return Number(v.getBigUint64(at, le));
+      default:
+        return v.getUint8(at);
     }
   }
   text(): string {

@@ -33,7 +33,10 @@ const alive_ms = 200; // between two questions whose answers show how old is wha
 const lost_ms = 750; // then nobody is
 const again_ms = 500; // between two attempts
 const watch_ms = 100;
-const op_data = 1, op_time = 2, op_call = 2, op_answer = 3;
+const op_data = 1,
+  op_time = 2,
+  op_call = 2,
+  op_answer = 3;
 const encoding = new TextEncoder().encode("json");
 
 interface Call {
@@ -57,7 +60,10 @@ export class Socket {
   private readonly wanted = new Set<number>();
   private subscribed = new Set<number>();
 
-  constructor(private readonly url: string, private readonly on: Handlers) {
+  constructor(
+    private readonly url: string,
+    private readonly on: Handlers,
+  ) {
     this.open();
     setInterval(() => this.watch(), watch_ms);
     document.addEventListener("visibilitychange", () => {
@@ -93,7 +99,8 @@ export class Socket {
     this.ws = null;
     ws?.close();
     this.subscribed = new Set();
-    for (const call of this.calls.values()) call.failed(new Error("The connection was lost before the answer."));
+    for (const call of this.calls.values())
+      call.failed(new Error("The connection was lost before the answer."));
     this.calls.clear();
     if (!this.up) return;
     this.up = false;
@@ -110,7 +117,8 @@ export class Socket {
     }
     if (document.hidden) return; // a page that is not seen is put to sleep now and then
     const asks = this.up && this.sign_of_life.length > 0; // else nothing may be heard for a while
-    if (this.quiet > lost_ms && (asks || this.quiet > 5 * lost_ms)) return this.lose("nothing is heard of the flight");
+    if (this.quiet > lost_ms && (asks || this.quiet > 5 * lost_ms))
+      return this.lose("nothing is heard of the flight");
     if (!asks || now - this.asked_ms < alive_ms) return;
     this.asked_ms = now;
     const id = "alive " + this.next_asked++;
@@ -207,7 +215,8 @@ export class Socket {
 
   private resubscribe(): void {
     if (!this.up) return;
-    const kept = this.kept, now = kept ? [...this.wanted].filter((id) => kept.has(id)) : [...this.wanted];
+    const kept = this.kept,
+      now = kept ? [...this.wanted].filter((id) => kept.has(id)) : [...this.wanted];
     const more = now.filter((id) => !this.subscribed.has(id));
     const less = [...this.subscribed].filter((id) => !now.includes(id));
     if (more.length > 0)

@@ -10,7 +10,11 @@ import type { Lost } from "../views/marks";
 const kept = new WeakMap<Recording, Places>();
 /** Of the mission; one that the first fix has made is in no record. */
 function recorded_origin(records: unknown[]): Place | null {
-  const of = records.find((r) => (r as Record<string, unknown>)?.given === true && typeof (r as Record<string, unknown>).lat_deg === "number");
+  const of = records.find(
+    (r) =>
+      (r as Record<string, unknown>)?.given === true &&
+      typeof (r as Record<string, unknown>).lat_deg === "number",
+  );
   return (of as Place | undefined) ?? null;
 }
 export function recorded_places(source: Recording): Places {
@@ -25,7 +29,16 @@ export function recorded_lost(source: Recording, names: Names): Lost | null {
   const of = (path: string) => source.series(names.state, path);
   const message = source.latest(names.state);
   if (!message || message.position_valid === true) return null;
-  const valid = of("position_valid"), last = valid.v.lastIndexOf(1);
+  const valid = of("position_valid"),
+    last = valid.v.lastIndexOf(1);
   if (last < 0) return null;
-  return lost_position(message, { n: of("position_m.north").v[last] as number, e: of("position_m.east").v[last] as number, t: valid.t[last] as number }, source.now);
+  return lost_position(
+    message,
+    {
+      n: of("position_m.north").v[last] as number,
+      e: of("position_m.east").v[last] as number,
+      t: valid.t[last] as number,
+    },
+    source.now,
+  );
 }

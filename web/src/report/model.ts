@@ -3,34 +3,69 @@
 
 /** Numbers over time, or messages, as tools/fulmar_report/columns.hpp packs them. */
 export interface PackedTopic {
-  topic: string; type: string; schema: string; count: number; rows: number;
+  topic: string;
+  type: string;
+  schema: string;
+  count: number;
+  rows: number;
   fields: string[]; // whose values are the columns; none: the messages themselves
-  data: string; t?: string;
+  data: string;
+  t?: string;
 }
 export interface PackedSeries {
-  words: string; unit: string; n: number; mean: number; rms: number; largest: number; rows: number; columns: number; data: string;
-  claimed?: number; within_1?: number; within_2?: number;
+  words: string;
+  unit: string;
+  n: number;
+  mean: number;
+  rms: number;
+  largest: number;
+  rows: number;
+  columns: number;
+  data: string;
+  claimed?: number;
+  within_1?: number;
+  within_2?: number;
 }
 export interface Estimate {
-  topic: string; reference: string; truth: boolean; pairs: number; rows: PackedSeries[]; nees?: { mean: number; inside: number };
+  topic: string;
+  reference: string;
+  truth: boolean;
+  pairs: number;
+  rows: PackedSeries[];
+  nees?: { mean: number; inside: number };
 }
 export interface Told {
-  t: number; kind: string; component: string; severity: string; words: string;
+  t: number;
+  kind: string;
+  component: string;
+  severity: string;
+  words: string;
 }
 /** With which controller it was flown: tools/fulmar_report/hardware.cpp. */
 export interface Hardware {
-  firmware: string | null; calibration: Record<string, string> | null; parameters_changed: number;
-  link: Record<string, number>; battery: Record<string, number> | null; radio_age_max_s: number | null;
+  firmware: string | null;
+  calibration: Record<string, string> | null;
+  parameters_changed: number;
+  link: Record<string, number>;
+  battery: Record<string, number> | null;
+  radio_age_max_s: number | null;
   who_flew_s: Record<string, number> | null;
 }
 export interface Log {
-  name: string; mission: string; begin_s: number; end_s: number; bytes: number; messages: number; fault: string;
+  name: string;
+  mission: string;
+  begin_s: number;
+  end_s: number;
+  bytes: number;
+  messages: number;
+  fault: string;
   metadata: Record<string, Record<string, string>>;
   figures: Record<string, unknown>; // those of `fulmar run --json`
   verdict: { words: string; severity: string }; // no words: the log ends before the flight does
   phases: { name: string; from_s: number; to_s: number; because: string }[];
   told: { rows: Told[]; all: number };
-  estimates: Estimate[]; innovations: PackedSeries[];
+  estimates: Estimate[];
+  innovations: PackedSeries[];
   hardware: Hardware | null; // null in simulation
   ticks: { n: number; mean_ms: number; p99_ms: number; max_ms: number } | null;
   steps: Record<string, { mean: number; p50: number; p99: number; max: number }> | null;
@@ -43,7 +78,8 @@ export interface ReportData {
 }
 
 async function bytes_of(base64: string): Promise<DataView> {
-  const text = atob(base64), bytes = new Uint8Array(text.length);
+  const text = atob(base64),
+    bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
   const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new DataView(await new Response(inflated).arrayBuffer());
@@ -51,17 +87,23 @@ async function bytes_of(base64: string): Promise<DataView> {
 
 /** One behind the other, each behind its length. */
 export async function unpack_messages(data: string): Promise<{ view: DataView; places: number[] }> {
-  const view = await bytes_of(data), places: number[] = [];
+  const view = await bytes_of(data),
+    places: number[] = [];
   for (let at = 0; at + 4 <= view.byteLength; at += 4 + view.getUint32(at, true)) places.push(at + 4);
   return { view, places };
 }
 
 /** Seconds of flight, and `columns` lists of values. */
-export async function unpack_columns(data: string, rows: number, columns: number): Promise<{ t: number[]; values: Float32Array[] }> {
+export async function unpack_columns(
+  data: string,
+  rows: number,
+  columns: number,
+): Promise<{ t: number[]; values: Float32Array[] }> {
   const view = await bytes_of(data);
   const word = (column: number, row: number) => {
     let all = 0;
-    for (let plane = 3; plane >= 0; --plane) all = (all << 8) | view.getUint8((4 * column + plane) * rows + row);
+    for (let plane = 3; plane >= 0; --plane)
+      all = (all << 8) | view.getUint8((4 * column + plane) * rows + row);
     return all;
   };
   const t: number[] = [];

@@ -10,7 +10,11 @@ export interface VerdictLine {
 
 export function verdict_of(log: Pick<Log, "verdict" | "fault" | "end_s">): VerdictLine {
   const { words, severity } = log.verdict;
-  if (words) return { words: words.charAt(0).toUpperCase() + words.slice(1), bad: severity === "error" || severity === "critical" };
+  if (words)
+    return {
+      words: words.charAt(0).toUpperCase() + words.slice(1),
+      bad: severity === "error" || severity === "critical",
+    };
   const at = `The log ends at ${clock(log.end_s)} without a verdict: `;
   if (log.fault) return { words: `${at}${log.fault}.`, bad: true };
   return { words: `${at}it is whole; its host wrote none, or it was recovered.`, bad: false };

@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The strip under the header: what is wrong, what the aircraft does, what the pilot should do, until it is acknowledged.
 import { el, fill, mark, say } from "../dom";
-import { type Alert, AlertBook, type Held, type Moment, alert_of_event, alerts_of, cause_of, doing, not_ready } from "../flight/alerts";
+import {
+  type Alert,
+  AlertBook,
+  type Held,
+  type Moment,
+  alert_of_event,
+  alerts_of,
+  cause_of,
+  doing,
+  not_ready,
+} from "../flight/alerts";
 import { names_of } from "../names";
 import { type Flight, publishers } from "../protocol/flight";
 import { clock } from "../units";
 
-const most = 2, fresh_s = 10;
+const most = 2,
+  fresh_s = 10;
 
 export class AlertStrip {
   private readonly rows = el("div", { class: "alert_rows", role: "alert" });
@@ -37,53 +48,107 @@ export class AlertStrip {
     return publishers(this.flight, names_of(this.flight).safety).map((c) => c.name);
   }
   moment(): Moment {
-    const f = this.flight, n = names_of(f), view = f.view;
-    const stopped = (view?.components ?? []).filter((c) => c.stopped).map((c) => ({
-      name: c.name, role: c.role, heir: view?.components.find((o) => o.active && !o.stopped && o.role !== "" && o.role === c.role)?.name ?? "",
-    }));
+    const f = this.flight,
+      n = names_of(f),
+      view = f.view;
+    const stopped = (view?.components ?? [])
+      .filter((c) => c.stopped)
+      .map((c) => ({
+        name: c.name,
+        role: c.role,
+        heir:
+          view?.components.find((o) => o.active && !o.stopped && o.role !== "" && o.role === c.role)?.name ??
+          "",
+      }));
     return {
-      safety: f.latest(n.safety), status: f.latest(n.status), ground: f.latest(n.ground), contact: f.latest(n.contact), state: f.latest(n.state), stopped,
+      safety: f.latest(n.safety),
+      status: f.latest(n.status),
+      ground: f.latest(n.ground),
+      contact: f.latest(n.contact),
+      state: f.latest(n.state),
+      stopped,
     };
   }
 
   update(): void {
     this.book.update(alerts_of(this.moment()), this.flight.now);
-    const list = this.book.list(), lasting = this.book.lasting();
+    const list = this.book.list(),
+      lasting = this.book.lasting();
     const now = JSON.stringify([list, lasting.map((h) => h.alert.what)]);
     if (now === this.shown) return;
     this.shown = now;
     this.element.hidden = list.length === 0 && lasting.length === 0;
-    this.element.dataset.level = list.some((h) => h.alert.level === "critical" && h.now) ? "critical" : list.length > 0 ? "warning" : "none";
+    this.element.dataset.level = list.some((h) => h.alert.level === "critical" && h.now)
+      ? "critical"
+      : list.length > 0
+        ? "warning"
+        : "none";
     const focused = (document.activeElement as HTMLElement | null)?.dataset?.acknowledge;
-    const large = list.filter((h, i) => (h.now || i === 0) && i < most), rest = list.filter((h) => !large.includes(h));
+    const large = list.filter((h, i) => (h.now || i === 0) && i < most),
+      rest = list.filter((h) => !large.includes(h));
     fill(this.rows, ...large.map((h) => this.row(h)), rest.length > 0 && this.more(rest));
-    if (focused) [...this.rows.querySelectorAll("button")].find((b) => b.dataset.acknowledge === focused)?.focus();
+    if (focused)
+      [...this.rows.querySelectorAll("button")].find((b) => b.dataset.acknowledge === focused)?.focus();
     this.lasting.hidden = lasting.length === 0;
-    say(this.lasting, lasting.length === 0 ? "" : "Acknowledged, and still so: " + lasting.map((h) => h.alert.what).join(" · "));
+    say(
+      this.lasting,
+      lasting.length === 0
+        ? ""
+        : "Acknowledged, and still so: " + lasting.map((h) => h.alert.what).join(" · "),
+    );
   }
 
   private row(h: Held): HTMLElement {
-    const { alert } = h, event = alert.key.startsWith("event ");
-    const row = el("div", { class: `alert ${alert.level}${event ? " told" : ""}` },
+    const { alert } = h,
+      event = alert.key.startsWith("event ");
+    const row = el(
+      "div",
+      { class: `alert ${alert.level}${event ? " told" : ""}` },
       el("b", { class: "what" }, (alert.level === "critical" ? "✕ " : "⚠ ") + alert.what),
-      el("span", { class: "since" }, event ? "at " + clock(h.since_s) : h.now ? "since " + clock(h.since_s) : "is over, since " + clock(h.since_s)),
+      el(
+        "span",
+        { class: "since" },
+        event
+          ? "at " + clock(h.since_s)
+          : h.now
+            ? "since " + clock(h.since_s)
+            : "is over, since " + clock(h.since_s),
+      ),
       el("span", { class: "does" }, el("i", {}, "Aircraft "), alert.does),
       el("span", { class: "pilot" }, alert.pilot && el("i", {}, "Pilot "), alert.pilot),
-      this.button("Acknowledge", [alert]));
+      this.button("Acknowledge", [alert]),
+    );
     row.dataset.alert = alert.key;
     row.dataset.now = String(h.now);
     mark(row, "over", !h.now);
     return row;
   }
   private more(rest: Held[]): HTMLElement {
-    return el("div", { class: "alert more" }, el("span", { class: "what" }, `and ${rest.length} more: ` + rest.map((h) => h.alert.what + (h.now ? "" : " (over)")).join(" · ")),
-      this.button("Acknowledge these", rest.map((h) => h.alert)));
+    return el(
+      "div",
+      { class: "alert more" },
+      el(
+        "span",
+        { class: "what" },
+        `and ${rest.length} more: ` + rest.map((h) => h.alert.what + (h.now ? "" : " (over)")).join(" · "),
+      ),
+      this.button(
+        "Acknowledge these",
+        rest.map((h) => h.alert),
+      ),
+    );
   }
   private button(words: string, alerts: Alert[]): HTMLElement {
-    const button = el("button", { onclick: () => {
-      for (const a of alerts) this.book.acknowledge(a.key);
-      this.update();
-    } }, words);
+    const button = el(
+      "button",
+      {
+        onclick: () => {
+          for (const a of alerts) this.book.acknowledge(a.key);
+          this.update();
+        },
+      },
+      words,
+    );
     button.dataset.acknowledge = alerts[0]?.key ?? "";
     return button;
   }

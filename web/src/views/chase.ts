@@ -2,9 +2,27 @@
 // The aircraft from behind, in three dimensions: attitude, surfaces, trail, the plan at its heights. Loaded after
 // the rest of the page. Scene axes: x east, y up, z south, so that a body axis of NED is (e, -d, -n).
 import {
-  AmbientLight, BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight,
-  Fog, GridHelper, Group, Line, LineBasicMaterial, Matrix4, Mesh, MeshLambertMaterial, PerspectiveCamera,
-  PlaneGeometry, Scene, Vector3, WebGLRenderer,
+  AmbientLight,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  ConeGeometry,
+  CylinderGeometry,
+  DirectionalLight,
+  Fog,
+  GridHelper,
+  Group,
+  Line,
+  LineBasicMaterial,
+  Matrix4,
+  Mesh,
+  MeshLambertMaterial,
+  PerspectiveCamera,
+  PlaneGeometry,
+  Scene,
+  Vector3,
+  WebGLRenderer,
 } from "three";
 import { colours } from "../dom";
 import { type Plan, Route } from "../flight/route";
@@ -12,24 +30,48 @@ import type { State } from "../names";
 
 // A picture takes at most so much of the time, measured now and then: a computer without a graphics card has other
 // things to do.
-const share = 0.12, measure_every = 20, shortest_ms = 33, longest_ms = 1000;
-const most_trail = 3000, jump_m = 100, behind_m = 9, above_m = 3;
+const share = 0.12,
+  measure_every = 20,
+  shortest_ms = 33,
+  longest_ms = 1000;
+const most_trail = 3000,
+  jump_m = 100,
+  behind_m = 9,
+  above_m = 3;
 
 export interface Surfaces {
-  aileron: number; elevator: number; rudder: number; throttle: number; // rad; 0 to 1
+  aileron: number;
+  elevator: number;
+  rudder: number;
+  throttle: number; // rad; 0 to 1
 }
 
 interface Model {
   body: Group;
-  left: Group; right: Group; elevator: Group; rudder: Group; propeller: Mesh;
+  left: Group;
+  right: Group;
+  elevator: Group;
+  rudder: Group;
+  propeller: Mesh;
 }
 
 /** In body axes x forward, y right, z down, 3 m of span; `scale` makes it visible. */
 function aircraft(): Model {
   const body = new Group();
-  const skin = new MeshLambertMaterial({ color: 0xf2f2f2 }), band = new MeshLambertMaterial({ color: 0xe69f00 });
-  const dark = new MeshLambertMaterial({ color: 0x333333 }), moving = new MeshLambertMaterial({ color: 0x0072b2 });
-  const box = (l: number, w: number, h: number, x: number, y: number, z: number, m = skin, to: Group = body) => {
+  const skin = new MeshLambertMaterial({ color: 0xf2f2f2 }),
+    band = new MeshLambertMaterial({ color: 0xe69f00 });
+  const dark = new MeshLambertMaterial({ color: 0x333333 }),
+    moving = new MeshLambertMaterial({ color: 0x0072b2 });
+  const box = (
+    l: number,
+    w: number,
+    h: number,
+    x: number,
+    y: number,
+    z: number,
+    m = skin,
+    to: Group = body,
+  ) => {
     const mesh = new Mesh(new BoxGeometry(l, w, h), m);
     mesh.position.set(x, y, z);
     to.add(mesh);
@@ -59,8 +101,10 @@ function aircraft(): Model {
     box(length, width, height, -length / 2, 0, 0, moving, group);
     return group;
   };
-  const right = flap(-0.17, 0.85, -0.1, 0.12, 0.7, 0.03), left = flap(-0.17, -0.85, -0.1, 0.12, 0.7, 0.03);
-  const elevator = flap(-1.1, 0, -0.02, 0.12, 0.86, 0.025), rudder = flap(-1.11, 0, -0.2, 0.12, 0.025, 0.32);
+  const right = flap(-0.17, 0.85, -0.1, 0.12, 0.7, 0.03),
+    left = flap(-0.17, -0.85, -0.1, 0.12, 0.7, 0.03);
+  const elevator = flap(-1.1, 0, -0.02, 0.12, 0.86, 0.025),
+    rudder = flap(-1.11, 0, -0.2, 0.12, 0.025, 0.32);
   const propeller = box(0.02, 0.62, 0.05, 0.76, 0, 0, dark);
   return { body, left, right, elevator, rudder, propeller };
 }
@@ -112,7 +156,8 @@ export class Chase {
   }
 
   private add_trail(s: State): void {
-    const last = 3 * (this.trail_count - 1), [x = s.e, , z = -s.n] = this.trail_points.subarray(Math.max(0, last), Math.max(0, last) + 3);
+    const last = 3 * (this.trail_count - 1),
+      [x = s.e, , z = -s.n] = this.trail_points.subarray(Math.max(0, last), Math.max(0, last) + 3);
     if (this.trail_count > 0 && Math.hypot(x - s.e, z + s.n) > jump_m) this.trail_count = 0; // another moment, or another place
     if (this.trail_count === most_trail) {
       this.trail_points.copyWithin(0, 3 * 500);
@@ -134,14 +179,19 @@ export class Chase {
       const to = plan.waypoints[leg.to]?.up ?? 0;
       const from = plan.waypoints[leg.to > 0 ? leg.to - 1 : plan.waypoints.length - 1]?.up ?? to;
       leg.points.forEach((p, i) =>
-        points.push(new Vector3(p.e, from + ((to - from) * i) / Math.max(1, leg.points.length - 1), -p.n)));
+        points.push(new Vector3(p.e, from + ((to - from) * i) / Math.max(1, leg.points.length - 1), -p.n)),
+      );
     }
-    this.plan_line = new Line(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: 0xe69f00 }));
+    this.plan_line = new Line(
+      new BufferGeometry().setFromPoints(points),
+      new LineBasicMaterial({ color: 0xe69f00 }),
+    );
     this.scene.add(this.plan_line);
   }
 
   draw(s: State | null, surfaces: Surfaces | null, plan: Plan | null): void {
-    const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
+    const width = this.canvas.clientWidth,
+      height = this.canvas.clientHeight;
     const begun = performance.now();
     if (!s || width === 0 || height === 0 || begun - this.last_ms < this.period_ms) return;
     this.last_ms = begun;
@@ -150,12 +200,22 @@ export class Chase {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    const [cr, sr, cp, sp, cy, sy] = [Math.cos(s.roll), Math.sin(s.roll), Math.cos(s.pitch), Math.sin(s.pitch), Math.cos(s.yaw), Math.sin(s.yaw)];
+    const [cr, sr, cp, sp, cy, sy] = [
+      Math.cos(s.roll),
+      Math.sin(s.roll),
+      Math.cos(s.pitch),
+      Math.sin(s.pitch),
+      Math.cos(s.yaw),
+      Math.sin(s.yaw),
+    ];
     // columns of the rotation from body to NED: Beard & McLain (2.5), transposed
-    const x = [cp * cy, cp * sy, -sp], y = [sr * sp * cy - cr * sy, sr * sp * sy + cr * cy, sr * cp];
+    const x = [cp * cy, cp * sy, -sp],
+      y = [sr * sp * cy - cr * sy, sr * sp * sy + cr * cy, sr * cp];
     const z = [cr * sp * cy + sr * sy, cr * sp * sy - sr * cy, cr * cp];
     const axis = (c: number[]) => new Vector3(c[1], -(c[2] as number), -(c[0] as number));
-    this.model.body.matrix = new Matrix4().makeBasis(axis(x), axis(y), axis(z)).setPosition(s.e, Math.max(s.up, 0.2), -s.n);
+    this.model.body.matrix = new Matrix4()
+      .makeBasis(axis(x), axis(y), axis(z))
+      .setPosition(s.e, Math.max(s.up, 0.2), -s.n);
     if (surfaces) {
       // about y (right) a positive turn lifts the nose: a trailing edge goes down by it
       this.model.right.rotation.y = -surfaces.aileron * -1;
@@ -171,7 +231,11 @@ export class Chase {
     if (Number.isNaN(this.heading)) this.heading = to;
     const turn = Math.atan2(Math.sin(to - this.heading), Math.cos(to - this.heading));
     this.heading += Math.min(1, 0.0024 * this.period_ms) * turn;
-    this.camera.position.set(s.e - behind_m * Math.sin(this.heading), Math.max(s.up + above_m, 1.5), -s.n + behind_m * Math.cos(this.heading));
+    this.camera.position.set(
+      s.e - behind_m * Math.sin(this.heading),
+      Math.max(s.up + above_m, 1.5),
+      -s.n + behind_m * Math.cos(this.heading),
+    );
     this.camera.lookAt(s.e, s.up + 0.6, -s.n);
     this.renderer.render(this.scene, this.camera);
     if (this.pictures++ % measure_every !== 1) return; // the first one is not like the others

@@ -8,33 +8,66 @@ import { type Component, type Flight, publishers } from "../protocol/flight";
 
 interface Command {
   key: "return" | "land" | "hold";
-  words: string; title: string;
+  words: string;
+  title: string;
   answer: string; // of SafetyAnswer
   phases: string[]; // the first that the mission has
 }
 const commands: Command[] = [
-  { key: "return", words: "⌂ Return", title: "Flies home and circles there", answer: "home", phases: ["return", "home"] },
-  { key: "land", words: "⤓ Land", title: "Returns and lands", answer: "land", phases: ["land", "landing", "approach", "settle"] },
-  { key: "hold", words: "⟳ Hold", title: "Circles here and keeps its height", answer: "wait", phases: ["loiter", "wait"] },
+  {
+    key: "return",
+    words: "⌂ Return",
+    title: "Flies home and circles there",
+    answer: "home",
+    phases: ["return", "home"],
+  },
+  {
+    key: "land",
+    words: "⤓ Land",
+    title: "Returns and lands",
+    answer: "land",
+    phases: ["land", "landing", "approach", "settle"],
+  },
+  {
+    key: "hold",
+    words: "⟳ Hold",
+    title: "Circles here and keeps its height",
+    answer: "wait",
+    phases: ["loiter", "wait"],
+  },
 ];
-const sure_ms = 3000, looked_at_ms = 1500;
+const sure_ms = 3000,
+  looked_at_ms = 1500;
 
 export class Commands {
   private readonly said = el("p", { class: "refusal", role: "alert", hidden: true });
   private readonly buttons = commands.map((c) => {
-    const button = el("button", { class: "command", onclick: () => void this.press(c) }, el("b", {}), el("small", {}));
+    const button = el(
+      "button",
+      { class: "command", onclick: () => void this.press(c) },
+      el("b", {}),
+      el("small", {}),
+    );
     button.dataset.command = c.key;
     return button;
   });
-  readonly element = el("div", { class: "commands", role: "group", "aria-label": "Commands" }, ...this.buttons);
+  readonly element = el(
+    "div",
+    { class: "commands", role: "group", "aria-label": "Commands" },
+    ...this.buttons,
+  );
   readonly refusal = this.said;
   private sure: { key: string; until_ms: number } = { key: "", until_ms: 0 };
 
-  constructor(private readonly flight: Flight, private readonly alerts: AlertStrip) {}
+  constructor(
+    private readonly flight: Flight,
+    private readonly alerts: AlertStrip,
+  ) {}
 
   /** The monitor that a pilot may ask for an answer; "" when there is none. */
   private monitor(): string {
-    const has = (c: Component) => c.params.some((p) => p.name === "asked" && p.live && p.choices.includes("home"));
+    const has = (c: Component) =>
+      c.params.some((p) => p.name === "asked" && p.live && p.choices.includes("home"));
     return publishers(this.flight, names_of(this.flight).safety).find((c) => has(c))?.name ?? "";
   }
   private asked(monitor: string): string {
@@ -45,46 +78,76 @@ export class Commands {
     return c.phases.find((p) => phases.includes(p) && p !== phases[0]) ?? "";
   }
   private state(c: Command): { on: boolean; why_not: string } {
-    const f = this.flight, monitor = this.monitor(), phase = this.phase(c);
+    const f = this.flight,
+      monitor = this.monitor(),
+      phase = this.phase(c);
     const on = monitor !== "" ? this.asked(monitor) === c.answer : phase !== "" && f.view?.phase === phase;
     // what has failed is answered before a pilot is
-    const answer = String(f.latest(names_of(f).safety)?.answer ?? "none"), overruled = !on && monitor !== "" && answer !== "none" && answer !== this.asked(monitor);
+    const answer = String(f.latest(names_of(f).safety)?.answer ?? "none"),
+      overruled = !on && monitor !== "" && answer !== "none" && answer !== this.asked(monitor);
     const moment = this.alerts.moment();
-    const why_not = !f.view ? "no flight" : monitor === "" && phase === "" ? "not in this mission"
-      : crashed(moment) ? "crashed" : !f.view.armed ? "disarmed" : on_ground(moment) ? "on the ground" : moment.status?.override === true ? "the pilot flies" : overruled ? "safety comes first" : "";
+    const why_not = !f.view
+      ? "no flight"
+      : monitor === "" && phase === ""
+        ? "not in this mission"
+        : crashed(moment)
+          ? "crashed"
+          : !f.view.armed
+            ? "disarmed"
+            : on_ground(moment)
+              ? "on the ground"
+              : moment.status?.override === true
+                ? "the pilot flies"
+                : overruled
+                  ? "safety comes first"
+                  : "";
     return { on, why_not };
   }
 
   /** To land is final, and takes two. */
   private async press(c: Command): Promise<void> {
-    const { on } = this.state(c), monitor = this.monitor(), now = performance.now();
+    const { on } = this.state(c),
+      monitor = this.monitor(),
+      now = performance.now();
     if (c.key === "land" && !on && !(this.sure.key === c.key && now < this.sure.until_ms)) {
       this.sure = { key: c.key, until_ms: now + sure_ms };
       return;
     }
     this.sure = { key: "", until_ms: 0 };
     const before = this.flight.view?.phase ?? "";
-    const answer = monitor !== "" ? await this.flight.set_parameter(monitor, "asked", on ? "none" : c.answer) : await this.flight.ask("/fulmar/phase", { phase: this.phase(c) });
+    const answer =
+      monitor !== ""
+        ? await this.flight.set_parameter(monitor, "asked", on ? "none" : c.answer)
+        : await this.flight.ask("/fulmar/phase", { phase: this.phase(c) });
     this.said.hidden = answer.accepted;
     say(this.said, "Refused: " + answer.reason);
     if (answer.accepted) setTimeout(() => this.look(c, monitor !== "", before), looked_at_ms);
   }
   /** A phase may not follow the answer, and a mission may leave a phase at once. */
   private look(c: Command, asked: boolean, before: string): void {
-    const phase = this.flight.view?.phase ?? "", follows = asked ? phase !== before : phase === this.phase(c);
+    const phase = this.flight.view?.phase ?? "",
+      follows = asked ? phase !== before : phase === this.phase(c);
     this.said.hidden = follows;
-    say(this.said, asked ? `Phase ${phase} goes on: its transitions do not follow this command. Choose another phase.`
-      : `The mission left phase ${this.phase(c)} for ${phase} at once: its own transitions lead there.`);
+    say(
+      this.said,
+      asked
+        ? `Phase ${phase} goes on: its transitions do not follow this command. Choose another phase.`
+        : `The mission left phase ${this.phase(c)} for ${phase} at once: its own transitions lead there.`,
+    );
   }
 
   update(): void {
     commands.forEach((c, i) => {
-      const button = this.buttons[i] as HTMLButtonElement, { on, why_not } = this.state(c);
+      const button = this.buttons[i] as HTMLButtonElement,
+        { on, why_not } = this.state(c);
       const sure = this.sure.key === c.key && performance.now() < this.sure.until_ms;
       button.disabled = why_not !== "";
       button.title = why_not || c.title;
       say(button.firstElementChild as Element, sure ? "press again" : c.words);
-      say(button.lastElementChild as Element, why_not || (on ? (this.monitor() === "" ? "flies now" : "on: press to fly on") : ""));
+      say(
+        button.lastElementChild as Element,
+        why_not || (on ? (this.monitor() === "" ? "flies now" : "on: press to fly on") : ""),
+      );
       button.setAttribute("aria-pressed", String(on));
       button.dataset.on = String(on);
       button.dataset.why = why_not;

@@ -8,7 +8,12 @@ const most = 200;
 const signs: Record<string, string> = { info: "·", warning: "⚠", error: "✕", critical: "✕✕" };
 
 export class EventList {
-  private readonly list = el("ol", { class: "events", "aria-live": "polite", tabIndex: 0, "aria-label": "Events" });
+  private readonly list = el("ol", {
+    class: "events",
+    "aria-live": "polite",
+    tabIndex: 0,
+    "aria-label": "Events",
+  });
   readonly element = el("section", { class: "grow" }, el("h2", {}, "Events"), this.list);
   private stop: () => void = () => {};
   private empty = true;
@@ -26,10 +31,19 @@ export class EventList {
       this.empty = false;
       // a slider or a stick sets a parameter many times: its last value is enough
       const of = m.code === "parameter_set" ? `${m.component}.${m.name}` : "";
-      if (of !== "") [...this.list.children].slice(0, 6).find((e) => (e as HTMLElement).dataset.of === of)?.remove();
+      if (of !== "")
+        [...this.list.children]
+          .slice(0, 6)
+          .find((e) => (e as HTMLElement).dataset.of === of)
+          ?.remove();
       const words = String(m.words) || [m.code, m.component, m.name, m.cause].filter(Boolean).join(" ");
-      const line = el("li", { class: severity }, el("time", {}, clock(t)),
-        el("b", { title: severity }, signs[severity] ?? "·"), el("span", {}, words));
+      const line = el(
+        "li",
+        { class: severity },
+        el("time", {}, clock(t)),
+        el("b", { title: severity }, signs[severity] ?? "·"),
+        el("span", {}, words),
+      );
       line.dataset.of = of;
       this.list.prepend(line);
       while (this.list.childElementCount > most) this.list.lastElementChild?.remove();

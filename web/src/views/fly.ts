@@ -37,7 +37,10 @@ export class Fly implements Page {
   private readonly map = new MapView();
   private readonly chase_canvas = el("canvas", { role: "img", "aria-label": "The aircraft from behind" });
   private readonly chase_box = el("div", { class: "chase" }, this.chase_canvas);
-  private readonly instruments = el("canvas", { role: "img", "aria-label": "Attitude, airspeed, height, heading" });
+  private readonly instruments = el("canvas", {
+    role: "img",
+    "aria-label": "Attitude, airspeed, height, heading",
+  });
   private readonly figures = el("div", { class: "figures" });
   private readonly events: EventList;
   private readonly health: HealthPanel;
@@ -51,7 +54,10 @@ export class Fly implements Page {
   private plan_message: Message | undefined;
   private plan: ReturnType<typeof plan_of> = null;
 
-  constructor(private readonly flight: Flight, private readonly alerts: AlertStrip) {
+  constructor(
+    private readonly flight: Flight,
+    private readonly alerts: AlertStrip,
+  ) {
     this.names = names_of(flight);
     this.track = new TrackRecorder(flight, () => this.names);
     this.events = new EventList(flight);
@@ -65,10 +71,30 @@ export class Fly implements Page {
       this.names = names_of(flight);
       this.events.begin();
     });
-    this.element = el("div", { class: "fly" }, this.safety.element, this.chase_box, this.map.element,
+    this.element = el(
+      "div",
+      { class: "fly" },
+      this.safety.element,
+      this.chase_box,
+      this.map.element,
       el("div", { class: "pfd" }, this.instruments),
-      el("div", { class: "desk" }, el("div", { class: "row nowrap" }, this.commands.element, this.hand.flies), this.commands.refusal, this.hand.element, this.figures),
-      el("aside", { class: "side" }, this.prearm.element, this.roles.element, this.events.element, this.health.element));
+      el(
+        "div",
+        { class: "desk" },
+        el("div", { class: "row nowrap" }, this.commands.element, this.hand.flies),
+        this.commands.refusal,
+        this.hand.element,
+        this.figures,
+      ),
+      el(
+        "aside",
+        { class: "side" },
+        this.prearm.element,
+        this.roles.element,
+        this.events.element,
+        this.health.element,
+      ),
+    );
   }
 
   /** three is most of the page: what is seen first does not wait for it. */
@@ -84,24 +110,54 @@ export class Fly implements Page {
   }
 
   update(): void {
-    const f = this.flight, names = this.names;
+    const f = this.flight,
+      names = this.names;
     const state = state_of(f.latest(names.state));
     const plan_message = f.latest(names.plan);
     if (plan_message !== this.plan_message) {
       this.plan_message = plan_message;
       this.plan = plan_of(plan_message);
     }
-    const progress = f.latest(names.progress), command = f.latest(names.command), attitude = f.latest(names.attitude);
+    const progress = f.latest(names.progress),
+      command = f.latest(names.command),
+      attitude = f.latest(names.attitude);
     const item = number_at(progress, "item") ?? -1;
-    this.map.draw({ plan: this.plan, draft: false, state, track: this.track, ground: ground_of(f.view), places: places_now(f, names), lost: this.track.lost(), crashed: crashed(this.alerts.moment()), item, chosen: -1, refused: -1, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [] });
+    this.map.draw({
+      plan: this.plan,
+      draft: false,
+      state,
+      track: this.track,
+      ground: ground_of(f.view),
+      places: places_now(f, names),
+      lost: this.track.lost(),
+      crashed: crashed(this.alerts.moment()),
+      item,
+      chosen: -1,
+      refused: -1,
+      piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [],
+    });
     draw_instruments(this.instruments, state, {
-      air: number_at(command, "airspeed_mps"), up: number_at(command, "height_m"), course: number_at(command, "course_rad"),
-      roll: number_at(attitude, "roll_rad"), pitch: number_at(attitude, "pitch_rad"),
+      air: number_at(command, "airspeed_mps"),
+      up: number_at(command, "height_m"),
+      course: number_at(command, "course_rad"),
+      roll: number_at(attitude, "roll_rad"),
+      pitch: number_at(attitude, "pitch_rad"),
     });
     const actuators = f.latest(names.actuators);
     if (this.chase) {
       const x = (path: string) => number_at(actuators, path) ?? 0;
-      this.chase.draw(state, actuators ? { aileron: x("aileron_rad"), elevator: x("elevator_rad"), rudder: x("rudder_rad"), throttle: x("throttle_frac") } : null, this.plan);
+      this.chase.draw(
+        state,
+        actuators
+          ? {
+              aileron: x("aileron_rad"),
+              elevator: x("elevator_rad"),
+              rudder: x("rudder_rad"),
+              throttle: x("throttle_frac"),
+            }
+          : null,
+        this.plan,
+      );
     } else if (state) {
       void this.load_chase();
     }
@@ -112,24 +168,36 @@ export class Fly implements Page {
     this.commands.update();
     this.hand.update();
     mark(this.figures, "few", this.hand.has);
-    const moment = this.alerts.moment(), lacks = this.alerts.lacks;
+    const moment = this.alerts.moment(),
+      lacks = this.alerts.lacks;
     const lift_offs = number_at(moment.ground, "lift_offs");
     const flown = lift_offs === undefined ? f.now > 20 : lift_offs > 0; // after a flight it is no news
-    this.prearm.update(names, f.view !== null && (on_ground(moment) || !f.view.armed) && !(flown && f.view.armed), f.now - lacks.t < said_s ? lacks.what : []);
+    this.prearm.update(
+      names,
+      f.view !== null && (on_ground(moment) || !f.view.armed) && !(flown && f.view.armed),
+      f.now - lacks.t < said_s ? lacks.what : [],
+    );
   }
 
   /** Over the last second: of a propeller in gusts it jumps. A current that was never above 0 is not measured. */
   private current(): string {
-    const { t, v } = this.flight.series(this.names.status, "battery_amp"), since = this.flight.now - 1;
+    const { t, v } = this.flight.series(this.names.status, "battery_amp"),
+      since = this.flight.now - 1;
     let from = t.length;
     while (from > 0 && (t[from - 1] as number) > since) --from;
     const last = v.slice(from);
     this.has_current = this.has_current || last.some((amp) => amp > 0);
-    return this.has_current && last.length > 0 ? fixed(last.reduce((a, b) => a + b) / last.length, 1, "A") : "–";
+    return this.has_current && last.length > 0
+      ? fixed(last.reduce((a, b) => a + b) / last.length, 1, "A")
+      : "–";
   }
   private has_current = false;
 
-  private show_figures(s: ReturnType<typeof state_of>, actuators: Message | undefined, progress: Message | undefined): void {
+  private show_figures(
+    s: ReturnType<typeof state_of>,
+    actuators: Message | undefined,
+    progress: Message | undefined,
+  ): void {
     const status = this.flight.latest(this.names.status);
     const angle = (path: string) => fixed((number_at(actuators, path) ?? NaN) * degrees, 1, "°");
     const items = number_at(progress, "items");
@@ -137,9 +205,16 @@ export class Fly implements Page {
       ["ground speed", s?.valid.velocity ? fixed(s.ground, 1, "m/s") : "–"],
       ["climb rate", s?.valid.velocity ? fixed(s.climb, 1, "m/s") : "–"],
       ["throttle", fixed((number_at(actuators, "throttle_frac") ?? NaN) * 100, 0, "%")],
-      ["battery", measured(status) ? `${whole(fixed(number_at(status, "battery_volt"), 1, "V"))} ${whole(fixed((number_at(status, "battery_frac") ?? NaN) * 100, 0, "%"))}` : "not measured",
-        measured(status) && (number_at(status, "battery_frac") ?? 1) < 0.2],
-      ["aileron", angle("aileron_rad")], ["elevator", angle("elevator_rad")], ["rudder", angle("rudder_rad")],
+      [
+        "battery",
+        measured(status)
+          ? `${whole(fixed(number_at(status, "battery_volt"), 1, "V"))} ${whole(fixed((number_at(status, "battery_frac") ?? NaN) * 100, 0, "%"))}`
+          : "not measured",
+        measured(status) && (number_at(status, "battery_frac") ?? 1) < 0.2,
+      ],
+      ["aileron", angle("aileron_rad")],
+      ["elevator", angle("elevator_rad")],
+      ["rudder", angle("rudder_rad")],
       ["waypoint", items ? `${number_at(progress, "item")} of ${items}` : "–"],
       ["distance to it", items ? digits(number_at(progress, "distance_m") ?? NaN) + " m" : "–"],
       ["circuits", items ? String(number_at(progress, "circuits") ?? "–") : "–"],

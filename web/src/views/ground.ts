@@ -9,14 +9,20 @@ interface Point {
 }
 type Screen = (p: Point) => { x: number; y: number };
 
-const at_once = 6, most_kept = 600, levels_up = 4;
+const at_once = 6,
+  most_kept = 600,
+  levels_up = 4;
 
 export class Ground {
   private readonly plane: LocalPlane;
   private readonly images = new Map<string, HTMLImageElement | "coming" | "failed">(); // the ones used last are at the end
   private coming = 0;
 
-  constructor(private readonly url: string, origin: Place, readonly attribution: string) {
+  constructor(
+    private readonly url: string,
+    origin: Place,
+    readonly attribution: string,
+  ) {
     this.plane = new LocalPlane(origin);
   }
 
@@ -51,7 +57,8 @@ export class Ground {
   }
 
   private image(tile: Tile): HTMLImageElement | null {
-    const key = key_of(tile), known = this.images.get(key);
+    const key = key_of(tile),
+      known = this.images.get(key);
     if (known instanceof Image) {
       this.images.delete(key);
       this.images.set(key, known);
@@ -72,18 +79,24 @@ export class Ground {
     image.onload = () => done(image);
     image.onerror = () => done("failed");
     image.referrerPolicy = "origin"; // who gives tiles away wants to know to whom; a token in the address is not told
-    image.src = this.url.replace("{z}", String(tile.z)).replace("{x}", String(tile.x)).replace("{y}", String(tile.y));
+    image.src = this.url
+      .replace("{z}", String(tile.z))
+      .replace("{x}", String(tile.x))
+      .replace("{y}", String(tile.y));
   }
 
   private put(g: CanvasRenderingContext2D, tile: Tile, px_per_m: number, to_screen: Screen): void {
     const image = this.image(tile);
     if (!image) return;
-    const parts = parts_at(px_per_m / 2 ** Math.max(0, this.plane.zoom_for(px_per_m) - tile.z)), size = 1 / parts;
+    const parts = parts_at(px_per_m / 2 ** Math.max(0, this.plane.zoom_for(px_per_m) - tile.z)),
+      size = 1 / parts;
     const [w, h] = [image.naturalWidth / parts, image.naturalHeight / parts];
     for (let i = 0; i < parts; ++i)
       for (let k = 0; k < parts; ++k) {
         const frame = this.plane.frame_of({ z: tile.z, x: tile.x + k * size, y: tile.y + i * size }, size);
-        const o = to_screen(frame.corner), r = to_screen(frame.right), d = to_screen(frame.down);
+        const o = to_screen(frame.corner),
+          r = to_screen(frame.right),
+          d = to_screen(frame.down);
         const seam = 0.5 / Math.max(1, r.x - o.x); // no line between neighbours
         g.save();
         g.transform(r.x - o.x, r.y - o.y, d.x - o.x, d.y - o.y, o.x, o.y);
@@ -95,10 +108,12 @@ export class Ground {
 
 const key_of = (t: Tile) => `${t.z}/${t.x}/${t.y}`;
 
-let ground: Ground | null = null, made_of = "";
+let ground: Ground | null = null,
+  made_of = "";
 /** What the mission says lies beneath its map; null where it says nothing, or not where its origin is. The same for all maps of the page. */
 export function ground_of(view: View | null): Ground | null {
-  const of = view && view.tiles && view.origin ? JSON.stringify([view.tiles, view.attribution, view.origin]) : "";
+  const of =
+    view && view.tiles && view.origin ? JSON.stringify([view.tiles, view.attribution, view.origin]) : "";
   if (of !== made_of) {
     made_of = of;
     ground = of && view?.origin ? new Ground(view.tiles, view.origin, view.attribution) : null;

@@ -5,12 +5,21 @@ import { el, fill, say } from "../dom";
 import type { Flight } from "../protocol/flight";
 import { fixed } from "../units";
 
-const send_ms = 40, per_s = 2.5, back_per_s = 4, throttle_per_s = 0.6, dead = 0.06;
+const send_ms = 40,
+  per_s = 2.5,
+  back_per_s = 4,
+  throttle_per_s = 0.6,
+  dead = 0.06;
 const sticks = ["stick_roll", "stick_pitch", "stick_yaw", "stick_throttle"] as const;
 
 export class HandPanel {
-  private readonly pad = el("div", { class: "sticks", tabIndex: 0, role: "application", "aria-label": "Sticks: click, then fly by keys" });
-  readonly flies = el("button", { class: "take",  onclick: () => void this.toggle() }, "Take the sticks");
+  private readonly pad = el("div", {
+    class: "sticks",
+    tabIndex: 0,
+    role: "application",
+    "aria-label": "Sticks: click, then fly by keys",
+  });
+  readonly flies = el("button", { class: "take", onclick: () => void this.toggle() }, "Take the sticks");
   private readonly said = el("p", { class: "refusal", role: "alert", hidden: true });
   private readonly words = el("p", { class: "faint" });
   private readonly knobs = [el("i"), el("i")];
@@ -21,7 +30,11 @@ export class HandPanel {
   private last_ms = 0;
 
   constructor(private readonly flight: Flight) {
-    fill(this.pad, el("div", { class: "stick" }, this.knobs[0] as HTMLElement), el("div", { class: "stick" }, this.knobs[1] as HTMLElement));
+    fill(
+      this.pad,
+      el("div", { class: "stick" }, this.knobs[0] as HTMLElement),
+      el("div", { class: "stick" }, this.knobs[1] as HTMLElement),
+    );
     this.pad.addEventListener("keydown", (e) => {
       if (e.key === "Tab" || e.ctrlKey || e.metaKey) return;
       if (e.key === "x") this.position.throttle = 0;
@@ -35,13 +48,19 @@ export class HandPanel {
 
   /** The simulated vehicle that has sticks; "" when none has. */
   private vehicle(): string {
-    return this.flight.view?.components.find((c) => c.active && c.params.some((p) => p.name === "pilot_flies"))?.name ?? "";
+    return (
+      this.flight.view?.components.find((c) => c.active && c.params.some((p) => p.name === "pilot_flies"))
+        ?.name ?? ""
+    );
   }
   get has(): boolean {
-    return this.flight.component(this.vehicle())?.params.find((p) => p.name === "pilot_flies")?.value === true;
+    return (
+      this.flight.component(this.vehicle())?.params.find((p) => p.name === "pilot_flies")?.value === true
+    );
   }
   private async toggle(): Promise<void> {
-    const vehicle = this.vehicle(), take = !this.has;
+    const vehicle = this.vehicle(),
+      take = !this.has;
     if (take) this.begin();
     const answer = await this.flight.set_parameter(vehicle, "pilot_flies", String(take));
     this.said.hidden = answer.accepted;
@@ -59,7 +78,8 @@ export class HandPanel {
     this.send();
   }
   private send(): void {
-    const p = this.position, vehicle = this.vehicle();
+    const p = this.position,
+      vehicle = this.vehicle();
     const values = [p.roll, p.pitch, p.yaw, p.throttle].map((v) => Math.round(v * 1000) / 1000);
     const now = values.join();
     if (now === this.sent || vehicle === "") return;
@@ -72,13 +92,19 @@ export class HandPanel {
     return (down(plus) ? 1 : 0) - (down(minus) ? 1 : 0);
   }
   private move(seconds: number): void {
-    const p = this.position, pad = navigator.getGamepads?.().find((g) => g !== null && g.axes.length >= 4);
+    const p = this.position,
+      pad = navigator.getGamepads?.().find((g) => g !== null && g.axes.length >= 4);
     const towards = (now: number, key: number) =>
-      key !== 0 ? Math.max(-1, Math.min(1, now + key * per_s * seconds)) : Math.sign(now) * Math.max(0, Math.abs(now) - back_per_s * seconds);
+      key !== 0
+        ? Math.max(-1, Math.min(1, now + key * per_s * seconds))
+        : Math.sign(now) * Math.max(0, Math.abs(now) - back_per_s * seconds);
     p.roll = towards(p.roll, this.key(["ArrowRight", "d"], ["ArrowLeft", "a"]));
     p.pitch = towards(p.pitch, this.key(["ArrowDown", "s"], ["ArrowUp", "w"]));
     p.yaw = towards(p.yaw, this.key(["e"], ["q"]));
-    p.throttle = Math.max(0, Math.min(1, p.throttle + this.key(["r", "PageUp"], ["f", "PageDown"]) * throttle_per_s * seconds));
+    p.throttle = Math.max(
+      0,
+      Math.min(1, p.throttle + this.key(["r", "PageUp"], ["f", "PageDown"]) * throttle_per_s * seconds),
+    );
     if (!pad) return;
     const axis = (i: number) => {
       const v = pad.axes[i] ?? 0;
@@ -91,13 +117,18 @@ export class HandPanel {
   }
 
   update(): void {
-    const vehicle = this.vehicle(), has = this.has, now = performance.now();
+    const vehicle = this.vehicle(),
+      has = this.has,
+      now = performance.now();
     this.flies.hidden = vehicle === "";
     this.element.hidden = !has && this.said.hidden;
     say(this.flies, has ? "Give them back" : "Take the sticks");
     this.pad.hidden = !has;
     const p = this.position;
-    say(this.words, `Arrows or W A S D: roll and pitch; Q E: yaw; R F: throttle; X: closed; or a gamepad. Throttle ${fixed(p.throttle * 100, 0, "%")}.`);
+    say(
+      this.words,
+      `Arrows or W A S D: roll and pitch; Q E: yaw; R F: throttle; X: closed; or a gamepad. Throttle ${fixed(p.throttle * 100, 0, "%")}.`,
+    );
     const seconds = (now - this.last_ms) / 1000;
     if (!has || seconds * 1000 < send_ms) return;
     this.last_ms = now;

@@ -7,8 +7,14 @@ import type { Source } from "../source";
 import { fixed } from "../units";
 
 const sensors: [string, string][] = [
-  ["gyro", "gyroscopes"], ["accel", "accelerometers"], ["gnss_position", "GNSS position"], ["gnss_height", "GNSS height"],
-  ["gnss_velocity", "GNSS velocity"], ["mag", "magnetometer"], ["baro", "barometer"], ["pitot", "airspeed"],
+  ["gyro", "gyroscopes"],
+  ["accel", "accelerometers"],
+  ["gnss_position", "GNSS position"],
+  ["gnss_height", "GNSS height"],
+  ["gnss_velocity", "GNSS velocity"],
+  ["mag", "magnetometer"],
+  ["baro", "barometer"],
+  ["pitot", "airspeed"],
 ];
 type Row = [name: string, words: string, good: boolean | null];
 
@@ -23,14 +29,26 @@ export class HealthPanel {
     const now = JSON.stringify(rows);
     if (now === this.shown) return;
     this.shown = now;
-    fill(this.table, ...rows.flatMap(([name, words, good]) =>
-      [el("span", {}, name), el("b", { class: good === null ? "faint" : good ? "good" : "bad" }, (good === null ? "" : good ? "✓ " : "✕ ") + words)]));
+    fill(
+      this.table,
+      ...rows.flatMap(([name, words, good]) => [
+        el("span", {}, name),
+        el(
+          "b",
+          { class: good === null ? "faint" : good ? "good" : "bad" },
+          (good === null ? "" : good ? "✓ " : "✕ ") + words,
+        ),
+      ]),
+    );
   }
 
   private estimator(names: Names): Row[] {
-    const message = this.source.latest(names.state), state = state_of(message);
+    const message = this.source.latest(names.state),
+      state = state_of(message);
     if (!state || !message) return [["state", "no estimate", false]];
-    const lacks = Object.entries(state.valid).filter(([, valid]) => !valid).map(([name]) => name);
+    const lacks = Object.entries(state.valid)
+      .filter(([, valid]) => !valid)
+      .map(([name]) => name);
     const std = (path: string) => number_at(message, path) ?? NaN;
     const position = Math.hypot(std("position_std_m.north"), std("position_std_m.east"));
     return [
@@ -41,21 +59,42 @@ export class HealthPanel {
   private sensors(names: Names): Row[] {
     const health = this.source.latest(names.health);
     if (!health) return [];
-    return sensors.filter(([field]) => field in health).map(([field, name]) => {
-      const state = String((health[field] as Message).state);
-      return [name, state, state === "never" ? null : state === "ok"];
-    });
+    return sensors
+      .filter(([field]) => field in health)
+      .map(([field, name]) => {
+        const state = String((health[field] as Message).state);
+        return [name, state, state === "never" ? null : state === "ok"];
+      });
   }
   private vehicle(names: Names): Row[] {
     const rows: Row[] = [];
-    const gnss = this.source.latest(names.gnss), rc = this.source.latest(names.rc), status = this.source.latest(names.status);
-    if (gnss) rows.push(["satellites", `${gnss.satellites}, ${String(gnss.fix).replace(/_/g, " ")}`, gnss.fix !== "none"]);
+    const gnss = this.source.latest(names.gnss),
+      rc = this.source.latest(names.rc),
+      status = this.source.latest(names.status);
+    if (gnss)
+      rows.push([
+        "satellites",
+        `${gnss.satellites}, ${String(gnss.fix).replace(/_/g, " ")}`,
+        gnss.fix !== "none",
+      ]);
     if (rc) rows.push(["radio link", rc.link === true ? "there" : "none", rc.link === true]);
     if (!status) return rows;
     rows.push(["vehicle", String(status.health), status.health === "ok"]);
-    const who = status.crashed === true ? "crashed" : status.failsafe === true ? "its own failsafe" : status.override === true ? "pilot"
-      : status.in_control === true ? "autopilot" : "nobody";
-    rows.push(["in control", who, who === "autopilot" ? true : who === "pilot" || who === "nobody" ? null : false]);
+    const who =
+      status.crashed === true
+        ? "crashed"
+        : status.failsafe === true
+          ? "its own failsafe"
+          : status.override === true
+            ? "pilot"
+            : status.in_control === true
+              ? "autopilot"
+              : "nobody";
+    rows.push([
+      "in control",
+      who,
+      who === "autopilot" ? true : who === "pilot" || who === "nobody" ? null : false,
+    ]);
     return rows;
   }
 }

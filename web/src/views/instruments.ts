@@ -13,11 +13,21 @@ export interface Asked {
   pitch?: number | undefined; // rad
 }
 
-const ribbon = 62, strip = 26, head = 0;
+const ribbon = 62,
+  strip = 26,
+  head = 0;
 
 /** A vertical ribbon: larger values above. */
-function tape(g: CanvasRenderingContext2D, x: number, height: number, value: number | undefined, asked: number | undefined,
-  per_px: number, step: number, words: { name: string; unit: string; left: boolean }): void {
+function tape(
+  g: CanvasRenderingContext2D,
+  x: number,
+  height: number,
+  value: number | undefined,
+  asked: number | undefined,
+  per_px: number,
+  step: number,
+  words: { name: string; unit: string; left: boolean },
+): void {
   const middle = (height - strip + head) / 2;
   g.save();
   g.beginPath();
@@ -66,15 +76,25 @@ function tape(g: CanvasRenderingContext2D, x: number, height: number, value: num
   g.restore();
 }
 
-function horizon(g: CanvasRenderingContext2D, x: number, width: number, height: number, s: State, asked: Asked): void {
-  const px_per_deg = height / 60, cx = x + width / 2, cy = (height - strip) / 2;
+function horizon(
+  g: CanvasRenderingContext2D,
+  x: number,
+  width: number,
+  height: number,
+  s: State,
+  asked: Asked,
+): void {
+  const px_per_deg = height / 60,
+    cx = x + width / 2,
+    cy = (height - strip) / 2;
   g.save();
   g.beginPath();
   g.rect(x, 0, width, height - strip);
   g.clip();
   g.translate(cx, cy);
   g.rotate(-s.roll);
-  const shift = s.pitch * degrees * px_per_deg, far = width + height;
+  const shift = s.pitch * degrees * px_per_deg,
+    far = width + height;
   g.fillStyle = colours.get("sky");
   g.fillRect(-far, -far, 2 * far, far + shift);
   g.fillStyle = colours.get("earth");
@@ -100,7 +120,8 @@ function horizon(g: CanvasRenderingContext2D, x: number, width: number, height: 
   g.rotate(s.roll);
   const radius = Math.min(width, height - strip) * 0.43;
   for (const d of [-60, -45, -30, -20, -10, 0, 10, 20, 30, 45, 60]) {
-    const a = (d - 90) / degrees, long = d % 30 === 0 ? 10 : 6;
+    const a = (d - 90) / degrees,
+      long = d % 30 === 0 ? 10 : 6;
     g.beginPath();
     g.moveTo(radius * Math.cos(a), radius * Math.sin(a));
     g.lineTo((radius + long) * Math.cos(a), (radius + long) * Math.sin(a));
@@ -132,7 +153,10 @@ function horizon(g: CanvasRenderingContext2D, x: number, width: number, height: 
     g.stroke();
   }
   g.strokeStyle = "#000";
-  for (const [width_, colour] of [[6, "#000"], [3, "#ffd21f"]] as const) {
+  for (const [width_, colour] of [
+    [6, "#000"],
+    [3, "#ffd21f"],
+  ] as const) {
     g.lineWidth = width_;
     g.strokeStyle = colour;
     g.beginPath();
@@ -155,7 +179,10 @@ function horizon(g: CanvasRenderingContext2D, x: number, width: number, height: 
 }
 
 function compass(g: CanvasRenderingContext2D, width: number, height: number, s: State, asked: Asked): void {
-  const y = height - strip, px_per_deg = 3, cx = width / 2, heading = s.yaw * degrees;
+  const y = height - strip,
+    px_per_deg = 3,
+    cx = width / 2,
+    heading = s.yaw * degrees;
   g.save();
   g.beginPath();
   g.rect(0, y, width, strip);
@@ -169,7 +196,8 @@ function compass(g: CanvasRenderingContext2D, width: number, height: number, s: 
   const names: Record<number, string> = { 0: "N", 90: "E", 180: "S", 270: "W" };
   const reach = Math.ceil(width / 2 / px_per_deg / 15 + 1) * 15;
   for (let d = Math.ceil((heading - reach) / 15) * 15; d < heading + reach; d += 15) {
-    const whole = ((d % 360) + 360) % 360, x = cx + (d - heading) * px_per_deg;
+    const whole = ((d % 360) + 360) % 360,
+      x = cx + (d - heading) * px_per_deg;
     g.fillText(names[whole] ?? (whole % 30 === 0 ? String(whole) : "·"), x, y + 13);
   }
   const mark = (angle: number, colour: string, top: number) => {
@@ -189,7 +217,8 @@ function compass(g: CanvasRenderingContext2D, width: number, height: number, s: 
 }
 
 export function draw_instruments(canvas: HTMLCanvasElement, s: State | null, asked: Asked): void {
-  const width = canvas.clientWidth, height = canvas.clientHeight;
+  const width = canvas.clientWidth,
+    height = canvas.clientHeight;
   if (width === 0 || height === 0) return;
   const g = sharp(canvas);
   g.clearRect(0, 0, width, height);
@@ -204,7 +233,15 @@ export function draw_instruments(canvas: HTMLCanvasElement, s: State | null, ask
     return;
   }
   horizon(g, ribbon, width - 2 * ribbon, height, s, asked);
-  tape(g, 0, height, s.valid.airspeed ? s.air : undefined, asked.air, 0.09, 2, { name: "airspeed", unit: "m/s", left: true });
-  tape(g, width - ribbon, height, s.valid.height ? s.up : undefined, asked.up, 0.5, 10, { name: "height", unit: "m", left: false });
+  tape(g, 0, height, s.valid.airspeed ? s.air : undefined, asked.air, 0.09, 2, {
+    name: "airspeed",
+    unit: "m/s",
+    left: true,
+  });
+  tape(g, width - ribbon, height, s.valid.height ? s.up : undefined, asked.up, 0.5, 10, {
+    name: "height",
+    unit: "m",
+    left: false,
+  });
   compass(g, width, height, s, asked);
 }

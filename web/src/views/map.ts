@@ -6,8 +6,18 @@ import { type Spot, label_side } from "../flight/labels";
 import type { State } from "../names";
 import type { Places } from "../flight/places";
 import type { Ground } from "./ground";
-import { type Lost, aircraft_shape, draw_crash, draw_lost, draw_places, words_on } from "./marks";
-import { bearing, degrees, digits, fixed } from "../units";
+import {
+  type Lost,
+  draw_aircraft,
+  draw_crash,
+  draw_home,
+  draw_lost,
+  draw_places,
+  draw_scale,
+  draw_wind,
+  words_on,
+} from "./marks";
+import { digits } from "../units";
 
 export type { Lost } from "./marks";
 export interface Track {
@@ -36,10 +46,18 @@ export interface Hooks {
 }
 
 const steps = [1, 2, 5];
-const click_px = 4, reach_px = 14, margin_px = 56, most_labels = 100;
+const click_px = 4,
+  reach_px = 14,
+  margin_px = 56,
+  most_labels = 100;
 
 export class MapView {
-  readonly canvas = el("canvas", { class: "map", tabIndex: 0, role: "img", "aria-label": "Map: plan, track and aircraft" });
+  readonly canvas = el("canvas", {
+    class: "map",
+    tabIndex: 0,
+    role: "img",
+    "aria-label": "Map: plan, track and aircraft",
+  });
   readonly element: HTMLElement;
   private readonly attribution = el("div", { class: "attribution", hidden: true });
   hooks: Hooks = {};
@@ -54,29 +72,50 @@ export class MapView {
   constructor() {
     const button = (words: string, label: string, onclick: () => void) =>
       el("button", { class: "small", onclick, "aria-label": label, title: label }, words);
-    this.element = el("div", { class: "mapbox" }, this.canvas, this.attribution,
-      el("div", { class: "mapkeys" },
-        button("+", "Zoom in", () => this.zoom(1.4)), button("−", "Zoom out", () => this.zoom(1 / 1.4)),
+    this.element = el(
+      "div",
+      { class: "mapbox" },
+      this.canvas,
+      this.attribution,
+      el(
+        "div",
+        { class: "mapkeys" },
+        button("+", "Zoom in", () => this.zoom(1.4)),
+        button("−", "Zoom out", () => this.zoom(1 / 1.4)),
         button("Fit", "Show the plan whole", () => this.fit()),
-        button("Follow", "Keep the aircraft in the middle", () => (this.follows = !this.follows))));
+        button("Follow", "Keep the aircraft in the middle", () => (this.follows = !this.follows)),
+      ),
+    );
     this.canvas.addEventListener("pointerdown", (e) => this.press(e));
-    this.canvas.addEventListener("wheel", (e) => {
-      e.preventDefault();
-      this.zoom(Math.exp(-e.deltaY * 0.0015), { x: e.offsetX, y: e.offsetY });
-    }, { passive: false });
+    this.canvas.addEventListener(
+      "wheel",
+      (e) => {
+        e.preventDefault();
+        this.zoom(Math.exp(-e.deltaY * 0.0015), { x: e.offsetX, y: e.offsetY });
+      },
+      { passive: false },
+    );
     this.canvas.addEventListener("keydown", (e) => this.key(e));
   }
 
   // ---- where things are
-  private get width(): number { return this.canvas.clientWidth; }
-  private get height(): number { return this.canvas.clientHeight; }
+  get width(): number {
+    return this.canvas.clientWidth;
+  }
+  get height(): number {
+    return this.canvas.clientHeight;
+  }
   to_screen(p: Point): { x: number; y: number } {
-    return { x: this.width / 2 + (p.e - this.centre.e) * this.px_per_m,
-             y: this.height / 2 - (p.n - this.centre.n) * this.px_per_m };
+    return {
+      x: this.width / 2 + (p.e - this.centre.e) * this.px_per_m,
+      y: this.height / 2 - (p.n - this.centre.n) * this.px_per_m,
+    };
   }
   to_ground(x: number, y: number): Point {
-    return { n: this.centre.n - (y - this.height / 2) / this.px_per_m,
-             e: this.centre.e + (x - this.width / 2) / this.px_per_m };
+    return {
+      n: this.centre.n - (y - this.height / 2) / this.px_per_m,
+      e: this.centre.e + (x - this.width / 2) / this.px_per_m,
+    };
   }
   private zoom(factor: number, at = { x: this.width / 2, y: this.height / 2 }): void {
     this.touched = true;
@@ -95,8 +134,10 @@ export class MapView {
     points.push(...(places?.fence ?? []), ...(places?.places ?? []));
     for (const track of this.seen?.tracks ?? [])
       track.n.forEach((n, i) => Number.isFinite(n) && points.push({ n, e: track.e[i] as number }));
-    const n = points.map((p) => p.n), e = points.map((p) => p.e);
-    const least = (list: number[]) => list.reduce((a, b) => Math.min(a, b)), largest = (list: number[]) => list.reduce((a, b) => Math.max(a, b));
+    const n = points.map((p) => p.n),
+      e = points.map((p) => p.e);
+    const least = (list: number[]) => list.reduce((a, b) => Math.min(a, b)),
+      largest = (list: number[]) => list.reduce((a, b) => Math.max(a, b));
     const [n0, n1, e0, e1] = [least(n), largest(n), least(e), largest(e)];
     this.centre = { n: (n0 + n1) / 2, e: (e0 + e1) / 2 };
     const room = (px: number, m: number) => Math.max(1, px - 2 * margin_px) / Math.max(m, 100);
@@ -105,7 +146,8 @@ export class MapView {
 
   // ---- hands
   private waypoint_at(x: number, y: number): number {
-    let best = -1, nearest = reach_px;
+    let best = -1,
+      nearest = reach_px;
     this.seen?.plan?.waypoints.forEach((w, i) => {
       const at = this.to_screen({ n: w.north, e: w.east });
       const distance = Math.hypot(at.x - x, at.y - y);
@@ -118,8 +160,10 @@ export class MapView {
     this.canvas.setPointerCapture(e.pointerId);
     const box = this.canvas.getBoundingClientRect();
     const at = (event: PointerEvent) => ({ x: event.clientX - box.left, y: event.clientY - box.top });
-    const begin = at(e), centre = { ...this.centre };
-    const taken = this.hooks.press?.(this.to_ground(begin.x, begin.y), this.waypoint_at(begin.x, begin.y)) ?? false;
+    const begin = at(e),
+      centre = { ...this.centre };
+    const taken =
+      this.hooks.press?.(this.to_ground(begin.x, begin.y), this.waypoint_at(begin.x, begin.y)) ?? false;
     let moved = false;
     const move = (event: PointerEvent) => {
       const now = at(event);
@@ -128,7 +172,10 @@ export class MapView {
       if (taken) return this.hooks.move?.(this.to_ground(now.x, now.y));
       this.follows = false;
       this.touched = true;
-      this.centre = { n: centre.n + (now.y - begin.y) / this.px_per_m, e: centre.e - (now.x - begin.x) / this.px_per_m };
+      this.centre = {
+        n: centre.n + (now.y - begin.y) / this.px_per_m,
+        e: centre.e - (now.x - begin.x) / this.px_per_m,
+      };
     };
     const up = (event: PointerEvent) => {
       this.canvas.removeEventListener("pointermove", move);
@@ -144,9 +191,13 @@ export class MapView {
   private key(e: KeyboardEvent): void {
     const step = 60 / this.px_per_m;
     const moves: Record<string, () => void> = {
-      ArrowUp: () => (this.centre.n += step), ArrowDown: () => (this.centre.n -= step),
-      ArrowLeft: () => (this.centre.e -= step), ArrowRight: () => (this.centre.e += step),
-      "+": () => this.zoom(1.4), "-": () => this.zoom(1 / 1.4), f: () => this.fit(),
+      ArrowUp: () => (this.centre.n += step),
+      ArrowDown: () => (this.centre.n -= step),
+      ArrowLeft: () => (this.centre.e -= step),
+      ArrowRight: () => (this.centre.e += step),
+      "+": () => this.zoom(1.4),
+      "-": () => this.zoom(1 / 1.4),
+      f: () => this.fit(),
     };
     const move = moves[e.key];
     if (!move || e.ctrlKey || e.metaKey || e.altKey) return;
@@ -159,7 +210,11 @@ export class MapView {
   // ---- the picture
   draw(scene: Scene): void {
     const comes = (had: unknown, has: unknown) => !had && Boolean(has);
-    const news = this.px_per_m === 0 || (!this.touched && (comes(this.seen?.plan, scene.plan) || comes(this.seen?.places?.fence.length, scene.places?.fence.length)));
+    const news =
+      this.px_per_m === 0 ||
+      (!this.touched &&
+        (comes(this.seen?.plan, scene.plan) ||
+          comes(this.seen?.places?.fence.length, scene.places?.fence.length)));
     this.seen = scene;
     if (this.width === 0) return;
     const resized = !this.touched && this.fitted !== "" && this.fitted !== `${this.width} ${this.height}`;
@@ -174,10 +229,12 @@ export class MapView {
     g.fillRect(0, 0, this.width, this.height);
     g.lineJoin = g.lineCap = "round";
     const step = this.grid(g);
-    scene.ground?.draw(g, this.to_ground(0, this.height), this.to_ground(this.width, 0), this.px_per_m, (p) => this.to_screen(p));
+    scene.ground?.draw(g, this.to_ground(0, this.height), this.to_ground(this.width, 0), this.px_per_m, (p) =>
+      this.to_screen(p),
+    );
     this.attribution.hidden = !scene.ground?.attribution;
     say(this.attribution, scene.ground?.attribution ?? "");
-    this.scale(g, step);
+    draw_scale(g, step, this.px_per_m, this, Boolean(scene.ground));
     if (scene.places) draw_places(g, scene.places, (p) => this.to_screen(p), this.px_per_m);
     this.trail(g, scene.track);
     this.route(g, scene);
@@ -188,16 +245,17 @@ export class MapView {
     this.line(g, scene.piece);
     g.setLineDash([]);
     this.waypoints(g, scene);
-    if (!scene.places?.places.length) this.home(g);
+    if (!scene.places?.places.length) draw_home(g, this.to_screen({ n: 0, e: 0 }));
     if (scene.lost) draw_lost(g, scene.lost, (p) => this.to_screen(p), this.px_per_m);
     this.data(scene);
-    if (scene.state?.valid.position) this.aircraft(g, scene.state);
+    if (scene.state?.valid.position) draw_aircraft(g, scene.state.yaw, this.to_screen(scene.state));
     if (scene.crashed && scene.state) draw_crash(g, this.to_screen(scene.lost?.at ?? scene.state));
-    if (scene.state?.valid.wind) this.wind(g, scene.state);
+    if (scene.state?.valid.wind) draw_wind(g, scene.state, this.height);
   }
   /** What the picture shows, for who cannot see it. */
   private data(scene: Scene): void {
-    const { places, lost } = scene, data = this.canvas.dataset;
+    const { places, lost } = scene,
+      data = this.canvas.dataset;
     data.fence = String(places?.fence.length ?? 0);
     data.places = String(places?.places.length ?? 0);
     data.runway = places?.runway ? String(Math.round(places.runway.length)) : "";
@@ -208,7 +266,8 @@ export class MapView {
   private grid(g: CanvasRenderingContext2D): number {
     let step = 1;
     for (let i = 0; step * this.px_per_m < 55; ++i) step = (steps[i % 3] as number) * 10 ** Math.floor(i / 3);
-    const low = this.to_ground(0, this.height), high = this.to_ground(this.width, 0);
+    const low = this.to_ground(0, this.height),
+      high = this.to_ground(this.width, 0);
     g.strokeStyle = colours.get("grid");
     g.fillStyle = colours.get("faint");
     g.lineWidth = 1;
@@ -226,29 +285,6 @@ export class MapView {
     }
     g.stroke();
     return step;
-  }
-  private scale(g: CanvasRenderingContext2D, step: number): void {
-    const length = step * this.px_per_m, x = this.width - 14 - length, y = this.height - 12;
-    if (this.seen?.ground) {
-      g.fillStyle = colours.get("panel");
-      g.fillRect(x - 6, y - 20, length + 12, 26);
-      g.fillRect(8, this.height - 56, 30, 20);
-    }
-    g.font = "11px system-ui";
-    g.strokeStyle = g.fillStyle = colours.get("text");
-    g.lineWidth = 2;
-    g.beginPath();
-    g.moveTo(x, y - 5);
-    g.lineTo(x, y);
-    g.lineTo(x + length, y);
-    g.lineTo(x + length, y - 5);
-    g.stroke();
-    g.textAlign = "center";
-    g.textBaseline = "bottom";
-    g.fillText(step >= 1000 ? step / 1000 + " km" : step + " m", x + length / 2, y - 3);
-    g.textAlign = "left";
-    g.textBaseline = "middle";
-    g.fillText("N ↑", 12, this.height - 46);
   }
   private line(g: CanvasRenderingContext2D, points: Point[]): void {
     g.beginPath();
@@ -297,7 +333,12 @@ export class MapView {
       const radius = i === scene.chosen ? 12 : 10;
       g.beginPath();
       g.arc(at.x, at.y, radius, 0, 2 * Math.PI);
-      g.fillStyle = i === scene.refused ? colours.get("bad") : i === scene.item ? colours.get("route") : colours.get("panel");
+      g.fillStyle =
+        i === scene.refused
+          ? colours.get("bad")
+          : i === scene.item
+            ? colours.get("route")
+            : colours.get("panel");
       g.fill();
       g.strokeStyle = i === scene.chosen ? colours.get("text") : colours.get("route");
       g.lineWidth = i === scene.chosen ? 3 : 2;
@@ -305,7 +346,8 @@ export class MapView {
       g.fillStyle = i === scene.refused || i === scene.item ? colours.get("on_colour") : colours.get("text");
       g.textAlign = "center";
       g.fillText(String(i), at.x, at.y + 0.5);
-      if (places.length <= most_labels || i === scene.chosen) this.height_label(g, digits(w.up) + " m", places, i, plan.end === "circuit", i === scene.chosen);
+      if (places.length <= most_labels || i === scene.chosen)
+        this.height_label(g, digits(w.up) + " m", places, i, plan.end === "circuit", i === scene.chosen);
       g.strokeStyle = g.fillStyle = colours.get("text");
       g.lineWidth = 2;
       if (w.course === null) return;
@@ -316,58 +358,26 @@ export class MapView {
     });
   }
   /** Of waypoint `i`, away from its legs; not where it would lie on another waypoint, unless it is the chosen one. */
-  private height_label(g: CanvasRenderingContext2D, words: string, places: Spot[], i: number, closed: boolean, chosen: boolean): void {
-    const at = places[i] as Spot, count = places.length, half = g.measureText(words).width / 2;
-    const next = [i - 1, i + 1].map((k) => places[closed ? (k + count) % count : k]).filter((p) => p !== undefined);
-    const side = label_side(at, next), x = at.x + side.x * (15 + half), y = at.y + side.y * 21;
-    if (!chosen && places.some((p, k) => k !== i && Math.abs(p.y - y) < 17 && Math.abs(p.x - x) < half + 12)) return;
+  private height_label(
+    g: CanvasRenderingContext2D,
+    words: string,
+    places: Spot[],
+    i: number,
+    closed: boolean,
+    chosen: boolean,
+  ): void {
+    const at = places[i] as Spot,
+      count = places.length,
+      half = g.measureText(words).width / 2;
+    const next = [i - 1, i + 1]
+      .map((k) => places[closed ? (k + count) % count : k])
+      .filter((p) => p !== undefined);
+    const side = label_side(at, next),
+      x = at.x + side.x * (15 + half),
+      y = at.y + side.y * 21;
+    if (!chosen && places.some((p, k) => k !== i && Math.abs(p.y - y) < 17 && Math.abs(p.x - x) < half + 12))
+      return;
     g.textAlign = "center";
     words_on(g, words, x, y);
-  }
-  private home(g: CanvasRenderingContext2D): void {
-    const { x, y } = this.to_screen({ n: 0, e: 0 });
-    g.strokeStyle = g.fillStyle = colours.get("text");
-    g.lineWidth = 2;
-    g.strokeRect(x - 5, y - 3, 10, 8);
-    g.beginPath();
-    g.moveTo(x - 8, y - 3);
-    g.lineTo(x, y - 10);
-    g.lineTo(x + 8, y - 3);
-    g.stroke();
-    g.font = "11px system-ui";
-    g.textAlign = "center";
-    g.textBaseline = "top";
-    words_on(g, "origin", x, y + 8);
-  }
-  private aircraft(g: CanvasRenderingContext2D, s: State): void {
-    const { x, y } = this.to_screen(s);
-    g.save();
-    aircraft_shape(g, s.yaw, x, y);
-    g.fillStyle = colours.get("aircraft");
-    g.strokeStyle = colours.get("ground");
-    g.lineWidth = 1.5;
-    g.fill();
-    g.stroke();
-    g.restore();
-  }
-  private wind(g: CanvasRenderingContext2D, s: State): void {
-    const speed = Math.hypot(s.wind_n, s.wind_e), to = Math.atan2(s.wind_e, s.wind_n);
-    const words = "wind " + fixed(speed, 1, "m/s") + " from " + bearing(to + Math.PI);
-    g.font = "12px system-ui";
-    g.textAlign = "left";
-    g.textBaseline = "middle";
-    const width = g.measureText(words).width + 52, y = this.height - 22;
-    g.fillStyle = colours.get("panel");
-    g.fillRect(8, y - 15, width, 30);
-    g.fillStyle = g.strokeStyle = colours.get("text");
-    g.fillText(words, 44, y);
-    g.save();
-    g.translate(26, y);
-    g.rotate((Math.round(to * degrees) / degrees) || 0);
-    g.lineWidth = 2;
-    g.beginPath();
-    for (const [a, b] of [[0, 10], [0, -10], [-4, -4], [0, -10], [4, -4]] as const) g.lineTo(a, b);
-    g.stroke();
-    g.restore();
   }
 }

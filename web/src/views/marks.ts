@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What lies on every map besides the plan: fence, runway, places to come down at, and where an aircraft without position may be.
+// What lies on every map besides the plan: fence, runway, places to come down at, the origin, the aircraft and the wind, and where an aircraft without
+// position may be.
 import { colours } from "../dom";
+import type { Spot } from "../flight/labels";
 import type { Places } from "../flight/places";
+import type { State } from "../names";
+import { bearing, degrees, fixed } from "../units";
 
 interface Point {
   n: number;
@@ -29,12 +33,32 @@ export function words_on(g: Canvas, words: string, x: number, y: number, colour 
   g.fillText(words, x, y);
 }
 
-export function aircraft_shape(g: Canvas, yaw: number, x: number, y: number): void {
+function aircraft_shape(g: Canvas, yaw: number, x: number, y: number): void {
   g.translate(x, y);
   g.rotate(yaw);
   g.beginPath();
-  for (const [a, b] of [[0, -15], [3, -4], [16, 2], [16, 5], [3, 3], [2, 11], [6, 14], [6, 16], [0, 15]] as const) g.lineTo(a, b);
-  for (const [a, b] of [[6, 16], [6, 14], [2, 11], [3, 3], [16, 5], [16, 2], [3, -4]] as const) g.lineTo(-a, b);
+  for (const [a, b] of [
+    [0, -15],
+    [3, -4],
+    [16, 2],
+    [16, 5],
+    [3, 3],
+    [2, 11],
+    [6, 14],
+    [6, 16],
+    [0, 15],
+  ] as const)
+    g.lineTo(a, b);
+  for (const [a, b] of [
+    [6, 16],
+    [6, 14],
+    [2, 11],
+    [3, 3],
+    [16, 5],
+    [16, 2],
+    [3, -4],
+  ] as const)
+    g.lineTo(-a, b);
   g.closePath();
 }
 
@@ -59,10 +83,18 @@ function fence(g: Canvas, corners: Point[], to_screen: Screen): void {
 }
 
 function runway(g: Canvas, strip: NonNullable<Places["runway"]>, to_screen: Screen, px_per_m: number): void {
-  const { x, y } = to_screen(strip), end = to_screen({ n: strip.n + strip.length * Math.cos(strip.heading), e: strip.e + strip.length * Math.sin(strip.heading) });
+  const { x, y } = to_screen(strip),
+    end = to_screen({
+      n: strip.n + strip.length * Math.cos(strip.heading),
+      e: strip.e + strip.length * Math.sin(strip.heading),
+    });
   const width = Math.max(6, 12 * px_per_m);
   g.lineCap = "butt";
-  for (const [wide, colour, dash] of [[width + 2, "text", []], [width, "runway", []], [1.5, "on_tape", [8, 6]]] as const) {
+  for (const [wide, colour, dash] of [
+    [width + 2, "text", []],
+    [width, "runway", []],
+    [1.5, "on_tape", [8, 6]],
+  ] as const) {
     g.strokeStyle = colours.get(colour);
     g.lineWidth = wide;
     g.setLineDash(dash as unknown as number[]);
@@ -73,11 +105,16 @@ function runway(g: Canvas, strip: NonNullable<Places["runway"]>, to_screen: Scre
   }
   g.setLineDash([]);
   g.lineCap = "round";
-  const number = Math.round(((strip.heading * 180) / Math.PI + 360) % 360 / 10) || 36;
+  const number = Math.round((((strip.heading * 180) / Math.PI + 360) % 360) / 10) || 36;
   g.font = "bold 11px system-ui";
   g.textAlign = "center";
   g.textBaseline = "middle";
-  words_on(g, String(number).padStart(2, "0"), x - 20 * Math.sin(strip.heading), y + 20 * Math.cos(strip.heading));
+  words_on(
+    g,
+    String(number).padStart(2, "0"),
+    x - 20 * Math.sin(strip.heading),
+    y + 20 * Math.cos(strip.heading),
+  );
 }
 
 function spot(g: Canvas, { x, y }: { x: number; y: number }, letter: string): void {
@@ -119,7 +156,8 @@ export function draw_crash(g: Canvas, { x, y }: { x: number; y: number }): void 
 }
 
 export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: number): void {
-  const was = to_screen(lost.last), at = to_screen(lost.at);
+  const was = to_screen(lost.last),
+    at = to_screen(lost.at);
   g.strokeStyle = g.fillStyle = colours.get("bad");
   if (lost.radius !== null) {
     g.beginPath();
@@ -134,7 +172,10 @@ export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: nu
   }
   g.lineWidth = 3;
   g.beginPath();
-  for (const [a, b] of [[-7, 7], [7, -7]] as const) {
+  for (const [a, b] of [
+    [-7, 7],
+    [7, -7],
+  ] as const) {
     g.moveTo(was.x + a, was.y + a);
     g.lineTo(was.x + b, was.y + b);
     g.moveTo(was.x - a, was.y + a);
@@ -150,13 +191,109 @@ export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: nu
     g.stroke();
     g.restore();
   }
-  const lines = [`✕ position lost ${Math.round(lost.age_s)} s ago`, lost.radius === null ? "no estimate of where it is" : `95 %: within ${Math.round(lost.radius)} m of the estimate`];
+  const lines = [
+    `✕ position lost ${Math.round(lost.age_s)} s ago`,
+    lost.radius === null
+      ? "no estimate of where it is"
+      : `95 %: within ${Math.round(lost.radius)} m of the estimate`,
+  ];
   g.font = "bold 13px system-ui";
   g.fillStyle = colours.get("alarm");
-  const width = Math.max(...lines.map((l) => g.measureText(l).width)) + 16, top = width + 200 < g.canvas.clientWidth ? 8 : 42; // beside the keys, or below them
+  const width = Math.max(...lines.map((l) => g.measureText(l).width)) + 16,
+    top = width + 200 < g.canvas.clientWidth ? 8 : 42; // beside the keys, or below them
   g.fillRect(8, top, width, 42);
   g.fillStyle = "#fff";
   g.textAlign = "left";
   g.textBaseline = "middle";
   lines.forEach((l, i) => g.fillText(l, 16, top + 12 + 18 * i));
+}
+
+/** `step` metres as a bar in one corner, and where north is; on tiles with a ground of their own. */
+export function draw_scale(
+  g: Canvas,
+  step: number,
+  px_per_m: number,
+  map: { width: number; height: number },
+  on_tiles: boolean,
+): void {
+  const length = step * px_per_m,
+    x = map.width - 14 - length,
+    y = map.height - 12;
+  if (on_tiles) {
+    g.fillStyle = colours.get("panel");
+    g.fillRect(x - 6, y - 20, length + 12, 26);
+    g.fillRect(8, map.height - 56, 30, 20);
+  }
+  g.font = "11px system-ui";
+  g.strokeStyle = g.fillStyle = colours.get("text");
+  g.lineWidth = 2;
+  g.beginPath();
+  g.moveTo(x, y - 5);
+  g.lineTo(x, y);
+  g.lineTo(x + length, y);
+  g.lineTo(x + length, y - 5);
+  g.stroke();
+  g.textAlign = "center";
+  g.textBaseline = "bottom";
+  g.fillText(step >= 1000 ? step / 1000 + " km" : step + " m", x + length / 2, y - 3);
+  g.textAlign = "left";
+  g.textBaseline = "middle";
+  g.fillText("N ↑", 12, map.height - 46);
+}
+
+export function draw_home(g: Canvas, { x, y }: Spot): void {
+  g.strokeStyle = g.fillStyle = colours.get("text");
+  g.lineWidth = 2;
+  g.strokeRect(x - 5, y - 3, 10, 8);
+  g.beginPath();
+  g.moveTo(x - 8, y - 3);
+  g.lineTo(x, y - 10);
+  g.lineTo(x + 8, y - 3);
+  g.stroke();
+  g.font = "11px system-ui";
+  g.textAlign = "center";
+  g.textBaseline = "top";
+  words_on(g, "origin", x, y + 8);
+}
+
+export function draw_aircraft(g: Canvas, yaw: number, { x, y }: Spot): void {
+  g.save();
+  aircraft_shape(g, yaw, x, y);
+  g.fillStyle = colours.get("aircraft");
+  g.strokeStyle = colours.get("ground");
+  g.lineWidth = 1.5;
+  g.fill();
+  g.stroke();
+  g.restore();
+}
+
+/** An arrow and words in the corner below, on a map of this height. */
+export function draw_wind(g: Canvas, s: State, height: number): void {
+  const speed = Math.hypot(s.wind_n, s.wind_e),
+    to = Math.atan2(s.wind_e, s.wind_n);
+  const words = "wind " + fixed(speed, 1, "m/s") + " from " + bearing(to + Math.PI);
+  g.font = "12px system-ui";
+  g.textAlign = "left";
+  g.textBaseline = "middle";
+  const width = g.measureText(words).width + 52,
+    y = height - 22;
+  g.fillStyle = colours.get("panel");
+  g.fillRect(8, y - 15, width, 30);
+  g.fillStyle = g.strokeStyle = colours.get("text");
+  g.fillText(words, 44, y);
+  g.save();
+  g.translate(26, y);
+  g.rotate(Math.round(to * degrees) / degrees || 0);
+  g.lineWidth = 2;
+  g.beginPath();
+  for (const [a, b] of [
+    [0, 10],
+    [0, -10],
+    [-4, -4],
+    [0, -10],
+    [4, -4],
+  ] as const)
+    g.lineTo(a, b);
+  g.stroke();
+  g.restore();
 }

@@ -10,7 +10,14 @@ const send_gap_ms = 80;
 /** "-45 .. 45 °" */
 function range_of(p: Param): string {
   const { unit, scale } = shown_unit(p.unit);
-  if (p.min === null || p.max === null || (p.min === 0 && p.max === 0) || p.kind === "choice" || p.kind === "flag") return "";
+  if (
+    p.min === null ||
+    p.max === null ||
+    (p.min === 0 && p.max === 0) ||
+    p.kind === "choice" ||
+    p.kind === "flag"
+  )
+    return "";
   return `${digits(p.min * scale)} .. ${with_unit(p.max * scale, unit)}`;
 }
 function words_of(p: Param, value: unknown): string {
@@ -24,7 +31,11 @@ export class ParamRow {
   readonly element: HTMLElement;
   private readonly slider: HTMLInputElement | null = null;
   private readonly field: HTMLInputElement | HTMLSelectElement;
-  private readonly back = el("button", { class: "small", onclick: () => this.put(this.was, this.text_of(this.was)) }, "↺");
+  private readonly back = el(
+    "button",
+    { class: "small", onclick: () => this.put(this.was, this.text_of(this.was)) },
+    "↺",
+  );
   private readonly note = el("span", { class: "faint note" });
   private readonly refusal = el("p", { class: "refusal", role: "alert", hidden: true });
   private was: unknown; // when the flight began
@@ -34,13 +45,21 @@ export class ParamRow {
   private timer = 0;
   private touched_ms = -1e9;
 
-  constructor(private readonly flight: Flight, readonly component: string, private p: Param) {
+  constructor(
+    private readonly flight: Flight,
+    readonly component: string,
+    private p: Param,
+  ) {
     this.was = p.begun;
     this.value = p.value;
     const { unit, scale } = shown_unit(p.unit);
     const label = `${component}.${p.name}${unit ? ", " + unit : ""}`;
     if (p.kind === "choice") {
-      const select = el("select", { "aria-label": label }, ...p.choices.map((c) => el("option", { value: c }, c)));
+      const select = el(
+        "select",
+        { "aria-label": label },
+        ...p.choices.map((c) => el("option", { value: c }, c)),
+      );
       select.addEventListener("change", () => this.put(select.value, select.value));
       this.field = select;
     } else if (p.kind === "flag") {
@@ -48,21 +67,46 @@ export class ParamRow {
       box.addEventListener("change", () => this.put(box.checked, String(box.checked)));
       this.field = box;
     } else {
-      const field = el("input", { type: "text", inputMode: "decimal", "aria-label": label, size: p.kind === "vector" ? 16 : 8 });
+      const field = el("input", {
+        type: "text",
+        inputMode: "decimal",
+        "aria-label": label,
+        size: p.kind === "vector" ? 16 : 8,
+      });
       field.addEventListener("change", () => this.typed(field.value));
       this.field = field;
     }
     if (p.kind === "number" && p.min !== null && p.max !== null && p.max > p.min) {
-      const slider = el("input", { type: "range", min: String(p.min * scale), max: String(p.max * scale), step: "any", "aria-label": label + ", slider" });
-      slider.addEventListener("input", () => this.put(slider.valueAsNumber / scale, this.text_of(slider.valueAsNumber / scale)));
+      const slider = el("input", {
+        type: "range",
+        min: String(p.min * scale),
+        max: String(p.max * scale),
+        step: "any",
+        "aria-label": label + ", slider",
+      });
+      slider.addEventListener("input", () =>
+        this.put(slider.valueAsNumber / scale, this.text_of(slider.valueAsNumber / scale)),
+      );
       // by keys in steps of a hundredth: with "any" a browser takes one of its own
       slider.addEventListener("keydown", (e) => this.key(e, slider));
       this.slider = slider;
     }
-    this.element = el("div", { class: "param" },
-      el("div", { class: "param_name" }, el("b", {}, p.name), el("span", { class: "faint", title: p.doc }, p.doc)),
-      this.slider ?? el("span"), el("span", { class: "value" }, this.field, el("span", { class: "unit" }, unit)),
-      el("span", { class: "faint range" }, range_of(p)), this.back, this.note, this.refusal);
+    this.element = el(
+      "div",
+      { class: "param" },
+      el(
+        "div",
+        { class: "param_name" },
+        el("b", {}, p.name),
+        el("span", { class: "faint", title: p.doc }, p.doc),
+      ),
+      this.slider ?? el("span"),
+      el("span", { class: "value" }, this.field, el("span", { class: "unit" }, unit)),
+      el("span", { class: "faint range" }, range_of(p)),
+      this.back,
+      this.note,
+      this.refusal,
+    );
     this.element.dataset.param = p.name;
     mark(this.element, "vector", p.kind === "vector");
     this.show(p);
@@ -86,7 +130,14 @@ export class ParamRow {
   }
 
   private key(e: KeyboardEvent, slider: HTMLInputElement): void {
-    const steps: Record<string, number> = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
+    const steps: Record<string, number> = {
+      ArrowRight: 1,
+      ArrowUp: 1,
+      ArrowLeft: -1,
+      ArrowDown: -1,
+      PageUp: 10,
+      PageDown: -10,
+    };
     const step = steps[e.key];
     if (step === undefined) return;
     e.preventDefault();
@@ -97,7 +148,8 @@ export class ParamRow {
   /** As a mission file has it: the host reads it with its unit. */
   private text_of(value: unknown): string {
     const { scale, typed } = shown_unit(this.p.unit);
-    if (typeof value === "number" && this.p.kind === "number") return typed ? `${value * scale} ${typed}` : String(value);
+    if (typeof value === "number" && this.p.kind === "number")
+      return typed ? `${value * scale} ${typed}` : String(value);
     if (Array.isArray(value)) return JSON.stringify(value);
     return String(value);
   }
@@ -105,9 +157,17 @@ export class ParamRow {
     const { scale, typed } = shown_unit(this.p.unit);
     const bare = text.trim() !== "" && Number.isFinite(Number(text));
     if (this.p.kind === "vector") {
-      const list = text.replace(/[[\]]/g, "").split(/[,\s]+/).filter(Boolean);
+      const list = text
+        .replace(/[[\]]/g, "")
+        .split(/[,\s]+/)
+        .filter(Boolean);
       const numbers = list.map(Number);
-      return this.put(this.value, numbers.every(Number.isFinite) && typed ? JSON.stringify(numbers.map((x) => x / scale)) : `[${list.join(", ")}]`);
+      return this.put(
+        this.value,
+        numbers.every(Number.isFinite) && typed
+          ? JSON.stringify(numbers.map((x) => x / scale))
+          : `[${list.join(", ")}]`,
+      );
     }
     this.put(this.value, bare && typed && this.p.kind === "number" ? `${text.trim()} ${typed}` : text);
   }
@@ -118,7 +178,11 @@ export class ParamRow {
     this.value = value;
     this.waiting = text;
     this.show_value();
-    if (this.timer === 0) this.timer = window.setTimeout(() => void this.send(), Math.max(0, send_gap_ms - (performance.now() - this.last_ms)));
+    if (this.timer === 0)
+      this.timer = window.setTimeout(
+        () => void this.send(),
+        Math.max(0, send_gap_ms - (performance.now() - this.last_ms)),
+      );
   }
   private async send(): Promise<void> {
     const text = this.waiting ?? "";
@@ -137,14 +201,18 @@ export class ParamRow {
   /** What the host says. Not while a hand is on it. */
   show(p: Param): void {
     this.p = p;
-    if (this.waiting === null && this.timer === 0 && performance.now() - this.touched_ms > 400) this.value = p.value;
+    if (this.waiting === null && this.timer === 0 && performance.now() - this.touched_ms > 400)
+      this.value = p.value;
     this.show_value();
   }
   private show_value(by_force = false): void {
-    const p = this.p, { unit, scale } = shown_unit(p.unit);
+    const p = this.p,
+      { unit, scale } = shown_unit(p.unit);
     if (this.field instanceof HTMLInputElement && p.kind === "flag") this.field.checked = this.value === true;
-    else if (document.activeElement !== this.field || p.kind === "choice" || by_force) this.field.value = words_of(p, this.value);
-    if (this.slider && document.activeElement !== this.slider) this.slider.valueAsNumber = Number(this.value) * scale;
+    else if (document.activeElement !== this.field || p.kind === "choice" || by_force)
+      this.field.value = words_of(p, this.value);
+    if (this.slider && document.activeElement !== this.slider)
+      this.slider.valueAsNumber = Number(this.value) * scale;
     this.back.disabled = !this.changed;
     const was = words_of(p, this.was) + (unit ? " " + unit : "");
     this.back.title = "Back to " + was;

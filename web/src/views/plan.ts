@@ -15,7 +15,8 @@ import { MapView } from "./map";
 import type { Page } from "./page";
 import { PlanTable } from "./plan_table";
 
-const usual_height_m = 70, most_at_once = 500; // of a group: the host holds 1024
+const usual_height_m = 70,
+  most_at_once = 500; // of a group: the host holds 1024
 const round_m = (x: number) => Math.round(x * 10) / 10;
 
 export class PlanPage implements Page {
@@ -29,7 +30,12 @@ export class PlanPage implements Page {
   private readonly back = el("button", { onclick: () => this.drop() }, "Back to what flies");
   private readonly told = el("p", { class: "faint", role: "status" });
   private readonly refusal = el("p", { class: "refusal", role: "alert", hidden: true });
-  private readonly file = el("input", { type: "file", accept: ".yaml,.yml", hidden: true, onchange: () => void this.load() });
+  private readonly file = el("input", {
+    type: "file",
+    accept: ".yaml,.yml",
+    hidden: true,
+    onchange: () => void this.load(),
+  });
   private flown: Plan | null = null;
   private message: Message | undefined;
   private draft: Plan | null = null;
@@ -42,29 +48,61 @@ export class PlanPage implements Page {
   private loaded: PlanFile | null = null; // what the plan came from, if it came from a file
   private decided = false; // whether changes go at once, by what flies
 
-  constructor(private readonly flight: Flight, private readonly track: TrackRecorder) {
+  constructor(
+    private readonly flight: Flight,
+    private readonly track: TrackRecorder,
+  ) {
     this.table = new PlanTable({
-      change: (plan) => this.change(plan), choose: (i) => this.choose(i), fly_to: (i) => void this.fly_to(i),
+      change: (plan) => this.change(plan),
+      choose: (i) => this.choose(i),
+      fly_to: (i) => void this.fly_to(i),
     });
     this.map.hooks = {
-      press: (_at, waypoint) => this.press(waypoint), move: (at) => this.drag(at), release: (at, moved) => this.release(at, moved),
+      press: (_at, waypoint) => this.press(waypoint),
+      move: (at) => this.drag(at),
+      release: (at, moved) => this.release(at, moved),
     };
-    this.element = el("div", { class: "plan" }, this.map.element,
-      el("aside", { class: "side" },
-        el("section", {}, el("h2", {}, "Plan"),
-          el("div", { class: "row" }, this.upload, this.back,
-            el("button", { onclick: () => this.file.click() }, "Load file…"), el("button", { onclick: () => this.save() }, "Save file"), this.file),
-          el("div", { class: "row checks" },
-            el("label", {}, this.at_once, " send each change at once"), el("label", {}, this.adds, " a click on the map adds a waypoint")),
-          this.refusal, this.told),
-        this.table.element));
+    this.element = el(
+      "div",
+      { class: "plan" },
+      this.map.element,
+      el(
+        "aside",
+        { class: "side" },
+        el(
+          "section",
+          {},
+          el("h2", {}, "Plan"),
+          el(
+            "div",
+            { class: "row" },
+            this.upload,
+            this.back,
+            el("button", { onclick: () => this.file.click() }, "Load file…"),
+            el("button", { onclick: () => this.save() }, "Save file"),
+            this.file,
+          ),
+          el(
+            "div",
+            { class: "row checks" },
+            el("label", {}, this.at_once, " send each change at once"),
+            el("label", {}, this.adds, " a click on the map adds a waypoint"),
+          ),
+          this.refusal,
+          this.told,
+        ),
+        this.table.element,
+      ),
+    );
   }
 
   show(): void {
     this.table.forget();
   }
 
-  private get plan(): Plan | null { return this.draft ?? this.flown; }
+  private get plan(): Plan | null {
+    return this.draft ?? this.flown;
+  }
 
   // ---- changes
   private choose(i: number): void {
@@ -93,7 +131,8 @@ export class PlanPage implements Page {
     return waypoint >= 0;
   }
   private drag(at: Point): void {
-    const plan = this.copy(), w = plan?.waypoints[this.dragged];
+    const plan = this.copy(),
+      w = plan?.waypoints[this.dragged];
     if (!plan || !w) return;
     Object.assign(w, { north: round_m(at.n), east: round_m(at.e), geodetic: null });
     this.draft = plan;
@@ -108,7 +147,15 @@ export class PlanPage implements Page {
     const plan = this.copy();
     if (moved || !plan || !this.adds.checked) return;
     const near = plan.waypoints[this.chosen] ?? plan.waypoints[plan.waypoints.length - 1];
-    const added: Waypoint = { north: round_m(at.n), east: round_m(at.e), up: near?.up ?? usual_height_m, course: null, airspeed: 0, id: 0, geodetic: null };
+    const added: Waypoint = {
+      north: round_m(at.n),
+      east: round_m(at.e),
+      up: near?.up ?? usual_height_m,
+      course: null,
+      airspeed: 0,
+      id: 0,
+      geodetic: null,
+    };
     const place = this.chosen >= 0 ? this.chosen + 1 : plan.waypoints.length;
     plan.waypoints.splice(place, 0, added);
     this.chosen = place;
@@ -127,10 +174,14 @@ export class PlanPage implements Page {
     const revision = number_at(this.message, "revision") ?? 0;
     const answers: Answer[] = [];
     for (let i = 0; i < edits.length; i += most_at_once)
-      answers.push(...(await Promise.all(edits.slice(i, i + most_at_once).map((e) => this.flight.ask(service, e.edit)))));
+      answers.push(
+        ...(await Promise.all(edits.slice(i, i + most_at_once).map((e) => this.flight.ask(service, e.edit)))),
+      );
     this.sending = false;
     // of a group the others are refused because one is
-    const reasons = answers.map((a, i) => ({ ...a, waypoint: edits[i]?.waypoint ?? -1 })).filter((a) => !a.accepted);
+    const reasons = answers
+      .map((a, i) => ({ ...a, waypoint: edits[i]?.waypoint ?? -1 }))
+      .filter((a) => !a.accepted);
     const first = reasons.find((r) => !r.reason.includes("another edit of its group")) ?? reasons[0];
     if (first) return this.refuse(first.waypoint, first.reason);
     this.awaited = revision;
@@ -145,8 +196,13 @@ export class PlanPage implements Page {
   }
   private async fly_to(i: number): Promise<void> {
     const w = this.flown?.waypoints[i];
-    if (this.draft || !w) return this.refuse(i, "Upload the draft first: the aircraft flies to waypoints that it knows.");
-    const answer = await this.flight.ask(this.flight.request_of_type("PlanEdit"), { kind: "set_current", waypoint_id: w.id, index: i });
+    if (this.draft || !w)
+      return this.refuse(i, "Upload the draft first: the aircraft flies to waypoints that it knows.");
+    const answer = await this.flight.ask(this.flight.request_of_type("PlanEdit"), {
+      kind: "set_current",
+      waypoint_id: w.id,
+      index: i,
+    });
     if (!answer.accepted) this.refuse(i, answer.reason);
   }
 
@@ -156,7 +212,8 @@ export class PlanPage implements Page {
     this.file.value = "";
     if (!file || !this.flown) return;
     try {
-      const plan = read_plan_file(await file.text(), this.flown, this.origin()), flown = this.flown.waypoints;
+      const plan = read_plan_file(await file.text(), this.flown, this.origin()),
+        flown = this.flown.waypoints;
       plan.waypoints.forEach((w, i) => (w.id = flown[i]?.id ?? 0)); // as if each had been edited: the leg that is flown goes on where it stays
       this.loaded = { waypoints: plan.waypoints.map((w) => ({ ...w })), runway: plan.runway };
       this.at_once.checked = false; // a whole plan is looked at before it flies
@@ -171,7 +228,11 @@ export class PlanPage implements Page {
     const state = this.flight.latest(names_of(this.flight).state);
     if (state?.origin_valid !== true) return null;
     const x = (field: string) => number_at(state, field) ?? 0;
-    return { latitude: x("origin_latitude_deg"), longitude: x("origin_longitude_deg"), altitude: x("origin_altitude_m") };
+    return {
+      latitude: x("origin_latitude_deg"),
+      longitude: x("origin_longitude_deg"),
+      altitude: x("origin_altitude_m"),
+    };
   }
   private save(): void {
     if (!this.plan) return;
@@ -182,7 +243,8 @@ export class PlanPage implements Page {
   }
 
   update(): void {
-    const names = names_of(this.flight), f = this.flight;
+    const names = names_of(this.flight),
+      f = this.flight;
     const message = f.latest(names.plan);
     if (message && message !== this.message) {
       this.message = message;
@@ -200,17 +262,36 @@ export class PlanPage implements Page {
     const item = number_at(f.latest(names.progress), "item") ?? -1;
     const draft = this.draft !== null && this.awaited < 0;
     this.map.draw({
-      plan: this.plan, draft: this.draft !== null, state, track: this.track, ground: ground_of(f.view), places: places_now(f, names), lost: this.track.lost(),
-      item: this.draft ? -1 : item, chosen: this.chosen, refused: this.refused, piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [],
+      plan: this.plan,
+      draft: this.draft !== null,
+      state,
+      track: this.track,
+      ground: ground_of(f.view),
+      places: places_now(f, names),
+      lost: this.track.lost(),
+      item: this.draft ? -1 : item,
+      chosen: this.chosen,
+      refused: this.refused,
+      piece: state?.valid.position ? piece_ahead(f.latest(names.path), state) : [],
     });
     this.table.update(this.plan, this.chosen, this.draft ? -1 : item);
     this.upload.disabled = !draft || this.sending;
     this.back.disabled = this.draft === null;
     mark(this.element, "draft", draft);
     const paused = this.awaited >= 0 && f.view?.paused === true;
-    say(this.told, names.plan === "" ? "Nobody in this flight has a plan."
-      : this.sending ? (f.view?.paused ? "Sent; the planner answers when the flight goes on." : "Sent; waiting for the planner.")
-      : paused ? "Accepted; in force when the flight goes on."
-      : draft ? "A draft: the aircraft flies the old plan until this is uploaded." : "This is what flies.");
+    say(
+      this.told,
+      names.plan === ""
+        ? "Nobody in this flight has a plan."
+        : this.sending
+          ? f.view?.paused
+            ? "Sent; the planner answers when the flight goes on."
+            : "Sent; waiting for the planner."
+          : paused
+            ? "Accepted; in force when the flight goes on."
+            : draft
+              ? "A draft: the aircraft flies the old plan until this is uploaded."
+              : "This is what flies.",
+    );
   }
 }

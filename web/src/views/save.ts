@@ -12,7 +12,12 @@ interface SaveAnswer {
 
 export class SavePanel {
   private readonly buttons = el("div", { class: "row" });
-  private readonly lines = el("pre", { class: "lines", hidden: true, tabIndex: 0, "aria-label": "Lines that would change" });
+  private readonly lines = el("pre", {
+    class: "lines",
+    hidden: true,
+    tabIndex: 0,
+    "aria-label": "Lines that would change",
+  });
   private readonly said = el("p", { role: "alert", hidden: true });
   private readonly choice = el("div", { class: "row", hidden: true });
   readonly element = el("div", {}, this.buttons, this.lines, this.said, this.choice);
@@ -29,12 +34,24 @@ export class SavePanel {
     this.shown = now;
     this.clear();
     if (why_not === "" && this.flight.has("/fulmar/save"))
-      return fill(this.buttons, ...components.map((c) => el("button", { onclick: () => void this.look(c) }, `Save ${c}…`)));
+      return fill(
+        this.buttons,
+        ...components.map((c) => el("button", { onclick: () => void this.look(c) }, `Save ${c}…`)),
+      );
     const at = location.host === "127.0.0.1:8765" ? "" : " --at " + location.host;
     const command = components.map((c) => `fulmar param save ${c}${at}`).join("\n");
-    const copy = el("button", { onclick: () => void navigator.clipboard.writeText(command).then(() => say(copy, "Copied")) }, "Copy");
-    fill(this.buttons, components.length > 0 && el("p", { class: "faint" }, `Not saved from here: ${why_not}. The terminal does it:`),
-      components.length > 0 && el("code", {}, command), components.length > 0 && copy);
+    const copy = el(
+      "button",
+      { onclick: () => void navigator.clipboard.writeText(command).then(() => say(copy, "Copied")) },
+      "Copy",
+    );
+    fill(
+      this.buttons,
+      components.length > 0 &&
+        el("p", { class: "faint" }, `Not saved from here: ${why_not}. The terminal does it:`),
+      components.length > 0 && el("code", {}, command),
+      components.length > 0 && copy,
+    );
   }
 
   private clear(): void {
@@ -55,12 +72,26 @@ export class SavePanel {
     this.component = component;
     const answer = await this.ask("");
     this.lines.hidden = answer.lines === "";
-    fill(this.lines, ...answer.lines.split("\n").map((line) =>
-      el("span", { class: line.startsWith("+ ") ? "added" : line.startsWith("- ") ? "removed" : "faint" }, line + "\n")));
+    fill(
+      this.lines,
+      ...answer.lines
+        .split("\n")
+        .map((line) =>
+          el(
+            "span",
+            { class: line.startsWith("+ ") ? "added" : line.startsWith("- ") ? "removed" : "faint" },
+            line + "\n",
+          ),
+        ),
+    );
     this.tell(answer, answer.lines === "" ? "The files say already what flies." : "");
     if (this.said.textContent === "") this.said.hidden = true;
     if (answer.mark === "") return;
-    fill(this.choice, el("button", { class: "main", onclick: () => void this.write(answer.mark) }, "Write these lines"), el("button", { onclick: () => this.clear() }, "Not now"));
+    fill(
+      this.choice,
+      el("button", { class: "main", onclick: () => void this.write(answer.mark) }, "Write these lines"),
+      el("button", { onclick: () => this.clear() }, "Not now"),
+    );
     this.choice.hidden = false;
   }
   private async write(mark: string): Promise<void> {

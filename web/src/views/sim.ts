@@ -14,9 +14,20 @@ const groups: [string, RegExp][] = [
 
 /** Of the air what moves it, of a fault what fails, by the parameter's name; the first that fits. */
 const parts: [string, RegExp][] = [
-  ["Wind", /^wind/], ["Gusts", /^gust/], ["Turbulence and thermals", /^(turbulence|thermal|shear)/],
-  ["Motor", /^(motor|engine)/], ["Battery", /^battery/], ["GNSS", /^gnss/], ["Airspeed", /^pitot/], ["Radio", /^rc/], ["Inertial unit", /^(imu|gyro|accel)/],
-  ["Magnetometer", /^mag/], ["Barometer", /^baro/], ["Surfaces", /^(aileron|elevator|rudder|fault_speed)/], ["Icing", /^icing/], ["How sensors fail", /./],
+  ["Wind", /^wind/],
+  ["Gusts", /^gust/],
+  ["Turbulence and thermals", /^(turbulence|thermal|shear)/],
+  ["Motor", /^(motor|engine)/],
+  ["Battery", /^battery/],
+  ["GNSS", /^gnss/],
+  ["Airspeed", /^pitot/],
+  ["Radio", /^rc/],
+  ["Inertial unit", /^(imu|gyro|accel)/],
+  ["Magnetometer", /^mag/],
+  ["Barometer", /^baro/],
+  ["Surfaces", /^(aileron|elevator|rudder|fault_speed)/],
+  ["Icing", /^icing/],
+  ["How sensors fail", /./],
 ];
 
 export class Simulation implements Page {
@@ -25,14 +36,30 @@ export class Simulation implements Page {
   private readonly box = el("div", { class: "sim" });
   private readonly said = el("p", { role: "alert", hidden: true });
   private readonly pause = el("button", { class: "main", onclick: () => void this.toggle() }, "Pause");
-  private readonly ticks = el("input", { type: "number", min: "1", value: "40", "aria-label": "Ticks to step" });
+  private readonly ticks = el("input", {
+    type: "number",
+    min: "1",
+    value: "40",
+    "aria-label": "Ticks to step",
+  });
   private readonly step = el("button", { onclick: () => void this.do_step() }, "Step");
   private readonly speed = el("div", { class: "chips", role: "group", "aria-label": "Speed" });
   private readonly time = el("b", { class: "big" });
-  private readonly anew = el("button", {
-    class: "chip", title: "Ends this flight and begins its mission anew, as its files are now: click twice", onclick: () => void this.begin_anew(),
-  }, "New flight");
-  private readonly seed = el("input", { type: "text", inputMode: "numeric", size: 6, "aria-label": "Seed of the new flight" });
+  private readonly anew = el(
+    "button",
+    {
+      class: "chip",
+      title: "Ends this flight and begins its mission anew, as its files are now: click twice",
+      onclick: () => void this.begin_anew(),
+    },
+    "New flight",
+  );
+  private readonly seed = el("input", {
+    type: "text",
+    inputMode: "numeric",
+    size: 6,
+    "aria-label": "Seed of the new flight",
+  });
   private asked_anew = 0; // timer of the first click
   private readonly rows: ParamRow[] = [];
   private made_for = "";
@@ -50,7 +77,10 @@ export class Simulation implements Page {
     const paused = this.flight.view?.paused === true;
     const answer = await this.flight.ask(paused ? "/fulmar/resume" : "/fulmar/pause", {});
     await this.flight.refresh();
-    this.tell(answer, paused ? "The flight goes on." : "Time stands still. Parameters and requests can be set meanwhile.");
+    this.tell(
+      answer,
+      paused ? "The flight goes on." : "Time stands still. Parameters and requests can be set meanwhile.",
+    );
   }
   private async do_step(): Promise<void> {
     const ticks = this.ticks.value.trim();
@@ -59,7 +89,10 @@ export class Simulation implements Page {
     this.tell(answer, `Flew ${ticks} ticks.`);
   }
   private async set_speed(speed: string): Promise<void> {
-    this.tell(await this.flight.ask("/fulmar/speed", { speed }), `Flies at ${speed === "real" ? "real time" : speed + " times real time"}.`);
+    this.tell(
+      await this.flight.ask("/fulmar/speed", { speed }),
+      `Flies at ${speed === "real" ? "real time" : speed + " times real time"}.`,
+    );
   }
 
   /** Two clicks: the second one means it. The page is loaded anew when the new flight is there. */
@@ -67,7 +100,11 @@ export class Simulation implements Page {
     const sure = this.asked_anew !== 0;
     clearTimeout(this.asked_anew);
     this.ask_anew(!sure);
-    if (sure) this.tell(await this.flight.ask("/fulmar/restart", { seed: this.seed.value.trim() }), "A new flight begins.");
+    if (sure)
+      this.tell(
+        await this.flight.ask("/fulmar/restart", { seed: this.seed.value.trim() }),
+        "A new flight begins.",
+      );
   }
   private ask_anew(on: boolean): void {
     this.asked_anew = on ? window.setTimeout(() => this.ask_anew(false), 3000) : 0;
@@ -79,53 +116,110 @@ export class Simulation implements Page {
     const view = this.flight.view;
     if (!view) return;
     if (view.io !== "sim") {
-      fill(this.box, el("section", {}, el("h2", {}, "Simulation"), el("p", {}, "This is an aircraft: its time cannot be stopped, and nothing of it fails on request.")));
+      fill(
+        this.box,
+        el(
+          "section",
+          {},
+          el("h2", {}, "Simulation"),
+          el("p", {}, "This is an aircraft: its time cannot be stopped, and nothing of it fails on request."),
+        ),
+      );
       return;
     }
-    fill(this.speed, ...["0.1", "0.5", "real", "2", "5", "10"].map((s) => {
-      const chip = el("button", { class: "chip", onclick: () => void this.set_speed(s) }, s === "real" ? "real time" : s + " ×");
-      chip.dataset.speed = s === "real" ? "1" : s;
-      return chip;
-    }));
+    fill(
+      this.speed,
+      ...["0.1", "0.5", "real", "2", "5", "10"].map((s) => {
+        const chip = el(
+          "button",
+          { class: "chip", onclick: () => void this.set_speed(s) },
+          s === "real" ? "real time" : s + " ×",
+        );
+        chip.dataset.speed = s === "real" ? "1" : s;
+        return chip;
+      }),
+    );
     this.seed.value = view.seed;
     const vehicle = view.components.find((c) => c.role.split(", ").includes("vehicle") && c.active);
     this.rows.length = this.folds.length = 0;
     const sections = vehicle ? groups.map(([name, which]) => this.section(vehicle, name, which)) : [];
-    const requests = view.components.flatMap((c) => c.inputs.filter((p) => p.request && !p.type.endsWith("/PlanEdit")).map((p) => `/${c.name}/${p.name}`));
-    fill(this.box,
-      el("div", { class: "column" },
-        el("section", {}, el("h2", {}, "Clock"), this.time, el("div", { class: "row" }, this.pause, this.step, this.ticks, " ticks"), this.speed,
-          el("div", { class: "row" }, this.anew, el("label", {}, "seed ", this.seed)), this.said),
-        ...requests.map((r) => this.request(r))),
-      ...sections);
+    const requests = view.components.flatMap((c) =>
+      c.inputs.filter((p) => p.request && !p.type.endsWith("/PlanEdit")).map((p) => `/${c.name}/${p.name}`),
+    );
+    fill(
+      this.box,
+      el(
+        "div",
+        { class: "column" },
+        el(
+          "section",
+          {},
+          el("h2", {}, "Clock"),
+          this.time,
+          el("div", { class: "row" }, this.pause, this.step, this.ticks, " ticks"),
+          this.speed,
+          el("div", { class: "row" }, this.anew, el("label", {}, "seed ", this.seed)),
+          this.said,
+        ),
+        ...requests.map((r) => this.request(r)),
+      ),
+      ...sections,
+    );
   }
 
   private section(c: Component, name: string, which: RegExp): HTMLElement {
-    const rows = c.params.filter((p) => p.live && which.test(p.name)).map((p) => new ParamRow(this.flight, c.name, p));
+    const rows = c.params
+      .filter((p) => p.live && which.test(p.name))
+      .map((p) => new ParamRow(this.flight, c.name, p));
     this.rows.push(...rows);
-    return el("section", { class: "params" }, el("h2", {}, `${name}, of ${c.name}`), el("div", { class: "scroll rows" }, ...this.folded(rows, name === "Faults")));
+    return el(
+      "section",
+      { class: "params" },
+      el("h2", {}, `${name}, of ${c.name}`),
+      el("div", { class: "scroll rows" }, ...this.folded(rows, name === "Faults")),
+    );
   }
 
   private folded(rows: ParamRow[], fault: boolean): HTMLElement[] {
-    const folds = parts.map(([name, which]) => {
-      const mine = rows.filter((r) => parts.find(([, first]) => first.test(r.name))?.[1] === which);
-      const summary = el("summary", {}, name);
-      return { name, fault, rows: mine, summary, element: el("details", { class: "fold" }, summary, ...mine.map((r) => r.element)) };
-    }).filter((f) => f.rows.length > 0);
+    const folds = parts
+      .map(([name, which]) => {
+        const mine = rows.filter((r) => parts.find(([, first]) => first.test(r.name))?.[1] === which);
+        const summary = el("summary", {}, name);
+        return {
+          name,
+          fault,
+          rows: mine,
+          summary,
+          element: el("details", { class: "fold" }, summary, ...mine.map((r) => r.element)),
+        };
+      })
+      .filter((f) => f.rows.length > 0);
     for (const f of folds) f.element.open = f.name === "Wind";
     this.folds.push(...folds);
     return folds.map((f) => f.element);
   }
-  private readonly folds: { name: string; fault: boolean; rows: ParamRow[]; summary: HTMLElement; element: HTMLElement }[] = [];
+  private readonly folds: {
+    name: string;
+    fault: boolean;
+    rows: ParamRow[];
+    summary: HTMLElement;
+    element: HTMLElement;
+  }[] = [];
 
   /** A form of a request's fields, as its message has them. */
   private request(service: string): HTMLElement {
     const said = el("p", { role: "alert", hidden: true });
     const inputs: [Field, HTMLInputElement | HTMLSelectElement][] = [];
-    const fields = this.flight.fields_of_request(service).filter((f) => f.fields.length === 0 && f.count === 0);
+    const fields = this.flight
+      .fields_of_request(service)
+      .filter((f) => f.fields.length === 0 && f.count === 0);
     const labels = fields.map((f) => {
-      const input = f.labels.length > 0 ? el("select", {}, ...f.labels.map((l) => el("option", { value: l }, l)))
-        : f.type === "bool" ? el("input", { type: "checkbox" }) : el("input", { type: "text", size: 6, value: "0" });
+      const input =
+        f.labels.length > 0
+          ? el("select", {}, ...f.labels.map((l) => el("option", { value: l }, l)))
+          : f.type === "bool"
+            ? el("input", { type: "checkbox" })
+            : el("input", { type: "text", size: 6, value: "0" });
       inputs.push([f, input]);
       const name = f.name.replace(/_(ratio|s|m|mps|rad)$/, "").replace(/_/g, " ");
       return el("label", {}, name + " ", input, f.unit ? " " + f.unit : "");
@@ -133,7 +227,12 @@ export class Simulation implements Page {
     const ask = async () => {
       const message: Record<string, unknown> = {};
       for (const [f, input] of inputs)
-        message[f.name] = f.type === "bool" ? (input as HTMLInputElement).checked : f.labels.length > 0 ? input.value : Number(input.value);
+        message[f.name] =
+          f.type === "bool"
+            ? (input as HTMLInputElement).checked
+            : f.labels.length > 0
+              ? input.value
+              : Number(input.value);
       const answer = await this.flight.ask(service, message);
       said.hidden = false;
       said.className = answer.accepted ? "taken" : "refusal";
@@ -159,7 +258,8 @@ export class Simulation implements Page {
     say(this.time, clock(view.paused ? view.now_ns * 1e-9 : this.flight.now));
     say(this.pause, view.paused ? "Resume" : "Pause");
     this.step.disabled = !view.paused;
-    for (const chip of this.speed.querySelectorAll("button")) mark(chip, "on", Number(chip.dataset.speed) === view.speed && !view.paused);
+    for (const chip of this.speed.querySelectorAll("button"))
+      mark(chip, "on", Number(chip.dataset.speed) === view.speed && !view.paused);
     const vehicle = view.components.find((c) => c.name === this.rows[0]?.component);
     for (const row of this.rows) {
       const p = vehicle?.params.find((q) => q.name === row.name);

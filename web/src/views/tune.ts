@@ -11,7 +11,12 @@ export class Tune implements Page {
   readonly name = "Tune";
   readonly element: HTMLElement;
   private readonly list = el("div", { class: "components", role: "listbox", "aria-label": "Components" });
-  private readonly filter = el("input", { type: "search", placeholder: "find a parameter", "aria-label": "Find a parameter", oninput: () => this.sift() });
+  private readonly filter = el("input", {
+    type: "search",
+    placeholder: "find a parameter",
+    "aria-label": "Find a parameter",
+    oninput: () => this.sift(),
+  });
   private readonly rows_box = el("div", { class: "scroll rows" });
   private readonly head = el("div", { class: "faint" });
   private readonly changed = el("div", { class: "changed_list" });
@@ -25,10 +30,18 @@ export class Tune implements Page {
   constructor(private readonly flight: Flight) {
     this.response = new Response(flight);
     this.save = new SavePanel(flight);
-    this.element = el("div", { class: "tune" },
+    this.element = el(
+      "div",
+      { class: "tune" },
       el("section", {}, el("h2", {}, "Components"), this.list),
       el("section", { class: "params" }, el("div", { class: "row" }, this.head, this.filter), this.rows_box),
-      el("aside", { class: "side" }, this.response.element, el("section", {}, el("h2", {}, "Changed since the flight began"), this.changed, this.save.element)));
+      el(
+        "aside",
+        { class: "side" },
+        this.response.element,
+        el("section", {}, el("h2", {}, "Changed since the flight began"), this.changed, this.save.element),
+      ),
+    );
   }
 
   /** Once in a while, whatever is shown. */
@@ -38,7 +51,13 @@ export class Tune implements Page {
 
   private live(c: Component): ParamRow[] {
     let rows = this.rows.get(c.name);
-    if (!rows) this.rows.set(c.name, (rows = c.params.filter((p) => p.live && p.kind !== "record" && p.kind !== "blob").map((p) => new ParamRow(this.flight, c.name, p))));
+    if (!rows)
+      this.rows.set(
+        c.name,
+        (rows = c.params
+          .filter((p) => p.live && p.kind !== "record" && p.kind !== "blob")
+          .map((p) => new ParamRow(this.flight, c.name, p))),
+      );
     return rows;
   }
 
@@ -48,12 +67,17 @@ export class Tune implements Page {
     if (!component) return;
     const rows = this.live(component);
     fill(this.rows_box, ...rows.map((r) => r.element));
-    if (rows.length === 0) fill(this.rows_box, el("p", { class: "faint" }, "Nothing of this component can be changed in flight."));
+    if (rows.length === 0)
+      fill(this.rows_box, el("p", { class: "faint" }, "Nothing of this component can be changed in flight."));
     const fixed_ones = component.params.length - rows.length;
-    say(this.head, `${component.use}: ${component.doc}${fixed_ones > 0 ? ` ${fixed_ones} more are fixed in flight.` : ""}`);
+    say(
+      this.head,
+      `${component.use}: ${component.doc}${fixed_ones > 0 ? ` ${fixed_ones} more are fixed in flight.` : ""}`,
+    );
     this.filter.value = "";
     this.sift();
-    for (const b of this.list.querySelectorAll("button")) b.setAttribute("aria-selected", String(b.dataset.component === name));
+    for (const b of this.list.querySelectorAll("button"))
+      b.setAttribute("aria-selected", String(b.dataset.component === name));
   }
   private sift(): void {
     const words = this.filter.value.trim().toLowerCase();
@@ -65,16 +89,26 @@ export class Tune implements Page {
     if (view) {
       const listed = JSON.stringify(view.components.map((c) => [c.name, c.use, c.active, c.stopped]));
       if (listed !== this.listed) {
-        const swapped = this.listed !== "" && JSON.parse(this.listed).some((c: [string, string], i: number) => c[1] !== view.components[i]?.use);
+        const swapped =
+          this.listed !== "" &&
+          JSON.parse(this.listed).some((c: [string, string], i: number) => c[1] !== view.components[i]?.use);
         if (swapped) this.rows = new Map(); // a component has other parameters now
         this.listed = listed;
-        fill(this.list, ...view.components.map((c) => {
-          const button = el("button", { role: "option", onclick: () => this.choose(c.name) }, c.name, c.role ? el("span", { class: "faint" }, " " + c.role) : "");
-          mark(button, "idle", !c.active);
-          if (!c.active) button.append(el("span", { class: "faint" }, " (waits)"));
-          button.dataset.component = c.name;
-          return button;
-        }));
+        fill(
+          this.list,
+          ...view.components.map((c) => {
+            const button = el(
+              "button",
+              { role: "option", onclick: () => this.choose(c.name) },
+              c.name,
+              c.role ? el("span", { class: "faint" }, " " + c.role) : "",
+            );
+            mark(button, "idle", !c.active);
+            if (!c.active) button.append(el("span", { class: "faint" }, " (waits)"));
+            button.dataset.component = c.name;
+            return button;
+          }),
+        );
         const usual = view.components.find((c) => c.active && c.role.includes("inner")) ?? view.components[0];
         this.choose(view.components.some((c) => c.name === this.chosen) ? this.chosen : (usual?.name ?? ""));
       }
@@ -98,7 +132,14 @@ export class Tune implements Page {
     this.summary = now;
     this.save.offer([...new Set(changed.map((r) => r.component))]);
     if (changed.length === 0) return fill(this.changed, el("p", { class: "faint" }, "Nothing."));
-    fill(this.changed, el("ul", {}, ...changed.map((r) => el("li", {}, r.summary))),
-      el("div", { class: "row" }, el("button", { onclick: () => changed.forEach((r) => r.restore()) }, "All back to what they were")));
+    fill(
+      this.changed,
+      el("ul", {}, ...changed.map((r) => el("li", {}, r.summary))),
+      el(
+        "div",
+        { class: "row" },
+        el("button", { onclick: () => changed.forEach((r) => r.restore()) }, "All back to what they were"),
+      ),
+    );
   }
 }

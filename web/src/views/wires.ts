@@ -8,13 +8,22 @@ import { digits, fixed, none } from "../units";
 import type { Page } from "./page";
 import { type Figures, Wiring } from "./wiring";
 
-const count_ms = 1000, draw_ms = 200, steps_over_s = 4, listened_ms = 3000;
+const count_ms = 1000,
+  draw_ms = 200,
+  steps_over_s = 4,
+  listened_ms = 3000;
 const short = (type: string) => type.slice(type.lastIndexOf("/") + 1) || "probe";
-const rate_of = (hz: number | undefined) => (hz === undefined ? none : digits(Math.round(hz * 10) / 10) + " Hz");
-const age_of = (s: number, listened = true) => (!listened ? none : Number.isFinite(s) ? (s < 10 ? fixed(s * 1000, 0, "ms") : fixed(s, 0, "s")) : "never");
+const rate_of = (hz: number | undefined) =>
+  hz === undefined ? none : digits(Math.round(hz * 10) / 10) + " Hz";
+const age_of = (s: number, listened = true) =>
+  !listened ? none : Number.isFinite(s) ? (s < 10 ? fixed(s * 1000, 0, "ms") : fixed(s, 0, "s")) : "never";
 
 interface Row {
-  row: HTMLElement; state: HTMLElement; rate: HTMLElement; mean: HTMLElement; most: HTMLElement;
+  row: HTMLElement;
+  state: HTMLElement;
+  rate: HTMLElement;
+  mean: HTMLElement;
+  most: HTMLElement;
 }
 
 export class Wires implements Page {
@@ -33,12 +42,34 @@ export class Wires implements Page {
   private readonly rates = new Rates();
 
   constructor(private readonly flight: Flight) {
-    const head = ["component", "fills", "plugin", "state", "runs as", "steps a second", "step, mean", "step, longest", "budget"];
-    this.element = el("div", { class: "wires" },
+    const head = [
+      "component",
+      "fills",
+      "plugin",
+      "state",
+      "runs as",
+      "steps a second",
+      "step, mean",
+      "step, longest",
+      "budget",
+    ];
+    this.element = el(
+      "div",
+      { class: "wires" },
       el("section", {}, this.wiring.element),
       el("section", {}, this.details, this.said),
-      el("section", {}, el("div", { class: "row" }, el("h2", {}, "Components, in the order of the mission"), this.reset),
-        el("table", { class: "listed" }, el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", { class: i > 4 ? "right" : "" }, h)))), this.body)));
+      el(
+        "section",
+        {},
+        el("div", { class: "row" }, el("h2", {}, "Components, in the order of the mission"), this.reset),
+        el(
+          "table",
+          { class: "listed" },
+          el("thead", {}, el("tr", {}, ...head.map((h, i) => el("th", { class: i > 4 ? "right" : "" }, h)))),
+          this.body,
+        ),
+      ),
+    );
   }
 
   show(): void {
@@ -53,7 +84,10 @@ export class Wires implements Page {
   }
 
   private async reset_guards(): Promise<void> {
-    this.tell(await this.flight.ask("/fulmar/reset_guards", {}), "Guards are reset: who was stopped may fly again.");
+    this.tell(
+      await this.flight.ask("/fulmar/reset_guards", {}),
+      "Guards are reset: who was stopped may fly again.",
+    );
   }
   private tell(answer: { accepted: boolean; reason: string }, good: string): void {
     this.said.hidden = false;
@@ -63,17 +97,31 @@ export class Wires implements Page {
 
   private list(view: View): void {
     this.rows = new Map();
-    fill(this.body, ...view.components.map((c) => {
-      const cell = () => el("td", { class: "number" });
-      const r: Row = { row: el("tr"), state: el("td"), rate: cell(), mean: cell(), most: cell() };
-      this.rows.set(c.name, r);
-      const name = el("button", { class: "link", onclick: () => this.choose(c.name) }, c.name);
-      r.row.append(el("th", { scope: "row" }, name), el("td", {}, c.role || none), el("td", {}, c.use), r.state, el("td", {}, c.run), r.rate, r.mean, r.most,
-        el("td", { class: "number" }, c.budget_us > 0 ? fixed(c.budget_us, 0, "µs") : "none"));
-      return r.row;
-    }));
+    fill(
+      this.body,
+      ...view.components.map((c) => {
+        const cell = () => el("td", { class: "number" });
+        const r: Row = { row: el("tr"), state: el("td"), rate: cell(), mean: cell(), most: cell() };
+        this.rows.set(c.name, r);
+        const name = el("button", { class: "link", onclick: () => this.choose(c.name) }, c.name);
+        r.row.append(
+          el("th", { scope: "row" }, name),
+          el("td", {}, c.role || none),
+          el("td", {}, c.use),
+          r.state,
+          el("td", {}, c.run),
+          r.rate,
+          r.mean,
+          r.most,
+          el("td", { class: "number" }, c.budget_us > 0 ? fixed(c.budget_us, 0, "µs") : "none"),
+        );
+        return r.row;
+      }),
+    );
     this.wiring.draw(view);
-    this.choose(view.components.some((c) => c.name === this.chosen) ? this.chosen : (view.components[0]?.name ?? ""));
+    this.choose(
+      view.components.some((c) => c.name === this.chosen) ? this.chosen : (view.components[0]?.name ?? ""),
+    );
   }
 
   private choose(name: string): void {
@@ -82,20 +130,40 @@ export class Wires implements Page {
     if (!c) return;
     for (const [other, r] of this.rows) mark(r.row, "chosen", other === name);
     this.ports = [];
-    fill(this.details, el("h2", {}, `${c.name}: ${c.doc}`), c.swapped ? el("p", { class: "faint" }, c.swapped) : "", this.swap_form(c),
-      el("div", { class: "twotables" }, this.inputs(c), this.outputs(c)));
+    fill(
+      this.details,
+      el("h2", {}, `${c.name}: ${c.doc}`),
+      c.swapped ? el("p", { class: "faint" }, c.swapped) : "",
+      this.swap_form(c),
+      el("div", { class: "twotables" }, this.inputs(c), this.outputs(c)),
+    );
     this.show_rates();
     if (this.flight.view) this.wiring.update(this.flight.view, name, this.figures);
   }
   private port_row(port: Port, words: string, topic: string): HTMLElement {
-    const rate = el("td", { class: "number" }), age = el("td", { class: "number" });
+    const rate = el("td", { class: "number" }),
+      age = el("td", { class: "number" });
     this.ports.push({ topic, rate, age });
-    return el("tr", {}, el("th", { scope: "row" }, port.name), el("td", {}, short(port.type)), el("td", {}, words), rate, age);
+    return el(
+      "tr",
+      {},
+      el("th", { scope: "row" }, port.name),
+      el("td", {}, short(port.type)),
+      el("td", {}, words),
+      rate,
+      age,
+    );
   }
   private inputs(c: Component): HTMLElement {
     const rows = c.inputs.map((p) => {
       const topic = p.topic ?? (p.source ? this.topic_of(p.source) : "");
-      const words = p.request ? "requests, on " + p.topic : p.imported ? "imported, from " + p.topic : p.source ? "← " + p.source : "not wired";
+      const words = p.request
+        ? "requests, on " + p.topic
+        : p.imported
+          ? "imported, from " + p.topic
+          : p.source
+            ? "← " + p.source
+            : "not wired";
       return this.port_row(p, words, topic);
     });
     return this.table("Inputs", rows);
@@ -105,13 +173,32 @@ export class Wires implements Page {
       const names: string[] = [];
       const owners = [c.name, ...c.role.split(", ")].map((owner) => `${owner}.${port}`);
       for (const other of this.flight.view?.components ?? [])
-        for (const p of other.inputs) if (p.source && owners.includes(p.source)) names.push(`${other.name}.${p.name}`);
+        for (const p of other.inputs)
+          if (p.source && owners.includes(p.source)) names.push(`${other.name}.${p.name}`);
       return names.length > 0 ? "→ " + names.join(", ") : "nobody reads it";
     };
-    return this.table("Outputs", c.outputs.map((p) => this.port_row(p, p.type ? readers(p.name) : "to look at", p.topic ?? "")));
+    return this.table(
+      "Outputs",
+      c.outputs.map((p) => this.port_row(p, p.type ? readers(p.name) : "to look at", p.topic ?? "")),
+    );
   }
   private table(name: string, rows: HTMLElement[]): HTMLElement {
-    return el("table", {}, el("thead", {}, el("tr", {}, ...[name, "message", "wire", "rate", "age"].map((h, i) => el("th", { class: i > 2 ? "right" : "" }, h)))), el("tbody", {}, ...rows));
+    return el(
+      "table",
+      {},
+      el(
+        "thead",
+        {},
+        el(
+          "tr",
+          {},
+          ...[name, "message", "wire", "rate", "age"].map((h, i) =>
+            el("th", { class: i > 2 ? "right" : "" }, h),
+          ),
+        ),
+      ),
+      el("tbody", {}, ...rows),
+    );
   }
   /** "nav.state" -> "/nav/state": of a role, or of the component that has its own. */
   private topic_of(source: string): string {
@@ -123,13 +210,23 @@ export class Wires implements Page {
   }
 
   private swap_form(c: Component): HTMLElement {
-    const input = el("input", { type: "text", size: 44, placeholder: "build/my_law.so, or control_tecs/Outer", "aria-label": `Plugin in place of ${c.name}` });
+    const input = el("input", {
+      type: "text",
+      size: 44,
+      placeholder: "build/my_law.so, or control_tecs/Outer",
+      "aria-label": `Plugin in place of ${c.name}`,
+    });
     const swap = async () => {
       const answer = await this.flight.ask("/fulmar/swap", { component: c.name, file: input.value.trim() });
       this.tell(answer, `${c.name} is swapped.`);
       this.listed = "";
     };
-    const form = el("form", { class: "row swap" }, el("label", {}, "swap for ", input), el("button", { type: "submit" }, "Swap"));
+    const form = el(
+      "form",
+      { class: "row swap" },
+      el("label", {}, "swap for ", input),
+      el("button", { type: "submit" }, "Swap"),
+    );
     form.addEventListener("submit", (e) => {
       e.preventDefault();
       void swap();
@@ -154,7 +251,11 @@ export class Wires implements Page {
       say(r.most, c.steps > 0 ? fixed(c.step_max_us, 0, "µs") : none);
       mark(r.most, "bad", c.budget_us > 0 && c.step_max_us > c.budget_us);
     }
-    mark(this.reset, "main", view.components.some((c) => c.stopped));
+    mark(
+      this.reset,
+      "main",
+      view.components.some((c) => c.stopped),
+    );
     if (now_ms - this.counted_ms > count_ms) this.count(view, now_ms);
     if (now_ms - this.drawn_ms < draw_ms) return;
     this.drawn_ms = now_ms;
@@ -162,10 +263,18 @@ export class Wires implements Page {
   }
   private drawn_ms = 0;
   private readonly figures: Figures = {
-    steps: (c) => (c.steps === 0 ? none : [this.step_rates.get(c.name), fixed(c.step_us, 1, "µs")].filter(Boolean).join(" ")),
+    steps: (c) =>
+      c.steps === 0
+        ? none
+        : [this.step_rates.get(c.name), fixed(c.step_us, 1, "µs")].filter(Boolean).join(" "),
     wire: (source) => {
-      const topic = this.topic_of(source), age = topic ? this.flight.age(topic) : Infinity;
-      return { rate: this.rate(topic), age: age_of(age, this.listened), silent: this.listened && !Number.isFinite(age) };
+      const topic = this.topic_of(source),
+        age = topic ? this.flight.age(topic) : Infinity;
+      return {
+        rate: this.rate(topic),
+        age: age_of(age, this.listened),
+        silent: this.listened && !Number.isFinite(age),
+      };
     },
   };
 
@@ -183,10 +292,15 @@ export class Wires implements Page {
     this.counted_ms = now_ms;
     this.flight.want_all(true); // also those that were told of after it was shown
     const topics = this.flight.topics();
-    if (topics.length > 0) this.rates.count(this.flight.now, topics.map((t) => [t.name, this.flight.count(t.name)]));
+    if (topics.length > 0)
+      this.rates.count(
+        this.flight.now,
+        topics.map((t) => [t.name, this.flight.count(t.name)]),
+      );
     if (topics.length > 0 && this.since_ms === 0) this.since_ms = performance.now();
     // The host notes its steps now and then: over a longer time.
-    const since = view.now_ns * 1e-9 - this.steps_s, anew = since < 0 || since > steps_over_s;
+    const since = view.now_ns * 1e-9 - this.steps_s,
+      anew = since < 0 || since > steps_over_s;
     for (const c of view.components) {
       const before = this.steps.get(c.name);
       if (before !== undefined && since > 1) {

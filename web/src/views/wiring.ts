@@ -10,7 +10,12 @@ export interface Figures {
   wire(source: string): { rate: string; age: string; silent: boolean };
 }
 interface Node {
-  box: Box; group: SVGGElement; title: Element; name: Element; below: Element; last: Element;
+  box: Box;
+  group: SVGGElement;
+  title: Element;
+  name: Element;
+  below: Element;
+  last: Element;
 }
 
 const plugin = (c: Component) => c.use.slice(c.use.lastIndexOf("/") + 1);
@@ -19,7 +24,11 @@ const sign = (c: Component) => (c.stopped ? "✕ " : c.active ? "✓ " : "");
 const least_letters = 16; // below the name, for figures
 
 export class Wiring {
-  readonly element = svg("svg", { class: "wiring", role: "group", "aria-label": "Components and wires; arrow keys choose a component" });
+  readonly element = svg("svg", {
+    class: "wiring",
+    role: "group",
+    "aria-label": "Components and wires; arrow keys choose a component",
+  });
   private drawing: Drawing = { width: 0, height: 0, boxes: [], wires: [] };
   private nodes = new Map<string, Node>();
   private lines: { wire: Wire; path: SVGPathElement; title: Element }[] = [];
@@ -37,29 +46,48 @@ export class Wiring {
     this.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.element.setAttribute("width", String(width));
     this.lines = wires.map((wire) => {
-      const title = svg("title"), path = svg("path", { class: "wire", d: "M" + wire.points.map((p) => p.join(" ")).join("L") }, title);
+      const title = svg("title"),
+        path = svg("path", { class: "wire", d: "M" + wire.points.map((p) => p.join(" ")).join("L") }, title);
       return { wire, path, title };
     });
-    const held = this.element.contains(document.activeElement) ? (document.activeElement as SVGElement).dataset.component : undefined;
+    const held = this.element.contains(document.activeElement)
+      ? (document.activeElement as SVGElement).dataset.component
+      : undefined;
     this.nodes = new Map(boxes.map((box) => [box.name, this.node(box)]));
     fill(this.element, ...this.lines.map((l) => l.path), ...[...this.nodes.values()].map((n) => n.group));
     if (held) this.nodes.get(held)?.group.focus(); // the keyboard stays where it is
   }
   private node(box: Box): Node {
     const line = (at: number, name: string) => svg("text", { class: name, x: box.x + 7, y: box.y + at });
-    const title = svg("title"), name = line(16, "name"), below = line(31, "small"), last = line(45, "small");
-    const group = svg("g", { class: "component", role: "button", tabindex: "-1", "data-component": box.name }, title,
-      svg("rect", { x: box.x, y: box.y, width: box.width, height: box.height, rx: 5 }), name, below, last);
+    const title = svg("title"),
+      name = line(16, "name"),
+      below = line(31, "small"),
+      last = line(45, "small");
+    const group = svg(
+      "g",
+      { class: "component", role: "button", tabindex: "-1", "data-component": box.name },
+      title,
+      svg("rect", { x: box.x, y: box.y, width: box.width, height: box.height, rx: 5 }),
+      name,
+      below,
+      last,
+    );
     group.addEventListener("click", () => this.choose(box.name));
     return { box, group, title, name, below, last };
   }
 
   private key(e: KeyboardEvent): void {
     const here = this.nodes.get((e.target as HTMLElement).dataset.component ?? "")?.box;
-    const way = ({ ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1] } as Record<string, [number, number]>)[e.key];
+    const way = (
+      { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1] } as Record<
+        string,
+        [number, number]
+      >
+    )[e.key];
     if (!here || !way) return;
     e.preventDefault();
-    const ahead = (b: Box) => (b.layer - here.layer) * way[0] + (b.layer === here.layer ? (b.row - here.row) * way[1] : 0);
+    const ahead = (b: Box) =>
+      (b.layer - here.layer) * way[0] + (b.layer === here.layer ? (b.row - here.row) * way[1] : 0);
     const far = (b: Box) => 100 * ahead(b) + Math.abs(b.row - here.row);
     const next = this.drawing.boxes.filter((b) => ahead(b) > 0).sort((a, b) => far(a) - far(b))[0];
     if (!next) return;
@@ -72,7 +100,8 @@ export class Wiring {
     const flies = new Map(view.components.map((c) => [c.name, c.active && !c.stopped]));
     const ports = new Map<string, Set<string>>(); // of the chosen one's neighbours: what connects them
     for (const { wire, path, title } of this.lines) {
-      const lit = wire.from === chosen || wire.to === chosen, other = wire.from === chosen ? wire.to : wire.from;
+      const lit = wire.from === chosen || wire.to === chosen,
+        other = wire.from === chosen ? wire.to : wire.from;
       if (lit) ports.set(other, (ports.get(other) ?? new Set()).add(wire.source));
       const { rate, age, silent } = figures.wire(wire.source);
       mark(path, "lit", lit);
@@ -83,10 +112,14 @@ export class Wiring {
     for (const c of view.components) {
       const n = this.nodes.get(c.name);
       if (!n) continue;
-      const steps = figures.steps(c), over = c.budget_us > 0 && c.step_max_us > c.budget_us;
+      const steps = figures.steps(c),
+        over = c.budget_us > 0 && c.step_max_us > c.budget_us;
       say(n.name, sign(c) + c.name);
       say(n.below, c.role || plugin(c));
-      say(n.last, this.wires_text([...(ports.get(c.name) ?? [])], n.box, figures) ?? (c.stopped ? "stopped" : steps));
+      say(
+        n.last,
+        this.wires_text([...(ports.get(c.name) ?? [])], n.box, figures) ?? (c.stopped ? "stopped" : steps),
+      );
       mark(n.last, "bad", over || c.stopped);
       const words = `${c.name}${c.role ? ", fills " + c.role : ""}: ${state(c)}, ${steps}${over ? ", over its budget" : ""}`;
       say(n.title, words);
@@ -103,8 +136,12 @@ export class Wiring {
   /** What connects a box with the chosen one, in as many words as there is room for. */
   private wires_text(sources: string[], box: Box, figures: Figures): string | null {
     if (sources.length === 0 || box.name === this.chosen) return null;
-    const names = sources.map((s) => s.replace(/^[^.]*\./, "")), { rate, age } = figures.wire(sources[0] as string);
-    const tries = sources.length === 1 ? [`${names[0]} ${rate} ${age}`, `${names[0]} ${rate}`, `${names[0]}`, "1 wire"] : [names.join(", "), `${names.length} wires`];
+    const names = sources.map((s) => s.replace(/^[^.]*\./, "")),
+      { rate, age } = figures.wire(sources[0] as string);
+    const tries =
+      sources.length === 1
+        ? [`${names[0]} ${rate} ${age}`, `${names[0]} ${rate}`, `${names[0]}`, "1 wire"]
+        : [names.join(", "), `${names.length} wires`];
     return tries.find((t) => t.length * small_letter < box.width - 14) ?? "";
   }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is known of another aircraft, and when.
-#include "plugins/formation/neighbour.hpp"
+#include "neighbour.hpp"
 
 #include <doctest/doctest.h>
 
-#include "plugins/formation/test/scene.hpp"
+#include "scene.hpp"
 
 namespace neighbour_test {
 

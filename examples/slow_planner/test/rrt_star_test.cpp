@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The search against what geometry and the wind triangle say.
-#include "plugins/slow_planner/rrt_star.hpp"
+#include "rrt_star.hpp"
 
 #include <doctest/doctest.h>
 

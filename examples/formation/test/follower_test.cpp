@@ -2,12 +2,12 @@
 // The slot by hand, the command into it sign by sign and bound by bound, who keeps clear of whom, and a
 // formation that closes.
 #define FULMAR_COUNT_ALLOCATIONS
-#include "plugins/formation/follower.hpp"
+#include "follower.hpp"
 
 #include <doctest/doctest.h>
 
 #include "fulmar/testing.hpp"
-#include "plugins/formation/test/scene.hpp"
+#include "scene.hpp"
 
 namespace follower_test {
 

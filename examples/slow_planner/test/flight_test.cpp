@@ -18,7 +18,7 @@ namespace {
 
 json fly(const std::string& arguments) {
   const std::string command =
-      FULMAR_BIN_DIR "/fulmar run " FULMAR_SOURCE_DIR "/configs/missions/slow_planner.yaml --json ";
+      FULMAR_BIN_DIR "/fulmar run " FULMAR_BIN_DIR "/../examples/slow_planner/mission.yaml --json ";
   FILE* pipe = popen((command + arguments + " 2>/dev/null").c_str(), "r");
   REQUIRE(pipe != nullptr);
   std::string out;

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# cmake -DNPM= -DSOURCE= -DWORK= -DALL= -P fetch.cmake: WORK/node_modules as package-lock.json has it, with ALL what checks and drives the page as
+# well. The file WORK/fetched is there when it succeeded; else `said` has the words of npm.
+file(READ ${SOURCE}/package-lock.json lock)
+set(lock "${ALL} ${lock}")
+set(fetched "")
+if(EXISTS ${WORK}/fetched)
+  file(READ ${WORK}/fetched fetched)
+endif()
+if(NOT lock STREQUAL fetched)
+  file(REMOVE ${WORK}/fetched)
+  file(MAKE_DIRECTORY ${WORK})
+  file(COPY ${SOURCE}/package.json ${SOURCE}/package-lock.json DESTINATION ${WORK})
+  set(options --ignore-scripts --no-audit --no-fund --prefer-offline --silent --fetch-retries=1 --fetch-retry-mintimeout=1000)
+  if(NOT ALL)
+    list(APPEND options --omit=dev)
+  endif()
+  execute_process(COMMAND ${NPM} ci ${options} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(code EQUAL 0)
+    file(WRITE ${WORK}/fetched "${lock}")
+  endif()
+endif()

@@ -22,7 +22,7 @@ constexpr double origin_m = 1387;
 std::unique_ptr<Bench<Aircraft>> airborne(const Airframe& a, double height) {
   auto b = std::make_unique<Bench<Aircraft>>(1);
   b->params.airframe.value = a;
-  b->params.start_height.value = height;
+  b->params.start.start_height.value = height;
   b->params.sensors.value = SensorSet::perfect;
   b->params.settle.value = 0;
   arm(*b);

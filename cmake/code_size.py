@@ -50,12 +50,13 @@ def structs(text):
         if re.search(r"\benum\s*$", text[:match.start()]):
             continue
         depth, body = 1, []
-        for char in text[match.end():]:
+        for at in range(match.end(), len(text)):
+            char = text[at]
             depth += (char == "{") - (char == "}")
             if depth == 0:
                 break
-            if depth == 1:
-                body.append(";" if char == "}" else char)  # what a brace held ends here: a function, a type, an initial value
+            if depth == 1:  # what a brace held ends here: a function, a type, an initial value that no other follows
+                body.append(char if char != "}" else "" if text[at + 1:at + 2] == "," else ";")
         out.append((match[1], sum(map(declared, "".join(body).split(";")))))
     return out
 

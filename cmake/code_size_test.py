@@ -73,6 +73,10 @@ class CodeSize(unittest.TestCase):
         self.write("core/graph/fat.hpp", "class Fat final : public Base {\n" + "".join(f"  int m{i}_;\n" for i in range(16)) + "};\n")
         self.refused("core/graph/fat.hpp:Fat has 16 data members; 15 is the limit")
 
+    def test_members_of_one_declaration_with_initial_values_count_each(self):
+        self.write("core/graph/fat.hpp", "struct Fat {\n  std::atomic<int> a{0}, b{1},\n      c{2};\n  void f() {}\n  int d{3};\n};\n")
+        self.assertIn("   4 core/graph/fat.hpp:Fat\n", self.size("--members").stdout)
+
     def fat(self, file, members):
         self.write(file, "struct Fat {\n  struct Params {\n" + "    Param p{1};\n" * members + "  };\n  Params seen;\n};\n")
 

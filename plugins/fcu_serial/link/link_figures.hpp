@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "frame.hpp"
-#include "link.hpp"
+#include "link_state.hpp"
 #include "timesync.hpp"
 
 namespace fulmar::fcu {

@@ -4,10 +4,11 @@
 
     code_size.py                prints the lines; exit code 1 when a limit below is exceeded
     code_size.py --most N       the same, and when the part of the host that flies has more than N lines
-    code_size.py --members      the data members of each struct of core/
+    code_size.py --members      the data members of each struct of core/, plugins/ and tools/
 
-Limits: a file has 400 lines, comments included, or what cmake/long_files.txt lists for it, a list that only shrinks; a
-function of core/ has 60 lines, a struct of core/ 15 data members.
+Limits: a file has 400 lines, comments included, or what cmake/long_files.txt lists for it; a function of core/ has 60
+lines, a struct of core/ 15 data members; a struct of plugins/ and tools/ has 25 data members, ports and parameters
+included, or what cmake/wide_structs.txt lists for it. Both lists only shrink.
 """
 import re
 import subprocess
@@ -16,7 +17,7 @@ from collections import Counter
 from pathlib import Path
 
 FLIES = "types loader log isolate graph tap run".split()
-FUNCTION_LINES, FILE_LINES, MEMBERS = 60, 400, 15
+FUNCTION_LINES, FILE_LINES, MEMBERS, PLUGIN_MEMBERS = 60, 400, 15, 25
 root = Path(__file__).resolve().parent.parent
 
 
@@ -49,12 +50,13 @@ def structs(text):
         if re.search(r"\benum\s*$", text[:match.start()]):
             continue
         depth, body = 1, []
-        for char in text[match.end():]:
+        for at in range(match.end(), len(text)):
+            char = text[at]
             depth += (char == "{") - (char == "}")
             if depth == 0:
                 break
-            if depth == 1:
-                body.append(";" if char == "}" else char)  # what a brace held ends here: a function, a type, an initial value
+            if depth == 1:  # what a brace held ends here: a function, a type, an initial value that no other follows
+                body.append(char if char != "}" else "" if text[at + 1:at + 2] == "," else ";")
         out.append((match[1], sum(map(declared, "".join(body).split(";")))))
     return out
 
@@ -72,21 +74,31 @@ def declared(statement):
     return 1 + re.sub(r"\([^()]*\)|\[[^\[\]]*\]", "", statement).count(",")
 
 
-def long_files(names):
-    """Faults: files above the limit, and entries of the list that are too generous."""
+def against_list(kind, found, limit, unit):
+    """Faults: what is above the limit, and entries of the list of its kind that are too generous. `found`: {name: size}."""
+    name_of_list = f"cmake/{kind}s.txt"
     listed = {}
-    for line in (root / "cmake/long_files.txt").read_text().splitlines():
-        lines, name = line.split()
-        listed[name] = int(lines)
-    found = []
-    for name in names:
-        lines = (root / name).read_text().count("\n")
-        limit = max(FILE_LINES, listed.pop(name, 0))
-        if lines > limit:
-            found.append(f"{name} has {lines} lines; {limit} is the limit")
-        elif limit > FILE_LINES and lines < limit:
-            found.append(f"cmake/long_files.txt: {name} has {lines} lines, not {limit}: {'write that' if lines > FILE_LINES else 'drop the line'}")
-    return found + [f"cmake/long_files.txt: there is no file {name}" for name in listed]
+    for line in (root / name_of_list).read_text().splitlines():
+        size, name = line.split()
+        listed[name] = int(size)
+    faults = []
+    for name, size in found.items():
+        most = max(limit, listed.pop(name, 0))
+        if size > most:
+            faults.append(f"{name} has {size} {unit}; {most} is the limit")
+        elif most > limit and size < most:
+            faults.append(f"{name_of_list}: {name} has {size} {unit}, not {most}: {'write that' if size > limit else 'drop the line'}")
+    return faults + [f"{name_of_list}: there is no {kind.split('_')[1]} {name}" for name in listed]
+
+
+def members_of(folders):
+    """{file:struct: data members}; of structs of one name in a file the most."""
+    found = {}
+    for name in git_files(*folders):
+        if "/test/" not in name and name.endswith((".cpp", ".hpp", ".h", ".c")):
+            for struct, members in structs((root / name).read_text()):
+                found[f"{name}:{struct}"] = max(members, found.get(f"{name}:{struct}", 0))
+    return found
 
 
 def git_files(*folders):
@@ -95,7 +107,13 @@ def git_files(*folders):
 
 
 def main():
-    faults = long_files([f for f in git_files() if f.endswith((".cpp", ".hpp", ".h", ".c", ".ts", ".py", ".sh", ".mjs"))])
+    sources = [f for f in git_files() if f.endswith((".cpp", ".hpp", ".h", ".c", ".ts", ".py", ".sh", ".mjs"))]
+    faults = against_list("long_file", {f: (root / f).read_text().count("\n") for f in sources}, FILE_LINES, "lines")
+    core, plugins = members_of(["core"]), members_of(["plugins", "tools"])
+    faults += [f"{name} has {n} data members; {MEMBERS} is the limit" for name, n in core.items() if n > MEMBERS]
+    faults += against_list("wide_struct", plugins, PLUGIN_MEMBERS, "data members")
+    if "--members" in sys.argv:
+        print("\n".join(f"{members:4d} {name}" for name, members in {**core, **plugins}.items()))
     size = Counter()
     for name in git_files("core"):
         if "/test/" in name or not name.endswith((".cpp", ".hpp", ".h", ".c")):
@@ -103,11 +121,6 @@ def main():
         text = (root / name).read_text()
         size[name.split("/")[1] if name.count("/") > 1 else "(core)"] += code_lines(text)
         faults += [f"{name}:{line}: a function of {lines} lines; {FUNCTION_LINES} is the limit" for line, lines in long_functions(text)]
-        for struct, members in structs(text):
-            if "--members" in sys.argv:
-                print(f"{members:4d} {struct} ({name})")
-            if members > MEMBERS:
-                faults.append(f"{name}: {struct} has {members} data members; {MEMBERS} is the limit")
     for folder, lines in size.most_common():
         print(f"{lines:6d}  {folder}")
     flies = sum(size[folder] for folder in FLIES)

@@ -16,6 +16,7 @@ class CodeSize(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.root = pathlib.Path(scratch.name)
         self.write("cmake/long_files.txt", "")
+        self.write("cmake/wide_structs.txt", "")
         self.write("core/run/loop.cpp", '// a comment\n\nint loop() {\n  return 1;  // one\n}\nconst char* text = "// no comment";\n')
         self.write("core/dds/topic.cpp", "int topic;\n")
         shutil.copy(here / "code_size.py", self.root / "cmake")
@@ -68,9 +69,37 @@ class CodeSize(unittest.TestCase):
     def test_a_fat_struct_of_core(self):
         members = "  int a = 0, b{1};\n  std::map<int, std::vector<int>> c;\n  void f() { int inside; }\n  static int s;\n  std::size_t d[2];\n"
         self.write("core/graph/fat.hpp", "struct Fat {\n" + members + "};\nenum class Kind { a, b };\n")
-        self.assertIn("   4 Fat (core/graph/fat.hpp)", self.size("--members").stdout)
+        self.assertIn("   4 core/graph/fat.hpp:Fat\n", self.size("--members").stdout)
         self.write("core/graph/fat.hpp", "class Fat final : public Base {\n" + "".join(f"  int m{i}_;\n" for i in range(16)) + "};\n")
-        self.refused("core/graph/fat.hpp: Fat has 16 data members; 15 is the limit")
+        self.refused("core/graph/fat.hpp:Fat has 16 data members; 15 is the limit")
+
+    def test_members_of_one_declaration_with_initial_values_count_each(self):
+        self.write("core/graph/fat.hpp", "struct Fat {\n  std::atomic<int> a{0}, b{1},\n      c{2};\n  void f() {}\n  int d{3};\n};\n")
+        self.assertIn("   4 core/graph/fat.hpp:Fat\n", self.size("--members").stdout)
+
+    def fat(self, file, members):
+        self.write(file, "struct Fat {\n  struct Params {\n" + "    Param p{1};\n" * members + "  };\n  Params seen;\n};\n")
+
+    def test_a_wide_struct_of_a_plugin_or_tool(self):
+        for file in ("plugins/path/fat.hpp", "tools/fulmar_fcu/fat.cpp"):
+            self.fat(file, 25)
+            self.assertEqual(self.size().returncode, 0)
+            self.fat(file, 26)
+            self.refused(f"{file}:Params has 26 data members; 25 is the limit")
+            (self.root / file).unlink()
+        self.fat("plugins/path/test/fat.hpp", 26)
+        self.assertEqual(self.size().returncode, 0)
+
+    def test_the_list_of_wide_structs_shrinks(self):
+        self.write("cmake/wide_structs.txt", "30 plugins/path/fat.hpp:Params\n")
+        self.fat("plugins/path/fat.hpp", 31)
+        self.refused("plugins/path/fat.hpp:Params has 31 data members; 30 is the limit")
+        self.fat("plugins/path/fat.hpp", 29)
+        self.refused("cmake/wide_structs.txt: plugins/path/fat.hpp:Params has 29 data members, not 30: write that")
+        self.fat("plugins/path/fat.hpp", 25)
+        self.refused("cmake/wide_structs.txt: plugins/path/fat.hpp:Params has 25 data members, not 30: drop the line")
+        (self.root / "plugins/path/fat.hpp").unlink()
+        self.refused("cmake/wide_structs.txt: there is no struct plugins/path/fat.hpp:Params")
 
 
 if __name__ == "__main__":

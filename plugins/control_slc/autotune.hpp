@@ -6,9 +6,13 @@
 #include <fulmar/msg/vehicle_status.hpp>
 #include <string_view>
 
+#include "axis_result.hpp"
+#include "excitation.hpp"
+#include "findings.hpp"
 #include "gain_search.hpp"
 #include "inner.hpp"
 #include "rate_fit.hpp"
+#include "tuned_gains.hpp"
 
 namespace fulmar::slc {
 
@@ -46,8 +50,7 @@ struct Autotune {
 
   void configure(const Params& p) {
     law_ = p.law;
-    for (std::size_t i = 0; i < axes; ++i)
-      given_[i] = old_[i] = kept_[i] = used_[i] = goal_[i] = gains_of(p.law, i);
+    gains_.configure(law_);
     inner_.configure(law_);
     stage_ = Stage::idle;
     asked_ = false;
@@ -56,9 +59,8 @@ struct Autotune {
   void retune(const Params& p) {
     law_ = p.law;
     for (std::size_t i = 0; i < axes; ++i) {
-      const AxisGains now = gains_of(p.law, i);
-      if (now != given_[i]) set_by_somebody(i, now);
-      use(i, used_[i]);
+      if (gains_.give(i, TunedGains::gains_of(p.law, i))) set_by_somebody(i);
+      gains_.put_into(law_, i);
     }
     if (running()) law_.quieten.value = false;
     inner_.retune(law_);
@@ -67,10 +69,10 @@ struct Autotune {
   Status activate(const Tick& tick, const Inputs& in, const Params&, const Applied<Outputs>& last) {
     if (running()) end("somebody else has flown");
     for (std::size_t i = 0; i < axes; ++i) {
-      use(i, goal_[i]);
-      left_s_[i] = 0;  // no surface is bound to these
+      gains_.finish_change(i);
+      gains_.put_into(law_, i);
     }
-    strength_ = 0;
+    excitation_.stop();
     return inner_.activate(tick, in.law, law_, last.part(last->law));
   }
 
@@ -81,7 +83,7 @@ struct Autotune {
     asked_ = p.tune;
     if (running()) {
       time_s_ += dt;
-      stage_s_ += dt;
+      excitation_.advance(dt);
       const std::string_view why = trouble(in, p);
       if (!why.empty())
         end(why);
@@ -92,7 +94,8 @@ struct Autotune {
       law_.quieten.value = p.law.quieten.value;
       inner_.retune(law_);
     }
-    for (std::size_t i = 0; i < axes; ++i) change_over(i, dt);
+    for (std::size_t i = 0; i < axes; ++i)
+      if (gains_.change_over(i, dt)) gains_.put_into(law_, i);
     const Status status = inner_.step(tick, in.law, law_, out.law);
     excite(in, p, dt, out.law);
     tell(tick, out);
@@ -100,10 +103,8 @@ struct Autotune {
   }
 
  private:
-  enum : std::size_t { roll, pitch, yaw, axes };
-  static constexpr std::array<const char*, axes> names{"roll", "pitch", "yaw"};
-  static constexpr double settle_s = 1, fade_s = 1, change_s = 0.5;
-  static constexpr double excite_s = settle_s + fade_s + Lines::record_s, search_s = 1.6;
+  using enum TunedAxis::Index;
+  static constexpr double excite_s = Excitation::whole_s, search_s = 1.6;
 
   using Stage = AutotuneStage;
   using Verdict = AutotuneVerdict;
@@ -111,79 +112,30 @@ struct Autotune {
   /// Of `LoopRecord::answer`: without an answer it is 1 +- 0.3, with one 3.5 and more in moderate turbulence.
   static constexpr double min_answer = 2.5;
 
-  static AxisGains gains_of(const Inner::Params& p, std::size_t axis) {
-    if (axis == roll) return {p.roll_kp, p.roll_ki, p.roll_kd};
-    if (axis == pitch) return {p.pitch_kp, p.pitch_ki, p.pitch_kd};
-    return {0, 0, p.yaw_kd};
-  }
-  void use(std::size_t axis, const AxisGains& g) {
-    used_[axis] = g;
-    if (axis == roll) {
-      law_.roll_kp.value = g.kp;
-      law_.roll_ki.value = g.ki;
-      law_.roll_kd.value = g.kd;
-    }
-    if (axis == pitch) {
-      law_.pitch_kp.value = g.kp;
-      law_.pitch_ki.value = g.ki;
-      law_.pitch_kd.value = g.kd;
-    }
-    if (axis == yaw) law_.yaw_kd.value = g.kd;
-  }
-  static AxisGains times(const AxisGains& g, double by) { return {g.kp * by, g.ki * by, g.kd * by}; }
-
-  /// Gains move within change_s: no surface steps.
-  void change_to(std::size_t axis, const AxisGains& g) {
-    goal_[axis] = g;
-    left_s_[axis] = change_s;
-  }
-  void change_over(std::size_t axis, double dt) {
-    if (left_s_[axis] <= 0) return;
-    const double part = std::min(1.0, dt / left_s_[axis]);
-    left_s_[axis] = part < 1 ? left_s_[axis] - dt : 0;
-    const AxisGains &to = goal_[axis], &now = used_[axis];
-    use(axis, part < 1 ? AxisGains{now.kp + part * (to.kp - now.kp), now.ki + part * (to.ki - now.ki),
-                                   now.kd + part * (to.kd - now.kd)}
-                       : to);
-  }
-
   bool running() const {
     return stage_ == Stage::exciting || stage_ == Stage::searching || stage_ == Stage::verifying;
   }
-  const Surface& surface(std::size_t axis) const {
-    const Airframe& a = *law_.airframe;
-    return axis == roll ? a.aileron : axis == pitch ? a.elevator : a.rudder;
-  }
-
   void begin(const Inputs& in, const Params& p) {
     // What quietening has left of the gains is what they are; from here on excitation is no oscillation.
     for (std::size_t i = 0; i < axes; ++i) {
-      kept_[i] = old_[i] = goal_[i] = times(used_[i], inner_.gain_left(static_cast<Inner::Axis>(i)));
-      use(i, kept_[i]);
+      gains_.begin(i, inner_.gain_left(static_cast<Inner::Axis>(i)));
+      gains_.put_into(law_, i);
     }
     law_.quieten.value = false;
     inner_.retune(law_);
     begun_m_ = in.law.state->height_m;
     time_s_ = 0;
-    verdict_ = {};
-    reason_ = {};
-    before_ = {};
-    after_ = {};
-    noise_ = {};
+    results_ = {};
     next_axis(roll, p);
   }
   /// They count, whatever was measured with others.
-  void set_by_somebody(std::size_t axis, const AxisGains& now) {
-    given_[axis] = kept_[axis] = used_[axis] = goal_[axis] = now;
+  void set_by_somebody(std::size_t axis) {
     if (running()) end("gains were set");
-    verdict_[axis] = Verdict::open;
-    reason_[axis] = Reason::none;
-    before_[axis].reset();
-    after_[axis].reset();
+    results_[axis].forget();
   }
   void begin_axis(std::size_t axis) {
     axis_ = axis;
-    larger_ = 1;
+    excitation_.begin_axis();
     first_ = true;
     go_to(Stage::exciting);
   }
@@ -191,37 +143,23 @@ struct Autotune {
     for (std::size_t next = first; next < axes; ++next) {
       const Reason why = in_the_way(next, p);
       if (why == Reason::none) return begin_axis(next);
-      verdict_[next] = Verdict::left_out;
-      reason_[next] = why;
-      say(Severity::info, "%s: not tuned: %s", names[next], words(why));
+      results_[next].decide(Verdict::left_out, why);
+      findings_.left_out(next, why);
     }
     go_to(Stage::finished);
   }
   Reason in_the_way(std::size_t axis, const Params& p) const {
-    if (surface(axis).limit_rad <= 0 || (axis == yaw && law_.airframe->aero.yaw.rudder_ratio == 0))
+    if (surface_of(*law_.airframe, axis).limit_rad <= 0 ||
+        (axis == yaw && law_.airframe->aero.yaw.rudder_ratio == 0))
       return Reason::no_surface;
     // Found are multiples of what there is; an attitude loop without kp is none.
-    if ((axis == yaw ? used_[axis].kd : used_[axis].kp) <= 0) return Reason::gain_is_zero;
+    const AxisGains& used = gains_.used(axis);
+    if ((axis == yaw ? used.kd : used.kp) <= 0) return Reason::gain_is_zero;
     return time_for(2 * excite_s + search_s, p) ? Reason::none : Reason::no_time;
-  }
-  static const char* words(Reason why) {
-    switch (why) {
-      case Reason::margins_do_not_hold: return "the margins do not hold";
-      case Reason::no_gains_found: return "no gains have the margins";
-      case Reason::surface_at_limit: return "the surface was at its limit";
-      case Reason::turbulence: return "turbulence hides the answer to the excitation";
-      case Reason::no_answer: return "the surface does not act as it should";
-      case Reason::no_surface: return "the aircraft has no such surface";
-      case Reason::gain_is_zero: return "its gain is 0, and multiples of it are all that is tried";
-      case Reason::no_time: return "time_limit leaves no time";
-      default: return "";
-    }
   }
   void go_to(Stage stage) {
     stage_ = stage;
-    stage_s_ = 0;
-    fitting_ = false;
-    lines_.begin();
+    excitation_.begin();
   }
   bool time_for(double seconds, const Params& p) const { return time_s_ + seconds < p.time_limit; }
 
@@ -230,33 +168,10 @@ struct Autotune {
     revert(Reason::ended, why);
     go_to(Stage::aborted);
   }
-  void go_back() { change_to(axis_, kept_[axis_]); }
   void revert(Reason reason, std::string_view why) {
-    go_back();
-    verdict_[axis_] = Verdict::reverted;
-    reason_[axis_] = reason;
-    say(Severity::warning, "%s: old gains: %.*s", names[axis_], static_cast<int>(why.size()), why.data());
-  }
-
-  /// As they stand in a file.
-  void tell_gains(const AxisGains& g, const Margins& m) {
-    constexpr double degree = std::numbers::pi / 180;
-    const double phase_deg = std::min(m.phase_rad / degree, 180.0);
-    const char* const name = names[axis_];
-    if (g.damper())
-      say(Severity::info, "%s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name, g.kd, m.min_gain_db(),
-          phase_deg);
-    else
-      say(Severity::info, "%s_kp: %.3g, %s_ki: %.3g, %s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name,
-          g.kp, name, g.ki, name, g.kd, m.min_gain_db(), phase_deg);
-  }
-
-  template <class... Values>
-  void say(Severity severity, const char* format, Values... values) {
-    if (said_ >= notices_.size()) return;
-    Notice& n = notices_[said_++];
-    n.severity = severity;
-    std::snprintf(n.text.bytes.data(), n.text.bytes.size(), format, values...);
+    gains_.go_back(axis_);
+    results_[axis_].decide(Verdict::reverted, reason);
+    findings_.reverted(axis_, why);
   }
 
   std::string_view trouble(const Inputs& in, const Params& p) const {
@@ -279,7 +194,7 @@ struct Autotune {
     if (stage_ == Stage::searching) {
       for (int i = 0; i < 4; ++i)
         if (search_.step()) return found(p);
-    } else if (fitting_ && fit_.step()) {
+    } else if (excitation_.complete() && fit_.step()) {
       judge(fit_.record(), p);
     }
   }
@@ -287,34 +202,35 @@ struct Autotune {
   /// A record is complete: is it to be believed, and do the margins hold?
   void judge(const LoopRecord& r, const Params& p) {
     const Margins m = margins_of(r.loop);
-    noise_[axis_] = noise_of(r);
+    AxisResult& result = results_[axis_];
+    result.noise = noise_of(r);
     const bool verifying = stage_ == Stage::verifying;
     if (r.limited > 0.02) {
       if (verifying || !time_for(2 * excite_s + search_s, p)) return done_with(Reason::surface_at_limit, p);
-      change_to(axis_, times(used_[axis_], 0.5));  // too much gain to measure by
+      gains_.change_to(axis_, TunedGains::times(gains_.used(axis_), 0.5));  // too much gain to measure by
       return go_to(Stage::exciting);
     }
-    if (!(noise_[axis_] <= p.noise_limit)) {
-      if (larger_ > 2 || !time_for((verifying ? 1 : 2) * excite_s + search_s, p))
+    if (!(result.noise <= p.noise_limit)) {
+      if (excitation_.at_largest() || !time_for((verifying ? 1 : 2) * excite_s + search_s, p))
         return done_with(Reason::turbulence, p);
-      // The error falls as the excitation grows.
-      larger_ = noise_[axis_] > 1.5 * p.noise_limit ? 2.25 : 1.5 * larger_;
+      excitation_.enlarge(result.noise > 1.5 * p.noise_limit);
       return go_to(stage_);
     }
     if (!answers(r)) return done_with(Reason::no_answer, p);
-    (first_ ? before_ : after_)[axis_] = m;
+    (first_ ? result.before : result.after) = m;
     first_ = false;
     // A standard error more than is asked for: of 1 + L, which is near 1 where margins are read.
-    const MarginsWanted least{p.least_gain_margin + 20 * std::log10(1 + noise_[axis_]),
-                              p.least_phase_margin + noise_[axis_]};
+    const MarginsWanted least{p.least_gain_margin + 20 * std::log10(1 + result.noise),
+                              p.least_phase_margin + result.noise};
     if (verifying && least.kept(m)) {
-      kept_[axis_] = used_[axis_];
-      verdict_[axis_] = Verdict::kept;
-      tell_gains(kept_[axis_], m);
+      gains_.keep(axis_);
+      result.verdict = Verdict::kept;
+      findings_.kept(axis_, gains_.used(axis_), m);
       return next_axis(axis_ + 1, p);
     }
     if (verifying && !time_for(excite_s + search_s, p)) return done_with(Reason::margins_do_not_hold, p);
-    search_.begin(r, used_[axis_], {p.wanted_gain_margin, p.wanted_phase_margin, p.wanted_delay_margin});
+    search_.begin(r, gains_.used(axis_),
+                  {p.wanted_gain_margin, p.wanted_phase_margin, p.wanted_delay_margin});
     go_to(Stage::searching);
   }
   void done_with(Reason why, const Params& p) {
@@ -323,14 +239,15 @@ struct Autotune {
   }
   void found(const Params& p) {
     if (search_.found()) {
-      change_to(axis_, search_.best());
+      gains_.change_to(axis_, search_.best());
       return go_to(Stage::verifying);
     }
     // A record near noise_limit may leave none: once more, from the gains of before.
-    if (larger_ > 2 || !time_for(2 * excite_s + search_s, p)) return done_with(Reason::no_gains_found, p);
-    larger_ *= 1.5;
+    if (excitation_.at_largest() || !time_for(2 * excite_s + search_s, p))
+      return done_with(Reason::no_gains_found, p);
+    excitation_.enlarge(false);
     first_ = true;
-    go_back();
+    gains_.go_back(axis_);
     go_to(Stage::exciting);
   }
   /// The rate follows the surface, and not the turbulence alone.
@@ -341,41 +258,10 @@ struct Autotune {
   }
 
   void excite(const Inputs& in, const Params& p, double dt, Inner::Outputs& out) {
-    const bool wanted =
-        (stage_ == Stage::exciting || stage_ == Stage::verifying) && stage_s_ >= settle_s && !fitting_;
-    if (strength_ == 0) {
-      excited_ = axis_;
-      phase_s_ = 0;  // what is left of one stays on its surface
-    }
-    strength_ = std::clamp(strength_ + (wanted ? dt / fade_s : -5 * dt), 0.0, 1.0);
-    if (strength_ == 0) return;
-    phase_s_ += dt;
-    const double size = excited_ == roll ? p.roll_size : excited_ == pitch ? p.pitch_size : p.yaw_size;
-    const Surface& s = surface(excited_);
-    // Positive in the record turns to the right or up.
-    const double sign = excited_ == roll ? 1 : -1;
-    double& deflection = excited_ == roll    ? out.actuators.aileron_rad
-                         : excited_ == pitch ? out.actuators.elevator_rad
-                                             : out.actuators.rudder_rad;
-    const double feedback = deflection;
-    const double asked =
-        feedback + sign * std::min(size * larger_, 0.5 * s.limit_rad) * strength_ * lines_.at(phase_s_);
-    deflection = std::clamp(asked, -s.limit_rad, s.limit_rad);
-    const double recorded_s = stage_s_ - settle_s - fade_s;
-    if (!wanted || recorded_s < -0.5 * dt) return;
-    const VehicleState& x = *in.law.state;
-    const double angle = excited_ == roll ? x.roll_rad : excited_ == pitch ? x.pitch_rad : 0;
-    const double rate = excited_ == roll    ? x.rate_radps.x
-                        : excited_ == pitch ? x.rate_radps.y
-                                            : x.rate_radps.z;
-    if (recorded_s < Lines::record_s - 0.5 * dt) {
-      const bool limited = asked != deflection || std::abs(feedback) >= s.limit_rad;
-      return lines_.add(sign * feedback, sign * deflection, angle, rate, out.surface_scale_ratio.value,
-                        limited, dt);
-    }
-    lines_.close(sign * feedback, sign * deflection, angle, rate);
-    fit_.begin(lines_.record(), used_[axis_], axis_ == roll && law_.roll_from_sideslip != 0);
-    fitting_ = true;
+    const bool on = stage_ == Stage::exciting || stage_ == Stage::verifying;
+    if (excitation_.step(axis_, on, *in.law.state, *law_.airframe, {p.roll_size, p.pitch_size, p.yaw_size},
+                         dt, out))
+      fit_.begin(excitation_.record(), gains_.used(axis_), axis_ == roll && law_.roll_from_sideslip != 0);
   }
 
   void tell(const Tick& tick, Outputs& out) {
@@ -383,52 +269,33 @@ struct Autotune {
     r.stage = stage_;
     r.done = stage_ == Stage::finished || stage_ == Stage::aborted;
     r.axis = running() ? static_cast<AutotuneAxis>(axis_ + 1) : AutotuneAxis::none;
-    r.roll = verdict_[roll];
-    r.pitch = verdict_[pitch];
-    r.yaw = verdict_[yaw];
-    r.roll_reason = reason_[roll];
-    r.pitch_reason = reason_[pitch];
-    r.yaw_reason = reason_[yaw];
+    r.roll = results_[roll].verdict;
+    r.pitch = results_[pitch].verdict;
+    r.yaw = results_[yaw].verdict;
+    r.roll_reason = results_[roll].reason;
+    r.pitch_reason = results_[pitch].reason;
+    r.yaw_reason = results_[yaw].reason;
     r.time_s = time_s_;
     for (std::size_t i = 0; i < axes; ++i) {
-      r.before_kp_ratio[i] = old_[i].kp;
-      r.before_ki_ratio[i] = old_[i].ki;
-      r.before_kd_ratio[i] = old_[i].kd;
-      r.kp_ratio[i] = used_[i].kp;
-      r.ki_ratio[i] = used_[i].ki;
-      r.kd_ratio[i] = used_[i].kd;
-      tell_margins(before_[i], r.before_gain_margin_ratio[i], r.before_phase_margin_rad[i]);
-      tell_margins(after_[i], r.gain_margin_ratio[i], r.phase_margin_rad[i]);
-      r.crossover_radps[i] = after_[i] ? after_[i]->crossover_radps : 0;
-      r.noise_ratio[i] = std::isfinite(noise_[i]) ? std::min(noise_[i], 1e9) : 1e9;
+      gains_.put_into(r, i);
+      results_[i].put_into(r, i);
     }
-    for (std::size_t i = 0; i < said_; ++i) out.findings.push(notices_[i], tick.now_ns);
-    said_ = 0;
-  }
-  static void tell_margins(const std::optional<Margins>& m, double& gain_ratio, double& phase_rad) {
-    gain_ratio = m ? std::min(std::pow(10, m->min_gain_db() / 20), 1e9) : 0;
-    phase_rad = m ? std::min(m->phase_rad, std::numbers::pi) : 0;
+    findings_.publish(tick, out.findings);
   }
 
   Inner inner_;
   Inner::Params law_;  ///< with the gains in use
-  std::array<AxisGains, axes> given_{}, old_{}, kept_{}, used_{}, goal_{};
-  std::array<double, axes> left_s_{};  ///< of a change of gains
-  LoopLines lines_;
+  TunedGains gains_;
+  Excitation excitation_;
   RateFit fit_;
-  bool fitting_ = false;  ///< a record is complete, and not yet judged
   GainSearch search_;
+  std::array<AxisResult, axes> results_{};
+  Findings findings_;
   Stage stage_ = Stage::idle;
-  std::size_t axis_ = roll, excited_ = roll;
-  std::array<Verdict, axes> verdict_{};
-  std::array<Reason, axes> reason_{};
-  std::array<std::optional<Margins>, axes> before_{}, after_{};
-  std::array<double, axes> noise_{};
-  std::array<Notice, 4> notices_{};
-  std::size_t said_ = 0;
-  double time_s_ = 0, stage_s_ = 0, phase_s_ = 0, begun_m_ = 0;
-  double strength_ = 0, larger_ = 1;  ///< of the excitation
-  bool asked_ = false, first_ = true;
+  std::size_t axis_ = roll;
+  double time_s_ = 0, begun_m_ = 0;  ///< since the beginning; height there
+  bool asked_ = false;
+  bool first_ = true;  ///< the next record is of the gains of before
 };
 
 }  // namespace fulmar::slc

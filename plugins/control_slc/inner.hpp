@@ -4,9 +4,6 @@
 // of a coordinated turn as reference.
 #pragma once
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <fulmar/flight/control/oscillation.hpp>
 #include <fulmar/flight/control/outer_commands.hpp>
 #include <fulmar/flight/control/pid.hpp>
 #include <fulmar/flight/control/turn_trim.hpp>
@@ -14,10 +11,14 @@
 #include <fulmar/flight/math/filters.hpp>
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/attitude_command.hpp>
-#include <fulmar/msg/notice.hpp>
 #include <fulmar/msg/sideslip_command.hpp>
 #include <fulmar/plugin.hpp>
 #include <optional>
+
+#include "attitude_loss.hpp"
+#include "hand_over_fade.hpp"
+#include "quiet_axes.hpp"
+#include "slip_trim.hpp"
 
 namespace fulmar::slc {
 
@@ -69,43 +70,37 @@ struct Inner {
     // Nobody's when the pilot flies, or a host begins in the air: then trim and feed-forward are all there is
     // to begin with.
     take_up_ = last.has(last->actuators);
-    fading_ = false;
+    fade_.stop();
     if (!take_up_) {
       roll_.reset();
       pitch_.reset();
     }
-    blind_ = false;
+    loss_.begin();
     roll_command_rate_.reset_to(in.attitude->roll_rad);
     airspeed_.reset_to(scheduling_airspeed(*in.state, params.airframe->limits));
     washout_.reset_to(yaw_rate_error(*in.state, airspeed_.value()));
-    for (Quietening& axis : quiet_) axis.begin();
+    quiet_.begin();
     return Status::ok;
   }
 
-  void configure(const Params& p) { gains_ = gains_of(p); }
+  void configure(const Params& p) { quiet_.configure(gains_of(p)); }
+  void retune(const Params& p) { quiet_.retune(gains_of(p)); }
 
-  enum Axis : std::uint8_t { roll, pitch, yaw, axes };
+  using Axis = QuietAxes::Axis;
   /// What quietening has left of an axis' gains.
-  double gain_left(Axis axis) const { return quiet_[axis].gain(); }
-
-  /// Other gains begin anew with all of them.
-  void retune(const Params& p) {
-    const Gains gains = gains_of(p);
-    if (gains != gains_)
-      for (Quietening& axis : quiet_) axis.restore();
-    gains_ = gains;
-  }
+  double gain_left(Axis axis) const { return quiet_.gain(axis); }
 
   Status step(const Tick& tick, const Inputs& in, const Params& params, Outputs& out) {
     const AttitudeCommand& command = *in.attitude;
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
     const double Va = airspeed_.step(scheduling_airspeed(*in.state, params.airframe->limits),
                                      params.airspeed_smoothing, dt);
-    look(in, Va);
-    const double slip = slip_asked(tick, in);
+    if (loss_.look(in.state, in.attitude)) take_up(in, Va);
+    const bool blind = loss_.blind();
+    const double slip = slip_asked(tick, in.sideslip);
     std::optional<VehicleState> commanded;
-    if (blind_) commanded = as_commanded(*in.state, command, Va);
-    const VehicleState& state = blind_ ? *commanded : *in.state;
+    if (blind) commanded = as_commanded(*in.state, command, Va);
+    const VehicleState& state = blind ? *commanded : *in.state;
     const double rho = density_.at(state.origin_altitude_m + state.height_m);
     const TurnRates turn = turn_rates(state.roll_rad, state.pitch_rad, Va);
     const double speed_ratio = params.airframe->limits.airspeed_cruise_mps / Va;
@@ -122,91 +117,42 @@ struct Inner {
     out.actuators.aileron_rad = roll_to_aileron(state, command, params, slip, scale, integrate, dt);
     out.actuators.elevator_rad = pitch_to_elevator(state, command, params, turn, scale, Va, rho, integrate);
     out.actuators.rudder_rad = yaw_to_rudder(state, params, turn, slip, scale, dt);
-    fade(params, integrating, dt, out.actuators);
+    fade_.step(take_up_ ? &last_ : nullptr, *params.airframe, integrating, dt, out.actuators);
     take_up_ = false;
-    if (params.quieten) quieten(tick, command, params, scale, integrating && !blind_, dt, out);
+    if (params.quieten) quieten(tick, command, params, scale, integrating && !blind, dt, out);
     out.roll_error_rad = command.roll_rad - state.roll_rad;
     out.pitch_error_rad = command.pitch_rad - state.pitch_rad;
     out.surface_scale_ratio = scale;
-    if (blind_) last_ = out.actuators;
-    return blind_ || quietened() ? Status::degraded : Status::ok;
+    if (blind) last_ = out.actuators;
+    return blind || quiet_.quietened() ? Status::degraded : Status::ok;
   }
 
  private:
-  using Gains = std::array<double, 8>;
-  static Gains gains_of(const Params& p) {
+  static QuietAxes::Gains gains_of(const Params& p) {
     return {p.roll_kp,  p.roll_ki,  p.roll_kd, p.pitch_kp,
             p.pitch_ki, p.pitch_kd, p.yaw_kd,  p.quieten ? 1.0 : 0.0};
   }
 
-  bool quietened() const {
-    return std::any_of(quiet_.begin(), quiet_.end(), [](const Quietening& axis) { return axis.gain() < 1; });
-  }
-
-  /// Cuts the gains of an axis whose surface swings by more than an eighth of its throw, again and again.
   /// An aileron that swings yaws the aircraft: as long as it does, the rudder is not to blame.
   void quieten(const Tick& tick, const AttitudeCommand& command, const Params& p, double scale, bool watching,
                double dt, Outputs& out) {
-    static constexpr std::array<const char*, axes> names{"roll", "pitch", "yaw"};
+    if (!watching) return quiet_.begin();
     const Actuators& u = out.actuators;
-    const std::array<double, axes> surface{u.aileron_rad, u.elevator_rad, u.rudder_rad};
-    const std::array<double, axes> commanded{
-        scale * quiet_[roll].gain() * p.roll_kp * command.roll_rad + std::sqrt(scale) * p.roll_kff * p_c_,
-        scale * quiet_[pitch].gain() * p.pitch_kp * command.pitch_rad, u.aileron_rad};
-    const std::array<double, axes> throws{p.airframe->aileron.limit_rad, p.airframe->elevator.limit_rad,
-                                          p.airframe->rudder.limit_rad};
-    for (std::size_t i = 0; i < axes; ++i) {
-      if (!watching) quiet_[i].begin();
-      if (!watching || !quiet_[i].step(surface[i], commanded[i], throws[i] / 8, dt)) continue;
-      Notice notice;
-      notice.severity = Severity::warning;
-      std::snprintf(notice.text.bytes.data(), notice.text.bytes.size(),
-                    "%s oscillates: its gains are multiplied by %g until they are changed", names[i],
-                    quiet_[i].gain());
-      out.notices.push(notice, tick.now_ns);
-    }
+    const QuietAxes::Surfaces surfaces{
+        .deflection = {u.aileron_rad, u.elevator_rad, u.rudder_rad},
+        .commanded = {scale * quiet_.gain(Axis::roll) * p.roll_kp * command.roll_rad +
+                          std::sqrt(scale) * p.roll_kff * p_c_,
+                      scale * quiet_.gain(Axis::pitch) * p.pitch_kp * command.pitch_rad, u.aileron_rad},
+        .limit = {p.airframe->aileron.limit_rad, p.airframe->elevator.limit_rad,
+                  p.airframe->rudder.limit_rad}};
+    quiet_.step(tick, surfaces, dt, out.notices);
   }
 
-  /// Without an attitude nothing can be held. The aircraft is taken to follow its command: what is left are
-  /// feed-forward, trim and the integrals, which roll it level as the command goes there.
-  static VehicleState as_commanded(const VehicleState& last, const AttitudeCommand& command, double Va) {
-    VehicleState state = last;
-    const TurnRates turn = turn_rates(command.roll_rad, command.pitch_rad, Va);
-    state.roll_rad = command.roll_rad;
-    state.pitch_rad = command.pitch_rad;
-    state.rate_radps = {0, turn.q_radps, turn.r_radps};
-    state.beta_rad = 0;
-    return state;
-  }
-  /// Is the attitude known? After a time without it, only once the command answers to it: then no surface
-  /// steps.
-  void look(const Inputs& in, double Va) {
-    if (!in.state->attitude_valid) {
-      blind_ = true;
-      known_ns_ = 0;
-    } else if (blind_) {
-      if (known_ns_ == 0) known_ns_ = in.state.valid_at_ns();
-      if (in.attitude.valid_at_ns() < known_ns_) return;
-      blind_ = false;
-      take_up_ = true;
-      roll_command_rate_.reset_to(in.attitude->roll_rad);
-      washout_.reset_to(yaw_rate_error(*in.state, Va));
-    }
-  }
-
-  /// rad. What is not said anew is not asked for any more: a guide that has stopped steers nothing.
-  static double slip_asked(const Tick& tick, const Inputs& in) {
-    constexpr std::int64_t patience_ns = 200'000'000;
-    const bool fresh = in.sideslip && tick.now_ns - in.sideslip.valid_at_ns() <= patience_ns;
-    return fresh ? in.sideslip->sideslip_rad : 0;
-  }
-  /// Rudder and aileron that hold a steady sideslip: the moments of yaw and roll vanish, B&M (4.19), (4.20).
-  /// The rudder's own rolling moment and the aileron's of yaw are small beside them and left to the loops.
-  static double rudder_for(double slip_rad, const Aerodynamics& a) {
-    return a.yaw.rudder_ratio != 0 ? -a.yaw.beta_ratio / a.yaw.rudder_ratio * slip_rad : 0;
-  }
-  static double aileron_for(double slip_rad, const Aerodynamics& a) {
-    return a.roll.aileron_ratio != 0 ? -a.roll.beta_ratio / a.roll.aileron_ratio * slip_rad : 0;
+  /// The attitude is known again.
+  void take_up(const Inputs& in, double Va) {
+    take_up_ = true;
+    roll_command_rate_.reset_to(in.attitude->roll_rad);
+    washout_.reset_to(yaw_rate_error(*in.state, Va));
   }
 
   /// delta_a = trim + slip's + scale [kp e + kd (p_c - p) + I + k_beta beta] + kff p_c
@@ -225,7 +171,7 @@ struct Inner {
                                      scale * p.roll_from_sideslip * beta,
                       .min = -aileron.limit_rad,
                       .max = aileron.limit_rad};
-    const double k = scale * quiet_[roll].gain();
+    const double k = scale * quiet_.gain(Axis::roll);
     const PidGains gains{k * p.roll_kp, k * p.roll_ki, k * p.roll_kd};
     if (take_up_) roll_.reset_to(last_.aileron_rad, gains, in, 0.1);
     return roll_.step(gains, in, integrate);
@@ -244,7 +190,7 @@ struct Inner {
                       .feedforward = -(elevator.trim_rad + p.turn_kff * (turn - cruise)),
                       .min = -elevator.limit_rad,
                       .max = elevator.limit_rad};
-    const double k = scale * quiet_[pitch].gain();
+    const double k = scale * quiet_.gain(Axis::pitch);
     const PidGains gains{k * p.pitch_kp, k * p.pitch_ki, k * p.pitch_kd};
     if (take_up_) pitch_.reset_to(-last_.elevator_rad, gains, in, 0.2);
     return -pitch_.step(gains, in, integrate);
@@ -260,44 +206,21 @@ struct Inner {
     const Surface& rudder = p.airframe->rudder;
     const double damping = washout_.step(state.rate_radps.z - turn.r_radps, p.yaw_washout, dt);
     const double held = rudder.trim_rad + rudder_for(slip_rad, p.airframe->aero);
-    return std::clamp(held + quiet_[yaw].gain() * (scale * p.yaw_kd * damping), -rudder.limit_rad,
+    return std::clamp(held + quiet_.gain(Axis::yaw) * (scale * p.yaw_kd * damping), -rudder.limit_rad,
                       rudder.limit_rad);
-  }
-
-  /// What the integrals do not take up of a hand-over fades: the rudder, the throttle, and what is beyond
-  /// their bounds. As an exponential, not at a rate as in Airspeed and the outer laws: what is left is known
-  /// only once this law has stepped, most of it is gone at once, and no surface is too fast for its servo.
-  void fade(const Params& p, bool flying, double dt, Actuators& u) {
-    constexpr double within_s = 0.5, forgotten = 1e-6;
-    if (take_up_) fading_ = true;
-    if (!flying) fading_ = false;
-    if (!fading_) return;
-    fading_ = false;
-    const Airframe& a = *p.airframe;
-    const double decay = std::exp(-dt / within_s);
-    const auto one = [&](double Actuators::*of, double least, double most) {
-      left_.*of = take_up_ ? last_.*of - u.*of : decay * left_.*of;
-      u.*of = std::clamp(u.*of + left_.*of, least, most);
-      fading_ = fading_ || std::abs(left_.*of) > forgotten;
-    };
-    one(&Actuators::aileron_rad, -a.aileron.limit_rad, a.aileron.limit_rad);
-    one(&Actuators::elevator_rad, -a.elevator.limit_rad, a.elevator.limit_rad);
-    one(&Actuators::rudder_rad, -a.rudder.limit_rad, a.rudder.limit_rad);
-    one(&Actuators::throttle_frac, 0, 1);
   }
 
   Pid roll_, pitch_;
   Differentiator roll_command_rate_;
   double p_c_ = 0;  ///< roll rate commanded
   WashOut washout_;
-  std::array<Quietening, axes> quiet_;
-  Gains gains_{};  ///< for which the axes are as quiet as they are
+  QuietAxes quiet_;
   NearbyDensity density_;
-  LowPass airspeed_;  ///< m/s, for gains, trim and turn rates
-  Actuators last_;
-  Actuators left_;  ///< of a hand-over, to be forgotten
-  bool take_up_ = false, fading_ = false, blind_ = false;
-  std::int64_t known_ns_ = 0;  ///< the first state after a time without attitude
+  LowPass airspeed_;      ///< m/s, for gains, trim and turn rates
+  Actuators last_;        ///< of another law, or before the attitude was lost
+  bool take_up_ = false;  ///< from `last_`, in this step
+  HandOverFade fade_;
+  AttitudeLoss loss_;
 };
 
 }  // namespace fulmar::slc

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a command goes out: each new one, as often as is allowed, and the last one again before the controller
-// would forget it.
+// When commands, auxiliary outputs and attitudes go out.
 #pragma once
+#include <array>
 #include <cstdint>
+#include <utility>
 
 #include "state.hpp"
 
 namespace fulmar::fcu {
 
+/// Of commands: each new one, as often as is allowed, and the last one again before the controller would
+/// forget it.
 class Pace {
  public:
   explicit Pace(double rate_hz = 400) : period_ns_(static_cast<std::int64_t>(1e9 / rate_hz)) {}
@@ -32,6 +35,38 @@ class Pace {
   static constexpr std::int64_t slack_ns = 500'000;
   std::int64_t period_ns_, sent_ns_ = never_ns, next_ns_ = never_ns;
   bool waiting_ = false;
+};
+
+/// Of auxiliary outputs: repeated now and then: a frame may have been lost, or the controller rebooted.
+class AuxPace {
+ public:
+  bool due(bool fresh, std::int64_t now_ns) {
+    if (!fresh && now_ns - sent_ns_ < period_ns) return false;
+    sent_ns_ = now_ns;
+    return true;
+  }
+  std::array<bool, 14> motors{};  ///< those that were commanded so far
+
+ private:
+  static constexpr std::int64_t period_ns = 1'000'000'000;
+  std::int64_t sent_ns_ = never_ns;
+};
+
+/// Of attitudes for the controller's own estimate: 50 Hz.
+class AttitudePace {
+ public:
+  bool due(std::int64_t now_ns) const { return !(now_ns - sent_ns_ < period_ns); }
+  void sent(std::int64_t now_ns) { sent_ns_ = now_ns; }
+  /// There is no state to send.
+  void tell_unwired(Notices& out) {
+    if (std::exchange(told_unwired_, true)) return;
+    out.say(fulmar::Severity::warning, "send_attitude: nothing comes to the input 'state'; is it wired?");
+  }
+
+ private:
+  static constexpr std::int64_t period_ns = 19'500'000;
+  std::int64_t sent_ns_ = never_ns;
+  bool told_unwired_ = false;
 };
 
 }  // namespace fulmar::fcu

@@ -101,6 +101,23 @@ inline bool changed(const VehicleStatus& a, const VehicleStatus& b) {
          a.in_control != b.in_control || a.errors != b.errors || a.health != b.health;
 }
 
+/// When a state is published: ten times a second, and at once when it changes.
+class StatusPace {
+ public:
+  bool due(const VehicleStatus& s, std::int64_t now_ns) {
+    if (!changed(s, last_) && now_ns - last_ns_ < period_ns) return false;
+    last_ = s;
+    last_ns_ = now_ns;
+    return true;
+  }
+  const VehicleStatus& last() const { return last_; }
+
+ private:
+  static constexpr std::int64_t period_ns = 100'000'000;
+  VehicleStatus last_;
+  std::int64_t last_ns_ = never_ns;
+};
+
 /// Tells each change of the state once.
 class Teller {
  public:

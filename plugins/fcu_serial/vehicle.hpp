@@ -2,16 +2,15 @@
 // The vehicle that is a ROSflight flight controller: its sensors come in, commands go out, and what it says
 // of itself is told.
 #pragma once
-#include <bit>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
-#include <utility>
 
 #include "commands.hpp"
+#include "controller.hpp"
+#include "flight_clock.hpp"
 #include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -21,7 +20,9 @@
 #include "overload.hpp"
 #include "pace.hpp"
 #include "parameter_book.hpp"
+#include "pitot_use.hpp"
 #include "readiness.hpp"
+#include "sample_gate.hpp"
 #include "sensors.hpp"
 
 namespace fulmar::fcu {
@@ -89,7 +90,7 @@ class Vehicle {
     run_ = Run();
     run_.throws = Throws::of(*p.airframe);
     run_.pace = Pace(p.command_rate);
-    run_.pitot_limit_pa = p.pitot_zero_limit;
+    run_.pitot = PitotUse(p.pitot_zero_limit);
     link_.reset();  // a second flight: the port is held until then
     LinkOptions options;
     options.port = port;
@@ -102,21 +103,16 @@ class Vehicle {
 
   /// Wakes with each inertial sample, and after 10 ms without one.
   Status read(Tick& tick, const Params& p, Outputs& out) {
-    if (run_.zero_ns == never_ns) begin();
-    if (p.pitot_zeroed != 0) zeroed_in_the_air();
-    run_.arrived_ns = wait(out);
-    // Time goes by arrivals, so that the age of a sample is what its way here took.
-    const std::int64_t host_ns = link_->now_ns();
-    if (run_.read_ns != never_ns && host_ns - run_.read_ns > stood_still_ns)
+    if (!run_.clock.begun()) begin();
+    if (p.pitot_zeroed != 0) run_.pitot.zeroed_in_the_air(run_.notices);
+    const std::int64_t arrived_ns = wait(out), host_ns = link_->now_ns();
+    const std::int64_t since_ns = run_.clock.tick(arrived_ns, host_ns);
+    if (since_ns > stood_still_ns)
       run_.notices.say(fulmar::Severity::critical,
-                       (Line() << "this computer stood still for ").seconds(host_ns - run_.read_ns)
+                       (Line() << "this computer stood still for ").seconds(since_ns)
                            << ": no command went out meanwhile");
-    if (run_.read_ns != never_ns && host_ns - run_.read_ns > missed_ns)
-      run_.heard.resumed_ns = flight_ns(host_ns);
-    run_.read_ns = host_ns;
-    run_.now_ns = std::max(flight_ns(run_.arrived_ns != never_ns ? run_.arrived_ns : host_ns),
-                           run_.now_ns + min_step_ns);
-    tick.now_ns = run_.now_ns;
+    if (since_ns > missed_ns) run_.heard.resumed_ns = flight_ns(host_ns);
+    tick.now_ns = run_.clock.now_ns();
     last_frame_.fd = link_->descriptor();
     return report(host_ns, out);
   }
@@ -144,19 +140,13 @@ class Vehicle {
 
  private:
   static constexpr std::int64_t wait_ns = 10'000'000;
-  static constexpr std::int64_t min_step_ns =
-      100'000;  ///< samples that arrive together are ticks of their own
   static constexpr std::int64_t backlog_ns =
       50'000'000;  ///< older samples than this are not flown by any more
-  static constexpr std::int64_t status_period_ns = 100'000'000, aux_period_ns = 1'000'000'000,
-                                attitude_period_ns = 19'500'000;
   static constexpr std::int64_t stood_still_ns =
       300'000'000;  ///< between two ticks, which wait for 10 ms at most
   static constexpr std::int64_t missed_ns =
       100'000'000;  ///< the same: what was silent meanwhile is not known
   static constexpr std::int64_t reboot_memory_ns = 1'000'000'000;
-  static constexpr std::int64_t attitude_boots_ns = 3'000'000'000;  ///< FILT_INIT_T: its estimate begins anew
-
   enum Kind : std::uint32_t {
     kind_imu = 1,
     kind_mag = 2,
@@ -168,14 +158,18 @@ class Vehicle {
     kind_aux = 128
   };
 
-  /// What belongs to one flight. Times are flight time, but where it says host.
+  /// What belongs to one flight. Times are flight time.
   struct Run {
     Throws throws;
     Pace pace;
-    RcMap map;
-    std::array<std::optional<std::int32_t>, watched_parameters.size()> parameters;
+    AuxPace aux;
+    AttitudePace attitude;
+    FlightClock clock;
+    Controller controller;
     ParameterBook book;
-    Text<50> version;
+    SampleGate samples;
+    PitotUse pitot;
+    ToldKinds told;
     Heard heard;
     Teller teller;
     Notices notices;
@@ -185,25 +179,13 @@ class Vehicle {
     FixWatch fixes;
     Overload overload;
     Spoken spoken;
-    VehicleStatus status;  ///< last published
+    StatusPace status;
     Rc rc;
-    std::int64_t zero_ns = never_ns,
-                 arrived_ns = never_ns;  ///< host: of flight time 0; arrival of this tick's inertial sample
-    std::int64_t read_ns = never_ns;     ///< host: of the tick before
-    std::int64_t now_ns = -min_step_ns, imu_valid_ns = never_ns, status_ns = never_ns, aux_ns = never_ns;
-    std::int64_t attitude_ns = never_ns, disarmed_ns = never_ns, attitude_from_ns = never_ns;
-    std::uint64_t gnss_stamp_us = 0, clock_us = 0;  ///< the controller's; 0 at its boot
-    std::uint32_t told_kinds = 0;
-    std::uint8_t system = 1;  ///< the controller's SYS_ID: it answers to no other
-    std::array<bool, 14> aux_motors{};
-    bool pitot_zeroed = false;  ///< by a reboot in flight
-    bool pitot_off = false;     ///< its zero is beyond the limit
-    double pitot_limit_pa = 0;
+    std::int64_t disarmed_ns = never_ns;
     bool met_state = false;
-    bool told_unwired = false;  ///< send_attitude without a state to send
   };
 
-  std::int64_t flight_ns(std::int64_t host_ns) const { return host_ns - run_.zero_ns; }
+  std::int64_t flight_ns(std::int64_t host_ns) const { return run_.clock.flight_ns(host_ns); }
 
   void greet(const std::string& port, std::int64_t baud, const Airframe& airframe);
   void listen(Greeting& greeting);
@@ -217,7 +199,7 @@ class Vehicle {
       if (r.event == LinkEvent::packet && r.packet.template is<Statustext>())
         run_.texts.forward(r.packet.template as<Statustext>(), r.arrived_ns, run_.notices);
     link_->wait_imu(link_->now_ns() + wait_ns);
-    run_.zero_ns = link_->now_ns();
+    run_.clock.begin(link_->now_ns());
   }
 
   /// Until an inertial sample that can be flown by, or 10 ms. Its arrival in host time, or never.
@@ -250,12 +232,11 @@ class Vehicle {
     const std::int64_t valid_ns = std::min(r.valid_at_ns, r.arrived_ns);
     const bool too_old = link_->now_ns() - r.arrived_ns > backlog_ns;
     run_.overload.sample(too_old);
-    if (valid_ns <= run_.imu_valid_ns || too_old) return false;
+    if (!run_.samples.newer_imu(valid_ns) || too_old) return false;
     const auto imu = to_imu(r.packet.template as<SmallImu>());
     if (!usable(imu.has_value(), kind_imu, "inertial unit")) return false;
-    run_.imu_valid_ns = valid_ns;
-    run_.system = r.packet.system;
-    run_.clock_us = r.packet.template as<SmallImu>().time_boot_us;
+    run_.samples.imu(valid_ns);
+    run_.controller.speaks(r.packet.system, r.packet.template as<SmallImu>().time_boot_us);
     run_.report.imu(valid_ns);
     run_.heard.imu_ns = flight_ns(r.arrived_ns);
     out.imu.publish(*imu, flight_ns(valid_ns));
@@ -266,7 +247,6 @@ class Vehicle {
   void take_state(const Received& r, Outputs& out);
   void take_gnss(const Received& r, Outputs& out);
   void take_parameter(const ParamValue& p, Outputs& out);
-  void take_pitot_zero(std::int32_t bits);
   void take_version(const RosflightVersion& m);
 
   template <class T>
@@ -284,10 +264,9 @@ class Vehicle {
   bool usable(bool good, Kind kind, const char* name) {
     if (good) return true;
     ++run_.report.unusable;
-    if ((run_.told_kinds & kind) == 0)
+    if (run_.told.first(kind))
       run_.notices.say(fulmar::Severity::warning,
                        Line() << "the " << name << " gives values that cannot be; they are not used");
-    run_.told_kinds |= kind;
     return false;
   }
 
@@ -297,41 +276,32 @@ class Vehicle {
     run_.book.restart();
   }
   void ask_parameter() {
-    const auto index = run_.book.next(run_.now_ns);
-    if (index) link_->send(ParamRequestRead{*index, run_.system});
+    const auto index = run_.book.next(run_.clock.now_ns());
+    if (index) link_->send(ParamRequestRead{*index, run_.controller.system()});
     run_.book.tell(run_.notices);
   }
 
   void rebooted() {
-    const bool flying = run_.heard.status.armed != 0 || run_.now_ns - run_.disarmed_ns < reboot_memory_ns;
-    run_.imu_valid_ns = never_ns;
-    run_.attitude_from_ns = run_.now_ns + attitude_boots_ns;
+    const std::int64_t now_ns = run_.clock.now_ns();
+    const bool flying = run_.heard.status.armed != 0 || now_ns - run_.disarmed_ns < reboot_memory_ns;
+    run_.samples.rebooted(now_ns);
     if (!flying) return run_.notices.say(fulmar::Severity::warning, "the flight controller has rebooted");
     run_.notices.say(
         fulmar::Severity::critical,
         "the flight controller has rebooted while armed: its motor is off until it is armed again");
-    zeroed_in_the_air();
-  }
-
-  /// By a boot of the controller, now or before this host began.
-  void zeroed_in_the_air() {
-    if (std::exchange(run_.pitot_zeroed, true)) return;
-    run_.notices.say(fulmar::Severity::critical,
-                     "it has zeroed its airspeed in the air: pitot not used any more, restart on the ground");
+    run_.pitot.zeroed_in_the_air(run_.notices);
   }
 
   Status report(std::int64_t host_ns, Outputs& out) {
+    const std::int64_t now_ns = run_.clock.now_ns();
     run_.heard.open = last_frame_.fd >= 0;
-    VehicleStatus s = evaluate(run_.heard, run_.now_ns);
+    VehicleStatus s = evaluate(run_.heard, now_ns);
     s.in_control = s.in_control && !run_.readiness.refuses(s);  // a command of before is still obeyed
-    run_.teller.tell(s, run_.heard, run_.now_ns, run_.notices);
-    run_.overload.tell(run_.now_ns, run_.notices);
+    run_.teller.tell(s, run_.heard, now_ns, run_.notices);
+    run_.overload.tell(now_ns, run_.notices);
     run_.fixes.tell(run_.spoken.fix_ns, std::max(run_.heard.since_ns, run_.heard.resumed_ns),
-                    (s.errors & own_error_link_down) == 0, s.armed, run_.now_ns, run_.notices);
-    const bool known = run_.heard.status_ns != never_ns;
-    if (known && (changed(s, run_.status) || run_.now_ns - run_.status_ns >= status_period_ns)) {
-      run_.status = s;
-      run_.status_ns = run_.now_ns;
+                    (s.errors & own_error_link_down) == 0, s.armed, now_ns, run_.notices);
+    if (run_.heard.status_ns != never_ns && run_.status.due(s, now_ns)) {
       out.status.publish(s);
       if ((s.errors & own_error_rc_silent) != 0) {
         run_.rc.link = false;
@@ -339,33 +309,27 @@ class Vehicle {
       }
     }
     if ((s.errors & own_error_link_down) == 0) ask_parameter();
-    run_.notices.flush(out.notices, run_.now_ns);
-    if (run_.report.due(run_.now_ns)) {
-      LinkStatus link = run_.report.take(link_->state(), host_ns, run_.now_ns);
-      link.pitot_zeroed = run_.pitot_zeroed;
+    run_.notices.flush(out.notices, now_ns);
+    if (run_.report.due(now_ns)) {
+      LinkStatus link = run_.report.take(link_->state(), host_ns, now_ns);
+      link.pitot_zeroed = run_.pitot.zeroed();
       out.link.publish(link);
     }
     return (s.errors & own_error_link_down) != 0 ? Status::degraded : Status::ok;
   }
 
-  PitotZero zero_of_pitot() const {
-    if (run_.pitot_zeroed || run_.pitot_off) return PitotZero::wrong;
-    return run_.clock_us < zeroing_us ? PitotZero::pending : PitotZero::good;
-  }
-
   /// Without an estimate, given or demanded, whoever commands has to know.
   bool may_command(std::int64_t now_ns, const Inputs& in, const Params& p) {
     const Optional<VehicleState>& state = in.state;
-    if (p.send_attitude && !state && now_ns > estimate_patience_ns * 20 &&
-        !std::exchange(run_.told_unwired, true))
-      run_.notices.say(fulmar::Severity::warning,
-                       "send_attitude: nothing comes to the input 'state'; is it wired?");
+    if (p.send_attitude && !state && now_ns > estimate_patience_ns * 20)
+      run_.attitude.tell_unwired(run_.notices);
     if ((!state && !p.needs_state) || run_.heard.status_ns == never_ns) return true;
     const bool current = state && now_ns - state.valid_at_ns() < estimate_patience_ns;
-    return run_.readiness.update({current ? &*state : nullptr, run_.status, run_.spoken,
-                                  now_ns - run_.heard.imu_ns < command_patience_ns, zero_of_pitot(),
-                                  in.path || !p.needs_path, run_.fixes.lost()},
-                                 now_ns, run_.notices);
+    return run_.readiness.update(
+        {current ? &*state : nullptr, run_.status.last(), run_.spoken,
+         now_ns - run_.heard.imu_ns < command_patience_ns, run_.pitot.zero(run_.controller.clock_us()),
+         in.path || !p.needs_path, run_.fixes.lost()},
+        now_ns, run_.notices);
   }
 
   /// Nothing without a command, or with one that nobody has renewed: the controller then hands over to its
@@ -379,40 +343,36 @@ class Vehicle {
     const auto command = to_offboard(wanted, run_.throws);
     if (!command || !link_->send(*command)) {
       ++run_.report.unsent;
-      if (!command && (run_.told_kinds & kind_command) == 0)
+      if (!command && run_.told.first(kind_command))
         run_.notices.say(fulmar::Severity::error, "a command is not finite; such commands are not sent");
-      if (!command) run_.told_kinds |= kind_command;
       return;
     }
     run_.pace.sent(now_ns);
     run_.heard.command_ns = now_ns;
     ++run_.report.commands;
-    if (run_.arrived_ns != never_ns) run_.report.turnaround(link_->now_ns() - run_.arrived_ns);
+    const std::int64_t arrived_ns = run_.clock.arrived_ns();
+    if (arrived_ns != never_ns) run_.report.turnaround(link_->now_ns() - arrived_ns);
   }
 
-  /// Repeated now and then: a frame may have been lost, or the controller rebooted.
   void send_aux(std::int64_t now_ns, const Optional<AuxOutputs>& aux) {
-    if (!aux || (!aux.fresh() && now_ns - run_.aux_ns < aux_period_ns)) return;
-    run_.aux_ns = now_ns;
+    if (!aux || !run_.aux.due(aux.fresh(), now_ns)) return;
     auto command = to_aux(*aux);
     if (!command) {
-      if ((run_.told_kinds & kind_aux) == 0)
+      if (run_.told.first(kind_aux))
         run_.notices.say(fulmar::Severity::error,
                          "an auxiliary output is not finite; such outputs are not sent");
-      run_.told_kinds |= kind_aux;
       return;
     }
-    stop_motors(*command, run_.aux_motors);
+    stop_motors(*command, run_.aux.motors);
     link_->send(*command);
   }
 
   void send_attitude(std::int64_t now_ns, const Optional<VehicleState>& state) {
-    if (!state || !state.fresh() || !state->attitude_valid || now_ns - run_.attitude_ns < attitude_period_ns)
-      return;
+    if (!state || !state.fresh() || !state->attitude_valid || !run_.attitude.due(now_ns)) return;
     const auto attitude = to_external_attitude(state->attitude);
     if (!attitude) return;
     link_->send(*attitude);
-    run_.attitude_ns = now_ns;
+    run_.attitude.sent(now_ns);
   }
 
   std::unique_ptr<AnyLink> link_;

@@ -14,19 +14,15 @@ void Vehicle<AnyLink>::greet(const std::string& port, std::int64_t baud, const A
     link_.reset();
     throw std::runtime_error(fault);
   }
-  run_.parameters = g.parameters;
-  run_.version = Text<50>(g.version);
+  run_.controller.meet(g);
   run_.book.expect(g.parameter_count);
-  for (std::size_t i = 0; i < watched_parameters.size(); ++i)
-    if (g.parameters[i]) run_.map.take(watched_parameters[i], *g.parameters[i]);
-  const std::int32_t pitot = g.parameter(pitot_zero, 0);
   Line line;
   line << "connected: "
        << (g.versioned ? "ROSflight " + g.version
                        : "an armed flight controller, which does not tell its version");
   run_.notices.say(fulmar::Severity::info, line);
   if (g.versioned) tell_untried(g.version);
-  take_pitot_zero(pitot);
+  run_.pitot.take_zero(g.parameter(pitot_zero, 0), run_.heard.status.armed != 0, run_.notices);
   tell_reversals(g, airframe);
 }
 
@@ -86,13 +82,13 @@ void Vehicle<AnyLink>::take(const Received& r, Outputs& out) {
     case SmallBaro::id:
       return publish(out.baro, to_baro(r.packet.template as<SmallBaro>()), r, kind_baro, "barometer");
     case DiffPressure::id:
-      if (!run_.pitot_zeroed && !run_.pitot_off)
+      if (run_.pitot.used())
         publish(out.pitot, to_pitot(r.packet.template as<DiffPressure>()), r, kind_pitot, "pitot tube");
       return;
     case SmallRange::id:
       return publish(out.range, to_range(r.packet.template as<SmallRange>()), r, kind_other, "range finder");
     case AttitudeQuaternion::id:
-      if (run_.now_ns < run_.attitude_from_ns) return;
+      if (!run_.samples.attitude(run_.clock.now_ns())) return;
       return publish(out.attitude, to_attitude(r.packet.template as<AttitudeQuaternion>()), r, kind_other,
                      "controller's estimator");
     case RosflightOutputRaw::id:
@@ -103,12 +99,10 @@ void Vehicle<AnyLink>::take(const Received& r, Outputs& out) {
   }
 }
 
-/// A frame that comes twice is one fix.
 template <class AnyLink>
 void Vehicle<AnyLink>::take_gnss(const Received& r, Outputs& out) {
   const auto message = r.packet.template as<RosflightGnss>();
-  if (message.rosflight_timestamp != 0 && message.rosflight_timestamp == run_.gnss_stamp_us) return;
-  run_.gnss_stamp_us = message.rosflight_timestamp;
+  if (run_.samples.same_fix(message.rosflight_timestamp)) return;
   publish(out.gnss, to_gnss(message), r, kind_gnss, "satellite receiver");
 }
 
@@ -126,7 +120,7 @@ void Vehicle<AnyLink>::take_state(const Received& r, Outputs& out) {
     }
     case RcChannels::id:
       heard.rc(arrived_ns);
-      run_.rc = to_rc(r.packet.template as<RcChannels>(), run_.map, run_.throws,
+      run_.rc = to_rc(r.packet.template as<RcChannels>(), run_.controller.map(), run_.throws,
                       (heard.status.error_code & error_rc_lost) == 0);
       return out.rc.publish(run_.rc, flight_ns(std::min(r.valid_at_ns, r.arrived_ns)));
     case RosflightBatteryStatus::id: {
@@ -160,38 +154,14 @@ void Vehicle<AnyLink>::take_parameter(const ParamValue& p, Outputs& out) {
   if (full.count == full.items.size())
     run_.book.forget(p.param_index);
   else if (const auto news = run_.book.take(p))
-    out.parameters.push(*news, run_.now_ns);
-  const std::string_view name = id_of(p.param_id);
-  const auto at = static_cast<std::size_t>(
-      std::find(watched_parameters.begin(), watched_parameters.end(), name) - watched_parameters.begin());
-  if (at == watched_parameters.size()) return;
-  const std::int32_t value = watched_bits(name, p);
-  const bool known = run_.parameters[at].has_value();
-  if (known && *run_.parameters[at] == value) return;
-  run_.parameters[at] = value;
-  run_.map.take(name, value);
-  if (name == pitot_zero) return take_pitot_zero(value);
-  if (known)
-    run_.notices.say(fulmar::Severity::warning,
-                     Line() << "the flight controller's " << name << " is now " << std::int64_t{value});
-}
-
-/// In still air it is the offset of the sensor; beyond the limit it is the pressure of an airspeed, and the
-/// tube would say 0 at that.
-template <class AnyLink>
-void Vehicle<AnyLink>::take_pitot_zero(std::int32_t bits) {
-  const double pascal = static_cast<double>(std::bit_cast<float>(bits));
-  const bool off = !(std::fabs(pascal) <= run_.pitot_limit_pa);
-  if (off == std::exchange(run_.pitot_off, off)) return;
-  if (!off)
-    return run_.notices.say(fulmar::Severity::info, "the pitot tube is zeroed anew: it is used again");
-  Line line;
-  if (std::isfinite(pascal) && std::fabs(pascal) < 1e6)
-    line << "pitot zeroed at " << std::llround(pascal) << " Pa";
-  else
-    line << "pitot zeroed wrong";
-  run_.notices.say(run_.heard.status.armed != 0 ? fulmar::Severity::critical : fulmar::Severity::warning,
-                   line << ", in wind or in the air: it is not used; zero it on the ground");
+    out.parameters.push(*news, run_.clock.now_ns());
+  const auto change = run_.controller.take(p);
+  if (!change) return;
+  if (change->name == pitot_zero)
+    return run_.pitot.take_zero(change->value, run_.heard.status.armed != 0, run_.notices);
+  if (change->known)
+    run_.notices.say(fulmar::Severity::warning, Line() << "the flight controller's " << change->name
+                                                       << " is now " << std::int64_t{change->value});
 }
 
 template <class AnyLink>
@@ -199,10 +169,7 @@ void Vehicle<AnyLink>::take_version(const RosflightVersion& m) {
   const Text<50> version(std::string_view(
       m.version.data(),
       static_cast<std::size_t>(std::find(m.version.begin(), m.version.end(), '\0') - m.version.begin())));
-  if (version == run_.version) return;
-  const bool known = !run_.version.view().empty();
-  run_.version = version;
-  if (!known) return;
+  if (!run_.controller.other_version(version)) return;
   run_.notices.say(fulmar::Severity::warning,
                    Line() << "this is another firmware: ROSflight " << version.view());
   tell_untried(version.view());

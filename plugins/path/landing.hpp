@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fulmar/flight/earth/atmosphere.hpp"
+#include "decrab.hpp"
 #include "fulmar/flight/math/filters.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/ground_state.hpp"
@@ -17,14 +17,12 @@
 #include "fulmar/msg/sideslip_command.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 #include "landing_notices.hpp"
+#include "landing_params.hpp"
 #include "plan_file.hpp"
 #include "runway_site.hpp"
 #include "vector_field.hpp"
 
 namespace fulmar::path {
-
-/// What the wind does to an approach: refuse it and stay on the circle, or fly it with a warning.
-enum class WindAnswer : std::uint8_t { refuse, warn };
 
 struct Landing {
   static constexpr const char* doc =
@@ -50,12 +48,7 @@ struct Landing {
     Record<safety::Fence> fence{
         "in which circle, approach and runway have to lie; without it none is looked at"};
     Param fence_margin{15, "m", 0, 1000, "that they leave to the fence and its ceiling, as safety/Monitor's"};
-    Param glide_slope{0.07, "rad", 0.02, 0.3,
-                      "of the approach; what touches down with a late flare is its sink"};
-    Param aim{50, "m", 0, 500, "from the threshold to where the glide slope meets the runway"};
-    Param final_length{400, "m", 50, 10000, "of the final approach, from its circle to the threshold"};
-    Param circle_radius{70, "m", 10, 2000, "of the circle that leads onto it"};
-    Choice<Turn> circle{Turn::left, "how that circle is flown"};
+    PatternParams pattern;
     Param approach_ratio{1.1, "ratio", 1, 2, "approach airspeed over the airframe's minimum"};
     Param wind_share{0.5, "ratio", 0, 1,
                      "of the head wind that approach and flare are faster by, up to the cruise airspeed"};
@@ -64,18 +57,9 @@ struct Landing {
     Param decrab{0, "rad", 0, 0.4,
                  "most sideslip by which the flare turns the nose to the runway; needs the output `sideslip` "
                  "wired to the inner loops"};
-    Param decision_height{12, "m", 1, 100, "above the runway, down to where it may go around"};
-    Param cross_limit{8, "m", 0.5, 100, "farther from the centre line below twice that height: go around"};
-    Param height_limit{6, "m", 0.5, 100, "farther from the glide slope below twice that height: go around"};
+    GoAroundLimits limits;
     Param deceleration{0.8, "m/s2", 0.05, 10, "of the roll, by which the runway has to be long enough"};
-    Choice<WindAnswer> wind{WindAnswer::refuse,
-                            "an approach in more wind than crosswind_limit, or than the runway is long "
-                            "enough for: refuse: stay on "
-                            "the circle; warn: fly it with a warning"};
-    Param wind_wait{180, "s", 0, 86400,
-                    "after so long on the circle a refused approach is flown with a warning, as with less "
-                    "than a fifth of the charge"};
-    Param crosswind_limit{0.55, "ratio", 0, 2, "crosswind over approach airspeed, up to which it lands"};
+    WindLimits wind;
     Param late_sink{
         0.7, "m/s", 0.05, 3,
         "largest sink rate of a flare that lasts longer than its height says: the height was wrong"};
@@ -86,8 +70,8 @@ struct Landing {
   void configure(const Params& p) {
     const double V = p.airframe->limits.airspeed_min_mps;
     const double flare =
-        p.flare_height / std::tan(p.glide_slope) + 2 * V;  // the slope's way, and two seconds
-    const double needed = p.aim + flare + 0.5 * V * V / p.deceleration;
+        p.flare_height / std::tan(p.pattern.glide_slope) + 2 * V;  // the slope's way, and two seconds
+    const double needed = p.pattern.aim + flare + 0.5 * V * V / p.deceleration;
     height_off_m_ = 0;
     const std::string of = p.runway.given() ? "runway" : "plan.runway";
     site_.take(p.runway.given() ? *p.runway : p.plan->runway, of, p.plan.given() && !p.runway.given());
@@ -96,15 +80,16 @@ struct Landing {
       throw std::runtime_error(of + ".length: " + std::to_string(std::lround(site_.runway().length_m)) +
                                " m is too short; aim, flare and roll take " +
                                std::to_string(std::lround(needed)) + " m in still air");
-    check_slope(p.airframe->limits, p.approach_ratio, p.glide_slope);
+    check_slope(p.airframe->limits, p.approach_ratio, p.pattern.glide_slope);
     if (p.fence.is_given && site_.located())
-      site_.within_fence(*p.fence, *p.origin, p.fence_margin, pattern(p));
+      site_.within_fence(*p.fence, *p.origin, p.fence_margin, pattern_of(p.pattern));
   }
 
   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>&) {
     progress_.stage = LandingStage::join;
     progress_.reason = LandingReason::none;
-    settled_s_ = slip_rad_ = height_off_m_ = refused_s_ = 0;
+    settled_s_ = height_off_m_ = refused_s_ = 0;
+    decrab_ = {};
     broken_off_ = false;
     head_.reset();
     cross_.reset();
@@ -127,16 +112,13 @@ struct Landing {
     fly(s, p, dt);
     out.command = command_;
     out.progress = progress_;
-    out.sideslip.sideslip_rad = slip_rad_;
+    out.sideslip.sideslip_rad = decrab_.slip_rad();
     out.height_error_m = progress_.stage == LandingStage::approach ? s.height_m - slope_height(p) : 0.0;
     const bool known = s.position_valid && s.height_valid && s.attitude_valid;
     return known ? Status::ok : Status::degraded;
   }
 
  private:
-  Pattern pattern(const Params& p) const {
-    return {p.glide_slope, p.aim, p.final_length, p.circle_radius, p.circle};
-  }
   /// The place of the runway is not known yet: straight on.
   Status wait(const VehicleState& s, const Params& p, Outputs& out) {
     command_ = {};
@@ -153,12 +135,12 @@ struct Landing {
     return p.field.reference_speed / std::max(s.ground_speed_mps, 0.3 * p.field.reference_speed);
   }
   double runway_height() const { return site_.runway().up_m + height_off_m_; }
-  double fix_height(const Params& p) const { return site_.fix_height(pattern(p)) + height_off_m_; }
+  double fix_height(const Params& p) const { return site_.fix_height(pattern_of(p.pattern)) + height_off_m_; }
   double slope_height(const Params& p) const {
-    return runway_height() + std::tan(p.glide_slope) * progress_.along_m;
+    return runway_height() + std::tan(p.pattern.glide_slope) * progress_.along_m;
   }
   Path final_approach(const Params& p) const {
-    Path path = site_.final_approach(pattern(p));
+    Path path = site_.final_approach(pattern_of(p.pattern));
     path.origin_m.down -= height_off_m_;
     return path;
   }
@@ -171,7 +153,7 @@ struct Landing {
     progress_.cross_m = cosine * e - sine * n;
     progress_.height_m = s.height_m - runway_height();
     progress_.runway_rad = site_.runway().heading_rad;
-    progress_.beyond_threshold_m = p.aim - progress_.along_m;
+    progress_.beyond_threshold_m = p.pattern.aim - progress_.along_m;
   }
 
   /// Along and across the runway, and how much of it a landing takes in this wind.
@@ -183,15 +165,16 @@ struct Landing {
     progress_.cross_wind_mps = cross_.step(w.east * c - w.north * e, gusts_s, dt);
     const double V = capped(p.airframe->limits.airspeed_min_mps + faster_mps(s, p), p);
     const double over_ground = std::max(V - progress_.head_wind_mps, 1.0);
-    const double flare_s = (p.flare_height / std::tan(p.glide_slope)) / V + 2;
-    progress_.needed_m = p.aim + flare_s * over_ground + 0.5 * over_ground * over_ground / p.deceleration;
+    const double flare_s = (p.flare_height / std::tan(p.pattern.glide_slope)) / V + 2;
+    progress_.needed_m =
+        p.pattern.aim + flare_s * over_ground + 0.5 * over_ground * over_ground / p.deceleration;
   }
   static bool by_wind(LandingReason why) {
     return why == LandingReason::crosswind || why == LandingReason::runway_short;
   }
   LandingReason refused_by_wind(const Params& p) const {
     const double V = p.approach_ratio * p.airframe->limits.airspeed_min_mps;
-    if (std::abs(progress_.cross_wind_mps) > p.crosswind_limit * V) return LandingReason::crosswind;
+    if (std::abs(progress_.cross_wind_mps) > p.wind.crosswind_limit * V) return LandingReason::crosswind;
     return progress_.needed_m > site_.runway().length_m ? LandingReason::runway_short : LandingReason::none;
   }
 
@@ -207,7 +190,7 @@ struct Landing {
         if (onto_final(s, course_error, p)) begin_approach(in, p);
         break;
       case LandingStage::approach:
-        if (p.decision_height > progress_.height_m && touches)
+        if (p.limits.decision_height > progress_.height_m && touches)
           roll();  // the height was wrong
         else if (const LandingReason why = missed(s, p); why != LandingReason::none)
           go_around(why);
@@ -241,17 +224,17 @@ struct Landing {
   }
 
   bool onto_final(const VehicleState& s, double course_error, const Params& p) const {
-    const double past_fix = p.final_length + p.aim - progress_.along_m;
-    const bool onto = std::abs(past_fix) < 0.5 * p.circle_radius && std::abs(progress_.cross_m) < 20 &&
-                      std::abs(course_error) < 0.35;
-    return onto && std::abs(s.height_m - fix_height(p)) < p.height_limit && !p.go_around;
+    const double past_fix = p.pattern.final_length + p.pattern.aim - progress_.along_m;
+    const bool onto = std::abs(past_fix) < 0.5 * p.pattern.circle_radius &&
+                      std::abs(progress_.cross_m) < 20 && std::abs(course_error) < 0.35;
+    return onto && std::abs(s.height_m - fix_height(p)) < p.limits.height_limit && !p.go_around;
   }
   void begin_approach(const Inputs& in, const Params& p) {
     constexpr double low_frac = 0.2;
     progress_.reason = refused_by_wind(p);
     const bool low = in.status && in.status->battery_frac < low_frac;  // a battery that is not known is not
-    if (progress_.reason == LandingReason::none || p.wind == WindAnswer::warn || low ||
-        refused_s_ > p.wind_wait)
+    if (progress_.reason == LandingReason::none || p.wind.wind == WindAnswer::warn || low ||
+        refused_s_ > p.wind.wind_wait)
       progress_.stage = LandingStage::approach;
   }
   void flare(const VehicleState& s) {
@@ -278,12 +261,12 @@ struct Landing {
   /// Before the decision height: can this approach still end on the runway?
   LandingReason missed(const VehicleState& s, const Params& p) const {
     if (p.go_around) return LandingReason::commanded;
-    if (progress_.height_m < p.decision_height) return LandingReason::none;
+    if (progress_.height_m < p.limits.decision_height) return LandingReason::none;
     if (!s.position_valid || !s.height_valid) return LandingReason::position;
-    if (progress_.height_m > 2 * p.decision_height) return LandingReason::none;
-    if (std::abs(progress_.cross_m) > p.cross_limit) return LandingReason::cross_track;
-    return std::abs(s.height_m - slope_height(p)) > p.height_limit ? LandingReason::height
-                                                                   : LandingReason::none;
+    if (progress_.height_m > 2 * p.limits.decision_height) return LandingReason::none;
+    if (std::abs(progress_.cross_m) > p.limits.cross_limit) return LandingReason::cross_track;
+    return std::abs(s.height_m - slope_height(p)) > p.limits.height_limit ? LandingReason::height
+                                                                          : LandingReason::none;
   }
   /// Seconds that a flare lasts whose sink falls with its height, B&M-like: dh/dt = -(t + (s - t) h / h0).
   double expected_flare_s(double slope_sink, const Params& p) const {
@@ -292,7 +275,7 @@ struct Landing {
   }
   /// In the flare: no touch-down, and no more runway left than a stop takes. Once: the next one lands.
   bool too_long(const VehicleState& s, const Params& p) const {
-    const double left = site_.runway().length_m - p.aim + progress_.along_m;
+    const double left = site_.runway().length_m - p.pattern.aim + progress_.along_m;
     const double stop = 0.5 * s.ground_speed_mps * s.ground_speed_mps / p.deceleration;
     return !broken_off_ && s.position_valid && flare_s_ > 5 && left < stop;
   }
@@ -316,47 +299,12 @@ struct Landing {
     return std::min(airspeed_mps, p.airframe->limits.airspeed_cruise_mps);
   }
 
-  /// From the flare on the nose is turned to the runway, as far as `decrab` goes; what is left of the error
-  /// after a second is taken up once more, so the rudder need not be known well.
-  void turn_nose(const VehicleState& s, const Params& p, double dt) {
-    constexpr double within_s = 1, blown_m = 2, steer_m = 15, steer_rad = 0.2, gain = 4, most_rad = 0.35;
-    const bool low = progress_.stage == LandingStage::flare || progress_.stage == LandingStage::roll_out;
-    const Airframe& a = *p.airframe;
-    const bool steered = a.rudder.limit_rad > 0 && a.aero.yaw.rudder_ratio != 0;
-    if (!low || !steered || p.decrab <= 0 || !s.attitude_valid) {
-      slip_rad_ = 0;
-      return;
-    }
-    const double off = angle_difference(s.yaw_rad, site_.runway().heading_rad);
-    if (progress_.stage ==
-        LandingStage::roll_out) {  // back to the centre line, by what is left of the rudder
-      const double towards = std::clamp(progress_.cross_m / steer_m, -steer_rad, steer_rad);
-      slip_rad_ = std::clamp(gain * (off + towards), -most_rad, most_rad);
-      return;
-    }
-    // The bank may not suffice for slip and gust: whoever is blown off the line flies less of the slip.
-    const double leeward_m = std::max(slip_rad_ > 0 ? -progress_.cross_m : progress_.cross_m, 0.0);
-    const double most = p.decrab * std::max(1 - leeward_m / blown_m, 0.0);
-    slip_rad_ = std::clamp(slip_rad_ + off * dt / within_s, -most, most);
-  }
-  /// Bank that takes the side force of that sideslip, rudder included: m g sin(phi) = q S CY, B&M (4.18) and
-  /// (4.5).
-  double slip_bank(const VehicleState& s, const Params& p) const {
-    const Airframe& a = *p.airframe;
-    const Derivatives &Y = a.aero.side, &N = a.aero.yaw;
-    const double rudder = N.rudder_ratio != 0 ? -N.beta_ratio / N.rudder_ratio : 0;
-    const double q =
-        0.5 * standard_air(s.origin_altitude_m + s.height_m).density_kgm3 * s.airspeed_mps * s.airspeed_mps;
-    const double side = q * a.wing.area_m2 * (Y.beta_ratio + Y.rudder_ratio * rudder) * slip_rad_;
-    return std::asin(std::clamp(-side / (a.mass_kg * isa::g0), -0.17, 0.17));
-  }
-
   void fly(const VehicleState& s, const Params& p, double dt) {
     const FlightLimits& limits = p.airframe->limits;
-    turn_nose(s, p, dt);
+    decrab_.step(progress_, s, *p.airframe, p.decrab, dt);
     const double faster = faster_mps(s, p);
     if (progress_.stage == LandingStage::join) {
-      const Path path = site_.circle(pattern(p));
+      const Path path = site_.circle(pattern_of(p.pattern));
       const VectorField::Aim aim = VectorField::at_orbit(path, s, p.field, k(s, p));
       follow(aim, path, s, p);
       command_.height_m = fix_height(p);
@@ -384,7 +332,7 @@ struct Landing {
                                      s.height_m + lead_m);
         command_.height_m = flare_height_m_;
         command_.airspeed_mps = capped(limits.airspeed_min_mps + faster, p);
-        command_.roll_feedforward_rad += slip_bank(s, p);
+        command_.roll_feedforward_rad += decrab_.bank_rad(s, *p.airframe);
         break;
       }
       case LandingStage::go_around:
@@ -419,7 +367,7 @@ struct Landing {
   LowPass head_, cross_;      ///< wind, m/s
   std::uint32_t resets_ = 0;  ///< of the state, seen so far
   LandingNotices notices_;
-  double slip_rad_ = 0;                  ///< asked for
+  Decrab decrab_;
   static constexpr double lead_m = 1.5;  ///< of the flare's height before the aircraft
 };
 

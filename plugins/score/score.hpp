@@ -4,9 +4,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "fulmar/flight/earth/geodesy.hpp"
 #include "fulmar/flight/path/curve.hpp"
 #include "fulmar/flight/path/route.hpp"
 #include "fulmar/msg/actuators.hpp"
@@ -25,21 +23,17 @@
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 #include "fulmar/plugin.hpp"
+#include "gnss_errors.hpp"
+#include "mean_square.hpp"
+#include "plan_figures.hpp"
 #include "score_messages.hpp"
 #include "story.hpp"
+#include "surface_rate.hpp"
 #include "touch_watch.hpp"
+#include "truth_frame.hpp"
 #include "truth_history.hpp"
 
 namespace fulmar::score {
-
-/// Running mean of squares: no sum that grows, so no digits lost over a long flight.
-struct MeanSquare {
-  double mean = 0;
-  double count = 0;
-  void add(double error) { mean += (error * error - mean) / ++count; }
-  double rms() const { return std::sqrt(mean); }
-  double rms_if_any() const { return count > 0 ? rms() : unknown_std; }
-};
 
 /// The legs around the waypoint that is flown to, kept until it changes; the whole plan is never searched.
 class NearRoute {
@@ -111,46 +105,32 @@ struct Score {
     MeanSquare north, east, altitude, vel_x, vel_y, vel_z, roll, pitch, heading, course, airspeed, wind_n,
         wind_e;
   };
-  struct Pending {  // a sample whose truth is not there yet
-    bool waits = false;
-    std::int64_t time_ns = 0;
-    Compared sample;
-  };
-
   void watch(const Tick& tick, const Inputs& in, Outputs& out);
   bool follows_plan(const Tick& tick, const Inputs& in);
-  void begin(const Tick& tick, const Inputs& in);
-  void count_commands(const Inputs& in, bool counts);
   void track(const Inputs& in, const VehicleState& state, Tracking& sums);
   bool nearest_point(const Inputs& in, const VehicleState& state, RoutePoint& point);
   void note_truth(const Inputs& in);
   void estimate(const Inputs& in);
   void add_estimation(const Compared& estimate, const Compared& truth);
-  void fix(const Inputs& in);
   void count(const Tick& tick, const Inputs& in, bool counts);
-  bool due(const Tick& tick, const Inputs& in);
+  static const Progress* progress(const Inputs& in) { return in.progress ? &*in.progress : nullptr; }
   void publish(Outputs& out) const;
 
   NearRoute route_;
   Tracking tracking_, tracking_true_;
-  Estimation estimation_;
-  MeanSquare gnss_north_, gnss_east_, surface_rate_;
-  Figures figures_;
+  TruthFrame frame_;
   TruthHistory history_;
-  Pending state_, gnss_;
-  LocalFrame frame_;  // of the truth's origin
-  double frame_lat_deg_ = std::numeric_limits<double>::infinity(), frame_lon_deg_ = 0, frame_alt_m_ = 0;
-  Actuators actuators_;
-  std::int64_t actuators_ns_ = 0;
-  std::uint64_t actuators_seen_ = 0;
+  Estimation estimation_;
+  Pending state_;
+  GnssErrors gnss_;
+  SurfaceRate surface_rate_;
+  PlanFigures plan_;
+  UnderWay under_way_;
   TouchWatch touch_;
+  std::int64_t touch_published_ns_ = 0;
   Story story_;
-  bool crashed_ = false;
-  bool started_ = false, under_way_ = true;  // under way: a waypoint was reached since it stood on the ground
-  std::uint32_t reached_on_ground_ = 0;
-  double counted_s_ = 0, left_out_s_ = 0, miss_max_m_ = unknown_std;
-  std::int64_t lap_began_ns_ = 0, published_ns_ = 0, touch_published_ns_ = 0;
-  std::uint32_t first_reached_ = 0, reached_ = 0, circuits_ = 0;
+  bool crashed_ = false, started_ = false;
+  double counted_s_ = 0, left_out_s_ = 0;
   double airspeed_min_ = unknown_std;
 };
 

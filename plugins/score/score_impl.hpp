@@ -49,7 +49,7 @@ inline Status Score::step(const Tick& tick, const Inputs& in, const Params& p, O
   watch(tick, in, out);
   if (!started_) {
     started_ = in.progress ? in.progress->reached > 0 : in.state->height_m > p.start_height;
-    if (started_) begin(tick, in);
+    if (started_) plan_.begin(progress(in), tick.now_ns);
   }
   const bool counts = started_ && follows_plan(tick, in);
   const double dt = std::clamp(tick.dt_s(), 0.0, 1.0);
@@ -61,18 +61,10 @@ inline Status Score::step(const Tick& tick, const Inputs& in, const Params& p, O
     estimate(in);
   }
   if (counts && in.truth && in.truth.fresh()) track(in, *in.truth, tracking_true_);
-  fix(in);
+  if (in.truth && in.gnss && frame_.known()) gnss_.fix(in.gnss, frame_, history_);
   count(tick, in, counts);
-  if (due(tick, in) || crashed_) publish(out);
+  if (plan_.due(progress(in), tick.now_ns) || crashed_) publish(out);
   return Status::ok;
-}
-
-inline void Score::begin(const Tick& tick, const Inputs& in) {
-  lap_began_ns_ = tick.now_ns;
-  published_ns_ = tick.now_ns;
-  if (!in.progress) return;
-  first_reached_ = reached_ = in.progress->reached;
-  circuits_ = in.progress->circuits;
 }
 
 /// Touch-downs, crash and verdict: from the first step on.
@@ -105,14 +97,9 @@ inline bool Score::follows_plan(const Tick& tick, const Inputs& in) {
   const auto flies = [&](const auto& port) { return port && tick.now_ns - port.valid_at_ns() < recent_ns; };
   const bool stands =
       (in.ground && in.ground->contact == Contact::ground) || (in.contact && in.contact->touching);
-  const std::uint32_t reached = in.progress ? in.progress->reached : 0;
-  if (stands) {
-    under_way_ = !in.progress;
-    reached_on_ground_ = reached;
-  }
-  under_way_ = under_way_ || reached > reached_on_ground_;
+  const bool under_way = under_way_.step(stands, progress(in));
   const bool aside = flies(in.landing) || flies(in.home) || flies(in.loiter) || flies(in.by_hand);
-  return under_way_ && !stands && !aside && !crashed_ && (!in.status || in.status->in_control);
+  return under_way && !stands && !aside && !crashed_ && (!in.status || in.status->in_control);
 }
 
 inline void Score::track(const Inputs& in, const VehicleState& state, Tracking& sums) {
@@ -168,16 +155,8 @@ inline bool Score::nearest_point(const Inputs& in, const VehicleState& state, Ro
 
 inline void Score::note_truth(const Inputs& in) {
   if (!in.truth || !in.truth.fresh()) return;
-  const VehicleState& truth = *in.truth;
-  const double lat = truth.origin_latitude_deg, lon = truth.origin_longitude_deg,
-               alt = truth.origin_altitude_m;
-  if (truth.origin_valid && (lat != frame_lat_deg_ || lon != frame_lon_deg_ || alt != frame_alt_m_)) {
-    frame_ = LocalFrame(lat, lon, alt);
-    frame_lat_deg_ = lat;
-    frame_lon_deg_ = lon;
-    frame_alt_m_ = alt;
-  }
-  history_.add(in.truth.valid_at_ns(), compared(truth));
+  frame_.note(*in.truth);
+  history_.add(in.truth.valid_at_ns(), compared(*in.truth));
 }
 
 inline void Score::estimate(const Inputs& in) {
@@ -194,17 +173,13 @@ inline void Score::estimate(const Inputs& in) {
   if (found == TruthHistory::Found::too_old || (found == TruthHistory::Found::not_yet && state_.waits))
     return;
   Compared estimate = compared(state);
-  if (state.origin_latitude_deg != frame_lat_deg_ || state.origin_longitude_deg != frame_lon_deg_ ||
-      state.origin_altitude_m != frame_alt_m_) {
-    if (state.origin_valid &&
-        std::isfinite(
-            frame_lat_deg_)) {  // another origin: the two local frames are parallel but for the metre
-      const auto o = from_eigen<Ned>(
-          frame_.to_ned(state.origin_latitude_deg, state.origin_longitude_deg, state.origin_altitude_m));
-      estimate.north += o.north;
-      estimate.east += o.east;
-      estimate.height -= o.down;
-    }
+  if (!frame_.same_origin(state) && state.origin_valid && frame_.known()) {
+    // Another origin: the two local frames are parallel but for the metre.
+    const Vec3<Ned> o =
+        frame_.at(state.origin_latitude_deg, state.origin_longitude_deg, state.origin_altitude_m);
+    estimate.north += o.north;
+    estimate.east += o.east;
+    estimate.height -= o.down;
   }
   if (found == TruthHistory::Found::yes) {
     add_estimation(estimate, truth);
@@ -230,65 +205,12 @@ inline void Score::add_estimation(const Compared& estimate, const Compared& trut
   s.wind_e.add(estimate.wind_e - truth.wind_e);
 }
 
-inline void Score::fix(const Inputs& in) {
-  if (!in.truth || !in.gnss || !std::isfinite(frame_lat_deg_)) return;
-  if (in.gnss.fresh() && in.gnss->fix != FixType::none && in.gnss->fix != FixType::time_only) {
-    const auto p =
-        from_eigen<Ned>(frame_.to_ned(in.gnss->latitude_deg, in.gnss->longitude_deg, in.gnss->altitude_m));
-    gnss_ = {true, in.gnss.valid_at_ns(), {}};
-    gnss_.sample.north = p.north;
-    gnss_.sample.east = p.east;
-  }
-  if (!gnss_.waits) return;
-  Compared truth;
-  const TruthHistory::Found found = history_.at(gnss_.time_ns, truth);
-  if (found == TruthHistory::Found::not_yet) return;
-  gnss_.waits = false;
-  if (found == TruthHistory::Found::too_old) return;
-  gnss_north_.add(gnss_.sample.north - truth.north);
-  gnss_east_.add(gnss_.sample.east - truth.east);
-}
-
 inline void Score::count(const Tick& tick, const Inputs& in, bool counts) {
-  if (in.progress) {
-    const Progress& progress = *in.progress;
-    figures_.waypoints_reached = progress.reached;
-    if (progress.reached > first_reached_)
-      miss_max_m_ = miss_max_m_ == unknown_std ? progress.miss_m : std::max(miss_max_m_, progress.miss_m);
-    if (progress.circuits != circuits_) {
-      figures_.lap_time_s = 1e-9 * static_cast<double>(tick.now_ns - lap_began_ns_);
-      lap_began_ns_ = tick.now_ns;
-    }
-  }
+  if (in.progress) plan_.count(*in.progress, tick.now_ns);
   if (counts)
     airspeed_min_ = std::min(airspeed_min_, in.truth ? in.truth->airspeed_mps : in.state->airspeed_mps);
-  if (in.actuators && in.actuators.fresh()) count_commands(in, counts);
-}
-
-inline void Score::count_commands(const Inputs& in, bool counts) {
-  const Actuators& now = *in.actuators;
-  const double dt_s = 1e-9 * static_cast<double>(in.actuators.valid_at_ns() - actuators_ns_);
-  if (counts && actuators_seen_ > 0 && dt_s > 0) {
-    surface_rate_.add((now.aileron_rad - actuators_.aileron_rad) / dt_s);
-    surface_rate_.add((now.elevator_rad - actuators_.elevator_rad) / dt_s);
-    surface_rate_.add((now.rudder_rad - actuators_.rudder_rad) / dt_s);
-  }
-  actuators_ = now;
-  actuators_ns_ = in.actuators.valid_at_ns();
-  ++actuators_seen_;
-}
-
-/// Once a second, and whenever the progress changes: a flight that ends with a waypoint ends with the figures
-/// of that moment.
-inline bool Score::due(const Tick& tick, const Inputs& in) {
-  bool news = tick.now_ns - published_ns_ >= 1'000'000'000;
-  if (in.progress && (in.progress->reached != reached_ || in.progress->circuits != circuits_)) {
-    reached_ = in.progress->reached;
-    circuits_ = in.progress->circuits;
-    news = true;
-  }
-  if (news) published_ns_ = tick.now_ns;
-  return news;
+  if (in.actuators && in.actuators.fresh())
+    surface_rate_.command(*in.actuators, in.actuators.valid_at_ns(), counts);
 }
 
 inline void Score::publish(Outputs& out) const {
@@ -300,9 +222,8 @@ inline void Score::publish(Outputs& out) const {
                             s.vel_z.rms(), s.roll.rms(), s.pitch.rms(), s.heading.rms(), s.course.rms(),
                             s.airspeed.rms(), s.wind_n.rms(), s.wind_e.rms()});
   }
-  if (gnss_north_.count > 0) out.gnss_error.publish({gnss_north_.rms(), gnss_east_.rms()});
-  Figures figures = figures_;
-  figures.miss_distance_max_m = miss_max_m_;
+  if (gnss_.any()) out.gnss_error.publish(gnss_.rms());
+  Figures figures = plan_.figures();
   figures.surface_rate_rms_radps = surface_rate_.rms_if_any();
   figures.airspeed_min_mps = airspeed_min_;
   figures.left_out_s = left_out_s_;

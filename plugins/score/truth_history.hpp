@@ -25,6 +25,13 @@ inline Compared compared(const VehicleState& s) {
           s.course_rad};
 }
 
+/// A sample whose truth is not there yet.
+struct Pending {
+  bool waits = false;
+  std::int64_t time_ns = 0;
+  Compared sample;
+};
+
 /// Between two samples; angles go the short way.
 inline Compared between(const Compared& a, const Compared& b, double t) {
   const auto mix = [t](double x, double y) { return x + t * (y - x); };

@@ -9,15 +9,32 @@
 
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/airframe.hpp"
+#include "fulmar/plugin.hpp"
 #include "sensors.hpp"
 
 namespace fulmar::sim {
+
+struct ActuationParams {
+  Param mux_rate{
+      0,
+      "Hz",
+      0,
+      2000,
+      "commands move the outputs at frames of the radio only; 111 on ROSflight hardware; 0: at once",
+      setup};
+  Param pwm_resolution{0, "s", 0, 1e-4, "of the servos' pulses of 1 to 2 ms; 0: none", setup};
+  Param link_latency{0, "s", 0, 0.1, "of commands on their way to the outputs", setup};
+};
 
 struct ActuationSpec {
   double mux_hz = 0;              ///< 0: at once
   double pulse_resolution_s = 0;  ///< of a pulse of 1..2 ms; 0: none
   double latency_s = 0;
 };
+
+inline ActuationSpec spec_of(const ActuationParams& p) {
+  return {p.mux_rate, p.pwm_resolution, p.link_latency};
+}
 
 class Actuation {
  public:

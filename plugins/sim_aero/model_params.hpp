@@ -9,8 +9,7 @@
 
 namespace fulmar::sim {
 
-struct ModelParams {
-  Param add_parasite_drag{0, "", -1, 1, "to CD_p of the airframe"};
+struct LiftAdditions {
   Param add_lift_zero{0, "", -5, 5, "to CL_0"};
   Param add_lift_alpha{0, "", -50, 50, "to CL_alpha"};
   Param add_lift_beta{0, "", -50, 50, "to CL_beta"};
@@ -21,6 +20,13 @@ struct ModelParams {
   Param add_lift_elevator{0, "", -10, 10, "to CL_de"};
   Param add_lift_rudder{0, "", -10, 10, "to CL_dr"};
   Param add_lift_flap{0, "", -10, 10, "to CL_df"};
+  std::array<double, 10> values() const {
+    return {add_lift_zero, add_lift_alpha,   add_lift_beta,     add_lift_p,      add_lift_q,
+            add_lift_r,    add_lift_aileron, add_lift_elevator, add_lift_rudder, add_lift_flap};
+  }
+};
+
+struct DragAdditions {
   Param add_drag_zero{0, "", -5, 5, "to CD_0"};
   Param add_drag_alpha{0, "", -50, 50, "to CD_alpha"};
   Param add_drag_beta{0, "", -50, 50, "to CD_beta"};
@@ -31,6 +37,13 @@ struct ModelParams {
   Param add_drag_elevator{0, "", -10, 10, "to CD_de"};
   Param add_drag_rudder{0, "", -10, 10, "to CD_dr"};
   Param add_drag_flap{0, "", -10, 10, "to CD_df"};
+  std::array<double, 10> values() const {
+    return {add_drag_zero, add_drag_alpha,   add_drag_beta,     add_drag_p,      add_drag_q,
+            add_drag_r,    add_drag_aileron, add_drag_elevator, add_drag_rudder, add_drag_flap};
+  }
+};
+
+struct SideAdditions {
   Param add_side_zero{0, "", -5, 5, "to CY_0"};
   Param add_side_alpha{0, "", -50, 50, "to CY_alpha"};
   Param add_side_beta{0, "", -50, 50, "to CY_beta"};
@@ -41,6 +54,13 @@ struct ModelParams {
   Param add_side_elevator{0, "", -10, 10, "to CY_de"};
   Param add_side_rudder{0, "", -10, 10, "to CY_dr"};
   Param add_side_flap{0, "", -10, 10, "to CY_df"};
+  std::array<double, 10> values() const {
+    return {add_side_zero, add_side_alpha,   add_side_beta,     add_side_p,      add_side_q,
+            add_side_r,    add_side_aileron, add_side_elevator, add_side_rudder, add_side_flap};
+  }
+};
+
+struct RollAdditions {
   Param add_roll_zero{0, "", -5, 5, "to Cl_0"};
   Param add_roll_alpha{0, "", -50, 50, "to Cl_alpha"};
   Param add_roll_beta{0, "", -50, 50, "to Cl_beta"};
@@ -51,6 +71,13 @@ struct ModelParams {
   Param add_roll_elevator{0, "", -10, 10, "to Cl_de"};
   Param add_roll_rudder{0, "", -10, 10, "to Cl_dr"};
   Param add_roll_flap{0, "", -10, 10, "to Cl_df"};
+  std::array<double, 10> values() const {
+    return {add_roll_zero, add_roll_alpha,   add_roll_beta,     add_roll_p,      add_roll_q,
+            add_roll_r,    add_roll_aileron, add_roll_elevator, add_roll_rudder, add_roll_flap};
+  }
+};
+
+struct PitchAdditions {
   Param add_pitch_zero{0, "", -5, 5, "to Cm_0"};
   Param add_pitch_alpha{0, "", -50, 50, "to Cm_alpha"};
   Param add_pitch_beta{0, "", -50, 50, "to Cm_beta"};
@@ -61,6 +88,13 @@ struct ModelParams {
   Param add_pitch_elevator{0, "", -10, 10, "to Cm_de"};
   Param add_pitch_rudder{0, "", -10, 10, "to Cm_dr"};
   Param add_pitch_flap{0, "", -10, 10, "to Cm_df"};
+  std::array<double, 10> values() const {
+    return {add_pitch_zero, add_pitch_alpha,   add_pitch_beta,     add_pitch_p,      add_pitch_q,
+            add_pitch_r,    add_pitch_aileron, add_pitch_elevator, add_pitch_rudder, add_pitch_flap};
+  }
+};
+
+struct YawAdditions {
   Param add_yaw_zero{0, "", -5, 5, "to Cn_0"};
   Param add_yaw_alpha{0, "", -50, 50, "to Cn_alpha"};
   Param add_yaw_beta{0, "", -50, 50, "to Cn_beta"};
@@ -71,6 +105,20 @@ struct ModelParams {
   Param add_yaw_elevator{0, "", -10, 10, "to Cn_de"};
   Param add_yaw_rudder{0, "", -10, 10, "to Cn_dr"};
   Param add_yaw_flap{0, "", -10, 10, "to Cn_df"};
+  std::array<double, 10> values() const {
+    return {add_yaw_zero, add_yaw_alpha,   add_yaw_beta,     add_yaw_p,      add_yaw_q,
+            add_yaw_r,    add_yaw_aileron, add_yaw_elevator, add_yaw_rudder, add_yaw_flap};
+  }
+};
+
+struct ModelParams {
+  Param add_parasite_drag{0, "", -1, 1, "to CD_p of the airframe"};
+  LiftAdditions lift;
+  DragAdditions drag;
+  SideAdditions side;
+  RollAdditions roll;
+  PitchAdditions pitch;
+  YawAdditions yaw;
 };
 
 /// What a group of ten of them is added to.
@@ -80,26 +128,12 @@ struct ModelAddition {
 };
 inline std::array<ModelAddition, 6> additions(const ModelParams& p) {
   using A = Aerodynamics;
-  return {{
-      {&A::lift,
-       {p.add_lift_zero, p.add_lift_alpha, p.add_lift_beta, p.add_lift_p, p.add_lift_q, p.add_lift_r,
-        p.add_lift_aileron, p.add_lift_elevator, p.add_lift_rudder, p.add_lift_flap}},
-      {&A::drag,
-       {p.add_drag_zero, p.add_drag_alpha, p.add_drag_beta, p.add_drag_p, p.add_drag_q, p.add_drag_r,
-        p.add_drag_aileron, p.add_drag_elevator, p.add_drag_rudder, p.add_drag_flap}},
-      {&A::side,
-       {p.add_side_zero, p.add_side_alpha, p.add_side_beta, p.add_side_p, p.add_side_q, p.add_side_r,
-        p.add_side_aileron, p.add_side_elevator, p.add_side_rudder, p.add_side_flap}},
-      {&A::roll,
-       {p.add_roll_zero, p.add_roll_alpha, p.add_roll_beta, p.add_roll_p, p.add_roll_q, p.add_roll_r,
-        p.add_roll_aileron, p.add_roll_elevator, p.add_roll_rudder, p.add_roll_flap}},
-      {&A::pitch,
-       {p.add_pitch_zero, p.add_pitch_alpha, p.add_pitch_beta, p.add_pitch_p, p.add_pitch_q, p.add_pitch_r,
-        p.add_pitch_aileron, p.add_pitch_elevator, p.add_pitch_rudder, p.add_pitch_flap}},
-      {&A::yaw,
-       {p.add_yaw_zero, p.add_yaw_alpha, p.add_yaw_beta, p.add_yaw_p, p.add_yaw_q, p.add_yaw_r,
-        p.add_yaw_aileron, p.add_yaw_elevator, p.add_yaw_rudder, p.add_yaw_flap}},
-  }};
+  return {{{&A::lift, p.lift.values()},
+           {&A::drag, p.drag.values()},
+           {&A::side, p.side.values()},
+           {&A::roll, p.roll.values()},
+           {&A::pitch, p.pitch.values()},
+           {&A::yaw, p.yaw.values()}}};
 }
 
 /// Puts the airframe's derivatives with what is added into `a`, a copy of `file` that may hold other

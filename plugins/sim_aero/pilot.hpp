@@ -5,10 +5,35 @@
 #include <cmath>
 #include <cstdint>
 
+#include "fulmar/msg/actuators.hpp"
+#include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/rc.hpp"
 #include "fulmar/plugin.hpp"
 
 namespace fulmar::sim {
+
+/// Sticks and switches of a pilot without a transmitter.
+struct StickParams {
+  Flag pilot_flies{false, "the pilot overrides: the sticks below move surfaces and motor"};
+  Param stick_roll{0, "", -1, 1, "of the pilot; right is positive"};
+  Param stick_pitch{0, "", -1, 1, "of the pilot; nose up is positive"};
+  Param stick_yaw{0, "", -1, 1, "of the pilot; nose right is positive"};
+  Param stick_throttle{0, "", 0, 1, "of the pilot"};
+  Param aux1{0, "", -1, 1, "switch of the pilot"};
+  Param aux2{0, "", -1, 1, "switch of the pilot"};
+  Param aux3{0, "", -1, 1, "switch of the pilot"};
+  Param aux4{0, "", -1, 1, "switch of the pilot"};
+};
+
+inline Rc rc_of(const StickParams& p) {
+  return {p.stick_roll, p.stick_pitch, p.stick_yaw, p.stick_throttle, p.aux1, p.aux2, p.aux3, p.aux4, true};
+}
+
+/// The firmware's, when the sticks have the aircraft.
+inline Actuators by_hand(const Rc& rc, const Airframe& a) {
+  return {rc.throttle_frac, rc.roll_frac * a.aileron.limit_rad, -rc.pitch_frac * a.elevator.limit_rad,
+          -rc.yaw_frac * a.rudder.limit_rad};
+}
 
 struct PilotParams {
   Count override_switch{0, 0, 4, "of the wired pilot: aux1 to aux4, on above 0.6; 0: none", setup};

@@ -13,6 +13,7 @@
 
 #include "fulmar/quiet_thread.hpp"
 #include "imu_signal.hpp"
+#include "link_figures.hpp"
 #include "outbox.hpp"
 #include "port.hpp"
 #include "spsc_queue.hpp"
@@ -32,8 +33,6 @@ constexpr std::int64_t heartbeat_ns = 1'000'000'000, question_ns = 100'000'000; 
 constexpr int read_ms = 5, reopen_ms = 100;                                      // on the wall
 constexpr std::size_t kept_for_events = 64;
 
-bool is_text(std::uint8_t c) { return (c >= ' ' && c <= '~') || c == '\r' || c == '\n' || c == '\t'; }
-
 }  // namespace
 
 struct Link::Impl {
@@ -49,13 +48,7 @@ struct Link::Impl {
   SpscQueue<Received, 4096> queue;
   ImuSignal imu;
   Outbox outbox;
-  // What LinkState tells. Written by the link's thread.
-  std::atomic<bool> synchronised{false};
-  std::atomic<std::int64_t> heard_ns{0}, round_trip_ns{0}, offset_ns{0};
-  std::atomic<std::uint64_t> frames{0}, bad{0}, missing{0}, lost_in_queue{0}, bytes{0}, text_bytes{0},
-      modern{0}, undated{0};
-  std::atomic<std::uint32_t> connections{0}, reboots{0};
-  std::atomic<double> drift_ppm{0};
+  LinkFigures figures;  // written by the link's thread
 
   // ---- the loop's thread
   std::uint32_t imu_taken = 0;
@@ -154,28 +147,22 @@ void Link::Impl::connected() {
   next_heartbeat_ns = next_question_ns = now;
   outbox.attach(port.get());
   descriptor.store(port->descriptor());
-  connections.fetch_add(1, std::memory_order_relaxed);
+  figures.connected();
   put_event(LinkEvent::connected, now);
 }
 
 void Link::Impl::take_bytes(std::span<const std::uint8_t> came) {
   const std::int64_t now = now_ns();
   parser.feed(came, [&](const Packet& packet) { take(packet, now); });
-  bytes.fetch_add(came.size(), std::memory_order_relaxed);
-  text_bytes.fetch_add(static_cast<std::uint64_t>(std::count_if(came.begin(), came.end(), is_text)),
-                       std::memory_order_relaxed);
-  frames.store(parser.counts().frames, std::memory_order_relaxed);
-  bad.store(parser.counts().bad, std::memory_order_relaxed);
-  missing.store(parser.counts().missing, std::memory_order_relaxed);
-  modern.store(parser.counts().modern, std::memory_order_relaxed);
-  undated.store(dater.undated(), std::memory_order_relaxed);
+  figures.came(came);
+  figures.counted(parser.counts(), dater.undated());
   if (imu_put > 0) imu.raise(imu_put);  // once per read: the loop then finds all that came together
   imu_put = 0;
 }
 
 void Link::Impl::take(const Packet& packet, std::int64_t arrived_ns) {
   arrived_ns = last_arrival_ns = std::max(arrived_ns, last_arrival_ns + 1);
-  heard_ns.store(arrived_ns, std::memory_order_relaxed);
+  figures.heard(arrived_ns);
   if (packet.is<SmallImu>() || packet.is<Heartbeat>())
     target_system = packet.system;  // other ids may be anything
   if (packet.is<SmallImu>() && dater.started_anew(packet.as<SmallImu>().time_boot_us)) {
@@ -186,7 +173,7 @@ void Link::Impl::take(const Packet& packet, std::int64_t arrived_ns) {
   if (packet.is<ParamValue>()) watched.answered(text(packet.as<ParamValue>().param_id));
   const Received received{LinkEvent::packet, arrived_ns, date(packet, arrived_ns), packet};
   if (!queue.push(received, kept_for_events))
-    lost_in_queue.fetch_add(1, std::memory_order_relaxed);
+    figures.lost();
   else if (packet.is<SmallImu>())
     ++imu_put;
 }
@@ -206,16 +193,11 @@ std::int64_t Link::Impl::date(const Packet& packet, std::int64_t arrived_ns) {
 
 void Link::Impl::time_answered(const Timesync& answer, std::int64_t arrived_ns) {
   if (dater.answered(answer.ts1, answer.tc1, arrived_ns) == ClockSync::Verdict::jumped) rebooted(arrived_ns);
-  if (!dater.clock.synchronised()) return;
-  round_trip_ns.store(dater.clock.round_trip_ns(), std::memory_order_relaxed);
-  offset_ns.store(dater.clock.offset_ns(arrived_ns), std::memory_order_relaxed);
-  drift_ppm.store(dater.clock.drift_ppm(), std::memory_order_relaxed);
-  synchronised.store(true, std::memory_order_relaxed);
+  if (dater.clock.synchronised()) figures.timed(dater.clock, arrived_ns);
 }
 
 void Link::Impl::rebooted(std::int64_t now) {
-  reboots.fetch_add(1, std::memory_order_relaxed);
-  synchronised.store(dater.clock.synchronised(), std::memory_order_relaxed);
+  figures.rebooted(dater.clock.synchronised());
   watched.restart();
   next_heartbeat_ns = next_question_ns = now;  // it keeps its texts until it hears somebody
   put_event(LinkEvent::rebooted, now);
@@ -225,7 +207,7 @@ void Link::Impl::put_event(LinkEvent event, std::int64_t now) {
   Received received;
   received.event = event;
   received.arrived_ns = received.valid_at_ns = last_arrival_ns = std::max(now, last_arrival_ns + 1);
-  if (!queue.push(received)) lost_in_queue.fetch_add(1, std::memory_order_relaxed);
+  if (!queue.push(received)) figures.lost();
 }
 
 void Link::Impl::do_duties(std::int64_t now) {
@@ -300,24 +282,8 @@ std::int64_t Link::now_ns() const noexcept { return impl_->now_ns(); }
 int Link::descriptor() const noexcept { return impl_->descriptor.load(); }
 
 LinkState Link::state() const noexcept {
-  const Impl& i = *impl_;
-  LinkState s;
-  s.open = i.descriptor.load() >= 0;
-  s.heard_ns = i.heard_ns.load(std::memory_order_relaxed);
-  s.frames = i.frames.load(std::memory_order_relaxed);
-  s.bad = i.bad.load(std::memory_order_relaxed);
-  s.missing = i.missing.load(std::memory_order_relaxed);
-  s.lost_in_queue = i.lost_in_queue.load(std::memory_order_relaxed);
-  s.bytes = i.bytes.load(std::memory_order_relaxed);
-  s.text_bytes = i.text_bytes.load(std::memory_order_relaxed);
-  s.modern = i.modern.load(std::memory_order_relaxed);
-  s.undated = i.undated.load(std::memory_order_relaxed);
-  s.connections = i.connections.load(std::memory_order_relaxed);
-  s.reboots = i.reboots.load(std::memory_order_relaxed);
-  s.synchronised = i.synchronised.load(std::memory_order_relaxed);
-  s.round_trip_ns = i.round_trip_ns.load(std::memory_order_relaxed);
-  s.offset_ns = i.offset_ns.load(std::memory_order_relaxed);
-  s.drift_ppm = i.drift_ppm.load(std::memory_order_relaxed);
+  LinkState s = impl_->figures.read();
+  s.open = impl_->descriptor.load() >= 0;
   return s;
 }
 

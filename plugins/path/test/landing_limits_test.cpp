@@ -16,7 +16,7 @@ TEST_CASE(
   for (const bool warn : {false, true}) {
     CAPTURE(warn);
     Strip strip(260);
-    strip.bench.params.wind.value = warn ? path::WindAnswer::warn : path::WindAnswer::refuse;
+    strip.bench.params.wind.wind.value = warn ? path::WindAnswer::warn : path::WindAnswer::refuse;
     REQUIRE(strip.bench.configure() == Status::ok);
     strip.bench.activate();
     strip.s.wind_valid = true;
@@ -48,7 +48,7 @@ TEST_CASE(
 TEST_CASE("an approach that the wind refuses is flown after wind_wait, or at once with little charge") {
   for (const double wait_s : {60.0, 180.0}) {
     Strip strip;
-    strip.bench.params.wind_wait.value = wait_s;
+    strip.bench.params.wind.wind_wait.value = wait_s;
     REQUIRE(strip.bench.configure() == Status::ok);
     strip.bench.activate();
     strip.s.wind_valid = true;

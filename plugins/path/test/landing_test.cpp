@@ -280,7 +280,7 @@ TEST_CASE("a fence that the pattern leaves, or comes too near to, is refused wit
     for (const safety::FencePoint& corner : corners) fence.corners.push_back(corner);
     fence.ceiling_m = ceiling;
     strip.bench.params.fence.is_given = true;
-    if (right) strip.bench.params.circle.value = Turn::right;
+    if (right) strip.bench.params.pattern.circle.value = Turn::right;
     return strip.bench.configure() == Status::failed ? std::string(strip.bench.error()) : std::string();
   };
   const auto begins = [](const std::string& text, const char* with) { return text.find(with) == 0; };
@@ -321,9 +321,9 @@ TEST_CASE("a glide slope that sinks more than the aircraft may is refused with w
   CHECK(std::string(strip.bench.error()) ==
         "glide_slope: 0.070 rad at the 14.19 m/s of the approach sinks by 0.992 m/s in still air, and the "
         "airframe's limits.sink_rate_max is 0.670 m/s; at most 0.047 rad");
-  strip.bench.params.glide_slope.value = 0.047;
+  strip.bench.params.pattern.glide_slope.value = 0.047;
   CHECK(strip.bench.configure() == Status::ok);
-  strip.bench.params.glide_slope.value = 0.07;
+  strip.bench.params.pattern.glide_slope.value = 0.07;
   limits.sink_rate_max_mps = 0.993;
   CHECK(strip.bench.configure() == Status::ok);
   limits.airspeed_cruise_mps = 13.5;

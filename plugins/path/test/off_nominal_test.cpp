@@ -92,8 +92,8 @@ TEST_CASE("on the slope the climb rate is that of the way along it: half at 60 d
   Runway& runway = bench.params.runway.value;
   runway.up_m = 20;
   runway.heading_rad = runway_rad;
-  runway.north_m = 100 - bench.params.aim * std::cos(runway_rad);
-  runway.east_m = -150 - bench.params.aim * std::sin(runway_rad);
+  runway.north_m = 100 - bench.params.pattern.aim * std::cos(runway_rad);
+  runway.east_m = -150 - bench.params.pattern.aim * std::sin(runway_rad);
   runway.length_m = 400;
   bench.params.runway.is_given = true;
   FlightLimits& limits = bench.params.airframe.value.limits;

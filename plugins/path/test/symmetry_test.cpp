@@ -168,9 +168,9 @@ struct Lands {
     r.east_m = begin.east;
     r.heading_rad = w.course(0.6);
     r.up_m = 4;
-    strip.bench.params.circle.value = w.turn(circle);
+    strip.bench.params.pattern.circle.value = w.turn(circle);
     strip.bench.params.decrab.value = 0.15;
-    strip.bench.params.wind.value = path::WindAnswer::warn;
+    strip.bench.params.wind.wind.value = path::WindAnswer::warn;
     strip.bench.configure();
   }
   void step(const VehicleState& s, Contact contact) {

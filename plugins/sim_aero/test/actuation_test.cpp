@@ -71,9 +71,9 @@ TEST_CASE("the aircraft's servo moves a latency later") {
   const auto deflection_after = [](double latency, int passes) {
     Bench<Aircraft> b;
     b.params.airframe.value = anaconda();
-    b.params.start_height.value = 100;
+    b.params.start.start_height.value = 100;
     b.params.settle.value = 0;
-    b.params.link_latency.value = latency;
+    b.params.outputs.link_latency.value = latency;
     arm(b);
     const Actuators neutral{0.5, 0, 0, 0}, roll{0.5, 0.3, 0.1, 0};
     for (int k = 0; k < 100; ++k) pass(b, &neutral);  // from the trim that it begins with

@@ -25,7 +25,7 @@ std::unique_ptr<Bench<Aircraft>> bench(double start_height = 0, SensorSet set = 
                                        std::uint64_t seed = 1) {
   auto b = std::make_unique<Bench<Aircraft>>(seed);
   b->params.airframe.value = anaconda();
-  b->params.start_height.value = start_height;
+  b->params.start.start_height.value = start_height;
   b->params.sensors.value = set;
   return b;
 }
@@ -78,7 +78,7 @@ std::uint64_t fingerprint(Aircraft::Outputs& out, std::uint64_t hash) {
 
 std::uint64_t flight_hash(std::uint64_t seed) {
   auto b = bench(50, SensorSet::ublox, seed);
-  b->params.turbulence.value = Turbulence::moderate;
+  b->params.wind.turbulence.value = Turbulence::moderate;
   arm(*b);
   std::uint64_t hash = 14695981039346656037ULL;
   for (int i = 0; i < 4000; ++i) {
@@ -200,8 +200,8 @@ TEST_CASE("a command that is not a number is silence") {
 
 TEST_CASE("a start in the air is carried along its steady flight and passes the start at flight time zero") {
   auto b = bench(70, SensorSet::perfect);
-  b->params.start_heading.value = 1;
-  b->params.wind_ned.value = {3, -4, 0};
+  b->params.start.start_heading.value = 1;
+  b->params.wind.wind_ned.value = {3, -4, 0};
   arm(*b);
   for (int i = 0; i < 1000; ++i) pass(*b, &cruise);
   CHECK(b->out.imu.value.specific_force_mps2.z < -9);
@@ -217,10 +217,10 @@ TEST_CASE("a start in the air is carried along its steady flight and passes the 
 TEST_CASE("a wind is a velocity, or a speed and where it comes from") {
   const auto wind = [](double speed, double from, double north = 0, double east = 0) {
     Aircraft::Params p;
-    p.wind_speed.value = speed;
-    p.wind_from.value = from;
-    p.wind_ned.value = {north, east, 0};
-    return Aircraft::steady_wind(p);
+    p.wind.wind_speed.value = speed;
+    p.wind.wind_from.value = from;
+    p.wind.wind_ned.value = {north, east, 0};
+    return steady_wind(p.wind);
   };
   CHECK(wind(-1, 2, 3, -4) == Eigen::Vector3d(3, -4, 0));  // no speed: the velocity counts
   CHECK((wind(8, 270 * std::numbers::pi / 180) - Eigen::Vector3d(0, 8, 0)).norm() < 1e-9);  // a west wind
@@ -230,12 +230,12 @@ TEST_CASE("a wind is a velocity, or a speed and where it comes from") {
 
 TEST_CASE("what a wind of a given speed does in flight can be changed there") {
   auto b = bench(70, SensorSet::perfect);
-  b->params.wind_speed.value = 5;
-  b->params.wind_from.value = std::numbers::pi / 2;
+  b->params.wind.wind_speed.value = 5;
+  b->params.wind.wind_from.value = std::numbers::pi / 2;
   arm(*b);
   pass(*b, &cruise);
   CHECK((b->component().plant().wind_n() - Eigen::Vector3d(0, -5, 0)).norm() < 1e-9);
-  b->params.wind_speed.value = 7;
+  b->params.wind.wind_speed.value = 7;
   b->component().retune(b->params);
   CHECK((b->component().plant().wind_n() - Eigen::Vector3d(0, -7, 0)).norm() < 1e-9);
 }
@@ -256,7 +256,7 @@ TEST_CASE("an airframe without lift or thrust is refused: some of its fields are
 
 TEST_CASE("an airspeed that the aircraft cannot fly is refused with a sentence") {
   auto b = bench(70);
-  b->params.start_airspeed.value = 6;
+  b->params.start.start_airspeed.value = 6;
   CHECK(b->configure() == Status::failed);
   CHECK(b->error().find("start_airspeed") != std::string::npos);
 }
@@ -282,7 +282,7 @@ TEST_CASE("one seed gives the same bytes, another seed others") {
 
 TEST_CASE("a flight allocates nothing and publishes nothing but finite numbers") {
   auto b = bench(50);
-  b->params.turbulence.value = Turbulence::severe;
+  b->params.wind.turbulence.value = Turbulence::severe;
   Aircraft& aircraft = b->component();
   aircraft.configure(b->params);
   Aircraft::Outputs out{};
@@ -307,8 +307,8 @@ TEST_CASE("a flight allocates nothing and publishes nothing but finite numbers")
 
 TEST_CASE("the truth is one consistent picture") {
   auto b = bench(70);
-  b->params.wind_ned.value = {3, -4, 0};
-  b->params.turbulence.value = Turbulence::light;
+  b->params.wind.wind_ned.value = {3, -4, 0};
+  b->params.wind.turbulence.value = Turbulence::light;
   arm(*b);
   for (int i = 0; i < 3201; ++i) pass(*b, &cruise);
   while (!b->out.truth.written) pass(*b, &cruise);
@@ -355,9 +355,9 @@ TEST_CASE("sensors, radio and motor can be made to fail in flight") {
   auto b = bench(200);
   arm(*b);
   while (b->tick.now_ns < 500000000) pass(*b, &cruise);
-  b->params.gnss_works.value = b->params.pitot_works.value = b->params.rc_link.value = b->params.motor.value =
-      false;
-  b->params.aux1.value = 0.8;
+  b->params.works.gnss_works.value = b->params.works.pitot_works.value = b->params.rc_link.value =
+      b->params.motor.value = false;
+  b->params.sticks.aux1.value = 0.8;
   b->retune();
   Seen seen;
   for (int i = 0; i < 400; ++i) {
@@ -379,9 +379,9 @@ TEST_CASE("the pilot who overrides flies with the sticks, and commands have no e
   auto b = bench(200);
   arm(*b);
   while (b->tick.now_ns < 100000000) pass(*b, &cruise);
-  b->params.pilot_flies.value = true;
-  b->params.stick_roll.value = 0.5;
-  b->params.stick_pitch.value = 0.25;
+  b->params.sticks.pilot_flies.value = true;
+  b->params.sticks.stick_roll.value = 0.5;
+  b->params.sticks.stick_pitch.value = 0.25;
   b->retune();
   VehicleStatus status;
   std::uint32_t reports = 0;
@@ -487,7 +487,7 @@ TEST_CASE("a crash is told, and a crashed aircraft cannot be armed again") {
 
 TEST_CASE("the magnetometer at rest sees the Earth's field at the origin") {
   auto b = bench(0, SensorSet::perfect);
-  b->params.start_heading.value = 0.7;
+  b->params.start.start_heading.value = 0.7;
   for (int i = 0; i < 10; ++i) pass(*b);
   const auto& m = b->out.mag.value.field_tesla;
   // WMM2025 at Provo, 2026.0: about 50 microtesla, 65.6 deg down, 10.3 deg east of north

@@ -100,8 +100,8 @@ TEST_CASE("far from the origin the ground follows the Earth's curvature, and so 
   for (const Vector3d& place : {Vector3d(far_m, 0, 0), Vector3d(0, -far_m, 0)}) {
     auto round = bench(EarthModel::wgs84), flat = bench(EarthModel::flat);
     for (auto* b : {&round, &flat}) {
-      (*b)->params.start_north.value = place.x();
-      (*b)->params.start_east.value = place.y();
+      (*b)->params.start.start_north.value = place.x();
+      (*b)->params.start.start_east.value = place.y();
     }
     const Said r = said(**&round, 1), f = said(**&flat, 1);
     CHECK(r.truth.height_m == Approx(anaconda().gear.height_m).epsilon(1e-6));
@@ -151,9 +151,9 @@ TEST_CASE("a flight that starts far away starts level, on its heading and at its
 
 TEST_CASE("far away receiver and truth say the velocity by north, east and down of that place") {
   auto b = bench(EarthModel::wgs84);
-  b->params.start_north.value = far_m;
-  b->params.start_height.value = 120;
-  b->params.start_heading.value = 0.3;
+  b->params.start.start_north.value = far_m;
+  b->params.start.start_height.value = 120;
+  b->params.start.start_heading.value = 0.3;
   b->params.settle.value = 1;
   const Said s = said(*b, 1);
   const double tilt = far_m / 6.37e6;  // of that place, 0.18 degrees
@@ -170,8 +170,8 @@ TEST_CASE("far away receiver and truth say the velocity by north, east and down 
 TEST_CASE("a warm day is thinner and a cold one denser, and the pressure at sea level counts") {
   const auto air = [](double temperature, double pressure, double alt_m) {
     auto b = bench(EarthModel::flat, 40, alt_m);
-    b->params.temperature_offset.value = temperature;
-    b->params.pressure_offset.value = pressure;
+    b->params.wind.temperature_offset.value = temperature;
+    b->params.wind.pressure_offset.value = pressure;
     pass(*b);
     return b->component().plant().air();
   };
@@ -193,9 +193,9 @@ TEST_CASE("a warm day is thinner and a cold one denser, and the pressure at sea 
 TEST_CASE("the wind grows with height by the power law or the logarithm, and is constant by default") {
   const auto wind = [](WindProfile profile, double height, auto&& set) {
     auto b = bench(EarthModel::flat);
-    b->params.wind_ned.value = {6, -8, 0};
-    b->params.wind_profile.value = profile;
-    b->params.start_height.value = height;
+    b->params.wind.wind_ned.value = {6, -8, 0};
+    b->params.wind.wind_profile.value = profile;
+    b->params.start.start_height.value = height;
     set(b->params);
     pass(*b);
     const Vector3d v = eigen(b->out.truth.value.wind_mps);
@@ -208,14 +208,14 @@ TEST_CASE("the wind grows with height by the power law or the logarithm, and is 
   CHECK(wind(WindProfile::power, 10, as_is) == Approx(10));
   CHECK(wind(WindProfile::power, 80, as_is) == Approx(10 * std::pow(8, 1.0 / 7)));
   CHECK(wind(WindProfile::power, 5, as_is) == Approx(10 * std::pow(0.5, 1.0 / 7)));
-  CHECK(wind(WindProfile::power, 80, [](auto& p) { p.wind_exponent.value = 0.3; }) ==
+  CHECK(wind(WindProfile::power, 80, [](auto& p) { p.wind.wind_exponent.value = 0.3; }) ==
         Approx(10 * std::pow(8, 0.3)));
-  CHECK(wind(WindProfile::power, 80, [](auto& p) { p.wind_reference.value = 40; }) ==
+  CHECK(wind(WindProfile::power, 80, [](auto& p) { p.wind.wind_reference.value = 40; }) ==
         Approx(10 * std::pow(2, 1.0 / 7)));
   // MIL-F-8785C: W20 = 10 m/s at 20 ft, z0 = 2 ft: 17 m/s at 100 ft
   const auto mil = [](auto& p) {
-    p.wind_reference.value = 20 * 0.3048;
-    p.wind_roughness.value = 2 * 0.3048;
+    p.wind.wind_reference.value = 20 * 0.3048;
+    p.wind.wind_roughness.value = 2 * 0.3048;
   };
   CHECK(wind(WindProfile::log, 100 * 0.3048, mil) == Approx(10 * std::log10(50.0)));
   CHECK(wind(WindProfile::log, 10 * 0.3048, mil) == Approx(10 * std::log10(5.0)));
@@ -236,9 +236,9 @@ TEST_CASE("on the ground there is little wind or none, and nothing that is no nu
 
 TEST_CASE("a logarithmic profile whose reference lies in the grass is refused") {
   auto b = bench(EarthModel::flat);
-  b->params.wind_profile.value = WindProfile::log;
-  b->params.wind_reference.value = 0.5;
-  b->params.wind_roughness.value = 0.6;
+  b->params.wind.wind_profile.value = WindProfile::log;
+  b->params.wind.wind_reference.value = 0.5;
+  b->params.wind.wind_roughness.value = 0.6;
   CHECK(b->configure() == Status::failed);
   CHECK(b->error().find("wind_reference") != std::string::npos);
 }

@@ -16,7 +16,7 @@ inline const Actuators level{0.57, 0.0041, 0.1212, 0};
 inline std::unique_ptr<Bench<Aircraft>> airborne(SensorSet set, std::uint64_t seed = 1) {
   auto b = std::make_unique<Bench<Aircraft>>(seed);
   b->params.airframe.value = anaconda();
-  b->params.start_height.value = 300;
+  b->params.start.start_height.value = 300;
   b->params.sensors.value = set;
   b->params.settle.value = 0;
   arm(*b);

@@ -21,8 +21,8 @@ std::unique_ptr<Bench<Aircraft>> bench(LaunchKind kind, double speed_mps = 0) {
   b->params.launching.launch.value = kind;
   b->params.launching.launch_speed.value = speed_mps;
   b->params.launching.launch_after.value = 2;
-  b->params.start_heading.value = 0.5;
-  b->params.wind_ned.value = {-8, 0, 0};
+  b->params.start.start_heading.value = 0.5;
+  b->params.wind.wind_ned.value = {-8, 0, 0};
   return b;
 }
 void until(Bench<Aircraft>& b, double seconds) {
@@ -84,7 +84,7 @@ TEST_CASE("nobody is launched before he is armed, and not while he waits") {
 
 TEST_CASE("a launch of what begins in the air is refused") {
   const auto b = bench(LaunchKind::catapult);
-  b->params.start_height.value = 50;
+  b->params.start.start_height.value = 50;
   CHECK(b->configure() == Status::failed);
   CHECK(std::string(b->error()) == "launch: it begins in the air, by start_height; give one of them");
 }

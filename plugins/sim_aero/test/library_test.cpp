@@ -26,8 +26,8 @@ TEST_CASE("the library flies what the plugin flies, to the bit") {
   Bench<Aircraft> bench;
   bench.params.airframe.value = anaconda();
   bench.params.settle.value = 0;
-  bench.params.start_height.value = 200;
-  bench.params.wind_ned.value = {3, -4, 0};
+  bench.params.start.start_height.value = 200;
+  bench.params.wind.wind_ned.value = {3, -4, 0};
   SimulationOptions options;
   options.origin_altitude_m = 1387;
   options.weather.wind_n = {3, -4, 0};

@@ -31,7 +31,7 @@ struct Flight {
 
   Flight() {
     bench.params.airframe.value = anaconda();
-    bench.params.start_height.value = 200;
+    bench.params.start.start_height.value = 200;
     bench.params.sensors.value = SensorSet::perfect;
     bench.params.pilot.override_switch.value = 4;
   }
@@ -59,8 +59,8 @@ struct Flight {
 TEST_CASE(
     "the receiver says what the transmitter does, and the parameters of the pilot do not count any more") {
   Flight f;
-  f.bench.params.stick_roll.value = -1;
-  f.bench.params.aux1.value = -1;
+  f.bench.params.sticks.stick_roll.value = -1;
+  f.bench.params.sticks.aux1.value = -1;
   const Seen seen = f.armed();
   CHECK(seen.rc == 10);  // 0.2 s of 50 Hz
   CHECK(seen.last.roll_frac == 0.5);
@@ -183,7 +183,7 @@ TEST_CASE("the arming switch arms when it is turned on, not when it is found on,
 TEST_CASE("a transmitter that is not wired changes nothing: the parameters count, without frames too") {
   Flight f;
   f.wired = false;
-  f.bench.params.aux1.value = 0.8;
+  f.bench.params.sticks.aux1.value = 0.8;
   const Seen seen = f.armed();
   CHECK(seen.last.aux1_frac == 0.8);
   CHECK(seen.status.in_control);

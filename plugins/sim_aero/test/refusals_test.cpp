@@ -23,7 +23,7 @@ const Actuators cruise{0.57, 0.0041, 0.1212, 0};
 std::unique_ptr<Bench<Aircraft>> bench(double start_height) {
   auto b = std::make_unique<Bench<Aircraft>>(1);
   b->params.airframe.value = anaconda();
-  b->params.start_height.value = start_height;
+  b->params.start.start_height.value = start_height;
   b->params.sensors.value = SensorSet::perfect;
   return b;
 }
@@ -87,9 +87,10 @@ TEST_CASE("an aircraft that cannot trim is refused with the parameter and the re
         }).find("airframe.aero.pitch: ") == 0);
   CHECK(refused_airframe([](Airframe& a) { a.aero.roll = {}; }).find("airframe.aero.roll: ") == 0);
   CHECK(refusal(70, [](Aircraft::Params& p) {
-          p.start_airspeed.value = 6;
+          p.start.start_airspeed.value = 6;
         }).find("start_airspeed: no level") == 0);
-  CHECK(refusal(0, [](Aircraft::Params& p) { p.start_airspeed.value = 6; }) == "flies");  // of no start there
+  CHECK(refusal(0, [](Aircraft::Params& p) { p.start.start_airspeed.value = 6; }) ==
+        "flies");  // of no start there
 }
 
 TEST_CASE("an inertia that is not positive definite is refused, just inside it flies") {
@@ -112,7 +113,7 @@ TEST_CASE("a slope is no ground of the ellipsoid, and no aircraft starts inside 
     return [=](Aircraft::Params& p) {
       p.earth.value = earth;
       p.around.ground.ground_slope.value = 0.2;
-      p.start_north.value = north;
+      p.start.start_north.value = north;
     };
   };
   CHECK(refusal(50, slope(EarthModel::wgs84, 0)).find("ground_slope: ") == 0);
@@ -212,7 +213,7 @@ TEST_CASE("the weather of the parameters reaches the plant") {
   double sums[2] = {0, 0};
   for (int k = 0; k < 2; ++k) {
     auto g = bench(k == 0 ? 30 : 3000);
-    g->params.turbulence.value = Turbulence::severe;
+    g->params.wind.turbulence.value = Turbulence::severe;
     g->params.around.air.turbulence_height.value = TurbulenceHeight::actual;
     g->params.settle.value = 600;  // carried along: same airspeed, same height
     for (int i = 0; i < 200000; ++i) {

@@ -233,7 +233,7 @@ TEST_CASE("a slow pitot tube lags behind a gust") {
   pair.fail(FaultTarget::pitot, SensorFault::slow);
   const double before = pair.failing->out.pitot.value.pressure_pa;
   for (Bench<Aircraft>* b : {pair.right.get(), pair.failing.get()}) {
-    b->params.wind_ned.value = {-5, 0, 0};
+    b->params.wind.wind_ned.value = {-5, 0, 0};
     b->retune();
   }
   pair.step(8);  // 20 ms

@@ -101,8 +101,8 @@ TEST_CASE("the pilot's rudder to the right turns the nose right") {
   arm(*bench);
   const Actuators idle{0.5, 0, 0, 0};
   while (bench->tick.now_ns < 100000000) pass(*bench, &idle);
-  bench->params.pilot_flies.value = true;
-  bench->params.stick_yaw.value = 0.5;
+  bench->params.sticks.pilot_flies.value = true;
+  bench->params.sticks.stick_yaw.value = 0.5;
   bench->retune();
   for (int i = 0; i < 160; ++i) pass(*bench, &idle);
   const double full = anaconda().rudder.limit_rad;  // positive rudder is nose left
@@ -124,7 +124,7 @@ TEST_CASE("a pilot who flies needs no commands: that they stop is no failsafe") 
   arm(*bench);
   const Actuators idle{0.2, 0, 0, 0};
   while (bench->tick.now_ns < 100000000) pass(*bench, &idle);
-  bench->params.pilot_flies.value = true;
+  bench->params.sticks.pilot_flies.value = true;
   bench->retune();
   for (int i = 0; i < 200; ++i) {
     pass(*bench);
@@ -135,7 +135,7 @@ TEST_CASE("a pilot who flies needs no commands: that they stop is no failsafe") 
 TEST_CASE("the course of an aircraft that stands is where its nose points") {
   auto bench = std::make_unique<Bench<Aircraft>>(1);
   bench->params.airframe.value = anaconda();
-  bench->params.start_heading.value = 1.2;
+  bench->params.start.start_heading.value = 1.2;
   int told = 0;
   for (int i = 0; i < 100; ++i) {
     pass(*bench);

@@ -22,7 +22,7 @@ constexpr double origin_m = 1387;
 std::unique_ptr<Bench<Aircraft>> airborne(const Airframe& a, double height) {
   auto b = std::make_unique<Bench<Aircraft>>(1);
   b->params.airframe.value = a;
-  b->params.start_height.value = height;
+  b->params.start.start_height.value = height;
   b->params.sensors.value = SensorSet::perfect;
   b->params.settle.value = 0;
   arm(*b);
@@ -117,7 +117,7 @@ TEST_CASE("a derivative that is added in flight changes the response as the line
   const double qS = 0.5 * standard_air(origin_m + 200).density_kgm3 * 17 * 17 * a.wing.area_m2;
   const auto pitch_rate = [&] { return b->component().plant().state().omega_b.y(); };
   CHECK(std::abs(pitch_rate()) < 1e-5);
-  b->params.model.add_pitch_zero.value = 0.01;
+  b->params.model.pitch.add_pitch_zero.value = 0.01;
   b->retune();
   pass(*b, &u);
   pass(*b, &u);
@@ -126,11 +126,12 @@ TEST_CASE("a derivative that is added in flight changes the response as the line
   const double after = pitch_rate();
   CHECK(after > 0.9 * expected);
   CHECK(after < 2.1 * expected);
-  b->params.model.add_pitch_zero.value = 0;
+  b->params.model.pitch.add_pitch_zero.value = 0;
   b->retune();
   fly(*b, u, 0.1);
   CHECK(b->component().plant().aerodynamic().stall(0) >= 0);
-  b->params.model.add_roll_aileron.value = -2 * a.aero.roll.aileron_ratio;  // ailerons the other way round
+  b->params.model.roll.add_roll_aileron.value =
+      -2 * a.aero.roll.aileron_ratio;  // ailerons the other way round
   b->retune();
   Actuators right = u;
   right.aileron_rad += 0.1;

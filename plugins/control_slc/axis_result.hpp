@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an autotune finds of one axis.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <fulmar/msg/autotune_report.hpp>
+#include <numbers>
+#include <optional>
+
+#include "loop_lines.hpp"
+
+namespace fulmar::slc {
+
+inline const char* words(AutotuneReason why) {
+  using Reason = AutotuneReason;
+  switch (why) {
+    case Reason::margins_do_not_hold: return "the margins do not hold";
+    case Reason::no_gains_found: return "no gains have the margins";
+    case Reason::surface_at_limit: return "the surface was at its limit";
+    case Reason::turbulence: return "turbulence hides the answer to the excitation";
+    case Reason::no_answer: return "the surface does not act as it should";
+    case Reason::no_surface: return "the aircraft has no such surface";
+    case Reason::gain_is_zero: return "its gain is 0, and multiples of it are all that is tried";
+    case Reason::no_time: return "time_limit leaves no time";
+    default: return "";
+  }
+}
+
+/// Verdict, margins measured, and how well.
+struct AxisResult {
+  AutotuneVerdict verdict = AutotuneVerdict::open;
+  AutotuneReason reason = AutotuneReason::none;
+  std::optional<Margins> before, after;  ///< with the gains that it began with, and those tried last
+  double noise = 0;                      ///< relative standard error of 1 + L
+
+  void decide(AutotuneVerdict what, AutotuneReason why) {
+    verdict = what;
+    reason = why;
+  }
+  /// Other gains count now.
+  void forget() {
+    decide(AutotuneVerdict::open, AutotuneReason::none);
+    before.reset();
+    after.reset();
+  }
+  void put_into(AutotuneReport& r, std::size_t axis) const {
+    tell_margins(before, r.before_gain_margin_ratio[axis], r.before_phase_margin_rad[axis]);
+    tell_margins(after, r.gain_margin_ratio[axis], r.phase_margin_rad[axis]);
+    r.crossover_radps[axis] = after ? after->crossover_radps : 0;
+    r.noise_ratio[axis] = std::isfinite(noise) ? std::min(noise, 1e9) : 1e9;
+  }
+
+ private:
+  static void tell_margins(const std::optional<Margins>& m, double& gain_ratio, double& phase_rad) {
+    gain_ratio = m ? std::min(std::pow(10, m->min_gain_db() / 20), 1e9) : 0;
+    phase_rad = m ? std::min(m->phase_rad, std::numbers::pi) : 0;
+  }
+};
+
+}  // namespace fulmar::slc

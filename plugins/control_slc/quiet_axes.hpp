@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Less gain for an axis that oscillates, and a notice that says so.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fulmar/flight/control/oscillation.hpp>
+#include <fulmar/msg/notice.hpp>
+#include <fulmar/plugin.hpp>
+
+namespace fulmar::slc {
+
+/// What is left of the gains of each axis, until they are changed.
+class QuietAxes {
+ public:
+  enum Axis : std::uint8_t { roll, pitch, yaw, axes };
+  using Each = std::array<double, axes>;
+  using Gains = std::array<double, 8>;
+  /// rad, of the surface of each axis: its deflection, what the command alone makes of it, and its throw.
+  struct Surfaces {
+    Each deflection{}, commanded{}, limit{};
+  };
+
+  void configure(const Gains& gains) { gains_ = gains; }
+  /// Other gains begin anew with all of them.
+  void retune(const Gains& gains) {
+    if (gains != gains_)
+      for (Quietening& axis : quiet_) axis.restore();
+    gains_ = gains;
+  }
+  /// Nothing has swung yet: after a hand-over, on the ground.
+  void begin() {
+    for (Quietening& axis : quiet_) axis.begin();
+  }
+  double gain(Axis axis) const { return quiet_[axis].gain(); }
+  bool quietened() const {
+    return std::any_of(quiet_.begin(), quiet_.end(), [](const Quietening& axis) { return axis.gain() < 1; });
+  }
+  /// Cuts the gains of an axis whose surface swings by more than an eighth of its throw, again and again.
+  template <class Notices>
+  void step(const Tick& tick, const Surfaces& surfaces, double dt, Notices& notices) {
+    for (std::size_t i = 0; i < axes; ++i)
+      if (quiet_[i].step(surfaces.deflection[i], surfaces.commanded[i], surfaces.limit[i] / 8, dt))
+        report(tick, i, notices);
+  }
+
+ private:
+  template <class Notices>
+  void report(const Tick& tick, std::size_t axis, Notices& notices) const {
+    static constexpr std::array<const char*, axes> names{"roll", "pitch", "yaw"};
+    Notice notice;
+    notice.severity = Severity::warning;
+    std::snprintf(notice.text.bytes.data(), notice.text.bytes.size(),
+                  "%s oscillates: its gains are multiplied by %g until they are changed", names[axis],
+                  quiet_[axis].gain());
+    notices.push(notice, tick.now_ns);
+  }
+
+  std::array<Quietening, axes> quiet_;
+  Gains gains_{};  ///< for which the axes are as quiet as they are
+};
+
+}  // namespace fulmar::slc

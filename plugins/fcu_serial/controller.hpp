@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the flight controller is: its firmware, its number on the line, its parameters that matter here.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "greeting.hpp"
+#include "radio.hpp"
+
+namespace fulmar::fcu {
+
+class Controller {
+ public:
+  void meet(const Greeting& g) {
+    parameters_ = g.parameters;
+    version_ = Text<50>(g.version);
+    for (std::size_t i = 0; i < watched_parameters.size(); ++i)
+      if (g.parameters[i]) map_.take(watched_parameters[i], *g.parameters[i]);
+  }
+  /// With each inertial sample: its SYS_ID, and its clock, which is 0 at its boot.
+  void speaks(std::uint8_t system, std::uint64_t clock_us) {
+    system_ = system;
+    clock_us_ = clock_us;
+  }
+  /// Is this another firmware than the one that was known?
+  bool other_version(const Text<50>& version) {
+    if (version == version_) return false;
+    const bool known = !version_.view().empty();
+    version_ = version;
+    return known;
+  }
+  /// A watched parameter that has another value than before. `known`: there was one before.
+  struct Change {
+    std::string_view name;
+    std::int32_t value = 0;
+    bool known = false;
+  };
+  std::optional<Change> take(const ParamValue& p) {
+    const std::string_view name = id_of(p.param_id);
+    const auto at = static_cast<std::size_t>(
+        std::find(watched_parameters.begin(), watched_parameters.end(), name) - watched_parameters.begin());
+    if (at == watched_parameters.size()) return {};
+    const std::int32_t value = watched_bits(name, p);
+    const bool known = parameters_[at].has_value();
+    if (known && *parameters_[at] == value) return {};
+    parameters_[at] = value;
+    map_.take(name, value);
+    return Change{watched_parameters[at], value, known};
+  }
+
+  const RcMap& map() const { return map_; }
+  std::uint8_t system() const { return system_; }
+  std::uint64_t clock_us() const { return clock_us_; }
+
+ private:
+  std::array<std::optional<std::int32_t>, watched_parameters.size()> parameters_;
+  RcMap map_;
+  Text<50> version_;
+  std::uint8_t system_ = 1;  ///< it answers to no other
+  std::uint64_t clock_us_ = 0;
+};
+
+}  // namespace fulmar::fcu

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether the pitot tube is used.
+#pragma once
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "readiness.hpp"
+#include "words.hpp"
+
+namespace fulmar::fcu {
+
+/// Not when its zero was taken in wind or in the air, and not when a reboot in flight has taken one.
+class PitotUse {
+ public:
+  explicit PitotUse(double limit_pa = 0) : limit_pa_(limit_pa) {}
+
+  bool used() const { return !zeroed_ && !off_; }
+  /// By a reboot in flight.
+  bool zeroed() const { return zeroed_; }
+  PitotZero zero(std::uint64_t controller_us) const {
+    if (!used()) return PitotZero::wrong;
+    return controller_us < zeroing_us ? PitotZero::pending : PitotZero::good;
+  }
+
+  /// By a boot of the controller, now or before this host began.
+  void zeroed_in_the_air(Notices& out) {
+    if (std::exchange(zeroed_, true)) return;
+    out.say(fulmar::Severity::critical,
+            "it has zeroed its airspeed in the air: pitot not used any more, restart on the ground");
+  }
+  /// In still air it is the offset of the sensor; beyond the limit it is the pressure of an airspeed, and the
+  /// tube would say 0 at that. `bits`: of a float.
+  void take_zero(std::int32_t bits, bool armed, Notices& out) {
+    const double pascal = static_cast<double>(std::bit_cast<float>(bits));
+    const bool off = !(std::fabs(pascal) <= limit_pa_);
+    if (off == std::exchange(off_, off)) return;
+    if (!off) return out.say(fulmar::Severity::info, "the pitot tube is zeroed anew: it is used again");
+    Line line;
+    if (std::isfinite(pascal) && std::fabs(pascal) < 1e6)
+      line << "pitot zeroed at " << std::llround(pascal) << " Pa";
+    else
+      line << "pitot zeroed wrong";
+    out.say(armed ? fulmar::Severity::critical : fulmar::Severity::warning,
+            line << ", in wind or in the air: it is not used; zero it on the ground");
+  }
+
+ private:
+  double limit_pa_ = 0;
+  bool zeroed_ = false;  ///< by a reboot in flight
+  bool off_ = false;     ///< its zero is beyond the limit
+};
+
+}  // namespace fulmar::fcu

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether the motor may run.
+#pragma once
+#include <cstdint>
+
+namespace fulmar::sim {
+
+/// Asked for by requests and the pilot's switch, granted from flight time 0 on.
+class Arming {
+ public:
+  void ask(bool armed) {
+    wanted_ = armed;
+    if (!wanted_) armed_ = false;
+  }
+  void advance(bool may_arm, std::int64_t now_ns) {
+    if (!(wanted_ && !armed_ && may_arm && now_ns >= 0)) return;
+    if (!released_) at_ns_ = now_ns;
+    armed_ = released_ = true;
+  }
+  bool armed() const { return armed_; }
+  /// Has been armed once: from then on the aircraft is free to move.
+  bool released() const { return released_; }
+  /// Since it was armed for the first time.
+  double age_s(std::int64_t now_ns) const { return 1e-9 * static_cast<double>(now_ns - at_ns_); }
+
+ private:
+  bool wanted_ = false, armed_ = false, released_ = false;
+  std::int64_t at_ns_ = 0;  ///< for the first time
+};
+
+}  // namespace fulmar::sim

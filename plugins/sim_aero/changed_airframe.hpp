@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The airframe as it flies: the file's, with what the parameters add, and with ice.
+#pragma once
+#include "fulmar/msg/airframe.hpp"
+#include "icing.hpp"
+#include "model_params.hpp"
+
+namespace fulmar::sim {
+
+class ChangedAirframe {
+ public:
+  ChangedAirframe() = default;
+  explicit ChangedAirframe(const Airframe& file) : file_(file), changed_(file) {}
+
+  const Airframe& file() const { return file_; }
+  /// True when the parameters add something else than before.
+  bool add(const ModelParams& p) { return add_to(file_, p, changed_); }
+  /// True when there is another amount of ice than before.
+  bool freeze(double rate, double dt) { return icing_.advance(rate, dt); }
+  double ice() const { return icing_.ice(); }
+  Airframe now(const BodyFaultParams& p) const { return iced(changed_, icing_.ice(), p); }
+
+ private:
+  Airframe file_, changed_;
+  Icing icing_;
+};
+
+}  // namespace fulmar::sim

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the flight begins: on the ground, in the hand or on the catapult, or in trimmed level flight.
+#pragma once
+#include <cstdint>
+#include <stdexcept>
+
+#include "fulmar/flight/model/steady_flight.hpp"
+#include "fulmar/plugin.hpp"
+#include "fulmar/sim/plant.hpp"
+#include "launch.hpp"
+#include "refusals.hpp"
+#include "wind_params.hpp"
+
+namespace fulmar::sim {
+
+struct StartParams {
+  Param start_north{0, "m", -1e5, 1e5, "position at flight time 0", setup};
+  Param start_east{0, "m", -1e5, 1e5, "position at flight time 0", setup};
+  Param start_height{0, "m", 0, 5000, "0: on the ground; more: in trimmed level flight", setup};
+  Param start_heading{0, "rad", -full_turn, full_turn, "from north, clockwise", setup};
+  Param start_airspeed{0, "m/s", 0, 100, "of a start in the air; 0: the airframe's cruise", setup};
+};
+
+/// From where it stands into the hand, or onto the catapult.
+inline void lift(Plant& plant, double height_m, double pitch_rad) {
+  RigidBody x = plant.state();
+  x.p_n.z() -= height_m;
+  x.q_nb = x.q_nb * Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY());
+  plant.set_state(x);
+}
+
+/// `now_ns`: the beginning, before flight time 0, at which the position holds.
+inline void place(Plant& plant, const Airframe& a, double origin_alt_m, const StartParams& p,
+                  const LaunchParams& launching, std::int64_t now_ns) {
+  const Launch launch(launching);
+  const bool in_air = p.start_height > 0, own = in_air && p.start_airspeed > 0;
+  const double Va = own ? p.start_airspeed : a.limits.airspeed_cruise_mps;
+  const SteadyFlight flight = steady_flight(AircraftModel(a, origin_alt_m + p.start_height), {Va});
+  if (in_air && launch.given())
+    throw std::runtime_error("launch: it begins in the air, by start_height; give one of them");
+  if (!in_air && flight.found()) {
+    plant.stand(p.start_north, p.start_east, p.start_heading);
+    if (launch.given()) lift(plant, launch.height_m(), launching.launch_pitch);
+    return;
+  }
+  if (!in_air || !plant.fly({p.start_north, p.start_east, -p.start_height}, p.start_heading, Va))
+    throw std::runtime_error(
+        trim_words(a, flight, own ? "start_airspeed" : "airframe.limits.airspeed_cruise"));
+  if (plant.height_above_ground() < a.gear.height_m)
+    throw std::runtime_error("start_height: the ground is higher at this place; ground_slope says how high");
+  plant.shift(1e-9 * static_cast<double>(now_ns));
+}
+
+}  // namespace fulmar::sim

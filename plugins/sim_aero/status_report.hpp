@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When the status of the vehicle is published, and what is said of it.
+#pragma once
+#include <cstdint>
+
+#include "fulmar/msg/notice.hpp"
+#include "fulmar/msg/vehicle_status.hpp"
+#include "fulmar/plugin.hpp"
+#include "sensors.hpp"
+
+namespace fulmar::sim {
+
+/// Ten times a second, and at once when it changes.
+class StatusReport {
+ public:
+  StatusReport() = default;
+  explicit StatusReport(std::int64_t first_ns) : rate_(10, first_ns) {}
+
+  bool due(const VehicleStatus& s, std::int64_t now_ns) {
+    const bool changed = s.armed != last_.armed || s.override != last_.override ||
+                         s.failsafe != last_.failsafe || s.on_ground != last_.on_ground ||
+                         s.crashed != last_.crashed;
+    return rate_(now_ns) || changed;
+  }
+  template <class Notices>
+  void publish(const VehicleStatus& s, std::int64_t now_ns, Out<VehicleStatus>& out, Notices& notices) {
+    report_pilot(s, now_ns, notices);
+    last_ = s;
+    out.publish(s);
+  }
+
+ private:
+  /// The texts that fcu_serial has for a flight controller.
+  template <class Notices>
+  void report_pilot(const VehicleStatus& s, std::int64_t now_ns, Notices& notices) const {
+    if (!s.armed || !last_.armed || s.override == last_.override) return;
+    Notice notice;
+    notice.text = s.override ? "the pilot flies" : "the pilot hands over";
+    notices.push(notice, now_ns);
+  }
+
+  VehicleStatus last_;
+  Due rate_;
+};
+
+}  // namespace fulmar::sim

@@ -6,10 +6,10 @@
 #include "core/app/test/fault_campaign.hpp"
 #include "core/app/test/unlogged.hpp"
 #include "core/log/reader.hpp"
-#include "core/replay/replay.hpp"
 #include "core/run/component/allocation.hpp"
 #include "core/run/test/commands.hpp"
 #include "fulmar/msg/fault_request.hpp"
+#include "tools/fulmar_replay/replay.hpp"
 
 using namespace fulmar::core;
 using namespace fulmar::core::failures;

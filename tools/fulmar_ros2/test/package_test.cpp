@@ -16,9 +16,9 @@
 #include "core/loader/library.hpp"
 #include "core/log/reader.hpp"
 #include "core/run/control.hpp"
-#include "core/types/ros_parse.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_ros2/interface_package.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 namespace package_test {
 

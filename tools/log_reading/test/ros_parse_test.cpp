@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Message definitions read back: our own text, and the text of messages that ROS 2 publishes.
-#include "core/types/ros_parse.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 #include <doctest/doctest.h>
 

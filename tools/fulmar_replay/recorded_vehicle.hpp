@@ -12,8 +12,8 @@
 
 #include "core/graph/graph.hpp"
 #include "core/log/reader.hpp"
-#include "core/replay/survey.hpp"
 #include "core/run/component/runner.hpp"
+#include "tools/fulmar_replay/survey.hpp"
 
 namespace fulmar::core {
 

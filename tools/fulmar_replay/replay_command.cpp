@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/app/replay_command.hpp"
+#include "tools/fulmar_replay/replay_command.hpp"
 
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
@@ -10,12 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/app/compare.hpp"
-#include "core/app/estimates.hpp"
+#include "core/app/mission_options.hpp"
 #include "core/app/report.hpp"
-#include "core/log/log_file.hpp"
 #include "core/log/out_file.hpp"
-#include "core/replay/replay.hpp"
 #include "core/say.hpp"
+#include "tools/fulmar_replay/estimates.hpp"
+#include "tools/fulmar_replay/replay.hpp"
+#include "tools/log_reading/log_file.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -199,9 +200,7 @@ int run(ReplayWords words, json& out) {
   return again.result.equal() ? 0 : 1;
 }
 
-}  // namespace
-
-int replay_command(const ReplayWords& words) {
+int carry_out(const ReplayWords& words) {
   struct sigaction action {};
   action.sa_handler = stop_replay;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
@@ -222,6 +221,36 @@ int replay_command(const ReplayWords& words) {
   close(own);
   std::printf("%s\n", result.dump(2, ' ', false, json::error_handler_t::replace).c_str());
   return code;
+}
+
+}  // namespace
+
+ReplayCommand::ReplayCommand(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "replay",
+      "fly a log again: what entered the flight is fed to its mission, and what comes out is compared");
+  command->add_option("LOG", words_.log, "log of a flight (MCAP)")->required();
+  add_pairs(
+      command, "--with", with_, "COMPONENT=FILE",
+      "COMPONENT=PLUGIN.so: an experiment with another file for a component, or for the one that fills a "
+      "role, as in nav=my_filter.so");
+  add_pairs(command, "--set", set_, "COMP.PARAM=VALUE",
+            "COMPONENT.PARAMETER=VALUE: an experiment with another parameter");
+  command
+      ->add_option("--record", words_.changes.record,
+                   "all, or PORTS[@RATE] as in nav.*@100Hz: with --log, its log holds this, too")
+      ->type_name("PORTS[@RATE]")
+      ->allow_extra_args(false);
+  command->add_option("--log", words_.out, "where to write the log of the replay; default nowhere")
+      ->check(a_file("none is written"));
+  command->add_flag("--json", words_.json, "print one JSON object");
+  command->footer("Example: fulmar replay flight.mcap --set attitude.roll_kp=0.6");
+}
+
+int ReplayCommand::run() {
+  words_.changes.set = pairs(set_);
+  words_.changes.with = pairs(with_);
+  return carry_out(words_);
 }
 
 }  // namespace fulmar::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Text of ROS 2 message definitions -> type tables. Source: ROS 2 design "interface definition"; MCAP's
 // registry of well-known schema encodings, `ros2msg`.
-#include "core/types/ros_parse.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/replay/playback.hpp"
+#include "tools/fulmar_replay/playback.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "core/replay/logged.hpp"
-#include "core/replay/recorded_vehicle.hpp"
 #include "core/run/component/recorded_samples.hpp"
 #include "core/types/named.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_replay/logged.hpp"
+#include "tools/fulmar_replay/recorded_vehicle.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -8,10 +8,10 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "core/log/diff.hpp"
 #include "core/log/test/log_kit.hpp"
 #include "core/sanitized.hpp"
 #include "core/test/limits.hpp"
+#include "tools/log_reading/message_diff.hpp"
 
 namespace memory_test {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/replay/recorded_vehicle.hpp"
+#include "tools/fulmar_replay/recorded_vehicle.hpp"
 
 #include <cstring>
 
-#include "core/replay/logged.hpp"
 #include "core/types/named.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_replay/logged.hpp"
 
 namespace fulmar::core {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/app/test/replays.hpp"
 #include "core/log/reader.hpp"
+#include "tools/fulmar_replay/test/replays.hpp"
 
 namespace experiment_test {
 

@@ -3,9 +3,9 @@
 #pragma once
 #include <iterator>
 
-#include "core/replay/replay.hpp"
 #include "core/run/test/lab.hpp"
 #include "sdk/test/said.hpp"
+#include "tools/fulmar_replay/replay.hpp"
 
 namespace lab {
 

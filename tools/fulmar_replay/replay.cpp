@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/replay/replay.hpp"
+#include "tools/fulmar_replay/replay.hpp"
 
 #include <unistd.h>
 
@@ -10,11 +10,11 @@
 
 #include "core/graph/stored_files.hpp"
 #include "core/loader/store.hpp"
-#include "core/log/diff.hpp"
 #include "core/log/mcap.hpp"
-#include "core/replay/playback.hpp"
 #include "core/run/command/command.hpp"
 #include "core/types/named.hpp"
+#include "tools/fulmar_replay/playback.hpp"
+#include "tools/log_reading/message_diff.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/app/test/replays.hpp"
 #include "core/log/reader.hpp"
 #include "core/run/component/allocation.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/sanitized.hpp"
 #include "tools/fulmar_log/recover.hpp"
+#include "tools/fulmar_replay/test/replays.hpp"
 
 namespace replay_test {
 

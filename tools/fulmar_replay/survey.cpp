@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/replay/survey.hpp"
+#include "tools/fulmar_replay/survey.hpp"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "core/app/test/replays.hpp"
+#include "tools/fulmar_replay/test/replays.hpp"
 
 namespace late_work_test {
 

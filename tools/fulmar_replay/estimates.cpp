@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/app/estimates.hpp"
+#include "tools/fulmar_replay/estimates.hpp"
 
 #include <unistd.h>
 

@@ -6,7 +6,7 @@
 
 #include "core/graph/graph.hpp"
 #include "core/log/reader.hpp"
-#include "core/replay/survey.hpp"
+#include "tools/fulmar_replay/survey.hpp"
 
 namespace fulmar::core {
 

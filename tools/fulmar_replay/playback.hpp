@@ -17,10 +17,10 @@
 #include "core/graph/graph.hpp"
 #include "core/log/events.hpp"
 #include "core/log/reader.hpp"
-#include "core/replay/survey.hpp"
 #include "core/run/command/command.hpp"
 #include "core/run/component/replay_context.hpp"
 #include "core/run/state/resume.hpp"
+#include "tools/fulmar_replay/survey.hpp"
 
 namespace fulmar::core {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/replay/logged.hpp"
+#include "tools/fulmar_replay/logged.hpp"
 
 #include <algorithm>
 

@@ -6,11 +6,11 @@
 #include <doctest/doctest.h>
 
 #include "core/log/test/log_kit.hpp"
-#include "core/replay/replay.hpp"
 #include "core/test/altered.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
 #include "tools/fulmar_log/recover.hpp"
+#include "tools/fulmar_replay/replay.hpp"
 
 namespace limits_test {
 

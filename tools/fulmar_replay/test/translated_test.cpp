@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 
-#include "core/app/test/replays.hpp"
 #include "core/log/events.hpp"
 #include "core/log/mcap.hpp"
 #include "core/run/state/resume.hpp"
@@ -16,6 +15,7 @@
 #include "tools/fulmar_log/diff.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
+#include "tools/fulmar_replay/test/replays.hpp"
 
 namespace translated_test {
 namespace {

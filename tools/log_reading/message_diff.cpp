@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See diff.hpp.
-#include "core/log/diff.hpp"
+// See message_diff.hpp.
+#include "tools/log_reading/message_diff.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -8,10 +8,10 @@
 
 #include "core/error.hpp"
 #include "core/log/events.hpp"
-#include "core/log/log_file.hpp"
 #include "core/log/reader.hpp"
-#include "core/types/ros_parse.hpp"
 #include "core/types/wire.hpp"
+#include "tools/log_reading/log_file.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/graph/graph.hpp"
-#include "core/replay/survey.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/record/flown_plugin.hpp"
+#include "tools/fulmar_replay/survey.hpp"
 
 namespace fulmar::core {
 

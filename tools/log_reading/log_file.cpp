@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/log/log_file.hpp"
+#include "tools/log_reading/log_file.hpp"
 
 #include <unistd.h>
 

@@ -13,7 +13,7 @@
 
 #include "core/graph/graph.hpp"
 #include "core/run/flight.hpp"
-#include "core/run/record/flown_plugin.hpp"
+#include "tools/fulmar_replay/flown_plugins.hpp"
 #include "tools/fulmar_replay/survey.hpp"
 
 namespace fulmar::core {

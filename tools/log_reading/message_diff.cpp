@@ -10,6 +10,7 @@
 #include "core/log/events.hpp"
 #include "core/log/reader.hpp"
 #include "core/types/wire.hpp"
+#include "tools/log_reading/cdr_values.hpp"
 #include "tools/log_reading/log_file.hpp"
 #include "tools/log_reading/ros_parse.hpp"
 

@@ -69,6 +69,7 @@ TEST_CASE("help lists the programs beside the host") {
   home.program("bin/fulmar-notes.txt", "text");
   home.program("bin/fulmar-idle", teller("idle", 0), false);
   home.program("bin/fulmar-child", teller("child", 0));
+  home.program("bin/fulmar-replay", teller("replay", 0));
   const Said help = home.fulmar("--help");
   CHECK(help.code == 0);
   CHECK(holds(help.out, "Programs beside this one: aero, zeta (fulmar aero --help)"));

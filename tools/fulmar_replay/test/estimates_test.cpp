@@ -103,7 +103,7 @@ TEST_CASE("without the program of logs an experiment is flown, and it is told wh
   const fs::path home = folder() / "home";
   fs::create_directories(home / "bin");
   fs::create_directory_symlink(FULMAR_BIN_DIR "/../lib", home / "lib");
-  for (const char* name : {"fulmar", "fulmar-probe", "fulmar-child"})
+  for (const char* name : {"fulmar", "fulmar-probe", "fulmar-child", "fulmar-replay"})
     fs::copy_file(fs::path(FULMAR_BIN_DIR) / name, home / "bin" / name);
   const Result r = shell((home / "bin/fulmar").string() + " replay " + flown().string() +
                          " --set \"ekf.gnss_position_time=1 s\"");

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/log/reader.hpp"
 #include "tools/fulmar_replay/test/replays.hpp"
 
 namespace experiment_test {
@@ -124,7 +123,7 @@ TEST_CASE("a replay records more than the flight did: all of it, or some ports a
                  again = fresh("some-again.mcap");
   CHECK(run_fulmar("run " + hourglass + " --duration 10 --log " + log.string()).code == 0);
   const auto messages = [](const fs::path& file, const std::string& topic) {
-    const McapFile f = read_mcap(file);
+    const WholeLog f = read_mcap(file);
     const std::uint16_t channel = f.channel(topic);
     return std::count_if(f.messages.begin(), f.messages.end(),
                          [&](const McapFile::Message& m) { return m.channel == channel; });

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "core/log/test/log_kit.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/test/altered.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
@@ -45,7 +46,7 @@ void damage(const fs::path& log, const fs::path& to, Dice& dice) {
 /// What the file holds, under right checksums: messages altered, lost and moved in time, attached texts,
 /// other tables of fields.
 void forge(const fs::path& log, const fs::path& to, Dice& dice) {
-  const McapFile file = read_mcap(log);
+  const WholeLog file = read_mcap(log);
   fs::remove(to);
   McapWriter writer({.file = to, .zstd_level = 0});
   const std::size_t rare = 20 + dice.below(2000);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/log/reader.hpp"
 #include "core/run/component/allocation.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/sanitized.hpp"
@@ -24,7 +23,7 @@ TEST_CASE("what phases do to the vehicle at given times is flown again, byte for
                          "\"time > 18 s\"}]}\n  found: {}\n";
   Flight(load_mission(file.string(), {}), logged(log, 20)).run();
   std::vector<double> fixes_s;
-  const McapFile flown = read_mcap(log);
+  const WholeLog flown = read_mcap(log);
   for (const McapFile::Message& m : flown.messages)
     if (flown.channels.at(m.channel).topic == "/vehicle/gnss")
       fixes_s.push_back(1e-9 * static_cast<double>(m.log_ns - flown.messages.front().log_ns));
@@ -233,7 +232,7 @@ TEST_CASE("samples from outside are stored as their input's, with their tick, an
     if (n % 7 == 3) publish(flight, "ear", "signal", tick_s);
   }
   flight.finish();
-  const McapFile file = read_mcap(log);
+  const WholeLog file = read_mcap(log);
   const auto count =
       std::count_if(file.messages.begin(), file.messages.end(),
                     [&](const McapFile::Message& m) { return m.channel == file.channel("/ear/signal"); });

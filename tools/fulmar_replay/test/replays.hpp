@@ -3,6 +3,7 @@
 #pragma once
 #include <iterator>
 
+#include "core/log/test/read_mcap.hpp"
 #include "core/run/test/lab.hpp"
 #include "sdk/test/said.hpp"
 #include "tools/fulmar_replay/replay.hpp"

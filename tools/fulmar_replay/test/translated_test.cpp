@@ -25,7 +25,7 @@ using Change = std::function<std::vector<std::byte>(const Event&)>;
 
 /// A copy of a log with other events.
 void rewrite(const fs::path& from, const fs::path& to, const Type& event_type, const Change& change) {
-  const McapFile file = read_mcap(from);
+  const WholeLog file = read_mcap(from);
   const HostTopic<Event> events(file);
   McapWriter writer({.file = to});
   for (const auto& a : file.attachments) writer.attach(a.name, a.media_type, a.content, a.log_ns);
@@ -84,7 +84,7 @@ fs::path translated(const fs::path& log, const std::string& name,
 }
 
 std::size_t count(const fs::path& log, Code code) {
-  const McapFile file = read_mcap(log);
+  const WholeLog file = read_mcap(log);
   const HostTopic<Event> events(file);
   return static_cast<std::size_t>(std::count_if(
       file.messages.begin(), file.messages.end(),
@@ -300,7 +300,7 @@ TEST_CASE("every live parameter comes again as it was taken: a number, a word, a
     if (n == 430) enter_phase(flight, "b");
   }
   flight.finish();
-  const McapFile file = read_mcap(log);
+  const WholeLog file = read_mcap(log);
   const HostTopic<CommandNote> commands(file), parameters(file, CommandNote::parameter_topic);
   std::vector<CommandNote> notes;
   for (const auto& m : file.messages)

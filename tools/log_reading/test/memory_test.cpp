@@ -75,9 +75,6 @@ TEST_CASE("two logs of a gigabyte are compared in little memory") {
   });
   CHECK(diff.said == "60 equal");
   CHECK(diff.max_mb < 200);
-  const Outcome whole = apart(folder, [&] { return std::to_string(read_mcap(a).messages.size()); });
-  CHECK(whole.said.find("is too large to be read as a whole") != std::string::npos);
-  CHECK(whole.max_mb < 300);
 }
 
 TEST_CASE("two logs of millions of small messages are compared in little memory" *
@@ -131,7 +128,9 @@ TEST_CASE("each damaged log takes less than a gigabyte and five seconds to read 
     CAPTURE(i);
     CHECK(within_limits([&] {
       try {
-        read_mcap(damaged);
+        McapStream stream(damaged);
+        while (stream.next() != nullptr) {
+        }
         diff_messages(whole, damaged);
       } catch (const Error&) {  // a sentence
       }

@@ -9,6 +9,7 @@
 #include "core/test/refusal.hpp"
 #include "core/types/test/types.hpp"
 #include "core/types/wire.hpp"
+#include "tools/log_reading/cdr_values.hpp"
 
 namespace ros_parse_test {
 

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See flown_plugin.hpp.
-#include "core/run/record/flown_plugin.hpp"
+#include "tools/fulmar_replay/flown_plugins.hpp"
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "core/types/named.hpp"
 
 namespace fulmar::core {
-
-std::vector<std::pair<std::string, std::string>> flown_pairs(const PluginInfo& p) {
-  std::vector<std::pair<std::string, std::string>> pairs = {
-      {"file", p.file}, {"version", p.version}, {"sha256", p.sha256}};
-  if (!p.build_id.empty()) pairs.emplace_back("build_id", p.build_id);
-  return pairs;
-}
 
 std::vector<FlownPlugin> flown_plugins(const McapFile& log) {
   const McapFile::Metadata* const metadata = find_named(log.metadata, "plugins");

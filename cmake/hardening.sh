@@ -9,7 +9,7 @@ bad=0
 complain() { echo "$1: $2"; bad=1; }
 
 protected=0 fortified=0
-for file in "$build"/bin/fulmar "$build"/bin/fulmar-probe "$build"/bin/fulmar-child "$build"/bin/fulmar-{inspect,live,log,new} "$build"/bin/fulmar-{fcu,aero} "$build"/lib/fulmar/*.so "$build"/lib/fulmar/host/*.so; do
+for file in "$build"/bin/fulmar "$build"/bin/fulmar-probe "$build"/bin/fulmar-child "$build"/bin/fulmar-{campaign,inspect,live,log,new,replay,report,save} "$build"/bin/fulmar-{fcu,aero,import,ros2} "$build"/lib/fulmar/*.so "$build"/lib/fulmar/host/*.so; do
   [ -e "$file" ] || continue
   readelf -hW "$file" | grep -qE 'Type: +DYN' || complain "$file" "not position independent"
   readelf -lW "$file" | grep -q GNU_RELRO || complain "$file" "relocations stay writable (no relro)"

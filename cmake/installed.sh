@@ -183,7 +183,8 @@ usable() {
   systemd_unit "$prefix"
   page "$prefix"
   dds "$prefix"
-  "$prefix/bin/fulmar" run "$prefix/share/fulmar/missions/hourglass.yaml" --duration 60 --no-log >/dev/null 2>&1 || fail "the installed hourglass does not fly"
+  "$prefix/bin/fulmar" run "$prefix/share/fulmar/missions/hourglass.yaml" --duration 60 --log hourglass.mcap >/dev/null 2>&1 || fail "the installed hourglass does not fly"
+  quietly "$prefix/bin/fulmar" replay hourglass.mcap
 }
 
 # page PREFIX: a browser gets the page from what is installed, if this was built with it

@@ -31,7 +31,6 @@ core/run/record
 core/run/flight
 core/run/command
 core/run
-core/replay
 core/app
 plugins examples
 tools

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 here = pathlib.Path(__file__).resolve().parent
-ROOMS = [f"core/{name}" for name in "types loader log isolate graph tap live dds run replay app".split()]
+ROOMS = [f"core/{name}" for name in "types loader log isolate graph tap live dds run app".split()]
 ROOMS += [f"core/run/{name}" for name in "component state record flight command".split()]
 ROOMS += [f"sdk/include/fulmar/flight/{name}" for name in "math earth model control path navigation".split()]
 

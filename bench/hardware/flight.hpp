@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "bench/hardware/cases.hpp"
-#include "core/replay/replay.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/output_of.hpp"
@@ -20,6 +19,7 @@
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
+#include "tools/fulmar_replay/replay.hpp"
 
 namespace fulmar::hardware_bench {
 

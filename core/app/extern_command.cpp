@@ -23,8 +23,9 @@ constexpr const char* program_prefix = "fulmar-";
 /// A word that can be a command: no path, and no helper that only the host itself starts.
 bool is_command(const std::string& word) {
   constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  static const std::vector<std::string> parts{"campaign", "child", "inspect", "live", "log",
-                                              "new",      "probe", "save"};  // of Fulmar, no commands
+  static const std::vector<std::string> parts{
+      "campaign", "child", "inspect", "live", "log",
+      "new",      "probe", "replay",  "save"};  // of Fulmar, no commands
   return !word.empty() && word[0] != '-' && word.find_first_not_of(letters) == std::string::npos &&
          std::find(parts.begin(), parts.end(), word) == parts.end();
 }
@@ -55,6 +56,8 @@ const std::vector<OwnCommand>& own_commands() {
       {"graph", "fulmar-inspect", "print components, wires, order and phases of a mission"},
       {"inspect", "fulmar-inspect", "print what a plugin file offers"},
       {"new", "fulmar-new", "write the project of a plugin for a mission"},
+      {"replay", "fulmar-replay",
+       "fly a log again: what entered the flight is fed to its mission, and what comes out is compared"},
       {"log", "fulmar-log", "look at a log, repair it, export it, compare it"},
       {"response", "fulmar-log", "how a field of a log answers another: step, frequency response"},
       {"list", "fulmar-live", "components of a running flight, their ports, requests and phases"},

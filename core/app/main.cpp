@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
-#include <string_view>
 
 #include "core/app/extern_command.hpp"
-#include "core/app/mission_options.hpp"
 #include "core/app/program.hpp"
-#include "core/app/replay_command.hpp"
 #include "core/app/run_command.hpp"
 #include "core/error.hpp"
 #include "core/say.hpp"
@@ -24,8 +21,6 @@ struct Commands {
   CLI::App app{
       "Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
   RunWords run;
-  ReplayWords replay;
-  std::vector<std::string> replay_set, replay_with;
   std::function<int()> action;  // of the command that was given
 
   explicit Commands(char** words) {
@@ -39,7 +34,6 @@ struct Commands {
              : "\n\nPrograms beside this one: " + join(programs) + " (fulmar " + programs[0] + " --help)"));
     add_run(words);
     for (const OwnCommand& command : own_commands()) {
-      if (command.word == std::string_view("log")) add_replay();
       // what another program carries out stands here for the help alone
       CLI::App* named = app.add_subcommand(command.word, command.says)->prefix_command();
       if (*command.says == '\0') named->group("");
@@ -56,32 +50,6 @@ struct Commands {
         return run_command(run.options(command));
       };
     });
-  }
-
-  void add_replay() {
-    CLI::App* command = app.add_subcommand(
-        "replay",
-        "fly a log again: what entered the flight is fed to its mission, and what comes out is compared");
-    command->callback([this] {
-      replay.changes.set = pairs(replay_set);
-      replay.changes.with = pairs(replay_with);
-      action = [this] { return replay_command(replay); };
-    });
-    command->add_option("LOG", replay.log, "log of a flight (MCAP)")->required();
-    add_pairs(
-        command, "--with", replay_with, "COMPONENT=FILE",
-        "COMPONENT=PLUGIN.so: an experiment with another file for a component, or for the one that fills a "
-        "role, as in nav=my_filter.so");
-    add_pairs(command, "--set", replay_set, "COMP.PARAM=VALUE",
-              "COMPONENT.PARAMETER=VALUE: an experiment with another parameter");
-    command
-        ->add_option("--record", replay.changes.record,
-                     "all, or PORTS[@RATE] as in nav.*@100Hz: with --log, its log holds this, too")
-        ->type_name("PORTS[@RATE]")
-        ->allow_extra_args(false);
-    command->add_option("--log", replay.out, "where to write the log of the replay; default nowhere")
-        ->check(a_file("none is written"));
-    command->add_flag("--json", replay.json, "print one JSON object");
   }
 
   std::vector<std::string> names() const {

@@ -30,6 +30,14 @@ void add_pairs(CLI::App* command, const char* option, std::vector<std::string>& 
   command->add_option(option, words, says)->type_name(type)->allow_extra_args(false);
 }
 
+CLI::Validator a_file(const std::string& otherwise) {
+  return CLI::Validator(
+      [otherwise](const std::string& text) {
+        return text.empty() ? "'' names no file; without the option " + otherwise : std::string();
+      },
+      "");
+}
+
 void MissionOptions::add(CLI::App* command) {
   command->add_option("MISSION", mission, "mission file (YAML)")->required();
   command->add_option("--io", io, "sim or fcu: simulated aircraft or flight controller")

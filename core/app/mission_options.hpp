@@ -17,6 +17,10 @@ std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::st
 void add_pairs(CLI::App* command, const char* option, std::vector<std::string>& words, const char* type,
                const char* says);
 
+/// Of an option that names a file. An empty word, as of a variable that is not set, is not taken for the
+/// default.
+CLI::Validator a_file(const std::string& otherwise);
+
 struct MissionOptions {
   std::string mission, io, arm;
   std::uint64_t seed = 0;

@@ -28,14 +28,6 @@ double parse_speed(const std::string& text) {
 
 }  // namespace
 
-CLI::Validator a_file(const std::string& otherwise) {
-  return CLI::Validator(
-      [otherwise](const std::string& text) {
-        return text.empty() ? "'' names no file; without the option " + otherwise : std::string();
-      },
-      "");
-}
-
 void RunWords::add(CLI::App* command) {
   mission_.add(command);
   command->add_option("--speed", speed_, "real, max, or a multiple of real time");

@@ -59,8 +59,4 @@ class RunWords {
   std::string speed_ = "max", resume_log_, report_file_;
 };
 
-/// Of an option that names a file. An empty word, as of a variable that is not set, is not taken for the
-/// default.
-CLI::Validator a_file(const std::string& otherwise);
-
 }  // namespace fulmar::core

@@ -24,8 +24,6 @@ constexpr std::uint64_t largest_chunk =
 constexpr std::uint64_t largest_schemas =
     1u << 25;  // the same of all schemas and channels, which chunks can hold by the thousand
 
-constexpr std::uint64_t smallest_limit = 1u << 27;  // of the memory for a file as a whole
-
 /// The content of a chunk, decompressed into `room`.
 Data open_chunk(const std::string& compression, Data stored, std::uint64_t size,
                 std::vector<std::byte>& room) {
@@ -378,28 +376,6 @@ std::uint16_t McapFile::channel(const std::string& topic) const {
 
 const McapFile::Attachment* McapFile::attachment(const std::string& name) const {
   return find_named(attachments, name);
-}
-
-McapFile read_mcap(const std::filesystem::path& path, std::uint64_t most_bytes) {
-  McapStream stream(path);
-  McapStream::Impl& s = *stream.impl_;
-  std::vector<McapFile::Message> messages;
-  std::uint64_t bytes = 0;
-  // A flight is compressed to a third; what becomes a hundred times as large is no log.
-  most_bytes = std::min(most_bytes, smallest_limit + 100 * s.size);
-  while (s.fill()) {
-    std::vector<std::byte>& room = s.pending.in_chunk ? s.pending.chunk : s.record;
-    bytes += room.capacity() + s.pending.starts.size() * sizeof(McapFile::Message);
-    if (bytes > most_bytes)
-      throw Error("'" + path.string() + "' is too large to be read as a whole: its messages take more than " +
-                  std::to_string(most_bytes >> 20) + " MB of memory");
-    for (const std::uint32_t at : s.pending.starts) messages.push_back(s.message(at));
-    s.file.memory.push_back(
-        std::move(room));  // the bytes stay where they are: message indexes are still checked against them
-    room = {};
-  }
-  s.file.messages = std::move(messages);
-  return std::move(s.file);
 }
 
 }  // namespace fulmar::core

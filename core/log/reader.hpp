@@ -4,7 +4,6 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -15,6 +14,7 @@
 
 namespace fulmar::core {
 
+/// What a file holds beside its messages.
 struct McapFile {
   struct Schema {
     std::string name, encoding, text;
@@ -28,7 +28,7 @@ struct McapFile {
     std::uint16_t channel = 0;
     std::uint32_t sequence = 0;
     std::uint64_t log_ns = 0, publish_ns = 0;
-    std::span<const std::byte> data;  // into `memory`
+    std::span<const std::byte> data;
   };
   struct Attachment {
     std::string name, media_type, content;
@@ -42,17 +42,11 @@ struct McapFile {
   std::string profile, library;
   std::map<std::uint16_t, Schema> schemas;
   std::map<std::uint16_t, Channel> channels;
-  std::vector<Message> messages;  // in file order
   std::vector<Attachment> attachments;
   std::vector<Metadata> metadata;
   std::uint32_t chunks = 0;
   bool complete = false;  // ends with a footer, and its summary says the same as the file
   std::string fault;      // "" or why reading ended before the end: "byte 4711: chunk ends after the file"
-  std::deque<std::vector<std::byte>> memory;  // that the messages point into
-
-  McapFile() = default;
-  McapFile(McapFile&&) = default;  // moving keeps the memory in place
-  McapFile& operator=(McapFile&&) = default;
 
   /// The channel of a topic. Throws Error naming the topics there are.
   std::uint16_t channel(const std::string& topic) const;
@@ -96,15 +90,8 @@ class McapStream {
   McapFile take_log();
 
  private:
-  friend McapFile read_mcap(const std::filesystem::path& file, std::uint64_t most_bytes);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-constexpr std::uint64_t largest_log = std::uint64_t{8} << 30;  // bytes of memory
-
-/// The whole file in memory. Throws Error when it cannot be read at all, is no MCAP file, or its messages
-/// need more than `most_bytes`.
-McapFile read_mcap(const std::filesystem::path& file, std::uint64_t most_bytes = largest_log);
 
 }  // namespace fulmar::core

@@ -49,16 +49,6 @@ class CdrEncoder {
 /// The inverse; throws Error when the bytes do not fit the type. For tests and tools.
 void cdr_decode(const Type& type, const std::byte* bytes, std::size_t size, std::byte* message);
 
-/// A number, text or label in a message.
-struct CdrValue {
-  std::string name;  // "legs[1].position_m.north"
-  std::string
-      text;  // of a number the shortest that reads back the same; the constant's name where it has one
-};
-/// All values of a message whose type has no layout, in the order of its bytes. Throws Error when the bytes
-/// do not fit the type, or hold more than `most`.
-std::vector<CdrValue> cdr_values(const Type& schema, std::span<const std::byte> message, std::size_t most);
-
 /// "fulmar_msgs/msg/VehicleState", or the foreign message's own ROS name.
 std::string ros_name(const Type& type);
 

@@ -2,13 +2,13 @@
 #include "tools/fulmar_aero/flight_track.hpp"
 
 #include "core/loader/table.hpp"
-#include "core/log/log_file.hpp"
 #include "core/log/reader.hpp"
 #include "core/types/wire.hpp"
 #include "fulmar/msg/attitude_command.hpp"
 #include "fulmar/msg/guidance_command.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/schema.hpp"
+#include "tools/log_reading/log_file.hpp"
 
 namespace fulmar::aero {
 namespace {

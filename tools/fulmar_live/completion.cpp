@@ -99,7 +99,8 @@ std::string table() {
   std::string text, words;
   for (const OptionalProgram& one : optional_programs)
     if (!own_program(one.name).empty()) words += std::string(" ") + one.word;
-  for (const char* program : {"fulmar", "fulmar-inspect", "fulmar-log", "fulmar-new", "fulmar-live"})
+  for (const char* program :
+       {"fulmar", "fulmar-inspect", "fulmar-log", "fulmar-new", "fulmar-live", "fulmar-replay"})
     add_rows(program, "", words, text);
   for (const OptionalProgram& one : optional_programs)
     if (!own_program(one.name).empty()) add_rows(one.name, one.word, "", text);

@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/live/hub_impl.hpp"
-#include "core/types/ros_parse.hpp"
 #include "core/types/text.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/log/log_file.hpp"
 #include "core/types/named.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_log/compare_text.hpp"
 #include "tools/fulmar_log/figures.hpp"
 #include "tools/fulmar_log/terminal.hpp"
+#include "tools/log_reading/log_file.hpp"
 
 namespace fulmar::states {
 namespace {

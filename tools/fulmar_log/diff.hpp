@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What differs between two logs: their messages, and what stands beside them.
 #pragma once
-#include "core/log/diff.hpp"
+#include "tools/log_reading/message_diff.hpp"
 
 namespace fulmar::core {
 

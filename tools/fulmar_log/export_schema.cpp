@@ -6,8 +6,8 @@
 #include <type_traits>
 
 #include "core/types/cdr_bytes.hpp"
-#include "core/types/ros_parse.hpp"
 #include "core/types/text.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::core {
 namespace {

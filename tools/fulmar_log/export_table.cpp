@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/log/log_file.hpp"
+#include "tools/log_reading/log_file.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -11,10 +11,10 @@
 #include "core/graph/mission.hpp"
 #include "core/graph/stored_files.hpp"
 #include "core/log/events.hpp"
-#include "core/log/log_file.hpp"
 #include "core/types/named.hpp"
-#include "core/types/ros_parse.hpp"
 #include "core/types/wire.hpp"
+#include "tools/log_reading/log_file.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -11,10 +11,11 @@
 
 #include "core/error.hpp"
 #include "core/log/events.hpp"
-#include "core/log/log_file.hpp"
 #include "core/log/mcap_bytes.hpp"
-#include "core/types/ros_parse.hpp"
 #include "core/types/wire.hpp"
+#include "tools/log_reading/cdr_values.hpp"
+#include "tools/log_reading/log_file.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::core {
 namespace {

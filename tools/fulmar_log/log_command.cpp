@@ -14,13 +14,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/log/log_file.hpp"
 #include "tools/fulmar_log/compare_command.hpp"
 #include "tools/fulmar_log/diff_command.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
 #include "tools/fulmar_log/recover.hpp"
 #include "tools/fulmar_log/terminal.hpp"
+#include "tools/log_reading/log_file.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "core/error.hpp"
 #include "core/log/events.hpp"
-#include "core/log/log_file.hpp"
 #include "core/types/named.hpp"
 #include "tools/chart/numbers.hpp"
 #include "tools/fulmar_log/log_field.hpp"
 #include "tools/fulmar_log/terminal.hpp"
+#include "tools/log_reading/log_file.hpp"
 
 namespace fulmar::plot {
 namespace {

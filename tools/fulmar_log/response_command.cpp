@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/log/log_file.hpp"
 #include "tools/fulmar_log/response_series.hpp"
 #include "tools/fulmar_log/terminal.hpp"
+#include "tools/log_reading/log_file.hpp"
 
 namespace fulmar::response {
 namespace {

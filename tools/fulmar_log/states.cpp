@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/log/log_file.hpp"
 #include "core/types/named.hpp"
-#include "core/types/ros_parse.hpp"
 #include "core/types/wire.hpp"
+#include "tools/log_reading/log_file.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::states {
 namespace {

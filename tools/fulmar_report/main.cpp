@@ -10,10 +10,10 @@
 #include "core/app/program.hpp"
 #include "core/error.hpp"
 #include "core/loader/home.hpp"
-#include "core/log/log_file.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_log/terminal.hpp"
 #include "tools/fulmar_report/report.hpp"
+#include "tools/log_reading/log_file.hpp"
 
 namespace {
 

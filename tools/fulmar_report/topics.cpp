@@ -10,8 +10,8 @@
 
 #include "core/error.hpp"
 #include "core/log/events.hpp"
-#include "core/types/ros_parse.hpp"
 #include "core/types/wire.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::report {
 namespace {

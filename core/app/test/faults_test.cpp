@@ -5,11 +5,11 @@
 
 #include "core/app/test/fault_campaign.hpp"
 #include "core/app/test/unlogged.hpp"
-#include "core/log/reader.hpp"
-#include "core/replay/replay.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/run/component/allocation.hpp"
 #include "core/run/test/commands.hpp"
 #include "fulmar/msg/fault_request.hpp"
+#include "tools/fulmar_replay/replay.hpp"
 
 using namespace fulmar::core;
 using namespace fulmar::core::failures;
@@ -187,7 +187,7 @@ TEST_CASE("a failure that is requested in flight is answered, logged behind all 
   CHECK(answers[1] == "pitot has no fault 'lost'; valid: none, off, stuck, wrong, slow, noisy, jumping");
   // The hashes of the ticks are made with the numbers of the topics: those that there have always been keep
   // theirs. Events for viewers are in no hash, and last.
-  const McapFile file = read_mcap(o.log_file);
+  const WholeLog file = read_mcap(o.log_file);
   const auto last = file.channel("/rosout");
   CHECK(last > file.channel("/sim/fault"));
   for (const auto& [id, channel] : file.channels) CHECK((id <= file.channel("/sim/fault") || id == last));

@@ -5,8 +5,8 @@
 
 #include "core/app/test/unlogged.hpp"
 #include "core/app/test/virtual_controller.hpp"
-#include "core/replay/replay.hpp"
 #include "core/run/component/allocation.hpp"
+#include "tools/fulmar_replay/replay.hpp"
 
 using namespace fulmar::core;
 using namespace fulmar::core::through_controller;

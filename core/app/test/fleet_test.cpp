@@ -12,6 +12,7 @@
 #include "core/app/test/hil.hpp"
 #include "core/app/test/hil_log.hpp"
 #include "core/dds/test/domain.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "fulmar/eigen.hpp"
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -242,7 +243,7 @@ Flight read(const Hosts& hosts, const std::string& name, Process& process,
   f.json = process.out();
   f.said = process.err();
   if (f.code != 0) return f;
-  const core::McapFile file = core::read_mcap(hosts.log(name));
+  const core::WholeLog file = core::read_mcap(hosts.log(name));
   f.nav = logged<VehicleState>(file, "/nav/state");
   f.truth = logged<VehicleState>(file, "/vehicle/truth");
   for (const std::string& import : imports)

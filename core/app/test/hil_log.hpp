@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/loader/table.hpp"
-#include "core/log/reader.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/types/type.hpp"
 #include "core/types/wire.hpp"
 #include "fulmar/schema.hpp"
@@ -22,7 +22,7 @@ struct Logged {
 
 /// Every message of a topic.
 template <class T>
-std::vector<Logged<T>> logged(const core::McapFile& file, const std::string& topic) {
+std::vector<Logged<T>> logged(const core::WholeLog& file, const std::string& topic) {
   const core::TypePtr type = core::copy_type(*detail::type_table<T>());
   const std::uint16_t channel = file.channel(topic);
   const auto first_ns = static_cast<std::int64_t>(file.messages.front().log_ns);

@@ -10,6 +10,7 @@
 #include <future>
 
 #include "core/app/test/hil_log.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/imu.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
@@ -54,7 +55,7 @@ bool flown(const Flown& f) {
 /// A flight, and its log.
 struct Disturbed {
   Flown flown;
-  fulmar::core::McapFile log;
+  fulmar::core::WholeLog log;
 };
 
 Flown fly_plain() {

@@ -14,8 +14,8 @@
 
 #include "core/app/report.hpp"
 #include "core/graph/condition.hpp"
-#include "core/replay/replay.hpp"
 #include "core/run/component/allocation.hpp"
+#include "tools/fulmar_replay/replay.hpp"
 
 using namespace fulmar::core;
 namespace fs = std::filesystem;

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/log/reader.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/run/flight.hpp"
 #include "sdk/test/said.hpp"
 
@@ -46,7 +46,7 @@ fs::path recorded_hourglass(const fs::path& folder, const std::string& record) {
 }
 
 /// When a topic said something last: the log holds it at a rate of its own.
-std::uint64_t last_told_ns(const McapFile& log, const std::string& topic) {
+std::uint64_t last_told_ns(const WholeLog& log, const std::string& topic) {
   const std::uint16_t channel = log.channel(topic);
   const auto last = std::find_if(log.messages.rbegin(), log.messages.rend(),
                                  [&](const McapFile::Message& m) { return m.channel == channel; });
@@ -144,7 +144,7 @@ TEST_CASE("a flight resumes from a log, whole or cut off, with the phase and way
     const fs::path cut = folder.path / "cut.mcap.part";
     fs::copy_file(graph.record_file, cut, fs::copy_options::overwrite_existing);
     fs::resize_file(cut, static_cast<std::uintmax_t>(left * static_cast<double>(fs::file_size(cut))));
-    const McapFile log = read_mcap(cut);
+    const WholeLog log = read_mcap(cut);
     const auto at = [&](std::uint64_t log_ns) {  // what was flown then
       const std::int64_t now_ns = static_cast<std::int64_t>(log_ns) - graph.epoch_ns;
       const auto found =

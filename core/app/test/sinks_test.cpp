@@ -28,7 +28,7 @@
 #include "core/app/test/standstill.hpp"
 #include "core/dds/test/domain.hpp"
 #include "core/loader/table.hpp"
-#include "core/log/reader.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/types/test/hex.hpp"
 #include "core/types/wire.hpp"
 #include "fulmar/msg/plan_edit.hpp"
@@ -196,7 +196,7 @@ void wait_until_heard(const Onlooker& onlooker) {
   REQUIRE(onlooker.hears());
 }
 
-std::vector<std::int64_t> logged_times_ns(const McapFile& log, const std::string& topic) {
+std::vector<std::int64_t> logged_times_ns(const WholeLog& log, const std::string& topic) {
   const std::uint16_t channel = log.channel(topic);
   std::vector<std::int64_t> times;
   for (const McapFile::Message& m : log.messages)
@@ -207,7 +207,7 @@ std::vector<std::int64_t> logged_times_ns(const McapFile& log, const std::string
 /// Nothing is missing in the log, and nothing in what the onlooker has seen from its first sample on.
 void check_whole(const json& result, const fs::path& file, Onlooker& onlooker) {
   CHECK(result.at("log_dropped") == 0);
-  const McapFile log = read_mcap(file);
+  const WholeLog log = read_mcap(file);
   CHECK(log.complete);
   const std::vector<std::int64_t> all = logged_times_ns(log, "/vehicle/imu"), &seen = onlooker.times_ns();
   CHECK(all.size() == static_cast<std::size_t>(400 * (settled_s + flown_s)));

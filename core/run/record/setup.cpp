@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/run/record/flown_plugin.hpp"
 #include "core/run/record/recorder.hpp"
 #include "core/run/state/published.hpp"
 #include "core/types/named.hpp"
@@ -161,6 +160,13 @@ Pairs overrides_text(const Overrides& o) {
   for (const auto& [param, value] : o.set) pairs.emplace_back("set " + param, value);
   for (std::size_t i = 0; i < o.record.size(); ++i)
     pairs.emplace_back("record " + std::to_string(i + 1), o.record[i]);
+  return pairs;
+}
+
+/// What the metadata of a log hold of a plugin file; `fulmar-replay` reads them back.
+Pairs flown_pairs(const PluginInfo& p) {
+  Pairs pairs = {{"file", p.file}, {"version", p.version}, {"sha256", p.sha256}};
+  if (!p.build_id.empty()) pairs.emplace_back("build_id", p.build_id);
   return pairs;
 }
 

@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "core/log/reader.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/run/flight.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
@@ -145,7 +145,7 @@ TEST_CASE("the log tells what was asked, and what was refused and why") {
   const double go = 1, back = -1;
   for (const double* to : {&go, &back}) request(flight, "watch", "ask", *to);
   flight.run();
-  const McapFile file = read_mcap(o.log_file);
+  const WholeLog file = read_mcap(o.log_file);
   std::vector<std::string> told;
   for (const McapFile::Message& m : file.messages) {
     if (m.channel != file.channel("/fulmar/event")) continue;
@@ -168,7 +168,7 @@ TEST_CASE("each event is a line for log panels as well, with its level and the t
   const double back = -1;
   request(flight, "watch", "ask", back);
   flight.run();
-  const McapFile file = read_mcap(o.log_file);
+  const WholeLog file = read_mcap(o.log_file);
   const HostTopic<Event> events(file);
   const HostTopic<LogLine> lines(file);
   REQUIRE(lines.same());

@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "core/log/events.hpp"
-#include "core/log/reader.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/craft.hpp"
 
@@ -236,7 +236,7 @@ TEST_CASE(
   CHECK(said.lines[2] == "    0.50 s  craft: bell  rings");
   CHECK(said.lines[3] == "    0.50 s  craft: changed");  // once, though it is written in every tick
   CHECK(said.warnings == std::vector<bool>{false, false, true, false});
-  const McapFile file = read_mcap(o.log_file);
+  const WholeLog file = read_mcap(o.log_file);
   const std::uint16_t channel = file.channel("/fulmar/event");
   std::vector<std::string> causes;  // a word of the component, for those who read no sentences
   for (const auto& m : file.messages)

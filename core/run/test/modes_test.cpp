@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/log/reader.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/run/component/async.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
@@ -26,7 +26,7 @@ std::string log_hash(const Graph& g, const std::string& name, double duration_s,
 
 /// The messages of one topic, as bytes.
 std::vector<std::string> messages(const std::string& log, const std::string& topic) {
-  const McapFile file = read_mcap(folder().path / log);
+  const WholeLog file = read_mcap(folder().path / log);
   std::vector<std::string> all;
   for (const McapFile::Message& m : file.messages)
     if (m.channel == file.channel(topic))
@@ -145,8 +145,8 @@ TEST_CASE("samples of a driver enter at the next tick, are recorded whole, and f
   Flight second(g, again);
   second.run();
   CHECK(value(g, second, "count", "tally", "sum_m") == 30 * 31 / 2);
-  const McapFile a = read_mcap(o.log_file), b = read_mcap(again.log_file);
-  const auto stamps = [](const McapFile& file) {
+  const WholeLog a = read_mcap(o.log_file), b = read_mcap(again.log_file);
+  const auto stamps = [](const WholeLog& file) {
     std::vector<std::pair<std::uint64_t, std::uint64_t>> all;
     for (const McapFile::Message& m : file.messages)
       if (m.channel == file.channel("/gauge/reading")) all.emplace_back(m.log_ns, m.publish_ns);
@@ -183,7 +183,7 @@ TEST_CASE("a driver's sample is valid when the driver says, else when it arrives
     o.log_file = folder().path / "dated.mcap";
     fs::remove(o.log_file);
     Flight(g, o).run();
-    const McapFile file = read_mcap(o.log_file);
+    const WholeLog file = read_mcap(o.log_file);
     const std::uint64_t epoch_ns = static_cast<std::uint64_t>(g.epoch_ns);
     int seen = 0;
     for (const McapFile::Message& m : file.messages) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A component's file is swapped on the ground, in a host that goes on: parameters stay, a bad newcomer leaves
 // the old one flying-ready.
-#include "core/log/reader.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/run/command/swap_checks.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
@@ -65,7 +65,7 @@ TEST_CASE("a swapped law flies with the parameters, overlays and live changes of
   const FlightResult r = ground.flight->finish();
   CHECK(r.guards.empty());
   CHECK(r.outcome == Outcome::flown);
-  const McapFile file = read_mcap(ground.o.log_file);
+  const WholeLog file = read_mcap(ground.o.log_file);
   const std::string hash = sha256_file(variant("_better"));
   bool told = false;
   for (const McapFile::Metadata& m : file.metadata)
@@ -104,7 +104,7 @@ TEST_CASE("a swap tells which values it keeps, which parameters are new, and whi
   ground.flight->step();
   const std::string words = "keeps fixed = 1 (new default 1.5); new: reserve = 0";
   ground.flight->finish();
-  const McapFile file = read_mcap(ground.o.log_file);
+  const WholeLog file = read_mcap(ground.o.log_file);
   const HostTopic<Event> events(file);
   std::string told;
   for (const McapFile::Message& m : file.messages)
@@ -301,7 +301,7 @@ TEST_CASE("what a swapped component is asked is in the log, as what the one befo
   while (ground.flight->step()) {
   }
   ground.flight->finish();
-  const McapFile file = read_mcap(ground.o.log_file);
+  const WholeLog file = read_mcap(ground.o.log_file);
   const std::uint16_t asked = file.channel("/watch/ask");
   CHECK(std::count_if(file.messages.begin(), file.messages.end(),
                       [&](const McapFile::Message& m) { return m.channel == asked; }) == 2);

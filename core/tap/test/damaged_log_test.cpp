@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/log/out_file.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/tap/test/flown_log.hpp"
 #include "core/types/sha256.hpp"
 #include "tools/fulmar_log/recover.hpp"
@@ -62,7 +63,7 @@ TEST_CASE("a run killed in flight leaves a file whose whole chunks, mission incl
   ::close(pipe_ends[1]);
   REQUIRE(WIFSIGNALED(status));
   CHECK_FALSE(fs::exists(file));
-  const McapFile log = read_mcap(file.string() + ".part");
+  const WholeLog log = read_mcap(file.string() + ".part");
   CHECK_FALSE(log.complete);
   CHECK(log.fault != "");
   CHECK(log.messages.size() >= 4400);  // all but the last second
@@ -72,7 +73,7 @@ TEST_CASE("a run killed in flight leaves a file whose whole chunks, mission incl
 
   const McapWriter::Result recovered = recover_mcap(file.string() + ".part", folder.path / "recovered.mcap");
   CHECK(recovered.error == "");
-  const McapFile whole = read_mcap(recovered.file);
+  const WholeLog whole = read_mcap(recovered.file);
   CHECK(whole.complete);
   CHECK(whole.messages.size() == log.messages.size());
   CHECK(is_flight(whole));
@@ -92,7 +93,7 @@ TEST_CASE(
   std::mt19937 random(5);
   for (std::size_t n = 20; n < whole.size(); n += 1 + random() % (whole.size() / 60)) {
     std::ofstream(cut, std::ios::binary) << whole.substr(0, n);
-    const McapFile log = read_mcap(cut);
+    const WholeLog log = read_mcap(cut);
     CHECK_FALSE(log.complete);
     CHECK(log.messages.size() >= last);
     last = log.messages.size();
@@ -103,7 +104,7 @@ TEST_CASE(
     std::string flipped = whole;
     flipped[100 + random() % (whole.size() - 100)] ^= static_cast<char>(1 + random() % 255);
     std::ofstream(cut, std::ios::binary) << flipped;
-    const McapFile log = read_mcap(cut);
+    const WholeLog log = read_mcap(cut);
     CHECK_FALSE(log.complete);
     REQUIRE(is_flight(log));
   }
@@ -122,7 +123,7 @@ TEST_CASE(
     if (result.error.find("File too large") == std::string::npos) return 2;
     if (result.bytes != fs::file_size(result.file) || result.bytes > 20'000) return 3;
     if (result.sha256 != Sha256::of(contents(result.file))) return 4;
-    const McapFile log = read_mcap(result.file);
+    const WholeLog log = read_mcap(result.file);
     if (log.messages.size() != result.messages || !is_flight(log)) return 5;
     if (log.complete || result.file != file.string() + ".part" || fs::exists(file)) return 6;
     return 0;

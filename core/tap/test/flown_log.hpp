@@ -3,8 +3,8 @@
 #pragma once
 #include <algorithm>
 
-#include "core/log/reader.hpp"
 #include "core/log/test/log_kit.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/tap/test/taped_log.hpp"
 
 namespace fulmar::core::test {
@@ -49,7 +49,7 @@ inline LogResult write_log(const std::filesystem::path& file, int ticks, double 
 }
 
 /// Each message is the next one of its channel as `fly` wrote it.
-inline bool is_flight(const McapFile& log) {
+inline bool is_flight(const WholeLog& log) {
   const CdrEncoder encoder(*mixed_type());
   int mixed = 0, numbers = 0;
   for (const McapFile::Message& m : log.messages) {

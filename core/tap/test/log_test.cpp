@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/tap/test/flown_log.hpp"
 #include "core/types/sha256.hpp"
 
@@ -27,7 +28,7 @@ TEST_CASE("a log holds every message, attachment and metadata that went in") {
   CHECK(result.bytes == fs::file_size(result.file));
   CHECK(result.sha256 == Sha256::of(contents(result.file)));
 
-  const McapFile log = read_mcap(result.file);
+  const WholeLog log = read_mcap(result.file);
   CHECK(log.fault == "");
   CHECK(log.complete);
   CHECK(log.profile == "ros2");
@@ -58,7 +59,7 @@ TEST_CASE("a log holds every message, attachment and metadata that went in") {
 TEST_CASE("a log without messages is whole") {
   const Folder folder;
   const LogResult result = write_log(folder.path / "a.mcap", 0);
-  const McapFile log = read_mcap(result.file);
+  const WholeLog log = read_mcap(result.file);
   CHECK(log.complete);
   CHECK(log.messages.empty());
   CHECK(log.attachments.size() == 2);
@@ -115,7 +116,7 @@ TEST_CASE(
     for (std::uint64_t i = 0; i < n; ++i) log.write(0, static_cast<std::int64_t>(i), 0, bytes_of(wide));
     const LogResult result = log.close();
     CHECK(result.messages + result.dropped == n);
-    const McapFile file = read_mcap(result.file);
+    const WholeLog file = read_mcap(result.file);
     CHECK(file.messages.size() == result.messages);
     bool rising = true;
     for (std::size_t i = 0; i < file.messages.size(); ++i) {

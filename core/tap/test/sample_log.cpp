@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "core/log/reader.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/tap/test/taped_log.hpp"
 #include "core/types/test/types.hpp"
 #include "core/types/wire.hpp"
@@ -57,7 +57,7 @@ void fly(TapedLog& log) {
 }
 
 /// Read back with our own reader and decoder.
-nlohmann::json found(const McapFile& file, const std::vector<TapChannel>& list) {
+nlohmann::json found(const WholeLog& file, const std::vector<TapChannel>& list) {
   nlohmann::json topics;
   for (const McapFile::Message& m : file.messages) {
     const std::string& topic = file.channels.at(m.channel).topic;

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "core/log/reader.hpp"
 #include "core/log/test/log_kit.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "tools/fulmar_log/diff.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
@@ -166,7 +166,7 @@ struct Pieces {
     const Recovery r = recover_log(file, good);
     CHECK(r.written.error == "");
     CHECK_FALSE(r.was_whole);
-    const McapFile log = read_mcap(good);
+    const WholeLog log = read_mcap(good);
     CHECK(log.complete);
     std::vector<int> found, wanted;
     for (const McapFile::Message& m : log.messages) {
@@ -303,36 +303,12 @@ TEST_CASE(
     CHECK(r.written.messages == 5);
     CHECK(r.fault == "the file has grown while it was read");
     CHECK_FALSE(r.was_whole);
-    const McapFile recovered = read_mcap(r.written.file);
+    const WholeLog recovered = read_mcap(r.written.file);
     CHECK(recovered.complete);
     CHECK(recovered.messages.size() == 5);
   }
   McapStream first(before), second(before);
   CHECK(recover_log(first, second, folder.path / "recovered.mcap").was_whole);
-}
-
-TEST_CASE("a log that would fill the memory is refused as a whole, and read one message after the other") {
-  const Folder folder;
-  const std::filesystem::path file = folder.path / "a.mcap";
-  write_sample({.file = file, .chunk_bytes = 10'000}, 2000);
-  const std::size_t whole = [&] {
-    std::size_t bytes = 0;
-    for (const auto& chunk : read_mcap(file).memory) bytes += chunk.size();
-    return bytes;
-  }();
-  CHECK(whole > 100'000);
-  CHECK(std::filesystem::file_size(file) < whole);  // it is what they unpack to that counts
-  CHECK_THROWS_WITH_AS(
-      read_mcap(file, whole),
-      ("'" + file.string() + "' is too large to be read as a whole: its messages take more than " +
-       std::to_string(whole >> 20) + " MB of memory")
-          .c_str(),
-      Error);
-  CHECK(read_mcap(file, 2 * whole).complete);
-  McapStream stream(file);
-  while (stream.next() != nullptr) {
-  }
-  CHECK(stream.log().complete);
 }
 
 TEST_CASE("schemas without end are not kept in memory") {

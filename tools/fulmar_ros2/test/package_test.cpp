@@ -14,11 +14,11 @@
 #include <sstream>
 
 #include "core/loader/library.hpp"
-#include "core/log/reader.hpp"
+#include "core/log/test/read_mcap.hpp"
 #include "core/run/control.hpp"
-#include "core/types/ros_parse.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_ros2/interface_package.hpp"
+#include "tools/log_reading/ros_parse.hpp"
 
 namespace package_test {
 
@@ -123,7 +123,7 @@ TEST_CASE(
   REQUIRE(std::system(fly.c_str()) != -1);
   REQUIRE(run("interface-package " + package.string() + " --mission " + mission) == 0);
   const std::string readme = read(package / "README.md"), cmake = read(package / "CMakeLists.txt");
-  const fulmar::core::McapFile file = fulmar::core::read_mcap(log);
+  const fulmar::core::WholeLog file = fulmar::core::read_mcap(log);
   std::map<std::string, std::string> texts;  // by name
   std::set<std::string> of_ros;
   for (const auto& entry : file.channels) {

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What entered a flight from outside, out of its log: the outputs of the vehicle and of drivers, tick by
+// tick, in place of the devices; and what was asked of the flight between ticks. The log is read as the
+// flight goes on, some ticks ahead of it.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/log/events.hpp"
+#include "core/log/reader.hpp"
+#include "core/run/command/command.hpp"
+#include "core/run/component/replay_context.hpp"
+#include "core/run/state/resume.hpp"
+#include "tools/fulmar_replay/survey.hpp"
+
+namespace fulmar::core {
+
+class SampleTrack;
+class VehicleTrack;
+
+class Playback final : public Circumstances {
+ public:
+  /// `log` is what `survey` tells of; both and `graph` must outlive it. `changed`: components of an
+  /// experiment, which do not die as they did. Throws Error when a topic is missing or has other fields than
+  /// the graph's.
+  Playback(const std::filesystem::path& log, const Survey& survey, const Graph& graph,
+           std::vector<std::string> changed = {});
+  ~Playback() override;
+
+  /// What the log lacks of what entered, one sentence per topic: a replay cannot be equal then.
+  const std::vector<std::string>& gaps() const { return gaps_; }
+  /// When the owner of a hardware flight had it end while the aircraft was armed, seconds of flight.
+  std::optional<double> duration_s() const;
+  /// Where the flight went on, when it was the second of one.
+  const std::optional<Resume>& resume() const { return resume_; }
+  /// The flight ended with a fault of its vehicle, after the last tick.
+  bool vehicle_failed() const { return vehicle_failed_; }
+
+  /// Reads on until all is there that entered up to the end of the next tick. Throws Error.
+  void begin_tick();
+  /// Behind the last tick.
+  void end() { over_ = true; }
+  /// What enters now, one after the other. Of a swap `note` tells which plugin.
+  std::optional<Command> entry();
+  /// Whether a signal to the host took effect at the end of this tick.
+  bool signalled() const;
+  bool ran_over(const std::string& component, std::int64_t now_ns) const override;
+  const Event* conclusion() const override { return survey_.conclusion ? &*survey_.conclusion : nullptr; }
+  void stand_in(const Graph& graph, const Component& component, UnitOptions& options) override;
+
+ private:
+  using Take = std::function<void(const McapFile::Message&)>;
+  struct Entry {
+    bool at_begin = false;  // before the first tick
+    std::int64_t log_ns = 0;
+    Command command;
+  };
+  void prepare_vehicle(const Graph& graph);
+  void prepare_entries(const Graph& graph);
+  void prepare_resume(const Graph& graph);
+  std::shared_ptr<SampleTrack> driver(const Graph& graph, const Component& component);
+  void route(std::uint16_t channel, Take take);
+  void store(const McapFile::Message& message, Command command);
+  bool read();
+  bool changed(const std::string& component) const;
+  std::int64_t flight_ns(std::uint64_t log_ns) const;
+  std::uint64_t log_ns(std::int64_t flight_ns) const;
+
+  const Survey& survey_;
+  std::vector<std::string> changed_;
+  std::int64_t epoch_ns_;
+  std::vector<std::string> gaps_;
+  std::optional<Resume> resume_;
+  bool vehicle_failed_ = false;
+  std::shared_ptr<VehicleTrack> vehicle_;
+  std::map<std::string, std::shared_ptr<SampleTrack>> drivers_;
+
+  struct Reading {
+    McapStream stream;
+    std::int64_t now_ns;                   // of the message read last
+    std::uint64_t place = 0;               // of the next message
+    std::vector<std::vector<Take>> takes;  // by channel
+    std::size_t ahead_bytes = 0;           // read since the last message of ticks
+  } reading_;
+  std::deque<std::int64_t> ticks_;  // read, and not flown yet
+  std::deque<Entry> entries_;
+  std::int64_t now_ns_;
+  bool over_ = false;
+};
+
+}  // namespace fulmar::core

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Flies a log again: its mission, its plugins, what entered the flight; and compares what comes out.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+#include "core/run/flight.hpp"
+#include "tools/fulmar_replay/flown_plugins.hpp"
+#include "tools/fulmar_replay/survey.hpp"
+
+namespace fulmar::core {
+
+/// A log that can be flown again.
+class Recording {
+ public:
+  using Say = std::function<void(const std::string&, bool warning)>;
+
+  /// Throws Error when it cannot be read or is no log of a flight.
+  explicit Recording(const std::filesystem::path& log);
+  ~Recording();
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  const Survey& survey() const { return survey_; }
+  /// What the command line of the flight said, so far as it changed the mission.
+  const Overrides& overrides() const { return overrides_; }
+
+  /// The mission as the log holds it, with the plugin files that flew: those of the installation when they
+  /// have the same content, else the copies of the store. What is to be had no more is replaced by what there
+  /// is, with a warning. `changes`: --with and --set of an experiment, and --record. Throws Error.
+  Graph mission(const Overrides& changes, const Say& say) const;
+  /// `changes` that name components, where they have a role with another file. Throws Error.
+  Overrides by_component(const Overrides& changes) const;
+  /// A file of that content, under its own name. Throws Error when there is none.
+  std::filesystem::path plugin(const FlownPlugin& flown) const;
+
+ private:
+  void read_overrides();
+  void use_copies(Overrides& overrides, const std::vector<const FlownPlugin*>& wanted,
+                  const Overrides& changes, const Say& say) const;
+
+  std::filesystem::path path_;
+  Survey survey_;
+  Overrides overrides_;
+  std::string mission_file_;
+  std::vector<FlownPlugin> flown_;
+  mutable std::filesystem::path folder_;  // of links to the store
+};
+
+struct ReplayOptions {
+  Overrides changes;          // --with, --set
+  std::filesystem::path out;  // the replay's own log
+  bool compare = true;        // false: it is flown for its log alone
+  std::function<void(const Flight&)> progress;
+  std::function<void(const std::filesystem::path& log)> look;  // at the replay's own log, before it may go
+  const std::atomic<bool>* stop = nullptr;                     // asks for the end: Error "interrupted"
+};
+
+struct Difference {
+  std::string topic, field, was, is;
+  std::int64_t at_ns = 0;
+};
+
+struct ReplayResult {
+  FlightResult flight;
+  std::uint64_t ticks = 0, recorded_ticks = 0;
+  std::int64_t first_ns = 0, last_ns = 0;              // of the log
+  std::uint64_t messages = 0, differing_messages = 0;  // of those that the log holds
+  std::uint64_t differing_bytes = 0;
+  std::optional<std::uint64_t> first_tick;  // whose outputs differ
+  std::int64_t first_tick_ns = 0;
+  std::optional<Difference> first;  // that can be seen in the log
+  bool same_file = false;           // both logs are equal from end to end
+  bool cut_off = false;             // the log has no end: compared up to its last whole tick
+  std::vector<std::string> notes;   // why it cannot be equal
+  bool equal() const { return !first_tick && differing_messages == 0 && ticks == recorded_ticks; }
+};
+
+/// Flies it. `graph` is recording.mission(...). The flight is handed over for its figures.
+std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recording, const Graph& graph,
+                                                        const ReplayOptions& options);
+
+}  // namespace fulmar::core

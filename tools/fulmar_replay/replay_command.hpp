@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `fulmar replay`.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "core/graph/graph.hpp"
+
+namespace fulmar::core {
+
+struct ReplayWords {
+  std::string log;
+  Overrides changes;  // --with and --set: an experiment; --record
+  std::string out;    // where the replay's own log goes; "": nowhere
+  bool json = false;
+};
+
+class ReplayCommand {
+ public:
+  explicit ReplayCommand(CLI::App& app);
+
+  /// After the parsing: flies the log again and reports what differs. Returns the exit code: 0 equal, 1
+  /// different; 0 for an experiment that could be flown. Throws Error, and CLI::ValidationError (wrong
+  /// usage).
+  int run();
+
+ private:
+  ReplayWords words_;
+  std::vector<std::string> set_, with_;
+};
+
+}  // namespace fulmar::core

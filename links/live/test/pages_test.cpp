@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/graph/live_options.hpp"
 #include "links/live/test/server_fixture.hpp"
 
 namespace pages_test {

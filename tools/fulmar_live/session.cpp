@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/types/ros_parse.hpp"
 #include "core/types/text.hpp"
+#include "core/types/wire.hpp"
 
 namespace fulmar::core {
 namespace {

@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
-#include "core/dds/participant.hpp"
 #include "core/run/flight.hpp"
+#include "links/dds/participant.hpp"
 #include "tools/fulmar_live/session.hpp"
 
 using namespace fulmar::core;

@@ -18,7 +18,7 @@ class CodeSize(unittest.TestCase):
         self.write("cmake/long_files.txt", "")
         self.write("cmake/wide_structs.txt", "")
         self.write("core/run/loop.cpp", '// a comment\n\nint loop() {\n  return 1;  // one\n}\nconst char* text = "// no comment";\n')
-        self.write("core/dds/topic.cpp", "int topic;\n")
+        self.write("links/dds/topic.cpp", "int topic;\n")
         shutil.copy(here / "code_size.py", self.root / "cmake")
         subprocess.run(["git", "init", "-q", str(self.root)], check=True)
 
@@ -39,7 +39,8 @@ class CodeSize(unittest.TestCase):
         found = self.size("--most", "4")
         self.assertEqual(found.returncode, 0, found.stderr)
         self.assertIn("     4  what flies", found.stdout)
-        self.assertIn("     4  core without dds", found.stdout)
+        self.assertIn("     4  core\n", found.stdout)
+        self.assertIn("     1  links/dds\n", found.stdout)
         self.assertEqual(self.size("--most", "3").returncode, 1)
 
     def test_a_long_file(self):

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Core knows no message: of the SDK it reads abi.h and quiet_thread.hpp alone, as the compiler's own lists of what it read tell.
+# Core and links know no message: of the SDK they read abi.h and quiet_thread.hpp alone, as the compiler's own lists of what it read tell.
 set -euo pipefail
 cd "$(dirname "$0")/../build"
-mapfile -t sources < <(cd .. && find core -name '*.cpp' ! -path '*/test/*')
+mapfile -t sources < <(cd .. && find core links -name '*.cpp' ! -path '*/test/*')
 # An object's list names all that it was made of: the source, or the sources that were compiled together, and every header.
 read_files=$(ninja -t deps | awk -v sources="${sources[*]}" '
   function end_of_object(   i) {
@@ -13,7 +13,7 @@ read_files=$(ninja -t deps | awk -v sources="${sources[*]}" '
   BEGIN { n = split(sources, list, " "); for (i = 1; i <= n; i++) wanted[list[i]] = 1 }
   /^[^ ].*: #deps/ { end_of_object(); next }
   NF == 0 { next }
-  /\/core\/.*\.cpp$/ { source = $1; sub(/^.*\/core\//, "core/", source); if (source in wanted) { of_core = source; seen[source] = 1 } }
+  /\/(core|links)\/.*\.cpp$/ { source = $1; if (!sub(/^.*\/core\//, "core/", source)) sub(/^.*\/links\//, "links/", source); if (source in wanted) { of_core = source; seen[source] = 1 } }
   /\/sdk\/include\// && !/\/sdk\/include\/fulmar\/(abi\.h|quiet_thread\.hpp)$/ { sdk[++n_sdk] = $1 }
   END { end_of_object(); for (s in seen) print "source: " s }')
 messages=$(sed -n 's/^message: //p' <<<"$read_files")
@@ -21,4 +21,4 @@ for source in "${sources[@]}"; do
   grep -qxF "source: $source" <<<"$read_files" || { echo "$source has not been compiled"; exit 1; }
 done
 [ -z "$messages" ] || { echo "$messages"; exit 1; }
-echo "${#sources[@]} files of core read nothing of the SDK but abi.h and quiet_thread.hpp"
+echo "${#sources[@]} files of core and links read nothing of the SDK but abi.h and quiet_thread.hpp"

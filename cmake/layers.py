@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The folders of the tree stand on each other: no include upwards, and no circle of units, where a unit is a header with
-the source beside it. Each folder of core/ and of flight/ has a README. Tests may include what they like."""
+the source beside it. Each folder of core/, links/ and flight/ has a README. Tests may include what they like."""
 import re
 import subprocess
 import sys
@@ -24,7 +24,7 @@ core/isolate
 core/isolate/child
 core/graph
 core/tap
-core/live core/dds
+links/live links/dds
 core/run/component
 core/run/state
 core/run/record
@@ -37,9 +37,9 @@ tools
 bench
 """.strip().split("\n")]
 RANK = {folder: rank for rank, folders in enumerate(ORDER) for folder in folders}
-READMES = [f for f in RANK if re.match(r"core/(run/)?\w+$", f) or "/flight/" in f]
+READMES = [f for f in RANK if re.match(r"(core/(run/)?|links/)\w+$", f) or "/flight/" in f]
 root = Path(__file__).resolve().parent.parent
-listed = subprocess.run(["git", "ls-files", "core", "sdk/include", "tools", "plugins", "examples", "bench"], cwd=root, capture_output=True,
+listed = subprocess.run(["git", "ls-files", "core", "links", "sdk/include", "tools", "plugins", "examples", "bench"], cwd=root, capture_output=True,
                         text=True, check=True).stdout
 sources = [f for f in listed.split() if f.endswith((".cpp", ".hpp", ".h", ".c")) and "/test/" not in f and (root / f).exists()]
 known = set(sources)
@@ -58,9 +58,9 @@ def read_includes(file):
 
 
 def folder_of(file):
-    """The nearest folder of ORDER around a file. A new folder of core/ or flight/ has to be listed first."""
+    """The nearest folder of ORDER around a file. A new folder of core/ or links/ has to be listed first."""
     parts = file.split("/")[:-1]
-    if parts[0] == "core" and len(parts) > 1 and "/".join(parts) not in RANK:
+    if parts[0] in ("core", "links") and len(parts) > 1 and "/".join(parts) not in RANK:
         faults.append(f"{file}: {'/'.join(parts)} is no folder of cmake/layers.py")
     while parts and "/".join(parts) not in RANK:
         parts.pop()
@@ -73,7 +73,7 @@ for file, targets in includes.items():
     for other in targets:
         here, there = folders[file], folders[other]
         if here != there and RANK.get(there, -1) >= RANK.get(here, -1):
-            faults.append(f"{file} includes {other}: {'upwards' if RANK[there] > RANK[here] else 'sideways'}")
+            faults.append(f"{file} includes {other}: {'upwards' if RANK.get(there, -1) > RANK.get(here, -1) else 'sideways'}")
 
 
 def unit(file):

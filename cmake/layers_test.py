@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 here = pathlib.Path(__file__).resolve().parent
-ROOMS = [f"core/{name}" for name in "types loader log isolate graph tap live dds run app".split()]
+ROOMS = [f"core/{name}" for name in "types loader log isolate graph tap run app".split()] + ["links/live", "links/dds"]
 ROOMS += [f"core/run/{name}" for name in "component state record flight command".split()]
 ROOMS += [f"sdk/include/fulmar/flight/{name}" for name in "math earth model control path navigation".split()]
 
@@ -79,8 +79,8 @@ class Layers(unittest.TestCase):
         self.refused(f"{flight}/math/vec.hpp includes {flight}/model/wing.hpp: upwards")
         self.include(f"{flight}/path/line.hpp", f"{flight}/control/pid.hpp")
         self.refused(f"{flight}/path/line.hpp includes {flight}/control/pid.hpp: sideways")
-        self.include("core/live/stream.hpp", "core/dds/topic.hpp")
-        self.refused("core/live/stream.hpp includes core/dds/topic.hpp: sideways")
+        self.include("links/live/stream.hpp", "links/dds/topic.hpp")
+        self.refused("links/live/stream.hpp includes links/dds/topic.hpp: sideways")
 
     def test_a_circle_of_headers(self):
         self.include("core/graph/a.hpp", "core/graph/b.hpp")
@@ -107,9 +107,11 @@ class Layers(unittest.TestCase):
         self.refused("core/other is no folder of cmake/layers.py")
         self.include("core/run/other/thing.hpp", "core/types/type.hpp")
         self.refused("core/run/other is no folder of cmake/layers.py")
+        self.include("links/other/thing.hpp", "core/types/type.hpp")
+        self.refused("links/other is no folder of cmake/layers.py")
 
     def test_a_room_without_a_readme(self):
-        for room in ("core/tap", "core/run/record", "sdk/include/fulmar/flight/earth"):
+        for room in ("core/tap", "core/run/record", "links/dds", "sdk/include/fulmar/flight/earth"):
             (self.root / room / "README.md").unlink()
             self.refused(f"{room} has no README.md")
 

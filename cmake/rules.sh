@@ -17,12 +17,13 @@ echo "a line" | refuse "" >/dev/null
 bad=0
 python3 cmake/layers.py >/dev/null || python3 cmake/layers.py | refuse "The folders of core stand on each other:"
 python3 cmake/code_size.py 2>&1 >/dev/null | refuse "Too large:"
-git ls-files core sdk plugins tools bench examples | grep -E '\.(cpp|hpp|h|c)$' | grep -v '^core/test/abi_1/' | xargs python3 cmake/commas.py |
+git ls-files core links sdk plugins tools bench examples | grep -E '\.(cpp|hpp|h|c)$' | grep -v '^core/test/abi_1/' | xargs python3 cmake/commas.py |
   refuse "One statement a line, not a chain of commas (cmake/commas.py --fix FILE splits it):"
-git grep -nE '^#include [<"]core/' -- plugins sdk examples | refuse "Plugins and SDK must not include core:"
-git grep -nE '^#include [<"](\.\./)*plugins/' -- core sdk plugins | grep -vE '^plugins/([^/]+)/test/.*plugins/\1/|^plugins/fcu_serial/test/peer/.*plugins/sim_aero/|^core/app/test/frail\.cpp:' |
+git grep -nE '^#include [<"](core|links)/' -- plugins sdk examples | refuse "Plugins and SDK must not include core:"
+git grep -nE '^#include [<"]links/' -- core tools | grep -vE '^[^:]*/test/|links/[a-z]+/(library|stats)\.hpp' | refuse "Of a library in links/ the host includes what it opens it by:"
+git grep -nE '^#include [<"](\.\./)*plugins/' -- core links sdk plugins | grep -vE '^plugins/([^/]+)/test/.*plugins/\1/|^plugins/fcu_serial/test/peer/.*plugins/sim_aero/|^core/app/test/frail\.cpp:' |
   refuse "Nobody includes a plugin but its own test, the peer that flies the simulated aircraft, and the test that makes all of them fail:"
-git grep -nE '^#include [<"]fulmar/' -- core | grep -vE '^core/([^:]*/)?test/|fulmar/(abi\.h|quiet_thread\.hpp)' | refuse "Core includes abi.h and quiet_thread.hpp alone:"
+git grep -nE '^#include [<"]fulmar/' -- core links | grep -vE '^[^:]*/test/|fulmar/(abi\.h|quiet_thread\.hpp)' | refuse "Core and links include abi.h and quiet_thread.hpp alone:"
 git grep -nE '#include <(yaml-cpp|boost|spdlog|fastdds|CLI)' -- sdk plugins | grep -vE '^(plugins/fcu_serial/(link|test/peer)/|sdk/test/flight/airframe_file[.]cpp)' | refuse "Only core links yaml-cpp, Boost.DLL, spdlog and Fast DDS:"
 git grep -nE 'std::chrono|clock_gettime|gettimeofday|std::random_device|\brand\(' -- plugins sdk/include | grep -vE '/test/|^plugins/fcu_serial/link/' | refuse "Time comes from the vehicle and chance from the seed:"
 git grep -nIE '(^|[^[:alnum:]_.])/(work|root|home|farm)/' -- . | refuse "No path of one machine:"
@@ -31,7 +32,7 @@ for file in $(git ls-files '*.cpp' '*.hpp' '*.h' '*.c' '*.sh' '*.cmake' '*CMakeL
   head -n 3 "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' || echo "$file"
 done | refuse "Every source file names its licence:"
 # The files of a folder are compiled together: of two helpers with one name, each in an unnamed namespace, the wrong one would be called in silence.
-for folder in $(git ls-files 'core/*.cpp' 'tools/*.cpp' 'plugins/*.cpp' | grep -v '/test/' | xargs -n 1 dirname | sort -u); do
+for folder in $(git ls-files 'core/*.cpp' 'links/*.cpp' 'tools/*.cpp' 'plugins/*.cpp' | grep -v '/test/' | xargs -n 1 dirname | sort -u); do
   for file in $(git ls-files "$folder/*.cpp" | grep -E "^$folder/[^/]+$"); do
     sed -nE 's/^([A-Za-z_][A-Za-z0-9_:<>,&* ]*[ &*])([a-z_][a-z0-9_]*)\(.*/\2/p; s/^(struct|class|enum class|enum) ([A-Za-z0-9_]+).*\{.*/\2/p' "$file" |
       sort -u | sed "s|\$| $file|"

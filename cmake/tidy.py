@@ -41,7 +41,7 @@ def output(entry):
 def wanted(entry):
     """Host, plugins and examples; tests and benches are held by their compilers alone."""
     out = output(entry)
-    return out.split("/")[0] in ("core", "plugins", "examples", *["tools"] * with_tools) and "/test" not in out and "_test.dir" not in out and "/abi_1" not in out
+    return out.split("/")[0] in ("core", "links", "plugins", "examples", *["tools"] * with_tools) and "/test" not in out and "_test.dir" not in out and "/abi_1" not in out
 
 
 def look(entry, digest):

@@ -167,8 +167,6 @@ struct LiveOptions {
   std::string attribution;   // whose they are, as they want to be named
   Where where;
 };
-/// "https://tile.example.org/{z}/{x}/{y}.png" -> "https://tile.example.org"; "" -> "".
-std::string origin_of(const std::string& tiles);
 
 /// `dds:` of the mission.
 struct DdsOptions {

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/live_options.hpp"
 #include "core/types/text.hpp"
 
 namespace fulmar::core {
@@ -203,11 +204,6 @@ void read_live(const Keys& mission, MissionText& text, Report& report) {
   text.live.save = keys.flag("save");
   if (!text.live.attribution.empty() && text.live.tiles.empty())
     report.add(keys.where("attribution"), "live.attribution: names whose live.tiles are, and there are none");
-}
-
-std::string origin_of(const std::string& tiles) {
-  const std::size_t host = tiles.find("://");
-  return host == std::string::npos ? "" : tiles.substr(0, tiles.find('/', host + 3));
 }
 
 LiveOptions parse_live(const std::string& listen) {

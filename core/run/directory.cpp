@@ -3,7 +3,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "core/live/gate.hpp"
+#include "core/graph/live_options.hpp"
 #include "core/run/control_impl.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/types/named.hpp"
@@ -89,7 +89,7 @@ FlightControl::Directory::Directory(const Flight::Impl& flight) : commands(fligh
   view.origin = origin_of(flight.state.graph);
   view.map.tiles = flight.state.graph.live.tiles;
   view.map.attribution = flight.state.graph.live.attribution;
-  view.no_save = live::why_no_save(flight.state.graph.live);
+  view.no_save = why_no_save(flight.state.graph.live);
   for (const auto& [name, text] : flight.state.graph.source.overrides.set) view.set.push_back(name);
   for (const Phase& p : flight.state.graph.phases) {
     view.phase.all.push_back(p.name);

@@ -2,11 +2,11 @@
 // A flight, for those who embed one.
 #include <utility>
 
-#include "core/live/server.hpp"
 #include "core/run/component/last_frame.hpp"
 #include "core/run/control.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/types/named.hpp"
+#include "links/live/library.hpp"
 
 namespace fulmar::core {
 

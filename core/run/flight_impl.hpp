@@ -23,12 +23,12 @@ namespace fulmar::core {
 
 class DdsBridge;
 class FlightControl;
-class LiveServer;
+class LiveView;
 
 /// Those who look at a flight and speak to it. What comes later ends before what it speaks to.
 struct Onlookers {
   std::unique_ptr<FlightControl> control;
-  std::unique_ptr<LiveServer> live;
+  std::unique_ptr<LiveView> live;
   std::unique_ptr<DdsBridge> dds;
 };
 

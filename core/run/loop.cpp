@@ -5,14 +5,14 @@
 #include <array>
 #include <cstdio>
 
-#include "core/dds/library.hpp"
-#include "core/live/server.hpp"
 #include "core/run/component/allocation.hpp"
 #include "core/run/component/realtime.hpp"
 #include "core/run/component/replay_context.hpp"
 #include "core/run/control.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/run/verdict.hpp"
+#include "links/dds/library.hpp"
+#include "links/live/library.hpp"
 
 namespace fulmar::core {
 

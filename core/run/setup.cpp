@@ -2,14 +2,15 @@
 // Set-up of a flight: its components are created, connected and configured, its log and its doors opened.
 #include <algorithm>
 
-#include "core/live/gate.hpp"
-#include "core/live/server.hpp"
+#include "core/graph/live_options.hpp"
 #include "core/loader/home.hpp"
 #include "core/run/control.hpp"
-#include "core/run/dds_library.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/run/host_library.hpp"
 #include "core/say.hpp"
 #include "core/types/named.hpp"
+#include "links/dds/library.hpp"
+#include "links/live/library.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -21,6 +22,15 @@ const FlightOptions& checked(const Graph& graph, const FlightOptions& options) {
     throw Error("--drivers-from " + options.drivers_from.string() + ": the mission " + graph.mission +
                 " has no component with 'run: driver'");
   return options;
+}
+
+const LiveLibrary& live_library(const LiveOptions& live) {
+  try {
+    check_live_options(live);
+  } catch (const Error& fault) {
+    throw Error(live.where.text() + ": " + fault.what());
+  }
+  return host_library<LiveLibrary>(live.where);
 }
 
 }  // namespace
@@ -84,21 +94,14 @@ void Flight::Impl::open_tap() {
 /// which they must not inherit.
 void Flight::Impl::open_to_others() {
   const Graph& graph = state.graph;
-  if (graph.live.on) {
-    try {
-      live::check_options(graph.live);
-    } catch (const Error& fault) {
-      throw Error(graph.live.where.text() + ": " + fault.what());
-    }
-  }
+  const LiveLibrary* const live = graph.live.on ? &live_library(graph.live) : nullptr;
   onlookers.control = std::make_unique<FlightControl>(*this);
   if (graph.dds.on)
-    onlookers.dds = dds_library(home_folders(), graph.dds.where)
+    onlookers.dds = host_library<DdsLibrary>(graph.dds.where)
                         .open({*recorder.tap(), *onlookers.control, say_aloud}, graph.dds);
-  if (!graph.live.on) return;
+  if (live == nullptr) return;
   try {
-    onlookers.live =
-        std::make_unique<LiveServer>(*recorder.tap(), *onlookers.control, graph.live, page_folder());
+    onlookers.live = live->open(*recorder.tap(), *onlookers.control, graph.live, page_folder());
   } catch (const Error& fault) {  // another flight on this computer is no reason not to fly
     if (state.options.say)
       state.options.say(std::string("nobody can watch this flight: ") + fault.what(), true);

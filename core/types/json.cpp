@@ -89,4 +89,19 @@ ordered_json shown_json(const Type& type, const std::byte* data) {
   return object(type, data, Turned::all, 1.0);
 }
 
+bool json_too_deep(std::string_view text) {
+  constexpr int most = 32;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '\\') ++i;
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if ((c == '[' || c == '{') && ++depth > most) return true;
+    if (c == ']' || c == '}') --depth;
+  }
+  return false;
+}
+
 }  // namespace fulmar::core

@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/types/type.hpp"
@@ -72,5 +73,8 @@ nlohmann::json figures_json(const Type& type, const std::byte* data);
 nlohmann::ordered_json shown_json(const Type& type, const std::byte* data);
 /// "roll_rad" -> "roll_deg", "p_radps" -> "p_degps"; all others stay.
 std::string shown_name(const std::string& field);
+
+/// Whether JSON is nested so deep that a parser that recurses must not be asked to read it.
+bool json_too_deep(std::string_view text);
 
 }  // namespace fulmar::core

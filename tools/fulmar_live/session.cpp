@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/live/hub_impl.hpp"
 #include "core/types/text.hpp"
+#include "core/types/wire.hpp"
 #include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::core {
@@ -31,7 +31,7 @@ void append_u32(std::string& bytes, std::uint32_t value) {
 
 /// What the other side says is shown on a terminal, word by word: none of it may command the terminal.
 json tamed(const std::string& text) {
-  json value = live::too_deep(text) ? json(json::value_t::discarded) : json::parse(text, nullptr, false);
+  json value = json_too_deep(text) ? json(json::value_t::discarded) : json::parse(text, nullptr, false);
   const std::function<void(json&)> tame = [&](json& part) {
     if (part.is_string()) part = for_terminal(part.get<std::string>());
     if (part.is_object()) {

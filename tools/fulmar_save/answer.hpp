@@ -15,7 +15,7 @@ std::vector<SavedParam> saved_params(const nlohmann::json& view, const std::stri
 std::vector<std::string> flown_plugins(const nlohmann::json& view);
 
 /// {component, mark, set, file, mission, components: as in a view} -> {accepted, reason, lines, mark}, as
-/// live/saving.hpp has them. A fault is a reason.
+/// links/live/saving.hpp has them. A fault is a reason.
 nlohmann::json save_answer(const nlohmann::json& request);
 
 }  // namespace fulmar::core

@@ -10,8 +10,8 @@
 #include <set>
 #include <thread>
 
-#include "core/dds/test/domain.hpp"
 #include "core/run/test/lab.hpp"
+#include "links/dds/test/domain.hpp"
 
 namespace ends_test {
 

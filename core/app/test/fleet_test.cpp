@@ -11,11 +11,11 @@
 
 #include "core/app/test/hil.hpp"
 #include "core/app/test/hil_log.hpp"
-#include "core/dds/test/domain.hpp"
 #include "core/log/test/read_mcap.hpp"
 #include "fulmar/eigen.hpp"
 #include "fulmar/msg/plan.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
+#include "links/dds/test/domain.hpp"
 
 using namespace fulmar;
 using namespace fulmar::fcu::testing;

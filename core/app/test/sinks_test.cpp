@@ -26,13 +26,13 @@
 #include <vector>
 
 #include "core/app/test/standstill.hpp"
-#include "core/dds/test/domain.hpp"
 #include "core/loader/table.hpp"
 #include "core/log/test/read_mcap.hpp"
 #include "core/types/test/hex.hpp"
 #include "core/types/wire.hpp"
 #include "fulmar/msg/plan_edit.hpp"
 #include "fulmar/schema.hpp"
+#include "links/dds/test/domain.hpp"
 #include "tools/fulmar_live/session.hpp"
 
 namespace fs = std::filesystem;

@@ -2,6 +2,7 @@
 // The sections `live:` and `dds:`: what is read, and what a slip in them is told.
 #include <doctest/doctest.h>
 
+#include "core/graph/live_options.hpp"
 #include "core/graph/test/shelf.hpp"
 
 namespace tap_sections_test {

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "core/dds/stats.hpp"
-#include "core/live/stats.hpp"
 #include "core/run/component/stats.hpp"
 #include "core/run/state/ending.hpp"
 #include "core/run/state/resume.hpp"
 #include "core/tap/log.hpp"
+#include "links/dds/stats.hpp"
+#include "links/live/stats.hpp"
 
 namespace fulmar::core {
 

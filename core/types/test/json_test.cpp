@@ -74,4 +74,11 @@ TEST_CASE(
   CHECK_NOTHROW(shown.dump());
 }
 
+TEST_CASE("JSON of 32 levels is not too deep for a parser, and brackets inside a text are no level") {
+  const auto nested = [](std::size_t levels) { return std::string(levels, '[') + std::string(levels, ']'); };
+  CHECK_FALSE(json_too_deep(nested(32)));
+  CHECK(json_too_deep(nested(33)));
+  CHECK_FALSE(json_too_deep("[\"\\\"" + nested(33) + "\"]"));
+}
+
 }  // namespace json_test

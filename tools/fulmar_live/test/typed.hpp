@@ -16,8 +16,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/live/server.hpp"
-#include "core/live/test/mock.hpp"
+#include "links/live/server.hpp"
+#include "links/live/test/mock.hpp"
 #include "tools/fulmar_live/session.hpp"
 
 namespace remote_test {

@@ -12,8 +12,8 @@
 #include <string>
 #include <thread>
 
-#include "core/live/server.hpp"
-#include "core/live/test/mock.hpp"
+#include "links/live/server.hpp"
+#include "links/live/test/mock.hpp"
 
 namespace watch_test {
 

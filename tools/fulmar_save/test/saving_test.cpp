@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parameters that a client has written into the mission's file: shown first, and then those lines alone. The
 // live view asks the program fulmar-save for it.
-#include "core/live/saving.hpp"
+#include "links/live/saving.hpp"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -11,7 +11,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "core/live/test/mock.hpp"
+#include "links/live/test/mock.hpp"
 
 namespace saving_test {
 

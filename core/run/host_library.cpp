@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/run/host_library.hpp"
+
+#include <cstring>
+
+#include "core/build.hpp"
+#include "core/loader/shared_object.hpp"
+
+namespace fulmar::core {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A library has threads of its own, and answers may be under way when a flight ends: it is linked with
+// -z nodelete, so that it stays mapped when the object closes.
+const void* open(const std::string& section, const std::string& needs, const fs::path& path) {
+  SharedObject file;
+  try {
+    file.load(path, path.string());
+  } catch (const Error& fault) {
+    throw Error(std::string(fault.what()) + (needs.empty() ? "" : ". It needs " + needs));
+  }
+  const void* const table = file.find(("fulmar_" + section + "_library").c_str());
+  if (table == nullptr) throw Error(path.string() + " is not Fulmar's library for it");
+  const char* const build = *static_cast<const char* const*>(table);
+  if (std::strcmp(build, build_identity) != 0)
+    throw Error(path.string() + " is of another build (" + build + ") than this program (" + build_identity +
+                "): build or install both together");
+  return table;
+}
+
+}  // namespace
+
+const void* open_host_library(const std::string& section, const std::string& needs,
+                              const std::vector<fs::path>& homes, const Where& where) {
+  const std::string name = "fulmar_" + section;
+  std::vector<std::string> searched;
+  try {
+    for (const fs::path& home : homes) {
+      const fs::path file = home / "lib" / "fulmar" / "host" / (name + ".so");
+      std::error_code fault;
+      if (fs::is_regular_file(file, fault)) return open(section, needs, file);
+      searched.push_back(file.string());
+    }
+    throw Error("its library is not there. Searched: " + join(searched) +
+                ". Install the package fulmar, or build it: cmake --build build --target " + name);
+  } catch (const Error& fault) {
+    throw Error((where.file.empty() ? "" : where.text() + ": ") + section + ": " + fault.what());
+  }
+}
+
+}  // namespace fulmar::core

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// See saving.hpp.
+#include "links/live/saving.hpp"
+
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/loader/home.hpp"
+#include "core/loader/memory_file.hpp"
+#include "core/loader/process.hpp"
+#include "fulmar/quiet_thread.hpp"
+#include "links/live/describe.hpp"
+
+namespace fulmar::core::live {
+namespace {
+
+using nlohmann::json;
+
+std::string answer_of_program(const std::string& request, std::chrono::seconds limit) {
+  const std::string program = own_program("fulmar-save", "FULMAR_SAVE").string();
+  if (program.empty())
+    throw Error(
+        "the program fulmar-save is missing beside this one: it writes parameters into files; cmake --build "
+        "build --target flight");
+  const MemoryFile in(request), out;
+  ChildFiles files;
+  files.in = in.descriptor();
+  files.out = out.descriptor();
+  files.error = STDERR_FILENO;
+  Process process(program, {}, files);
+  if (!process.wait(limit))
+    throw Error(program + " has not answered within " + std::to_string(limit.count()) +
+                " s and is stopped: what it has written is whole");
+  if (process.signal() != 0)
+    throw Error(program + " was stopped by signal " + std::to_string(process.signal()));
+  if (process.exit_code() != 0)
+    throw Error(program + " ended with exit code " + std::to_string(process.exit_code()));
+  return out.contents();
+}
+
+}  // namespace
+
+SaveAnswer save(const FlightView& view, const std::string& component, const std::string& mark,
+                std::chrono::seconds limit) noexcept {
+  SaveAnswer answer;
+  try {
+    if (!view.no_save.empty()) throw Error("nothing is written from here: " + view.no_save);
+    if (view.file.empty()) throw Error("this flight has no mission file that could be written");
+    const json said = json::parse(answer_of_program(dumped(save_request(view, component, mark)), limit));
+    answer = {said.at("accepted"), said.at("reason"), said.at("lines"), said.at("mark")};
+  } catch (const json::exception&) {
+    answer.reason = "fulmar-save has answered something else than JSON with accepted, reason, lines and mark";
+  } catch (const std::exception& fault) {
+    answer.reason = fault.what();
+  }
+  return answer;
+}
+
+void Saving::begin(FlightView view, std::string component, std::string mark,
+                   std::function<void(const SaveAnswer&)> answer) {
+  if (busy_->exchange(true)) throw Error("another one's parameters are being saved; ask again");
+  // It holds nothing of ours but this: a disk that hangs does not keep the flight from its end.
+  quiet_thread("fulmar-save", [busy = busy_, view = std::move(view), component = std::move(component),
+                               mark = std::move(mark), answer = std::move(answer)] {
+    const SaveAnswer said = save(view, component, mark);
+    busy->store(false);
+    answer(said);
+  }).detach();
+}
+
+}  // namespace fulmar::core::live

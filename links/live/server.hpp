@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The live view: the Foxglove WebSocket protocol and plain HTTP on one port, in a thread of its own.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "core/graph/graph.hpp"
+#include "links/live/library.hpp"
+
+namespace fulmar::core {
+
+class LiveServer final : public LiveView {
+ public:
+  /// `page`: the folder of the page that a browser gets; where there is none it gets the table of topics.
+  /// Throws Error when it cannot listen there: says who to ask and what to do.
+  LiveServer(Tap& tap, Control& control, const LiveOptions& options, const std::filesystem::path& page = {});
+  ~LiveServer() override;
+  std::uint16_t port() const override;
+  LiveStats stats() const override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fulmar::core

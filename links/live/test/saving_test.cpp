@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who may have files written, and what a client is answered when the program that writes them fails.
+#include "links/live/saving.hpp"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "links/live/gate.hpp"
+#include "links/live/test/hub_fixture.hpp"
+
+namespace saving_test {
+
+namespace fs = std::filesystem;
+using namespace fulmar::core;
+using namespace fulmar::core::live;
+using namespace fulmar::core::live::test;
+
+namespace {
+
+/// Stands in for fulmar-save, as a script, while this lives.
+struct Program {
+  fs::path file = fs::temp_directory_path() / ("fulmar-save-" + std::to_string(::getpid()));
+  FlightView view = MockControl().view();
+  explicit Program(const std::string& script) {
+    std::ofstream(file) << "#!/bin/sh\n" << script << "\n";
+    fs::permissions(file, fs::perms::owner_all);
+    ::setenv("FULMAR_SAVE", file.c_str(), 1);
+    view.file = "/nowhere/m.yaml";
+  }
+  ~Program() {
+    ::unsetenv("FULMAR_SAVE");
+    fs::remove(file);
+  }
+  SaveAnswer answer(std::chrono::seconds limit = std::chrono::seconds(60)) const {
+    return save(view, "slc", "", limit);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the program gets what flies in JSON, and a client its answer") {
+  const Program program(
+      "cat > \"$0.in\"; echo '{\"accepted\":true,\"reason\":\"r\",\"lines\":\"l\",\"mark\":\"m\"}'");
+  const SaveAnswer answer = program.answer();
+  CHECK(answer.accepted);
+  CHECK(answer.reason == "r");
+  CHECK(answer.lines == "l");
+  CHECK(answer.mark == "m");
+  const fs::path copy = program.file.string() + ".in";
+  const json request = json::parse(std::ifstream(copy));
+  fs::remove(copy);
+  CHECK(request["component"] == "slc");
+  CHECK(request["mark"] == "");
+  CHECK(request["file"] == "/nowhere/m.yaml");
+  CHECK(request["mission"] == "mock <1>");
+  CHECK(request["components"][0]["use"] == "control_slc/Outer");
+  const json& params = request["components"][0]["params"];
+  CHECK(params[0]["name"] == "roll_kp");
+  CHECK(params[0]["value"] == 0.55);
+}
+
+TEST_CASE("a program that fails is one sentence: it crashes, ends, answers something else, or nothing") {
+  CHECK(Program("kill -SEGV $$").answer().reason.ends_with("was stopped by signal 11"));
+  CHECK(Program("exit 3").answer().reason.ends_with("ended with exit code 3"));
+  for (const char* const other : {"", "echo no", "echo []", "echo '{\"accepted\": 1}'"}) {
+    const SaveAnswer answer = Program(other).answer();
+    CHECK_FALSE(answer.accepted);
+    CHECK(answer.reason.starts_with("fulmar-save has answered something else than JSON"));
+  }
+  const SaveAnswer late = Program("exec sleep 100").answer(std::chrono::seconds(0));
+  CHECK_FALSE(late.accepted);
+  CHECK(late.reason.find("has not answered within 0 s") != std::string::npos);
+  const Program gone("");
+  fs::remove(gone.file);
+  CHECK(gone.answer().reason == "cannot start " + gone.file.string() + ": No such file or directory.");
+}
+
+TEST_CASE("answers where there is no such program" * doctest::skip()) {
+  FlightView view = MockControl().view();
+  view.file = "/nowhere/m.yaml";
+  CHECK(save(view, "", "").reason ==
+        "the program fulmar-save is missing beside this one: it writes parameters into files; cmake --build "
+        "build --target flight");
+}
+
+TEST_CASE("a host without fulmar-save beside it answers which program is missing, and how it is built") {
+  const fs::path home = fs::path(FULMAR_BIN_DIR).parent_path() / ("alone-" + std::to_string(::getpid()));
+  const fs::path self = home / "bin" / "live_test";
+  fs::create_directories(self.parent_path());
+  fs::create_hard_link(fs::canonical("/proc/self/exe"),
+                       self);  // programs are looked for beside the one that runs
+  const std::string command = self.string() + " -ns -tc='answers where there is no such program' >/dev/null";
+  CHECK(std::system(command.c_str()) == 0);
+  fs::remove_all(home);
+}
+
+TEST_CASE("nothing is started where no file may be written, or none is known") {
+  Program program("echo started > \"$0.in\"");
+  program.view.no_save = "the mission says live: {save: off}";
+  CHECK(program.answer().reason == "nothing is written from here: the mission says live: {save: off}");
+  program.view.no_save = "";
+  program.view.file = "";
+  CHECK(program.answer().reason == "this flight has no mission file that could be written");
+  CHECK_FALSE(fs::exists(program.file.string() + ".in"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "the service answers from beside the hub, in JSON and in CDR") {
+  const json refused = call_json("/fulmar/save", R"({"component": "slc", "mark": ""})");
+  CHECK(refused["accepted"] == false);
+  CHECK(refused["reason"] == "this flight has no mission file that could be written");
+  CHECK((refused["lines"] == "" && refused["mark"] == ""));
+  CHECK(call_json("/fulmar/save", R"({"component": "slc"})")["reason"] ==
+        "the request needs the text 'mark'");
+  CHECK(call_json("/fulmar/view", "{}")["no_save"] == "");
+  const std::size_t before = peer.binaries.size();
+  call("/fulmar/save", "cdr",
+       std::string("\0\1\0\0", 4) + le(1) + std::string(4, '\0') + le(1) + std::string(1, '\0'));
+  REQUIRE(until([&] { return peer.binaries.size() > before; }));
+  const std::string& answer = peer.binaries.back();
+  CHECK(answer[20] == 0);  // not accepted
+  CHECK(answer.find("this flight has no mission file") != std::string::npos);
+  const std::size_t then = peer.binaries.size();
+  call("/fulmar/save", "cdr", "");  // what is no request is answered in the same form
+  REQUIRE(until([&] { return peer.binaries.size() > then; }));
+  CHECK(peer.binaries.back().ends_with(le(1) + std::string(4, '\0') + le(1) + std::string(1, '\0')));
+}
+
+}  // namespace saving_test

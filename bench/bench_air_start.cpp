@@ -42,7 +42,7 @@ struct Options {
 
 struct Start {
   std::string sensors;
-  double gnss_hz = 10, delay_s = 0.2, delay_told_s = 0.2, on_s = 5, wind_from_rad = 0, bank_rad = 0.5;
+  double gnss_hz = 10, delay_s = 0.2, delay_reported_s = 0.2, on_s = 5, wind_from_rad = 0, bank_rad = 0.5;
   bool moderate = false, calibrated = true;
   std::uint64_t seed = 1;
 };
@@ -102,7 +102,7 @@ class Flown {
       : start_(start), graph_(graph_of(start)), flight_(graph_, without_log()) {
     ekf_.params.origin.value = {40.2463724, -111.6474138, 1387, true};  // the mission's
     ekf_.params.origin.is_given = true;
-    ekf_.params.gnss_delay.value = start.delay_told_s;
+    ekf_.params.gnss_delay.value = start.delay_reported_s;
     if (!start.calibrated) return;
     ekf_.params.gyro_bias_std.value = gyro_bias_std_radps;
     ekf_.params.accel_bias_std.value = accel_bias_std_mps2;
@@ -178,7 +178,7 @@ Start start_of(int i, bool calibrated) {
   s.gnss_hz = rates[i / 2 % 3];
   s.moderate = i / 6 % 2 == 1;
   s.delay_s = random.uniform(0.1, 0.3);
-  s.delay_told_s = s.delay_s + random.uniform(-0.05, 0.05);
+  s.delay_reported_s = s.delay_s + random.uniform(-0.05, 0.05);
   s.on_s = random.uniform(4, 16);
   s.wind_from_rad = random.uniform(0, 2 * std::numbers::pi);
   s.bank_rad = random.uniform(5 * deg, 30 * deg);
@@ -271,7 +271,7 @@ int main(int argc, char** argv) {
       if (options.each)
         std::fprintf(stderr,
                      "seed %d, %s, delay %.3f s, told %.3f s: valid after %.2f s, tilt off by %.1f deg\n",
-                     i + 1, name, s.delay_s, s.delay_told_s, b.valid_after_s, b.tilt_rad / deg);
+                     i + 1, name, s.delay_s, s.delay_reported_s, b.valid_after_s, b.tilt_rad / deg);
     }
     rows["of both"] = all;
     if (options.json)

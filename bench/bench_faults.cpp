@@ -45,7 +45,7 @@ bool must_fly(const Failure& f) {
 }
 
 struct Row {
-  unsigned flown = 0, aloft = 0, down = 0, told = 0, admitted = 0;
+  unsigned flown = 0, aloft = 0, down = 0, reported = 0, admitted = 0;
   std::size_t guards = 0;
   After worst;
 
@@ -53,7 +53,7 @@ struct Row {
     flown += a.flown;
     down += a.down;
     aloft += !a.flown && !a.down;
-    told += a.told;
+    reported += a.reported;
     admitted += a.admitted;
     guards += a.guards;
     worst.plan_m = std::max(worst.plan_m, a.plan_m);
@@ -69,7 +69,7 @@ void print(const Failure& f, const Row& r) {
   if (r.down > 0) std::snprintf(down, sizeof down, "%.1f", r.worst.down_s);
   std::printf("| %s | %s | %u | %u | %u | %.0f | %.0f | %.0f | %.0f | %s | %u | %u | %zu | %s |\n",
               f.what.c_str(), f.how.c_str(), r.flown, r.aloft, r.down, r.worst.plan_m, r.worst.lowest_m,
-              r.worst.height_error_m, r.worst.position_error_m, down, r.told, r.admitted, r.guards,
+              r.worst.height_error_m, r.worst.position_error_m, down, r.reported, r.admitted, r.guards,
               must_fly(f) ? "must fly" : "");
   std::fflush(stdout);
 }
@@ -87,7 +87,7 @@ nlohmann::json json_of(const Failure& f, const Row& r) {
           {"height_error_m", r.worst.height_error_m},
           {"position_error_m", r.worst.position_error_m},
           {"down_s", down_s},
-          {"told", r.told},
+          {"told", r.reported},
           {"admitted", r.admitted},
           {"guards", r.guards},
           {"must_fly", must_fly(f)}};

@@ -69,7 +69,7 @@ std::string seconds(double least, double most) {
 
 void gaps_row(Campaign& c, double height_m, bool gnss, double length_s) {
   double blind = 0, lost = 0, lowest = 1e9, back_least = 1e9, back_most = -1, returned = -1;
-  unsigned told = 0;
+  unsigned reported = 0;
   for (unsigned seed = 1; seed <= c.seeds; ++seed) {
     const Gap gap{length_s, gnss, height_m, seed};
     const AfterGap a = fly(gap, c.folder, c.options);
@@ -83,13 +83,13 @@ void gaps_row(Campaign& c, double height_m, bool gnss, double length_s) {
     back_least = std::min(back_least, a.back_s);
     back_most = worst(back_most, a.back_s);
     returned = worst(returned, a.returned_s);
-    told += a.told_blind;
+    reported += a.reported_blind;
   }
   const bool his = !gnss && length_s > 2;
   char row[256];
   std::snprintf(row, sizeof row, "| %g | %s | %g | %s | %.0f | %.1f | %.1f | %u | %s |", height_m,
                 gnss ? "yes" : "no", length_s, seconds(back_least, back_most).c_str(), blind, lost, lowest,
-                told, his ? decimals(returned).c_str() : "");
+                reported, his ? decimals(returned).c_str() : "");
   std::printf("%s\n", row);
   std::fflush(stdout);
 }
@@ -106,7 +106,7 @@ void gaps(Campaign& c) {
 void fixes_row(Campaign& c, double length_s) {
   std::vector<double> off, reckoned;
   AfterOutage w;
-  double circle_least = 1e9, turned = 1e9, told_lost = -1, told_back = -1, resumed = -1;
+  double circle_least = 1e9, turned = 1e9, reported_lost = -1, reported_back = -1, resumed = -1;
   for (unsigned seed = 1; seed <= c.seeds; ++seed) {
     const Outage outage{length_s, seed};
     const AfterOutage a = fly(outage, c.folder, c.options);
@@ -119,8 +119,8 @@ void fixes_row(Campaign& c, double length_s) {
     w.circle_s = worst(w.circle_s, a.circle_s);
     circle_least = std::min(circle_least, a.circle_s);
     turned = std::min(turned, a.turned_deg);
-    told_lost = worst(told_lost, a.told_lost_s);
-    told_back = worst(told_back, a.told_back_s);
+    reported_lost = worst(reported_lost, a.reported_lost_s);
+    reported_back = worst(reported_back, a.reported_back_s);
     resumed = worst(resumed, a.resumed_s);
   }
   std::sort(off.begin(), off.end());
@@ -130,8 +130,8 @@ void fixes_row(Campaign& c, double length_s) {
   std::snprintf(row, sizeof row, "| %g | %.0f | %.0f | %.0f | %.0f | %.0f | %s | %s | %.2f | %.2f | %.0f |",
                 length_s, off[nine], off.back(), reckoned[nine], reckoned.back(), w.std_m,
                 seconds(circle_least, w.circle_s).c_str(),
-                w.circle_s < 0 ? "" : std::to_string(std::lround(turned)).c_str(), told_lost, told_back,
-                resumed);
+                w.circle_s < 0 ? "" : std::to_string(std::lround(turned)).c_str(), reported_lost,
+                reported_back, resumed);
   std::printf("%s\n", row);
   std::fflush(stdout);
   c.bar(off[nine] <= 150, "no fix for " + std::to_string(length_s) + " s: nine seeds of ten within 150 m");

@@ -100,7 +100,7 @@ nlohmann::json json_of(const Aided& a) {
           {"height_step_m", a.step_m},  {"velocity_down_rms_mps", a.down_mps}};
 }
 
-void tell(const Options& o, const std::vector<Outcome>& all, const Aided& aided) {
+void report(const Options& o, const std::vector<Outcome>& all, const Aided& aided) {
   std::vector<double> errors, claims, heights, height_claims;
   for (const Outcome& each : all) {
     errors.push_back(each.horizontal_m);
@@ -151,7 +151,7 @@ int main(int count, char** words) {
     const Outages outages(o.recipe);
     std::vector<Outcome> all;
     for (const double start_s : o.starts_s) all.push_back(outages.fly(start_s, o.seconds));
-    tell(o, all, outages.aided());
+    report(o, all, outages.aided());
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 1;

@@ -12,15 +12,15 @@ using namespace fulmar::safety_flights;
 namespace {
 
 struct Worst {
-  unsigned flown = 0, kept = 0, told_else = 0;
+  unsigned flown = 0, kept = 0, reported_else = 0;
   std::array<unsigned, 4> ends{};
-  double told_s = -1, sink_mps = 0, home_m = 0, outside_m = -1e9, seconds = 0;
+  double reported_s = -1, sink_mps = 0, home_m = 0, outside_m = -1e9, seconds = 0;
   void add(const Row& row, const Flown& f) {
     ++flown;
     kept += f.kept(row);
-    told_else += f.told_else;
+    reported_else += f.reported_else;
     ++ends[static_cast<std::size_t>(f.end)];
-    told_s = std::max(told_s, f.told_s);
+    reported_s = std::max(reported_s, f.reported_s);
     sink_mps = std::max(sink_mps, f.touch_sink_mps);
     home_m = std::max(home_m, f.home_m);
     outside_m = std::max(outside_m, f.outside_m);
@@ -40,17 +40,17 @@ std::string ends(const Worst& w) {
 }
 
 void print(const Row& row, const Worst& w) {
-  char told[32] = "before the throttle", inside[32] = "stood", down[64] = "flies on | flies on";
+  char reported[32] = "before the throttle", inside[32] = "stood", down[64] = "flies on | flies on";
   if (row.end != End::stood) {
-    std::snprintf(told, sizeof told, row.cause ? "not before the ground" : "nothing to report");
+    std::snprintf(reported, sizeof reported, row.cause ? "not before the ground" : "nothing to report");
     std::snprintf(inside, sizeof inside, "%.0f", -w.outside_m);
   } else {
     std::snprintf(down, sizeof down, "stood | stood");
   }
-  if (w.told_s >= 0) std::snprintf(told, sizeof told, "%.1f", w.told_s);
+  if (w.reported_s >= 0) std::snprintf(reported, sizeof reported, "%.1f", w.reported_s);
   if (row.end == End::on_ground) std::snprintf(down, sizeof down, "%.0f | %.1f", w.seconds, w.sink_mps);
   std::printf("| %s | %s | %s | %s | %s | %.0f | %s | %s |\n", row.airframe.c_str(), row.name.c_str(),
-              row.does.c_str(), told, down, w.home_m, inside, ends(w).c_str());
+              row.does.c_str(), reported, down, w.home_m, inside, ends(w).c_str());
   std::fflush(stdout);
 }
 
@@ -62,7 +62,7 @@ nlohmann::json json_of(const Row& row, const Worst& w) {
           {"flown", w.flown},
           {"as_said", w.kept},
           {"end", ends(w)},
-          {"told_s", or_null(w.told_s >= 0, w.told_s)},
+          {"told_s", or_null(w.reported_s >= 0, w.reported_s)},
           {"down_s", w.seconds},
           {"touch_sink_mps", w.sink_mps},
           {"from_home_m", w.home_m},
@@ -110,7 +110,7 @@ int main(int argc, char** argv) {
           if (f.kept(row)) continue;
           ++missed;
           std::fprintf(stderr, "missed: %s, %s, seed %u: %s (%s), told after %.1f s, %s, %.0f m outside\n",
-                       airframe, row.name.c_str(), seed, word(f.end), f.outcome.c_str(), f.told_s,
+                       airframe, row.name.c_str(), seed, word(f.end), f.outcome.c_str(), f.reported_s,
                        f.in_order ? "phases as said" : "other phases", f.outside_m);
         }
         if (json)

@@ -35,22 +35,22 @@ The exit code is 1 when a promise is missed. Where none is given there is a dash
 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|
 )";
 
-constexpr double told_within_s = 2, recovered_within_s = 10;
+constexpr double reported_within_s = 2, recovered_within_s = 10;
 
 /// The worst of all seeds.
 struct Worst {
-  unsigned flown = 0, shown = 0, told = 0, recovered = 0, down = 0;
+  unsigned flown = 0, shown = 0, reported = 0, recovered = 0, down = 0;
   Flown of{};
 
   void add(const Flown& f) {
     ++flown;
     shown += f.shown;
     down += f.crashed;
-    told += f.told_s >= 0;
+    reported += f.reported_s >= 0;
     recovered += f.recovered_s >= 0;
-    if (f.told_s > of.told_s) {
-      of.told_s = f.told_s;
-      of.told_by = f.told_by;
+    if (f.reported_s > of.reported_s) {
+      of.reported_s = f.reported_s;
+      of.reported_by = f.reported_by;
     }
     for (std::size_t i = 0; i < whats; ++i) {
       of.most[i] = std::max(of.most[i], f.most[i]);
@@ -71,11 +71,11 @@ std::string number(double x, int digits) {
   return text;
 }
 
-std::string told(const Row& row, const Worst& w) {
-  if (w.told == 0) return "-";
-  const std::string most = number(w.of.told_s, 1);
-  if (!row.untold.empty() || w.told < w.shown)
-    return most + " in " + std::to_string(w.told) + " of " + std::to_string(w.shown);
+std::string reported(const Row& row, const Worst& w) {
+  if (w.reported == 0) return "-";
+  const std::string most = number(w.of.reported_s, 1);
+  if (!row.unreported.empty() || w.reported < w.shown)
+    return most + " in " + std::to_string(w.reported) + " of " + std::to_string(w.shown);
   return w.shown < w.flown ? most + " in all " + std::to_string(w.shown) : most;
 }
 std::string recovered(const Worst& w) {
@@ -86,8 +86,8 @@ std::string recovered(const Worst& w) {
 }
 
 void print(const Row& row, const Worst& w) {
-  std::printf("| `%s` | %s | %s | %s |", row.name.c_str(), row.words.c_str(), told(row, w).c_str(),
-              w.of.told_by.c_str());
+  std::printf("| `%s` | %s | %s | %s |", row.name.c_str(), row.words.c_str(), reported(row, w).c_str(),
+              w.of.reported_by.c_str());
   constexpr std::array<int, whats> digits{1, 1, 1, 1, 1};
   for (std::size_t i = 0; i < whats; ++i) {
     const std::string valid = number(w.of.max_valid[i], digits[i]), all = number(w.of.most[i], digits[i]);
@@ -104,9 +104,9 @@ nlohmann::json json_of(const Row& row, const Worst& w) {
           {"what", row.words},
           {"flown", w.flown},
           {"shown", w.shown},
-          {"told", w.told},
-          {"told_s", or_null(w.told > 0, w.of.told_s)},
-          {"by", w.of.told_by},
+          {"told", w.reported},
+          {"told_s", or_null(w.reported > 0, w.of.reported_s)},
+          {"by", w.of.reported_by},
           {"error_valid", w.of.max_valid},
           {"error", w.of.most},
           {"airspeed_error_over_std", w.of.over_std},
@@ -114,7 +114,7 @@ nlohmann::json json_of(const Row& row, const Worst& w) {
           {"recovered", w.recovered},
           {"recovered_s", or_null(w.recovered == w.flown, w.of.recovered_s)},
           {"also_named", w.of.accused},
-          {"untold", row.untold},
+          {"untold", row.unreported},
           {"unrecovered", row.unrecovered}};
 }
 
@@ -127,10 +127,10 @@ unsigned missed(const Row& row, const Worst& w) {
     ++n;
   };
   bar(w.down == 0, std::to_string(w.down) + " flights were not flown");
-  if (row.untold.empty()) {
+  if (row.unreported.empty()) {
     bar(w.shown > 0, "it never showed");
-    bar(w.told == w.shown, "told in " + std::to_string(w.told) + " of " + std::to_string(w.shown));
-    bar(w.of.told_s <= told_within_s, "told after " + number(w.of.told_s, 2) + " s");
+    bar(w.reported == w.shown, "told in " + std::to_string(w.reported) + " of " + std::to_string(w.shown));
+    bar(w.of.reported_s <= reported_within_s, "told after " + number(w.of.reported_s, 2) + " s");
   }
   if (row.unrecovered.empty()) {
     bar(w.recovered == w.flown,
@@ -142,7 +142,7 @@ unsigned missed(const Row& row, const Worst& w) {
         "an error of " + number(w.of.max_valid[i], 2) + ", at most " + number(row.most[i], 2));
   for (std::size_t i = 0; i < whats; ++i)
     bar(w.of.step[i] <= row.max_step[i], "a step of " + number(w.of.step[i], 2));
-  if (row.name == "nothing") bar(w.told == 0 && w.of.accused.empty(), "something was said");
+  if (row.name == "nothing") bar(w.reported == 0 && w.of.accused.empty(), "something was said");
   bar(w.of.over_std <= row.max_over_std, "airspeed wrong by " + number(w.of.over_std, 1) + " deviations");
   return n;
 }
@@ -151,8 +151,8 @@ void print_reasons(const std::string& only) {
   std::printf("\nWhat is not promised:\n\n");
   for (const Row& row : rows()) {
     if (!only.empty() && row.name != only) continue;
-    if (!row.untold.empty())
-      std::printf("- `%s` need not be told: %s.\n", row.name.c_str(), row.untold.c_str());
+    if (!row.unreported.empty())
+      std::printf("- `%s` need not be told: %s.\n", row.name.c_str(), row.unreported.c_str());
     if (!row.unrecovered.empty())
       std::printf("- `%s` need not be over within 10 s: %s.\n", row.name.c_str(), row.unrecovered.c_str());
   }

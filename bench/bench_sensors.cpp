@@ -48,8 +48,8 @@ bool read(int argc, char** argv, Options& o) {
 }
 
 /// One line, and whether it is within a tenth. What a file does not state is 0 and within.
-bool tell(const char* sensor, double unit, const Curve& c, const SheetSpec& sheet, const Options& o,
-          nlohmann::json& into) {
+bool report(const char* sensor, double unit, const Curve& c, const SheetSpec& sheet, const Options& o,
+            nlohmann::json& into) {
   const auto near = [](double is, double stated) { return stated <= 0 || std::abs(is / stated - 1) <= 0.1; };
   const double density = sheet.instability > 0 ? sheet.noise_after_1s : 0;
   const bool within = near(c.at_1s(), density) && near(c.lowest(), sheet.instability);
@@ -79,9 +79,9 @@ int main(int argc, char** argv) {
       nlohmann::json& into = all[std::string(suite.name.view())];
       const double seconds = 3600 * o.hours, degph = 3.14159265358979 / 180 / 3600, ug = 9.80665e-6;
       const Curve gyro = allan_curve(s.gyro, s.gyro_sheet, s.imu_hz, seconds, o.seed);
-      within = tell("gyro", degph, gyro, s.gyro_sheet, o, into) && within;
+      within = report("gyro", degph, gyro, s.gyro_sheet, o, into) && within;
       const Curve accel = allan_curve(s.accel, s.accel_sheet, s.imu_hz, seconds, o.seed + 1);
-      within = tell("accel", ug, accel, s.accel_sheet, o, into) && within;
+      within = report("accel", ug, accel, s.accel_sheet, o, into) && within;
     }
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());

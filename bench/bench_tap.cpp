@@ -195,25 +195,25 @@ int fly(double seconds, const Sinks& sinks) {
   }
   const FlightResult r = flight->finish();
   flight.reset();  // it says good-bye
-  json told = {{"p50_us", quantile(ticks_us, 0.5)},
-               {"p99_us", quantile(ticks_us, 0.99)},
-               {"ticks", r.ticks},
-               {"wall_s", r.wall.took_s}};
+  json reported = {{"p50_us", quantile(ticks_us, 0.5)},
+                   {"p99_us", quantile(ticks_us, 0.99)},
+                   {"ticks", r.ticks},
+                   {"wall_s", r.wall.took_s}};
   std::uint64_t lost = r.log.dropped;
-  if (o.log) told["log_dropped"] = r.log.dropped;
+  if (o.log) reported["log_dropped"] = r.log.dropped;
   if (r.live) {
-    told["live_sent"] = r.live->sent;
-    told["live_dropped"] = r.live->dropped + r.live->lost;
+    reported["live_sent"] = r.live->sent;
+    reported["live_dropped"] = r.live->dropped + r.live->lost;
     lost += r.live->dropped + r.live->lost;
   }
   if (r.dds) {
-    told["dds_sent"] = r.dds->sent;
-    told["dds_dropped"] = r.dds->lost;
+    reported["dds_sent"] = r.dds->sent;
+    reported["dds_dropped"] = r.dds->lost;
     lost += r.dds->lost;
   }
-  told["dropped"] = lost;
-  for (Process& other : others) told["received"].push_back(other.result());
-  return print(told);
+  reported["dropped"] = lost;
+  for (Process& other : others) reported["received"].push_back(other.result());
+  return print(reported);
 }
 
 struct Kind {

@@ -134,13 +134,13 @@ inline Flown fly(const Case& c, const fs::path& folder) {
   core::FlightOptions options;
   options.log = false;
   core::Flight flight(graph, options);
-  const core::Source told = core::output_of(graph, "attitude", "report"),
+  const core::Source reported = core::output_of(graph, "attitude", "report"),
                      truth = core::output_of(graph, "sim", "truth");
   Flown out;
   bool begun = false;
   double begun_m = 0, begun_pitch = 0;
   while (flight.step()) {
-    const auto* const r = reinterpret_cast<const AutotuneReport*>(flight.sample(told));
+    const auto* const r = reinterpret_cast<const AutotuneReport*>(flight.sample(reported));
     const auto* const x = reinterpret_cast<const VehicleState*>(flight.sample(truth));
     if (!r || !x) continue;
     out.report = *r;

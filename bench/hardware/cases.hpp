@@ -21,10 +21,10 @@ struct Case {
   double height_off_m = 0;  ///< the runway is given that much too high
   std::vector<std::pair<std::string, std::string>> set;
   std::vector<Event> events;
-  std::vector<std::string> phases;  ///< that have to be flown, in this order
-  std::vector<std::string> never;   ///< phases that must not be flown
-  std::vector<std::string> told;    ///< words of lines that have to come, soon after the last event
-  double told_within_s = 15;
+  std::vector<std::string> phases;    ///< that have to be flown, in this order
+  std::vector<std::string> never;     ///< phases that must not be flown
+  std::vector<std::string> reported;  ///< words of lines that have to come, soon after the last event
+  double reported_within_s = 15;
   double watch_s = 30;  ///< how long it is watched after the landing
   bool tunes = false;   ///< the autotune has to finish
 };
@@ -33,13 +33,13 @@ inline constexpr double for_ever_s = 1e8;
 
 /// What fails while it cruises, what is said then, and that it lands all the same.
 inline Case in_cruise(const std::string& mission, const std::string& name, const std::string& fails,
-                      double lasts_s, std::vector<std::string> told) {
+                      double lasts_s, std::vector<std::string> reported) {
   Case c;
   c.mission = mission;
   c.name = name;
   c.set = {{"craft.fails", fails}};
   c.events = {{"cruise", 20, "fails", lasts_s}};
-  c.told = std::move(told);
+  c.reported = std::move(reported);
   c.never = {"glide"};
   return c;
 }
@@ -121,7 +121,7 @@ inline std::vector<Case> experiments() {
   Case taken = of_pilot_landing("autotune", "the pilot takes over while it tunes, and lands");
   taken.events = {{"tune", 5, "pilot", for_ever_s}};
   taken.phases = {"takeoff", "cruise", "tune"};
-  taken.told = {"old gains"};
+  taken.reported = {"old gains"};
   all.push_back(taken);
   Case excite = of_pilot_landing("excitation", "all four signals, the pilot lands");
   excite.events = {{"level", 20, "pilot", for_ever_s}};
@@ -164,8 +164,8 @@ inline Case without_fix(const std::string& mission, double lasts_s) {
   c.mission = mission;
   c.name = "no fix for " + std::to_string(static_cast<int>(lasts_s)) + " s in the circuit";
   c.events = {{"cruise", 20, "no_fix", lasts_s}};
-  c.told = {"position"};
-  c.told_within_s = lasts_s;
+  c.reported = {"position"};
+  c.reported_within_s = lasts_s;
   c.never = {"glide"};
   return c;
 }

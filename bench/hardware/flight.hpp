@@ -67,10 +67,10 @@ inline std::string verdict(const Case& c, const Landing& l) {
   for (const std::string& phase : c.never)
     if (l.has(phase)) return "flew " + phase;
   if (!in_order(l.phases, c.phases)) return "left out a phase";
-  for (const std::string& words : c.told)
+  for (const std::string& words : c.reported)
     if (std::none_of(l.said.begin(), l.said.end(), [&](const auto& line) {
           return line.second.find(words) != std::string::npos && line.first >= l.last_event_s &&
-                 line.first <= l.last_event_s + c.told_within_s;
+                 line.first <= l.last_event_s + c.reported_within_s;
         }))
       return "no line with \"" + words + "\"";
   if (c.tunes && !l.tuned) return "the autotune was aborted";

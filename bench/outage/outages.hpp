@@ -179,8 +179,9 @@ class Outages {
 
   /// Those of the description as well.
   std::string windows(double from_s, double to_s) const {
-    const std::string told = windows();
-    return told.substr(0, told.size() - 1) + (told == "[]" ? "" : ", ") + window(from_s, to_s) + "]";
+    const std::string reported = windows();
+    return reported.substr(0, reported.size() - 1) + (reported == "[]" ? "" : ", ") + window(from_s, to_s) +
+           "]";
   }
   std::string windows() const {
     std::string text = "[";

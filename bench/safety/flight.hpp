@@ -89,18 +89,18 @@ inline std::string mission_text(const Row& row) {
 
 struct Flown {
   End end = End::aloft;
-  double told_s = -1;         ///< from the failure; -1: never
-  bool told_else = false;     ///< something was told that did not fail, or before
-  bool in_order = false;      ///< all of the row's phases were flown
-  double touch_sink_mps = 0;  ///< true, at the first touch
-  double home_m = 0;          ///< true, from home where it stopped
-  double outside_m = -1e9;    ///< true, beyond the fence, at most
-  double seconds = 0;         ///< from the failure to the ground
+  double reported_s = -1;      ///< from the failure; -1: never
+  bool reported_else = false;  ///< something was told that did not fail, or before
+  bool in_order = false;       ///< all of the row's phases were flown
+  double touch_sink_mps = 0;   ///< true, at the first touch
+  double home_m = 0;           ///< true, from home where it stopped
+  double outside_m = -1e9;     ///< true, beyond the fence, at most
+  double seconds = 0;          ///< from the failure to the ground
   std::string outcome;
   bool kept(const Row& row) const {
-    const bool in_time = told_s >= 0 && told_s <= row.told_within_s;
-    const bool told = row.cause ? in_time || (row.may_be_told && told_s < 0) : !told_else;
-    return end == row.end && told && in_order && (outside_m <= 0 || end == End::stood || row.may_leave);
+    const bool in_time = reported_s >= 0 && reported_s <= row.reported_within_s;
+    const bool reported = row.cause ? in_time || (row.may_be_reported && reported_s < 0) : !reported_else;
+    return end == row.end && reported && in_order && (outside_m <= 0 || end == End::stood || row.may_leave);
   }
 };
 
@@ -138,9 +138,9 @@ inline Flown fly(const Row& row, unsigned seed, const fs::path& folder) {
     const auto* const v = reinterpret_cast<const ContactTruth*>(flight.sample(contact));
     if (!x || !v) continue;
     if (safety) {
-      if (row.cause && safety->*row.cause && f.told_s < 0 && now >= at_s) f.told_s = now - at_s;
-      f.told_else = f.told_else ||
-                    (safety->airborne && safety->answer != SafetyAnswer::none && (now < at_s || !row.cause));
+      if (row.cause && safety->*row.cause && f.reported_s < 0 && now >= at_s) f.reported_s = now - at_s;
+      f.reported_else = f.reported_else || (safety->airborne && safety->answer != SafetyAnswer::none &&
+                                            (now < at_s || !row.cause));
     }
     f.outside_m = std::max(f.outside_m, outside(row, *x));
     top_m = std::max(top_m, x->height_m);

@@ -22,14 +22,14 @@ struct Row {
   std::string sim{}, watch{};              ///< parameters of the aircraft and of the monitor
   bool relayed = false;                    ///< status and state reach the monitor through `failing`
   bool SafetyState::*cause = nullptr;      ///< that has to be told; none: nothing may be
-  double told_within_s = 10;
+  double reported_within_s = 10;
   double at_s = 60;
   bool may_leave = false;  ///< the fence: with the reason beside the row
   End end = End::on_ground;
   std::vector<std::string> phases{};  ///< that have to be flown, in this order
   double south_m = 0, up_m = 0;       ///< side and ceiling of the fence, where they are not the usual ones
   double below_m = 0;                 ///< it fails below this height of the landing, not at a time
-  bool may_be_told = false;           ///< as well as not: it lands before
+  bool may_be_reported = false;       ///< as well as not: it lands before
 };
 
 /// Before the take-off, in it, on final, and on the way back.
@@ -59,7 +59,7 @@ inline std::vector<Row> rows_of_takeoff_and_final(const std::string& a) {
        .does = "returns home without it, lands",
        .failing = "what: pitot, kind: stuck, at: 0",
        .cause = &S::pitot_lost,
-       .told_within_s = 12,
+       .reported_within_s = 12,
        .at_s = 0,
        .phases = {"home", "fast_approach", "fast_flare", "roll_out"}},
       {.airframe = a,
@@ -87,14 +87,14 @@ inline std::vector<Row> rows_of_takeoff_and_final(const std::string& a) {
        .does = "returns home, lands without airspeed",
        .failing = "what: radio, kind: off, then_what: pitot, then_kind: off, then_at: 75",
        .cause = &S::pitot_lost,
-       .told_within_s = 20,
+       .reported_within_s = 20,
        .phases = {"home", "fast_approach", "fast_flare", "roll_out"}},
       {.airframe = a,
        .name = "radio, then the position while returning",
        .does = "returns home, by reckoning, descends in a circle without motor",
        .failing = "what: radio, kind: off, then_what: gnss_position, then_kind: off, then_at: 75",
        .cause = &S::gnss_lost,
-       .told_within_s = 20,
+       .reported_within_s = 20,
        .phases = {"home", "wait", "descend", "roll_out"}},
       {.airframe = a,
        .name = "position, below 11 m on final",
@@ -103,7 +103,7 @@ inline std::vector<Row> rows_of_takeoff_and_final(const std::string& a) {
        .cause = &S::gnss_lost,
        .phases = {"approach", "flare", "roll_out"},
        .below_m = 11,
-       .may_be_told = true},
+       .may_be_reported = true},
       {.airframe = a,
        .name = "radio and pitot tube, below 25 m on final",
        .does = "finishes the landing",
@@ -111,7 +111,7 @@ inline std::vector<Row> rows_of_takeoff_and_final(const std::string& a) {
        .cause = &S::pitot_lost,
        .phases = {"approach", "flare", "roll_out"},
        .below_m = 25,
-       .may_be_told = true},
+       .may_be_reported = true},
       {.airframe = a,
        .name = "motor, below 20 m on final",
        .does = "lands, short of the runway or on it",
@@ -119,7 +119,7 @@ inline std::vector<Row> rows_of_takeoff_and_final(const std::string& a) {
        .cause = &S::engine_failed,
        .phases = {"approach", "roll_out"},
        .below_m = 20,
-       .may_be_told = true},
+       .may_be_reported = true},
   };
 }
 
@@ -150,7 +150,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .does = "turns back before it, circles at home, lands after 2 min",
        .watch = near,
        .cause = &S::fence,
-       .told_within_s = 1e9,
+       .reported_within_s = 1e9,
        .at_s = 0,
        .phases = {"home", "approach", "flare", "roll_out"},
        .south_m = big ? 440.0 : 340.0},
@@ -159,7 +159,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .does = "returns home and circles there, lands after 2 min",
        .watch = low,
        .cause = &S::fence,
-       .told_within_s = 1e9,
+       .reported_within_s = 1e9,
        .at_s = 0,
        .phases = {"home", "approach", "flare", "roll_out"},
        .up_m = big ? 90.0 : 65.0},
@@ -199,7 +199,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .failing = "silent_at: 60",
        .relayed = true,
        .cause = &S::link_lost,
-       .told_within_s = 2,
+       .reported_within_s = 2,
        .phases = {"home", "approach", "flare", "roll_out"}},
       {.airframe = a,
        .name = "link, for 20 s",
@@ -207,7 +207,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .failing = "silent_at: 60, silent_for: 20",
        .relayed = true,
        .cause = &S::link_lost,
-       .told_within_s = 2,
+       .reported_within_s = 2,
        .phases = {"home", "cruise", "approach", "flare", "roll_out"}},
       {.airframe = a,
        .name = "attitude not valid, for 3 s",
@@ -215,28 +215,28 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .failing = "invalid_at: 60, invalid_for: 3",
        .relayed = true,
        .cause = &S::estimator_failed,
-       .told_within_s = 2,
+       .reported_within_s = 2,
        .phases = {"level", "cruise", "approach", "flare", "roll_out"}},
       {.airframe = a,
        .name = "battery, within 5 min",
        .does = "returns home and lands; empty on the way, it glides",
        .failing = "what: battery, kind: empty, size: 300",
        .cause = &S::battery_low,
-       .told_within_s = 60,
+       .reported_within_s = 60,
        .phases = {"home", "roll_out"}},
       {.airframe = a,
        .name = "motor",
        .does = "glides to the nearest place or into the wind",
        .failing = "what: engine, kind: off",
        .cause = &S::engine_failed,
-       .told_within_s = x8 ? 15.0 : 5.0,  // it needs little thrust, and sinks as little without
+       .reported_within_s = x8 ? 15.0 : 5.0,  // it needs little thrust, and sinks as little without
        .phases = {"glide", "roll_out"}},
       {.airframe = a,
        .name = "motor, in the climb",
        .does = "glides straight on, or into the wind",
        .failing = std::string("what: engine, kind: off, at: ") + (a == "aerosonde" ? "20" : "10"),
        .cause = &S::engine_failed,
-       .told_within_s = x8 ? 15.0 : 5.0,
+       .reported_within_s = x8 ? 15.0 : 5.0,
        .at_s = a == "aerosonde" ? 20.0 : 10.0,
        .may_leave = a == "aerosonde",  // too low for a turn, and the fence ends 600 m ahead
        .phases = {"glide", "roll_out"}},
@@ -246,14 +246,14 @@ inline std::vector<Row> rows_of(const std::string& a) {
        .failing =
            std::string("what: aileron, lasts: 1, kind: ") + (x8 ? "hardover_negative" : "hardover_positive"),
        .cause = &S::attitude_excessive,
-       .told_within_s = 2,
+       .reported_within_s = 2,
        .phases = {"level", "cruise", "approach", "flare", "roll_out"}},
       {.airframe = a,
        .name = "too much wind",
        .does = "returns home, settles into the wind without motor",
        .sim = gale + (big ? ", start_height: 100 m" : ", start_height: 70 m"),
        .cause = &S::wind_excessive,
-       .told_within_s = 60,
+       .reported_within_s = 60,
        .at_s = 0,
        .phases = {"home", "settle", "roll_out"}},
   };
@@ -262,9 +262,9 @@ inline std::vector<Row> rows_of(const std::string& a) {
                   .does = "returns home and lands with what it still gives; without, it glides",
                   .failing = "what: engine, kind: weak",
                   .cause = &S::engine_weak,
-                  .told_within_s = 60,
+                  .reported_within_s = 60,
                   .phases = big ? std::vector<std::string>{"cruise"} : std::vector<std::string>{"home"},
-                  .may_be_told = big});
+                  .may_be_reported = big});
   if (big) return rows;
   for (Row& row : rows_of_takeoff_and_final(a)) rows.push_back(std::move(row));
   // Two things at once: the graver one is answered.
@@ -273,14 +273,14 @@ inline std::vector<Row> rows_of(const std::string& a) {
                   .does = "turns home, then glides",
                   .failing = "what: radio, kind: off, then_what: engine, then_kind: off, then_at: 70",
                   .cause = &S::engine_failed,
-                  .told_within_s = 15,
+                  .reported_within_s = 15,
                   .phases = {"home", "glide", "roll_out"}});
   rows.push_back({.airframe = a,
                   .name = "pitot tube, then position",
                   .does = "turns home, then circles, descends in a circle without motor",
                   .failing = "what: pitot, kind: off, then_what: gnss_position, then_kind: off, then_at: 64",
                   .cause = &S::gnss_lost,
-                  .told_within_s = 12,
+                  .reported_within_s = 12,
                   .phases = {"home", "wait", "descend", "roll_out"}});
   rows.push_back({.airframe = a,
                   .name = "fence, then the battery",
@@ -288,7 +288,7 @@ inline std::vector<Row> rows_of(const std::string& a) {
                   .failing = "what: battery, kind: empty, size: 450, at: 20",
                   .watch = near,
                   .cause = &S::battery_low,
-                  .told_within_s = 120,
+                  .reported_within_s = 120,
                   .at_s = 20,
                   .phases = {"home", "roll_out"},
                   .south_m = 340.0});

@@ -107,11 +107,11 @@ TEST_CASE("whatever fails is told in time, answered as the table says, and ends 
       CHECK(f.touch_sink_mps < 3);
       CHECK(f.kept(row));
       if (row.cause) {
-        CHECK((f.told_s >= 0 || row.may_be_told));
-        CHECK(f.told_s <= row.told_within_s);
-        CHECK_FALSE((row.at_s > 0 && f.told_else));
+        CHECK((f.reported_s >= 0 || row.may_be_reported));
+        CHECK(f.reported_s <= row.reported_within_s);
+        CHECK_FALSE((row.at_s > 0 && f.reported_else));
       } else {
-        CHECK_FALSE(f.told_else);
+        CHECK_FALSE(f.reported_else);
       }
       if (!fulmar::core::counts_allocations())
         return;  // under the sanitizers a flight takes twenty times as long

@@ -26,15 +26,15 @@ inline constexpr double from_s = 85;   ///< of the fault: a minute after the tak
 inline constexpr double watch_s = 30;  ///< after its end
 
 struct Flown {
-  double told_s = -1;      ///< from the fault's begin; -1: never
-  std::string told_by{};   ///< a sensor's state, or a flag
-  std::string accused{};   ///< sensors that are in order, of which something was said
-  Each most{};             ///< errors from the fault's begin on
-  Each max_valid{};        ///< the same, of what was called valid
-  Each step{};             ///< changes of the error from one tick to the next
-  double over_std = 0;     ///< airspeed error, at most, in deviations that the estimate says
-  double recovered_s = 0;  ///< from the fault's end on; -1: not within the flight
-  bool shown = false;      ///< some sample was not what it would have been
+  double reported_s = -1;     ///< from the fault's begin; -1: never
+  std::string reported_by{};  ///< a sensor's state, or a flag
+  std::string accused{};      ///< sensors that are in order, of which something was said
+  Each most{};                ///< errors from the fault's begin on
+  Each max_valid{};           ///< the same, of what was called valid
+  Each step{};                ///< changes of the error from one tick to the next
+  double over_std = 0;        ///< airspeed error, at most, in deviations that the estimate says
+  double recovered_s = 0;     ///< from the fault's end on; -1: not within the flight
+  bool shown = false;         ///< some sample was not what it would have been
   bool crashed = false;
 
  private:
@@ -128,7 +128,7 @@ class Watched {
       out_.most[i] = std::max(out_.most[i], e[i]);
       if (valid[i]) out_.max_valid[i] = std::max(out_.max_valid[i], e[i]);
       if (t_s > 0.01) out_.step[i] = std::max(out_.step[i], std::abs(e[i] - out_.before_[i]));
-      if (!valid[i]) told(t_s, flags[i]);
+      if (!valid[i]) reported(t_s, flags[i]);
       if (t_s > row_.lasts_s && (!valid[i] || e[i] > bound_[i])) bad_s_ = t_s;
     }
     out_.before_ = e;
@@ -142,15 +142,15 @@ class Watched {
       if (state == SensorState::ok || (state == SensorState::never && row_.name != "no_mag")) continue;
       const bool right = std::find(row_.sensors.begin(), row_.sensors.end(), name) != row_.sensors.end();
       if (right)
-        told(t_s, std::string(name) + " " + states[static_cast<std::size_t>(state)]);
+        reported(t_s, std::string(name) + " " + states[static_cast<std::size_t>(state)]);
       else if (out_.accused.find(name) == std::string::npos)
         out_.accused += (out_.accused.empty() ? "" : ", ") + std::string(name);
     }
   }
-  void told(double t_s, const std::string& by) {
-    if (out_.told_s >= 0 || t_s > row_.lasts_s || !spoilt(t_s)) return;
-    out_.told_s = t_s - spoilt_s_;
-    out_.told_by = by;
+  void reported(double t_s, const std::string& by) {
+    if (out_.reported_s >= 0 || t_s > row_.lasts_s || !spoilt(t_s)) return;
+    out_.reported_s = t_s - spoilt_s_;
+    out_.reported_by = by;
   }
 
   Row row_;

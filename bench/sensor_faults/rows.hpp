@@ -19,13 +19,13 @@ struct Row {
   std::string name{}, words{};
   std::string wires{};  ///< parameters of `tampered/Wires`, but `from`
   double lasts_s = 20;
-  std::vector<FaultTarget> off{};          ///< by request, in place of the wires
-  std::string sim{};                       ///< parameters of the aircraft, of the whole flight
-  std::vector<std::string> sensors{};      ///< that have to be named, of the port `health`
-  std::string untold{}, unrecovered{};     ///< why it cannot be; "": it is, and the command holds it
-  Each most{4, 2, 10, 5, 3};               ///< errors from the fault on, of what is called valid
-  Each max_step{1e9, 1e9, 1e9, 1e9, 1e9};  ///< from one tick to the next
-  double max_over_std = 5;                 ///< of the airspeed, in deviations that the estimate claims
+  std::vector<FaultTarget> off{};           ///< by request, in place of the wires
+  std::string sim{};                        ///< parameters of the aircraft, of the whole flight
+  std::vector<std::string> sensors{};       ///< that have to be named, of the port `health`
+  std::string unreported{}, unrecovered{};  ///< why it cannot be; "": it is, and the command holds it
+  Each most{4, 2, 10, 5, 3};                ///< errors from the fault on, of what is called valid
+  Each max_step{1e9, 1e9, 1e9, 1e9, 1e9};   ///< from one tick to the next
+  double max_over_std = 5;                  ///< of the airspeed, in deviations that the estimate claims
 };
 
 constexpr std::array<std::pair<const char*, SensorHealth NavigationHealth::*>, 8> sensors{{
@@ -45,7 +45,7 @@ inline std::vector<Row> rows() {
   using enum FaultTarget;
   const std::vector<std::string> fix{"gnss_position", "gnss_velocity", "gnss_height"}, imu{"gyro", "accel"};
   std::vector<Row> r;
-  r.push_back({.name = "nothing", .words = "nothing fails", .untold = "there is nothing to tell"});
+  r.push_back({.name = "nothing", .words = "nothing fails", .unreported = "there is nothing to tell"});
   const auto on_wires = [&](const char* name, const char* words, const char* wires,
                             std::vector<std::string> named) -> Row& {
     r.push_back({.name = name, .words = words, .wires = wires, .sensors = std::move(named)});
@@ -59,7 +59,7 @@ inline std::vector<Row> rows() {
   on_wires("gnss_jump", "position 50 m off at once", "kind: gnss_jump, size: 50", fix).most[position] = 60;
   on_wires("gnss_drift", "position drifts away at 3 m/s, velocity true", "kind: gnss_drift, size: 3", fix);
   Row* f = &on_wires("gnss_slow_drift", "the same at 0.5 m/s", "kind: gnss_drift, size: 0.5", fix);
-  f->untold = "in 2 s it goes 1 m, less than the receiver is off by itself";
+  f->unreported = "in 2 s it goes 1 m, less than the receiver is off by itself";
   f->most[position] = 15;
   f = &on_wires("gnss_snatch", "position and velocity pulled away together, 8 m/s after 2 s",
                 "kind: gnss_pull, size: 8, rate: 4", fix);
@@ -67,20 +67,20 @@ inline std::vector<Row> rows() {
   f->most = {20, 10, 200, 5, 12};  // 17.8 deg in one of 40 flights
   f->max_over_std = 20;
   f = &on_wires("gnss_pull", "the same, 1 m/s after 4 s", "kind: gnss_pull, size: 1, rate: 0.25", fix);
-  f->untold = "position and velocity agree, and 0.25 m/s2 are a tilt of 1.5 deg";
+  f->unreported = "position and velocity agree, and 0.25 m/s2 are a tilt of 1.5 deg";
   f->most[position] = 35;
   on_wires("baro_step", "240 Pa, 23 m, at once", "kind: baro_step, size: 240", {"baro"});
   on_wires("baro_small_step", "40 Pa, 4 m, at once", "kind: baro_step, size: 40", {"baro"});
   on_wires("mag_stuck", "the same sample again and again", "kind: mag_stuck", {"mag"});
   on_wires("mag_motor", "10 uT per ampere of the motor", "kind: mag_motor, size: 10e-6", {"mag"});
-  on_wires("mag_motor_weak", "1 uT per ampere of the motor", "kind: mag_motor, size: 1e-6", {"mag"}).untold =
-      "the heading is off by less than its gate, and the estimate no more than without";
+  on_wires("mag_motor_weak", "1 uT per ampere of the motor", "kind: mag_motor, size: 1e-6", {"mag"})
+      .unreported = "the heading is off by less than its gate, and the estimate no more than without";
   on_wires("pitot_scale", "half of the pressure", "kind: pitot_scale, size: 0.5", {"pitot"});
   on_wires("pitot_high", "three times the pressure", "kind: pitot_scale, size: 3", {"pitot"});
   on_wires("pitot_small_scale", "four fifths of the pressure", "kind: pitot_scale, size: 0.8", {"pitot"});
   on_wires("pitot_offset", "50 Pa", "kind: pitot_offset, size: 50", {"pitot"});
   f = &on_wires("pitot_blocked", "the pressure that was there stays", "kind: pitot_blocked", {"pitot"});
-  f->untold = "it reads what it should as long as the aircraft keeps its speed";
+  f->unreported = "it reads what it should as long as the aircraft keeps its speed";
   f->unrecovered = "free again it steps, and a tube that has stepped is doubted for 30 s";
   f->most[airspeed] = 8;
   f->max_over_std = 40;
@@ -88,7 +88,7 @@ inline std::vector<Row> rows() {
   f->most[airspeed] = 16;
   f->max_over_std = 100;
   f = &on_wires("pitot_iced_slowly", "the same, 10 s", "kind: pitot_iced, size: 10", {"pitot"});
-  f->untold = "it falls no faster than gusts come; it is told when it is off by more than they are";
+  f->unreported = "it falls no faster than gusts come; it is told when it is off by more than they are";
   f->most[airspeed] = 16;
   f->max_over_std = 100;
   on_wires("pitot_zeroed", "zeroed in flight", "kind: pitot_zeroed", {"pitot"});

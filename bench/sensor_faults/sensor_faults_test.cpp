@@ -21,7 +21,7 @@ struct Folder {
 TEST_CASE("a sensor that goes bad in flight is told within 2 s, bounded, and right again within 10 s") {
   const Folder folder;
   const Flown nothing = fly(row("nothing"), 3, {}, folder.path);
-  CHECK(nothing.told_s < 0);
+  CHECK(nothing.reported_s < 0);
   CHECK(nothing.accused == "");
   CHECK_FALSE(nothing.crashed);
   for (const char* name : {"gnss_drift", "pitot_offset", "gyro_saturated", "gnss_pitot_off"}) {
@@ -30,8 +30,8 @@ TEST_CASE("a sensor that goes bad in flight is told within 2 s, bounded, and rig
     const Flown f = fly(r, 3, nothing.most, folder.path);
     CHECK_FALSE(f.crashed);
     CHECK(f.shown);
-    CHECK(f.told_s >= 0);
-    CHECK(f.told_s <= 2);
+    CHECK(f.reported_s >= 0);
+    CHECK(f.reported_s <= 2);
     CHECK(f.recovered_s >= 0);
     CHECK(f.recovered_s <= 10);
     for (std::size_t i = 0; i < whats; ++i) {
@@ -47,7 +47,7 @@ TEST_CASE("it flies without a magnetometer from the ground on, and knows its hea
   const Row r = row("no_mag");
   const Flown f = fly(r, 3, {}, folder.path);
   CHECK_FALSE(f.crashed);
-  CHECK(f.told_by == "mag never");
+  CHECK(f.reported_by == "mag never");
   CHECK(f.max_valid[attitude] > 0);
   CHECK(f.most[attitude] < r.most[attitude]);
 }

@@ -33,7 +33,7 @@ void same(const NoiseSpec& a, const NoiseSpec& b) {
   if (a.offset != 0) CHECK(a.offset_tau_s == b.offset_tau_s);
 }
 
-std::string told_of(const std::string& yaml) {
+std::string reported_of(const std::string& yaml) {
   const std::string file = "sensor_files_test.yaml";
   std::ofstream(file) << yaml;
   std::string words;
@@ -106,17 +106,18 @@ TEST_CASE("the Allan deviation of a shipped set is that of its data sheet") {
 }
 
 TEST_CASE("what is wrong in a file of sensors is told with its line") {
-  CHECK(told_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n").find("sensor_files_test.yaml:2: ") == 0);
-  CHECK(told_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n").find("Did you mean") != std::string::npos);
-  CHECK(told_of("mag:\n  timing: {rate: -5 Hz}\n").find(":2: mag.timing.rate: -5 Hz is outside") !=
+  CHECK(reported_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n").find("sensor_files_test.yaml:2: ") == 0);
+  CHECK(reported_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n").find("Did you mean") !=
         std::string::npos);
-  CHECK(told_of("gnss: {timing: {dropouts: 1.5}}\n").find("outside 0 .. 0.99") != std::string::npos);
-  CHECK(told_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("is outside 0 ug .. ") ==
+  CHECK(reported_of("mag:\n  timing: {rate: -5 Hz}\n").find(":2: mag.timing.rate: -5 Hz is outside") !=
         std::string::npos);
-  CHECK(told_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("is below 0") != std::string::npos);
-  CHECK(told_of("imu: {accel: {noise_per_root_hz: 100 deg/s}}\n").find("not an acceleration") !=
+  CHECK(reported_of("gnss: {timing: {dropouts: 1.5}}\n").find("outside 0 .. 0.99") != std::string::npos);
+  CHECK(reported_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("is outside 0 ug .. ") ==
         std::string::npos);
-  CHECK(told_of("imu: {accel: {noise_per_root_hz: 100 ug}}\n").empty());
+  CHECK(reported_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("is below 0") != std::string::npos);
+  CHECK(reported_of("imu: {accel: {noise_per_root_hz: 100 deg/s}}\n").find("not an acceleration") !=
+        std::string::npos);
+  CHECK(reported_of("imu: {accel: {noise_per_root_hz: 100 ug}}\n").empty());
 }
 
 TEST_CASE("the hourglass is flown with each shipped set") {

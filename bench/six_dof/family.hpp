@@ -36,7 +36,7 @@ inline double median(std::vector<double> v) {
 
 namespace detail {
 
-inline std::vector<const Recording*> telling(const std::vector<Recording>& all, Column c, int without) {
+inline std::vector<const Recording*> reporting(const std::vector<Recording>& all, Column c, int without) {
   std::vector<const Recording*> out;
   for (const Recording& r : all)
     if (r.has(c) && r.simulator != without) out.push_back(&r);
@@ -76,7 +76,7 @@ inline Eigen::Quaterniond attitude(const Recording& r, std::size_t i) {
 inline std::vector<Figure> compared(const Recording& ours, const std::vector<Recording>& all, const Case& c) {
   std::vector<Figure> out;
   const auto plain = [&](const Signal& signal, Column column, bool angle, int without) {
-    const auto theirs = detail::telling(all, column, without);
+    const auto theirs = detail::reporting(all, column, without);
     const Recording& first = *theirs.front();
     out.push_back(detail::figure(signal, ours, theirs, [&](const Recording& r, std::size_t i) {
       const double d = r.of[column][i] - first.of[column][i];
@@ -87,7 +87,7 @@ inline std::vector<Figure> compared(const Recording& ours, const std::vector<Rec
   plain(signals[1], roll, true, c.faulty);
   plain(signals[2], pitch, true, c.faulty);
   plain(signals[3], yaw, true, c.faulty);
-  const auto theirs = detail::telling(all, roll, c.faulty);
+  const auto theirs = detail::reporting(all, roll, c.faulty);
   const Recording& first = *theirs.front();
   out.push_back(detail::figure(signals[4], ours, theirs, [&](const Recording& r, std::size_t i) {
     return Eigen::Vector3d(log_map(detail::attitude(first, i).conjugate() * detail::attitude(r, i)) / degree);
@@ -103,7 +103,8 @@ inline std::vector<Figure> compared(const Recording& ours, const std::vector<Rec
 inline Start start_of(const std::vector<Recording>& all, const Case& c) {
   const auto first = [&](Column column) {
     std::vector<double> values;
-    for (const Recording* r : detail::telling(all, column, c.faulty)) values.push_back(r->of[column].front());
+    for (const Recording* r : detail::reporting(all, column, c.faulty))
+      values.push_back(r->of[column].front());
     return median(values);
   };
   Start s;

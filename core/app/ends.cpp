@@ -22,9 +22,9 @@ std::atomic<int> exit_code{-1};  // of a program that has nothing more to do
 /// An exit handler or a destructor of a plugin hangs.
 void end_hanging_exit() {
   const char* const file = file_in_hand.load(std::memory_order_relaxed);
-  tell({"fulmar: ended: ", file ? file : "code of a plugin",
-        file ? " hangs while being " : " hangs at its exit",
-        file ? file_is_being.load(std::memory_order_relaxed) : "", "\n"});
+  report({"fulmar: ended: ", file ? file : "code of a plugin",
+          file ? " hangs while being " : " hangs at its exit",
+          file ? file_is_being.load(std::memory_order_relaxed) : "", "\n"});
   leave(exit_code);
 }
 
@@ -51,10 +51,10 @@ void note_signal(int signal) {
   }
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
-  tell(
+  report(
       {patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal"});
-  if (component) tell({" in the ", in_call.load(std::memory_order_relaxed), " of ", component});
-  tell_end();
+  if (component) report({" in the ", in_call.load(std::memory_order_relaxed), " of ", component});
+  report_end();
   leave(130);
 }
 
@@ -67,12 +67,12 @@ constexpr Name endings[] = {{SIGQUIT, "SIGQUIT"}, {SIGUSR1, "SIGUSR1"},     {SIG
                             {SIGIO, "SIGIO"},     {SIGPWR, "SIGPWR"},       {SIGSTKFLT, "SIGSTKFLT"}};
 
 /// Tells which signal it is. Those of real time have numbers: SIGRTMIN+5.
-void tell_ending(int signal) {
+void report_ending(int signal) {
   for (const Name& end : endings)
-    if (end.signal == signal) return tell({end.text});
+    if (end.signal == signal) return report({end.text});
   const int n = signal - SIGRTMIN;
   const char digits[] = {static_cast<char>('0' + n / 10), static_cast<char>('0' + n % 10), 0};
-  tell({"SIGRTMIN", n > 0 ? "+" : "", n > 0 ? digits + (n < 10) : ""});
+  report({"SIGRTMIN", n > 0 ? "+" : "", n > 0 ? digits + (n < 10) : ""});
 }
 
 /// Somebody wants an end at once. Another one, which comes before the words are said, does not cut them
@@ -82,9 +82,9 @@ void on_end(int signal) {
   static std::atomic<bool> ending{false};
   if (ending.exchange(true)) return;
   send_last_frame();
-  tell({"\nfulmar: ended by "});
-  tell_ending(signal);
-  tell_end();
+  report({"\nfulmar: ended by "});
+  report_ending(signal);
+  report_end();
   end_by_default(signal);
 }
 

@@ -77,16 +77,16 @@ void prepare_end(const std::string& log, const char* text) {
 
 // ---- async-signal-safe from here on, as all that is done by a program that ends
 
-void tell(std::initializer_list<const char*> words) {
+void report(std::initializer_list<const char*> words) {
   for (const char* word : words) write_last_words(word);
 }
 
 /// The log may have been moved or removed, or it is not begun.
-void tell_end() {
-  if (log_name[0] == 0) return tell({no_log});
+void report_end() {
+  if (log_name[0] == 0) return report({no_log});
   for (const char* file : {log_part, log_name})
-    if (access(file, F_OK) == 0) return tell({". What was logged until then is in ", file, "\n"});
-  tell({". There is no log in ", log_part, "\n"});
+    if (access(file, F_OK) == 0) return report({". What was logged until then is in ", file, "\n"});
+  report({". There is no log in ", log_part, "\n"});
 }
 
 void leave(int code) {
@@ -107,7 +107,7 @@ void send_last_frame() {
   if (!is_the_host()) return;
   const fulmar_last_frame* frame = last_frame.exchange(nullptr, std::memory_order_acq_rel);
   if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0)
-    tell({"\nfulmar: the last frame could not be sent"});
+    report({"\nfulmar: the last frame could not be sent"});
 }
 
 namespace {
@@ -161,15 +161,15 @@ void on_crash(int signal, siginfo_t*, void* context) {
   const char* component = in_step.load(std::memory_order_relaxed);
   const char* loading = file_in_hand.load(std::memory_order_relaxed);
   const char* code = whose_code(program_counter(context));
-  tell({beginning(), component ? component : loading ? loading : "the host", " crashed"});
+  report({beginning(), component ? component : loading ? loading : "the host", " crashed"});
   if (component)
-    tell({" in its ", in_call.load(std::memory_order_relaxed)});
+    report({" in its ", in_call.load(std::memory_order_relaxed)});
   else if (loading)
-    tell({" while being ", file_is_being.load(std::memory_order_relaxed)});
+    report({" while being ", file_is_being.load(std::memory_order_relaxed)});
   else if (code)
-    tell({" in code of ", code});
-  tell({crash_name(signal)});
-  tell_end();
+    report({" in code of ", code});
+  report({crash_name(signal)});
+  report_end();
   end_by_default(signal);
 }
 
@@ -182,12 +182,12 @@ void on_exit() {
   const char* component = in_step.load(std::memory_order_relaxed);
   const char* loading = file_in_hand.load(std::memory_order_relaxed);
   const char* thread = in_flight ? "a thread of a component" : "code of a plugin";
-  tell({beginning(), component ? component : loading ? loading : thread, " ended the program"});
+  report({beginning(), component ? component : loading ? loading : thread, " ended the program"});
   if (component)
-    tell({" in its ", in_call.load(std::memory_order_relaxed)});
+    report({" in its ", in_call.load(std::memory_order_relaxed)});
   else if (loading)
-    tell({" while being ", file_is_being.load(std::memory_order_relaxed)});
-  tell_end();
+    report({" while being ", file_is_being.load(std::memory_order_relaxed)});
+  report_end();
   leave(in_flight ? ExitCode::failed : ExitCode::refused);  // whatever code it asked for
 }
 
@@ -209,7 +209,7 @@ void handle_crashes() {
 
 AtWork::AtWork() {
   static const int registered = std::atexit(on_exit) | std::at_quick_exit(on_exit);
-  if (registered != 0) tell({"fulmar: no room for an exit handler\n"});
+  if (registered != 0) report({"fulmar: no room for an exit handler\n"});
   handle_crashes();
   at_work = getpid();
 }

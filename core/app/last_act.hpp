@@ -39,8 +39,8 @@ void end_by_default(int signal);
 
 /// What the vehicle's device is to hear when the host goes. This and what follows is async-signal-safe.
 void send_last_frame();
-void tell(std::initializer_list<const char*> words);
-void tell_end();
+void report(std::initializer_list<const char*> words);
+void report_end();
 [[noreturn]] void leave(int code);
 
 }  // namespace fulmar::core

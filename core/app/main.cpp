@@ -20,7 +20,7 @@ using namespace fulmar::core;
 struct Commands {
   CLI::App app{
       "Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
-  RunWords run;
+  RunArguments run;
   std::function<int()> action;  // of the command that was given
 
   explicit Commands(char** words) {

@@ -49,7 +49,7 @@ int ended_by(CLI::App& app, const std::function<int()>& words) {
   try {
     return words();
   } catch (const CLI::ParseError& e) {
-    return tell_usage(app, e);
+    return report_usage(app, e);
   }
 }
 
@@ -92,7 +92,7 @@ std::string sentence_of(const std::exception& fault) {
   return "an error inside Fulmar (" + type_name(fault) + "): " + (meaning.empty() ? fault.what() : meaning);
 }
 
-int tell_usage(const CLI::App& app, const CLI::ParseError& fault) {
+int report_usage(const CLI::App& app, const CLI::ParseError& fault) {
   std::ostringstream out, err;
   const int code = app.exit(fault, out, err);
   std::fputs(out.str().c_str(), stdout);

@@ -29,7 +29,7 @@ int run_program(CLI::App& app, const std::function<int()>& words, int fault = Ex
 
 /// Prints the help that was asked for, or what is wrong with the command line, without what a terminal obeys;
 /// the exit code.
-int tell_usage(const CLI::App& app, const CLI::ParseError& fault);
+int report_usage(const CLI::App& app, const CLI::ParseError& fault);
 
 /// What was thrown, in words for people: those of the libraries are for programmers.
 std::string sentence_of(const std::exception& fault);

@@ -28,7 +28,7 @@ double parse_speed(const std::string& text) {
 
 }  // namespace
 
-void RunWords::add(CLI::App* command) {
+void RunArguments::add(CLI::App* command) {
   mission_.add(command);
   command->add_option("--speed", speed_, "real, max, or a multiple of real time");
   command->add_option("--duration", run_.duration_s, "end after so many seconds of flight")
@@ -57,7 +57,7 @@ void RunWords::add(CLI::App* command) {
   add_resume(command);
 }
 
-void RunWords::add_many(CLI::App* command) {
+void RunArguments::add_many(CLI::App* command) {
   CLI::Option* repeat =
       command->add_option("--repeat", many.repeat, "so many flights in one host, all with the same seed")
           ->check(CLI::Range(1, 1000000));
@@ -76,7 +76,7 @@ void RunWords::add_many(CLI::App* command) {
                       "with --watch: command to run when a source file beside the mission has changed");
 }
 
-void RunWords::add_resume(CLI::App* command) {
+void RunArguments::add_resume(CLI::App* command) {
   CLI::Option* resume =
       command
           ->add_option("--resume", resume_log_,
@@ -89,7 +89,7 @@ void RunWords::add_resume(CLI::App* command) {
       ->excludes(resume);
 }
 
-RunOptions RunWords::options(const CLI::App* command) const {
+RunOptions RunArguments::options(const CLI::App* command) const {
   RunOptions run = run_;
   run.mission = mission_.mission;
   run.overrides = mission_.overrides(command);

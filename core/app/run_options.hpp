@@ -42,7 +42,7 @@ struct ManyOptions {
   bool asked() const { return !seeds.empty() || repeat > 0 || watch || !build.empty(); }
 };
 
-class RunWords {
+class RunArguments {
  public:
   void add(CLI::App* command);
   /// Throws CLI::ValidationError (wrong usage).

@@ -70,7 +70,7 @@ struct NoOwner : Error {
 /// Whether a layer has taken that role or component away: it is told there, with all that still names it.
 bool taken_away(Draft& draft, const std::string& name, const Where& where, const std::string& path);
 /// A fault of its own, or one of those.
-void tell(Draft& draft, const Where& where, const std::string& path, const Error& fault);
+void report(Draft& draft, const Where& where, const std::string& path, const Error& fault);
 
 // role_contracts.cpp
 void resolve_roles(Draft& draft);
@@ -94,13 +94,13 @@ std::vector<bool> chain_to_vehicle(const Graph& graph);
 
 // hardware.cpp: of the built graph
 /// Steering components and conditions that read what only a simulator has: refused with io: fcu.
-void tell_simulator_ports(Draft& draft, Catalogue& catalogue);
+void report_simulator_ports(Draft& draft, Catalogue& catalogue);
 
 // fences.cpp: of the built graph
-void tell_two_fences(Draft& draft);
+void report_two_fences(Draft& draft);
 
 // overlaid.cpp: after the roles are assigned
-void tell_overlaid(Draft& draft);
+void report_overlaid(Draft& draft);
 
 // tap_sections.cpp
 void mark_imports(Draft& draft);

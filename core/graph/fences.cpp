@@ -18,7 +18,7 @@ const ParamValue* given_record(const Component& c, const std::string& name) {
 
 }  // namespace
 
-void tell_two_fences(Draft& draft) {
+void report_two_fences(Draft& draft) {
   const Component* first = nullptr;
   for (const Component& c : draft.graph.components) {
     const ParamValue* const fence = given_record(c, "fence");

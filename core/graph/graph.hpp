@@ -253,9 +253,9 @@ struct Graph : Settings {
     /// Keys that only report, of components that this flight does not have -> port.
     std::vector<std::pair<std::string, std::string>> left_out;
     std::vector<Shown> progress;
-  } judge;                   // when the flight ends, and its figures
-  std::vector<int> control;  // roles that begin anew as long as the vehicle says that it does not obey
-  std::vector<Source> tell;  // ports whose texts are for people
+  } judge;                     // when the flight ends, and its figures
+  std::vector<int> control;    // roles that begin anew as long as the vehicle says that it does not obey
+  std::vector<Source> report;  // ports whose texts are for people
   std::vector<ResumeRule> resume;
   std::vector<std::vector<std::byte>> failsafe;  // one per vehicle input: the struct to send; empty: not sent
   struct {

@@ -200,7 +200,7 @@ class SimulatorPorts {
 
 }  // namespace
 
-void tell_simulator_ports(Draft& draft, Catalogue& catalogue) {
+void report_simulator_ports(Draft& draft, Catalogue& catalogue) {
   const bool flies = draft.graph.io == Io::fcu || hardware_vehicle(draft.text);
   if (draft.graph.vehicle < 0 || !draft.text.hardware.fit || !flies) return;
   SimulatorPorts(draft, catalogue).check();

@@ -125,7 +125,7 @@ class MissionReader {
          "a field such as nav.state.height_m", m_.judge.progress);
     list(keys, "control", "a list of roles such as [guide, outer, inner]", "the name of a role", m_.control);
     list(keys, "tell", "a list of ports such as [vehicle.notices]", "a port such as vehicle.notices",
-         m_.tell);
+         m_.report);
     map(keys, "summary", "a map {name: component.port}", "a port such as score.tracking", m_.judge.summary);
     map(keys, "resume", "a map {component.parameter: component.port.field}",
         "a field such as manage.progress.item", m_.resume);

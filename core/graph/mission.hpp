@@ -106,7 +106,7 @@ struct MissionText : Settings {
     std::vector<Word> progress;
     std::vector<std::pair<std::string, Word>> summary;
   } judge;
-  std::vector<Word> control, tell;
+  std::vector<Word> control, report;
   std::vector<std::pair<std::string, Word>> resume;  // parameter -> field
   HardwareText hardware;
   std::vector<RoleText> roles;

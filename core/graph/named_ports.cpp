@@ -44,7 +44,7 @@ void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
     run();
   } catch (const Unclear&) {
   } catch (const Error& fault) {
-    tell(draft, where, path, fault);
+    report(draft, where, path, fault);
   }
 }
 
@@ -109,9 +109,9 @@ void read_summary(Draft& draft, const FindPort& find) {
 }
 
 /// Ports of texts for people. That a vehicle has nothing to tell is no fault.
-void read_told(Draft& draft, const FindPort& find) {
-  draft.graph.tell.clear();
-  for (const Word& word : draft.text.tell)
+void read_reported(Draft& draft, const FindPort& find) {
+  draft.graph.report.clear();
+  for (const Word& word : draft.text.report)
     report_of(draft, word, "tell", [&] {
       try {
         const auto [source, type] = find_port(word, "vehicle.notices", find);
@@ -119,7 +119,7 @@ void read_told(Draft& draft, const FindPort& find) {
         if (!text || text->kind != FULMAR_TEXT)
           throw Error("'" + word.text + "' is " + (type ? type->name : "a probe") +
                       ", which has no text 'text' to tell");
-        draft.graph.tell.push_back(source);
+        draft.graph.report.push_back(source);
       } catch (const NobodyProvides&) {
       }
     });
@@ -222,7 +222,7 @@ void compile_all(Draft& draft, bool built) {
   read_verdict(draft, find);
   read_shown(draft, find);
   read_summary(draft, find);
-  read_told(draft, find);
+  read_reported(draft, find);
   read_resume(draft, find);
   graph.phases.clear();
   for (const PhaseText& text : phases_of(draft.text))

@@ -23,7 +23,7 @@ std::vector<std::string> phases_that_set(const Draft& draft, int candidate, int 
   return names;
 }
 
-void tell_hidden_values(Draft& draft) {
+void report_hidden_values(Draft& draft) {
   for (const auto& [name, value] : draft.overrides.set) {
     const auto dot = name.find('.');
     const int i = dot == std::string::npos ? -1 : draft.candidate(name.substr(0, dot));
@@ -49,7 +49,7 @@ std::vector<std::string> lost_settings(const Draft& draft, const AssignmentText&
   return names;
 }
 
-void tell_lost_settings(Draft& draft) {
+void report_lost_settings(Draft& draft) {
   for (const auto& [role, component] : draft.overrides.roles) {
     const int seated = draft.candidate(component);
     if (role == "vehicle" || seated < 0 || !nth(draft.candidates, seated).loaded) continue;
@@ -67,9 +67,9 @@ void tell_lost_settings(Draft& draft) {
 
 }  // namespace
 
-void tell_overlaid(Draft& draft) {
-  tell_hidden_values(draft);
-  tell_lost_settings(draft);
+void report_overlaid(Draft& draft) {
+  report_hidden_values(draft);
+  report_lost_settings(draft);
 }
 
 }  // namespace fulmar::core

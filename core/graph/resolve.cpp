@@ -23,7 +23,7 @@ bool taken_away(Draft& draft, const std::string& name, const Where& where, const
   return draft.report.still_named({"components." + name, "roles." + name}, where, path);
 }
 
-void tell(Draft& draft, const Where& where, const std::string& path, const Error& fault) {
+void report(Draft& draft, const Where& where, const std::string& path, const Error& fault) {
   const auto* const gone = dynamic_cast<const NoOwner*>(&fault);
   if (!gone || !taken_away(draft, gone->owner, where, path))
     draft.report.add(where, path + ": " + fault.what());
@@ -301,7 +301,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   resolve_wires(draft);
   read_values(draft);
   assign_roles(draft);
-  tell_overlaid(draft);
+  report_overlaid(draft);
   name_ports(draft);
   mark_used(draft);
   choose_vehicle(draft);
@@ -312,14 +312,14 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   compile_phases(draft);
   order_steps(draft);
   guard_wires(draft);
-  tell_two_fences(draft);
+  report_two_fences(draft);
   read_failsafe(draft);
   read_vehicle_flags(draft);
   read_control(draft);
   const std::vector<std::string> ports = tap_ports(draft.graph);
   check_record_rules(draft, ports);
   resolve_dds(draft, ports);
-  if (!draft.overrides.files) tell_simulator_ports(draft, catalogue);
+  if (!draft.overrides.files) report_simulator_ports(draft, catalogue);
 }
 
 /// Whether `--with` names this very file: as it is searched, in a folder and perhaps without its ending.

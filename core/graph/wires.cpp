@@ -90,7 +90,7 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
     wire.delayed = text.delayed;
     wire.where = text.where;
   } catch (const Error& fault) {
-    tell(draft, text.where, path, fault);
+    report(draft, text.where, path, fault);
   }
 }
 
@@ -118,7 +118,7 @@ void check_role_wires(Draft& draft, const RoleDraft& role) {
     try {
       find_target(draft, wire.from);
     } catch (const Error& fault) {
-      tell(draft, wire.where, path, fault);
+      report(draft, wire.where, path, fault);
     }
     std::vector<std::string> inputs;
     for (const int f : role.fillers)

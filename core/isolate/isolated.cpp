@@ -61,7 +61,7 @@ ChildFiles child_files(const SharedMemory& memory) {
   return {-1, error, error, memory.descriptor(), false};
 }
 
-void tell(fulmar_error* error, const char* text) noexcept {
+void report(fulmar_error* error, const char* text) noexcept {
   if (error) std::snprintf(error->text, sizeof error->text, "%s", text);
 }
 
@@ -253,7 +253,7 @@ std::uint32_t Isolated::retune(const fulmar_value* values, fulmar_error* error) 
     if (place.capacity == 0) continue;
     const std::size_t length = std::strlen(v.text ? v.text : "");
     if (length >= place.capacity) {
-      tell(error, "a text parameter is longer than its room");
+      report(error, "a text parameter is longer than its room");
       return FULMAR_FAILED;
     }
     std::memcpy(at<std::byte>(place.at), v.text ? v.text : "", length + 1);
@@ -357,7 +357,7 @@ void Isolated::note_death() noexcept {
 }
 
 std::uint32_t Isolated::dead(fulmar_error* error) noexcept {
-  tell(error, death_);
+  report(error, death_);
   return FULMAR_FAILED;
 }
 
@@ -372,7 +372,7 @@ const fulmar_component& Isolated::functions() {
       try {
         return self(instance).configure(values, error);
       } catch (const std::exception& fault) {
-        tell(error, fault.what());
+        report(error, fault.what());
         return FULMAR_FAILED;
       }
     };

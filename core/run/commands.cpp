@@ -36,7 +36,7 @@ Flight::Impl::Taken Flight::Impl::apply_request(const Command& command, Reply an
   return Taken::yes;
 }
 
-void Flight::Impl::apply_parameter(Command& command, Code told) {
+void Flight::Impl::apply_parameter(Command& command, Code reported) {
   Unit& unit = *wiring.units[command.at];
   const CommandNote& taken = command.note;
   const std::vector<Overlay>* const overlay = roles.overlay_of(static_cast<int>(command.at));
@@ -48,7 +48,7 @@ void Flight::Impl::apply_parameter(Command& command, Code told) {
     throw Error(unit.component->name + ": " + why);
   }
   recorder.put_command(taken);
-  Event e = event_of(told, taken.component.data(), taken.name.data());
+  Event e = event_of(reported, taken.component.data(), taken.name.data());
   e.severity = Severity::info;
   const bool number = unit.info->params[command.part].kind == FULMAR_NUMBER;
   e.value = number ? taken.number[0] : static_cast<double>(taken.integer);

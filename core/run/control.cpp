@@ -185,7 +185,7 @@ bool FlightControl::apply_pace(Waiting& w) {
   }
   seen_.paused.store(clock_.paused, std::memory_order_relaxed);
   seen_.speed.store(flight_.state.options.speed, std::memory_order_relaxed);
-  flight_.tell_pace(order);
+  flight_.report_pace(order);
   done(w);
   return true;
 }
@@ -269,7 +269,7 @@ void FlightControl::answer_done() {
       }
     }
     if (w->answer) w->answer(w->fault.empty() ? std::string(w->refusal.data()) : w->fault);
-    for (const auto& tell : changed) tell(c.component, c.name);
+    for (const auto& report : changed) report(c.component, c.name);
   }
 }
 

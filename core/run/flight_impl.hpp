@@ -49,18 +49,18 @@ struct Flight::Impl {
   bool tick();
   void begin();
   bool vehicle_failed();
-  void tell_control() noexcept;
+  void report_control() noexcept;
   void note_behind(double seconds);
 
   // pause.cpp
   bool stand_still();  // between two ticks, as long as the flight is paused; false: it has ended meanwhile
-  void tell_pace(const PaceOrder& order);
+  void report_pace(const PaceOrder& order);
 
   // commands.cpp: what enters between two ticks, checked before; these throw
   enum class Taken : std::uint8_t { yes, full, idle };
   /// Of a parameter `command` then holds the value that was in force.
   Taken take(Command& command, Reply answered);
-  void apply_parameter(Command& command, Code told);
+  void apply_parameter(Command& command, Code reported);
   Taken apply_request(const Command& command, Reply answered);
   void apply_phase(const Command& command);
   void reset_guards(const Command& command);

@@ -66,7 +66,7 @@ bool Flight::Impl::tick() {
 }
 
 /// What onlookers are told of the flight as a whole. Of its components now and then.
-void Flight::Impl::tell_control() noexcept {
+void Flight::Impl::report_control() noexcept {
   constexpr std::uint64_t every = 16;
   if (!onlookers.control) return;
   onlookers.control->note(roles.phase(), state.now_ns, protection.armed());
@@ -105,7 +105,7 @@ bool Flight::Impl::step() {
   stopwatch.enter(state.index);
   const std::uint64_t before = thread_allocations();
   const bool goes_on = tick();
-  tell_control();
+  report_control();
   recorder.check_log();
   if (!goes_on) return false;
   if (state.index > 1) state.result.loop_allocations += thread_allocations() - before + entered;

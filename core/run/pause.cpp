@@ -28,7 +28,7 @@ bool Flight::Impl::stand_still() {
   return !end.over();
 }
 
-void Flight::Impl::tell_pace(const PaceOrder& order) {
+void Flight::Impl::report_pace(const PaceOrder& order) {
   if (!state.options.say) return;
   const std::string what =
       order.what == PaceOrder::What::pause ? "paused" : "goes on, speed " + speed_text(state.options.speed);

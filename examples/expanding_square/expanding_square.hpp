@@ -93,8 +93,8 @@ struct ExpandingSquare {
   void hear(const Tick& tick, const PlanEditResult& result, Outputs& out) {
     if (result.id < first_id || result.id > first_id + max_corners) return;  // somebody else's
     if (!result.accepted && (phase_ == Phase::asked || phase_ == Phase::tidying)) {
-      tell(tick, phase_ == Phase::asked ? "search refused" : "the search stays in the plan", result.reason,
-           out);
+      report(tick, phase_ == Phase::asked ? "search refused" : "the search stays in the plan", result.reason,
+             out);
       phase_ = Phase::refused;
       return;
     }
@@ -127,7 +127,7 @@ struct ExpandingSquare {
     phase_ = Phase::tidying;
   }
 
-  static void tell(const Tick& tick, const char* what, const Text<80>& why, Outputs& out) {
+  static void report(const Tick& tick, const char* what, const Text<80>& why, Outputs& out) {
     std::array<char, 96> words{};
     std::snprintf(words.data(), words.size(), "%s: %s", what, why.bytes.data());
     Notice notice;

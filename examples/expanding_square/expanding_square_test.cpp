@@ -43,7 +43,7 @@ struct Flight {
     for (const PlanEditResult& result : results) bench.push(bench.in.results, result);
     Status status = Status::failed;
     REQUIRE(allocations([&] { status = bench.step(0.1); }) == 0);
-    REQUIRE(bench.fault() == "");
+    REQUIRE(bench.validation_error() == "");
     REQUIRE(bench.out.edits.lost == 0);
     edits.clear();
     const auto& out = bench.out.edits;
@@ -177,10 +177,10 @@ TEST_CASE("a refusal is told with its reason, and the plan is left alone; answer
   refused.id = 1001;
   refused.reason = "less than 1 m from the waypoint before it";
   CHECK(flight.step({refused}) == Status::degraded);
-  std::string told;
+  std::string reported;
   const auto& notices = flight.bench.out.notices;
-  for (std::uint32_t i = 0; i < notices.count; ++i) told += notices.items[i].text.view();
-  CHECK(told == "search refused: less than 1 m from the waypoint before it");
+  for (std::uint32_t i = 0; i < notices.count; ++i) reported += notices.items[i].text.view();
+  CHECK(reported == "search refused: less than 1 m from the waypoint before it");
   flight.progress.item = 3;
   CHECK(flight.step() == Status::degraded);
   CHECK(flight.edits.empty());

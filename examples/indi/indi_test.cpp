@@ -77,7 +77,7 @@ struct Flight {
       indi.set(indi.in.state, s);
       indi.set(indi.in.attitude, command);
       REQUIRE(allocations([&] { indi.step(dt); }) == 0);
-      REQUIRE(indi.fault() == "");
+      REQUIRE(indi.validation_error() == "");
       const Actuators& u = indi.out.actuators;
       const double lag = 1 - std::exp(-dt / 0.012), Va = x.v_n.norm();
       d.aileron += lag * (u.aileron_rad - d.aileron);

@@ -44,7 +44,7 @@ GuidanceCommand said(const VehicleState& state, const Path& path) {
   bench.set(bench.in.state, state);
   bench.set(bench.in.path, path);
   REQUIRE(allocations([&] { REQUIRE(bench.step(0.01) == Status::ok); }) == 0);
-  REQUIRE(bench.fault() == "");
+  REQUIRE(bench.validation_error() == "");
   return bench.out.command;
 }
 double acceleration(const VehicleState& state, const Path& path) {

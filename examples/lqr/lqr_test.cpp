@@ -48,7 +48,7 @@ struct Flown : Bench<Lqr> {
   Status fly(double dt = 0.01) {
     Status status = Status::ok;
     REQUIRE(allocations([&] { status = step(dt); }) == 0);
-    REQUIRE(fault() == "");
+    REQUIRE(validation_error() == "");
     return status;
   }
   Eigen::Vector4d u() const {

@@ -28,7 +28,7 @@ RadarRange seen(Bench<RadarAltimeter>& bench, const VehicleState& truth) {
   bench.step(0.05);  // it takes a step to tell, and measures nothing new without a new truth
   bench.set(bench.in.truth, truth);
   REQUIRE(allocations([&] { bench.step(0.05); }) == 0);
-  REQUIRE(bench.fault() == "");
+  REQUIRE(bench.validation_error() == "");
   REQUIRE(bench.out.range.count == 1);
   return bench.out.range.items[0];
 }
@@ -113,7 +113,7 @@ struct Flight {
       bench.push(bench.in.range, range, 0.05 - dt);
     }
     REQUIRE(allocations([&] { status = bench.step(dt); }) == 0);
-    REQUIRE(bench.fault() == "");
+    REQUIRE(bench.validation_error() == "");
     if (bench.out.nav.state.written) height_error_m = bench.out.nav.state.value.height_m - h;
   }
   Gnss fix(const Truth& then) const {

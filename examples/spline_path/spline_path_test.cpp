@@ -53,11 +53,11 @@ struct Flight {
   void step(double dt = 0.02) {
     manager.set(manager.in.state, state());
     REQUIRE(allocations([&] { REQUIRE(manager.step(dt) == Status::ok); }) == 0);
-    REQUIRE(manager.fault() == "");
+    REQUIRE(manager.validation_error() == "");
     follower.set(follower.in.state, state());
     follower.set(follower.in.path, path());
     REQUIRE(allocations([&] { REQUIRE(follower.step(dt) == Status::ok); }) == 0);
-    REQUIRE(follower.fault() == "");
+    REQUIRE(follower.validation_error() == "");
     if (items.empty() || items.back() != progress().item) items.push_back(progress().item);
     if (progress().reached > 0) worst_m = std::max(worst_m, std::abs(follower.out.cross_track_m.value));
     chi += follower.out.command.lateral_acceleration_mps2 / Va * dt;

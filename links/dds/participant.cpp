@@ -260,12 +260,12 @@ struct Participant::Impl : fd::DomainParticipantListener {
   std::map<std::string, fd::Topic*> topics;
 
   void on_publisher_discovery(fd::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) override {
-    if (info.status == rtps::WriterDiscoveryInfo::DISCOVERED_WRITER) tell(info.info, true);
+    if (info.status == rtps::WriterDiscoveryInfo::DISCOVERED_WRITER) report(info.info, true);
   }
   void on_subscriber_discovery(fd::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) override {
-    if (info.status == rtps::ReaderDiscoveryInfo::DISCOVERED_READER) tell(info.info, false);
+    if (info.status == rtps::ReaderDiscoveryInfo::DISCOVERED_READER) report(info.info, false);
   }
-  void tell(const auto& other, bool writer) const {
+  void report(const auto& other, bool writer) const {
     found(other.topicName().to_string(), other.typeName().to_string(), writer,
           other.m_qos.m_reliability.kind == fd::BEST_EFFORT_RELIABILITY_QOS);
   }

@@ -37,14 +37,14 @@ void Others::found(const std::string& topic, const std::string& type, bool write
   Topic& t = at->second;
   const char* who = writer ? "writes" : "reads";
   if (t.type != type) {
-    if (!std::exchange(t.told_type, true))
+    if (!std::exchange(t.reported_type, true))
       say_(std::string("dds: another participant ") + who + " " + topic + " with the type " + type +
                "; here it is " + t.type + ": the two do not meet",
            Tone::warning);
   } else if (writer && best_effort) {
     t.best_effort_writer = true;
   } else if (!writer && !best_effort && t.best_effort) {
-    if (!std::exchange(t.told_effort, true))
+    if (!std::exchange(t.reported_effort, true))
       say_("dds: another participant reads " + topic +
                " reliably, but it is exported with best_effort: the two do not meet",
            Tone::warning);
@@ -189,7 +189,7 @@ void Imports::use(Topic& topic, const Reader::Sample& sample) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const double latency_s =
       static_cast<double>(std::chrono::nanoseconds(now).count() - sample.written_ns) * 1e-9;
-  if (!why.empty() && !std::exchange(topic.told, true))
+  if (!why.empty() && !std::exchange(topic.reported, true))
     host_.say("dds: a sample of " + topic.stats.topic + " for " + topic.stats.port + " is refused: " + why +
                   "; more of them are counted, not told",
               Tone::warning);

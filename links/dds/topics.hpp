@@ -32,7 +32,7 @@ class Others {
  private:
   struct Topic {
     std::string type;
-    bool we_write = false, best_effort = false, told_type = false, told_effort = false;
+    bool we_write = false, best_effort = false, reported_type = false, reported_effort = false;
     bool best_effort_writer = false;
   };
   DdsHost::Say say_;
@@ -92,7 +92,7 @@ class Imports {
     DdsStats::Import stats;         // guarded by mutex_
     std::uint64_t crowded = 0;      // guarded: the loop had no room for them
     double latency_sum_s = 0;       // guarded
-    bool told = false;
+    bool reported = false;
   };
   void use(Topic& topic, const Reader::Sample& sample);
 

@@ -225,7 +225,7 @@ void Hub::complain(Client& client, const std::string& why, const std::function<s
   if (++client.refusals <= max_refusals) status(client, 2, why + (hint ? hint() : ""));
 }
 
-bool Hub::told_enough(const Client& client) { return client.refusals >= max_refusals; }
+bool Hub::reported_enough(const Client& client) { return client.refusals >= max_refusals; }
 
 void Hub::answers() {
   for (const auto& task : mailbox_->take()) task();
@@ -338,11 +338,11 @@ void Hub::warn_of_drops() {
   if (now - feed_.loss_reported < drops_period) return;
   feed_.loss_reported = now;
   for (const auto& [id, client] : clients_) {
-    if (client->dropped == client->told) continue;
+    if (client->dropped == client->reported) continue;
     status(*client, 1,
            "This connection is too slow for what it has subscribed to: " + std::to_string(client->dropped) +
                " messages left out.");
-    client->told = client->dropped;
+    client->reported = client->dropped;
   }
 }
 

@@ -150,7 +150,7 @@ class Hub {
   /// The same, counted as against the rules.
   void refuse(Client& client, const std::string& why, const std::function<std::string()>& hint = {});
   void refuse_parameter(Client& client, const std::string& name, const std::vector<std::string>& known);
-  static bool told_enough(const Client& client);
+  static bool reported_enough(const Client& client);
   template <class Work>
   void guarded(ClientId id, const Work& work);
 

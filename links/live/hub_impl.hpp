@@ -29,9 +29,9 @@ struct Hub::Client {
   std::map<std::uint32_t, Import> imports;             // by the client's channel id
   std::set<std::string> watched;                       // parameters
   bool graph = false;
-  std::size_t unanswered = 0;           // calls and sets
-  std::size_t refusals = 0;             // of the message that is looked at
-  std::uint64_t dropped = 0, told = 0;  // data messages that it did not get
+  std::size_t unanswered = 0;               // calls and sets
+  std::size_t refusals = 0;                 // of the message that is looked at
+  std::uint64_t dropped = 0, reported = 0;  // data messages that it did not get
 };
 
 /// A setParameters on its way.

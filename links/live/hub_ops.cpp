@@ -91,7 +91,7 @@ void Hub::unsubscribe(Client& client, const json& message) {
 
 void Hub::client_advertise(Client& client, const json& message) {
   for (const json& channel : array_at(message, "channels")) {
-    if (told_enough(client)) return refuse(client, "");
+    if (reported_enough(client)) return refuse(client, "");
     import_channel(client, channel);
   }
 }
@@ -184,7 +184,7 @@ void Hub::set_one(Client& asker, const std::shared_ptr<Pending>& pending, const 
     if (--pending->open == 0) parameters_.replies.push_back(pending);
   };
   try {
-    if (told_enough(asker)) throw Error("");
+    if (reported_enough(asker)) throw Error("");
     const auto value = parameter.find("value");
     const std::size_t dot = name.find('.');
     if (dot == std::string::npos) throw Error("a parameter is named COMPONENT.PARAMETER");

@@ -98,7 +98,7 @@ struct Autotune {
       if (gains_.change_over(i, dt)) gains_.put_into(law_, i);
     const Status status = inner_.step(tick, in.law, law_, out.law);
     excite(in, p, dt, out.law);
-    tell(tick, out);
+    report(tick, out);
     return status;
   }
 
@@ -264,7 +264,7 @@ struct Autotune {
       fit_.begin(excitation_.record(), gains_.used(axis_), axis_ == roll && law_.roll_from_sideslip != 0);
   }
 
-  void tell(const Tick& tick, Outputs& out) {
+  void report(const Tick& tick, Outputs& out) {
     AutotuneReport& r = out.report;
     r.stage = stage_;
     r.done = stage_ == Stage::finished || stage_ == Stage::aborted;

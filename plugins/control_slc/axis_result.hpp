@@ -44,14 +44,14 @@ struct AxisResult {
     after.reset();
   }
   void put_into(AutotuneReport& r, std::size_t axis) const {
-    tell_margins(before, r.before_gain_margin_ratio[axis], r.before_phase_margin_rad[axis]);
-    tell_margins(after, r.gain_margin_ratio[axis], r.phase_margin_rad[axis]);
+    report_margins(before, r.before_gain_margin_ratio[axis], r.before_phase_margin_rad[axis]);
+    report_margins(after, r.gain_margin_ratio[axis], r.phase_margin_rad[axis]);
     r.crossover_radps[axis] = after ? after->crossover_radps : 0;
     r.noise_ratio[axis] = std::isfinite(noise) ? std::min(noise, 1e9) : 1e9;
   }
 
  private:
-  static void tell_margins(const std::optional<Margins>& m, double& gain_ratio, double& phase_rad) {
+  static void report_margins(const std::optional<Margins>& m, double& gain_ratio, double& phase_rad) {
     gain_ratio = m ? std::min(std::pow(10, m->min_gain_db() / 20), 1e9) : 0;
     phase_rad = m ? std::min(m->phase_rad, std::numbers::pi) : 0;
   }

@@ -25,7 +25,7 @@ class LinkReport {
   }
   void turnaround(std::int64_t ns) { turnaround_ns_ = std::max(turnaround_ns_, ns); }
 
-  bool due(std::int64_t now_ns) const { return now_ns - told_ns_ >= 100'000'000; }
+  bool due(std::int64_t now_ns) const { return now_ns - reported_ns_ >= 100'000'000; }
   LinkStatus take(const LinkState& link, std::int64_t host_ns, std::int64_t now_ns) {
     count_rate(now_ns);
     LinkStatus s;
@@ -49,7 +49,7 @@ class LinkReport {
     s.drift_ratio = 1e-6 * link.drift_ppm;
     s.turnaround_s = seconds(turnaround_ns_);
     turnaround_ns_ = 0;
-    told_ns_ = now_ns;
+    reported_ns_ = now_ns;
     return s;
   }
 
@@ -66,7 +66,7 @@ class LinkReport {
     counted_ns_ = now_ns;
   }
 
-  std::int64_t last_imu_ns_ = never_ns, worst_ns_ = 0, turnaround_ns_ = 0, told_ns_ = never_ns,
+  std::int64_t last_imu_ns_ = never_ns, worst_ns_ = 0, turnaround_ns_ = 0, reported_ns_ = never_ns,
                counted_ns_ = never_ns;
   std::uint32_t gaps_ = 0;
   std::uint64_t samples_ = 0;

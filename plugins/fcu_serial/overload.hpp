@@ -15,19 +15,19 @@ class Overload {
     if (too_old) ++too_old_;
   }
   /// Told in the second such second, again every ten, and when it is over.
-  void tell(std::int64_t now_ns, Notices& out) {
+  void report(std::int64_t now_ns, Notices& out) {
     if (now_ns - since_ns_ < second_ns) return;
     const std::int64_t percent = samples_ > 0 ? 100 * too_old_ / samples_ : 0;
     since_ns_ = now_ns;
     samples_ = too_old_ = 0;
     const bool slow = percent >= worth_saying_percent;
     seconds_ = slow ? seconds_ + 1 : 0;
-    if (told_ && !slow) {
+    if (reported_ && !slow) {
       out.say(fulmar::Severity::warning, "this computer keeps up again");
-      told_ = false;
+      reported_ = false;
     }
     if (seconds_ % 10 != 2) return;
-    told_ = true;
+    reported_ = true;
     out.say(fulmar::Severity::critical,
             Line() << "this computer is too slow: " << percent
                    << " % of the inertial samples are too old when it comes to them");
@@ -38,7 +38,7 @@ class Overload {
   static constexpr std::int64_t worth_saying_percent = 10;
   std::int64_t since_ns_ = 0, samples_ = 0, too_old_ = 0;
   std::int64_t seconds_ = 0;  ///< in a row
-  bool told_ = false;
+  bool reported_ = false;
 };
 
 }  // namespace fulmar::fcu

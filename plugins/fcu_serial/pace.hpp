@@ -58,15 +58,15 @@ class AttitudePace {
   bool due(std::int64_t now_ns) const { return !(now_ns - sent_ns_ < period_ns); }
   void sent(std::int64_t now_ns) { sent_ns_ = now_ns; }
   /// There is no state to send.
-  void tell_unwired(Notices& out) {
-    if (std::exchange(told_unwired_, true)) return;
+  void report_unwired(Notices& out) {
+    if (std::exchange(reported_unwired_, true)) return;
     out.say(fulmar::Severity::warning, "send_attitude: nothing comes to the input 'state'; is it wired?");
   }
 
  private:
   static constexpr std::int64_t period_ns = 19'500'000;
   std::int64_t sent_ns_ = never_ns;
-  bool told_unwired_ = false;
+  bool reported_unwired_ = false;
 };
 
 }  // namespace fulmar::fcu

@@ -29,7 +29,7 @@ class ParameterBook {
     at_ = 0;
     rounds_ = 0;
     changes_ = 0;
-    told_ = false;
+    reported_ = false;
   }
   /// It did not get through to the reader: asked for again.
   void forget(std::size_t index) { heard_.reset(std::min(index, most - 1)); }
@@ -65,10 +65,10 @@ class ParameterBook {
   }
 
   /// Once all are known, or given up.
-  void tell(Notices& out) {
+  void report(Notices& out) {
     const bool complete = heard_.count() >= count_;
-    if (told_ || count_ == 0 || (!complete && rounds_ < max_rounds)) return;
-    told_ = true;
+    if (reported_ || count_ == 0 || (!complete && rounds_ < max_rounds)) return;
+    reported_ = true;
     const auto all = static_cast<std::int64_t>(count_),
                lacking = all - static_cast<std::int64_t>(heard_.count());
     if (!complete)
@@ -117,7 +117,7 @@ class ParameterBook {
   std::size_t count_ = 0, at_ = 0;
   std::int64_t next_ns_ = never_ns, changes_ = 0;
   int rounds_ = 0;
-  bool told_ = false, begun_ = false;
+  bool reported_ = false, begun_ = false;
 };
 
 }  // namespace fulmar::fcu

@@ -30,30 +30,30 @@ inline bool solved(FixType fix) {
 /// What comes and goes is told less and less often: 1 s after the last time, then 2 s, up to 10 s.
 class Hold {
  public:
-  bool open(std::int64_t now_ns) const { return now_ns - told_ns_ >= hold_ns_; }
-  void told(std::int64_t now_ns) {
-    hold_ns_ = now_ns - told_ns_ < 2 * repeat_ns ? std::min(2 * hold_ns_, repeat_ns) : min_ns;
-    told_ns_ = now_ns;
+  bool open(std::int64_t now_ns) const { return now_ns - reported_ns_ >= hold_ns_; }
+  void reported(std::int64_t now_ns) {
+    hold_ns_ = now_ns - reported_ns_ < 2 * repeat_ns ? std::min(2 * hold_ns_, repeat_ns) : min_ns;
+    reported_ns_ = now_ns;
   }
   /// The next one is told at once.
-  void release() { told_ns_ = never_ns; }
+  void release() { reported_ns_ = never_ns; }
 
  private:
   static constexpr std::int64_t min_ns = 1'000'000'000;
-  std::int64_t told_ns_ = never_ns, hold_ns_ = min_ns;
+  std::int64_t reported_ns_ = never_ns, hold_ns_ = min_ns;
 };
 
 /// Tells the loss of the fix, and its return. A slow receiver gets the time of two and a half fixes; while
 /// the link was down none could come. `link_ns`: since when it is up.
 class FixWatch {
  public:
-  void tell(std::int64_t fix_ns, std::int64_t link_ns, bool link, bool armed, std::int64_t now_ns,
-            Notices& out) {
+  void report(std::int64_t fix_ns, std::int64_t link_ns, bool link, bool armed, std::int64_t now_ns,
+              Notices& out) {
     if (fix_ns == never_ns) return;
     if (fix_ns != last_ns_) {
       if (last_ns_ != never_ns && !lost_)
         period_ns_ = std::min(fix_ns - last_ns_, std::int64_t{2'000'000'000});
-      if (lost_ && told_)
+      if (lost_ && reported_)
         out.say(Severity::warning, (Line() << "GNSS is back after ").seconds(fix_ns - last_ns_));
       last_ns_ = fix_ns;
       lost_ = false;
@@ -61,9 +61,9 @@ class FixWatch {
     const std::int64_t silent_ns = now_ns - std::max(fix_ns, link_ns);
     if (lost_ || !link || silent_ns < std::max(min_ns, period_ns_ * 5 / 2)) return;
     lost_ = true;
-    told_ = hold_.open(now_ns);
-    if (!told_) return;
-    hold_.told(now_ns);
+    reported_ = hold_.open(now_ns);
+    if (!reported_) return;
+    hold_.reported(now_ns);
     out.say(armed ? Severity::critical : Severity::warning,
             "GNSS lost: no fix; the position is reckoned on from air data");
   }
@@ -74,7 +74,7 @@ class FixWatch {
   static constexpr std::int64_t min_ns = 700'000'000;
   std::int64_t last_ns_ = never_ns,
                period_ns_ = 2'000'000'000;  ///< until two fixes have told it: the slowest receiver's
-  bool lost_ = false, told_ = false;
+  bool lost_ = false, reported_ = false;
   Hold hold_;
 };
 
@@ -82,24 +82,24 @@ class FixWatch {
 /// and the pilot has to take over. Nothing else says so, as samples go on coming.
 class AttitudeWatch {
  public:
-  void tell(bool attitude, bool in_control, std::int64_t now_ns, Notices& out) {
+  void report(bool attitude, bool in_control, std::int64_t now_ns, Notices& out) {
     if (attitude) met_ = true;
     if (attitude || !in_control || !met_)
       lost_ns_ = never_ns;
     else if (lost_ns_ == never_ns)
       lost_ns_ = now_ns;
     const bool lost = lost_ns_ != never_ns && now_ns - lost_ns_ >= patience_ns;
-    if (lost && !told_)
+    if (lost && !reported_)
       out.say(Severity::critical, "pilot: take over. The attitude is lost, the surfaces are only held");
-    if (told_ && attitude) out.say(Severity::warning, "the attitude is valid again");
-    told_ = lost || (told_ && !attitude);
+    if (reported_ && attitude) out.say(Severity::warning, "the attitude is valid again");
+    reported_ = lost || (reported_ && !attitude);
   }
 
  private:
   using Severity = fulmar::Severity;
   static constexpr std::int64_t patience_ns = 300'000'000;
   std::int64_t lost_ns_ = never_ns;
-  bool met_ = false, told_ = false;
+  bool met_ = false, reported_ = false;
 };
 
 /// The gate before the commands. It closes
@@ -128,9 +128,9 @@ class Readiness {
     met_ = true;
     look_for_flight(f, complete_);
     take_hand_over(f, complete_);
-    watch_.tell(attitude, f.status.in_control && f.inertial, now_ns, out);
-    tell_attitude(attitude, f, out);
-    tell_missing(missing, f, now_ns, out);
+    watch_.report(attitude, f.status.in_control && f.inertial, now_ns, out);
+    report_attitude(attitude, f, out);
+    report_missing(missing, f, now_ns, out);
     return !blind_ && !refused_;
   }
   /// Whether it refuses the hand-over that this status may just begin.
@@ -171,7 +171,7 @@ class Readiness {
        {no_pitot, "no pitot tube"},
        {zero_pending, "airspeed not zeroed yet"},
        {zero_wrong, "airspeed zeroed wrong"}}};
-  static constexpr std::int64_t first_told_ns = 3'000'000'000;  ///< until then it aligns
+  static constexpr std::int64_t first_reported_ns = 3'000'000'000;  ///< until then it aligns
   static constexpr std::int64_t sensor_patience_ns = 2'000'000'000;
   static constexpr double flies_mps = 7;
 
@@ -215,14 +215,14 @@ class Readiness {
     const bool now = handed(f.status);
     if (now && !handed_ && met_disarmed_ && !flown_ && !complete) {
       refused_ = true;
-      told_ns_ = never_ns;
+      reported_ns_ = never_ns;
       hold_.release();
     }
     if (!now) refused_ = false;
     handed_ = now;
   }
 
-  void tell_attitude(bool attitude, const Facts& f, Notices& out) {
+  void report_attitude(bool attitude, const Facts& f, Notices& out) {
     const bool before = blind_;
     if (attitude)
       blind_ = false;
@@ -237,24 +237,24 @@ class Readiness {
     first_ = false;
   }
 
-  void tell_missing(std::uint32_t missing, const Facts& f, std::int64_t now_ns, Notices& out) {
-    if (now_ns < first_told_ns && !f.status.armed) return;
+  void report_missing(std::uint32_t missing, const Facts& f, std::int64_t now_ns, Notices& out) {
+    if (now_ns < first_reported_ns && !f.status.armed) return;
     const bool waits = !f.status.armed || refused_ || (handed_ && blind_);
-    const bool due = now_ns - told_ns_ >= repeat_ns, may_change = hold_.open(now_ns);
+    const bool due = now_ns - reported_ns_ >= repeat_ns, may_change = hold_.open(now_ns);
     if (!waits) return;
     if ((missing & needed) == 0) {
-      if (refused_ ? !due && told_ready_ : told_ready_ && missing == told_) return;
+      if (refused_ ? !due && reported_ready_ : reported_ready_ && missing == reported_) return;
       if (!due && !may_change) return;
       return say(ready_line(missing), missing, true, now_ns, out);
     }
-    if (due || (told_ready_ && may_change)) say(missing_line(missing), missing, false, now_ns, out);
+    if (due || (reported_ready_ && may_change)) say(missing_line(missing), missing, false, now_ns, out);
   }
   void say(const Line& line, std::uint32_t missing, bool ready, std::int64_t now_ns, Notices& out) {
     out.say(ready && (missing == 0) ? Level::info : Level::warning, line);
-    if (ready != told_ready_) hold_.told(now_ns);
-    told_ns_ = now_ns;
-    told_ready_ = ready;
-    told_ = missing;
+    if (ready != reported_ready_) hold_.reported(now_ns);
+    reported_ns_ = now_ns;
+    reported_ready_ = ready;
+    reported_ = missing;
   }
   Line ready_line(std::uint32_t missing) const {
     Line line;
@@ -272,9 +272,9 @@ class Readiness {
 
   bool blind_ = true, refused_ = false, handed_ = false, flown_ = false;
   bool met_disarmed_ = false, met_attitude_ = false, first_ = true;
-  bool told_ready_ = false;
-  std::uint32_t told_ = 0;
-  std::int64_t told_ns_ = never_ns;
+  bool reported_ready_ = false;
+  std::uint32_t reported_ = 0;
+  std::int64_t reported_ns_ = never_ns;
   Hold hold_;
   bool complete_ = false, met_ = false;
   AttitudeWatch watch_;

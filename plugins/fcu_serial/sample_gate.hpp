@@ -33,7 +33,7 @@ class SampleGate {
 };
 
 /// What is told once: of each kind the first fault.
-class ToldKinds {
+class ReportedKinds {
  public:
   bool first(std::uint32_t kind) {
     const bool is_first = (kinds_ & kind) == 0;

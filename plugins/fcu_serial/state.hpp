@@ -119,24 +119,24 @@ class StatusPace {
 };
 
 /// Tells each change of the state once.
-class Teller {
+class Reporter {
  public:
   /// Only when a status of the controller has been heard.
-  void tell(const VehicleStatus& s, const Heard& h, std::int64_t now_ns, Notices& out) {
-    tell_link(s, h, now_ns, out);
+  void report(const VehicleStatus& s, const Heard& h, std::int64_t now_ns, Notices& out) {
+    report_link(s, h, now_ns, out);
     if (h.status_ns == never_ns || (s.errors & own_error_link_down) != 0) return;  // it says nothing new
-    tell_arming(s, out);
-    tell_pilot(s, out);
-    tell_control(s, now_ns, out);
-    tell_errors(s, h, out);
-    told_ = s;
+    report_arming(s, out);
+    report_pilot(s, out);
+    report_control(s, now_ns, out);
+    report_errors(s, h, out);
+    reported_ = s;
     begun_ = true;
   }
 
  private:
   using Level = fulmar::Severity;
 
-  void tell_link(const VehicleStatus& s, const Heard& h, std::int64_t now_ns, Notices& out) {
+  void report_link(const VehicleStatus& s, const Heard& h, std::int64_t now_ns, Notices& out) {
     const bool down = (s.errors & own_error_link_down) != 0;
     if (down && !down_ && h.frame_ns != never_ns)
       out.say(s.armed ? Level::critical : Level::warning,
@@ -149,16 +149,16 @@ class Teller {
     down_ = down && h.frame_ns != never_ns;
   }
 
-  void tell_arming(const VehicleStatus& s, Notices& out) {
-    if (s.armed != told_.armed) out.say(Level::info, s.armed ? "armed" : "disarmed");
-    if (s.failsafe && !told_.failsafe)
+  void report_arming(const VehicleStatus& s, Notices& out) {
+    if (s.armed != reported_.armed) out.say(Level::info, s.armed ? "armed" : "disarmed");
+    if (s.failsafe && !reported_.failsafe)
       out.say(Level::critical,
               "failsafe: the flight controller has lost the radio; motor off, surfaces centred");
-    if (!s.failsafe && told_.failsafe) out.say(Level::warning, "failsafe is over");
+    if (!s.failsafe && reported_.failsafe) out.say(Level::warning, "failsafe is over");
   }
 
-  void tell_pilot(const VehicleStatus& s, Notices& out) {
-    const bool flies = s.armed && s.override, flew = told_.armed && told_.override;
+  void report_pilot(const VehicleStatus& s, Notices& out) {
+    const bool flies = s.armed && s.override, flew = reported_.armed && reported_.override;
     if (flies && !flew) {
       Line line;
       line << "the pilot flies: ";
@@ -169,18 +169,18 @@ class Teller {
   }
 
   /// Each change, but for a line so bad that it comes and goes: then once that, and how it ends.
-  void tell_control(const VehicleStatus& s, std::int64_t now_ns, Notices& out) {
-    const bool changes = s.in_control != told_.in_control;
+  void report_control(const VehicleStatus& s, std::int64_t now_ns, Notices& out) {
+    const bool changes = s.in_control != reported_.in_control;
     if (changes) {
       flickers_ = flickers_ || now_ns - changes_ns_[2] < steady_ns;
       std::rotate(changes_ns_.begin(), changes_ns_.end() - 1, changes_ns_.end());
       changes_ns_[0] = now_ns;
-      if (flickers_ && !told_flicker_)
+      if (flickers_ && !reported_flicker_)
         out.say(Level::warning, "control comes and goes: the line loses too much");
-      told_flicker_ = flickers_;
+      reported_flicker_ = flickers_;
     }
     const bool steady = flickers_ && now_ns - changes_ns_[0] >= steady_ns;
-    if (steady) flickers_ = told_flicker_ = false;
+    if (steady) flickers_ = reported_flicker_ = false;
     if (flickers_ || (!changes && !steady)) return;
     if (s.in_control)
       out.say(Level::info, "in control");
@@ -188,8 +188,8 @@ class Teller {
       out.say(s.armed && !s.override ? Level::warning : Level::info, "not in control");
   }
 
-  void tell_errors(const VehicleStatus& s, const Heard& h, Notices& out) {
-    const std::uint32_t added = s.errors & ~told_.errors, gone = told_.errors & ~s.errors;
+  void report_errors(const VehicleStatus& s, const Heard& h, Notices& out) {
+    const std::uint32_t added = s.errors & ~reported_.errors, gone = reported_.errors & ~s.errors;
     for (const auto& [bit, words] : error_words) {
       if ((added & bit) != 0) out.say(Level::warning, Line() << "flight controller: " << words);
       if ((gone & bit) != 0) out.say(Level::info, Line() << "no longer: " << words);
@@ -209,9 +209,9 @@ class Teller {
   }
 
   static constexpr std::int64_t steady_ns = 2'000'000'000;
-  VehicleStatus told_;
+  VehicleStatus reported_;
   std::array<std::int64_t, 3> changes_ns_{never_ns, never_ns, never_ns};  ///< of in_control, the latest first
-  bool flickers_ = false, told_flicker_ = false;
+  bool flickers_ = false, reported_flicker_ = false;
   std::int64_t down_since_ns_ = never_ns;
   bool down_ = false, begun_ = false;
 };

@@ -169,9 +169,9 @@ class Vehicle {
     ParameterBook book;
     SampleGate samples;
     PitotUse pitot;
-    ToldKinds told;
+    ReportedKinds reported;
     Heard heard;
-    Teller teller;
+    Reporter reporter;
     Notices notices;
     Forwarder texts;
     LinkReport report;
@@ -189,8 +189,8 @@ class Vehicle {
 
   void greet(const std::string& port, std::int64_t baud, const Airframe& airframe);
   void listen(Greeting& greeting);
-  void tell_untried(std::string_view version);
-  void tell_reversals(const Greeting& greeting, const Airframe& airframe);
+  void report_untried(std::string_view version);
+  void report_reversals(const Greeting& greeting, const Airframe& airframe);
 
   /// The first tick: what has waited since the greeting is old.
   void begin() {
@@ -264,7 +264,7 @@ class Vehicle {
   bool usable(bool good, Kind kind, const char* name) {
     if (good) return true;
     ++run_.report.unusable;
-    if (run_.told.first(kind))
+    if (run_.reported.first(kind))
       run_.notices.say(fulmar::Severity::warning,
                        Line() << "the " << name << " gives values that cannot be; they are not used");
     return false;
@@ -278,7 +278,7 @@ class Vehicle {
   void ask_parameter() {
     const auto index = run_.book.next(run_.clock.now_ns());
     if (index) link_->send(ParamRequestRead{*index, run_.controller.system()});
-    run_.book.tell(run_.notices);
+    run_.book.report(run_.notices);
   }
 
   void rebooted() {
@@ -297,10 +297,10 @@ class Vehicle {
     run_.heard.open = last_frame_.fd >= 0;
     VehicleStatus s = evaluate(run_.heard, now_ns);
     s.in_control = s.in_control && !run_.readiness.refuses(s);  // a command of before is still obeyed
-    run_.teller.tell(s, run_.heard, now_ns, run_.notices);
-    run_.overload.tell(now_ns, run_.notices);
-    run_.fixes.tell(run_.spoken.fix_ns, std::max(run_.heard.since_ns, run_.heard.resumed_ns),
-                    (s.errors & own_error_link_down) == 0, s.armed, now_ns, run_.notices);
+    run_.reporter.report(s, run_.heard, now_ns, run_.notices);
+    run_.overload.report(now_ns, run_.notices);
+    run_.fixes.report(run_.spoken.fix_ns, std::max(run_.heard.since_ns, run_.heard.resumed_ns),
+                      (s.errors & own_error_link_down) == 0, s.armed, now_ns, run_.notices);
     if (run_.heard.status_ns != never_ns && run_.status.due(s, now_ns)) {
       out.status.publish(s);
       if ((s.errors & own_error_rc_silent) != 0) {
@@ -322,7 +322,7 @@ class Vehicle {
   bool may_command(std::int64_t now_ns, const Inputs& in, const Params& p) {
     const Optional<VehicleState>& state = in.state;
     if (p.send_attitude && !state && now_ns > estimate_patience_ns * 20)
-      run_.attitude.tell_unwired(run_.notices);
+      run_.attitude.report_unwired(run_.notices);
     if ((!state && !p.needs_state) || run_.heard.status_ns == never_ns) return true;
     const bool current = state && now_ns - state.valid_at_ns() < estimate_patience_ns;
     return run_.readiness.update(
@@ -343,7 +343,7 @@ class Vehicle {
     const auto command = to_offboard(wanted, run_.throws);
     if (!command || !link_->send(*command)) {
       ++run_.report.unsent;
-      if (!command && run_.told.first(kind_command))
+      if (!command && run_.reported.first(kind_command))
         run_.notices.say(fulmar::Severity::error, "a command is not finite; such commands are not sent");
       return;
     }
@@ -358,7 +358,7 @@ class Vehicle {
     if (!aux || !run_.aux.due(aux.fresh(), now_ns)) return;
     auto command = to_aux(*aux);
     if (!command) {
-      if (run_.told.first(kind_aux))
+      if (run_.reported.first(kind_aux))
         run_.notices.say(fulmar::Severity::error,
                          "an auxiliary output is not finite; such outputs are not sent");
       return;

@@ -21,9 +21,9 @@ void Vehicle<AnyLink>::greet(const std::string& port, std::int64_t baud, const A
        << (g.versioned ? "ROSflight " + g.version
                        : "an armed flight controller, which does not tell its version");
   run_.notices.say(fulmar::Severity::info, line);
-  if (g.versioned) tell_untried(g.version);
+  if (g.versioned) report_untried(g.version);
   run_.pitot.take_zero(g.parameter(pitot_zero, 0), run_.heard.status.armed != 0, run_.notices);
-  tell_reversals(g, airframe);
+  report_reversals(g, airframe);
 }
 
 template <class AnyLink>
@@ -54,7 +54,7 @@ void Vehicle<AnyLink>::listen(Greeting& g) {
 }
 
 template <class AnyLink>
-void Vehicle<AnyLink>::tell_untried(std::string_view version) {
+void Vehicle<AnyLink>::report_untried(std::string_view version) {
   if (!tried(version))
     run_.notices.say(fulmar::Severity::warning,
                      Line() << "firmware not tried with Fulmar (" << tried_firmware << " was): " << version);
@@ -63,7 +63,7 @@ void Vehicle<AnyLink>::tell_untried(std::string_view version) {
 /// REV_* turns a surface round for pilot and host, the airframe file for the host alone. Both at once is
 /// hardly meant.
 template <class AnyLink>
-void Vehicle<AnyLink>::tell_reversals(const Greeting& g, const Airframe& a) {
+void Vehicle<AnyLink>::report_reversals(const Greeting& g, const Airframe& a) {
   const std::array<std::pair<const char*, bool>, 3> surfaces{{{"REV_AILERON", a.aileron.reversed},
                                                               {"REV_ELEVATOR", a.elevator.reversed},
                                                               {"REV_RUDDER", a.rudder.reversed}}};
@@ -172,7 +172,7 @@ void Vehicle<AnyLink>::take_version(const RosflightVersion& m) {
   if (!run_.controller.other_version(version)) return;
   run_.notices.say(fulmar::Severity::warning,
                    Line() << "this is another firmware: ROSflight " << version.view());
-  tell_untried(version.view());
+  report_untried(version.view());
 }
 
 }  // namespace fulmar::fcu

@@ -119,9 +119,9 @@ class Forwarder {
     // It ends at its first NUL; what stands behind is anything.
     const auto end = std::find(m.text.begin(), m.text.end(), '\0');
     const Text<51> text(std::string_view(m.text.data(), static_cast<std::size_t>(end - m.text.begin())));
-    if (text == last_ && now_ns - told_ns_ < 10'000'000'000) return;
+    if (text == last_ && now_ns - reported_ns_ < 10'000'000'000) return;
     last_ = text;
-    told_ns_ = now_ns;
+    reported_ns_ = now_ns;
     const fulmar::Severity severity = m.severity <= 2   ? fulmar::Severity::critical
                                       : m.severity == 3 ? fulmar::Severity::error
                                       : m.severity == 4 ? fulmar::Severity::warning
@@ -135,7 +135,7 @@ class Forwarder {
  private:
   static constexpr std::string_view no_secondary = "Invalid mixer selected for secondary mixer!";
   Text<51> last_;
-  std::int64_t told_ns_ = 0;
+  std::int64_t reported_ns_ = 0;
 };
 
 }  // namespace fulmar::fcu

@@ -57,7 +57,7 @@ struct Joystick {
     source_.close("");
     state_ = {};
     transmitter_ = {};
-    unknown_told_ = 0;
+    unknown_reported_ = 0;
   }
 
   /// Waits for records, at most 20 ms, so that a flight faster than the clock gets its frames. `degraded`
@@ -69,10 +69,10 @@ struct Joystick {
     else
       pause_ms(20);
     const bool link = source_.is_open() && state_.heard();
-    if (link || !source_.is_open()) transmitter_.tell(link, path_, source_.fault(), out.notices);
+    if (link || !source_.is_open()) transmitter_.report(link, path_, source_.fault(), out.notices);
     if (transmitter_.due(tick.now_ns)) out.rc.push(link ? frame(p) : Rc{}, on_arrival);
-    if (state_.unknown() != unknown_told_)
-      out.unknown_records_ratio = static_cast<double>(unknown_told_ = state_.unknown());
+    if (state_.unknown() != unknown_reported_)
+      out.unknown_records_ratio = static_cast<double>(unknown_reported_ = state_.unknown());
     return link ? Status::ok : Status::degraded;
   }
 
@@ -118,7 +118,7 @@ struct Joystick {
   Source source_;
   JsState state_;
   Transmitter transmitter_;
-  std::uint64_t unknown_told_ = 0;
+  std::uint64_t unknown_reported_ = 0;
 };
 
 }  // namespace fulmar::hand

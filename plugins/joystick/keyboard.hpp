@@ -120,7 +120,7 @@ struct Keyboard {
     keys_ = {};
     transmitter_ = {};
     before_ns_ = never;
-    unknown_told_ = 0;
+    unknown_reported_ = 0;
   }
 
   /// Waits for keys, at most 20 ms. `degraded` while there is no terminal.
@@ -135,10 +135,10 @@ struct Keyboard {
     else
       pause_ms(20);
     const bool link = source_.is_open();
-    transmitter_.tell(link, path_, source_.fault(), out.notices);
+    transmitter_.report(link, path_, source_.fault(), out.notices);
     if (transmitter_.due(tick.now_ns)) out.rc.push(link ? keys_.frame() : Rc{}, on_arrival);
-    if (keys_.unknown() != unknown_told_)
-      out.unknown_keys_ratio = static_cast<double>(unknown_told_ = keys_.unknown());
+    if (keys_.unknown() != unknown_reported_)
+      out.unknown_keys_ratio = static_cast<double>(unknown_reported_ = keys_.unknown());
     return link ? Status::ok : Status::degraded;
   }
 
@@ -150,7 +150,7 @@ struct Keyboard {
   Keys keys_;
   Transmitter transmitter_;
   std::int64_t before_ns_ = never;
-  std::uint64_t unknown_told_ = 0;
+  std::uint64_t unknown_reported_ = 0;
 };
 
 }  // namespace fulmar::hand

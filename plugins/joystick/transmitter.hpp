@@ -29,10 +29,10 @@ class Transmitter {
 
   /// Tells once that the link is there, or is not, and why.
   template <class Notices>
-  void tell(bool link, const std::string& device, const char* why, Notices& notices) {
-    if (told_ && link == was_) return;
-    const bool lost = told_ && !link, back = told_ && link;
-    told_ = true;
+  void report(bool link, const std::string& device, const char* why, Notices& notices) {
+    if (reported_ && link == was_) return;
+    const bool lost = reported_ && !link, back = reported_ && link;
+    reported_ = true;
     was_ = link;
     char words[192];
     if (link)
@@ -45,7 +45,7 @@ class Transmitter {
 
  private:
   std::int64_t due_ns_ = INT64_MIN / 2;
-  bool told_ = false, was_ = false;
+  bool reported_ = false, was_ = false;
 };
 
 }  // namespace fulmar::hand

@@ -120,8 +120,8 @@ class Epochs {
   }
 
   void add_deviations(const Gga& g, Gnss& out) const {
-    const bool told = now_.gst && now_.gst->latitude_m && now_.gst->longitude_m;
-    if (told) {  // of one axis, as everywhere
+    const bool reported = now_.gst && now_.gst->latitude_m && now_.gst->longitude_m;
+    if (reported) {  // of one axis, as everywhere
       const double n = *now_.gst->latitude_m, e = *now_.gst->longitude_m;
       out.horizontal_std_m = std::sqrt((n * n + e * e) / 2);
     } else if (g.hdop) {

@@ -43,7 +43,7 @@ struct Receiver {
     }
     baud_ = *code;
     lines_ = {};
-    bad_told_ = 0;
+    bad_reported_ = 0;
     epochs_ = Epochs(p.range_std);
     port_.close();
   }
@@ -66,7 +66,8 @@ struct Receiver {
       if (const Sentence* sentence = lines_.push(bytes[i])) epochs_.take(*sentence, emit);
     }
     if (n == 0) epochs_.flush(emit);
-    if (lines_.bad() != bad_told_) out.bad_lines_ratio = static_cast<double>(bad_told_ = lines_.bad());
+    if (lines_.bad() != bad_reported_)
+      out.bad_lines_ratio = static_cast<double>(bad_reported_ = lines_.bad());
     return port_.is_open() ? Status::ok : Status::degraded;
   }
 
@@ -76,7 +77,7 @@ struct Receiver {
   SerialPort port_;
   Lines lines_;
   Epochs epochs_;
-  std::uint64_t bad_told_ = 0;
+  std::uint64_t bad_reported_ = 0;
 };
 
 }  // namespace fulmar::nmea

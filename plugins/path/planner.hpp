@@ -66,7 +66,7 @@ struct Planner {
   const char* commit();
   void begin_group(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out);
   void drop_group(const Tick& tick, const char* reason, Outputs& out);
-  void tell(const Tick& tick, const PlanEditResult& result, Outputs& out);
+  void report(const Tick& tick, const PlanEditResult& result, Outputs& out);
   const char* apply(Plan& plan, PlanEdit edit, bool alone, std::uint32_t& waypoint_id);
   const char* set(Plan& plan, const PlanEdit& edit) const;
   void put(Plan& plan, const PlanEdit& edit, const Waypoint& w) const;
@@ -78,8 +78,8 @@ struct Planner {
   bool resolved() const;
   void know_origin(double lat_deg, double lon_deg, double alt_m);
 
-  void tell_unflyable(const Tick& tick, Outputs& out);
-  void tell_doubts(const Tick& tick, const Params& p, Outputs& out);
+  void report_unflyable(const Tick& tick, Outputs& out);
+  void report_doubts(const Tick& tick, const Params& p, Outputs& out);
 
   Plan plan_;
   Group group_;
@@ -90,9 +90,9 @@ struct Planner {
   bool changed_ = true;        // the plan has not been published as it is now
   std::uint64_t changes_ = 0;  // edits in force
   std::uint32_t next_id_ = 1;
-  std::uint32_t refused_ = 0, untold_ = 0;
-  std::int64_t told_ns_ = 0;
-  Text<80> told_reason_;  // the last one
+  std::uint32_t refused_ = 0, unreported_ = 0;
+  std::int64_t reported_ns_ = 0;
+  Text<80> reported_reason_;  // the last one
 };
 
 namespace detail {
@@ -158,7 +158,7 @@ inline void Planner::configure(const Params& p) {
   changed_ = doubtful_ = true;
 }
 
-inline void Planner::tell_doubts(const Tick& tick, const Params& p, Outputs& out) {
+inline void Planner::report_doubts(const Tick& tick, const Params& p, Outputs& out) {
   doubtful_ = false;
   if (!p.airframe.given()) return;
   for (const auto& words :
@@ -172,10 +172,10 @@ inline void Planner::tell_doubts(const Tick& tick, const Params& p, Outputs& out
 }
 
 inline Status Planner::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
-  if (doubtful_) tell_doubts(tick, p, out);
+  if (doubtful_) report_doubts(tick, p, out);
   if (!origin_known_ && in.state && in.state->origin_valid) {
     know_origin(in.state->origin_latitude_deg, in.state->origin_longitude_deg, in.state->origin_altitude_m);
-    tell_unflyable(tick, out);
+    report_unflyable(tick, out);
   }
   refused_ += in.edits.lost();
   if (in.edits.lost() > 0 && !group_.by_request) drop_group(tick, "edits were lost on the way", out);

@@ -32,7 +32,7 @@ inline const char* Planner::take(const Tick& tick, const PlanEdit& edit, bool by
   }
   result.accepted = !reason;
   if (reason) result.reason = reason;
-  tell(tick, result, out);
+  report(tick, result, out);
   return reason;
 }
 
@@ -56,7 +56,7 @@ inline void Planner::drop_group(const Tick& tick, const char* reason, Outputs& o
   result.group = group_.number;
   result.by_request = group_.by_request;
   result.reason = reason;
-  tell(tick, result, out);
+  report(tick, result, out);
 }
 
 inline const char* Planner::take_into_group(const PlanEdit& edit, PlanEditResult& result) {
@@ -91,12 +91,12 @@ inline const char* Planner::commit() {
 
 /// To the asker, and, when refused, to people: each reason, but one that comes again and again once a second,
 /// with the number of those between.
-inline void Planner::tell(const Tick& tick, const PlanEditResult& result, Outputs& out) {
+inline void Planner::report(const Tick& tick, const PlanEditResult& result, Outputs& out) {
   out.results.push(result, tick.now_ns);
   if (result.accepted) return;
   ++refused_;
-  if (result.reason == told_reason_ && tick.now_ns - told_ns_ < 1'000'000'000) {
-    ++untold_;
+  if (result.reason == reported_reason_ && tick.now_ns - reported_ns_ < 1'000'000'000) {
+    ++unreported_;
     return;
   }
   Notice notice;
@@ -119,15 +119,15 @@ inline void Planner::tell(const Tick& tick, const PlanEditResult& result, Output
   }
   say("refused: ");
   say(result.reason.view());
-  if (untold_ > 0) {
+  if (unreported_ > 0) {
     say(" (and ");
-    count(untold_);
+    count(unreported_);
     say(" before)");
   }
   out.notices.push(notice, tick.now_ns);
-  told_reason_ = result.reason;
-  told_ns_ = tick.now_ns;
-  untold_ = 0;
+  reported_reason_ = result.reason;
+  reported_ns_ = tick.now_ns;
+  unreported_ = 0;
 }
 
 /// Nullptr when done, else why not; then nothing has changed. `alone`: the plan that it makes is in force at
@@ -265,7 +265,7 @@ inline void Planner::resolve(Waypoint& w) const {
 }
 
 /// Geodetic waypoints had no height above the origin until now. A plan with one too low is not published.
-inline void Planner::tell_unflyable(const Tick& tick, Outputs& out) {
+inline void Planner::report_unflyable(const Tick& tick, Outputs& out) {
   for (std::uint32_t i = 0; i < plan_.waypoints.count; ++i) {
     const char* const fault = fault_of(plan_.waypoints[i]);
     if (!fault) continue;

@@ -102,7 +102,7 @@ const py::module_& runtime() {
   return module;
 }
 
-void tell(fulmar_error* error, const std::string& text) noexcept {
+void report(fulmar_error* error, const std::string& text) noexcept {
   if (error == nullptr) return;
   constexpr std::size_t room = sizeof error->text - 1;
   std::size_t n = text.size();
@@ -115,7 +115,7 @@ void tell(fulmar_error* error, const std::string& text) noexcept {
 }
 
 void explain(const std::string& file, bool print, fulmar_error* error) noexcept {
-  tell(error, "raised an exception that cannot be explained");
+  report(error, "raised an exception that cannot be explained");
   try {
     PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
     PyErr_Fetch(&type, &value, &trace);
@@ -125,7 +125,7 @@ void explain(const std::string& file, bool print, fulmar_error* error) noexcept 
                fault = py::reinterpret_steal<py::object>(value);
     const auto kept_trace = py::reinterpret_steal<py::object>(trace);
     if (!fault) return;
-    tell(error, py::str(runtime().attr("_explain")(fault, file)));
+    report(error, py::str(runtime().attr("_explain")(fault, file)));
     if (print) runtime().attr("_tell")(fault, file);
   } catch (const std::exception&) {
     PyErr_Clear();

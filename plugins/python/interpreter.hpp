@@ -48,6 +48,6 @@ const py::module_& runtime();
 void explain(const std::string& file, bool print, fulmar_error* error) noexcept;
 
 /// Text that does not fit ends in "...".
-void tell(fulmar_error* error, const std::string& text) noexcept;
+void report(fulmar_error* error, const std::string& text) noexcept;
 
 }  // namespace fulmar::python

@@ -38,7 +38,7 @@ void* create(const Prototype& prototype, std::uint64_t seed, fulmar_error* error
     e.restore();
     explain(prototype.file, false, error);
   } catch (const std::exception& e) {
-    tell(error, e.what());
+    report(error, e.what());
   }
   return nullptr;
 }
@@ -171,7 +171,7 @@ const fulmar_plugin* open_script(const char* file, const char* text, std::uint64
   try {
     start();
   } catch (const std::exception& e) {
-    tell(error, e.what());
+    report(error, e.what());
     return nullptr;
   }
   const Gil gil;
@@ -184,7 +184,7 @@ const fulmar_plugin* open_script(const char* file, const char* text, std::uint64
     e.restore();
     explain(file, false, error);
   } catch (const std::exception& e) {
-    tell(error, e.what());
+    report(error, e.what());
   }
   return nullptr;
 }

@@ -98,7 +98,7 @@ struct Rosplane {
   Throws throws_;
   Clock clock_;
   std::uint32_t revision_ = 0, next_ = 0;
-  bool telling_ = false;  // a plan that does not fit one step
+  bool reporting_ = false;  // a plan that does not fit one step
 };
 
 inline Status Rosplane::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
@@ -213,13 +213,13 @@ inline void Rosplane::waypoints(const Tick& tick, const Plan& plan, Outputs& out
   if (plan.revision != revision_) {
     revision_ = plan.revision;
     next_ = 0;
-    telling_ = true;
+    reporting_ = true;
     RosplaneWaypoint clear;
     clear.header = clock_.header(tick.now_ns, {});
     clear.clear_wp_list = true;
     queue.push(clear, tick.now_ns);
   }
-  for (; telling_ && next_ < plan.waypoints.size() && queue.count < queue.items.size(); ++next_) {
+  for (; reporting_ && next_ < plan.waypoints.size() && queue.count < queue.items.size(); ++next_) {
     const Waypoint& w = plan.waypoints[next_];
     RosplaneWaypoint m;
     m.header = clock_.header(tick.now_ns, {});
@@ -229,7 +229,7 @@ inline void Rosplane::waypoints(const Tick& tick, const Plan& plan, Outputs& out
     m.va_d = f32(w.airspeed_mps > 0 ? w.airspeed_mps : plan.airspeed_mps);
     queue.push(m, tick.now_ns);
   }
-  telling_ = telling_ && next_ < plan.waypoints.size();
+  reporting_ = reporting_ && next_ < plan.waypoints.size();
 }
 
 inline void Rosplane::sensors(const Inputs& in, Outputs& out) const {

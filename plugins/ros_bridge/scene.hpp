@@ -67,8 +67,8 @@ struct Scene {
   VehicleState origin_;  // that `frame_` was made of
   RouteDrawing drawing_;
   std::uint64_t drawn_ = 0;  // what the plan was when it was drawn
-  std::int64_t told_ns_ = 0;
-  bool told_ = false;
+  std::int64_t reported_ns_ = 0;
+  bool reported_ = false;
 };
 
 namespace detail {
@@ -103,8 +103,8 @@ inline Status Scene::step(const Tick& tick, const Inputs& in, const Params& p, O
   if (!out.fix.written && in.gnss && in.gnss.fresh())
     out.fix.publish(fix_of(*in.gnss, header(in.gnss.valid_at_ns(), base_), p.geoid_separation),
                     in.gnss.valid_at_ns());
-  bool again = !told_ || tick.now_ns - told_ns_ >= static_cast<std::int64_t>(p.repeat * 1e9);
-  if (in.plan && (in.plan.fresh() || !told_)) {
+  bool again = !reported_ || tick.now_ns - reported_ns_ >= static_cast<std::int64_t>(p.repeat * 1e9);
+  if (in.plan && (in.plan.fresh() || !reported_)) {
     const std::uint64_t content = detail::content_of(*in.plan);
     if (content != drawn_) again = true;
     drawn_ = content;
@@ -112,8 +112,8 @@ inline Status Scene::step(const Tick& tick, const Inputs& in, const Params& p, O
   publish_route(tick, in, again, out);
   if (again) {
     publish_markers(tick, in, p, out);
-    told_ = true;
-    told_ns_ = tick.now_ns;
+    reported_ = true;
+    reported_ns_ = tick.now_ns;
   }
   return Status::ok;
 }

@@ -139,7 +139,7 @@ struct AircraftWatch {
     const double volt = in.status ? in.status->battery_volt : 0;
     const auto line = [&](Cause cause, bool now, Severity severity, const char* wrong, double figure,
                           const char* right) {
-      const Reported::News news = told_[index_of(cause)].step(now, !now, 0, 0, p.pause, tick.now_s(), dt);
+      const Reported::News news = reported_[index_of(cause)].step(now, !now, 0, 0, p.pause, tick.now_s(), dt);
       if (news == Reported::News::none) return;
       Notice notice;
       notice.cause = cause;
@@ -175,7 +175,7 @@ struct AircraftWatch {
   Motor motor_;
   Vec3<Ned> wind_;
   bool wind_known_ = false;
-  std::array<Reported, lines.size()> told_;
+  std::array<Reported, lines.size()> reported_;
 };
 
 }  // namespace fulmar::safety

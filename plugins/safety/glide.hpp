@@ -51,8 +51,8 @@ struct Glide {
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const VehicleState& s = *in.state;
     GuidanceCommand c = *in.command;
-    const bool told = in.progress && !in.progress.stale();
-    const double height = s.height_m - (told ? in.progress->ground_m : p.ground.value);
+    const bool reported = in.progress && !in.progress.stale();
+    const double height = s.height_m - (reported ? in.progress->ground_m : p.ground.value);
     out.sink_expected_mps = out.flare_ratio = 0.0;
     const double sink = std::max(-s.climb_rate_mps, 1.0);
     if (s.height_valid && height < p.level_time * sink) {

@@ -202,17 +202,17 @@ struct Ground {
       notice.text = text;
       out.notices.push(notice, tick.now_ns);
     };
-    if (now_.lift_offs != told_.lift_offs) say("lift-off");
-    if (now_.touch_downs > told_.touch_downs) say("touch-down");
-    if (now_.touch_downs < told_.touch_downs) say("still in the air");
-    if (now_.throttle_locked && !told_.throttle_locked)
+    if (now_.lift_offs != reported_.lift_offs) say("lift-off");
+    if (now_.touch_downs > reported_.touch_downs) say("touch-down");
+    if (now_.touch_downs < reported_.touch_downs) say("still in the air");
+    if (now_.throttle_locked && !reported_.throttle_locked)
       say("landed: the throttle stays closed until the pilot hands over or a take-off is requested");
-    told_ = now_;
+    reported_ = now_;
   }
 
   static constexpr double moving_mps = 3, still_mps = 1, short_final_m = 8, unknown_m = 100;
   static constexpr std::int64_t current_ns = 500'000'000;
-  GroundState now_, told_;
+  GroundState now_, reported_;
   TouchDown touch_;
   HeldFor rises_, climbs_, fast_, falls_, stands_, closed_, locks_;
   std::uint32_t resets_ = 0;       ///< of the state, seen so far

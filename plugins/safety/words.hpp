@@ -41,7 +41,7 @@ class Reports {
     place(facts);
     changes(facts);
     before_take_off(facts, dt);
-    told_ = now;
+    reported_ = now;
   }
 
  private:
@@ -81,7 +81,7 @@ class Reports {
 
   void say(bool SafetyState::*flag, const Line& wrong, const char* right, const char* pilot) {
     const bool raised = now_->*flag;
-    if (raised == told_.*flag) return;
+    if (raised == reported_.*flag) return;
     const Cause cause = alarm(flag).cause;
     const char* const what = raised ? wrong.data() : right;
     if (!now_->airborne) return push(what, raised ? Severity::warning : Severity::info, cause);
@@ -115,7 +115,7 @@ class Reports {
     say(&S::wind_excessive, "wind below the limit", "keep the field clear", line(", %.0f m/s", f.wind_mps));
     say(&S::radio_lost, "radio back", "check the transmitter");
     say(&S::link_lost, "vehicle status back", "check the link");
-    if (now_->drifting != told_.drifting)
+    if (now_->drifting != reported_.drifting)
       push(now_->drifting
                ? line("wind %.0f m/s exceeds the top airspeed: nose into wind, drifts. Pilot: land",
                       f.wind_mps)
@@ -146,7 +146,7 @@ class Reports {
 
   /// Answers that change with time alone.
   void changes(const Facts& f) {
-    if (said_ || !now_->airborne || !told_.airborne || now_->answer == told_.answer) return;
+    if (said_ || !now_->airborne || !reported_.airborne || now_->answer == reported_.answer) return;
     if (now_->answer == SafetyAnswer::descend)
       push(joined({f.drift_ends_wait ? "near the fence after " : "no position for ",
                    line("%.0f s", now_->waiting_s).data(), f.drift_ends_wait ? " without position: " : ": ",
@@ -205,7 +205,7 @@ class Reports {
   const SafetyState* now_ = nullptr;
   const Tick* tick_ = nullptr;
   Queue* out_ = nullptr;
-  SafetyState told_;
+  SafetyState reported_;
   std::uint32_t bits_ = 0, listed_ = 0;
   double same_s_ = 0, since_s_ = 1e9;
   bool said_ = false, flew_ = false, lands_ = false;

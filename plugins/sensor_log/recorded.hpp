@@ -118,14 +118,14 @@ struct Recorded {
       refuse_early_end(s, d_.use);
       count(s.left_out, words_of(s));
     });
-    tell_cuts();
+    report_cuts();
     if (d_.utc_at_zero_s == 0) return;
     for (std::size_t i = 0; i < gnss_.samples.size(); ++i)
       gnss_.samples[i].utc_ns = ns_of(d_.utc_at_zero_s) + gnss_.at_ns[i] - gnss_.delay_ns;
   }
 
   /// Each file that is cut off, with the last sample that is whole.
-  void tell_cuts() {
+  void report_cuts() {
     std::map<std::string, std::pair<std::size_t, std::int64_t>> cuts;
     each([&](const auto& s) {
       if (s.cut_at == 0) return;

@@ -20,7 +20,7 @@ struct Attitude {
     Probe roll_excitation_rad;  // what was added, within the limits
     Probe pitch_excitation_rad;
     Probe throttle_excitation_frac;
-    Told told;
+    Reported reported;
   };
   struct Params {
     SignalParams signal;
@@ -39,7 +39,7 @@ struct Attitude {
     const Channel channel = p.channel;
     const double size = channel == Channel::throttle ? p.throttle_size : p.size;
     const Status status = excitation_.step(tick, in.signal, p.signal, p.bounds,
-                                           static_cast<std::size_t>(channel), size, "", out.told);
+                                           static_cast<std::size_t>(channel), size, "", out.reported);
     const AttitudeCommand& asked = *in.attitude;
     const FlightLimits& limits = p.bounds.airframe->limits;
     out.attitude.roll_rad = added(asked.roll_rad, excitation_[0], -limits.roll_max_rad, limits.roll_max_rad);

@@ -23,7 +23,7 @@ struct BoundParams {
 };
 
 /// Outputs of each component, beside what is added to each of its channels.
-struct Told {
+struct Reported {
   Probe active_ratio;   // 1: from when it is asked for, its delay included, until its end
   Probe aborted_ratio;  // 1: it was aborted, until another one is asked for
   OutQueue<Notice, 4> notices;
@@ -88,7 +88,7 @@ class Excitation {
 
   /// To be added to each channel. `extra`: a reason of the component's own.
   Status step(const Tick& tick, const SignalInputs& in, const SignalParams& p, const BoundParams& bounds,
-              std::size_t channel, double size, std::string_view extra, Told& told) {
+              std::size_t channel, double size, std::string_view extra, Reported& reported) {
     const Request now{p.shape,     channel,         size,    p.delay, p.duration,
                       p.frequency, p.frequency_end, p.every, p.run};
     began_ = now != request_;
@@ -103,10 +103,10 @@ class Excitation {
     const double t = 1e-9 * static_cast<double>(tick.now_ns - begun_ns_) - request_.delay;
     if (running_) last_[request_.channel] += request_.size * wave_.at(t);
     running_ = running_ && t < wave_.end_s();
-    if (!untold_.empty()) told.notices.push({Text<96>(untold_), Severity::warning}, tick.now_ns);
-    untold_ = {};
-    told.active_ratio = running_ ? 1.0 : 0.0;
-    told.aborted_ratio = aborted_ ? 1.0 : 0.0;
+    if (!unreported_.empty()) reported.notices.push({Text<96>(unreported_), Severity::warning}, tick.now_ns);
+    unreported_ = {};
+    reported.active_ratio = running_ ? 1.0 : 0.0;
+    reported.aborted_ratio = aborted_ ? 1.0 : 0.0;
     return aborted_ ? Status::degraded : Status::ok;
   }
   double operator[](std::size_t channel) const { return last_[channel]; }
@@ -129,7 +129,7 @@ class Excitation {
     let_go();
     running_ = false;
     aborted_ = true;
-    untold_ = why;
+    unreported_ = why;
   }
   void let_go() {
     left_ = last_;
@@ -149,7 +149,7 @@ class Excitation {
   std::int64_t begun_ns_ = 0;
   double begun_m_ = 0;
   bool running_ = false, aborted_ = false, began_ = false;
-  std::string_view untold_;                         // why it was aborted, until that is told
+  std::string_view unreported_;                     // why it was aborted, until that is told
   std::array<double, N> last_{}, left_{}, from_{};  // added last; of signals before, now and when let go
 };
 

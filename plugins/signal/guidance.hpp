@@ -21,7 +21,7 @@ struct Guidance {
     Probe course_excitation_rad;  // what was added, within the limits
     Probe height_excitation_m;
     Probe airspeed_excitation_mps;
-    Told told;
+    Reported reported;
   };
   struct Params {
     SignalParams signal;
@@ -45,7 +45,7 @@ struct Guidance {
     const bool lost = channel == Channel::course && in.command->lateral == LateralMode::acceleration;
     const Status status = excitation_.step(
         tick, in.signal, p.signal, p.bounds, static_cast<std::size_t>(channel), size,
-        lost ? "signal aborted: guidance asks for an acceleration, not for a course" : "", out.told);
+        lost ? "signal aborted: guidance asks for an acceleration, not for a course" : "", out.reported);
     const GuidanceCommand& asked = *in.command;
     const FlightLimits& limits = p.bounds.airframe->limits;
     out.command = asked;

@@ -23,7 +23,7 @@ struct Surfaces {
     Probe rudder_excitation_rad;
     Probe throttle_excitation_frac;
     Probe limited_ratio;  // 1: a servo is at its stop or its rate limit, of whatever is commanded
-    Told told;
+    Reported reported;
   };
   struct Params {
     SignalParams signal;
@@ -42,7 +42,7 @@ struct Surfaces {
     const Channel channel = p.channel;
     const double size = channel == Channel::throttle ? p.throttle_size : p.size;
     const Status status = excitation_.step(tick, in.signal, p.signal, p.bounds,
-                                           static_cast<std::size_t>(channel), size, "", out.told);
+                                           static_cast<std::size_t>(channel), size, "", out.reported);
     const Actuators& asked = *in.actuators;
     const Airframe& a = *p.bounds.airframe;
     out.actuators.aileron_rad = within_throw(a.aileron, asked.aileron_rad, excitation_[0]);
@@ -73,7 +73,7 @@ struct Surfaces {
     out.limited_ratio = servos_.limited() ? 1.0 : 0.0;
   }
   static void report(std::string_view what, const Tick& tick, Outputs& out) {
-    if (!what.empty()) out.told.notices.push({Text<96>(what), Severity::warning}, tick.now_ns);
+    if (!what.empty()) out.reported.notices.push({Text<96>(what), Severity::warning}, tick.now_ns);
   }
   static double within_throw(const Surface& s, double value, double by) {
     return added(value, by, std::max(-s.limit_rad, s.min_rad), std::min(s.limit_rad, s.max_rad));

@@ -112,7 +112,7 @@ TEST_CASE("what is wired to a group arrives, and what is written into one leaves
   CHECK_FALSE(bench.out.shown.mean.written);
   bench.set(bench.in.sensors.speed, Speed{std::numeric_limits<double>::infinity()});
   bench.step(0.01);
-  CHECK(bench.fault() == "fastest.speed_mps is inf");
+  CHECK(bench.validation_error() == "fastest.speed_mps is inf");
 }
 
 TEST_CASE("a group is told what was applied of it, and nothing of the outputs beside") {

@@ -40,7 +40,7 @@ double distance_from(const ClassRange& range, double value) {
   return std::max({0.0, (range.low - value) / width, (value - range.high) / width});
 }
 
-void tell_class(Findings& f) {
+void report_class(Findings& f) {
   const Airframe& a = f.file().airframe;
   std::string outside;
   int inside = 0;
@@ -145,7 +145,7 @@ void check_copies(Findings& f, const KnownAircraft& known, int least) {
 }  // namespace
 
 void check_class(Findings& f) {
-  tell_class(f);
+  report_class(f);
   check_zero_lift(f);
   check_copies(f, aerosonde(), 8);
   check_copies(f, skyhunter(), 8);

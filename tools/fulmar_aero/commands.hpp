@@ -31,14 +31,14 @@ int see_command(const std::vector<std::string>& files, const FlightOptions& opti
 /// "".
 int fly_command(const FlightOptions& options, bool write, const std::string& report);
 /// Texts of the command line; "" where nothing was said.
-struct ImportWords {
+struct ImportArguments {
   std::vector<std::string> files;
   std::string out, mass, length_unit, cruise, parasite_drag, alpha, name, drag_from, controls_from;
   std::vector<double> inertia;
   bool json = false;
 };
 /// 1 when the check of what was imported finds a fault, or its eigenvalues are not those of the files.
-int import_command(const ImportWords& words);
+int import_command(const ImportArguments& words);
 /// A folder of ROSplane's files to airframe, plans and missions in the folder `out`.
 int rosplane_command(const std::string& folder, const std::string& out);
 

@@ -24,7 +24,7 @@ struct CommandLine {
   bool csv = false;
   TuneOptions tuning;
   VlmCommand drawing;
-  ImportWords importing;
+  ImportArguments importing;
   CLI::App *trim, *linearize, *modes, *check, *tune, *vlm, *see, *fly, *importer;
 
   CommandLine() {
@@ -98,7 +98,7 @@ struct CommandLine {
   }
 
   void add_import() {
-    ImportWords& w = importing;
+    ImportArguments& w = importing;
     importer = app.add_subcommand("import",
                                   "an airframe file from files of AVL, XFLR5, VSPAERO, ROSflight, JSBSim or "
                                   "pyfly; exit code 1 on a fault");

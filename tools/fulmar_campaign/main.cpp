@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   using namespace fulmar::core;
   CLI::App app{"Several flights of a mission.", "fulmar"};
   app.require_subcommand(1);
-  RunWords run;
+  RunArguments run;
   CLI::App* command = app.add_subcommand("run", "fly a mission several times");
   run.add(command);
   return run_program(

@@ -81,9 +81,9 @@ double improve(const Points& points, Shape& s, double& rms, Matrix9& covariance)
     weights += w;
   }
   rms = std::sqrt(sum / weights);
-  const bool told = invert(H, covariance);
+  const bool reported = invert(H, covariance);
   const Vector9 step = covariance * b;
-  if (!told) covariance.setConstant(std::numeric_limits<double>::infinity());
+  if (!reported) covariance.setConstant(std::numeric_limits<double>::infinity());
   if (!step.allFinite()) return 1e9;
   Eigen::Matrix3d dL;
   dL << step(0), step(3), step(4), step(3), step(1), step(5), step(4), step(5), step(2);

@@ -191,7 +191,7 @@ std::string unknown_command(const CLI::App& all) {
 int usage(const CommandLine& line, const CLI::ParseError& e) {
   const bool words = dynamic_cast<const CLI::RequiredError*>(&e) || dynamic_cast<const CLI::ExtrasError*>(&e);
   const std::string unknown = words ? unknown_command(line.app) : "";
-  if (unknown.empty()) return core::tell_usage(line.app, e);
+  if (unknown.empty()) return core::report_usage(line.app, e);
   std::fprintf(stderr, "%s\n", core::for_terminal(unknown).c_str());
   return 2;
 }

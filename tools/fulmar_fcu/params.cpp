@@ -26,7 +26,7 @@ std::bitset<65536> indices(const Client& client) {
 }
 
 /// Asks for the list until it flows, and reads on until nothing has come for a while.
-void ask_list(Client& client, const std::function<void()>& tell) {
+void ask_list(Client& client, const std::function<void()>& report) {
   std::uint64_t before = client.count<ParamValue>();
   for (int i = 0; i < 4 && client.count<ParamValue>() == before; ++i) {
     client.send(ParamRequestList{client.system(), 0});
@@ -34,7 +34,7 @@ void ask_list(Client& client, const std::function<void()>& tell) {
   }
   while (client.wait(60 * ms, [&] { return client.count<ParamValue>() > before; })) {
     before = client.count<ParamValue>();
-    tell();
+    report();
     if (indices(client).count() >= client.param_count()) return;
   }
 }
@@ -102,10 +102,10 @@ std::uint32_t parse_real(const Param& param, const std::string& text) {
 std::vector<Param> read_params(Client& client,
                                const std::function<void(std::size_t, std::size_t)>& progress) {
   client.forget_params();
-  const auto tell = [&] {
+  const auto report = [&] {
     if (progress) progress(indices(client).count(), client.param_count());
   };
-  ask_list(client, tell);
+  ask_list(client, report);
   if (client.params().empty())
     throw Error(client.name() + " does not answer the request for its parameters: is the line to it cut?");
   int idle = 0;
@@ -114,7 +114,7 @@ std::vector<Param> read_params(Client& client,
     const std::size_t got = indices(client).count();
     idle = got > have ? 0 : idle + 1;
     have = got;
-    tell();
+    report();
   }
   std::vector<Param> list;
   for (const auto& [name, param] : client.params()) list.push_back(param);

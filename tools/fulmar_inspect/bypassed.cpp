@@ -99,23 +99,23 @@ std::vector<std::pair<Where, std::string>> onlookers(const MissionText& text, co
   for (const Word& word : text.judge.progress) look(word, "progress shows ");
   for (const auto& [key, word] : text.judge.summary) look(word, "summary." + key + " shows ");
   for (const auto& [param, word] : text.resume) look(word, "resume." + param + " takes up what was of ");
-  for (const Word& word : text.tell) look(word, "tell listens to ");
+  for (const Word& word : text.report) look(word, "tell listens to ");
   transitions(text.any, "any");
   for (const PhaseText& phase : text.phases) transitions(phase.next, phase.name);
   return list;
 }
 
-void add_untold(const MissionText& text, Advice& advice) {
-  if (text.tell.empty()) return;
+void add_unreported(const MissionText& text, Advice& advice) {
+  if (text.report.empty()) return;
   for (const MissionText& layer : text.below)
-    for (const Word& word : layer.tell) {
-      const bool still =
-          std::any_of(text.tell.begin(), text.tell.end(), [&](const Word& w) { return w.text == word.text; });
+    for (const Word& word : layer.report) {
+      const bool still = std::any_of(text.report.begin(), text.report.end(),
+                                     [&](const Word& w) { return w.text == word.text; });
       const std::string owner = word.text.substr(0, word.text.find('.'));
       const ComponentText* const component = text.component(owner);
       const bool there = text.role(owner) || (component && exists(*component, text.io));
       if (!still && there)
-        advice.push_back(text.tell[0].where.text() + ": tell: leaves out " + word.text + ", which " +
+        advice.push_back(text.report[0].where.text() + ": tell: leaves out " + word.text + ", which " +
                          word.where.text() + " lists; a list takes the place of the other");
     }
 }
@@ -138,7 +138,7 @@ void add_bypassed(const Graph& graph, const MissionText& text, Advice& advice) {
       }
     for (const auto& [where, sentence] : onlookers(text, name)) add(where.text() + ": " + sentence + why);
   }
-  add_untold(text, advice);
+  add_unreported(text, advice);
 }
 
 }  // namespace fulmar::core

@@ -64,7 +64,7 @@ json message_of(const std::vector<std::string>& words) {
   return message;
 }
 
-int tell(const Session::Verdict& verdict, const std::string& what) {
+int report(const Session::Verdict& verdict, const std::string& what) {
   if (verdict.accepted) {
     std::printf("%s: accepted\n", what.c_str());
     return 0;
@@ -123,7 +123,7 @@ int call_command(const LiveAddress& target, const std::string& request,
   const bool paused = view.value("paused", false);
   if (paused) session.be_patient(std::chrono::milliseconds(1000));  // what is wrong is told at once
   try {
-    return tell(session.order(service, message), name);
+    return report(session.order(service, message), name);
   } catch (const Session::NoAnswer&) {
     if (!paused) throw;
     std::printf("%s: taken, and answered in the next tick: the flight is paused\n", name.c_str());
@@ -138,7 +138,7 @@ int phase_command(const LiveAddress& target, const std::string& phase) {
   bool known = false;
   for (const std::string& name : phases) known = known || name == phase;
   if (!known) throw Error("this flight has no phase '" + phase + "'." + choices_text(phase, phases));
-  return tell(session.order("/fulmar/phase", {{"phase", phase}}), "phase " + phase);
+  return report(session.order("/fulmar/phase", {{"phase", phase}}), "phase " + phase);
 }
 
 int swap_command(const LiveAddress& target, const std::string& component, const std::string& file) {
@@ -152,7 +152,7 @@ int swap_command(const LiveAddress& target, const std::string& component, const 
     throw Error("this flight has no component '" + component + "'." + choices_text(component, names));
   const Session::Verdict verdict =
       session.order("/fulmar/swap", {{"component", component}, {"file", swap_file(file)}});
-  const int code = tell(verdict, "swap " + component);
+  const int code = report(verdict, "swap " + component);
   if (!verdict.accepted) return code;
   const json after = session.view();
   for (const json& c : after.value("components", json::array()))
@@ -163,7 +163,7 @@ int swap_command(const LiveAddress& target, const std::string& component, const 
 
 int reset_command(const LiveAddress& target) {
   Session session(target);
-  return tell(session.order("/fulmar/reset_guards", json::object()), "reset");
+  return report(session.order("/fulmar/reset_guards", json::object()), "reset");
 }
 
 }  // namespace fulmar::core

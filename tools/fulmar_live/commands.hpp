@@ -9,7 +9,7 @@
 #include "tools/fulmar_live/client.hpp"
 
 namespace fulmar::plot {
-struct LogPlotWords;
+struct LogPlotArguments;
 }
 
 namespace fulmar::core {
@@ -35,7 +35,7 @@ struct PlotOptions {
 };
 int plot_command(const LiveAddress& target, const PlotOptions& options);
 /// Of logs, over time: a picture per panel.
-int picture_command(const plot::LogPlotWords& words);
+int picture_command(const plot::LogPlotArguments& words);
 
 /// At a terminal until interrupted; otherwise once.
 int watch_command(const LiveAddress& target);

@@ -36,7 +36,7 @@ class Echo {
     if (options_.csv) print_header();
     while (options_.count == 0 || printed_ < options_.count) {
       const auto sample = session_.next(std::chrono::milliseconds(500));
-      tell_silent();
+      report_silent();
       if (!sample) {
         std::fflush(stdout);
         continue;
@@ -49,9 +49,9 @@ class Echo {
 
  private:
   /// Once: a port may be published seldom, or never.
-  void tell_silent() {
-    if (told_ || std::chrono::steady_clock::now() - begin_ < std::chrono::seconds(2)) return;
-    told_ = true;
+  void report_silent() {
+    if (reported_ || std::chrono::steady_clock::now() - begin_ < std::chrono::seconds(2)) return;
+    reported_ = true;
     for (const PortField& p : ports_)
       if (!heard_.contains(p.topic))
         std::fprintf(stderr, "waiting for the first sample of %s\n", p.label.c_str());
@@ -117,7 +117,7 @@ class Echo {
   std::map<std::string, std::int64_t> next_ns_;
   std::set<std::string> heard_;  // topics
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  bool told_ = false;
+  bool reported_ = false;
   std::int64_t epoch_ns_ = 0;
   std::uint64_t printed_ = 0;
   std::vector<std::byte> message_;

@@ -147,7 +147,7 @@ int plot_command(const LiveAddress& target, const PlotOptions& options) {
   return interrupted ? 130 : 0;
 }
 
-int picture_command(const plot::LogPlotWords& words) {
+int picture_command(const plot::LogPlotArguments& words) {
   std::vector<std::string> notes;
   const chart::Figure figure = plot::log_figure(words, notes);
   double begin_s = INFINITY, end_s = -INFINITY;

@@ -53,7 +53,7 @@ struct RemoteCommands::Impl {
   std::string name;
   EchoOptions echo;
   PlotOptions curves;
-  plot::LogPlotWords figure;
+  plot::LogPlotArguments figure;
   CLI::Option* live_seconds = nullptr;          // of plot
   std::vector<const CLI::Option*> log_options;  // of plot
   SaveOptions save;
@@ -309,7 +309,7 @@ int RemoteCommands::run() const {
     for (const auto& [command, action] : impl_->actions)
       if (command->parsed()) return action();
     return 2;
-  } catch (const plot::WrongWords& wrong) {
+  } catch (const plot::UsageError& wrong) {
     std::fprintf(stderr, "%s\n", for_terminal(wrong.what()).c_str());
     return 2;
   } catch (const WrongUsage& wrong) {

@@ -58,7 +58,7 @@ std::string check_of(const StateLog& log, const std::string& topic) {
   return early.empty() || early != late ? "" : beside(early);
 }
 
-Side side_of(const StateLog& log, const std::string& topic, const CompareWords& words) {
+Side side_of(const StateLog& log, const std::string& topic, const CompareArguments& words) {
   Side side{&log, topic, "", "", ""};
   if (!words.truth.empty())
     side.truth = topic_named(log, words.truth, "VehicleState", log.states());
@@ -111,7 +111,7 @@ std::pair<std::string, std::string> short_names(const Side& a, const Side& b, co
   return {owner(a), owner(b)};
 }
 
-Span span_of(const CompareWords& words) {
+Span span_of(const CompareArguments& words) {
   Span span;
   if (words.from_s) span.from_ns = std::llround(1e9 * *words.from_s);
   if (words.to_s) span.to_ns = std::llround(1e9 * *words.to_s);
@@ -122,7 +122,7 @@ Span span_of(const CompareWords& words) {
 
 Side usual_side(const StateLog& log, const std::string& topic) { return side_of(log, topic, {}); }
 
-int compare_command(const CompareWords& words) {
+int compare_command(const CompareArguments& words) {
   std::vector<std::string> names = words.rest;
   const bool two_logs =
       !names.empty() && (fs::exists(names[0]) || names[0].ends_with(".mcap") || names[0].ends_with(".part"));

@@ -9,7 +9,7 @@
 
 namespace fulmar::states {
 
-struct CompareWords {
+struct CompareArguments {
   std::string log;
   std::vector<std::string> rest;       // another log, if it is a file; then the names of states
   std::string truth, fixes, names;     // topics; "before,now"; "" where nothing is said
@@ -22,6 +22,6 @@ struct CompareWords {
 Side usual_side(const StateLog& log, const std::string& topic);
 
 /// 0: compared, or with `changed` nothing was to be; 1: at no time were both there. Throws core::Error.
-int compare_command(const CompareWords& words);
+int compare_command(const CompareArguments& words);
 
 }  // namespace fulmar::states

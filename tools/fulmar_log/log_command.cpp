@@ -234,7 +234,7 @@ struct LogCommand::Impl {
   std::string file, other, out, form;
   std::vector<std::string> topics;
   bool as_json = false, messages_only = false;
-  states::CompareWords comparison;
+  states::CompareArguments comparison;
 
   explicit Impl(CLI::App& app) {
     log = app.add_subcommand("log", "look at a log, repair it, export it, compare it");
@@ -307,7 +307,7 @@ int LogCommand::run() const {
   if (c.recover->parsed()) return recover_command(c.file, c.out);
   if (c.to_files->parsed()) return export_command(c.file, c.form, c.out, c.topics);
   if (c.diff->parsed()) return diff_command(c.file, c.other, c.as_json, c.messages_only);
-  states::CompareWords words = c.comparison;
+  states::CompareArguments words = c.comparison;
   words.log = c.file;
   return states::compare_command(words);
 }

@@ -80,7 +80,7 @@ std::pair<double, double> read_size(const std::string& text) {
     const bool good = wide > 0 && high > 0 && wide <= largest_mm && high <= largest_mm;
     if (second.ec == std::errc{} && (unit == "mm" || unit.empty()) && good) return {wide, high};
   }
-  throw WrongWords("--size " + text + ": give width and height in millimetres, at most 2000, as in 160x90mm");
+  throw UsageError("--size " + text + ": give width and height in millimetres, at most 2000, as in 160x90mm");
 }
 
 void write_figure(const fs::path& out, const std::string& svg) {

@@ -67,13 +67,13 @@ std::size_t place_of_field(std::vector<std::string>& fields, const std::string& 
   return fields.size() - 1;
 }
 
-Asked read_words(const LogPlotWords& words) {
+Asked read_words(const LogPlotArguments& words) {
   Asked asked;
   for (const std::string& word : words.words) {
     if (names_a_log(word) && asked.fields.empty())
       asked.logs.push_back(word);
     else if (names_a_log(word))
-      throw WrongWords("'" + word + "' is a log: logs stand before the fields");
+      throw UsageError("'" + word + "' is a log: logs stand before the fields");
     else
       place_of_field(asked.fields, word);
   }
@@ -84,12 +84,12 @@ Asked read_words(const LogPlotWords& words) {
       asked.panels.back().push_back(place_of_field(asked.fields, field));
   }
   if (asked.fields.empty())
-    throw WrongWords("give at least one field behind the log, as in fulmar plot " + asked.logs.at(0) +
+    throw UsageError("give at least one field behind the log, as in fulmar plot " + asked.logs.at(0) +
                      " nav.state.height_m -o height.svg");
   if (words.labels.empty()) return asked;
   asked.labels = split(words.labels);
   if (asked.labels.size() != asked.fields.size())
-    throw WrongWords("--labels takes a name for each field, with commas between them: " +
+    throw UsageError("--labels takes a name for each field, with commas between them: " +
                      std::to_string(asked.fields.size()) + ", not " + std::to_string(asked.labels.size()));
   return asked;
 }
@@ -101,7 +101,7 @@ std::vector<std::string> log_names(const Asked& asked, const std::string& given)
   if (!given.empty()) {
     names = split(given);
     if (names.size() != asked.logs.size())
-      throw WrongWords("--names takes a name for each log, with commas between them: " +
+      throw UsageError("--names takes a name for each log, with commas between them: " +
                        std::to_string(asked.logs.size()) + ", not " + std::to_string(names.size()));
     return names;
   }
@@ -345,12 +345,12 @@ bool names_a_log(const std::string& word) {
   return word.ends_with(".mcap") || word.ends_with(".mcap.part") || fs::exists(word, none);
 }
 
-chart::Figure log_figure(const LogPlotWords& words, std::vector<std::string>& notes) {
+chart::Figure log_figure(const LogPlotArguments& words, std::vector<std::string>& notes) {
   const Asked asked = read_words(words);
   constexpr double all = std::numeric_limits<double>::infinity();
   const Interval time{words.from_s.value_or(-all), words.to_s.value_or(all)};
   if (time.from_s >= time.to_s)
-    throw WrongWords("--from " + chart::figures(time.from_s, 9) + " is not before --to " +
+    throw UsageError("--from " + chart::figures(time.from_s, 9) + " is not before --to " +
                      chart::figures(time.to_s, 9));
   const std::vector<std::string> names = log_names(asked, words.names);
   std::vector<OpenLog> logs;
@@ -373,14 +373,14 @@ chart::Figure log_figure(const LogPlotWords& words, std::vector<std::string>& no
   if (figure.even) chart::fit_even(figure);
   if (!words.size.empty()) std::tie(figure.wide_mm, figure.high_mm) = read_size(words.size);
   if (const std::string why = chart::too_small(figure); !why.empty())
-    throw WrongWords("--size " + chart::figures(figure.wide_mm, 6) + "x" + chart::figures(figure.high_mm, 6) +
+    throw UsageError("--size " + chart::figures(figure.wide_mm, 6) + "x" + chart::figures(figure.high_mm, 6) +
                      "mm " + why);
   return std::move(maker.figure);
 }
 
-int plot_log_command(const LogPlotWords& words) {
+int plot_log_command(const LogPlotArguments& words) {
   const std::string no_out = "give the figure's file, as in -o figure.svg (or .png, .pdf)";
-  if (words.out.empty()) throw WrongWords(no_out);
+  if (words.out.empty()) throw UsageError(no_out);
   std::error_code none;
   for (const std::string& log : words.words)
     if (fs::equivalent(words.out, log, none))

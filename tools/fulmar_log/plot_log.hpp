@@ -13,7 +13,7 @@
 
 namespace fulmar::plot {
 
-struct LogPlotWords {
+struct LogPlotArguments {
   std::vector<std::string> words{};    // logs, and fields behind them: a panel per unit
   std::vector<std::string> panels{};   // further panels: fields with commas between them
   std::string over{};                  // field that is x, ".field" of each curve's own port; "": time
@@ -24,7 +24,7 @@ struct LogPlotWords {
 };
 
 /// What was typed cannot be meant.
-struct WrongWords : core::Error {
+struct UsageError : core::Error {
   using Error::Error;
 };
 
@@ -32,10 +32,10 @@ struct WrongWords : core::Error {
 bool names_a_log(const std::string& word);
 
 /// Draws it and says so; the exit code. Throws core::Error.
-int plot_log_command(const LogPlotWords& words);
+int plot_log_command(const LogPlotArguments& words);
 
 /// The figure alone. `notes`: what is to be told beside it.
-chart::Figure log_figure(const LogPlotWords& words, std::vector<std::string>& notes);
+chart::Figure log_figure(const LogPlotArguments& words, std::vector<std::string>& notes);
 
 /// "160x90mm": width and height. Throws WrongWords.
 std::pair<double, double> read_size(const std::string& text);

@@ -104,9 +104,9 @@ void Salvage::check_head(std::uint64_t place, std::uint8_t code, std::uint64_t l
 }
 
 void Salvage::check_whole(std::uint64_t place, std::uint8_t code, std::uint64_t length) {
-  const bool tells = code == mcap::chunk || code == mcap::attachment || code == mcap::metadata ||
-                     code == mcap::message_index;
-  if (!tells) return;
+  const bool reports = code == mcap::chunk || code == mcap::attachment || code == mcap::metadata ||
+                       code == mcap::message_index;
+  if (!reports) return;
   seek(place + mcap::record_head);
   require(length == length_within(code), "a record is longer than what is in it");
 }

@@ -239,7 +239,7 @@ void write_project(const Project& project) {
   for (const auto& [name, text] : project.files) write_text(project.folder / name, text);
 }
 
-void tell(const Project& project, const Contract& contract, const std::string& name) {
+void report(const Project& project, const Contract& contract, const std::string& name) {
   std::string what = "beside the roles";
   if (!contract.roles.empty())
     what = std::string("for the role") + (contract.roles.size() > 1 ? "s " : " ") + contract.role_words();
@@ -302,7 +302,7 @@ int new_command(const NewOptions& options) {
   check_free(mission, options.name);
   const Project project = make_project(options, places, mission, contract);
   write_project(project);
-  tell(project, contract, options.name);
+  report(project, contract, options.name);
   return 0;
 }
 

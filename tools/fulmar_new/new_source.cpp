@@ -214,7 +214,7 @@ class SourceWriter {
     return "TEST_CASE(\"what it says is finite and in range, and it takes no memory\") {\n  Bench<" + type_ +
            "> bench;\n  for (int i = 0; i < 100; ++i) {\n" + set +
            "    REQUIRE(allocations([&] { REQUIRE(bench.step(0.01) == Status::ok); }) == 0);\n"
-           "    REQUIRE(bench.fault() == \"\");\n  }\n}\n";
+           "    REQUIRE(bench.validation_error() == \"\");\n  }\n}\n";
   }
 
   std::string vehicle_test() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `fulmar replay`, as the program fulmar-replay. Exit codes: 0 equal, or an experiment that was flown; 1 it
 // differs or failed; 2 wrong usage; 4 refused; 130 interrupted.
+#include <cstdio>
+
 #include "core/app/program.hpp"
 #include "tools/fulmar_replay/replay_command.hpp"
 

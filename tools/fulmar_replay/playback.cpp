@@ -107,8 +107,8 @@ bool holds_time(const Times& times, std::uint64_t log_ns) {
 bool Playback::signalled() const { return holds_time(survey_.signals, log_ns(now_ns_)); }
 
 bool Playback::ran_over(const std::string& component, std::int64_t now_ns) const {
-  const auto told = survey_.told.find(component);
-  return told != survey_.told.end() && holds_time(told->second.over_budget, log_ns(now_ns));
+  const auto reported = survey_.reported.find(component);
+  return reported != survey_.reported.end() && holds_time(reported->second.over_budget, log_ns(now_ns));
 }
 
 // ---- in place of vehicle and drivers
@@ -134,19 +134,19 @@ void Playback::stand_in(const Graph& graph, const Component& component, UnitOpti
       std::max(options.hang_ns, patience_ns);  // what died by the clock dies as it is told below
   options.wait_for_async = true;
   if (component.info().vehicle) options.runner = std::make_unique<RecordedVehicle>(vehicle_);
-  static const Told nothing;
-  const auto at = survey_.told.find(component.name);
-  const Told& told = at == survey_.told.end() ? nothing : at->second;
+  static const Reported nothing;
+  const auto at = survey_.reported.find(component.name);
+  const Reported& reported = at == survey_.reported.end() ? nothing : at->second;
   if (!changed(component.name))
-    for (const Told::Death& d : told.deaths)
+    for (const Reported::Death& d : reported.deaths)
       options.deaths.push_back({flight_ns(d.log_ns), d.call, d.cause, d.hung});
   if (component.run == RunMode::async) {
-    for (const auto& [due_ns, at_ns] : told.late) options.late.emplace_back(due_ns, flight_ns(at_ns));
+    for (const auto& [due_ns, at_ns] : reported.late) options.late.emplace_back(due_ns, flight_ns(at_ns));
     std::sort(options.late.begin(), options.late.end());
   }
   if (component.run != RunMode::driver) return;
   std::vector<std::pair<std::int64_t, std::string>> faults;
-  for (const auto& [at_ns, cause] : told.guards) faults.emplace_back(flight_ns(at_ns), cause);
+  for (const auto& [at_ns, cause] : reported.guards) faults.emplace_back(flight_ns(at_ns), cause);
   options.samples = std::make_unique<RecordedSamples>(driver(graph, component), std::move(faults));
 }
 

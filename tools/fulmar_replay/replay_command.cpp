@@ -142,7 +142,7 @@ void refuse_idle(const Graph& graph, const Overrides& changes) {
 }
 
 /// What is recorded more is in the replay's own log alone: there is nothing to compare it with.
-void fly_for_log(const Recording& recording, const ReplayWords& words) {
+void fly_for_log(const Recording& recording, const ReplayArguments& words) {
   if (words.changes.record.empty()) return;
   const Replayed more = fly(recording, words.changes, words.out, false);
   const LogResult& log = more.result.flight.log;
@@ -157,7 +157,7 @@ Overrides without_record(Overrides changes) {
 }
 
 /// The log as it was and as it would have been, side by side.
-int experiment(const Recording& recording, const ReplayWords& words, json& out) {
+int experiment(const Recording& recording, const ReplayArguments& words, json& out) {
   refuse_idle(recording.mission(words.changes, {}), words.changes);
   const Replayed was = fly(recording, {}, "");
   const bool more = !words.changes.record.empty();
@@ -183,7 +183,7 @@ int experiment(const Recording& recording, const ReplayWords& words, json& out) 
   return 0;
 }
 
-int run(ReplayWords words, json& out) {
+int run(ReplayArguments words, json& out) {
   check_log_file(words.log);
   if (!words.out.empty()) OutFile::refuse(words.out);  // before anything flies
   const Recording recording(words.log);
@@ -200,7 +200,7 @@ int run(ReplayWords words, json& out) {
   return again.result.equal() ? 0 : 1;
 }
 
-int carry_out(const ReplayWords& words) {
+int carry_out(const ReplayArguments& words) {
   struct sigaction action {};
   action.sa_handler = stop_replay;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);

@@ -9,7 +9,7 @@
 
 namespace fulmar::core {
 
-struct ReplayWords {
+struct ReplayArguments {
   std::string log;
   Overrides changes;  // --with and --set: an experiment; --record
   std::string out;    // where the replay's own log goes; "": nowhere
@@ -26,7 +26,7 @@ class ReplayCommand {
   int run();
 
  private:
-  ReplayWords words_;
+  ReplayArguments words_;
   std::vector<std::string> set_, with_;
 };
 

@@ -8,7 +8,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t max_told_bytes = 32u << 20;  // two million late results
+constexpr std::size_t max_reported_bytes = 32u << 20;  // two million late results
 
 }  // namespace
 
@@ -20,7 +20,7 @@ struct Survey::Reading {
   std::optional<HostTopic<CommandNote>> parameters{};
   std::map<std::uint16_t, std::uint32_t> expected{};  // sequence of the next message, by channel
   std::uint64_t latest_ns = 0;
-  std::size_t told_bytes = 0;
+  std::size_t reported_bytes = 0;
   bool in_order = true;
   std::optional<CommandNote> set{};  // the parameter that was set last
   std::uint64_t set_at = 0;
@@ -116,15 +116,15 @@ struct Survey::Reading {
       case Code::hung:
       case Code::died:
       case Code::over_budget:
-      case Code::late_result: note_told(e, log_ns); break;
+      case Code::late_result: note_reported(e, log_ns); break;
       default: break;
     }
   }
 
-  void note_told(const Event& e, std::uint64_t log_ns) {
+  void note_reported(const Event& e, std::uint64_t log_ns) {
     const std::string name = e.component.data(), call = e.name.data(), cause = e.cause.data();
-    if (!to.told.contains(name)) count(sizeof(Told) + name.size());
-    Told& of_it = to.told[name];
+    if (!to.reported.contains(name)) count(sizeof(Reported) + name.size());
+    Reported& of_it = to.reported[name];
     count(2 * sizeof log_ns);
     if (e.code == Code::over_budget) {
       of_it.over_budget.push_back(log_ns);
@@ -134,15 +134,15 @@ struct Survey::Reading {
       count(sizeof cause + cause.size());
       of_it.guards.emplace_back(log_ns, cause);
     } else {
-      count(sizeof(Told::Death) + call.size() + cause.size());
+      count(sizeof(Reported::Death) + call.size() + cause.size());
       of_it.deaths.push_back({log_ns, call, cause, e.code == Code::hung});
     }
   }
 
   void count(std::size_t bytes) {
-    if ((told_bytes += bytes) > max_told_bytes)
+    if ((reported_bytes += bytes) > max_reported_bytes)
       throw Error("the log tells of more guards, signals and late results than the " +
-                  std::to_string(max_told_bytes >> 20) + " MB that a replay has room for");
+                  std::to_string(max_reported_bytes >> 20) + " MB that a replay has room for");
   }
 
   void take_parameter(const McapFile::Message& m) try {

@@ -16,7 +16,7 @@
 namespace fulmar::core {
 
 /// What the host told of a component that a replay cannot find out by itself. Log times.
-struct Told {
+struct Reported {
   struct Death {
     std::uint64_t log_ns = 0;
     std::string call, cause;
@@ -52,7 +52,7 @@ struct Survey {
   } ticks;
 
   std::string event_fault;                         // "" or why the host's events cannot be read
-  std::map<std::string, Told> told;                // by component
+  std::map<std::string, Reported> reported;        // by component
   std::vector<std::uint64_t> signals;              // that took effect
   std::optional<std::uint64_t> vehicle_failed_ns;  // log time
   std::string last_words;                          // of the vehicle then

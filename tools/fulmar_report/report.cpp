@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view place = "LOG_OF_THE_FLIGHT";
 constexpr std::size_t max_rows = 2000, min_rows = 300;  // of a curve that is judged
-constexpr std::size_t max_told = 100;                   // events
+constexpr std::size_t max_reported = 100;               // events
 constexpr std::size_t thinnest = 64;
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
@@ -45,17 +45,17 @@ json ground_records(const json& parameters) {
 }
 
 /// Guards, failsafe, swaps, and whatever has the host's warning; what came in silence is no news.
-bool is_told(const core::LogInfo::Event& e) {
+bool is_reported(const core::LogInfo::Event& e) {
   static const std::set<std::string> kinds{"guard", "failsafe", "swap", "parameter", "resume"};
   return kinds.contains(e.kind) || (!e.severity.empty() && e.severity != "info");
 }
 
-json told_events(const core::LogInfo& info) {
+json reported_events(const core::LogInfo& info) {
   json rows = json::array();
   std::size_t all = 0;
   for (const core::LogInfo::Event& e : info.events) {
-    if (!is_told(e)) continue;
-    if (++all <= max_told)
+    if (!is_reported(e)) continue;
+    if (++all <= max_reported)
       rows.push_back({{"t", seconds(e.time_ns)},
                       {"kind", e.kind},
                       {"component", e.component},
@@ -97,7 +97,7 @@ json log_json(const ReportedLog& log, std::size_t every_nth) {
           {"metadata", metadata},
           {"figures", log.figures.figures},
           {"phases", phases_of(log.info)},
-          {"told", told_events(log.info)},
+          {"told", reported_events(log.info)},
           {"estimates", std::move(estimates)},
           {"innovations", std::move(sensors)},
           {"hardware", log.hardware},

@@ -132,7 +132,7 @@ int fulmar_sim_reset(fulmar_sim* all, const bool* only, std::uint64_t seed) {
 }
 
 /// Into steady level flight above the origin; `starts` is height, airspeed, heading.
-int fulmar_sim_fly(fulmar_sim* all, const bool* only, const double* starts) {
+int fulmar_sim_start_in_flight(fulmar_sim* all, const bool* only, const double* starts) {
   return guarded(all, [&](fulmar_sim& s) {
     std::vector<std::pair<std::size_t, sim::Simulation>> flying;
     for (std::size_t i = 0; i < s.batch.size(); ++i) {

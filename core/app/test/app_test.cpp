@@ -178,10 +178,10 @@ TEST_CASE("on a full disk the flight goes on and the loss is told") {
   const std::string why = "cannot write '" + log + ".part': File too large";
   // The loop says it, in flight; how far it has come by then is a matter of two threads and of what else the
   // machine does.
-  const std::size_t told = r.err.find("the flight goes on without its log: " + why),
+  const std::size_t reported = r.err.find("the flight goes on without its log: " + why),
                     summed_up = r.err.find("the log is not whole: " + why + "; ");
   CHECK(summed_up != std::string::npos);
-  CHECK(told < summed_up);
+  CHECK(reported < summed_up);
   CHECK(r.err.find(" messages were lost, and what there is is in " + log + ".part\n") != std::string::npos);
   CHECK_FALSE(fs::exists(log));
   CHECK(fulmar("log info " + log + ".part").out.find("complete") == std::string::npos);

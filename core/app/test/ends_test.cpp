@@ -137,7 +137,7 @@ const std::string everything =
 
 TEST_CASE("a component that takes the host with it is named, and the device gets the last frame") {
   struct End {
-    const char *fault, *mode, *told;
+    const char *fault, *mode, *reported;
     int code;
   };
   const std::string async = "run: async, latency: 10 ms, ";
@@ -161,7 +161,7 @@ TEST_CASE("a component that takes the host with it is named, and the device gets
     Program program(law(end.fault, end.mode));
     CHECK(program.wait() == end.code);
     const std::string said = program.said();
-    CHECK_MESSAGE(said.find(end.told) != std::string::npos, said);
+    CHECK_MESSAGE(said.find(end.reported) != std::string::npos, said);
     CHECK(said.find("What was logged until then is in " + log_file().string() + ".part") !=
           std::string::npos);
     CHECK(fs::exists(log_file().string() + ".part"));

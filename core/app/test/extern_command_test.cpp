@@ -39,7 +39,7 @@ struct Home {
 };
 
 /// Tells which program it is and what it was given, one word a line.
-std::string teller(const std::string& name, int code) {
+std::string reporter(const std::string& name, int code) {
   return "#!/bin/sh\necho " + name + "\nfor word in \"$@\"; do echo \"[$word]\"; done\nexit " +
          std::to_string(code) + "\n";
 }
@@ -50,9 +50,9 @@ TEST_CASE(
     "a word that is no command of the host starts the program of that name with the remaining words, and "
     "ends with its code") {
   const Home home;
-  home.program("bin/fulmar-tell", teller("beside", 7));
-  home.program("path/fulmar-tell", teller("path", 8));
-  home.program("path/fulmar-far", teller("path", 9));
+  home.program("bin/fulmar-tell", reporter("beside", 7));
+  home.program("path/fulmar-tell", reporter("path", 8));
+  home.program("path/fulmar-far", reporter("path", 9));
   const Said beside = home.fulmar("tell --json 'two words' '' -x=1");
   CHECK(beside.out == "beside\n[--json]\n[two words]\n[]\n[-x=1]\n");
   CHECK(beside.code == 7);
@@ -64,12 +64,12 @@ TEST_CASE(
 TEST_CASE("help lists the programs beside the host") {
   const Home home;
   CHECK_FALSE(holds(home.fulmar("--help").out, "Programs beside"));
-  home.program("bin/fulmar-zeta", teller("zeta", 0));
-  home.program("bin/fulmar-aero", teller("aero", 0));
+  home.program("bin/fulmar-zeta", reporter("zeta", 0));
+  home.program("bin/fulmar-aero", reporter("aero", 0));
   home.program("bin/fulmar-notes.txt", "text");
-  home.program("bin/fulmar-idle", teller("idle", 0), false);
-  home.program("bin/fulmar-child", teller("child", 0));
-  home.program("bin/fulmar-replay", teller("replay", 0));
+  home.program("bin/fulmar-idle", reporter("idle", 0), false);
+  home.program("bin/fulmar-child", reporter("child", 0));
+  home.program("bin/fulmar-replay", reporter("replay", 0));
   const Said help = home.fulmar("--help");
   CHECK(help.code == 0);
   CHECK(holds(help.out, "Programs beside this one: aero, zeta (fulmar aero --help)"));
@@ -77,12 +77,12 @@ TEST_CASE("help lists the programs beside the host") {
 
 TEST_CASE("a command that exists nowhere is told with what there is, and a built-in one is not replaced") {
   const Home home;
-  home.program("bin/fulmar-aero", teller("aero", 0));
-  home.program("bin/fulmar-check", teller("check", 0));
-  home.program("bin/fulmar-idle", teller("idle", 0), false);
-  home.program("bin/fulmar-probe", teller("probe", 0));
-  home.program("bin/fulmar-save", teller("save", 0));
-  home.program("other", teller("other", 0));
+  home.program("bin/fulmar-aero", reporter("aero", 0));
+  home.program("bin/fulmar-check", reporter("check", 0));
+  home.program("bin/fulmar-idle", reporter("idle", 0), false);
+  home.program("bin/fulmar-probe", reporter("probe", 0));
+  home.program("bin/fulmar-save", reporter("save", 0));
+  home.program("other", reporter("other", 0));
   const Said missing = home.fulmar("areo");
   CHECK(missing.code == 2);
   CHECK(holds(missing.out,
@@ -172,7 +172,7 @@ TEST_CASE("the host's help names every word of the programs beside it, as their 
 TEST_CASE("what runs does not depend on the present folder: relative folders of PATH are passed over") {
   const Home home;
   fs::create_directories(home.folder / "elsewhere" / "path");
-  home.program("elsewhere/path/fulmar-near", teller("near", 0));
+  home.program("elsewhere/path/fulmar-near", reporter("near", 0));
   const Said r = home.fulmar("--version >/dev/null; cd elsewhere && ../bin/fulmar near");
   CHECK(r.code == 2);
   CHECK(holds(r.out, "there is no command 'near'"));

@@ -68,7 +68,7 @@ struct After {
   double height_error_m = 0;  ///< of the estimate, at most
   double position_error_m = 0;
   double down_s = -1;     ///< from the failure to the ground
-  bool told = false;      ///< something was said after it
+  bool reported = false;  ///< something was said after it
   bool admitted = false;  ///< the estimate called something of itself invalid
   std::size_t guards = 0;
   std::string outcome;
@@ -106,7 +106,7 @@ class FailingFlight {
   FlightOptions watched(FlightOptions o) {
     o.say = [this](const std::string& line, bool) {
       const bool of_the_end = line.find("phase ") == 0;
-      if (failed_s_ >= 0 && !of_the_end) after_.told = true;
+      if (failed_s_ >= 0 && !of_the_end) after_.reported = true;
     };
     return o;
   }

@@ -104,17 +104,17 @@ TEST_CASE("a mission looks at what the navigation filter makes of a sensor") {
   std::ofstream(file) << looks_at_health();
   const Graph graph = load_mission(file.string(), {});
   Flight flight(graph, test::unlogged());
-  int failing = 0, told = 0, again = 0;  // ticks at 400 Hz
+  int failing = 0, reported = 0, again = 0;  // ticks at 400 Hz
   while (flight.step()) {
     failing += flight.phase() == "failing";
-    told += flight.phase() == "told";
+    reported += flight.phase() == "told";
     again += flight.phase() == "again";
   }
   flight.finish();
   CHECK(failing > 0.45 * 400);
   CHECK(failing < 0.8 * 400);
-  CHECK(told > 0);
-  CHECK(told < 0.4 * 400);
+  CHECK(reported > 0);
+  CHECK(reported < 0.4 * 400);
   CHECK(again > 10 * 400);
 }
 

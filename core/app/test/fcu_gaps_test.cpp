@@ -23,7 +23,7 @@ void check(const Gap& gap, const fs::path& folder) {
   CAPTURE(gap.height_m);
   const AfterGap a = fly(gap, folder, test::unlogged());
   CHECK(missed(gap, a) == "");
-  CHECK(a.told_blind == (gap.length_s > 0.3));  // the estimator carries on for so long
+  CHECK(a.reported_blind == (gap.length_s > 0.3));  // the estimator carries on for so long
 }
 
 TEST_CASE(
@@ -92,7 +92,7 @@ TEST_CASE(
 TEST_CASE("a sensor that is not there is told before arming; without a heading no command goes out") {
   const test::OwnStore folder;
   struct Missing {
-    const char *param, *told;
+    const char *param, *reported;
     bool commands;
   };
   for (const Missing& m :
@@ -102,7 +102,7 @@ TEST_CASE("a sensor that is not there is told before arming; without a heading n
     const Graph graph = mission(folder.path, 70, 1, {{m.param, "no"}, {"sim.arm_at", "1000 s"}});
     Flown f(graph, test::unlogged());
     REQUIRE(f.fly_while([](const Row& r) { return r.t_s < 8; }));
-    CHECK(f.told_s(m.told, 0) >= 0);
+    CHECK(f.reported_s(m.reported, 0) >= 0);
     CHECK((f.row().script_s >= 0) == m.commands);  // the script begins with the first command
   }
 }

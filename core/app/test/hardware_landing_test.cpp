@@ -69,7 +69,7 @@ TEST_CASE("the verdict of a flight names the first thing that was not as asked")
   Case c;
   c.never = {"glide"};
   c.phases = {"takeoff", "cruise"};
-  c.told = {"barometer"};
+  c.reported = {"barometer"};
   Landing l;
   l.landed = true;
   l.takeoff_m = 30;

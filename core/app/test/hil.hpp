@@ -197,11 +197,11 @@ inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std:
   if (realtime) flight.emplace_back("--realtime");
   const Standstill machine(realtime);
   Process host(flight, file("host.json"), file("host.err"));
-  bool told = false;
+  bool reported = false;
   while (host.running() && wall_s() - begun < plan.limit_s) {
     nap(0.1);
-    if (told || host.err().find("flies on until disarmed") == std::string::npos) continue;
-    told = true;
+    if (reported || host.err().find("flies on until disarmed") == std::string::npos) continue;
+    reported = true;
     peer.signal(SIGUSR1);
   }
   f.code = host.wait(1);

@@ -98,7 +98,7 @@ const Disturbed& disturbed() { return flights().disturbed; }
 TEST_CASE("sensors that are not there are said before arming, by name") {
   struct Lack {
     std::vector<std::string> words;
-    const char* told;
+    const char* reported;
   };
   const Lack lacks[] = {{{"--no-fix-at", "-1", "--no-mag"},
                          "not ready: no attitude with heading, no GNSS fix, no magnetometer\n"},
@@ -109,7 +109,7 @@ TEST_CASE("sensors that are not there are said before arming, by name") {
     std::vector<std::string> words = lack.words;
     words.insert(words.end(), {"--arm-at", "inf"});
     const Flown f = fly_peer(s, {"manage.progress.circuits >= 1", 6, 1, 60}, words, false);
-    CHECK_MESSAGE(f.said.find(lack.told) != std::string::npos, f.said);
+    CHECK_MESSAGE(f.said.find(lack.reported) != std::string::npos, f.said);
   }
 }
 

@@ -92,7 +92,7 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
   struct Row {
     const char* fault;
     const char* how;
-    const char* told;
+    const char* reported;
     double speed;
     bool crash;
   };
@@ -116,7 +116,7 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
     REQUIRE(flown.result.guards.size() == 1);
     CHECK(flown.result.guards[0].component == "bad");
     CHECK(flown.result.guards[0].action == "slc takes over");
-    CHECK(flown.result.guards[0].what.find(row.told) != std::string::npos);
+    CHECK(flown.result.guards[0].what.find(row.reported) != std::string::npos);
     const double deviation = deviation_m(whole.truth, flown.truth);
     MESSAGE(std::string(row.fault) << std::string(row.how[0] == 'r' ? ", in a child" : ", in the loop")
                                    << ": at most " << deviation << " m from the flight without a fault");

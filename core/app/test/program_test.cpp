@@ -28,7 +28,7 @@ using namespace fulmar::core;
 
 namespace {
 
-std::string told(const std::function<void()>& fault) {
+std::string reported(const std::function<void()>& fault) {
   try {
     fault();
   } catch (const std::exception& e) {
@@ -58,32 +58,32 @@ std::string heard(const std::function<void()>& words) {
 
 TEST_CASE("what the language's library throws becomes a sentence for people") {
   const std::string inside = "an error inside Fulmar (";
-  CHECK(told([] { std::vector<int>().reserve(std::vector<int>().max_size() + 1); }) ==
+  CHECK(reported([] { std::vector<int>().reserve(std::vector<int>().max_size() + 1); }) ==
         inside + "std::length_error): something would have become longer than anything can be");
-  CHECK(told([] { std::ignore = std::string().substr(1); }) ==
+  CHECK(reported([] { std::ignore = std::string().substr(1); }) ==
         inside + "std::out_of_range): something was looked for where there is nothing");
   const std::string taken = "something is not what it was taken for";
-  CHECK(told([] { std::ignore = std::get<int>(std::variant<double, int>(1.0)); }) ==
+  CHECK(reported([] { std::ignore = std::get<int>(std::variant<double, int>(1.0)); }) ==
         inside + "std::bad_variant_access): " + taken);
-  CHECK(told([] { std::ignore = std::optional<int>().value(); }) ==
+  CHECK(reported([] { std::ignore = std::optional<int>().value(); }) ==
         inside + "std::bad_optional_access): " + taken);
-  CHECK(told([] { std::ignore = std::any_cast<int>(std::any(1.0)); }) ==
+  CHECK(reported([] { std::ignore = std::any_cast<int>(std::any(1.0)); }) ==
         inside + "std::bad_any_cast): " + taken);
-  CHECK(told([] { std::ignore = std::stoi("x"); }) ==
+  CHECK(reported([] { std::ignore = std::stoi("x"); }) ==
         inside + "std::invalid_argument): something was given that makes no sense there");
-  CHECK(told([] { std::function<void()>()(); }) ==
+  CHECK(reported([] { std::function<void()>()(); }) ==
         inside + "std::bad_function_call): there is nothing to call");
 }
 
 TEST_CASE("what has words for people keeps them") {
-  CHECK(told([] { throw Error("mission.yaml:3: no"); }) == "mission.yaml:3: no");
-  CHECK(told([] {
+  CHECK(reported([] { throw Error("mission.yaml:3: no"); }) == "mission.yaml:3: no");
+  CHECK(reported([] {
           throw std::system_error(std::make_error_code(std::errc::no_space_on_device), "basic_filebuf");
         }) == "No space left on device");
-  CHECK(told([] { std::ignore = std::filesystem::file_size("/nowhere"); }) ==
+  CHECK(reported([] { std::ignore = std::filesystem::file_size("/nowhere"); }) ==
         "'/nowhere': No such file or directory");
-  CHECK(told([] { throw std::bad_alloc(); }) == "there is not enough memory for that");
-  CHECK(told([] { throw std::runtime_error("the ellipsoid is flat"); }) ==
+  CHECK(reported([] { throw std::bad_alloc(); }) == "there is not enough memory for that");
+  CHECK(reported([] { throw std::runtime_error("the ellipsoid is flat"); }) ==
         "an error inside Fulmar (std::runtime_error): the ellipsoid is flat");
 }
 

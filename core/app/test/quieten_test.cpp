@@ -56,8 +56,8 @@ struct Flown {
   bool flown = false;
   double from_s = -1,
          last_s = -1;  ///< of the time that the surface moves faster than 2 rad/s, root mean square of 0.3 s
-  double told_s = -1;
-  std::string told;
+  double reported_s = -1;
+  std::string reported;
 };
 
 Flown fly(const Graph& graph, const std::string& surface) {
@@ -67,8 +67,8 @@ Flown fly(const Graph& graph, const std::string& surface) {
   double now_s = 0;
   options.say = [&](const std::string& words, bool) {
     if (words.find("oscillates") == std::string::npos || now_s < 60) return;
-    if (flown.told_s < 0) flown.told_s = now_s;
-    flown.told += words + "\n";
+    if (flown.reported_s < 0) flown.reported_s = now_s;
+    flown.reported += words + "\n";
   };
   Flight flight(graph, options);
   const auto named = std::find_if(graph.components.begin(), graph.components.end(),
@@ -120,13 +120,13 @@ TEST_CASE("three times the gain on slow servos oscillates; it is quiet within 2 
       const Flown loud = fly(mission(c, false), c.surface), quiet = fly(mission(c, true), c.surface);
       CHECK(loud.from_s > 60);
       CHECK(loud.last_s > 95);  // for ever
-      CHECK(loud.told == "");
+      CHECK(loud.reported == "");
       CHECK(quiet.flown);
       CHECK(quiet.from_s > 60);
       CHECK(quiet.last_s < quiet.from_s + 2);
-      CHECK(quiet.told_s < quiet.from_s + 2);
-      CHECK(quiet.told_s > 0);
-      CHECK(quiet.told.find(c.surface == "aileron_rad" ? "roll oscillates" : "pitch oscillates") !=
+      CHECK(quiet.reported_s < quiet.from_s + 2);
+      CHECK(quiet.reported_s > 0);
+      CHECK(quiet.reported.find(c.surface == "aileron_rad" ? "roll oscillates" : "pitch oscillates") !=
             std::string::npos);
     }
 }
@@ -139,12 +139,12 @@ TEST_CASE("in moderate turbulence nothing is taken for an oscillation" * doctest
     const Graph graph = load_mission(configs + "missions/hourglass.yaml", o);
     FlightOptions options;
     options.log = false;
-    std::string told;
+    std::string reported;
     options.say = [&](const std::string& words, bool) {
-      if (words.find("oscillates") != std::string::npos) told += words;
+      if (words.find("oscillates") != std::string::npos) reported += words;
     };
     Flight flight(graph, options);
     CHECK(flight.run().outcome == Outcome::flown);
-    CHECK(told == "");
+    CHECK(reported == "");
   }
 }

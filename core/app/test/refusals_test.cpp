@@ -30,12 +30,12 @@ TEST_CASE("what cannot be is refused before anything flies") {
 
 TEST_CASE("a value that no aircraft has is refused, with its range" * doctest::test_suite("amounts")) {
   const std::string with_plan = "components:\n  plan: {params: {plan: ";
-  const auto refused = [](const std::string& text, const std::string& told) {
+  const auto refused = [](const std::string& text, const std::string& reported) {
     CAPTURE(text);
     for (const std::string command : {"check ", "run --no-log --duration 1 "}) {
       const Result r = fulmar(command + mission(text).string());
       CHECK(r.code == 4);
-      CHECK_MESSAGE(r.err.find(told) != std::string::npos, r.err);
+      CHECK_MESSAGE(r.err.find(reported) != std::string::npos, r.err);
     }
   };
   refused(plan + "failsafe: {elevator_rad: 100}\n", "elevator_rad: 100 is outside -1.5708 .. 1.5708 rad");

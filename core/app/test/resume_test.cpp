@@ -46,7 +46,7 @@ fs::path recorded_hourglass(const fs::path& folder, const std::string& record) {
 }
 
 /// When a topic said something last: the log holds it at a rate of its own.
-std::uint64_t last_told_ns(const WholeLog& log, const std::string& topic) {
+std::uint64_t last_reported_ns(const WholeLog& log, const std::string& topic) {
   const std::uint16_t channel = log.channel(topic);
   const auto last = std::find_if(log.messages.rbegin(), log.messages.rend(),
                                  [&](const McapFile::Message& m) { return m.channel == channel; });
@@ -152,12 +152,13 @@ TEST_CASE("a flight resumes from a log, whole or cut off, with the phase and way
       REQUIRE(found != flown.end());
       return found;
     };
-    const auto then = at(log.messages.back().log_ns), told = at(last_told_ns(log, "/manage/progress"));
+    const auto then = at(log.messages.back().log_ns),
+               reported = at(last_reported_ns(log, "/manage/progress"));
     const Resume resume = read_resume(graph, cut);
     CHECK(resume.phase == then->phase);
     CHECK(resume.missing.empty());
     REQUIRE(resume.params.size() == 1);
-    CHECK(resume.params[0].value.number[0] == told->item);
+    CHECK(resume.params[0].value.number[0] == reported->item);
   }
   CHECK(flown.front().item != flown.back().item);
 

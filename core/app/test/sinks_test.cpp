@@ -99,8 +99,8 @@ class Running {
   json result() {
     int status = 0;
     waitpid(std::exchange(pid_, 0), &status, 0);
-    std::ifstream told(folder_ / "told"), in(folder_ / "result.json");
-    const std::string words{std::istreambuf_iterator<char>(told), {}};
+    std::ifstream reported(folder_ / "told"), in(folder_ / "result.json");
+    const std::string words{std::istreambuf_iterator<char>(reported), {}};
     CHECK_MESSAGE((WIFEXITED(status) && WEXITSTATUS(status) == 0), words);
     json j = json::parse(in, nullptr, false);
     REQUIRE(j.is_object());
@@ -110,9 +110,9 @@ class Running {
  private:
   [[noreturn]] void be_flight(const std::string& preload) const {
     const int out = open((folder_ / "result.json").c_str(), O_WRONLY | O_CREAT, 0600),
-              told = open((folder_ / "told").c_str(), O_WRONLY | O_CREAT, 0600);
+              reported = open((folder_ / "told").c_str(), O_WRONLY | O_CREAT, 0600);
     dup2(out, 1);
-    dup2(told, 2);
+    dup2(reported, 2);
     if (!preload.empty()) {
       setenv("LD_PRELOAD", preload.c_str(), 1);
       setenv("FULMAR_HANG", marker().c_str(), 1);

@@ -47,7 +47,7 @@ std::string sly_mission(const std::string& name) {
 }
 
 struct Sly {
-  const char *name, *told;
+  const char *name, *reported;
   int code;
 };
 const Sly all[] = {
@@ -73,7 +73,7 @@ TEST_CASE("a plugin that ends the program where it is used is named by every wor
       CAPTURE(words);
       const Result r = fulmar(words);
       CHECK(r.code == sly.code);
-      CHECK_MESSAGE(r.err.find("fulmar: "s + sly.told) != std::string::npos, r.err);
+      CHECK_MESSAGE(r.err.find("fulmar: "s + sly.reported) != std::string::npos, r.err);
     }
   }
 }
@@ -121,11 +121,11 @@ TEST_CASE("a plugin that ends a running host in a swap is named, with the place 
     pclose(pipe);
     // in a flight: it was begun, and failed
     CHECK(code == (sly.code == 4 ? 1 : sly.code));
-    std::string told = sly.told;
-    told.pop_back();
-    CHECK_MESSAGE(
-        text(said).find(told + ". What was logged until then is in " + log + ".part") != std::string::npos,
-        text(said));
+    std::string reported = sly.reported;
+    reported.pop_back();
+    CHECK_MESSAGE(text(said).find(reported + ". What was logged until then is in " + log + ".part") !=
+                      std::string::npos,
+                  text(said));
   }
 }
 

@@ -108,7 +108,7 @@ class Flown {
   const std::string& phase() const { return flight_.phase(); }
   FlightResult finish() { return flight_.finish(); }
   /// When these words were said for the first time since `from_s`; -1: never.
-  double told_s(const std::string& words, double from_s) const {
+  double reported_s(const std::string& words, double from_s) const {
     for (const auto& [t_s, line] : said)
       if (t_s >= from_s && line.find(words) != std::string::npos) return t_s;
     return -1;
@@ -158,7 +158,7 @@ struct AfterGap {
   double lowest_m = 1e9;   ///< whoever flies
   double back_s = -1;      ///< after the gap: the host commands again, before the fix returns
   double returned_s = -1;  ///< after the fix: the host commands
-  bool told_blind = false, told_known = false;
+  bool reported_blind = false, reported_known = false;
 };
 
 inline AfterGap fly(const Gap& gap, const std::filesystem::path& folder, const FlightOptions& options) {
@@ -199,9 +199,9 @@ inline AfterGap fly(const Gap& gap, const std::filesystem::path& folder, const F
   a.crashed = a.crashed || a.lowest_m < 1;
   a.blind = f.blind();
   a.sticks = f.sticks();
-  a.told_blind =
-      f.told_s("the attitude is not known: no command is sent, the pilot has the aircraft", begin_s) >= 0;
-  a.told_known = f.told_s("the attitude is known again: commands are sent", begin_s) >= 0;
+  a.reported_blind =
+      f.reported_s("the attitude is not known: no command is sent, the pilot has the aircraft", begin_s) >= 0;
+  a.reported_known = f.reported_s("the attitude is known again: commands are sent", begin_s) >= 0;
   f.finish();
   return a;
 }
@@ -216,7 +216,7 @@ inline std::string missed(const Gap& gap, const AfterGap& a) {
   if (his && a.back_s >= 0) return "commands without a fix";
   if (!his && (a.back_s < 0 || a.back_s > 1)) return "no command within 1 s";
   if (!gap.gnss && (a.returned_s < 0 || a.returned_s > 2)) return "no command within 2 s of the fix";
-  if (his && !(a.told_blind && a.told_known)) return "not told who has it";
+  if (his && !(a.reported_blind && a.reported_known)) return "not told who has it";
   return "";
 }
 
@@ -230,13 +230,13 @@ struct Outage {
 struct AfterOutage {
   bool crashed = false;
   double plan_m = 0;  ///< from the plan at the end of the outage, 100 s after its begin, or where it circles
-  double reckoned_m = 0;    ///< the estimate's error there
-  double std_m = 0;         ///< and what it says of itself
-  double circle_s = -1;     ///< after the loss: the circle begins
-  double turned_deg = 0;    ///< to the right, in the circle
-  double told_lost_s = -1;  ///< after the loss
-  double told_back_s = -1;  ///< after the return
-  double resumed_s = -1;    ///< after the return: back on the plan, within 10 m
+  double reckoned_m = 0;        ///< the estimate's error there
+  double std_m = 0;             ///< and what it says of itself
+  double circle_s = -1;         ///< after the loss: the circle begins
+  double turned_deg = 0;        ///< to the right, in the circle
+  double reported_lost_s = -1;  ///< after the loss
+  double reported_back_s = -1;  ///< after the return
+  double resumed_s = -1;        ///< after the return: back on the plan, within 10 m
 };
 
 inline AfterOutage fly(const Outage& outage, const std::filesystem::path& folder,
@@ -272,9 +272,11 @@ inline AfterOutage fly(const Outage& outage, const std::filesystem::path& folder
   for (std::size_t i = 0; i < f.rows.size() && a.resumed_s < 0; i += 40)
     if (f.rows[i].t_s > end_s && plan.distance_m(f.rows[i].north_m, f.rows[i].east_m) < near_m)
       a.resumed_s = f.rows[i].t_s - end_s;
-  const auto since = [](double told_s, double from_s) { return told_s < 0 ? -1 : told_s - from_s; };
-  a.told_lost_s = since(f.told_s("GNSS lost", begin_s), begin_s);
-  a.told_back_s = since(f.told_s("GNSS is back", end_s), end_s);
+  const auto since = [](double reported_s, double from_s) {
+    return reported_s < 0 ? -1 : reported_s - from_s;
+  };
+  a.reported_lost_s = since(f.reported_s("GNSS lost", begin_s), begin_s);
+  a.reported_back_s = since(f.reported_s("GNSS is back", end_s), end_s);
   f.finish();
   return a;
 }
@@ -283,8 +285,8 @@ inline AfterOutage fly(const Outage& outage, const std::filesystem::path& folder
 inline std::string missed(const Outage& outage, const AfterOutage& a) {
   constexpr double circle_s = 120, slack_s = 1;
   if (a.crashed) return "crashed";
-  if (a.told_lost_s < 0 || a.told_lost_s > 1) return "the loss was not told within 1 s";
-  if (a.told_back_s < 0 || a.told_back_s > 1) return "the return was not told within 1 s";
+  if (a.reported_lost_s < 0 || a.reported_lost_s > 1) return "the loss was not told within 1 s";
+  if (a.reported_back_s < 0 || a.reported_back_s > 1) return "the return was not told within 1 s";
   if (a.circle_s > circle_s + slack_s || (a.circle_s < 0 && outage.length_s > circle_s + slack_s))
     return "no circle after " + std::to_string(circle_s) + " s";
   // It may begin in a turn to the other side, which takes 4 s to end.

@@ -98,23 +98,23 @@ TEST_CASE("what is taken away below can be there again above") {
 }
 
 TEST_CASE("null for what is not there below is a fault of its own place") {
-  const auto told = [](const std::string& text) {
+  const auto reported = [](const std::string& text) {
     Layered mission("extends: ground.yaml\n" + text);
     return mission.faults();
   };
-  CHECK(told("components: {score: {in: {trth: null}}}\n") ==
+  CHECK(reported("components: {score: {in: {trth: null}}}\n") ==
         "hourglass.yaml:2: components.score.in: there is no wire 'trth' to take away. Did you mean 'truth'?");
-  CHECK(told("components:\n  scor: null\n") ==
+  CHECK(reported("components:\n  scor: null\n") ==
         "hourglass.yaml:3: components: ground.yaml has no 'scor' to take away. Did you mean 'score'?");
-  CHECK(told("phases: {cruse: null}\n") ==
+  CHECK(reported("phases: {cruse: null}\n") ==
         "hourglass.yaml:2: phases: ground.yaml has no 'cruse' to take away. Did you mean 'cruise'?");
-  CHECK(told("components: {sim: {params: {wind: ~}}}\n") ==
+  CHECK(reported("components: {sim: {params: {wind: ~}}}\n") ==
         "hourglass.yaml:2: components.sim.params: ground.yaml has no 'wind' to take away");
-  CHECK(told("resume: null\n") == "hourglass.yaml:2: ground.yaml has no 'resume' to take away");
-  CHECK(told("failsafe: {elevator: null}\n") ==
+  CHECK(reported("resume: null\n") == "hourglass.yaml:2: ground.yaml has no 'resume' to take away");
+  CHECK(reported("failsafe: {elevator: null}\n") ==
         "hourglass.yaml:2: failsafe: ground.yaml has no 'elevator' to take away");
-  CHECK(told("phases:\n  cruise: {next: [{to: calm, when: \"time > 9 s\"}]}\n  calm:\n"
-             "  research: null\n") == "");  // a phase in which nobody changes
+  CHECK(reported("phases:\n  cruise: {next: [{to: calm, when: \"time > 9 s\"}]}\n  calm:\n"
+                 "  research: null\n") == "");  // a phase in which nobody changes
 }
 
 TEST_CASE("null takes entries away of what else is a map") {
@@ -174,7 +174,7 @@ TEST_CASE("figures, verdict and texts go with the component that a layer takes a
   mission.folder.write("ground.yaml", Mission().text + "\nverdict: score.verdict\ntell: [score.notices]\n");
   const Graph graph = mission.load();
   CHECK_FALSE(graph.judge.verdict);
-  CHECK(graph.tell.empty());
+  CHECK(graph.report.empty());
   REQUIRE(graph.judge.summary.size() == 2);  // their keys stay in the result, without a value
   for (const auto& [key, from] : graph.judge.summary) CHECK(from.kind == Source::Kind::none);
   CHECK(left_out(graph) ==
@@ -200,12 +200,12 @@ TEST_CASE("figures go with a component of the other io, and with one that anothe
 TEST_CASE("a map of a few fields is no record, for whoever reads it") {
   Mission mission;
   for (const char* reader : {"sim.airframe", "attitude.airframe", "slc.airframe"}) {
-    const std::string told = mission.faults(set(reader, "{mass: 5 kg, aero: {lift: {alpha: 5}}}"));
-    CHECK(told.find(std::string("--set ") + reader + "={mass: 5 kg, aero: {lift: {alpha: 5}}}: " + reader +
-                    ": this is no whole Airframe, missing: inertia.xx, inertia.yy, inertia.zz, wing.area, "
-                    "wing.span, wing.chord, aero.pitch.alpha, propulsion.ct0, aileron.limit, elevator.limit, "
-                    "rudder.limit; to change one thing in a record, name it, as in airframe.inertia.xx") ==
-          0);
+    const std::string reported = mission.faults(set(reader, "{mass: 5 kg, aero: {lift: {alpha: 5}}}"));
+    CHECK(reported.find(
+              std::string("--set ") + reader + "={mass: 5 kg, aero: {lift: {alpha: 5}}}: " + reader +
+              ": this is no whole Airframe, missing: inertia.xx, inertia.yy, inertia.zz, wing.area, "
+              "wing.span, wing.chord, aero.pitch.alpha, propulsion.ct0, aileron.limit, elevator.limit, "
+              "rudder.limit; to change one thing in a record, name it, as in airframe.inertia.xx") == 0);
   }
   CHECK(mission.faults(set("sim.airframe.mass", "-5 kg")).find("-5 kg is outside") != std::string::npos);
   CHECK(mission.faults(set("sim.airframe.wing.area_m2", "-1")).find("-1 is outside") != std::string::npos);
@@ -259,26 +259,26 @@ TEST_CASE("a path of a layer counts over the record of the one below, and over a
 
 TEST_CASE("a path that leads nowhere is told with the valid fields") {
   Mission mission;
-  const auto told = [&](const std::string& name, const std::string& value) {
+  const auto reported = [&](const std::string& name, const std::string& value) {
     return mission.faults(set(name, value));
   };
-  CHECK(told("sim.airframe.mas", "5 kg")
+  CHECK(reported("sim.airframe.mas", "5 kg")
             .find("sim.airframe: unknown field 'mas' of Airframe. Did you mean "
                   "'mass'?") != std::string::npos);
-  CHECK(told("sim.airframe.mass", "5").find("sim.airframe.mass: ") != std::string::npos);
-  CHECK(told("sim.airframe.mass", "5 m").find("sim.airframe.mass: ") != std::string::npos);
-  CHECK(told("sim.airframe.mass.x", "5").find("sim.airframe.mass: has no parts") != std::string::npos);
-  CHECK(told("sim.airframe.mass[0]", "5").find("'mass_kg' is no list") != std::string::npos);
-  CHECK(told("sim.wing.span", "3 m")
+  CHECK(reported("sim.airframe.mass", "5").find("sim.airframe.mass: ") != std::string::npos);
+  CHECK(reported("sim.airframe.mass", "5 m").find("sim.airframe.mass: ") != std::string::npos);
+  CHECK(reported("sim.airframe.mass.x", "5").find("sim.airframe.mass: has no parts") != std::string::npos);
+  CHECK(reported("sim.airframe.mass[0]", "5").find("'mass_kg' is no list") != std::string::npos);
+  CHECK(reported("sim.wing.span", "3 m")
             .find("has no parameter 'wing.span'. Did you mean sim.airframe.wing.span, a "
                   "field of the record 'airframe'?") != std::string::npos);
-  CHECK(told("plan.turn_radius", "80 m") ==
+  CHECK(reported("plan.turn_radius", "80 m") ==
         "--set plan.turn_radius=80 m: plan: path/Planner has no parameter 'turn_radius'. Did you mean "
         "plan.plan.turn_radius, a field of the record 'plan'?");
-  CHECK(told("attitude.roll_limit", "30").find("30 is outside 0 .. 1.0472 rad. Did you mean 30 deg?") !=
+  CHECK(reported("attitude.roll_limit", "30").find("30 is outside 0 .. 1.0472 rad. Did you mean 30 deg?") !=
         std::string::npos);
-  CHECK(told("attitude.roll_limit", "70").find("Did you mean") == std::string::npos);
-  CHECK(told("sim.wind_ned.north", "5").find("has no parameter 'wind_ned.north'") != std::string::npos);
+  CHECK(reported("attitude.roll_limit", "70").find("Did you mean") == std::string::npos);
+  CHECK(reported("sim.wind_ned.north", "5").find("has no parameter 'wind_ned.north'") != std::string::npos);
 }
 
 TEST_CASE("a path into a list counts its items from 0") {

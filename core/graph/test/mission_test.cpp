@@ -122,7 +122,7 @@ TEST_CASE("broken YAML is told in one sentence with its line") {
 
 TEST_CASE("what never ends, or has nothing to give yet, is no file and is not waited for") {
   Mission mission;
-  const auto told = [&](const std::string& file) {
+  const auto reported = [&](const std::string& file) {
     try {
       load_mission(file, {}, mission.shelf);
     } catch (const Error& fault) {
@@ -132,11 +132,11 @@ TEST_CASE("what never ends, or has nothing to give yet, is no file and is not wa
   };
   const std::string pipe = mission.folder.path / "pipe.yaml";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-  CHECK(told(pipe) == pipe + " is not a file");
-  CHECK(told("/dev/zero") == "/dev/zero is not a file");
+  CHECK(reported(pipe) == pipe + " is not a file");
+  CHECK(reported("/dev/zero") == "/dev/zero is not a file");
   // a regular file of no size, with 8 bytes for each page of memory that there could be
-  CHECK(told("/proc/self/pagemap").find("/proc/self/pagemap is larger than 16 MB") == 0);
-  CHECK(told("/proc/kmsg") != "");
+  CHECK(reported("/proc/self/pagemap").find("/proc/self/pagemap is larger than 16 MB") == 0);
+  CHECK(reported("/proc/kmsg") != "");
   mission.replace("airframe: anaconda.yaml", "airframe: pipe.yaml");
   CHECK(mission.faults() == "hourglass.yaml:3: airframe: pipe.yaml is not a file");
 }

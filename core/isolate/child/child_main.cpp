@@ -52,7 +52,7 @@ void last_act(int signal, siginfo_t* about, void*) {
 }
 
 // Handles the signals of a crash on a stack of their own, for the calling thread.
-void tell_crashes(ControlBlock& control) {
+void report_crashes(ControlBlock& control) {
   shared = &control;
   own_process = ::getpid();
   stack_top = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   ::madvise(memory, size, MADV_DONTFORK);  // a copy of this process writes no answer into it
   auto& control = *static_cast<ControlBlock*>(memory);
   if (::getppid() != control.set_up.host_pid) return 1;  // it died before this process asked to die with it
-  tell_crashes(control);
+  report_crashes(control);
   count_heap();
   const Order order{argv[2],
                     argv[3],

@@ -165,7 +165,7 @@ TEST_CASE("what a plugin has started where it is tried ends with the trial, wher
   const fs::path file = folder() / "started";
   const Environment named("SLY_FILE", file.string()), limit("FULMAR_PROBE_SECONDS", "1");
   struct Deed {
-    const char *then, *told;
+    const char *then, *reported;
   };
   for (const Deed& deed : {Deed{"hang", "sly_setsid.so did not finish loading within 4 s"},
                            Deed{"crash", "sly_setsid.so crashed while being loaded (signal 11)"},
@@ -174,7 +174,7 @@ TEST_CASE("what a plugin has started where it is tried ends with the trial, wher
     CAPTURE(deed.then);
     fs::remove(file);
     const Environment what("SLY_THEN", deed.then);
-    CHECK(refusal(plugin("sly_setsid")) == deed.told);
+    CHECK(refusal(plugin("sly_setsid")) == deed.reported);
     pid_t started = 0;
     std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(&started), sizeof started);
     REQUIRE(started > 0);

@@ -96,8 +96,8 @@ void view_sample(Reader& r, std::int64_t now_ns, fulmar_input& in) noexcept {
   if (judged_age_ns(r, now_ns, in.age_ns) > limit_ns) in.flags |= FULMAR_STALE;
 }
 
-void tell_stale(const Reader& r, std::int64_t now_ns, const fulmar_input& in,
-                fulmar_error& problem) noexcept {
+void report_stale(const Reader& r, std::int64_t now_ns, const fulmar_input& in,
+                  fulmar_error& problem) noexcept {
   const char* const input = r.port->name.c_str();
   if (writer_lost(r))
     return put_problem(problem, "input '%s' comes from %s, which was stopped", input,
@@ -119,7 +119,7 @@ bool waits_in_vain(const Reader& r) noexcept { return lacks_sample(r) && r.wire-
 bool Intake::in_vain(fulmar_error& problem) const noexcept {
   for (const Reader& r : readers)
     if (waits_in_vain(r)) {
-      tell_stale(r, 0, {}, problem);
+      report_stale(r, 0, {}, problem);
       return true;
     }
   return false;
@@ -132,7 +132,7 @@ bool Intake::too_old(std::size_t input, std::int64_t now_ns, fulmar_error& probl
   fulmar_input seen{};
   seen.age_ns = writer_lost(r) ? lost_ns : now_ns - (r.delayed ? r.copied_valid_ns : r.source()->valid_at_ns);
   if (judged_age_ns(r, now_ns, seen.age_ns) <= r.wire->max_age_ns) return false;
-  tell_stale(r, now_ns, seen, problem);
+  report_stale(r, now_ns, seen, problem);
   return true;
 }
 
@@ -153,7 +153,7 @@ bool Intake::ready() const noexcept {
   return true;
 }
 
-void Intake::tell_missing(fulmar_error& problem) const noexcept {
+void Intake::report_missing(fulmar_error& problem) const noexcept {
   for (const Reader& r : readers)
     if (lacks_sample(r)) put_problem(problem, "input '%s' has no sample", r.port->name.c_str());
 }
@@ -176,12 +176,12 @@ Intake::State Intake::prepare(std::int64_t now_ns, fulmar_error& problem) noexce
       in = {};
       if (r.port->optional) continue;
       if (!waits_in_vain(r)) return State::missing;
-      tell_stale(r, now_ns, in, problem);
+      report_stale(r, now_ns, in, problem);
       return State::stale;
     }
     view_sample(r, now_ns, in);
     if (!r.wire->guarded || (in.flags & FULMAR_STALE) == 0) continue;
-    tell_stale(r, now_ns, in, problem);
+    report_stale(r, now_ns, in, problem);
     return State::stale;
   }
   return State::good;

@@ -130,7 +130,7 @@ class Intake {
   /// [tick] Fills `views`. When an input is too old, `problem` says which.
   State prepare(std::int64_t now_ns, fulmar_error& problem) noexcept;
   /// [tick] Says in `problem` which required input has no sample.
-  void tell_missing(fulmar_error& problem) const noexcept;
+  void report_missing(fulmar_error& problem) const noexcept;
   /// [tick] After a step: what it has seen is not news any more, and its answers go to those who asked.
   void consume() noexcept;
   void answer(std::size_t input, Reply& reply, const fulmar_answer& a) noexcept;

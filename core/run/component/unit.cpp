@@ -246,7 +246,7 @@ void Unit::fill_last(std::int64_t now_ns, const std::vector<const Slot*>& last) 
 
 bool Unit::activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept {
   const Intake::State inputs = in.prepare(now_ns, problem);
-  if (inputs == Intake::State::missing) in.tell_missing(problem);
+  if (inputs == Intake::State::missing) in.report_missing(problem);
   if (inputs != Intake::State::good) return false;
   fresh_start = false;
   schedule_.last_step_ns = Schedule::never;  // dt of the first step is the nominal period, not the absence

@@ -44,10 +44,10 @@ void FlightEnd::failsafe(const Event& why) {
 void FlightEnd::carry_out(Ending::Act act) {
   switch (act) {
     case Ending::Act::none: return;
-    case Ending::Act::tell_done: return tell_verdict(Code::concluded, "done: ");
-    case Ending::Act::tell_failed: return tell_verdict(Code::concluded, "failed: ");
-    case Ending::Act::tell_duration: return tell_verdict(Code::duration_reached, "");
-    case Ending::Act::tell_silent: {
+    case Ending::Act::report_done: return report_verdict(Code::concluded, "done: ");
+    case Ending::Act::report_failed: return report_verdict(Code::concluded, "failed: ");
+    case Ending::Act::report_duration: return report_verdict(Code::duration_reached, "");
+    case Ending::Act::report_silent: {
       Event e = event_of(Code::silent);
       say(e, "silent until disarmed: the aircraft is its pilot's");
       return recorder_.note(e);
@@ -83,7 +83,7 @@ void FlightEnd::give_up() {
   recorder_.note(why);
 }
 
-void FlightEnd::tell_verdict(Code code, const char* what) {
+void FlightEnd::report_verdict(Code code, const char* what) {
   Event e = event_of(code);
   if (Ending::outcome(ending_.reason()) == Outcome::failed) e.severity = Severity::error;
   say(e, "%s%s; flies on until disarmed", what, reason_text().c_str());

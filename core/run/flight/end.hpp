@@ -40,7 +40,7 @@ class FlightEnd {
   void carry_out(Ending::Act act);
   void give_up();
   void refuse_signal();
-  void tell_verdict(Code code, const char* what);
+  void report_verdict(Code code, const char* what);
   void conclude();
   std::string reason_text() const;
 

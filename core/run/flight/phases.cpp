@@ -75,7 +75,7 @@ void Roles::enter(int phase, const std::string& because) {
   for (std::size_t r = 0; r < active_.size(); ++r) fill(static_cast<int>(r), !before.roles[r].set.empty());
   keep_groups_whole();
   for (const auto& unit : wiring_.units)
-    if (unit->stopped) tell_blind(entered.next, wiring_.index_of(*unit));
+    if (unit->stopped) report_blind(entered.next, wiring_.index_of(*unit));
 }
 
 /// A component that the phase wants in another role and that brings this one with it, or -1.

@@ -78,10 +78,10 @@ void Roles::stop(int component, Code code) {
   const std::size_t guard = guards.size() - 1;
   fall_back(component, guard);
   end_tenures([component](int who, int) { return who == component; });
-  tell_blind("done", state_.graph.judge.done.get(), component);
-  tell_blind("failed", state_.graph.judge.failed.get(), component);
-  tell_blind(state_.graph.any, component);
-  tell_blind(present().next, component);
+  report_blind("done", state_.graph.judge.done.get(), component);
+  report_blind("failed", state_.graph.judge.failed.get(), component);
+  report_blind(state_.graph.any, component);
+  report_blind(present().next, component);
   if (!nobody_drives(component)) return;
   guards[guard].action = "failsafe";
   nobody_flies(name, what);
@@ -125,7 +125,7 @@ void Roles::stop_if_mute(const Slot& slot) {
 }
 
 /// A condition on what was stopped does not hold any more, whatever happens: a geofence without its watchman.
-void Roles::tell_blind(const char* what, const Condition* condition, int stopped) {
+void Roles::report_blind(const char* what, const Condition* condition, int stopped) {
   if (!condition) return;
   const std::vector<Source>& ports = condition->ports();
   const bool looks_at = std::any_of(ports.begin(), ports.end(), [&](const Source& port) {
@@ -139,9 +139,9 @@ void Roles::tell_blind(const char* what, const Condition* condition, int stopped
   recorder_.note(e);
 }
 
-void Roles::tell_blind(const std::vector<Transition>& list, int stopped) {
+void Roles::report_blind(const std::vector<Transition>& list, int stopped) {
   for (const Transition& t : list)
-    tell_blind(nth(state_.graph.phases, t.to).name.c_str(), t.when.get(), stopped);
+    report_blind(nth(state_.graph.phases, t.to).name.c_str(), t.when.get(), stopped);
 }
 
 /// In each role that it has left: the present phase's fallback, if it can fly, in this same tick. Who feeds

@@ -73,8 +73,8 @@ class Roles {
   void fill_hand_over(const Unit& unit);
   void cannot_take_over(Unit& unit, bool somebody_stays);
   void stop_if_mute(const Slot& slot);
-  void tell_blind(const char* what, const Condition* condition, int stopped);
-  void tell_blind(const std::vector<Transition>& list, int stopped);
+  void report_blind(const char* what, const Condition* condition, int stopped);
+  void report_blind(const std::vector<Transition>& list, int stopped);
   void fall_back(int stopped, std::size_t guard);
   bool nobody_drives(int stopped) const noexcept;
   void nobody_flies(const std::string& name, const std::string& what);

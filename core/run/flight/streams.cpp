@@ -59,7 +59,7 @@ void Streams::connect(const Wiring& wiring, const FlightState& state) {
     for (const Transition& t : phase.next) add_condition(t.when.get(), wiring, graph);
 }
 
-void Streams::tell(Stream& s, bool lapses, FlightState& state, Recorder& recorder) noexcept {
+void Streams::report(Stream& s, bool lapses, FlightState& state, Recorder& recorder) noexcept {
   const std::string &name = s.slot->owner->component->name, &port = s.slot->port->name;
   Event e = event_of(Code::notice, name);
   e.severity = Severity::warning;
@@ -72,8 +72,9 @@ void Streams::tell(Stream& s, bool lapses, FlightState& state, Recorder& recorde
               1e-9 * static_cast<double>(s.silent_ns));
   say(e, "%s: who reads it goes on with the last of it", what.text);
   recorder.note(e);
-  if (!s.ever_told) state.result.guards.push_back({state.now_ns, name, what.text, "its last sample stays"});
-  s.ever_told = true;
+  if (!s.ever_reported)
+    state.result.guards.push_back({state.now_ns, name, what.text, "its last sample stays"});
+  s.ever_reported = true;
 }
 
 const Slot* Streams::watch(bool held, FlightState& state, Recorder& recorder) noexcept {
@@ -84,7 +85,7 @@ const Slot* Streams::watch(bool held, FlightState& state, Recorder& recorder) no
   if (!unit.active || unit.stopped) {
     s.samples = 0;
     s.silent_ns = 0;
-    s.told = false;
+    s.reported = false;
     return nullptr;
   }
   if (unit.completed_ns == s.completed_ns) return nullptr;
@@ -96,14 +97,15 @@ const Slot* Streams::watch(bool held, FlightState& state, Recorder& recorder) no
   const bool explained = std::exchange(s.degraded, unit.stats.degraded) != unit.stats.degraded;
   s.silent_ns = held || explained ? 0 : s.silent_ns + stepped_ns;
   if (news == 0) {
-    if (s.told || s.samples < habit || s.silent_ns <= std::max(s.limit_ns, pauses * s.max_ns)) return nullptr;
-    s.told = true;
-    tell(s, true, state, recorder);
+    if (s.reported || s.samples < habit || s.silent_ns <= std::max(s.limit_ns, pauses * s.max_ns))
+      return nullptr;
+    s.reported = true;
+    report(s, true, state, recorder);
     return s.slot;
   }
-  if (!s.told && s.samples > 0) s.max_ns = std::max(s.max_ns, s.silent_ns);
-  if (s.told) tell(s, false, state, recorder);
-  s.told = false;
+  if (!s.reported && s.samples > 0) s.max_ns = std::max(s.max_ns, s.silent_ns);
+  if (s.reported) report(s, false, state, recorder);
+  s.reported = false;
   s.silent_ns = 0;
   s.samples += news;
   return nullptr;

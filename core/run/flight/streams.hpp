@@ -32,12 +32,12 @@ class Streams {
     std::int64_t completed_ns = 0;
     std::int64_t silent_ns = 0, max_ns = 0;  // of its steps without a sample: now, and ever
     std::uint64_t samples = 0;               // since its owner is active
-    bool told = false, ever_told = false;
+    bool reported = false, ever_reported = false;
   };
   void add_source(const Source& from, std::int64_t limit_ns, const Wiring& wiring, const Graph& graph);
   void add_condition(const Condition* condition, const Wiring& wiring, const Graph& graph);
   void add(const Slot& slot, std::int64_t limit_ns);
-  void tell(Stream& s, bool lapses, FlightState& state, Recorder& recorder) noexcept;
+  void report(Stream& s, bool lapses, FlightState& state, Recorder& recorder) noexcept;
   std::vector<Stream> streams_;
   std::size_t looked_at_ = 0;
 };

@@ -54,17 +54,18 @@ void Recorder::note_refusals(Unit& unit) noexcept {
 }
 
 /// What a component has to tell people. Its words are its own: any bytes.
-void Recorder::tell(Told& told) {
-  const auto* const text = reinterpret_cast<const char*>(told.slot->published.data() + told.text->offset);
-  const std::size_t size = strnlen(text, told.text->stride);
-  if (!told.last.empty()) {
-    if (std::memcmp(told.last.data(), text, told.text->stride) == 0) return;
-    std::memcpy(told.last.data(), text, told.text->stride);
+void Recorder::report(Reported& reported) {
+  const auto* const text =
+      reinterpret_cast<const char*>(reported.slot->published.data() + reported.text->offset);
+  const std::size_t size = strnlen(text, reported.text->stride);
+  if (!reported.last.empty()) {
+    if (std::memcmp(reported.last.data(), text, reported.text->stride) == 0) return;
+    std::memcpy(reported.last.data(), text, reported.text->stride);
   }
   if (size == 0) return;
-  Event e = event_of(Code::notice, told.slot->owner->component->name);
-  e.severity = severity_of(*told.slot, told.severity);
-  if (told.cause) name_cause(e, *told.slot, *told.cause);
+  Event e = event_of(Code::notice, reported.slot->owner->component->name);
+  e.severity = severity_of(*reported.slot, reported.severity);
+  if (reported.cause) name_cause(e, *reported.slot, *reported.cause);
   say(e, "%.*s", static_cast<int>(size), text);
   note(e);
 }
@@ -81,8 +82,8 @@ void Recorder::put(Slot& slot) {
     if (tap_->wanted(place.channel, now_ns) || for_log)
       tap_->write(place.channel, now_ns, slot.valid_at_ns, message, for_log);
   }
-  for (Told& told : told_)
-    if (told.slot == &slot) tell(told);
+  for (Reported& reported : reported_)
+    if (reported.slot == &slot) report(reported);
 }
 
 void Recorder::put_probes(Unit& unit) {
@@ -131,8 +132,8 @@ void Recorder::put_ticks() {
 }
 
 void Recorder::check_log() {
-  if (!log_ || told_log_failed_ || !log_->failed()) return;
-  told_log_failed_ = true;
+  if (!log_ || reported_log_failed_ || !log_->failed()) return;
+  reported_log_failed_ = true;
   Event e = event_of(Code::log_failed);
   fulmar::core::put(e.cause, log_->error());
   say(e, "the flight goes on without its log: %s", log_->error().c_str());

@@ -58,7 +58,7 @@ class Recorder {
     std::size_t event = 0, ticks = 0, parameter = 0, command = 0, lines = 0;
   };
   /// A port whose texts are for people.
-  struct Told {
+  struct Reported {
     const Slot* slot = nullptr;
     const Field *text = nullptr, *severity = nullptr, *cause = nullptr;
     std::vector<char> last;  // of a port that is written in every step: told when it changes
@@ -72,7 +72,7 @@ class Recorder {
   std::int64_t record_period(const std::string& port, const Slot& slot) const;  // -1: not recorded
   void attach_texts(const Units& units);
   void listen_to(const Unit& unit, int output);
-  void tell(Told& told);
+  void report(Reported& reported);
   void put_ticks();
 
   FlightState& state_;
@@ -81,8 +81,8 @@ class Recorder {
   Channels channels_;
   Ticks ticks_;
   std::uint64_t tick_hash_ = 0;
-  std::vector<Told> told_;
-  bool told_log_failed_ = false;
+  std::vector<Reported> reported_;
+  bool reported_log_failed_ = false;
 };
 
 }  // namespace fulmar::core

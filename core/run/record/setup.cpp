@@ -206,9 +206,9 @@ void Recorder::note_swap(const std::string& component, const PluginInfo& plugin)
 // ---- texts for people
 
 void Recorder::listen(const Units& units) {
-  told_.clear();
+  reported_.clear();
   const auto unit = [&](int index) -> const Unit& { return *nth(units, index); };
-  for (const Source& source : state_.graph.tell) {
+  for (const Source& source : state_.graph.report) {
     if (source.kind == Source::Kind::component) listen_to(unit(source.index), source.output);
     if (source.kind != Source::Kind::role) continue;
     const Role& role = nth(state_.graph.roles, source.index);
@@ -221,18 +221,19 @@ void Recorder::listen_to(const Unit& unit, int output) {
   if (output < 0) return;
   const Slot& slot = nth(unit.out.slots, output);
   // One component may fill two roles whose notices are listed.
-  if (std::any_of(told_.begin(), told_.end(), [&](const Told& t) { return t.slot == &slot; })) return;
-  Told told{&slot,
-            slot.port->type->find("text"),
-            slot.port->type->find("severity"),
-            slot.port->type->find("cause"),
-            {}};
-  if (!told.text || told.text->kind != FULMAR_TEXT) return;
-  if (!told.severity) told.severity = slot.port->type->find("level");
-  for (const Field** word : {&told.severity, &told.cause})
+  if (std::any_of(reported_.begin(), reported_.end(), [&](const Reported& t) { return t.slot == &slot; }))
+    return;
+  Reported reported{&slot,
+                    slot.port->type->find("text"),
+                    slot.port->type->find("severity"),
+                    slot.port->type->find("cause"),
+                    {}};
+  if (!reported.text || reported.text->kind != FULMAR_TEXT) return;
+  if (!reported.severity) reported.severity = slot.port->type->find("level");
+  for (const Field** word : {&reported.severity, &reported.cause})
     if (*word && ((*word)->kind != FULMAR_ENUM || (*word)->shape != FULMAR_SCALAR)) *word = nullptr;
-  if (slot.port->kind == FULMAR_OUT_VALUE) told.last.assign(told.text->stride, '\0');
-  told_.push_back(std::move(told));
+  if (slot.port->kind == FULMAR_OUT_VALUE) reported.last.assign(reported.text->stride, '\0');
+  reported_.push_back(std::move(reported));
 }
 
 }  // namespace fulmar::core

@@ -18,9 +18,9 @@ constexpr Ending::Step as_decided = {State::over, Act::end, Reason::none};
 /// Rows: the states; columns: the cues, in the order of their declarations.
 constexpr Table transition_table = {{
     // flying
-    {{{State::concluded, Act::tell_done, Reason::done},
-      {State::concluded, Act::tell_failed, Reason::failed},
-      {State::concluded, Act::tell_duration, Reason::duration},
+    {{{State::concluded, Act::report_done, Reason::done},
+      {State::concluded, Act::report_failed, Reason::failed},
+      {State::concluded, Act::report_duration, Reason::duration},
       ends(Reason::timeout),
       {State::failsafe, Act::none, Reason::none},
       stays(State::flying),
@@ -45,11 +45,11 @@ constexpr Table transition_table = {{
       ends(Reason::abandoned)}},
     // failsafe: never done; who had asked for a duration learns that it was not flown
     {{stays(State::failsafe),
-      {State::failsafe, Act::tell_failed, Reason::failed},
-      {State::failsafe, Act::tell_duration, Reason::failsafe},
+      {State::failsafe, Act::report_failed, Reason::failed},
+      {State::failsafe, Act::report_duration, Reason::failsafe},
       ends(Reason::timeout),
       stays(State::failsafe),
-      {State::silent, Act::tell_silent, Reason::failsafe},
+      {State::silent, Act::report_silent, Reason::failsafe},
       as_decided,
       ends(Reason::signal),
       {State::failsafe, Act::refuse_signal, Reason::none},
@@ -58,8 +58,8 @@ constexpr Table transition_table = {{
       ends(Reason::abandoned)}},
     // giving_up: silent from its first tick, then the host goes
     {{stays(State::giving_up),
-      {State::giving_up, Act::tell_failed, Reason::failed},
-      {State::giving_up, Act::tell_duration, Reason::failsafe},
+      {State::giving_up, Act::report_failed, Reason::failed},
+      {State::giving_up, Act::report_duration, Reason::failsafe},
       ends(Reason::timeout),
       stays(State::giving_up),
       ends(Reason::gave_up),
@@ -88,9 +88,9 @@ constexpr Table transition_table = {{
       stays(State::over), stays(State::over)}},
 }};
 
-constexpr bool is_told(Act act) {
-  return act == Act::tell_done || act == Act::tell_failed || act == Act::tell_duration ||
-         act == Act::tell_silent;
+constexpr bool is_reported(Act act) {
+  return act == Act::report_done || act == Act::report_failed || act == Act::report_duration ||
+         act == Act::report_silent;
 }
 
 }  // namespace
@@ -145,7 +145,7 @@ Ending::Acts Ending::tick(const Facts& facts) noexcept {
   Acts acts;
   const auto give = [&](Cue cue) {
     const Act act = take(cue, facts.now_ns);
-    if (act != Act::none && (facts.armed || !is_told(act))) acts.list[acts.count++] = act;
+    if (act != Act::none && (facts.armed || !is_reported(act))) acts.list[acts.count++] = act;
   };
   bool any = false;
   if (const Cue cue = cue_of(facts, any); any) give(cue);

@@ -43,10 +43,10 @@ class Ending {
   /// all.
   enum class Act : std::uint8_t {
     none,
-    tell_done,
-    tell_failed,
-    tell_duration,
-    tell_silent,
+    report_done,
+    report_failed,
+    report_duration,
+    report_silent,
     refuse_signal,
     give_up,
     end,

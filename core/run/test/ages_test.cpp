@@ -63,9 +63,9 @@ TEST_CASE("a wire from an output that is no role's is watched like one that is")
 TEST_CASE("an output that may stay silent is as old as the last step of its writer") {
   const Graph silent = mission(std::string(through_plan) + one_phase, {{"plan.mute_at", "0.1"}});
   Flight flight(silent, options(5));
-  const FlightResult told = flight.run();
-  REQUIRE(told.guards.size() == 1);  // told, and not stopped
-  CHECK(told.guards[0].action == "its last sample stays");
+  const FlightResult reported = flight.run();
+  REQUIRE(reported.guards.size() == 1);  // told, and not stopped
+  CHECK(reported.guards[0].action == "its last sample stays");
   // where the mission names an age it is the sample's
   const Graph strict = mission(
       "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"

@@ -79,16 +79,16 @@ TEST_CASE("a parameter that is set reaches the controller at the next tick, and 
   REQUIRE(flight.step());
   REQUIRE(flight.step());
   CHECK(commanded(g, flight) == 0.1);
-  std::promise<std::string> told;
+  std::promise<std::string> seen;
   control->on_parameter(
-      [&](const std::string& component, const std::string& name) { told.set_value(component + "." + name); });
+      [&](const std::string& component, const std::string& name) { seen.set_value(component + "." + name); });
   Reply reply;
   control->set_parameter("one", "u", "-0.25", reply.take());
   CHECK(commanded(g, flight) == 0.1);  // not in the middle of a tick
   REQUIRE(flight.step());
   CHECK(commanded(g, flight) == -0.25);
   CHECK(reply.wait() == "");
-  CHECK(told.get_future().get() == "one.u");
+  CHECK(seen.get_future().get() == "one.u");
   CHECK(parameter(control->view(), "one", "u").base.number[0] == -0.25);
 }
 

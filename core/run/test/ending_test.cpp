@@ -33,20 +33,20 @@ Ending::Step expected(State s, Cue c) {
   if (s == State::over) return nothing;  // what has ended has ended
   switch (c) {
     case Cue::done:  // a flight in its failsafe is never done, and the first verdict stands
-      return s == State::flying ? Ending::Step{State::concluded, Act::tell_done, Reason::done} : nothing;
+      return s == State::flying ? Ending::Step{State::concluded, Act::report_done, Reason::done} : nothing;
     case Cue::failed:
-      if (s == State::flying) return {State::concluded, Act::tell_failed, Reason::failed};
-      if (s == State::failsafe || s == State::giving_up) return {s, Act::tell_failed, Reason::failed};
+      if (s == State::flying) return {State::concluded, Act::report_failed, Reason::failed};
+      if (s == State::failsafe || s == State::giving_up) return {s, Act::report_failed, Reason::failed};
       return nothing;
     case Cue::duration:  // in the failsafe it was not flown
-      if (s == State::flying) return {State::concluded, Act::tell_duration, Reason::duration};
-      if (s == State::failsafe || s == State::giving_up) return {s, Act::tell_duration, Reason::failsafe};
+      if (s == State::flying) return {State::concluded, Act::report_duration, Reason::duration};
+      if (s == State::failsafe || s == State::giving_up) return {s, Act::report_duration, Reason::failsafe};
       return nothing;
     case Cue::timeout: return {State::over, Act::end, Reason::timeout};
     case Cue::nobody:
       return in_failsafe(s) ? nothing : Ending::Step{State::failsafe, Act::none, Reason::none};
     case Cue::silence:
-      if (s == State::failsafe) return {State::silent, Act::tell_silent, Reason::failsafe};
+      if (s == State::failsafe) return {State::silent, Act::report_silent, Reason::failsafe};
       if (s == State::giving_up) return {State::over, Act::end, Reason::gave_up};
       return nothing;
     case Cue::disarmed:  // nothing has been decided yet of one that flies
@@ -138,7 +138,7 @@ TEST_CASE(
 TEST_CASE("an armed aircraft that is done flies on, told once, and ends when it is disarmed") {
   Ending e(2 * second);
   const auto done = [](Facts& f) { f.done = true; };
-  CHECK(armed(e, 1, done) == std::vector{Act::tell_done});
+  CHECK(armed(e, 1, done) == std::vector{Act::report_done});
   CHECK(armed(e, 2, done).empty());
   CHECK(armed(e, 3, [](Facts& f) { f.failed = f.duration = true; }).empty());  // the first verdict stands
   CHECK(e.steering(3 * second) == Ending::Steering::commands);
@@ -153,7 +153,7 @@ TEST_CASE("the failsafe's values are sent for their time, then nothing; a second
   CHECK(e.steering(12 * second - 1) == Ending::Steering::failsafe);
   CHECK(e.steering(12 * second) == Ending::Steering::nothing);
   CHECK(armed(e, 12.9).empty());
-  CHECK(armed(e, 13) == std::vector{Act::tell_silent});
+  CHECK(armed(e, 13) == std::vector{Act::report_silent});
   CHECK(armed(e, 14).empty());
   CHECK(e.steering(14 * second) == Ending::Steering::nothing);
   CHECK(disarmed(e, 20) == std::vector{Act::end});
@@ -187,7 +187,7 @@ TEST_CASE("a failsafe does not begin anew, and a later verdict is told once") {
   e.take(Cue::nobody, 0);
   e.take(Cue::nobody, 1 * second);
   CHECK(e.steering(2 * second) == Ending::Steering::nothing);
-  CHECK(armed(e, 2, [](Facts& f) { f.done = f.duration = true; }) == std::vector{Act::tell_duration});
+  CHECK(armed(e, 2, [](Facts& f) { f.done = f.duration = true; }) == std::vector{Act::report_duration});
   CHECK(armed(e, 2.1, [](Facts& f) { f.duration = f.failed = true; }).empty());
   CHECK(e.reason() == Reason::failsafe);
 }
@@ -226,7 +226,7 @@ TEST_CASE("a signal without an armed aircraft ends the flight, but for what had 
 TEST_CASE("in silence a repeated signal ends the host at once") {
   Ending e(second);
   e.take(Cue::nobody, 0);
-  CHECK(armed(e, 2) == std::vector{Act::tell_silent});
+  CHECK(armed(e, 2) == std::vector{Act::report_silent});
   CHECK(armed(e, 3, with_signal) == std::vector{Act::refuse_signal});
   CHECK(armed(e, 4, with_signal) == std::vector{Act::end});
   CHECK(e.reason() == Reason::failsafe);

@@ -146,17 +146,17 @@ TEST_CASE("the log tells what was asked, and what was refused and why") {
   for (const double* to : {&go, &back}) request(flight, "watch", "ask", *to);
   flight.run();
   const WholeLog file = read_mcap(o.log_file);
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   for (const McapFile::Message& m : file.messages) {
     if (m.channel != file.channel("/fulmar/event")) continue;
     const std::string bytes(reinterpret_cast<const char*>(m.data.data()), m.data.size());
     for (const char* text : {"ask refused: cannot go back", "ask"})
       if (bytes.find("watch") != std::string::npos && bytes.find(text) != std::string::npos) {
-        told.push_back(text);
+        reported.push_back(text);
         break;
       }
   }
-  CHECK(told == std::vector<std::string>{"ask", "ask", "ask refused: cannot go back"});
+  CHECK(reported == std::vector<std::string>{"ask", "ask", "ask refused: cannot go back"});
 }
 
 TEST_CASE("each event is a line for log panels as well, with its level and the time of the log") {
@@ -172,26 +172,26 @@ TEST_CASE("each event is a line for log panels as well, with its level and the t
   const HostTopic<Event> events(file);
   const HostTopic<LogLine> lines(file);
   REQUIRE(lines.same());
-  std::vector<Event> told;
+  std::vector<Event> reported;
   std::size_t line = 0, levels = 0;
   for (const McapFile::Message& m : file.messages) {
-    if (events.holds(m)) told.push_back(events.read(m.data));
+    if (events.holds(m)) reported.push_back(events.read(m.data));
     if (!lines.holds(m)) continue;
     const LogLine l = lines.read(m.data);
-    REQUIRE(line < told.size());
-    const Event& e = told[line++];
+    REQUIRE(line < reported.size());
+    const Event& e = reported[line++];
     CHECK(std::string(l.msg.data()) == e.words.data());
     CHECK(std::string(l.name.data()) == (e.component[0] ? e.component.data() : "fulmar"));
     CHECK(std::string(l.function.data()) == kind_words(e.code));
     CHECK(std::uint64_t{l.nanosec} + 1'000'000'000ull * static_cast<std::uint64_t>(l.sec) == m.log_ns);
     levels += l.level;
   }
-  CHECK(line == told.size());
+  CHECK(line == reported.size());
   CHECK(line >= 2);
   CHECK(levels == 20 * line);
-  CHECK(told.back().code == Code::concluded);  // the verdict is the last word
-  CHECK(std::string(told.back().name.data()) == "flown");
-  CHECK(std::string(told.back().words.data()) == "flown (duration reached)");
+  CHECK(reported.back().code == Code::concluded);  // the verdict is the last word
+  CHECK(std::string(reported.back().name.data()) == "flown");
+  CHECK(std::string(reported.back().words.data()) == "flown (duration reached)");
   Event bad = event_of(Code::failsafe);
   CHECK(int{log_line_of(bad, 0).level} == 50);
   CHECK(int{log_line_of(event_of(Code::guard), 0).level} == 30);

@@ -47,7 +47,7 @@ TEST_CASE(
 }
 
 TEST_CASE("while the vehicle does not obey, or the computer stands still, nobody has to speak") {
-  const auto told = [](const std::vector<std::pair<std::string, std::string>>& set, double until_s) {
+  const auto count = [](const std::vector<std::pair<std::string, std::string>>& set, double until_s) {
     const Graph g = craft(
         "  echo: {use: craft/Echo, in: {state: vehicle.status}}\nphases:\n  fly: {law: law_a}\n"
         "failed: \"echo.echo.tick_s < -1 s\"\n",
@@ -57,11 +57,11 @@ TEST_CASE("while the vehicle does not obey, or the computer stands still, nobody
     CHECK(fly_until(flight, until_s));
     return said.count("nothing on 'echo'");
   };
-  CHECK(told({{"echo.mute_from", "1.2"}}, 2.15) == 0);
-  CHECK(told({{"echo.mute_from", "1.2"}}, 2.25) == 1);
-  CHECK(told({{"craft.pilot_from", "1"}, {"craft.pilot_until", "5"}, {"echo.mute_from", "1.2"}}, 5.9) == 0);
-  CHECK(told({{"craft.pilot_from", "1"}, {"craft.pilot_until", "5"}, {"echo.mute_from", "1.2"}}, 6.1) == 1);
-  CHECK(told({{"craft.jump_at", "2"}, {"echo.mute_from", "1.9"}, {"echo.mute_until", "12.3"}}, 13) == 0);
+  CHECK(count({{"echo.mute_from", "1.2"}}, 2.15) == 0);
+  CHECK(count({{"echo.mute_from", "1.2"}}, 2.25) == 1);
+  CHECK(count({{"craft.pilot_from", "1"}, {"craft.pilot_until", "5"}, {"echo.mute_from", "1.2"}}, 5.9) == 0);
+  CHECK(count({{"craft.pilot_from", "1"}, {"craft.pilot_until", "5"}, {"echo.mute_from", "1.2"}}, 6.1) == 1);
+  CHECK(count({{"craft.jump_at", "2"}, {"echo.mute_from", "1.9"}, {"echo.mute_until", "12.3"}}, 13) == 0);
 }
 
 TEST_CASE("a controller that works in another thread begins anew once, when control returns") {
@@ -273,7 +273,7 @@ TEST_CASE(
   std::ofstream(file) << "roles:\n  vehicle: {out: {status: Arm, notices?: Note}}\ncomponents:\n  cart: "
                          "{fills: vehicle, use: lab/Cart}\n"
                          "tell: [vehicle.notices]\n";
-  CHECK(load_mission(file.string()).tell.empty());
+  CHECK(load_mission(file.string()).report.empty());
 }
 
 // ---- what protects the aircraft

@@ -180,11 +180,11 @@ TEST_CASE("many ticks can be cut short by a pause, by going on, and by the fligh
     aloft.wait_until([&] { return aloft.now_ns() > then + 2 * tick_ns; });
     CHECK(holds(aloft.step(1), "other ticks are being flown"));
     CHECK(aloft.pace(cut) == "");
-    const std::string told = answer.get();
-    CHECK(holds(told, "of 1000000 ticks"));
-    CHECK(holds(told, "ended after "));
+    const std::string reported = answer.get();
+    CHECK(holds(reported, "of 1000000 ticks"));
+    CHECK(holds(reported, "ended after "));
     CHECK(aloft.view().pace.paused == stands);
-    if (stands) CHECK(holds(told, "after " + std::to_string((aloft.now_ns() - then) / tick_ns) + " of "));
+    if (stands) CHECK(holds(reported, "after " + std::to_string((aloft.now_ns() - then) / tick_ns) + " of "));
   }
   aloft.pace(order(pause));
   std::promise<std::string> promise;

@@ -16,8 +16,8 @@ namespace {
 
 struct Row {
   const char* fault;
-  const char* told;  // in the guard's words
-  bool in_loop;      // the loop survives it without a child
+  const char* reported;  // in the guard's words
+  bool in_loop;          // the loop survives it without a child
   bool paced = false;
   bool own_affair = false;  // of a child
 };
@@ -65,7 +65,7 @@ void check_fallback(const Row& row, bool isolated) {
   CHECK(r.outcome == Outcome::flown);
   REQUIRE(r.guards.size() == 1);
   CHECK(r.guards[0].component == "one");
-  CHECK(r.guards[0].what.find(row.told) != std::string::npos);
+  CHECK(r.guards[0].what.find(row.reported) != std::string::npos);
   CHECK(r.guards[0].action == "two takes over");
   CHECK(r.guards[0].at_ns == 100'000'000);
 }

@@ -67,10 +67,10 @@ TEST_CASE("a swapped law flies with the parameters, overlays and live changes of
   CHECK(r.outcome == Outcome::flown);
   const WholeLog file = read_mcap(ground.o.log_file);
   const std::string hash = sha256_file(variant("_better"));
-  bool told = false;
+  bool reported = false;
   for (const McapFile::Metadata& m : file.metadata)
-    for (const auto& [key, text] : m.pairs) told = told || (m.name == "swap" && has(text, hash));
-  CHECK(told);
+    for (const auto& [key, text] : m.pairs) reported = reported || (m.name == "swap" && has(text, hash));
+  CHECK(reported);
 }
 
 TEST_CASE("a swap that cannot be is refused in a sentence, and the old law flies on") {
@@ -106,11 +106,11 @@ TEST_CASE("a swap tells which values it keeps, which parameters are new, and whi
   ground.flight->finish();
   const WholeLog file = read_mcap(ground.o.log_file);
   const HostTopic<Event> events(file);
-  std::string told;
+  std::string reported;
   for (const McapFile::Message& m : file.messages)
     if (events.holds(m))
-      if (const Event e = events.read(m.data); e.code == Code::swapped) told = e.words.data();
-  CHECK(told.ends_with("; " + words));
+      if (const Event e = events.read(m.data); e.code == Code::swapped) reported = e.words.data();
+  CHECK(reported.ends_with("; " + words));
 }
 
 TEST_CASE("what a swap did to the parameters: values that both have by default are not worth a word") {
@@ -244,12 +244,12 @@ TEST_CASE("a child that has died is started anew on the ground, and never in the
     set_parameter(flight, "one", "fault_at", never);
     said.clear();
     reset_guards(flight);
-    const std::string told = said;
+    const std::string reported = said;
     const bool on_ground = until_ns < 0;
     enter_phase(flight, "fly");
     for (int i = 0; i < 2; ++i) REQUIRE(flight.step());
     if (on_ground) CHECK(value(g, flight, "one", "command", "u_frac") == 0.3);  // as set since
-    return told;
+    return reported;
   };
   CHECK(has(said_after_reset("-0.5 s", -400'000'000), "one: guard reset"));
   CHECK(has(said_after_reset("0.1 s", 150'000'000), "started anew on the ground; the aircraft is armed"));

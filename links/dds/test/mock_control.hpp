@@ -62,7 +62,7 @@ class MockControl : public Control {
         set_.push_back(component + "." + param + "=" + text);
         work_.emplace_back([this, component, param, answer] {
           answer("");
-          for (const auto& told : changed_) told(component, param);
+          for (const auto& reported : changed_) reported(component, param);
         });
         wake_.notify_one();
         return;

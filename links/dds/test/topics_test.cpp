@@ -253,7 +253,7 @@ TEST_CASE("what does not meet by the rules of DDS is told once, in a sentence") 
   Scene scene;
   scene.options.exports[0].best_effort = true;
   scene.open();
-  const auto told = [&](const std::string& text) { return said.str().find(text) != std::string::npos; };
+  const auto reported = [&](const std::string& text) { return said.str().find(text) != std::string::npos; };
   {
     Program strict("timeout 3 " + peer("read", "rt/nav/state " + mixed_dds + " 1"));
     Program other("timeout 3 " +
@@ -261,13 +261,13 @@ TEST_CASE("what does not meet by the rules of DDS is told once, in a sentence") 
   }
   spdlog::set_default_logger(usual);
   scene.bridge.reset();
-  CHECK(
-      told("dds: another participant reads rt/nav/state reliably, but it is exported with best_effort: the "
-           "two do not meet"));
-  CHECK(
-      told("dds: another participant writes rt/leader/state with the type geometry_msgs::msg::dds_::Pose_; "
-           "here it is "
-           "fulmar_msgs::msg::dds_::Mixed_: the two do not meet"));
+  CHECK(reported(
+      "dds: another participant reads rt/nav/state reliably, but it is exported with best_effort: the "
+      "two do not meet"));
+  CHECK(reported(
+      "dds: another participant writes rt/leader/state with the type geometry_msgs::msg::dds_::Pose_; "
+      "here it is "
+      "fulmar_msgs::msg::dds_::Mixed_: the two do not meet"));
 }
 
 }  // namespace topics_test

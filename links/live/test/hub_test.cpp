@@ -341,14 +341,14 @@ TEST_CASE_FIXTURE(Fixture, "a parameter that cannot be set says why, and what it
          {{"name", "slc.roll_kp"}}}}});
   REQUIRE(until([&] { return peer.last("parameterValues") != nullptr; }));
   CHECK(peer.last("parameterValues")->at("parameters")[0]["value"] == 0.55);
-  std::vector<std::string> told;
+  std::vector<std::string> said;
   for (const json& t : peer.texts)
-    if (t["op"] == "status") told.push_back(t["message"]);
-  CHECK(std::find(told.begin(), told.end(), "slc.roll_kp: 9 is outside 0 .. 2 rad/rad") != told.end());
-  CHECK(std::find(told.begin(), told.end(), "roll_kp: a parameter is named COMPONENT.PARAMETER") !=
-        told.end());
-  CHECK(std::find(told.begin(), told.end(), "slc.roll_kp: a parameter cannot be removed") != told.end());
-  CHECK(std::any_of(told.begin(), told.end(), [](const std::string& t) {
+    if (t["op"] == "status") said.push_back(t["message"]);
+  CHECK(std::find(said.begin(), said.end(), "slc.roll_kp: 9 is outside 0 .. 2 rad/rad") != said.end());
+  CHECK(std::find(said.begin(), said.end(), "roll_kp: a parameter is named COMPONENT.PARAMETER") !=
+        said.end());
+  CHECK(std::find(said.begin(), said.end(), "slc.roll_kp: a parameter cannot be removed") != said.end());
+  CHECK(std::any_of(said.begin(), said.end(), [](const std::string& t) {
     return t.find("scl.roll_kp: there is no component 'scl'. Did you mean 'slc'?") == 0;
   }));
   CHECK(counters.refused == 0);  // the rules of the protocol were kept

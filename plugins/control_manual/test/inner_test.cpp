@@ -222,7 +222,7 @@ TEST_CASE("an airframe whose surfaces move nothing is flown by its trims") {
   bench.params.airframe.value.aero.pitch.elevator_ratio = 0;
   bench.configure();
   bench.settle(stick(1, 1));
-  CHECK(bench.fault() == "");
+  CHECK(bench.validation_error() == "");
   CHECK(bench.out.actuators.aileron_rad == doctest::Approx(0).epsilon(1e-6));
 }
 
@@ -237,7 +237,7 @@ TEST_CASE("whatever stick and state, what is commanded is finite and within the 
           s.pitch_rad = pitch;
           s.rate_radps = {5, -5, 5};
           const Actuators u = bench.settle(stick(1, -1, 2, 1), s, 10);
-          CHECK(bench.fault() == "");
+          CHECK(bench.validation_error() == "");
           for (double surface : {u.aileron_rad, u.elevator_rad, u.rudder_rad})
             CHECK(std::abs(surface) <= end);
         }

@@ -119,8 +119,8 @@ TEST_CASE("gains of 0 are not tuned, and a sentence says so") {
     CHECK(verdict(r, i) == Verdict::left_out);
     CHECK(reason(r, i) == Reason::gain_is_zero);
   }
-  REQUIRE(f.told.size() == 3);
-  CHECK(f.told[0].starts_with("roll: not tuned: its gain is 0"));
+  REQUIRE(f.reported.size() == 3);
+  CHECK(f.reported[0].starts_with("roll: not tuned: its gain is 0"));
 
   Flight no_kd;  // multiples of nothing in one term are no reason
   no_kd.tuner.params.law.roll_kd.value = no_kd.tuner.params.law.roll_ki.value = 0;
@@ -231,7 +231,7 @@ TEST_CASE("activated twice it ends once, and the old gains count at once") {
   f.step();
   CHECK(as_before(f.report(), 0));  // and not over half a second: it goes on from the surfaces
   CHECK(f.report().stage == Stage::aborted);
-  CHECK(f.told.size() == 1);
+  CHECK(f.reported.size() == 1);
   f.fly(5);
   CHECK(f.report().stage == Stage::aborted);  // `tune` is still true
 }

@@ -32,7 +32,7 @@ struct Flight {
   std::function<void(Actuators&)> servos = [](Actuators&) {};  ///< what they make of it
   bool has_status = true;                                      ///< the input is wired
   double t = 0, dt = 0.01;
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
 
   explicit Flight(double factor = 1, Turbulence turbulence = Turbulence::none, std::uint64_t seed = 1)
       : model(test::anaconda(), turbulence, seed) {
@@ -61,7 +61,7 @@ struct Flight {
     const bool clean = allocations([&] { ended = tuner.step(dt); }) == 0;
     if (!clean || ended == Status::failed) FAIL("a step failed or allocated");
     for (std::uint32_t i = 0; i < tuner.out.findings.count; ++i)
-      told.emplace_back(tuner.out.findings.items[i].text.bytes.data());
+      reported.emplace_back(tuner.out.findings.items[i].text.bytes.data());
     Actuators u = tuner.out.law.actuators;
     u.aileron_rad *= aileron_power;
     servos(u);
@@ -85,7 +85,7 @@ struct Flight {
   }
   bool done() const { return report().done; }
   bool heard(const std::string& words) const {
-    return std::any_of(told.begin(), told.end(),
+    return std::any_of(reported.begin(), reported.end(),
                        [&](const std::string& s) { return s.find(words) != std::string::npos; });
   }
 };

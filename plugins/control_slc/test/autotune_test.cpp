@@ -30,14 +30,14 @@ TEST_CASE("from wrong gains all three axes end with measured margins, within 90 
     CHECK(r.before_kp_ratio[0] == doctest::Approx(1.2 * factor));
     CHECK(r.kp_ratio[0] > 1.5);  // of the 0.6 and of the 2.4: both end at about the same
     CHECK(r.kp_ratio[0] < 4.5);
-    CHECK(f.told.size() == 3);
+    CHECK(f.reported.size() == 3);
     CHECK(f.heard("roll_kp: "));
     CHECK(f.heard("yaw_kd: "));
     CHECK(f.heard("deg measured"));
     f.fly(2);
     CHECK(f.report().time_s == r.time_s);  // once
     CHECK(f.report().kp_ratio[0] == r.kp_ratio[0]);
-    CHECK(f.tuner.fault().empty());
+    CHECK(f.tuner.validation_error().empty());
   }
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("as long as it does not tune it is the inner law, byte for byte") {
   }
   CHECK(f.report().stage == Stage::idle);
   CHECK_FALSE(f.report().done);
-  CHECK(f.told.empty());
+  CHECK(f.reported.empty());
 }
 
 TEST_CASE("margins that do not hold in the second excitation send the axis back to its old gains") {
@@ -161,7 +161,7 @@ TEST_CASE("what is out of its bounds ends it, with the old gains, no excitation,
     f.fly(1);
     CHECK(as_before(f.report(), 0));
     CHECK(f.report().stage == Stage::aborted);  // and does not begin anew by itself
-    CHECK(f.told.size() == 1);
+    CHECK(f.reported.size() == 1);
     // the surface is the law's alone: it stands still in calm air
     const double before = f.tuner.out.law.actuators.aileron_rad;
     f.fly(0.05);
@@ -225,7 +225,7 @@ TEST_CASE("a surface that answers the wrong way is not tuned") {
   f.aileron_power = -1;
   REQUIRE(f.fly_until([&] { return f.report().roll != Verdict::open; }));
   CHECK(f.report().roll == Verdict::reverted);
-  CAPTURE(f.told[0]);
+  CAPTURE(f.reported[0]);
   CHECK(f.heard("does not act as it should"));
 }
 
@@ -237,7 +237,7 @@ TEST_CASE("a gyro that is stuck is no answer") {
   REQUIRE(f.fly_until([&] { return f.report().roll != Verdict::open; }));
   CHECK(f.report().roll == Verdict::reverted);
   CHECK(f.heard("does not act as it should"));
-  CHECK(f.tuner.fault().empty());
+  CHECK(f.tuner.validation_error().empty());
 }
 
 TEST_CASE("no surface steps: when gains change, an axis ends, or all of it ends, at 100 and at 400 Hz") {

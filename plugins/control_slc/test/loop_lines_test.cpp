@@ -155,7 +155,7 @@ TEST_CASE("noise is told as large as it is, the estimate has no bias to speak of
   axis.noise = 0.01;
   constexpr int flights = 60;
   std::array<Complex, Lines::count> mean{};
-  double told = 0, was = 0, after = 0, max_bias = 0, misfits = 0;
+  double reported = 0, was = 0, after = 0, max_bias = 0, misfits = 0;
   for (int k = 0; k < flights; ++k) {
     const LoopRecord r = axis.fly();
     double misfit = 0;
@@ -164,15 +164,15 @@ TEST_CASE("noise is told as large as it is, the estimate has no bias to speak of
     for (std::size_t i = 0; i < Lines::count; ++i) {
       const Complex exact_loop = Axis::loop(Lines::radps(i), axis.gains);
       mean[i] += f.loop[i] / exact_loop / double(flights);
-      told += r.noise[i] * r.noise[i];
+      reported += r.noise[i] * r.noise[i];
       was += std::norm((r.loop[i] - exact_loop) / (1.0 + exact_loop));
       after += std::norm((f.loop[i] - exact_loop) / (1.0 + exact_loop));
     }
   }
   for (std::size_t i = 0; i < Lines::count; ++i) max_bias = std::max(max_bias, std::abs(mean[i] - 1.0));
   CAPTURE(std::sqrt(was / flights / Lines::count));
-  CHECK(std::sqrt(told / was) > 0.6);
-  CHECK(std::sqrt(told / was) < 1.7);
+  CHECK(std::sqrt(reported / was) > 0.6);
+  CHECK(std::sqrt(reported / was) < 1.7);
   CHECK(after < was / 2.5);
   CHECK(max_bias < 0.08);
   CHECK(misfits > 0.1);

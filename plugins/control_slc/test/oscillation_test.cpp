@@ -42,7 +42,7 @@ struct Shaken : Bench<Inner> {
   VehicleState s = flying();
   AttitudeCommand command;
   int k = 0, notices = 0;
-  std::string told;
+  std::string reported;
   Status status = Status::ok;
   Shaken() { params.roll_ki.value = params.pitch_ki.value = 0; }
   void fly(double seconds, const std::function<void(Shaken&, double)>& shake) {
@@ -52,7 +52,7 @@ struct Shaken : Bench<Inner> {
       set(in.attitude, command);
       REQUIRE(allocations([&] { status = step(0.01); }) == 0);
       notices += static_cast<int>(out.notices.count);
-      if (out.notices.count > 0) told = out.notices.items[0].text.bytes.data();
+      if (out.notices.count > 0) reported = out.notices.items[0].text.bytes.data();
     }
   }
   /// Aileron, elevator and rudder per error of roll and pitch and yaw rate.
@@ -142,7 +142,7 @@ TEST_CASE("an axis that oscillates loses gain, the others do not, and it is told
     Shaken f;
     f.fly(1.3, axis.shake);
     CHECK(f.notices == 1);
-    CHECK(f.told ==
+    CHECK(f.reported ==
           std::string(axis.name) + " oscillates: its gains are multiplied by 0.4 until they are changed");
     CHECK(f.status == Status::degraded);
     const Actuators now = f.answer();

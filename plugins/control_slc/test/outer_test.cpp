@@ -90,18 +90,18 @@ TEST_CASE("a reset of the state that is told is answered as by a law that has ne
   Bench<Outer> fresh;
   prepare(fresh);
   const AttitudeCommand wanted = settle(fresh, after, level());
-  for (const bool told : {true, false}) {
+  for (const bool given : {true, false}) {
     Bench<Outer> bench;
     prepare(bench);
     settle(bench, flying(), level());
-    if (!told) after.reset_count = 0;
+    if (!given) after.reset_count = 0;
     bench.set(bench.in.state, after);
     for (int i = 0; i < 20; ++i) {
       bench.step(0.01);
       if (i < 10) continue;  // the limit of the pitch rate
-      CHECK((std::abs(bench.out.attitude.pitch_rad - wanted.pitch_rad) < 1e-9) == told);
+      CHECK((std::abs(bench.out.attitude.pitch_rad - wanted.pitch_rad) < 1e-9) == given);
     }
-    if (told) CHECK(bench.out.attitude.throttle_frac == doctest::Approx(wanted.throttle_frac).epsilon(1e-9));
+    if (given) CHECK(bench.out.attitude.throttle_frac == doctest::Approx(wanted.throttle_frac).epsilon(1e-9));
   }
 }
 

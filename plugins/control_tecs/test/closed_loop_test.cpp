@@ -124,16 +124,16 @@ TEST_CASE_TEMPLATE("what no aircraft can do is limited, told, and not followed i
     flight.command.climb_rate_mps = w.climb_mps;
     flight.command.airspeed_mps = w.airspeed_mps;
     double slowest = 99, fastest = 0;
-    unsigned told = 0, steps = 0;
+    unsigned reported = 0, steps = 0;
     flight.run(8, [&] {
       slowest = std::min(slowest, flight.state.airspeed_mps);
       fastest = std::max(fastest, flight.state.airspeed_mps);
       ++steps;
-      told += flight.outer.out.internals.pitch_saturated;
+      reported += flight.outer.out.internals.pitch_saturated;
     });
     CHECK(slowest > 11);  // it stalls at 10, and 12 is the least that is flown
     CHECK(fastest < 28);
-    if (w.climb_mps != 0) CHECK(told > steps / 2);
+    if (w.climb_mps != 0) CHECK(reported > steps / 2);
     if (w.climbs) CHECK(flight.state.climb_rate_mps > 2);
     if (w.climb_mps == 0)
       CHECK(flight.outer.out.internals.airspeed_error_mps ==

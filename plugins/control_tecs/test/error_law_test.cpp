@@ -206,7 +206,7 @@ TEST_CASE("whatever it is told, what it says is finite and within its limits, wi
     law.set(law.in.state, s);
     law.set(law.in.command, c);
     CHECK(allocations([&] { law.step(0.01); }) == 0);
-    CHECK(law.fault() == "");
+    CHECK(law.validation_error() == "");
     CHECK(std::abs(law.out.attitude.pitch_rad) <= 0.35 + 1e-9);
   }
 }

@@ -218,13 +218,13 @@ TEST_CASE("a crash of the thread that reads the port is told, and the controller
   peer::Firmware fcu;
   fcu.provision(wall_us());
   std::string said;
-  bool told = false;
+  bool reported = false;
   {
     std::atomic<std::uint64_t> commands{0};
     Device device([&](Pty& pty) {
       serve(fcu, pty);
       commands = fcu.commands();
-      told = told || fcu.last_command().u[0] == 0.25f;
+      reported = reported || fcu.last_command().u[0] == 0.25f;
     });
     const std::string command = "echo $$; exec " FULMAR_BIN_DIR "/fulmar run " + mission.string() +
                                 " --io fcu --no-log --set fcu.port=" + device.name() + " 2>&1";
@@ -249,7 +249,7 @@ TEST_CASE("a crash of the thread that reads the port is told, and the controller
     CHECK(said.find("the host crashed (segmentation fault)") != std::string::npos);
     pause_us(300'000);  // the frame is on its way
   }
-  CHECK(told);
+  CHECK(reported);
   std::filesystem::remove(mission);
 }
 

@@ -39,7 +39,7 @@ struct Flying {
   bool commands = true;
   std::optional<VehicleState> state;  ///< the estimate that the vehicle is given, valid now
   std::optional<Path> path;
-  std::string told;
+  std::string reported;
   std::map<std::string, int> published;
   VehicleStatus status;
   Rc rc;
@@ -63,7 +63,7 @@ struct Flying {
     if (out.status.written) status = out.status.value;
     if (out.rc.written) rc = out.rc.value;
     for (std::uint32_t i = 0; i < out.notices.count; ++i)
-      told += std::string(out.notices.items[i].text.view()) + "\n";
+      reported += std::string(out.notices.items[i].text.view()) + "\n";
     if (commands && ticks_ns.size() % 4 == 1) bench.set(bench.in.actuators, command);
     if (state) bench.set(bench.in.state, *state);
     if (path) bench.set(bench.in.path, *path);
@@ -83,9 +83,9 @@ struct Flying {
     fly(1.5);
     REQUIRE(status.armed);
     REQUIRE(status.in_control);
-    told.clear();
+    reported.clear();
   }
-  bool heard(const char* words) const { return told.find(words) != std::string::npos; }
+  bool heard(const char* words) const { return reported.find(words) != std::string::npos; }
 
  private:
   template <class T>

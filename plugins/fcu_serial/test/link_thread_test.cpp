@@ -90,13 +90,13 @@ TEST_CASE("a loop that does not look loses the newest packets, counted, and no e
   REQUIRE(c.listen_until([&] { return !link.state().open; }));
   std::uint64_t got = 0;
   bool in_order = true;
-  const bool told = pop_until(link, c, [&](const Received& r) {
+  const bool reported = pop_until(link, c, [&](const Received& r) {
     if (r.event != LinkEvent::packet) return r.event == LinkEvent::disconnected;
     in_order = in_order && r.packet.as<SmallImu>().time_boot_us == 1000 + 2500 * got;
     ++got;
     return false;
   });
-  CHECK(told);
+  CHECK(reported);
   CHECK(in_order);
   CHECK(got >= 4000);
   CHECK(link.state().lost_in_queue == sent - got);

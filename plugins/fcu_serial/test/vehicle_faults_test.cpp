@@ -204,9 +204,9 @@ TEST_CASE("a sensor that gives nonsense is silent, counted, and told once") {
   f.world.fcu.inputs.mag = {21000, 0, 46000};
   f.fly(1);
   CHECK(f.published["mag"] - before <= 1);
-  const auto first = f.told.find("the magnetometer gives values that cannot be; they are not used");
+  const auto first = f.reported.find("the magnetometer gives values that cannot be; they are not used");
   REQUIRE(first != std::string::npos);
-  CHECK(f.told.find("the magnetometer", first + 1) == std::string::npos);
+  CHECK(f.reported.find("the magnetometer", first + 1) == std::string::npos);
   CHECK(f.bench.out.link.value.unusable > 80);
 }
 
@@ -297,7 +297,7 @@ TEST_CASE("a firmware that was not tried is told once at the start, and when it 
     f.fly(3);
     const std::string words = std::string("firmware not tried with Fulmar (2.0.1 was): ") + version;
     CHECK(f.heard(words.c_str()));
-    f.told.clear();
+    f.reported.clear();
     f.fly(20);
     CHECK_FALSE(f.heard("not tried"));
   }
@@ -338,9 +338,9 @@ TEST_CASE("another controller in its place is noticed: its firmware, its paramet
   f.world.inject(p);
   f.fly(0.1);
   CHECK(f.heard("this is another firmware: ROSflight v2.1.0"));
-  const auto first = f.told.find("the flight controller's RC_X_CHN is now 3");
+  const auto first = f.reported.find("the flight controller's RC_X_CHN is now 3");
   REQUIRE(first != std::string::npos);
-  CHECK(f.told.find("RC_X_CHN", first + 25) == std::string::npos);
+  CHECK(f.reported.find("RC_X_CHN", first + 25) == std::string::npos);
   f.world.fcu.inputs.rc_us[3] = 2000;
   f.fly(0.1);
   CHECK(f.rc.roll_frac == 1);

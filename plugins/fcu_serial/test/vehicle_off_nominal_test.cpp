@@ -19,7 +19,7 @@ void disarm_and_reboot(Flying& f, double after_s) {
   f.world.fcu.inputs.rc_us[4] = 1000;
   while (f.status.armed) f.fly(0.01);
   f.fly(after_s);
-  f.told.clear();
+  f.reported.clear();
   f.world.fcu.reboot(f.world.now_ns / 1000);
   f.world.happen(LinkEvent::rebooted);
   f.fly(1);

@@ -31,7 +31,7 @@ void armed_by_pilot(Flying& f) {
   f.fly(1);
   REQUIRE(f.status.armed);
   REQUIRE(f.status.override);
-  f.told.clear();
+  f.reported.clear();
 }
 void hand_over(Flying& f) { f.world.fcu.inputs.rc_us[5] = 1000; }
 void take_back(Flying& f) { f.world.fcu.inputs.rc_us[5] = 2000; }
@@ -42,7 +42,7 @@ std::size_t sent_in(Flying& f, double seconds) {
 }
 int times(const Flying& f, const std::string& words) {
   int n = 0;
-  for (auto at = f.told.find(words); at != std::string::npos; at = f.told.find(words, at + 1)) ++n;
+  for (auto at = f.reported.find(words); at != std::string::npos; at = f.reported.find(words, at + 1)) ++n;
   return n;
 }
 /// In the air and flown by the host.
@@ -54,7 +54,7 @@ void cruising(Flying& f) {
   REQUIRE(f.status.in_control);
   f.state = known(17);
   f.fly(1);
-  f.told.clear();
+  f.reported.clear();
 }
 
 }  // namespace
@@ -343,13 +343,13 @@ TEST_CASE("without a link the line says that alone; with one, each sensor, and d
   f.world.fcu.inputs.gnss_works = f.world.fcu.inputs.mag_works = f.world.fcu.inputs.baro_works =
       f.world.fcu.inputs.pitot_works = false;
   f.world.lost = [](const Packet& p) { return p.is<SmallImu>(); };
-  f.told.clear();
+  f.reported.clear();
   f.fly(12);
   CHECK(f.heard(
       "not ready: no inertial samples, no attitude with heading, no GNSS fix, no magnetometer, no b...\n"));
   f.world.cut = true;
   f.fly(1);
-  f.told.clear();
+  f.reported.clear();
   f.fly(20);
   CHECK(times(f, "not ready: nothing is heard of the flight controller\n") == 2);
   CHECK(times(f, "not ready") == 2);
@@ -376,7 +376,7 @@ TEST_CASE("a computer that is too slow for its laws says so, again, and when it 
     }
   };
   slow_for(5, 2'000'000);
-  CHECK(f.told.find("too slow") == std::string::npos);
+  CHECK(f.reported.find("too slow") == std::string::npos);
   slow_for(3.5, 5'000'000);
   CHECK(
       times(f, "this computer is too slow: 50 % of the inertial samples are too old when it comes to them") +

@@ -24,9 +24,9 @@ Heard flying() {
   return h;
 }
 
-std::string told(Teller& teller, const Heard& h, std::int64_t at = now) {
+std::string reported(Reporter& reporter, const Heard& h, std::int64_t at = now) {
   Notices notices;
-  teller.tell(evaluate(h, at), h, at, notices);
+  reporter.report(evaluate(h, at), h, at, notices);
   std::string all;
   for (std::size_t i = 0; i < notices.size(); ++i) all += std::string(notices[i].text.view()) + "\n";
   return all;
@@ -129,29 +129,29 @@ TEST_CASE("no radio is an error only after it had the time to speak") {
 }
 
 TEST_CASE("each change is told once, in words") {
-  Teller teller;
+  Reporter reporter;
   Heard h = flying();
   h.status.armed = 0;
-  CHECK(told(teller, h) == "");
+  CHECK(reported(reporter, h) == "");
   h.status.armed = 1;
-  CHECK(told(teller, h) == "armed\nin control\n");
-  CHECK(told(teller, h) == "");
+  CHECK(reported(reporter, h) == "armed\nin control\n");
+  CHECK(reported(reporter, h) == "");
   h.status.rc_override = 0x001 | 0x010;
-  CHECK(told(teller, h) == "the pilot flies: attitude switch, yaw stick\nnot in control\n");
+  CHECK(reported(reporter, h) == "the pilot flies: attitude switch, yaw stick\nnot in control\n");
   h.status.rc_override = 0x010;
-  CHECK(told(teller, h) == "");
+  CHECK(reported(reporter, h) == "");
   h.status.rc_override = 0;
-  CHECK(told(teller, h) == "the pilot hands over\nin control\n");
+  CHECK(reported(reporter, h) == "the pilot hands over\nin control\n");
   h.status.failsafe = 1;
-  CHECK(told(teller, h).find("failsafe: the flight controller has lost the radio") == 0);
+  CHECK(reported(reporter, h).find("failsafe: the flight controller has lost the radio") == 0);
   h.status.failsafe = 0;
-  CHECK(told(teller, h).find("failsafe is over") == 0);
+  CHECK(reported(reporter, h).find("failsafe is over") == 0);
   h.status.armed = 0;
-  CHECK(told(teller, h).find("disarmed") == 0);
+  CHECK(reported(reporter, h).find("disarmed") == 0);
 }
 
 TEST_CASE("control that comes and goes on a bad line is told as that, not change by change") {
-  Teller teller;
+  Reporter reporter;
   Heard h = flying();
   std::string all;
   std::int64_t at = now;
@@ -160,10 +160,10 @@ TEST_CASE("control that comes and goes on a bad line is told as that, not change
       at += period_ms * ms;
       h.frame_ns = h.imu_ns = h.status_ns = h.rc_ns = at;
       h.command_ns = i % 2 == 0 ? at - 150 * ms : at;
-      all += told(teller, h, at);
+      all += reported(reporter, h, at);
     }
   };
-  CHECK(told(teller, h, at) == "armed\nin control\n");
+  CHECK(reported(reporter, h, at) == "armed\nin control\n");
   pass(100, 60);  // 6 s of it, and it ends in control
   CHECK(std::count(all.begin(), all.end(), '\n') <= 4);
   CHECK(all.find("control comes and goes: the line loses too much") != std::string::npos);
@@ -171,67 +171,67 @@ TEST_CASE("control that comes and goes on a bad line is told as that, not change
   for (int i = 0; i < 50; ++i) {
     at += 60 * ms;
     h.frame_ns = h.imu_ns = h.status_ns = h.rc_ns = h.command_ns = at;
-    all += told(teller, h, at);
+    all += reported(reporter, h, at);
   }
   CHECK(all == "in control\n");  // as it has stayed for 2 s
   all.clear();
   h.command_ns = at - 150 * ms;
-  CHECK(told(teller, h, at) == "not in control\n");
+  CHECK(reported(reporter, h, at) == "not in control\n");
 }
 
 TEST_CASE("error bits are told in words that say what to do, and when they go") {
-  Teller teller;
+  Reporter reporter;
   Heard h = flying();
   h.status.error_code = error_uncalibrated_imu | error_invalid_mixer;
-  const std::string text = told(teller, h);
+  const std::string text = reported(reporter, h);
   CHECK(text.find("invalid mixer: set PRIMARY_MIXER") != std::string::npos);
   CHECK(text.find("uncalibrated: fulmar fcu calibrate imu") != std::string::npos);
   h.status.error_code = error_invalid_mixer;
-  CHECK(told(teller, h) == "no longer: uncalibrated: fulmar fcu calibrate imu\n");
+  CHECK(reported(reporter, h) == "no longer: uncalibrated: fulmar fcu calibrate imu\n");
 }
 
 TEST_CASE("a radio that stops is told: the outputs are frozen") {
-  Teller teller;
+  Reporter reporter;
   Heard h = flying();
-  told(teller, h);
+  reported(reporter, h);
   h.rc_ns = now - 600 * ms;
-  CHECK(told(teller, h).find("no frames of the radio: the outputs are frozen, commands move nothing") !=
+  CHECK(reported(reporter, h).find("no frames of the radio: the outputs are frozen, commands move nothing") !=
         std::string::npos);
-  CHECK(told(teller, h) == "");
+  CHECK(reported(reporter, h) == "");
   h.rc_ns = now;
-  CHECK(told(teller, h).find("frames of the radio come again") != std::string::npos);
+  CHECK(reported(reporter, h).find("frames of the radio come again") != std::string::npos);
 }
 
 TEST_CASE("a dead inertial unit is told, though nothing else says so") {
-  Teller teller;
+  Reporter reporter;
   Heard h = flying();
-  told(teller, h);
+  reported(reporter, h);
   h.imu_ns = now - 300 * ms;
   CHECK(evaluate(h, now).errors == own_error_imu_silent);
   CHECK(evaluate(h, now).health == Health::failed);
-  CHECK(told(teller, h).find("no inertial samples: the flight controller controls nothing any more") !=
+  CHECK(reported(reporter, h).find("no inertial samples: the flight controller controls nothing any more") !=
         std::string::npos);
   h.imu_ns = now;
-  CHECK(told(teller, h).find("inertial samples come again") != std::string::npos);
+  CHECK(reported(reporter, h).find("inertial samples come again") != std::string::npos);
 }
 
 TEST_CASE("a controller that is lost is told once, and how long it was gone") {
-  Teller teller;
+  Reporter reporter;
   Heard h = flying();
-  told(teller, h);
+  reported(reporter, h);
   h.open = false;
-  CHECK(told(teller, h, now + 250 * ms) == "the flight controller's device is gone; looking for it\n");
-  CHECK(told(teller, h, now + 350 * ms) == "");
+  CHECK(reported(reporter, h, now + 250 * ms) == "the flight controller's device is gone; looking for it\n");
+  CHECK(reported(reporter, h, now + 350 * ms) == "");
   h.open = true;
   h.frame(now + 5000 * ms);
   h.imu_ns = h.status_ns = h.rc_ns = h.command_ns = now + 5000 * ms;
-  CHECK(told(teller, h, now + 5000 * ms).find("the flight controller is back after 5.0 s\n") == 0);
-  CHECK(told(teller, h, now + 5000 * ms) == "");
+  CHECK(reported(reporter, h, now + 5000 * ms).find("the flight controller is back after 5.0 s\n") == 0);
+  CHECK(reported(reporter, h, now + 5000 * ms) == "");
 }
 
 TEST_CASE("nothing is told of a controller that has said nothing yet") {
-  Teller teller;
-  CHECK(told(teller, Heard{}) == "");
+  Reporter reporter;
+  CHECK(reported(reporter, Heard{}) == "");
 }
 
 TEST_CASE("texts of the controller are forwarded up to their end, with their severity") {

@@ -86,9 +86,9 @@ TEST_CASE("a command that is not finite is not sent, and told once") {
   const auto before = f.world.count<OffboardControl>();
   f.fly(1);
   CHECK(f.world.count<OffboardControl>() == before);
-  const auto first = f.told.find("a command is not finite");
+  const auto first = f.reported.find("a command is not finite");
   REQUIRE(first != std::string::npos);
-  CHECK(f.told.find("a command is not finite", first + 1) == std::string::npos);
+  CHECK(f.reported.find("a command is not finite", first + 1) == std::string::npos);
   CHECK(std::isfinite(f.world.fcu.outputs()[4]));
 }
 

@@ -218,24 +218,24 @@ TEST_CASE("commands go out at their rate, repeated after 25 ms, and a late one d
 TEST_CASE("a computer that is too slow is reported in its second such second, each ten, and at its end") {
   for (const auto& [too_old, slow] : {std::pair{9, false}, {10, true}, {30, true}}) {
     Overload load;
-    std::string told;
+    std::string reported;
     Notices out;
     for (int s = 1; s <= 25; ++s) {
       for (int k = 0; k < 100; ++k) load.sample(s <= 23 && k < too_old);
-      load.tell(s * second - 1, out);
+      load.report(s * second - 1, out);
       CHECK(out.size() == 0);
-      load.tell(s * second, out);
+      load.report(s * second, out);
       for (std::size_t i = 0; i < out.size(); ++i) {
-        told += std::to_string(s) + " ";
+        reported += std::to_string(s) + " ";
         if (s < 24) CHECK(text(out, i).find(": " + std::to_string(too_old) + " % of") != std::string::npos);
       }
       out.clear();
     }
-    CHECK(told == (slow ? "2 12 22 24 " : ""));
+    CHECK(reported == (slow ? "2 12 22 24 " : ""));
   }
   Overload none;
   Notices out;
-  for (int s = 1; s < 5; ++s) none.tell(s * second, out);
+  for (int s = 1; s < 5; ++s) none.report(s * second, out);
   CHECK(out.size() == 0);
 }
 
@@ -251,7 +251,7 @@ TEST_CASE(
       asked += std::to_string(*i) + "@" + std::to_string(now / ms) + " ";
       if (*i == 1) (void)book.take(parameter(1, 3, 7.5f));
     }
-    book.tell(out);
+    book.report(out);
   }
   CHECK(asked == "0@0 1@10 2@20 0@530 2@540 0@1050 2@1060 0@1570 2@1580 0@2090 2@2100 ");
   REQUIRE(out.size() == 2);
@@ -265,7 +265,7 @@ TEST_CASE(
       const auto news = book.take(parameter(static_cast<std::uint16_t>(*i), 3, *i == 1 ? 8.5f : 1.0f));
       CHECK(news);
     }
-    book.tell(out);
+    book.report(out);
   }
   CHECK(asked == "0 1 2 ");
   REQUIRE(out.size() == 1);
@@ -299,7 +299,7 @@ TEST_CASE("each calibration stands at its own place, and a whole number is one")
   REQUIRE(taken);
   CHECK(taken->whole);
   CHECK(taken->value.view() == "-42");
-  book.tell(out);
+  book.report(out);
   REQUIRE(out.size() == 2);
   CHECK(text(out, 0) == "its 8 parameters are in the log");
   CHECK(text(out, 1) == "calibration: accel 0.125 0.250 0.375, gyro 0.5000 0.6250 0.7500, pitot -3.5 Pa");

@@ -29,11 +29,11 @@ void cruising(Flying& f) {
   REQUIRE(f.status.in_control);
   f.state = known(17);
   f.fly(1);
-  f.told.clear();
+  f.reported.clear();
 }
 int times(const Flying& f, const std::string& words) {
   int n = 0;
-  for (auto at = f.told.find(words); at != std::string::npos; at = f.told.find(words, at + 1)) ++n;
+  for (auto at = f.reported.find(words); at != std::string::npos; at = f.reported.find(words, at + 1)) ++n;
   return n;
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("a hand-over that is refused is never called control") {
   switch_to(f, true);
   f.fly(1);
   REQUIRE(f.status.armed);
-  f.told.clear();
+  f.reported.clear();
   for (int i = 0; i < 5; ++i) {
     switch_to(f, false);
     for (int tick = 0; tick < 400; ++tick) {
@@ -122,7 +122,7 @@ TEST_CASE("what makes it ready and comes and goes is told less and less often") 
   Flying f;
   f.state = known();
   f.fly(4);
-  f.told.clear();
+  f.reported.clear();
   for (int i = 0; i < 60; ++i) {
     f.state->position_valid = i % 2 != 0;
     f.world.fcu.inputs.gnss.fix_type = i % 2 != 0 ? 3 : 0;
@@ -134,7 +134,7 @@ TEST_CASE("what makes it ready and comes and goes is told less and less often") 
   CHECK(times(f, "GNSS lost") >= 4);
   CHECK(times(f, "GNSS lost") <= 12);
   CHECK(times(f, "GNSS is back") == times(f, "GNSS lost"));
-  f.told.clear();
+  f.reported.clear();
   f.state->position_valid = true;
   f.world.fcu.inputs.gnss.fix_type = 3;
   f.fly(11);

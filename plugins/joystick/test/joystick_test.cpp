@@ -36,7 +36,7 @@ Rc frame(Bench<Joystick>& bench) {
   return bench.out.rc.items[0];
 }
 
-std::string told(const Bench<Joystick>& bench) {
+std::string reported(const Bench<Joystick>& bench) {
   std::string all;
   for (std::uint32_t i = 0; i < bench.out.notices.count; ++i)
     all += std::string(bench.out.notices.items[i].text.view()) + "\n";
@@ -81,13 +81,13 @@ TEST_CASE("sticks, throttle and switches come out as a transmitter's channels, e
   CHECK(rc.aux1_frac == 1);
   CHECK(rc.aux2_frac == 0);  // never heard of: the middle
   CHECK(rc.aux4_frac == -1);
-  CHECK(holds(told(bench), "js0: the pilot is there"));
+  CHECK(holds(reported(bench), "js0: the pilot is there"));
   pipe.write(axis(0, -32768) + axis(2, 32767));
   rc = frame(bench);
   CHECK(rc.roll_frac == -1);  // a driver outside the kernel's range
   CHECK(rc.throttle_frac == 1);
   CHECK(rc.pitch_frac == -1);  // stays where it was
-  CHECK(told(bench) == "");
+  CHECK(reported(bench) == "");
 }
 
 TEST_CASE("reversed axes, a dead zone and an exponential, by their formulas") {
@@ -189,21 +189,21 @@ TEST_CASE(
   CHECK(bench.step(frame_s) == Status::degraded);
   CHECK(bench.out.rc.count == 1);
   CHECK_FALSE(bench.out.rc.items[0].link);
-  CHECK(holds(told(bench), "js0: the pilot is not there: No such file"));
+  CHECK(holds(reported(bench), "js0: the pilot is not there: No such file"));
   frame(bench);
-  CHECK(told(bench) == "");
+  CHECK(reported(bench) == "");
   pipe.plug();
   pipe.write(axis(0, 32767) + axis(2, 32767) + button(1, true));
   Rc rc = frame(bench);
   CHECK(rc.link);
-  CHECK(holds(told(bench), "the pilot is back") == true);
+  CHECK(holds(reported(bench), "the pilot is back") == true);
   pipe.pull();
   rc = frame(bench);
   CHECK_FALSE(rc.link);
   CHECK(rc.throttle_frac == 0);
-  CHECK(holds(told(bench), "the pilot is lost: nobody sends"));
+  CHECK(holds(reported(bench), "the pilot is lost: nobody sends"));
   frame(bench);
-  CHECK(told(bench) == "");
+  CHECK(reported(bench) == "");
   pipe.plug();
   CHECK_FALSE(frame(bench).link);  // says nothing yet
   pipe.write(axis(1, 16384));
@@ -211,7 +211,7 @@ TEST_CASE(
   CHECK(rc.link);
   CHECK(rc.roll_frac == 0);  // where the stick was before is not where it is
   CHECK(rc.throttle_frac == 0);
-  CHECK(holds(told(bench), "the pilot is back"));
+  CHECK(holds(reported(bench), "the pilot is back"));
 }
 
 TEST_CASE("a pipe that nobody has opened for writing is nobody") {
@@ -220,7 +220,7 @@ TEST_CASE("a pipe that nobody has opened for writing is nobody") {
   Bench<Joystick> bench;
   use(bench, pipe);
   CHECK_FALSE(frame(bench).link);
-  CHECK(holds(told(bench), "not there: nobody sends"));
+  CHECK(holds(reported(bench), "not there: nobody sends"));
 }
 
 TEST_CASE("a sender that opens a pipe at any time does not find it broken, and a second one goes on") {
@@ -255,7 +255,7 @@ TEST_CASE("a record that no joystick sends changes nothing and is counted; many 
   for (int i = 0; i < 8; ++i) garbage += "garbage\n";
   pipe.write(garbage);
   CHECK_FALSE(frame(bench).link);
-  CHECK(holds(told(bench), "lost: what it sends is no joystick's"));
+  CHECK(holds(reported(bench), "lost: what it sends is no joystick's"));
   CHECK(bench.out.unknown_records_ratio.value == 13);
   pipe.write(axis(0, -32767));
   CHECK(frame(bench).roll_frac == -1);  // it comes to its senses
@@ -310,7 +310,7 @@ TEST_CASE("what can be no joystick is refused before the flight; what may not be
   chmod(pipe.path().c_str(), 0);
   use(bench, pipe);
   CHECK_FALSE(frame(bench).link);
-  CHECK(holds(told(bench), "permission denied"));
+  CHECK(holds(reported(bench), "permission denied"));
 }
 
 }  // namespace joystick_test

@@ -135,14 +135,14 @@ TEST_CASE("a touch-down is what the vehicle says, or two seconds without sinking
   held.s.climb_rate_mps = 0;
   CHECK(held.at(20, 0, 1.5, 1.5).stage == LandingStage::flare);  // counted anew
 
-  Strip told;
-  told.approach();
-  told.at(40, 0, 3);
+  Strip reported;
+  reported.approach();
+  reported.at(40, 0, 3);
   GroundState ground;
   ground.contact = Contact::ground;
-  told.bench.set(told.bench.in.ground, ground);
-  told.s.climb_rate_mps = -0.5;
-  CHECK(told.at(20, 0, 2.5).stage == LandingStage::roll_out);  // whatever the height says
+  reported.bench.set(reported.bench.in.ground, ground);
+  reported.s.climb_rate_mps = -0.5;
+  CHECK(reported.at(20, 0, 2.5).stage == LandingStage::roll_out);  // whatever the height says
 }
 
 TEST_CASE("the ground above the flare's height is a touch-down, at the circle's height it is none") {

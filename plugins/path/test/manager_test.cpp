@@ -286,25 +286,25 @@ TEST_CASE("the next piece that is told is the one that is published when the cur
       const bool changed = std::abs(kappa_of(now) - kappa_of(before)) > 1e-9;
       if (changed && before.has_next && before.remaining_m < 1) {
         ++changes;
-        const PathPiece& told = before.next;
-        CHECK(told.kind == now.kind);
-        CHECK(told.airspeed_mps == now.airspeed_mps);
-        CHECK(told.origin_m.north == doctest::Approx(now.origin_m.north));
-        CHECK(told.origin_m.east == doctest::Approx(now.origin_m.east));
-        if (told.kind == PathKind::line) {
-          CHECK(told.direction_ratio == now.direction_ratio);
-          CHECK(told.origin_m.down == now.origin_m.down);
+        const PathPiece& reported = before.next;
+        CHECK(reported.kind == now.kind);
+        CHECK(reported.airspeed_mps == now.airspeed_mps);
+        CHECK(reported.origin_m.north == doctest::Approx(now.origin_m.north));
+        CHECK(reported.origin_m.east == doctest::Approx(now.origin_m.east));
+        if (reported.kind == PathKind::line) {
+          CHECK(reported.direction_ratio == now.direction_ratio);
+          CHECK(reported.origin_m.down == now.origin_m.down);
         } else {
-          CHECK(told.turn == now.turn);
-          CHECK(told.radius_m == now.radius_m);
-          CHECK(std::abs(told.origin_m.down - now.origin_m.down) < 0.2);
-          const Vec3<Ned> begin{told.origin_m.north + told.radius_m * std::cos(told.start_rad),
-                                told.origin_m.east + told.radius_m * std::sin(told.start_rad), 0};
+          CHECK(reported.turn == now.turn);
+          CHECK(reported.radius_m == now.radius_m);
+          CHECK(std::abs(reported.origin_m.down - now.origin_m.down) < 0.2);
+          const Vec3<Ned> begin{reported.origin_m.north + reported.radius_m * std::cos(reported.start_rad),
+                                reported.origin_m.east + reported.radius_m * std::sin(reported.start_rad), 0};
           CHECK(flight.distance_to(begin.north, begin.east) < 3);
         }
-        if (told.length_m < 1e6) {
-          CHECK(now.remaining_m <= told.length_m);
-          CHECK(now.remaining_m > told.length_m - 1);
+        if (reported.length_m < 1e6) {
+          CHECK(now.remaining_m <= reported.length_m);
+          CHECK(now.remaining_m > reported.length_m - 1);
         }
       }
       before = now;

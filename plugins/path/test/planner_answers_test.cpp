@@ -103,12 +103,12 @@ TEST_CASE(
   CHECK(desk.bench.out.notices.items[0].text ==
         "plan edit 7 refused: there is no waypoint of this index; the first is 0");
   CHECK(desk.bench.out.notices.items[0].severity == Severity::warning);
-  int told = 0;
+  int reported = 0;
   for (int i = 0; i < 49; ++i) {
     desk.push(bad);
-    told += static_cast<int>(desk.bench.out.notices.count);
+    reported += static_cast<int>(desk.bench.out.notices.count);
   }
-  CHECK(told == 0);
+  CHECK(reported == 0);
   desk.push(bad);
   REQUIRE(desk.bench.out.notices.count == 1);
   CHECK(desk.bench.out.notices.items[0].text ==

@@ -150,18 +150,18 @@ TEST_CASE(
     plan.waypoints.push_back(w);
   }
   bench.set(bench.in.plan, plan);
-  std::vector<RosplaneWaypoint> told;
+  std::vector<RosplaneWaypoint> reported;
   for (int step = 0; step < 5; ++step) {
     bench.step(0.01);
     for (std::uint32_t i = 0; i < bench.out.waypoint_path.count; ++i)
-      told.push_back(bench.out.waypoint_path.items[i]);
+      reported.push_back(bench.out.waypoint_path.items[i]);
   }
-  REQUIRE(told.size() == 101);
-  CHECK(told[0].clear_wp_list);
-  for (std::size_t i = 1; i < told.size(); ++i) {
-    CHECK_FALSE(told[i].clear_wp_list);
-    CHECK(told[i].w == std::array<float, 3>{10.0f * static_cast<float>(i - 1), 5, -70});
-    CHECK(told[i].va_d == 15);
+  REQUIRE(reported.size() == 101);
+  CHECK(reported[0].clear_wp_list);
+  for (std::size_t i = 1; i < reported.size(); ++i) {
+    CHECK_FALSE(reported[i].clear_wp_list);
+    CHECK(reported[i].w == std::array<float, 3>{10.0f * static_cast<float>(i - 1), 5, -70});
+    CHECK(reported[i].va_d == 15);
   }
 }
 

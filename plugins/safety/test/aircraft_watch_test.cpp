@@ -22,7 +22,7 @@ struct Watching {
   Actuators actuators;
   AttitudeCommand asked;
   GroundState ground;
-  std::vector<Notice> told;
+  std::vector<Notice> reported;
 
   Watching() {
     kit::give_anaconda(bench.params);
@@ -40,12 +40,13 @@ struct Watching {
       bench.set(bench.in.attitude, asked);
       bench.set(bench.in.ground, ground);
       REQUIRE(bench.step(dt) == Status::ok);
-      for (std::uint32_t n = 0; n < bench.out.notices.count; ++n) told.push_back(bench.out.notices.items[n]);
+      for (std::uint32_t n = 0; n < bench.out.notices.count; ++n)
+        reported.push_back(bench.out.notices.items[n]);
     }
   }
   int count(Severity severity, const char* word) const {
     int n = 0;
-    for (const Notice& each : told)
+    for (const Notice& each : reported)
       n += each.severity == severity && each.text.view().find(word) != std::string_view::npos ? 1 : 0;
     return n;
   }
@@ -56,7 +57,7 @@ struct Watching {
 TEST_CASE("level flight in order reports nothing, for minutes") {
   Watching w;
   w.fly(200);
-  CHECK(w.told.empty());
+  CHECK(w.reported.empty());
 }
 
 TEST_CASE("a bank that stays off its command is reported after a second, either side, and its end") {
@@ -65,15 +66,15 @@ TEST_CASE("a bank that stays off its command is reported after a second, either 
     w.state.roll_rad = side * 4 * deg;
     w.asked.roll_rad = side * 30 * deg;
     w.fly(0.9);
-    CHECK(w.told.empty());
+    CHECK(w.reported.empty());
     w.fly(0.2);
     CHECK(w.count(Severity::critical, "bank 26 deg") == 1);
     w.asked.roll_rad = side * 13 * deg;  // more than half of the 15 deg
     w.fly(10);
-    CHECK(w.told.size() == 1);
+    CHECK(w.reported.size() == 1);
     w.asked.roll_rad = side * 10 * deg;
     w.fly(2.9);
-    CHECK(w.told.size() == 1);
+    CHECK(w.reported.size() == 1);
     w.fly(0.2);
     CHECK(w.count(Severity::info, "bank") == 1);
   }
@@ -85,7 +86,7 @@ TEST_CASE("a bank that closes on its command is a turn that begins, one that goe
     w.asked.roll_rad = side * 40 * deg;
     w.state.rate_radps.x = side * 0.2;
     w.fly(1.9);
-    CHECK(w.told.empty());
+    CHECK(w.reported.empty());
     w.fly(0.3);  // 2 s off the command are no turn that begins
     CHECK(w.count(Severity::critical, "bank") == 1);
     Watching away;
@@ -115,7 +116,7 @@ TEST_CASE("the rates of bank and pitch are those of the Euler angles, in a steep
   turn.asked.pitch_rad = 20 * deg;
   turn.fly(1.1);
   CHECK(turn.count(Severity::critical, "pitch 20 deg") == 1);
-  CHECK(turn.told.size() == 1);
+  CHECK(turn.reported.size() == 1);
   // With the nose at 40 deg the same turn takes a roll rate of -rate sin(pitch) to hold the bank.
   Watching climb;
   const double pitch = 40 * deg;
@@ -126,7 +127,7 @@ TEST_CASE("the rates of bank and pitch are those of the Euler angles, in a steep
                             -rate * std::cos(pitch) * std::cos(roll)};
   climb.fly(1.1);
   CHECK(climb.count(Severity::critical, "bank 20 deg") == 1);
-  CHECK(climb.told.size() == 1);
+  CHECK(climb.reported.size() == 1);
 }
 
 TEST_CASE(
@@ -141,13 +142,13 @@ TEST_CASE(
   blind.state.attitude_valid = false;
   for (Watching* w : {&ground, &pilot, &blind}) {
     w->fly(20);
-    CHECK(w->told.empty());
+    CHECK(w->reported.empty());
   }
   pilot.status.in_control = true;  // the second counts from the hand-over
   pilot.fly(0.9);
-  CHECK(pilot.told.empty());
+  CHECK(pilot.reported.empty());
   pilot.fly(0.2);
-  CHECK(pilot.told.size() == 2);
+  CHECK(pilot.reported.size() == 2);
 }
 
 TEST_CASE("what comes and goes is reported once in 30 s") {
@@ -180,7 +181,7 @@ TEST_CASE("a motor without thrust and a weak one have their names, and a Monitor
     weak.fly(20);
     CHECK(dead.count(Severity::critical, "no thrust from the motor") == (monitored ? 0 : 1));
     CHECK(weak.count(Severity::warning, "weak motor") == (monitored ? 0 : 1));
-    CHECK(dead.told.size() == (monitored ? 0U : 1U));
+    CHECK(dead.reported.size() == (monitored ? 0U : 1U));
   }
 }
 
@@ -189,14 +190,14 @@ TEST_CASE("a battery that fades is low at 0.83 of its voltage and empty at 0.75"
   const double full = w.status.battery_volt;
   w.status.battery_volt = 0.84 * full;
   w.fly(10);
-  CHECK(w.told.empty());
+  CHECK(w.reported.empty());
   w.status.battery_volt = 0.82 * full;
   w.fly(3.1);
   CHECK(w.count(Severity::warning, "battery low") == 1);
   w.status.battery_volt = 0.74 * full;
   w.fly(3.1);
   CHECK(w.count(Severity::critical, "battery empty") == 1);
-  CHECK(w.told.size() == 2);
+  CHECK(w.reported.size() == 2);
 }
 
 TEST_CASE("wind above 0.6 of the cruise airspeed is reported from every side") {
@@ -207,12 +208,12 @@ TEST_CASE("wind above 0.6 of the cruise airspeed is reported from every side") {
     above.state.wind_mps = {1.05 * limit * std::cos(to), 1.05 * limit * std::sin(to), 0};
     below.fly(30);
     above.fly(12);
-    CHECK(below.told.empty());
+    CHECK(below.reported.empty());
     CHECK(above.count(Severity::warning, "wind") == 1);
     above.state.wind_valid = false;  // not known any more: neither more nor less
     above.state.wind_mps = {};
     above.fly(60);
-    CHECK(above.told.size() == 1);
+    CHECK(above.reported.size() == 1);
   }
 }
 

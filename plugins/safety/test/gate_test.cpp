@@ -27,9 +27,9 @@ void refuses(bool NotReady::*cause, const char* words, const std::function<void(
   CHECK_FALSE(w.out.safety.ready);
   CHECK(w.out.safety.not_ready.*cause);
   CHECK(causes(w.out.safety.not_ready) == 1);
-  CHECK_MESSAGE(w.told_of(words), w.told);
-  CHECK(w.told.find('-') == std::string::npos);
-  CHECK(std::count(w.told.begin(), w.told.end(), '\n') <= 2);  // the cause itself, and the list once
+  CHECK_MESSAGE(w.reported_of(words), w.reported);
+  CHECK(w.reported.find('-') == std::string::npos);
+  CHECK(std::count(w.reported.begin(), w.reported.end(), '\n') <= 2);  // the cause itself, and the list once
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ TEST_CASE("an aircraft in order is ready at once, and no line is said of it") {
   CHECK(w.fly(0.1).ready);
   CHECK(w.fly(30).ready);
   CHECK(causes(w.out.safety.not_ready) == 0);
-  CHECK(w.told == "");
+  CHECK(w.reported == "");
   CHECK(w.out.safety.fence_margin_m == doctest::Approx(1000));
   CHECK(w.out.safety.height_margin_m == doctest::Approx(120));
   w.ground.contact = Contact::air;
@@ -107,7 +107,7 @@ TEST_CASE("tail wind is found in the take-off run: less airspeed than ground spe
     w.state.ground_speed_mps = w.state.velocity_mps.north = w.state.airspeed_mps =
         0;  // standing, the tube shows nothing of it
     CHECK(w.fly(30).not_ready.wind == (tail > 9.35));
-    CHECK(w.told_of("not ready: tail wind in the run") == (tail > 9.35));
+    CHECK(w.reported_of("not ready: tail wind in the run") == (tail > 9.35));
     w.status.in_control = false;
     CHECK_FALSE(w.fly(1).not_ready.wind);
   }
@@ -130,12 +130,12 @@ TEST_CASE("a motor that does not move the aircraft at open throttle is not ready
   CHECK(w.out.safety.not_ready.motor);
   w.actuators.throttle_frac = 0;
   CHECK_FALSE(w.fly(10).ready);
-  CHECK(w.told_of("not ready: no thrust from the motor"));
+  CHECK(w.reported_of("not ready: no thrust from the motor"));
   w.status.in_control = false;
   w.fly(0.1);
   w.status.in_control = true;
   CHECK(w.fly(10).ready);
-  CHECK(w.told_of("ready for take-off"));
+  CHECK(w.reported_of("ready for take-off"));
   Stands rolls;
   rolls.actuators.throttle_frac = 1;
   rolls.fly(1);
@@ -153,13 +153,13 @@ TEST_CASE("a list that flaps is not said more often than every 5 s") {
     w.state.position_valid = i % 2 == 0;
     w.fly(2.5);
   }
-  CHECK(std::count(w.told.begin(), w.told.end(), '\n') <= 20);
+  CHECK(std::count(w.reported.begin(), w.reported.end(), '\n') <= 20);
   Stands fast;
   for (int i = 0; i < 100; ++i) {
     fast.state.position_valid = i % 2 == 0;
     fast.fly(0.5);
   }
-  CHECK(fast.told == "");
+  CHECK(fast.reported == "");
 }
 
 TEST_CASE("contact with the ground decides what flies; a landing answers nothing whatever fails") {

@@ -26,7 +26,7 @@ struct Law : Bench<Glide> {
       set(in.state, state, -0.01);
       set(in.command, command, -0.01);
       REQUIRE(step(0.01) != Status::failed);
-      REQUIRE(fault() == "");
+      REQUIRE(validation_error() == "");
     }
     return out.attitude;
   }

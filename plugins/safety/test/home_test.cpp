@@ -35,7 +35,7 @@ struct Way : Bench<Home> {
     state.wind_mps = wind;
     set(in.state, state, -dt);
     step(dt);
-    REQUIRE(fault() == "");
+    REQUIRE(validation_error() == "");
     return out.command;
   }
   void fly(double seconds, double dt = 0.02) {

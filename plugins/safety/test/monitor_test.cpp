@@ -52,7 +52,7 @@ TEST_CASE("in order nothing is told, for long") {
   w.fence();
   w.has_health = true;
   CHECK(w.fly(60).answer == SafetyAnswer::none);
-  CHECK(w.told == "");
+  CHECK(w.reported == "");
 }
 
 TEST_CASE("the fence is told before it is reached, by what the turn back takes, and kept until the landing") {
@@ -66,7 +66,7 @@ TEST_CASE("the fence is told before it is reached, by what the turn back takes, 
   w.state.position_m.north = from + 3;
   CHECK(w.fly(0.1).fence);
   CHECK(w.out.safety.answer == SafetyAnswer::home);
-  CHECK(w.told.find(" m to the fence: returns home") != std::string::npos);
+  CHECK(w.reported.find(" m to the fence: returns home") != std::string::npos);
   w.state = kit::level();
   CHECK_FALSE(w.fly(3).fence);
   CHECK(w.out.safety.answer == SafetyAnswer::home);
@@ -256,7 +256,7 @@ TEST_CASE("the motor: the trim's throttle holds level flight, and no motor sinks
   CHECK(after > 1.9);
   CHECK(after < 4);
   CHECK(w.out.safety.answer == SafetyAnswer::glide);
-  CHECK(w.told.find("no thrust from the motor: glides down") != std::string::npos);
+  CHECK(w.reported.find("no thrust from the motor: glides down") != std::string::npos);
   w.actuators.throttle_frac = 0;  // nothing is demanded: nothing is learnt
   CHECK(w.fly(30).engine_failed);
   w.actuators.throttle_frac = 0.57;

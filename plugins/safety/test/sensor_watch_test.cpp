@@ -25,7 +25,7 @@ struct Watching {
   VehicleState state = kit::level();
   NavigationHealth health = all(SensorState::ok);
   GroundState ground;
-  std::vector<Notice> told;
+  std::vector<Notice> reported;
 
   Watching() { ground.contact = Contact::air; }
   static NavigationHealth all(SensorState s) {
@@ -41,12 +41,13 @@ struct Watching {
       bench.set(bench.in.health, health);
       bench.set(bench.in.ground, ground);
       bench.step(0.1);
-      for (std::uint32_t n = 0; n < bench.out.notices.count; ++n) told.push_back(bench.out.notices.items[n]);
+      for (std::uint32_t n = 0; n < bench.out.notices.count; ++n)
+        reported.push_back(bench.out.notices.items[n]);
     }
   }
   int count(Severity severity) const {
     int n = 0;
-    for (const Notice& each : told) n += each.severity == severity ? 1 : 0;
+    for (const Notice& each : reported) n += each.severity == severity ? 1 : 0;
     return n;
   }
 };
@@ -87,18 +88,18 @@ TEST_CASE("a sensor that fails in flight is reported once, and once when it is i
           &NavigationHealth::gnss_position, &NavigationHealth::gnss_velocity}) {
       Watching w;
       w.fly(5);
-      CHECK(w.told.empty());
+      CHECK(w.reported.empty());
       (w.health.*which).state = bad;
       w.fly(0.2);
-      CHECK(w.told.empty());
+      CHECK(w.reported.empty());
       w.fly(20);
-      CHECK(w.told.size() == 1);
+      CHECK(w.reported.size() == 1);
       CHECK(w.count(Severity::warning) == 1);
       (w.health.*which).state = SensorState::ok;
       w.fly(2.5);
-      CHECK(w.told.size() == 1);
+      CHECK(w.reported.size() == 1);
       w.fly(1);
-      CHECK(w.told.size() == 2);
+      CHECK(w.reported.size() == 2);
       CHECK(w.count(Severity::info) == 1);
     }
   }
@@ -109,10 +110,10 @@ TEST_CASE("an inertial sensor that fails calls the pilot") {
     Watching w;
     (w.health.*which).state = SensorState::stuck;
     w.fly(5);
-    REQUIRE(w.told.size() == 1);
-    CHECK(w.told[0].severity == Severity::critical);
-    CHECK(w.told[0].cause == (which == &NavigationHealth::gyro ? Cause::gyro : Cause::accelerometer));
-    CHECK(w.told[0].text.view().find("Pilot: take over") != std::string_view::npos);
+    REQUIRE(w.reported.size() == 1);
+    CHECK(w.reported[0].severity == Severity::critical);
+    CHECK(w.reported[0].cause == (which == &NavigationHealth::gyro ? Cause::gyro : Cause::accelerometer));
+    CHECK(w.reported[0].text.view().find("Pilot: take over") != std::string_view::npos);
   }
 }
 
@@ -120,7 +121,7 @@ TEST_CASE("two sensors without anything in common that are rejected at once poin
   using H = NavigationHealth;
   const auto reports = [](const Watching& w) {
     int n = 0;
-    for (const Notice& each : w.told)
+    for (const Notice& each : w.reported)
       n += each.severity == Severity::critical && each.text.view().find("gyro") != std::string_view::npos ? 1
                                                                                                           : 0;
     return n;
@@ -156,9 +157,9 @@ TEST_CASE("noise and bias are reported when they last") {
     Watching w;
     w.health.baro.state = bad;
     w.fly(9.5);
-    CHECK(w.told.empty());
+    CHECK(w.reported.empty());
     w.fly(1);
-    CHECK(w.told.size() == 1);
+    CHECK(w.reported.size() == 1);
   }
 }
 
@@ -167,7 +168,7 @@ TEST_CASE("a receiver that is silent is one line, not one for each thing that it
   w.fly(5);
   w.health.gnss_position.state = w.health.gnss_velocity.state = SensorState::silent;
   w.fly(20);
-  CHECK(w.told.size() == 1);
+  CHECK(w.reported.size() == 1);
 }
 
 TEST_CASE("what comes and goes is reported twice a minute at most") {
@@ -188,12 +189,12 @@ TEST_CASE("on the ground, and of a sensor that was never there, nothing is repor
     w.ground.contact = contact;
     w.health = Watching::all(SensorState::silent);
     w.fly(20);
-    CHECK(w.told.empty());
+    CHECK(w.reported.empty());
   }
   Watching w;
   w.health = Watching::all(SensorState::never);
   w.fly(20);
-  CHECK(w.told.empty());
+  CHECK(w.reported.empty());
 }
 
 TEST_CASE("a position that is lost is reported, and its return") {
@@ -201,15 +202,15 @@ TEST_CASE("a position that is lost is reported, and its return") {
   w.fly(1);
   w.state.position_valid = false;
   w.fly(20);
-  REQUIRE(w.told.size() == 1);
-  CHECK(w.told[0].severity == Severity::critical);
+  REQUIRE(w.reported.size() == 1);
+  CHECK(w.reported[0].severity == Severity::critical);
   w.state.position_valid = true;
   w.fly(4);
-  CHECK(w.told.size() == 2);
+  CHECK(w.reported.size() == 2);
   Watching never;
   never.state.position_valid = false;
   never.fly(20);
-  CHECK(never.told.empty());
+  CHECK(never.reported.empty());
 }
 
 TEST_CASE("in a flight each fault of a sensor is a line, and a flight in order has none") {

@@ -19,7 +19,7 @@ struct Watch : Bench<Monitor> {
   NavigationHealth health;
   GroundState ground;
   bool has_status = true, has_rc = false, has_health = false, has_throttle = true, has_ground = false;
-  std::string told;
+  std::string reported;
   std::vector<Notice> notices;
 
   Watch() {
@@ -51,11 +51,11 @@ struct Watch : Bench<Monitor> {
       if (has_throttle) set(in.actuators, actuators, -dt);
       if (has_ground) set(in.ground, ground, -dt);
       REQUIRE(step(dt) == Status::ok);
-      REQUIRE(fault() == "");
+      REQUIRE(validation_error() == "");
       for (std::uint32_t i = 0; i < out.notices.count; ++i) {
         CHECK(out.notices.items[i].text.view().size() < 96);  // none is cut
         notices.push_back(out.notices.items[i]);
-        told += std::string(out.notices.items[i].text.view()) + "\n";
+        reported += std::string(out.notices.items[i].text.view()) + "\n";
       }
     }
     return out.safety;
@@ -79,7 +79,7 @@ struct Stands : Watch {
     ground.contact = Contact::ground;
     has_ground = has_health = true;
   }
-  bool told_of(const char* words) const { return told.find(words) != std::string::npos; }
+  bool reported_of(const char* words) const { return reported.find(words) != std::string::npos; }
 };
 
 }  // namespace kit

@@ -251,10 +251,10 @@ TEST_CASE("a chunk that is damaged, or is not as long as it says, is refused, no
     CHECK(said(records.size(), checksum ^ 1, name, zstd ? packed : records)
               .ends_with(": a chunk is damaged: its checksum is not that of its content"));
   }
-  const std::string untold = packed_zstd(records, false);
-  CHECK(said(records.size(), checksum, "zstd", untold) == "");
+  const std::string unreported = packed_zstd(records, false);
+  CHECK(said(records.size(), checksum, "zstd", unreported) == "");
   for (const std::uint64_t size : {records.size() - 1, records.size() + 1, std::size_t{1} << 29})
-    for (const std::string& each : {packed, untold})
+    for (const std::string& each : {packed, unreported})
       CHECK(said(size, 0, "zstd", each).ends_with(": a chunk is damaged"));
   CHECK(
       said(records.size(), 0, "zstd", packed.substr(0, packed.size() - 1)).ends_with(": a chunk is damaged"));

@@ -73,10 +73,10 @@ inline std::uint32_t checksum_of(const std::string& bytes) {
   return ~crc;
 }
 /// `told`: the frame says how long its content is.
-inline std::string packed_zstd(const std::string& plain, bool told = true) {
+inline std::string packed_zstd(const std::string& plain, bool reported = true) {
   std::string packed(ZSTD_compressBound(plain.size()), '\0');
   ZSTD_CCtx* const context = ZSTD_createCCtx();
-  ZSTD_CCtx_setParameter(context, ZSTD_c_contentSizeFlag, told ? 1 : 0);
+  ZSTD_CCtx_setParameter(context, ZSTD_c_contentSizeFlag, reported ? 1 : 0);
   packed.resize(ZSTD_compress2(context, packed.data(), packed.size(), plain.data(), plain.size()));
   ZSTD_freeCCtx(context);
   return packed;

@@ -76,7 +76,7 @@ inline Flown fly(const Description& description, const Folder& folder) {
     note(bench.out.pitot, f.pitot);
     f.status.push_back(bench.out.status);
     f.last = bench.out.recording;
-    f.fault = bench.fault();
+    f.fault = bench.validation_error();
     for (std::uint32_t i = 0; i < bench.out.notices.count; ++i)
       f.notices.emplace_back(bench.out.notices.items[i].text.view());
   }

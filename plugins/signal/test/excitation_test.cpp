@@ -59,16 +59,16 @@ TEST_CASE("without a signal, before one and after one, every bit of a command go
   for (int i = 0; i < 50; ++i) {
     p.go();
     CHECK(p.bits_are_its_own());
-    CHECK(p.out.told.active_ratio.value == 1);
+    CHECK(p.out.reported.active_ratio.value == 1);
   }
   CHECK(p.go() == doctest::Approx(3 * deg));
   CHECK(p.out.attitude.roll_rad == command.roll_rad);
   CHECK(p.go(99) == doctest::Approx(-3 * deg));
-  CHECK(p.out.told.active_ratio.value == 1);
+  CHECK(p.out.reported.active_ratio.value == 1);
   for (int i = 0; i < 50; ++i) {
     p.go();
     CHECK(p.bits_are_its_own());
-    CHECK(p.out.told.active_ratio.value == 0);
+    CHECK(p.out.reported.active_ratio.value == 0);
     CHECK(p.out.pitch_excitation_rad.value == 0);
   }
   CHECK(p.status == Status::ok);
@@ -90,11 +90,11 @@ TEST_CASE("each channel gets its own size, and tells what it got") {
   CHECK(a.out.attitude.throttle_frac == doctest::Approx(0.5));
   CHECK(a.out.attitude.roll_rad == 0.1);
   CHECK(a.out.throttle_excitation_frac.value == doctest::Approx(0.1));
-  const auto move = [&](Surfaces::Channel c, double Actuators::*of, const Probe& told, double size) {
+  const auto move = [&](Surfaces::Channel c, double Actuators::*of, const Probe& reported, double size) {
     s.params.channel.value = c;
     for (int i = 0; i < 25; ++i) s.fly(s.in.actuators, surfaces);
     CHECK(s.out.actuators.*of == doctest::Approx(surfaces.*of + size));
-    CHECK(told.value == doctest::Approx(size));
+    CHECK(reported.value == doctest::Approx(size));
   };
   move(Surfaces::Channel::aileron, &Actuators::aileron_rad, s.out.aileron_excitation_rad, 0.0524);
   move(Surfaces::Channel::elevator, &Actuators::elevator_rad, s.out.elevator_excitation_rad, 0.0524);
@@ -174,14 +174,14 @@ TEST_CASE("each bound aborts: the rest is gone within 0.2 s, it is told once, an
     c.leave(p.state);
     p.go();
     CHECK(p.status == Status::degraded);
-    REQUIRE(p.out.told.notices.count == 1);
-    const std::string said(p.out.told.notices.items[0].text.view());
+    REQUIRE(p.out.reported.notices.count == 1);
+    const std::string said(p.out.reported.notices.items[0].text.view());
     CHECK_MESSAGE(said.find(c.says) != std::string::npos, said);
-    CHECK(p.out.told.aborted_ratio.value == 1);
-    CHECK(p.out.told.active_ratio.value == 0);
+    CHECK(p.out.reported.aborted_ratio.value == 1);
+    CHECK(p.out.reported.active_ratio.value == 0);
     p.state = level();  // back within the bounds: it does not come back
     CHECK(p.go(9) == doctest::Approx(1.5 * deg));
-    CHECK(p.out.told.notices.count == 0);
+    CHECK(p.out.reported.notices.count == 0);
     p.go(11);
     CHECK(p.bits_are_its_own());
     CHECK(p.go(100) == 0);
@@ -189,7 +189,7 @@ TEST_CASE("each bound aborts: the rest is gone within 0.2 s, it is told once, an
     p.params.signal.run.value = 1;  // asked for again
     CHECK(p.go() == doctest::Approx(3 * deg));
     CHECK(p.status == Status::ok);
-    CHECK(p.out.told.aborted_ratio.value == 0);
+    CHECK(p.out.reported.aborted_ratio.value == 0);
   }
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("just within every bound it goes on; wider bounds and a stated stall c
   CHECK(p.go() == doctest::Approx(3 * deg));
   p.params.bounds.stall_airspeed.value = 10.2;  // times 1.1 is 11.22
   p.go();
-  CHECK(p.out.told.aborted_ratio.value == 1);
+  CHECK(p.out.reported.aborted_ratio.value == 1);
   Pitch wide(Shape::step, 10);
   wide.params.bounds.roll_bound.value = 1.2;
   wide.params.bounds.height_bound.value = 100;
@@ -219,7 +219,7 @@ TEST_CASE("a phase that takes the signal away lets it go within 0.2 s, without a
   p.params.signal.shape.value = Shape::none;
   CHECK(p.go() == doctest::Approx(3 * 0.95 * deg));
   CHECK(p.status == Status::ok);
-  CHECK(p.out.told.notices.count == 0);
+  CHECK(p.out.reported.notices.count == 0);
   double before = p.go();
   for (int i = 0; i < 18; ++i) {
     const double now = p.go();
@@ -262,12 +262,12 @@ TEST_CASE("the pilot: aborted while commands do not move the aircraft, and not b
   for (int i = 0; i < 3; ++i) {
     q.activate();
     q.go();
-    CHECK(q.out.told.notices.count == (i == 0 ? 1 : 0));
+    CHECK(q.out.reported.notices.count == (i == 0 ? 1 : 0));
     CHECK(q.bits_are_its_own());
   }
   q.go(100);
   CHECK(q.bits_are_its_own());
-  CHECK(q.out.told.aborted_ratio.value == 1);
+  CHECK(q.out.reported.aborted_ratio.value == 1);
   // after another component's commands it is a phase that begins
   Attitude::Outputs flown;
   flown.attitude = command;
@@ -282,7 +282,7 @@ TEST_CASE("a course is not excited while guidance asks for an acceleration, and 
   GuidanceCommand asked;
   asked.lateral = LateralMode::acceleration;
   CHECK(g.fly(g.in.command, asked) == Status::degraded);
-  CHECK(std::string(g.out.told.notices.items[0].text.view()).find("acceleration") != std::string::npos);
+  CHECK(std::string(g.out.reported.notices.items[0].text.view()).find("acceleration") != std::string::npos);
   CHECK(std::memcmp(&g.out.command, &asked, sizeof asked) == 0);
 }
 
@@ -299,7 +299,7 @@ TEST_CASE("no step allocates: not the first of a multisine, and not the one that
   banked.roll_rad = 1;
   p.set(p.in.signal.state, banked);
   CHECK(fulmar::allocations([&] { p.step(0.01); }) == 0);
-  CHECK(p.out.told.aborted_ratio.value == 1);
+  CHECK(p.out.reported.aborted_ratio.value == 1);
 }
 
 }  // namespace excitation_test

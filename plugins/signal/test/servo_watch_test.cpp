@@ -15,7 +15,7 @@ namespace {
 /// A servo of 0.4 rad and 2 rad/s with a lag of 20 ms on each surface, at 0.05 rad of elevator.
 struct Sweep : Stand<Surfaces> {
   Actuators asked{0.5, 0, 0.05, 0};
-  std::string told;
+  std::string reported;
   double limited_s = 0, time_s = 0;
 
   explicit Sweep(Shape shape, double size, double f0 = 0.5, double f1 = 1) {
@@ -32,8 +32,8 @@ struct Sweep : Stand<Surfaces> {
   void go(double seconds) {
     for (double t = 0; t < seconds - 0.005; t += 0.01) {
       fly(in.actuators, asked);
-      for (std::uint32_t i = 0; i < out.told.notices.count; ++i)
-        told += std::string(out.told.notices.items[i].text.view()) + "\n";
+      for (std::uint32_t i = 0; i < out.reported.notices.count; ++i)
+        reported += std::string(out.reported.notices.items[i].text.view()) + "\n";
       limited_s += 0.01 * out.limited_ratio.value;
       time_s += 0.01;
     }
@@ -48,7 +48,7 @@ TEST_CASE("a signal that every servo can follow is flown without a word") {
     CAPTURE(shape);
     Sweep s(shape, 0.1);
     s.go(9);
-    CHECK(s.told == "");
+    CHECK(s.reported == "");
     CHECK(s.limited_s < 0.5);  // the edges of a step take 0.1 s each
   }
 }
@@ -57,16 +57,16 @@ TEST_CASE("larger than the throw, about the trim; faster than the servo: reporte
   for (const double size : {0.36, -0.36}) {
     Sweep large(Shape::sine, 0.3);
     large.go(0.01);
-    CHECK(large.told == "");
+    CHECK(large.reported == "");
     large.params.size.value = size;
     large.params.bounds.airframe.value.elevator.trim_rad = 0.05;
     large.go(0.01);
-    CHECK(large.told == std::string(signal::signal_beyond_throw) + "\n");
+    CHECK(large.reported == std::string(signal::signal_beyond_throw) + "\n");
   }
   struct Asked {
     Shape shape;
     double size, f1;
-    bool told;
+    bool reported;
   };
   for (const Asked& asked :
        {Asked{Shape::chirp, 0.1, 3.1, false}, Asked{Shape::chirp, 0.1, 3.3, true},  // 2 rad/s: 3.18 Hz
@@ -77,7 +77,7 @@ TEST_CASE("larger than the throw, about the trim; faster than the servo: reporte
     CAPTURE(asked.f1);
     Sweep fast(asked.shape, asked.size, 0.5, asked.f1);
     fast.go(0.01);
-    CHECK((fast.told == std::string(signal::signal_beyond_rate) + "\n") == asked.told);
+    CHECK((fast.reported == std::string(signal::signal_beyond_rate) + "\n") == asked.reported);
   }
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("a sine at twice the servo's rate: it is at its limit most of the time
   // 16 whole periods of 8 s; of each half one of 0.24 s the lag of 20 ms takes a tenth to a fifth
   CHECK(s.limited_s / 7.54 > 0.75);
   CHECK(s.limited_s / 7.54 < 0.9);
-  CHECK(s.told ==
+  CHECK(s.reported ==
         std::string(signal::signal_beyond_rate) + "\n" + std::string(signal::servo_limited[1][1]) + "\n");
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("a command of somebody else that drives a servo to its stop is reporte
     s.go(10);
   }
   const std::string once = std::string(signal::servo_limited[2][0]) + "\n";
-  CHECK(s.told == once + once);
+  CHECK(s.reported == once + once);
 }
 
 TEST_CASE("watching the servos allocates nothing") {

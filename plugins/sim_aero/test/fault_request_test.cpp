@@ -54,7 +54,7 @@ TEST_CASE("each kind that a target has is accepted, and no other") {
       const bool valid = std::find(kinds.begin(), kinds.end(), r.kind) != kinds.end();
       CHECK((ask(*b, r) == "accepted") == valid);
       fly(*b, 0.1);
-      CHECK(b->fault() == "");
+      CHECK(b->validation_error() == "");
     }
 }
 

@@ -136,14 +136,14 @@ TEST_CASE("the course of an aircraft that stands is where its nose points") {
   auto bench = std::make_unique<Bench<Aircraft>>(1);
   bench->params.airframe.value = anaconda();
   bench->params.start.start_heading.value = 1.2;
-  int told = 0;
+  int reported = 0;
   for (int i = 0; i < 100; ++i) {
     pass(*bench);
     if (!bench->out.truth.written) continue;
     CHECK(bench->out.truth.value.course_rad == Approx(1.2).epsilon(0.01));
-    ++told;
+    ++reported;
   }
-  CHECK(told > 5);
+  CHECK(reported > 5);
 }
 
 TEST_CASE("the battery gives the motor's current in the share of the time that the throttle is on") {

@@ -8,11 +8,11 @@
 //   CHECK(bench.step(0.01) == Status::ok);        // advances time by 10 ms, then steps
 //   CHECK(bench.out.actuators.aileron_rad == doctest::Approx(...));
 //
-// `bench.out` holds what the step published, and `bench.fault()` what is not finite or not in range in it. An
-// Out<T> has `written` set when it spoke; an OutQueue has its `count`. To count allocations, one source file
-// of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this header (without it the program
-// does not link); `allocations([&] { bench.step(0.01); })` is then the number of calls of operator new,
-// malloc and its relatives in between; with a sanitizer of operator new alone.
+// `bench.out` holds what the step published, and `bench.validation_error()` what is not finite or not in
+// range in it. An Out<T> has `written` set when it spoke; an OutQueue has its `count`. To count allocations,
+// one source file of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this header
+// (without it the program does not link); `allocations([&] { bench.step(0.01); })` is then the number of
+// calls of operator new, malloc and its relatives in between; with a sanitizer of operator new alone.
 #ifndef FULMAR_TESTING_HPP
 #define FULMAR_TESTING_HPP
 #include <algorithm>
@@ -163,7 +163,7 @@ class Bench {
 
   /// What the last step said that no flight may have: "attitude.roll_rad is nan", "actuators.throttle_frac is
   /// 1.2, beyond [0, 1]"; "" when all of it is finite and in range.
-  std::string fault() const {
+  std::string validation_error() const {
     std::string words;
     detail::for_each_port(out, [&]<class M>(const M& member, std::size_t i) {
       const std::string name(output_name(i));

@@ -22,7 +22,7 @@ TEST_CASE(
     bench.set(bench.in.progress, progress);
     bench.set(bench.in.state, state);
     REQUIRE(allocations([&] { REQUIRE(bench.step(0.1) == Status::ok); }) == 0);
-    REQUIRE(bench.fault() == "");
+    REQUIRE(bench.validation_error() == "");
     REQUIRE(bench.out.edits.lost == 0);
   }
 }

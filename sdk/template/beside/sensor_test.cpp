@@ -24,7 +24,7 @@ TEST_CASE("it says what is finite and in range, never of a time to come, and tak
   for (int i = 0; i < 200; ++i) {
     bench.set(bench.in.state, flying(i), 0.01);
     REQUIRE(bench.step(0.05) == Status::ok);
-    REQUIRE(bench.fault() == "");
+    REQUIRE(bench.validation_error() == "");
     for (std::uint32_t k = 0; k < bench.out.range.count; ++k)
       REQUIRE(bench.out.range.stamps_ns[k] <= bench.tick.now_ns);
   }

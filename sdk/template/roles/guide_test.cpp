@@ -55,7 +55,7 @@ TEST_CASE("what it says is finite and in range, wherever it is, and takes no mem
     bench.set(bench.in.state, flying(500 * std::sin(0.03 * i), 500 * std::sin(0.05 * i)));
     bench.set(bench.in.path, i / 100 % 2 == 0 ? line() : orbit(i / 200 % 2 == 0 ? Turn::right : Turn::left));
     REQUIRE(allocations([&] { REQUIRE(bench.step(0.01) == Status::ok); }) == 0);
-    REQUIRE(bench.fault() == "");
+    REQUIRE(bench.validation_error() == "");
     REQUIRE(std::abs(bench.out.command.height_m - 70) < 1);
     REQUIRE(std::abs(bench.out.command.airspeed_mps - 17) < 5);
   }

@@ -54,7 +54,7 @@ TEST_CASE("what it says is finite and in range, also far from what is commanded,
     bench.set(bench.in.state, state);
     bench.set(bench.in.attitude, commanded(-std::sin(0.07 * i), 0.5 * std::cos(0.02 * i)));
     REQUIRE(allocations([&] { REQUIRE(bench.step(0.01) == Status::ok); }) == 0);
-    REQUIRE(bench.fault() == "");
+    REQUIRE(bench.validation_error() == "");
   }
 }
 

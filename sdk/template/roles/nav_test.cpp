@@ -31,7 +31,7 @@ TEST_CASE(
   for (int i = 0; i < 8000; ++i) {
     stand(bench);
     REQUIRE(allocations([&] { REQUIRE(bench.step(0.0025) == Status::ok); }) == 0);
-    REQUIRE(bench.fault() == "");
+    REQUIRE(bench.validation_error() == "");
     const VehicleState& state = bench.out.state;
     const Quat& q = state.attitude;
     if (state.attitude_valid) {

@@ -55,7 +55,7 @@ TEST_CASE("what it says is finite and in range, also far from what is commanded,
     bench.set(bench.in.state, state);
     bench.set(bench.in.command, commanded(std::remainder(-0.07 * i, 6.28), 100 - 50 * std::sin(0.05 * i)));
     REQUIRE(allocations([&] { REQUIRE(bench.step(0.01) == Status::ok); }) == 0);
-    REQUIRE(bench.fault() == "");
+    REQUIRE(bench.validation_error() == "");
   }
 }
 

@@ -14,7 +14,7 @@ TEST_CASE("time goes forward in each tick, what it says is finite and in range, 
     const std::int64_t before = bench.tick.now_ns;
     REQUIRE(allocations([&] { REQUIRE(bench.read() == Status::ok); }) == 0);
     if (i > 0) REQUIRE(bench.tick.now_ns > before);
-    REQUIRE(bench.fault() == "");
+    REQUIRE(bench.validation_error() == "");
     bench.set(bench.in.actuators, Actuators{0.5, 0.3 * std::sin(0.01 * i), 0.1, -0.1});
     REQUIRE(allocations([&] { REQUIRE(bench.write() == Status::ok); }) == 0);
   }

@@ -57,7 +57,7 @@ void add(Column& to, const Column& of, double sign, const std::string& why) {
   }
 }
 
-std::string told(const Control& control) {
+std::string reported(const Control& control) {
   return control.name.empty() ? "the control of " + control.where.text() : "'" + control.name + "'";
 }
 
@@ -100,17 +100,17 @@ void take_role(const std::vector<const Control*>& all, Role role, ControlColumns
   if (all.size() == 1) {
     column = all[0]->of;
   } else {
-    std::string names = told(*all[0]);
+    std::string names = reported(*all[0]);
     column = all[0]->of;
     for (std::size_t i = 1; i < all.size(); ++i) {
       const Force main = main_force(role);
       const double sign = column[main].x * all[i]->of[main].x < 0 ? -1 : 1;
       add(column, all[i]->of, sign, " and " + all[i]->name);
-      names += " and " + told(*all[i]);
+      names += " and " + reported(*all[i]);
     }
     out.notes.push_back(std::string(role_name(role)) + ": " + names + " move together");
   }
-  set_sign(column, role, told(*all[0]), out.notes);
+  set_sign(column, role, reported(*all[0]), out.notes);
   out.of[std::size_t(role)] = column;
   out.known[std::size_t(role)] = true;
 }
@@ -125,7 +125,7 @@ void take_pair(const Control& a, const Control& b, ControlColumns& out) {
   out.of[std::size_t(other)] = apart;
   out.known[std::size_t(Role::elevator)] = out.known[std::size_t(other)] = true;
   (other == Role::rudder ? out.v_tail : out.elevons) = true;
-  out.notes.push_back(told(a) + " and " + told(b) + " are " +
+  out.notes.push_back(reported(a) + " and " + reported(b) + " are " +
                       (other == Role::rudder ? "a V-tail" : "elevons") + ": elevator is their sum, " +
                       role_name(other) + " their difference");
 }
@@ -150,8 +150,8 @@ ControlColumns control_columns(const std::vector<Control>& controls) {
     if (role == std::size_t(Role::mixed) || named.by_role[role].empty())
       sorted.by_role[role].push_back(&control);
     else  // a slat, a brake: not one more elevator
-      out.notes.push_back(told(control) + " is left out: another control is the " + role_name(Role(role)) +
-                          " by its name");
+      out.notes.push_back(reported(control) + " is left out: another control is the " +
+                          role_name(Role(role)) + " by its name");
   }
   std::vector<const Control*>& mixed = sorted.by_role[std::size_t(Role::mixed)];
   if (mixed.size() == 2) {
@@ -167,7 +167,7 @@ ControlColumns control_columns(const std::vector<Control>& controls) {
         ++number;
       }
     if (number == 1) {
-      out.notes.push_back(told(*mixed[0]) + " is taken as the " + role_name(missing) +
+      out.notes.push_back(reported(*mixed[0]) + " is taken as the " + role_name(missing) +
                           ", which no other control is");
       sorted.by_role[std::size_t(missing)].push_back(mixed[0]);
       mixed.clear();
@@ -175,7 +175,7 @@ ControlColumns control_columns(const std::vector<Control>& controls) {
   }
   if (!mixed.empty())
     refuse(mixed[0]->where,
-           told(*mixed[0]) +
+           reported(*mixed[0]) +
                " pitches as well as it rolls or yaws: it is one half of a pair; expected its mirror "
                "as a control of its own, or both in one group (name it aileron, elevator or rudder)");
   for (const Role role : {Role::aileron, Role::elevator, Role::rudder, Role::flap})

@@ -88,7 +88,7 @@ void refuse_another_trim(const Chosen& first, const Chosen& other) {
                     " m/s: expected logs of one aircraft in one attitude");
 }
 
-void tell_differences(const Chosen& first, const Chosen& other, std::vector<std::string>& notes) {
+void report_differences(const Chosen& first, const Chosen& other, std::vector<std::string>& notes) {
   if (std::abs(first.analysis.alpha_rad.x - other.analysis.alpha_rad.x) > 0.02) {
     notes.push_back(short_name(*other.input) + " is at alpha " + degrees(other.analysis.alpha_rad.x, 1) +
                     ", and " + short_name(*first.input) + " at " + degrees(first.analysis.alpha_rad.x, 1));
@@ -304,7 +304,7 @@ void set_zero(const Analysis& a, Aircraft& out) {
 }
 
 /// What a symmetric aircraft does not have tells how well the analysis has converged.
-void tell_convergence(const Analysis& a, const Input& input, Aircraft& out) {
+void report_convergence(const Analysis& a, const Input& input, Aircraft& out) {
   double most = 0;
   std::string which;
   const auto look = [&](By by, Force force) {
@@ -385,7 +385,7 @@ Aircraft aircraft_of(const std::vector<Input>& inputs, const ImportOptions& opti
     refuse_another_aircraft(first, all[i]);
     refuse_another_trim(first, all[i]);
     rescale(all[i].analysis, first.analysis);
-    tell_differences(first, all[i], out.notes);
+    report_differences(first, all[i], out.notes);
   }
   out.area_m2 = first.analysis.area_m2;
   out.chord_m = first.analysis.chord_m;
@@ -402,7 +402,7 @@ Aircraft aircraft_of(const std::vector<Input>& inputs, const ImportOptions& opti
   set_zero(first.analysis, out);
   if (!controls.empty()) set_controls(control_columns(controls), out);
   set_drag(first.analysis, inputs, options, out);
-  for (const Chosen& one : all) tell_convergence(one.analysis, *one.input, out);
+  for (const Chosen& one : all) report_convergence(one.analysis, *one.input, out);
   set_modes(inputs, out);
   if (first.analysis.density_kgm3 > 0) out.density_kgm3 = first.analysis.density_kgm3;
   if (out.cruise_mps == 0) out.cruise_mps = first.analysis.airspeed_mps;

@@ -31,7 +31,7 @@ double length_said(const std::string& text) {
   return said("--length-unit", text, "m");
 }
 
-ImportOptions options_of(const ImportWords& words) {
+ImportOptions options_of(const ImportArguments& words) {
   ImportOptions options;
   options.mass_kg = said("--mass", words.mass, "kg");
   options.length_m = length_said(words.length_unit);
@@ -122,7 +122,7 @@ void write_file(const std::string& name, const std::string& text) {
   if (!(out << text) || !out.flush()) throw core::Error(name + ": it cannot be written");
 }
 
-int run_import(const ImportWords& words) {
+int run_import(const ImportArguments& words) {
   const ImportOptions options = options_of(words);
   const Imported imported =
       imported_from(words.files, options, words.out.empty() ? "imported.yaml" : words.out);
@@ -169,7 +169,7 @@ int run_rosplane(const std::string& folder, const std::string& out) {
 }  // namespace
 }  // namespace fulmar::aero::imports
 
-int fulmar::aero::import_command(const ImportWords& words) { return imports::run_import(words); }
+int fulmar::aero::import_command(const ImportArguments& words) { return imports::run_import(words); }
 
 int fulmar::aero::rosplane_command(const std::string& folder, const std::string& out) {
   return imports::run_rosplane(folder, out);

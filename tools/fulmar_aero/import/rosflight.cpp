@@ -87,7 +87,7 @@ constexpr std::array<const char*, 9> ros_terms{"O", "alpha",   "beta",    "p",  
                                                "r", "delta_a", "delta_e", "delta_r"};
 
 /// What rosflight_sim reads and is not there counts as 0.
-void tell_missing(const Parameters& all, Aircraft& out) {
+void report_missing(const Parameters& all, Aircraft& out) {
   std::string missing;
   for (const char* name : {"C_L_O", "C_L_alpha", "C_L_q", "C_L_delta_e", "C_m_O", "C_m_alpha", "C_m_q",
                            "C_m_delta_e", "C_Y_beta", "C_ell_beta", "C_ell_p", "C_ell_r", "C_ell_delta_a",
@@ -101,7 +101,7 @@ void tell_missing(const Parameters& all, Aircraft& out) {
 }
 
 void take_coefficients(const Lines& lines, const Parameters& all, Aircraft& out) {
-  tell_missing(all, out);
+  report_missing(all, out);
   for (std::size_t force = 0; force < forces; ++force)
     for (std::size_t term = 0; term < ros_terms.size(); ++term) {
       const Parameter* found = find(all, std::string("C_") + ros_names[force] + "_" + ros_terms[term]);
@@ -159,7 +159,7 @@ void mend_signs(Aircraft& a) {
   }
 }
 
-void tell_doubts(const Lines& lines, const Parameters& all, Aircraft& a) {
+void report_doubts(const Lines& lines, const Parameters& all, Aircraft& a) {
   for (std::size_t i = 0; i < lines.all.size(); ++i) {
     const std::string text = lower(lines.all[i]);
     const bool doubt = text.find("sign") != std::string::npos ||
@@ -265,7 +265,7 @@ Aircraft rosflight_aircraft(const Lines& lines, bool mend) {
   }
   take_coefficients(lines, all, a);
   if (const auto speed = in_words(lines, "trim at about")) a.cruise_mps = *speed;
-  tell_doubts(lines, all, a);
+  report_doubts(lines, all, a);
   if (mend) mend_signs(a);
   return a;
 }

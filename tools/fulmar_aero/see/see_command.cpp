@@ -52,7 +52,7 @@ Seen look_at(const std::string& name, double altitude_m) {
 }
 
 /// Two of one name are told apart by their files.
-void tell_apart(std::vector<Seen>& all) {
+void report_apart(std::vector<Seen>& all) {
   const auto same = [&](const Seen& one) {
     return std::count_if(all.begin(), all.end(),
                          [&](const Seen& s) { return s.file.title() == one.file.title(); }) > 1;
@@ -315,7 +315,7 @@ int see_command(const std::vector<std::string>& files, const FlightOptions& opti
   refuse_as_page(out, files);
   std::vector<Seen> all;
   for (const std::string& file : files) all.push_back(look_at(file, altitude_m));
-  tell_apart(all);
+  report_apart(all);
   std::string title;
   for (const Seen& s : all) title += (title.empty() ? "" : ", ") + s.file.title();
   write_page(out, page_html(title, body_of(all, altitude_m)));

@@ -181,13 +181,13 @@ void refused_or_right(const std::string& what, const Make& make, const Whole& ri
                   what, ": ", sentence);
     return;
   }
-  bool told = false;
+  bool reported = false;
   if constexpr (std::is_same_v<Whole, Input>)
-    told = !part.unused.empty() || !part.doubts.empty();
+    reported = !part.unused.empty() || !part.doubts.empty();
   else
-    told =
+    reported =
         part.warnings.size() > right.warnings.size() || (right.xx.known && !part.xx.known);  // assumed, told
-  CHECK_MESSAGE((told || same(part, right)), what);
+  CHECK_MESSAGE((reported || same(part, right)), what);
 }
 
 /// After every line, and in the middle of every line.

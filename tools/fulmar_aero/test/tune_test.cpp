@@ -122,14 +122,14 @@ TEST_CASE("too little margin is told for each loop, and nothing is written" *
 }
 
 TEST_CASE("a bandwidth that an actuator cannot give is refused, with the limit and its place") {
-  const std::map<std::string, std::string> told{
+  const std::map<std::string, std::string> reported{
       {"anaconda.yaml --bandwidth 'roll=60 rad/s'",
        "anaconda: roll: 60 rad/s is more than the aileron can give: servo 10 ms, half a step 5 ms and delay "
        "0 ms are a "
        "lag of 15 ms, which allows at most 33.3 rad/s (configs/airframes/anaconda.yaml:38)"},
       {"x8.yaml --bandwidth pitch=15 --delay '10 ms'", "servo 34.2 ms, half a step 5 ms and delay 10 ms"},
       {"x8.yaml --bandwidth airspeed=3", "more than the throttle can give: motor 200 ms"}};
-  for (const auto& [words, sentence] : told) {
+  for (const auto& [words, sentence] : reported) {
     const Answer answer = call("tune configs/airframes/" + words);
     CHECK(answer.code == 1);
     CHECK_MESSAGE(answer.says(sentence), answer.out);
@@ -140,7 +140,7 @@ TEST_CASE("a bandwidth that an actuator cannot give is refused, with the limit a
 }
 
 TEST_CASE("words that mean nothing are wrong usage") {
-  const std::map<std::string, std::string> told{
+  const std::map<std::string, std::string> reported{
       {"--bandwidth 'rol=3'",
        "'rol=3' does not begin with a loop, as in \"roll=8 rad/s\". Did you mean 'roll'?"},
       {"--bandwidth roll", "does not begin with a loop"},
@@ -148,7 +148,7 @@ TEST_CASE("words that mean nothing are wrong usage") {
       {"--bandwidth roll=0", "'0' is outside 0.01 .. 1000 rad/s"},
       {"--delay '2 s'", "'2 s' is outside 0 .. 1 s"},
       {"--step 0", "'0' is outside 0.001 .. 0.1 s"}};
-  for (const auto& [words, sentence] : told) {
+  for (const auto& [words, sentence] : reported) {
     const Answer answer = call("tune configs/airframes/anaconda.yaml " + words);
     CHECK(answer.code == 2);
     CHECK_MESSAGE(answer.says(sentence), answer.out);
@@ -157,11 +157,11 @@ TEST_CASE("words that mean nothing are wrong usage") {
 
 TEST_CASE("gains of the file that no law has are refused by file and line") {
   const Folder folder;
-  const std::map<std::string, std::string> told{
+  const std::map<std::string, std::string> reported{
       {"roll_kq: 1.2", "params.control_slc/Inner: there is no parameter 'roll_kq'. Did you mean 'roll_kp'?"},
       {"roll_kp: 50", "50 is outside 0 .. 20"},
       {"roll_kp: quick", "'quick'"}};
-  for (const auto& [by, sentence] : told) {
+  for (const auto& [by, sentence] : reported) {
     const Answer answer = call("tune " + folder.write("a.yaml", changed("anaconda", "roll_kp: 1.4", by)));
     CHECK(answer.code == 4);
     CHECK_MESSAGE(answer.says("a.yaml:56: "), answer.out);

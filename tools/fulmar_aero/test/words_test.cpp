@@ -47,12 +47,12 @@ TEST_CASE("climb and turn are said by angle or rate, by bank or radius, in any u
 }
 
 TEST_CASE("where there is no trim the limit that stops it is told, with its place, and the exit code is 1") {
-  const std::map<std::string, std::string> told{
+  const std::map<std::string, std::string> reported{
       {"--airspeed '8 m/s'", "the wing stalls: it would have to carry CL 2.16, and the most is 1.51"},
       {"--airspeed '40 m/s'", "N of thrust, and full throttle gives"},
       {"--turn '75 deg'", "the wing stalls"},
       {"--climb '-60 deg'", "it takes a braking force of"}};
-  for (const auto& [words, sentence] : told) {
+  for (const auto& [words, sentence] : reported) {
     const Answer answer = call("trim configs/airframes/anaconda.yaml " + words);
     CHECK(answer.code == 1);
     CHECK(answer.says("anaconda: no steady "));
@@ -91,7 +91,7 @@ TEST_CASE("what cannot be an aircraft is refused with its line") {
 }
 
 TEST_CASE("faults of the command line are sentences, and the exit code is 2") {
-  const std::map<std::string, std::string> told{
+  const std::map<std::string, std::string> reported{
       {"trim", "AIRFRAME is required"},
       {"trim configs/airframes/anaconda.yaml --fast", "--fast"},
       {"trim configs/airframes/anaconda.yaml --airspeed '5 kg'", "5 kg is a mass, not a speed"},
@@ -104,7 +104,7 @@ TEST_CASE("faults of the command line are sentences, and the exit code is 2") {
       {"modes configs/airframes/anaconda.yaml --airspeed 10..20 --step 0", "in steps of more than 0"},
       {"", "subcommand"},
       {"trm configs/airframes/anaconda.yaml", "there is no command 'trm'. Did you mean 'trim'?"}};
-  for (const auto& [words, sentence] : told) {
+  for (const auto& [words, sentence] : reported) {
     const Answer answer = call(words);
     CHECK(answer.code == 2);
     CHECK_MESSAGE(answer.says(sentence), answer.out);

@@ -148,24 +148,24 @@ TEST_CASE("what is printed is the line that a shell runs") {
 
 TEST_CASE("a viewer is started where there is a display and a terminal, and nowhere else") {
   const Folder folder;
-  const fs::path fake = folder.path / "lichtblick", told = folder.path / "told";
-  std::ofstream(fake) << "#!/bin/sh\nprintf '%s|' \"$@\" >'" << told.string() << ".new'\nmv '"
-                      << told.string() << ".new' '" << told.string() << "'\n";
+  const fs::path fake = folder.path / "lichtblick", reported = folder.path / "told";
+  std::ofstream(fake) << "#!/bin/sh\nprintf '%s|' \"$@\" >'" << reported.string() << ".new'\nmv '"
+                      << reported.string() << ".new' '" << reported.string() << "'\n";
   fs::permissions(fake, fs::perms::owner_all);
   const std::string command = std::string(FULMAR_BIN_DIR "/fulmar view \"") + folder.log() + "\"",
                     at_terminal = "script -qec '" + command + "' /dev/null", path = folder.path.string();
   const auto started = [&] {
-    for (int i = 0; i < 100 && !fs::exists(told); ++i)
+    for (int i = 0; i < 100 && !fs::exists(reported); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    return fs::exists(told);
+    return fs::exists(reported);
   };
   CHECK(shell("PATH=" + path + ":$PATH DISPLAY=:9 " + command).code == 0);
   CHECK(shell("PATH=" + path + ":$PATH DISPLAY= WAYLAND_DISPLAY= " + at_terminal).code == 0);
-  CHECK_FALSE(fs::exists(told));
+  CHECK_FALSE(fs::exists(reported));
   CHECK(shell("PATH=" + path + ":$PATH DISPLAY=:9 " + at_terminal).code == 0);
   REQUIRE(started());
   std::stringstream words;
-  words << std::ifstream(told).rdbuf();
+  words << std::ifstream(reported).rdbuf();
   CHECK(words.str() == "--source=" + folder.log() + "|--defaultLayout=fulmar|");
   fs::remove(fake);
   const Result missing = shell("DISPLAY=:9 " + at_terminal);

@@ -25,13 +25,13 @@ namespace {
 class FlightProcess {
  public:
   explicit FlightProcess(std::uint16_t port = 0) {
-    std::array<int, 2> tell{};
-    REQUIRE(pipe(tell.data()) == 0);
+    std::array<int, 2> report{};
+    REQUIRE(pipe(report.data()) == 0);
     pid_ = fork();
-    if (pid_ == 0) fly(port, tell[1]);
-    close(tell[1]);
-    REQUIRE(read(tell[0], &port_, sizeof port_) == sizeof port_);
-    close(tell[0]);
+    if (pid_ == 0) fly(port, report[1]);
+    close(report[1]);
+    REQUIRE(read(report[0], &port_, sizeof port_) == sizeof port_);
+    close(report[0]);
   }
   ~FlightProcess() { end(); }
   FlightProcess(const FlightProcess&) = delete;
@@ -46,14 +46,14 @@ class FlightProcess {
   std::uint16_t port() const { return port_; }
 
  private:
-  [[noreturn]] static void fly(std::uint16_t port, int tell) {
+  [[noreturn]] static void fly(std::uint16_t port, int report) {
     Tap tap{test::mock_channels()};
     test::MockControl control;
     LiveOptions options;
     options.port = port;
     const LiveServer server(tap, control, options);
     const std::uint16_t chosen = server.port();
-    if (write(tell, &chosen, sizeof chosen) != sizeof chosen) _exit(1);
+    if (write(report, &chosen, sizeof chosen) != sizeof chosen) _exit(1);
     for (int i = 0;; ++i) {
       test::mock_tick(tap, i);
       std::this_thread::sleep_for(std::chrono::microseconds(2500));

@@ -207,7 +207,7 @@ TEST_CASE("a track of north over east has the plan behind it, unless it is not w
   Flight flight;
   flight.route = {{-40, 60}, {-40, -60}, {45, 0}};
   const std::string log = flight.write(folder.path / "a.mcap");
-  LogPlotWords words{.words = {log, "nav.state.position_m.north"}, .over = ".position_m.east"};
+  LogPlotArguments words{.words = {log, "nav.state.position_m.north"}, .over = ".position_m.east"};
   const ReadFigure f = drawn(words);
   CHECK(f.panels[0].legend == std::vector<std::string>{"nav.state.position_m.north", "plan"});
   REQUIRE(f.panels[0].curves.size() == 2);

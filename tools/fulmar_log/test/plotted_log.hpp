@@ -19,7 +19,7 @@ namespace plot_test {
 
 using namespace fulmar;
 using core::test::Folder;
-using plot::LogPlotWords;
+using plot::LogPlotArguments;
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
@@ -104,16 +104,16 @@ struct Flight {
   }
 };
 
-inline std::string svg_of(const LogPlotWords& words) {
+inline std::string svg_of(const LogPlotArguments& words) {
   std::vector<std::string> notes;
   const std::string svg = chart::figure_svg(plot::log_figure(words, notes));
   CHECK(ill_formed(svg) == "");
   CHECK(notes.size() == 0);
   return svg;
 }
-inline ReadFigure drawn(const LogPlotWords& words) { return read_figure(svg_of(words)); }
+inline ReadFigure drawn(const LogPlotArguments& words) { return read_figure(svg_of(words)); }
 
-inline std::string refused(const LogPlotWords& words) {
+inline std::string refused(const LogPlotArguments& words) {
   try {
     plot::plot_log_command(words);
   } catch (const core::Error& e) {

@@ -110,7 +110,7 @@ TEST_CASE("a child that hung, was stopped or was killed dies in the same tick ag
     const char* what;
     int signal;
     std::vector<std::pair<std::string, std::string>> set;
-    const char* told;
+    const char* reported;
   };
   for (const Row& row :
        {Row{"hung", 0, {{"one.fault", "hangs"}, {"one.fault_at", "0.1"}}, "hung: no answer within 200 ms"},
@@ -122,7 +122,7 @@ TEST_CASE("a child that hung, was stopped or was killed dies in the same tick ag
     const FlightResult r =
         row.signal == 0 ? Flight(graph, logged(log, 0.5)).run() : fly_and_signal(graph, log, row.signal);
     REQUIRE(r.guards.size() == 1);
-    CHECK(r.guards[0].what == std::string(row.told));
+    CHECK(r.guards[0].what == std::string(row.reported));
     CHECK(r.guards[0].action == "two takes over");
     const ReplayResult replayed = replay_of(log, {}, again);
     REQUIRE(replayed.flight.guards.size() == 1);

@@ -16,7 +16,7 @@
 
 namespace fulmar::detail {
 
-inline void tell(fulmar_error* error, const char* text) noexcept {
+inline void report(fulmar_error* error, const char* text) noexcept {
   if (!error) return;
   const std::size_t n = strnlen(text, sizeof error->text - 1);
   std::memcpy(error->text, text, n);
@@ -52,7 +52,7 @@ inline const char* words_of(const std::exception& e) noexcept {
   return words;
 }
 
-inline void tell_type(fulmar_error* error, [[maybe_unused]] const std::exception& e) noexcept {
+inline void report_type(fulmar_error* error, [[maybe_unused]] const std::exception& e) noexcept {
 #ifdef __cpp_rtti
   const char* const name = typeid(e).name();
   int failed = 0;
@@ -61,16 +61,16 @@ inline void tell_type(fulmar_error* error, [[maybe_unused]] const std::exception
   if (error)
     std::snprintf(error->text, sizeof error->text, "threw a %s without words", plain ? plain.get() : name);
 #else
-  tell(error, "threw an exception without words");
+  report(error, "threw an exception without words");
 #endif
 }
 
-inline void tell_exception(fulmar_error* error, const std::exception& e) noexcept {
+inline void report_exception(fulmar_error* error, const std::exception& e) noexcept {
   const char* const words = words_of(e);
   if (words && *words)
-    tell(error, words);
+    report(error, words);
   else
-    tell_type(error, e);
+    report_type(error, e);
 }
 
 }  // namespace fulmar::detail

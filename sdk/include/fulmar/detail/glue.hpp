@@ -170,9 +170,9 @@ std::uint32_t guarded(fulmar_error* error, F&& f) noexcept {
   try {
     return static_cast<std::uint32_t>(f());
   } catch (const std::exception& e) {
-    tell_exception(error, e);
+    report_exception(error, e);
   } catch (...) {
-    tell(error, "threw something that is not a std::exception");
+    report(error, "threw something that is not a std::exception");
   }
   return FULMAR_FAILED;
 }

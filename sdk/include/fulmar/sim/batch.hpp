@@ -51,7 +51,7 @@ class Batch {
     for (std::size_t k = 0; k < actions.size(); ++k)
       if (!std::isfinite(actions[k]))
         throw std::invalid_argument("aircraft " + std::to_string(k / action_columns) + ": " +
-                                    Simulation::fault(action(&actions[k - k % action_columns])));
+                                    Simulation::validation_error(action(&actions[k - k % action_columns])));
     Simulation::demand_step(dt_s);
     work_ = {actions.data(), rows.data(), dt_s, steps};
     {

@@ -128,11 +128,11 @@ class Plant {
     }
     if (battery_.empty()) power = throttle_ = 0;
     if (surfaces_.free()) surfaces_.trail_at(trailing(relative(x_), x_.omega_b, airframe_.wing.span_m));
-    const Deflections told = surfaces_.told(command);
+    const Deflections commanded = surfaces_.commanded(command);
     const double Omega_steady = propeller_.steady_speed(throttle_, Va_, air_.density_kgm3);
     const double Omega_before = Omega_;
     for (Stage& stage : stage_) {
-      surfaces_.advance(told, 0.5 * dt);
+      surfaces_.advance(commanded, 0.5 * dt);
       Omega_ = Omega_steady + (Omega_ - Omega_steady) * motor_decay(0.5 * dt);
       if (has_flaps_) flap_.advance(flap_command_, 0.5 * dt);
       stage = {deflections(), Omega_};

@@ -78,14 +78,15 @@ class Simulation {
 
   FlightState state() const { return {plant_.state(), plant_.deflections(), plant_.propeller_radps()}; }
   void set(const FlightState& s) {
-    if (const std::string wrong = fault(s); !wrong.empty()) throw std::invalid_argument(wrong);
+    if (const std::string wrong = validation_error(s); !wrong.empty()) throw std::invalid_argument(wrong);
     plant_.set_drives(s.deflections, s.propeller_radps);
     plant_.set_state(s.body);
   }
 
   /// One step of the plant. Deflections and throttle beyond their range are limited, as servos do.
   void step(const Actuators& command, double dt_s) {
-    if (const std::string wrong = fault(command); !wrong.empty()) throw std::invalid_argument(wrong);
+    if (const std::string wrong = validation_error(command); !wrong.empty())
+      throw std::invalid_argument(wrong);
     demand_step(dt_s);
     if (plant_.departure() == Departure::none) plant_.advance(command, 1, dt_s);
     time_s_ += dt_s;
@@ -99,7 +100,7 @@ class Simulation {
   const Airframe& airframe() const { return airframe_; }
 
   /// What is wrong with a command or a state; "" when nothing is.
-  static std::string fault(const Actuators& c) {
+  static std::string validation_error(const Actuators& c) {
     const std::array<std::pair<const char*, double>, 4> all{{{"throttle_frac", c.throttle_frac},
                                                              {"aileron_rad", c.aileron_rad},
                                                              {"elevator_rad", c.elevator_rad},
@@ -108,7 +109,7 @@ class Simulation {
       if (!std::isfinite(value)) return std::string(name) + " is " + shown(value);
     return "";
   }
-  static std::string fault(const FlightState& s) {
+  static std::string validation_error(const FlightState& s) {
     if (!s.body.p_n.allFinite() || !s.body.v_n.allFinite() || !s.body.omega_b.allFinite() ||
         !std::isfinite(s.deflections.aileron + s.deflections.elevator + s.deflections.rudder) ||
         !std::isfinite(s.propeller_radps))

@@ -20,7 +20,7 @@ class Surfaces {
     rudder_.advance(servos.rudder, dt);
   }
   /// What the servos are told.
-  Deflections told(const Actuators& command) const {
+  Deflections commanded(const Actuators& command) const {
     return to_servos(mixer_, {command.aileron_rad, command.elevator_rad, command.rudder_rad});
   }
   Deflections servos() const { return {aileron_.angle(), elevator_.angle(), rudder_.angle()}; }

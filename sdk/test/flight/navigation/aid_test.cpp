@@ -33,7 +33,7 @@ struct Sensor {
   double t = 0;
   void sample(const ekf::Fused& fused, double value = 0, double dt = 0.1) {
     aid.arrivals.sampled({value != 0 ? value : t, 0, 0}, t);
-    aid.told(fused, t);
+    aid.record(fused, t);
     t += dt;
   }
   void samples(int n, const ekf::Fused& fused, double value = 0) {
@@ -205,18 +205,18 @@ TEST_CASE("what successive innovations share: mean products with the one before 
 
 TEST_CASE("the book of a sensor counts what was let in and what was refused, and since when") {
   Aid aid;
-  aid.told(let_in(1.5), 3);
+  aid.record(let_in(1.5), 3);
   CHECK(aid.ratio == 1.5);
   CHECK(aid.accepted_s == 3);
   CHECK(aid.refused_from_s == never);
-  aid.told(refused(-8), 4);
-  aid.told(refused(9), 5);
+  aid.record(refused(-8), 4);
+  aid.record(refused(9), 5);
   CHECK(aid.ratio == 9);
   CHECK(aid.accepted_s == 3);
   CHECK(aid.refused_from_s == 4);
   CHECK(aid.accepted == 1);
   CHECK(aid.refused == 2);
-  aid.told(let_in(), 6);
+  aid.record(let_in(), 6);
   CHECK(aid.refused_from_s == never);
   CHECK(aid.accepted == 2);
   CHECK(aid.accepted_s == 6);
@@ -231,10 +231,10 @@ TEST_CASE("the book of a sensor counts what was let in and what was refused, and
 TEST_CASE("what was off while it was refused for more than a second is not held against it afterwards") {
   for (const double refused_for_s : {0.9, 1.1}) {
     Aid aid;
-    aid.told(let_in(0), 0);
-    for (double t = 1; t < 1 + refused_for_s; t += 0.1) aid.told(refused(6), t);
+    aid.record(let_in(0), 0);
+    for (double t = 1; t < 1 + refused_for_s; t += 0.1) aid.record(refused(6), t);
     const bool off = aid.innovations.mean() > 1;
-    aid.told(let_in(0), 1 + refused_for_s);
+    aid.record(let_in(0), 1 + refused_for_s);
     CHECK(off);
     CHECK((aid.innovations.mean() == 0) == (refused_for_s > 1));
   }

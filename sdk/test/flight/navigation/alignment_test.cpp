@@ -180,10 +180,10 @@ TEST_CASE("what is found of the attitude was as true in the past") {
 
 TEST_CASE("started in a bank with a delay that is told wrong, no flag is up while the tilt is off by 5 deg") {
   using namespace synthetic;
-  constexpr double told_wrong = 0.05, deg = std::numbers::pi / 180;
+  constexpr double reported_wrong = 0.05, deg = std::numbers::pi / 180;
   int starts = 0, soon = 0;
   for (const double hz : {1.0, 5.0, 10.0})
-    for (const double wrong : {-told_wrong, told_wrong})
+    for (const double wrong : {-reported_wrong, reported_wrong})
       for (const double from : {26.0, 27.5, 33.0, 36.0, 47.0, 55.5}) {
         Flown f{.quality = ublox, .from_s = from};
         f.plan.bank_rad = 0.5;

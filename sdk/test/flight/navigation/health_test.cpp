@@ -25,7 +25,7 @@ struct Spell {
   bool imu = true;  ///< false: in the spell there is no inertial sample
 
   static constexpr double from_s = 60;
-  double told_s = -1, left_s = -1;  ///< after the begin and after the end of the spell
+  double reported_s = -1, left_s = -1;  ///< after the begin and after the end of the spell
   NavigationHealth before{}, during{}, last{};
   std::string otherwise{};  ///< other sensors of which something was said
   std::uint64_t allocated = 0;
@@ -74,7 +74,7 @@ Spell& Spell::run() {
     v.on_ground = x.t < plan.rest_s + 5;
     bench.set(bench.in.status, v);
     allocated += allocations([&] { bench.step(dt); });
-    if (bench.fault() != "") otherwise += bench.fault();
+    if (bench.validation_error() != "") otherwise += bench.validation_error();
     if (bench.out.health.written) judge(bench.out.health.value, x.t);
   }
   return *this;
@@ -85,7 +85,7 @@ void Spell::judge(const NavigationHealth& health, double t) {
   if (t > from_s && t <= from_s + length_s) during = health;
   last = health;
   const SensorState now = (health.*sensor).state;
-  if (t > from_s && told_s < 0 && now == state) told_s = t - from_s;
+  if (t > from_s && reported_s < 0 && now == state) reported_s = t - from_s;
   if (now != SensorState::ok && t > from_s + length_s) left_s = t - from_s - length_s;
   if (t < 2) return;  // the first samples come
   for (const auto& [name, other] : sensors)
@@ -112,11 +112,11 @@ Alter of_fix(std::function<void(Gnss&, Random&)> change) {
   };
 }
 /// The spell is told within `told_s` and left within `left_s`, and nothing is said of the others.
-void check(Spell& spell, double told_s, double left_s) {
+void check(Spell& spell, double reported_s, double left_s) {
   spell.run();
   CHECK((spell.before.*spell.sensor).state == SensorState::ok);
-  CHECK(spell.told_s > 0);
-  CHECK(spell.told_s <= told_s);
+  CHECK(spell.reported_s > 0);
+  CHECK(spell.reported_s <= reported_s);
   CHECK(spell.left_s <= left_s);
   CHECK((spell.last.*spell.sensor).state == SensorState::ok);
   CHECK(spell.allocated == 0);
@@ -131,7 +131,7 @@ TEST_CASE("of a flight in which nothing fails nothing is said") {
       spell.run();
       CAPTURE(seed);
       CHECK(spell.otherwise == "");
-      CHECK(spell.told_s < 0);
+      CHECK(spell.reported_s < 0);
       CHECK((spell.during.*spell.sensor).state == SensorState::ok);
       CHECK(spell.last.baro.state == SensorState::ok);
       CHECK(spell.last.baro.accepted > 3000);
@@ -160,7 +160,7 @@ TEST_CASE("a sensor that was never heard is called so, and the others are not") 
 
 TEST_CASE(
     "silent: no sample for five of its intervals, a fix that is none; told within 1.4 s, left at once") {
-  for (const auto& [sensor, alter, told_s] :
+  for (const auto& [sensor, alter, reported_s] :
        {std::tuple{&NavigationHealth::baro, dropped(&Samples::baro), 0.6},
         std::tuple{&NavigationHealth::mag, dropped(&Samples::mag), 0.6},
         std::tuple{&NavigationHealth::pitot, dropped(&Samples::pitot), 0.6},
@@ -168,7 +168,7 @@ TEST_CASE(
         std::tuple{&NavigationHealth::gnss_velocity, of_fix([](Gnss&g, Random&) { g.fix = FixType::none; }),
                    1.4}}) {
     Spell spell{.alter = alter, .sensor = sensor, .state = SensorState::silent};
-    check(spell, told_s, 0.6);
+    check(spell, reported_s, 0.6);
     CHECK((spell.during.*sensor).state == SensorState::silent);
   }
 }
@@ -178,14 +178,14 @@ TEST_CASE("a slow sensor is not silent between its samples, nor one that becomes
   slow.gnss_hz = 1;
   Spell receiver{.quality = slow, .sensor = &NavigationHealth::gnss_height, .state = SensorState::silent};
   receiver.run();
-  CHECK(receiver.told_s < 0);
+  CHECK(receiver.reported_s < 0);
   CHECK(receiver.otherwise == "");
   Spell slower{.state = SensorState::silent};
   slower.alter = [n = 0](Samples& s, Random&) mutable {
     if (s.baro && ++n % 25 != 0) s.baro.reset();  // 2 Hz
   };
   slower.run();
-  CHECK(slower.told_s > 0);
+  CHECK(slower.reported_s > 0);
   CHECK(slower.during.baro.state == SensorState::ok);
 }
 
@@ -197,15 +197,15 @@ TEST_CASE("silent: the inertial unit, of which nothing else is told than by this
 }
 
 TEST_CASE("stuck: the same bytes five times in flight; told within 1.4 s") {
-  for (const auto& [sensor, alter, told_s] :
+  for (const auto& [sensor, alter, reported_s] :
        {std::tuple{&NavigationHealth::baro, held(&Samples::baro), 0.8},
         std::tuple{&NavigationHealth::mag, held(&Samples::mag), 0.8},
         std::tuple{&NavigationHealth::pitot, held(&Samples::pitot), 0.8},
         std::tuple{&NavigationHealth::gnss_position, held(&Samples::gnss), 1.4},
         std::tuple{&NavigationHealth::gnss_velocity, held(&Samples::gnss), 1.4}}) {
     Spell spell{.alter = alter, .sensor = sensor, .state = SensorState::stuck, .length_s = 5};
-    check(spell, told_s, 12);
-    CHECK(spell.told_s > 0.4);
+    check(spell, reported_s, 12);
+    CHECK(spell.reported_s > 0.4);
     CHECK((spell.during.*sensor).state == SensorState::stuck);
   }
 }
@@ -288,7 +288,7 @@ TEST_CASE("refused: off by more than the gate; told 1 s after, left when it is b
         std::tuple{&NavigationHealth::gnss_position, position}}) {
     Spell spell{.alter = alter, .sensor = sensor, .state = SensorState::refused, .length_s = 8};
     check(spell, 1.6, 0.6);
-    CHECK(spell.told_s > 0.9);
+    CHECK(spell.reported_s > 0.9);
     CHECK(spell.otherwise == "");
     CHECK((spell.during.*sensor).state == SensorState::refused);
     CHECK((spell.during.*sensor).accepted == (spell.before.*sensor).accepted);
@@ -307,7 +307,7 @@ TEST_CASE(
     Spell spell{
         .alter = stepped, .sensor = &NavigationHealth::baro, .state = SensorState::refused, .length_s = 8};
     check(spell, 1.6, 2.6);
-    CHECK(spell.told_s > 0.9);
+    CHECK(spell.reported_s > 0.9);
     CHECK(spell.left_s > 1.9);
     CHECK(spell.otherwise == "");
     CHECK(spell.during.baro.state == SensorState::ok);
@@ -358,8 +358,8 @@ TEST_CASE("a tube that stays off by a step is believed after half a minute") {
     if (s.pitot) s.pitot->pressure_pa += 50;
   };
   spell.run();
-  CHECK(spell.told_s > 0);
-  CHECK(spell.told_s <= 0.4);
+  CHECK(spell.reported_s > 0);
+  CHECK(spell.reported_s <= 0.4);
   CHECK(spell.during.pitot.state == SensorState::ok);
 }
 
@@ -396,7 +396,7 @@ TEST_CASE("a tube that stays off by more than gusts explain is not believed, how
     if (s.pitot) s.pitot->pressure_pa += 120;
   };
   spell.run();
-  CHECK(spell.told_s <= 0.4);
+  CHECK(spell.reported_s <= 0.4);
   CHECK(spell.during.pitot.state != SensorState::ok);
   CHECK(spell.during.pitot.accepted < spell.before.pitot.accepted + 30);
 }
@@ -418,8 +418,8 @@ TEST_CASE("refused: stamps that go back again and again; left 3 s after") {
     if (s.gnss && ++n % 2 == 0) s.gnss_age_s += 1;
   };
   spell.run();
-  CHECK(spell.told_s > 0);
-  CHECK(spell.told_s <= 2);
+  CHECK(spell.reported_s > 0);
+  CHECK(spell.reported_s <= 2);
   CHECK(spell.left_s <= 3);
   CHECK(spell.during.gnss_height.state == SensorState::refused);
   CHECK(spell.last.gnss_height.state == SensorState::ok);

@@ -101,18 +101,18 @@ TEST_CASE("a barometer that steps, and steps back, moves the height by nothing, 
 TEST_CASE("a barometer that goes off within half a second, or scatters, has not stepped") {
   navigation::BaroStep ramp, scatter, gap, goes_on;
   Random r(3);
-  bool told = false;
+  bool reported = false;
   for (int k = 0; k < 500; ++k) {
     const double t = 0.02 * k;
     const double off = std::clamp((t - 5) * 8, 0.0, 4.0);  // 8 m/s
-    told = told || ramp.sampled(off, 0.3, off < 1.5, t);
+    reported = reported || ramp.sampled(off, 0.3, off < 1.5, t);
     const double wild = t < 5 ? 0 : 4 + 3 * r.normal();
-    told = told || scatter.sampled(wild, 0.3, std::abs(wild) < 1.5, t);
-    told = told || goes_on.sampled(t < 5 ? 0 : 4 + 4 * (t - 5), 0.3, t < 5, t);
+    reported = reported || scatter.sampled(wild, 0.3, std::abs(wild) < 1.5, t);
+    reported = reported || goes_on.sampled(t < 5 ? 0 : 4 + 4 * (t - 5), 0.3, t < 5, t);
     if (t < 5 || t > 6)
-      told = told || gap.sampled(t < 5 ? 0 : 4, 0.3, t < 5, t);  // nobody knows of the second
+      reported = reported || gap.sampled(t < 5 ? 0 : 4, 0.3, t < 5, t);  // nobody knows of the second
   }
-  CHECK_FALSE(told);
+  CHECK_FALSE(reported);
 }
 
 TEST_CASE("how far the port may be off makes the height less sure, in the air alone") {

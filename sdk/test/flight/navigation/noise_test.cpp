@@ -23,7 +23,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Density that is learnt of a unit with noise of `std` a sample, that sways by +-`sway` at 2 Hz.
-double learnt(double std, double rate_hz, double seconds, double told, double sway = 0) {
+double learnt(double std, double rate_hz, double seconds, double reported, double sway = 0) {
   Random r(7);
   UnitNoise noise;
   const double dt = 1 / rate_hz;
@@ -32,11 +32,11 @@ double learnt(double std, double rate_hz, double seconds, double told, double sw
     noise.sampled(
         Vector3d(3 + moved, -9.8 - moved, moved) + std * Vector3d(r.normal(), r.normal(), r.normal()), dt);
   }
-  return noise.density(told);
+  return noise.density(reported);
 }
 
 /// Innovations at 10 Hz: white noise of `white` and a first-order process of `slow` and 2 s, for a minute.
-FixNoise receiver(double white, double slow, double told) {
+FixNoise receiver(double white, double slow, double reported) {
   Random r(3);
   FixNoise noise;
   const double phi = std::exp(-0.1 / 2), kick = slow * std::sqrt(1 - phi * phi);
@@ -44,7 +44,7 @@ FixNoise receiver(double white, double slow, double told) {
   for (int k = 0; k < 600; ++k) {
     const auto normal = [&] { return Vector3d(r.normal(), r.normal(), r.normal()); };
     drift = phi * drift + kick * normal();
-    noise.add(drift + white * normal(), told, 0.1 * k);
+    noise.add(drift + white * normal(), reported, 0.1 * k);
   }
   return noise;
 }
@@ -93,18 +93,18 @@ TEST_CASE("motion is no noise, an unknown unit has what was told, a slow one too
 
 TEST_CASE("of what a receiver states, the part that is white counts once, and the slow one n times") {
   // half the mean square of successive differences: 0.03^2 + (1 - exp(-0.1 / 2)) 0.1^2
-  const double white = 0.0009 + (1 - std::exp(-0.05)) * 0.01, told = 0.15 * 0.15;
+  const double white = 0.0009 + (1 - std::exp(-0.05)) * 0.01, reported = 0.15 * 0.15;
   const FixNoise slow = receiver(0.03, 0.1, 0.15);
-  CHECK(slow.level(1) / told == doctest::Approx(1));
-  CHECK(slow.level(6) / (white + 6 * (told - white)) == doctest::Approx(1).epsilon(0.02));
-  CHECK(slow.climb(41) / (white + 41 * (told - white)) == doctest::Approx(1).epsilon(0.02));
-  CHECK(slow.beyond(0.2) / std::sqrt(0.04 - (told - white)) == doctest::Approx(1).epsilon(0.02));
+  CHECK(slow.level(1) / reported == doctest::Approx(1));
+  CHECK(slow.level(6) / (white + 6 * (reported - white)) == doctest::Approx(1).epsilon(0.02));
+  CHECK(slow.climb(41) / (white + 41 * (reported - white)) == doctest::Approx(1).epsilon(0.02));
+  CHECK(slow.beyond(0.2) / std::sqrt(0.04 - (reported - white)) == doctest::Approx(1).epsilon(0.02));
   CHECK(slow.beyond(0.1) == 0);
   // One that says what it is, all of it white: a fix is a fix. One that scatters by more: not by less either.
   for (const double std : {0.15, 0.5}) {
     const FixNoise honest = receiver(std, 0, 0.15);
-    CHECK(honest.level(6) < (std > 0.15 ? 1.0001 : 1.8) * told);
-    CHECK(honest.climb(6) < (std > 0.15 ? 1.0001 : 1.8) * told);
+    CHECK(honest.level(6) < (std > 0.15 ? 1.0001 : 1.8) * reported);
+    CHECK(honest.climb(6) < (std > 0.15 ? 1.0001 : 1.8) * reported);
     CHECK(honest.beyond(0.15) > 0.135);
   }
 }

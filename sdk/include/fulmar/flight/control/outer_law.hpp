@@ -184,7 +184,7 @@ struct OuterLoop {
         out.internals.bank_limited = banks_less && commands.roll_saturated();
       }
     }
-    tell(out.attitude, out.internals);
+    report(out.attitude, out.internals);
     return judge(tick, state, out, holds || action == OuterAction::level, sense, dt);
   }
 
@@ -254,7 +254,7 @@ struct OuterLoop {
     return commands.level(alpha, limits.throttle_cruise_frac, t, dt_s);
   }
 
-  void tell(const AttitudeCommand& attitude, ControllerInternals& internals) const {
+  void report(const AttitudeCommand& attitude, ControllerInternals& internals) const {
     internals.law = commands.law();
     internals.course_error_rad = commands.course_error_rad();
     internals.roll_saturated = commands.roll_saturated();

@@ -154,9 +154,9 @@ struct Aid {
   Arrivals arrivals;
   Innovations innovations;
 
-  void told(const ekf::Fused& fused, double time_s) { told(fused, time_s, {fused.ratio}); }
+  void record(const ekf::Fused& fused, double time_s) { record(fused, time_s, {fused.ratio}); }
   /// `ratios`: of each axis, where they come in together.
-  void told(const ekf::Fused& fused, double time_s, std::initializer_list<double> ratios) {
+  void record(const ekf::Fused& fused, double time_s, std::initializer_list<double> ratios) {
     ratio = fused.ratio;
     innovations.add(ratios, time_s);
     if (fused.accepted) {

@@ -59,8 +59,8 @@ struct Ekf {
   template <class FuseMore>
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out, FuseMore&& fuse_more) {
     const Status status = navigate(tick, in, p, out, fuse_more);
-    if (tick.now_ns - told_ns_ < told_every_ns) return status;
-    told_ns_ = tick.now_ns;
+    if (tick.now_ns - reported_ns_ < reported_every_ns) return status;
+    reported_ns_ = tick.now_ns;
     out.health.publish(navigator_.health().message(tick.now_s(), navigator_.airborne()));
     return status;
   }
@@ -71,7 +71,7 @@ struct Ekf {
     stepped_ns_ = tick.now_ns;
     if (in.status && in.status.fresh()) navigator_.status(*in.status);
     if (!newer(in.imu, imu_ns_, tick) || !inertial(in, tick, p)) {
-      tell_early(in.imu, imu_ns_, tick);
+      report_early(in.imu, imu_ns_, tick);
       missed(in, tick);
       return coast(tick, in.imu.fresh(), p, out);
     }
@@ -110,7 +110,7 @@ struct Ekf {
     return port.fresh() && port.valid_at_ns() > last_ns && port.valid_at_ns() <= tick.now_ns + ahead_ns;
   }
   template <class Port>
-  void tell_early(const Port& port, std::int64_t last_ns, const Tick& tick) {
+  void report_early(const Port& port, std::int64_t last_ns, const Tick& tick) {
     if (port.sequence() == 0 || !port.fresh() || port.valid_at_ns() >= last_ns) return;
     if constexpr (requires { navigator_.health().early(*port, 0.0); })
       navigator_.health().early(*port, tick.now_s());
@@ -118,7 +118,7 @@ struct Ekf {
   template <class Port>
   bool take(const Port& port, std::int64_t& last_ns, const Tick& tick) {
     if (!port || !newer(port, last_ns, tick)) {
-      tell_early(port, last_ns, tick);
+      report_early(port, last_ns, tick);
       return false;
     }
     last_ns = port.valid_at_ns();
@@ -206,9 +206,9 @@ struct Ekf {
                pitot_ns_ = long_ago, attitude_ns_ = long_ago;
   Quaterniond turn_q_ = Quaterniond::Identity();  ///< the controller's attitude at `turn_s_`
   double turn_s_ = never;
-  static constexpr std::int64_t told_every_ns = 199'000'000;  ///< 5 Hz; a tick may be a little early
-  static constexpr std::int64_t felt_every_ns = 19'900'000;   ///< the inertial unit: 50 Hz are enough
-  std::int64_t stepped_ns_ = 0, published_ns_ = 0, told_ns_ = long_ago, felt_ns_ = long_ago;
+  static constexpr std::int64_t reported_every_ns = 199'000'000;  ///< 5 Hz; a tick may be a little early
+  static constexpr std::int64_t felt_every_ns = 19'900'000;       ///< the inertial unit: 50 Hz are enough
+  std::int64_t stepped_ns_ = 0, published_ns_ = 0, reported_ns_ = long_ago, felt_ns_ = long_ago;
   Shown shown_ = Shown::nothing;
   bool rate_started_ = false;  ///< the smoothed rate has begun
   bool stood_in_ = false;      ///< the state published last was that of before a gap

@@ -170,7 +170,7 @@ class Navigator {
   /// shipped measurements come in, and so does one more.
   ekf::Fused fuse(const ekf::Scalar& z, double variance, double gate, Aid& aid) {
     const ekf::Fused fused = filter_.fuse(z, variance, gate);
-    aid.told(fused, time_s_);
+    aid.record(fused, time_s_);
     health_.refused += !fused.accepted;
     return fused;
   }

@@ -85,8 +85,8 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   if (!aligned() || !airborne_ || stuck(health_.pitot)) return;
   if (tube_contradicts(Va, p) || Va < 0.5 * p.min_airspeed) {  // or it stands still in flight
     const ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
-    health_.pitot.told({false, z.innovation / filter_.expected_std(z, p.pitot_speed_std * p.pitot_speed_std)},
-                       time_s_);
+    health_.pitot.record(
+        {false, z.innovation / filter_.expected_std(z, p.pitot_speed_std * p.pitot_speed_std)}, time_s_);
     return;
   }
   const Gusts::MeanWind wind = mean_wind();
@@ -114,7 +114,7 @@ inline void Navigator::sideslip(const Params& p) {
   if (nose) nose_s_ = time_s_;
   const ekf::Fused fused = nose ? filter_.fuse(z, variance, p.air_gate)
                                 : filter_.fuse_considering_attitude(z, variance, p.air_gate);
-  health_.sideslip.told(fused, time_s_);
+  health_.sideslip.record(fused, time_s_);
   if (!fused.accepted) return;
   gusts_.sideslip(mean_wind(), filter_.R_nb().col(1), side, time_s_, p);
   spoil_wind(before, z, p);

@@ -15,7 +15,7 @@ inline bool Navigator::within(std::initializer_list<double> ratios, double gate,
     if (!(std::abs(ratio) <= std::abs(fused.ratio))) fused.ratio = ratio;
     if (!(std::abs(ratio) <= gate)) fused.accepted = false;  // no number as well
   }
-  aid.told(fused, time_s_, ratios);
+  aid.record(fused, time_s_, ratios);
   health_.refused += !fused.accepted;
   return fused.accepted;
 }
@@ -28,13 +28,13 @@ inline void Navigator::doubt(std::initializer_list<int> parts, double std, Aid& 
 
 inline void Navigator::learn_noise(const Vector3d& omega_b, const Vector3d& f_b, double dt, const Params& p) {
   if (health_.rates.was_clipped() || health_.forces.was_clipped()) clipped_s_ = time_s_;
-  const bool told = at_stop();
-  if (!told) {
+  const bool reported = at_stop();
+  if (!reported) {
     gyro_noise_.sampled(omega_b, dt);
     accel_noise_.sampled(f_b, dt);
   }
-  filter_.noise.gyro = told ? p.gyro_noise.value : gyro_noise_.density(p.gyro_noise);
-  filter_.noise.accel = told ? p.accel_noise.value : accel_noise_.density(p.accel_noise);
+  filter_.noise.gyro = reported ? p.gyro_noise.value : gyro_noise_.density(p.gyro_noise);
+  filter_.noise.accel = reported ? p.accel_noise.value : accel_noise_.density(p.accel_noise);
 }
 
 /// Origin by averaging on the ground, by the first fix in the air.

@@ -31,9 +31,9 @@ class UnitNoise {
   }
   /// In unit/sqrt(Hz); `told`: before it is learnt. Neither so quiet that nothing else would be wrong with
   /// the unit, nor, shaken, so loud that nothing else would count.
-  double density(double told) const {
-    if (seen_s_ < min_s) return told;
-    return std::min(std::sqrt(mean_ + min_share * told * min_share * told), max_share * told);
+  double density(double reported) const {
+    if (seen_s_ < min_s) return reported;
+    return std::min(std::sqrt(mean_ + min_share * reported * min_share * reported), max_share * reported);
   }
 
  private:
@@ -54,7 +54,7 @@ class FixNoise {
   void add(const Eigen::Vector3d& innovation_mps, double std_mps, double time_s) {
     const double dt = time_s - last_s_;
     last_s_ = time_s;
-    told_ = std_mps * std_mps;
+    reported_ = std_mps * std_mps;
     const Eigen::Vector3d step = innovation_mps - before_;
     before_ = innovation_mps;
     if (!(dt > 0 && dt < max_s)) return;
@@ -65,24 +65,24 @@ class FixNoise {
   }
   /// Variances of a fix, (m/s)^2, whose slow part counts `n` times. Until it is learnt the level velocity is
   /// taken to be white, and the climb to be slow: that would be integrated to a height.
-  double level(double n) const { return white_level() + n * (told_ - white_level()); }
+  double level(double n) const { return white_level() + n * (reported_ - white_level()); }
   double climb(double n) const {
-    const double white = known() ? std::min(climb_, told_) : 0;
-    return white + n * (told_ - white);
+    const double white = known() ? std::min(climb_, reported_) : 0;
+    return white + n * (reported_ - white);
   }
   /// m/s, of one axis of the level velocity: what of `shared` is more than the slow part that is counted.
   double beyond(double shared_mps) const {
-    return std::sqrt(std::max(shared_mps * shared_mps - (told_ - white_level()), 0.0));
+    return std::sqrt(std::max(shared_mps * shared_mps - (reported_ - white_level()), 0.0));
   }
 
  private:
   static constexpr double window_s = 30, min_s = 5, max_s = 1;
 
   bool known() const { return seen_s_ > min_s; }
-  double white_level() const { return known() ? std::min(level_, told_) : told_; }
+  double white_level() const { return known() ? std::min(level_, reported_) : reported_; }
 
   Eigen::Vector3d before_ = Eigen::Vector3d::Zero();
-  double level_ = 0, climb_ = 0, told_ = 0, last_s_ = never, seen_s_ = 0;
+  double level_ = 0, climb_ = 0, reported_ = 0, last_s_ = never, seen_s_ = 0;
 };
 
 }  // namespace fulmar::navigation

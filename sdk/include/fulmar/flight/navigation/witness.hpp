@@ -40,22 +40,22 @@ class Triad {
     for (int i = 0; i < 3; ++i)
       clipped_ =
           clipped_ || repeated_[i] >= (std::abs(before_[i]) < most_[i] ? held_samples : clipped_samples);
-    since_clipped_ = clipped_ ? 0 : std::min(since_clipped_ + 1, told_samples);
+    since_clipped_ = clipped_ ? 0 : std::min(since_clipped_ + 1, reported_samples);
   }
   bool clipped() const { return clipped_; }
   /// As long as whoever looks now and then has to see it.
-  bool was_clipped() const { return since_clipped_ < told_samples; }
+  bool was_clipped() const { return since_clipped_ < reported_samples; }
   bool noisy() const { return noisy_; }
 
  private:
   static constexpr double window = 100, calm_share = 0.7;  ///< samples
-  static constexpr int clipped_samples = 5, held_samples = 25, told_samples = 100, lively_samples = 25;
+  static constexpr int clipped_samples = 5, held_samples = 25, reported_samples = 100, lively_samples = 25;
 
   Eigen::Vector3d before_ = Eigen::Vector3d::Zero(), most_ = Eigen::Vector3d::Zero();
   Eigen::Vector3i repeated_ = Eigen::Vector3i::Zero(), changed_ = Eigen::Vector3i::Zero(),
                   lively_ = Eigen::Vector3i::Zero();  ///< samples in a row; the most that changed
   double variance_ = 0;
-  int since_clipped_ = told_samples;
+  int since_clipped_ = reported_samples;
   bool begun_ = false, noisy_ = false, clipped_ = false;
 };
 

@@ -240,7 +240,7 @@ struct Instance {
   typename C::Params params{};
 };
 
-inline void tell(fulmar_error* error, const char* text) noexcept {
+inline void report(fulmar_error* error, const char* text) noexcept {
   if (!error) return;
   const std::size_t n = std::min(std::strlen(text), sizeof error->text - 1);
   std::memcpy(error->text, text, n);
@@ -252,9 +252,9 @@ std::uint32_t guarded(fulmar_error* error, F&& f) noexcept {
   try {
     return static_cast<std::uint32_t>(f());
   } catch (const std::exception& e) {
-    tell(error, e.what());
+    report(error, e.what());
   } catch (...) {
-    tell(error, "threw something that is not a std::exception");
+    report(error, "threw something that is not a std::exception");
   }
   return FULMAR_FAILED;
 }

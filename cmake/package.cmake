@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What is shipped: hardened; as a prefix (cmake --install) or as two Debian packages (cpack): fulmar flies, fulmar-dev builds plugins.
-set(shipped fulmar_tables fulmar_records fulmar_samples fulmar_tick fulmar_core fulmar_live_parts fulmar_live fulmar_dds_parts fulmar_dds fulmar_live_words fulmar_inspect_words fulmar_chart fulmar_log_reading fulmar_log_words fulmar_new_words fulmar_report fulmar_program fulmar_app fulmar fulmar_campaign_words fulmar-campaign fulmar_replay_words fulmar-replay fulmar-inspect fulmar-log fulmar-live fulmar-new fulmar_save_words fulmar-save fulmar-probe fulmar-child fulmar-fcu fulmar-ros2 fulmar_report_words fulmar-report fulmar_aero_words fulmar-aero fulmar-import fulmar_sim ${shipped_plugins} python fulmar_module)
+set(shipped fulmar_tables fulmar_records fulmar_params fulmar_samples fulmar_tick fulmar_core fulmar_live_parts fulmar_live fulmar_dds_parts fulmar_dds fulmar_live_words fulmar_inspect_words fulmar_chart fulmar_log_reading fulmar_log_words fulmar_new_words fulmar_report fulmar_program fulmar_app fulmar fulmar_campaign_words fulmar-campaign fulmar_replay_words fulmar-replay fulmar-inspect fulmar-log fulmar-live fulmar-new fulmar_save_words fulmar-save fulmar-probe fulmar-child fulmar-fcu fulmar-ros2 fulmar_report_words fulmar-report fulmar_aero_words fulmar-aero fulmar-import fulmar_sim ${shipped_plugins} python fulmar_module)
 foreach(target IN LISTS shipped)
   if(TARGET ${target})
     fulmar_harden(${target})

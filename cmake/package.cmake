@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What is shipped: hardened; as a prefix (cmake --install) or as two Debian packages (cpack): fulmar flies, fulmar-dev builds plugins.
-set(shipped fulmar_tables fulmar_records fulmar_samples fulmar_tick fulmar_core fulmar_live_parts fulmar_live fulmar_dds_parts fulmar_dds fulmar_live_commands fulmar_inspect_commands fulmar_chart fulmar_log_reading fulmar_log_commands fulmar_new_commands fulmar_report fulmar_program fulmar_app fulmar fulmar_campaign_commands fulmar-campaign fulmar_replay_commands fulmar-replay fulmar-inspect fulmar-log fulmar-live fulmar-new fulmar_save_commands fulmar-save fulmar-probe fulmar-child fulmar-fcu fulmar-ros2 fulmar_report_commands fulmar-report fulmar_aero_commands fulmar-aero fulmar-import fulmar_sim ${shipped_plugins} python fulmar_module)
+set(shipped fulmar_tables fulmar_records fulmar_params fulmar_samples fulmar_tick fulmar_core fulmar_live_parts fulmar_live fulmar_dds_parts fulmar_dds fulmar_live_commands fulmar_inspect_commands fulmar_chart fulmar_log_reading fulmar_log_commands fulmar_new_commands fulmar_report fulmar_program fulmar_app fulmar fulmar_campaign_commands fulmar-campaign fulmar_replay_commands fulmar-replay fulmar-inspect fulmar-log fulmar-live fulmar-new fulmar_save_commands fulmar-save fulmar-probe fulmar-child fulmar-fcu fulmar-ros2 fulmar_report_commands fulmar-report fulmar_aero_commands fulmar-aero fulmar-import fulmar_sim ${shipped_plugins} python fulmar_module)
 foreach(target IN LISTS shipped)
   if(TARGET ${target})
     fulmar_harden(${target})

@@ -164,7 +164,7 @@ TEST_CASE("total energy: the shares of the energy that is wanted, both signs; tr
   CHECK(f.out.attitude.pitch_rad == Approx(0.3490659));
   f.c.airspeed_mps = 0;
   f.fly();
-  CHECK(f.fault() == "");
+  CHECK(f.validation_error() == "");
 }
 
 TEST_CASE("a saturated integral stays where it is; mended it unwinds") {

@@ -194,7 +194,7 @@ int fulmar_sim_set_rows(fulmar_sim* all, const bool* only, const double* rows) {
       for (std::size_t i = 0; i < s.batch.size(); ++i) {
         if (!is_meant(only, i)) continue;
         const sim::FlightState state = sim::state_of_row(rows + i * sim::row_columns);
-        const std::string wrong = set ? "" : sim::Simulation::fault(state);
+        const std::string wrong = set ? "" : sim::Simulation::validation_error(state);
         demand(wrong.empty(), "aircraft " + std::to_string(i) + ": " + wrong);
         if (set) s.batch[i].set(state);
       }

@@ -287,7 +287,7 @@ TEST_CASE("random bytes never make a frame that is out of range") {
     for (char& c : bytes) c = static_cast<char>(random.bits() % 5 == 0 ? random.bits() : random.bits() % 3);
     pipe.write(bytes);
     const Rc rc = frame(bench);
-    CHECK(bench.fault() == "");
+    CHECK(bench.validation_error() == "");
     for (const double stick : {rc.roll_frac, rc.pitch_frac, rc.yaw_frac, rc.aux1_frac, rc.aux4_frac})
       CHECK(std::abs(stick) <= 1);
     CHECK(rc.throttle_frac >= 0);

@@ -46,7 +46,7 @@ _actions_are = _declare("actions_are", result=_text)
 _new = _declare("new", _text, ctypes.c_size_t, _unsigned, _double, _double, _unsigned, ctypes.c_uint64, result=_pointer)
 _delete = _declare("delete", _pointer, result=None)
 _reset = _declare("reset", _pointer, _pointer, ctypes.c_uint64)
-_fly = _declare("fly", _pointer, _pointer, _pointer)
+_start_in_flight = _declare("start_in_flight", _pointer, _pointer, _pointer)
 _trim = _declare("trim", _pointer, _pointer)
 _set_wind = _declare("set_wind", _pointer, _pointer)
 _step = _declare("step", _pointer, _pointer, _unsigned, _pointer)
@@ -186,7 +186,7 @@ class Simulation:
                 raise Error(f"{what}: the shape is {value.shape} and must be {(self._n,)}, or one number is given")
             starts[:, column] = value
         only = self._only(only)
-        self._call(_fly, self._data(only), starts.ctypes.data)
+        self._call(_start_in_flight, self._data(only), starts.ctypes.data)
         return self.state
 
     @property

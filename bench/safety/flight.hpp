@@ -90,7 +90,7 @@ inline std::string mission_text(const Row& row) {
 struct Flown {
   End end = End::aloft;
   double reported_s = -1;      ///< from the failure; -1: never
-  bool reported_else = false;  ///< something was told that did not fail, or before
+  bool reported_else = false;  ///< a fault was reported that did not occur, or too early
   bool in_order = false;       ///< all of the row's phases were flown
   double touch_sink_mps = 0;   ///< true, at the first touch
   double home_m = 0;           ///< true, from home where it stopped

@@ -254,7 +254,7 @@ struct Graph : Settings {
     std::vector<std::pair<std::string, std::string>> left_out;
     std::vector<Shown> progress;
   } judge;                     // when the flight ends, and its figures
-  std::vector<int> control;    // roles that begin anew as long as the vehicle says that it does not obey
+  std::vector<int> control;    // roles that begin again as long as the vehicle reports that it does not obey
   std::vector<Source> report;  // ports whose texts are for people
   std::vector<ResumeRule> resume;
   std::vector<std::vector<std::byte>> failsafe;  // one per vehicle input: the struct to send; empty: not sent

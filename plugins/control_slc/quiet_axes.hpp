@@ -22,7 +22,7 @@ class QuietAxes {
   };
 
   void configure(const Gains& gains) { gains_ = gains; }
-  /// Other gains begin anew with all of them.
+  /// Other gains restart all of them.
   void retune(const Gains& gains) {
     if (gains != gains_)
       for (Quietening& axis : quiet_) axis.restore();

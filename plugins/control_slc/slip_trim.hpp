@@ -7,7 +7,7 @@
 
 namespace fulmar::slc {
 
-/// rad. What is not said anew is not asked for any more: a guide that has stopped steers nothing.
+/// rad. A request ends when it is not repeated: a guide that has stopped steers nothing.
 inline double slip_asked(const Tick& tick, const Optional<SideslipCommand>& sideslip) {
   constexpr std::int64_t patience_ns = 200'000'000;
   const bool fresh = sideslip && tick.now_ns - sideslip.valid_at_ns() <= patience_ns;

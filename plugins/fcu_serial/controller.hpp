@@ -21,7 +21,7 @@ class Controller {
       if (g.parameters[i]) map_.take(watched_parameters[i], *g.parameters[i]);
   }
   /// With each inertial sample: its SYS_ID, and its clock, which is 0 at its boot.
-  void speaks(std::uint8_t system, std::uint64_t clock_us) {
+  void packet_from(std::uint8_t system, std::uint64_t clock_us) {
     system_ = system;
     clock_us_ = clock_us;
   }

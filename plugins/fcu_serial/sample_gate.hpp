@@ -18,7 +18,7 @@ class SampleGate {
     fix_us_ = stamp_us;
     return false;
   }
-  /// The controller has rebooted at `now_ns`: its estimate of the attitude begins anew.
+  /// The controller has rebooted at `now_ns`: its attitude estimate begins again.
   void rebooted(std::int64_t now_ns) {
     imu_ns_ = never_ns;
     attitude_from_ns_ = now_ns + attitude_boots_ns;
@@ -32,7 +32,7 @@ class SampleGate {
   std::uint64_t fix_us_ = 0;
 };
 
-/// What is told once: of each kind the first fault.
+/// Faults that are reported once: the first of each kind.
 class ReportedKinds {
  public:
   bool first(std::uint32_t kind) {

@@ -236,7 +236,7 @@ class Vehicle {
     const auto imu = to_imu(r.packet.template as<SmallImu>());
     if (!usable(imu.has_value(), kind_imu, "inertial unit")) return false;
     run_.samples.imu(valid_ns);
-    run_.controller.speaks(r.packet.system, r.packet.template as<SmallImu>().time_boot_us);
+    run_.controller.packet_from(r.packet.system, r.packet.template as<SmallImu>().time_boot_us);
     run_.report.imu(valid_ns);
     run_.heard.imu_ns = flight_ns(r.arrived_ns);
     out.imu.publish(*imu, flight_ns(valid_ns));

@@ -10,7 +10,7 @@
 
 namespace fulmar::path {
 
-/// A piece of a route as a message tells it.
+/// A leg of a route as a message carries it.
 inline PathPiece piece_of(const RoutePiece& from, double airspeed_mps) {
   PathPiece piece;
   piece.kind = from.kind;

@@ -149,7 +149,7 @@ class Excitation {
   std::int64_t begun_ns_ = 0;
   double begun_m_ = 0;
   bool running_ = false, aborted_ = false, began_ = false;
-  std::string_view unreported_;                     // why it was aborted, until that is told
+  std::string_view unreported_;                     // why it was aborted, until that is reported
   std::array<double, N> last_{}, left_{}, from_{};  // added last; of signals before, now and when let go
 };
 

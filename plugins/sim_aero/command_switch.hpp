@@ -11,7 +11,8 @@
 
 namespace fulmar::sim {
 
-/// The computer's command, as long as it speaks and means something: older ones are silence, as on ROSflight.
+/// The computer's command, as long as it arrives and is valid. An older command counts as silence, as on
+/// ROSflight.
 inline std::optional<Actuators> heard_command(const Optional<Actuators>& actuators,
                                               const Optional<GroundState>& ground, std::int64_t now_ns) {
   constexpr std::int64_t patience_ns = 100'000'000;

@@ -13,7 +13,7 @@ using plugin_test::Everything;
 
 namespace {
 
-/// Takes over as of today: knows whether somebody flew, and what he made.
+/// Takes over: sees whether a component flew before it, and its outputs.
 struct Successor {
   struct Inputs {};
   struct Outputs {
@@ -73,7 +73,8 @@ TEST_CASE("activated with nothing to go on from, a component does not get what w
   c.destroy(instance);
 }
 
-TEST_CASE("activated by the host, it knows whether somebody flew and what he made: zeros are a command too") {
+TEST_CASE(
+    "activated by the host, it sees whether a component flew and its outputs: zeros are a command too") {
   const fulmar_component c = detail::component_entry<Successor>();
   REQUIRE((c.activate != nullptr));
   fulmar_error error{};
@@ -109,7 +110,7 @@ TEST_CASE("activated by the host, it knows whether somebody flew and what he mad
   c.destroy(instance);
 }
 
-TEST_CASE("the bench activates after nobody, after somebody, and after one who made some of the outputs") {
+TEST_CASE("the bench activates after no component, after one, and after one that made some of the outputs") {
   Bench<Successor> bench;
   const auto& component = bench.component();
   CHECK(bench.activate() == Status::degraded);

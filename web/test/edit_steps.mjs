@@ -181,7 +181,7 @@ export const edit_steps = ({
     await shoot("save");
     const airframe = () => readFileSync(join(folder, "mine.yaml"), "utf8"),
       old = airframe();
-    writeFileSync(join(folder, "mine.yaml"), old + "# another's\n"); // somebody edits meanwhile
+    writeFileSync(join(folder, "mine.yaml"), old + "# another's\n"); // another editor writes meanwhile
     await page.click("text=Write these lines");
     await seen("why not", ".side [role=alert]", (t) =>
       t.includes("Refused: what would be written is not what was shown any more: look again"),

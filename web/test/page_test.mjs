@@ -55,7 +55,7 @@ const seen = (what, selector, holds, patience) =>
 async function whole(name) {
   const cut = () =>
     page.evaluate(() => {
-      const hidden = (e) => getComputedStyle(e).overflowX !== "visible"; // nobody scrolls to the right to read a number
+      const hidden = (e) => getComputedStyle(e).overflowX !== "visible"; // a reader does not scroll to the right for a number
       const list = [...document.querySelectorAll("body *")].filter(
         (e) => e.tagName !== "CANVAS" && e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1 && hidden(e),
       );

@@ -114,7 +114,7 @@ TEST_CASE("null for what is not there below is a fault of its own place") {
   CHECK(reported("failsafe: {elevator: null}\n") ==
         "hourglass.yaml:2: failsafe: ground.yaml has no 'elevator' to take away");
   CHECK(reported("phases:\n  cruise: {next: [{to: calm, when: \"time > 9 s\"}]}\n  calm:\n"
-                 "  research: null\n") == "");  // a phase in which nobody changes
+                 "  research: null\n") == "");  // a phase in which no component changes
 }
 
 TEST_CASE("null takes entries away of what else is a map") {

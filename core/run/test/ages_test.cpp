@@ -64,7 +64,7 @@ TEST_CASE("an output that may stay silent is as old as the last step of its writ
   const Graph silent = mission(std::string(through_plan) + one_phase, {{"plan.mute_at", "0.1"}});
   Flight flight(silent, options(5));
   const FlightResult reported = flight.run();
-  REQUIRE(reported.guards.size() == 1);  // told, and not stopped
+  REQUIRE(reported.guards.size() == 1);  // reported, and not stopped
   CHECK(reported.guards[0].action == "its last sample stays");
   // where the mission names an age it is the sample's
   const Graph strict = mission(

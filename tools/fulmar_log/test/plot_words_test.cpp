@@ -10,7 +10,7 @@
 
 namespace plot_test {
 
-TEST_CASE("what cannot be drawn is told in a sentence with what there is") {
+TEST_CASE("a field that cannot be drawn is refused with the fields that exist") {
   const Folder folder;
   const std::string log = Flight{}.write(folder.path / "a.mcap");
   const auto says = [&](const std::string& field) {
@@ -80,7 +80,7 @@ TEST_CASE("what cannot be drawn is told in a sentence with what there is") {
         "a panel would have 37 curves; 36 can be told apart");
 }
 
-TEST_CASE("a log that was cut off is drawn as far as it goes, and told") {
+TEST_CASE("a log that was cut off is drawn as far as it goes, and reported") {
   const Folder folder;
   Flight flight;
   flight.samples = 601;

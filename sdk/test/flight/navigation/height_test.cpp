@@ -110,7 +110,8 @@ TEST_CASE("a barometer that goes off within half a second, or scatters, has not 
     reported = reported || scatter.sampled(wild, 0.3, std::abs(wild) < 1.5, t);
     reported = reported || goes_on.sampled(t < 5 ? 0 : 4 + 4 * (t - 5), 0.3, t < 5, t);
     if (t < 5 || t > 6)
-      reported = reported || gap.sampled(t < 5 ? 0 : 4, 0.3, t < 5, t);  // nobody knows of the second
+      reported =
+          reported || gap.sampled(t < 5 ? 0 : 4, 0.3, t < 5, t);  // the second is reported to no component
   }
   CHECK_FALSE(reported);
 }

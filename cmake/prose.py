@@ -1,0 +1,137 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks the prose of the documents against docs/style.md, and counts it.
+
+  cmake/prose.py              exits 1 and lists each fault as file:line
+  cmake/prose.py --count      prints words and the longest sentences of each page as well
+  cmake/prose.py FILE...      checks these files alone
+
+A page whose second paragraph says "Written by `command`" is generated; its words are counted apart. Code blocks and code spans are left out of the rules, not
+of the count.
+"""
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+
+longest_sentence = 40
+most_words = 150000  # of all pages that are not generated; lowered with each page that shrinks
+
+# The left column of the glossary, as expressions that have no other use in a document.
+terms = {
+    r"\btell(s|ing)?\b|\btold\b": "report",
+    r"\b(no|some|every)body\b": "component, reader",
+    r"\b(who|what)ever\b": "each component, each value",
+    r"\banew\b": "again",
+    r"\bclaimed\b|\bclaims\b": "reported",
+    r"\bthe tube\b|\btubes?\b": "pitot",
+    r"\bat (its|their) stops?\b": "saturated",
+    r"\bhand-overs?\b": "bumpless transfer, switch",
+    r"\bonlookers?\b": "client",
+    r"\bborne out\b|\bin vain\b|\bbids?\b": "plain verb",
+    r"\bgets? company\b|\bneighbours?\b": "plain noun",
+}
+
+
+def pages(names):
+    if names:
+        return [pathlib.Path(name) for name in names]
+    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.md"], capture_output=True, text=True, check=True)
+    return [pathlib.Path(name) for name in sorted(set(listed.stdout.split())) if pathlib.Path(name).exists()]
+
+
+def is_generated(text):
+    return re.search(r"^Written by `", "\n".join(text.splitlines()[:6]), re.MULTILINE) is not None
+
+
+def paragraphs(text):
+    """(line, text) of each paragraph, list item and table cell, without code."""
+    found, start, part, fenced = [], 0, [], False
+
+    def close():
+        if part:
+            found.append((start, " ".join(part)))
+        part.clear()
+
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.lstrip().startswith("```"):
+            fenced = not fenced
+            close()
+            continue
+        if fenced:
+            continue
+        line = re.sub(r"`[^`]*`", "CODE", line)
+        line = re.sub(r"<!--.*?-->", "", line)
+        line = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", line)
+        stripped = line.strip()
+        if not stripped or stripped.startswith("#"):
+            close()
+            if stripped.startswith("#"):
+                found.append((number, stripped.lstrip("# ")))
+            continue
+        if stripped.startswith("|"):
+            close()
+            found.extend((number, cell.strip()) for cell in stripped.strip("|").split("|"))
+            continue
+        if re.match(r"([-*+]|\d+\.) ", stripped):
+            close()
+            stripped = re.sub(r"^([-*+]|\d+\.) ", "", stripped)
+        if not part:
+            start = number
+        part.append(stripped)
+    close()
+    return found
+
+
+def sentences(paragraph):
+    return re.split(r"(?<=[.!?;])[)\"*]*\s+(?=[A-Z`*\"(]|CODE)", paragraph)
+
+
+def words(sentence):
+    return re.findall(r"[A-Za-z][A-Za-z0-9'_/-]*", sentence)
+
+
+def faults(path, text):
+    for line, paragraph in paragraphs(text):
+        for sentence in sentences(paragraph):
+            count = len(words(sentence))
+            if count > longest_sentence:
+                yield f"{path}:{line}: a sentence of {count} words, at most {longest_sentence}: {sentence[:70]} ..."
+            if re.match(r"(What|Who|Whoever|Whatever)\b[^?]*$", sentence):
+                yield f"{path}:{line}: a sentence begins with a relative clause as its subject: {sentence[:70]}"
+        if path.as_posix() == "docs/style.md":
+            continue
+        for term, standard in terms.items():
+            for match in re.finditer(term, paragraph, re.IGNORECASE):
+                yield f"{path}:{line}: '{match[0]}'; use: {standard}"
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("files", nargs="*")
+    arguments.add_argument("--count", action="store_true", help="print the words of each page")
+    options = arguments.parse_args()
+    written = generated = bad = 0
+    for path in pages(options.files):
+        text = path.read_text()
+        count = len(text.split())
+        if is_generated(text):
+            generated += count
+            continue
+        written += count
+        of_page = list(faults(path, text))
+        bad += len(of_page)
+        if options.count:
+            print(f"{count:6} {len(of_page):4} {path}")
+        else:
+            print(*of_page, sep="\n", end="\n" if of_page else "")
+    print(f"{written} words, {generated} more in generated pages, {bad} faults")
+    if not options.files and written > most_words:
+        print(f"more than {most_words} words in pages that are not generated")
+        return 1
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

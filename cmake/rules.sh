@@ -23,7 +23,7 @@ git grep -nE '^#include [<"](core|links)/' -- plugins sdk examples | refuse "Plu
 git grep -nE '^#include [<"]links/' -- core tools | grep -vE '^[^:]*/test/|links/[a-z]+/(library|stats)\.hpp' | refuse "Of a library in links/ the host includes what it opens it by:"
 git grep -nE '^#include [<"](\.\./)*plugins/' -- core links sdk plugins | grep -vE '^plugins/([^/]+)/test/.*plugins/\1/|^plugins/fcu_serial/test/peer/.*plugins/sim_aero/|^core/app/test/frail\.cpp:' |
   refuse "Nobody includes a plugin but its own test, the peer that flies the simulated aircraft, and the test that makes all of them fail:"
-git grep -nE '^#include [<"]fulmar/' -- core links | grep -vE '^[^:]*/test/|fulmar/(abi\.h|quiet_thread\.hpp)' | refuse "Core and links include abi.h and quiet_thread.hpp alone:"
+git grep -nE '^#include [<"]fulmar/' -- core links | grep -vE '^[^:]*/test/|fulmar/(abi\.h|diagnostic\.hpp|quiet_thread\.hpp)' | refuse "Core and links include abi.h, diagnostic.hpp and quiet_thread.hpp of the SDK alone:"
 git grep -nE '#include <(yaml-cpp|boost|spdlog|fastdds|CLI)' -- sdk plugins | grep -vE '^(plugins/fcu_serial/(link|test/peer)/|sdk/test/flight/airframe_file[.]cpp)' | refuse "Only core links yaml-cpp, Boost.DLL, spdlog and Fast DDS:"
 git grep -nE 'std::chrono|clock_gettime|gettimeofday|std::random_device|\brand\(' -- plugins sdk/include | grep -vE '/test/|^plugins/fcu_serial/link/' | refuse "Time comes from the vehicle and chance from the seed:"
 git grep -nIE '(^|[^[:alnum:]_.])/(work|root|home|farm)/' -- . | refuse "No path of one machine:"

@@ -33,6 +33,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+Error::Error(std::vector<Diagnostic> faults)
+    : std::runtime_error([&] {
+        std::string lines;
+        for (const Diagnostic& fault : faults) lines += (lines.empty() ? "" : "\n") + fault.line();
+        return lines;
+      }()),
+      diagnostic(what()),
+      several(std::move(faults)) {}
+
 std::string nearest(std::string_view name, const std::vector<std::string>& choices) {
   constexpr std::size_t longest = 200;  // a longer name is not a slip of the pen
   if (name.empty() || name.size() > longest) return "";
@@ -60,6 +69,7 @@ std::string join(const std::vector<std::string>& words) {
 
 std::string choices_text(std::string_view name, const std::vector<std::string>& choices) {
   const std::string near = nearest(name, choices);
+  if (writes_codes()) return " [" + near + "] " + join(choices);
   const std::string hint = near.empty() ? "" : " Did you mean '" + near + "'?";
   return hint + " Valid: " + join(choices) + ".";
 }

@@ -1,24 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Set-up errors: one exception type, one sentence with file:line and the valid choices. Nothing here is used
-// in a tick.
+// Set-up errors: one exception type, whose message has a code, a place and arguments (fulmar/diagnostic.hpp).
+// Nothing here is used in a tick.
 #pragma once
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "fulmar/diagnostic.hpp"
 
 namespace fulmar::core {
 
 struct Error : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit Error(Diagnostic message) : std::runtime_error(message.line()), diagnostic(std::move(message)) {}
+  /// Several faults of one file or mission: one per line.
+  explicit Error(std::vector<Diagnostic> faults);
+  Diagnostic diagnostic;
+  std::vector<Diagnostic> several;  // empty for one alone
 };
 
-/// A place in a file, as people say it: "hourglass.yaml:12". Line 0: the file as a whole.
+/// A place in a file: "hourglass.yaml:12". Line 0: the file as a whole.
 struct Where {
   std::string file;
   int line = 0;
   std::string text() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
 };
+
+using fulmar::located;
+/// The message with the file and line that it is about.
+inline Diagnostic located(const Where& where, Diagnostic message) {
+  message.place = where.text();
+  return message;
+}
 
 /// The name in `choices` nearest to `name` by edit distance, or "" when none is near. For "did you mean".
 std::string nearest(std::string_view name, const std::vector<std::string>& choices);

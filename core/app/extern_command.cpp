@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "core/app/messages.hpp"
 #include "core/error.hpp"
 #include "core/loader/home.hpp"
 
@@ -45,7 +46,7 @@ fs::path find_program(const std::string& name) {
   std::string name = program.string();
   words[0] = name.data();
   ::execv(name.c_str(), words);
-  throw Error("fulmar " + word + ": " + name + " cannot be started: " + std::strerror(errno));
+  throw Error(app_messages::command_not_started(word, name, std::strerror(errno)));
 }
 
 }  // namespace
@@ -92,8 +93,7 @@ void become_own_command(char** words) {
 void become_program(const std::string& name, char** words) {
   const fs::path program = own_program(name);
   const std::string word = words[1];
-  if (program.empty())
-    throw Error("fulmar " + word + ": the program " + name + " is missing beside this one");
+  if (program.empty()) throw Error(app_messages::command_program_missing(word, name));
   become(program, word, words);
 }
 

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "core/app/messages.hpp"
 #include "core/app/report_program.hpp"
 #include "core/error.hpp"
 #include "core/log/out_file.hpp"
@@ -25,7 +26,7 @@ fs::path numbered(const fs::path& file, std::size_t n) {
 void make_folder_of(const fs::path& file) {
   std::error_code fault;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), fault);
-  if (fault) throw Error("cannot make the folder '" + file.parent_path().string() + "': " + fault.message());
+  if (fault) throw Error(app_messages::folder_not_created(file.parent_path().string(), fault.message()));
 }
 
 LogName free_name(const fs::path& wanted) {
@@ -45,9 +46,8 @@ LogName default_log(const Graph& graph, const fs::path& folder, bool another) {
 }
 
 void check_report(const std::string& wanted, const Graph& graph) {
-  if (!graph.record) throw Error("--report: the mission says record: off; there is no log to make it of");
-  if (!wanted.empty() && !wanted.ends_with(".html"))
-    throw Error("--report " + wanted + ": give a name that ends in .html, or none");
+  if (!graph.record) throw Error(app_messages::report_without_log());
+  if (!wanted.empty() && !wanted.ends_with(".html")) throw Error(app_messages::report_name_invalid(wanted));
   check_report_program();
 }
 
@@ -59,16 +59,14 @@ fs::path report_name(const std::string& wanted, const fs::path& start, const fs:
     if (nth > 1) file = numbered(file, nth);
   }
   std::error_code none;
-  if (!another && fs::exists(file, none))
-    throw Error("'" + file.string() +
-                "' exists; a report never overwrites a file. Name another with --report FILE.html");
+  if (!another && fs::exists(file, none)) throw Error(app_messages::report_exists(file.string()));
   const fs::path taken = file;
   for (std::size_t n = 2; fs::exists(file, none); ++n) file = numbered(taken, n);
   return file;
 }
 
 bool report_flight(const fs::path& file, const fs::path& log, const nlohmann::json& result, bool quiet) try {
-  if (log.empty()) throw Error("there is no log to make the report of");
+  if (log.empty()) throw Error(app_messages::report_log_missing());
   make_folder_of(file);
   make_report(log, file, result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   if (!quiet) std::printf("report %s\n", for_terminal(file.string()).c_str());

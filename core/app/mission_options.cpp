@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/app/mission_options.hpp"
 
+#include "core/app/messages.hpp"
+
 namespace fulmar::core {
 namespace {
 
@@ -8,7 +10,7 @@ const CLI::Validator whole_number(
     [](const std::string& text) {
       const bool good =
           !text.empty() && text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos;
-      return good ? std::string() : "give a whole number from 0, not '" + text + "'";
+      return good ? std::string() : app_messages::whole_number_invalid(text).line();
     },
     "NUMBER");
 
@@ -19,7 +21,7 @@ std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::st
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw CLI::ValidationError("'" + word + "' is not of the form name=value");
+      throw CLI::ValidationError(app_messages::assignment_form_invalid(word).line());
     out.emplace_back(word.substr(0, equals), word.substr(equals + 1));
   }
   return out;
@@ -33,7 +35,7 @@ void add_pairs(CLI::App* command, const char* option, std::vector<std::string>& 
 CLI::Validator a_file(const std::string& otherwise) {
   return CLI::Validator(
       [otherwise](const std::string& text) {
-        return text.empty() ? "'' names no file; without the option " + otherwise : std::string();
+        return text.empty() ? app_messages::file_name_empty(otherwise).line() : std::string();
       },
       "");
 }
@@ -65,8 +67,7 @@ Overrides MissionOptions::overrides(const CLI::App* command) const {
   if (!arm.empty()) o.arm = arm;
   for (const auto& [component, file] : o.with)
     if (file.empty())
-      throw CLI::ValidationError("--with " + component + "=: a file is missing, as in --with " + component +
-                                 "=my_law.so");
+      throw CLI::ValidationError(app_messages::with_file_missing(component, component).line());
   return o;
 }
 

@@ -20,6 +20,7 @@
 #include <variant>
 
 #include "core/app/last_act.hpp"
+#include "core/app/messages.hpp"
 #include "core/error.hpp"
 #include "core/say.hpp"
 #include "core/types/text.hpp"
@@ -60,13 +61,13 @@ bool is(const std::exception& fault) {
 
 /// What an exception of the language means, for people; "": another library's, which has words of its own.
 std::string meaning_of(const std::exception& fault) {
-  if (is<std::length_error>(fault)) return "something would have become longer than anything can be";
-  if (is<std::out_of_range>(fault)) return "something was looked for where there is nothing";
-  if (is<std::invalid_argument>(fault)) return "something was given that makes no sense there";
+  if (is<std::length_error>(fault)) return app_messages::length_excessive().line();
+  if (is<std::out_of_range>(fault)) return app_messages::element_missing().line();
+  if (is<std::invalid_argument>(fault)) return app_messages::argument_invalid().line();
   if (is<std::bad_variant_access>(fault) || is<std::bad_optional_access>(fault) || is<std::bad_cast>(fault))
-    return "something is not what it was taken for";
-  if (is<std::bad_function_call>(fault)) return "there is nothing to call";
-  if (is<std::logic_error>(fault)) return "something is not as it has to be";
+    return app_messages::value_type_differs().line();
+  if (is<std::bad_function_call>(fault)) return app_messages::callable_empty().line();
+  if (is<std::logic_error>(fault)) return app_messages::condition_violated().line();
   return "";
 }
 
@@ -82,15 +83,47 @@ std::string type_name(const std::exception& fault) {
 
 std::string sentence_of(const std::exception& fault) {
   if (is<Error>(fault)) return fault.what();
-  if (is<std::bad_alloc>(fault)) return "there is not enough memory for that";
-  if (is<nlohmann::json::exception>(fault))
-    return "what the other side has said has not the form that it should have";
+  if (is<std::bad_alloc>(fault)) return app_messages::memory_exhausted().line();
+  if (is<nlohmann::json::exception>(fault)) return app_messages::message_form_invalid().line();
   if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&fault))
     return "'" + file->path1().string() + "': " + file->code().message();
   if (const auto* system = dynamic_cast<const std::system_error*>(&fault)) return system->code().message();
   const std::string meaning = meaning_of(fault);
-  return "an error inside Fulmar (" + type_name(fault) + "): " + (meaning.empty() ? fault.what() : meaning);
+  return app_messages::internal_error(type_name(fault), meaning.empty() ? fault.what() : meaning).line();
 }
+
+namespace {
+
+bool has_json_option(const CLI::App& app) {
+  const CLI::Option* const option = app.get_option_no_throw("--json");
+  if (option != nullptr && option->count() > 0) return true;
+  for (const CLI::App* command : app.get_subcommands())
+    if (has_json_option(*command)) return true;
+  return false;
+}
+
+nlohmann::json json_of(const Diagnostic& fault) {
+  nlohmann::json arguments = nlohmann::json::object();
+  for (const Argument& argument : fault.arguments)
+    std::visit([&](const auto& value) { arguments[argument.name] = value; }, argument.value);
+  return {{"code", fault.code},
+          {"place", fault.place},
+          {"path", fault.path},
+          {"arguments", arguments},
+          {"message", fault.line()}};
+}
+
+/// On standard output, beside the sentences on standard error.
+void print_json(const Error& error) {
+  nlohmann::json errors = nlohmann::json::array();
+  for (const Diagnostic& fault : error.several) errors.push_back(json_of(fault));
+  if (errors.empty()) errors.push_back(json_of(error.diagnostic));
+  const nlohmann::json all{{"errors", errors}};
+  std::printf("%s\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
 
 int report_usage(const CLI::App& app, const CLI::ParseError& fault) {
   std::ostringstream out, err;
@@ -117,6 +150,7 @@ int run_program(CLI::App& app, const std::function<int()>& words, int fault) {
     std::fprintf(stderr, "fulmar: the output cannot be written; is the disk full?\n");
   } catch (const Error& e) {
     std::fprintf(stderr, "%s\n", for_terminal(e.what()).c_str());
+    if (has_json_option(app)) print_json(e);
     return fault;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "fulmar: %s\n", for_terminal(sentence_of(e)).c_str());

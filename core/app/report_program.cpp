@@ -7,6 +7,7 @@
 #include <chrono>
 #include <vector>
 
+#include "core/app/messages.hpp"
 #include "core/error.hpp"
 #include "core/loader/home.hpp"
 #include "core/loader/memory_file.hpp"
@@ -23,13 +24,9 @@ constexpr const char* program = "fulmar-report";
 }  // namespace
 
 void check_report_program() {
-  if (own_program(program).empty())
-    throw Error(std::string("the program ") + program +
-                " is missing beside this one: it makes reports; cmake --build build --target flight");
+  if (own_program(program).empty()) throw Error(app_messages::report_program_missing(program));
   if (std::error_code none; !fs::exists(page_folder() / "report.html", none))
-    throw Error(
-        "this Fulmar was built without the page of a flight, which a report needs: install nodejs and npm, "
-        "configure and build again");
+    throw Error(app_messages::report_page_missing());
 }
 
 void make_report(const fs::path& log, const fs::path& out, const std::string& result) {
@@ -42,9 +39,9 @@ void make_report(const fs::path& log, const fs::path& out, const std::string& re
   if (!result.empty()) files.in = file.descriptor();
   files.error = STDERR_FILENO;
   Process process(own_program(program).string(), words, files);
-  if (!process.wait(patience)) throw Error("the report of " + log.string() + " is not made after 30 minutes");
+  if (!process.wait(patience)) throw Error(app_messages::report_timed_out(log.string()));
   if (process.signal() != 0 || process.exit_code() != 0)
-    throw Error("the report of " + log.string() + " was not made");
+    throw Error(app_messages::report_not_made(log.string()));
 }
 
 fs::path report_beside(const fs::path& log) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/app/messages.hpp"
 #include "core/say.hpp"
 
 namespace fulmar::core {
@@ -26,6 +27,13 @@ class ResultFile {
     file_.reset(fdopen(own, "w"));
     dup2(STDERR_FILENO, STDOUT_FILENO);
   }
+  ResultFile(const ResultFile&) = delete;
+  ResultFile& operator=(const ResultFile&) = delete;
+  ~ResultFile() {
+    if (!file_) return;
+    std::fflush(stdout);
+    dup2(fileno(file_.get()), STDOUT_FILENO);
+  }
   /// One result alone, or {"flights": [...]}. False: it cannot be written, which is reported.
   bool write(const std::vector<nlohmann::json>& results) {
     return results.empty() || write(results.size() == 1 ? results[0] : nlohmann::json{{"flights", results}});
@@ -35,7 +43,7 @@ class ResultFile {
     std::fprintf(file_.get(), "%s\n",
                  result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     const bool written = std::fflush(file_.get()) == 0 && std::ferror(file_.get()) == 0;
-    if (!written) warn(std::string("the result cannot be written: ") + std::strerror(errno));
+    if (!written) warn(app_messages::result_not_writable(std::strerror(errno)));
     return written;
   }
 

@@ -3,6 +3,7 @@
 
 #include <charconv>
 
+#include "core/app/messages.hpp"
 #include "core/run/component/realtime.hpp"
 #include "core/tap/pace.hpp"
 
@@ -14,15 +15,13 @@ std::string not_seconds(const std::string& text) {
   double x = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), x);
   const bool good = code == std::errc{} && end == text.data() + text.size() && x > 0 && x <= 1e7;
-  return good ? std::string() : "give seconds, above 0 and up to 1e7, not '" + text + "'";
+  return good ? std::string() : app_messages::seconds_invalid(text).line();
 }
 
 /// "real" -> 1, "max" -> 0, "10" -> 10.
 double parse_speed(const std::string& text) {
   const std::optional<double> speed = speed_of(text);
-  if (!speed)
-    throw CLI::ValidationError("--speed '" + text +
-                               "': give real, max, or a multiple of real time, for example 10");
+  if (!speed) throw CLI::ValidationError(app_messages::speed_invalid(text).line());
   return *speed;
 }
 
@@ -96,9 +95,7 @@ RunOptions RunArguments::options(const CLI::App* command) const {
   run.speed = parse_speed(speed_);
   if (command->count("--resume") > 0) run.resume = resume_log_;
   if (command->count("--report") > 0) run.report = report_file_;
-  if (run.report && run.no_log)
-    throw CLI::ValidationError(
-        "--report makes a page of the log, and --no-log leaves that out: give one of them");
+  if (run.report && run.no_log) throw CLI::ValidationError(app_messages::report_excludes_no_log().line());
   return run;
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/app/compare.hpp"
 #include "core/app/ends.hpp"
+#include "core/app/messages.hpp"
 #include "core/app/program.hpp"
 #include "core/app/progress.hpp"
 #include "core/app/report.hpp"
@@ -42,7 +43,7 @@ std::string short_result(const nlohmann::json& result) {
 
 Session::Session(const RunOptions& options) : options_(options), start_(working_directory()), graph_(load()) {
   if (!graph_.record && !options.log_file.empty())
-    throw Error("--log " + options.log_file + ": the mission says record: off; there is no log to write");
+    throw Error(app_messages::log_not_recorded(options.log_file));
   if (options.report) check_report(*options.report, graph_);
   for (const std::string& warning : graph_.source.warnings)
     if (warning.starts_with("--")) warn(warning);  // asked on the command line, and without effect
@@ -58,7 +59,7 @@ std::optional<int> Session::try_fly() {
     if (!before_) throw;
     graph_ = std::move(*std::exchange(before_, nullptr));
     warn(fault.what());
-    warn("what flew before stays as it is");
+    warn(app_messages::former_mission_kept());
     return std::nullopt;
   }
 }
@@ -120,12 +121,10 @@ std::optional<Resume> Session::resume() const {
   const fs::path log = asked && !options_.resume->empty() ? fs::path(*options_.resume)
                                                           : newest_log(graph_, asked ? 0 : short_time_s);
   if (log.empty() && !asked) return std::nullopt;
-  if (log.empty())
-    throw Error("--resume: there is no log of the mission " + graph_.mission +
-                "; name one, as in --resume FILE.mcap");
+  if (log.empty()) throw Error(app_messages::resume_log_missing(graph_.mission));
   try {
     Resume resume = read_resume(graph_, log);
-    if (asked && !resume.missing.empty()) throw Error(log.string() + ": " + resume.missing[0]);
+    if (asked && !resume.missing.empty()) throw Error(located(log.string(), resume.missing[0]));
     if (!asked && !resume.armed) return std::nullopt;
     resume.if_armed = !asked;
     for (const std::string& missing : resume.missing) warn(log.string() + ": " + missing);
@@ -142,25 +141,21 @@ std::optional<Resume> Session::resume() const {
 
 void Session::take_priority() const {
   if (options_.realtime > 0 && unpaced())
-    throw CLI::ValidationError(
-        "--realtime would give a CPU to this flight alone: it belongs to --io fcu, or to a simulation with "
-        "--speed real");
+    throw CLI::ValidationError(app_messages::realtime_without_pace().line());
   if (options_.realtime > 0) return take_real_time(options_.realtime);
-  if (graph_.io == Io::fcu) warn("the loop runs without real-time priority; --realtime gives it one");
+  if (graph_.io == Io::fcu) warn(app_messages::realtime_priority_missing());
 }
 
 /// Beside what the vehicle says of itself before it is armed.
 void Session::report_log(const fs::path& log) const {
   if (graph_.io != Io::fcu) return;
-  if (log.empty()) return warn("no log is written");
+  if (log.empty()) return warn(app_messages::log_off());
   if (!options_.json) say_aloud("log: " + log.string());
 }
 
 void Session::report_onlookers() const {
-  if (graph_.dds.on && unpaced())
-    warn("dds: nothing is exported or imported as fast as the machine allows; fly with --speed real");
-  if (!options_.live.empty() && graph_.live.on && unpaced())
-    warn("--live: no client can follow as fast as the machine allows; fly with --speed real");
+  if (graph_.dds.on && unpaced()) warn(app_messages::dds_without_pace());
+  if (!options_.live.empty() && graph_.live.on && unpaced()) warn(app_messages::live_without_pace());
   if (last_->live_port() == 0 || options_.json) return;
   const bool v6 = graph_.live.host.find(':') != std::string::npos;
   say_aloud("live view: ws://" + (v6 ? "[" + graph_.live.host + "]" : graph_.live.host) + ":" +
@@ -253,11 +248,11 @@ void Session::print(const FlightResult& result, bool alone) const {
 int Session::code_of(const FlightResult& result) const {
   const bool whole = result.log.error.empty();
   if (!whole)
-    warn("the log is not whole: " + result.log.error + "; " + std::to_string(result.log.dropped) +
-         " messages were lost" +
-         (result.log.file.empty() ? "" : ", and what there is is in " + result.log.file.string()));
+    warn(app_messages::log_incomplete(
+        result.log.error, result.log.dropped,
+        result.log.file.empty() ? "" : ", and what there is is in " + result.log.file.string()));
   else if (result.log.dropped > 0)
-    warn("the log has gaps: the disk was too slow for " + std::to_string(result.log.dropped) + " messages");
+    warn(app_messages::log_with_gaps(result.log.dropped));
   if (!whole) return ExitCode::failed;  // however the flight ended
   if (restarts()) return guarded(result) ? ExitCode::guarded : ExitCode::done;
   if (result.outcome == Outcome::interrupted) return ExitCode::interrupted;
@@ -286,7 +281,7 @@ void Session::rehearse_changes(const Graph& next) const {
     try {
       rehearse(c, next.tick_ns, component_seed(next.seed, c.name), tape);
     } catch (const Error& fault) {
-      throw Error(c.name + ": " + version_words(*c.plugin) + " fails its rehearsal: " + fault.what());
+      throw Error(located(c.name, app_messages::rehearsal_failed(version_words(*c.plugin), fault.what())));
     }
     say_aloud(c.name + ": " + version_words(*was->plugin) + " -> " + version_words(*c.plugin) +
               (tape ? ", rehearsed on " + std::to_string(tape->size()) + " steps" : ""));
@@ -303,7 +298,7 @@ bool Session::reload(const std::vector<fs::path>& changed) {
     return true;
   } catch (const Error& fault) {
     warn(fault.what());
-    warn("what flew before stays as it is");
+    warn(app_messages::former_mission_kept());
     return false;
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -57,11 +58,13 @@ std::int64_t usual_age_ns(const Graph& graph, const Component& reader, const Wir
 }
 
 std::string warning(const Component& reader, const Port& input, const Wire& wire) {
-  return wire.where.text() + ": " + reader.name + "." + input.name +
-         " leads to the vehicle and is flown on however old it is" +
-         (wire.import >= 0
-              ? ": it comes from outside, and nobody here knows whether it still does; a max_age would tell"
-              : ", even when its writer was stopped: max_age is off");
+  return located(wire.where.text(),
+                 graph_messages::age_unlimited(reader.name, input.name,
+                                               wire.import >= 0
+                                                   ? ": it comes from outside, and nobody here knows whether "
+                                                     "it still does; a max_age would tell"
+                                                   : ", even when its writer was stopped: max_age is off"))
+      .line();
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/graph/messages.hpp"
 #include "core/loader/home.hpp"
 #include "core/loader/script.hpp"
 
@@ -74,14 +75,12 @@ FoundPlugin PluginCatalogue::open(const std::string& name) {
   if (file.empty()) {
     std::error_code none;
     if (fs::path(name).is_absolute() && !name.ends_with(".so") && script_host(name).empty())
-      throw Error("'" + name + (fs::is_directory(name, none) ? "' is a folder" : "' is not there") +
-                  ": a plugin's file ends in .so or .py, and a component in it stands behind it, as in "
-                  "my_law.so/Law");
-    if (fs::path(name).is_absolute()) throw Error("there is no plugin '" + name + "'");
+      throw Error(graph_messages::plugin_path_invalid(
+          name, fs::is_directory(name, none) ? "' is a folder" : "' is not there"));
+    if (fs::path(name).is_absolute()) throw Error(graph_messages::plugin_file_missing(name));
     std::vector<std::string> searched;
     for (const fs::path& folder : folders_) searched.push_back(folder.string());
-    throw Error("there is no plugin '" + name + "'. Searched in " + join(searched) + "." +
-                choices_text(name, names()));
+    throw Error(graph_messages::plugin_unknown(name, join(searched), choices_text(name, names())));
   }
   std::error_code code;
   fs::path key = fs::canonical(file, code);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "core/graph/messages.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/types/named.hpp"
 
@@ -75,8 +76,8 @@ class Lexer {
       }
     for (const auto& [wrong, hint] : {std::pair{"&&", "write and"}, std::pair{"||", "write or"},
                                       std::pair{"!", "write not"}, std::pair{"=", "write == to compare"}})
-      if (rest.starts_with(wrong)) throw Error(std::string("'") + wrong + "' is not understood; " + hint);
-    throw Error("'" + text_.substr(at_, 12) + "' is not understood");
+      if (rest.starts_with(wrong)) throw Error(graph_messages::operator_invalid(wrong, hint));
+    throw Error(graph_messages::condition_text_invalid(text_.substr(at_, 12)));
   }
 
  private:
@@ -149,10 +150,10 @@ class Compiler {
   }
 
   int compile() {
-    if (token_.kind == Token::Kind::end) throw Error("the condition is empty");
+    if (token_.kind == Token::Kind::end) throw Error(graph_messages::condition_empty());
     const int root = either();
-    if (token_.text == ")") throw Error("a ')' without its '('");
-    if (token_.kind != Token::Kind::end) throw Error("expected 'and' or 'or' before '" + token_.text + "'");
+    if (token_.text == ")") throw Error(graph_messages::parenthesis_unopened());
+    if (token_.kind != Token::Kind::end) throw Error(graph_messages::conjunction_expected(token_.text));
     return root;
   }
 
@@ -175,7 +176,7 @@ class Compiler {
     return true;
   }
   int add(CNode node) {
-    if (nodes_.size() >= 500) throw Error("the condition is too long");
+    if (nodes_.size() >= 500) throw Error(graph_messages::condition_too_long());
     nodes_.push_back(std::move(node));
     return static_cast<int>(nodes_.size()) - 1;
   }
@@ -192,7 +193,7 @@ class Compiler {
     return left;
   }
   int opposite() {
-    if (++depth_ > 50) throw Error("the condition is nested too deep");
+    if (++depth_ > 50) throw Error(graph_messages::condition_too_deep());
     const int node = take("not") ? join_nodes(Op::opposite, opposite(), -1) : primary();
     --depth_;
     return node;
@@ -200,7 +201,7 @@ class Compiler {
   int primary() {
     if (!take("(")) return comparison();
     const int inside = either();
-    if (!take(")")) throw Error("a ')' is missing");
+    if (!take(")")) throw Error(graph_messages::parenthesis_unclosed());
     return inside;
   }
 
@@ -209,12 +210,11 @@ class Compiler {
     if (const Compare* compare = compare_here()) {
       advance();
       Operand b = operand();
-      if (compare_here()) throw Error("a comparison has two sides; join two of them with 'and'");
+      if (compare_here()) throw Error(graph_messages::comparison_chained());
       return add(compared(compare, std::move(a), std::move(b)));
     }
-    if (a.kind == Operand::Kind::label)
-      throw Error("'" + a.text + "' is not a field; a field is written like nav.state.height_m");
-    if (!a.is_bool()) throw Error("'" + a.text + "' is not true or false; compare it with something");
+    if (a.kind == Operand::Kind::label) throw Error(graph_messages::operand_not_field(a.text));
+    if (!a.is_bool()) throw Error(graph_messages::operand_not_boolean(a.text));
     CNode node;
     node.a = a.side;
     return add(std::move(node));
@@ -227,14 +227,13 @@ class Compiler {
   CNode compared(const Compare* compare, Operand a, Operand b) {
     if (a.kind != Operand::Kind::field) {  // 3 m < height: turn it round
       if (b.kind != Operand::Kind::field)
-        throw Error("'" + a.text + " " + std::string(compare->symbol) + " " + b.text + "' looks at no field");
+        throw Error(graph_messages::comparison_without_field(a.text, compare->symbol, b.text));
       compare = find_compare(compare->mirrored);
       std::swap(a, b);
     }
     const bool ordered = compare->symbol != compare->mirrored;
     if ((a.is_enum() || a.is_bool() || b.is_enum() || b.is_bool()) && ordered)
-      throw Error("'" + (a.is_enum() || a.is_bool() ? a : b).text +
-                  "' has no order; compare it with == or !=");
+      throw Error(graph_messages::operand_unordered((a.is_enum() || a.is_bool() ? a : b).text));
     if (b.kind == Operand::Kind::label || (b.side.is_time && a.is_enum()))  // a word that is one of a field's
       b = label(a, b.text);
     else if (b.kind == Operand::Kind::number)
@@ -257,38 +256,36 @@ class Compiler {
   static double label_number(const Operand& field, const std::string& label) {
     if (field.is_bool()) {
       if (label == "true" || label == "false") return label == "true" ? 1 : 0;
-      throw Error("'" + field.text + "' is true or false, not '" + label + "'");
+      throw Error(graph_messages::flag_compared_to_label(field.text, label));
     }
-    if (!field.is_enum())
-      throw Error("'" + field.text + "' is a number and cannot be compared with '" + label + "'");
+    if (!field.is_enum()) throw Error(graph_messages::number_compared_to_label(field.text, label));
     const std::vector<std::string>& labels = field.side.field.field->labels;
     const auto it = std::find(labels.begin(), labels.end(), label);
     if (it == labels.end())
-      throw Error("'" + field.text + "' is never '" + label + "'." + choices_text(label, labels));
+      throw Error(graph_messages::label_unknown(field.text, label, choices_text(label, labels)));
     return static_cast<double>(it - labels.begin());
   }
 
   static double plain_number(const Operand& field, const Operand& number) {
     if (field.is_enum())
-      throw Error("'" + field.text +
-                  "' is compared with a word. Valid: " + join(field.side.field.field->labels) + ".");
-    if (field.is_bool()) throw Error("'" + field.text + "' is true or false, not " + number.text);
+      throw Error(graph_messages::label_expected(field.text, join(field.side.field.field->labels)));
+    if (field.is_bool()) throw Error(graph_messages::flag_compared_to_number(field.text, number.text));
     try {
       return convert(number.quantity, field.side.field.unit, UnitRule::optional);
     } catch (const Error& fault) {
-      throw Error("'" + field.text + "': " + fault.what());
+      throw Error(graph_messages::operand_fault(field.text, fault.diagnostic));
     }
   }
 
   static void match_fields(const Operand& a, Operand& b) {
     if (a.is_enum() != b.is_enum() || a.is_bool() != b.is_bool())
-      throw Error("'" + a.text + "' and '" + b.text + "' cannot be compared");
+      throw Error(graph_messages::operands_incomparable(a.text, b.text));
     if (a.is_enum() && a.side.field.field->labels != b.side.field.field->labels)
-      throw Error("'" + a.text + "' and '" + b.text + "' have different words");
+      throw Error(graph_messages::labels_differ(a.text, b.text));
     const std::string &unit_a = a.side.field.unit, &unit_b = b.side.field.unit;
     if (!same_dimension(unit_a, unit_b))
-      throw Error("'" + a.text + "' is in " + (unit_a.empty() ? "plain numbers" : unit_a) + " and '" +
-                  b.text + "' in " + (unit_b.empty() ? "plain numbers" : unit_b));
+      throw Error(graph_messages::units_differ(a.text, unit_a.empty() ? "plain numbers" : unit_a, b.text,
+                                               unit_b.empty() ? "plain numbers" : unit_b));
     b.side.factor = unit_factor(unit_b, unit_a);
   }
 
@@ -307,9 +304,8 @@ class Compiler {
       else
         field(operand);
     } else {
-      throw Error(token_.kind == Token::Kind::end
-                      ? "the condition ends where a field or a number is expected"
-                      : "expected a field or a number before '" + token_.text + "'");
+      throw Error(token_.kind == Token::Kind::end ? graph_messages::operand_missing()
+                                                  : graph_messages::operand_expected(token_.text));
     }
     advance();
     return operand;
@@ -325,9 +321,8 @@ class Compiler {
     const Shown& found = static_cast<Shown&>(operand.side) = find_shown(operand.text, find_);
     const fulmar_kind kind = found.field.field->kind;
     if (kind == FULMAR_STRUCT || kind == FULMAR_TEXT)
-      throw Error("'" + operand.text + "' is " +
-                  (kind == FULMAR_TEXT ? "text" : "a " + found.field.field->type->name) +
-                  ", not a number, a word or true or false");
+      throw Error(graph_messages::operand_not_scalar(
+          operand.text, kind == FULMAR_TEXT ? "text" : "a " + found.field.field->type->name));
     if (std::find(ports_.begin(), ports_.end(), found.from) == ports_.end()) ports_.push_back(found.from);
   }
 
@@ -373,23 +368,21 @@ bool node_holds(const std::vector<CNode>& nodes, int index, const SampleReader& 
 Shown find_shown(const std::string& text, const FindPort& find) {
   const auto dot = text.find('.');
   const auto second = dot == std::string::npos ? dot : text.find('.', dot + 1);
-  if (dot == std::string::npos)
-    throw Error("'" + text + "' is not a field; a field is written like nav.state.height_m");
+  if (dot == std::string::npos) throw Error(graph_messages::operand_not_field(text));
   Shown shown{text, {}, {}, {}};
   const std::string owner = text.substr(0, dot),
                     port = text.substr(dot + 1, second == std::string::npos ? second : second - dot - 1);
   std::tie(shown.from, shown.type) = find(owner, port);
   if (!shown.type) {
-    if (second != std::string::npos)
-      throw Error("'" + owner + "." + port + "' is a probe: one number, without fields");
+    if (second != std::string::npos) throw Error(graph_messages::probe_without_fields(owner, port));
     shown.field.field = &probe_field();
     const auto suffixed = split_suffix(port);
     shown.field.unit = suffixed ? suffixed->unit : "";
     return shown;
   }
   if (second == std::string::npos)
-    throw Error("'" + text + "' is a whole " + shown.type->name +
-                "; name a field of it. Valid: " + join(names_of(shown.type->fields)) + ".");
+    throw Error(
+        graph_messages::field_name_missing(text, shown.type->name, join(names_of(shown.type->fields))));
   shown.field = resolve_field(*shown.type, text.substr(second + 1));
   return shown;
 }

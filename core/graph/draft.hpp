@@ -57,14 +57,14 @@ struct Draft {
 // resolve.cpp
 /// Why a component of the file is not there: "fcu exists only with io: fcu", or that there is none of that
 /// name.
-std::string not_there(const Draft& draft, const std::string& name);
+Diagnostic not_there(const Draft& draft, const std::string& name);
 
 /// Whether an output of a role is there: somebody who fills it in this run has it. Of the built graph.
 bool provided(const Graph& graph, const Source& source);
 
 /// A role or component that is not there: taken away by a layer, perhaps.
 struct NoOwner : Error {
-  NoOwner(const std::string& name, const std::string& sentence) : Error(sentence), owner(name) {}
+  NoOwner(const std::string& name, Diagnostic message) : Error(std::move(message)), owner(name) {}
   std::string owner;
 };
 /// Whether a layer has taken that role or component away: it is told there, with all that still names it.

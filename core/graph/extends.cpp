@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/graph/messages.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/types/named.hpp"
 
@@ -57,8 +58,9 @@ class Takings {
     std::vector<std::string> there;
     for (const Node::Entry& other : base.entries) there.push_back(other.key);
     const std::string near = nearest(entry.key, there);
-    report_.add(entry.where(), (path.empty() ? "" : path + ": ") + below_ + " has no '" + entry.key +
-                                   "' to take away" + (near.empty() ? "" : ". Did you mean '" + near + "'?"));
+    report_.add(entry.where(),
+                graph_messages::removed_key_missing(path.empty() ? "" : path + ": ", below_, entry.key,
+                                                    near.empty() ? "" : ". Did you mean '" + near + "'?"));
     return false;
   }
 
@@ -110,7 +112,7 @@ class Layers {
     if (std::any_of(above_.begin(), above_.end(), same)) {
       std::string chain;
       for (const FilePtr& layer : above_) chain += layer->name + " -> ";
-      report_.add(extends.where(), "extends: the files extend each other: " + chain + *name);
+      report_.add(extends.where(), graph_messages::extends_cycle(chain, *name));
       return nullptr;
     }
     try {
@@ -120,7 +122,7 @@ class Layers {
           shipped ? std::filesystem::path(*name) : std::filesystem::path(file.name).parent_path() / *name;
       return files_.emplace_back(read_source(path, shown.string(), stored_));
     } catch (const Error& fault) {
-      report_.add(extends.where(), std::string("extends: ") + fault.what());
+      report_.add(extends.where(), graph_messages::extends_file_invalid(fault.what()));
       return nullptr;
     }
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 #include "core/graph/steering.hpp"
 
 namespace fulmar::core {
@@ -18,10 +19,7 @@ void read_hardware(const Keys& mission, MissionText& text, Report& report) {
   hardware.where = node->where();
   if (node->is(Node::Kind::scalar)) {
     if (node->text == "yes") return;
-    return report.add(hardware.where,
-                      "hardware: expected yes, {fit: no, because: \"...\"} or {with: ROLE, because: "
-                      "\"...\"}, found " +
-                          found_words(*node));
+    return report.add(hardware.where, graph_messages::hardware_value_invalid(found_words(*node)));
   }
   const Keys keys(*node, "hardware", {"fit", "with", "because"}, report);
   if (!node->is(Node::Kind::map)) return;
@@ -29,14 +27,14 @@ void read_hardware(const Keys& mission, MissionText& text, Report& report) {
   hardware.with = keys.text("with").value_or("");
   hardware.because = keys.text("because").value_or("");
   if ((!hardware.fit || !hardware.with.empty()) && hardware.because.empty())
-    report.add(hardware.where, "hardware: 'because' is missing: the reason, for the one who is refused");
+    report.add(hardware.where, graph_messages::hardware_reason_missing());
 }
 
 void check_hardware(const MissionText& text, const Overrides& overrides, Report& report) {
   const HardwareText& hardware = text.hardware;
   if (text.io != Io::fcu) return;
   if (!hardware.fit) {
-    report.add(hardware.where, "hardware: this mission is for simulation only: " + hardware.because);
+    report.add(hardware.where, graph_messages::hardware_not_allowed(hardware.because));
     report.throw_if_any();  // what else is wrong with it on hardware follows from that
   }
   const auto fills = [&](const std::string& name) {
@@ -47,8 +45,8 @@ void check_hardware(const MissionText& text, const Overrides& overrides, Report&
     return std::any_of(list.begin(), list.end(), [&](const auto& o) { return fills(o.first); });
   };
   if (hardware.with.empty() || given(overrides.roles) || given(overrides.with)) return;
-  report.add(hardware.where, "hardware: with io: fcu this mission needs --role " + hardware.with +
-                                 "=COMPONENT or --with " + hardware.with + "=FILE: " + hardware.because);
+  report.add(hardware.where,
+             graph_messages::hardware_component_missing(hardware.with, hardware.with, hardware.because));
 }
 
 namespace {

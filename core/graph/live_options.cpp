@@ -4,23 +4,20 @@
 #include <arpa/inet.h>
 
 #include "core/error.hpp"
+#include "core/graph/messages.hpp"
 #include "core/types/text.hpp"
 
 namespace fulmar::core {
 
 void check_live_options(const LiveOptions& options) {
   if (!options.token.empty() || is_loopback(lower(options.host))) return;
-  throw Error("live.listen: " + options.host +
-              " can be reached from other computers. Give a token in FULMAR_TOKEN or live.token, which every "
-              "client then has to show, or listen on 127.0.0.1");
+  throw Error(graph_messages::live_token_missing(options.host));
 }
 
 std::string why_no_save(const LiveOptions& options) {
   if (options.save.value_or(is_loopback(lower(options.host)))) return "";
-  return options.save ? "the mission says live: {save: off}"
-                      : options.host +
-                            " can be reached from other computers, and the mission does not say live: "
-                            "{save: on}";
+  return options.save ? graph_messages::save_off().line()
+                      : graph_messages::save_not_enabled(options.host).line();
 }
 
 bool is_loopback(const std::string& host) {

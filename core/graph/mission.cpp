@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/graph/extends.hpp"
+#include "core/graph/messages.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/types/names.hpp"
@@ -60,29 +61,27 @@ class MissionReader {
             void (MissionReader::*read_entry)(const Node::Entry&)) {
     const std::vector<Node::Entry>& entries = keys.entries(key, "a map of names");
     if (entries.size() > max_names)
-      return report_.add(keys.where(key), key + ": " + std::to_string(entries.size()) +
-                                              " of them; a mission has " + std::to_string(max_names) +
-                                              " at most");
+      return report_.add(keys.where(key),
+                         located(key, graph_messages::too_many_entries(entries.size(), max_names)));
     for (const Node::Entry& entry : entries) {
       if (entry.key.size() >= room)
-        report_.add(entry.where(), key + ": '" + entry.key + "' has " + std::to_string(entry.key.size()) +
-                                       " characters; a name has " + std::to_string(room - 1) + " at most");
+        report_.add(entry.where(),
+                    located(key, graph_messages::name_too_long(entry.key, entry.key.size(), room - 1)));
       if (is_name(entry.key))
         (this->*read_entry)(entry);
       else
-        report_.add(entry.where(),
-                    key + ": '" + entry.key + "' is not a name; names are letters, digits and _");
+        report_.add(entry.where(), located(key, graph_messages::name_invalid(entry.key)));
     }
   }
 
   void scalars(const Keys& keys) {
     m_.mission = keys.text("mission").value_or(m_.file->path.stem().string());
     if (m_.mission.find_first_of("/\n\r\t") != std::string::npos)
-      report_.add(keys.where("mission"), "mission: a name without '/' is wanted, found '" + m_.mission + "'");
+      report_.add(keys.where("mission"), graph_messages::mission_name_invalid(m_.mission));
     m_.io = io_of(keys.word("io", io_words).value_or("sim")).value_or(Io::sim);
     m_.rate_hz = keys.positive("rate", "Hz").value_or(400);
     if (m_.rate_hz > 100'000 || m_.rate_hz < 0.1)
-      report_.add(keys.where("rate"), "rate: " + number_text(m_.rate_hz) + " Hz is outside 0.1 .. 100000 Hz");
+      report_.add(keys.where("rate"), graph_messages::rate_out_of_range(number_text(m_.rate_hz)));
     m_.timeout_ns = keys.duration_ns("timeout").value_or(3600'000'000'000);
     m_.arm = keys.word("arm", {"auto", "off"}).value_or("off") == "auto";
     if (const Node* node = keys.get("seed")) seed(*node);
@@ -90,7 +89,7 @@ class MissionReader {
     try {
       m_.epoch_ns = parse_utc_ns(epoch);
     } catch (const Error& fault) {
-      report_.add(keys.where("epoch"), std::string("epoch: ") + fault.what());
+      report_.add(keys.where("epoch"), graph_messages::epoch_invalid(fault.what()));
     }
   }
 
@@ -98,7 +97,7 @@ class MissionReader {
     const std::string& text = node.text;
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), m_.seed);
     if (!node.is(Node::Kind::scalar) || code != std::errc{} || end != text.data() + text.size())
-      report_.add(node.where(), "seed: expected a whole number from 0, found " + found_words(node));
+      report_.add(node.where(), graph_messages::seed_invalid(found_words(node)));
   }
 
   /// A condition that ends or judges the flight: "..." or {when: "...", for: 60 s}.
@@ -112,7 +111,7 @@ class MissionReader {
     if (const auto text = parts.text("when"))
       word = Word{*text, parts.get("when")->where()};
     else
-      report_.add(node->where(), key + ": expected a condition under 'when'");
+      report_.add(node->where(), located(key, graph_messages::condition_expected()));
     for_ns = parts.duration_ns("for").value_or(0);
   }
 
@@ -179,7 +178,7 @@ class MissionReader {
     } else if (entry.value.is(Node::Kind::map)) {
       const Keys keys(entry.value, path, {"from", "max_age", "delayed"}, report_);
       if (!keys.has("from")) {
-        report_.add(entry.where(), path + ": 'from' is missing, as in {from: nav.state, max_age: 0.5 s}");
+        report_.add(entry.where(), located(path, graph_messages::source_missing()));
         return wire;
       }
       wire.from = port_name(*keys.get("from"), path + ".from").value_or(PortName{});
@@ -216,10 +215,9 @@ class MissionReader {
       const auto type = scalar_text(port.value, path + ".out." + port.key,
                                     "the name of a message type such as VehicleState", report_);
       if (!is_name(text.name))
-        report_.add(port.where(),
-                    path + ".out: '" + port.key + "' is not a name; an optional port ends in '?'");
+        report_.add(port.where(), graph_messages::output_name_invalid(path, port.key));
       else if (find_named(role.out, text.name))
-        report_.add(port.where(), path + ".out: '" + text.name + "' is there twice, with '?' and without");
+        report_.add(port.where(), graph_messages::output_repeated(path, text.name));
       else if (type) {
         text.type = *type;
         role.out.push_back(text);
@@ -246,8 +244,7 @@ class MissionReader {
     c.fills = fills(keys);
     c.use = keys.word_at("use");
     if (!keys.has("use") && entry.value.is(Node::Kind::map))
-      report_.add(entry.where(),
-                  path + ": 'use' is missing; it names the plugin, as in use: control_slc/Outer");
+      report_.add(entry.where(), located(path, graph_messages::use_missing()));
     c.only = io_of(keys.word("only", io_words).value_or(""));
     if (!keys.has("only") && c.fills_role("vehicle")) c.only = io_of(c.name);
     c.in = wires(keys);
@@ -272,8 +269,8 @@ class MissionReader {
     for (const WireText& wire : c.in) {
       if (!wire.cut || std::find(there.begin(), there.end(), wire.name) != there.end()) continue;
       const std::string near = nearest(wire.name, there);
-      report_.add(wire.where, path + ".in: there is no wire '" + wire.name + "' to take away" +
-                                  (near.empty() ? "" : ". Did you mean '" + near + "'?"));
+      report_.add(wire.where, graph_messages::removed_connection_missing(
+                                  path, wire.name, near.empty() ? "" : ". Did you mean '" + near + "'?"));
     }
   }
 
@@ -290,7 +287,7 @@ class MissionReader {
       const Word word{*text, item.where()};
       const auto same = [&](const Word& other) { return other.text == word.text; };
       if (std::any_of(list.begin(), list.end(), same))
-        report_.add(word.where, path + ": '" + word.text + "' is there twice");
+        report_.add(word.where, located(path, graph_messages::entry_repeated(word.text)));
       else
         list.push_back(word);
     }
@@ -310,17 +307,15 @@ class MissionReader {
     const auto at = std::find(modes.begin(), modes.end(), keys.word("run", modes).value_or(""));
     if (at != modes.end()) c.run = static_cast<RunMode>(at - modes.begin());
     if (keys.has("latency") && c.run != RunMode::async)
-      report_.add(keys.where("latency"), path + ".latency: belongs to 'run: async'");
+      report_.add(keys.where("latency"), graph_messages::latency_misplaced(path));
     // on hardware a child may be the default: `hang` may then stand alone
     if (keys.has("hang") && c.run && c.run != RunMode::process)
-      report_.add(keys.where("hang"), path + ".hang: belongs to 'run: process'");
+      report_.add(keys.where("hang"), graph_messages::hang_misplaced(path));
     c.latency_ns = keys.duration_ns("latency").value_or(0);
     if (const auto hang = keys.duration_ns("hang"); hang && *hang > 0) c.hang_ns = *hang;
     if (c.run == RunMode::async && c.latency_ns == 0)
       report_.add(keys.has("latency") ? keys.where("latency") : keys.where("run"),
-                  path +
-                      ": 'run: async' needs a latency above 0, as in latency: 200 ms: what it computes is "
-                      "seen that much later");
+                  located(path, graph_messages::latency_missing()));
     if (const auto text = keys.text("memory"))
       c.memory_bytes = parse_bytes(*text, keys.where("memory"), path + ".memory", report_);
   }
@@ -358,9 +353,7 @@ class MissionReader {
       t.where = item.where();
       for (const char* key : {"to", "when"})
         if (!keys.has(key))
-          report_.add(
-              item.where(),
-              path + ": '" + key + "' is missing, as in {to: cruise, when: \"nav.state.height_m > 30 m\"}");
+          report_.add(item.where(), located(path, graph_messages::transition_key_missing(key)));
       t.to = keys.word_at("to");
       t.when = keys.word_at("when");
       t.for_ns = keys.duration_ns("for").value_or(0);
@@ -396,7 +389,7 @@ std::optional<PortName> parse_port_name(const std::string& text, const Where& wh
   const auto dot = text.find('.');
   if (dot != std::string::npos && is_name(text.substr(0, dot)) && is_name(text.substr(dot + 1)))
     return PortName{text.substr(0, dot), text.substr(dot + 1)};
-  report.add(where, path + ": expected a port such as nav.state, found '" + text + "'");
+  report.add(where, located(path, graph_messages::port_expected(text)));
   return std::nullopt;
 }
 
@@ -445,7 +438,7 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
       mission.io = *io;
     else
       report.add({"--io " + *overrides.io, 0},
-                 "unknown word '" + *overrides.io + "'." + choices_text(*overrides.io, io_words));
+                 graph_messages::io_unknown(*overrides.io, choices_text(*overrides.io, io_words)));
   }
   if (overrides.seed) mission.seed = *overrides.seed;
   if (overrides.arm) mission.arm = *overrides.arm == "auto";

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -88,7 +89,7 @@ const std::vector<std::string> result_keys = {
 std::pair<Source, TypePtr> find_port(const Word& word, const std::string& example, const FindPort& find) {
   const auto dot = word.text.find('.');
   if (dot == std::string::npos || word.text.find('.', dot + 1) != std::string::npos)
-    throw Error("expected a port such as " + example + ", found '" + word.text + "'");
+    throw Error(graph_messages::port_name_expected(example, word.text));
   return find(word.text.substr(0, dot), word.text.substr(dot + 1));
 }
 
@@ -99,9 +100,9 @@ void read_summary(Draft& draft, const FindPort& find) {
     const Word& word = entry.second;
     const bool stays = report_of(draft, word, "summary." + key, [&] {
       if (std::find(result_keys.begin(), result_keys.end(), key) != result_keys.end())
-        throw Error("'" + key + "' is a key of every result; choose another name");
+        throw Error(graph_messages::summary_key_reserved(key));
       const auto [source, type] = find_port(word, "score.tracking", find);
-      if (!type) throw Error("'" + word.text + "' is a probe; a summary shows messages");
+      if (!type) throw Error(graph_messages::summary_of_probe(word.text));
       draft.graph.judge.summary.emplace_back(key, source);
     });
     if (!stays) draft.graph.judge.summary.emplace_back(key, Source{});
@@ -117,8 +118,7 @@ void read_reported(Draft& draft, const FindPort& find) {
         const auto [source, type] = find_port(word, "vehicle.notices", find);
         const Field* const text = type ? type->find("text") : nullptr;
         if (!text || text->kind != FULMAR_TEXT)
-          throw Error("'" + word.text + "' is " + (type ? type->name : "a probe") +
-                      ", which has no text 'text' to tell");
+          throw Error(graph_messages::text_field_missing(word.text, type ? type->name : "a probe"));
         draft.graph.report.push_back(source);
       } catch (const NobodyProvides&) {
       }
@@ -135,8 +135,7 @@ void read_verdict(Draft& draft, const FindPort& find) {
     const Field* const of = type ? type->find("word") : nullptr;
     const Field* const text = type ? type->find("text") : nullptr;
     if (!of || !text || of->kind != FULMAR_TEXT || text->kind != FULMAR_TEXT)
-      throw Error("'" + word.text + "' is " + (type ? type->name : "a probe") +
-                  ", which has no texts 'word' and 'text'");
+      throw Error(graph_messages::event_fields_missing(word.text, type ? type->name : "a probe"));
     draft.graph.judge.verdict = VerdictPort{source, of->offset, text->offset, of->stride, text->stride};
   });
 }
@@ -145,8 +144,8 @@ Shown shown(const Word& word, const FindPort& find) {
   Shown shown = find_shown(word.text, find);
   const Field& field = *shown.field.field;
   if (field.kind == FULMAR_STRUCT || field.kind == FULMAR_TEXT)
-    throw Error("'" + word.text + "' is " + (field.kind == FULMAR_TEXT ? "text" : "a " + field.type->name) +
-                ", not a number");
+    throw Error(graph_messages::field_not_number(
+        word.text, field.kind == FULMAR_TEXT ? "text" : "a " + field.type->name));
   return shown;
 }
 
@@ -165,8 +164,7 @@ void read_resume(Draft& draft, const FindPort& find) {
     const Word& word = entry.second;
     guarded(draft, word.where, "resume." + param, [&] {
       const auto dot = param.find('.');
-      if (dot == std::string::npos)
-        throw Error("expected a parameter such as manage.first_item, found '" + param + "'");
+      if (dot == std::string::npos) throw Error(graph_messages::parameter_name_expected(param));
       const std::string name = param.substr(0, dot), of = param.substr(dot + 1);
       const int i = draft.candidate(name);
       const ComponentText* const text = draft.text.component(name);
@@ -175,12 +173,10 @@ void read_resume(Draft& draft, const FindPort& find) {
       const Candidate& candidate = nth(draft.candidates, i);
       if (!candidate.loaded) throw Unclear{};
       const auto& params = candidate.info().params;
-      const ParamInfo& info = nth(params, require_named(params, of, name + " has no parameter"));
-      if (info.kind != FULMAR_COUNT && info.kind != FULMAR_NUMBER) throw Error(param + " is no number");
-      if (!info.live)
-        throw Error(
-            param +
-            " is fixed when the flight begins; whether it resumes is known when the vehicle has spoken");
+      const ParamInfo& info = nth(params, require_named(params, of, name, "parameter"));
+      if (info.kind != FULMAR_COUNT && info.kind != FULMAR_NUMBER)
+        throw Error(graph_messages::parameter_not_number(param));
+      if (!info.live) throw Error(graph_messages::parameter_not_live(param));
       draft.graph.resume.push_back({param, shown(word, find)});
     });
   }
@@ -202,7 +198,7 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
     transition.to = index_named(phases, text.to.text);
     if (transition.to < 0 && !text.to.text.empty() &&
         !draft.report.still_named({"phases." + text.to.text}, text.to.where, path + ".to"))
-      draft.report.add(text.to.where, no_such(path + ".to: there is no phase", text.to.text, phases));
+      draft.report.add(text.to.where, located(path + ".to", no_such("phase", text.to.text, phases)));
     if (!text.when.text.empty()) transition.when = compiled(draft, text.when, path + ".when", find);
     transition.for_ns = text.for_ns;
     transition.where = text.where;
@@ -251,9 +247,8 @@ void check_reachable(Draft& draft) {
   }
   for (std::size_t i = 0; i < reached.size(); ++i)
     if (!reached[i])
-      draft.report.add(graph.phases[i].where, "phases." + graph.phases[i].name +
-                                                  ": no transition leads here from " + graph.phases[0].name +
-                                                  ", where the flight begins");
+      draft.report.add(graph.phases[i].where,
+                       graph_messages::phase_unreachable(graph.phases[i].name, graph.phases[0].name));
 }
 
 }  // namespace

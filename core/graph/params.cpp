@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/graph/messages.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/graph/record.hpp"
 #include "core/graph/shipped.hpp"
@@ -31,7 +32,7 @@ FilePtr FileStore::read(const Node& node, const std::string& path) {
   try {
     return files_.emplace_back(read_source(file, node.text, stored_));
   } catch (const Error& fault) {
-    report_.add(node.where(), path + ": " + fault.what());
+    report_.add(node.where(), located(path, fault.diagnostic));
     return nullptr;
   }
 }
@@ -83,8 +84,8 @@ struct ParamReader {
   FileStore& files;
   Report& report;
 
-  void fault(const Node& node, const std::string& sentence) const {
-    report.add(node.where(), path + ": " + sentence);
+  void fault(const Node& node, const Diagnostic& message) const {
+    report.add(node.where(), located(path, message));
   }
   bool number_into(const Node& node, const std::string& name, double& target) const {
     const auto number =
@@ -96,8 +97,8 @@ struct ParamReader {
   void count(const Node& node) const {
     double number = 0;
     if (!number_into(node, path, number)) return;
-    if (number != std::floor(number)) return fault(node, node.text + " is not a whole number");
-    if (std::abs(number) > 9e15) return fault(node, node.text + " is too large");
+    if (number != std::floor(number)) return fault(node, graph_messages::integer_invalid(node.text));
+    if (std::abs(number) > 9e15) return fault(node, graph_messages::integer_too_large(node.text));
     whole(static_cast<std::int64_t>(number));
   }
 
@@ -121,8 +122,8 @@ struct ParamReader {
         good = number_into(node.items[i], path + "." + names[i], numbers[i]) && good;
     } else {
       const bool list = node.is(Node::Kind::sequence);
-      return fault(node, "expected three numbers [" + join(names) + "], found " +
-                             (list ? std::to_string(node.items.size()) : found_words(node)));
+      return fault(node, graph_messages::three_numbers_expected(
+                             join(names), list ? std::to_string(node.items.size()) : found_words(node)));
     }
     if (good) std::copy(numbers, numbers + 3, value.number);
   }
@@ -186,11 +187,11 @@ void read_record(const ParamInfo& param, const Node& map, const std::string& pat
   const std::vector<std::string> missing = missing_in_record(*param.type, map);
   if (!missing.empty() && map.is(Node::Kind::map)) {
     const bool of_component = path.find('.') != std::string::npos;  // else nobody else's record is meant
-    report.add(map.where(), (path.empty() ? "" : path + ": ") + "this is no whole " + param.type->name +
-                                ", missing: " + join(missing) +
-                                (of_component ? "; to change one thing in a record, name it, as in " +
-                                                    param.name + "." + missing[0]
-                                              : ""));
+    report.add(map.where(), graph_messages::record_incomplete(
+                                path.empty() ? "" : path + ": ", param.type->name, join(missing),
+                                of_component ? "; to change one thing in a record, name it, as in " +
+                                                   param.name + "." + missing[0]
+                                             : ""));
   }
   mark_given(*param.type, value.data.data());
   value.text = name;

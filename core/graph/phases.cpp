@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 #include "core/graph/record.hpp"
 
 namespace fulmar::core {
@@ -32,17 +33,17 @@ int filler_named(Draft& draft, int role, const Word& word, const std::string& pa
   if (i >= 0 && std::find(wanted.fillers.begin(), wanted.fillers.end(), i) != wanted.fillers.end()) return i;
   if (taken_away(draft, name, word.where, path.empty() ? "--role" : path)) return -1;
   const ComponentText* known = draft.text.component(name);
-  std::string why;
+  Diagnostic why;
   if (known && draft.is_out(*known))
     why = not_there(draft, name);
+  else if (known && known->fills.empty())
+    why = graph_messages::role_not_filled_by(name, wanted.name, choices_text("", fillers));
   else if (known)
-    why = name +
-          (known->fills.empty() ? " does not fill " : " fills " + join(texts_of(known->fills)) + ", not ") +
-          wanted.name + "." + choices_text("", fillers);
+    why = graph_messages::role_filled_by_other(name, join(texts_of(known->fills)), wanted.name,
+                                               choices_text("", fillers));
   else
-    why =
-        "there is no component '" + name + "' that fills " + wanted.name + "." + choices_text(name, fillers);
-  draft.report.add(word.where, path.empty() ? why : path + ": " + why);
+    why = graph_messages::filler_unknown(name, wanted.name, choices_text(name, fillers));
+  draft.report.add(word.where, located(path, why));
   return -1;
 }
 
@@ -53,7 +54,7 @@ std::vector<int> chosen_by_command(Draft& draft) {
     const Where where{"--role " + role + "=" + component, 0};
     const int r = draft.role(role);
     if (r < 0)
-      draft.report.add(where, no_such("there is no role", role, draft.roles));
+      draft.report.add(where, no_such("role", role, draft.roles));
     else
       nth(chosen, r) = filler_named(draft, r, {component, where}, "");
   }
@@ -78,14 +79,11 @@ std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, cons
       read_param(*param, entry.value, path + "." + entry.key, item.value, draft.files, draft.report);
       overlay.push_back(std::move(item));
     } else if (!replaced && !param) {
-      draft.report.add(entry.where(), path + ": " + candidate.name + " has no parameter '" + entry.key +
-                                          "'." + choices_text(entry.key, live));
+      draft.report.add(entry.where(),
+                       located(path, graph_messages::phase_parameter_unknown(candidate.name, entry.key,
+                                                                             choices_text(entry.key, live))));
     } else if (!replaced) {
-      draft.report.add(
-          entry.where(),
-          path + "." + entry.key +
-              ": is fixed when the flight begins; a phase can set live parameters alone. Live: " +
-              join(live) + ".");
+      draft.report.add(entry.where(), graph_messages::phase_parameter_fixed(path, entry.key, join(live)));
     }
   }
   return overlay;
@@ -98,10 +96,7 @@ void read_vehicle_overlay(Draft& draft, const AssignmentText& text, const std::s
   const int named = text.use.text.empty() ? usual : draft.candidate(text.use.text);
   const bool flies = named >= 0 && (named == usual || named == seated);
   if (!flies || !text.fallback.text.empty() || text.set.is(Node::Kind::missing))
-    return draft.report.add(text.where,
-                            path +
-                                ": the vehicle does not change in flight; choose it with io or with --role "
-                                "vehicle=NAME. A phase can 'set' live parameters of the one that flies");
+    return draft.report.add(text.where, located(path, graph_messages::phase_vehicle_fixed()));
   for (const int component : {named, seated})
     assignment.set =
         read_overlay(draft, nth(draft.candidates, component), text.set, path + ".set", component != named);
@@ -118,8 +113,7 @@ void read_assignment(Draft& draft, const AssignmentText& text, const std::string
   const int fallback =
       text.fallback.text.empty() ? -1 : filler_named(draft, role, text.fallback, path + ".fallback");
   if (fallback >= 0 && fallback == use)
-    draft.report.add(text.fallback.where, path + ".fallback: " + text.fallback.text +
-                                              " is the component that fills the role already");
+    draft.report.add(text.fallback.where, graph_messages::fallback_already_active(path, text.fallback.text));
   assignment.component = seated >= 0 ? seated : use;
   if (fallback != assignment.component) assignment.fallback = fallback;
   const auto overlay = [&](int component) {
@@ -176,7 +170,7 @@ class Seating {
       return;
     const int other = in_its_way(wanted, seats_);
     if (other < 0) return seat(wanted);
-    draft_.report.add(text.where, phase_path(phase_) + "." + text.role + ": " + not_together(wanted, other));
+    draft_.report.add(text.where, located(phase_path(phase_) + "." + text.role, not_together(wanted, other)));
   }
 
   void seat_by_order(int role) {
@@ -185,14 +179,15 @@ class Seating {
       if (in_its_way(f, seats_) < 0) return seat(f);
   }
 
-  std::string not_together(int one, int other) const {
-    const auto words = [&](int candidate) {
+  Diagnostic not_together(int one, int other) const {
+    const auto filled = [&](int candidate) {
       std::string text;
       for (const int r : roles_of(candidate))
         text += (text.empty() ? "" : " and ") + nth(draft_.roles, r).name;
-      return nth(draft_.candidates, candidate).name + " fills " + text;
+      return text;
     };
-    return words(one) + ", " + words(other) + "; they cannot fly together";
+    return graph_messages::components_share_roles(nth(draft_.candidates, one).name, filled(one),
+                                                  nth(draft_.candidates, other).name, filled(other));
   }
 
   Draft& draft_;
@@ -212,8 +207,9 @@ void complete_group(Draft& draft, const PhaseText& phase, int group, std::vector
     falls_back = falls_back || a.fallback >= 0;
     if (a.set.empty()) continue;
     if (set)
-      draft.report.add(phase.where, phase_path(phase) + ": 'set' of " + nth(draft.candidates, group).name +
-                                        " is there twice; one of its roles is enough");
+      draft.report.add(
+          phase.where,
+          located(phase_path(phase), graph_messages::phase_set_repeated(nth(draft.candidates, group).name)));
     set = &a.set;
   }
   const std::vector<Overlay> shared = set ? *set : std::vector<Overlay>();

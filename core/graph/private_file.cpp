@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/graph/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -25,7 +26,7 @@ fs::path real_path(const fs::path& file) {
 struct stat status_of(const fs::path& path) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0)
-    throw Error(path.string() + " cannot be looked at: " + std::strerror(errno));
+    throw Error(graph_messages::path_not_accessible(path.string(), std::strerror(errno)));
   return info;
 }
 
@@ -39,8 +40,7 @@ bool is_trusted_owner(uid_t owner) {
 void check_folder(const fs::path& folder, const std::string& name) {
   const struct stat info = status_of(folder);
   if ((info.st_mode & S_IWOTH) != 0 && (info.st_mode & S_ISVTX) == 0)
-    throw Error(name + " is not loaded: everybody may replace files in its folder; chmod o-w " +
-                folder.string());
+    throw Error(graph_messages::folder_not_private(name, folder.string()));
 }
 
 }  // namespace
@@ -49,11 +49,9 @@ void check_private_file(const fs::path& file) {
   const fs::path path = real_path(file);
   const std::string name = file.filename().string();
   const struct stat info = status_of(path);
-  if ((info.st_mode & S_IWOTH) != 0)
-    throw Error(name + " is not loaded: everybody may write to it; chmod o-w " + path.string());
+  if ((info.st_mode & S_IWOTH) != 0) throw Error(graph_messages::file_not_private(name, path.string()));
   if (!is_trusted_owner(info.st_uid))
-    throw Error(name + " is not loaded: it belongs to the user " + std::to_string(info.st_uid) +
-                ", neither to you nor to root; chown it: " + path.string());
+    throw Error(graph_messages::file_owner_foreign(name, info.st_uid, path.string()));
   check_folder(path.parent_path(), name);
 }
 

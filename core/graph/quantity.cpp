@@ -9,6 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/graph/messages.hpp"
+
 namespace fulmar::core {
 namespace {
 
@@ -238,7 +240,7 @@ bool needs_no_unit(const PhysicalUnit& unit, const std::string& text) {
 
 std::string how_to_write(const PhysicalUnit& unit) {
   const Measure* entry = named(unit);
-  return entry ? std::string(entry->name) + " is written with " + entry->examples : "";
+  return entry ? graph_messages::unit_examples(entry->name, entry->examples).line() : "";
 }
 
 /// The unit that was written, as SI; "g" is the gram where a mass is wanted.
@@ -249,7 +251,8 @@ PhysicalUnit written_unit(const Quantity& quantity, const std::string& unit,
                            : parse_unit(quantity.unit);
   if (written) return *written;
   const std::string hint = wanted ? how_to_write(*wanted) : "write " + unit;
-  throw Error(quantity.text + ": unknown unit '" + quantity.unit + "'" + (hint.empty() ? "" : "; " + hint));
+  throw Error(
+      located(quantity.text, graph_messages::unit_unknown(quantity.unit, hint.empty() ? "" : "; " + hint)));
 }
 
 }  // namespace
@@ -275,12 +278,12 @@ Quantity parse_quantity(std::string_view text) {
   text = trimmed(text);
   quantity.text = std::string(text);
   std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
-  if (names_no_number(digits)) throw Error(quantity.text + " is not a finite number");
+  if (names_no_number(digits)) throw Error(graph_messages::number_not_finite(quantity.text));
   const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), quantity.number);
   if (code == std::errc::result_out_of_range)
-    throw Error(quantity.text + " is too large or too small for a number");
-  if (code != std::errc{} || end == digits.data()) throw Error("'" + quantity.text + "' is not a number");
-  if (!std::isfinite(quantity.number)) throw Error(quantity.text + " is not a finite number");
+    throw Error(graph_messages::number_not_representable(quantity.text));
+  if (code != std::errc{} || end == digits.data()) throw Error(graph_messages::number_invalid(quantity.text));
+  if (!std::isfinite(quantity.number)) throw Error(graph_messages::number_not_finite(quantity.text));
   quantity.unit = std::string(trimmed(digits.substr(static_cast<std::size_t>(end - digits.data()))));
   return quantity;
 }
@@ -289,19 +292,19 @@ double convert(const Quantity& quantity, const std::string& unit, UnitRule rule)
   const auto wanted = parse_unit(unit);
   if (quantity.unit.empty()) {
     if (rule == UnitRule::required && wanted && !needs_no_unit(*wanted, unit))
-      throw Error(quantity.text + " has no unit; " + how_to_write(*wanted));
+      throw Error(graph_messages::unit_missing(quantity.text, how_to_write(*wanted)));
     return quantity.number;
   }
   if (quantity.unit == unit) return quantity.number;
   const PhysicalUnit written = written_unit(quantity, unit, wanted);
-  if (!wanted) throw Error(quantity.text + ": the unit here is " + unit);
+  if (!wanted) throw Error(located(quantity.text, graph_messages::unit_not_accepted(unit)));
   if (written.dimension != wanted->dimension) {
     const std::string is = dimension_name(written), is_not = dimension_name(*wanted);
-    throw Error(quantity.text + " is " + (is.empty() ? "" : is + ", ") + "not " +
-                (is_not.empty() ? "in " + unit : is_not));
+    throw Error(graph_messages::dimension_differs(quantity.text, is.empty() ? "" : is + ", ",
+                                                  is_not.empty() ? "in " + unit : is_not));
   }
   const double value = (quantity.number * written.factor + written.offset - wanted->offset) / wanted->factor;
-  if (!std::isfinite(value)) throw Error(quantity.text + " is too large for a number");
+  if (!std::isfinite(value)) throw Error(graph_messages::number_too_large(quantity.text));
   return value;
 }
 
@@ -324,9 +327,11 @@ void check_range(const Quantity& quantity, double value, const std::string& unit
   const bool degrees =
       quantity.unit.empty() && !in_degrees.empty() && radians >= min && radians <= max && value != 0;
   const std::string hint = degrees ? ". Did you mean " + quantity.text + " " + in_degrees + "?" : "";
-  if (!std::isfinite(max)) throw Error(quantity.text + " is below " + in_shown(min) + tail + hint);
-  if (!std::isfinite(min)) throw Error(quantity.text + " is above " + in_shown(max) + tail + hint);
-  throw Error(quantity.text + " is outside " + in_shown(min) + " .. " + in_shown(max) + tail + hint);
+  if (!std::isfinite(max))
+    throw Error(graph_messages::value_too_small(quantity.text, in_shown(min), tail, hint));
+  if (!std::isfinite(min))
+    throw Error(graph_messages::value_too_large(quantity.text, in_shown(max), tail, hint));
+  throw Error(graph_messages::value_out_of_range(quantity.text, in_shown(min), in_shown(max), tail, hint));
 }
 
 std::optional<Suffixed> split_suffix(const std::string& name) {

@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 
+#include "core/graph/messages.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/types/named.hpp"
 
@@ -48,8 +49,7 @@ class Filler {
                    const std::vector<std::string>& also) {
     if (node.is(Node::Kind::sequence) && is_tuple(type)) return fill_tuple(type, node, data, place);
     if (!node.is(Node::Kind::map))
-      return fault(node, place.path,
-                   "expected a map with the fields of " + type.name + ", found " + found_words(node));
+      return fault(node, place.path, graph_messages::record_map_expected(type.name, found_words(node)));
     std::map<const Field*, std::string> seen;
     for (const Node::Entry& entry : node.entries) {
       if (std::find(also.begin(), also.end(), entry.key) != also.end()) continue;
@@ -57,8 +57,7 @@ class Filler {
       const Field* field = field_for(type, entry, place, also);
       if (!field) continue;
       if (const auto [first, is_new] = seen.try_emplace(field, entry.key); !is_new)
-        report_.add(entry.where(),
-                    path + ": the same field as '" + first->second + "', which is given above");
+        report_.add(entry.where(), located(path, graph_messages::field_repeated(first->second)));
       fill_field(*field, entry.value, data + field->offset, place_of(*field, entry.key, path, place));
     }
   }
@@ -81,8 +80,8 @@ class Filler {
       return indexed ? fill_element(*field, node, at, inside) : fill_field(*field, node, at, inside);
     if (field->kind != FULMAR_STRUCT || (field->shape != FULMAR_SCALAR && !indexed))
       return fault(node, path,
-                   field->shape != FULMAR_SCALAR ? "is a list; name one of its items, as in " + path + "[0]"
-                                                 : std::string("has no parts"));
+                   field->shape != FULMAR_SCALAR ? graph_messages::item_index_missing(path)
+                                                 : graph_messages::field_without_parts());
     fill_path(*field->type, rest.substr(dot + 1), node, at, inside);
   }
 
@@ -92,9 +91,8 @@ class Filler {
     if (!is_a(Node::Kind::sequence, node, place.path, "a list of " + size_words(field), report_)) return;
     const std::size_t n = node.items.size();
     if (list ? n > field.count : n != field.count)
-      return fault(
-          node, place.path,
-          std::to_string(n) + (n == 1 ? " item" : " items") + ", but this is a list of " + size_words(field));
+      return fault(node, place.path,
+                   graph_messages::item_count_invalid(n, n == 1 ? " item" : " items", size_words(field)));
     if (list) put(at, static_cast<std::uint32_t>(n));
     std::byte* item = list ? at + field.items : at;
     for (std::size_t i = 0; i < n; ++i) {
@@ -110,7 +108,7 @@ class Filler {
   void check_whole(const Type& type, const Node& item, const std::string& path) {
     if (!item.is(Node::Kind::map)) return;
     if (const std::vector<std::string> missing = missing_in_record(type, item); !missing.empty())
-      fault(item, path, "this is no whole " + type.name + ", missing: " + join(missing));
+      fault(item, path, graph_messages::item_incomplete(type.name, join(missing)));
   }
 
   void check_rising(const Field& field, const Node& node, const std::byte* item, const std::string& path) {
@@ -121,9 +119,10 @@ class Filler {
       std::memcpy(&value, item + i * field.stride, sizeof value);
       if (value > before) continue;
       return fault(node.items[i], path + "[" + std::to_string(i) + "]",
-                   "the list has to rise, and " + std::string(trimmed(node.items[i].text)) +
-                       (value == before ? " is there twice"
-                                        : " comes after " + std::string(trimmed(node.items[i - 1].text))));
+                   graph_messages::list_not_rising(
+                       trimmed(node.items[i].text),
+                       value == before ? " is there twice"
+                                       : " comes after " + std::string(trimmed(node.items[i - 1].text))));
     }
   }
 
@@ -142,14 +141,13 @@ class Filler {
     if (field.shape == FULMAR_LIST) std::memcpy(&n, at, sizeof n);
     const auto [end, code] = std::from_chars(index.data() + 1, index.data() + index.size(), i);
     if (code != std::errc{} || std::string_view(end, index.data() + index.size()) != "]")
-      fault(node, path, "'" + index + "' is no place in a list, as in [0]");
+      fault(node, path, graph_messages::item_index_invalid(index));
     else if (field.shape == FULMAR_SCALAR)
-      fault(node, path, "'" + field.name + "' is no list");
+      fault(node, path, graph_messages::field_not_list(field.name));
     else if (i >= n)
       fault(node, path,
-            n == 0 ? "the list is empty"
-                   : "the list has " + std::to_string(n) + (n == 1 ? " item" : " items") +
-                         ", counted from [0] to [" + std::to_string(n - 1) + "]");
+            n == 0 ? graph_messages::list_empty()
+                   : graph_messages::item_index_excessive(n, n == 1 ? " item" : " items", n - 1));
     else
       return (field.shape == FULMAR_LIST ? at + field.items : at) + i * field.stride;
     return nullptr;
@@ -192,13 +190,12 @@ class Filler {
     const std::string near = near_words(entry.key, shorter);
     const std::string prefix = place.path.empty() ? "" : place.path + ": ";
     if (same.size() > 1)
-      report_.add(entry.where(),
-                  prefix + "'" + entry.key + "' could be any of " + join(same) + "; write the full name");
+      report_.add(entry.where(), graph_messages::field_ambiguous(prefix, entry.key, join(same)));
     else
-      report_.add(entry.where(),
-                  prefix + "unknown field '" + entry.key + "' of " + type.name + "." +
-                      (near.empty() ? choices_text(entry.key, names)
-                                    : " Did you mean " + near + "?" + choices_text("", names)));
+      report_.add(entry.where(), graph_messages::field_unknown(
+                                     prefix, entry.key, type.name,
+                                     near.empty() ? choices_text(entry.key, names)
+                                                  : " Did you mean " + near + "?" + choices_text("", names)));
     return nullptr;
   }
 
@@ -241,7 +238,7 @@ class Filler {
     if (!value) return;
     if (field.kind == FULMAR_F64) return put(at, *value);
     if (std::abs(*value) > std::numeric_limits<float>::max())
-      return fault(node, place.path, std::string(trimmed(node.text)) + " is too large for this field");
+      return fault(node, place.path, graph_messages::value_exceeds_field(trimmed(node.text)));
     put(at, static_cast<float>(*value));
   }
 
@@ -253,10 +250,10 @@ class Filler {
     if (!scaled && code == std::errc{} && end == text.data() + text.size()) return put(at, exact);
     constexpr double lowest = static_cast<double>(std::numeric_limits<T>::lowest());
     const double above = std::ldexp(1.0, std::numeric_limits<T>::digits);
-    if (value != std::floor(value)) throw Error(text + " is not a whole number");
+    if (value != std::floor(value)) throw Error(graph_messages::integer_invalid(text));
     if (value < lowest || value >= above)
-      throw Error(text + " is outside " + std::to_string(std::numeric_limits<T>::lowest()) + " .. " +
-                  std::to_string(std::numeric_limits<T>::max()));
+      throw Error(graph_messages::integer_out_of_range(text, std::numeric_limits<T>::lowest(),
+                                                       std::numeric_limits<T>::max()));
     put(at, static_cast<T>(value));
   }
 
@@ -274,12 +271,12 @@ class Filler {
           put_integer<decltype(was)>(at, quantity.text, value, scaled);
       });
     } catch (const Error& error) {
-      fault(node, place.path, error.what());
+      fault(node, place.path, error.diagnostic);
     }
   }
 
-  void fault(const Node& node, const std::string& path, const std::string& sentence) {
-    report_.add(node.where(), path.empty() ? sentence : path + ": " + sentence);
+  void fault(const Node& node, const std::string& path, const Diagnostic& message) {
+    report_.add(node.where(), located(path, message));
   }
 
   Report& report_;

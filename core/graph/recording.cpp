@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/graph/messages.hpp"
 #include "core/graph/mission.hpp"
 #include "core/graph/quantity.hpp"
 
@@ -15,10 +16,10 @@ namespace {
 std::int64_t period_of(const std::string& rate, const std::string& option) try {
   if (rate == "all") return 0;
   const double hz = quantity_in(rate, "Hz", UnitRule::required);
-  if (!(hz >= 1e-3 && hz <= 1e6)) throw Error("a rate is from 0.001 to 1e6 Hz");
+  if (!(hz >= 1e-3 && hz <= 1e6)) throw Error(graph_messages::record_rate_invalid());
   return std::llround(1e9 / hz);
 } catch (const Error& fault) {
-  throw Error(option + ": " + fault.what() + "; give all, nav.*, or nav.*,outer.attitude@100Hz");
+  throw Error(located(option, graph_messages::record_pattern_invalid(fault.what())));
 }
 
 std::vector<std::string> keys_of(const Node& map) {
@@ -86,8 +87,7 @@ std::uint64_t parse_bytes(const std::string& text, const Where& where, const std
   for (const auto& [name, factor] : {std::pair{"kB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}})
     if (code == std::errc{} && unit == name && number > 0 && number <= 1e6)
       return static_cast<std::uint64_t>(number * factor);
-  report.add(where,
-             path + ": '" + text + "' is no amount of memory; write it with kB, MB or GB, as in 64 MB");
+  report.add(where, located(path, graph_messages::memory_size_invalid(text)));
   return 0;
 }
 
@@ -114,7 +114,7 @@ void add_record_options(MissionText& mission, const std::vector<std::string>& op
         from = comma + 1;
       }
     } catch (const Error& fault) {
-      report.add({option, 0}, fault.what());
+      report.add({option, 0}, fault.diagnostic);
     }
   }
   if (mission.record_rules.empty()) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 #include "core/graph/private_file.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/graph/shipped.hpp"
@@ -13,10 +14,10 @@
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
-std::string not_there(const Draft& draft, const std::string& name) {
+Diagnostic not_there(const Draft& draft, const std::string& name) {
   if (const ComponentText* out = draft.text.component(name); out && draft.is_out(*out))
-    return name + " exists only with io: " + io_word(*out->only);
-  return no_such("there is no component", name, draft.candidates);
+    return graph_messages::component_of_other_io(name, io_word(*out->only));
+  return no_such("component", name, draft.candidates);
 }
 
 bool taken_away(Draft& draft, const std::string& name, const Where& where, const std::string& path) {
@@ -26,7 +27,7 @@ bool taken_away(Draft& draft, const std::string& name, const Where& where, const
 void report(Draft& draft, const Where& where, const std::string& path, const Error& fault) {
   const auto* const gone = dynamic_cast<const NoOwner*>(&fault);
   if (!gone || !taken_away(draft, gone->owner, where, path))
-    draft.report.add(where, path + ": " + fault.what());
+    draft.report.add(where, located(path, fault.diagnostic));
 }
 
 bool provided(const Graph& graph, const Source& source) {
@@ -61,21 +62,22 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
     candidate.plugin = found.info;
     candidate.library = found.library;
     const auto& components = found.info->components;
-    if (components.empty()) throw Error(plugin + " holds no component");
+    if (components.empty()) throw Error(graph_messages::plugin_without_components(plugin));
     if (!unnamed.empty() && index_named(components, component) < 0) {
       if (components.size() > 1)
-        throw Error(no_such("the plugin " + unnamed + " has no component", component, components) +
-                    " Name one, as in --with " + text.name + "=" + unnamed + "/" + components[0].name);
+        throw Error(graph_messages::plugin_component_unknown(
+            has_no("the plugin " + unnamed, "component", component, components), text.name, unnamed,
+            components[0].name));
       component.clear();
     }
     if (!component.empty())
-      candidate.index_in_plugin = static_cast<std::size_t>(
-          require_named(components, component, "the plugin " + plugin + " has no component"));
+      candidate.index_in_plugin =
+          static_cast<std::size_t>(require_named(components, component, "the plugin " + plugin, "component"));
     const std::string stem = fs::path(found.info->file).stem().string();
     candidate.use = (stem.empty() ? plugin : stem) + "/" + candidate.info().name;
     candidate.loaded = true;
   } catch (const Error& fault) {
-    draft.report.add(text.use.where, path + ": " + fault.what());
+    draft.report.add(text.use.where, located(path, fault.diagnostic));
   }
 }
 
@@ -83,8 +85,7 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
   for (const RoleText& text : draft.text.roles) {
     draft.roles.push_back({&text, text.name, {}, {}});
     if (draft.text.component(text.name))
-      draft.report.add(text.where,
-                       "roles." + text.name + ": there is a component of that name too; rename one of them");
+      draft.report.add(text.where, graph_messages::role_name_taken(text.name));
   }
   for (const ComponentText& text : draft.text.components) {
     if (draft.is_out(text)) continue;
@@ -96,15 +97,15 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
       const int role = draft.role(fills.text);
       if (role < 0 && !taken_away(draft, fills.text, fills.where, "components." + text.name + ".fills"))
         draft.report.add(fills.where,
-                         no_such("components." + text.name + ": there is no role", fills.text, draft.roles));
+                         located("components." + text.name, no_such("role", fills.text, draft.roles)));
       else if (role >= 0)
         candidate.roles.push_back(role);
     }
     std::sort(candidate.roles.begin(), candidate.roles.end());
     if (text.rate_hz > draft.text.rate_hz * (1 + 1e-9))
-      draft.report.add(text.where_rate, "components." + text.name + ".rate: " + number_text(text.rate_hz) +
-                                            " Hz is above the mission's rate of " +
-                                            number_text(draft.text.rate_hz) + " Hz");
+      draft.report.add(text.where_rate,
+                       graph_messages::component_rate_too_high(text.name, number_text(text.rate_hz),
+                                                               number_text(draft.text.rate_hz)));
     draft.candidates.push_back(std::move(candidate));
   }
 }
@@ -154,15 +155,14 @@ void run_mode(Draft& draft, Candidate& candidate) {
   candidate.run = text.run.value_or(foreign ? RunMode::process : RunMode::tick);
   const std::string path = "components." + text.name;
   if (info.vehicle && candidate.run != RunMode::tick)
-    draft.report.add(text.where, path + ".run: a vehicle runs in the loop; it has 'run: tick' alone");
+    draft.report.add(text.where, graph_messages::vehicle_run_invalid(path));
   if (candidate.run == RunMode::driver) {
     for (const Port& port : info.outputs)
       if (port.kind != FULMAR_OUT_QUEUE && port.kind != FULMAR_OUT_PROBE)
-        draft.report.add(text.where, path + ".run: a driver's outputs are queues; '" + port.name + "' of " +
-                                         candidate.use + " is not one");
+        draft.report.add(text.where, graph_messages::driver_output_invalid(path, port.name, candidate.use));
     if (!info.inputs.empty())
-      draft.report.add(text.where, path + ".run: a driver has no inputs; " + candidate.use + " has '" +
-                                       info.inputs[0].name + "'");
+      draft.report.add(text.where,
+                       graph_messages::driver_with_input(path, candidate.use, info.inputs[0].name));
   }
 }
 
@@ -170,10 +170,9 @@ void run_mode(Draft& draft, Candidate& candidate) {
 void check_names(Draft& draft, const Candidate& candidate) {
   const auto check = [&](const char* what, const std::string& name) {
     if (name.size() < name_room) return;
-    draft.report.add(candidate.where, "components." + candidate.name + ": the " + what + " '" + name +
-                                          "' of " + candidate.use + " has " + std::to_string(name.size()) +
-                                          " characters; a name has " + std::to_string(name_room - 1) +
-                                          " at most");
+    draft.report.add(candidate.where,
+                     graph_messages::plugin_name_too_long(candidate.name, what, name, candidate.use,
+                                                          name.size(), name_room - 1));
   };
   for (const Port& port : candidate.info().inputs) check("input", port.name);
   for (const ParamInfo& param : candidate.info().params) check("parameter", param.name);
@@ -267,8 +266,9 @@ void check_record_rules(Draft& draft, const std::vector<std::string>& ports) {
     if (taken_away(draft, pattern.substr(0, pattern.find('.')), draft.text.tap.record[i], "record.ports"))
       continue;
     const std::string near = nearest(pattern, ports);
-    draft.report.add(draft.text.tap.record[i], "record.ports: '" + pattern + "' matches no port." +
-                                                   (near.empty() ? "" : " Did you mean '" + near + "'?"));
+    draft.report.add(
+        draft.text.tap.record[i],
+        graph_messages::record_port_unknown(pattern, near.empty() ? "" : " Did you mean '" + near + "'?"));
   }
 }
 
@@ -277,10 +277,9 @@ void read_control(Draft& draft) {
     const int role = draft.role(word.text);
     if (role < 0 && taken_away(draft, word.text, word.where, "control")) continue;
     if (role < 0)
-      draft.report.add(word.where, no_such("control: there is no role", word.text, draft.roles));
+      draft.report.add(word.where, located("control", no_such("role", word.text, draft.roles)));
     else if (role == draft.role("vehicle"))
-      draft.report.add(word.where,
-                       "control: the vehicle obeys or not; name the roles whose outputs lead to it");
+      draft.report.add(word.where, graph_messages::control_role_invalid());
     else
       draft.graph.control.push_back(role);
   }
@@ -340,10 +339,9 @@ void admit_again(const fs::path& plugin, const Overrides& overrides) {
   const std::string sha256 = sha256_file(plugin);
   const bool flew =
       std::find(overrides.flown.begin(), overrides.flown.end(), sha256) != overrides.flown.end();
-  throw Error(plugin.string() +
-              (flew ? " is what flew, says the log, but is not of the installation"
-                    : " is not what flew: its SHA-256 is " + sha256) +
-              "; --with flies it all the same");
+  throw Error(graph_messages::plugin_not_admitted(
+      plugin.string(), flew ? " is what flew, says the log, but is not of the installation"
+                            : " is not what flew: its SHA-256 is " + sha256));
 }
 
 }  // namespace

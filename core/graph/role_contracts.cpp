@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -21,11 +22,9 @@ bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler
   const Where& where = filler.text->fills.front().where;
   bool keeps = true;
   if (role.name == "vehicle" && !info.vehicle)
-    draft.report.add(where,
-                     path + filler.use + " is not a vehicle: it has 'step' in place of 'read' and 'write'");
+    draft.report.add(where, graph_messages::vehicle_expected(path, filler.use));
   if (role.name != "vehicle" && info.vehicle)
-    draft.report.add(
-        where, path + filler.use + " is a vehicle and can fill only the role vehicle, not " + role.name);
+    draft.report.add(where, graph_messages::vehicle_role_invalid(path, filler.use, role.name));
   for (const RoleOutText& out : role.text->out) {
     const Port* const port = find_named(info.outputs, out.name);
     if (!port && out.optional) continue;
@@ -33,8 +32,7 @@ bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler
     const std::string has =
         !port ? "; it has " + join(output_words(info))
               : "; its '" + out.name + "' is " + (port->type ? port->type->name : "a probe");
-    draft.report.add(where, path + "the role " + role.name + " wants an output '" + out.name + "' of type " +
-                                out.type + has);
+    draft.report.add(where, graph_messages::role_output_missing(path, role.name, out.name, out.type, has));
     keeps = false;
   }
   return keeps;
@@ -57,9 +55,9 @@ TypePtr common_type(Draft& draft, const RoleDraft& role, const RoleOutText& out)
   for (std::size_t i = 1; i < given.size(); ++i) {
     const std::string fault = incompatibility(*given[i].second, *given[0].second);
     if (fault.empty()) continue;
-    draft.report.add(given[i].first->text->where, "components." + given[i].first->name + ": its '" +
-                                                      out.name + "' differs from that of " +
-                                                      given[0].first->name + ": " + fault);
+    draft.report.add(
+        given[i].first->text->where,
+        graph_messages::role_output_differs(given[i].first->name, out.name, given[0].first->name, fault));
     break;
   }
   return given.empty() ? nullptr : given[0].second;
@@ -88,8 +86,8 @@ void resolve_roles(Draft& draft) {
     std::string why = "; write 'fills: " + role.name + "' at one";
     for (const ComponentText& text : draft.text.components)
       if (text.fills_role(role.name))
-        why = " with io: " + io_word(draft.text.io) + "; " + not_there(draft, text.name);
-    draft.report.add(role.text->where, "roles." + role.name + ": no component fills it" + why);
+        why = " with io: " + io_word(draft.text.io) + "; " + not_there(draft, text.name).text;
+    draft.report.add(role.text->where, graph_messages::role_not_filled(role.name, why));
   }
 }
 
@@ -100,7 +98,7 @@ void check_groups(Draft& draft) {
     const std::string path = "components." + group.name + ".fills: ";
     const Where& where = group.text->fills.front().where;
     if (group.fills(draft.role("vehicle")))
-      draft.report.add(where, path + "the vehicle fills the role vehicle alone");
+      draft.report.add(where, graph_messages::vehicle_roles_shared(path));
     std::vector<const RoleOutText*> outputs;
     for (const int r : group.roles)
       for (const RoleOutText& out : nth(draft.roles, r).text->out) {
@@ -109,8 +107,7 @@ void check_groups(Draft& draft) {
           return other->name == out.name && !(other->optional && out.optional);
         };
         if (std::any_of(outputs.begin(), outputs.end(), same))
-          draft.report.add(where, path + "two of these roles have an output '" + out.name +
-                                      "'; one component cannot fill both");
+          draft.report.add(where, graph_messages::role_outputs_clash(path, out.name));
         outputs.push_back(&out);
       }
     for (std::size_t k = 0; k < i; ++k) {
@@ -118,9 +115,9 @@ void check_groups(Draft& draft) {
       const bool shares =
           std::any_of(other.roles.begin(), other.roles.end(), [&](int r) { return group.fills(r); });
       if (other.roles.size() > 1 && shares && other.roles != group.roles)
-        draft.report.add(where, path + join(role_names(draft, group)) + " overlap with those of " +
-                                    other.name + ", " + join(role_names(draft, other)) +
-                                    ": components that share roles fill the same ones, or one alone");
+        draft.report.add(where,
+                         graph_messages::role_groups_overlap(path, join(role_names(draft, group)), other.name,
+                                                             join(role_names(draft, other))));
     }
   }
 }
@@ -134,8 +131,8 @@ void choose_vehicle(Draft& draft) {
   }
   const Where where{draft.text.file->name, 0};
   if (vehicles.empty() && !unclear && draft.role("vehicle") < 0)
-    draft.report.add(where, "no component is a vehicle; a mission needs one, such as use: sim_aero");
-  if (vehicles.size() > 1) draft.report.add(where, "a mission has one vehicle; here are " + join(vehicles));
+    draft.report.add(where, graph_messages::vehicle_missing());
+  if (vehicles.size() > 1) draft.report.add(where, graph_messages::vehicles_repeated(join(vehicles)));
 }
 
 }  // namespace fulmar::core

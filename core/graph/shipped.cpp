@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/graph/messages.hpp"
 #include "core/loader/home.hpp"
 
 namespace fulmar::core {
@@ -68,7 +69,7 @@ std::string shipped_name(const fs::path& file) {
 
 std::string file_hint(const fs::path& path, const std::string& name) {
   const fs::path said(name), shipped = shipped_folder();
-  if (is_shipped_name(name) && shipped.empty()) return ": this program is not installed";
+  if (is_shipped_name(name) && shipped.empty()) return graph_messages::program_not_installed().line();
   const std::string stem = said.stem().string();
   if (!is_shipped_name(name)) {
     const std::vector<fs::path> beside =

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/graph/messages.hpp"
+
 namespace fulmar::core {
 
 FilePtr StoredFiles::read(const std::filesystem::path& path, const std::string& name) const {
@@ -14,7 +16,7 @@ FilePtr StoredFiles::read(const std::filesystem::path& path, const std::string& 
     if (!taken && std::filesystem::path(files_[i].first).filename() == key.filename())
       at = known_.emplace(key, i).first;
   }
-  if (at == known_.end()) throw Error("the log holds no file " + name);
+  if (at == known_.end()) throw Error(graph_messages::stored_file_missing(name));
   return std::make_shared<SourceFile>(SourceFile{path, name, files_[at->second].second});
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/graph/draft.hpp"
 #include "core/graph/live_options.hpp"
+#include "core/graph/messages.hpp"
 #include "core/types/text.hpp"
 
 namespace fulmar::core {
@@ -92,16 +93,13 @@ class DdsReader {
     dds.where = node.where();
     if (const auto domain = keys.positive("domain", "", true)) {
       if (*domain > max_domain || std::floor(*domain) != *domain)
-        report_.add(keys.where("domain"),
-                    "dds.domain: expected a whole number from 0 to " + std::to_string(max_domain));
+        report_.add(keys.where("domain"), graph_messages::dds_domain_invalid(max_domain));
       else
         dds.domain = static_cast<int>(*domain);
     }
     dds.name_space = keys.text("namespace").value_or("");
     if (!dds.name_space.empty() && !is_topic(dds.name_space, true))
-      report_.add(
-          keys.where("namespace"),
-          "dds.namespace: expected names with '/' between them such as uav1, found '" + dds.name_space + "'");
+      report_.add(keys.where("namespace"), graph_messages::dds_namespace_invalid(dds.name_space));
     addresses(keys, "interfaces", dds.interfaces);
     if (keys.has("interfaces")) dds.interfaces_where = keys.where("interfaces");
     addresses(keys, "peers", dds.peers);
@@ -118,8 +116,7 @@ class DdsReader {
     for (const Node& item : keys.items(key, "a list of addresses such as [192.168.1.7]")) {
       const auto text = scalar_text(item, "dds." + key, "an address such as 192.168.1.7", report_);
       if (text && !is_ipv4(*text))
-        report_.add(item.where(),
-                    "dds." + key + ": expected an IPv4 address such as 192.168.1.7, found '" + *text + "'");
+        report_.add(item.where(), graph_messages::dds_address_invalid(key, *text));
       else if (text)
         out.push_back(*text);
     }
@@ -134,14 +131,12 @@ class DdsReader {
       e.topic = keys.text("topic").value_or("");
       if (const auto hz = keys.positive("rate", "Hz")) {
         if (*hz < slowest_hz)
-          report_.add(keys.where("rate"), "dds.export.rate: expected at least one in 285 years");
+          report_.add(keys.where("rate"), graph_messages::dds_rate_too_low());
         else
           e.period_ns = std::llround(1e9 / *hz);
       }
       e.best_effort = keys.flag("best_effort").value_or(false);
-      if (!keys.has("port"))
-        report_.add(item.where(),
-                    "dds.export: 'port' is missing, as in {port: nav.state, topic: /state, rate: 50 Hz}");
+      if (!keys.has("port")) report_.add(item.where(), graph_messages::dds_port_missing());
     } else {
       e.port = scalar_text(item, "dds.export",
                            "a port such as nav.state, or {port, topic, rate, best_effort}", report_)
@@ -162,8 +157,7 @@ class DdsReader {
 
   bool topic(const std::string& text, const Where& where, const std::string& path) {
     if (is_topic(text, false)) return true;
-    report_.add(where, path + ": expected a topic such as /nav/state (letters, digits, _ and /), found '" +
-                           text + "'");
+    report_.add(where, located(path, graph_messages::dds_topic_invalid(text)));
     return false;
   }
 
@@ -189,29 +183,22 @@ void read_live(const Keys& mission, MissionText& text, Report& report) {
   text.live.on = true;
   text.live.where = node->where();
   if (const auto listen = keys.text("listen"); listen && !split_address(*listen, text.live))
-    report.add(keys.where("listen"),
-               "live.listen: expected an address and a port such as 127.0.0.1:8765, found '" + *listen + "'");
+    report.add(keys.where("listen"), graph_messages::live_address_invalid(*listen));
   text.live.token = keys.text("token").value_or("");
   text.live.tiles = keys.text("tiles").value_or("");
   text.live.attribution = keys.text("attribution").value_or("");
   if (keys.has("tiles") && !is_tiles(text.live.tiles))
-    report.add(
-        keys.where("tiles"),
-        "live.tiles: expected http:// or https://, a host, and a path with {z}, {x} and {y} once each and "
-        "without blanks, quotes, commas and semicolons, such as https://tile.example.org/{z}/{x}/{y}.png, "
-        "found '" +
-            text.live.tiles + "'");
+    report.add(keys.where("tiles"), graph_messages::live_tiles_invalid(text.live.tiles));
   text.live.save = keys.flag("save");
   if (!text.live.attribution.empty() && text.live.tiles.empty())
-    report.add(keys.where("attribution"), "live.attribution: names whose live.tiles are, and there are none");
+    report.add(keys.where("attribution"), graph_messages::live_tiles_missing());
 }
 
 LiveOptions parse_live(const std::string& listen) {
   LiveOptions live;
   live.where = {"--live " + listen, 0};
   live.on = listen != "off";
-  if (live.on && !split_address(listen, live))
-    throw Error("--live " + listen + ": expected an address and a port such as 127.0.0.1:8765, or off");
+  if (live.on && !split_address(listen, live)) throw Error(graph_messages::live_option_invalid(listen));
   return live;
 }
 
@@ -228,28 +215,27 @@ void mark_imports(Draft& draft) {
     const int index = draft.candidate(import.to.owner);
     if (index < 0) {
       if (!draft.text.component(import.to.owner) && !taken_away(draft, import.to.owner, import.where, path))
-        draft.report.add(import.where, path + ": " + not_there(draft, import.to.owner));
+        draft.report.add(import.where, located(path, not_there(draft, import.to.owner)));
       continue;  // it exists with another io
     }
     Candidate& candidate = nth(draft.candidates, index);
     if (!candidate.loaded) continue;
     const int input = candidate.info().input(import.to.port);
     if (input < 0) {
-      draft.report.add(import.where, path + ": " + candidate.use + " has no such input." +
-                                         choices_text(import.to.port, names_of(candidate.info().inputs)));
+      draft.report.add(
+          import.where,
+          located(path, graph_messages::imported_input_unknown(
+                            candidate.use, choices_text(import.to.port, names_of(candidate.info().inputs)))));
       continue;
     }
     Wire& wire = nth(candidate.wires, input);
     if (nth(candidate.info().inputs, input).kind == FULMAR_IN_REQUEST)
-      draft.report.add(
-          import.where,
-          path +
-              ": this is a request, which others make through a service; a topic feeds a value or a queue");
+      draft.report.add(import.where, located(path, graph_messages::imported_input_invalid()));
     // What the mission imports replaces a wire of the file that it extends: nothing else takes that one out.
     const bool replaces = import.where.file == draft.text.file->name && wire.where.file != import.where.file;
     if (wire.from.kind != Source::Kind::none && !replaces)
-      draft.report.add(import.where, path + ": a wire feeds this input already (" + wire.where.text() +
-                                         "); remove one of the two");
+      draft.report.add(import.where,
+                       located(path, graph_messages::imported_input_connected(wire.where.text())));
     wire.from = {};
     wire.import = static_cast<int>(n);
     if (wire.max_age_ns <= 0) wire.max_age_ns = candidate.text->max_age_ns.value_or(Wire::unsaid);
@@ -294,9 +280,9 @@ void resolve_dds(Draft& draft, const std::vector<std::string>& ports) {
     const auto [at, is_new] = known.try_emplace(name, type, where);
     const auto& [first, first_where] = at->second;
     if (is_new || ros_or_name(*first) == ros_or_name(*type)) return;
-    draft.report.add(where, path + ": the topic " + name + " has the type " + ros_or_name(*first) +
-                                " already (" + first_where.text() + "); it cannot be " + ros_or_name(*type) +
-                                ", too");
+    draft.report.add(
+        where, located(path, graph_messages::dds_type_differs(name, ros_or_name(*first), first_where.text(),
+                                                              ros_or_name(*type))));
   };
   for (const DdsOptions::Import& i : graph.dds.imports) {
     const Component& c = nth(graph.components, i.component);
@@ -308,10 +294,9 @@ void resolve_dds(Draft& draft, const std::vector<std::string>& ports) {
     add(e.topic, type_of_port(graph, e.port), e.where, "dds.export: " + e.port);
     if (std::find(ports.begin(), ports.end(), e.port) == ports.end() &&
         !taken_away(draft, e.port.substr(0, e.port.find('.')), e.where, "dds.export"))
-      draft.report.add(e.where,
-                       "dds.export: there is no port '" + e.port + "'." + choices_text(e.port, ports));
+      draft.report.add(e.where, graph_messages::dds_port_unknown(e.port, choices_text(e.port, ports)));
     if (std::find(topics.begin(), topics.end(), e.topic) != topics.end())
-      draft.report.add(e.where, "dds.export: two ports have the topic " + e.topic);
+      draft.report.add(e.where, graph_messages::dds_topic_repeated(e.topic));
     topics.push_back(e.topic);
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 #include "core/graph/quantity.hpp"
 #include "core/graph/record.hpp"
 
@@ -27,22 +28,21 @@ AirframeSource airframe_source(Draft& draft) {
   const Node& tree = draft.files.tree(file);
   if (tree.is(Node::Kind::map)) return {&tree, file->path.filename().string(), ""};
   if (!tree.is(Node::Kind::missing))
-    draft.report.add(tree.where(),
-                     "expected a map with the fields of an airframe; found " + found_words(tree));
+    draft.report.add(tree.where(), graph_messages::airframe_map_expected(found_words(tree)));
   return {};
 }
 
 /// With the path that is meant when the key is a field of one of the records.
-std::string no_parameter(const Candidate& candidate, const std::string& key, const std::string& path) {
+Diagnostic no_parameter(const Candidate& candidate, const std::string& key, const std::string& path) {
   const ComponentInfo& info = candidate.info();
   const std::string first = key.substr(0, key.find_first_of(".["));
   for (const ParamInfo& param : info.params)
     if (param.kind == FULMAR_RECORD && field_of_key(*param.type, first)) {
       const std::string owner = path == candidate.name ? candidate.name + "." : "";  // --set names it, too
-      return path + ": " + candidate.use + " has no parameter '" + key + "'. Did you mean " + owner +
-             param.name + "." + key + ", a field of the record '" + param.name + "'?";
+      return located(path, graph_messages::parameter_in_record(candidate.use, key,
+                                                               owner + param.name + "." + key, param.name));
     }
-  return no_such(path + ": " + candidate.use + " has no parameter", key, info.params);
+  return located(path, has_no(candidate.use, "parameter", key, info.params));
 }
 
 /// A field of a record is set after the records, wherever it stands: a whole one would take it away again.
@@ -55,8 +55,8 @@ void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::
     if (at.param < 0)
       draft.report.add(entry.where(), no_parameter(candidate, entry.key, path));
     else if (info.vehicle && (entry.key == "rate" || entry.key == "epoch"))
-      draft.report.add(entry.where(), path + "." + entry.key + ": comes from the mission's '" + entry.key +
-                                          "'; set it there");
+      draft.report.add(entry.where(),
+                       graph_messages::mission_parameter_misplaced(path, entry.key, entry.key));
     else if (!at.field.empty())
       fields.emplace_back(&entry, at);
     else
@@ -85,8 +85,8 @@ void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource&
     if (!same_plugin) continue;
     const auto& components = candidate.plugin->components;
     if (!for_component.empty() && !find_named(components, for_component))
-      draft.report.add(entry.where(), no_such(prefix + ": the plugin " + plugin + " has no component",
-                                              for_component, components));
+      draft.report.add(entry.where(), located(prefix, has_no("the plugin " + plugin, "component",
+                                                             for_component, components)));
     if (for_component.empty() ? candidate.index_in_plugin != 0 : for_component != component) continue;
     is_a(Node::Kind::map, entry.value, prefix + "." + entry.key, "a map {parameter: value}", draft.report);
     set_params(draft, candidate, entry.value, prefix + "." + entry.key);
@@ -113,10 +113,9 @@ void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& 
     if (param.name == "rate") {
       value.number[0] = draft.text.rate_hz;
       if (value.number[0] < param.min || value.number[0] > param.max)
-        draft.report.add(candidate.where, "components." + candidate.name + ": the mission's rate of " +
-                                              number_text(draft.text.rate_hz) + " Hz is outside " +
-                                              number_text(param.min) + " .. " + number_text(param.max) +
-                                              " Hz of " + candidate.use);
+        draft.report.add(candidate.where, graph_messages::mission_rate_invalid(
+                                              candidate.name, number_text(draft.text.rate_hz),
+                                              number_text(param.min), number_text(param.max), candidate.use));
     }
     if (param.name == "epoch") value.number[0] = static_cast<double>(draft.text.epoch_ns) * 1e-9;
   }
@@ -128,7 +127,7 @@ void set_from_command(Draft& draft) {
     const auto dot = name.find('.');
     const int i = draft.candidate(name.substr(0, dot));
     if (dot == std::string::npos) {
-      draft.report.add(where, "expected component.parameter=value");
+      draft.report.add(where, graph_messages::assignment_expected());
     } else if (i < 0) {
       if (!taken_away(draft, name.substr(0, dot), where, "--set"))
         draft.report.add(where, not_there(draft, name.substr(0, dot)));
@@ -153,9 +152,9 @@ void check_required(Draft& draft, const Candidate& candidate) {
                                                        : nullptr;
     if (whole && !whole->is(Node::Kind::missing)) continue;  // it was refused: that is told already
     draft.report.add(candidate.where,
-                     "components." + candidate.name + ": the parameter '" + param.name + "' is missing" +
-                         (param.doc.empty() ? "" : " (" + param.doc + ")") +
-                         (whole ? "; give the mission's '" + param.name + "'" : "; give it under params"));
+                     graph_messages::parameter_missing(
+                         candidate.name, param.name, param.doc.empty() ? "" : " (" + param.doc + ")",
+                         whole ? "; give the mission's '" + param.name + "'" : "; give it under params"));
   }
 }
 
@@ -204,8 +203,8 @@ void read_failsafe(Draft& draft) {
       parts[i].entries.push_back(entry);
     }
     if (!known && !draft.report.full())
-      draft.report.add(entry.where(), "failsafe: the vehicle takes no '" + entry.key + "'." +
-                                          choices_text(entry.key, names));
+      draft.report.add(entry.where(),
+                       graph_messages::failsafe_input_unknown(entry.key, choices_text(entry.key, names)));
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].is(Node::Kind::missing)) continue;

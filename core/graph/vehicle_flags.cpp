@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -32,7 +33,7 @@ std::vector<std::string> flag_names(const ComponentInfo& vehicle) {
 
 std::string flags_text(const ComponentInfo& vehicle) {
   const std::vector<std::string> names = flag_names(vehicle);
-  return names.empty() ? " It has no flag in any output." : " Its flags: " + join(names) + ".";
+  return names.empty() ? graph_messages::vehicle_without_flags().line() : " Its flags: " + join(names) + ".";
 }
 
 /// "status.armed", found in the vehicle's outputs. Throws Error with the valid choices.
@@ -40,22 +41,19 @@ VehicleFlag named_flag(const Graph& graph, const std::string& text) {
   const Component& vehicle = nth(graph.components, graph.vehicle);
   const ComponentInfo& info = vehicle.info();
   const auto dot = text.find('.');
-  if (dot == std::string::npos)
-    throw Error("expected a field of an output such as status.armed, found '" + text + "'." +
-                flags_text(info));
+  if (dot == std::string::npos) throw Error(graph_messages::flag_name_expected(text, flags_text(info)));
   const std::string port = text.substr(0, dot);
   const int output = info.output(port);
   std::vector<std::string> ports;
   for (const Port& each : info.outputs)
     if (each.type) ports.push_back(each.name);
   if (output < 0 || !nth(info.outputs, output).type)
-    throw Error(vehicle.name + " (" + vehicle.use + ") has no output '" + port + "'." +
-                choices_text(port, ports));
+    throw Error(
+        graph_messages::flag_output_unknown(vehicle.name, vehicle.use, port, choices_text(port, ports)));
   const FieldRef field =
       resolve_field(*nth(info.outputs, output).type, std::string_view(text).substr(dot + 1));
   if (field.field->kind != FULMAR_BOOL)
-    throw Error("'" + text + "' of " + vehicle.use + " is no flag, which is true or false." +
-                flags_text(info));
+    throw Error(graph_messages::field_not_flag(text, vehicle.use, flags_text(info)));
   return {{Source::Kind::component, graph.vehicle, output}, field.offset};
 }
 
@@ -84,11 +82,9 @@ void check_complete(Draft& draft, const std::vector<std::string>& missing) {
   for (const std::string& name : missing) example += (example.empty() ? "" : ", ") + name + ": PORT.FIELD";
   draft.report.add(
       role ? role->where : vehicle.where,
-      std::string(role ? "roles.vehicle" : "components." + vehicle.name) +
-          ": with io: fcu the vehicle has to say whether it is armed, on the ground and in control, and " +
-          vehicle.name + " (" + vehicle.use + ") has no flag " + join(missing) + " in an output '" +
-          usual_port + "'; name its own at the role vehicle, as in flags: {" + example + "}." +
-          flags_text(vehicle.info()));
+      located(std::string(role ? "roles.vehicle" : "components." + vehicle.name),
+              graph_messages::vehicle_flags_missing(vehicle.name, vehicle.use, join(missing), usual_port,
+                                                    example, flags_text(vehicle.info()))));
 }
 
 }  // namespace
@@ -111,7 +107,7 @@ void read_vehicle_flags(Draft& draft) {
         flag = named_flag(graph, word.text);
       } catch (const Error& fault) {
         refused = true;
-        draft.report.add(word.where, "roles.vehicle.flags." + name + ": " + fault.what());
+        draft.report.add(word.where, graph_messages::vehicle_flag_invalid(name, fault.what()));
       }
     }
     if (flag.from.kind == Source::Kind::none && !refused) missing.emplace_back(each.name);

@@ -4,13 +4,14 @@
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 
 namespace fulmar::core {
 namespace {
 
 Target role_target(const Draft& draft, int index, const PortName& name) {
   const RoleDraft& role = nth(draft.roles, index);
-  const int output = require_named(role.text->out, name.port, "the role " + name.owner + " has no output");
+  const int output = require_named(role.text->out, name.port, "the role " + name.owner, "output");
   Target target;
   target.source = {Source::Kind::role, index, output};
   target.type = nth(role.types, output);
@@ -31,8 +32,8 @@ Target component_target(const Draft& draft, int index, const PortName& name) {
   target.source = {Source::Kind::component, index, -1};
   target.unclear = true;
   if (!candidate.loaded) return target;
-  const int output = require_named(candidate.info().outputs, name.port,
-                                   name.owner + " (" + candidate.use + ") has no output");
+  const int output =
+      require_named(candidate.info().outputs, name.port, name.owner + " (" + candidate.use + ")", "output");
   const Port& port = nth(candidate.info().outputs, output);
   target.source.output = output;
   target.type = port.type;
@@ -43,19 +44,17 @@ Target component_target(const Draft& draft, int index, const PortName& name) {
 
 /// Why an output cannot feed an input; "" when it can.
 std::string misfit(const std::string& owner, const Port& input, const PortName& from, const Target& target) {
-  if (target.kind == FULMAR_OUT_PROBE)
-    return from.text() + " is a probe: a number to look at, not a message to wire";
+  if (target.kind == FULMAR_OUT_PROBE) return graph_messages::probe_not_connectable(from.text()).line();
   const std::string reason = incompatibility(*target.type, *input.type);
   if (!reason.empty()) {
     if (target.type->name == input.type->name)
-      return from.text() + " is another " + input.type->name + " than " + owner + "." + input.name +
-             " takes: " + reason;
+      return graph_messages::message_types_differ(from.text(), input.type->name, owner, input.name, reason)
+          .line();
     return owner + "." + input.name + " takes " + input.type->name + ", but " + from.text() + " is " +
            target.type->name;
   }
   if (input.kind == FULMAR_IN_REQUEST && target.kind == FULMAR_OUT_VALUE)
-    return owner + "." + input.name + " is a request, but " + from.text() +
-           " is sent in every step; a request is fed by an output that may stay silent";
+    return graph_messages::request_source_invalid(owner, input.name, from.text()).line();
   return "";
 }
 
@@ -76,8 +75,9 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
     return draft.graph.source.warnings.push_back(text.where.text() + ": " + sentence);
   }
   if (input < 0)
-    return draft.report.add(text.where, path + ": " + candidate.use + " has no such input." +
-                                            choices_text(text.name, names_of(info.inputs)));
+    return draft.report.add(
+        text.where, located(path, graph_messages::imported_input_unknown(
+                                      candidate.use, choices_text(text.name, names_of(info.inputs)))));
   try {
     const Target target = find_target(draft, text.from);
     const std::string fault =
@@ -103,10 +103,7 @@ void connect_by_role(Draft& draft, std::size_t index, const RoleText& role) {
     const Source before = nth(candidate.wires, input).from;
     connect(draft, index, wire, "roles." + role.name + ".in." + wire.name);
     if (before.kind != Source::Kind::none && before != nth(candidate.wires, input).from)
-      draft.report.add(candidate.where, "components." + candidate.name + ": the roles that it fills feed '" +
-                                            wire.name +
-                                            "' from different outputs; write the one that it is to have "
-                                            "under its own 'in'");
+      draft.report.add(candidate.where, graph_messages::role_inputs_conflict(candidate.name, wire.name));
   }
 }
 
@@ -127,8 +124,7 @@ void check_role_wires(Draft& draft, const RoleDraft& role) {
     const bool known = std::find(inputs.begin(), inputs.end(), wire.name) != inputs.end();
     const std::string near = nearest(wire.name, inputs);
     if (!known && !near.empty() && !role.unclear)
-      draft.report.add(wire.where, path + ": no component that fills " + role.name +
-                                       " has such an input. Did you mean '" + near + "'?");
+      draft.report.add(wire.where, located(path, graph_messages::role_input_unknown(role.name, near)));
   }
 }
 
@@ -204,21 +200,19 @@ void check_fed(Draft& draft) {
       const std::string path = "components." + candidate.name + ": the input '" + input.name + "' ";
       if (wire.from.kind == Source::Kind::none) {
         const WireText* const own = find_named(candidate.text->in, input.name);
-        if (own && own->cut)
-          draft.report.add(own->where, path + "cannot do without a wire; write another one in its place");
+        if (own && own->cut) draft.report.add(own->where, graph_messages::input_disconnected(path));
         if (wire.import >= 0 || wire_reported(draft, candidate, input.name)) continue;
         const std::vector<std::string> fitting = proposals(draft, candidate, input);
         draft.report.add(
             candidate.where,
-            path + "is not wired; " +
-                (fitting.empty() ? "there is no output of type " + input.type->name
-                                 : "outputs of type " + input.type->name + ": " + join(fitting)));
+            graph_messages::input_not_connected(
+                path, fitting.empty() ? "there is no output of type " + input.type->name
+                                      : "outputs of type " + input.type->name + ": " + join(fitting)));
       } else if (wire.from.kind == Source::Kind::role && candidate.used) {
         const Role& role = nth(draft.graph.roles, wire.from.index);
         if (provided(draft.graph, wire.from) || nth(draft.roles, wire.from.index).unclear) continue;
-        draft.report.add(wire.where, path + "needs " + role.name + "." +
-                                         nth(role.outputs, wire.from.output).name +
-                                         ", which nobody provides in this run");
+        draft.report.add(wire.where, graph_messages::output_not_provided(
+                                         path, role.name, nth(role.outputs, wire.from.output).name));
       }
     }
   }
@@ -272,10 +266,8 @@ void report_cycle(Draft& draft, const std::vector<std::vector<Edge>>& before, co
   Where where;
   for (const Edge& edge : nth(before, walked.front()))
     if (edge.from == walked.back()) where = edge.where;
-  draft.report.add(where, "the wires form a cycle: " + path +
-                              nth(draft.graph.components, walked.front()).name +
-                              ". Mark one of them, as in {from: nav.state, delayed: true}: it then carries "
-                              "the value of the tick before");
+  draft.report.add(where,
+                   graph_messages::connection_cycle(path, nth(draft.graph.components, walked.front()).name));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -38,8 +39,8 @@ Overrides with_components(const MissionText& text, Overrides overrides, Report& 
       name = fillers.front();
     else
       report.add({"--with " + name + "=" + file, 0},
-                 name + (fillers.empty() ? " is a role that nobody fills"
-                                         : " is a role that " + join(fillers) + " fill; name one of them"));
+                 fillers.empty() ? graph_messages::role_empty(name)
+                                 : graph_messages::role_ambiguous(name, join(fillers)));
   }
   return overrides;
 }

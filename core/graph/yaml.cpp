@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/graph/messages.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/graph/stored_files.hpp"
 
@@ -34,15 +35,15 @@ void Report::opened(const std::string& file) { rank(file); }
 
 bool Report::full() const { return faults_.size() > max_faults; }
 
-void Report::add(const Where& where, const std::string& sentence) {
+void Report::add(const Where& where, Diagnostic message) {
   if (full()) return;
   for (const Fault& fault : faults_)
-    if (fault.where.line == where.line && fault.where.file == where.file && fault.sentence == sentence)
+    if (fault.where.line == where.line && fault.where.file == where.file &&
+        fault.message.line() == message.line())
       return;
-  if (faults_.size() < max_faults) return faults_.push_back({rank(where.file), where, sentence});
+  if (faults_.size() < max_faults) return faults_.push_back({rank(where.file), where, std::move(message)});
   constexpr std::size_t last = std::numeric_limits<std::size_t>::max();
-  faults_.push_back(
-      {last, {where.file, 0}, "there are more faults than these " + std::to_string(max_faults)});
+  faults_.push_back({last, {where.file, 0}, graph_messages::more_faults(max_faults)});
 }
 
 void Report::taken_away(const std::string& name, const Where& where) {
@@ -73,25 +74,27 @@ bool Report::misses(const std::string& prefix) const {
 
 bool Report::empty() const { return faults_.empty() && !misses(""); }
 
-std::string Report::text() const {
+std::vector<Diagnostic> Report::faults() const {
   std::vector<Fault> sorted = faults_;
   for (const Taken& taken : taken_) {
     if (taken.named_by.empty()) continue;
     const auto file = std::find(files_.begin(), files_.end(), taken.where.file);
     sorted.push_back({static_cast<std::size_t>(file - files_.begin()), taken.where,
-                      taken.name + " is taken away here and still named by " + join(taken.named_by)});
+                      graph_messages::still_named(taken.name, join(taken.named_by))});
   }
   std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
     return a.rank != b.rank ? a.rank < b.rank : a.where.line < b.where.line;
   });
-  std::string all;
-  for (const Fault& fault : sorted)
-    all += (all.empty() ? "" : "\n") + fault.where.text() + ": " + fault.sentence;
+  std::vector<Diagnostic> all;
+  all.reserve(sorted.size());
+  for (const Fault& fault : sorted) all.push_back(located(fault.where, fault.message));
   return all;
 }
 
+std::string Report::text() const { return Error(faults()).what(); }
+
 void Report::throw_if_any() const {
-  if (!empty()) throw Error(text());
+  if (!empty()) throw Error(faults());
 }
 
 // ---- tree
@@ -134,11 +137,13 @@ std::string contents_of(int fd, const std::string& name) {
   for (std::string block(1u << 16, '\0'); text.size() <= largest_source;) {
     const ssize_t n = ::read(fd, block.data(), block.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(errno == EAGAIN ? name + " is not a file" : "cannot read " + name);
+    if (n < 0)
+      throw Error(errno == EAGAIN ? graph_messages::not_a_file(name)
+                                  : graph_messages::file_not_readable(name));
     if (n == 0) return text;
     text.append(block.data(), static_cast<std::size_t>(n));
   }
-  throw Error(name + " is larger than 16 MB: too large for a mission, an airframe or a plan");
+  throw Error(graph_messages::file_too_large(name));
 }
 
 }  // namespace
@@ -147,12 +152,12 @@ FilePtr read_source(const std::filesystem::path& path, const std::string& name, 
   if (stored) return stored->read(path, name);
   const OpenFile file(path);
   if (file.fd < 0 && (errno == ENOENT || errno == ENOTDIR))
-    throw Error("there is no file " + name + file_hint(path, name));
+    throw Error(graph_messages::file_missing(name, file_hint(path, name)));
   struct stat status {};
   if (file.fd < 0 || ::fstat(file.fd, &status) != 0)
-    throw Error(errno == ENXIO ? name + " is not a file" : "cannot read " + name);
-  if (S_ISDIR(status.st_mode)) throw Error(name + " is a folder, not a file");
-  if (!S_ISREG(status.st_mode)) throw Error(name + " is not a file");
+    throw Error(errno == ENXIO ? graph_messages::not_a_file(name) : graph_messages::file_not_readable(name));
+  if (S_ISDIR(status.st_mode)) throw Error(graph_messages::file_is_folder(name));
+  if (!S_ISREG(status.st_mode)) throw Error(graph_messages::file_not_regular(name));
   return std::make_shared<SourceFile>(SourceFile{path, name, contents_of(file.fd, name)});
 }
 
@@ -187,14 +192,13 @@ Keys::Keys(const Node& map, std::string path, std::vector<std::string> valid, Re
   const std::string prefix = path_.empty() ? "" : path_ + ": ";
   if (map.is(Node::Kind::missing)) return;
   if (!map.is(Node::Kind::map)) {
-    report_.add(map.where(),
-                prefix + "expected a map with the keys " + join(valid) + "; found " + found_words(map));
+    report_.add(map.where(), graph_messages::map_expected(prefix, join(valid), found_words(map)));
     return;
   }
   for (const Node::Entry& entry : map.entries)
     if (!report_.full() && std::find(valid.begin(), valid.end(), entry.key) == valid.end())
       report_.add(entry.where(),
-                  prefix + "unknown key '" + entry.key + "'." + choices_text(entry.key, valid));
+                  graph_messages::key_unknown(prefix, entry.key, choices_text(entry.key, valid)));
 }
 
 Where Keys::where(const std::string& key) const {
@@ -218,14 +222,14 @@ const std::vector<Node::Entry>& Keys::entries(const std::string& key, const std:
 bool is_a(Node::Kind kind, const Node& node, const std::string& path, const std::string& expected,
           Report& report) {
   if (!node.is(kind))
-    report.add(node.where(), path + ": expected " + expected + ", found " + found_words(node));
+    report.add(node.where(), located(path, graph_messages::value_not_valid(expected, found_words(node))));
   return node.is(kind);
 }
 
 std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected,
                                        Report& report) {
   if (node.is(Node::Kind::scalar) && (node.quoted || !node.text.empty())) return node.text;
-  report.add(node.where(), path + ": expected " + expected + ", found " + found_words(node));
+  report.add(node.where(), located(path, graph_messages::value_not_valid(expected, found_words(node))));
   return std::nullopt;
 }
 
@@ -234,7 +238,7 @@ std::optional<bool> scalar_flag(const Node& node, const std::string& path, Repor
     if (node.text == "true" || node.text == "on" || node.text == "yes") return true;
     if (node.text == "false" || node.text == "off" || node.text == "no") return false;
   }
-  report.add(node.where(), path + ": expected true or false, found " + found_words(node));
+  report.add(node.where(), located(path, graph_messages::flag_expected(found_words(node))));
   return std::nullopt;
 }
 
@@ -244,7 +248,7 @@ std::optional<std::size_t> scalar_word(const Node& node, const std::string& path
   if (!text) return std::nullopt;
   const auto it = std::find(words.begin(), words.end(), *text);
   if (it != words.end()) return static_cast<std::size_t>(it - words.begin());
-  report.add(node.where(), path + ": unknown word '" + *text + "'." + choices_text(*text, words));
+  report.add(node.where(), located(path, graph_messages::io_unknown(*text, choices_text(*text, words))));
   return std::nullopt;
 }
 
@@ -252,8 +256,7 @@ std::optional<std::string> scalar_text_for(std::size_t room, const Node& node, c
                                            Report& report) {
   if (!is_a(Node::Kind::scalar, node, path, "text", report)) return std::nullopt;
   if (node.text.size() < room) return node.text;
-  report.add(node.where(), path + ": text of " + std::to_string(node.text.size()) +
-                               " bytes; there is room for " + std::to_string(room - 1));
+  report.add(node.where(), located(path, graph_messages::text_too_long(node.text.size(), room - 1)));
   return std::nullopt;
 }
 
@@ -267,7 +270,7 @@ std::optional<double> scalar_number(const Node& node, const std::string& path, c
     check_range(quantity, number, wanted.unit, wanted.min, wanted.max);
     return number;
   } catch (const Error& fault) {
-    report.add(node.where(), path + ": " + fault.what());
+    report.add(node.where(), located(path, fault.diagnostic));
     return std::nullopt;
   }
 }
@@ -290,10 +293,11 @@ std::optional<double> Keys::positive(const std::string& key, const std::string& 
   try {
     const double value = quantity_in(node->text, unit, UnitRule::required);
     if (value < 0 || (value == 0 && !or_zero))
-      throw Error(node->text + (or_zero ? " is negative" : " is not above 0"));
+      throw Error(or_zero ? graph_messages::quantity_negative(node->text)
+                          : graph_messages::quantity_not_positive(node->text));
     return value;
   } catch (const Error& fault) {
-    report_.add(node->where(), path(key) + ": " + fault.what());
+    report_.add(node->where(), located(path(key), fault.diagnostic));
   }
   return std::nullopt;
 }
@@ -303,12 +307,12 @@ std::optional<std::int64_t> Keys::duration_ns(const std::string& key) const {
   if (!seconds) return std::nullopt;
   if (*seconds > 0 && *seconds < 0.5e-9) {
     report_.add(get(key)->where(),
-                path(key) + ": expected at least 1 ns, or 0, found " + found_words(*get(key)));
+                located(path(key), graph_messages::duration_too_short(found_words(*get(key)))));
     return std::nullopt;
   }
   if (*seconds <= 9e9) return std::llround(*seconds * 1e9);
   report_.add(get(key)->where(),
-              path(key) + ": expected less than 285 years, found " + found_words(*get(key)));
+              located(path(key), graph_messages::duration_too_long(found_words(*get(key)))));
   return std::nullopt;
 }
 

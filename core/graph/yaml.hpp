@@ -19,7 +19,7 @@ namespace fulmar::core {
 /// first hundred that were found.
 class Report {
  public:
-  void add(const Where& where, const std::string& sentence);
+  void add(const Where& where, Diagnostic message);
   void opened(const std::string& file);
   bool empty() const;
   /// Whether nothing more is kept: who has to search for the words of a fault can spare it.
@@ -32,6 +32,7 @@ class Report {
   bool is_taken_away(const std::string& name) const;
   /// Whether one whose name begins so is still named.
   bool misses(const std::string& prefix) const;
+  std::vector<Diagnostic> faults() const;
   /// One fault per line.
   std::string text() const;
   void throw_if_any() const;
@@ -40,7 +41,7 @@ class Report {
   struct Fault {
     std::size_t rank;
     Where where;
-    std::string sentence;
+    Diagnostic message;
   };
   struct Taken {
     std::string name;

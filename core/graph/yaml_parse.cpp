@@ -8,6 +8,7 @@
 #include <new>
 #include <sstream>
 
+#include "core/graph/messages.hpp"
 #include "core/graph/yaml.hpp"
 #include "core/types/text.hpp"
 
@@ -175,11 +176,10 @@ class Builder : public YAML::EventHandler {
     map.key_line = line;
     map.has_key = map.dropped = true;
     if (!key.is(Node::Kind::scalar))
-      return report_.add({file_->name, line}, "a key must be a word, not a list, a map or nothing");
+      return report_.add({file_->name, line}, graph_messages::key_not_scalar());
     refuse_control(key.text, line);
     if (const auto [first, is_new] = map.lines.try_emplace(key.text, line); !is_new)
-      return report_.add({file_->name, line}, "'" + key.text + "' is given twice; the first is in line " +
-                                                  std::to_string(first->second));
+      return report_.add({file_->name, line}, graph_messages::key_repeated(key.text, first->second));
     map.dropped = false;
   }
 
@@ -188,8 +188,7 @@ class Builder : public YAML::EventHandler {
     for (std::size_t i = 0; i < text.size(); ++i) {
       if (!is_control(text, i) || text[i] == '\r') continue;
       const int code = static_cast<unsigned char>(text[i]) == 0xc2 ? text[i + 1] & 0xff : text[i];
-      return report_.add({file_->name, line}, "a text holds the control character " + std::to_string(code) +
-                                                  ", which no name can");
+      return report_.add({file_->name, line}, graph_messages::control_character_found(code));
     }
   }
 
@@ -270,7 +269,7 @@ Node first_document(const FilePtr& file, Report& report) {
       return Node{Node::Kind::null, false, file->path.empty() ? 0 : 1, file, {}, {}, {}};
     parser.HandleNextDocument(builder);
   } catch (const Builder::SecondDocument& second) {
-    report.add({file->name, second.line}, "a second document begins here; a file holds one");
+    report.add({file->name, second.line}, graph_messages::document_repeated());
   } catch (const Builder::Refused& refused) {
     report.add({file->name, refused.line}, refused.sentence);
     return {};
@@ -287,11 +286,11 @@ Node parse_yaml(const FilePtr& file, Report& report) {
   } catch (const YAML::Exception& fault) {
     const bool placed = !fault.mark.is_null() && !file->path.empty();
     const bool tab = !fault.mark.is_null() && begins_with_tab(file->text, fault.mark.line);
-    report.add(
-        {file->name, placed ? fault.mark.line + 1 : 0},
-        "not valid YAML: " + (tab ? "a tab indents this line; YAML wants spaces" : plain_words(fault.msg)));
+    report.add({file->name, placed ? fault.mark.line + 1 : 0},
+               graph_messages::yaml_invalid(tab ? "a tab indents this line; YAML wants spaces"
+                                                : plain_words(fault.msg)));
   } catch (const std::bad_alloc&) {
-    report.add({file->name, 0}, "there is not enough memory to read it");
+    report.add({file->name, 0}, graph_messages::memory_exhausted());
   }
   return {};
 }

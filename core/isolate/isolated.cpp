@@ -16,6 +16,7 @@
 #include <new>
 
 #include "core/error.hpp"
+#include "core/isolate/messages.hpp"
 #include "core/loader/home.hpp"
 
 namespace fulmar::core {
@@ -30,9 +31,9 @@ std::int64_t useful_spin(std::int64_t wanted_ns) {
 }
 
 const ComponentInfo& isolatable(const ComponentInfo& info, const IsolatedOptions& options) {
-  if (info.vehicle) throw Error(options.name + ": a vehicle cannot run in a process of its own.");
+  if (info.vehicle) throw Error(located(options.name, isolate_messages::vehicle_not_isolated()));
   if (info.name.size() >= sizeof ControlBlock::set_up.component)
-    throw Error(options.name + ": the component's name is longer than 255 bytes.");
+    throw Error(located(options.name, isolate_messages::component_name_too_long()));
   return info;
 }
 
@@ -50,8 +51,7 @@ std::vector<std::string> words(const IsolatedOptions& options) {
 // The host's own; when that is a test or a tool elsewhere, FULMAR_CHILD says where.
 std::string child_program() {
   const std::string program = own_program("fulmar-child", "FULMAR_CHILD").string();
-  if (program.empty())
-    throw Error("the program fulmar-child is missing: no component can run in a process of its own.");
+  if (program.empty()) throw Error(isolate_messages::child_program_missing());
   return program;
 }
 
@@ -77,10 +77,12 @@ SharedInput head_of(const fulmar_input& from) noexcept {
 
 const char* signal_words(int signal, bool stack_overflow) noexcept {
   switch (signal) {
-    case SIGSEGV: return stack_overflow ? "crashed (stack overflow)" : "crashed (segmentation fault)";
-    case SIGBUS: return "crashed (bus error)";
-    case SIGFPE: return "crashed (arithmetic error)";
-    case SIGILL: return "crashed (illegal instruction)";
+    case SIGSEGV:
+      return stack_overflow ? isolate_messages::stack_overflowed.c_str()
+                            : isolate_messages::segmentation_fault.c_str();
+    case SIGBUS: return isolate_messages::bus_error.c_str();
+    case SIGFPE: return isolate_messages::arithmetic_error.c_str();
+    case SIGILL: return isolate_messages::illegal_instruction.c_str();
     case SIGABRT: return "aborted";
     default: return nullptr;
   }
@@ -118,12 +120,13 @@ void Isolated::prepare() {
 void Isolated::refuse_setup() {
   const bool loaded = control().stage.load() != Stage::loaded;
   if (!alive_)
-    throw Error(options_.name + ": " + options_.file + " " + death_ + " while being " +
-                (loaded ? "created" : "loaded"));
+    throw Error(located(options_.name, isolate_messages::child_stopped(options_.file, death_,
+                                                                       loaded ? "created" : "loaded")));
   fulmar_error error = control().error;
   error.text[sizeof error.text - 1] = '\0';
-  throw Error(options_.name + ": " + (loaded ? "cannot be created: " : "") +
-              (control().has_error ? error.text : "the constructor failed"));
+  const Diagnostic why =
+      control().has_error ? Diagnostic(error.text) : isolate_messages::constructor_failed();
+  throw Error(located(options_.name, loaded ? isolate_messages::not_created(why) : why));
 }
 
 Isolated::~Isolated() { end(); }

@@ -10,12 +10,13 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/isolate/messages.hpp"
 
 namespace fulmar::core {
 namespace {
 
 [[noreturn]] void no_memory(std::size_t size) {
-  throw Error("cannot share " + std::to_string(size) + " bytes with a child: " + std::strerror(errno) + ".");
+  throw Error(isolate_messages::memory_not_shared(size, std::strerror(errno)));
 }
 
 // All pages at once, so that none is missing in flight.

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/loader/messages.hpp"
+
 // What this program is itself built for: its own header in memory, where the linker says.
 extern "C" const ElfW(Ehdr) __ehdr_start __attribute__((visibility("hidden")));  // NOLINT
 
@@ -53,23 +55,21 @@ std::string elf_fault(std::span<const std::byte> bytes) {
     std::uint16_t type, machine;
   } start{};
   if (bytes.size() < SELFMAG || std::memcmp(bytes.data(), ELFMAG, SELFMAG) != 0)
-    return "is not a plugin: not an ELF shared object";
-  if (!read_header(bytes, 0, start)) return "is not a plugin: its ELF header is cut off";
+    return loader_messages::elf_missing().line();
+  if (!read_header(bytes, 0, start)) return loader_messages::elf_header_truncated().line();
   if (start.ident[EI_DATA] != __ehdr_start.e_ident[EI_DATA])
     start.machine =
         static_cast<std::uint16_t>(static_cast<unsigned>(start.machine) << 8 | start.machine >> 8);
   if (start.machine != __ehdr_start.e_machine)
-    return "is built for " + machine_name(start.machine) + ", this host is " +
-           machine_name(__ehdr_start.e_machine);
+    return loader_messages::machine_differs(machine_name(start.machine), machine_name(__ehdr_start.e_machine))
+        .line();
   if (start.ident[EI_DATA] != __ehdr_start.e_ident[EI_DATA] ||
       start.ident[EI_CLASS] != __ehdr_start.e_ident[EI_CLASS])
-    return "is built for another word size or byte order";
-  if (start.type != ET_DYN) return "is not a plugin: an ELF file, but not a shared object";
+    return loader_messages::word_size_differs().line();
+  if (start.type != ET_DYN) return loader_messages::elf_not_shared().line();
   const std::uint64_t needed = promised_bytes(bytes);
-  if (needed == 0) return "is not a plugin: its ELF program headers are damaged or cut off";
-  if (needed > bytes.size())
-    return "is cut off: its header promises " + std::to_string(needed) + " bytes, the file has " +
-           std::to_string(bytes.size());
+  if (needed == 0) return loader_messages::program_headers_damaged().line();
+  if (needed > bytes.size()) return loader_messages::plugin_truncated(needed, bytes.size()).line();
   return "";
 }
 

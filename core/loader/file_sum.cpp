@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/loader/messages.hpp"
 #include "core/types/sha256.hpp"
 
 namespace fulmar::core {
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 std::string sha256_hex(const void* data, std::size_t size) {
   std::string hex = Sha256::of({static_cast<const char*>(data), size});
-  if (hex.empty()) throw Error("SHA-256 is not available.");
+  if (hex.empty()) throw Error(loader_messages::checksum_not_available());
   return hex;
 }
 
@@ -26,9 +27,9 @@ std::string sha256_file(const fs::path& file) {
   while (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || in.gcount() > 0)
     sum.add(bytes.data(), static_cast<std::size_t>(in.gcount()));
   if (!in.eof())
-    throw Error("cannot read " + file.string() + ": " + std::strerror(errno != 0 ? errno : EIO) + ".");
+    throw Error(loader_messages::file_not_readable(file.string(), std::strerror(errno != 0 ? errno : EIO)));
   std::string hex = sum.hex();
-  if (hex.empty()) throw Error("SHA-256 is not available.");
+  if (hex.empty()) throw Error(loader_messages::checksum_not_available());
   return hex;
 }
 

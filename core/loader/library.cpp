@@ -19,6 +19,7 @@
 #include "core/loader/float_mode.hpp"
 #include "core/loader/home.hpp"
 #include "core/loader/in_hand.hpp"
+#include "core/loader/messages.hpp"
 #include "core/loader/probe.hpp"
 #include "core/loader/script.hpp"
 #include "core/loader/shared_object.hpp"
@@ -52,16 +53,15 @@ std::vector<std::byte> read_file(const fs::path& file, const std::string& name) 
   constexpr std::uintmax_t largest = std::uintmax_t{1} << 30;
   std::error_code fault;
   const fs::file_status status = fs::status(file, fault);
-  if (!fs::exists(status)) throw Error(name + " does not exist: no file " + file.string());
-  if (!fs::is_regular_file(status))
-    throw Error(name + " is not a plugin: " + file.string() + " is not a regular file");
+  if (!fs::exists(status)) throw Error(loader_messages::plugin_missing(name, file.string()));
+  if (!fs::is_regular_file(status)) throw Error(loader_messages::plugin_not_regular(name, file.string()));
   const std::uintmax_t size = fs::file_size(file, fault);
-  if (fault || size > largest) throw Error(name + " is not a plugin: it is larger than 1 GiB");
+  if (fault || size > largest) throw Error(loader_messages::plugin_too_large(name));
   std::vector<std::byte> bytes(static_cast<std::size_t>(size));
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (!in) throw Error(name + " cannot be read: " + std::strerror(errno != 0 ? errno : EIO));
+  if (!in) throw Error(loader_messages::plugin_not_readable(name, std::strerror(errno != 0 ? errno : EIO)));
   return bytes;
 }
 
@@ -91,9 +91,7 @@ void refuse_shared(const std::vector<std::string>& symbols, const std::string& k
   for (const std::string& symbol : symbols)
     if (const auto owner = registry().unique.find(symbol);
         owner != registry().unique.end() && owner->second.key != key)
-      throw Error(name + " has the unique symbol " + plain_name(symbol) + ", as " + owner->second.name +
-                  ", which is loaded: one would fly with the data of the other. Build both with "
-                  "-fno-gnu-unique, or as fulmar_add_plugin does");
+      throw Error(loader_messages::unique_symbol_shared(name, plain_name(symbol), owner->second.name));
 }
 
 }  // namespace
@@ -145,7 +143,7 @@ std::shared_ptr<Library> Library::open(const fs::path& file) {
   const bool script = !script_host(file).empty();
   const std::shared_ptr<Library> host = script ? open(host_of(file)) : nullptr;
   if (const std::string fault = script ? "" : elf_fault(bytes); !fault.empty())
-    throw Error(name + " " + fault);
+    throw Error(loader_messages::file_fault(name, fault));
   std::error_code ignored;
   const fs::path place = fs::absolute(file, ignored);
   // of a script the place too: it may load what lies beside it
@@ -186,9 +184,7 @@ fs::path Library::host_of(const fs::path& script) {
     if (fs::is_regular_file(folder / file, fault)) return folder / file;
     searched.push_back(folder.string());
   }
-  throw Error(script.filename().string() + " needs the plugin " + language +
-              ", which is not there. Searched in " + join(searched) +
-              ". It is built where the development packages of the language are installed.");
+  throw Error(loader_messages::script_host_missing(script.filename().string(), language, join(searched)));
 }
 
 Library::~Library() {
@@ -200,7 +196,7 @@ const fulmar_component& Library::functions(std::size_t i) const { return handle_
 void Library::unload(std::shared_ptr<Library>&& library) {
   const std::shared_ptr<Library> last = std::move(library);
   const std::string name = last->info_.file;
-  if (last.use_count() > 1) throw Error(name + " is still in use and cannot be unloaded");
+  if (last.use_count() > 1) throw Error(loader_messages::plugin_in_use(name));
   const std::lock_guard lock(registry().mutex);
   registry().loaded.erase(last->key_);
   const bool script = last->handle_->script != nullptr, hosts = !script && last->handle_->hosts_scripts();
@@ -209,10 +205,7 @@ void Library::unload(std::shared_ptr<Library>&& library) {
     return;  // an interpreter cannot be unloaded; what a script has given back, it frees itself
   for (const ComponentInfo& component : last->info_.components)
     if (component.resident) return;  // it says so itself, and is swapped by its own means
-  if (is_mapped(last->copy_))
-    throw Error(name +
-                " is still resident after unloading (a unique symbol or a thread-local destructor keeps it); "
-                "restart the host");
+  if (is_mapped(last->copy_)) throw Error(loader_messages::plugin_still_resident(name));
 }
 
 }  // namespace fulmar::core

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/loader/messages.hpp"
 
 namespace fulmar::core {
 
@@ -52,11 +53,11 @@ std::size_t Memory::readable_bytes(const void* at) const {
 }
 
 std::string Memory::text(const char* at, const std::string& what) const {
-  if (at == nullptr) throw Error(what + " is missing (a null pointer)");
+  if (at == nullptr) throw Error(loader_messages::text_missing(what));
   const std::size_t room = readable_bytes(at);
-  if (room == 0) throw Error(what + " lies outside the plugin's memory");
+  if (room == 0) throw Error(loader_messages::text_outside_memory(what));
   const void* end = std::memchr(at, '\0', room);
-  if (end == nullptr) throw Error(what + " has no end");
+  if (end == nullptr) throw Error(loader_messages::text_not_terminated(what));
   return std::string(at, static_cast<std::size_t>(static_cast<const char*>(end) - at));
 }
 

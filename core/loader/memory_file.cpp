@@ -7,6 +7,7 @@
 #include <array>
 
 #include "core/error.hpp"
+#include "core/loader/messages.hpp"
 
 namespace fulmar::core {
 
@@ -19,7 +20,7 @@ MemoryFile::MemoryFile(const std::string& text) : file_(::memfd_create("text", M
   }
   if (file_ >= 0 && written == text.size() && ::lseek(file_, 0, SEEK_SET) == 0) return;
   if (file_ >= 0) ::close(file_);
-  throw Error("there is no memory for a text of " + std::to_string(text.size()) + " bytes");
+  throw Error(loader_messages::text_memory_exhausted(text.size()));
 }
 
 MemoryFile::~MemoryFile() { ::close(file_); }

@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/loader/home.hpp"
+#include "core/loader/messages.hpp"
 #include "core/loader/probe_report.hpp"
 #include "core/loader/process.hpp"
 #include "core/types/text.hpp"
@@ -30,9 +31,8 @@ using Clock = std::chrono::steady_clock;
 fs::path probe_program() {
   if (const fs::path program = own_program("fulmar-probe", "FULMAR_PROBE"); !program.empty()) return program;
   std::error_code fault;
-  throw Error("the program fulmar-probe is missing beside " +
-              fs::read_symlink("/proc/self/exe", fault).filename().string() +
-              ": plugins cannot be tried before they are loaded.");
+  throw Error(
+      loader_messages::probe_program_missing(fs::read_symlink("/proc/self/exe", fault).filename().string()));
 }
 
 double time_limit_s() {
@@ -56,8 +56,7 @@ constexpr double wall_per_cpu = 4;
 struct Pipe {
   int ends[2];  // reading, writing
   Pipe() {
-    if (::pipe2(ends, O_CLOEXEC) != 0)
-      throw Error("cannot make a pipe: " + std::string(std::strerror(errno)) + ".");
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(loader_messages::pipe_not_created(std::strerror(errno)));
   }
   ~Pipe() {
     for (const int end : ends)
@@ -179,18 +178,17 @@ std::string probe(const fs::path& copy, const std::string& name, const ProbedScr
   const std::string stage = !said(report_loaded) ? "loaded" : !said(report_read) ? "read" : "unloaded";
   if (!outcome.in_time) {
     const std::string doing = stage == "loaded" ? "loading" : stage == "read" ? "reading" : "unloading";
-    return name + " did not finish " + doing + " within " + outcome.limit;
+    return loader_messages::probe_timed_out(name, doing, outcome.limit).line();
   }
   if (outcome.signal != 0)
-    return name + " crashed while being " + stage + " (signal " + std::to_string(outcome.signal) + ")" +
-           last_line(outcome.words);
+    return loader_messages::plugin_crashed(name, stage, outcome.signal, last_line(outcome.words)).line();
   if (const std::size_t at = report.find(report_fault); at != std::string::npos) {
     const std::size_t begin = at + report_fault.size();
     return report.substr(begin, report.find('\n', begin) - begin);
   }
   if (said(report_good) && outcome.exit_code == 0) return "";
-  return name + " ended the process while being " + stage + " (exit code " +
-         std::to_string(outcome.exit_code) + ")" + last_line(outcome.words);
+  return loader_messages::plugin_ended_process(name, stage, outcome.exit_code, last_line(outcome.words))
+      .line();
 }
 
 bool stays_mapped(const fs::path& copy) {

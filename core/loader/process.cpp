@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/loader/messages.hpp"
 
 namespace fulmar::core {
 
@@ -52,7 +53,7 @@ pid_t spawn(const std::string& program, std::vector<std::string> words, const Ch
   const int fault = ::posix_spawn(&pid, program.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  if (fault != 0) throw Error("cannot start " + program + ": " + std::strerror(fault) + ".");
+  if (fault != 0) throw Error(loader_messages::program_not_started(program, std::strerror(fault)));
   return pid;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/loader/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -31,26 +32,24 @@ std::string load_fault(const std::string& name, const char* dlerror_text) {
   std::string library = text;
   const bool of_another = text.empty() || text[0] != '/';
   if (of_another && cut_behind(library, ": cannot open shared object file"))
-    return name + " needs " + library + ", which is not there";
+    return loader_messages::required_library_missing(name, library).line();
   const std::string reason = reason_of(text);
   constexpr std::string_view undefined = "undefined symbol: ";
   if (const std::size_t at = reason.find(undefined); at != std::string::npos) {
     std::string symbol = reason.substr(at + undefined.size());
     cut_behind(symbol, ",");  // ", version GLIBC_2.38"
-    return name + " needs the symbol " + symbol + ", which nothing provides";
+    return loader_messages::required_symbol_missing(name, symbol).line();
   }
   if (const std::size_t at = reason.find("version `");
       at != std::string::npos && reason.find("not found") != std::string::npos) {
     const std::size_t begin = at + 9;
-    return name + " needs " + reason.substr(begin, reason.find('\'', begin) - begin) +
-           ", which this system does not have";
+    return loader_messages::required_version_missing(name,
+                                                     reason.substr(begin, reason.find('\'', begin) - begin))
+        .line();
   }
   if (reason.find("failed to map segment") != std::string::npos)
-    return name +
-           " cannot be mapped: the plugin store may lie on a file system that forbids execution; set "
-           "FULMAR_STORE (" +
-           reason + ")";
-  return name + " cannot be loaded: " + reason;
+    return loader_messages::plugin_not_mappable(name, reason).line();
+  return loader_messages::plugin_not_loadable(name, reason).line();
 }
 
 struct SharedObject::Impl {
@@ -72,7 +71,7 @@ const void* SharedObject::find(const char* symbol) const {
 
 const fulmar_plugin& SharedObject::entry(const std::string& name) const {
   const void* const table = find(FULMAR_ENTRY_SYMBOL);
-  if (table == nullptr) throw Error(name + " has no symbol " FULMAR_ENTRY_SYMBOL ": not a Fulmar plugin");
+  if (table == nullptr) throw Error(loader_messages::entry_symbol_missing(name, FULMAR_ENTRY_SYMBOL));
   return *static_cast<const fulmar_plugin*>(table);
 }
 

@@ -17,6 +17,7 @@
 
 #include "core/error.hpp"
 #include "core/loader/file_sum.hpp"
+#include "core/loader/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -26,20 +27,19 @@ constexpr std::size_t max_copies = 128;             // the least recently used g
 constexpr const char* suffixes[] = {".so", ".py"};  // of what is kept
 
 // Throws with what the system says.
-[[noreturn]] void fail(const std::string& what) { throw Error(what + ": " + std::strerror(errno) + "."); }
+[[noreturn]] void fail(const Diagnostic& what) {
+  throw Error(located(what, loader_messages::store_fault(std::strerror(errno))));
+}
 
 // Throws when the folder belongs to somebody else or others may put files there: they could swap the code
 // between check and load.
 void check_private(const fs::path& folder) {
   struct stat info {};
   if (::lstat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
-    throw Error("the plugin store " + folder.string() + " is not a folder.");
-  if (info.st_uid != ::geteuid())
-    throw Error("the plugin store " + folder.string() +
-                " belongs to another user; set FULMAR_STORE to a folder of your own.");
+    throw Error(loader_messages::store_not_folder(folder.string()));
+  if (info.st_uid != ::geteuid()) throw Error(loader_messages::store_owner_foreign(folder.string()));
   if ((info.st_mode & (S_IWGRP | S_IWOTH)) != 0)
-    throw Error("the plugin store " + folder.string() +
-                " is writable by others; chmod 700 it, or set FULMAR_STORE to another folder.");
+    throw Error(loader_messages::store_not_private(folder.string()));
 }
 
 // Makes the folder with mode 0700 unless it is there. False when that is impossible.
@@ -57,7 +57,7 @@ struct TemporaryFolder {
   fs::path path;
   TemporaryFolder() {
     std::string name = (fs::temp_directory_path() / "fulmar-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) fail("no folder for private copies of plugins");
+    if (::mkdtemp(name.data()) == nullptr) fail(loader_messages::temporary_store_missing());
     path = name;
   }
   ~TemporaryFolder() {
@@ -73,7 +73,7 @@ std::string environment(const char* name) {
 
 fs::path store_folder() {
   if (const std::string chosen = environment("FULMAR_STORE"); !chosen.empty()) {
-    if (!make_private(chosen)) fail("the plugin store " + chosen + " (FULMAR_STORE) cannot be made");
+    if (!make_private(chosen)) fail(loader_messages::store_not_created(chosen));
     return chosen;
   }
   const std::string cache = environment("XDG_CACHE_HOME"), home = environment("HOME");
@@ -92,7 +92,7 @@ fs::path store_folder() {
 void write_copy(const fs::path& path, std::span<const std::byte> bytes) {
   std::string name = path.string() + ".XXXXXX";
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
-  if (file < 0) fail("cannot write into the plugin store " + path.parent_path().string());
+  if (file < 0) fail(loader_messages::store_not_writable(path.parent_path().string()));
   std::FILE* out = ::fdopen(file, "wb");
   const bool written = out != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), out) == bytes.size() &&
                        std::fflush(out) == 0 && ::fchmod(file, 0400) == 0 &&
@@ -135,7 +135,7 @@ void prune(const fs::path& folder) {
 }  // namespace
 
 fs::path keep_copy(std::span<const std::byte> bytes, const std::string& sha256, const std::string& suffix) {
-  if (!is_suffix(suffix)) throw Error("the plugin store keeps no " + suffix + " files.");
+  if (!is_suffix(suffix)) throw Error(loader_messages::store_suffix_invalid(suffix));
   const fs::path folder = store_folder();
   check_private(folder);
   const fs::path copy = fs::absolute(folder) / (sha256 + suffix);
@@ -164,9 +164,7 @@ std::optional<fs::path> find_in_store(const std::string& sha256) {
 
 fs::path version_that_flew(const std::string& file, const std::string& version, const std::string& sha256) {
   if (const auto copy = find_in_store(sha256)) return *copy;
-  throw Error(file + " " + version + " with SHA-256 " + sha256 + " flew, but the plugin store " +
-              store_folder().string() +
-              " no longer holds it; put that file back, or choose another with --with");
+  throw Error(loader_messages::stored_plugin_missing(file, version, sha256, store_folder().string()));
 }
 
 }  // namespace fulmar::core

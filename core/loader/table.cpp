@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "core/loader/fnv.hpp"
+#include "core/loader/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -43,36 +44,35 @@ std::uint32_t alignment(const Field& field) {
 
 void check_layout(const Field& field, const std::string& what) {
   const std::uint32_t size = element_size(field);
-  if (field.count == 0) throw Error(what + " has room for no element");
+  if (field.count == 0) throw Error(loader_messages::field_without_elements(what));
   if (field.shape == FULMAR_SCALAR && field.count != 1)
-    throw Error(what + " is one value and counts " + std::to_string(field.count));
-  if (field.stride < size || size == 0) throw Error(what + " has elements that overlap");
+    throw Error(loader_messages::scalar_count_invalid(what, field.count));
+  if (field.stride < size || size == 0) throw Error(loader_messages::elements_overlap(what));
   if (field.shape == FULMAR_LIST && field.items < sizeof(std::uint32_t))
-    throw Error(what + " has items that overlap its count");
+    throw Error(loader_messages::items_overlap_count(what));
   const std::uint32_t align = alignment(field);
   const bool count_aligned = field.shape != FULMAR_LIST || field.offset % alignof(std::uint32_t) == 0;
   const std::uint64_t first = std::uint64_t{field.offset} + (field.shape == FULMAR_LIST ? field.items : 0);
   const bool strided = field.count > 1 && field.stride % align != 0;
-  if (first % align != 0 || strided || !count_aligned) throw Error(what + " is not aligned");
+  if (first % align != 0 || strided || !count_aligned) throw Error(loader_messages::field_not_aligned(what));
 }
 
 void check_struct(const Type& type, const std::string& what) {
   if (type.size == 0 || type.size > largest_struct)
-    throw Error(what + " has a size of " + std::to_string(type.size) + " bytes");
+    throw Error(loader_messages::struct_size_invalid(what, type.size));
   if (!std::has_single_bit(type.align) || type.align > 64 || type.size % type.align != 0)
-    throw Error(what + " has an alignment of " + std::to_string(type.align) + " and a size of " +
-                std::to_string(type.size));
+    throw Error(loader_messages::struct_alignment_invalid(what, type.align, type.size));
   std::vector<const Field*> order;
   for (const Field& field : type.fields) order.push_back(&field);
   std::sort(order.begin(), order.end(), [](const Field* a, const Field* b) { return a->offset < b->offset; });
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Field& field = *order[i];
     if (field.offset + field_span(field) > type.size)
-      throw Error(what + ": field '" + field.name + "' reaches beyond the struct");
+      throw Error(located(what, loader_messages::field_outside_struct(field.name)));
     if (type.align % std::max(alignment(field), field.shape == FULMAR_LIST ? 4u : 1u) != 0)
-      throw Error(what + ": field '" + field.name + "' is aligned more strictly than the struct");
+      throw Error(located(what, loader_messages::field_alignment_invalid(field.name)));
     if (i > 0 && order[i - 1]->offset + field_span(*order[i - 1]) > field.offset)
-      throw Error(what + ": fields '" + order[i - 1]->name + "' and '" + field.name + "' overlap");
+      throw Error(located(what, loader_messages::fields_overlap(order[i - 1]->name, field.name)));
   }
 }
 
@@ -88,12 +88,12 @@ std::vector<std::string> TableReader::texts(const char* const* at, std::uint32_t
 Field TableReader::read_field(const fulmar_field& from, const std::string& owner) {
   Field field;
   field.name = text(from.name, owner + ": the name of a field");
-  if (!is_identifier(field.name)) throw Error(owner + ": '" + field.name + "' is no name for a field");
+  if (!is_identifier(field.name))
+    throw Error(located(owner, loader_messages::field_name_invalid(field.name)));
   const std::string what = owner + ": field '" + field.name + "'";
   if (from.kind < FULMAR_BOOL || from.kind > FULMAR_U16)
-    throw Error(what + " has kind " + std::to_string(from.kind) + ", which this host does not know");
-  if (from.shape > FULMAR_LIST)
-    throw Error(what + " has shape " + std::to_string(from.shape) + ", which this host does not know");
+    throw Error(loader_messages::port_kind_unknown(what, from.kind));
+  if (from.shape > FULMAR_LIST) throw Error(loader_messages::field_shape_unknown(what, from.shape));
   field.unit = text(from.unit, what + ": the unit");
   field.kind = static_cast<fulmar_kind>(from.kind);
   field.shape = static_cast<fulmar_shape>(from.shape);
@@ -103,7 +103,7 @@ Field TableReader::read_field(const fulmar_field& from, const std::string& owner
   if (field.kind == FULMAR_STRUCT) field.type = type(from.type, what);
   if (field.kind == FULMAR_ENUM) {
     if (from.label_count == 0 || from.label_count > max_labels)
-      throw Error(what + " is an enum with " + std::to_string(from.label_count) + " labels");
+      throw Error(loader_messages::label_count_invalid(what, from.label_count));
     field.labels = texts(from.labels, from.label_count, what + ": the labels");
   }
   field.stride = from.stride != 0 || field.kind == FULMAR_TEXT ? from.stride : element_size(field);
@@ -113,7 +113,7 @@ Field TableReader::read_field(const fulmar_field& from, const std::string& owner
   field.in_record.required = (from.flags & FULMAR_FIELD_REQUIRED) != 0;
   field.in_record.instead = (from.flags & FULMAR_FIELD_INSTEAD) != 0;
   field.in_record.rising = (from.flags & FULMAR_FIELD_RISING) != 0;
-  if (!(field.min <= field.max)) throw Error(what + " has a range that is empty");
+  if (!(field.min <= field.max)) throw Error(loader_messages::range_empty(what));
   check_layout(field, what);
   return field;
 }
@@ -121,18 +121,17 @@ Field TableReader::read_field(const fulmar_field& from, const std::string& owner
 std::shared_ptr<Type> TableReader::read_type(const fulmar_type& from, const std::string& what) {
   auto type = std::make_shared<Type>();
   type->name = text(from.name, what + ": the name of the type");
-  if (type->name.empty()) throw Error(what + ": the type has no name");
+  if (type->name.empty()) throw Error(located(what, loader_messages::type_name_missing()));
   const std::string self = "type '" + type->name + "'";
   type->frame = text(from.frame, self + ": the frame");
   type->ros = text(from.ros, self + ": the ROS name");
   type->size = from.size;
   type->align = from.align;
   if (from.field_count > max_fields)
-    throw Error(self + " has " + std::to_string(from.field_count) + " fields; " + std::to_string(max_fields) +
-                " is the limit");
+    throw Error(loader_messages::too_many_fields(self, from.field_count, max_fields));
   for (std::uint32_t i = 0; i < from.field_count; ++i) {
     Field field = read_field(element(from.fields, from.field_stride, i, self + ": the fields"), self);
-    if (type->find(field.name) != nullptr) throw Error(self + " has two fields '" + field.name + "'");
+    if (type->find(field.name) != nullptr) throw Error(loader_messages::field_repeated(self, field.name));
     type->fields.push_back(std::move(field));
   }
   check_struct(*type, self);
@@ -141,11 +140,11 @@ std::shared_ptr<Type> TableReader::read_type(const fulmar_type& from, const std:
 }
 
 TypePtr TableReader::type(const fulmar_type* from, const std::string& what) {
-  if (from == nullptr) throw Error(what + " has no type");
+  if (from == nullptr) throw Error(loader_messages::type_missing(what));
   if (!memory_.readable(from, sizeof *from))
-    throw Error(what + ": the type lies outside the plugin's memory");
+    throw Error(located(what, loader_messages::type_outside_memory()));
   if (const auto known = done_.find(from); known != done_.end()) return known->second;
-  if (depth_ >= deepest) throw Error(what + " nests deeper than " + std::to_string(deepest) + " levels");
+  if (depth_ >= deepest) throw Error(loader_messages::type_too_deep(what, deepest));
   ++depth_;  // not undone by an exception: a reader that has thrown is not used again
   TypePtr result = read_type(*from, what);
   --depth_;

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/loader/memory.hpp"
+#include "core/loader/messages.hpp"
 #include "core/types/type.hpp"
 
 namespace fulmar::core {
@@ -45,13 +46,12 @@ class TableReader {
   T element(const T* base, std::uint32_t stride, std::uint32_t i, const std::string& what) const {
     constexpr std::uint32_t smallest = size_in_1_0<T>;
     if (stride < smallest || stride > largest_stride || stride % alignof(T) != 0)
-      throw Error(what + " lie " + std::to_string(stride) + " bytes apart, where " +
-                  std::to_string(smallest) + " are needed");
+      throw Error(loader_messages::table_stride_invalid(what, stride, smallest));
     const std::size_t size = std::min<std::size_t>(stride, sizeof(T));
     const auto at =
         reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(base) + std::uintptr_t{stride} * i);
     if (base == nullptr || !memory_.readable(at, size))
-      throw Error(what + " lie outside the plugin's memory");
+      throw Error(loader_messages::table_outside_memory(what));
     T copy{};
     std::memcpy(&copy, at, size);
     return copy;

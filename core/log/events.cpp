@@ -2,13 +2,13 @@
 // See events.hpp.
 #include "core/log/events.hpp"
 
-#include <cstdarg>
 #include <cstdio>
 #include <cstring>
 #include <iterator>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/log/messages.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -197,12 +197,9 @@ void end_in_dots(char* text, std::size_t room) noexcept {
   std::memcpy(text + end, "...", 4);
 }
 
-void say(Event& e, const char* format, ...) noexcept {
-  std::va_list arguments;
-  va_start(arguments, format);
-  const int length = std::vsnprintf(e.words.data(), e.words.size(), format, arguments);
-  va_end(arguments);
-  if (length >= static_cast<int>(e.words.size())) end_in_dots(e.words.data(), e.words.size());
+void say(Event& e, std::string_view text) noexcept {
+  put(e.words, text);
+  if (text.size() >= e.words.size()) end_in_dots(e.words.data(), e.words.size());
   make_printable(e.words.data());
 }
 
@@ -242,9 +239,7 @@ HostMessages::HostMessages(const McapFile& file, const char* topic, TypePtr type
 }
 
 void HostMessages::check() const {
-  if (there_ && !same_)
-    throw Error(std::string("the log's ") + topic_ + " has other fields than " + type_->name +
-                " has here: it was written by another version");
+  if (there_ && !same_) throw Error(log_messages::host_fields_differ(topic_, type_->name));
 }
 
 void HostMessages::decode(std::span<const std::byte> bytes, std::byte* message) const {

@@ -12,6 +12,7 @@
 #include "core/log/reader.hpp"
 #include "core/types/names.hpp"
 #include "core/types/type.hpp"
+#include "fulmar/diagnostic.hpp"
 
 namespace fulmar::core {
 
@@ -137,10 +138,16 @@ Event event_of(Code code, std::string_view component = {}, std::string_view name
 LogLine log_line_of(const Event& event, std::int64_t utc_ns) noexcept;
 /// [tick] A sentence that was cut at the end of its room ends in dots instead, behind a whole word.
 void end_in_dots(char* text, std::size_t room) noexcept;
-/// The event's words, as printf makes them. What is too long ends in dots. [tick]
-[[gnu::format(printf, 2, 3)]] void say(Event& event, const char* format, ...) noexcept;
 /// What a component says of itself goes to terminals, logs and JSON: one line of UTF-8. [tick]
 void make_printable(char* text) noexcept;
+/// The event's sentence: one line of UTF-8; a text that is too long ends in dots. [tick]
+void say(Event& event, std::string_view text) noexcept;
+template <std::size_t N, class... Values>
+void say(Event& event, const MessageText<N>& text, const Values&... values) noexcept {
+  const std::size_t size = text.write(event.words.data(), event.words.size(), values...);
+  if (size >= event.words.size()) end_in_dots(event.words.data(), event.words.size());
+  make_printable(event.words.data());
+}
 
 /// [tick] A text and the zero at its end; what does not fit is left out.
 template <std::size_t N>

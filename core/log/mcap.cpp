@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/log/mcap_bytes.hpp"
 #include "core/log/mcap_summary.hpp"
+#include "core/log/messages.hpp"
 #include "core/log/out_file.hpp"
 
 namespace fulmar::core {
@@ -222,7 +223,7 @@ std::uint16_t McapWriter::add_schema(const std::string& name, const std::string&
 std::uint16_t McapWriter::add_channel(std::uint16_t schema, const std::string& topic,
                                       const std::string& encoding, const Pairs& metadata) {
   if (impl_->channels.size() > std::numeric_limits<std::uint16_t>::max())
-    throw Error("a log holds at most 65536 channels");
+    throw Error(log_messages::too_many_channels());
   impl_->channels.push_back({.schema = schema, .topic = topic, .encoding = encoding, .metadata = metadata});
   return static_cast<std::uint16_t>(impl_->channels.size() - 1);
 }
@@ -275,7 +276,7 @@ bool McapWriter::failed() const { return impl_->broken(); }
 
 const std::string& McapWriter::error() const { return impl_->out->error(); }
 
-void McapWriter::fail(const std::string& why) { impl_->out->fail(why); }
+void McapWriter::fail(const Diagnostic& why) { impl_->out->fail(why); }
 
 McapWriter::Result McapWriter::close() {
   Impl& w = *impl_;

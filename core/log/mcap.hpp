@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "fulmar/diagnostic.hpp"
+
 namespace fulmar::core {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -60,7 +62,7 @@ class McapWriter {
   bool failed() const;  // no message is stored any more
   const std::string& error() const;
   /// No message is stored any more; what is in the file stays.
-  void fail(const std::string& why);
+  void fail(const Diagnostic& why);
   /// Once, at the end. A file that could not be ended keeps its ".part".
   Result close();
 

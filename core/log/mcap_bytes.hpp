@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/log/messages.hpp"
 
 namespace fulmar::core::mcap {
 
@@ -126,7 +127,7 @@ struct Cursor {
   std::size_t at = 0;
 
   Data take(std::uint64_t size) {
-    if (size > data.size() - at) throw Error("a record ends too early");
+    if (size > data.size() - at) throw Error(log_messages::record_truncated());
     at += size;
     return data.subspan(at - size, size);
   }
@@ -152,8 +153,8 @@ struct Cursor {
   bool more() const { return at < data.size(); }
 };
 
-inline void require(bool truth, const char* otherwise) {
-  if (!truth) throw Error(otherwise);
+inline void require(bool truth, const MessageText<0>& otherwise) {
+  if (!truth) throw Error(otherwise());
 }
 
 }  // namespace fulmar::core::mcap

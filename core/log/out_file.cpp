@@ -13,13 +13,14 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/log/messages.hpp"
 
 namespace fulmar::core {
 
 OutFile::OutFile(const std::filesystem::path& file, bool held) : file_(file), name_(file.string() + ".part") {
   if (!held) refuse(file_);
   fd_ = ::open(name_.c_str(), O_WRONLY | O_CLOEXEC | (held ? 0 : O_CREAT | O_EXCL), 0644);
-  if (fd_ < 0) throw Error("cannot write '" + name_.string() + "': " + std::strerror(errno));
+  if (fd_ < 0) throw Error(log_messages::log_not_writable(name_.string(), std::strerror(errno)));
   ::flock(fd_, LOCK_EX | LOCK_NB);  // gone with this process; a file system without locks is none to fail for
 }
 
@@ -27,7 +28,7 @@ bool OutFile::hold(const std::filesystem::path& file) {
   const std::string part = file.string() + ".part";
   const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (fd < 0 && errno == EEXIST) return false;
-  if (fd < 0) throw Error("cannot write '" + part + "': " + std::strerror(errno));
+  if (fd < 0) throw Error(log_messages::log_not_writable(part, std::strerror(errno)));
   ::close(fd);
   std::error_code none;
   if (!std::filesystem::exists(std::filesystem::symlink_status(file, none))) return true;
@@ -53,11 +54,11 @@ void OutFile::refuse(const std::filesystem::path& file) {
   const std::string part = file.string() + ".part";
   std::error_code none;
   if (std::filesystem::exists(std::filesystem::symlink_status(file, none)))  // a link to nowhere, too
-    throw Error("'" + file.string() + "' exists; a log never overwrites a file");
+    throw Error(log_messages::log_exists(file.string()));
   if (std::filesystem::exists(std::filesystem::symlink_status(part, none)))
-    throw Error("'" + part + "' exists: " +
-                (grows(part) ? "another run is writing it"
-                             : "a run was interrupted; move it away first, or fulmar log recover it"));
+    throw Error(log_messages::partial_log_exists(
+        part, grows(part) ? "another run is writing it"
+                          : "a run was interrupted; move it away first, or fulmar log recover it"));
 }
 
 OutFile::~OutFile() {
@@ -69,7 +70,7 @@ bool OutFile::failed(const char* what) {
   return false;
 }
 
-void OutFile::fail(const std::string& why) {
+void OutFile::fail(const Diagnostic& why) {
   if (error_.empty()) error_ = why;
 }
 
@@ -78,7 +79,7 @@ bool OutFile::still_there() {
   }, named{};
   if (::fstat(fd_, &about) != 0) return failed("look at");
   if (about.st_nlink == 0) {
-    fail("somebody has removed '" + name_.string() + "'");
+    fail(log_messages::log_removed(name_.string()));
     name_.clear();
     return false;
   }
@@ -89,8 +90,7 @@ bool OutFile::still_there() {
     return false;
   }
   if (static_cast<std::uint64_t>(about.st_size) == size_) return true;
-  fail("somebody has changed '" + name_.string() + "': it has " + std::to_string(about.st_size) +
-       " bytes in place of " + std::to_string(size_));
+  fail(log_messages::log_altered(name_.string(), about.st_size, size_));
   return false;
 }
 
@@ -99,7 +99,7 @@ void OutFile::note_move() {
   std::error_code none;
   const std::filesystem::path now =
       std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(fd_), none);
-  fail("somebody has moved '" + name_.string() + (none ? "'" : "' to '" + now.string() + "'"));
+  fail(log_messages::log_moved(name_.string(), none ? "'" : "' to '" + now.string() + "'"));
   name_ = now;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/types/sha256.hpp"
+#include "fulmar/diagnostic.hpp"
 
 namespace fulmar::core {
 
@@ -42,7 +43,7 @@ class OutFile {
   /// As it is called now: FILE.part, FILE, or what somebody was seen to have made of it; empty: it is
   /// removed.
   const std::filesystem::path& name() const { return name_; }
-  void fail(const std::string& why);
+  void fail(const Diagnostic& why);
 
  private:
   bool failed(const char* what);  // notes errno

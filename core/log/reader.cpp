@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/log/mcap_bytes.hpp"
+#include "core/log/messages.hpp"
 #include "core/types/named.hpp"
 
 namespace fulmar::core {
@@ -28,19 +29,18 @@ constexpr std::uint64_t largest_schemas =
 Data open_chunk(const std::string& compression, Data stored, std::uint64_t size,
                 std::vector<std::byte>& room) {
   if (compression.empty()) {
-    require(stored.size() == size, "a chunk is not as long as it says");
+    require(stored.size() == size, log_messages::chunk_size_differs);
     room.assign(stored.begin(), stored.end());
     return room;
   }
-  if (compression != "zstd")
-    throw Error("a chunk is compressed as '" + compression.substr(0, 32) + "'. Valid: zstd, or not at all");
-  require(size <= largest_chunk, "a chunk claims to hold more than 32 MB");
+  if (compression != "zstd") throw Error(log_messages::compression_unknown(compression.substr(0, 32)));
+  require(size <= largest_chunk, log_messages::chunk_too_large);
   // A wrong size is found before memory is taken for it.
   const unsigned long long says = ZSTD_getFrameContentSize(stored.data(), stored.size());
-  require(says == ZSTD_CONTENTSIZE_UNKNOWN || says == size, "a chunk does not decompress");
+  require(says == ZSTD_CONTENTSIZE_UNKNOWN || says == size, log_messages::chunk_not_decompressible);
   room.resize(size);
   const std::size_t n = ZSTD_decompress(room.data(), size, stored.data(), stored.size());
-  require(!ZSTD_isError(n) && n == size, "a chunk does not decompress");
+  require(!ZSTD_isError(n) && n == size, log_messages::chunk_not_decompressible);
   return room;
 }
 
@@ -75,13 +75,13 @@ struct McapStream::Impl {
   Impl(const std::filesystem::path& path, McapSalvage* s) : salvage(s) {
     std::error_code ignored;
     if (std::filesystem::is_regular_file(path, ignored)) in.open(path, std::ios::binary | std::ios::ate);
-    if (!in.is_open() || !in) throw Error("cannot read '" + path.string() + "'");
+    if (!in.is_open() || !in) throw Error(log_messages::log_not_readable(path.string()));
     size = static_cast<std::uint64_t>(in.tellg());
     in.seekg(0);
     std::string magic(mcap::magic.size(), '\0');
     if (size < magic.size() || !in.read(magic.data(), static_cast<std::streamsize>(magic.size())) ||
         magic != mcap::magic)
-      throw Error("'" + path.string() + "' is no MCAP file");
+      throw Error(log_messages::log_format_invalid(path.string()));
     place = mcap::magic.size();
     if (salvage) definitions(salvage->summary);
     crc = crc_of(0, std::as_bytes(std::span(magic)));
@@ -94,9 +94,9 @@ struct McapStream::Impl {
   }
 
   void read(std::byte* to, std::uint64_t bytes) {
-    require(bytes <= size - place, "the file ends inside a record");
+    require(bytes <= size - place, log_messages::file_truncated);
     require(static_cast<bool>(in.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(bytes))),
-            "the file cannot be read");
+            log_messages::content_not_readable);
     place += bytes;
   }
 
@@ -107,7 +107,7 @@ struct McapStream::Impl {
     try {
       while (!ended && file.fault.empty() && pending.starts.empty()) next_record_or_later();
     } catch (const std::bad_alloc&) {
-      stop("there is not enough memory for a record");
+      stop(log_messages::record_memory_exhausted());
     } catch (const Error& e) {
       stop(e.what());
     }
@@ -145,9 +145,9 @@ struct McapStream::Impl {
     Cursor in_head{head};
     const auto code = now.code = in_head.number<std::uint8_t>();
     const auto length = in_head.number<std::uint64_t>();
-    require(length <= size - place, "the file ends inside a record");
+    require(length <= size - place, log_messages::file_truncated);
     if (salvage && summary_start == 0) salvage->check_head(now.place, code, length);
-    require(length <= largest_record, "a record is longer than 256 MB");
+    require(length <= largest_record, log_messages::record_too_large);
     record.resize(length);
     read(record.data(), length);
     now.whole = true;
@@ -163,7 +163,7 @@ struct McapStream::Impl {
       const auto sum = Cursor{record}.number<std::uint32_t>();
       summary_start = place;
       crc = 0;
-      require(sum == 0 || sum == before || damaged, "the checksum of the data is wrong");
+      require(sum == 0 || sum == before || damaged, log_messages::data_checksum_invalid);
     } else {
       content(code, record);
       if (code == mcap::chunk || code == mcap::attachment || code == mcap::metadata)
@@ -195,19 +195,19 @@ struct McapStream::Impl {
         break;
       case mcap::chunk_index:
         cursor.take(16);
-        check_place(cursor, mcap::chunk, "a chunk index points at no chunk");
+        check_place(cursor, mcap::chunk, log_messages::chunk_index_wrong);
         break;
       case mcap::attachment_index:
-        check_place(cursor, mcap::attachment, "an attachment index points at no attachment");
+        check_place(cursor, mcap::attachment, log_messages::attachment_index_wrong);
         break;
       case mcap::metadata_index:
-        check_place(cursor, mcap::metadata, "a metadata index points at no metadata");
+        check_place(cursor, mcap::metadata, log_messages::metadata_index_wrong);
         break;
       default: break;  // the format may grow
     }
   }
 
-  void check_place(Cursor& cursor, mcap::Code code, const char* otherwise) {
+  void check_place(Cursor& cursor, mcap::Code code, const MessageText<0>& otherwise) {
     require(damaged || places[code].contains(cursor.number<std::uint64_t>()), otherwise);
   }
 
@@ -225,7 +225,7 @@ struct McapStream::Impl {
     const auto id = cursor.number<std::uint16_t>();
     const bool known = code == mcap::schema ? file.schemas.contains(id) : file.channels.contains(id);
     if (!known) defined_bytes += cursor.data.size();
-    require(defined_bytes <= largest_schemas, "the schemas and channels take more than 32 MB");
+    require(defined_bytes <= largest_schemas, log_messages::schemas_too_large);
     if (code == mcap::schema) {
       McapFile::Schema schema{cursor.text(), cursor.text(), cursor.text()};
       file.schemas.try_emplace(id, std::move(schema));
@@ -247,7 +247,7 @@ struct McapStream::Impl {
       salvage->lost_message();
       return;
     }
-    require(file.channels.contains(channel), "a message belongs to no channel");
+    require(file.channels.contains(channel), log_messages::message_channel_missing);
     const std::byte* const room = pending.in_chunk ? pending.chunk.data() : record.data();
     pending.starts.push_back(static_cast<std::uint32_t>(cursor.data.data() - room));
   }
@@ -282,13 +282,13 @@ struct McapStream::Impl {
     const std::string compression = cursor.text();
     const Data stored = cursor.take(cursor.number<std::uint64_t>());
     chunk = open_chunk(compression, stored, length, pending.chunk);
-    require(sum == 0 || sum == crc_of(0, chunk), "the checksum of a chunk is wrong");
+    require(sum == 0 || sum == crc_of(0, chunk), log_messages::chunk_checksum_invalid);
     pending.in_chunk = true;
     Cursor inside{chunk};
     while (inside.more()) {
       const auto code = inside.number<std::uint8_t>();
       require(code == mcap::schema || code == mcap::channel || code == mcap::message,
-              "a chunk holds what does not belong there");
+              log_messages::chunk_content_invalid);
       content(code, inside.take(inside.number<std::uint64_t>()));
     }
   }
@@ -299,14 +299,14 @@ struct McapStream::Impl {
     while (entries.more()) {
       const auto log_ns = entries.number<std::uint64_t>();
       const auto offset = entries.number<std::uint64_t>();
-      require(offset < chunk.size(), "a message index points out of its chunk");
+      require(offset < chunk.size(), log_messages::index_outside_chunk);
       Cursor at{chunk, offset};
       const bool is_message = at.number<std::uint8_t>() == mcap::message;
       at.take(8);
       const bool same_channel = at.number<std::uint16_t>() == channel;
       at.take(4);
       require(is_message && same_channel && at.number<std::uint64_t>() == log_ns,
-              "a message index points at something else");
+              log_messages::index_target_invalid);
     }
   }
 
@@ -320,7 +320,7 @@ struct McapStream::Impl {
     a.content.assign(reinterpret_cast<const char*>(content.data()), content.size());
     const std::uint32_t sum = crc_of(0, cursor.data.first(cursor.at));
     const auto stored = cursor.number<std::uint32_t>();
-    require(stored == 0 || stored == sum, "the checksum of an attachment is wrong");
+    require(stored == 0 || stored == sum, log_messages::attachment_checksum_invalid);
     file.attachments.push_back(std::move(a));
   }
 
@@ -331,21 +331,21 @@ struct McapStream::Impl {
     const bool attachments = cursor.number<std::uint32_t>() == file.attachments.size();
     const bool metadata = cursor.number<std::uint32_t>() == file.metadata.size();
     const bool chunks = cursor.number<std::uint32_t>() == file.chunks;
-    require(right_messages && attachments && metadata && chunks, "the statistics do not fit the file");
+    require(right_messages && attachments && metadata && chunks, log_messages::statistics_differ);
   }
 
   void footer(Data head) {
     Cursor cursor{record};
     const auto start = cursor.number<std::uint64_t>();
-    require(start == 0 || start == summary_start, "the footer points beside the summary");
+    require(start == 0 || start == summary_start, log_messages::footer_offset_invalid);
     cursor.take(8);
     const std::uint32_t sum = crc_of(crc_of(crc, head), Data(record).first(cursor.at));
     const auto stored = cursor.number<std::uint32_t>();
-    require(stored == 0 || stored == sum, "the checksum of the summary is wrong");
+    require(stored == 0 || stored == sum, log_messages::summary_checksum_invalid);
     std::string magic(mcap::magic.size(), '\0');
-    require(size - place == magic.size(), "the closing magic is not there");
+    require(size - place == magic.size(), log_messages::closing_magic_missing);
     read(reinterpret_cast<std::byte*>(magic.data()), magic.size());
-    require(magic == mcap::magic, "the closing magic is not there");
+    require(magic == mcap::magic, log_messages::closing_magic_missing);
     ended = true;
   }
 };
@@ -371,7 +371,7 @@ std::uint16_t McapFile::channel(const std::string& topic) const {
     if (c.topic == topic) return id;
     topics.push_back(c.topic);
   }
-  throw Error("the log has no topic '" + topic + "'." + choices_text(topic, topics));
+  throw Error(log_messages::topic_unknown(topic, choices_text(topic, topics)));
 }
 
 const McapFile::Attachment* McapFile::attachment(const std::string& name) const {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/run/flight_impl.hpp"
+#include "core/run/messages.hpp"
 
 namespace fulmar::core {
 
@@ -31,7 +32,7 @@ Flight::Impl::Taken Flight::Impl::apply_request(const Command& command, Reply an
   r.pending.replies[r.pending.count - 1] = std::move(answered);
   recorder.put_input(r.channel, command.message.data());
   Event e = event_of(Code::request_taken, unit.component->name, r.port->name);
-  say(e, "%s", r.port->name.c_str());
+  say(e, r.port->name);
   recorder.note(e, false);  // not told aloud: a tool may send hundreds
   return Taken::yes;
 }
@@ -45,19 +46,19 @@ void Flight::Impl::apply_parameter(Command& command, Code reported) {
     const std::string why = unit.problem.text;
     std::swap(unit.base[command.part], command.value);
     unit.retune(overlay);
-    throw Error(unit.component->name + ": " + why);
+    throw Error(located(unit.component->name, why));
   }
   recorder.put_command(taken);
   Event e = event_of(reported, taken.component.data(), taken.name.data());
   e.severity = Severity::info;
   const bool number = unit.info->params[command.part].kind == FULMAR_NUMBER;
   e.value = number ? taken.number[0] : static_cast<double>(taken.integer);
-  say(e, "%s = %s", taken.name.data(), taken.text.data());
+  say(e, run_messages::parameter_set, taken.name.data(), taken.text.data());
   recorder.note(e, false);  // not told aloud: a script may set thousands
 }
 
 void Flight::Impl::apply_phase(const Command& command) {
-  if (end.in_failsafe()) throw Error("the flight is in its failsafe: no phase can be entered");
+  if (end.in_failsafe()) throw Error(run_messages::failsafe_active());
   recorder.put_command(command.note);
   roles.enter(static_cast<int>(command.part));  // the present one, too: whoever it names takes over again
 }
@@ -68,7 +69,7 @@ void Flight::Impl::reset_guards(const Command& command) {
     const std::string& name = unit->component->name;
     if (!unit->stopped || !reset_guard(wiring.index_of(*unit))) continue;
     Event e = event_of(Code::guard_reset, name);
-    say(e, "guard reset");
+    say(e, run_messages::guard_reset);
     recorder.note(e);
   }
 }
@@ -79,7 +80,7 @@ bool Flight::Impl::reset_guard(int component) {
     if (const std::string why = protection.in_use(); !why.empty()) {
       Event e = event_of(Code::guard_not_reset, wiring.unit(component).component->name);
       put(e.cause, why);
-      say(e, "guard not reset: its process has ended, and is started anew on the ground; %s", why.c_str());
+      say(e, run_messages::guard_not_reset, why);
       recorder.note(e);
       return false;
     }

@@ -12,6 +12,7 @@
 #include "core/graph/params.hpp"
 #include "core/run/control_impl.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/run/messages.hpp"
 #include "core/types/named.hpp"
 #include "fulmar/quiet_thread.hpp"
 
@@ -114,13 +115,13 @@ bool FlightControl::refuse(Waiting& w, const char* why) noexcept {
 bool FlightControl::apply(Waiting& w) {
   Command& c = w.command;
   if (c.made_for && c.made_for != flight_.wiring.units[c.at]->component->plugin)
-    return refuse(w, "its component was swapped meanwhile; ask again");
+    return refuse(w, run_messages::component_was_swapped.c_str());
   if (c.kind == CommandKind::swap || c.kind == CommandKind::reset) held_.grounded = true;
   Reply reply;
   if (c.kind == CommandKind::request) reply = [this, &w](const char* refusal) { refuse(w, refusal); };
   const Flight::Impl::Taken taken = flight_.take(c, std::move(reply));
   if (taken == Flight::Impl::Taken::full) return false;
-  if (taken == Flight::Impl::Taken::idle) return refuse(w, "does not fly now");
+  if (taken == Flight::Impl::Taken::idle) return refuse(w, run_messages::target_not_active.c_str());
   if (c.kind == CommandKind::request) return true;
   if (c.kind == CommandKind::swap) w.directory = std::make_shared<const Directory>(flight_);
   done(w);
@@ -158,17 +159,17 @@ bool FlightControl::apply_pace(Waiting& w) {
   const PaceOrder& order = *w.pace;
   switch (order.what) {
     case What::pause:
-      if (stands()) return refuse(w, "the flight is paused already");
+      if (stands()) return refuse(w, run_messages::flight_already_paused.c_str());
       end_steps();
       clock_.paused = true;
       break;
     case What::resume:
-      if (!clock_.paused) return refuse(w, "the flight is not paused");
+      if (!clock_.paused) return refuse(w, run_messages::flight_not_paused.c_str());
       go_on();
       break;
     case What::step:
-      if (!clock_.paused) return refuse(w, "the flight is not paused: nothing to step");
-      if (clock_.stepper) return refuse(w, "other ticks are being flown; ask again");
+      if (!clock_.paused) return refuse(w, run_messages::step_without_pause.c_str());
+      if (clock_.stepper) return refuse(w, run_messages::steps_in_progress.c_str());
       clock_.left = order.ticks;
       clock_.stepper = &w;
       return true;
@@ -208,10 +209,10 @@ void FlightControl::send(Command command, Answer answer) {
 void FlightControl::enqueue(std::unique_ptr<Waiting> waiting) {
   Waiting* const w = waiting.get();
   const std::lock_guard lock(mutex_);
-  if (over_.load()) throw Error("the flight has ended");
+  if (over_.load()) throw Error(run_messages::flight_ended());
   if (const std::size_t commands = waiting_.all.size() - waiting_.samples;
       commands >= max_waiting || !queues_.in.push(w))
-    throw Error(std::to_string(commands) + " commands are waiting for the flight; there is no room for more");
+    throw Error(run_messages::too_many_commands(commands));
   waiting_.all.emplace(w, std::move(waiting));
 }
 
@@ -311,8 +312,7 @@ void FlightControl::set_parameter(const std::string& component, const std::strin
     command.value = base_[at][part];
   }
   if (text.size() > max_value)
-    throw Error(component + "." + param + ": a value of " + std::to_string(text.size()) + " characters; " +
-                std::to_string(max_value) + " are allowed");
+    throw Error(run_messages::value_too_long(component, param, text.size(), max_value));
   const ParamInfo& info = commands->info(at).params[part];
   check_live(component, info);
   Report report;
@@ -363,13 +363,13 @@ void FlightControl::pace(const PaceOrder& order, Answer answer) {
   using What = PaceOrder::What;
   const bool stops = order.what == What::pause || order.what == What::resume;
   if (flight_.state.on_hardware())
-    throw Error(std::string("this flight is on hardware, io: fcu: ") +
-                (stops                         ? "an aircraft cannot be paused"
-                 : order.what == What::step    ? "an aircraft cannot be stepped"
-                 : order.what == What::restart ? "an aircraft cannot be put back to where it began"
-                                               : "its time has no speed but that of the clock"));
+    throw Error(run_messages::hardware_pace_fixed(stops                      ? "an aircraft cannot be paused"
+                                                  : order.what == What::step ? "an aircraft cannot be stepped"
+                                                  : order.what == What::restart
+                                                      ? "an aircraft cannot be put back to where it began"
+                                                      : "its time has no speed but that of the clock"));
   if (order.what == What::restart && !flight_.state.options.no_restart.empty())
-    throw Error("no new flight: " + flight_.state.options.no_restart);
+    throw Error(run_messages::restart_not_possible(flight_.state.options.no_restart));
   auto waiting = std::make_unique<Waiting>();
   waiting->pace = order;
   waiting->answer = std::move(answer);

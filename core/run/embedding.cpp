@@ -5,6 +5,7 @@
 #include "core/run/component/last_frame.hpp"
 #include "core/run/control.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/run/messages.hpp"
 #include "core/types/named.hpp"
 #include "links/live/library.hpp"
 
@@ -54,11 +55,10 @@ void Flight::apply(Command command, std::function<void(const std::string&)> answ
   if (answered) reply = [answered = std::move(answered)](const char* refusal) { answered(refusal); };
   switch (impl_->take(command, std::move(reply))) {
     case Impl::Taken::yes: return;
-    case Impl::Taken::idle: throw Error(command.component + " does not fly now");
+    case Impl::Taken::idle: throw Error(run_messages::component_not_active(command.component));
     case Impl::Taken::full:
       const Reader& r = impl_->wiring.units[command.at]->in.readers[command.part];
-      throw Error(command.component + "." + command.name + " has " + std::to_string(r.pending.count) +
-                  " requests waiting; there is no room for more");
+      throw Error(run_messages::too_many_requests(command.component, command.name, r.pending.count));
   }
 }
 

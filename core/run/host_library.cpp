@@ -5,6 +5,7 @@
 
 #include "core/build.hpp"
 #include "core/loader/shared_object.hpp"
+#include "core/run/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -18,14 +19,13 @@ const void* open(const std::string& section, const std::string& needs, const fs:
   try {
     file.load(path, path.string());
   } catch (const Error& fault) {
-    throw Error(std::string(fault.what()) + (needs.empty() ? "" : ". It needs " + needs));
+    throw Error(needs.empty() ? fault.diagnostic : run_messages::library_needs(fault.diagnostic, needs));
   }
   const void* const table = file.find(("fulmar_" + section + "_library").c_str());
-  if (table == nullptr) throw Error(path.string() + " is not Fulmar's library for it");
+  if (table == nullptr) throw Error(run_messages::library_invalid(path.string()));
   const char* const build = *static_cast<const char* const*>(table);
   if (std::strcmp(build, build_identity) != 0)
-    throw Error(path.string() + " is of another build (" + build + ") than this program (" + build_identity +
-                "): build or install both together");
+    throw Error(run_messages::library_build_differs(path.string(), build, build_identity));
   return table;
 }
 
@@ -42,10 +42,10 @@ const void* open_host_library(const std::string& section, const std::string& nee
       if (fs::is_regular_file(file, fault)) return open(section, needs, file);
       searched.push_back(file.string());
     }
-    throw Error("its library is not there. Searched: " + join(searched) +
-                ". Install the package fulmar, or build it: cmake --build build --target " + name);
+    throw Error(run_messages::library_missing(join(searched), name));
   } catch (const Error& fault) {
-    throw Error((where.file.empty() ? "" : where.text() + ": ") + section + ": " + fault.what());
+    const Diagnostic why = located(section, fault.diagnostic);
+    throw Error(where.file.empty() ? why : located(where, why));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "core/run/component/replay_context.hpp"
 #include "core/run/control.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/run/messages.hpp"
 #include "core/run/verdict.hpp"
 #include "links/dds/library.hpp"
 #include "links/live/library.hpp"
@@ -22,7 +23,7 @@ bool Flight::Impl::vehicle_failed() {
   make_printable(vehicle.problem.text);
   Event e = event_of(Code::vehicle_failed, vehicle.component->name);
   put(e.cause, vehicle.problem.text);
-  say(e, "%s", vehicle.problem.text);
+  say(e, std::string_view(vehicle.problem.text));
   recorder.note(e);
   end.end_by(Ending::Cue::vehicle_failed);
   return false;
@@ -131,7 +132,7 @@ void Flight::Impl::conclude() {
   Event e = event_of(Code::concluded, "", word);
   if (!word.starts_with("flown")) e.severity = Severity::error;
   put(e.cause, reason);
-  say(e, "%s (%s)", verdict_line(state.graph, owner, word).c_str(), e.cause.data());
+  say(e, run_messages::concluded, verdict_line(state.graph, owner, word), e.cause.data());
   recorder.note(e, false);
 }
 

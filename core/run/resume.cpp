@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/run/flight_impl.hpp"
+#include "core/run/messages.hpp"
 #include "core/types/named.hpp"
 
 namespace fulmar::core {
@@ -17,7 +18,7 @@ void Flight::Impl::resume_now(bool begun) {
   const int to = std::max(0, index_named(state.graph.phases, resume.phase));
   if (!begun) roles.begin_in(to);
   Event e = event_of(Code::resumed, "", resume.phase);
-  say(e, "resumed: %s", resume.text().c_str());
+  say(e, run_messages::resumed, resume.text());
   recorder.note(e);
   for (const Resume::Param& param : resume.params) resume_parameter(param);
   if (to != roles.phase()) roles.enter(to);
@@ -32,7 +33,7 @@ void Flight::Impl::resume_parameter(const Resume::Param& param) {
   } catch (const Error& fault) {
     Event e = event_of(Code::not_resumed, param.component, param.param);
     put(e.cause, fault.what());
-    say(e, "not resumed: %s", fault.what());
+    say(e, run_messages::not_resumed, fault.what());
     recorder.note(e);
   }
 }
@@ -44,7 +45,7 @@ void Flight::Impl::resume_if_armed() {
   if (state.now_ns - heard_ns < 1'000'000'000) return;
   state.options.resume.reset();
   Event e = event_of(Code::not_resumed);
-  say(e, "not resumed: the aircraft is not in the air, armed");
+  say(e, run_messages::not_resumed_on_ground);
   recorder.note(e);
 }
 

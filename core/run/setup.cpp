@@ -7,6 +7,7 @@
 #include "core/run/control.hpp"
 #include "core/run/flight_impl.hpp"
 #include "core/run/host_library.hpp"
+#include "core/run/messages.hpp"
 #include "core/say.hpp"
 #include "core/types/named.hpp"
 #include "links/dds/library.hpp"
@@ -19,8 +20,7 @@ const FlightOptions& checked(const Graph& graph, const FlightOptions& options) {
   const bool driven = std::any_of(graph.components.begin(), graph.components.end(),
                                   [](const Component& c) { return c.run == RunMode::driver; });
   if (!options.drivers_from.empty() && !driven)
-    throw Error("--drivers-from " + options.drivers_from.string() + ": the mission " + graph.mission +
-                " has no component with 'run: driver'");
+    throw Error(run_messages::driver_missing(options.drivers_from.string(), graph.mission));
   return options;
 }
 
@@ -28,7 +28,7 @@ const LiveLibrary& live_library(const LiveOptions& live) {
   try {
     check_live_options(live);
   } catch (const Error& fault) {
-    throw Error(live.where.text() + ": " + fault.what());
+    throw Error(located(live.where, fault.diagnostic));
   }
   return host_library<LiveLibrary>(live.where);
 }
@@ -72,9 +72,8 @@ void Flight::Impl::request_arming() {
   Reader* const reader = port < 0 ? nullptr : &nth(vehicle.in.readers, port);
   const Field* const armed = reader ? reader->port->type->find("armed") : nullptr;
   if (!armed || armed->kind != FULMAR_BOOL || reader->port->kind != FULMAR_IN_REQUEST)
-    throw Error(vehicle.component->where.text() +
-                ": arm: auto needs a vehicle with a request 'arm' that has a field 'armed'; " +
-                vehicle.component->name + " has none");
+    throw Error(
+        located(vehicle.component->where, run_messages::arm_request_missing(vehicle.component->name)));
   std::vector<std::byte> message(reader->port->type->size);
   message[armed->offset] = std::byte{1};
   reader->push(message.data(), 0);

@@ -3,6 +3,7 @@
 #include "core/graph/params.hpp"
 #include "core/run/command/swap_checks.hpp"
 #include "core/run/flight_impl.hpp"
+#include "core/run/messages.hpp"
 #include "core/run/state/published.hpp"
 #include "core/types/named.hpp"
 
@@ -10,12 +11,10 @@ namespace fulmar::core {
 
 void Flight::Impl::swap(int at, const std::string& file) {
   const std::string& name = wiring.unit(at).component->name;
-  if (at == state.graph.vehicle)
-    throw Error(name + " is the vehicle: it holds the aircraft, and is changed when no flight goes on");
-  if (state.graph.source.file.empty())
-    throw Error("this flight was not read from a mission file: nothing can be swapped in it");
+  if (at == state.graph.vehicle) throw Error(run_messages::vehicle_not_swappable(name));
+  if (state.graph.source.file.empty()) throw Error(run_messages::mission_file_missing());
   if (const std::string why = protection.in_use(); !why.empty())
-    throw Error(name + " cannot be swapped: " + why + ". A component is swapped on the ground, disarmed");
+    throw Error(run_messages::swap_not_possible(name, why));
   replace(at, file);
 }
 
@@ -24,13 +23,13 @@ namespace {
 /// The first output that one of the two has and the other has not, or not so.
 std::string what_differs(const Component& was, const Component& is) {
   for (const Port& port : is.info().outputs)
-    if (was.info().output(port.name) < 0) return "the new file has an output '" + port.name + "' more";
+    if (was.info().output(port.name) < 0) return run_messages::output_added(port.name).line();
   for (const Port& port : was.info().outputs)
-    if (is.info().output(port.name) < 0) return "the new file has no output '" + port.name + "'";
+    if (is.info().output(port.name) < 0) return run_messages::output_removed(port.name).line();
   for (const Port& port : was.info().outputs)
     if (port.type && nth(is.info().outputs, is.info().output(port.name)).type->hash != port.type->hash)
-      return "the message of its output '" + port.name + "' has changed";
-  return "its outputs are not those that it had";
+      return run_messages::output_type_changed(port.name).line();
+  return run_messages::outputs_changed().line();
 }
 
 /// The log of a flight has room for the ports that it began with.
@@ -40,12 +39,10 @@ void check_ports(const Component& was, const Component& is) {
     if (k >= 0 && was.info().outputs.size() == is.info().outputs.size() &&
         (!port.type || nth(is.info().outputs, k).type->hash == port.type->hash))
       continue;
-    throw Error(was.name + ": " + what_differs(was, is) +
-                "; what leaves a flight is settled when it begins. Start it anew, or fly with --watch");
+    throw Error(located(was.name, run_messages::outputs_differ(what_differs(was, is))));
   }
   if (!same_entrances(was, is))
-    throw Error(was.name + ": its requests and imported inputs are not those of " + was.plugin->file +
-                ", and the log of this flight has room for those alone");
+    throw Error(located(was.name, run_messages::entrances_differ(was.plugin->file)));
 }
 
 }  // namespace
@@ -63,8 +60,7 @@ void Flight::Impl::replace(int at, const std::string& file) {
   overrides.swaps = name;
   Graph next = load_mission(graph.source.file, overrides);
   if (const std::string difference = structural_difference(graph, next); !difference.empty())
-    throw Error(graph.source.file + " has changed since this flight began (" + difference +
-                "): end it, and fly again");
+    throw Error(run_messages::mission_changed(graph.source.file, difference));
   Component& newcomer = nth(next.components, at);
   check_ports(*old.component, newcomer);
   const std::string words = parameter_words(*old.info, old.base, newcomer.info(), newcomer.params);
@@ -130,8 +126,8 @@ void Flight::Impl::install(int at, Graph&& next, const std::string& words) {
   swapped[at] = words;
   const PluginInfo& plugin = *graph.components[i].plugin;
   Event e = event_of(Code::swapped, before.name);
-  say(e, "swapped: %s -> %s%s%s", version_words(*before.plugin).c_str(), version_words(plugin).c_str(),
-      words.empty() ? "" : "; ", words.c_str());
+  say(e, run_messages::plugin_swapped, version_words(*before.plugin), version_words(plugin),
+      words.empty() ? "" : "; ", words);
   recorder.note(e);
   recorder.put_command(command);
   recorder.note_swap(before.name, plugin);

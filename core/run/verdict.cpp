@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/log/events.hpp"
+#include "core/run/messages.hpp"
 #include "core/types/names.hpp"
 
 namespace fulmar::core {
@@ -25,7 +26,7 @@ std::string without(const Graph& graph) {
     const std::string owner = port.substr(0, port.find('.'));
     if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
   }
-  return "no verdict; without what " + join(owners) + " reports";
+  return run_messages::verdict_sources_missing(join(owners)).line();
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ const char* result_word(const FlightResult& result) {
 
 std::string reason_of(const FlightResult& result) {
   return has_begun(result) ? result.reason
-                           : "nothing came from the role " + result.idle + "; " + result.reason;
+                           : run_messages::role_output_absent(result.idle, result.reason).line();
 }
 
 std::string verdict_line(const Graph& graph, const Flight& flight, const std::string& result_word) {

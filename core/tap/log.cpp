@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/log/mcap.hpp"
+#include "core/tap/messages.hpp"
 #include "core/tap/tap.hpp"
 #include "core/types/wire.hpp"
 #include "fulmar/quiet_thread.hpp"
@@ -168,7 +169,7 @@ struct Log::Impl {
       f();
       return true;
     } catch (const std::exception& e) {
-      writer->fail(std::string("the log ends early: ") + e.what());
+      writer->fail(tap_messages::log_ends_early(e.what()));
       return false;
     }
   }

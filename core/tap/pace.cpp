@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/error.hpp"
+#include "core/tap/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -36,14 +37,13 @@ PaceOrder step_order(const std::string& ticks) {
   std::uint64_t n = 0;
   const auto [end, code] = std::from_chars(ticks.data(), ticks.data() + ticks.size(), n);
   if (code != std::errc{} || end != ticks.data() + ticks.size() || n < 1 || n > max_ticks)
-    throw Error("step '" + ticks + "': give a whole number of ticks from 1 to " + std::to_string(max_ticks));
+    throw Error(tap_messages::step_count_invalid(ticks, max_ticks));
   return {PaceOrder::What::step, n, 0};
 }
 
 PaceOrder speed_order(const std::string& speed) {
   const std::optional<double> number = speed_of(speed);
-  if (!number || (*number > 0 && *number < slowest))
-    throw Error("speed '" + speed + "': give real, max, or a multiple of real time from 0.01 to 1e6");
+  if (!number || (*number > 0 && *number < slowest)) throw Error(tap_messages::speed_invalid(speed));
   return {PaceOrder::What::speed, 0, *number};
 }
 
@@ -52,8 +52,7 @@ PaceOrder restart_order(const std::string& seed) {
   if (seed.empty()) return order;
   std::uint64_t n = 0;
   const auto [end, code] = std::from_chars(seed.data(), seed.data() + seed.size(), n);
-  if (code != std::errc{} || end != seed.data() + seed.size())
-    throw Error("seed '" + seed + "': give a whole number from 0 to 18446744073709551615");
+  if (code != std::errc{} || end != seed.data() + seed.size()) throw Error(tap_messages::seed_invalid(seed));
   order.seed = n;
   return order;
 }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/types/cdr_bytes.hpp"
+#include "core/types/messages.hpp"
 #include "core/types/walk.hpp"
 
 namespace fulmar::core {
@@ -162,8 +163,8 @@ struct Decoder {
   void element(const Field& f, std::byte* to) {
     if (f.kind == FULMAR_STRUCT) return type(*f.type, to);
     const std::string_view text = in.text();
-    if (text.empty() || text.back() != '\0') throw Error(f.name + " does not end in NUL");
-    if (text.size() > f.stride) throw Error(f.name + " is longer than " + std::to_string(f.stride - 1));
+    if (text.empty() || text.back() != '\0') throw Error(types_messages::field_not_terminated(f.name));
+    if (text.size() > f.stride) throw Error(types_messages::field_too_long(f.name, f.stride - 1));
     std::memcpy(to, text.data(), text.size());
   }
 
@@ -173,9 +174,7 @@ struct Decoder {
       std::byte* first = to + f.offset;
       const std::uint32_t n = in.elements(f), size = primitive_size(f.kind);
       if (f.shape == FULMAR_LIST) {
-        if (n > f.count)
-          throw Error(f.name + " has " + std::to_string(n) + " items, its capacity is " +
-                      std::to_string(f.count));
+        if (n > f.count) throw Error(types_messages::too_many_items(f.name, n, f.count));
         std::memcpy(first, &n, 4);
         first += f.items;
       }
@@ -221,7 +220,7 @@ void cdr_decode(const Type& type, const std::byte* bytes, std::size_t size, std:
   decoder.type(type, message);
   decoder.in.finish(3);
 } catch (const Error& e) {
-  throw Error("bytes do not hold a " + type.name + ": " + e.what());
+  throw Error(types_messages::bytes_invalid(type.name, e.what()));
 }
 
 }  // namespace fulmar::core

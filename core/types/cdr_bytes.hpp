@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/types/element.hpp"
+#include "core/types/messages.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -16,19 +17,16 @@ namespace fulmar::core {
 class CdrReader {
  public:
   explicit CdrReader(std::span<const std::byte> message) : data_(message) {
-    if (message.size() < cdr_header_bytes) throw Error("a message is too short");
+    if (message.size() < cdr_header_bytes) throw Error(types_messages::message_too_short());
     const auto form = static_cast<unsigned>(message[0]) << 8 | static_cast<unsigned>(message[1]);
-    if (form != 1)
-      throw Error("a message has the encapsulation " + std::to_string(form) +
-                  "; only 1, plain little-endian CDR, is read");
+    if (form != 1) throw Error(types_messages::encapsulation_invalid(form));
   }
 
   /// `count` elements of `size` bytes each, one after the other; the size is a power of two.
   const std::byte* take(std::size_t size, std::uint32_t count = 1) {
     if (count > 0) at_ = ((at_ - cdr_header_bytes + size - 1) & ~(size - 1)) + cdr_header_bytes;
     const std::size_t bytes = size * count;
-    if (at_ > data_.size() || bytes > data_.size() - at_)
-      throw Error("a message is too short for its definition");
+    if (at_ > data_.size() || bytes > data_.size() - at_) throw Error(types_messages::message_truncated());
     at_ += bytes;
     return data_.data() + (at_ - bytes);
   }
@@ -40,7 +38,7 @@ class CdrReader {
   /// room is made for it.
   std::size_t count(std::size_t least) {
     const std::size_t n = number<std::uint32_t>();
-    if (n * least > data_.size() - at_) throw Error("a list counts more than the bytes hold");
+    if (n * least > data_.size() - at_) throw Error(types_messages::list_truncated());
     return n;
   }
   /// How many elements follow: one, those of an array, or as many as a list says.
@@ -56,7 +54,7 @@ class CdrReader {
   /// Without the NUL, which has to be there.
   std::string_view ended_text() {
     const std::string_view all = text();
-    if (all.empty() || all.back() != '\0') throw Error("a text does not end in NUL");
+    if (all.empty() || all.back() != '\0') throw Error(types_messages::text_not_terminated());
     return all.substr(0, all.size() - 1);
   }
   bool flag() { return number<std::uint8_t>() != 0; }
@@ -73,7 +71,7 @@ class CdrReader {
   }
   /// Nothing but padding of the whole may be left: 3 bytes of our own messages, up to 7 of others.
   void finish(std::size_t padding = 7) const {
-    if (data_.size() - at_ > padding) throw Error("a message is longer than its definition");
+    if (data_.size() - at_ > padding) throw Error(types_messages::message_too_long());
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/types/messages.hpp"
 #include "core/types/type.hpp"
 
 namespace fulmar::core {
@@ -11,15 +12,15 @@ namespace fulmar::core {
 namespace {
 
 std::string shape_words(const Field& field) {
-  if (field.shape == FULMAR_ARRAY) return "an array of " + std::to_string(field.count);
-  return field.shape == FULMAR_LIST ? "a list of at most " + std::to_string(field.count) : "one value";
+  if (field.shape == FULMAR_ARRAY) return types_messages::array_shape(field.count).line();
+  return field.shape == FULMAR_LIST ? types_messages::list_shape(field.count).line() : "one value";
 }
 
 std::string or_none(const std::string& text) { return text.empty() ? "none" : text; }
 
 std::string differ(const std::string& path, const std::string& what, const std::string& reader,
                    const std::string& writer) {
-  return path + ": reader has " + what + reader + ", writer " + writer;
+  return located(path, types_messages::reader_differs(what, reader, writer)).line();
 }
 
 std::string fields_differ(const Type& from, const Type& to, const std::string& path);
@@ -49,7 +50,7 @@ std::string fields_differ(const Type& from, const Type& to, const std::string& p
   for (const Field& field : to.fields) {
     const Field* source = from.find(field.name);
     if (source == nullptr && field.appended) continue;
-    if (source == nullptr) return "reader knows a field '" + path + field.name + "' that the writer lacks";
+    if (source == nullptr) return types_messages::writer_field_missing(path, field.name).line();
     const std::string fault = field_differs(*source, field, path + field.name);
     if (!fault.empty()) return fault;
   }
@@ -127,7 +128,7 @@ bool same_layout(const Type& from, const Type& to) {
 std::string incompatibility(const Type& from, const Type& to) {
   if (from.hash == to.hash) return "";
   if (from.frame != to.frame)
-    return "reader has frame " + or_none(to.frame) + ", writer " + or_none(from.frame);
+    return types_messages::frames_differ(or_none(to.frame), or_none(from.frame)).line();
   return fields_differ(from, to, "");
 }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/types/messages.hpp"
 #include "core/types/named.hpp"
 #include "core/types/type.hpp"
 
@@ -24,13 +25,12 @@ Part parse_part(std::string_view part, std::string_view dotted) {
   const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
   if (part.back() != ']' || part.size() < open + 3 || fault != std::errc() ||
       end != digits.data() + digits.size())
-    throw Error("'" + std::string(part) + "' in '" + std::string(dotted) +
-                "' is not understood; an index is written like waypoints[3].");
+    throw Error(types_messages::index_invalid(part, dotted));
   return {part.substr(0, open), index};
 }
 
 const Field& find_field(const Type& type, std::string_view name) {
-  return nth(type.fields, require_named(type.fields, name, type.name + " has no field"));
+  return nth(type.fields, require_named(type.fields, name, type.name, "field"));
 }
 
 // The number of items of a list, as a field of its own.
@@ -45,16 +45,14 @@ void enter(FieldRef& ref, const Field& field, const Part& part) {
   ref.offset += field.offset;
   if (!field.unit.empty()) ref.unit = field.unit;
   if (field.shape == FULMAR_SCALAR) {
-    if (part.index >= 0) throw Error("'" + name + "' is a single value and takes no index.");
+    if (part.index >= 0) throw Error(types_messages::index_not_allowed(name));
     return;
   }
   const std::string is = "' is a" +
                          std::string(field.shape == FULMAR_LIST ? " list of at most " : "n array of ") +
                          std::to_string(field.count);
-  if (part.index < 0) throw Error("'" + name + is + ": say " + name + "[0].");
-  if (part.index >= field.count)
-    throw Error("'" + name + "[" + std::to_string(part.index) + "]' does not exist: '" + name + is +
-                ", counted from 0.");
+  if (part.index < 0) throw Error(types_messages::index_missing(name, is, name));
+  if (part.index >= field.count) throw Error(types_messages::index_out_of_range(name, part.index, name, is));
   const auto index = static_cast<std::uint32_t>(part.index);
   if (field.shape == FULMAR_LIST) {
     ref.items.push_back({ref.offset, index});
@@ -82,9 +80,7 @@ FieldRef resolve_field(const Type& type, std::string_view dotted) {
     const std::size_t dot = rest.find('.');
     const bool last = dot == std::string_view::npos;
     const Part part = parse_part(rest.substr(0, dot), dotted);
-    if (inside == nullptr)
-      throw Error("'" + ref.field->name + "' has no fields, so '" + std::string(dotted) +
-                  "' does not exist.");
+    if (inside == nullptr) throw Error(types_messages::field_not_struct(ref.field->name, dotted));
     const Field& field = find_field(*inside, part.name);
     if (!last && field.shape == FULMAR_LIST && part.index < 0 && rest.substr(dot + 1) == "count") {
       ref.field = &count_field();

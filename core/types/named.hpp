@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/types/messages.hpp"
 
 namespace fulmar::core {
 
@@ -32,17 +33,23 @@ auto find_named(const List& list, std::string_view name) -> decltype(list.data()
   return i < 0 ? nullptr : list.data() + i;
 }
 
-/// "there is no role 'x'. Valid: ...", of a name that is not in the list. `what`: "there is no role".
+/// There is no role 'x'. `kind`: "role".
 template <class List>
-std::string no_such(const std::string& what, std::string_view name, const List& list) {
-  return what + " '" + std::string(name) + "'." + choices_text(name, names_of(list));
+Diagnostic no_such(const char* kind, std::string_view name, const List& list) {
+  return types_messages::name_unknown(kind, name, choices_text(name, names_of(list)));
 }
 
-/// The place of the one that bears the name. Throws Error: there is no such one.
+/// The plugin y has no component 'x'. `owner`: "the plugin y", `kind`: "component".
 template <class List>
-int require_named(const List& list, std::string_view name, const std::string& what) {
+Diagnostic has_no(const std::string& owner, const char* kind, std::string_view name, const List& list) {
+  return types_messages::name_unknown_in(owner, kind, name, choices_text(name, names_of(list)));
+}
+
+/// The place of the one that bears the name. Throws Error: `owner` has no such one.
+template <class List>
+int require_named(const List& list, std::string_view name, const std::string& owner, const char* kind) {
   const int i = index_named(list, name);
-  if (i < 0) throw Error(no_such(what, name, list));
+  if (i < 0) throw Error(has_no(owner, kind, name, list));
   return i;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/graph/quantity.hpp"
+#include "links/dds/messages.hpp"
 #include "links/dds/services.hpp"
 
 namespace fulmar::core::dds {
@@ -52,7 +53,7 @@ std::string parameter_text(const ParamInfo& info, const RclValue& value) {
     case RclType::boolean: return value.boolean ? "true" : "false";
     case RclType::integer: return std::to_string(value.integer);
     case RclType::number:
-      if (!std::isfinite(value.number)) throw Error("it is not a finite number");
+      if (!std::isfinite(value.number)) throw Error(dds_messages::number_not_finite());
       return number_text(value.number);
     case RclType::text:  // "20 deg" sets a number, too
       return text_kind
@@ -62,14 +63,13 @@ std::string parameter_text(const ParamInfo& info, const RclValue& value) {
     case RclType::integers: {
       std::string list;
       for (const double x : value.numbers) {
-        if (!std::isfinite(x)) throw Error("it holds a number that is not finite");
+        if (!std::isfinite(x)) throw Error(dds_messages::element_not_finite());
         list += (list.empty() ? "" : ", ") + number_text(x);
       }
       for (const std::int64_t x : value.integers) list += (list.empty() ? "" : ", ") + std::to_string(x);
       return "[" + list + "]";
     }
-    default:
-      throw Error("a parameter is a number, a flag, a text or a list of numbers, and cannot be deleted");
+    default: throw Error(dds_messages::parameter_type_invalid());
   }
 }
 
@@ -197,7 +197,7 @@ void set_one(Control& control, const FlightView& view, const RclParameter& param
   try {
     const ParameterView* p = find_parameter(view, name);
     if (p == nullptr)
-      throw Error("there is no parameter '" + name + "'." + choices_text(name, sorted_names(view)));
+      throw Error(dds_messages::parameter_unknown(name, choices_text(name, sorted_names(view))));
     control.set_parameter(name.substr(0, name.find('.')), p->info.name, parameter_text(p->info, value),
                           answer);
   } catch (const Error& fault) {
@@ -218,8 +218,7 @@ void set_parameters(Control& control, CdrReader in, const Server::Reply& reply, 
   if (several)
     return results->set(
         0, "several parameters cannot be set in one instant; set_parameters sets them one after the other");
-  if (list.size() > max_at_once)
-    throw Error("more than " + std::to_string(max_at_once) + " parameters in one call");
+  if (list.size() > max_at_once) throw Error(dds_messages::too_many_parameters(max_at_once));
   const FlightView view = control.view();
   for (std::size_t i = 0; i < list.size(); ++i)
     set_one(control, view, list[i], [results, i](const std::string& refusal) { results->set(i, refusal); });

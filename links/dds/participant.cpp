@@ -28,6 +28,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "links/dds/messages.hpp"
 
 namespace fulmar::core::dds {
 namespace {
@@ -203,7 +204,7 @@ void set_qos(Qos& qos, const Endpoint& e) {
 rtps::Locator_t locator(const std::string& address) {
   rtps::Locator_t l;
   if (!rtps::IPLocator::setIPv4(l, address) || !rtps::IPLocator::isIPv4(address))
-    throw Error("dds: '" + address + "' is not an IPv4 address such as 127.0.0.1");
+    throw Error(dds_messages::address_invalid(address));
   l.port = 0;  // the ports of the domain
   return l;
 }
@@ -221,8 +222,8 @@ void check_own(const std::string& address, const Where& where) {
   }
   ::freeifaddrs(first);
   if (address.starts_with("127.") || std::find(own.begin(), own.end(), address) != own.end()) return;
-  throw Error((where.file.empty() ? "" : where.text() + ": ") + "dds.interfaces: " + address +
-              " is no address of this computer. Valid: " + join(own));
+  throw Error(
+      dds_messages::interface_unknown(where.file.empty() ? "" : where.text() + ": ", address, join(own)));
 }
 
 /// One transport, bound to the given addresses; discovery by unicast alone.
@@ -274,14 +275,13 @@ struct Participant::Impl : fd::DomainParticipantListener {
     const auto at = topics.find(e.topic);
     if (at != topics.end()) {
       if (at->second->get_type_name() != e.type)
-        throw Error("dds: the topic " + e.topic + " has the type " + at->second->get_type_name() +
-                    " here, it cannot be " + e.type + ", too");
+        throw Error(dds_messages::topic_type_differs(e.topic, at->second->get_type_name(), e.type));
       return at->second;
     }
     if (participant->find_type(e.type).empty())
       fd::TypeSupport(new RawType(e.type, e.max_bytes)).register_type(participant);
     fd::Topic* made = participant->create_topic(e.topic, e.type, fd::TOPIC_QOS_DEFAULT);
-    if (made == nullptr) throw Error("dds: the topic " + e.topic + " could not be made");
+    if (made == nullptr) throw Error(dds_messages::topic_not_created(e.topic));
     return topics[e.topic] = made;
   }
 };
@@ -289,16 +289,14 @@ struct Participant::Impl : fd::DomainParticipantListener {
 Participant::Participant(const DdsOptions& options, Found found) : impl_(std::make_unique<Impl>()) {
   constexpr int highest_domain = 232;  // its ports are the last ones below 65536
   if (options.domain < 0 || options.domain > highest_domain)
-    throw Error("dds: domain " + std::to_string(options.domain) + " is outside 0 .. " +
-                std::to_string(highest_domain));
+    throw Error(dds_messages::domain_out_of_range(options.domain, highest_domain));
   impl_->found = std::move(found);
   const fd::DomainParticipantQos qos = participant_qos(options);
   impl_->participant = fd::DomainParticipantFactory::get_instance()->create_participant(
       static_cast<std::uint32_t>(options.domain), qos, impl_.get(), fd::StatusMask::none());
   if (impl_->participant == nullptr)
-    throw Error("dds: no participant could be made in domain " + std::to_string(options.domain) + " on " +
-                (options.interfaces.empty() ? "127.0.0.1" : join(options.interfaces)) +
-                "; are these addresses of this computer?");
+    throw Error(dds_messages::participant_not_created(
+        options.domain, options.interfaces.empty() ? "127.0.0.1" : join(options.interfaces)));
   impl_->publisher = impl_->participant->create_publisher(fd::PUBLISHER_QOS_DEFAULT);
   impl_->subscriber = impl_->participant->create_subscriber(fd::SUBSCRIBER_QOS_DEFAULT);
 }
@@ -321,8 +319,7 @@ std::unique_ptr<Writer> Participant::writer(const Endpoint& endpoint) {
   fd::Topic* topic = impl_->topic(endpoint);
   writer->writer =
       impl_->publisher->create_datawriter(topic, qos, writer.get(), fd::StatusMask::publication_matched());
-  if (writer->writer == nullptr)
-    throw Error("dds: the topic " + endpoint.topic + " could not be opened for writing");
+  if (writer->writer == nullptr) throw Error(dds_messages::writer_not_created(endpoint.topic));
   return writer;
 }
 
@@ -333,8 +330,7 @@ std::unique_ptr<Reader> Participant::reader(const Endpoint& endpoint, Waker& wak
   fd::Topic* topic = impl_->topic(endpoint);
   reader->reader = impl_->subscriber->create_datareader(
       topic, qos, reader.get(), fd::StatusMask::data_available() << fd::StatusMask::subscription_matched());
-  if (reader->reader == nullptr)
-    throw Error("dds: the topic " + endpoint.topic + " could not be opened for reading");
+  if (reader->reader == nullptr) throw Error(dds_messages::reader_not_created(endpoint.topic));
   return reader;
 }
 

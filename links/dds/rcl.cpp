@@ -2,6 +2,8 @@
 // Field by field as rcl_interfaces has them since ROS 2 Foxy.
 #include "links/dds/rcl.hpp"
 
+#include "links/dds/messages.hpp"
+
 namespace fulmar::core::dds {
 
 void RclValue::write(CdrOut& out) const {
@@ -21,7 +23,7 @@ RclValue RclValue::read(CdrReader& in) {
   RclValue value;
   const auto type = in.number<std::uint8_t>();
   if (type > static_cast<std::uint8_t>(RclType::texts))
-    throw Error("there is no parameter type " + std::to_string(type));
+    throw Error(dds_messages::parameter_type_unknown(type));
   value.type = static_cast<RclType>(type);
   value.boolean = in.flag();
   value.integer = in.number<std::int64_t>();

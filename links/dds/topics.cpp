@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/types/text.hpp"
+#include "links/dds/messages.hpp"
 
 namespace fulmar::core::dds {
 namespace {
@@ -77,8 +78,8 @@ Exports::Exports(Tap& tap, const DdsOptions& options, Others& others)
   for (const DdsOptions::Export& e : options.exports) {
     const auto at = std::find(names.begin(), names.end(), "/" + slashed(e.port));
     if (at == names.end())
-      throw Error(e.where.text() + ": dds.export: there is no '" + e.port + "' to export." +
-                  choices_text("/" + slashed(e.port), names));
+      throw Error(located(
+          e.where, dds_messages::exported_port_unknown(e.port, choices_text("/" + slashed(e.port), names))));
     const auto channel = static_cast<std::size_t>(at - names.begin());
     const Type& type = *tap.channels()[channel].type;
     Topic topic;

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/graph/params.hpp"
 #include "core/types/wire.hpp"
+#include "links/live/messages.hpp"
 
 namespace fulmar::core::live {
 namespace {
@@ -296,8 +297,8 @@ json save_request(const FlightView& view, const std::string& component, const st
 
 json record_json(const FlightView& view, const std::string& component, const std::string& name) {
   const ParameterView* const p = find_parameter(view, component + "." + name);
-  if (!p) throw Error("there is no parameter '" + component + "." + name + "'");
-  if (p->info.kind != FULMAR_RECORD) throw Error(component + "." + name + " is no record");
+  if (!p) throw Error(live_messages::parameter_unknown(component, name));
+  if (p->info.kind != FULMAR_RECORD) throw Error(live_messages::parameter_not_record(component, name));
   return p->base.integer ? to_json(*p->info.type, p->base.data.data(), false) : json(nullptr);
 }
 

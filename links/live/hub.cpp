@@ -6,6 +6,7 @@
 #include <random>
 
 #include "links/live/hub_impl.hpp"
+#include "links/live/messages.hpp"
 
 namespace fulmar::core::live {
 namespace {
@@ -163,7 +164,7 @@ void Hub::guarded(ClientId id, const Work& work) {
   } catch (const json::exception& e) {
     std::string_view words = e.what();  // "[json.exception.type_error.302] type must be string"
     words.remove_prefix(std::min(words.find("] ") + 2, words.size()));
-    refuse(*client, "the message has not the form that its op asks for: " + std::string(words));
+    refuse(*client, live_messages::op_form_invalid(words));
     client->peer->close(1007, "wrong types");
   } catch (const Error& e) {
     refuse(*client, e.what());
@@ -183,7 +184,7 @@ void Hub::text(ClientId id, std::string_view message) {
     if (op == ops().end()) {
       std::vector<std::string> words;
       for (const auto& [word, function] : ops()) words.push_back(word);
-      throw Error("there is no op '" + name + "'." + choices_text(name, words));
+      throw Error(live_messages::op_unknown(name, choices_text(name, words)));
     }
     (this->*op->second)(client, parsed);
   });
@@ -195,9 +196,7 @@ void Hub::binary(ClientId id, std::string_view message) {
     switch (message[0]) {
       case 1: return client_data(client, message);
       case 2: return service_request(client, message);
-      default:
-        throw Error("there is no binary op " + std::to_string(static_cast<unsigned char>(message[0])) +
-                    ". Valid: 1 (data), 2 (service call).");
+      default: throw Error(live_messages::binary_op_unknown(static_cast<unsigned char>(message[0])));
     }
   });
 }

@@ -4,6 +4,7 @@
 #include "core/graph/yaml.hpp"
 #include "core/types/cdr_bytes.hpp"
 #include "links/live/hub_impl.hpp"
+#include "links/live/messages.hpp"
 
 namespace fulmar::core::live {
 namespace {
@@ -29,7 +30,7 @@ std::vector<std::string> cdr_texts(std::string_view bytes, std::size_t count) tr
   for (std::size_t i = 0; i < count; ++i) texts.emplace_back(in.ended_text());
   return texts;
 } catch (const Error& e) {
-  throw Error(std::string("the request: ") + e.what());
+  throw Error(live_messages::request_invalid(e.what()));
 }
 
 std::vector<std::byte> from_cdr(const Type& type, std::string_view payload) {
@@ -62,8 +63,7 @@ std::vector<std::string> arguments(const Service& service, bool as_json, std::st
   std::vector<std::string> texts;
   for (const std::string& name : service.arguments) {
     const auto value = object.is_object() ? object.find(name) : object.end();
-    if (value == object.end() || !value->is_string())
-      throw Error("the request needs the text '" + name + "'");
+    if (value == object.end() || !value->is_string()) throw Error(live_messages::request_text_missing(name));
     texts.push_back(value->get<std::string>());
   }
   return texts;
@@ -71,9 +71,9 @@ std::vector<std::string> arguments(const Service& service, bool as_json, std::st
 
 /// Only an object, and none that a parser would have to dig for.
 void check_json(std::string_view payload) {
-  if (json_too_deep(payload)) throw Error("the request is nested too deeply");
+  if (json_too_deep(payload)) throw Error(live_messages::request_too_deep());
   if (!payload.empty() && !json::parse(payload, nullptr, false).is_object())
-    throw Error("the request is no JSON object");
+    throw Error(live_messages::request_not_object());
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ void check_json(std::string_view payload) {
 void Hub::client_data(Client& client, std::string_view message) {
   const std::uint32_t id = read_u32(message, 1);
   const auto at = client.imports.find(id);
-  if (at == client.imports.end()) throw Error("channel " + std::to_string(id) + " is not advertised");
+  if (at == client.imports.end()) throw Error(live_messages::channel_not_advertised(id));
   const Import& import = at->second;
   const std::string_view payload = message.substr(data_head);
   try {
@@ -91,7 +91,7 @@ void Hub::client_data(Client& client, std::string_view message) {
     check(import.guard, sample);
     if (!control_.publish(import.component, import.port, std::move(sample))) ++counters_.lost;
   } catch (const Error& e) {
-    throw Error(import.topic + ": " + e.what());
+    throw Error(located(import.topic, e.diagnostic));
   }
 }
 
@@ -108,9 +108,8 @@ void Hub::service_request(Client& client, std::string_view message) {
         {{"op", "serviceCallFailure"}, {"serviceId", service_id}, {"callId", call_id}, {"message", why}});
   };
   if (service_id == 0 || service_id > services_.size())
-    return fail("there is no service " + std::to_string(service_id));
-  if (encoding != "cdr" && encoding != "json")
-    return fail("there is no encoding '" + encoding + "'. Valid: cdr, json.");
+    return fail(live_messages::service_unknown(service_id));
+  if (encoding != "cdr" && encoding != "json") return fail(live_messages::encoding_unknown(encoding));
   try {
     call(client, services_[service_id - 1], service_id, call_id, encoding == "json",
          message.substr(call_head + size));

@@ -5,6 +5,7 @@
 
 #include "core/graph/yaml.hpp"
 #include "links/live/hub_impl.hpp"
+#include "links/live/messages.hpp"
 
 namespace fulmar::core::live {
 namespace {
@@ -58,7 +59,7 @@ void Hub::subscribe(Client& client, const json& message) {
   for (const json& entry : array_at(message, "subscriptions")) {
     const std::uint32_t id = id_of(entry.at("id")), channel_id = id_of(entry.at("channelId"));
     if (channel_id == 0 || channel_id > channels_.size()) {
-      refuse(client, "there is no channel " + std::to_string(channel_id));
+      refuse(client, live_messages::channel_unknown(channel_id));
       continue;
     }
     const std::size_t index = channel_id - 1;
@@ -66,8 +67,8 @@ void Hub::subscribe(Client& client, const json& message) {
     const bool has = std::any_of(channel.listeners.begin(), channel.listeners.end(),
                                  [&](const auto& l) { return l.first == &client; });
     if (has || client.subscriptions.contains(id)) {
-      refuse(client, has ? "channel " + std::to_string(channel_id) + " is subscribed to already"
-                         : "subscription " + std::to_string(id) + " is in use");
+      refuse(client, has ? live_messages::channel_already_subscribed(channel_id)
+                         : live_messages::subscription_in_use(id));
       continue;
     }
     feed_.cursor->want(index, 0);
@@ -84,7 +85,7 @@ void Hub::unsubscribe(Client& client, const json& message) {
     if (client.subscriptions.contains(id)) {
       stop_listening(client, id);
     } else {
-      refuse(client, "there is no subscription " + std::to_string(id));
+      refuse(client, live_messages::subscription_unknown(id));
     }
   }
 }
@@ -102,11 +103,10 @@ void Hub::import_channel(Client& client, const json& channel) {
              encoding = channel.at("encoding").get<std::string>();
   const std::string schema = channel.value("schemaName", "");
   if (encoding != "cdr" && encoding != "json")
-    return refuse(client, topic + ": there is no encoding '" + encoding + "'. Valid: cdr, json.");
-  if (client.imports.contains(id))
-    return refuse(client, "channel " + std::to_string(id) + " is advertised already");
+    return refuse(client, located(topic, live_messages::encoding_unknown(encoding)));
+  if (client.imports.contains(id)) return refuse(client, live_messages::channel_already_advertised(id));
   if (client.imports.size() >= max_imports)
-    return refuse(client, "a client may advertise " + std::to_string(max_imports) + " channels");
+    return refuse(client, live_messages::too_many_channels(max_imports));
   std::vector<std::string> topics;
   for (const ComponentView& c : view().components) {
     for (const PortView& p : c.inputs) {
@@ -126,7 +126,7 @@ void Hub::import_channel(Client& client, const json& channel) {
 void Hub::client_unadvertise(Client& client, const json& message) {
   for (const json& entry : array_at(message, "channelIds")) {
     const std::uint32_t id = id_of(entry);
-    if (client.imports.erase(id) == 0) refuse(client, "channel " + std::to_string(id) + " is not advertised");
+    if (client.imports.erase(id) == 0) refuse(client, live_messages::channel_not_advertised(id));
   }
 }
 
@@ -156,8 +156,7 @@ void Hub::get_parameters(Client& client, const json& message) {
 
 void Hub::set_parameters(Client& client, const json& message) {
   const json& list = array_at(message, "parameters");
-  if (list.size() > max_sets)
-    return refuse(client, "a message sets at most " + std::to_string(max_sets) + " parameters");
+  if (list.size() > max_sets) return refuse(client, live_messages::too_many_parameters(max_sets));
   auto pending = std::make_shared<Pending>();
   pending->client = client.id;
   pending->id = request_id(message);
@@ -187,8 +186,8 @@ void Hub::set_one(Client& asker, const std::shared_ptr<Pending>& pending, const 
     if (reported_enough(asker)) throw Error("");
     const auto value = parameter.find("value");
     const std::size_t dot = name.find('.');
-    if (dot == std::string::npos) throw Error("a parameter is named COMPONENT.PARAMETER");
-    if (value == parameter.end() || value->is_null()) throw Error("a parameter cannot be removed");
+    if (dot == std::string::npos) throw Error(live_messages::parameter_name_invalid());
+    if (value == parameter.end() || value->is_null()) throw Error(live_messages::parameter_not_removable());
     const std::string text = mission_text(*value, parameters_.texts.contains(name));
     control_.set_parameter(name.substr(0, dot), name.substr(dot + 1), text,
                            [mailbox = mailbox_, done](const std::string& refusal) {
@@ -226,7 +225,7 @@ void Hub::subscribe_graph(Client& client, const json&) {
 }
 
 void Hub::unsubscribe_graph(Client& client, const json&) {
-  if (!client.graph) refuse(client, "the connection graph is not subscribed to");
+  if (!client.graph) refuse(client, live_messages::graph_not_subscribed());
   client.graph = false;
 }
 

@@ -13,6 +13,7 @@
 #include "core/loader/process.hpp"
 #include "fulmar/quiet_thread.hpp"
 #include "links/live/describe.hpp"
+#include "links/live/messages.hpp"
 
 namespace fulmar::core::live {
 namespace {
@@ -21,23 +22,16 @@ using nlohmann::json;
 
 std::string answer_of_program(const std::string& request, std::chrono::seconds limit) {
   const std::string program = own_program("fulmar-save", "FULMAR_SAVE").string();
-  if (program.empty())
-    throw Error(
-        "the program fulmar-save is missing beside this one: it writes parameters into files; cmake --build "
-        "build --target flight");
+  if (program.empty()) throw Error(live_messages::save_program_missing());
   const MemoryFile in(request), out;
   ChildFiles files;
   files.in = in.descriptor();
   files.out = out.descriptor();
   files.error = STDERR_FILENO;
   Process process(program, {}, files);
-  if (!process.wait(limit))
-    throw Error(program + " has not answered within " + std::to_string(limit.count()) +
-                " s and is stopped: what it has written is whole");
-  if (process.signal() != 0)
-    throw Error(program + " was stopped by signal " + std::to_string(process.signal()));
-  if (process.exit_code() != 0)
-    throw Error(program + " ended with exit code " + std::to_string(process.exit_code()));
+  if (!process.wait(limit)) throw Error(live_messages::save_timed_out(program, limit.count()));
+  if (process.signal() != 0) throw Error(live_messages::save_program_killed(program, process.signal()));
+  if (process.exit_code() != 0) throw Error(live_messages::save_program_failed(program, process.exit_code()));
   return out.contents();
 }
 
@@ -47,8 +41,8 @@ SaveAnswer save(const FlightView& view, const std::string& component, const std:
                 std::chrono::seconds limit) noexcept {
   SaveAnswer answer;
   try {
-    if (!view.no_save.empty()) throw Error("nothing is written from here: " + view.no_save);
-    if (view.file.empty()) throw Error("this flight has no mission file that could be written");
+    if (!view.no_save.empty()) throw Error(live_messages::save_not_allowed(view.no_save));
+    if (view.file.empty()) throw Error(live_messages::mission_file_missing());
     const json said = json::parse(answer_of_program(dumped(save_request(view, component, mark)), limit));
     answer = {said.at("accepted"), said.at("reason"), said.at("lines"), said.at("mark")};
   } catch (const json::exception&) {
@@ -61,7 +55,7 @@ SaveAnswer save(const FlightView& view, const std::string& component, const std:
 
 void Saving::begin(FlightView view, std::string component, std::string mark,
                    std::function<void(const SaveAnswer&)> answer) {
-  if (busy_->exchange(true)) throw Error("another one's parameters are being saved; ask again");
+  if (busy_->exchange(true)) throw Error(live_messages::save_in_progress());
   // It holds nothing of ours but this: a disk that hangs does not keep the flight from its end.
   quiet_thread("fulmar-save", [busy = busy_, view = std::move(view), component = std::move(component),
                                mark = std::move(mark), answer = std::move(answer)] {

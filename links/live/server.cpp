@@ -8,6 +8,7 @@
 #include "core/graph/live_options.hpp"
 #include "fulmar/quiet_thread.hpp"
 #include "links/live/connection.hpp"
+#include "links/live/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -24,10 +25,7 @@ net::ip::address address_of(const std::string& host) {
       host.starts_with('[') && host.ends_with(']') ? host.substr(1, host.size() - 2) : host;
   error_code fault;
   const auto address = net::ip::make_address(bare == "localhost" ? "127.0.0.1" : bare, fault);
-  if (fault)
-    throw Error(
-        "live.listen: '" + host +
-        "' is no address. Valid: 127.0.0.1 (this computer alone), 0.0.0.0 (all), or one of this computer's.");
+  if (fault) throw Error(live_messages::listen_address_invalid(host));
   return address;
 }
 
@@ -78,12 +76,12 @@ struct LiveServer::Impl {
     if (!fault) acceptor.bind(at, fault);
     if (!fault) acceptor.listen(net::socket_base::max_listen_connections, fault);
     if (fault)
-      throw Error("live: cannot listen on " + options.host + ":" + std::to_string(options.port) + ": " +
-                  fault.message() +
-                  (fault == net::error::address_in_use
-                       ? ". Another flight may have the port: stop it, or give this one another with "
-                         "live.listen (port 0: any that is free)."
-                       : ". Give an address of this computer with live.listen."));
+      throw Error(live_messages::listen_failed(
+          options.host, options.port, fault.message(),
+          fault == net::error::address_in_use
+              ? ". Another flight may have the port: stop it, or give this one another with "
+                "live.listen (port 0: any that is free)."
+              : ". Give an address of this computer with live.listen."));
     port = acceptor.local_endpoint().port();
   }
 

@@ -6,6 +6,7 @@
 #include "tools/chart/chart.hpp"
 #include "tools/chart/figure.hpp"
 #include "tools/chart/figure_curves.hpp"
+#include "tools/chart/messages.hpp"
 #include "tools/chart/numbers.hpp"
 
 namespace fulmar::chart {
@@ -286,10 +287,11 @@ std::string too_small(const Figure& figure) {
   const double higher = (min_plot - drawing.plot_high()) * static_cast<double>(figure.panels.size()),
                wider = 3 * min_plot - drawing.plot_wide();
   if (higher <= 0 && wider <= 0) return "";
-  return "has no room for its axes and " + std::to_string(figure.panels.size()) +
-         (figure.panels.size() == 1 ? " panel" : " panels") + "; it takes at least " +
-         fixed(std::ceil(figure.wide_mm + std::max(0.0, wider)), 0) + "x" +
-         fixed(std::ceil(figure.high_mm + std::max(0.0, higher)), 0) + "mm";
+  return chart_messages::figure_too_small(figure.panels.size(),
+                                          figure.panels.size() == 1 ? " panel" : " panels",
+                                          fixed(std::ceil(figure.wide_mm + std::max(0.0, wider)), 0),
+                                          fixed(std::ceil(figure.high_mm + std::max(0.0, higher)), 0))
+      .line();
 }
 
 void fit_even(Figure& figure) {

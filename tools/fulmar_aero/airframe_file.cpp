@@ -11,6 +11,7 @@
 #include "fulmar/flight/model/trim.hpp"
 #include "fulmar/schema.hpp"
 #include "fulmar/sim/airframe_rules.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero {
 namespace {
@@ -63,9 +64,9 @@ void refuse_what_is_not_positive(const AirframeFile& file, core::Report& report)
   for (const Positive& one : all) {
     if (one.value > 0) continue;
     const std::string unit = *one.unit ? std::string(" ") + one.unit : "";
-    report.add(file.where(one.field), std::string(one.field) + ": it is " + core::number_text(one.value) +
-                                          unit +
-                                          " and must be more than 0; no model of the aircraft can be made");
+    report.add(file.where(one.field),
+               located(std::string(one.field),
+                       aero_messages::value_not_positive(core::number_text(one.value), unit)));
   }
 }
 
@@ -73,9 +74,8 @@ void refuse_inertia(const AirframeFile& file, core::Report& report) {
   const Inertia& i = file.airframe.inertia;
   if (i.xx_kgm2 <= 0 || i.zz_kgm2 <= 0 || i.xz_kgm2 * i.xz_kgm2 < i.xx_kgm2 * i.zz_kgm2) return;
   report.add(file.where("inertia.xz_kgm2"),
-             "inertia: it is not positive definite: xz^2 = " + core::number_text(i.xz_kgm2 * i.xz_kgm2) +
-                 " must be less than xx zz = " + core::number_text(i.xx_kgm2 * i.zz_kgm2) +
-                 "; no body has such an inertia");
+             aero_messages::inertia_not_positive_definite(core::number_text(i.xz_kgm2 * i.xz_kgm2),
+                                                          core::number_text(i.xx_kgm2 * i.zz_kgm2)));
 }
 
 void refuse_tables(const AirframeFile& file, core::Report& report) {
@@ -85,8 +85,7 @@ void refuse_tables(const AirframeFile& file, core::Report& report) {
     const std::string fault = table_fault(file.airframe.aero.tables[i]);
     if (fault.empty()) continue;
     const core::Node::Entry* const entry = entry_of(tables->items[i], fault.substr(0, fault.find(':')));
-    report.add(entry ? entry->where() : tables->items[i].where(),
-               "aero.tables[" + std::to_string(i) + "]." + fault);
+    report.add(entry ? entry->where() : tables->items[i].where(), aero_messages::table_invalid(i, fault));
   }
 }
 
@@ -144,8 +143,7 @@ AirframeFile airframe_in(const core::FilePtr& source, const std::string& name) {
   core::Report report;
   file.root = core::parse_yaml(source, report);
   if (report.empty() && !file.root.is(core::Node::Kind::map))
-    report.add({name, 0},
-               "expected a map with the fields of an airframe; found " + core::found_words(file.root));
+    report.add({name, 0}, aero_messages::airframe_map_expected(core::found_words(file.root)));
   if (report.empty())
     core::fill_record(*core::copy_type(describe<Airframe>()), file.root,
                       reinterpret_cast<std::byte*>(&file.airframe), "", report, {"params"});
@@ -154,7 +152,7 @@ AirframeFile airframe_in(const core::FilePtr& source, const std::string& name) {
     refuse_inertia(file, report);
     refuse_tables(file, report);
     if (const sim::AirframeFault fault = sim::airframe_fault(file.airframe))
-      report.add(file.where(fault.field), shown_field(fault.field) + ": " + fault.sentence);
+      report.add(file.where(fault.field), located(shown_field(fault.field), fault.sentence));
   }
   report.throw_if_any();
   return file;

@@ -4,6 +4,7 @@
 
 #include "fulmar/flight/model/trim.hpp"
 #include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -23,19 +24,18 @@ void check_surface(Findings& f, const std::string& name, const Surface& s) {
   check_angle(f, name + ".trim_rad", s.trim_rad, 1.4);
   f.looked_at(4);
   if (s.limit_rad < 0.05)
-    f.warn(name + ".limit_rad", s.limit_rad,
-           "the throw is " + degrees(s.limit_rad) + " only; surfaces move 15 to 45 deg");
+    f.warn(name + ".limit_rad", s.limit_rad, aero_messages::throw_too_small(degrees(s.limit_rad)));
   if (std::abs(s.trim_rad) > s.limit_rad && std::abs(s.trim_rad) <= 1.4)
     f.fault(name + ".trim_rad", s.trim_rad,
-            "the trim is " + degrees(s.trim_rad, 1) + ", beyond the throw of " + degrees(s.limit_rad, 1));
+            aero_messages::trim_beyond_throw(degrees(s.trim_rad, 1), degrees(s.limit_rad, 1)));
   if (s.rate_limit_radps > 40)
     f.warn(name + ".rate_limit_radps", s.rate_limit_radps,
-           "it is " + figures(s.rate_limit_radps) + " rad/s; servos have 3 to 15: is it in deg/s?");
+           aero_messages::servo_rate_unusual(figures(s.rate_limit_radps)));
   if (s.rate_limit_radps <= 0)
-    f.fault(name + ".rate_limit_radps", s.rate_limit_radps, "the servo does not move");
+    f.fault(name + ".rate_limit_radps", s.rate_limit_radps, aero_messages::servo_rate_not_positive());
   if (s.time_constant_s < 0 || s.time_constant_s > 0.5)
     f.warn(name + ".time_constant_s", s.time_constant_s,
-           "it is " + figures(s.time_constant_s) + " s; servos have 0.01 to 0.1: is it in ms?");
+           aero_messages::time_constant_unusual(figures(s.time_constant_s)));
 }
 
 void check_limits(Findings& f, const FlightLimits& l) {
@@ -46,13 +46,13 @@ void check_limits(Findings& f, const FlightLimits& l) {
   if (!(l.airspeed_min_mps > 0 && l.airspeed_min_mps < l.airspeed_cruise_mps &&
         l.airspeed_cruise_mps < l.airspeed_max_mps))
     f.fault("limits.airspeed_cruise_mps", l.airspeed_cruise_mps,
-            "the airspeeds " + figures(l.airspeed_min_mps) + ", " + figures(l.airspeed_cruise_mps) + " and " +
-                figures(l.airspeed_max_mps) + " m/s do not rise from least to most");
+            aero_messages::airspeeds_not_increasing(
+                figures(l.airspeed_min_mps), figures(l.airspeed_cruise_mps), figures(l.airspeed_max_mps)));
   if (l.pitch_min_rad >= l.pitch_max_rad)
-    f.fault("limits.pitch_min_rad", l.pitch_min_rad, "the least pitch is not below the most");
+    f.fault("limits.pitch_min_rad", l.pitch_min_rad, aero_messages::pitch_limits_reversed());
   if (l.throttle_cruise_frac < 0 || l.throttle_cruise_frac > 1)
     f.fault("limits.throttle_cruise_frac", l.throttle_cruise_frac,
-            "it is " + figures(l.throttle_cruise_frac) + " and a part of full throttle, 0 to 1");
+            aero_messages::cruise_throttle_invalid(figures(l.throttle_cruise_frac)));
 }
 
 }  // namespace
@@ -63,8 +63,7 @@ void check_angles(Findings& f) {
   f.looked_at();
   if (a.wing.stall_alpha_rad < 0.1)
     f.warn("wing.stall_alpha_rad", a.wing.stall_alpha_rad,
-           "it is " + degrees(a.wing.stall_alpha_rad, 1) +
-               "; wings stall at 10 to 18 deg: with this it stalls in cruise");
+           aero_messages::stall_angle_low(degrees(a.wing.stall_alpha_rad, 1)));
   check_surface(f, "aileron", a.aileron);
   check_surface(f, "elevator", a.elevator);
   if (rudder_acts(a) || a.rudder.limit_rad > 0) check_surface(f, "rudder", a.rudder);

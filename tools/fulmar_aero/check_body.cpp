@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -56,15 +57,13 @@ void check_triangle(Findings& f) {
   std::sort(principal.begin(), principal.end());
   if (principal[0] <= 0)
     return f.fault("inertia.xz_kgm2", i.xz_kgm2,
-                   "the inertia is not positive definite, one of its principal moments is " +
-                       figures(principal[0]) + " kg m^2: xz has to be less than " +
-                       figures(std::sqrt(i.xx_kgm2 * i.zz_kgm2)) + " either way");
+                   aero_messages::inertia_not_definite(figures(principal[0]),
+                                                       figures(std::sqrt(i.xx_kgm2 * i.zz_kgm2))));
   if (principal[2] <= principal[0] + principal[1]) return;
   f.warn("inertia", principal[2],
-         "no body has these moments: the principal ones are " + figures(principal[0]) + ", " +
-             figures(principal[1]) + " and " + figures(principal[2]) +
-             " kg m^2, and the largest is more than the sum of the others; is xz (" + figures(i.xz_kgm2) +
-             ") wrong, or xx (" + figures(i.xx_kgm2) + ") exchanged with yy (" + figures(i.yy_kgm2) + ")?");
+         aero_messages::inertia_moments_impossible(figures(principal[0]), figures(principal[1]),
+                                                   figures(principal[2]), figures(i.xz_kgm2),
+                                                   figures(i.xx_kgm2), figures(i.yy_kgm2)));
 }
 
 void check_wing(Findings& f) {
@@ -72,15 +71,12 @@ void check_wing(Findings& f) {
   const Airframe& a = f.file().airframe;
   const double S = a.wing.area_m2, b = a.wing.span_m, c = a.wing.chord_m;
   if (const double part = c * b / S; part < 0.7 || part > 1.5)
-    f.fault("wing.chord_m", c,
-            "chord times span is " + figures(part) +
-                " of the area, which is 0.7 to 1.5 in one and the same wing; one "
-                "of the three is wrong or in another unit");
+    f.fault("wing.chord_m", c, aero_messages::wing_dimensions_inconsistent(figures(part)));
   if (const double AR = b * b / S; AR < 2 || AR > 40)
-    f.warn("wing.span_m", b, "the aspect ratio b^2/S is " + figures(AR) + "; wings have 2 to 40");
+    f.warn("wing.span_m", b, aero_messages::aspect_ratio_unusual(figures(AR)));
   if ((a.wing.oswald_ratio > 1.1 && has_induced_drag(a.wing)) || a.wing.oswald_ratio < 0.4)
     f.warn("wing.oswald_ratio", a.wing.oswald_ratio,
-           "Oswald's factor is " + figures(a.wing.oswald_ratio) + "; wings have 0.6 to 1");
+           aero_messages::oswald_factor_unusual(figures(a.wing.oswald_ratio)));
 }
 
 void check_loading(Findings& f) {
@@ -89,10 +85,10 @@ void check_loading(Findings& f) {
   const double loading = a.mass_kg / a.wing.area_m2;
   f.figure("wing_loading_kgpm2", loading, "wing loading", figures(loading) + " kg/m2");
   if (loading >= 0.5 && loading <= 150) return;
-  f.fault(
-      "mass_kg", a.mass_kg,
-      "the wing loading is " + figures(loading) + " kg/m2; small aircraft have 1 to 60. " +
-          (loading > 150 ? "Is the mass in grams, or the area in ft^2?" : "Is the area in another unit?"));
+  f.fault("mass_kg", a.mass_kg,
+          aero_messages::wing_loading_unusual(
+              figures(loading),
+              loading > 150 ? "Is the mass in grams, or the area in ft^2?" : "Is the area in another unit?"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -69,12 +70,10 @@ void check_zero_lift(Findings& f) {
   const double angle = -aero.lift.zero_ratio / aero.lift.alpha_ratio;
   f.figure("zero_lift_alpha_deg", angle / degree, "", "");
   if (angle > -6 * degree && angle < 4 * degree) return;
-  f.warn("aero.lift.zero_ratio", aero.lift.zero_ratio,
-         "CL_0 is " + figures(aero.lift.zero_ratio) + ": without lift it would fly at " + degrees(angle, 1) +
-             ", usual is -5 to 0 deg; is it CL at the angle that was analysed, as tools print it? At 0 it is "
-             "CL - CL_alpha "
-             "alpha: had it been 3 deg, CL_0 would be " +
-             figures(aero.lift.zero_ratio - 3 * degree * aero.lift.alpha_ratio));
+  f.warn(
+      "aero.lift.zero_ratio", aero.lift.zero_ratio,
+      aero_messages::zero_lift_unusual(figures(aero.lift.zero_ratio), degrees(angle, 1),
+                                       figures(aero.lift.zero_ratio - 3 * degree * aero.lift.alpha_ratio)));
 }
 
 /// Published sets that are copied most. Aerosonde: Beard & McLain (2012), appendix E, as rosflight_sim has
@@ -133,13 +132,11 @@ void check_copies(Findings& f, const KnownAircraft& known, int least) {
   const Same count = compared(a.aero, known.aero);
   if (count.same < least) return;
   f.warn("aero.lift.alpha_ratio", a.aero.lift.alpha_ratio,
-         std::to_string(count.same) + " of " + std::to_string(count.all) + " coefficients are those of the " +
-             known.name + " to the digit, and wing or span are not: were they copied?");
+         aero_messages::coefficients_copied(count.same, count.all, known.name));
   if (known.aero.pitch.zero_ratio != 0 && near(a.aero.pitch.zero_ratio, 10 * known.aero.pitch.zero_ratio))
     f.warn("aero.pitch.zero_ratio", a.aero.pitch.zero_ratio,
-           "Cm_0 is " + figures(a.aero.pitch.zero_ratio) + ", ten times the " + known.name + "'s " +
-               figures(known.aero.pitch.zero_ratio) +
-               " among coefficients that are its own: has a digit been lost?");
+           aero_messages::pitch_coefficient_digit(figures(a.aero.pitch.zero_ratio), known.name,
+                                                  figures(known.aero.pitch.zero_ratio)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -88,13 +89,11 @@ std::string likely_mistake(const Rule& rule, const Airframe& a, double value) {
     return with(would(1 / per_degree), "turned from degrees once too often");
   const double b = a.wing.span_m, c = a.wing.chord_m;
   if (rule.of == &D::q_ratio && usual(rule, value * b / c))
-    return ": does it belong with the span b/2V instead of the chord c/2V? Then it would be " +
-           figures(value * b / c);
+    return aero_messages::rate_by_span(figures(value * b / c)).line();
   if (rule.of == &D::q_ratio && usual(rule, value * 2))
-    return ": is its rate q c/V instead of q c/2V? Then it would be " + figures(2 * value);
+    return aero_messages::pitch_rate_doubled(figures(2 * value)).line();
   const bool across = rule.of == &D::p_ratio || rule.of == &D::r_ratio;
-  if (across && usual(rule, value * 2))
-    return ": is its rate p b/V instead of p b/2V? Then it would be " + figures(2 * value);
+  if (across && usual(rule, value * 2)) return aero_messages::roll_rate_doubled(figures(2 * value)).line();
   return "";
 }
 
@@ -114,8 +113,8 @@ bool absurd(const Rule& rule, double value, bool explained) {
 }
 
 std::string no_rudder(const Airframe& a) {
-  if (a.rudder.limit_rad > 0) return ": the rudder moves nothing; turns are flown without it";
-  return ": there is no rudder; nothing controls yaw, turns are flown with the ailerons alone";
+  if (a.rudder.limit_rad > 0) return aero_messages::rudder_ineffective().line();
+  return aero_messages::rudder_missing().line();
 }
 
 void missing(Findings& f, const Rule& rule) {
@@ -124,7 +123,7 @@ void missing(Findings& f, const Rule& rule) {
   if (rule.wrong_sign == warning || rudder || rule.of == &D::beta_ratio)
     f.warn(rule.field, 0, what + (rudder ? no_rudder(f.file().airframe) : std::string(": was it left out?")));
   else
-    f.fault(rule.field, 0, what + ", which no aircraft has: was it left out?");
+    f.fault(rule.field, 0, aero_messages::coefficient_zero(what));
 }
 
 void check_one(Findings& f, const Rule& rule) {

@@ -7,6 +7,7 @@
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/flight_model.hpp"
 #include "tools/fulmar_aero/flight_words.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/mode_words.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
@@ -23,8 +24,7 @@ void check_speeds(Findings& f, const AircraftModel& m) {
   if (stall > 0) f.figure("stall_airspeed_mps", stall, "stall", fixed(stall, 1) + " m/s");
   if (stall > 0 && l.airspeed_min_mps < 1.05 * stall)
     f.warn("limits.airspeed_min_mps", l.airspeed_min_mps,
-           "it is " + figures(l.airspeed_min_mps) + " m/s, and the wing stalls at " + fixed(stall, 1) +
-               " m/s; 1.2 times that is usual");
+           aero_messages::minimum_airspeed_low(figures(l.airspeed_min_mps), fixed(stall, 1)));
   if (!flies(m, l.airspeed_cruise_mps)) return;
   const LevelSpeeds level = level_speeds(m, l.airspeed_cruise_mps);
   f.figure("slowest_airspeed_mps", level.slowest_mps, "slowest level flight",
@@ -35,7 +35,7 @@ void check_speeds(Findings& f, const AircraftModel& m) {
 
 /// What a limit is that the file leaves out; "" of one that it has.
 std::string defaulted(const Findings& f, const char* field, const std::string& value) {
-  return f.file().says(field) ? "" : "; the file does not say it, and " + value + " are the default";
+  return f.file().says(field) ? "" : aero_messages::limit_defaulted(value).line();
 }
 
 void check_trim(Findings& f, const AircraftModel& m) {
@@ -46,8 +46,8 @@ void check_trim(Findings& f, const AircraftModel& m) {
     const SteadyFlight flight = fly(m, {airspeed});
     if (!flight.found())
       f.fault(field, airspeed,
-              "no level flight at " + figures(airspeed) + " m/s: " + limit_words(f.file(), m, flight) +
-                  defaulted(f, field, figures(airspeed) + " m/s"));
+              aero_messages::level_flight_impossible(figures(airspeed), limit_words(f.file(), m, flight),
+                                                     defaulted(f, field, figures(airspeed) + " m/s")));
   };
   one("limits.airspeed_min_mps", l.airspeed_min_mps);
   one("limits.airspeed_cruise_mps", l.airspeed_cruise_mps);
@@ -63,16 +63,14 @@ void check_cruise(Findings& f, const AircraftModel& m, const SteadyFlight& cruis
            figures(forces.lift_newton / forces.drag_newton));
   if (forces.lift_ratio < 0.1 || forces.lift_ratio > 1.4)
     f.fault("limits.airspeed_cruise_mps", a.limits.airspeed_cruise_mps,
-            "in cruise CL is " + figures(forces.lift_ratio) +
-                ", usual is 0.2 to 0.9: mass, area or airspeed is in another unit");
+            aero_messages::cruise_lift_unusual(figures(forces.lift_ratio)));
   const double elevator = cruise.input(model::elevator), throttle = cruise.input(model::throttle);
   if (std::abs(elevator - a.elevator.trim_rad) > 0.1)
     f.warn("elevator.trim_rad", a.elevator.trim_rad,
-           "it is " + degrees(a.elevator.trim_rad, 1) + ", and level cruise takes " + degrees(elevator, 1));
+           aero_messages::elevator_trim_unusual(degrees(a.elevator.trim_rad, 1), degrees(elevator, 1)));
   if (std::abs(throttle - a.limits.throttle_cruise_frac) > 0.15)
-    f.warn(
-        "limits.throttle_cruise_frac", a.limits.throttle_cruise_frac,
-        "it is " + figures(a.limits.throttle_cruise_frac) + ", and level cruise takes " + fixed(throttle, 2));
+    f.warn("limits.throttle_cruise_frac", a.limits.throttle_cruise_frac,
+           aero_messages::elevator_trim_unusual(figures(a.limits.throttle_cruise_frac), fixed(throttle, 2)));
 }
 
 void check_envelope(Findings& f, const AircraftModel& m) {
@@ -124,8 +122,8 @@ void check_mode(Findings& f, const Mode& mode) {
   }
   if (mode.stable() && mode.oscillates() && mode.damping_ratio() < want.damping_ratio)
     f.warn(want.field, mode.damping_ratio(),
-           "the " + name + " is damped by " + fixed(mode.damping_ratio(), 3) + ", less than " +
-               figures(want.damping_ratio) + ": " + want.else_what);
+           aero_messages::mode_damping_low(name, fixed(mode.damping_ratio(), 3), figures(want.damping_ratio),
+                                           want.else_what));
 }
 
 }  // namespace

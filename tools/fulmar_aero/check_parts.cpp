@@ -6,6 +6,7 @@
 #include "fulmar/flight/model/propellers.hpp"
 #include "fulmar/sim/gear_legs.hpp"
 #include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -16,22 +17,21 @@ void check_servo(Findings& f, const std::string& name, const Surface& s) {
   const double frequency = s.natural_frequency_radps;
   if (frequency > 0 && (frequency < 15 || frequency > 600))
     f.warn(name + ".natural_frequency_radps", frequency,
-           "it is " + figures(frequency) + " rad/s; servos have 30 to 200" +
-               (frequency < 15
-                    ? ": is it in Hz? Then it would be " + figures(frequency * 360 * degree) + " rad/s"
-                    : ": is it in deg/s?"));
+           aero_messages::servo_frequency_unusual(
+               figures(frequency), frequency < 15 ? ": is it in Hz? Then it would be " +
+                                                        figures(frequency * 360 * degree) + " rad/s"
+                                                  : ": is it in deg/s?"));
   if (frequency > 0 && (s.damping_ratio < 0.3 || s.damping_ratio > 3))
     f.warn(name + ".damping_ratio", s.damping_ratio,
-           "it is " + figures(s.damping_ratio) + "; servos have 0.5 to 2");
+           aero_messages::servo_damping_unusual(figures(s.damping_ratio)));
   if (s.dead_band_rad > 0.1)
     f.warn(name + ".dead_band_rad", s.dead_band_rad,
-           "it is " + degrees(s.dead_band_rad, 1) + "; servos have 0.1 to 1 deg: is it in degrees?");
+           aero_messages::dead_band_unusual(degrees(s.dead_band_rad, 1)));
   const Stops at = stops(s);
   if (at.max < s.limit_rad - 1e-9 || at.min > 1e-9 - s.limit_rad)
     f.warn(name + (at.max < s.limit_rad - 1e-9 ? ".max_rad" : ".min_rad"),
            at.max < s.limit_rad - 1e-9 ? at.max : at.min,
-           "the servo goes from " + degrees(at.min, 1) + " to " + degrees(at.max, 1) +
-               ", and controllers command up to the throw, " + degrees(s.limit_rad, 1) + " either way");
+           aero_messages::servo_range_small(degrees(at.min, 1), degrees(at.max, 1), degrees(s.limit_rad, 1)));
 }
 
 bool alike(const Surface& a, const Surface& b) {
@@ -49,7 +49,7 @@ void check_mixer(Findings& f) {
   if (alike(left, right)) return;
   const std::string names = elevons ? "'aileron' and 'elevator' are the left and the right elevon"
                                     : "'elevator' and 'rudder' are the left and the right ruddervator";
-  f.warn("mixer", 0, names + ", and their servos are not alike: one moves otherwise than the other");
+  f.warn("mixer", 0, aero_messages::paired_servos_differ(names));
 }
 
 void check_propellers(Findings& f) {
@@ -60,13 +60,11 @@ void check_propellers(Findings& f) {
   Propellers(a).add<double>(1.0, 0.0, load);
   const double arm = load.moment_b.z();
   if (load.force_b.x() <= 0)
-    f.fault("propulsion.propellers", load.force_b.x(),
-            "together they do not push forward: look at tilt and toe");
+    f.fault("propulsion.propellers", load.force_b.x(), aero_messages::forward_thrust_missing());
   if (std::abs(arm) > 0.01 * a.wing.span_m)
     f.warn("propulsion.propellers", arm,
-           std::string("together they turn the nose ") + (arm > 0 ? "right" : "left") +
-               ": their thrust acts " + figures(std::abs(arm) / load.force_b.x()) +
-               " m beside the centre of gravity; has one the wrong sign of y?");
+           aero_messages::thrust_off_centre(arm > 0 ? "right" : "left",
+                                            figures(std::abs(arm) / load.force_b.x())));
 }
 
 void check_battery(Findings& f) {
@@ -77,7 +75,7 @@ void check_battery(Findings& f) {
   const double part = motors * p.pack.resistance_ohm / p.resistance_ohm;
   if (part > 2)
     f.warn("propulsion.pack.resistance_ohm", p.pack.resistance_ohm,
-           "it is " + figures(part) + " times that of the motors: is it in milliohm?");
+           aero_messages::pack_resistance_unusual(figures(part)));
 }
 
 void check_contacts(Findings& f) {
@@ -99,11 +97,9 @@ void check_contacts(Findings& f) {
         "it has no wheels: by hand or off a catapult, `launch` of the simulator and `launch_acceleration` of "
         "the outer law");
   if (std::abs(roll) > 0.02)
-    f.warn("gear.contacts", roll,
-           "it stands on one side, banked by " + degrees(roll, 1) + ": has a contact the wrong sign of y?");
+    f.warn("gear.contacts", roll, aero_messages::standing_bank_unusual(degrees(roll, 1)));
   if (std::abs(pitch) > 0.3)
-    f.warn("gear.contacts", pitch,
-           "it stands with a pitch of " + degrees(pitch, 1) + ": is z, down, right in all?");
+    f.warn("gear.contacts", pitch, aero_messages::standing_pitch_unusual(degrees(pitch, 1)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "fulmar/flight/model/steady_flight.hpp"
 #include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -19,10 +20,9 @@ void check_margin(Findings& f) {
   const std::string what =
       "the static margin -Cm_alpha/CL_alpha is " + figures(margin) + " of the chord, usual is 0.05 to 0.3: ";
   if (margin > 0.3)
-    f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio,
-           what + "very stable in pitch, or the chord is not the mean one");
+    f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio, aero_messages::static_margin_high(what));
   else if (margin > 0 && margin < 0.05)
-    f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio, what + "hardly stable in pitch");
+    f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio, aero_messages::static_margin_low(what));
 }
 
 /// The helix angle p b/2V that full aileron holds; 0.07 is what MIL-F-8785 once asked of light aircraft.
@@ -37,8 +37,7 @@ void check_roll_power(Findings& f) {
            "p b/2V " + figures(helix) + ", " + fixed(rate / degree, 0) + " deg/s at cruise");
   if (helix < 0.05)
     f.warn("aero.roll.aileron_ratio", l.aileron_ratio,
-           "full aileron holds p b/2V = " + figures(helix) + " only, " + fixed(rate / degree, 0) +
-               " deg/s; 0.07 is wanted");
+           aero_messages::roll_power_low(figures(helix), fixed(rate / degree, 0)));
 }
 
 /// Whether the elevator reaches the angle of attack of the most lift.
@@ -54,9 +53,8 @@ void check_pitch_power(Findings& f) {
                elevator = -(m.zero_ratio + m.alpha_ratio * alpha) / m.elevator_ratio;
   if (std::abs(elevator) > a.elevator.limit_rad)
     f.warn("aero.pitch.elevator_ratio", m.elevator_ratio,
-           "the most lift, at " + degrees(alpha, 1) + ", takes " + degrees(elevator, 1) +
-               " of elevator, which moves " + degrees(a.elevator.limit_rad, 1) +
-               ": it cannot be slowed to the stall");
+           aero_messages::pitch_power_low(degrees(alpha, 1), degrees(elevator, 1),
+                                          degrees(a.elevator.limit_rad, 1)));
 }
 
 void check_yaw_power(Findings& f) {
@@ -67,8 +65,7 @@ void check_yaw_power(Findings& f) {
   const double sideslip = -n.rudder_ratio * a.rudder.limit_rad / n.beta_ratio;
   f.figure("rudder_reach_deg", sideslip / degree, "full rudder", degrees(sideslip, 1) + " of sideslip");
   if (sideslip < 3 * degree)
-    f.warn("aero.yaw.rudder_ratio", n.rudder_ratio,
-           "full rudder holds " + degrees(sideslip, 1) + " of sideslip only; 5 deg or more are usual");
+    f.warn("aero.yaw.rudder_ratio", n.rudder_ratio, aero_messages::yaw_power_low(degrees(sideslip, 1)));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tools/fulmar_aero/findings.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -45,9 +46,7 @@ void check_drag_of_sideslip(Findings& f) {
   if (linear != 0 && square > 0) {
     const double least = -linear / (2 * square);
     f.warn("aero.drag.beta_ratio", linear,
-           "CD_beta is " + figures(linear) + " beside a square of " + figures(square) +
-               ": drag is least at " + degrees(least, 1) +
-               " of sideslip, and a symmetric aircraft has it at 0; set it to 0, it is what a fit has left");
+           aero_messages::sideslip_drag_asymmetric(figures(linear), figures(square), degrees(least, 1)));
   }
   const std::pair<const char*, double> squares[] = {{"beta_ratio", square},
                                                     {"aileron_ratio", aero.drag_squared.aileron_ratio},
@@ -56,7 +55,7 @@ void check_drag_of_sideslip(Findings& f) {
   for (const auto& [name, value] : squares)
     if (value < 0)
       f.fault(std::string("aero.drag_squared.") + name, value,
-              "it is " + figures(value) + ": the aircraft would be driven by its deflection");
+              aero_messages::squared_drag_negative(figures(value)));
 }
 
 void check_drag(Findings& f) {
@@ -65,23 +64,17 @@ void check_drag(Findings& f) {
   f.looked_at(3);
   if (aero.parasite_drag_ratio > 0 && aero.drag.zero_ratio > 0)
     f.warn("aero.drag.zero_ratio", aero.drag.zero_ratio,
-           "parasite drag is counted twice, here and as parasite_drag " + figures(aero.parasite_drag_ratio) +
-               ": C_D_0 and C_D_p are of two different polars; keep one");
+           aero_messages::parasite_drag_doubled(figures(aero.parasite_drag_ratio)));
   if (aero.drag.alpha_ratio != 0 && has_induced_drag(a.wing))
-    f.warn("aero.drag.alpha_ratio", aero.drag.alpha_ratio,
-           "it adds to the induced drag CL^2/(pi e AR), which is always counted: C_D_alpha is of a linear "
-           "polar; "
-           "leave it 0");
+    f.warn("aero.drag.alpha_ratio", aero.drag.alpha_ratio, aero_messages::induced_drag_doubled());
   const double change = std::abs(aero.drag.elevator_ratio) * a.elevator.limit_rad;
   const double left = aero.parasite_drag_ratio + std::max(aero.drag.zero_ratio, 0.0);
   if (change > left && left > 0)
-    f.fault(
-        "aero.drag.elevator_ratio", aero.drag.elevator_ratio,
-        "full elevator takes away CD " + figures(change) + ", more than the parasite drag " + figures(left) +
-            ": the aircraft would be driven by it. The term is linear; is it that of a square, CD_de de^2?");
+    f.fault("aero.drag.elevator_ratio", aero.drag.elevator_ratio,
+            aero_messages::elevator_drag_excessive(figures(change), figures(left)));
   if (aero.drag.q_ratio != 0 && std::abs(aero.drag.q_ratio) > 1)
     f.warn("aero.drag.q_ratio", aero.drag.q_ratio,
-           "it is " + figures(aero.drag.q_ratio) + "; usual is about 0");
+           aero_messages::pitch_rate_drag_unusual(figures(aero.drag.q_ratio)));
 }
 
 void check_adverse_yaw(Findings& f) {
@@ -93,12 +86,10 @@ void check_adverse_yaw(Findings& f) {
   const std::string what = "Cn_da is " + figures(aero.yaw.aileron_ratio) + ", " + figures(part) + " of Cl_da";
   if (part < -0.15)
     f.warn("aero.yaw.aileron_ratio", aero.yaw.aileron_ratio,
-           what + ": very much adverse yaw; aircraft have up to 0.15 of it");
+           fulmar::located(what, aero_messages::adverse_yaw_high()));
   else if (part > 0.02)
     f.warn("aero.yaw.aileron_ratio", aero.yaw.aileron_ratio,
-           what +
-               ": the aileron would yaw into the turn, and adverse yaw (negative) is usual: is it in "
-               "stability axes, or XFLR5's?");
+           fulmar::located(what, aero_messages::proverse_yaw()));
 }
 
 void check_rudder_pair(Findings& f) {
@@ -106,9 +97,7 @@ void check_rudder_pair(Findings& f) {
   const Aerodynamics& aero = f.file().airframe.aero;
   if (aero.side.rudder_ratio * aero.yaw.rudder_ratio <= 0) return;
   f.warn("aero.side.rudder_ratio", aero.side.rudder_ratio,
-         "CY_dr is " + figures(aero.side.rudder_ratio) + " and Cn_dr " + figures(aero.yaw.rudder_ratio) +
-             ": of one sign, as if the rudder were in front of the centre of gravity; one of them has the "
-             "wrong sign");
+         aero_messages::rudder_signs_equal(figures(aero.side.rudder_ratio), figures(aero.yaw.rudder_ratio)));
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class Findings {
 
   const AirframeFile& file() const { return file_; }
   const Aerodynamics& aero() const { return aero_; }  ///< tables with them
-  void fault(const std::string& field, double value, const std::string& sentence) {
+  void fault(const std::string& field, double value, const Diagnostic& sentence) {
     list_.push_back({Verdict::fault, field, file_.where(field), value, sentence});
   }
   void warn(const std::string& field, double value, const std::string& sentence) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/fulmar_aero/flight_words.hpp"
 
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -26,8 +27,9 @@ std::string stall_words(const AirframeFile& file, const AircraftModel& model, co
 }
 
 std::string surface_words(const AirframeFile& file, const char* name, double value, double limit) {
-  return "it takes " + degrees(value, 1) + " of " + name + ", which moves " + degrees(limit, 1) +
-         " either way (" + file.where(std::string(name) + ".limit_rad").text() + ")";
+  return aero_messages::surface_throw_exceeded(degrees(value, 1), name, degrees(limit, 1),
+                                               file.where(std::string(name) + ".limit_rad").text())
+      .line();
 }
 
 std::string thrust_words(const AirframeFile& file, const AircraftModel& model, const SteadyFlight& f,
@@ -40,11 +42,8 @@ std::string thrust_words(const AirframeFile& file, const AircraftModel& model, c
                             : detail::thrust_needed(model, f.condition, lift_needed(model, f), rho);
   const double there = all * propeller.thrust(propeller.steady_speed(high ? 1 : 0, Va, rho), Va, rho);
   const std::string place = " (propulsion: " + file.where("propulsion").text() + ")";
-  if (high)
-    return "it takes " + fixed(needed, 1) + " N of thrust, and full throttle gives " + fixed(there, 1) +
-           " N" + place;
-  return "it takes a braking force of " + fixed(-needed, 1) + " N, and the propeller brakes with " +
-         fixed(-there, 1) + " N at no throttle" + place;
+  if (high) return aero_messages::thrust_insufficient(fixed(needed, 1), fixed(there, 1), place).line();
+  return aero_messages::braking_insufficient(fixed(-needed, 1), fixed(-there, 1), place).line();
 }
 
 }  // namespace
@@ -57,7 +56,7 @@ std::string condition_words(const SteadyCondition& c, double altitude_m) {
   if (c.climb_rad != 0) text += " of " + degrees(std::abs(c.climb_rad), 1);
   if (c.turn == Turn::bank) text += " with " + degrees(c.turn_by, 1) + " of bank";
   if (c.turn == Turn::radius) text += " of " + fixed(c.turn_by, 1) + " m radius";
-  return text + " at " + figures(c.airspeed_mps, 4) + " m/s, " + fixed(altitude_m, 0) + " m above the sea";
+  return aero_messages::flight_condition(text, figures(c.airspeed_mps, 4), fixed(altitude_m, 0)).line();
 }
 
 std::string limit_words(const AirframeFile& file, const AircraftModel& model, const SteadyFlight& f) {
@@ -79,9 +78,7 @@ std::string limit_words(const AirframeFile& file, const AircraftModel& model, co
     case TrimLimit::rudder: return surface_words(file, "rudder", f.input(model::rudder), a.rudder.limit_rad);
     case TrimLimit::throttle_high: return thrust_words(file, model, f, true);
     case TrimLimit::throttle_low: return thrust_words(file, model, f, false);
-    case TrimLimit::not_found:
-      return "no angles and deflections balance all forces and moments; `fulmar aero check` may tell which "
-             "coefficient is wrong";
+    case TrimLimit::not_found: return aero_messages::equilibrium_missing().line();
   }
   return "";
 }

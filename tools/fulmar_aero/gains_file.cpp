@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/types/text.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -26,8 +27,8 @@ void fill_law(Law& law, const core::Node& section, const std::string& path, core
     if (at == all.end()) {
       std::vector<std::string> names;
       for (const Named<Law>& one : all) names.emplace_back(one.name);
-      report.add(entry.where(), path + ": there is no parameter '" + entry.key + "'." +
-                                    core::choices_text(entry.key, names));
+      report.add(entry.where(), located(path, aero_messages::parameter_unknown(
+                                                  entry.key, core::choices_text(entry.key, names))));
     } else if (at->number) {
       Number& number = law.*at->number;
       const auto read =
@@ -80,9 +81,8 @@ class Edit {
   const std::string& line(int number) const { return lines_.at(std::size_t(number - 1)); }
 
  private:
-  [[noreturn]] void refuse(int line, const std::string& what) const {
-    throw core::Error(core::Where{file_.name, line}.text() + ": " + what +
-                      " is written in a form that is not edited here; nothing was written");
+  [[noreturn]] void refuse(int line, const Diagnostic& what) const {
+    throw core::Error(located(core::Where{file_.name, line}, aero_messages::entry_form_unsupported(what)));
   }
   void replace(const core::Node::Entry& entry, const std::string& value) {
     std::string& line = lines_.at(std::size_t(entry.line - 1));
@@ -142,8 +142,8 @@ FileLaws laws_in(const AirframeFile& file) {
                entry.key == "control_tecs/ErrorLaw")
         continue;  // loops that are not judged here
       else if (entry.key.rfind("control_slc", 0) == 0 || entry.key.rfind("control_tecs", 0) == 0)
-        report.add(entry.where(), "params: there is no component '" + entry.key + "'." +
-                                      core::choices_text(entry.key, known));
+        report.add(entry.where(),
+                   aero_messages::component_unknown(entry.key, core::choices_text(entry.key, known)));
       out.given |= std::find(known.begin(), known.end(), entry.key) != known.end();
     }
   }
@@ -198,9 +198,7 @@ std::string with_gains(const AirframeFile& file, const std::string& text, const 
   Edit edit(file, text);
   const core::Node* const params = file.root.find("params");
   if (!params || params->entries.empty()) {
-    if (params)
-      throw core::Error(file.where("params").text() +
-                        ": params: it is empty; take the key away, and it is written");
+    if (params) throw core::Error(located(file.where("params"), aero_messages::params_empty()));
     edit.append(int(edit.lines()), params_text(gains));
     return edit.text();
   }

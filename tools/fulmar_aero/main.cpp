@@ -10,6 +10,7 @@
 #include "core/types/text.hpp"
 #include "fulmar/abi.h"
 #include "tools/fulmar_aero/commands.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace {
 
@@ -127,8 +128,7 @@ struct CommandLine {
       names.push_back(one->get_name());
     if (argc < 2 || argv[1][0] == '-' || std::find(names.begin(), names.end(), argv[1]) != names.end())
       return "";
-    return "fulmar aero: there is no command '" + std::string(argv[1]) + "'." +
-           core::choices_text(argv[1], names);
+    return fulmar::aero_messages::command_unknown(argv[1], core::choices_text(argv[1], names)).line();
   }
 
   int run() const {

@@ -6,6 +6,7 @@
 #include "tools/fulmar_aero/commands.hpp"
 #include "tools/fulmar_aero/flight_model.hpp"
 #include "tools/fulmar_aero/flight_words.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/mode_words.hpp"
 #include "tools/fulmar_aero/modes_svg.hpp"
 #include "tools/fulmar_aero/words.hpp"
@@ -84,7 +85,7 @@ void write_picture(const AirframeFile& file, const FlightOptions& options, const
                        figures(sweep.found.back().airspeed_mps, 4) + " m/s (large), " +
                        fixed(options.altitude_m(), 0) + " m above the sea",
                    sweep.found);
-  if (!out.flush()) throw core::Error("'" + name + "' cannot be written");
+  if (!out.flush()) throw core::Error(aero_messages::picture_not_writable(name));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/graph/quantity.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero {
 namespace {
@@ -32,7 +33,7 @@ bool is_in(const char* option, const std::string& text, const std::string& unit)
 double positive_speed(const std::string& text) {
   const double speed = in_unit("--airspeed", text, "m/s");
   if (!(speed >= 1 && speed <= 200))
-    throw CLI::ValidationError("--airspeed", "'" + text + "' is outside 1 .. 200 m/s");
+    throw CLI::ValidationError("--airspeed", aero_messages::airspeed_out_of_range(text).line());
   return speed;
 }
 
@@ -54,7 +55,7 @@ void FlightOptions::add(CLI::App* command, bool range_of_speeds) {
 double FlightOptions::altitude_m() const {
   const double metres = altitude.empty() ? 0 : in_unit("--altitude", altitude, "m");
   if (!(metres >= -1000 && metres <= 20000))
-    throw CLI::ValidationError("--altitude", "'" + altitude + "' is outside -1000 .. 20000 m");
+    throw CLI::ValidationError("--altitude", aero_messages::altitude_out_of_range(altitude).line());
   return metres;
 }
 
@@ -69,23 +70,20 @@ void FlightOptions::set_climb_and_turn(SteadyCondition& c) const {
   if (!climb.empty()) {
     const bool angle = is_in("--climb", climb, "rad");
     if (!angle && !is_in("--climb", climb, "m/s"))
-      throw CLI::ValidationError(
-          "--climb", "'" + climb + "' is neither an angle, as in \"5 deg\", nor a rate, as in \"2 m/s\"");
+      throw CLI::ValidationError("--climb", aero_messages::climb_unit_invalid(climb).line());
     const double value = in_unit("--climb", climb, angle ? "rad" : "m/s");
     c.climb_rad = angle ? value : std::asin(std::clamp(value / c.airspeed_mps, -1.0, 1.0));
     if (std::abs(c.climb_rad) > 1.4)
-      throw CLI::ValidationError("--climb", "'" + climb + "' is steeper than 80 deg at that airspeed");
+      throw CLI::ValidationError("--climb", aero_messages::climb_too_steep(climb).line());
   }
   if (turn.empty()) return;
   const bool bank = is_in("--turn", turn, "rad");
   if (!bank && !is_in("--turn", turn, "m"))
-    throw CLI::ValidationError(
-        "--turn", "'" + turn + "' is neither a bank, as in \"30 deg\", nor a radius, as in \"80 m\"");
+    throw CLI::ValidationError("--turn", aero_messages::turn_unit_invalid(turn).line());
   c.turn_by = in_unit("--turn", turn, bank ? "rad" : "m");
   c.turn = bank ? Turn::bank : Turn::radius;
   if (bank ? std::abs(c.turn_by) > 1.4 : std::abs(c.turn_by) < 1)
-    throw CLI::ValidationError(
-        "--turn", "'" + turn + "' is no turn that is flown; give a bank up to 80 deg or a radius from 1 m");
+    throw CLI::ValidationError("--turn", aero_messages::turn_out_of_range(turn).line());
   if (bank && c.turn_by == 0) c.turn = Turn::none;
 }
 
@@ -104,10 +102,9 @@ std::vector<double> FlightOptions::airspeeds(const Airframe& a, const std::strin
   const double from = positive_speed(bare && !unit.empty() ? first + " " + unit : first);
   const double to = positive_speed(last), by = step.empty() ? 1 : in_unit("--step", step, "m/s");
   if (from > to)
-    throw CLI::ValidationError("--airspeed", "'" + airspeed + "': the first speed is above the last one");
+    throw CLI::ValidationError("--airspeed", aero_messages::airspeed_range_reversed(airspeed).line());
   if (!(by > 0) || (to - from) / by > double(max_speeds))
-    throw CLI::ValidationError("--step",
-                               "at most " + std::to_string(max_speeds) + " speeds, in steps of more than 0");
+    throw CLI::ValidationError("--step", aero_messages::speed_step_invalid(max_speeds).line());
   std::vector<double> speeds;
   for (int i = 0; from + i * by <= to + 1e-9 * by; ++i) speeds.push_back(from + i * by);
   return speeds;

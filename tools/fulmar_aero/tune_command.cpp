@@ -11,6 +11,7 @@
 #include "tools/fulmar_aero/flight_words.hpp"
 #include "tools/fulmar_aero/gains.hpp"
 #include "tools/fulmar_aero/gains_file.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/tune_outcome.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
@@ -35,7 +36,7 @@ double quantity(const char* option, const std::string& text, const std::string& 
     const double value = core::quantity_in(text, unit, core::UnitRule::optional);
     if (value >= least && value <= most) return value;
     throw CLI::ValidationError(
-        option, "'" + text + "' is outside " + figures(least) + " .. " + figures(most, 4) + " " + unit);
+        option, aero_messages::tuning_out_of_range(text, figures(least), figures(most, 4), unit).line());
   } catch (const core::Error& fault) {
     throw CLI::ValidationError(option, fault.what());
   }
@@ -53,9 +54,8 @@ Bandwidths bandwidths(const TuneOptions& options) {
       if (name == b.name) found = &b;
     }
     if (equals == std::string::npos || !found)
-      throw CLI::ValidationError("--bandwidth", "'" + one +
-                                                    "' does not begin with a loop, as in \"roll=8 rad/s\"." +
-                                                    core::choices_text(name, names));
+      throw CLI::ValidationError(
+          "--bandwidth", aero_messages::bandwidth_loop_unknown(one, core::choices_text(name, names)).line());
     out.*found->value = quantity("--bandwidth", one.substr(equals + 1), "rad/s", 0.01, 1000);
   }
   return out;
@@ -71,10 +71,11 @@ std::string beyond_actuators(const AirframeFile& file, const Plant& plant, const
     const std::string own = std::string(b.input == model::throttle ? "motor " : "servo ") +
                             milliseconds(lag - 0.5 * plant.step_s - plant.delay_s);
     const char* const field = b.input == model::throttle ? "propulsion" : b.actuator;
-    return file.title() + ": " + b.name + ": " + figures(w) + " rad/s is more than the " + b.actuator +
-           " can give: " + own + ", half a step " + milliseconds(0.5 * plant.step_s) + " and delay " +
-           milliseconds(plant.delay_s) + " are a lag of " + milliseconds(lag) + ", which allows at most " +
-           figures(most) + " rad/s (" + file.where(field).text() + ")";
+    return fulmar::located(file.title(), aero_messages::bandwidth_too_high(
+                                             b.name, figures(w), b.actuator, own,
+                                             milliseconds(0.5 * plant.step_s), milliseconds(plant.delay_s),
+                                             milliseconds(lag), figures(most), file.where(field).text()))
+        .line();
   }
   return "";
 }
@@ -101,11 +102,11 @@ nlohmann::json gains_json(const std::vector<Gain>& gains, const std::vector<Gain
 
 void write_file(const AirframeFile& file, const std::string& text) {
   if (core::is_shipped_name(file.name))
-    throw core::Error(file.name + ": a file of the installation is not written; copy it and name the copy");
+    throw core::Error(located(file.name, aero_messages::shipped_file_read_only()));
   std::ofstream out(file.name);
   out << text;
   out.close();
-  if (!out) throw core::Error(file.name + ": it cannot be written");
+  if (!out) throw core::Error(located(file.name, aero_messages::output_not_writable()));
 }
 
 /// The file's text with the gains, read once more: what is written says what was computed.
@@ -120,8 +121,8 @@ std::string text_with(const AirframeFile& file, const std::vector<Gain>& gains) 
     for (const Gain& other : found)
       if (gain.component == other.component && gain.name == other.name &&
           gain_text(gain.value) != gain_text(other.value))
-        throw core::Error(file.name + ": " + gain.component + "." + gain.name +
-                          " stands in a form that is not edited here; nothing was written");
+        throw core::Error(
+            located(file.name, aero_messages::gain_form_unsupported(gain.component, gain.name)));
   return text;
 }
 

@@ -14,6 +14,7 @@
 #include "core/loader/home.hpp"
 #include "core/loader/process.hpp"
 #include "core/types/text.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -26,7 +27,7 @@ struct FlightFolder {
   fs::path path;
   FlightFolder() {
     std::string name = (fs::temp_directory_path() / "fulmar-tune-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw core::Error("there is no folder for the flight: " + name);
+    if (!::mkdtemp(name.data())) throw core::Error(aero_messages::flight_folder_missing(name));
     path = name;
   }
   ~FlightFolder() {
@@ -104,17 +105,16 @@ std::string stall_of(const FlightTrack& track, const Airframe& a) {
     if (!beyond) since = nullptr;
     if (beyond && !since) since = &p;
     if (since && p.time_s - since->time_s >= moment_s)
-      return "stalled at " + fixed(since->time_s, 1) + " s: at " + fixed(since->airspeed_mps, 1) +
-             " m/s and " + degrees(since->roll_rad, 0) + " of bank its angle of attack went beyond the " +
-             degrees(most.alpha_rad, 1) + " of the most lift, and stayed there";
+      return aero_messages::stall_in_flight(fixed(since->time_s, 1), fixed(since->airspeed_mps, 1),
+                                            degrees(since->roll_rad, 0), degrees(most.alpha_rad, 1))
+          .line();
   }
   return "";
 }
 
 TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, double airspeed_mps) {
   const fs::path host = core::own_program("fulmar");
-  if (host.empty())
-    throw core::Error("fulmar aero tune --verify: there is no program fulmar beside this one");
+  if (host.empty()) throw core::Error(aero_messages::fulmar_program_missing());
   const FlightFolder folder;
   folder.write("airframe.yaml", text);
   std::string mission = "extends: fulmar:missions/hourglass.yaml\nmission: tune\nairframe: airframe.yaml\n";

@@ -17,6 +17,7 @@
 #include "core/sanitized.hpp"
 #include "core/say.hpp"
 #include "tools/fulmar_campaign/build.hpp"
+#include "tools/fulmar_campaign/messages.hpp"
 #include "tools/fulmar_campaign/seeds.hpp"
 
 namespace fulmar::core {
@@ -29,7 +30,7 @@ class Campaign {
   Campaign(const RunOptions& options, const ManyOptions& many, std::vector<std::uint64_t> seeds)
       : many_(many), seeds_(std::move(seeds)), json_(options.json), session_(options) {
     if (!seeds_.empty() && session_.graph().io == Io::fcu)
-      throw CLI::ValidationError("--seeds belongs to a simulation: on hardware nothing is drawn by chance");
+      throw CLI::ValidationError(campaign_messages::seeds_on_hardware().line());
     if (!many.build.empty())
       sources_ = std::make_unique<FileStamps>(
           source_files(fs::absolute(session_.graph().source.file).parent_path()));
@@ -84,12 +85,12 @@ bool Campaign::wait_for_change() {
       if (const auto changed = sources_->changed(); !changed.empty()) {
         say_aloud("changed: " + changed[0].filename().string() + "; building");
         if (!run_build(many_.build, signal_seen) && signal_seen.load() == 0)
-          warn("the build failed; what flew before stays as it is");
+          warn(campaign_messages::build_failed());
       }
     if (const auto changed = session_.stamps().changed(); !changed.empty() && session_.reload(changed))
       return true;
     const std::string missing = session_.stamps().missing().string();
-    if (!missing.empty() && missing != gone) warn(missing + " is gone; waiting for it");
+    if (!missing.empty() && missing != gone) warn(campaign_messages::watched_file_missing(missing));
     gone = missing;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -105,7 +106,8 @@ std::vector<std::uint64_t> valid_seeds(const std::string& text) try {
 }  // namespace
 
 int fly_campaign(RunOptions options, const ManyOptions& many) {
-  if (!many.build.empty() && !many.watch) throw CLI::ValidationError("--build belongs to --watch");
+  if (!many.build.empty() && !many.watch)
+    throw CLI::ValidationError(campaign_messages::build_without_watch().line());
   const std::vector<std::uint64_t> seeds = valid_seeds(many.seeds);
   options.part = {many.repeat > 0  ? "this is one of the flights of --repeat"
                   : !seeds.empty() ? "this is one of the flights of --seeds"

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <utility>
 
+#include "tools/fulmar_fcu/messages.hpp"
+
 namespace fulmar::fcu {
 
 namespace {
@@ -92,20 +94,18 @@ class Run {
     for (int i = 0; i < 3; ++i) {
       const std::optional<bool> answer = client_.command(what_.command, 1, 700 * ms);
       if (answer && !*answer)
-        throw Error("The controller refused " + deed() +
-                    (client_.armed() ? ": it is armed." : " and gave no reason."));
+        throw Error(fcu_messages::action_refused(
+            deed(), client_.armed() ? ": it is armed." : " and gave no reason."));
       if (answer || said(what_.good) || read_back()) return;
     }
-    throw Error(client_.name() + " does not answer: " + deed() + " was not acknowledged.");
+    throw Error(fcu_messages::action_not_acknowledged(client_.name(), deed()));
   }
 
   /// True when it is over. A failure is an Error.
   bool over() {
     if (const Said* bad = said(what_.bad)) {
       last_failure_ = bad->text;
-      if (!what_.repeats)
-        throw Error("The " + name() + " calibration failed; the controller says: '" + bad->text + "'. " +
-                    what_.prepare + " Then try again.");
+      if (!what_.repeats) throw Error(fcu_messages::calibration_failed(name(), bad->text, what_.prepare));
     }
     return said(what_.good) || changed_last();
   }
@@ -137,7 +137,7 @@ class Run {
       if (complete()) {
         changed = differs();
         for (std::size_t i = 0; i < after.size(); ++i) set_param(client_, after[i], before[i].bits);
-        return " The former values are back.";
+        return fcu_messages::values_restored().line();
       }
     } catch (const std::exception&) {  // no answer, no device: told here
     }
@@ -148,10 +148,8 @@ class Run {
   [[noreturn]] void give_up() const {
     const std::string limit = std::to_string(what_.limit_s) + " s";
     if (!last_failure_.empty())
-      throw Error("The " + name() + " calibration did not succeed within " + limit +
-                  "; the controller says: '" + last_failure_ + "'. " + what_.prepare);
-    throw Error("The " + name() + " calibration was accepted, but no sign of its end came within " + limit +
-                ": it does not count; try again.");
+      throw Error(fcu_messages::calibration_not_successful(name(), limit, last_failure_, what_.prepare));
+    throw Error(fcu_messages::calibration_end_missing(name(), limit));
   }
 
  private:
@@ -218,7 +216,7 @@ Calibrated calibrate(Client& client, const Calibration& what, const std::functio
   Run run(client, what);
   run.before = read_some(client, what.params);
   if (run.before.size() != what.params.size())
-    throw Error(client.name() + " does not tell its parameters: the calibration was not begun.");
+    throw Error(fcu_messages::parameters_not_reported(client.name()));
   try {
     run.start();
     wait_for_end(client, what, run, progress);
@@ -226,7 +224,7 @@ Calibrated calibrate(Client& client, const Calibration& what, const std::functio
     const auto cancelled = std::exchange(client.cancelled, nullptr);  // it ends after this
     throw Interrupted(run.put_back(e.what()));
   } catch (const std::exception& e) {
-    throw Error(e.what() + run.put_back(e.what()));
+    throw Error(fcu_messages::calibration_stopped(e.what(), run.put_back(e.what())));
   }
   return {run.before, run.after};
 }

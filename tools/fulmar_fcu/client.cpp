@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "plugins/fcu_serial/firmware_version.hpp"
+#include "tools/fulmar_fcu/messages.hpp"
 
 namespace fulmar::fcu {
 
@@ -138,25 +139,12 @@ void Client::send_frame(const Frame& frame) {
 
 void Client::explain_silence() const {
   const Parser::Counts& seen = parser_.counts();
-  if (bytes_ == 0)
-    throw Error(name() +
-                " is silent: is the flight controller powered and this its port? On a UART both ends need "
-                "the same --baud.");
+  if (bytes_ == 0) throw Error(fcu_messages::port_silent(name()));
   if (seen.frames == 0 && talks_mavlink_2(seen.modern, bytes_))
-    throw Error(name() +
-                " talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with ROSflight "
-                "firmware 2.");
-  if (seen.frames == 0 && readable_ * 20 >= bytes_ * 19)
-    throw Error(name() +
-                " sends text, not MAVLink: it is no flight controller, a GNSS receiver perhaps; name another "
-                "--port.");
-  if (seen.frames == 0)
-    throw Error(
-        name() + " talks (" + std::to_string(bytes_) +
-        " bytes), but not as a ROSflight flight controller: wrong --baud, or another device on this port.");
-  throw Error(
-      name() + " talks MAVLink (" + std::to_string(seen.frames) +
-      " frames), but sends no status of ROSflight 2: flash ROSflight firmware 2, or choose the right port.");
+    throw Error(fcu_messages::mavlink_version_unsupported(name()));
+  if (seen.frames == 0 && readable_ * 20 >= bytes_ * 19) throw Error(fcu_messages::text_received(name()));
+  if (seen.frames == 0) throw Error(fcu_messages::protocol_unknown(name(), bytes_));
+  throw Error(fcu_messages::rosflight_status_missing(name(), seen.frames));
 }
 
 void Client::connect() {
@@ -173,12 +161,9 @@ void Client::ask_version() {
     send(RosflightCmd{static_cast<std::uint8_t>(Command::send_version)});
     wait(250 * ms, [&] { return !version_.empty(); });
   }
-  if (version_.empty())
-    throw Error(
-        name() +
-        " sends, but does not answer: a flight controller older than ROSflight 2, or the line to it is cut.");
+  if (version_.empty()) throw Error(fcu_messages::version_not_reported(name()));
   if (major_version(version_).value_or(oldest_firmware) < oldest_firmware)
-    throw Error(name() + " runs firmware " + version_ + ": Fulmar needs ROSflight 2.0 or later; flash it.");
+    throw Error(fcu_messages::firmware_too_old(name(), version_));
 }
 
 bool Client::armed() {
@@ -186,13 +171,13 @@ bool Client::armed() {
     pump(150 * ms);  // what has waited on the line, as while a question stood on the terminal, is old
     const std::uint64_t before = count<RosflightStatus>();
     if (!wait(2 * second, [&] { return count<RosflightStatus>() > before; }))
-      throw Error(name() + " has stopped sending its status: unplugged, or rebooting?");
+      throw Error(fcu_messages::status_lost(name()));
   }
   return last<RosflightStatus>()->armed != 0;
 }
 
 void Client::refuse_armed(const std::string& deed) {
-  if (armed()) throw Error("The aircraft is armed: disarm it before " + deed + ".");
+  if (armed()) throw Error(fcu_messages::aircraft_armed(deed));
 }
 
 std::optional<bool> Client::command(Command c, int tries, std::int64_t each_ns) {
@@ -207,12 +192,10 @@ std::optional<bool> Client::command(Command c, int tries, std::int64_t each_ns) 
 
 void Client::demand(Command c, const std::string& deed, const std::string& refusal) {
   const std::optional<bool> answer = command(c, 6);
-  if (!answer)
-    throw Error(name() + " does not answer: " + deed +
-                " was not acknowledged within 3 s; whether it was done is not known.");
+  if (!answer) throw Error(fcu_messages::acknowledgement_timeout(name(), deed));
   if (*answer) return;
-  if (armed()) throw Error("The controller refused " + deed + ": it is armed.");
-  throw Error("The controller refused " + deed + refusal);
+  if (armed()) throw Error(fcu_messages::action_refused_armed(deed));
+  throw Error(fcu_messages::action_refused(deed, refusal));
 }
 
 std::optional<std::int64_t> Client::round_trip_ns(int questions) {

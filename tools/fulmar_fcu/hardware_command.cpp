@@ -4,6 +4,7 @@
 
 #include "tools/fulmar_fcu/app.hpp"
 #include "tools/fulmar_fcu/calibrate.hpp"
+#include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/outputs.hpp"
 #include "tools/fulmar_fcu/preflight.hpp"
 #include "tools/fulmar_fcu/words.hpp"
@@ -98,22 +99,17 @@ int reboot_command(Client& client, const Options&) {
   client.refuse_armed("a reboot");
   client.wait(second, [&] { return client.count<SmallImu>() > 0; });
   const std::uint64_t before_us = clock_us(client);
-  if (before_us == 0)
-    throw Error(client.name() +
-                " sends no inertial samples: whether it reboots could not be told. Power-cycle it.");
+  if (before_us == 0) throw Error(fcu_messages::inertial_samples_missing(client.name()));
   bool answered = true;
   try {
     const std::optional<bool> answer = client.command(Command::reboot, 1, second);
-    if (answer && !*answer) throw Error("The controller refused to reboot.");
+    if (answer && !*answer) throw Error(fcu_messages::reboot_refused());
     answered = answer.has_value();
   } catch (const PortError&) {
     client.reopen(10 * second);
   }
   if (!came_back(client, before_us, 10 * second))
-    throw Error(answered ? "The controller acknowledged, but did not restart: firmware 2.0 cannot on H7 "
-                           "boards, and its outputs may now be "
-                           "off. Power-cycle it."
-                         : client.name() + " did not answer and did not restart: power-cycle it.");
+    throw Error(answered ? fcu_messages::reboot_not_done() : fcu_messages::reboot_unanswered(client.name()));
   std::printf(
       "Rebooted. Barometer and airspeed are being zeroed for 12 s: keep it still, and the pitot tube "
       "covered.\n");

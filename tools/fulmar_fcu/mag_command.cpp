@@ -4,6 +4,7 @@
 
 #include "tools/fulmar_fcu/app.hpp"
 #include "tools/fulmar_fcu/mag_fit.hpp"
+#include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/param_file.hpp"
 #include "tools/fulmar_fcu/words.hpp"
 
@@ -68,10 +69,8 @@ std::vector<Vector3> collect(Client& client, const Correction& old) {
     client.pump(200 * ms);
     if (guide.samples().size() > kept) progress_ns = client.now_ns();
     kept = guide.samples().size();
-    if (client.age_s<SmallMag>() > 3)
-      throw Error("No magnetometer is heard: there is none, or it did not start.");
-    if (client.now_ns() - progress_ns > 120 * second)
-      throw Error("Nothing new came for two minutes: given up, nothing was changed.");
+    if (client.age_s<SmallMag>() > 3) throw Error(fcu_messages::magnetometer_silent());
+    if (client.now_ns() - progress_ns > 120 * second) throw Error(fcu_messages::sampling_timeout());
     if (guide.text() != shown) show_progress(shown = guide.text());
   }
   client.on_packet = nullptr;
@@ -90,9 +89,8 @@ void set_all(Client& client, const std::vector<Param>& before, const EllipsoidFi
   const std::vector<Param> after = read_some(client, {correction_names.begin(), correction_names.end()});
   for (std::size_t i = 0; i < after.size(); ++i)
     if (after[i].bits != std::bit_cast<std::uint32_t>(static_cast<float>(values[i])))
-      throw Error(after[i].name + " did not take its value: try again.");
-  if (after.size() != correction_names.size())
-    throw Error(client.name() + " did not answer when the parameters were read back: try again.");
+      throw Error(fcu_messages::value_not_taken(after[i].name));
+  if (after.size() != correction_names.size()) throw Error(fcu_messages::readback_failed(client.name()));
 }
 
 }  // namespace
@@ -107,12 +105,11 @@ int calibrate_mag(Client& client, const Options& options, const HardwareOptions&
   client.refuse_armed("the magnetometer calibration");
   const std::vector<Param> before = read_some(client, {correction_names.begin(), correction_names.end()});
   if (before.size() != correction_names.size())
-    throw Error(client.name() + " does not tell its MAG_ parameters: the calibration was not begun.");
+    throw Error(fcu_messages::mag_parameters_not_reported(client.name()));
   const Correction old = correction_of(before);
   if (what.file.empty() && !(std::fabs(determinant(old.A)) > 1e-6))
-    throw Error("The MAG_CAL_A parameters are no sound matrix: set the identity first.");
-  if (what.file.empty() && !on_terminal())
-    throw Error("The aircraft is turned by hand, which takes a terminal; or use --from FILE.csv.");
+    throw Error(fcu_messages::mag_matrix_invalid());
+  if (what.file.empty() && !on_terminal()) throw Error(fcu_messages::terminal_required());
   if (what.file.empty())
     std::printf(
         "Take the aircraft outside, away from iron. Lay it on each of six sides, and turn it once around the "

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/words.hpp"
 
 namespace fulmar::fcu {
@@ -51,30 +52,21 @@ Vector3 uncorrected(const Vector3& reported, const Matrix3& A, const Vector3& b)
 double determinant(const Matrix3& A) { return dot(A[0], cross(A[1], A[2])); }
 
 std::string objection(const EllipsoidFit& fit, double micro) {
-  if (!fit.ok())
-    return "No calibration: " + fit.fault + ". Turn the aircraft all ways, away from iron and cables.";
+  if (!fit.ok()) return fcu_messages::fit_failed(fit.fault).line();
   if (fit.coverage_ratio < 0.75)
     return "No calibration: the samples cover " + percent(fit.coverage_ratio) +
            " of all directions, 75 % are needed. Turn the aircraft all ways.";
-  if (fit.uncertainty_ratio > 0.03)
-    return "No calibration: it would be known to " + percent(fit.uncertainty_ratio) +
-           " only. Turn the aircraft further, all ways.";
-  if (fit.residual_ratio > 0.06)
-    return "No calibration: the samples scatter by " + percent(fit.residual_ratio) +
-           " about the fit. Go away from iron, cables and motors, keep telephones off, and turn slowly.";
-  if (fit.stretch_ratio > 2)
-    return "No calibration: the axes would differ by a factor of " + fixed(fit.stretch_ratio, 1) +
-           ". There is too much iron near the sensor.";
+  if (fit.uncertainty_ratio > 0.03) return fcu_messages::fit_uncertain(percent(fit.uncertainty_ratio)).line();
+  if (fit.residual_ratio > 0.06) return fcu_messages::fit_scatter_high(percent(fit.residual_ratio)).line();
+  if (fit.stretch_ratio > 2) return fcu_messages::axes_unequal(fixed(fit.stretch_ratio, 1)).line();
   const double field = fit.field / micro;
-  if (field < 15 || field > 100)
-    return "No calibration: a field of " + fixed(field, 0) +
-           " uT is not the Earth's, which is 22 to 67 uT. Is the sensor sound, and the unit tesla?";
+  if (field < 15 || field > 100) return fcu_messages::field_implausible(fixed(field, 0)).line();
   return "";
 }
 
 std::vector<Vector3> read_samples(const std::string& path) {
   std::ifstream file(path);
-  if (!file) throw core::Error(path + " cannot be read.");
+  if (!file) throw core::Error(fcu_messages::samples_not_readable(path));
   std::vector<Vector3> out;
   std::string line;
   for (int n = 1; std::getline(file, line); ++n) {
@@ -83,7 +75,7 @@ std::vector<Vector3> read_samples(const std::string& path) {
     if (three_numbers(line, m))
       out.push_back(m);
     else if (n > 1)
-      throw core::Error(path + ":" + std::to_string(n) + ": expected three numbers in tesla: x, y, z.");
+      throw core::Error(fcu_messages::sample_line_invalid(path, n));
   }
   return out;
 }
@@ -136,8 +128,8 @@ int MagGuide::done_sides() const {
 std::string MagGuide::text() const {
   std::string out = std::to_string(done_sides()) + " of 6 sides done. ";
   if (side_ >= 0 && parts_of(side_) < parts - 1)
-    return out + "Now " + side_words[static_cast<std::size_t>(side_)] +
-           ": turn it once around, slowly: " + std::to_string(parts_of(side_)) + " of 12.";
+    return fcu_messages::side_in_progress(out, side_words[static_cast<std::size_t>(side_)], parts_of(side_))
+        .line();
   if (done()) return out.substr(0, out.size() - 1);
   out += "Next, lay it: ";
   bool first = true;

@@ -10,6 +10,7 @@
 #include "core/app/program.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_fcu/app.hpp"
+#include "tools/fulmar_fcu/messages.hpp"
 
 namespace {
 
@@ -182,10 +183,10 @@ std::string unknown_command(const CLI::App& all) {
     names.push_back(sub->get_name());
   const std::string path = app == &all ? "" : " " + app->get_name();
   if (!names.empty() && rest.empty())
-    return "fulmar fcu" + path + ": say what: " + core::join(names) + "; --help tells more.";
+    return fulmar::fcu_messages::subcommand_missing(path, core::join(names)).line();
   if (names.empty() || rest.front().front() == '-') return "";
-  return "fulmar fcu" + path + ": there is no command '" + rest.front() + "'." +
-         core::choices_text(rest.front(), names);
+  return fulmar::fcu_messages::subcommand_unknown(path, rest.front(), core::choices_text(rest.front(), names))
+      .line();
 }
 
 int usage(const CommandLine& line, const CLI::ParseError& e) {

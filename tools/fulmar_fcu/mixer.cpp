@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/words.hpp"
 
 namespace fulmar::fcu {
@@ -124,7 +125,7 @@ std::string output_words(const Mixer& m, int output) {
   for (const Row& row : rows)
     if (used(m.secondary[at(row.command)][at(output)]))
       out += (out.empty() ? "" : " and ") + std::string(row.command == row_throttle ? "motor" : row.name);
-  return out.empty() ? "follows none of the four commands" : out;
+  return out.empty() ? fcu_messages::output_without_command().line() : out;
 }
 
 std::string mixer_name(int choice) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/words.hpp"
 
 namespace fulmar::fcu {
@@ -23,13 +24,9 @@ void command(Client& client, int row, double value) {
 
 void watch(Client& client) {
   const auto status = client.last<RosflightStatus>();
-  if (status && status->armed != 0)
-    throw Error("It got ARMED: the test has stopped. Disarm it, and keep the arm switch off.");
-  if (client.age_s<RosflightStatus>() > 1) throw Error(client.name() + " went silent: the test has stopped.");
-  if (client.age_s<RcChannels>() > 0.5)
-    throw Error(
-        "No radio frames come: without them the firmware moves nothing. Switch the transmitter on, and look "
-        "at 'fulmar fcu status'.");
+  if (status && status->armed != 0) throw Error(fcu_messages::armed_during_test());
+  if (client.age_s<RosflightStatus>() > 1) throw Error(fcu_messages::status_lost_during_test(client.name()));
+  if (client.age_s<RcChannels>() > 0.5) throw Error(fcu_messages::radio_frames_missing());
 }
 
 /// Of the first half of the movement, to the positive side, or of the second one.
@@ -69,12 +66,8 @@ void take_outputs(Client& client) {
   }
   const auto status = client.last<RosflightStatus>();
   const auto pilots = override_words(static_cast<std::uint16_t>(status->rc_override & pilot_has_surfaces));
-  if (pilots.empty())
-    throw Error(
-        "The controller does not take commands from here: do they get lost, or is OFFBOARD_TIMEOUT too "
-        "short?");
-  throw Error("The pilot has the outputs (" + core::join(pilots) +
-              "): switch the override off and leave the sticks in the middle, then try again.");
+  if (pilots.empty()) throw Error(fcu_messages::commands_not_accepted());
+  throw Error(fcu_messages::pilot_override_active(core::join(pilots)));
 }
 
 std::vector<Moved> move_surface(Client& client, const Mixer& mixer, int row, double size,
@@ -88,18 +81,15 @@ std::vector<Moved> move_surface(Client& client, const Mixer& mixer, int row, dou
     client.pump(each);
     watch(client);
     if (const auto status = client.last<RosflightStatus>(); (status->rc_override & pilot_has_surfaces) != 0)
-      throw Error(
-          "The pilot took over (" +
-          core::join(override_words(static_cast<std::uint16_t>(status->rc_override & pilot_has_surfaces))) +
-          "): the test has stopped.");
+      throw Error(fcu_messages::pilot_took_over(
+          core::join(override_words(static_cast<std::uint16_t>(status->rc_override & pilot_has_surfaces)))));
     note(client, part < 0.5, moved);
   }
   command(client, row, 0);
   client.pump(100 * ms);
   for (const Moved& m : moved)
     if (std::fabs(m.first - m.then) < 0.05)
-      throw Error("Output " + std::to_string(m.output) +
-                  " did not follow: the controller says it stayed at " + fixed(m.rest, 2) + ".");
+      throw Error(fcu_messages::output_not_moved(m.output, fixed(m.rest, 2)));
   return moved;
 }
 

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/graph/yaml.hpp"
+#include "tools/fulmar_fcu/messages.hpp"
 
 namespace fulmar::fcu {
 
@@ -20,7 +21,7 @@ using core::Node;
 std::optional<bool> type_of(const Node& type, core::Report& report) {
   if (type.is(Node::Kind::scalar) && type.text == "6") return true;
   if (type.is(Node::Kind::scalar) && type.text == "9") return false;
-  report.add(type.where(), "type is 6 (whole number) or 9 (number), found " + core::found_words(type));
+  report.add(type.where(), fcu_messages::parameter_type_invalid(core::found_words(type)));
   return {};
 }
 
@@ -28,9 +29,7 @@ void read_item(const Node& item, std::vector<FileParam>& out, core::Report& repo
   const core::Keys keys(item, "", {"name", "type", "value"}, report);
   if (!item.is(Node::Kind::map)) return;
   for (const char* key : {"name", "type", "value"})
-    if (!keys.has(key))
-      return report.add(item.where(),
-                        std::string("this parameter has no '") + key + "': it needs {name, type, value}");
+    if (!keys.has(key)) return report.add(item.where(), fcu_messages::parameter_key_missing(key));
   const std::optional<std::string> name = keys.text("name"), value = keys.text("value");
   const std::optional<bool> whole = type_of(*keys.get("type"), report);
   if (name && value && whole) out.push_back({*name, *value, whole, keys.where("value")});
@@ -39,7 +38,7 @@ void read_item(const Node& item, std::vector<FileParam>& out, core::Report& repo
 void read_entry(const Node::Entry& entry, std::vector<FileParam>& out, core::Report& report) {
   if (!entry.value.is(Node::Kind::scalar))
     return report.add(entry.where(),
-                      entry.key + ": expected a number, found " + core::found_words(entry.value));
+                      located(entry.key, fcu_messages::number_expected(core::found_words(entry.value))));
   out.push_back({entry.key, entry.value.text, {}, entry.where()});
 }
 
@@ -47,8 +46,7 @@ void refuse_twice(const std::vector<FileParam>& list, core::Report& report) {
   for (std::size_t i = 0; i < list.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (list[i].name == list[j].name)
-        report.add(list[i].where, list[i].name + " stands twice in this file, first in line " +
-                                      std::to_string(list[j].where.line));
+        report.add(list[i].where, fcu_messages::parameter_duplicate(list[i].name, list[j].where.line));
 }
 
 std::string left_aligned(std::string text, std::size_t width) {
@@ -67,8 +65,7 @@ std::vector<FileParam> read_param_file(const std::string& path) {
   } else if (root.is(Node::Kind::map)) {
     for (const Node::Entry& entry : root.entries) read_entry(entry, out, report);
   } else if (report.empty()) {
-    report.add({path, root.line}, "expected 'NAME: value' lines, or a list of {name, type, value}, found " +
-                                      core::found_words(root));
+    report.add({path, root.line}, fcu_messages::parameter_list_expected(core::found_words(root)));
   }
   refuse_twice(out, report);
   report.throw_if_any();
@@ -87,8 +84,7 @@ std::string param_file_text(const std::vector<Param>& params, const std::string&
 
 void write_param_file(const std::string& path, const std::string& text, bool replace) {
   namespace fs = std::filesystem;
-  if (!replace && fs::exists(path))
-    throw Error(path + " is there already: choose another name, or add --replace.");
+  if (!replace && fs::exists(path)) throw Error(fcu_messages::file_exists(path));
   const std::string part = path + ".part" + std::to_string(::getpid());
   {
     std::ofstream file(part, std::ios::binary);
@@ -97,12 +93,12 @@ void write_param_file(const std::string& path, const std::string& text, bool rep
     if (!file) {
       std::error_code ignored;
       fs::remove(part, ignored);
-      throw Error(path + " cannot be written: no such folder, no permission, or the disk is full.");
+      throw Error(fcu_messages::file_not_writable(path));
     }
   }
   std::error_code fault;
   fs::rename(part, path, fault);
-  if (fault) throw Error(path + " cannot be written: " + fault.message() + ".");
+  if (fault) throw Error(fcu_messages::file_write_failed(path, fault.message()));
 }
 
 std::string Change::wanted() const {
@@ -120,19 +116,19 @@ std::vector<Change> changes(const std::vector<FileParam>& file, const std::vecto
     const auto it = std::find(names.begin(), names.end(), wanted.name);
     if (it == names.end()) {
       const std::string near = core::nearest(wanted.name, names);
-      report.add(wanted.where, "the controller has no parameter '" + wanted.name + "'." +
-                                   (near.empty() ? "" : " Did you mean " + near + "?"));
+      report.add(wanted.where, fcu_messages::file_parameter_unknown(
+                                   wanted.name, near.empty() ? "" : " Did you mean " + near + "?"));
       continue;
     }
     const Param& param = now[static_cast<std::size_t>(it - names.begin())];
     try {
       if (wanted.whole && *wanted.whole != param.whole)
-        throw Error(wanted.name + " is of type " + (param.whole ? "6 (whole number)" : "9 (number)") +
-                    " in the controller.");
+        throw Error(fcu_messages::parameter_type_mismatch(wanted.name,
+                                                          param.whole ? "6 (whole number)" : "9 (number)"));
       if (const std::uint32_t bits = parse_value(param, wanted.text); bits != param.bits)
         out.push_back({param, bits, wanted.where});
     } catch (const Error& e) {
-      report.add(wanted.where, e.what());
+      report.add(wanted.where, e.diagnostic);
     }
   }
   report.throw_if_any();

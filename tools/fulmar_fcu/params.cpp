@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/param_ranges.hpp"
 
 namespace fulmar::fcu {
@@ -66,7 +67,8 @@ std::string like(const std::string& wanted, const std::vector<std::string>& name
   int n = words.empty() ? 0 : 1;
   for (const std::string& name : names)
     if (name != words && n < 4 && matches(name, wanted)) words += (n++ > 0 ? " or " : "") + name;
-  return words.empty() ? " 'fulmar fcu params list' shows all." : " Did you mean " + words + "?";
+  return words.empty() ? fcu_messages::parameter_list_hint().line()
+                       : fcu_messages::parameter_suggestion(words).line();
 }
 
 std::uint32_t parse_integer(const Param& param, const std::string& text) {
@@ -74,14 +76,12 @@ std::uint32_t parse_integer(const Param& param, const std::string& text) {
   const char* begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
   const auto [end, code] = std::from_chars(begin, text.data() + text.size(), value);
   if (code == std::errc::invalid_argument || end != text.data() + text.size())
-    throw Error(param.name + " is a whole number, not '" + text + "'.");
+    throw Error(fcu_messages::whole_number_expected(param.name, text));
   if (code != std::errc{} || value < INT32_MIN || value > INT32_MAX)
-    throw Error(text + " is too large for " + param.name +
-                ": it holds whole numbers from -2147483648 to 2147483647.");
+    throw Error(fcu_messages::whole_number_too_large(text, param.name));
   for (const ParamRange& range : param_ranges)
     if (range.name == param.name && (value < range.least || value > range.most))
-      throw Error(param.name + " is " + std::to_string(range.least) + " to " + std::to_string(range.most) +
-                  ", not " + text + ": the controller would take it, and not work with it.");
+      throw Error(fcu_messages::value_out_of_range(param.name, range.least, range.most, text));
   return std::bit_cast<std::uint32_t>(static_cast<std::int32_t>(value));
 }
 
@@ -89,11 +89,10 @@ std::uint32_t parse_real(const Param& param, const std::string& text) {
   float value = 0;
   const char* begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
   const auto [end, code] = std::from_chars(begin, text.data() + text.size(), value);
-  if (code == std::errc::result_out_of_range)
-    throw Error(text + " is outside of what " + param.name + " holds: a number of 32 bits, up to 3.4e38.");
+  if (code == std::errc::result_out_of_range) throw Error(fcu_messages::number_too_large(text, param.name));
   if (code != std::errc{} || end != text.data() + text.size())
-    throw Error(param.name + " is a number, not '" + text + "'.");
-  if (!std::isfinite(value)) throw Error(param.name + " must be a finite number, not '" + text + "'.");
+    throw Error(fcu_messages::real_number_expected(param.name, text));
+  if (!std::isfinite(value)) throw Error(fcu_messages::finite_number_expected(param.name, text));
   return std::bit_cast<std::uint32_t>(value);
 }
 
@@ -106,8 +105,7 @@ std::vector<Param> read_params(Client& client,
     if (progress) progress(indices(client).count(), client.param_count());
   };
   ask_list(client, report);
-  if (client.params().empty())
-    throw Error(client.name() + " does not answer the request for its parameters: is the line to it cut?");
+  if (client.params().empty()) throw Error(fcu_messages::parameter_request_unanswered(client.name()));
   int idle = 0;
   for (std::size_t have = indices(client).count(); have < client.param_count() && idle < 20;) {
     ask_missing(client);
@@ -120,16 +118,13 @@ std::vector<Param> read_params(Client& client,
   for (const auto& [name, param] : client.params()) list.push_back(param);
   std::sort(list.begin(), list.end(), [](const Param& a, const Param& b) { return a.index < b.index; });
   if (list.size() != client.param_count())
-    throw Error("Only " + std::to_string(list.size()) + " of " + std::to_string(client.param_count()) +
-                " parameters came from " + client.name() +
-                ": the link loses too much; look at 'fulmar fcu check'.");
+    throw Error(fcu_messages::parameters_incomplete(list.size(), client.param_count(), client.name()));
   return list;
 }
 
 Param read_param(Client& client, const std::string& name) {
   const std::string wanted = upper(name);
-  if (wanted.empty() || wanted.size() > 16)
-    throw Error("'" + name + "' is no name of a parameter: they have 1 to 16 characters.");
+  if (wanted.empty() || wanted.size() > 16) throw Error(fcu_messages::parameter_name_invalid(name));
   for (int i = 0; i < 3; ++i) {
     const std::int64_t since = client.now_ns();
     ask_one(client, wanted);
@@ -142,7 +137,7 @@ Param read_param(Client& client, const std::string& name) {
     if (param.name == wanted) return param;
     names.push_back(param.name);
   }
-  throw Error("The controller has no parameter '" + name + "'." + like(wanted, names));
+  throw Error(fcu_messages::parameter_unknown(name, like(wanted, names)));
 }
 
 std::vector<Param> read_some(Client& client, const std::vector<std::string>& names) {
@@ -182,9 +177,8 @@ bool set_param(Client& client, const Param& now, std::uint32_t bits) {
     if (client.wait(250 * ms, taken)) return true;
   }
   if (!heard_since(client, now.name, since))
-    throw Error(client.name() + " does not answer: whether " + now.name + " was set is not known.");
-  throw Error(now.name + " did not take " + wanted.text() + ": it is still " +
-              client.params().at(now.name).text() + ".");
+    throw Error(fcu_messages::set_not_confirmed(client.name(), now.name));
+  throw Error(fcu_messages::set_not_effective(now.name, wanted.text(), client.params().at(now.name).text()));
 }
 
 bool matches(const std::string& name, const std::string& pattern) {

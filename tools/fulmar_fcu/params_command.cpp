@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/fulmar_fcu/app.hpp"
+#include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/param_file.hpp"
 
 namespace fulmar::fcu {
@@ -63,8 +64,7 @@ int params_list(Client& client, const Options& options, const ParamsOptions& wha
   }
   if (options.json) std::printf("%s\n", out.dump(1).c_str());
   if (shown == 0 && !what.pattern.empty())
-    throw Error("None of the " + std::to_string(client.param_count()) + " parameters matches '" +
-                what.pattern + "'.");
+    throw Error(fcu_messages::pattern_unmatched(client.param_count(), what.pattern));
   return 0;
 }
 
@@ -140,8 +140,8 @@ int params_load(Client& client, const Options& options, const ParamsOptions& wha
   show_progress("");
   if (!left.empty()) {
     std::printf("Still different:\n%s", changes_text(left).c_str());
-    throw Error(counted(left.size(), "parameter") + " of " + std::to_string(todo.size()) + " did not take, " +
-                left.front().now.name + " first.");
+    throw Error(fcu_messages::parameters_not_taken(counted(left.size(), "parameter"), todo.size(),
+                                                   left.front().now.name));
   }
   std::printf("Set and read back: %s.\n", counted(todo.size(), "parameter").c_str());
   if (what.write)

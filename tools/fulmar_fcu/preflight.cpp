@@ -10,6 +10,7 @@
 #include "core/loader/table.hpp"
 #include "plugins/fcu_serial/firmware_version.hpp"
 #include "plugins/fcu_serial/pitot_zero.hpp"
+#include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/mixer.hpp"
 #include "tools/fulmar_fcu/radio.hpp"
 #include "tools/fulmar_fcu/words.hpp"
@@ -28,7 +29,7 @@ struct Judge {
   }
   void ok(const std::string& name, const std::string& text) { add(Verdict::ok, name, text); }
   void warn(const std::string& name, const std::string& text) { add(Verdict::warn, name, text); }
-  void fail(const std::string& name, const std::string& text) { add(Verdict::fail, name, text); }
+  void fail(const std::string& name, const Diagnostic& text) { add(Verdict::fail, name, text); }
 
   double value(const std::string& name) const {
     const auto it =
@@ -43,25 +44,22 @@ struct Judge {
 
 void firmware(Judge& j) {
   if (j.f.version.empty() && j.f.status.armed == 0)
-    j.warn("firmware", "it refuses to tell its version, though disarmed: power-cycle it");
+    j.warn("firmware", fcu_messages::version_withheld());
   else if (j.f.version.empty())
     j.add(Verdict::note, "firmware", "it refuses to tell its version, as it does while armed");
   else if (tried(j.f.version))
     j.ok("firmware", j.f.version + ", as tried");
   else
-    j.warn("firmware", j.f.version + " was not tried with Fulmar, " + std::string(tried_firmware) +
-                           " was: messages, mixers and signs may differ; go through every step anew");
+    j.warn("firmware", fcu_messages::firmware_untested(j.f.version, tried_firmware));
   if (j.f.status.armed != 0)
-    j.fail("disarmed", "it is ARMED: disarm it, and stay away from the propeller");
+    j.fail("disarmed", fcu_messages::controller_armed());
   else
     j.ok("disarmed", "yes");
   if (const auto words = error_words(j.f.status.error_code); !words.empty())
-    j.fail("errors", core::join(words) + ": it will not arm");
+    j.fail("errors", fulmar::located(core::join(words), fcu_messages::arming_blocked()));
   else
     j.ok("errors", "none");
-  if (j.f.status.num_errors > 0)
-    j.warn("sensors", std::to_string(j.f.status.num_errors) +
-                          " did not start: 'fulmar fcu status' shows which are silent; power-cycle it");
+  if (j.f.status.num_errors > 0) j.warn("sensors", fcu_messages::sensors_not_started(j.f.status.num_errors));
 }
 
 /// At rest the means are gravity and no rotation: the biases belong to this unit, and to no other moment.
@@ -72,8 +70,8 @@ void rest(Judge& j, const Rest& r) {
                     redo = " at rest: 'fulmar fcu calibrate imu'";
   const double off = std::fabs(r.gravity_mps2 - gravity);
   if (r.accel_rms_mps2 > 1 || r.gyro_rms_rps * deg > 5)
-    return j.warn("IMU", "it is being moved (" + fixed(r.accel_rms_mps2, 1) + " m/s2, " +
-                             fixed(r.gyro_rms_rps * deg, 0) + " deg/s rms): put it down, and check again");
+    return j.warn(
+        "IMU", fcu_messages::aircraft_in_motion(fixed(r.accel_rms_mps2, 1), fixed(r.gyro_rms_rps * deg, 0)));
   if (off > 0.15)
     j.add(off > 0.5 ? Verdict::fail : Verdict::warn, "IMU",
           "gravity is " + gravity_text + redo.substr(0, 8) + ", not 9.81" + redo.substr(8));
@@ -98,43 +96,34 @@ void inertial(Judge& j) {
 
 void calibration(Judge& j) {
   inertial(j);
-  if (j.f.attitude && !finite(*j.f.attitude))
-    j.fail("attitude", "the controller's own is not a number any more: power-cycle it");
+  if (j.f.attitude && !finite(*j.f.attitude)) j.fail("attitude", fcu_messages::attitude_not_finite());
   bool plain = j.all_zero({"MAG_X_BIAS", "MAG_Y_BIAS", "MAG_Z_BIAS"});
   for (const char* d : {"MAG_CAL_A00", "MAG_CAL_A11", "MAG_CAL_A22"}) plain = plain && j.value(d) == 1;
   if (j.f.mag_hz == 0)
-    j.warn("magnetometer", "silent: headings will come from GNSS alone");
+    j.warn("magnetometer", fcu_messages::heading_sensor_silent());
   else if (plain)
-    j.warn("magnetometer", "not calibrated: 'fulmar fcu calibrate mag', then 'params write'");
+    j.warn("magnetometer", fcu_messages::magnetometer_not_calibrated());
   else
     j.ok("magnetometer", "calibrated");
-  if (j.f.uptime_s < 12)
-    j.warn("zeroing", "booted " + fixed(j.f.uptime_s, 0) +
-                          " s ago: barometer and airspeed are zeroed in the first 12 s; keep it still");
+  if (j.f.uptime_s < 12) j.warn("zeroing", fcu_messages::zeroing_in_progress(fixed(j.f.uptime_s, 0)));
   const double zero = j.value(std::string(pitot_zero));
   if (!(std::fabs(zero) <= pitot_zero_limit_pa))
-    j.warn("airspeed",
-           "its zero, DIFF_PRESS_BIAS, is " + fixed(zero, 0) +
-               " Pa, as in wind or in the air: 'run' does not use it; cover the tube, 'fulmar fcu "
-               "calibrate airspeed'");
+    j.warn("airspeed", fcu_messages::pitot_zero_implausible(fixed(zero, 0)));
   if (j.f.pitot_hz == 0)
-    j.warn("airspeed", "no sensor is heard: the pitot tube is unplugged, or there is none");
+    j.warn("airspeed", fcu_messages::airspeed_sensor_silent());
   else if (j.f.pitot && std::fabs(j.f.pitot->velocity) > 5)
-    j.warn("airspeed",
-           fixed(j.f.pitot->velocity, 1) +
-               " m/s at rest: cover the tube, 'fulmar fcu calibrate airspeed'; in wind this is right");
+    j.warn("airspeed", fcu_messages::airspeed_at_rest(fixed(j.f.pitot->velocity, 1)));
   else if (j.f.pitot)
     j.ok("airspeed", fixed(j.f.pitot->velocity, 1) + " m/s");
   if (j.f.baro_hz == 0)
-    j.fail("barometer", "silent: power-cycle the controller");
+    j.fail("barometer", fcu_messages::barometer_silent());
   else
     j.ok("barometer", "heard");
 }
 
 void mixing(Judge& j) {
   if (j.whole("FIXED_WING") != 1)
-    j.fail("aircraft",
-           "FIXED_WING is 0, a multirotor: 'fulmar fcu params set FIXED_WING 1', write, power-cycle");
+    j.fail("aircraft", fcu_messages::multirotor_configured());
   else
     j.ok("aircraft", "fixed wing");
   const Mixer mixer = mixer_of(j.f.params);
@@ -143,12 +132,10 @@ void mixing(Judge& j) {
   for (const std::string& remark : remarks) j.warn("mixer", remark);
   if (faults.empty() && remarks.empty()) j.ok("mixer", mixer_name(mixer.choice));
   if (const int axis = j.whole("RC_F_AXIS"); axis != 0)
-    j.fail("throttle axis",
-           "RC_F_AXIS is " + std::to_string(axis) + ": the throttle of a fixed wing is u[0]; set it to 0");
+    j.fail("throttle axis", fcu_messages::throttle_axis_invalid(axis));
   for (const char* name : {"X_EQ_TORQUE", "Y_EQ_TORQUE", "Z_EQ_TORQUE"})
     if (std::fabs(j.value(name)) > 0.3)
-      j.warn("trim", std::string(name) + " is " + fixed(j.value(name), 2) +
-                         ", and is added to every command: trim the linkage instead");
+      j.warn("trim", fcu_messages::trim_too_large(name, fixed(j.value(name), 2)));
 }
 
 void reversal(Judge& j) {
@@ -160,12 +147,9 @@ void reversal(Judge& j) {
     const bool firmware = j.whole(param) != 0;
     const std::string name = surface;
     if (firmware && reversed)
-      j.fail("reversals", std::string(param) + " is 1 and the airframe file says reversed: the " + name +
-                              " would be turned round twice; take one away");
+      j.fail("reversals", fcu_messages::surface_reversed_twice(param, name));
     else if (reversed)
-      j.warn("reversals", "the airframe file reverses the " + name +
-                              " for the computer alone, not for the pilot: better " + param +
-                              " 1 and nothing in the file");
+      j.warn("reversals", fcu_messages::reversal_in_file(name, param));
     else
       j.ok("reversals",
            name + (firmware ? ": reversed by the firmware, for pilot and computer" : ": not reversed"));
@@ -179,9 +163,9 @@ void timeouts(Judge& j) {
   const int timeout = j.whole("OFFBOARD_TIMEOUT");
   const std::string text = "OFFBOARD_TIMEOUT is " + std::to_string(timeout) + " ms";
   if (timeout <= 50)
-    j.fail("time-out", text + ": commands may come each 50 ms; set 100");
+    j.fail("time-out", fulmar::located(text, fcu_messages::timeout_too_short()));
   else if (timeout > 500)
-    j.warn("time-out", text + ": so long it flies on without a computer; 100 is usual");
+    j.warn("time-out", fulmar::located(text, fcu_messages::timeout_too_long()));
   else
     j.ok("time-out", text);
   const double thr = j.value("FAILSAFE_THR");
@@ -195,23 +179,19 @@ void timeouts(Judge& j) {
 
 void radio(Judge& j) {
   const RadioMap map = radio_map(j.f.params);
-  if (j.f.rc_hz == 0)
-    return j.fail("radio",
-                  "no frames: switch the transmitter on; check receiver and RC_TYPE. Without them nothing "
-                  "reaches the outputs");
+  if (j.f.rc_hz == 0) return j.fail("radio", fcu_messages::radio_frames_absent());
   if (j.f.rc_hz < 40)
-    j.warn("radio", fixed(j.f.rc_hz, 0) +
-                        " frames a second: commands reach the outputs only with them; SBUS gives 111");
+    j.warn("radio", fcu_messages::radio_rate_low(fixed(j.f.rc_hz, 0)));
   else
     j.ok("radio", fixed(j.f.rc_hz, 0) + " frames a second");
   for (const std::string& fault : map_faults(map)) j.fail("channels", fault);
   if (map_faults(map).empty()) j.ok("channels", map_words(map));
   if (!j.f.rc || !map_faults(map).empty()) return;
-  if (map.on(RadioMap::arm, *j.f.rc)) j.fail("arm switch", "is on: switch it off");
+  if (map.on(RadioMap::arm, *j.f.rc)) j.fail("arm switch", fcu_messages::arm_switch_on());
   if (map.on(RadioMap::attitude_override, *j.f.rc))
     j.ok("override switch", "on: the pilot flies");
   else
-    j.warn("override switch", "off: the computer flies as soon as it sends; begin with the pilot");
+    j.warn("override switch", fcu_messages::override_switch_off());
   const double stick = map.throttle(*j.f.rc);
   if (stick > j.value("RC_ARM_THRESHOLD"))
     j.warn("throttle stick", "at " + fixed(100 * stick, 0) + " %: it must be down to arm");
@@ -219,25 +199,21 @@ void radio(Judge& j) {
 
 void pilot(Judge& j) {
   if (j.whole("TAKE_MIN_THR") != 0)
-    j.warn("throttle",
-           "TAKE_MIN_THR is 1: the computer's throttle counts only below the pilot's stick; set 0, or fly "
-           "with the stick up");
+    j.warn("throttle", fcu_messages::throttle_limited_by_pilot());
   else
     j.ok("throttle", "TAKE_MIN_THR is 0: to arm, the throttle override switch must be on");
   const double dev = j.value("RC_OVRD_DEV");
   if (dev >= 1)
-    j.warn("sticks", "RC_OVRD_DEV is " + fixed(dev, 2) +
-                         ": moving the sticks does not take over, only the switch does");
+    j.warn("sticks", fcu_messages::stick_override_off(fixed(dev, 2)));
   else
     j.ok("sticks", "more than " + fixed(100 * dev, 0) + " % of stick takes over");
 }
 
 void outside(Judge& j) {
   if (!j.f.gnss)
-    j.fail("GNSS", "silent: check the receiver's plug");
+    j.fail("GNSS", fcu_messages::receiver_silent());
   else if (j.f.gnss->fix_type < 3 || j.f.gnss->fix_type == 5)
-    j.fail("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) +
-                       " satellites: wait under open sky");
+    j.fail("GNSS", fcu_messages::fix_missing(fix_words(j.f.gnss->fix_type), j.f.gnss->num_sat));
   else if (j.f.gnss->h_acc > 5 || j.f.gnss->num_sat < 6)
     j.warn("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) +
                        " satellites, +-" + fixed(j.f.gnss->h_acc, 1) + " m: wait");
@@ -245,11 +221,11 @@ void outside(Judge& j) {
     j.ok("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) +
                      " satellites, +-" + fixed(j.f.gnss->h_acc, 1) + " m");
   if (!j.f.battery || j.f.battery->battery_voltage < 1)
-    return j.warn("battery", "not measured: BATT_VOLT_MULT, or no sensor");
+    return j.warn("battery", fcu_messages::battery_not_measured());
   const double volt = j.f.battery->battery_voltage;
   if (j.f.airframe && volt < 0.85 * j.f.airframe->propulsion.battery_volt)
-    j.fail("battery", fixed(volt, 1) + " V, and the airframe's has " +
-                          fixed(j.f.airframe->propulsion.battery_volt, 1) + " V: charge it");
+    j.fail("battery",
+           fcu_messages::battery_low(fixed(volt, 1), fixed(j.f.airframe->propulsion.battery_volt, 1)));
   else
     j.ok("battery", fixed(volt, 1) + " V" +
                         (j.f.uptime_s < 60 ? ", still settling: the controller filters it over 20 s" : ""));
@@ -257,9 +233,9 @@ void outside(Judge& j) {
 
 void judge_line(Judge& j) {
   if (j.f.imu_hz < 100)
-    j.fail("IMU rate", fixed(j.f.imu_hz, 0) + " Hz: the loop needs 400");
+    j.fail("IMU rate", fcu_messages::imu_rate_too_low(fixed(j.f.imu_hz, 0)));
   else if (j.f.imu_hz < 380)
-    j.warn("IMU rate", fixed(j.f.imu_hz, 0) + " Hz of 400: the line loses or is too slow");
+    j.warn("IMU rate", fcu_messages::imu_rate_low(fixed(j.f.imu_hz, 0)));
   else
     j.ok("IMU rate", fixed(j.f.imu_hz, 0) + " Hz");
   j.add(Verdict::note, "other rates",
@@ -267,7 +243,7 @@ void judge_line(Judge& j) {
             fixed(j.f.pitot_hz, 0) + ", status " + fixed(j.f.status_hz, 0) + " Hz");
   const std::string loss = fixed(100 * j.f.loss_ratio, 2) + " % of the frames lost";
   if (j.f.loss_ratio > 0.05)
-    j.fail("loss", loss + ": cable, or a baud rate that is too low");
+    j.fail("loss", fulmar::located(loss, fcu_messages::frame_loss_high()));
   else if (j.f.loss_ratio > 0.005)
     j.warn("loss", loss);
   else
@@ -277,18 +253,15 @@ void judge_line(Judge& j) {
   const double part = j.f.baud > 0 ? j.f.bytes_per_s * 10 / static_cast<double>(j.f.baud) : 0;
   if (j.f.baud > 0) load += ", " + fixed(100 * part, 0) + " % of " + std::to_string(j.f.baud) + " baud";
   if (part > 0.9)
-    j.warn("load", load + ": on a UART take 921600; USB does not care");
+    j.warn("load", fulmar::located(load, fcu_messages::line_load_high()));
   else
     j.ok("load", load);
-  if (!j.f.round_trip_s)
-    return j.fail("round trip",
-                  "none of 20 questions was answered within 100 ms: too slow to fly on, or the line to the "
-                  "controller is cut");
+  if (!j.f.round_trip_s) return j.fail("round trip", fcu_messages::round_trip_missing());
   const std::string trip = fixed(1000 * *j.f.round_trip_s, 2) + " ms";
   if (*j.f.round_trip_s > 0.05)
-    j.fail("round trip", trip + ": too slow to fly on");
+    j.fail("round trip", fulmar::located(trip, fcu_messages::round_trip_excessive()));
   else if (*j.f.round_trip_s > 0.01)
-    j.warn("round trip", trip + ": more than 10 ms");
+    j.warn("round trip", fulmar::located(trip, fcu_messages::round_trip_long()));
   else
     j.ok("round trip", trip);
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tools/fulmar_fcu/messages.hpp"
+
 namespace fulmar::fcu {
 
 namespace {
@@ -78,14 +80,15 @@ std::vector<std::string> map_faults(const RadioMap& map) {
 
 std::string map_words(const RadioMap& map) {
   const auto number = [](int channel) { return std::to_string(channel + 1); };
-  return "roll " + number(map.x) + ", pitch " + number(map.y) + ", throttle " + number(map.f) + ", yaw " +
-         number(map.z) + ", override " + number(map.channel[RadioMap::attitude_override]) +
-         (map.channel[RadioMap::throttle_override] == map.channel[RadioMap::attitude_override]
-              ? ""
-              : ", throttle override " + number(map.channel[RadioMap::throttle_override])) +
-         (map.mapped(RadioMap::arm) ? ", arm " + number(map.channel[RadioMap::arm])
-                                    : ", armed by the sticks") +
-         " (counted from 1)";
+  return fcu_messages::radio_channel_map(
+             number(map.x), number(map.y), number(map.f), number(map.z),
+             number(map.channel[RadioMap::attitude_override]),
+             map.channel[RadioMap::throttle_override] == map.channel[RadioMap::attitude_override]
+                 ? ""
+                 : ", throttle override " + number(map.channel[RadioMap::throttle_override]),
+             map.mapped(RadioMap::arm) ? ", arm " + number(map.channel[RadioMap::arm])
+                                       : ", armed by the sticks")
+      .line();
 }
 
 }  // namespace fulmar::fcu

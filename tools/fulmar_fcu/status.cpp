@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/words.hpp"
 
 namespace fulmar::fcu {
@@ -153,8 +154,8 @@ bool finite(const AttitudeQuaternion& q) {
 }
 
 std::string control_words(const RosflightStatus& status, double rc_age_s) {
-  if (status.failsafe != 0) return "nobody: failsafe, motor off and surfaces centred";
-  if (rc_age_s > 0.5) return "nobody: without radio frames the outputs are frozen";
+  if (status.failsafe != 0) return fcu_messages::failsafe_in_control().line();
+  if (rc_age_s > 0.5) return fcu_messages::outputs_frozen().line();
   if ((status.rc_override & (override_by_pilot | override_inactive)) == 0 && status.offboard != 0)
     return "the computer";
   return "the pilot (" + core::join(override_words(status.rc_override)) + ")";

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "tools/fulmar_fcu/app.hpp"
+#include "tools/fulmar_fcu/messages.hpp"
 #include "tools/fulmar_fcu/status.hpp"
 
 namespace fulmar::fcu {
@@ -38,9 +39,7 @@ int status_command(Client& client, const Options& options, bool once) {
 
 int version_command(Client& client, const Options& options) {
   if (client.version().empty())
-    throw Error(client.armed()
-                    ? "The aircraft is armed: the controller tells its version only while disarmed."
-                    : "The controller refuses to tell its version.");
+    throw Error(client.armed() ? fcu_messages::version_while_armed() : fcu_messages::version_refused());
   if (options.json)
     std::printf("%s\n", version_json(client).c_str());
   else

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "tools/fulmar_fcu/app.hpp"
+#include "tools/fulmar_fcu/messages.hpp"
 
 namespace fulmar::fcu {
 
@@ -26,8 +27,7 @@ bool on_terminal() { return ::isatty(STDOUT_FILENO) == 1; }
 
 bool confirmed(const std::string& question, bool yes, const std::string& flag) {
   if (yes) return true;
-  if (::isatty(STDIN_FILENO) != 1 || !on_terminal())
-    throw Error("Nothing was changed: without a terminal to ask on, add " + flag + ".");
+  if (::isatty(STDIN_FILENO) != 1 || !on_terminal()) throw Error(fcu_messages::confirmation_required(flag));
   std::printf("%s [y/N] ", question.c_str());
   std::fflush(stdout);
   std::string answer;

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/loader/table.hpp"
+#include "tools/fulmar_inspect/messages.hpp"
 
 namespace fulmar::core::inspect_text {
 
@@ -36,7 +37,7 @@ std::string port_kind(const Port& port) {
     case FULMAR_IN_QUEUE: return "queue" + many;
     case FULMAR_IN_REQUEST: return "request" + many;
     case FULMAR_OUT_VALUE: return "value";
-    case FULMAR_OUT_EVENT: return "value, may stay silent";
+    case FULMAR_OUT_EVENT: return inspect_messages::event_output_kind().line();
     case FULMAR_OUT_QUEUE: return "queue" + many;
     case FULMAR_OUT_PROBE: return "probe";
   }

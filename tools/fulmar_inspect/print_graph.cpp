@@ -6,6 +6,7 @@
 
 #include "core/graph/condition.hpp"
 #include "core/graph/quantity.hpp"
+#include "tools/fulmar_inspect/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -31,10 +32,10 @@ std::string rate_text(const Graph& graph, const Component& component) {
   const std::int64_t period = component.period_ns > 0 ? component.period_ns : graph.tick_ns;
   const std::string rate = number_text(1e9 / static_cast<double>(period)) + " Hz";
   switch (component.run) {
-    case RunMode::process: return rate + ", in a child";
+    case RunMode::process: return inspect_messages::rate_in_child(rate).line();
     case RunMode::async:
       return rate + ", " + number_text(1e-6 * static_cast<double>(component.latency_ns)) + " ms later";
-    case RunMode::driver: return "in a thread of its own";
+    case RunMode::driver: return inspect_messages::driver_thread().line();
     default: return rate;
   }
 }
@@ -196,7 +197,7 @@ std::string print_graph(const Graph& graph, const std::string& format) {
   if (format == "text") return Text(graph).print();
   if (format == "dot") return dot(graph);
   if (format == "mermaid") return mermaid(graph);
-  throw Error("unknown format '" + format + "'." + choices_text(format, {"text", "dot", "mermaid"}));
+  throw Error(inspect_messages::format_unknown(format, choices_text(format, {"text", "dot", "mermaid"})));
 }
 
 }  // namespace fulmar::core

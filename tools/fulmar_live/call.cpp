@@ -10,6 +10,7 @@
 #include "core/graph/quantity.hpp"
 #include "core/graph/yaml.hpp"
 #include "tools/fulmar_live/commands.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/fulmar_live/session.hpp"
 
 namespace fulmar::core {
@@ -81,7 +82,7 @@ std::string request_service(const json& view, const std::string& name) {
       if (p.value("request", false)) names.push_back(c.value("name", "") + "." + p.value("name", ""));
   for (const std::string& known : names)
     if (known == name) return "/" + name.substr(0, name.find('.')) + "/" + name.substr(name.find('.') + 1);
-  throw Error("this flight takes no request '" + name + "'." + choices_text(name, names));
+  throw Error(remote_messages::request_unknown(name, choices_text(name, names)));
 }
 
 /// All fields 0 is hardly what anybody means: a waypoint at 0, 0, 0, or not armed.
@@ -102,7 +103,7 @@ std::string swap_file(const std::string& word) {
   const bool plugin = word.ends_with(".so") || word.ends_with(".py");
   if (!plugin && word.find_first_of("./") != std::string::npos &&
       std::filesystem::is_regular_file(word, fault))
-    throw Error("'" + word + "' is no plugin: a plugin's file ends in .so or .py");  // not PLUGIN/COMPONENT
+    throw Error(remote_messages::plugin_expected(word));  // not PLUGIN/COMPONENT
   if (!(file.ends_with(".so") || file.ends_with(".py")) || !std::filesystem::is_regular_file(file, fault))
     return word;
   return std::filesystem::absolute(file, fault).string() + (part.empty() ? "" : "/" + part);
@@ -137,7 +138,7 @@ int phase_command(const LiveAddress& target, const std::string& phase) {
   const std::vector<std::string> phases = view.value("phases", std::vector<std::string>());
   bool known = false;
   for (const std::string& name : phases) known = known || name == phase;
-  if (!known) throw Error("this flight has no phase '" + phase + "'." + choices_text(phase, phases));
+  if (!known) throw Error(remote_messages::phase_unknown(phase, choices_text(phase, phases)));
   return report(session.order("/fulmar/phase", {{"phase", phase}}), "phase " + phase);
 }
 
@@ -148,8 +149,7 @@ int swap_command(const LiveAddress& target, const std::string& component, const 
   for (const json& c : view.value("components", json::array())) names.push_back(c.value("name", ""));
   bool known = false;
   for (const std::string& name : names) known = known || name == component;
-  if (!known)
-    throw Error("this flight has no component '" + component + "'." + choices_text(component, names));
+  if (!known) throw Error(remote_messages::component_unknown(component, choices_text(component, names)));
   const Session::Verdict verdict =
       session.order("/fulmar/swap", {{"component", component}, {"file", swap_file(file)}});
   const int code = report(verdict, "swap " + component);

@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "core/error.hpp"
+#include "tools/fulmar_live/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -44,7 +45,7 @@ LiveAddress parse_target(const std::string& at, const std::string& token) {
     port = at.substr(colon + 1);
     const auto [end, code] = std::from_chars(port.data(), port.data() + port.size(), target.port);
     if (code != std::errc{} || end != port.data() + port.size() || target.port == 0)
-      throw Error("'" + at + "': '" + port + "' is no port; give HOST:PORT, as in 127.0.0.1:8765");
+      throw Error(remote_messages::port_number_invalid(at, port));
   }
   std::uint16_t only = 0;  // a port alone
   if (const auto [end, code] = std::from_chars(at.data(), at.data() + at.size(), only);
@@ -127,11 +128,8 @@ struct Client::Impl {
     tcp::resolver resolver(context);
     error_code fault;
     const auto places = resolver.resolve(target.host, std::to_string(target.port), fault);
-    if (fault)
-      throw Error("there is no host '" + target.host + "': give --at HOST:PORT, as in --at 127.0.0.1:8765");
-    if (connect_to(places))
-      throw Error("no flight listens on " + target.text() +
-                  ": start one with fulmar run MISSION --speed real --live 8765, or name it with --at");
+    if (fault) throw Error(remote_messages::host_unknown(target.host));
+    if (connect_to(places)) throw Error(remote_messages::flight_not_found(target.text()));
     stream.next_layer().set_option(tcp::no_delay(true), fault);
   }
 
@@ -148,16 +146,14 @@ struct Client::Impl {
     });
     if (!fault) return;
     if (fault != websocket::error::upgrade_declined)
-      throw Error("what listens on " + target.text() + " is no flight (" + fault.message() +
-                  "): name one with --at");
+      throw Error(remote_messages::flight_expected(target.text(), fault.message()));
     constexpr unsigned unauthorized = 401, forbidden = 403;
     const unsigned status = response.result_int();
     if (status == unauthorized || status == forbidden)
-      throw Error("the flight on " + target.text() +
-                  (target.token.empty() ? " wants a token" : " refuses this token") +
-                  ": give it with --token or in FULMAR_TOKEN");
-    throw Error("the flight on " + target.text() + " refuses the connection: " + std::to_string(status) +
-                " " + std::string(response.reason().data(), response.reason().size()));
+      throw Error(remote_messages::token_rejected(
+          target.text(), target.token.empty() ? " wants a token" : " refuses this token"));
+    throw Error(remote_messages::connection_rejected(
+        target.text(), status, std::string(response.reason().data(), response.reason().size())));
   }
 
   std::optional<Message> receive(std::chrono::milliseconds limit) {

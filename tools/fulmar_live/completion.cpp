@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/loader/home.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/fulmar_live/parameters.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
@@ -56,15 +57,15 @@ const std::map<std::string, std::string> option_kinds{
 /// What a program beside this one prints of its commands. Throws Error.
 std::string rows_of(const char* name) {
   const std::string program = own_program(name).string();
-  if (program.empty()) throw Error(std::string("the program ") + name + " is missing beside this one");
+  if (program.empty()) throw Error(remote_messages::program_missing(name));
   std::string quoted = "'";
   for (const char c : program) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   std::FILE* pipe = ::popen((quoted + "' --rows").c_str(), "r");
-  if (pipe == nullptr) throw Error(program + " cannot be started");
+  if (pipe == nullptr) throw Error(remote_messages::program_not_startable(program));
   std::string text;
   char buffer[4096];
   for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) text.append(buffer, n);
-  if (::pclose(pipe) != 0) throw Error(program + " does not tell its commands");
+  if (::pclose(pipe) != 0) throw Error(remote_messages::subcommands_not_listed(program));
   return text;
 }
 

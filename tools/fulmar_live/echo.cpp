@@ -10,6 +10,7 @@
 #include "core/types/wire.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/message_text.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
 
@@ -25,8 +26,7 @@ class Echo {
     if (options.csv && ports_.size() > 1)
       for (const PortField& p : ports_)
         if (p.topic != ports_[0].topic)
-          throw Error("--csv takes fields of one port; " + p.label + " is of another than " +
-                      ports_[0].label);
+          throw Error(remote_messages::csv_ports_differ(p.label, ports_[0].label));
     epoch_ns_ = session.epoch_ns();
     for (const PortField& p : ports_) session.subscribe(p.topic);
   }

@@ -6,6 +6,7 @@
 
 #include "core/tap/pace.hpp"
 #include "tools/fulmar_live/commands.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/session.hpp"
 #include "tools/fulmar_live/table.hpp"
@@ -47,7 +48,7 @@ std::string pace_of(const json& view) {
 }
 
 std::string state_of(const json& component) {
-  if (component.value("stopped", false)) return "stopped by a guard";
+  if (component.value("stopped", false)) return remote_messages::stopped_by_guard().line();
   return component.value("active", false) ? "flies" : "waits";
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tools/fulmar_live/commands.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/fulmar_live/session.hpp"
 
 namespace fulmar::core {
@@ -82,9 +83,7 @@ int restart_command(const LiveAddress& target, const std::string& seed) {
     std::fprintf(stderr, "restart: refused: %s\n", reason.c_str());
     return 1;
   }
-  if (!another_comes(target, old))
-    throw Error("restart: accepted, but no new flight listens on " + target.text() +
-                "; the terminal of the flight says why");
+  if (!another_comes(target, old)) throw Error(remote_messages::restarted_flight_missing(target.text()));
   std::printf("restart: accepted, a new flight has begun\n");
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/fulmar_live/commands.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/fulmar_live/parameters.hpp"
 #include "tools/fulmar_live/session.hpp"
 #include "tools/fulmar_live/table.hpp"
@@ -49,8 +50,7 @@ int param_list_command(const LiveAddress& target, const std::string& pattern, bo
                     p.info.live ? "live" : "set-up", p.overlaid ? "overlaid" : ""});
   }
   if (rows.empty()) {
-    if (pattern.find('*') != std::string::npos)
-      throw Error("no parameter of this flight is called like '" + pattern + "'");
+    if (pattern.find('*') != std::string::npos) throw Error(remote_messages::pattern_unmatched(pattern));
     find_param(params, pattern);
   }
   std::fputs(as_json ? (all.dump() + "\n").c_str() : table_text(rows).c_str(), stdout);
@@ -106,8 +106,8 @@ int param_set_command(const LiveAddress& target, const std::vector<std::string>&
     const auto [accepted, reason] = session.order(
         "/fulmar/set_parameter", {{"component", p.component}, {"name", p.info.name}, {"text", words[i + 1]}});
     if (!accepted)
-      throw Error(p.name + " is not set to " + words[i + 1] + ": " + without_name(reason, p) +
-                  already_set(words, i));
+      throw Error(remote_messages::parameter_rejected(p.name, words[i + 1], without_name(reason, p),
+                                                      already_set(words, i)));
     std::printf("%s: %s -> %s%s\n", p.name.c_str(), shown_value(p.info, p.value).c_str(),
                 words[i + 1].c_str(),
                 p.overlaid ? ", from the next phase on: this phase sets it to something else" : "");
@@ -119,15 +119,14 @@ namespace {
 
 std::filesystem::path mission_file(const json& view, const std::string& given) {
   const std::string file = given.empty() ? view.value("file", "") : given;
-  if (file.empty()) throw Error("the flight does not say which file its mission is: give it with --mission");
-  if (!std::filesystem::exists(file))
-    throw Error("there is no file " + file + " here: give the mission's with --mission");
+  if (file.empty()) throw Error(remote_messages::mission_file_unknown());
+  if (!std::filesystem::exists(file)) throw Error(remote_messages::mission_file_missing(file));
   check_mission_name(file, view.value("mission", ""));
   return file;
 }
 
 bool agreed() {
-  if (!isatty(STDIN_FILENO)) throw Error("nothing was written: say --yes, or answer at a terminal");
+  if (!isatty(STDIN_FILENO)) throw Error(remote_messages::confirmation_required());
   std::printf("Write this? [y/N] ");
   std::fflush(stdout);
   std::string answer;

@@ -7,6 +7,7 @@
 
 #include "core/graph/params.hpp"
 #include "core/graph/quantity.hpp"
+#include "tools/fulmar_live/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -52,12 +53,12 @@ const NamedParam& find_param(const std::vector<NamedParam>& params, const std::s
     if (p.component == component) names.push_back(p.info.name);
   }
   if (names.empty())
-    throw Error("nothing in this flight with parameters is called '" + component + "'." +
-                choices_text(component, {components.begin(), components.end()}));
+    throw Error(remote_messages::owner_without_parameters(
+        component, choices_text(component, {components.begin(), components.end()})));
   if (name.find('.') == std::string::npos)
-    throw Error("'" + name + "' is no parameter: give " + name + ".NAME. Valid: " + join(names) + ".");
+    throw Error(remote_messages::parameter_name_expected(name, name, join(names)));
   const std::string own = name.substr(component.size() + 1);
-  throw Error(component + " has no parameter '" + own + "'." + choices_text(own, names));
+  throw Error(remote_messages::parameter_unknown(component, own, choices_text(own, names)));
 }
 
 }  // namespace fulmar::core

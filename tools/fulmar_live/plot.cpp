@@ -11,6 +11,7 @@
 #include "core/types/wire.hpp"
 #include "tools/fulmar_live/canvas.hpp"
 #include "tools/fulmar_live/commands.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/fulmar_live/ports.hpp"
 #include "tools/fulmar_live/screen.hpp"
 #include "tools/fulmar_live/session.hpp"
@@ -47,12 +48,13 @@ Curve find_curve(Session& session, const std::string& name, Series& series) {
   if (curve.port.field.empty()) {
     std::vector<std::string> fields;
     for (const Field& f : curve.port.type->fields) fields.push_back(shown_name(f.name));
-    throw Error("'" + name + "' is a message: give one of its fields, as in " + curve.port.label + "." +
-                (fields.empty() ? "FIELD" : fields.front()) + ". Valid: " + join(fields) + ".");
+    throw Error(remote_messages::message_field_expected(
+        name, curve.port.label, fields.empty() ? "FIELD" : fields.front(), join(fields)));
   }
   curve.field = resolve_field(*curve.port.type, curve.port.field);
   const fulmar_kind kind = curve.field.field->kind;
-  if (kind == FULMAR_TEXT || kind == FULMAR_STRUCT) throw Error(curve.port.label + " is no number");
+  if (kind == FULMAR_TEXT || kind == FULMAR_STRUCT)
+    throw Error(remote_messages::numeric_field_expected(curve.port.label));
   series.label = curve.port.label;
   series.unit = curve.field.unit;
   if (const std::string unit = degrees_unit(curve.port.field); !unit.empty()) {

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/types/text.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_live/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -31,7 +32,7 @@ std::vector<PathWord> path_words(const std::string& field) {
       const char* end = word.name.data() + word.name.size();
       const auto [at, code] = std::from_chars(word.name.data() + open + 1, end, index);
       if (code != std::errc{} || at + 1 != end || *at != ']')
-        throw Error("'" + word.name + "': an index is written as in waypoints[3]");
+        throw Error(remote_messages::index_invalid(word.name));
       word.index.push_back(index);
       word.name.resize(open);
     }
@@ -58,18 +59,18 @@ Names check_field(const Type& type, const std::string& field, const std::string&
   const Type* at = &type;
   std::string path = port;
   for (const PathWord& word : path_words(field)) {
-    if (!at) throw Error(path + " is one value, it has no '" + word.name + "'");
+    if (!at) throw Error(remote_messages::field_is_scalar(path, word.name));
     const Field* found = find_field(*at, word.name);
     if (!found) {
       std::vector<std::string> choices;
       for (const Field& f : at->fields) choices.push_back(shown_name(f.name));
-      throw Error(path + " has no field '" + word.name + "'." + choices_text(word.name, choices));
+      throw Error(remote_messages::field_unknown(path, word.name, choices_text(word.name, choices)));
     }
     path += "." + word.name;
-    if (!word.index.empty() && found->shape == FULMAR_SCALAR) throw Error(path + " is no list");
+    if (!word.index.empty() && found->shape == FULMAR_SCALAR)
+      throw Error(remote_messages::list_expected(path));
     if (!word.index.empty() && word.index[0] >= found->count)
-      throw Error(path + " has room for " + std::to_string(found->count) + "; the last one is [" +
-                  std::to_string(found->count - 1) + "]");
+      throw Error(remote_messages::index_out_of_range(path, found->count, found->count - 1));
     const std::string index = word.index.empty() ? "" : "[" + std::to_string(word.index[0]) + "]";
     names.own += (names.own.empty() ? "" : ".") + found->name + index;
     names.shown += (names.shown.empty() ? "" : ".") + shown_name(found->name) + index;
@@ -97,12 +98,10 @@ std::string topic_by_component(const json& view, const std::string& component, c
     if (owner_of(name) == owner) ports.insert(name.substr(owner.size() + 1));
   }
   if (ports.empty())
-    throw Error("nothing in this flight is called '" + owner + "'." +
-                choices_text(owner, {owners.begin(), owners.end()}));
+    throw Error(remote_messages::owner_unknown(owner, choices_text(owner, {owners.begin(), owners.end()})));
   const std::vector<std::string> choices(ports.begin(), ports.end());
-  if (port.empty())
-    throw Error("'" + owner + "' is no port: give " + owner + ".PORT. Valid: " + join(choices) + ".");
-  throw Error(owner + " has no port '" + port + "'." + choices_text(port, choices));
+  if (port.empty()) throw Error(remote_messages::port_name_expected(owner, owner, join(choices)));
+  throw Error(remote_messages::port_unknown(owner, port, choices_text(port, choices)));
 }
 
 }  // namespace

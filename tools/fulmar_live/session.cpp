@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/types/text.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::core {
@@ -140,8 +141,7 @@ TypePtr Session::type(const std::string& topic) {
   const auto known = types_.find(topic);
   if (known != types_.end()) return known->second;
   const Channel& channel = channels().at(topic);
-  if (channel.encoding != "cdr")
-    throw Error(topic + " has the encoding '" + channel.encoding + "', which is not read here");
+  if (channel.encoding != "cdr") throw Error(remote_messages::encoding_unsupported(topic, channel.encoding));
   return types_[topic] = parse_ros_definition(channel.schema_name, channel.schema);
 }
 
@@ -173,7 +173,7 @@ std::uint32_t Session::service_id(const std::string& name) {
   if (found != services_.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [service, id] : services_) names.push_back(service);
-  throw Error("the flight on " + at_ + " has no service '" + name + "'." + choices_text(name, names));
+  throw Error(remote_messages::service_unknown(at_, name, choices_text(name, names)));
 }
 
 json Session::call(const std::string& service, const json& request) {
@@ -196,13 +196,13 @@ Session::Verdict Session::order(const std::string& service, const json& request)
   const json answer = call(service, request);
   const auto accepted = answer.is_object() ? answer.find("accepted") : answer.end();
   if (!answer.is_object() || accepted == answer.end() || !accepted->is_boolean())
-    throw Error("the flight on " + at_ + " has answered something else than yes or no");
+    throw Error(remote_messages::verdict_missing(at_));
   return {accepted->get<bool>(), text_of(answer, "reason")};
 }
 
 json Session::view() {
   json answer = call("/fulmar/view", json::object());
-  if (!answer.is_object()) throw Error("the flight on " + at_ + " does not say what it is");
+  if (!answer.is_object()) throw Error(remote_messages::view_missing(at_));
   return answer;
 }
 

@@ -21,6 +21,7 @@
 #include "core/terminal.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_live/commands.hpp"
+#include "tools/fulmar_live/messages.hpp"
 
 extern char** environ;
 
@@ -85,23 +86,18 @@ void start(const std::string& program, const std::vector<std::string>& words) {
   const int fault = posix_spawn(&child, program.c_str(), &files, &attributes, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
-  if (fault != 0) throw Error(program + " cannot be started: " + std::strerror(fault));
+  if (fault != 0) throw Error(remote_messages::program_start_failed(program, std::strerror(fault)));
 }
 
 std::string whole_log(const std::string& name) {
   const fs::path file = name;
-  if (fs::is_directory(file)) throw Error(name + " is a folder: give the file of a log");
-  if (!fs::exists(file))
-    throw Error("there is no log '" + name +
-                "'. Give the file of a log, or 'running' for the flight at --at");
-  if (file.extension() == ".part")
-    throw Error(name +
-                " is cut off, or still being written: fulmar log recover makes it whole, `fulmar view "
-                "running` shows the flight");
+  if (fs::is_directory(file)) throw Error(remote_messages::log_is_folder(name));
+  if (!fs::exists(file)) throw Error(remote_messages::log_missing(name));
+  if (file.extension() == ".part") throw Error(remote_messages::log_incomplete(name));
   std::array<char, 5> magic{};
   std::ifstream(file, std::ios::binary).read(magic.data(), magic.size());
   if (std::memcmp(magic.data(), "\x89MCAP", magic.size()) != 0)
-    throw Error(name + " is no log: it does not begin as an MCAP file");
+    throw Error(remote_messages::log_expected(name));
   return fs::absolute(file).lexically_normal().string();
 }
 
@@ -109,8 +105,7 @@ std::string whole_log(const std::string& name) {
 void make_page(const std::string& log, const std::string& file) {
   if (!fs::exists(file)) return make_report(log, file, "");
   if (fs::last_write_time(file) < fs::last_write_time(log))
-    throw Error(file + " is there already, and older than the log: move it away, or fulmar report " + log +
-                " -o ANOTHER.html");
+    throw Error(remote_messages::page_outdated(file, log));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/types/text.hpp"
 #include "tools/fulmar_log/compare_text.hpp"
 #include "tools/fulmar_log/figures.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/fulmar_log/terminal.hpp"
 #include "tools/log_reading/log_file.hpp"
 
@@ -30,16 +31,18 @@ std::string topic_named(const StateLog& log, const std::string& name, const std:
   if (!topic.starts_with('/')) topic = "/" + topic;
   const auto known = log.types.find(topic);
   if (known != log.types.end() && known->second != type)
-    throw Error(quoted(log) + ": " + topic + " is a " + core::printable(known->second) + ", and no " + type +
-                "." + core::choices_text("", valid));
+    throw Error(
+        located(quoted(log), log_tool_messages::topic_type_mismatch(topic, core::printable(known->second),
+                                                                    type, core::choices_text("", valid))));
   if (known != log.types.end()) return topic;
   std::vector<std::string> beneath;
   for (const std::string& one : valid)
     if (one.starts_with(topic + "/")) beneath.push_back(one);
   if (beneath.size() == 1) return beneath.front();
   if (beneath.size() > 1)
-    throw Error(quoted(log) + ": " + name + " may be each of " + core::join(beneath) + "; name one");
-  throw Error(quoted(log) + ": there is no " + topic + " in it." + core::choices_text(topic, valid));
+    throw Error(located(quoted(log), log_tool_messages::topic_ambiguous(name, core::join(beneath))));
+  throw Error(
+      located(quoted(log), log_tool_messages::topic_unknown(topic, core::choices_text(topic, valid))));
 }
 
 /// Where a component tells what it believes of its errors: beside its state, or, when that is a role's, under
@@ -81,7 +84,7 @@ using Topics = std::vector<std::pair<std::string, std::string>>;
 /// Of one log, or of two.
 Topics chosen(const StateLog& a, const StateLog& b, const std::vector<std::string>& names) {
   const bool one_log = &a == &b;
-  if (names.size() > 2) throw Error("two states are compared, not " + core::join(names));
+  if (names.size() > 2) throw Error(log_tool_messages::too_many_states(core::join(names)));
   if (names.size() == 2)
     return {{topic_named(a, names[0], "VehicleState", a.states()),
              topic_named(b, names[1], "VehicleState", b.states())}};
@@ -96,16 +99,15 @@ Topics chosen(const StateLog& a, const StateLog& b, const std::vector<std::strin
   }
   if (names.empty() && a.estimates.size() == 2) return {{a.estimates[0].name, a.estimates[1].name}};
   const std::vector<std::string> valid = a.states();
-  if (valid.empty()) throw Error(quoted(a) + ": there is no state of an aircraft (VehicleState) in it");
-  throw Error(quoted(a) + ": name the two that are compared, as in nav.state second.state. It has " +
-              core::join(valid));
+  if (valid.empty()) throw Error(located(quoted(a), log_tool_messages::states_missing()));
+  throw Error(located(quoted(a), log_tool_messages::state_names_required(core::join(valid))));
 }
 
 /// "nav" and "second" of "/nav/state" and "/second/state".
 std::pair<std::string, std::string> short_names(const Side& a, const Side& b, const std::string& asked) {
   if (const std::size_t comma = asked.find(','); comma != std::string::npos)
     return {asked.substr(0, comma), asked.substr(comma + 1)};
-  if (!asked.empty()) throw Error("--names takes two words and a comma, as in --names old,new");
+  if (!asked.empty()) throw Error(log_tool_messages::names_count_invalid());
   const auto owner = [](const Side& side) { return side.topic.substr(1, side.topic.find('/', 1) - 1); };
   if (owner(a) == owner(b)) return {"first", "second"};
   return {owner(a), owner(b)};

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tools/fulmar_log/messages.hpp"
+
 namespace fulmar::core {
 namespace {
 
@@ -52,7 +54,7 @@ LogDiff diff_logs(const std::filesystem::path& a, const std::filesystem::path& b
   diff.attachments =
       differences(attachments_of(diff.log_a), attachments_of(diff.log_b),
                   [](const std::string& name, const std::string& x, const std::string& y) {
-                    return name + " differs from line " + std::to_string(line_of_difference(x, y)) + " on";
+                    return log_tool_messages::attachment_differs(name, line_of_difference(x, y)).line();
                   });
   return diff;
 }

@@ -10,6 +10,7 @@
 #include "tools/fulmar_log/diff.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/figures.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/fulmar_log/terminal.hpp"
 
 namespace fulmar::core {
@@ -120,7 +121,7 @@ void print_diff(const Compared& c) {
 /// Figures alone: at least one of the two is a result of `fulmar run --json`.
 int diff_results(const json& a, const json& b, bool as_json) {
   const FigureChanges changes = figure_changes(a, b);
-  if (changes.changed.empty() && changes.equal == 0) throw Error("the two have no figure in common");
+  if (changes.changed.empty() && changes.equal == 0) throw Error(log_tool_messages::common_figure_missing());
   const bool equal = changes.changed.empty();
   if (as_json)
     print_json({{"equal", equal}, {"figures", figures_json(changes)}});

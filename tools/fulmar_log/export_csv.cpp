@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "tools/fulmar_log/export_log.hpp"
+#include "tools/fulmar_log/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -29,9 +30,9 @@ struct Csv {
   std::string buffer;
 
   Csv(const fs::path& folder, const Table& table) : name(folder / (table.name + ".csv")) {
-    if (fs::exists(name)) throw Error("'" + name.string() + "' exists; an export overwrites no file");
+    if (fs::exists(name)) throw Error(log_tool_messages::export_exists(name.string()));
     out.open(name.string() + ".part", std::ios::binary | std::ios::trunc);
-    if (!out) throw Error("cannot write '" + name.string() + "'");
+    if (!out) throw Error(log_tool_messages::file_not_writable(name.string()));
     buffer = "time_s,valid_s";
     for (const Column& c : table.columns) {
       buffer += "," + csv_text(c.name);
@@ -56,13 +57,13 @@ struct Csv {
   }
   void flush() {
     if (!out.write(buffer.data(), static_cast<std::streamsize>(buffer.size())))
-      throw Error("cannot write '" + name.string() + "': the disk refuses it");
+      throw Error(log_tool_messages::disk_write_failed(name.string()));
     buffer.clear();
   }
   void finish() {
     flush();
     out.close();
-    if (!out) throw Error("cannot write '" + name.string() + "': the disk refuses it");
+    if (!out) throw Error(log_tool_messages::disk_write_failed(name.string()));
     fs::rename(name.string() + ".part", name);
   }
 };
@@ -72,7 +73,7 @@ struct Csv {
 void export_csv(const Tables& tables, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw Error("cannot make the folder '" + folder.string() + "': " + error.message());
+  if (error) throw Error(log_tool_messages::folder_not_creatable(folder.string(), error.message()));
   const std::vector<Table>& list = tables.list();
   for (std::size_t first = 0; first < list.size(); first += max_open) {
     std::vector<std::unique_ptr<Csv>> files(list.size());

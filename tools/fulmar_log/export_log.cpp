@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/error.hpp"
+#include "tools/fulmar_log/messages.hpp"
 
 namespace fulmar::core {
 
@@ -41,7 +42,7 @@ ExportResult export_log(const fs::path& log, ExportForm form, fs::path out,
   const std::array<const char*, 3> endings{"-csv", ".npz", ".mat"};
   if (out.empty()) out = log.stem().string() + endings[static_cast<std::size_t>(form)];
   if (fs::exists(out) && (form != ExportForm::csv || !fs::is_directory(out)))
-    throw Error("'" + out.string() + "' exists; an export overwrites no file");
+    throw Error(log_tool_messages::export_exists(out.string()));
   const Tables tables(log, topics);
   ExportResult result{out, {}, tables.left_out(), tables.fault()};
   for (const Table& t : tables.list())
@@ -49,7 +50,7 @@ ExportResult export_log(const fs::path& log, ExportForm form, fs::path out,
   if (result.topics.empty()) {
     std::string why = tables.fault().empty() ? "" : "; " + tables.fault();
     if (!tables.left_out().empty()) why += "; " + tables.left_out().front();
-    throw Error("'" + log.string() + "' has no message that can be exported" + why);
+    throw Error(log_tool_messages::exportable_message_missing(log.string(), why));
   }
   const bool own_folder = !fs::exists(out);
   try {

@@ -7,6 +7,7 @@
 
 #include "core/types/cdr_bytes.hpp"
 #include "core/types/text.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::core {
@@ -16,7 +17,7 @@ constexpr std::size_t max_table_fields = 20'000;  // nested ones counted each ti
 
 /// A field as a table has it, with all that is in it.
 RosField table_field(const Field& f, std::size_t& count) {
-  if (++count > max_table_fields) throw Error("its messages have too many fields");
+  if (++count > max_table_fields) throw Error(log_tool_messages::too_many_fields());
   RosField made{f.name, f.kind == FULMAR_ENUM ? FULMAR_U8 : f.kind, f.shape, f.count, f.constants};
   made.unit = f.unit;
   if (f.kind != FULMAR_STRUCT) return made;
@@ -82,7 +83,7 @@ void widen(RosField& f, std::size_t most) {
     widen(inner, most);
     f.width += cells(inner);
   }
-  if (cells(f) > most) throw Error("its messages have more than " + std::to_string(most) + " numbers each");
+  if (cells(f) > most) throw Error(log_tool_messages::too_many_numbers(most));
 }
 
 void name_columns(const RosField& f, const std::string& name, bool in_list, std::vector<Column>& columns) {
@@ -99,7 +100,7 @@ void name_columns(const RosField& f, const std::string& name, bool in_list, std:
 /// Fills the field's cells from `to` on.
 void decode_field(const RosField& f, CdrReader& in, Cell* to) {
   const std::uint32_t n = elements(f, in);
-  if (n > f.longest) throw Error("a list is longer than it was");
+  if (n > f.longest) throw Error(log_tool_messages::list_longer());
   for (std::uint32_t i = 0; i < n; ++i) {
     Cell* cell = to + i * f.width;
     if (f.kind != FULMAR_STRUCT) *cell = value(f, in);

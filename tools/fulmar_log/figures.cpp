@@ -13,6 +13,7 @@
 #include "core/log/events.hpp"
 #include "core/types/named.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/log_reading/log_file.hpp"
 #include "tools/log_reading/ros_parse.hpp"
 
@@ -153,8 +154,7 @@ nlohmann::json result_file(const std::filesystem::path& file) {
   std::ifstream in(file);
   if ((in >> std::ws).peek() != '{') return nullptr;
   nlohmann::json result = nlohmann::json::parse(in, nullptr, false);
-  if (result.is_discarded())
-    throw Error(file.string() + ": it is neither a log nor a result of fulmar run --json: not valid JSON");
+  if (result.is_discarded()) throw Error(located(file.string(), log_tool_messages::result_expected()));
   return result;
 }
 

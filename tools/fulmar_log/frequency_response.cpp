@@ -10,6 +10,7 @@
 #include <unsupported/Eigen/FFT>
 
 #include "core/error.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/fulmar_log/response.hpp"
 
 namespace fulmar::response {
@@ -29,9 +30,7 @@ std::string seconds(double s) {
 
 /// The usual time between two samples.
 double interval(const Series& s, const char* what) {
-  if (s.t_s.size() < 10)
-    throw Error(std::string("the ") + what + " has " + std::to_string(s.t_s.size()) +
-                " samples; a frequency response takes at least 10");
+  if (s.t_s.size() < 10) throw Error(log_tool_messages::too_few_samples(what, s.t_s.size()));
   std::vector<double> steps;
   for (std::size_t i = 1; i < s.t_s.size(); ++i) steps.push_back(s.t_s[i] - s.t_s[i - 1]);
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
@@ -42,8 +41,7 @@ double interval(const Series& s, const char* what) {
 void check_whole(const Series& s, double dt, const char* what) {
   for (std::size_t i = 1; i < s.t_s.size(); ++i)
     if (s.t_s[i] - s.t_s[i - 1] > 5.5 * dt)
-      throw Error(std::string("the ") + what + " has no sample from " + seconds(s.t_s[i - 1]) + " to " +
-                  seconds(s.t_s[i]) + "; choose a time without a gap, --from and --to");
+      throw Error(log_tool_messages::sample_gap(what, seconds(s.t_s[i - 1]), seconds(s.t_s[i])));
 }
 
 /// At n times from begin_s on, linear between the samples.
@@ -106,10 +104,9 @@ FrequencyResponse frequency_response(const Series& input, const Series& output, 
   const double samples = segment_s > 0 ? segment_s / dt : static_cast<double>(n) / 4;
   const auto length = 2 * static_cast<std::size_t>(samples / 2);  // even: it overlaps by half
   if (length < 16 || n < 2 * length)
-    throw Error("segments of " + seconds(static_cast<double>(length) * dt) + " in " +
-                seconds(std::max(0.0, end_s - begin_s)) + " at " + seconds(dt) +
-                " from sample to sample: a segment needs 16 samples, and the time " +
-                std::to_string(min_segments) + " segments that overlap by half");
+    throw Error(log_tool_messages::segment_too_short(seconds(static_cast<double>(length) * dt),
+                                                     seconds(std::max(0.0, end_s - begin_s)), seconds(dt),
+                                                     min_segments));
   const Spectra s(even(input, begin_s, dt, n), even(output, begin_s, dt, n), length);
   FrequencyResponse out{1 / dt, static_cast<double>(length) * dt, s.segments, {}};
   const auto last = static_cast<std::size_t>(0.4 * static_cast<double>(length));

@@ -18,6 +18,7 @@
 #include "tools/fulmar_log/diff_command.hpp"
 #include "tools/fulmar_log/export_log.hpp"
 #include "tools/fulmar_log/info.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/fulmar_log/recover.hpp"
 #include "tools/fulmar_log/terminal.hpp"
 #include "tools/log_reading/log_file.hpp"
@@ -190,8 +191,7 @@ int recover_command(const std::string& file, std::string out) {
   if (out.empty()) out = recovered_name(file);
   // The writer would refuse it: its own name is OUT.part. So the result gets a name beside it first.
   const bool own_part = fs::path(out + ".part") == fs::path(file);
-  if (own_part && fs::exists(out))
-    throw Error("'" + out + "' exists; a log never overwrites a file. Name another with --out");
+  if (own_part && fs::exists(out)) throw Error(log_tool_messages::log_exists(out));
   const std::string first = own_part ? out + ".recovered" : out;
   const Recovery r = recover_log(file, first);
   if (!r.written.error.empty()) throw Error(r.written.error);

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/types/named.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_log/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -65,25 +66,24 @@ std::string why_no_number(const Table& table, const std::string& path) {
   const RosField* at = &table.root;
   std::string walked = port_of_topic(table.topic);
   for (const std::string& part : path_parts(path)) {
-    if (at->fields.empty()) return walked + " is one value, it has no '" + part + "'";
+    if (at->fields.empty()) return log_tool_messages::value_without_parts(walked, part).line();
     const std::string name = part_name(part), index = part_index(part);
     const RosField* const found = field_named(*at, name);
-    if (!found) return walked + " has no field '" + name + "'." + choices_text(name, shown_fields(*at));
+    if (!found)
+      return log_tool_messages::subfield_unknown(walked, name, choices_text(name, shown_fields(*at))).line();
     walked += "." + shown_name(found->name);
     const bool one = found->shape == FULMAR_SCALAR;
     const std::uint32_t count = found->shape == FULMAR_LIST ? found->longest : found->count;
-    if (one && !index.empty()) return walked + " is no list";
-    if (!one && count == 0) return walked + " is a list that is empty all the time";
+    if (one && !index.empty()) return log_tool_messages::path_not_list(walked).line();
+    if (!one && count == 0) return log_tool_messages::list_always_empty(walked).line();
     if (!one && !is_element(index.empty() ? "[]" : index, count))
-      return walked + " is a list: give one of its elements, " + walked + "[0] to " + walked + "[" +
-             std::to_string(count - 1) + "]";
+      return log_tool_messages::element_index_missing(walked, walked, walked, count - 1).line();
     walked += index;
     at = found;
   }
-  if (at->fields.empty()) return walked + " is a text, no number";
+  if (at->fields.empty()) return log_tool_messages::path_is_text(walked).line();
   const std::vector<std::string> inside = shown_fields(*at);
-  return walked + " is no number: give one of its fields, as in " + walked + "." + inside.front() +
-         ". Valid: " + join(inside) + ".";
+  return log_tool_messages::path_not_number(walked, walked, inside.front(), join(inside)).line();
 }
 
 struct UnitName {
@@ -156,8 +156,8 @@ LogPlace place_in_log(const LogInfo& info, const std::string& log, const std::st
     if (ports[i].ends_with(probes))
       consider(info.topics[i].topic, ports[i].substr(0, ports[i].size() - probes.size()));
   if (found.topic.empty())
-    throw Error(log + ": '" + field + "' is no field of a port in it." +
-                choices_text(field.substr(0, field.rfind('.')), ports));
+    throw Error(located(log, log_tool_messages::field_unknown(
+                                 field, choices_text(field.substr(0, field.rfind('.')), ports))));
   return found;
 }
 
@@ -180,7 +180,7 @@ LogNumber number_in_log(const Tables& tables, const LogPlace& place, const std::
   };
   const auto found = std::find_if(table.columns.begin(), table.columns.end(), is_meant);
   if (found == table.columns.end() || found->field->kind == FULMAR_TEXT)
-    throw Error(log + ": " + why_no_number(table, place.column));
+    throw Error(located(log, why_no_number(table, place.column)));
   n.column = static_cast<std::size_t>(found - table.columns.begin());
   n.name = port_of_topic(place.topic) + "." + shown_path(found->name);
   describe_number(table, n);

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "tools/fulmar_log/export_arrays.hpp"
 #include "tools/fulmar_log/export_log.hpp"
+#include "tools/fulmar_log/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -77,8 +78,7 @@ std::string u32(std::uint32_t x) { return {reinterpret_cast<const char*>(&x), 4}
 
 /// A data element: tag, bytes, padding to 8.
 std::string mat_element(std::uint32_t type, std::string_view bytes) {
-  if (bytes.size() > largest_variable)
-    throw Error("a MAT file of level 5 holds at most 2 GB per variable; export to npz, or fewer topics");
+  if (bytes.size() > largest_variable) throw Error(log_tool_messages::mat_too_large());
   std::string s = u32(type) + u32(static_cast<std::uint32_t>(bytes.size()));
   s += bytes;
   s.append((8 - s.size() % 8) % 8, '\0');
@@ -104,7 +104,7 @@ std::string deflate_text(const std::string& bytes) {
   std::string out(size, '\0');
   if (::compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
                   bytes.size(), 1) != Z_OK)
-    throw Error("cannot compress");
+    throw Error(log_tool_messages::compression_failed());
   out.resize(size);
   return out;
 }
@@ -173,27 +173,26 @@ MatValue MatValue::structure(const std::vector<std::pair<std::string, MatValue>>
 }
 
 MatWriter::MatWriter(const std::filesystem::path& file) : file_(file) {
-  if (std::filesystem::exists(file))
-    throw Error("'" + file.string() + "' exists; an export overwrites no file");
+  if (std::filesystem::exists(file)) throw Error(log_tool_messages::export_exists(file.string()));
   out_.open(file.string() + ".part", std::ios::binary | std::ios::trunc);
   std::string head = "MATLAB 5.0 MAT-file, written by Fulmar";
   head.resize(116, ' ');
   head.resize(124, '\0');
   head += std::string("\0\x01IM", 4);
   if (!out_.write(head.data(), static_cast<std::streamsize>(head.size())))
-    throw Error("cannot write '" + file.string() + "'");
+    throw Error(log_tool_messages::file_not_writable(file.string()));
 }
 
 void MatWriter::add(const std::string& name, const MatValue& value) {
   const std::string bytes = deflate_text(value.named(name));
   const std::string tag = u32(mi_compressed) + u32(static_cast<std::uint32_t>(bytes.size()));  // not padded
   if (!out_.write(tag.data(), 8) || !out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-    throw Error("cannot write '" + file_.string() + "': the disk refuses it");
+    throw Error(log_tool_messages::disk_write_failed(file_.string()));
 }
 
 void MatWriter::finish() {
   out_.close();
-  if (!out_) throw Error("cannot write '" + file_.string() + "': the disk refuses it");
+  if (!out_) throw Error(log_tool_messages::disk_write_failed(file_.string()));
   std::filesystem::rename(file_.string() + ".part", file_);
 }
 

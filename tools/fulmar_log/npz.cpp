@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "tools/fulmar_log/export_arrays.hpp"
 #include "tools/fulmar_log/export_log.hpp"
+#include "tools/fulmar_log/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -32,7 +33,7 @@ std::string little_endian(Numbers... numbers) {
 std::string deflate_both(const std::string& first, std::span<const std::byte> second) {
   z_stream z{};
   if (::deflateInit2(&z, level, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
-    throw Error("cannot compress");
+    throw Error(log_tool_messages::compression_failed());
   std::string out(::deflateBound(&z, first.size() + second.size()) + 64, '\0');
   z.next_out = reinterpret_cast<Bytef*>(out.data());
   z.avail_out = static_cast<uInt>(out.size());
@@ -44,7 +45,7 @@ std::string deflate_both(const std::string& first, std::span<const std::byte> se
   if (code == Z_OK) code = ::deflate(&z, Z_FINISH);
   out.resize(z.total_out);
   ::deflateEnd(&z);
-  if (code != Z_STREAM_END) throw Error("cannot compress");
+  if (code != Z_STREAM_END) throw Error(log_tool_messages::compression_failed());
   return out;
 }
 
@@ -90,15 +91,14 @@ std::string numpy_type(fulmar_kind kind) {
 }  // namespace
 
 NpzWriter::NpzWriter(const std::filesystem::path& file) : file_(file) {
-  if (std::filesystem::exists(file))
-    throw Error("'" + file.string() + "' exists; an export overwrites no file");
+  if (std::filesystem::exists(file)) throw Error(log_tool_messages::export_exists(file.string()));
   out_.open(file.string() + ".part", std::ios::binary | std::ios::trunc);
-  if (!out_) throw Error("cannot write '" + file.string() + "'");
+  if (!out_) throw Error(log_tool_messages::file_not_writable(file.string()));
 }
 
 void NpzWriter::write(const std::string& bytes) {
   if (!out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-    throw Error("cannot write '" + file_.string() + "': the disk refuses it");
+    throw Error(log_tool_messages::disk_write_failed(file_.string()));
   place_ += bytes.size();
 }
 
@@ -106,8 +106,7 @@ void NpzWriter::entry(const std::string& name, const std::string& header, std::s
   const std::uint64_t size = header.size() + data.size();
   if (size > largest_32 / 2 || place_ + size > largest_32 ||
       entries_.size() >= std::numeric_limits<std::uint16_t>::max())
-    throw Error(
-        "the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
+    throw Error(log_tool_messages::npz_too_large());
   std::string content = deflate_both(header, data);
   Entry e{name + ".npy",
           entry_crc(header, data),
@@ -140,8 +139,7 @@ void NpzWriter::add(const std::string& name, const std::vector<std::string>& tex
     points.push_back(code_points(t));
     width = std::max(width, points.back().size());
   }
-  if (width * texts.size() > largest_32 / 8)
-    throw Error(name + " is more text than an npz file holds; export fewer topics at a time with --topic");
+  if (width * texts.size() > largest_32 / 8) throw Error(log_tool_messages::npz_text_too_large(name));
   std::vector<std::byte> data(texts.size() * width * 4);
   for (std::size_t i = 0; i < points.size(); ++i)
     std::memcpy(data.data() + i * width * 4, points[i].data(), points[i].size() * 4);
@@ -158,14 +156,12 @@ void NpzWriter::finish() {
           e.name);
   }
   const auto count = static_cast<std::uint16_t>(entries_.size());
-  if (place_ > largest_32)
-    throw Error(
-        "the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic");
+  if (place_ > largest_32) throw Error(log_tool_messages::npz_too_large());
   write("PK\5\6" + little_endian(std::uint16_t{0}, std::uint16_t{0}, count, count,
                                  static_cast<std::uint32_t>(place_ - start),
                                  static_cast<std::uint32_t>(start), std::uint16_t{0}));
   out_.close();
-  if (!out_) throw Error("cannot write '" + file_.string() + "': the disk refuses it");
+  if (!out_) throw Error(log_tool_messages::disk_write_failed(file_.string()));
   std::filesystem::rename(file_.string() + ".part", file_);
 }
 

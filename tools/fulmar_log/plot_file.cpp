@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/loader/home.hpp"
 #include "core/loader/process.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/fulmar_log/plot_log.hpp"
 
 namespace fulmar::plot {
@@ -35,7 +36,7 @@ void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out << text;
   out.close();
-  if (!out) throw Error("'" + file.string() + "' cannot be written");
+  if (!out) throw Error(log_tool_messages::figure_not_writable(file.string()));
 }
 
 /// `form`: "png" or "pdf".
@@ -48,15 +49,12 @@ void convert(const fs::path& svg, const fs::path& out, const std::string& form) 
     words = {svg.string(), "--export-type=" + form, std::string("--export-dpi=") + print_dpi,
              "--export-filename=" + out.string()};
   }
-  if (program.empty())
-    throw Error("'" + out.string() +
-                "' takes a program that draws SVG: apt install librsvg2-bin (rsvg-convert) "
-                "or inkscape; without one name a file that ends in .svg");
+  if (program.empty()) throw Error(log_tool_messages::svg_converter_missing(out.string()));
   core::Process process(program.string(), words, {});
   const bool ended = process.wait(patience);
   std::error_code none;
   if (!ended || process.signal() != 0 || process.exit_code() != 0 || fs::file_size(out, none) == 0 || none)
-    throw Error(program.string() + " has not made '" + out.string() + "' of the figure");
+    throw Error(log_tool_messages::figure_conversion_failed(program.string(), out.string()));
 }
 
 /// A file that goes with this object.
@@ -80,14 +78,14 @@ std::pair<double, double> read_size(const std::string& text) {
     const bool good = wide > 0 && high > 0 && wide <= largest_mm && high <= largest_mm;
     if (second.ec == std::errc{} && (unit == "mm" || unit.empty()) && good) return {wide, high};
   }
-  throw UsageError("--size " + text + ": give width and height in millimetres, at most 2000, as in 160x90mm");
+  throw UsageError(log_tool_messages::size_invalid(text));
 }
 
 void write_figure(const fs::path& out, const std::string& svg) {
   const std::string ending = out.extension().string();
   if (ending == ".svg") return write_text(out, svg);
   if (ending != ".png" && ending != ".pdf")
-    throw Error("'" + out.string() + "' ends in nothing that a figure can be. Valid: .svg, .png, .pdf.");
+    throw Error(log_tool_messages::figure_format_unknown(out.string()));
   const Scratch scratch{out.string() + ".svg.part"};
   write_text(scratch.file, svg);
   convert(fs::absolute(scratch.file), fs::absolute(out), ending.substr(1));

@@ -13,6 +13,7 @@
 #include "core/types/named.hpp"
 #include "tools/chart/numbers.hpp"
 #include "tools/fulmar_log/log_field.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/fulmar_log/terminal.hpp"
 #include "tools/log_reading/log_file.hpp"
 
@@ -73,7 +74,7 @@ Asked read_words(const LogPlotArguments& words) {
     if (names_a_log(word) && asked.fields.empty())
       asked.logs.push_back(word);
     else if (names_a_log(word))
-      throw UsageError("'" + word + "' is a log: logs stand before the fields");
+      throw UsageError(log_tool_messages::log_after_fields(word));
     else
       place_of_field(asked.fields, word);
   }
@@ -83,14 +84,11 @@ Asked read_words(const LogPlotArguments& words) {
     for (const std::string& field : split(panel))
       asked.panels.back().push_back(place_of_field(asked.fields, field));
   }
-  if (asked.fields.empty())
-    throw UsageError("give at least one field behind the log, as in fulmar plot " + asked.logs.at(0) +
-                     " nav.state.height_m -o height.svg");
+  if (asked.fields.empty()) throw UsageError(log_tool_messages::fields_missing(asked.logs.at(0)));
   if (words.labels.empty()) return asked;
   asked.labels = split(words.labels);
   if (asked.labels.size() != asked.fields.size())
-    throw UsageError("--labels takes a name for each field, with commas between them: " +
-                     std::to_string(asked.fields.size()) + ", not " + std::to_string(asked.labels.size()));
+    throw UsageError(log_tool_messages::label_count_mismatch(asked.fields.size(), asked.labels.size()));
   return asked;
 }
 
@@ -101,8 +99,7 @@ std::vector<std::string> log_names(const Asked& asked, const std::string& given)
   if (!given.empty()) {
     names = split(given);
     if (names.size() != asked.logs.size())
-      throw UsageError("--names takes a name for each log, with commas between them: " +
-                       std::to_string(asked.logs.size()) + ", not " + std::to_string(names.size()));
+      throw UsageError(log_tool_messages::name_count_mismatch(asked.logs.size(), names.size()));
     return names;
   }
   for (const std::string& log : asked.logs) {
@@ -138,9 +135,11 @@ std::string no_number_words(const OpenLog& log, const Interval& time) {
   const auto seconds_words = [](std::int64_t ns) {
     return chart::fixed(1e-9 * static_cast<double>(ns), 1) + " s";
   };
-  if (std::isinf(time.from_s) && std::isinf(time.to_s)) return " has no number in it";
-  return " has no number in that time; the flight is from " + seconds_words(log.info.begin_ns) + " to " +
-         seconds_words(log.info.end_ns);
+  if (std::isinf(time.from_s) && std::isinf(time.to_s))
+    return log_tool_messages::field_without_numbers().line();
+  return log_tool_messages::interval_without_numbers(seconds_words(log.info.begin_ns),
+                                                     seconds_words(log.info.end_ns))
+      .line();
 }
 
 /// What is not in a log that was cut off may have been behind its end.
@@ -148,7 +147,7 @@ core::LogPlace place_of(const OpenLog& log, const std::string& field) try {
   return core::place_in_log(log.info, log.file, field);
 } catch (const Error& e) {
   const std::string& fault = log.info.file.fault;
-  throw Error(e.what() + (fault.empty() ? "" : " The log is cut off: " + fault));
+  throw Error(fault.empty() ? e.diagnostic : log_tool_messages::log_cut_off(e.diagnostic, fault));
 }
 
 /// Where the fields are, and behind them what is x: of each, or of all.
@@ -187,7 +186,8 @@ OpenLog read_log(const std::string& file, const std::string& name, const Asked& 
   for (Samples& s : all) {
     sort_by_time(s);
     if (std::none_of(s.value.begin(), s.value.end(), [](double x) { return std::isfinite(x); }))
-      throw Error(file + ": " + s.number.name + no_number_words(log, time));
+      throw Error(
+          located(file, log_tool_messages::number_missing(s.number.name, no_number_words(log, time))));
   }
   const auto behind = all.begin() + static_cast<std::ptrdiff_t>(asked.fields.size());
   log.over.assign(behind, all.end());
@@ -251,8 +251,7 @@ class FigureMaker {
         panel.curves.push_back({name, points_of(s, log.x_of(f)), s.number.held && !over_});
       }
     if (panel.curves.size() > chart::max_curves)
-      throw Error("a panel would have " + std::to_string(panel.curves.size()) + " curves; " +
-                  std::to_string(chart::max_curves) + " can be told apart");
+      throw Error(log_tool_messages::too_many_curves(panel.curves.size(), chart::max_curves));
     figure.panels.push_back(std::move(panel));
   }
 
@@ -350,8 +349,8 @@ chart::Figure log_figure(const LogPlotArguments& words, std::vector<std::string>
   constexpr double all = std::numeric_limits<double>::infinity();
   const Interval time{words.from_s.value_or(-all), words.to_s.value_or(all)};
   if (time.from_s >= time.to_s)
-    throw UsageError("--from " + chart::figures(time.from_s, 9) + " is not before --to " +
-                     chart::figures(time.to_s, 9));
+    throw UsageError(
+        log_tool_messages::time_range_invalid(chart::figures(time.from_s, 9), chart::figures(time.to_s, 9)));
   const std::vector<std::string> names = log_names(asked, words.names);
   std::vector<OpenLog> logs;
   for (std::size_t i = 0; i < asked.logs.size(); ++i) {
@@ -373,8 +372,8 @@ chart::Figure log_figure(const LogPlotArguments& words, std::vector<std::string>
   if (figure.even) chart::fit_even(figure);
   if (!words.size.empty()) std::tie(figure.wide_mm, figure.high_mm) = read_size(words.size);
   if (const std::string why = chart::too_small(figure); !why.empty())
-    throw UsageError("--size " + chart::figures(figure.wide_mm, 6) + "x" + chart::figures(figure.high_mm, 6) +
-                     "mm " + why);
+    throw UsageError(log_tool_messages::size_too_small(chart::figures(figure.wide_mm, 6),
+                                                       chart::figures(figure.high_mm, 6), why));
   return std::move(maker.figure);
 }
 
@@ -384,7 +383,7 @@ int plot_log_command(const LogPlotArguments& words) {
   std::error_code none;
   for (const std::string& log : words.words)
     if (fs::equivalent(words.out, log, none))
-      throw Error("'" + words.out + "' is a log that is drawn; " + no_out);
+      throw Error(log_tool_messages::output_is_log(words.out, no_out));
   std::vector<std::string> notes;
   const chart::Figure figure = log_figure(words, notes);
   write_figure(words.out, chart::figure_svg(figure));

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/log/out_file.hpp"
 #include "core/log/reader.hpp"
+#include "tools/fulmar_log/messages.hpp"
 
 namespace fulmar::core {
 
@@ -27,9 +28,7 @@ std::string Recovery::left_out_text() const {
 }
 
 Recovery recover_log(const std::filesystem::path& from, const std::filesystem::path& to) {
-  if (OutFile::grows(from))
-    throw Error("'" + from.string() +
-                "' is still being written: its flight gives it its name; recover it when that has ended");
+  if (OutFile::grows(from)) throw Error(log_tool_messages::log_still_growing(from.string()));
   Salvage salvage(from), again(from);
   McapStream first(from, &salvage), second(from, &again);
   Recovery recovery = recover_log(first, second, to);
@@ -44,8 +43,8 @@ Recovery recover_log(McapStream& first, McapStream& second, const std::filesyste
     largest = std::max(largest, m->data.size());
   const McapFile& log = first.log();
   if (!any && log.attachments.empty() && !log.complete)
-    throw Error("nothing of it can be saved: " +
-                (log.fault.empty() ? "all that is in it is damaged" : log.fault));
+    throw Error(log_tool_messages::log_not_recoverable(log.fault.empty() ? "all that is in it is damaged"
+                                                                         : log.fault));
   McapWriter::Options options;
   options.file = to;
   options.profile = log.profile;

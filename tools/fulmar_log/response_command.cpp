@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/fulmar_log/response_series.hpp"
 #include "tools/fulmar_log/terminal.hpp"
 #include "tools/log_reading/log_file.hpp"
@@ -162,7 +163,9 @@ struct ResponseCommand::Impl {
     const auto f = attempt(!frequency, no_step, [&] { return step_figures(s[0].series, s[1].series, band); });
     const auto r =
         attempt(!step, no_frequency, [&] { return frequency_response(s[0].series, s[1].series, segment_s); });
-    if (!f && !r) throw Error(log + ": " + no_step + (step || frequency ? "" : "; and ") + no_frequency);
+    if (!f && !r)
+      throw Error(located(log, log_tool_messages::response_missing(no_step, step || frequency ? "" : "; and ",
+                                                                   no_frequency)));
     const std::vector<double>& t_s = s[0].series.t_s;
     const std::optional<double> limited = limited_share(log, t_s.front(), t_s.back());
     if (as_json) {

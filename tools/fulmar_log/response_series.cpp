@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/types/named.hpp"
 #include "tools/fulmar_log/log_field.hpp"
+#include "tools/fulmar_log/messages.hpp"
 
 namespace fulmar::response {
 namespace {
@@ -50,7 +51,7 @@ std::pair<double, double> bounds_of(const core::LogInfo& info, const std::string
   if (const core::LogInfo::Phase* const phase = core::find_named(info.phases, w.phase))
     return {std::max(from_s, 1e-9 * static_cast<double>(phase->begin_ns)),
             std::min(to_s, 1e-9 * static_cast<double>(phase->end_ns))};
-  throw Error(log + ": " + core::no_such("the flight had no phase", w.phase, info.phases));
+  throw Error(located(log, core::has_no("the flight", "phase", w.phase, info.phases)));
 }
 
 }  // namespace
@@ -74,9 +75,8 @@ std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::
     const std::vector<core::Column>& columns = tables.list()[cells[i].first].columns;
     const int column = core::index_named(columns, places[i].column);
     if (column < 0)
-      throw Error(
-          name + ": " +
-          core::no_such(core::dotted_topic(places[i].topic) + " has no field", places[i].column, columns));
+      throw Error(located(
+          name, core::has_no(core::dotted_topic(places[i].topic), "field", places[i].column, columns)));
     cells[i].second = static_cast<std::size_t>(column);
   }
   const auto take = [&, from = from_s, to = to_s](const core::Tables::Row& row) {
@@ -96,8 +96,7 @@ std::array<Signal, 2> read_signals(const std::filesystem::path& log, const std::
   };
   tables.rows([](std::size_t) { return true; }, take);
   for (Signal& s : out) {
-    if (s.series.x.empty())
-      throw Error(name + ": " + s.name + " has no number in the time that is looked at");
+    if (s.series.x.empty()) throw Error(located(name, log_tool_messages::numbers_missing(s.name)));
     take_unit(s);
     if (s.unit == "deg") unwrap(s.series.x);
   }

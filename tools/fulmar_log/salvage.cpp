@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "tools/fulmar_log/messages.hpp"
 
 namespace fulmar::core {
 
@@ -45,9 +46,9 @@ void Salvage::seek(std::uint64_t to) {
 }
 
 void Salvage::read(std::byte* to, std::uint64_t bytes) {
-  require(bytes <= size_ - place_, "the file ends inside a record");
+  require(bytes <= size_ - place_, log_tool_messages::record_truncated);
   require(static_cast<bool>(in_.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(bytes))),
-          "the file cannot be read");
+          log_tool_messages::file_not_readable);
   place_ += bytes;
 }
 
@@ -63,17 +64,17 @@ void Salvage::read_summary() {
     read(end.data(), tail);
     Cursor footer{end};
     require(footer.number<std::uint8_t>() == mcap::footer && footer.number<std::uint64_t>() == 20,
-            "there is no footer");
+            log_tool_messages::footer_missing);
     const auto start = footer.number<std::uint64_t>();
     footer.take(8);
     const Data summed = Data(end).first(footer.at);
     const auto sum = footer.number<std::uint32_t>();
     require(start > data_end_record && start < size_ - tail && size_ - tail - start <= mcap::largest_record,
-            "there is no summary");
+            log_tool_messages::summary_missing);
     std::vector<std::byte> whole(size_ - tail - start);
     seek(start);
     read(whole.data(), whole.size());
-    require(sum == 0 || sum == crc_of(crc_of(0, whole), summed), "the checksum of the summary is wrong");
+    require(sum == 0 || sum == crc_of(crc_of(0, whole), summed), log_tool_messages::summary_checksum_invalid);
     summary = std::move(whole);
     for (Cursor records{summary}; records.more();) {
       const auto code = records.number<std::uint8_t>();
@@ -97,10 +98,10 @@ void Salvage::name_place(std::uint8_t code, Cursor of) {
 /// What has no checksum of its own, and what would swallow the next record.
 void Salvage::check_head(std::uint64_t place, std::uint8_t code, std::uint64_t length) {
   const auto here = named_.find(place), next = named_.upper_bound(place);
-  require(here == named_.end() || here->second == code, "a record is not what the summary says");
+  require(here == named_.end() || here->second == code, log_tool_messages::record_kind_differs);
   require(next == named_.end() || next->first >= place + mcap::record_head + length,
-          "a record is longer than the summary says");
-  require((code > 0 && code <= mcap::data_end) || code >= 0x80, "a record is of no known kind");
+          log_tool_messages::record_overlong);
+  require((code > 0 && code <= mcap::data_end) || code >= 0x80, log_tool_messages::record_kind_unknown);
 }
 
 void Salvage::check_whole(std::uint64_t place, std::uint8_t code, std::uint64_t length) {
@@ -108,7 +109,7 @@ void Salvage::check_whole(std::uint64_t place, std::uint8_t code, std::uint64_t 
                        code == mcap::message_index;
   if (!reports) return;
   seek(place + mcap::record_head);
-  require(length == length_within(code), "a record is longer than what is in it");
+  require(length == length_within(code), log_tool_messages::record_length_differs);
 }
 
 std::uint64_t Salvage::go_on(std::uint64_t place, std::uint8_t code, std::uint64_t behind) {
@@ -175,7 +176,7 @@ T Salvage::number_here() {
 
 std::uint64_t Salvage::pass_text() {
   const auto length = number_here<std::uint32_t>();
-  require(length <= size_ - place_, "the file ends inside a record");
+  require(length <= size_ - place_, log_tool_messages::record_truncated);
   seek(place_ + length);
   return 4 + std::uint64_t{length};
 }

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/types/named.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/log_reading/log_file.hpp"
 #include "tools/log_reading/ros_parse.hpp"
 
@@ -31,7 +32,7 @@ bool is_truth(const std::string& topic) {
 /// "fulmar_msgs/msg/VehicleState" -> "VehicleState"; of messages of others the whole name.
 std::string type_word(const McapFile& log, const McapFile::Channel& channel) {
   const auto schema = log.schemas.find(channel.schema);
-  if (schema == log.schemas.end()) return "message without a type";
+  if (schema == log.schemas.end()) return log_tool_messages::message_type_missing().line();
   constexpr std::string_view ours = "fulmar_msgs/msg/";
   const std::string& name = schema->second.name;
   return name.starts_with(ours) ? name.substr(ours.size()) : name;
@@ -95,12 +96,12 @@ NamedFields::NamedFields(const McapFile& log, std::uint16_t channel, const TypeP
   try {
     const auto schema = log.schemas.find(c.schema);
     if (c.encoding != "cdr" || schema == log.schemas.end() || schema->second.encoding != "ros2msg")
-      throw Error("its messages are not encoded as cdr with ros2msg");
+      throw Error(log_tool_messages::message_encoding_unsupported());
     theirs_ = core::parse_ros_definition(schema->second.name, schema->second.text);
-    if (theirs_->size > largest_message) throw Error("its messages are too large");
+    if (theirs_->size > largest_message) throw Error(log_tool_messages::messages_too_large());
     plan_ = core::copy_plan(*theirs_, *all_optional(*ours));
   } catch (const Error& fault) {
-    throw Error(topic_ + ": " + fault.what());
+    throw Error(located(topic_, fault.diagnostic));
   }
   plan_.gaps.clear();  // what the log lacks keeps what the caller has put there
   room_.resize(theirs_->size);
@@ -110,7 +111,7 @@ void NamedFields::read(std::span<const std::byte> bytes, std::byte* message) con
   core::cdr_decode(*theirs_, bytes.data(), bytes.size(), room_.data());
   plan_.run(room_.data(), message);
 } catch (const Error& fault) {
-  throw Error(topic_ + ": " + fault.what());
+  throw Error(located(topic_, fault.diagnostic));
 }
 
 }  // namespace fulmar::states

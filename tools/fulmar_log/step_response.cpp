@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/fulmar_log/response.hpp"
 
 namespace fulmar::response {
@@ -47,8 +48,7 @@ Jump first_jump(const Series& input) {
   const auto [low, high] = std::minmax_element(input.x.begin(), input.x.end());
   const double range = *high - *low;  // nothing in it is a step when it is 0
   if (largest == 0 || largest < 0.5 * range)
-    throw Error("the input has no step: of its range of " + rounded(range) + " at most " + rounded(largest) +
-                " is from one sample to the next");
+    throw Error(log_tool_messages::input_step_missing(rounded(range), rounded(largest)));
   for (std::size_t i = 1;; ++i)
     if (std::abs(jump(input, i)) > 0.999 * largest) return {i, jump(input, i)};
 }
@@ -82,7 +82,7 @@ std::optional<double> settles(const Series& y, const std::vector<double>& way, d
 }  // namespace
 
 StepFigures step_figures(const Series& input, const Series& output, double band) {
-  if (input.x.empty() || output.x.empty()) throw Error("a step takes samples of input and output");
+  if (input.x.empty() || output.x.empty()) throw Error(log_tool_messages::step_samples_missing());
   const Jump step = first_jump(input);
   StepFigures f;
   f.at_s = input.t_s[step.to];
@@ -101,13 +101,12 @@ StepFigures step_figures(const Series& input, const Series& output, double band)
   const auto after = std::upper_bound(y.t_s.begin(), y.t_s.end(), f.at_s) - y.t_s.begin();
   const auto begin = static_cast<std::size_t>(after);
   if (y.x.size() - begin < 10 || begin == 0)
-    throw Error("the output has " + std::to_string(begin) + " samples in the second before the step and " +
-                std::to_string(y.x.size() - begin) + " from it on; at least 1 and 10 are needed");
+    throw Error(log_tool_messages::step_samples_too_few(begin, y.x.size() - begin));
   const double before_s = input.t_s[step.to - 1];  // the last time at which nothing had happened
   f.input_change = mean(input, f.at_s, f.until_s) - mean(input, before_s - 1, before_s);
   f.output_before = mean(y, y.t_s.front(), f.at_s);
   f.output_after = mean(y, f.until_s - 0.2 * (f.until_s - f.at_s), f.until_s);
-  if (f.output_change() == 0) throw Error("the output does not move after the step");
+  if (f.output_change() == 0) throw Error(log_tool_messages::output_constant());
   std::vector<double> way;  // 0 before, 1 at the end
   for (const double x : y.x) way.push_back((x - f.output_before) / f.output_change());
   const std::optional<double> low = passes(y, way, begin, 0.1), high = passes(y, way, begin, 0.9);

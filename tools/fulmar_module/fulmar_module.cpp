@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "sim.hpp"
+#include "tools/fulmar_module/messages.hpp"
 
 namespace fulmar::module {
 namespace {
@@ -77,7 +78,7 @@ PYBIND11_MODULE(fulmar, m) {
       .def_readonly("accepted", &Answer::accepted)
       .def_readonly("reason", &Answer::reason)
       .def("__repr__", [](const Answer& a) {
-        return !a.answered  ? std::string("<not answered yet>")
+        return !a.answered  ? module_messages::answer_pending().line()
                : a.accepted ? "<accepted>"
                             : "<refused: " + a.reason + ">";
       });

@@ -10,6 +10,7 @@
 #include "core/graph/record.hpp"
 #include "core/run/command/command.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_module/messages.hpp"
 #include "values.hpp"
 
 namespace fulmar::module {
@@ -43,7 +44,7 @@ std::string choices_of(const std::string& owner, const std::string& rest,
 std::pair<std::string, std::string> split(const std::string& name, const char* what) {
   const std::size_t dot = name.find('.');
   if (dot == std::string::npos || dot == 0 || dot + 1 == name.size())
-    throw Error("'" + name + "' is no " + what + "; it is written component." + what);
+    throw Error(module_messages::dotted_name_expected(name, what, what));
   return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
@@ -64,7 +65,7 @@ Flight& Sim::flight() {
 void Sim::finish() { result_ = result_json(graph_, *flight_, flight_->finish()).dump(); }
 
 bool Sim::step(std::int64_t n) {
-  if (n < 0) throw Error("step " + std::to_string(n) + ": a flight goes forward");
+  if (n < 0) throw Error(module_messages::step_negative(n));
   for (std::int64_t i = 0; i < n && !done(); ++i) {
     const py::gil_scoped_release others_may_run;
     begun_ = true;
@@ -87,9 +88,7 @@ py::object Sim::run(std::optional<double> until_s) {
 }
 
 void Sim::reset(std::optional<std::uint64_t> seed) {
-  if (begun_ && !log_file_.empty())
-    throw Error("the log " + log_file_ +
-                " holds the flight before: a flight with a log is not reset; make another Sim");
+  if (begun_ && !log_file_.empty()) throw Error(module_messages::reset_with_log(log_file_));
   flight_.reset();
   result_.reset();
   events_.clear();
@@ -201,7 +200,7 @@ void Sim::set_parameter(const std::string& name, const py::handle& value) {
 // ---- requests
 
 std::shared_ptr<Answer> Sim::request(const std::string& name, const py::handle& message) {
-  if (done()) throw Error(name + ": the flight is over");
+  if (done()) throw Error(located(name, module_messages::flight_over()));
   const auto [owner, port] = split(name, "request");
   const Port* asked = nullptr;
   std::vector<std::string> names;

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/types/named.hpp"
+#include "tools/fulmar_new/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -75,12 +76,10 @@ ContractInput input_of(const MissionView& mission, const Asked& asked) {
   ContractInput input{asked.name, port_name(asked.what), nullptr, FULMAR_IN_VALUE, asked.optional};
   const Sent sent = sent_by(mission.graph, input.from);
   if (!sent.known || sent.kind == FULMAR_OUT_PROBE)
-    throw Error("--in " + asked.name + "=" + asked.what + ": " + mission.file.filename().string() +
-                " has no such output." + choices_text(asked.what, sources(mission.graph)));
+    throw Error(new_messages::output_unknown(asked.name, asked.what, mission.file.filename().string(),
+                                             choices_text(asked.what, sources(mission.graph))));
   input.type = sent.type ? sent.type : promised_type(mission, input.from);
-  if (!input.type)
-    throw Error("--in " + asked.name + "=" + asked.what + ": no component says what " + asked.what +
-                " carries");
+  if (!input.type) throw Error(new_messages::input_type_unknown(asked.name, asked.what, asked.what));
   // A value input would see only the last of what a queue brings.
   if (asked.queue || sent.kind == FULMAR_OUT_QUEUE) input.kind = FULMAR_IN_QUEUE;
   return input;
@@ -88,8 +87,7 @@ ContractInput input_of(const MissionView& mission, const Asked& asked) {
 
 ContractOutput output_of(const MissionView& mission, const Asked& asked) {
   if (!is_word(asked.what) || !(asked.what[0] >= 'A' && asked.what[0] <= 'Z') || asked.optional)
-    throw Error("--out " + asked.name + "=" + asked.what +
-                ": write NAME=Message, as in range=Range, or edits=PlanEdit[] for a queue");
+    throw Error(new_messages::output_form_invalid(asked.name, asked.what));
   ContractOutput output;
   output.name = asked.name;
   output.type = type_named(mission.graph, asked.what);
@@ -101,7 +99,7 @@ ContractOutput output_of(const MissionView& mission, const Asked& asked) {
 
 template <class List>
 void check_new(const List& list, const std::string& name) {
-  if (find_named(list, name)) throw Error("the port '" + name + "' is asked for twice");
+  if (find_named(list, name)) throw Error(new_messages::port_duplicate(name));
 }
 
 /// The rest of the template's line that begins so; "" when there is none.
@@ -165,9 +163,8 @@ Contract template_contract(const MissionView& mission, const std::string& name, 
       return sent_by(mission.graph, port_name(from)).type != nullptr;
     });
     if (there == words.end())
-      throw Error("--template " + name + " reads " + words.at(1) + ", which " +
-                  mission.file.filename().string() + " does not have: say where it comes from, --in " +
-                  words[0] + "=OWNER.PORT");
+      throw Error(new_messages::template_source_missing(name, words.at(1), mission.file.filename().string(),
+                                                        words[0]));
     wires.push_back(words[0] + "=" + *there);
   }
   for (const auto& words : lists_of(line_of(source, "says")))
@@ -175,8 +172,7 @@ Contract template_contract(const MissionView& mission, const std::string& name, 
   Contract contract = ports_contract(mission, wires, outputs);
   for (const ContractInput& input : contract.inputs)
     if (std::find(inputs.begin(), inputs.end(), input.name) == inputs.end())
-      throw Error("--in " + input.name + ": the template " + name + " has no such input." +
-                  choices_text(input.name, inputs));
+      throw Error(new_messages::template_input_unknown(input.name, name, choices_text(input.name, inputs)));
   if (const std::string rate = line_of(source, "rate"); !rate.empty()) contract.rate_hz = std::stod(rate);
   for (const auto& words : lists_of(line_of(source, "feeds")))
     if (const PortName to = port_name(words.at(1)); open_input(mission, to))

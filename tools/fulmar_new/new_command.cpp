@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "tools/fulmar_new/messages.hpp"
 #include "tools/fulmar_new/new_beside.hpp"
 #include "tools/fulmar_new/new_contract.hpp"
 #include "tools/fulmar_new/new_mission.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error("cannot read " + file.string());
+  if (!in) throw Error(new_messages::file_not_readable(file.string()));
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
@@ -31,7 +32,7 @@ void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw Error("cannot write " + file.string());
+  if (!out) throw Error(new_messages::file_not_writable(file.string()));
 }
 
 std::string replaced(std::string text, const std::vector<std::pair<std::string, std::string>>& words) {
@@ -47,22 +48,19 @@ void check_name(const std::string& name) {
   };
   const bool letter_first = !name.empty() && !(name[0] >= '0' && name[0] <= '9') && name[0] != '_';
   if (!letter_first || name.size() > 60 || !std::all_of(name.begin(), name.end(), good))
-    throw Error("'" + name +
-                "' is no name for a plugin: letters, digits and _, a letter first, as in my_law");
+    throw Error(new_messages::plugin_name_invalid(name));
   static const std::vector<std::string> taken = {
       "all",           "clean",      "help", "install", "package",  "test",  "edit_cache",
       "rebuild_cache", "fulmar_sdk", "std",  "fulmar",  "messages", "class", "struct",
       "double",        "float",      "int",  "bool",    "char",     "new",   "delete",
       "this",          "auto",       "void", "main",    "template"};
   if (std::find(taken.begin(), taken.end(), name) != taken.end())
-    throw Error("'" + name + "' means something to the build already. Choose another name, as in my_" + name);
+    throw Error(new_messages::plugin_name_reserved(name, name));
 }
 
 void check_free(const MissionView& mission, const std::string& name) {
   const char* what = mission.text.component(name) ? "component" : mission.text.role(name) ? "role" : nullptr;
-  if (what)
-    throw Error("the mission " + mission.graph.mission + " has a " + what + " called '" + name +
-                "' already. Choose another name, as in my_" + name);
+  if (what) throw Error(new_messages::name_in_use(mission.graph.mission, what, name, name));
 }
 
 /// The mission that --mission names: a file, or a shipped one by its name.
@@ -78,8 +76,7 @@ fs::path mission_file(const NewOptions& options, const Places& places) {
         read_text(entry.path()).find("\nmission:") != std::string::npos)
       names.push_back(entry.path().stem());
   std::sort(names.begin(), names.end());
-  throw Error("--mission " + name + ": there is no such file, and no shipped mission of that name." +
-              choices_text(name, names));
+  throw Error(new_messages::mission_unknown(name, choices_text(name, names)));
 }
 
 /// The struct's name: not one that the SDK has, or `In<Path>` in it would mean two things.
@@ -151,8 +148,8 @@ fs::path role_template(const NewOptions& options, const Places& places, const st
   const fs::path file = folder / (role + "_" + options.from_template);
   std::error_code code;
   if (fs::is_regular_file(file.string() + ".hpp", code)) return file;
-  throw Error("--template " + options.from_template + ": the role " + role + " has none of that name." +
-              (role == "vehicle" ? " Valid: point_mass." : ""));
+  throw Error(new_messages::role_template_unknown(options.from_template, role,
+                                                  role == "vehicle" ? " Valid: point_mass." : ""));
 }
 
 /// The SDK's template for what is asked, if it has one: header and test.
@@ -168,8 +165,7 @@ std::optional<NewSource> template_source(const NewOptions& options, const Places
   if (file.empty() || !fs::is_regular_file(header, code)) return {};
   if (!contract.roles.empty() && !fits(read_text(header), contract)) {
     if (options.from_template.empty()) return {};
-    throw Error("--template " + options.from_template + " is for other ports than " + contract.mission +
-                " has");
+    throw Error(new_messages::template_ports_mismatch(options.from_template, contract.mission));
   }
   return NewSource{replaced(without_template_lines(read_text(header)), names),
                    replaced(read_text(file.string() + "_test.cpp"), names)};
@@ -177,18 +173,18 @@ std::optional<NewSource> template_source(const NewOptions& options, const Places
 
 /// One sentence each: what it is in the mission, and when it flies.
 std::string what_text(const Contract& contract) {
-  if (contract.roles.empty()) return "stands beside the roles of";
-  return std::string("fills the role") + (contract.roles.size() > 1 ? "s " : " ") + "`" +
-         contract.role_words() + "` of";
+  if (contract.roles.empty()) return new_messages::roles_not_filled().line();
+  return new_messages::roles_filled(contract.roles.size() > 1 ? "s " : " ", contract.role_words()).line();
 }
 std::string flies_text(const Contract& contract, const char* quote) {
   const auto quoted = [&](const std::string& word) { return quote + word + quote; };
-  if (contract.roles.empty()) return "It is stepped from the start, and what it says is logged.";
-  if (contract.vehicle())
-    return "It flies from the start, in place of " + quoted(contract.shipped_words()) + ".";
-  return "It flies in the phase " + quoted(contract.phase) + "; " + quoted(contract.shipped_words()) +
-         (*quote ? ", which flew there before," : "") +
-         (contract.roles.size() > 1 ? " take over if it fails." : " takes over if it fails.");
+  if (contract.roles.empty()) return new_messages::component_always_stepped().line();
+  if (contract.vehicle()) return new_messages::vehicle_replaced(quoted(contract.shipped_words())).line();
+  return new_messages::phase_of_component(
+             quoted(contract.phase), quoted(contract.shipped_words()),
+             *quote ? ", which flew there before," : "",
+             contract.roles.size() > 1 ? " take over if it fails." : " takes over if it fails.")
+      .line();
 }
 
 Project make_project(const NewOptions& options, const Places& places, const MissionView& mission,
@@ -231,11 +227,11 @@ Project make_project(const NewOptions& options, const Places& places, const Miss
 void write_project(const Project& project) {
   std::error_code code;
   if (fs::exists(project.folder, code) && !fs::is_directory(project.folder, code))
-    throw Error(project.folder.string() + " is a file, not a folder");
+    throw Error(new_messages::folder_is_file(project.folder.string()));
   if (fs::exists(project.folder, code) && !fs::is_empty(project.folder, code))
-    throw Error("the folder " + project.folder.string() + " is not empty");
+    throw Error(new_messages::folder_not_empty(project.folder.string()));
   fs::create_directories(project.folder, code);
-  if (code) throw Error("cannot make the folder " + project.folder.string() + ": " + code.message());
+  if (code) throw Error(new_messages::folder_not_creatable(project.folder.string(), code.message()));
   for (const auto& [name, text] : project.files) write_text(project.folder / name, text);
 }
 
@@ -268,25 +264,21 @@ void report(const Project& project, const Contract& contract, const std::string&
 /// The contract of what is asked for: of roles, of a template, or of ports.
 Contract asked_contract(const NewOptions& options, const Places& places, const MissionView& mission) {
   if (!options.roles.empty()) {
-    if (!options.in.empty() || !options.out.empty())
-      throw Error("--role says all ports: --in and --out are of a component without a role");
+    if (!options.in.empty() || !options.out.empty()) throw Error(new_messages::role_with_ports());
     if (!options.from_template.empty() && options.roles.size() > 1)
-      throw Error("--template " + options.from_template + ": there is none for several roles at once");
+      throw Error(new_messages::roles_template_missing(options.from_template));
     return read_contract(mission, options.roles);
   }
   if (options.from_template.empty()) {
-    if (options.in.empty() && options.out.empty())
-      throw Error(
-          "say what it is: --role ROLE, --template sensor, --template planner, or its ports, as in --in "
-          "state=nav.state --out range=Range");
+    if (options.in.empty() && options.out.empty()) throw Error(new_messages::component_unspecified());
     return ports_contract(mission, options.in, options.out);
   }
-  if (!options.out.empty()) throw Error("--out: a template has its own outputs; change them in the source");
+  if (!options.out.empty()) throw Error(new_messages::template_with_outputs());
   const fs::path file = places.templates / "beside" / (options.from_template + ".hpp");
   std::error_code code;
   if (!fs::is_regular_file(file, code))
-    throw Error("--template " + options.from_template + ": there is none of that name." +
-                choices_text(options.from_template, {"planner", "sensor"}));
+    throw Error(new_messages::template_unknown(options.from_template,
+                                               choices_text(options.from_template, {"planner", "sensor"})));
   const std::string type = type_name(options.name, places.include);
   return template_contract(mission, options.from_template, replaced(read_text(file), {{"MyLaw", type}}),
                            options.in);

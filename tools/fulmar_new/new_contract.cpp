@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/types/named.hpp"
+#include "tools/fulmar_new/messages.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -16,9 +17,8 @@ void read_inputs(const MissionView& mission, const RoleText& role, const Contrac
     if (find_named(contract.roles, wire.from.owner)) continue;  // its own output
     if (const ContractInput* same = find_named(contract.inputs, wire.name)) {
       if (same->from.text() == wire.from.text()) continue;
-      throw Error(wire.where.text() + ": roles." + role.name + ".in." + wire.name + " is " +
-                  wire.from.text() + ", and another of its roles has it from " + same->from.text() +
-                  ": these roles cannot be filled by one new component");
+      throw Error(located(wire.where, new_messages::role_inputs_conflict(
+                                          role.name, wire.name, wire.from.text(), same->from.text())));
     }
     ContractInput input{wire.name, wire.from, sent_by(mission.graph, wire.from).type, FULMAR_IN_VALUE, false};
     if (const int i = shipped.input(wire.name); i >= 0) {
@@ -28,8 +28,8 @@ void read_inputs(const MissionView& mission, const RoleText& role, const Contrac
       if (!input.type) input.type = port.type;
     }
     if (!input.type)
-      throw Error(wire.where.text() + ": roles." + role.name + ".in." + wire.name +
-                  ": no component says what " + wire.from.text() + " carries");
+      throw Error(
+          located(wire.where, new_messages::role_input_type_unknown(role.name, wire.name, wire.from.text())));
     contract.inputs.push_back(std::move(input));
   }
   if (!contract.vehicle()) return;
@@ -50,8 +50,8 @@ void read_outputs(const Role& role, const RoleText& text, std::size_t index, Con
     // Notices and the like: whoever wants them writes them. What a vehicle may have stands in its frame.
     if (output.optional && !contract.vehicle()) continue;
     if (const ContractOutput* same = find_named(contract.outputs, output.name))
-      throw Error("the roles " + contract.roles[same->role].name + " and " + role.name +
-                  " both have an output '" + output.name + "': one component cannot fill both");
+      throw Error(
+          new_messages::role_outputs_conflict(contract.roles[same->role].name, role.name, output.name));
     if (const int o = shipped.output(output.name); o >= 0) {
       const Port& port = shipped.outputs[static_cast<std::size_t>(o)];
       output.kind = port.kind;
@@ -96,9 +96,8 @@ std::size_t role_index(const MissionView& mission, const std::string& role) {
   for (const Role& known : mission.graph.roles) names.push_back(known.name);
   const auto at = std::find(names.begin(), names.end(), role);
   if (at == names.end())
-    throw Error("--role " + role + ": " + mission.file.filename().string() + " has no such role." +
-                choices_text(role, names) +
-                " What has no role is asked for by --template sensor, --template planner, --in and --out");
+    throw Error(
+        new_messages::role_unknown(role, mission.file.filename().string(), choices_text(role, names)));
   return static_cast<std::size_t>(at - names.begin());
 }
 
@@ -149,8 +148,8 @@ Contract read_contract(const MissionView& mission, const std::vector<std::string
   std::vector<std::size_t> indices;
   for (const std::string& role : roles) {
     indices.push_back(role_index(mission, role));
-    if (find_named(contract.roles, role)) throw Error("--role " + role + " is there twice");
-    if (role == "vehicle" && roles.size() > 1) throw Error("the vehicle fills its role alone");
+    if (find_named(contract.roles, role)) throw Error(new_messages::role_duplicate(role));
+    if (role == "vehicle" && roles.size() > 1) throw Error(new_messages::vehicle_with_roles());
     contract.roles.push_back({role, nullptr, {}, {}, {}});
   }
   if (!contract.vehicle()) contract.phase = mission.graph.phases.back().name;

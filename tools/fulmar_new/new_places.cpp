@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "tools/fulmar_new/messages.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -12,7 +13,7 @@ namespace fs = std::filesystem;
 fs::path this_program() {
   std::error_code code;
   const fs::path self = fs::read_symlink("/proc/self/exe", code);
-  if (code) throw Error("cannot tell where this program is: " + code.message());
+  if (code) throw Error(new_messages::program_path_unknown(code.message()));
   return self;
 }
 
@@ -21,15 +22,13 @@ Places find_places(const fs::path& program) {
   std::error_code code;
   if (fs::is_directory(share / "missions", code)) {
     if (!fs::is_directory(share / "template", code))
-      throw Error("there are no templates in " + (share / "template").string() +
-                  ": install the package fulmar-dev");
+      throw Error(new_messages::templates_missing((share / "template").string()));
     return {share / "missions", share / "template", prefix / "include", prefix};
   }
   for (fs::path root = prefix; root.has_relative_path(); root = root.parent_path())
     if (fs::is_directory(root / "sdk" / "template", code))
       return {root / "configs" / "missions", root / "sdk" / "template", root / "sdk" / "include", prefix};
-  throw Error("there are no missions in " + (share / "missions").string() + ", and no source tree above " +
-              program.string());
+  throw Error(new_messages::missions_missing((share / "missions").string(), program.string()));
 }
 
 std::string shell_word(const std::string& text) {

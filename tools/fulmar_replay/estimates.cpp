@@ -11,6 +11,7 @@
 #include "core/loader/home.hpp"
 #include "core/loader/process.hpp"
 #include "core/say.hpp"
+#include "tools/fulmar_replay/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -36,9 +37,9 @@ std::string compared_estimates(const std::filesystem::path& before, const std::f
   const std::filesystem::path program = own_program("fulmar-log");
   const std::unique_ptr<std::FILE, Close> out(program.empty() ? nullptr : std::tmpfile());
   if (!out) {
-    warn("the estimates are not compared: " +
-         std::string(program.empty() ? "the program fulmar-log is missing beside this one"
-                                     : "there is no room for a file"));
+    warn(replay_messages::estimates_not_compared(program.empty()
+                                                     ? "the program fulmar-log is missing beside this one"
+                                                     : "there is no room for a file"));
     return "";
   }
   std::vector<std::string> words{"log",       "compare", before.string(), now.string(),
@@ -49,7 +50,7 @@ std::string compared_estimates(const std::filesystem::path& before, const std::f
   files.error = STDERR_FILENO;
   Process process(program.string(), words, files);
   while (!process.wait(50ms))
-    if (stop) throw Error("interrupted");
+    if (stop) throw Error(replay_messages::replay_interrupted());
   return process.signal() == 0 && process.exit_code() == 0 ? contents(out.get()) : "";
 }
 

@@ -5,12 +5,13 @@
 
 #include "core/error.hpp"
 #include "core/types/named.hpp"
+#include "tools/fulmar_replay/messages.hpp"
 
 namespace fulmar::core {
 
 std::vector<FlownPlugin> flown_plugins(const McapFile& log) {
   const McapFile::Metadata* const metadata = find_named(log.metadata, "plugins");
-  if (!metadata) throw Error("it does not say which plugins flew");
+  if (!metadata) throw Error(replay_messages::plugins_not_recorded());
   std::vector<FlownPlugin> list;
   for (const auto& [key, value] : metadata->pairs) {
     const std::size_t dot = key.rfind('.');
@@ -24,8 +25,7 @@ std::vector<FlownPlugin> flown_plugins(const McapFile& log) {
     if (field == "sha256") flown->sha256 = value;
   }
   for (const FlownPlugin& f : list)
-    if (f.file.empty() || f.sha256.empty())
-      throw Error("it does not say which plugin flew as '" + f.component + "'");
+    if (f.file.empty() || f.sha256.empty()) throw Error(replay_messages::plugin_not_recorded(f.component));
   return list;
 }
 

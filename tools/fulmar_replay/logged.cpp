@@ -6,6 +6,7 @@
 #include "core/run/state/published.hpp"
 #include "core/types/text.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_replay/messages.hpp"
 
 namespace fulmar::core {
 
@@ -18,8 +19,7 @@ std::uint16_t channel_of(const McapFile& file, const std::string& topic, const T
   const std::uint16_t channel = file.channel(topic);
   const auto schema = file.schemas.find(file.channels.at(channel).schema);
   if (schema == file.schemas.end() || schema->second.text != ros_definition(type))
-    throw Error("the log's " + topic + " has other fields than " + type.name +
-                " has here: it was written by another version");
+    throw Error(replay_messages::topic_type_mismatch(topic, type.name));
   return channel;
 }
 
@@ -36,13 +36,12 @@ std::string topic_in(const McapFile& file, const Graph& graph, const Component& 
 std::string gap_in(const Survey& survey, std::uint16_t channel) {
   const auto lost = survey.lost.find(channel);
   if (lost == survey.lost.end()) return "";
-  return "the log has lost " + std::to_string(lost->second) + " samples of " +
-         survey.log.channels.at(channel).topic;
+  return replay_messages::samples_lost(lost->second, survey.log.channels.at(channel).topic).line();
 }
 
 void check_order(const Survey& survey, std::uint16_t channel) {
   if (survey.late.contains(channel))
-    throw Error("the log's " + survey.log.channels.at(channel).topic + " is not in the order of time");
+    throw Error(replay_messages::topic_not_in_order(survey.log.channels.at(channel).topic));
 }
 
 }  // namespace fulmar::core

@@ -8,6 +8,7 @@
 #include "core/types/named.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_replay/logged.hpp"
+#include "tools/fulmar_replay/messages.hpp"
 #include "tools/fulmar_replay/recorded_vehicle.hpp"
 
 namespace fulmar::core {
@@ -66,8 +67,7 @@ bool Playback::read() {
     reading_.ahead_bytes += m->data.size() + sizeof *m;
     for (const Take& take : reading_.takes[m->channel]) take(*m);
     if (reading_.ahead_bytes > max_ahead_bytes)
-      throw Error("the log holds more than " + std::to_string(max_ahead_bytes >> 20) +
-                  " MB between two messages about its ticks");
+      throw Error(replay_messages::tick_gap_too_large(max_ahead_bytes >> 20));
   }
   ++reading_.place;
   return true;
@@ -75,7 +75,7 @@ bool Playback::read() {
 
 void Playback::begin_tick() {
   while (ticks_.empty())
-    if (!read()) throw Error("the log has changed since its flight began to be replayed");
+    if (!read()) throw Error(replay_messages::log_changed());
   now_ns_ = ticks_.front();
   ticks_.pop_front();
   while (reading_.now_ns <= now_ns_ && read()) {

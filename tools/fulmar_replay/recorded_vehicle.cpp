@@ -6,6 +6,7 @@
 #include "core/types/named.hpp"
 #include "core/types/wire.hpp"
 #include "tools/fulmar_replay/logged.hpp"
+#include "tools/fulmar_replay/messages.hpp"
 
 namespace fulmar::core {
 
@@ -27,15 +28,14 @@ VehicleTrack::VehicleTrack(const Survey& survey, const Graph& graph)
 
 void VehicleTrack::take(std::uint32_t output, const McapFile::Message& m) {
   if (output == all_probes && m.data.size() != 4 + 8 * probes_.size())
-    throw Error("the log has other probes of " + vehicle_.name);
+    throw Error(replay_messages::probes_mismatch(vehicle_.name));
   waiting_.push_back({flight_ns(m.log_ns, epoch_ns_), flight_ns(m.publish_ns, epoch_ns_), m.channel, output,
                       std::vector<std::byte>(m.data.begin(), m.data.end())});
 }
 
 void VehicleTrack::begin_tick(std::int64_t now_ns) {
   if (!waiting_.empty() && waiting_.front().log_ns < now_ns)
-    throw Error("the log has samples of " + log_.channels.at(waiting_.front().channel).topic +
-                " between two ticks");
+    throw Error(replay_messages::samples_between_ticks(log_.channels.at(waiting_.front().channel).topic));
   now_ns_ = now_ns;
 }
 
@@ -58,8 +58,7 @@ void VehicleTrack::put(const Sample& sample, std::vector<fulmar_output>& out) co
   const Port& port = vehicle_.info().outputs[sample.output];
   fulmar_output& to = out[sample.output];
   const bool queue = port.kind == FULMAR_OUT_QUEUE;
-  if (queue && to.count == port.capacity)
-    throw Error("the log has more samples of " + port.name + " in a tick than there is room for");
+  if (queue && to.count == port.capacity) throw Error(replay_messages::too_many_samples(port.name));
   const std::size_t at = queue ? std::size_t{to.count} * port.type->size : 0;
   cdr_decode(*port.type, sample.data.data(), sample.data.size(), static_cast<std::byte*>(to.data) + at);
   if (queue) {
@@ -74,7 +73,7 @@ std::uint32_t RecordedVehicle::read(fulmar_tick& tick, Outlets& out, fulmar_erro
   track_->read(tick, out.views);
   return FULMAR_OK;
 } catch (const std::exception& fault) {
-  put_problem(problem, "%s", fault.what());
+  put_problem(problem, fault.what());
   return FULMAR_FAILED;
 }
 

@@ -13,6 +13,7 @@
 #include "core/log/mcap.hpp"
 #include "core/run/command/command.hpp"
 #include "core/types/named.hpp"
+#include "tools/fulmar_replay/messages.hpp"
 #include "tools/fulmar_replay/playback.hpp"
 #include "tools/log_reading/message_diff.hpp"
 
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 fs::path private_folder() {
   std::string name = (fs::temp_directory_path() / "fulmar-replay-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr)
-    throw Error("cannot make a folder in " + fs::temp_directory_path().string());
+    throw Error(replay_messages::folder_not_creatable(fs::temp_directory_path().string()));
   return name;
 }
 
@@ -58,7 +59,7 @@ Recording::Recording(const fs::path& log) try : path_(log), survey_(log) {
   std::vector<std::pair<std::string, std::string>> files;
   for (const McapFile::Attachment& a : survey_.log.attachments)
     if (a.media_type == "application/yaml") files.emplace_back(a.name, a.content);
-  if (files.empty()) throw Error("no mission is attached to it: it is not the log of a flight");
+  if (files.empty()) throw Error(replay_messages::mission_missing());
   HostTopic<Event>(survey_.log).check();
   mission_file_ = files.front().first;
   read_overrides();
@@ -66,7 +67,8 @@ Recording::Recording(const fs::path& log) try : path_(log), survey_(log) {
   overrides_.files = std::make_shared<const StoredFiles>(std::move(files));
 } catch (const Error& fault) {
   const std::string text = fault.what();
-  throw Error(text.find(log.string()) == std::string::npos ? log.string() + ": " + text : text);
+  throw Error(text.find(log.string()) == std::string::npos ? located(log.string(), fault.diagnostic)
+                                                           : fault.diagnostic);
 }
 
 Recording::~Recording() {
@@ -76,8 +78,7 @@ Recording::~Recording() {
 
 void Recording::read_overrides() {
   const McapFile::Metadata* const metadata = find_named(survey_.log.metadata, "overrides");
-  if (!metadata)
-    throw Error("it does not say how its mission was changed on the command line: it is older than replays");
+  if (!metadata) throw Error(replay_messages::overrides_not_recorded());
   for (const auto& [key, value] : metadata->pairs) {
     std::uint64_t seed = 0;
     if (key == "io") overrides_.io = value;
@@ -214,7 +215,7 @@ std::unique_ptr<Flight> Player::fly(const std::atomic<bool>* stop) {
     else
       playback_->end();
     while (std::optional<Command> entry = playback_->entry()) apply(std::move(*entry), tick);
-    if (stop && stop->load(std::memory_order_relaxed)) throw Error("interrupted");
+    if (stop && stop->load(std::memory_order_relaxed)) throw Error(replay_messages::replay_interrupted());
     if (tick < ticks && playback_->signalled()) signal_ = SIGINT;
     if (tick < ticks || playback_->vehicle_failed()) goes_on = flight_->step();
   }
@@ -259,7 +260,8 @@ std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recordi
   result.last_ns = log.ticks.last_ns;
   std::unique_ptr<Flight> flight = player.fly(options.stop);
   result.ticks = result.flight.ticks;
-  if (!result.flight.log.error.empty()) throw Error("the replay's log: " + result.flight.log.error);
+  if (!result.flight.log.error.empty())
+    throw Error(replay_messages::replay_log_failed(result.flight.log.error));
   if (options.look) options.look(result.flight.log.file);
   if (!options.compare) return {std::move(flight), std::move(result)};
   // a log that was cut off may be gigabytes of holes: the sum of its bytes is for one of the same size alone

@@ -15,6 +15,7 @@
 #include "core/log/out_file.hpp"
 #include "core/say.hpp"
 #include "tools/fulmar_replay/estimates.hpp"
+#include "tools/fulmar_replay/messages.hpp"
 #include "tools/fulmar_replay/replay.hpp"
 #include "tools/log_reading/log_file.hpp"
 
@@ -133,8 +134,7 @@ void refuse_idle(const Graph& graph, const Overrides& changes) {
       const bool vehicle = static_cast<int>(i) == graph.vehicle;
       if (c.name == component && (vehicle || c.run == RunMode::driver))
         throw Error(
-            words + " would change nothing: " + component + " is " + (vehicle ? "the vehicle" : "a driver") +
-            ", and in a replay its samples come out of the log. Fly the mission anew with fulmar run");
+            replay_messages::change_without_effect(words, component, vehicle ? "the vehicle" : "a driver"));
     }
   };
   for (const auto& [name, value] : changes.set) check("--set " + name, name.substr(0, name.find('.')));
@@ -170,7 +170,7 @@ int experiment(const Recording& recording, const ReplayArguments& words, json& o
   out["before"] = was.figures;
   out["after"] = is.figures;
   out["before_equals_log"] = was.result.equal();
-  if (!was.result.equal()) warn("without the change, too, the replay differs from the log");
+  if (!was.result.equal()) warn(replay_messages::baseline_differs());
   if (words.json) {
     const json compared = json::parse(estimates, nullptr, false);
     out["estimates"] = compared.is_object() ? compared.at("estimates") : json(nullptr);
@@ -189,7 +189,7 @@ int run(ReplayArguments words, json& out) {
   const Recording recording(words.log);
   words.changes = recording.by_component(words.changes);
   if (!words.changes.record.empty()) {
-    if (words.out.empty()) throw Error("--record needs --log FILE: the replay's own log holds more");
+    if (words.out.empty()) throw Error(replay_messages::record_without_log());
     recording.mission(words.changes, {});  // whether there are such ports, before anything flies
   }
   if (!words.changes.with.empty() || !words.changes.set.empty()) return experiment(recording, words, out);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "tools/fulmar_replay/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -57,11 +58,10 @@ struct Survey::Reading {
   void conclude() try {
     if (!to.ticks.fault.empty()) return;
     const HostTopic<Ticks> topic(to.log);
-    if (!topic.there())
-      throw Error("the log has no /fulmar/ticks: it is not a flight's, or older than replays");
+    if (!topic.there()) throw Error(replay_messages::ticks_missing());
     topic.check();
-    if (to.ticks.count == 0) throw Error("the log holds no tick");
-    if (!in_order) throw Error("the log's ticks are not in order");
+    if (to.ticks.count == 0) throw Error(replay_messages::ticks_empty());
+    if (!in_order) throw Error(replay_messages::ticks_not_in_order());
   } catch (const Error& fault) {
     to.ticks.fault = fault.what();
   }
@@ -69,11 +69,8 @@ struct Survey::Reading {
   void take_ticks(const McapFile::Message& m) try {
     const Ticks now = ticks->read(m.data);
     if (now.first != to.ticks.count || now.periods != now.hashes)
-      throw Error(to.ticks.count == 0
-                      ? "the log begins with tick " + std::to_string(now.first) +
-                            " of its flight; a replay begins with the first: give the file before it"
-                      : "the log has lost its ticks " + std::to_string(to.ticks.count) + " to " +
-                            std::to_string(now.first) + ": it can be replayed no further than that");
+      throw Error(to.ticks.count == 0 ? replay_messages::first_tick_missing(now.first)
+                                      : replay_messages::ticks_lost(to.ticks.count, now.first));
     each_tick(now, [&](std::uint32_t, std::int64_t time_ns) {
       if (to.ticks.count == 0) to.ticks.first_ns = time_ns;
       in_order = in_order && (to.ticks.count == 0 || time_ns > to.ticks.last_ns);
@@ -141,8 +138,7 @@ struct Survey::Reading {
 
   void count(std::size_t bytes) {
     if ((reported_bytes += bytes) > max_reported_bytes)
-      throw Error("the log tells of more guards, signals and late results than the " +
-                  std::to_string(max_reported_bytes >> 20) + " MB that a replay has room for");
+      throw Error(replay_messages::too_many_events(max_reported_bytes >> 20));
   }
 
   void take_parameter(const McapFile::Message& m) try {

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "tools/fulmar_report/messages.hpp"
 
 namespace fulmar::report {
 namespace {
@@ -105,7 +106,7 @@ std::string compressed(const std::string& bytes) {
   std::string out(size, '\0');
   const int code = ::compress2(reinterpret_cast<Bytef*>(out.data()), &size,
                                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
-  if (code != Z_OK) throw core::Error("zlib cannot compress: there is not enough memory");
+  if (code != Z_OK) throw core::Error(report_messages::compression_failed());
   out.resize(size);
   return out;
 }

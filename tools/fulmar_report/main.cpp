@@ -12,6 +12,7 @@
 #include "core/loader/home.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_log/terminal.hpp"
+#include "tools/fulmar_report/messages.hpp"
 #include "tools/fulmar_report/report.hpp"
 #include "tools/log_reading/log_file.hpp"
 
@@ -35,29 +36,25 @@ std::string whole_text(std::istream& in) { return {std::istreambuf_iterator<char
 std::string page() {
   const fs::path folder = core::page_folder();
   std::ifstream in(folder / "report.html", std::ios::binary);
-  if (folder.empty() || !in)
-    throw core::Error(
-        "this Fulmar was built without the page of a flight, which a report needs: install nodejs and npm, "
-        "configure and build again");
+  if (folder.empty() || !in) throw core::Error(fulmar::report_messages::page_not_built());
   return whole_text(in);
 }
 
 void check(const Words& words) {
   if (words.logs.size() > report::max_logs)
-    throw CLI::ValidationError("a report has room for " + std::to_string(report::max_logs) + " logs, not " +
-                               std::to_string(words.logs.size()));
+    throw CLI::ValidationError(
+        fulmar::report_messages::too_many_logs(report::max_logs, words.logs.size()).line());
   if (!words.names.empty() && words.names.size() != words.logs.size())
     throw CLI::ValidationError(
-        "--names takes a name for each log, with commas between them: " + std::to_string(words.logs.size()) +
-        ", not " + std::to_string(words.names.size()));
+        fulmar::report_messages::name_count_mismatch(words.logs.size(), words.names.size()).line());
   if (!words.result.empty() && words.logs.size() > 1)
-    throw CLI::ValidationError("--result belongs to a report of one log");
+    throw CLI::ValidationError(fulmar::report_messages::result_with_logs().line());
   for (std::size_t i = 0; i < words.logs.size(); ++i) {
     core::check_log_file(words.logs[i]);
     std::error_code none;
     for (std::size_t k = 0; k < i; ++k)
       if (fs::equivalent(words.logs[i], words.logs[k], none))
-        throw core::Error("'" + words.logs[i] + "' is given twice: name each log once");
+        throw core::Error(fulmar::report_messages::log_duplicate(words.logs[i]));
   }
 }
 
@@ -76,14 +73,14 @@ nlohmann::json step_times(const std::string& file) {
   const nlohmann::json result =
       nlohmann::json::parse(whole_text(file == "-" ? std::cin : in), nullptr, false);
   if (!result.is_object() || !result.contains("step_time_us"))
-    throw core::Error("'" + file + "' is no result of one flight, as fulmar run --json prints it");
+    throw core::Error(fulmar::report_messages::result_expected(file));
   return result["step_time_us"];
 }
 
 int write_report(const Words& words) {
   check(words);
   const std::string out = words.out.empty() ? usual_out(words.logs) : words.out;
-  if (fs::exists(out)) throw core::Error(out + " is there already: give another name with -o");
+  if (fs::exists(out)) throw core::Error(fulmar::report_messages::report_exists(out));
   const std::string empty_page = page();
   const std::vector<std::string> names = words.names.empty() ? report::short_names(words.logs) : words.names;
   const double rate_hz = words.rate_hz > 0 ? words.rate_hz : usual_rate_hz;
@@ -98,7 +95,7 @@ int write_report(const Words& words) {
   std::ofstream to(out, std::ios::binary);
   to << html;
   to.close();
-  if (!to) throw core::Error(out + " cannot be written");
+  if (!to) throw core::Error(fulmar::report_messages::report_not_writable(out));
   for (const report::ReportedLog& log : logs)
     if (!log.info.file.fault.empty())
       std::printf("%s ends early: %s\n", core::printable(log.name).c_str(),

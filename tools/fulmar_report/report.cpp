@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "tools/fulmar_report/hardware.hpp"
+#include "tools/fulmar_report/messages.hpp"
 
 namespace fulmar::report {
 namespace {
@@ -179,7 +180,7 @@ Fitted fitted_json(const std::vector<ReportedLog>& logs, std::size_t most_bytes)
 /// No text of the log may end the element that holds it.
 std::string with_logs(const std::string& page, const std::string& json_text) {
   const std::size_t at = page.find(place);
-  if (at == std::string::npos) throw core::Error("the page has no place for a log: it is of another version");
+  if (at == std::string::npos) throw core::Error(report_messages::page_version_mismatch());
   std::string safe;
   safe.reserve(json_text.size());
   for (const char c : json_text) {

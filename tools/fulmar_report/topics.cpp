@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/log/events.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_report/messages.hpp"
 #include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::report {
@@ -84,7 +85,7 @@ struct Reading {
   /// Fields of ours that the log's definition lacks, as older ones do, are left out.
   void find_fields(const std::vector<std::string>& fields) {
     type = core::parse_ros_definition(shown.type, shown.schema);
-    if (type->size > largest_message) throw core::Error("its messages are too large");
+    if (type->size > largest_message) throw core::Error(report_messages::messages_too_large());
     message.resize(type->size);
     const auto place = [&](const std::string& field) -> std::optional<core::FieldRef> {
       try {

@@ -13,6 +13,7 @@
 #include "core/run/state/published.hpp"
 #include "core/types/ros_service.hpp"
 #include "core/types/wire.hpp"
+#include "tools/fulmar_ros2/messages.hpp"
 
 namespace fulmar::ros2 {
 namespace {
@@ -30,12 +31,10 @@ std::string last_of(const std::string& ros_name) { return ros_name.substr(ros_na
 void check_names(const core::Type& type) {
   static const std::regex field_name("[a-z]([a-z0-9]|_[a-z0-9])*"), type_name("[A-Z][A-Za-z0-9]*");
   const std::string name = last_of(core::ros_name(type));
-  if (!std::regex_match(name, type_name))
-    throw Error("'" + name + "' is no name of a ROS message: a capital letter, then letters and digits.");
+  if (!std::regex_match(name, type_name)) throw Error(ros2_messages::message_name_invalid(name));
   for (const core::Field& field : type.fields) {
     if (!std::regex_match(field.name, field_name))
-      throw Error(name + "." + field.name +
-                  " is no name of a field in ROS: lower-case letters, digits and single underscores.");
+      throw Error(ros2_messages::field_name_invalid(name, field.name));
   }
 }
 
@@ -100,7 +99,7 @@ void write(const fs::path& file, const std::string& content) {
   std::ofstream out(file, std::ios::binary);
   out << content;
   out.close();
-  if (!out) throw Error(file.string() + " cannot be written: " + std::strerror(errno));
+  if (!out) throw Error(ros2_messages::file_not_writable(file.string(), std::strerror(errno)));
 }
 
 /// Removes what an earlier run has written and this one does not. Only plain names below the folder are
@@ -131,8 +130,7 @@ void Collector::message(const core::TypePtr& type, const std::string& from) {
   const auto [known, fresh] = messages_.emplace(name, Known{type, from});
   if (!fresh) {
     if (core::ros_type_hash(*known->second.type) != core::ros_type_hash(*type))
-      throw Error("two different messages are called " + last_of(name) + ": one of " + known->second.from +
-                  " and one of " + from + ". Write a package for each.");
+      throw Error(ros2_messages::message_name_ambiguous(last_of(name), known->second.from, from));
     return;
   }
   check_names(*type);
@@ -185,16 +183,14 @@ Package Collector::package() const {
 void write_package(const Package& package, const fs::path& folder) {
   std::error_code code;
   if (fs::exists(folder, code)) {
-    if (!fs::is_directory(folder)) throw Error(folder.string() + " is there and is no folder.");
+    if (!fs::is_directory(folder)) throw Error(ros2_messages::folder_expected(folder.string()));
     const bool ours = fs::exists(folder / mark), empty = fs::is_empty(folder);
-    if (!ours && !empty)
-      throw Error(folder.string() +
-                  " holds something else; name a folder that is new, empty, or was written by this command.");
+    if (!ours && !empty) throw Error(ros2_messages::folder_in_use(folder.string()));
     if (ours) remove_old(folder, package);
   }
   for (const char* sub : {"msg", "srv"}) {
     fs::create_directories(folder / sub, code);
-    if (code) throw Error((folder / sub).string() + " cannot be made: " + code.message());
+    if (code) throw Error(ros2_messages::folder_not_creatable((folder / sub).string(), code.message()));
   }
   std::string list =
       "# Files that `fulmar ros2 interface-package` has written here and replaces or removes when it runs "

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/loader/file_sum.hpp"
+#include "tools/fulmar_save/messages.hpp"
 #include "tools/fulmar_save/named_params.hpp"
 
 namespace fulmar::core {
@@ -25,8 +26,8 @@ SavePlan plan_of(const json& request) {
   std::vector<std::string> names;
   for (const json& c : request.at("components")) names.push_back(c.at("name"));
   if (!component.empty() && std::find(names.begin(), names.end(), component) == names.end())
-    throw Error("there is no component '" + component + "'." + choices_text(component, names));
-  if (!std::filesystem::exists(file)) throw Error("the mission's file " + file + " is gone");
+    throw Error(save_messages::component_unknown(component, choices_text(component, names)));
+  if (!std::filesystem::exists(file)) throw Error(save_messages::mission_file_missing(file));
   check_mission_name(file, request.at("mission"));
   return plan_save(file, saved_params(request, component), flown_plugins(request));
 }
@@ -63,8 +64,7 @@ Answer answer_to(const json& request) {
   const std::string mark = request.at("mark");
   Answer answer;
   answer.mark = mark_of(plan);
-  if (!mark.empty() && mark != answer.mark)
-    throw Error("what would be written is not what was shown any more: look again");
+  if (!mark.empty() && mark != answer.mark) throw Error(save_messages::preview_outdated());
   if (!mark.empty()) return written(plan);
   answer.accepted = !plan.files.empty() || plan.refused.empty();
   for (const FileEdit& file : plan.files) answer.lines += diff_text(file);

@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/graph/yaml.hpp"
+#include "tools/fulmar_save/messages.hpp"
 
 namespace fulmar::core {
 namespace fs = std::filesystem;
@@ -64,14 +65,14 @@ std::string diff_text(const FileEdit& edit) {
 
 void write_edit(const FileEdit& edit) {
   if (read_source(edit.path, edit.path.string())->text != edit.before)
-    throw Error(edit.path.string() + " has changed meanwhile; nothing was written to it");
+    throw Error(save_messages::file_changed(edit.path.string()));
   std::error_code fault;
   const fs::path target = fs::canonical(edit.path, fault);
   const auto mode = static_cast<mode_t>(fs::status(target, fault).permissions());
   std::string fresh = (target.parent_path() / ("." + target.filename().string() + ".XXXXXX"))
                           .string();  // a name that no file has
   const auto failed = [&](int code) {
-    throw Error(edit.path.string() + " cannot be written: " + std::strerror(code));
+    throw Error(save_messages::file_not_writable(edit.path.string(), std::strerror(code)));
   };
   if (fault) failed(fault.value());
   if ((mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0) failed(EACCES);  // the administrator could

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "tools/fulmar_save/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -40,8 +41,7 @@ ParamInfo param_info(const json& param) {
   info.name = param.value("name", "");
   const std::string kind = param.value("kind", "");
   const auto known = kinds.find(kind);
-  if (known == kinds.end())
-    throw Error("the parameter '" + info.name + "' is of a kind that is not known here: '" + kind + "'");
+  if (known == kinds.end()) throw Error(save_messages::parameter_kind_unknown(info.name, kind));
   info.kind = known->second;
   info.unit = param.value("unit", "");
   info.doc = param.value("doc", "");

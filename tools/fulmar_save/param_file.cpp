@@ -14,6 +14,7 @@
 #include "core/graph/quantity.hpp"
 #include "core/graph/shipped.hpp"
 #include "core/graph/yaml.hpp"
+#include "tools/fulmar_save/messages.hpp"
 #include "tools/fulmar_save/yaml_edit.hpp"
 
 namespace fulmar::core {
@@ -249,14 +250,14 @@ class Saver {
 
   static std::string replaced(const std::string& text, const YamlPath& path, const SavedParam& p) {
     const std::optional<YamlSpan> span = find_value(text, path);
-    if (!span) throw Error("it is written in a form that is not changed here");
+    if (!span) throw Error(save_messages::value_form_unsupported());
     const std::string old = text.substr(span->begin, span->end - span->begin);
     using Form = YamlSpan::Form;
     if (span->form == Form::alias) return with_value(text, *span, new_text(p));
     if (p.info.kind != FULMAR_VECTOR) return with_value(text, *span, scalar_like(old, p));
     if (span->form == Form::map) return vector_keys(text, path, p);
     const std::vector<YamlSpan> items = list_items(text, *span);
-    if (items.size() != 3) throw Error("a list is changed only when it is written in brackets, [a, b, c]");
+    if (items.size() != 3) throw Error(save_messages::list_form_unsupported());
     std::string changed = text;
     for (std::size_t i = 3; i-- > 0;) {
       const std::string item = text.substr(items[i].begin, items[i].end - items[i].begin);
@@ -315,7 +316,7 @@ class Saver {
                                  const SavedParam& p) const {
     const Node root = parsed(after, "");
     const Node* node = at_path(root, where.path);
-    if (!node || !says(p, *node)) throw Error("the file would not say that");
+    if (!node || !says(p, *node)) throw Error(save_messages::change_not_effective());
     std::map<std::string, std::string> old, now;
     flatten(parsed(before, ""), "", old);
     flatten(root, "", now);
@@ -332,7 +333,7 @@ class Saver {
       }
       std::string words = path.substr(1);
       std::replace(words.begin(), words.end(), '\n', '.');
-      throw Error("the same text also gives " + words);
+      throw Error(save_messages::text_shared(words));
     }
     return also;
   }
@@ -358,8 +359,7 @@ SavePlan plan_save(const fs::path& mission, const std::vector<SavedParam>& param
 void check_mission_name(const std::string& file, const std::string& flies) {
   Report report;  // faults are told when it is written
   const std::string name = parse_mission(file, {}, report).mission;
-  if (name != flies)
-    throw Error(file + " is the mission '" + name + "', but '" + flies + "' flies: nothing was written");
+  if (name != flies) throw Error(save_messages::mission_name_mismatch(file, name, flies));
 }
 
 }  // namespace fulmar::core

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "tools/fulmar_save/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -24,7 +25,7 @@ YAML::Node load(std::string text) {
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& fault) {
-    throw Error("line " + std::to_string(fault.mark.line + 1) + ": not valid YAML: " + fault.msg);
+    throw Error(save_messages::yaml_invalid(fault.mark.line + 1, fault.msg));
   }
 }
 
@@ -86,7 +87,7 @@ std::size_t end_of_flow(const std::string& text, std::size_t at) {
       if (depth == 0) return at;
     }
   }
-  throw Error("a bracket is not closed");
+  throw Error(save_messages::bracket_unclosed());
 }
 
 /// The value that begins at or behind `at`; its anchor and tag are passed over.
@@ -114,7 +115,7 @@ std::size_t after_key(const std::string& text, const YAML::Mark& mark) {
   }
   at = at < text.size() && (text[at] == '"' || text[at] == '\'') ? end_of_quoted(text, at)
                                                                  : text.find(':', at);
-  if (at == std::string::npos) throw Error("a key without a value");
+  if (at == std::string::npos) throw Error(save_messages::key_without_value());
   return text.find(':', at) + 1;
 }
 
@@ -236,7 +237,7 @@ std::string with_value(const std::string& text, const YamlSpan& span, const std:
 std::string with_entry(const std::string& text, const YamlPath& path, const std::string& value) {
   const YAML::Node root = load(text);
   const Found found = walk(root, path);
-  if (found.depth >= path.size()) throw Error(path.back() + " is there already");
+  if (found.depth >= path.size()) throw Error(save_messages::entry_exists(path.back()));
   std::string rest = value;
   for (std::size_t i = path.size() - 1; i > found.depth; --i) rest = "{" + path[i] + ": " + rest + "}";
   const std::string entry = path[found.depth] + ": " + rest;
@@ -247,11 +248,11 @@ std::string with_entry(const std::string& text, const YamlPath& path, const std:
     return text.substr(0, at) + " {" + entry + "}" + text.substr(at);
   }
   if (!found.node.IsMap())
-    throw Error((at_root ? std::string("the file") : path[found.depth - 1]) + " is no map");
+    throw Error(save_messages::map_expected(at_root ? std::string("the file") : path[found.depth - 1]));
   const std::optional<YamlSpan> span = value_at(text, at_root ? 0 : after_key(text, found.key), found.flow);
   if (span && span->form == YamlSpan::Form::alias)
-    throw Error("'" + path[found.depth - 1] + "' is " + text.substr(span->begin, span->end - span->begin) +
-                ", which stands elsewhere");
+    throw Error(save_messages::map_is_alias(path[found.depth - 1],
+                                            text.substr(span->begin, span->end - span->begin)));
   if (span && span->form == YamlSpan::Form::map) return into_flow(text, *span, entry);
   return into_block(text, found.node, entry);
 }

@@ -3,6 +3,7 @@
 
 #include "core/types/cdr_bytes.hpp"
 #include "core/types/text.hpp"
+#include "tools/log_reading/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -36,7 +37,7 @@ struct Lister {
         else if (list.size() < most)
           list.push_back({name, value(f)});
         else
-          throw Error("a message has more than " + std::to_string(most) + " values");
+          throw Error(reading_messages::too_many_values(most));
       }
     }
   }

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "tools/log_reading/messages.hpp"
 
 namespace fulmar::core {
 
@@ -16,14 +17,17 @@ namespace fs = std::filesystem;
 
 void check_log_file(const std::string& file) {
   std::error_code fault;
-  const auto refuse = [&](const std::string& why) { throw Error("cannot read '" + file + "': " + why); };
+  const auto refuse = [&](const Diagnostic& why) {
+    throw Error(reading_messages::file_not_readable(file, why));
+  };
   const fs::file_status status = fs::status(file, fault);
   if (!fs::exists(status))
-    refuse(status.type() == fs::file_type::not_found ? "there is no such file" : fault.message());
-  if (fs::is_directory(status)) refuse("it is a directory");
-  if (!fs::is_regular_file(status)) refuse("it is no file");
+    refuse(status.type() == fs::file_type::not_found ? reading_messages::file_missing()
+                                                     : Diagnostic(fault.message()));
+  if (fs::is_directory(status)) refuse(reading_messages::file_is_directory());
+  if (!fs::is_regular_file(status)) refuse(reading_messages::file_not_regular());
   if (access(file.c_str(), R_OK) != 0) refuse(std::strerror(errno));
-  if (fs::file_size(file, fault) == 0) refuse("it is empty");
+  if (fs::file_size(file, fault) == 0) refuse(reading_messages::file_empty());
 }
 
 std::uint64_t log_epoch_ns(const McapFile& log, std::uint64_t first_ns) {

@@ -12,6 +12,7 @@
 #include "core/types/wire.hpp"
 #include "tools/log_reading/cdr_values.hpp"
 #include "tools/log_reading/log_file.hpp"
+#include "tools/log_reading/messages.hpp"
 #include "tools/log_reading/ros_parse.hpp"
 
 namespace fulmar::core {
@@ -79,8 +80,7 @@ struct Side {
       const std::string& topic = stream.log().channels.at(ahead->channel).topic;
       channels.try_emplace(topic, ahead->channel);
       if ((taken += ahead->data.size() + sizeof(Stored)) > max_at_once)
-        throw Error("the log has more than " + std::to_string(max_at_once >> 20) +
-                    " MB of messages at one time");
+        throw Error(reading_messages::messages_too_large(max_at_once >> 20));
       if (now[topic].empty()) order.push_back(topic);
       now[topic].push_back({bytes.size(), ahead->data.size(), ahead->publish_ns});
       bytes.insert(bytes.end(), ahead->data.begin(), ahead->data.end());

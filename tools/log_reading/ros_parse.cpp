@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/types/element.hpp"
 #include "core/types/text.hpp"
+#include "tools/log_reading/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -83,10 +84,10 @@ class Parser {
   TypePtr type(const std::string& name, int depth) {
     const auto known = types_.find(name);
     const int inside = known == types_.end() ? 0 : levels_.at(known->second.get());
-    if (depth + inside > deepest) throw Error(name + " is nested too deeply, or holds itself");
+    if (depth + inside > deepest) throw Error(reading_messages::type_nesting_invalid(name));
     if (known != types_.end()) return known->second;
     const auto section = sections_.find(name);
-    if (section == sections_.end()) throw Error("the definition of " + name + " is missing");
+    if (section == sections_.end()) throw Error(reading_messages::type_definition_missing(name));
     Type made;
     made.name = name.substr(name.rfind('/') + 1);
     if (package_of(name) != "fulmar_msgs") made.ros = name;
@@ -105,8 +106,8 @@ class Parser {
   }
 
  private:
-  [[noreturn]] static void fail(const std::string& name, const std::string& line, const std::string& why) {
-    throw Error(name + ": '" + std::string(trimmed(line)) + "': " + why);
+  [[noreturn]] static void fail(const std::string& name, const std::string& line, const Diagnostic& why) {
+    throw Error(located(name, reading_messages::line_fault(trimmed(line), why)));
   }
 
   void read_line(const std::string& line, const std::string& name, int depth, Type& made, std::uint64_t& end,
@@ -121,14 +122,14 @@ class Parser {
     }
     Field field;
     field.name = std::string(take_word(words));  // what may follow is a default value
-    if (field.name.empty()) fail(name, line, "a field needs a type and a name");
-    if (field.name.size() > max_name) fail(name, line, "the name is too long");
-    if (++fields_ > max_fields) fail(name, line, "too many fields");
+    if (field.name.empty()) fail(name, line, reading_messages::field_incomplete());
+    if (field.name.size() > max_name) fail(name, line, reading_messages::field_name_too_long());
+    if (++fields_ > max_fields) fail(name, line, reading_messages::too_many_fields());
     const std::string note(hash == std::string::npos ? "" : trimmed(std::string_view(line).substr(hash + 1)));
     std::string_view element = type_word;
-    if (!shape(element, field)) fail(name, line, "a list's length cannot be read");
+    if (!shape(element, field)) fail(name, line, reading_messages::list_length_invalid());
     if (!kind(element, name, note, depth, field))
-      fail(name, line, "the type " + std::string(element) + " is not known here");
+      fail(name, line, reading_messages::field_type_unknown(element));
     if (primitive_size(field.kind) > 0 && !is_real(field.kind)) take_constants(constants, field);
     constants.clear();
     if (laid_out_) place(field, name, made, end);
@@ -230,8 +231,7 @@ class Parser {
     field.offset = align_up(end, align);
     field.items = list ? align_up(4, own) : 0;
     end = std::uint64_t{field.offset} + field.items + std::uint64_t{field.count} * field.stride;
-    if (end > largest_struct)
-      throw Error(name + " is too large: '" + field.name + "' ends at " + std::to_string(end) + " bytes");
+    if (end > largest_struct) throw Error(reading_messages::type_too_large(name, field.name, end));
     made.align = std::max(made.align, align);
   }
 
@@ -247,8 +247,7 @@ class Parser {
 }  // namespace
 
 TypePtr parse_ros_definition(const std::string& name, const std::string& text) {
-  if (name.find('/') == std::string::npos)
-    throw Error("'" + name + "' is no ROS message type, which has the form package/msg/Name");
+  if (name.find('/') == std::string::npos) throw Error(reading_messages::type_name_invalid(name));
   return Parser(name, text, true).type(full_name(name, ""), 0);
 }
 

@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/isolate/child/fork.hpp"
 #include "core/isolate/child/heap.hpp"
+#include "core/isolate/messages.hpp"
 #include "core/loader/float_mode.hpp"
 #include "core/loader/library.hpp"
 #include "core/loader/script.hpp"
@@ -32,8 +33,7 @@ class Session {
 
   /// Loads the plugin and creates the component. Throws Error.
   void open(const Order& order) {
-    if (control().set_up.version != shared_version)
-      throw Error("fulmar-child is of another version than the host");
+    if (control().set_up.version != shared_version) throw Error(isolate_messages::child_version_differs());
     load(order);
     check(read_entry(*plugin_, order.file).components, order);
     const TableReader tables;
@@ -46,7 +46,8 @@ class Session {
     instance_ = functions_.create(order.seed, &error);
     if (!original_mark.is_set()) end_copy();
     error.text[sizeof error.text - 1] = '\0';
-    if (!instance_) throw Error(error.text[0] ? error.text : "the constructor failed");
+    if (!instance_)
+      throw Error(error.text[0] ? Diagnostic(error.text) : isolate_messages::constructor_failed());
     control().stage = Stage::running;
   }
 
@@ -111,7 +112,7 @@ class Session {
     plugin_ = &library.entry(order.file);
     if (!*order.script) return;
     if (plugin_->abi_major != FULMAR_ABI_MAJOR)
-      throw Error(std::string(order.file) + ": its host is of another ABI");
+      throw Error(located(std::string(order.file), isolate_messages::host_abi_differs()));
     script_ = std::make_unique<Script>(*plugin_, order.path, read_script(order.script));
     plugin_ = &script_->entry();
   }
@@ -120,14 +121,12 @@ class Session {
   void check(const std::vector<ComponentInfo>& components, const Order& order) {
     const std::string wanted = control().set_up.component;
     if (order.index >= components.size() || components[order.index].name != wanted)
-      throw Error(std::string(order.file) + " has no component '" + wanted + "' in place " +
-                  std::to_string(order.index) + " any more: its copy has changed");
+      throw Error(isolate_messages::component_moved(order.file, wanted, order.index));
     info_ = components[order.index];
     layout_.emplace_back(info_);
     if (layout_[0].signature != control().set_up.signature ||
         layout_[0].size != control().set_up.layout_size || layout_[0].size > size_)
-      throw Error(std::string(order.file) + ": the ports or parameters of '" + wanted +
-                  "' are not those that the host knows");
+      throw Error(located(std::string(order.file), isolate_messages::tables_differ(wanted)));
   }
 
   void build() {
@@ -214,7 +213,7 @@ class Session {
     if (size > 0)
       window = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, shared_descriptor,
                       static_cast<off_t>(layout_[0].size));
-    if (window == MAP_FAILED) throw Error(std::string("cannot read the parameters: ") + std::strerror(errno));
+    if (window == MAP_FAILED) throw Error(isolate_messages::parameters_not_readable(std::strerror(errno)));
     const std::byte* from = static_cast<const std::byte*>(window);
     std::vector<std::string> texts(values_.size());
     std::vector<std::vector<std::byte>> data(values_.size());

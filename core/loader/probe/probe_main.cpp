@@ -21,6 +21,7 @@
 #include "core/loader/crash_signal.hpp"
 #include "core/loader/float_mode.hpp"
 #include "core/loader/library.hpp"
+#include "core/loader/messages.hpp"
 #include "core/loader/probe_report.hpp"
 #include "core/loader/script.hpp"
 #include "core/loader/shared_object.hpp"
@@ -66,8 +67,7 @@ int try_script(const char* host, const char* copy, const char* file, const std::
   const Script script(library.entry(script_host(file)), file, read_script(copy));
   say(report_loaded);
   read_entry(script.entry(), name);
-  if (!(FloatMode::now() == before))
-    return refuse(name + " changes the floating-point mode when it is loaded");
+  if (!(FloatMode::now() == before)) return refuse(fulmar::loader_messages::script_changes_float_mode(name));
   say(report_read);
   say(report_good);
   return 0;
@@ -80,8 +80,7 @@ int try_plugin(const char* copy, const std::string& name) {
   const bool same_mode = FloatMode::now() == before;
   say(report_loaded);
   read_entry(library.entry(name), name);
-  if (!same_mode)
-    return refuse(name + " changes the floating-point mode when it is loaded (built with -ffast-math?)");
+  if (!same_mode) return refuse(fulmar::loader_messages::plugin_changes_float_mode(name));
   say(report_read);
   library.unload();
   if (is_mapped(copy)) say(report_stays);
@@ -177,7 +176,7 @@ int main(int argc, char** argv) {
   std::signal(SIGTERM, end_it);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   const pid_t guard = ::getpid(), child = ::fork();
-  if (child < 0) return refuse(std::string(argv[2]) + " cannot be tried: " + std::strerror(errno));
+  if (child < 0) return refuse(fulmar::loader_messages::probe_not_started(argv[2], std::strerror(errno)));
   if (child > 0) return watch_over(child);
   std::signal(SIGTERM, SIG_DFL);
   const int code = try_it_here(argc, argv, guard);

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/graph/params.hpp"
+#include "core/run/messages.hpp"
 #include "core/types/named.hpp"
 
 namespace fulmar::core {
@@ -15,9 +16,7 @@ namespace {
 /// A field of the log's, whole.
 template <std::size_t N>
 void put_whole(std::array<char, N>& to, const std::string& text, const char* what) {
-  if (text.size() >= N)
-    throw Error(std::string(what) + " '" + text + "' is longer than " + std::to_string(N - 1) +
-                " characters");
+  if (text.size() >= N) throw Error(run_messages::text_too_long(what, text, N - 1));
   put(to, text);
 }
 
@@ -60,8 +59,8 @@ ParamValue value_of(const CommandNote& note, const ParamInfo& info) {
     const std::string word = note.text.data();
     const auto choice = std::find(info.choices.begin(), info.choices.end(), word);
     if (choice == info.choices.end())
-      throw Error(std::string(note.component.data()) + "." + info.name + ": unknown word '" + word + "'." +
-                  choices_text(word, info.choices));
+      throw Error(run_messages::choice_unknown(note.component.data(), info.name, word,
+                                               choices_text(word, info.choices)));
     value.integer = choice - info.choices.begin();
   }
   if (is_whole(info)) value.number[0] = static_cast<double>(value.integer);
@@ -70,7 +69,7 @@ ParamValue value_of(const CommandNote& note, const ParamInfo& info) {
 
 void check_live(const std::string& component, const ParamInfo& info) {
   if (!info.live || info.kind == FULMAR_RECORD || info.kind == FULMAR_BLOB)
-    throw Error(component + "." + info.name + " is a set-up parameter: it cannot change in flight");
+    throw Error(run_messages::parameter_not_live(component, info.name));
 }
 
 CommandTable::CommandTable(const Graph& graph) {
@@ -88,7 +87,9 @@ CommandTable::CommandTable(const Graph& graph) {
 }
 
 std::size_t CommandTable::component(const std::string& name) const {
-  return static_cast<std::size_t>(require_named(parties_, name, "there is no component"));
+  const int at = index_named(parties_, name);
+  if (at < 0) throw Error(no_such("component", name, parties_));
+  return static_cast<std::size_t>(at);
 }
 
 std::size_t CommandTable::param(std::size_t component, const std::string& name) const {
@@ -96,7 +97,7 @@ std::size_t CommandTable::param(std::size_t component, const std::string& name) 
   if (const ParamPath at = param_path(*party.info, name); !at.field.empty())
     check_live(party.name, nth(party.info->params, at.param));
   return static_cast<std::size_t>(
-      require_named(party.info->params, name, "'" + party.name + "' has no parameter"));
+      require_named(party.info->params, name, "'" + party.name + "'", "parameter"));
 }
 
 const CommandTable::Entrance& CommandTable::entrance(std::size_t component, const std::string& port,
@@ -107,14 +108,14 @@ const CommandTable::Entrance& CommandTable::entrance(std::size_t component, cons
     names.push_back(e.port);
     if (e.port == port) return e;
   }
-  throw Error("'" + parties_[component].name + "' takes no " +
-              (imported ? "imported samples for" : "request") + " '" + port + "'." +
-              choices_text(port, names));
+  throw Error(run_messages::entrance_unknown(parties_[component].name,
+                                             imported ? "imported samples for" : "request", port,
+                                             choices_text(port, names)));
 }
 
 std::size_t CommandTable::phase(const std::string& name) const {
   const auto at = std::find(phases_.begin(), phases_.end(), name);
-  if (at == phases_.end()) throw Error("there is no phase '" + name + "'." + choices_text(name, phases_));
+  if (at == phases_.end()) throw Error(run_messages::phase_unknown(name, choices_text(name, phases_)));
   return static_cast<std::size_t>(at - phases_.begin());
 }
 
@@ -125,8 +126,7 @@ void CommandTable::prepare_parameter(Command& c) const {
   const bool ranged = info.kind == FULMAR_NUMBER || info.kind == FULMAR_COUNT;
   const double number = info.kind == FULMAR_NUMBER ? c.value.number[0] : static_cast<double>(c.value.integer);
   if (ranged && !(number >= info.min && number <= info.max))
-    throw Error(c.component + "." + c.name + ": " + std::to_string(number) + " is outside " +
-                std::to_string(info.min) + " .. " + std::to_string(info.max));
+    throw Error(run_messages::value_out_of_range(c.component, c.name, number, info.min, info.max));
   if (is_whole(info)) c.value.number[0] = number;
   std::copy(std::begin(c.value.number), std::end(c.value.number), c.note.number.begin());
   c.note.integer = c.value.integer;
@@ -137,10 +137,9 @@ void CommandTable::prepare_message(Command& c) const {
   const Entrance& e = entrance(c.at, c.name, c.kind == CommandKind::import);
   c.part = e.import >= 0 ? static_cast<std::size_t>(e.import) : e.input;
   if (c.message.size() != e.type->size)
-    throw Error(c.component + "." + c.name + ": " + std::to_string(c.message.size()) + " bytes are no " +
-                e.type->name);
+    throw Error(run_messages::message_size_invalid(c.component, c.name, c.message.size(), e.type->name));
   if (!e.guard->check(c.message.data()))
-    throw Error(c.component + "." + c.name + ": " + e.guard->explain(c.message.data()));
+    throw Error(located(c.component + "." + c.name, e.guard->explain(c.message.data())));
 }
 
 void CommandTable::prepare(Command& c) const {

@@ -6,6 +6,7 @@
 
 #include "core/graph/params.hpp"
 #include "core/loader/probe.hpp"
+#include "core/run/messages.hpp"
 #include "core/run/state/published.hpp"
 #include "core/types/named.hpp"
 
@@ -61,8 +62,7 @@ void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& 
         now.kind == FULMAR_NUMBER ? values[i].number[0] : static_cast<double>(values[i].integer);
     const bool ranged = now.kind == FULMAR_NUMBER || now.kind == FULMAR_COUNT;
     if (ranged && !(number >= now.min && number <= now.max))
-      throw Error("its parameter '" + now.name + "' does not allow the present value " +
-                  value_text(old, values[i]));
+      throw Error(run_messages::value_not_carried(now.name, value_text(old, values[i])));
     nth(into, k) = values[i];
   }
 }
@@ -83,8 +83,8 @@ std::string structural_difference(const Graph& now, const Graph& next) {
     return "other roles";
   if (differs(now.phases, next.phases, [](const Phase& a, const Phase& b) { return a.name == b.name; }))
     return "other phases";
-  if (now.order != next.order) return "another order of steps";
-  if (now.tick_ns != next.tick_ns || now.io != next.io) return "another rate or io";
+  if (now.order != next.order) return run_messages::step_order_differs().line();
+  if (now.tick_ns != next.tick_ns || now.io != next.io) return run_messages::rate_or_io_differs().line();
   const auto same_import = [](const auto& a, const auto& b) {
     return a.component == b.component && a.input == b.input && a.topic == b.topic;
   };
@@ -94,10 +94,7 @@ std::string structural_difference(const Graph& now, const Graph& next) {
 
 void check_unloads(const PluginInfo& was, const ComponentInfo& component) {
   if (component.resident || !was.script.empty() || !stays_mapped(was.copy)) return;
-  throw Error(was.file +
-              " cannot be unloaded (a unique symbol or a thread-local destructor keeps it): the new file "
-              "would fly its code. "
-              "Restart the host");
+  throw Error(run_messages::plugin_not_unloaded(was.file));
 }
 
 bool same_inputs(const ComponentInfo& a, const ComponentInfo& b) {

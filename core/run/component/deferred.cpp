@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/run/component/running_code.hpp"
+#include "core/run/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -43,7 +44,7 @@ bool AsyncRunner::retune(const std::vector<fulmar_value>& values, fulmar_error& 
   if (!functions_.retune) return true;
   Async::Job* const j = job(Async::Job::Call::retune, 0);
   if (!j) {
-    put_problem(problem, "has too many calls on their way");
+    put_problem(problem, run_messages::too_many_calls);
     return false;
   }
   j->values = values;
@@ -57,7 +58,7 @@ bool AsyncRunner::activate(const fulmar_tick& tick, const std::vector<fulmar_inp
   if (!functions_.activate) return true;
   Async::Job* const j = job(Async::Job::Call::activate, tick.now_ns);
   if (!j) {
-    put_problem(problem, "has too many calls on their way");
+    put_problem(problem, run_messages::too_many_calls);
     return false;
   }
   j->tick = tick;
@@ -188,7 +189,7 @@ StepResult Arrivals::collect(std::int64_t now_ns, Outlets& out, fulmar_error& pr
     return StepResult::stepped;
   }
   if (source_->fault()[0] == '\0') return StepResult::not_due;
-  put_problem(problem, "%s", source_->fault());
+  put_problem(problem, source_->fault());
   return StepResult::bad;
 }
 
@@ -198,7 +199,7 @@ DriverRunner::DriverRunner(const Component& component, std::uint64_t seed, Compo
 
 bool DriverRunner::retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept {
   if (!functions_.retune || !arrivals_.started()) return Direct::retune(values, problem);
-  put_problem(problem, "is a driver: its parameters are fixed in flight");
+  put_problem(problem, run_messages::driver_parameters_fixed);
   return false;
 }
 

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "core/run/messages.hpp"
+
 namespace fulmar::core {
 
 void Reader::push(const std::byte* message, std::int64_t valid_at_ns, const CopyPlan& plan) noexcept {
@@ -100,11 +102,10 @@ void report_stale(const Reader& r, std::int64_t now_ns, const fulmar_input& in,
                   fulmar_error& problem) noexcept {
   const char* const input = r.port->name.c_str();
   if (writer_lost(r))
-    return put_problem(problem, "input '%s' comes from %s, which was stopped", input,
-                       r.writer()->component->name.c_str());
-  put_problem(problem, "input '%s' is %.3f s old, the limit is %.3f s", input,
-              1e-9 * static_cast<double>(judged_age_ns(r, now_ns, in.age_ns)),
-              1e-9 * static_cast<double>(r.wire->max_age_ns));
+    return put_problem(problem, run_messages::input_of_stopped, input, r.writer()->component->name);
+  put_problem(problem, run_messages::input_too_old, input,
+              Fixed{1e-9 * static_cast<double>(judged_age_ns(r, now_ns, in.age_ns)), 3},
+              Fixed{1e-9 * static_cast<double>(r.wire->max_age_ns), 3});
 }
 
 }  // namespace
@@ -155,7 +156,7 @@ bool Intake::ready() const noexcept {
 
 void Intake::report_missing(fulmar_error& problem) const noexcept {
   for (const Reader& r : readers)
-    if (lacks_sample(r)) put_problem(problem, "input '%s' has no sample", r.port->name.c_str());
+    if (lacks_sample(r)) put_problem(problem, run_messages::input_empty, r.port->name);
 }
 
 Intake::State Intake::prepare(std::int64_t now_ns, fulmar_error& problem) noexcept {
@@ -266,7 +267,7 @@ bool probe_good(const Slot& s, const fulmar_output& out, fulmar_error& problem) 
   double value = 0;
   std::memcpy(&value, s.staging.data(), sizeof value);
   if (out.count == 0 || std::isfinite(value)) return true;
-  put_problem(problem, "probe '%s' is not finite", s.port->name.c_str());
+  put_problem(problem, run_messages::probe_not_finite, s.port->name);
   return false;
 }
 
@@ -290,8 +291,9 @@ bool times_good(Slot& s, fulmar_output& out, std::int64_t now_ns, fulmar_error& 
   for (std::uint32_t k = 0; k < count; ++k) {
     std::int64_t& valid_at_ns = queue ? s.stamps[k] : out.valid_at_ns;
     if (well_dated(valid_at_ns, now_ns, ahead_ns)) continue;
-    put_problem(problem, "output '%s' is dated %.3f s, now is %.3f s", s.port->name.c_str(),
-                1e-9 * static_cast<double>(valid_at_ns), 1e-9 * static_cast<double>(now_ns));
+    put_problem(problem, run_messages::output_date_wrong, s.port->name,
+                Fixed{1e-9 * static_cast<double>(valid_at_ns), 3},
+                Fixed{1e-9 * static_cast<double>(now_ns), 3});
     return false;
   }
   return true;
@@ -300,8 +302,7 @@ bool times_good(Slot& s, fulmar_output& out, std::int64_t now_ns, fulmar_error& 
 bool messages_good(Slot& s, const fulmar_output& out, fulmar_error& problem) noexcept {
   const std::uint32_t count = s.port->kind == FULMAR_OUT_VALUE ? 1 : out.count;
   if (count > s.port->capacity) {
-    put_problem(problem, "output '%s' holds %u items, there is room for %u", s.port->name.c_str(), count,
-                s.port->capacity);
+    put_problem(problem, run_messages::output_too_long, s.port->name, count, s.port->capacity);
     return false;
   }
   for (std::uint32_t k = 0; k < count; ++k) {

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
+#include <string_view>
+
 #include "fulmar/abi.h"
+#include "fulmar/diagnostic.hpp"
 
 namespace fulmar::core {
 
-/// Writes a formatted sentence, cut to the room of `problem`.
-[[gnu::format(printf, 2, 3)]] void put_problem(fulmar_error& problem, const char* format, ...) noexcept;
+/// Writes a message, cut to the room of `problem`. [tick]
+void put_problem(fulmar_error& problem, std::string_view text) noexcept;
+template <std::size_t N, class... Values>
+void put_problem(fulmar_error& problem, const MessageText<N>& text, const Values&... values) noexcept {
+  text.write(problem.text, sizeof problem.text, values...);
+}
 
 }  // namespace fulmar::core

@@ -38,9 +38,9 @@ void end_forked_copy() noexcept {
 std::uint32_t put_right(fulmar_error& problem) noexcept {
   if (!plain_arithmetic()) {
     make_arithmetic_plain();
-    put_problem(problem, "%s", changed_arithmetic);
+    put_problem(problem, changed_arithmetic);
   } else {
-    put_problem(problem, "calls %s in flight; %s", refused_call, refused_since);
+    put_problem(problem, run_messages::call_refused, refused_call, refused_since);
   }
   refused_call = nullptr;
   return FULMAR_FAILED;
@@ -72,7 +72,7 @@ bool refuse(const char* call, bool changes = true, const char* since = shared) n
 }
 
 bool refuse_process(const char* call) noexcept {
-  return refuses_processes && refuse(call, true, "the loop would wait for it");
+  return refuses_processes && refuse(call, true, run_messages::loop_would_wait.c_str());
 }
 
 bool refuse_fork(const char* call) noexcept { return refuse(call, true, copy_would_fly); }
@@ -87,6 +87,7 @@ Function behind(const char* name) noexcept {
 
 using fulmar::core::refuse_fork;
 #include "core/fork_hooks.hpp"
+#include "core/run/messages.hpp"
 
 using fulmar::core::behind;
 using fulmar::core::refuse;

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/run/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -28,12 +29,7 @@ rlim_t limit_of(auto resource) {
 [[noreturn]] void refuse(int priority, const std::string& what, int fault) {
   std::error_code none;
   const std::string self = std::filesystem::read_symlink("/proc/self/exe", none).string();
-  throw Error(
-      "--realtime: fulmar is not permitted " + what + ": " + std::strerror(fault) +
-      "; allow it by one of: two lines in /etc/security/limits.d/fulmar.conf, '@dialout - rtprio " +
-      std::to_string(priority) +
-      "' and '@dialout - memlock unlimited', and a new login; or 'sudo setcap cap_sys_nice,cap_ipc_lock+ep " +
-      self + "'; or the systemd unit fulmar@.service, whose limits allow it");
+  throw Error(run_messages::realtime_not_permitted(what, std::strerror(fault), priority, self));
 }
 
 /// The stack grows by page faults; a tick is to have none.

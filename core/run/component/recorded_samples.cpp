@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "core/run/messages.hpp"
 #include "core/types/wire.hpp"
 
 namespace fulmar::core {
@@ -25,7 +26,7 @@ SampleTrack::SampleTrack(const McapFile& log, const ComponentInfo& info,
     if (topics[i].empty()) continue;
     const std::uint16_t channel = log.channel(topics[i]);
     if (log.schemas.at(log.channels.at(channel).schema).text != ros_definition(*types_[i]))
-      throw Error(topics[i] + " has other fields than " + name_ + "." + info.outputs[i].name);
+      throw Error(run_messages::topic_fields_differ(topics[i], name_, info.outputs[i].name));
     outputs_[channel] = static_cast<std::uint32_t>(i);
   }
   if (!probes.empty()) outputs_[log.channel(probes)] = all_probes;
@@ -72,7 +73,7 @@ void SampleTrack::add_probes(const McapFile::Message& m) {
   bool any = false;
   for (std::uint32_t i = 0; i < types_.size(); ++i) {
     if (types_[i]) continue;
-    if (8 * k + 8 > values.size()) throw Error("the log has other probes of " + name_);
+    if (8 * k + 8 > values.size()) throw Error(run_messages::recorded_probes_differ(name_));
     if (k == 0) first = i;
     if (std::memcmp(values.data() + 8 * k, probes_.data() + 8 * k, 8) != 0) {
       changed = i;
@@ -114,8 +115,7 @@ RecordedSamples::RecordedSamples(const std::filesystem::path& log, const Compone
   track_ = std::make_shared<SampleTrack>(whole.log(), info, topics, probes, epoch_ns);
   for (const auto& [channel, output] : track_->outputs())
     if (late.contains(channel))
-      throw Error("'" + log.string() + "' has samples of " + whole.log().channels.at(channel).topic +
-                  " that are not in the order of time");
+      throw Error(run_messages::samples_unordered(log.string(), whole.log().channels.at(channel).topic));
   stream_ = std::make_unique<McapStream>(log);
 }
 

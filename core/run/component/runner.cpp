@@ -6,11 +6,12 @@
 #include "core/error.hpp"
 #include "core/run/component/process_state.hpp"
 #include "core/run/component/realtime.hpp"
+#include "core/run/messages.hpp"
 
 namespace fulmar::core {
 
 void put_if_silent(fulmar_error& problem, const char* text) noexcept {
-  if (problem.text[0] == '\0') put_problem(problem, "%s", text);
+  if (problem.text[0] == '\0') put_problem(problem, text);
 }
 
 namespace {
@@ -21,9 +22,9 @@ void* create_instance(const Component& c, const fulmar_component& functions, std
   void* const instance = functions.create(seed, &problem);
   if (judge(FULMAR_OK, problem) != FULMAR_OK && instance) {
     functions.destroy(instance);
-    throw Error(c.where.text() + ": " + c.name + ": its constructor " + problem.text);
+    throw Error(located(c.where, run_messages::constructor_failed(c.name, problem.text)));
   }
-  if (!instance) throw Error(c.where.text() + ": " + c.name + ": cannot be created: " + problem.text);
+  if (!instance) throw Error(located(c.where, run_messages::component_not_created(c.name, problem.text)));
   return instance;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/graph/places.hpp"
 #include "core/run/component/last_frame.hpp"
+#include "core/run/messages.hpp"
 #include "core/types/named.hpp"
 
 namespace fulmar::core {
@@ -48,9 +49,9 @@ void Unit::configure() {
   fill_values(nullptr, true);
   problem.text[0] = '\0';
   if (runner_->configure(arguments_.values.data(), problem) != FULMAR_FAILED) return;
-  const std::string why = problem.text[0] ? problem.text : "refuses its parameters";
-  throw Error(place_in(*component, why).value_or(component->where).text() + ": " + component->name + ": " +
-              why);
+  const Diagnostic why = problem.text[0] ? Diagnostic(problem.text) : run_messages::parameters_refused();
+  throw Error(
+      located(place_in(*component, why.text).value_or(component->where), located(component->name, why)));
 }
 
 std::unique_ptr<Tape> Unit::present_inputs(std::int64_t now_ns, std::uint64_t index) {
@@ -86,7 +87,7 @@ void Unit::prepare_last_frame(const std::vector<std::vector<std::byte>>& failsaf
   problem.text[0] = '\0';
   const fulmar_last_frame* const frame = runner_->last_frame(inputs.data(), problem);
   if (!frame && problem.text[0])
-    throw Error(component->where.text() + ": " + component->name + ": " + problem.text);
+    throw Error(located(component->where, located(component->name, Diagnostic(problem.text))));
   if (frame) last_frame.store(frame, std::memory_order_release);
 }
 
@@ -139,8 +140,8 @@ inline void Unit::stepped(std::int64_t now_ns) noexcept {
 inline bool Unit::heap_good() noexcept {
   const std::int64_t growth = runner_->heap().bytes;
   if (growth <= static_cast<std::int64_t>(component->memory_bytes)) return true;
-  put_problem(problem, "its heap has grown by %.0f MB in flight; %.0f MB are allowed",
-              1e-6 * static_cast<double>(growth), 1e-6 * static_cast<double>(component->memory_bytes));
+  put_problem(problem, run_messages::heap_too_large, Fixed{1e-6 * static_cast<double>(growth), 0},
+              Fixed{1e-6 * static_cast<double>(component->memory_bytes), 0});
   return false;
 }
 
@@ -187,8 +188,7 @@ StepResult Unit::read(std::int64_t& now_ns, std::uint64_t index) noexcept {
     return StepResult::bad;
   }
   if (index > 0 && t.now_ns <= now_ns) {
-    put_problem(problem, "time went from %lld to %lld ns", static_cast<long long>(now_ns),
-                static_cast<long long>(t.now_ns));
+    put_problem(problem, run_messages::time_not_monotonic, now_ns, t.now_ns);
     return StepResult::bad;
   }
   now_ns = t.now_ns;

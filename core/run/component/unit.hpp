@@ -68,7 +68,7 @@ class Unit : public Publisher {
   void prepare_last_frame(const std::vector<std::vector<std::byte>>& failsafe);
 
   Runner& runner() const noexcept { return *runner_; }
-  void fail(const char* text) noexcept { put_problem(problem, "%s", text); }
+  void fail(const char* text) noexcept { put_problem(problem, text); }
 
   Intake in;
   Outlets out;

@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include "core/run/messages.hpp"
+
 namespace fulmar::core {
 namespace {
 
@@ -49,7 +51,7 @@ void FlightEnd::carry_out(Ending::Act act) {
     case Ending::Act::report_duration: return report_verdict(Code::duration_reached, "");
     case Ending::Act::report_silent: {
       Event e = event_of(Code::silent);
-      say(e, "silent until disarmed: the aircraft is its pilot's");
+      say(e, run_messages::failsafe_over);
       return recorder_.note(e);
     }
     case Ending::Act::refuse_signal: return refuse_signal();
@@ -72,13 +74,13 @@ void FlightEnd::conclude() {
 void FlightEnd::refuse_signal() {
   state_.options.interrupt->store(0, std::memory_order_relaxed);
   Event e = event_of(Code::signal_refused);
-  say(e, "the aircraft is armed: Ctrl-C once more within 5 s gives up control");
+  say(e, run_messages::signal_refused);
   recorder_.note(e);
 }
 
 void FlightEnd::give_up() {
   Event why = event_of(Code::gave_up);
-  say(why, "control given up by a signal: the aircraft is its pilot's");
+  say(why, run_messages::control_given_up);
   failsafe_words_ = why.words;
   recorder_.note(why);
 }
@@ -86,7 +88,7 @@ void FlightEnd::give_up() {
 void FlightEnd::report_verdict(Code code, const char* what) {
   Event e = event_of(code);
   if (Ending::outcome(ending_.reason()) == Outcome::failed) e.severity = Severity::error;
-  say(e, "%s%s; flies on until disarmed", what, reason_text().c_str());
+  say(e, run_messages::end_deferred, what, reason_text());
   recorder_.note(e);
 }
 
@@ -97,14 +99,16 @@ std::string FlightEnd::reason_text() const {
     case Ending::Reason::failed: return state_.graph.judge.failed->text();
     case Ending::Reason::duration: return "duration reached";
     case Ending::Reason::timeout:
-      return "not done within " + short_number(1e-9 * static_cast<double>(state_.graph.timeout_ns)) +
-             " s of flight";
+      return run_messages::mission_not_done(short_number(1e-9 * static_cast<double>(state_.graph.timeout_ns)))
+          .line();
     case Ending::Reason::failsafe:
     case Ending::Reason::gave_up: return failsafe_words_.data();
-    case Ending::Reason::signal: return "by a signal";
+    case Ending::Reason::signal: return run_messages::ended_by_signal().line();
     case Ending::Reason::vehicle_failed:
-      return "the vehicle failed: " + std::string(wiring_.vehicle().problem.text);
-    case Ending::Reason::abandoned: return state_.restart ? "ended for a new flight" : "ended by its owner";
+      return run_messages::vehicle_failed(wiring_.vehicle().problem.text).line();
+    case Ending::Reason::abandoned:
+      return state_.restart ? run_messages::ended_for_restart().line()
+                            : run_messages::ended_by_owner().line();
   }
   return "";
 }

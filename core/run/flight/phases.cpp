@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/run/flight/roles.hpp"
+#include "core/run/messages.hpp"
 #include "core/types/named.hpp"
 
 namespace fulmar::core {
@@ -13,7 +14,7 @@ void Roles::note_phase(const Phase& entered, const std::string& because) {
   visits.push_back({entered.name, state_.now_ns, state_.now_ns, because});
   Event e = event_of(Code::phase_entered, "", entered.name);
   put(e.cause, because);
-  say(e, "phase %s", entered.name.c_str());
+  say(e, run_messages::phase_entered, entered.name);
   recorder_.note(e);
 }
 
@@ -30,7 +31,7 @@ void Roles::lay_over(int component, const std::vector<Overlay>* set) {
   make_printable(unit.problem.text);
   Event e = event_of(Code::notice, unit.component->name);
   e.severity = Severity::warning;
-  say(e, "does not take what the phase %s sets: %s", present().name.c_str(), unit.problem.text);
+  say(e, run_messages::phase_parameters_refused, present().name, unit.problem.text);
   recorder_.note(e);
   unit.retune(nullptr);
 }
@@ -111,7 +112,7 @@ void Roles::fill(int role, bool overlaid) {
   if (active(role) < 0) return;
   const std::string& stays = wiring_.unit(active(role)).component->name;
   Event e = event_of(Code::nobody_else, nth(state_.graph.roles, role).name, stays);
-  say(e, "nobody that this phase names can fly: %s goes on", stays.c_str());
+  say(e, run_messages::no_candidate, stays);
   recorder_.note(e);
 }
 

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/run/messages.hpp"
+
 namespace fulmar::core {
 
 void Protection::connect(const Wiring& wiring) noexcept {
@@ -13,8 +15,8 @@ void Protection::connect(const Wiring& wiring) noexcept {
 }
 
 std::string Protection::in_use() const {
-  if (armed()) return "the aircraft is armed";
-  return on_ground() ? "" : "the aircraft is in the air";
+  if (armed()) return run_messages::aircraft_armed().line();
+  return on_ground() ? "" : run_messages::aircraft_in_air().line();
 }
 
 /// A simulated aircraft is armed at a known time: until then its controllers may do as they like.

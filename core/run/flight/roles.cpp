@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/run/messages.hpp"
 #include "core/types/named.hpp"
 
 namespace fulmar::core {
@@ -18,7 +19,7 @@ Event guard_event(Code code, Unit& unit, const char* problem) noexcept {
                                             : Code::died,
                      unit.component->name, dead ? unit.runner().died_in() : "");
   put(e.cause, problem);
-  say(e, "%s", problem);
+  say(e, std::string_view(problem));
   return e;
 }
 
@@ -90,7 +91,7 @@ void Roles::stop(int component, Code code) {
 void Roles::nobody_flies(const std::string& name, const std::string& what) {
   Event why = event_of(Code::failsafe, "", name);
   put(why.cause, what);
-  say(why, "failsafe: %s: %s", name.c_str(), what.c_str());
+  say(why, run_messages::failsafe, name, what);
   end_.failsafe(why);
   end_tenures([this](int, int role) { return nth(drives_vehicle_, role); });
 }
@@ -119,8 +120,7 @@ void Roles::stop_if_mute(const Slot& slot) {
   bool drives = false;
   for (const int role : unit.component->roles) drives = drives || nth(drives_vehicle_, role);
   if (!drives || !slot.role || !unit.in.all_younger_than(Streams::min_silence_ns, state_.now_ns)) return;
-  put_problem(unit.problem, "nothing on '%s', though it steps and all its inputs come",
-              slot.port->name.c_str());
+  put_problem(unit.problem, run_messages::command_missing, slot.port->name);
   stop(wiring_.index_of(unit));
 }
 
@@ -135,7 +135,7 @@ void Roles::report_blind(const char* what, const Condition* condition, int stopp
   if (!looks_at) return;
   Event e = event_of(Code::notice, wiring_.unit(stopped).component->name);
   e.severity = Severity::warning;
-  say(e, "was stopped: '%s: %s' cannot come true any more", what, condition->text().c_str());
+  say(e, run_messages::condition_dead, what, condition->text());
   recorder_.note(e);
 }
 
@@ -159,7 +159,7 @@ void Roles::fall_back(int stopped, std::size_t guard) {
       names += (names.empty() ? "" : ", ") + other;
       state_.result.guards[guard].action = names + (names == other ? " takes over" : " take over");
       Event e = event_of(Code::took_over, name, other);
-      say(e, "%s takes over", other.c_str());
+      say(e, run_messages::took_over, other);
       recorder_.note(e);
     }
 }
@@ -285,7 +285,7 @@ void Roles::cannot_take_over(Unit& unit, bool somebody_stays) {
   make_printable(unit.problem.text);
   const std::string& name = unit.component->name;
   Event e = guard_event(Code::cannot_take_over, unit, unit.problem.text);
-  say(e, "cannot take over: %s", unit.problem.text);
+  say(e, run_messages::cannot_take_over, unit.problem.text);
   recorder_.note(e);
   state_.result.guards.push_back(
       {state_.now_ns, name, e.words.data(), somebody_stays ? "the old one stays" : "nobody flies"});

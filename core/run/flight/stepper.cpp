@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/run/messages.hpp"
+
 namespace fulmar::core {
 
 Stepper::Stepper(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection,
@@ -58,7 +60,7 @@ void Stepper::restart_held() noexcept {
 
 bool Stepper::over_budget(Unit& unit) {
   if (!stopwatch_.charge(unit)) return false;
-  unit.fail("was over its time budget in 5 steps in a row");
+  unit.fail(run_messages::time_budget_exceeded.c_str());
   return true;
 }
 
@@ -78,7 +80,7 @@ bool Stepper::collect(Unit& unit) {
 void Stepper::note_late(const Unit& unit, std::int64_t due_ns) {
   Event e = event_of(Code::late_result, unit.component->name);
   e.value_ns = due_ns;
-  say(e, "took late a result that was due at %lld ns", static_cast<long long>(due_ns));
+  say(e, run_messages::result_late, due_ns);
   recorder_.note(e);
 }
 

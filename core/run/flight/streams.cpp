@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/run/component/unit.hpp"
+#include "core/run/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -64,13 +65,12 @@ void Streams::report(Stream& s, bool lapses, FlightState& state, Recorder& recor
   Event e = event_of(Code::notice, name);
   e.severity = Severity::warning;
   if (!lapses) {
-    say(e, "speaks on '%s' again", port.c_str());
+    say(e, run_messages::output_resumed, port);
     return recorder.note(e);
   }
   fulmar_error what{};
-  put_problem(what, "nothing on '%s' for %.1f s, though it steps", port.c_str(),
-              1e-9 * static_cast<double>(s.silent_ns));
-  say(e, "%s: who reads it goes on with the last of it", what.text);
+  put_problem(what, run_messages::output_silent, port, Fixed{1e-9 * static_cast<double>(s.silent_ns), 1});
+  say(e, run_messages::output_silent_event, what.text);
   recorder.note(e);
   if (!s.ever_reported)
     state.result.guards.push_back({state.now_ns, name, what.text, "its last sample stays"});

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "core/run/messages.hpp"
+
 namespace fulmar::core {
 namespace {
 
@@ -47,7 +49,7 @@ void Recorder::note_refusals(Unit& unit) noexcept {
     const std::string& port = unit.info->inputs[r.input].name;
     Event e = event_of(Code::request_refused, unit.component->name, port);
     fulmar::core::put(e.cause, r.reason.data());
-    say(e, "%s refused: %s", port.c_str(), r.reason.data());
+    say(e, run_messages::request_refused, port, r.reason.data());
     note(e, false);
   }
   unit.in.refusals.clear();
@@ -66,7 +68,7 @@ void Recorder::report(Reported& reported) {
   Event e = event_of(Code::notice, reported.slot->owner->component->name);
   e.severity = severity_of(*reported.slot, reported.severity);
   if (reported.cause) name_cause(e, *reported.slot, *reported.cause);
-  say(e, "%.*s", static_cast<int>(size), text);
+  say(e, std::string_view(text, size));
   note(e);
 }
 
@@ -136,7 +138,7 @@ void Recorder::check_log() {
   reported_log_failed_ = true;
   Event e = event_of(Code::log_failed);
   fulmar::core::put(e.cause, log_->error());
-  say(e, "the flight goes on without its log: %s", log_->error().c_str());
+  say(e, run_messages::log_failed, log_->error());
   note(e);
 }
 

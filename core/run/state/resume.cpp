@@ -11,6 +11,7 @@
 
 #include "core/graph/condition.hpp"
 #include "core/log/reader.hpp"
+#include "core/run/messages.hpp"
 #include "core/run/state/published.hpp"
 #include "core/types/named.hpp"
 #include "core/types/text.hpp"
@@ -58,9 +59,9 @@ std::vector<std::byte> last_message(const EndOfLog& end, const std::string& topi
   const McapFile& log = end.log;
   const std::uint16_t channel = log.channel(topic);
   if (log.schemas.at(log.channels.at(channel).schema).text != ros_definition(type))
-    throw Error("the log's " + topic + " has other fields than " + type.name + " of this mission");
+    throw Error(run_messages::resumed_fields_differ(topic, type.name));
   const auto last = end.last.find(channel);
-  if (last == end.last.end()) throw Error("the log holds no sample of " + topic);
+  if (last == end.last.end()) throw Error(run_messages::sample_missing(topic));
   std::vector<std::byte> message(type.size);
   cdr_decode(type, last->second.data(), last->second.size(), message.data());
   return message;
@@ -92,14 +93,14 @@ Resume::Param read_rule(const Graph& graph, const EndOfLog& end, const ResumeRul
   const auto dot = rule.param.find('.');
   Resume::Param p{rule.param.substr(0, dot), rule.param.substr(dot + 1), {}};
   const Component* const component = find_named(graph.components, p.component);
-  if (!component) throw Error("there is no component '" + p.component + "' in this run");
-  if (!rule.field.type) throw Error(rule.field.text + " is a probe, and a flight resumes from messages");
+  if (!component) throw Error(run_messages::component_missing(p.component));
+  if (!rule.field.type) throw Error(run_messages::resumed_field_invalid(rule.field.text));
   const std::vector<std::byte> message =
       last_message(end, topic_of(graph, rule.field.from), *rule.field.type);
   const double x = number_at(*rule.field.field.field, message.data() + rule.field.field.offset);
   const ParamInfo& info = nth(component->info().params, component->info().param(p.param));
   if (!(x >= info.min && x <= info.max))
-    throw Error(rule.field.text + " was " + std::to_string(x) + ", which " + rule.param + " does not allow");
+    throw Error(run_messages::resumed_value_invalid(rule.field.text, x, rule.param));
   p.value.number[0] = x;
   p.value.integer = std::llround(x);
   return p;
@@ -122,14 +123,14 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
   for (const McapFile::Metadata& metadata : end.log.metadata)
     for (const auto& [key, value] : metadata.pairs)
       if (metadata.name == "fulmar" && key == "mission" && value != graph.mission)
-        throw Error("is a log of the mission " + value + ", not of " + graph.mission);
+        throw Error(run_messages::mission_differs(value, graph.mission));
   Resume resume;
   HostTopic<Event>(end.log).check();
-  if (end.phase.empty()) throw Error("the log holds no phase");
+  if (end.phase.empty()) throw Error(run_messages::log_phase_missing());
   resume.phase = end.phase;
   if (!find_named(graph.phases, resume.phase))
-    throw Error("it ends in the phase '" + resume.phase + "', which this mission does not have." +
-                choices_text(resume.phase, names_of(graph.phases)));
+    throw Error(
+        run_messages::log_phase_unknown(resume.phase, choices_text(resume.phase, names_of(graph.phases))));
   resume.armed = armed_at_end(graph, end);
   for (const ResumeRule& rule : graph.resume) try {
       resume.params.push_back(read_rule(graph, end, rule));
@@ -138,7 +139,7 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
     }
   return resume;
 } catch (const Error& fault) {
-  throw Error(log.string() + ": " + fault.what());
+  throw Error(located(log.string(), fault.diagnostic));
 }
 
 namespace {

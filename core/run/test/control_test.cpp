@@ -212,7 +212,7 @@ TEST_CASE("a sentence without room ends in dots, behind a whole word and a whole
   CHECK(cut("supercalifragilisticexpialidocious") == "supercalifragilistic...");
   CHECK(cut("supercalifragilisti\u00e4\u00e4\u00e4\u00e4") == "supercalifragilisti...");
   Event e = event_of(Code::notice);
-  say(e, "%s", std::string(600, 'y').c_str());
+  say(e, std::string(600, 'y'));
   CHECK(std::string(e.words.data()).ends_with("yyy..."));
 }
 

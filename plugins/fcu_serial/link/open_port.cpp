@@ -2,6 +2,7 @@
 #include <csignal>
 
 #include "port.hpp"
+#include "port_messages.hpp"
 #include "serial_port.hpp"
 #include "udp_port.hpp"
 
@@ -41,8 +42,7 @@ class Owned final : public Port {
 
 std::unique_ptr<Port> Port::open(const std::string& where, std::int64_t baud) {
   const KeepSigpipe keep;
-  if (where.empty())
-    throw PortError("no port is named: write a device, as /dev/ttyACM0, or udp:ADDRESS:PORT");
+  if (where.empty()) throw PortError(port_messages::port_missing());
   if (where.starts_with("udp:")) return std::make_unique<Owned<UdpPort>>(where);
   return std::make_unique<Owned<SerialPort>>(where, baud);
 }

@@ -8,12 +8,17 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "fulmar/diagnostic.hpp"
 
 namespace fulmar::fcu {
 
 /// What is wrong with a device, and what to do about it: one sentence.
 struct PortError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit PortError(Diagnostic message)
+      : std::runtime_error(message.line()), diagnostic(std::move(message)) {}
+  Diagnostic diagnostic;
 };
 
 class Port {

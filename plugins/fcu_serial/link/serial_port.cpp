@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "holder.hpp"
+#include "port_messages.hpp"
 
 namespace fulmar::fcu {
 namespace {
@@ -34,7 +35,7 @@ std::string candidates() {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("ttyACM") || name.starts_with("ttyUSB")) found.push_back(entry.path().string());
   }
-  if (found.empty()) return "no USB serial device is plugged in";
+  if (found.empty()) return port_messages::usb_device_missing().line();
   std::sort(found.begin(), found.end());
   std::string list;
   for (const std::string& name : found) list += (list.empty() ? "" : ", ") + name;
@@ -48,35 +49,29 @@ std::string group_of(const std::string& path) {
   return owner != nullptr && info.st_gid != 0 ? owner->gr_name : "dialout";
 }
 
-std::string held(const std::string& path, const std::string& by) {
-  return path + " is held by " +
-         (by.empty()             ? "another program"
-          : by == "this program" ? by
-                                 : "another program, " + by) +
-         ": end that first, or name another port";
+Diagnostic held(const std::string& path, const std::string& by) {
+  return port_messages::port_in_use(path, by.empty()             ? "another program"
+                                          : by == "this program" ? by
+                                                                 : "another program, " + by);
 }
 
 [[noreturn]] void refuse_open(const std::string& path, int fault) {
   if (fault == ENOENT || fault == ENXIO || fault == ENODEV) {
-    throw PortError("there is no device " + path + " (" + candidates() +
-                    "): plug the flight controller in, or name its port");
+    throw PortError(port_messages::device_missing(path, candidates()));
   }
   if (fault == EACCES || fault == EPERM) {
-    throw PortError("no permission to open " + path + ": join its group with 'sudo usermod -aG " +
-                    group_of(path) +
-                    " $USER' and log in again, or install the udev rule of docs/hardware.md");
+    throw PortError(port_messages::device_access_denied(path, group_of(path)));
   }
   struct stat info {};
   if (fault == EBUSY) throw PortError(held(path, stat(path.c_str(), &info) == 0 ? other_user(info) : ""));
-  throw PortError("cannot open " + path + ": " + std::strerror(fault));
+  throw PortError(port_messages::device_not_openable(path, std::strerror(fault)));
 }
 
 void refuse_kind(const std::string& path) {
   struct stat info {};
   if (stat(path.c_str(), &info) != 0) refuse_open(path, errno);
   if (S_ISCHR(info.st_mode)) return;
-  throw PortError(path + (S_ISDIR(info.st_mode) ? " is a folder" : " is a file") +
-                  ", no serial port: name a device, as /dev/ttyACM0, or udp:ADDRESS:PORT");
+  throw PortError(port_messages::path_not_port(path, S_ISDIR(info.st_mode) ? " is a folder" : " is a file"));
 }
 
 /// TIOCEXCL does not stop root, and flock stops only who asks.
@@ -95,8 +90,7 @@ void hold_alone(int descriptor, const std::string& path) {
 /// to reset.
 void make_raw(int descriptor, const std::string& path) {
   termios settings{};
-  if (tcgetattr(descriptor, &settings) != 0)
-    throw PortError(path + " is no serial port: name one, as /dev/ttyACM0, or udp:ADDRESS:PORT");
+  if (tcgetattr(descriptor, &settings) != 0) throw PortError(port_messages::device_not_serial(path));
   cfmakeraw(&settings);
   settings.c_cflag |= CLOCAL | CREAD;
   settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL);
@@ -104,7 +98,7 @@ void make_raw(int descriptor, const std::string& path) {
       1;  // with O_NONBLOCK an empty line is EAGAIN then, and 0 bytes mean that the device has gone
   settings.c_cc[VTIME] = 0;
   if (tcsetattr(descriptor, TCSANOW, &settings) != 0)
-    throw PortError("cannot set up " + path + ": " + std::strerror(errno));
+    throw PortError(port_messages::port_setup_failed(path, std::strerror(errno)));
 }
 
 void set_format(asio::serial_port& port, const std::string& path, std::int64_t baud) {
@@ -114,15 +108,13 @@ void set_format(asio::serial_port& port, const std::string& path, std::int64_t b
   if (!fault) port.set_option(base::parity(base::parity::none), fault);
   if (!fault) port.set_option(base::stop_bits(base::stop_bits::one), fault);
   if (!fault) port.set_option(base::flow_control(base::flow_control::none), fault);
-  if (fault) throw PortError("cannot set " + path + " to 8 bits without parity: " + fault.message());
+  if (fault) throw PortError(port_messages::format_setup_failed(path, fault.message()));
   port.set_option(base::baud_rate(static_cast<unsigned>(baud)), fault);
   if (!fault) return;
   const auto wanted = static_cast<unsigned>(baud), got = set_any_rate(port.native_handle(), wanted);
   const bool near = got > wanted - wanted / 30 &&
                     got < wanted + wanted / 30;  // a UART samples ten bits with one start edge
-  if (!near)
-    throw PortError(path + " cannot run at " + std::to_string(baud) +
-                    " baud: name a rate of its hardware, 921600 unless changed");
+  if (!near) throw PortError(port_messages::baud_unsupported(path, baud));
 }
 
 /// Some adapters (FTDI) keep bytes for 16 ms unless asked not to. Devices that know no such thing refuse,
@@ -139,8 +131,7 @@ void deliver_at_once(int descriptor) {
 SerialPort::SerialPort(asio::io_context& io, const std::string& path, std::int64_t baud)
     : path_(path), port_(io) {
   if (baud < 50 || baud > 50'000'000) {
-    throw PortError(std::to_string(baud) +
-                    " baud is no rate of a serial port: 921600 is usual, and 50 to 50000000 are possible");
+    throw PortError(port_messages::baud_out_of_range(baud));
   }
   refuse_kind(path);
   const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -149,7 +140,7 @@ SerialPort::SerialPort(asio::io_context& io, const std::string& path, std::int64
   port_.assign(fd, fault);  // closes it from now on
   if (fault) {
     ::close(fd);
-    throw PortError("cannot open " + path + ": " + fault.message());
+    throw PortError(port_messages::device_not_openable(path, fault.message()));
   }
   make_raw(fd, path);
   hold_alone(fd, path);
@@ -173,7 +164,7 @@ std::size_t SerialPort::read(std::span<std::uint8_t> room, int timeout_ms) {
   if (n < 0 && (errno == EAGAIN || errno == EINTR) && (one.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0)
     return 0;
   tcflush(descriptor_, TCOFLUSH);  // else closing it may wait until nobody has taken what is left
-  throw PortError(path_ + " has gone: is it still plugged in?");
+  throw PortError(port_messages::device_lost(path_));
 }
 
 bool SerialPort::write_rest() noexcept {

@@ -9,6 +9,8 @@
 #include <charconv>
 #include <vector>
 
+#include "port_messages.hpp"
+
 namespace fulmar::fcu {
 namespace {
 
@@ -22,9 +24,7 @@ struct Address {
 };
 
 [[noreturn]] void refuse_address(const std::string& where) {
-  throw PortError(
-      "'" + where +
-      "' is no address: write udp:ADDRESS:PORT or udp:ADDRESS:PORT:LOCAL_PORT, as udp:127.0.0.1:14525");
+  throw PortError(port_messages::udp_address_invalid(where));
 }
 
 unsigned short port_number(const std::string& text, const std::string& where) {
@@ -53,9 +53,7 @@ udp::endpoint endpoint(const Address& address, const std::string& where) {
   boost::system::error_code fault;
   const std::string number = address.remote == "localhost" ? "127.0.0.1" : address.remote;
   const auto host = boost::asio::ip::make_address_v4(number, fault);
-  if (fault)
-    throw PortError("'" + address.remote + "' in '" + where +
-                    "' is no IPv4 number: write it as udp:127.0.0.1:14525");
+  if (fault) throw PortError(port_messages::ip_address_invalid(address.remote, where));
   return {host, address.remote_port};
 }
 
@@ -74,12 +72,10 @@ UdpPort::UdpPort(boost::asio::io_context& io, const std::string& where) : socket
   if (!fault) fcntl(socket_.native_handle(), F_SETFD, FD_CLOEXEC);
   if (!fault) socket_.bind(local, fault);
   if (fault == boost::asio::error::address_in_use) {
-    throw PortError("UDP port " + std::to_string(address.local_port) +
-                    " is held by another program: end that first, or choose one with " +
-                    "udp:" + address.remote + ":" + std::to_string(address.remote_port) + ":LOCAL_PORT");
+    throw PortError(port_messages::udp_port_in_use(address.local_port, address.remote, address.remote_port));
   }
   if (!fault) socket_.connect(remote, fault);  // then others are not heard
-  if (fault) throw PortError("cannot open " + where + ": " + fault.message());
+  if (fault) throw PortError(port_messages::device_not_openable(where, fault.message()));
   descriptor_ = socket_.native_handle();
 }
 

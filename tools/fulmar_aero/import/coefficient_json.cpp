@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/fulmar_aero/import/rosflight.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -15,16 +16,17 @@ class JsonSet {
     try {
       root_ = nlohmann::json::parse(lines.text);
     } catch (const nlohmann::json::exception&) {
-      throw core::Error(lines.file + ": it is no JSON that can be read; is it cut off?");
+      throw core::Error(located(lines.file, aero_messages::json_invalid()));
     }
-    if (!root_.is_object()) throw core::Error(lines.file + ": expected a JSON object of coefficients");
+    if (!root_.is_object()) throw core::Error(located(lines.file, aero_messages::json_object_expected()));
   }
   bool has(const std::string& key) const { return root_.contains(key); }
   Value value(const std::string& key, double factor = 1) const {
     const auto line = lines_.find("\"" + key + "\"");
     const core::Where where{lines_.file, line ? int(*line) + 1 : 0};
-    if (!has(key)) throw core::Error(lines_.file + ": expected '" + key + "' and did not find it");
-    if (!root_[key].is_number()) refuse(where, key + ": expected a number; found " + root_[key].dump());
+    if (!has(key)) throw core::Error(located(lines_.file, aero_messages::key_missing(key)));
+    if (!root_[key].is_number())
+      refuse(where, fulmar::located(key, aero_messages::number_expected(root_[key].dump())));
     return {root_[key].get<double>() * factor, lines_.place(line.value_or(0), key)};
   }
 
@@ -56,7 +58,7 @@ Aircraft json_aircraft(const Lines& lines) {
   a.span_m = set.value("b");
   a.chord_m = set.value("c");
   for (const Value* value : {&a.area_m2, &a.span_m, &a.chord_m})
-    if (!(value->x > 0)) throw core::Error(value->from + ": expected more than 0");
+    if (!(value->x > 0)) throw core::Error(located(value->from, aero_messages::positive_value_expected()));
   a.mass_kg = set.value("mass");
   a.xx = set.value("Jx");
   a.yy = set.value("Jy");

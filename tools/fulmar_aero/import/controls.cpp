@@ -6,6 +6,7 @@
 
 #include "tools/fulmar_aero/import/aircraft.hpp"
 #include "tools/fulmar_aero/import/lines.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -58,7 +59,8 @@ void add(Column& to, const Column& of, double sign, const std::string& why) {
 }
 
 std::string reported(const Control& control) {
-  return control.name.empty() ? "the control of " + control.where.text() : "'" + control.name + "'";
+  return control.name.empty() ? aero_messages::unnamed_control(control.where.text()).line()
+                              : "'" + control.name + "'";
 }
 
 /// Turns the column as a whole, so that its main response has the book's sign.
@@ -173,11 +175,7 @@ ControlColumns control_columns(const std::vector<Control>& controls) {
       mixed.clear();
     }
   }
-  if (!mixed.empty())
-    refuse(mixed[0]->where,
-           reported(*mixed[0]) +
-               " pitches as well as it rolls or yaws: it is one half of a pair; expected its mirror "
-               "as a control of its own, or both in one group (name it aileron, elevator or rudder)");
+  if (!mixed.empty()) refuse(mixed[0]->where, aero_messages::control_pair_incomplete(reported(*mixed[0])));
   for (const Role role : {Role::aileron, Role::elevator, Role::rudder, Role::flap})
     take_role(sorted.by_role[std::size_t(role)], role, out);
   for (const Role role : {Role::aileron, Role::elevator, Role::rudder}) {
@@ -189,10 +187,12 @@ ControlColumns control_columns(const std::vector<Control>& controls) {
         std::max({std::abs(column[roll].x), std::abs(column[pitch].x), std::abs(column[yaw].x)});
     if (main > 0.1 * most) continue;
     refuse(sorted.by_role[i].empty() ? core::Where{"", 0} : sorted.by_role[i][0]->where,
-           std::string(role_name(role)) + ": it has no effect, " + force_symbol(main_force(role)) +
-               " of it is " + figures(main) +
-               (most > 0 ? " and another moment " + figures(most) + "; is it the column of another control?"
-                         : "; were its gains 0, or is the file of another run?"));
+           fulmar::located(std::string(role_name(role)),
+                           aero_messages::control_ineffective(
+                               force_symbol(main_force(role)), figures(main),
+                               most > 0 ? " and another moment " + figures(most) +
+                                              "; is it the column of another control?"
+                                        : "; were its gains 0, or is the file of another run?")));
   }
   return out;
 }

@@ -8,6 +8,7 @@
 
 #include "tools/fulmar_aero/import/aircraft.hpp"
 #include "tools/fulmar_aero/import/lines.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -66,9 +67,9 @@ void rescale(Analysis& a, const Analysis& to) {
 void refuse_another_aircraft(const Chosen& first, const Chosen& other) {
   const auto far = [&](const Value& a, const Value& b, const char* what, const char* unit) {
     if (std::abs(a.x - b.x) <= 0.25 * std::abs(a.x)) return;
-    throw core::Error(other.input->file + ": its " + what + " is " + figures(b.x, 5) + unit + " (" + b.from +
-                      "), and " + figures(a.x, 5) + unit + " in " + first.input->file +
-                      ": expected files of one aircraft, with one unit of length");
+    throw core::Error(located(other.input->file,
+                              aero_messages::reference_mismatch(what, figures(b.x, 5), unit, b.from,
+                                                                figures(a.x, 5), unit, first.input->file)));
   };
   far(first.analysis.area_m2, other.analysis.area_m2, "area", " m2");
   far(first.analysis.span_m, other.analysis.span_m, "span", " m");
@@ -81,11 +82,11 @@ void refuse_another_trim(const Chosen& first, const Chosen& other) {
   const double da = std::abs(first.analysis.alpha_rad.x - other.analysis.alpha_rad.x);
   const double dv = std::abs(first.analysis.airspeed_mps - other.analysis.airspeed_mps);
   if (da < 1e-3 && dv < 0.01 * first.analysis.airspeed_mps) return;
-  throw core::Error(other.input->file + ": it is trimmed at " + degrees(other.analysis.alpha_rad.x) +
-                    " and " + figures(other.analysis.airspeed_mps, 4) + " m/s, and " + first.input->file +
-                    " at " + degrees(first.analysis.alpha_rad.x) + " and " +
-                    figures(first.analysis.airspeed_mps, 4) +
-                    " m/s: expected logs of one aircraft in one attitude");
+  throw core::Error(located(
+      other.input->file, aero_messages::trim_mismatch(degrees(other.analysis.alpha_rad.x),
+                                                      figures(other.analysis.airspeed_mps, 4),
+                                                      first.input->file, degrees(first.analysis.alpha_rad.x),
+                                                      figures(first.analysis.airspeed_mps, 4))));
 }
 
 void report_differences(const Chosen& first, const Chosen& other, std::vector<std::string>& notes) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tools/fulmar_aero/import/rosflight.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -65,14 +66,13 @@ Imported imported_from(const std::vector<std::string>& files, const ImportOption
     if (!more.empty() && std::find(names.begin(), names.end(), more) == names.end()) names.push_back(more);
   std::vector<Lines> all;
   for (const std::string& file : names) {
-    if (std::count(names.begin(), names.end(), file) > 1) throw core::Error(file + ": it is given twice");
+    if (std::count(names.begin(), names.end(), file) > 1)
+      throw core::Error(located(file, aero_messages::file_duplicate()));
     all.push_back(read_lines(file));
   }
   for (const Lines& lines : all)
     if (is_whole(lines)) {
-      if (all.size() > 1)
-        throw core::Error(lines.file +
-                          ": it is a whole aircraft and is not merged with other files; give it alone");
+      if (all.size() > 1) throw core::Error(located(lines.file, aero_messages::aircraft_not_mergeable()));
       return written(with_options(whole_aircraft(lines, true), options), options, name);
     }
   ReadOptions reading{options.length_m};

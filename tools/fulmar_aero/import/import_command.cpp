@@ -9,6 +9,7 @@
 #include "tools/fulmar_aero/import/compare_modes.hpp"
 #include "tools/fulmar_aero/import/import.hpp"
 #include "tools/fulmar_aero/import/rosplane.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -22,7 +23,7 @@ double said(const char* option, const std::string& text, const char* unit) {
   } catch (const core::Error& fault) {
     throw CLI::ValidationError(option, fault.what());
   }
-  throw CLI::ValidationError(option, "'" + text + "' must be more than 0");
+  throw CLI::ValidationError(option, aero_messages::option_not_positive(text).line());
 }
 
 double length_said(const std::string& text) {
@@ -49,10 +50,10 @@ ImportOptions options_of(const ImportArguments& words) {
   }
   if (words.inertia.empty()) return options;
   if (words.inertia.size() != 3 && words.inertia.size() != 4)
-    throw CLI::ValidationError("--inertia", "expected xx yy zz [xz] in kg m^2");
+    throw CLI::ValidationError("--inertia", aero_messages::inertia_values_expected().line());
   for (std::size_t i = 0; i < words.inertia.size(); ++i) options.inertia[i] = words.inertia[i];
   if (!(options.inertia[0] > 0 && options.inertia[1] > 0 && options.inertia[2] > 0))
-    throw CLI::ValidationError("--inertia", "xx, yy and zz must be more than 0");
+    throw CLI::ValidationError("--inertia", aero_messages::inertia_not_positive().line());
   return options;
 }
 
@@ -119,7 +120,7 @@ nlohmann::json import_json(const Imported& imported, const ModeComparison& modes
 
 void write_file(const std::string& name, const std::string& text) {
   std::ofstream out(name, std::ios::binary);
-  if (!(out << text) || !out.flush()) throw core::Error(name + ": it cannot be written");
+  if (!(out << text) || !out.flush()) throw core::Error(located(name, aero_messages::output_not_writable()));
 }
 
 int run_import(const ImportArguments& words) {

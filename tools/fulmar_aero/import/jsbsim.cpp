@@ -10,6 +10,7 @@
 
 #include "tools/fulmar_aero/import/rosflight.hpp"
 #include "tools/fulmar_aero/import/xml_elements.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -30,8 +31,7 @@ Value measured(const Lines& lines, const Element& parent, const std::string& nam
   if (factor == units.end()) {
     std::string valid;
     for (const auto& [known, x] : units) valid += (valid.empty() ? "" : ", ") + known;
-    refuse(lines.where(element.line),
-           "<" + name + ">: '" + unit + "' is no unit that is known; valid: " + valid);
+    refuse(lines.where(element.line), aero_messages::element_unit_unknown(name, unit, valid));
   }
   return {number_in(lines, element) * factor->second, lines.place(element.line, name)};
 }
@@ -86,15 +86,16 @@ const Axis& axis_of(const Lines& lines, const Element& variable, const std::stri
     if (property == axis.property) return axis;
     valid += std::string(valid.empty() ? "" : ", ") + axis.property;
   }
-  refuse(lines.where(variable.line), who + ": a table over '" + property + "' is not read; valid: " + valid);
+  refuse(lines.where(variable.line),
+         fulmar::located(who, aero_messages::table_axis_unsupported(property, valid)));
 }
 
 void refuse_points(const Lines& lines, const Element& table, const std::string& who,
                    const std::vector<double>& at) {
   for (std::size_t i = 1; i < at.size(); ++i)
     if (!(at[i] > at[i - 1]))
-      refuse(lines.where(table.line), who + ": the points of a table must rise; " + figures(at[i - 1]) +
-                                          " is followed by " + figures(at[i]));
+      refuse(lines.where(table.line), fulmar::located(who, aero_messages::table_points_not_increasing(
+                                                               figures(at[i - 1]), figures(at[i]))));
 }
 
 LookUp table_of(const Lines& lines, const Element& table, const std::string& who) {
@@ -102,12 +103,15 @@ LookUp table_of(const Lines& lines, const Element& table, const std::string& who
   for (const Element& part : table.children) {
     if (part.name == "tableData") continue;
     if (part.name != "independentVar")
-      refuse(lines.where(part.line), who + ": <" + part.name + "> in a table is not read");
+      refuse(lines.where(part.line),
+             fulmar::located(who, aero_messages::table_element_unsupported(part.name)));
     const std::string lookup = part.attribute("lookup");
-    if (lookup == "table") refuse(lines.where(part.line), who + ": a table over three states is not read");
+    if (lookup == "table")
+      refuse(lines.where(part.line), fulmar::located(who, aero_messages::table_states_unsupported()));
     (lookup == "column" ? out.and_over : out.over) = &axis_of(lines, part, who);
   }
-  if (!out.over) refuse(lines.where(table.line), who + ": expected <independentVar> in the table");
+  if (!out.over)
+    refuse(lines.where(table.line), fulmar::located(who, aero_messages::table_variable_missing()));
   const Element& data = needed_child(lines, table, "tableData");
   const Lines rows = lines_of(lines.file, data.text);
   for (std::size_t i = 0; i < rows.all.size(); ++i) {
@@ -119,8 +123,9 @@ LookUp table_of(const Lines& lines, const Element& table, const std::string& who
     if (numbers.empty() || numbers.size() != words_of(rows.all[i]).size() ||
         (wanted > 0 && numbers.size() != wanted))
       refuse(lines.where(data.line + i),
-             who + ": expected " + (wanted > 0 ? std::to_string(wanted) + " numbers" : "points") +
-                 " in this row of the table; found '" + trimmed(rows.all[i]) + "'");
+             fulmar::located(who, aero_messages::table_row_invalid(
+                                      wanted > 0 ? std::to_string(wanted) + " numbers" : "points",
+                                      trimmed(rows.all[i]))));
     if (heading) {
       for (const double x : numbers) out.and_at.push_back(x * out.and_over->unit);
       continue;
@@ -128,11 +133,11 @@ LookUp table_of(const Lines& lines, const Element& table, const std::string& who
     out.at.push_back(numbers[0] * out.over->unit);
     out.values.insert(out.values.end(), numbers.begin() + 1, numbers.end());
   }
-  if (out.at.empty()) refuse(lines.where(data.line), who + ": the table is empty");
+  if (out.at.empty()) refuse(lines.where(data.line), fulmar::located(who, aero_messages::table_empty()));
   if (out.at.size() > max_rows || out.and_at.size() > max_columns || out.values.size() > max_cells)
-    refuse(lines.where(data.line), who + ": the table has " + std::to_string(out.at.size()) + " by " +
-                                       std::to_string(std::max<std::size_t>(1, out.and_at.size())) +
-                                       " points; at most 32 by 16 and 256 values are read");
+    refuse(lines.where(data.line),
+           fulmar::located(who, aero_messages::table_too_large(out.at.size(),
+                                                               std::max<std::size_t>(1, out.and_at.size()))));
   refuse_points(lines, table, who, out.at);
   refuse_points(lines, table, who, out.and_at);
   return out;
@@ -181,10 +186,7 @@ void take_property(std::string property, Product& out, std::string& unknown) {
 Product product_of(const Lines& lines, const Element& function) {
   const std::string who = "function '" + function.attribute("name") + "'";
   const auto no = [&](std::size_t line, const std::string& what) {
-    refuse(lines.where(line),
-           who + ": " + what +
-               " is not read; expected one <product> of a <value>, aero/qbar-psf, metrics/Sw-sqft, "
-               "metrics/bw-ft or cbarw-ft, aero/bi2vel or ci2vel, and a state or a <table>");
+    refuse(lines.where(line), fulmar::located(who, aero_messages::function_factor_unsupported(what)));
   };
   Product out;
   for (const Element& part : function.children)
@@ -244,12 +246,9 @@ void take_function(const Lines& lines, const Element& function, Force force, Air
   const std::string who = "function '" + function.attribute("name") + "'";
   if (product.pressure != 1 || product.area != 1 || lengths != (moment ? 1 : 0) ||
       product.by_span + product.by_chord != (by_rate ? 1 : 0))
-    refuse(lines.where(function.line), who +
-                                           ": expected the dynamic pressure and S once, b or c once in "
-                                           "moments alone, and bi2vel or ci2vel with rates alone");
+    refuse(lines.where(function.line), fulmar::located(who, aero_messages::function_factors_invalid()));
   if (product.states_in + int(product.tables.size()) + product.lift_squared > 1)
-    refuse(lines.where(function.line),
-           who + ": expected one state or one table at most; a product of two is not read");
+    refuse(lines.where(function.line), fulmar::located(who, aero_messages::function_product_unsupported()));
   const double own = force == pitch ? a.chord_m.x : a.span_m.x,
                given = product.chord ? a.chord_m.x : a.span_m.x;
   double value = product.number * (moment ? given / own : 1);
@@ -259,7 +258,7 @@ void take_function(const Lines& lines, const Element& function, Force force, Air
   if (!product.tables.empty()) {
     LookUp table = product.tables[0];
     if (tables.size() == max_tables)
-      refuse(lines.where(function.line), who + ": it is the ninth table, and an airframe has at most 8");
+      refuse(lines.where(function.line), fulmar::located(who, aero_messages::too_many_tables()));
     for (double& x : table.values) x *= value;
     tables.push_back({force, table, from});
     for (const Axis* const axis : {table.over, table.and_over})
@@ -269,8 +268,7 @@ void take_function(const Lines& lines, const Element& function, Force force, Air
   if (product.lift_squared == 1) {
     const double AR = a.span_m.x * a.span_m.x / a.area_m2.x;
     if (force != drag || !(value > 0) || of_drag.squared)
-      refuse(lines.where(function.line),
-             who + ": aero/cl-squared is read once, in drag, with a positive factor");
+      refuse(lines.where(function.line), fulmar::located(who, aero_messages::lift_squared_invalid()));
     of_drag.squared = true;
     a.oswald = {1 / (std::numbers::pi * value * AR), from + ", 1/(pi AR factor)"};
     return;
@@ -400,8 +398,7 @@ std::optional<std::array<double, 3>> place_of(const Lines& lines, const Element&
     if (one.name != "location" || one.attribute("name") != name) continue;
     const std::string unit = one.attribute("unit").empty() ? "IN" : one.attribute("unit");
     const std::map<std::string, double> units{{"IN", 0.0254}, {"FT", 0.3048}, {"M", 1}};
-    if (units.count(unit) == 0)
-      refuse(lines.where(one.line), "<location>: '" + unit + "' is no unit that is known; valid: FT, IN, M");
+    if (units.count(unit) == 0) refuse(lines.where(one.line), aero_messages::location_unit_unknown(unit));
     std::array<double, 3> at{};
     constexpr std::array<const char*, 3> axes{"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i)
@@ -429,10 +426,7 @@ void move_moments(const Lines& lines, const Element& metrics, const Element& mas
   Tables more;
   for (const CoefficientLookUp& one : tables) move.table(one, more);
   if (tables.size() + more.size() > max_tables)
-    refuse(lines.where(metrics.line),
-           "AERORP and CG are not one point, and with tables of the moments that the forces have about the "
-           "centre of gravity there are " +
-               std::to_string(tables.size() + more.size()) + " tables; an airframe has at most 8");
+    refuse(lines.where(metrics.line), aero_messages::too_many_moment_tables(tables.size() + more.size()));
   tables.insert(tables.end(), more.begin(), more.end());
   a.notes.push_back("moments moved from AERORP to the centre of gravity: forces act " + figures(arm.aft, 3) +
                     " m behind and " + figures(arm.up, 3) + " m above it");
@@ -457,7 +451,7 @@ Aircraft jsbsim_aircraft(const Lines& lines) {
   a.span_m = measured(lines, metrics, "wingspan", lengths, "FT");
   a.chord_m = measured(lines, metrics, "chord", lengths, "FT");
   for (const Value* value : {&a.area_m2, &a.span_m, &a.chord_m})
-    if (!(value->x > 0)) throw core::Error(value->from + ": expected more than 0");
+    if (!(value->x > 0)) throw core::Error(located(value->from, aero_messages::positive_value_expected()));
   const std::map<std::string, double> inertias{{"SLUG*FT2", slug * ft * ft}, {"KG*M2", 1}};
   a.mass_kg = measured(lines, mass, "emptywt", {{"LBS", lb}, {"KG", 1}}, "LBS");
   a.xx = measured(lines, mass, "ixx", inertias, "SLUG*FT2");
@@ -474,16 +468,13 @@ Aircraft jsbsim_aircraft(const Lines& lines) {
   Drag of_drag;
   for (const Element& part : needed_child(lines, root, "aerodynamics").children) {
     if (part.name != "axis")
-      refuse(lines.where(part.line),
-             "<aerodynamics>: <" + part.name + "> is not read; expected <axis> alone");
+      refuse(lines.where(part.line), aero_messages::aerodynamics_element_unsupported(part.name));
     const auto force = axes.find(part.attribute("name"));
     if (force == axes.end())
-      refuse(lines.where(part.line),
-             "axis '" + part.attribute("name") + "' is not read; valid: LIFT, DRAG, SIDE, ROLL, PITCH, YAW");
+      refuse(lines.where(part.line), aero_messages::axis_unsupported(part.attribute("name")));
     for (const Element& function : part.children) {
       if (function.name != "function")
-        refuse(lines.where(function.line),
-               "<axis>: <" + function.name + "> is not read; expected <function>");
+        refuse(lines.where(function.line), aero_messages::axis_element_unsupported(function.name));
       take_function(lines, function, force->second, a, tables, of_drag);
     }
   }

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/graph/yaml.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -49,7 +50,7 @@ std::size_t read_number(const std::string& text, std::size_t at, double& value) 
 std::string shown(const std::string& text, std::size_t at) {
   const std::string rest = text.substr(std::min(skip_blanks(text, at), text.size()), 24);
   const std::size_t end = rest.find_first_of(" \t");
-  return rest.empty() ? "the end of the line" : "'" + rest.substr(0, end) + "'";
+  return rest.empty() ? aero_messages::line_end().line() : "'" + rest.substr(0, end) + "'";
 }
 
 std::string unit_behind(const std::string& text, std::size_t at) {
@@ -92,19 +93,17 @@ Lines lines_of(const std::string& file, const std::string& text) {
 Lines read_lines(const std::string& file) {
   std::error_code fault;
   if (std::filesystem::is_directory(file, fault))
-    throw core::Error(file + ": it is a folder; give the files in it");
+    throw core::Error(located(file, aero_messages::input_is_folder()));
   const std::string text = core::read_source(file, file)->text;
-  if (text.empty()) throw core::Error(file + ": it is empty");
+  if (text.empty()) throw core::Error(located(file, aero_messages::file_empty()));
   if (begins(text, "\xff\xfe") || begins(text, "\xfe\xff"))
-    throw core::Error(file + ": it is UTF-16; save it as UTF-8 or plain text");
-  if (text.find('\0') != std::string::npos)
-    throw core::Error(file +
-                      ": it is no text; binary projects (.xfl, .vsp3) are not read, export text from them");
+    throw core::Error(located(file, aero_messages::encoding_unsupported()));
+  if (text.find('\0') != std::string::npos) throw core::Error(located(file, aero_messages::text_expected()));
   return lines_of(file, text);
 }
 
-void refuse(const core::Where& where, const std::string& sentence) {
-  throw core::Error(where.text() + ": " + sentence);
+void refuse(const core::Where& where, const Diagnostic& sentence) {
+  throw core::Error(located(where, sentence));
 }
 
 double number_at(const Lines& lines, std::size_t line, std::size_t at, const std::string& what,
@@ -112,13 +111,14 @@ double number_at(const Lines& lines, std::size_t line, std::size_t at, const std
   const std::string& text = lines.all[line];
   const std::size_t begin = skip_blanks(text, at);
   if (!number_begins(text, begin))
-    refuse(lines.where(line), what + ": expected a number; found " + shown(text, at));
+    refuse(lines.where(line), fulmar::located(what, aero_messages::number_expected(shown(text, at))));
   double value = 0;
   const std::size_t stop = read_number(text, begin, value);
   if (stop + 1 < text.size() && text[stop] == ',' && digit(text[stop + 1]))
-    refuse(lines.where(line), what + ": '" + text.substr(begin, stop + 4 - begin) +
-                                  "...' has a decimal comma; save the file with decimal points");
-  if (!std::isfinite(value)) refuse(lines.where(line), what + ": it is not a finite number");
+    refuse(lines.where(line),
+           fulmar::located(what, aero_messages::decimal_comma(text.substr(begin, stop + 4 - begin))));
+  if (!std::isfinite(value))
+    refuse(lines.where(line), fulmar::located(what, aero_messages::number_not_finite()));
   if (end) *end = stop;
   return value;
 }
@@ -165,11 +165,9 @@ const Pair& Pairs::pair(const std::string& key) const {
     if (at == std::string::npos || equals == std::string::npos) continue;
     if (at > 0 && !blank(text[at - 1]) && text[at - 1] != '|') continue;
     if (skip_blanks(text, at + key.size()) == equals)
-      refuse(lines_.where(i), key + ": expected a number; found " + shown(text, equals + 1));
+      refuse(lines_.where(i), fulmar::located(key, aero_messages::number_expected(shown(text, equals + 1))));
   }
-  refuse(lines_.where(last_ == 0 ? 0 : last_ - 1),
-         "expected '" + key +
-             " = number' up to here and did not find it; is the file cut off, or of another version?");
+  refuse(lines_.where(last_ == 0 ? 0 : last_ - 1), aero_messages::pair_missing(key));
 }
 
 Value Pairs::value(const std::string& key, double factor) const {

@@ -27,7 +27,7 @@ struct Lines {
 Lines read_lines(const std::string& file);
 Lines lines_of(const std::string& file, const std::string& text);
 
-[[noreturn]] void refuse(const core::Where& where, const std::string& sentence);
+[[noreturn]] void refuse(const core::Where& where, const Diagnostic& sentence);
 
 /// The number that stands at `at` (blanks before it are skipped), and where it ends. Throws core::Error for
 /// what is none, is not finite, or has a decimal comma.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -53,10 +54,7 @@ bool deflected(const Lines& lines) {
 double avl_sign(const Lines& lines) {
   if (lines.has("Standard axis orientation")) return 1;
   if (lines.has("Geometric axis orientation")) return -1;
-  refuse({lines.file, 0},
-         "expected the line 'Standard axis orientation, X fwd, Z down' or 'Geometric axis orientation, X "
-         "aft, Z up'; "
-         "without it the signs are not known");
+  refuse({lines.file, 0}, aero_messages::axis_orientation_missing());
 }
 
 void read_avl_header(const Lines& lines, const Pairs& pairs, double length, double sign, Analysis& a) {
@@ -68,7 +66,7 @@ void read_avl_header(const Lines& lines, const Pairs& pairs, double length, doub
   a.has_reference = true;
   a.alpha_rad = pairs.value("Alpha", avl_degree);
   if (std::abs(pairs.value("Beta").x) > 0.01)
-    refuse(lines.where(pairs.pair("Beta").line), "the analysis has a sideslip; expected Beta = 0");
+    refuse(lines.where(pairs.pair("Beta").line), aero_messages::avl_sideslip());
   a.base[lift] = pairs.value("CLtot");
   a.base[drag] = pairs.value("CDtot");
   a.base[side] = pairs.value("CYtot");
@@ -186,9 +184,7 @@ Input read_avl_derivatives(const Lines& lines, const ReadOptions& options) {
   if (!stability && !body && !mixed) {
     input.what = "AVL forces";
     if (const auto line = lines.find("Neutral point"); line || lines.has("derivatives"))
-      refuse(
-          {lines.file, int(lines.all.size())},
-          "expected 'Stability-axis derivatives...' or 'Geometry-axis derivatives...' and did not find it");
+      refuse({lines.file, int(lines.all.size())}, aero_messages::avl_derivatives_missing());
     input.unused = "it has forces and no derivatives; AVL's ST writes them";
     return input;
   }
@@ -202,9 +198,7 @@ Input read_avl_derivatives(const Lines& lines, const ReadOptions& options) {
                                                   : "Derivatives...");
   const std::vector<AvlControl> controls = avl_controls(lines, first);
   if (controls.empty() && deflected(lines))
-    refuse({lines.file, int(lines.all.size())},
-           "expected the derivatives by the controls ('name d1 ...') up to here and did not find them; is "
-           "the file cut off?");
+    refuse({lines.file, int(lines.all.size())}, aero_messages::control_derivatives_missing());
   Analysis a;
   read_avl_header(lines, pairs, length, sign, a);
   if (body)

@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -30,8 +31,10 @@ MassUnits units_of(const Lines& lines) {
       const bool length = std::string(key) == "Lunit";
       const std::optional<double> factor = length ? length_unit(unit) : mass_unit(unit);
       if (!factor)
-        refuse(lines.where(i), std::string(key) + ": '" + unit + "' is no unit that is known; " +
-                                   (length ? "valid: m, cm, mm, in, ft" : "valid: kg, g, lb, oz, slug"));
+        refuse(lines.where(i),
+               fulmar::located(std::string(key), aero_messages::mass_file_unit_unknown(
+                                                     unit, length ? "valid: m, cm, mm, in, ft"
+                                                                  : "valid: kg, g, lb, oz, slug")));
       (length ? units.length : units.mass) = number * *factor;
       units.said = true;
     }
@@ -66,9 +69,7 @@ std::vector<MassRow> mass_rows(const Lines& lines) {
       continue;
     }
     const std::vector<double> values = numbers_at(lines, i, begin);
-    if (values.size() < 4)
-      refuse(lines.where(i), "expected 'mass x y z Ixx Iyy Izz [Ixy Ixz Iyz]'; found " +
-                                 std::to_string(values.size()) + " numbers");
+    if (values.size() < 4) refuse(lines.where(i), aero_messages::mass_row_incomplete(values.size()));
     MassRow row{};
     for (std::size_t k = 0; k < row.size(); ++k)
       row[k] = (k < values.size() ? values[k] : 0) * times[k] + plus[k];
@@ -127,9 +128,7 @@ double run_factor(const Lines& lines, const Pair& pair, const std::string& key) 
   else
     factor = length_unit(pair.unit);
   if (!factor)
-    refuse(lines.where(pair.line),
-           key + ": '" + pair.unit +
-               "' is no unit that is known; a .mass file gives AVL its units (Lunit, Munit, Tunit)");
+    refuse(lines.where(pair.line), fulmar::located(key, aero_messages::run_unit_unknown(pair.unit)));
   return *factor;
 }
 
@@ -150,12 +149,10 @@ Input read_avl_masses(const Lines& lines) {
   input.what = "AVL mass table";
   const MassUnits units = units_of(lines);
   const std::vector<MassRow> rows = mass_rows(lines);
-  if (rows.empty())
-    refuse({lines.file, int(lines.all.size())}, "expected rows 'mass x y z Ixx Iyy Izz'; found none");
+  if (rows.empty()) refuse({lines.file, int(lines.all.size())}, aero_messages::mass_rows_missing());
   double mass = 0;
   for (const MassRow& row : rows) mass += row[0];
-  if (!(mass > 0))
-    refuse({lines.file, 0}, "the masses sum to " + std::to_string(mass) + "; expected more than 0");
+  if (!(mass > 0)) refuse({lines.file, 0}, aero_messages::mass_sum_not_positive(mass));
   input.body = sum_of(rows, units, lines.place(0, "mass table"));
   if (!units.said) input.notes.push_back("it does not say its units; taken as kg and m");
   return input;
@@ -205,7 +202,7 @@ Input read_avl_modes(const Lines& lines) {
     if (trimmed(lines.all[i]).empty() || trimmed(lines.all[i])[0] == '#') continue;
     const std::vector<double> values = numbers_at(lines, i, 0);
     if (values.size() != 3)
-      refuse(lines.where(i), "expected 'case real imaginary'; found '" + trimmed(lines.all[i]) + "'");
+      refuse(lines.where(i), aero_messages::eigenvalue_row_invalid(trimmed(lines.all[i])));
     if (run && values[0] != *run) break;
     run = values[0];
     if (values[2] >= 0) input.modes.unsorted.push_back({values[1], values[2]});

@@ -3,6 +3,7 @@
 // for people, line by line, so that one reader reads both and lines are those of the file. Source: aoutmrf.f,
 // aoutput.f.
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -47,15 +48,12 @@ class MrfText {
 
  private:
   std::size_t count_at(std::size_t i, const char* what) const {
-    if (i >= in_.all.size())
-      refuse({in_.file, int(in_.all.size())},
-             std::string("expected the number of ") + what + "; is the file cut off?");
+    if (i >= in_.all.size()) refuse({in_.file, int(in_.all.size())}, aero_messages::count_missing(what));
     const double count = number_at(in_, i, 0, what);
     if (!(count >= 0 && count <= 100))
-      refuse(in_.where(i), std::string(what) + ": expected 0 to 100 of them");
+      refuse(in_.where(i), fulmar::located(std::string(what), aero_messages::count_out_of_range()));
     if (i + std::size_t(count) >= in_.all.size() && count > 0)
-      refuse({in_.file, int(in_.all.size())},
-             "expected " + std::to_string(int(count)) + " " + what + "; is the file cut off?");
+      refuse({in_.file, int(in_.all.size())}, aero_messages::entries_missing(int(count), what));
     return std::size_t(count);
   }
   /// "CONTROL", their number, "value name" each.
@@ -91,8 +89,7 @@ class MrfText {
       for (std::size_t k = 1; k <= numbers.size(); ++k) names.push_back(stem + two_digits(k));
     }
     if (names.size() != numbers.size())
-      refuse(in_.where(i), "expected " + std::to_string(names.size()) + " numbers for '" + trimmed(rest) +
-                               "'; found " + std::to_string(numbers.size()));
+      refuse(in_.where(i), aero_messages::value_count_mismatch(names.size(), trimmed(rest), numbers.size()));
     std::string line = words.find("force CD") != std::string::npos ? " force CD |" : " |";
     std::size_t at = 0;
     for (std::size_t k = 0; k < names.size(); ++k) {

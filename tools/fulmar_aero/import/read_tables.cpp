@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -17,8 +18,8 @@ std::size_t column_named(const Lines& lines, std::size_t heading, const std::vec
                          const char* name) {
   const auto found = std::find(words.begin(), words.end(), name);
   if (found == words.end())
-    refuse(lines.where(heading), std::string("expected a column '") + name + "' in the heading; found '" +
-                                     trimmed(lines.all[heading]).substr(0, 60) + "'");
+    refuse(lines.where(heading),
+           aero_messages::column_missing(name, trimmed(lines.all[heading]).substr(0, 60)));
   return std::size_t(found - words.begin());
 }
 
@@ -38,14 +39,12 @@ std::vector<PolarPoint> polar_points(const Lines& lines, std::size_t heading, co
     const std::vector<double> values = numbers_at(lines, i, 0);
     if (values.empty()) break;
     if (values.size() < words.size())
-      refuse(lines.where(i), "expected " + std::to_string(words.size()) +
-                                 " numbers, as many as the heading has names; found " +
-                                 std::to_string(values.size()) + "; is the file cut off?");
+      refuse(lines.where(i), aero_messages::row_incomplete(words.size(), values.size()));
     if (has_sideslip && std::abs(values[s]) > 0.01) continue;
     max_friction = std::max(max_friction, std::abs(values[f]));
     points.push_back({values[a] * table_degree, values[l], {values[d], lines.place(i, CD)}});
   }
-  if (points.empty()) refuse(lines.where(heading), "expected rows of numbers under the heading; found none");
+  if (points.empty()) refuse(lines.where(heading), aero_messages::rows_missing());
   return points;
 }
 
@@ -76,9 +75,7 @@ std::vector<double> numbers_among(const Lines& lines, std::size_t i) {
 /// The numbers that stand with a label, on its line.
 std::vector<double> labelled(const Lines& lines, const char* label, std::size_t count) {
   const auto line = lines.find(label);
-  if (!line)
-    refuse({lines.file, int(lines.all.size())},
-           std::string("expected a line '") + label + "' and did not find it");
+  if (!line) refuse({lines.file, int(lines.all.size())}, aero_messages::labelled_line_missing(label));
   const std::vector<double> values = numbers_among(lines, *line);
   if (values.size() != count)
     refuse(lines.where(*line), std::string(label) + ": expected " + std::to_string(count) +
@@ -91,7 +88,7 @@ std::optional<std::string> element(const Lines& lines, const std::string& name, 
   if (begin == std::string::npos) return {};
   const std::size_t end = lines.text.find("</" + name + ">", begin);
   if (end == std::string::npos)
-    refuse({lines.file, int(lines.all.size())}, "expected '</" + name + ">'; is the file cut off?");
+    refuse({lines.file, int(lines.all.size())}, aero_messages::end_tag_missing(name));
   return trimmed(lines.text.substr(begin + name.size() + 2, end - begin - name.size() - 2));
 }
 
@@ -109,7 +106,7 @@ std::vector<double> triple(const Lines& lines, const std::string& name, std::str
   std::replace(text.begin(), text.end(), ',', ' ');
   const std::vector<double> values = numbers_at(lines_of(lines.file, text), 0, 0);
   if (values.size() != 3)
-    throw core::Error(lines.file + ": <" + name + ">: expected three numbers; found '" + text + "'");
+    throw core::Error(located(lines.file, aero_messages::three_numbers_expected(name, text)));
   return values;
 }
 
@@ -119,7 +116,7 @@ Body point_masses(const Lines& lines, double length, double mass_unit_kg) {
   for (std::size_t from = lines.text.find("<Point_Mass>"); from != std::string::npos;
        from = lines.text.find("<Point_Mass>", from + 1)) {
     const auto own = element(lines, "Mass", from), place = element(lines, "coordinates", from);
-    if (!own || !place) throw core::Error(lines.file + ": <Point_Mass>: expected <Mass> and <coordinates>");
+    if (!own || !place) throw core::Error(located(lines.file, aero_messages::point_mass_incomplete()));
     const double m = element_number(lines, "Mass", *own) * mass_unit_kg;
     const std::vector<double> x = triple(lines, "coordinates", *place);
     mass += m;
@@ -157,9 +154,7 @@ Input read_xflr5_polar(const Lines& lines) {
   std::optional<std::size_t> heading;
   for (std::size_t i = 0; i < lines.all.size() && !heading; ++i)
     if (begins(trimmed(lines.all[i]), "alpha ")) heading = i;
-  if (!heading)
-    refuse({lines.file, int(lines.all.size())},
-           "expected a heading 'alpha Beta CL CDi CDv CD ...'; found none");
+  if (!heading) refuse({lines.file, int(lines.all.size())}, aero_messages::polar_heading_missing());
   double friction = 0;
   input.polar = polar_points(lines, *heading, "alpha", "CL", "CD", "Beta", "CDv", friction);
   if (friction > 0) return input;
@@ -171,8 +166,7 @@ Input read_xflr5_polar(const Lines& lines) {
 Input read_xflr5_xml(const Lines& lines) {
   const bool polar = lines.has("<Plane_Polar");
   if (const char* const end = polar ? "</Plane_Polar>" : "</explane>"; !lines.has(end))
-    refuse({lines.file, int(lines.all.size())},
-           std::string("expected '") + end + "' up to here and did not find it; is the file cut off?");
+    refuse({lines.file, int(lines.all.size())}, aero_messages::document_end_missing(end));
   Input input = started(lines, polar ? "XFLR5 settings of a polar" : "XFLR5 plane");
   const double length = element_value(lines, "length_unit_to_meter").value_or(1);
   const double mass = element_value(lines, "mass_unit_to_kg").value_or(1);
@@ -220,9 +214,7 @@ Input read_vspaero_flt(const Lines& lines) {
   Input input = started(lines, "VSPAERO .flt");
   const auto value = [&](const char* key) {
     const auto line = lines.find(key);
-    if (!line)
-      refuse({lines.file, int(lines.all.size())},
-             std::string("expected '") + key + " number' and did not find it");
+    if (!line) refuse({lines.file, int(lines.all.size())}, aero_messages::labelled_number_missing(key));
     return Value(number_at(lines, *line, lines.all[*line].find(key) + std::string(key).size(), key),
                  lines.place(*line, key));
   };
@@ -240,8 +232,7 @@ Input read_vspaero_polar(const Lines& lines) {
   std::optional<std::size_t> heading;
   for (std::size_t i = 0; i < lines.all.size() && !heading; ++i)
     if (begins(trimmed(lines.all[i]), "Beta ")) heading = i;
-  if (!heading)
-    refuse({lines.file, int(lines.all.size())}, "expected a heading 'Beta Mach AoA ...'; found none");
+  if (!heading) refuse({lines.file, int(lines.all.size())}, aero_messages::sweep_heading_missing());
   const std::vector<std::string> words = words_of(lines.all[*heading]);
   const bool total = std::find(words.begin(), words.end(), "CLtot") != words.end();
   double friction = 0;
@@ -288,15 +279,13 @@ Input read_vspaero_setup(const Lines& lines) {
   for (std::size_t k = 0; k < std::size_t(std::max(0.0, count)); ++k) {
     const std::size_t at = *line + 1 + 4 * k;
     if (at + 3 >= lines.all.size())
-      refuse({lines.file, int(lines.all.size())},
-             "expected " + figures(count) + " groups of controls, four lines each; is the file cut off?");
+      refuse({lines.file, int(lines.all.size())}, aero_messages::control_groups_missing(figures(count)));
     const std::vector<double> gains = numbers_among(lines, at + 2);
     const std::string& surfaces = lines.all[at + 1];
     const std::size_t count_of = 1 + std::size_t(std::count(surfaces.begin(), surfaces.end(), ','));
     if (gains.size() != count_of)
-      refuse(lines.where(at + 2), "expected " + std::to_string(count_of) +
-                                      " gains, one for each surface of '" + trimmed(surfaces) + "'; found " +
-                                      std::to_string(gains.size()));
+      refuse(lines.where(at + 2),
+             aero_messages::gain_count_mismatch(count_of, trimmed(surfaces), gains.size()));
     double sum = 0;
     for (const double gain : gains) sum += std::abs(gain);
     if (!gains.empty()) input.gains.push_back({trimmed(lines.all[at]), sum / double(gains.size())});
@@ -312,7 +301,8 @@ Input read_vsp_masses(const Lines& lines, const ReadOptions& options) {
                             at = labelled(lines, "Center of Gravity", 3),
                             square = labelled(lines, "Ixx, Iyy, Izz", 3),
                             mixed = labelled(lines, "Ixy, Ixz, Iyz", 3);
-  if (!(mass[0] > 0)) refuse(lines.where(*lines.find("Total Mass")), "Total Mass: expected more than 0");
+  if (!(mass[0] > 0))
+    refuse(lines.where(*lines.find("Total Mass")), aero_messages::total_mass_not_positive());
   const std::string from = lines.place(*lines.find("Ixx, Iyy, Izz"), "mass properties");
   Body& body = input.body;
   body.mass_kg = {mass[0], lines.place(*lines.find("Total Mass"), "Total Mass, in kg")};
@@ -344,16 +334,12 @@ Input read_vsp_drag(const Lines& lines) {
                                     [](const std::string& cell) { return begins(lower(cell), "total"); });
     if (heading.empty() || !totals) continue;
     if (cells.size() != heading.size())
-      refuse(lines.where(i), "expected " + std::to_string(heading.size()) +
-                                 " cells, as many as the heading has; found " + std::to_string(cells.size()) +
-                                 "; decimal commas, or is the file cut off?");
+      refuse(lines.where(i), aero_messages::cell_count_mismatch(heading.size(), cells.size()));
     const Lines cell = lines_of(lines.file, cells[column].empty() ? "-" : cells[column]);
     const double CD = number_at(cell, 0, 0, "Totals, Cd");
     input.polar.push_back({0, 0, {CD, lines.place(i, "Totals, Cd")}});
   }
-  if (input.polar.empty())
-    refuse({lines.file, int(lines.all.size())},
-           "expected a table with a column 'Cd' and a row 'Totals' and did not find it");
+  if (input.polar.empty()) refuse({lines.file, int(lines.all.size())}, aero_messages::drag_table_missing());
   return input;
 }
 

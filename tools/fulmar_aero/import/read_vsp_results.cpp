@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -27,8 +28,7 @@ std::vector<ResultBlock> blocks_in(const Lines& lines) {
     std::vector<std::string> cells = cells_of(lines.all[i]);
     const std::string key = cells[0];
     if (key == "Results_Name") {
-      if (cells.size() < 2 || cells[1].empty())
-        refuse(lines.where(i), "Results_Name: expected the name of a result");
+      if (cells.size() < 2 || cells[1].empty()) refuse(lines.where(i), aero_messages::result_name_missing());
       blocks.push_back({cells[1], i, i + 1, {}});
     }
     if (blocks.empty() || key.empty()) continue;
@@ -47,13 +47,11 @@ class ResultReader {
   std::vector<double> numbers(const std::string& key, std::size_t count) const {
     const auto found = block_.rows.find(key);
     if (found == block_.rows.end())
-      refuse(lines_.where(block_.last - 1), "expected '" + key + ",number' of " + block_.name +
-                                                " up to here and did not find it; is the file cut off?");
+      refuse(lines_.where(block_.last - 1), aero_messages::result_row_missing(key, block_.name));
     const ResultRow& row = found->second;
     if (row.cells.size() != count && count > 0)
-      refuse(lines_.where(row.line), key + ": expected " + std::to_string(count) + " numbers; found " +
-                                         std::to_string(row.cells.size()) +
-                                         "; points, not commas, are in the numbers");
+      refuse(lines_.where(row.line),
+             fulmar::located(key, aero_messages::result_count_mismatch(count, row.cells.size())));
     std::vector<double> values;
     for (const std::string& cell : row.cells) values.push_back(number(row.line, key, cell));
     return values;
@@ -63,7 +61,9 @@ class ResultReader {
   }
   Value positive(const std::string& key, double factor) const {
     const Value out = value(key, factor);
-    if (!(out.x > 0)) refuse(lines_.where(block_.rows.at(key).line), key + ": expected more than 0");
+    if (!(out.x > 0))
+      refuse(lines_.where(block_.rows.at(key).line),
+             fulmar::located(key, aero_messages::positive_value_expected()));
     return out;
   }
   const ResultBlock& block() const { return block_; }
@@ -73,7 +73,7 @@ class ResultReader {
     const Lines one = lines_of("", cell.empty() ? " " : cell);
     const auto foreign = cell.find_first_not_of("0123456789.+-eE");
     if (cell.empty() || foreign != std::string::npos)
-      refuse(lines_.where(line), key + ": expected a number; found '" + cell + "'");
+      refuse(lines_.where(line), fulmar::located(key, aero_messages::result_number_expected(cell)));
     return number_at(one, 0, 0, lines_.where(line).text() + ": " + key);
   }
 
@@ -133,7 +133,7 @@ Analysis stability_of_result(const Lines& lines, const ResultReader& in, double 
   a.has_reference = true;
   a.alpha_rad = in.value(head("AoA"), std::numbers::pi / 180);
   if (const Value beta_deg = in.value(head("Beta")); std::abs(beta_deg.x) > 0.01)
-    refuse(lines.where(in.block().line), "this analysis has a sideslip; expected " + head("Beta") + " 0");
+    refuse(lines.where(in.block().line), aero_messages::result_sideslip(head("Beta")));
   a.airspeed_mps = in.value(head("Vinf")).x * length;
   a.density_kgm3 = in.value(head("Rho")).x;
   a.base = column("Total");

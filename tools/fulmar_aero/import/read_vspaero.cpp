@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -35,7 +36,8 @@ std::optional<Pair> headed(const Lines& lines, const StabBlock& block, const std
     if (rest.empty() || (rest[0] != ' ' && rest[0] != ':' && rest[0] != '_' && rest[0] != '\t')) continue;
     const std::size_t at = lines.all[i].find(key) + key.size();
     const std::size_t number = lines.all[i].find_first_not_of(" \t:_", at);
-    if (number == std::string::npos) refuse(lines.where(i), key + ": expected a number");
+    if (number == std::string::npos)
+      refuse(lines.where(i), fulmar::located(key, aero_messages::heading_number_expected()));
     return Pair{number_at(lines, i, number, key), i, ""};
   }
   return {};
@@ -43,8 +45,7 @@ std::optional<Pair> headed(const Lines& lines, const StabBlock& block, const std
 
 double head_value(const Lines& lines, const StabBlock& block, const std::string& key) {
   if (const auto found = headed(lines, block, key)) return found->value;
-  refuse(lines.where(block.first),
-         "expected '" + key + " number' in the heading of this analysis and did not find it");
+  refuse(lines.where(block.first), aero_messages::heading_number_missing(key));
 }
 
 /// A row of the table of cases: its name, and twelve (in version 2 nine) numbers behind it.
@@ -106,10 +107,8 @@ Table coefficients(const Lines& lines, const StabBlock& block, std::size_t group
     if (table.rows.count(words[0])) continue;
     const std::vector<double> values = numbers_at(lines, i, text.find(words[0]) + words[0].size());
     if (values.size() != 8 + groups)
-      refuse(lines.where(i), words[0] + ": expected " + std::to_string(8 + groups) +
-                                 " numbers, total, alpha, beta, p, q, r, Mach, U and " +
-                                 std::to_string(groups) + " groups of controls; found " +
-                                 std::to_string(values.size()));
+      refuse(lines.where(i), fulmar::located(words[0], aero_messages::derivative_count_mismatch(
+                                                           8 + groups, groups, values.size())));
     table.rows[words[0]] = {i, values};
   }
   return table;
@@ -123,11 +122,7 @@ Value cell(const Lines& lines, const Table& table, const std::string& row, std::
 }
 
 void refuse_missing(const Lines& lines, const StabBlock& block, const Table& table, const std::string& row) {
-  if (!table.rows.count(row))
-    refuse(lines.where(block.last - 1),
-           "expected the row '" + row +
-               "' of the derivatives up to here and did not find it; is the file cut off, or "
-               "was VSPAERO run without its stability option (-stab)?");
+  if (!table.rows.count(row)) refuse(lines.where(block.last - 1), aero_messages::derivative_row_missing(row));
 }
 
 Column column_of(const Lines& lines, const Table& table, bool has_body, std::size_t k,
@@ -152,9 +147,10 @@ Analysis analysis_in(const Lines& lines, const StabBlock& block, double length) 
   Analysis a;
   const auto reference = [&](const char* key, double unit) {
     const auto found = headed(lines, block, key);
-    if (!found)
-      refuse(lines.where(block.first), std::string("expected '") + key + "' in the heading of this analysis");
-    if (!(found->value > 0)) refuse(lines.where(found->line), std::string(key) + ": expected more than 0");
+    if (!found) refuse(lines.where(block.first), aero_messages::heading_key_missing(key));
+    if (!(found->value > 0))
+      refuse(lines.where(found->line),
+             fulmar::located(std::string(key), aero_messages::positive_value_expected()));
     return Value(found->value * unit, lines.place(found->line, key));
   };
   a.area_m2 = reference("Sref_", length * length);
@@ -164,7 +160,7 @@ Analysis analysis_in(const Lines& lines, const StabBlock& block, double length) 
                    head_value(lines, block, "Zcg_") * length};
   a.has_reference = true;
   const auto angle = headed(lines, block, "AoA");
-  if (!angle) refuse(lines.where(block.first), "expected 'AoA_' in the heading of this analysis");
+  if (!angle) refuse(lines.where(block.first), aero_messages::heading_alpha_missing());
   a.alpha_rad = {angle->value * stab_degree, lines.place(angle->line, "AoA")};
   const double sideslip = head_value(lines, block, "Beta_");
   if (std::abs(sideslip) > 0.01) a.airspeed_mps = -1;  // told by the caller
@@ -200,15 +196,9 @@ Input read_vspaero_stab(const Lines& lines, const ReadOptions& options) {
   input.file = lines.file;
   input.what = "VSPAERO stability derivatives";
   const std::vector<StabBlock> blocks = stab_blocks(lines);
-  if (blocks.empty())
-    refuse({lines.file, 1},
-           "expected 'Sref_', 'Cref_' and 'Bref_' in a heading; found none: the reference quantities are "
-           "missing");
+  if (blocks.empty()) refuse({lines.file, 1}, aero_messages::heading_reference_missing());
   if (!lines.has("Derivative:"))
-    refuse({lines.file, int(lines.all.size())},
-           "expected a table of derivatives ('Coef Total Alpha Beta p q r ...') up to here and did not find "
-           "it; is the file cut off, "
-           "or is it of a run with -pstab, -qstab or -rstab?");
+    refuse({lines.file, int(lines.all.size())}, aero_messages::derivative_table_missing());
   double length = options.length_m;
   const double rho = head_value(lines, blocks[0], "Rho_");
   if (length <= 0 && rho > 0.0005 && rho < 0.003) {
@@ -227,10 +217,8 @@ Input read_vspaero_stab(const Lines& lines, const ReadOptions& options) {
       continue;
     }
     if (!input.analyses.empty() && a.controls.size() != input.analyses[0].controls.size())
-      refuse(lines.where(block.first), "this analysis has " + std::to_string(a.controls.size()) +
-                                           " groups of controls, and the first one " +
-                                           std::to_string(input.analyses[0].controls.size()) +
-                                           ": expected one version and one aircraft in a file");
+      refuse(lines.where(block.first),
+             aero_messages::control_groups_mismatch(a.controls.size(), input.analyses[0].controls.size()));
     if (rho < 0.003) a.density_kgm3 *= 14.593902937 / std::pow(0.3048, 3);
     a.rate_noise = small_steps(lines);
     if (a.controls.empty() && input.analyses.empty())
@@ -242,7 +230,7 @@ Input read_vspaero_stab(const Lines& lines, const ReadOptions& options) {
   if (sideslips > 0)
     input.notes.push_back(std::to_string(sideslips) + " analyses in a sideslip are left out");
   if (input.analyses.empty())
-    refuse(lines.where(blocks[0].first), "all analyses are in a sideslip; expected one with Beta_ 0");
+    refuse(lines.where(blocks[0].first), aero_messages::straight_analysis_missing());
   if (small_steps(lines))
     input.notes.push_back(
         "its steps are 0.01 deg and 0.01 rad/s (VSPAERO 7): with default tolerances derivatives by rates are "

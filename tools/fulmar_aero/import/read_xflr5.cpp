@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -57,21 +58,17 @@ LogBlock chosen(const Lines& lines, std::vector<std::string>& notes) {
     return *best;
   }
   if (const auto failed = lines.find("Unsuccessfull attempt to trim"))
-    refuse(
-        lines.where(*failed),
-        "XFLR5 found no angle without pitching moment, so that there are no derivatives; give the aircraft a "
-        "trimmed attitude (centre of gravity, tail setting) and run the stability analysis again");
+    refuse(lines.where(*failed), aero_messages::xflr5_trim_missing());
   if (const auto type = lines.find("Type "); type && lines.all[*type].find("Type 7") == std::string::npos)
-    refuse(lines.where(*type), "it is the log of '" + trimmed(lines.all[*type]) +
-                                   "'; expected that of a stability analysis, 'Type 7 - Stability polar'");
+    refuse(lines.where(*type), aero_messages::log_type_mismatch(trimmed(lines.all[*type])));
   const auto last = all.empty() ? lines.all.size() : all.back().last;
-  refuse({lines.file, int(last)},
-         "expected 'Longitudinal derivatives' up to here and did not find it; is the log cut off?");
+  refuse({lines.file, int(last)}, aero_messages::longitudinal_derivatives_missing());
 }
 
 double with_unit(const Lines& lines, const Pair& pair, const std::string& key,
                  const std::optional<double>& factor) {
-  if (!factor) refuse(lines.where(pair.line), key + ": '" + pair.unit + "' is no unit that is known");
+  if (!factor)
+    refuse(lines.where(pair.line), fulmar::located(key, aero_messages::log_unit_unknown(pair.unit)));
   return pair.value * *factor;
 }
 
@@ -84,8 +81,7 @@ struct LogHead {
 double after(const Lines& lines, const std::string& key, std::size_t first, std::size_t last,
              std::string& unit, std::size_t& line) {
   const auto at = lines.find(key, first);
-  if (!at || *at >= last)
-    refuse({lines.file, int(last)}, "expected '" + key + " = number' up to here and did not find it");
+  if (!at || *at >= last) refuse({lines.file, int(last)}, aero_messages::log_value_missing(key));
   line = *at;
   const std::string& text = lines.all[line];
   const std::size_t equals = text.find('=', text.find(key));
@@ -103,7 +99,7 @@ LogHead head_of(const Lines& lines, const LogBlock& block) {
   std::size_t line = 0;
   head.density = after(lines, "Density", block.head, block.first, unit, line);
   if (!begins(unit, "kg")) {
-    if (!begins(unit, "slug")) refuse(lines.where(line), "Density: '" + unit + "' is no unit that is known");
+    if (!begins(unit, "slug")) refuse(lines.where(line), aero_messages::density_unit_unknown(unit));
     head.density *= 14.593902937 / std::pow(0.3048, 3);
   }
   const double area = after(lines, "Reference Area", block.head, block.first, unit, line);
@@ -113,7 +109,7 @@ LogHead head_of(const Lines& lines, const LogBlock& block) {
   head.span = {with_unit(lines, {span, line, unit}, "Reference length", length_unit(unit)),
                lines.place(line, "Reference length, the span")};
   if (!(head.density > 0 && head.area.x > 0 && head.span.x > 0))
-    refuse(lines.where(line), "density, area and span must be more than 0");
+    refuse(lines.where(line), aero_messages::log_reference_not_positive());
   return head;
 }
 
@@ -141,7 +137,7 @@ Value trimmed_at(const Lines& lines, const LogBlock& block, const std::string& k
     const std::size_t equals = lines.all[i].find('=', at);
     if (equals != std::string::npos) return {number_at(lines, i, equals + 1, key), lines.place(i, key)};
   }
-  refuse(lines.where(block.last - 1), "expected '" + key + "= number' up to here and did not find it");
+  refuse(lines.where(block.last - 1), aero_messages::trim_value_missing(key));
 }
 
 Value negative(Value value) {
@@ -156,8 +152,7 @@ void read_control(const Lines& lines, const LogBlock& block, const Pairs& pairs,
     for (const char* behind :
          {"No active control", "longitudinal modes", "Longitudinal modes", "Finished operating point"})
       if (const auto at = lines.find(behind, first); at && *at < last) return;
-    refuse({lines.file, int(last)},
-           "expected 'Control derivatives' or the modes up to here and found neither; is the log cut off?");
+    refuse({lines.file, int(last)}, aero_messages::log_control_missing());
   }
   Control control;
   control.where = lines.where(pairs.pair("CXde").line);
@@ -180,7 +175,7 @@ std::vector<std::complex<double>> eigenvalues_at(const Lines& lines, std::size_t
     std::size_t end = 0;
     const double real = number_at(lines, line, at, "Eigenvalue", &end);
     const std::size_t plus = lines.all[line].find('+', end);
-    if (plus == std::string::npos) refuse(lines.where(line), "Eigenvalue: expected 'real + imaginary i'");
+    if (plus == std::string::npos) refuse(lines.where(line), aero_messages::eigenvalue_form_invalid());
     const double imaginary = number_at(lines, line, plus + 1, "Eigenvalue", &end);
     if (imaginary >= 0) values.push_back({real, imaginary});
     const std::size_t bar = lines.all[line].find('|', end);
@@ -222,12 +217,12 @@ Input read_xflr5_log(const Lines& lines) {
   a.alpha_rad.x *= std::numbers::pi / 180;
   const Value speed = trimmed_at(lines, block, "VInf");
   a.airspeed_mps = speed.x;
-  if (!(speed.x > 0)) refuse(lines.where(block.first), "VInf: expected more than 0 m/s");
+  if (!(speed.x > 0)) refuse(lines.where(block.first), aero_messages::log_airspeed_not_positive());
   a.density_kgm3 = head.density;
   const double rad = a.alpha_rad.x, flow = 0.5 * head.density * speed.x * head.area.x;
   // the chord of q is the plane's, which is printed nowhere: Mw = Cma c rho V S / 2
   const Value Cma = pairs.value("Cma");
-  if (Cma.x == 0) refuse(lines.where(pairs.pair("Cma").line), "Cma is 0; the chord cannot be told from it");
+  if (Cma.x == 0) refuse(lines.where(pairs.pair("Cma").line), aero_messages::log_chord_unknown());
   a.chord_m = {pairs.value("Mw").x / (Cma.x * flow),
                lines.place(pairs.pair("Mw").line, "Mw / (Cma rho V S/2)")};
   const double CL = input.body.mass_kg.x * xflr5_gravity / (flow * speed.x);

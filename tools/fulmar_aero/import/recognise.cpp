@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a file is, by what stands in it.
 #include "tools/fulmar_aero/import/readers.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {
@@ -74,13 +75,7 @@ Input read_known(const Lines& lines, const ReadOptions& options) {
   if (avl_geometry(lines))
     return unused(lines, "AVL geometry",
                   "it is a drawing; `fulmar aero vlm` or AVL computes derivatives from it");
-  throw core::Error(
-      lines.file +
-      ":1: nobody knows this file; expected one of AVL (.st .sb .mass .run .eig), XFLR5 (stability log, "
-      "plane polar, plane or polar XML), VSPAERO (.stab .polar .flt .history .vspaero, mass properties, "
-      "parasite drag, results as CSV); or alone a whole aircraft of ROSflight (..._dynamics.yaml), JSBSim "
-      "(XML) "
-      "or pyfly (JSON)");
+  throw core::Error(aero_messages::format_unknown(lines.file));
 }
 
 }  // namespace

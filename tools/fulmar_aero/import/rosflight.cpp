@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "core/graph/yaml.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -35,7 +36,7 @@ void gather(const Lines& lines, const core::Node& map, const std::string& node, 
       const bool decimal_comma =
           comma != std::string::npos && text.find_first_not_of("0123456789.+-eE,") == std::string::npos;
       if (begins(entry.key, "C_") || begins(entry.key, "wing_") || decimal_comma)
-        refuse(lines.where(line), entry.key + ": expected a number; found '" + text + "'");
+        refuse(lines.where(line), fulmar::located(entry.key, aero_messages::result_number_expected(text)));
       continue;
     }
     const double value = number_at(lines_of(lines.where(line).text(), text), 0, 0, entry.key);
@@ -79,7 +80,7 @@ const Parameter* find(const Parameters& all, const std::string& key) {
 
 Value needed(const Lines& lines, const Parameters& all, const std::string& key) {
   if (const Parameter* const found = find(all, key)) return found->of;
-  refuse({lines.file, int(lines.all.size())}, "expected '" + key + "' and did not find it");
+  refuse({lines.file, int(lines.all.size())}, aero_messages::key_missing(key));
 }
 
 constexpr std::array<const char*, forces> ros_names{"L", "D", "Y", "ell", "m", "n"};
@@ -240,7 +241,7 @@ Aircraft rosflight_aircraft(const Lines& lines, bool mend) {
   a.span_m = needed(lines, all, "wing_b");
   a.chord_m = needed(lines, all, "wing_c");
   for (const Value* value : {&a.area_m2, &a.span_m, &a.chord_m})
-    if (!(value->x > 0)) throw core::Error(value->from + ": expected more than 0");
+    if (!(value->x > 0)) throw core::Error(located(value->from, aero_messages::positive_value_expected()));
   a.oswald.from = "in rosflight_sim's code; wing_epsilon is not read";
   if (const Parameter* const mass = find(all, "mass")) a.mass_kg = mass->of;
   a.xx = inertia_of(lines, all, {"Jxx", "Jx"});

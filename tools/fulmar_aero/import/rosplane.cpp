@@ -10,6 +10,7 @@
 
 #include "tools/fulmar_aero/import/lines.hpp"
 #include "tools/fulmar_aero/import/rosflight.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -21,14 +22,13 @@ constexpr double full_deflection = 40 * degree;  // rosflight_sim: of a command 
 std::vector<Lines> yaml_files(const std::string& folder) {
   std::error_code fault;
   if (!std::filesystem::is_directory(folder, fault))
-    throw core::Error(folder + ": expected a folder with ROSplane's or ROSflight's parameter files");
+    throw core::Error(located(folder, aero_messages::rosplane_folder_expected()));
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, fault)) {
     const std::string ending = entry.path().extension().string();
     if (entry.is_regular_file() && (ending == ".yaml" || ending == ".yml"))
       names.push_back(entry.path().string());
-    if (names.size() > max_files)
-      throw core::Error(folder + ": it has more than 500 YAML files; give the folder of one aircraft");
+    if (names.size() > max_files) throw core::Error(located(folder, aero_messages::too_many_files()));
   }
   std::sort(names.begin(), names.end());
   std::vector<Lines> all;
@@ -129,7 +129,7 @@ std::array<double, 3> three(const Lines& lines, std::size_t i) {
     if (c == '[' || c == ']' || c == ',') c = ' ';
   const std::vector<double> values = numbers_at(lines_of(lines.file, text), 0, 0);
   if (values.size() != 3)
-    refuse(lines.where(i), "w: expected three numbers in brackets; found '" + trimmed(lines.all[i]) + "'");
+    refuse(lines.where(i), aero_messages::waypoint_position_invalid(trimmed(lines.all[i])));
   return {values[0], values[1], values[2]};
 }
 
@@ -163,7 +163,7 @@ std::vector<RosWaypoint> waypoints(const Lines& lines) {
   for (const RosWaypoint& one : all)
     if (!one.placed || !(one.airspeed > 0))
       refuse(lines.where(one.line), "wp: expected 'w: [north, east, down]' and 'va_d: airspeed' above 0");
-  if (all.size() < 2) refuse(lines.where(all.empty() ? 0 : all[0].line), "expected at least two waypoints");
+  if (all.size() < 2) refuse(lines.where(all.empty() ? 0 : all[0].line), aero_messages::too_few_waypoints());
   return all;
 }
 
@@ -195,14 +195,10 @@ RosplaneSet rosplane_set(const std::string& folder) {
   for (const Lines& lines : all) {
     const std::map<std::string, Setting> own = settings(lines);
     if (is_rosflight(lines)) {
-      if (aircraft)
-        throw core::Error(lines.file + ": it is a second aircraft beside " + aircraft->file +
-                          "; expected the folder of one");
+      if (aircraft) throw core::Error(located(lines.file, aero_messages::aircraft_duplicate(aircraft->file)));
       aircraft = &lines;
     } else if (own.count("r_kp") && own.count("c_kp")) {
-      if (gains)
-        throw core::Error(lines.file + ": it has gains, as " + gains->file +
-                          " has; expected the folder of one aircraft");
+      if (gains) throw core::Error(located(lines.file, aero_messages::gains_duplicate(gains->file)));
       gains = &lines;
     } else if (lines.has("wp:")) {
       missions.push_back(&lines);
@@ -211,9 +207,7 @@ RosplaneSet rosplane_set(const std::string& folder) {
     }
     if (own.count("R_min")) radius = own.at("R_min").value;
   }
-  if (!aircraft)
-    throw core::Error(folder +
-                      ": expected a ROSflight file with wing_s, C_L_alpha, ... and found none in it");
+  if (!aircraft) throw core::Error(located(folder, aero_messages::rosflight_file_missing()));
   ImportOptions options;
   Aircraft a = rosflight_aircraft(*aircraft, true);
   if (!missions.empty()) a.cruise_mps = options.cruise_mps = waypoints(*missions[0])[0].airspeed;

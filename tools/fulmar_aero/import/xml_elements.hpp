@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tools/fulmar_aero/import/lines.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 
@@ -31,7 +32,7 @@ struct Element {
 
 inline const Element& needed_child(const Lines& lines, const Element& parent, const std::string& name) {
   if (const Element* const found = parent.child(name)) return *found;
-  refuse(lines.where(parent.line), "<" + parent.name + ">: expected <" + name + "> and did not find it");
+  refuse(lines.where(parent.line), aero_messages::child_element_missing(parent.name, name));
 }
 
 class XmlReader {
@@ -52,20 +53,19 @@ class XmlReader {
   }
 
   void read_into(Element& parent, int depth) {
-    if (depth > 50) refuse(lines_.where(line()), "elements are nested deeper than 50");
+    if (depth > 50) refuse(lines_.where(line()), aero_messages::element_nesting_excessive());
     while (true) {
       const std::size_t open = text_.find('<', at_);
       if (open == std::string::npos) {
         if (!parent.name.empty())
-          refuse(lines_.where(parent.line), "<" + parent.name + "> does not end; is the file cut off?");
+          refuse(lines_.where(parent.line), aero_messages::element_not_closed(parent.name));
         return;
       }
       parent.text += text_.substr(at_, open - at_);
       at_ = open;
       if (skipped("<!--", "-->") || skipped("<?", "?>") || skipped("<!", ">")) continue;
       const std::size_t close = text_.find('>', open);
-      if (close == std::string::npos)
-        refuse(lines_.where(line()), "a tag does not end; is the file cut off?");
+      if (close == std::string::npos) refuse(lines_.where(line()), aero_messages::tag_not_closed());
       std::string tag = text_.substr(open + 1, close - open - 1);
       const std::size_t here = line();
       at_ = close + 1;
@@ -88,8 +88,7 @@ class XmlReader {
   bool skipped(const char* begin, const char* end) {
     if (text_.compare(at_, std::string(begin).size(), begin) != 0) return false;
     const std::size_t stop = text_.find(end, at_);
-    if (stop == std::string::npos)
-      refuse(lines_.where(line()), std::string(begin) + " does not end; is the file cut off?");
+    if (stop == std::string::npos) refuse(lines_.where(line()), aero_messages::markup_not_closed(begin));
     at_ = stop + std::string(end).size();
     return true;
   }

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/graph/shipped.hpp"
 #include "tools/chart/chart.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero {
 
@@ -76,7 +77,7 @@ void refuse_as_page(const std::string& page, const std::vector<std::string>& inp
   for (const std::string& input : inputs) {
     std::error_code none;
     if (std::filesystem::equivalent(page, core::named_file({}, input), none))
-      throw core::Error("'" + page + "' is a file that the page is made from; name another one behind -o");
+      throw core::Error(aero_messages::page_is_input(page));
   }
 }
 
@@ -84,7 +85,7 @@ void write_page(const std::string& file, const std::string& html) {
   std::ofstream out(file, std::ios::binary);
   out << html;
   out.close();
-  if (!out) throw core::Error("'" + file + "' cannot be written");
+  if (!out) throw core::Error(aero_messages::picture_not_writable(file));
 }
 
 }  // namespace fulmar::aero

@@ -9,6 +9,7 @@
 #include "core/graph/shipped.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_aero/commands.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/see/curves.hpp"
 #include "tools/fulmar_aero/see/page.hpp"
 #include "tools/fulmar_aero/vlm/span_load.hpp"

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "fulmar/flight/earth/atmosphere.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -134,7 +135,7 @@ std::string turn_controls(const Geometry& g, SixDerivatives& whole) {
       column.*c = -(column.*c);
     turned += std::string(turned.empty() ? "" : "; ") + sense.words;
   }
-  return turned.empty() ? turned : turned + ": turn the servo, too";
+  return turned.empty() ? turned : fulmar::located(turned, aero_messages::servo_reversal_needed()).line();
 }
 
 SixDerivatives with_parts(const Geometry& g, const Aircraft& a, const SixDerivatives& lattice) {
@@ -150,15 +151,13 @@ SixDerivatives with_parts(const Geometry& g, const Aircraft& a, const SixDerivat
 void refuse_what_is_missing(const GeometryFile& file, const MassSum& mass, const Lattice& lattice) {
   const Geometry& g = *file.geometry;
   const auto refuse = [&](const char* list, const std::string& sentence) {
-    throw core::Error(file.where(list, 1u << 20).text() + ": " + sentence);
+    throw core::Error(located(file.where(list, 1u << 20), sentence));
   };
-  if (!(mass.mass_kg > 0)) refuse("surfaces", "nothing has a mass; give surfaces, bodies or masses one");
-  if (!lattice.has[to_elevator])
-    refuse("surfaces", "surfaces: no control drives the elevator; without it nothing trims it");
-  if (!lattice.has[to_aileron])
-    refuse("surfaces", "surfaces: no control drives the aileron; without it nothing rolls it");
+  if (!(mass.mass_kg > 0)) refuse("surfaces", aero_messages::mass_missing());
+  if (!lattice.has[to_elevator]) refuse("surfaces", aero_messages::elevator_control_missing());
+  if (!lattice.has[to_aileron]) refuse("surfaces", aero_messages::aileron_control_missing());
   if (!g.propellers.empty() && !(g.propulsion.ct0_ratio > 0))
-    refuse("propellers", "propellers: their speed follows from propulsion.ct0, and there is none");
+    refuse("propellers", aero_messages::propeller_thrust_missing());
 }
 
 /// A vortex that passes close by a control point of another surface, or too few panels, show so. The power of
@@ -193,14 +192,15 @@ void lift_fault(const GeometryFile& file, double CL, const Aircraft& a, const Vl
   const auto lift = [&](double alpha) { return vlm.forces({.alpha = alpha}).CL; };
   const double slope = (lift(step) - lift(-step)) / (2 * step), far = lift(steepest);
   const bool of_wings = slope > 1 && slope < 9 && far > lift(step) && lift(-steepest) < lift(-step);
-  throw core::Error(
-      file.where("limits", 1u << 20).text() + ": limits.airspeed_cruise: at " +
-      core::number_text(a.stream.airspeed_mps) + " m/s level flight of " + figures(a.mass.mass_kg) +
-      " kg takes CL " + figures(CL) + ", and these surfaces have it at no angle within 25 deg" +
-      (of_wings ? ""
-                : "; their lift is not that of wings (CL_alpha " + figures(slope) + ", CL " + figures(far) +
-                      " at 25 deg), so a vortex passes a control point of another surface: make winglets "
-                      "sections of their wing, part a tail from the wing's wake, or change `spanwise`"));
+  throw core::Error(located(
+      file.where("limits", 1u << 20),
+      aero_messages::cruise_lift_unreachable(
+          core::number_text(a.stream.airspeed_mps), figures(a.mass.mass_kg), figures(CL),
+          of_wings
+              ? ""
+              : "; their lift is not that of wings (CL_alpha " + figures(slope) + ", CL " + figures(far) +
+                    " at 25 deg), so a vortex passes a control point of another surface: make winglets "
+                    "sections of their wing, part a tail from the wing's wake, or change `spanwise`")));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/types/text.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/vlm/planform.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
@@ -25,7 +26,7 @@ class AvlFile {
   AvlFile(const std::string& path, const std::string& name, Geometry& g)
       : path_(path), name_(name), geometry_(g) {
     std::ifstream in(path);
-    if (!in) throw core::Error(name + ": it cannot be read");
+    if (!in) throw core::Error(located(name, aero_messages::planform_not_readable()));
     std::string text;
     for (int number = 1; std::getline(in, text); ++number) {
       const std::string line(core::trimmed(text.substr(0, text.find_first_of("#!"))));
@@ -40,7 +41,7 @@ class AvlFile {
       if (key == "SURF")
         begin_surface();
       else if (!surface_)
-        fail("'" + lines_[at_].text + "' stands outside a SURFACE");
+        fail(aero_messages::line_outside_surface(lines_[at_].text));
       else if (key == "SECT")
         add_section();
       else if (!sections_.empty() &&
@@ -58,9 +59,9 @@ class AvlFile {
     int number;
   };
 
-  [[noreturn]] void fail(const std::string& sentence) const {
+  [[noreturn]] void fail(const Diagnostic& sentence) const {
     const int number = lines_.empty() ? 0 : lines_[std::min(at_, lines_.size() - 1)].number;
-    throw core::Error(core::Where{name_, number}.text() + ": " + sentence);
+    throw core::Error(located(core::Where{name_, number}, sentence));
   }
   /// The first four letters tell keywords apart, as in AVL.
   std::string keyword() const {
@@ -69,7 +70,7 @@ class AvlFile {
     return key;
   }
   std::vector<double> numbers(std::size_t least, const char* what) {
-    if (at_ >= lines_.size()) fail(std::string("the file ends where ") + what + " should stand");
+    if (at_ >= lines_.size()) fail(aero_messages::planform_truncated(what));
     std::istringstream in(lines_[at_].text);
     std::vector<double> out;
     for (std::string word; in >> word;) {
@@ -78,19 +79,18 @@ class AvlFile {
       if (*end || !std::isfinite(value)) break;
       out.push_back(value);
     }
-    if (out.size() < least)
-      fail("'" + lines_[at_].text + "': " + std::to_string(least) + " numbers are expected, " + what);
+    if (out.size() < least) fail(aero_messages::planform_numbers_missing(lines_[at_].text, least, what));
     ++at_;
     return out;
   }
 
   void header() {
-    if (lines_.size() < 6) fail("this is no geometry of AVL: its header has six lines");
+    if (lines_.size() < 6) fail(aero_messages::avl_header_incomplete());
     at_ = 1;
     numbers(1, "the Mach number");
     if (const auto symmetry = numbers(3, "iYsym iZsym Zsym"); symmetry[0] != 0 || symmetry[1] != 0) {
       --at_;
-      fail("planes of symmetry are not read; give both halves by YDUPLICATE 0");
+      fail(aero_messages::symmetry_plane_unsupported());
     }
     const auto r = numbers(3, "Sref Cref Bref");
     geometry_.reference = {r[0], r[2], r[1]};
@@ -105,7 +105,7 @@ class AvlFile {
 
   void begin_surface() {
     end_surface();
-    if (++at_ >= lines_.size()) fail("a SURFACE without a name");
+    if (++at_ >= lines_.size()) fail(aero_messages::surface_name_missing());
     LiftingSurface s;
     s.name = std::string_view(lines_[at_++].text);
     const auto n = numbers(2, "Nchord Cspace");
@@ -113,7 +113,7 @@ class AvlFile {
     s.chord_spacing = spacing(n[1]) == Spacing::uniform ? Spacing::uniform : Spacing::cosine;
     s.spanwise = n.size() > 2 ? std::clamp(int(n[2]), 1, 200) : 20;
     if (n.size() > 3) s.span_spacing = spacing(n[3]);
-    if (!geometry_.surfaces.push_back(s)) fail("more surfaces than 16");
+    if (!geometry_.surfaces.push_back(s)) fail(aero_messages::too_many_surfaces());
     surface_ = &geometry_.surfaces[geometry_.surfaces.size() - 1];
   }
 
@@ -122,7 +122,7 @@ class AvlFile {
     if (key == "YDUP") {
       if (numbers(1, "Ydupl")[0] != 0) {
         --at_;
-        fail("YDUPLICATE: only about y = 0");
+        fail(aero_messages::duplicate_plane_unsupported());
       }
       surface_->mirror = true;
     } else if (key == "ANGL") {
@@ -137,9 +137,7 @@ class AvlFile {
       numbers(1, "the component");  // decides on the core of vortices alone
     } else {
       --at_;
-      fail("'" + lines_[at_].text +
-           "' is not read here; known are SURFACE, YDUPLICATE, ANGLE, TRANSLATE, SCALE, COMPONENT, "
-           "SECTION, NACA, AFILE, CLAF, CDCL, CONTROL");
+      fail(aero_messages::planform_keyword_unsupported(lines_[at_].text));
     }
   }
 
@@ -154,9 +152,9 @@ class AvlFile {
     w.twist_rad = n[4] * degree;
     if (!(w.chord_m > 0)) {
       --at_;
-      fail("SECTION: the chord is " + core::number_text(w.chord_m) + " and must be more than 0");
+      fail(aero_messages::section_chord_invalid(core::number_text(w.chord_m)));
     }
-    if (!surface_->sections.push_back(w)) fail("more sections than 32");
+    if (!surface_->sections.push_back(w)) fail(aero_messages::too_many_sections());
     sections_.emplace_back();
     polars_.emplace_back();
   }
@@ -165,13 +163,13 @@ class AvlFile {
     WingSection& w = surface_->sections[surface_->sections.size() - 1];
     if (key == "CONT") return add_control();
     ++at_;
-    if (at_ >= lines_.size()) fail("the file ends behind " + key);
+    if (at_ >= lines_.size()) fail(aero_messages::keyword_value_missing(key));
     Airfoil& foil = polars_.back();
     if (key == "NACA") {
       foil.naca = std::string_view(lines_[at_].text);
       if (lines_[at_].text.size() != 4 ||
           lines_[at_].text.find_first_not_of("0123456789") != std::string::npos)
-        fail("NACA '" + lines_[at_].text + "' is not of four digits");
+        fail(aero_messages::naca_digits_invalid(lines_[at_].text));
       foil.name = std::string_view("naca" + lines_[at_].text);
       foil.thickness_frac = std::max(0.01, std::stoi(lines_[at_].text.substr(2)) / 100.0);
       ++at_;
@@ -183,7 +181,7 @@ class AvlFile {
     } else if (key == "CLAF") {
       if (std::abs(numbers(1, "CLaf")[0] - 1) > 1e-6) {
         --at_;
-        fail("CLAF: a lift slope other than that of a plate is not read");
+        fail(aero_messages::lift_slope_unsupported());
       }
     } else {
       const auto p = numbers(6, "CL1 CD1 CL2 CD2 CL3 CD3");
@@ -204,12 +202,10 @@ class AvlFile {
     double x = 0, y = 0, z = 0;
     c.line = lines_[at_].number;
     if (!(in >> c.name >> c.gain >> c.hinge >> x >> y >> z >> c.duplicate))
-      fail("CONTROL: expected name, gain, Xhinge, three of the hinge and SgnDup");
-    if (std::abs(std::abs(c.gain) - 1) > 1e-6)
-      fail("CONTROL " + c.name + ": only gains of 1 and -1 are read");
+      fail(aero_messages::control_incomplete());
+    if (std::abs(std::abs(c.gain) - 1) > 1e-6) fail(aero_messages::control_gain_unsupported(c.name));
     if (!(c.hinge > 0 && c.hinge < 1))
-      fail("CONTROL " + c.name + ": the hinge at " + core::number_text(c.hinge) +
-           " of the chord is not read");
+      fail(aero_messages::control_hinge_unsupported(c.name, core::number_text(c.hinge)));
     drives(c);  // its name is known
     sections_.back().push_back(c);
     ++at_;
@@ -224,9 +220,7 @@ class AvlFile {
     if (begins("elev")) return Drives::elevator;
     if (begins("rud")) return Drives::rudder;
     if (begins("flap")) return Drives::flap;
-    throw core::Error(
-        core::Where{name_, c.line}.text() + ": CONTROL '" + c.name +
-        "': what it drives is told by its name; valid: aileron, elevator, rudder, flap, elevon");
+    throw core::Error(located(core::Where{name_, c.line}, aero_messages::control_name_unknown(c.name)));
   }
 
   /// The control of that name at the next section or the one before.
@@ -247,15 +241,15 @@ class AvlFile {
     for (std::size_t i = 0; i < surface_->sections.size(); ++i) {
       for (const AvlControl& c : sections_[i])
         if (!partner(i, 1, c) && !partner(i, -1, c))
-          throw core::Error(core::Where{name_, c.line}.text() + ": CONTROL '" + c.name +
-                            "' stands at this section alone; it goes from one section to the next");
+          throw core::Error(
+              located(core::Where{name_, c.line}, aero_messages::control_section_single(c.name)));
       if (i + 1 == surface_->sections.size()) break;
       const WingSection &in = surface_->sections[i], &out = surface_->sections[i + 1];
       const double end = along + std::hypot(out.y_m - in.y_m, out.z_m - in.z_m);
       for (const AvlControl& c : sections_[i])
         if (const AvlControl* const other = partner(i, 1, c))
           if (!surface_->controls.push_back({drives(c), along, end, 0.5 * (c.hinge + other->hinge)}))
-            fail("more parts of controls than 16 on one surface");
+            fail(aero_messages::too_many_control_parts());
       along = end;
     }
     surface_ = nullptr;
@@ -284,13 +278,14 @@ void add_avl(const std::string& path, const std::string& name, Geometry& geometr
 Text<32> add_airfoil(Geometry& geometry, const Airfoil& airfoil, const std::string& where) {
   for (const Airfoil& one : geometry.airfoils)
     if (one.name == airfoil.name) return one.name;  // the drawing's own of that name goes first
-  if (!geometry.airfoils.push_back(airfoil)) throw core::Error(where + ": more airfoils than 16");
+  if (!geometry.airfoils.push_back(airfoil))
+    throw core::Error(located(where, aero_messages::too_many_airfoils()));
   return airfoil.name;
 }
 
 void read_camber(const std::string& path, const std::string& name, Airfoil& airfoil) {
   std::ifstream in(path);
-  if (!in) throw core::Error(name + ": the airfoil's coordinates cannot be read");
+  if (!in) throw core::Error(located(name, aero_messages::airfoil_not_readable()));
   std::vector<std::array<double, 2>> points;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -299,13 +294,12 @@ void read_camber(const std::string& path, const std::string& name, Airfoil& airf
     if (words >> x >> z && std::abs(x) < 1.1 && std::abs(z) < 1)
       points.push_back({x, z});
     else if (number > 1 && !core::trimmed(line).empty())
-      throw core::Error(name + ":" + std::to_string(number) + ": '" + line +
-                        "' is no point of a section of chord 1");
+      throw core::Error(aero_messages::airfoil_point_invalid(name, number, line));
   }
   const auto nose =
       std::min_element(points.begin(), points.end(), [](auto& a, auto& b) { return a[0] < b[0]; });
   if (points.size() < 10 || nose == points.begin() || nose + 1 == points.end())
-    throw core::Error(name + ": it does not go from the trailing edge over the top to the trailing edge");
+    throw core::Error(located(name, aero_messages::airfoil_order_invalid()));
   std::vector<std::array<double, 2>> top(points.begin(), nose + 1), bottom(nose, points.end());
   std::reverse(top.begin(), top.end());
   const auto height = [](const std::vector<std::array<double, 2>>& side, double x) {
@@ -328,7 +322,7 @@ void add_planform(const std::string& path, const std::string& name, Geometry& ge
   const std::string end = std::filesystem::path(name).extension().string();
   if (end == ".avl") return add_avl(path, name, geometry);
   if (end == ".xml") return add_xflr5(path, name, geometry);
-  throw core::Error(name + ": surfaces are read from AVL's .avl and XFLR5's .xml");
+  throw core::Error(located(name, aero_messages::planform_format_unsupported()));
 }
 
 }  // namespace fulmar::aero

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/types/text.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/vlm/planform.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
@@ -31,18 +32,18 @@ class XmlReader {
 
   /// What stands up to the end tag of `out`.
   void fill(Element& out, int depth = 0) {
-    if (depth > 20) fail("elements lie too deep in each other");
+    if (depth > 20) fail(aero_messages::plane_nesting_excessive());
     for (;;) {
       const std::size_t open = text_.find('<', at_);
       if (open == std::string::npos) {
-        if (!out.tag.empty()) fail("<" + out.tag + "> of line " + std::to_string(out.line) + " has no end");
+        if (!out.tag.empty()) fail(aero_messages::plane_element_open(out.tag, out.line));
         return;
       }
       out.text += text_.substr(at_, open - at_);
       move_to(open);
       const bool comment = text_.compare(open, 4, "<!--") == 0;
       const std::size_t close = comment ? text_.find("-->", open) : text_.find('>', open);
-      if (close == std::string::npos) fail("'<' has no '>'");
+      if (close == std::string::npos) fail(aero_messages::bracket_not_closed());
       const std::string tag = text_.substr(open + 1, close - open - 1);
       move_to(close + (comment ? 3 : 1));
       if (tag.empty() || tag[0] == '?' || tag[0] == '!') continue;
@@ -63,8 +64,8 @@ class XmlReader {
     line_ += int(std::count(text_.begin() + std::ptrdiff_t(at_), text_.begin() + std::ptrdiff_t(at), '\n'));
     at_ = at;
   }
-  [[noreturn]] void fail(const std::string& sentence) const {
-    throw core::Error(name_ + ":" + std::to_string(line_) + ": " + sentence);
+  [[noreturn]] void fail(const Diagnostic& sentence) const {
+    throw core::Error(located(core::Where{name_, line_}, sentence));
   }
   const std::string& text_;
   std::string name_;
@@ -79,23 +80,21 @@ class Xflr5Plane {
   void read(const Element& document) {
     const Element* const root = document.find("explane");
     const Element* const plane = root ? root->find("Plane") : nullptr;
-    if (!plane)
-      throw core::Error(name_ +
-                        ": there is no <explane> with a <Plane>: XFLR5 exports it as `Export plane to xml`");
+    if (!plane) throw core::Error(located(name_, aero_messages::plane_missing()));
     if (const Element* const units = root->find("Units")) {
       metre_ = number(*units, "length_unit_to_meter", 1);
       kilogram_ = number(*units, "mass_unit_to_kg", 1);
     }
     if (word(*plane, "has_body") == "true" && geometry_.bodies.empty())
-      fail(*plane, "its body is not read; give it in `bodies` of the drawing");
+      fail(*plane, aero_messages::plane_body_unsupported());
     if (const Element* const inertia = plane->find("Inertia")) add_masses(*inertia);
     for (const Element& e : plane->inside)
       if (e.tag == "wing") add_wing(e);
   }
 
  private:
-  [[noreturn]] void fail(const Element& at, const std::string& sentence) const {
-    throw core::Error(name_ + ":" + std::to_string(at.line) + ": " + sentence);
+  [[noreturn]] void fail(const Element& at, const Diagnostic& sentence) const {
+    throw core::Error(located(core::Where{name_, at.line}, sentence));
   }
   static std::string word(const Element& in, const char* tag) {
     const Element* const e = in.find(tag);
@@ -116,8 +115,8 @@ class Xflr5Plane {
     std::vector<double> out;
     for (double x = 0; in >> x;) out.push_back(x);
     if (out.size() != n || !in.eof())
-      fail(e, "<" + e.tag + ">: '" + std::string(core::trimmed(e.text)) + "' is not of " + std::to_string(n) +
-                  (n == 1 ? " number" : " numbers"));
+      fail(e, aero_messages::element_numbers_invalid(e.tag, core::trimmed(e.text), n,
+                                                     n == 1 ? " number" : " numbers"));
     return out;
   }
 
@@ -125,7 +124,7 @@ class Xflr5Plane {
     for (const Element& e : inertia.inside) {
       if (e.tag != "Point_Mass") continue;
       const Element* const at = e.find("coordinates");
-      if (!at) fail(e, "a point mass without coordinates");
+      if (!at) fail(e, aero_messages::point_mass_unplaced());
       const auto x = numbers(*at, 3);
       MassPart m;
       m.name = std::string_view(word(e, "Tag"));
@@ -133,7 +132,7 @@ class Xflr5Plane {
       m.x_m = metre_ * x[0];
       m.y_m = metre_ * x[1];
       m.z_m = metre_ * x[2];
-      if (!geometry_.masses.push_back(m)) fail(e, "more masses than 64");
+      if (!geometry_.masses.push_back(m)) fail(e, aero_messages::too_many_masses());
     }
   }
 
@@ -141,16 +140,16 @@ class Xflr5Plane {
     LiftingSurface s;
     s.name = std::string_view(word(e, "Name"));
     const bool fin = word(e, "isFin") == "true", two = word(e, "isDoubleFin") == "true";
-    if (word(e, "isSymFin") == "true") fail(e, "a fin that goes up and down is not read; give two fins");
+    if (word(e, "isSymFin") == "true") fail(e, aero_messages::symmetric_fin_unsupported());
     s.mirror = fin ? two : word(e, "Symetric") == "true";
-    if (!fin && !s.mirror) fail(e, "a wing that is not symmetric is not read");
+    if (!fin && !s.mirror) fail(e, aero_messages::asymmetric_wing_unsupported());
     const Element* const position = e.find("Position");
     const auto at = position ? numbers(*position, 3) : std::vector<double>{0, 0, 0};
     s.incidence_rad = fin ? 0 : number(e, "Tilt_angle", 0) * degree;
     if (const Element* const inertia = e.find("Inertia"))
       s.mass_kg = kilogram_ * number(*inertia, "Volume_Mass", 0);
     const Element* const sections = e.find("Sections");
-    if (!sections) fail(e, "a wing without sections");
+    if (!sections) fail(e, aero_messages::wing_sections_missing());
     // y_position goes along the surface; the dihedral of a section is that up to the next
     double y = fin ? metre_ * at[1] : 0, z = 0, along = 0, dihedral = 0;
     int spanwise = 0;
@@ -171,28 +170,27 @@ class Xflr5Plane {
       w.z_m = metre_ * at[2] + z;
       w.chord_m = metre_ * number(one, "Chord", std::nan(""));
       w.twist_rad = number(one, "Twist", 0) * degree;
-      if (!(w.chord_m > 0)) fail(one, "the chord must be more than 0");
+      if (!(w.chord_m > 0)) fail(one, aero_messages::chord_not_positive());
       w.airfoil = foil(one);
-      if (!s.sections.push_back(w)) fail(one, "more sections than 32");
+      if (!s.sections.push_back(w)) fail(one, aero_messages::too_many_sections());
       s.chordwise = std::clamp(int(number(one, "x_number_of_panels", 8)), 1, 40);
       spanwise += std::clamp(int(number(one, "y_number_of_panels", 5)), 1, 100);
     }
     s.spanwise = std::clamp(spanwise, 4, 200);
-    if (!geometry_.surfaces.push_back(s)) fail(e, "more surfaces than 16");
+    if (!geometry_.surfaces.push_back(s)) fail(e, aero_messages::too_many_surfaces());
   }
 
   /// "NACA 2412" is known; any other shape is the drawing's, under the same name.
   Text<32> foil(const Element& section) {
     const std::string name = word(section, "Right_Side_FoilName");
-    if (name != word(section, "Left_Side_FoilName")) fail(section, "a section with two foils is not read");
+    if (name != word(section, "Left_Side_FoilName")) fail(section, aero_messages::airfoil_pair_unsupported());
     for (const Airfoil& one : geometry_.airfoils)
       if (one.name.view() == name) return one.name;
     Airfoil airfoil;
     airfoil.name = std::string_view(name);
     const std::string digits = name.rfind("NACA ", 0) == 0 ? name.substr(5) : "";
     if (digits.size() != 4 || digits.find_first_not_of("0123456789") != std::string::npos)
-      fail(section,
-           "the foil '" + name + "' is not in this file; give an airfoil of that name in the drawing");
+      fail(section, aero_messages::airfoil_missing(name));
     airfoil.naca = std::string_view(digits);
     airfoil.thickness_frac = std::max(0.01, std::stoi(digits.substr(2)) / 100.0);
     return add_airfoil(geometry_, airfoil, name_);
@@ -207,7 +205,7 @@ class Xflr5Plane {
 
 void add_xflr5(const std::string& path, const std::string& name, Geometry& geometry) {
   std::ifstream in(path);
-  if (!in) throw core::Error(name + ": it cannot be read");
+  if (!in) throw core::Error(located(name, aero_messages::planform_not_readable()));
   std::ostringstream text;
   text << in.rdbuf();
   const std::string all = text.str();

@@ -8,6 +8,7 @@
 #include "core/loader/table.hpp"
 #include "core/types/text.hpp"
 #include "fulmar/schema.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/vlm/geometry.hpp"
 #include "tools/fulmar_aero/vlm/planform.hpp"
 #include "tools/fulmar_aero/words.hpp"
@@ -205,27 +206,21 @@ void complete(GeometryFile& file, core::Report& report) {
   const auto says = [&](const char* key) { return file.root.find(key) != nullptr; };
   const core::Where whole{file.name, 0};
   if (planform.empty()) {
-    if (!says("surfaces"))
-      report.add(whole,
-                 "this is no whole geometry, missing: surfaces, or a planform as in planform: wing.avl");
-    if (!says("reference"))
-      report.add(whole, "this is no whole geometry, missing: reference (area, span, chord)");
-    if (says("controls"))
-      report.add(file.where("controls", 0),
-                 "controls: they stand with their surface, unless planform names a file");
+    if (!says("surfaces")) report.add(whole, aero_messages::surfaces_missing());
+    if (!says("reference")) report.add(whole, aero_messages::reference_missing());
+    if (says("controls")) report.add(file.where("controls", 0), aero_messages::controls_misplaced());
     return;
   }
   const core::Where where = file.root.find("planform")->where();
-  if (says("surfaces")) return report.add(where, "planform: surfaces are given as well; one of both");
+  if (says("surfaces")) return report.add(where, aero_messages::surfaces_and_planform());
   const std::string elsewhere =
       core::named_file(std::filesystem::path(file.root.file->path).parent_path(), planform).string();
   if (std::error_code fault; !std::filesystem::is_regular_file(elsewhere, fault))
-    return report.add(where, "planform: there is no file '" + planform + "' beside the drawing");
+    return report.add(where, aero_messages::planform_missing(planform));
   const ReferenceQuantities own = g.reference;
   add_planform(elsewhere, planform, g);
   if (says("reference")) g.reference = own;
-  if (!(g.reference.area_m2 > 0))
-    report.add(whole, "this is no whole geometry, missing: reference (area, span, chord)");
+  if (!(g.reference.area_m2 > 0)) report.add(whole, aero_messages::reference_missing());
   for (std::size_t i = 0; i < g.controls.size(); ++i) {
     std::vector<std::string> names;
     LiftingSurface* found = nullptr;
@@ -236,10 +231,11 @@ void complete(GeometryFile& file, core::Report& report) {
     const std::string path = "controls[" + std::to_string(i) + "]";
     if (!found)
       report.add(file.where("controls", i),
-                 path + ".surface: there is no surface " + quoted(g.controls[i].surface.view()) + "." +
-                     core::choices_text(std::string(g.controls[i].surface.view()), names));
+                 aero_messages::surface_unknown(
+                     path, quoted(g.controls[i].surface.view()),
+                     core::choices_text(std::string(g.controls[i].surface.view()), names)));
     else if (!found->controls.push_back(g.controls[i].control))
-      report.add(file.where("controls", i), path + ": more controls than 16 on one surface");
+      report.add(file.where("controls", i), located(path, aero_messages::too_many_controls()));
   }
 }
 
@@ -266,14 +262,13 @@ GeometryFile read_geometry_file(const std::string& name) {
   core::Report report;
   file.root = core::parse_yaml(core::read_source(core::named_file({}, name), name), report);
   if (report.empty() && !file.root.is(core::Node::Kind::map))
-    report.add({name, 0},
-               "expected a map with the parts of an aircraft; found " + core::found_words(file.root));
+    report.add({name, 0}, aero_messages::geometry_map_expected(core::found_words(file.root)));
   const auto type = core::copy_type(describe<Geometry>());
   if (report.empty())
     core::fill_record(*type, file.root, reinterpret_cast<std::byte*>(file.geometry.get()), "", report);
   if (report.empty())
     if (const std::vector<std::string> missing = core::missing_in_record(*type, file.root); !missing.empty())
-      report.add({name, 0}, "this is no whole geometry, missing: " + core::join(missing));
+      report.add({name, 0}, aero_messages::geometry_incomplete(core::join(missing)));
   if (report.empty()) complete(file, report);
   if (report.empty()) GeometryRules(file, report).check();
   report.throw_if_any();

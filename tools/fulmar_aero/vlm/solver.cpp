@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero {
 namespace {
@@ -80,7 +81,7 @@ Vlm::Vlm(const Lattice& lattice, const ReferenceQuantities& reference, const Vec
   }
   circulation_ = Eigen::PartialPivLU<Eigen::Ref<Eigen::MatrixXd>>(influence).solve(right);
   if (!circulation_.allFinite() || circulation_.cwiseAbs().maxCoeff() > 1e6 * reference.span_m)
-    throw core::Error("no flow is found about these panels: two of them may lie on each other");
+    throw core::Error(aero_messages::flow_not_solvable());
   for (Eigen::MatrixXd& one : induced_) one.setZero(n, columns);
   Eigen::MatrixXd part(n, 3);
   for (Eigen::Index row = 0; row < n; ++row) {

@@ -5,6 +5,7 @@
 #include "core/app/program.hpp"
 #include "core/error.hpp"
 #include "tools/fulmar_aero/commands.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/vlm/aircraft.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
@@ -140,7 +141,7 @@ int vlm_command(const VlmCommand& options) {
   std::ofstream out(options.out);
   out << text;
   out.close();
-  if (!out) throw core::Error(options.out + ": it cannot be written");
+  if (!out) throw core::Error(located(options.out, aero_messages::output_not_writable()));
   if (!options.json) print_text("written: " + options.out + "; look at it with fulmar aero check\n");
   return core::ExitCode::done;
 }

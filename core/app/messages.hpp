@@ -5,11 +5,10 @@
 
 namespace fulmar::app_messages {
 
-inline constexpr MessageText argument_invalid{"app.argument_invalid",
-                                              "something was given that makes no sense there"};
+inline constexpr MessageText argument_invalid{"app.argument_invalid", "an argument is invalid"};
 inline constexpr MessageText assignment_form_invalid{
-    "app.assignment_form_invalid", {"found"}, "'{found}' is not of the form name=value"};
-inline constexpr MessageText callable_empty{"app.callable_empty", "there is nothing to call"};
+    "app.assignment_form_invalid", {"found"}, "'{found}' does not have the form name=value"};
+inline constexpr MessageText callable_empty{"app.callable_empty", "there is no function to call"};
 inline constexpr MessageText command_not_started{"app.command_not_started",
                                                  {"command", "program", "reason"},
                                                  "fulmar {command}: {program} cannot be started: {reason}"};
@@ -17,70 +16,72 @@ inline constexpr MessageText command_program_missing{
     "app.command_program_missing",
     {"command", "program"},
     "fulmar {command}: the program {program} is missing beside this one"};
-inline constexpr MessageText condition_violated{"app.condition_violated", "something is not as it has to be"};
+inline constexpr MessageText condition_violated{"app.condition_violated",
+                                                "a required condition does not hold"};
 inline constexpr MessageText dds_without_pace{
     "app.dds_without_pace",
-    "dds: nothing is exported or imported as fast as the machine allows; fly with --speed real"};
-inline constexpr MessageText element_missing{"app.element_missing",
-                                             "something was looked for where there is nothing"};
+    "dds: nothing is exported or imported at the full speed of the machine; fly with --speed real"};
+inline constexpr MessageText element_missing{"app.element_missing", "an index or a key does not exist"};
 inline constexpr MessageText file_name_empty{
     "app.file_name_empty", {"default_action"}, "'' names no file; without the option {default_action}"};
 inline constexpr MessageText folder_not_created{
-    "app.folder_not_created", {"folder", "reason"}, "cannot make the folder '{folder}': {reason}"};
+    "app.folder_not_created", {"folder", "reason"}, "the folder '{folder}' cannot be created: {reason}"};
 inline constexpr MessageText former_mission_kept{"app.former_mission_kept",
-                                                 "what flew before stays as it is"};
+                                                 "the former version stays in use"};
 inline constexpr MessageText internal_error{
     "app.internal_error", {"type", "reason"}, "an error inside Fulmar ({type}): {reason}"};
-inline constexpr MessageText length_excessive{"app.length_excessive",
-                                              "something would have become longer than anything can be"};
+inline constexpr MessageText length_excessive{"app.length_excessive", "a length exceeds its maximum"};
 inline constexpr MessageText live_without_pace{
     "app.live_without_pace",
-    "--live: no client can follow as fast as the machine allows; fly with --speed real"};
+    "--live: no client can follow at the full speed of the machine; fly with --speed real"};
 inline constexpr MessageText log_incomplete{
     "app.log_incomplete",
     {"reason", "count", "file"},
-    "the log is not whole: {reason}; {count} messages were lost{file}"};
+    "the log is incomplete: {reason}; {count} messages are lost{file}"};
 inline constexpr MessageText log_not_recorded{
-    "app.log_not_recorded", {"log"}, "--log {log}: the mission says record: off; there is no log to write"};
-inline constexpr MessageText log_off{"app.log_off", "no log is written"};
+    "app.log_not_recorded", {"log"}, "--log {log}: the mission sets record: off, so the host writes no log"};
+inline constexpr MessageText log_off{"app.log_off", "the flight writes no log"};
 inline constexpr MessageText log_with_gaps{
     "app.log_with_gaps", {"count"}, "the log has gaps: the disk was too slow for {count} messages"};
-inline constexpr MessageText memory_exhausted{"app.memory_exhausted", "there is not enough memory for that"};
-inline constexpr MessageText message_form_invalid{
-    "app.message_form_invalid", "what the other side has said has not the form that it should have"};
+inline constexpr MessageText memory_exhausted{"app.memory_exhausted",
+                                              "there is not enough memory for this operation"};
+inline constexpr MessageText message_form_invalid{"app.message_form_invalid",
+                                                  "the received message does not have the required form"};
 inline constexpr MessageText realtime_priority_missing{
-    "app.realtime_priority_missing", "the loop runs without real-time priority; --realtime gives it one"};
-inline constexpr MessageText realtime_without_pace{
-    "app.realtime_without_pace",
-    "--realtime would give a CPU to this flight alone: it belongs to --io fcu, or to a simulation with "
-    "--speed real"};
+    "app.realtime_priority_missing", "the loop runs without real-time priority; --realtime sets it"};
+inline constexpr MessageText realtime_without_pace{"app.realtime_without_pace",
+                                                   "--realtime would reserve a CPU for this flight alone: it "
+                                                   "requires --io fcu, or a simulation with --speed real"};
 inline constexpr MessageText rehearsal_failed{
     "app.rehearsal_failed", {"plugin", "reason"}, "{plugin} fails its rehearsal: {reason}"};
 inline constexpr MessageText report_excludes_no_log{
     "app.report_excludes_no_log",
-    "--report makes a page of the log, and --no-log leaves that out: give one of them"};
+    "--report makes a page of the log, and --no-log omits the log: give one of them"};
 inline constexpr MessageText report_exists{
     "app.report_exists",
     {"file"},
     "'{file}' exists; a report never overwrites a file. Name another with --report FILE.html"};
 inline constexpr MessageText report_log_missing{"app.report_log_missing",
-                                                "there is no log to make the report of"};
+                                                "the log for the report is missing"};
 inline constexpr MessageText report_name_invalid{
-    "app.report_name_invalid", {"found"}, "--report {found}: give a name that ends in .html, or none"};
+    "app.report_name_invalid",
+    {"found"},
+    "--report {found}: the name does not end in .html; give a name that ends in .html, or none"};
 inline constexpr MessageText report_not_made{
     "app.report_not_made", {"log"}, "the report of {log} was not made"};
 inline constexpr MessageText report_page_missing{
     "app.report_page_missing",
-    "this Fulmar was built without the page of a flight, which a report needs: install nodejs and npm, "
+    "this build of Fulmar lacks the page of a flight, which a report requires. Install nodejs and npm, then "
     "configure and build again"};
-inline constexpr MessageText report_program_missing{"app.report_program_missing",
-                                                    {"program"},
-                                                    "the program {program} is missing beside this one: it "
-                                                    "makes reports; cmake --build build --target flight"};
+inline constexpr MessageText report_program_missing{
+    "app.report_program_missing",
+    {"program"},
+    "the program {program}, which makes reports, is missing beside this one. Build it: cmake --build build "
+    "--target flight"};
 inline constexpr MessageText report_timed_out{
-    "app.report_timed_out", {"log"}, "the report of {log} is not made after 30 minutes"};
+    "app.report_timed_out", {"log"}, "the report of {log} is not complete after 30 minutes"};
 inline constexpr MessageText report_without_log{
-    "app.report_without_log", "--report: the mission says record: off; there is no log to make it of"};
+    "app.report_without_log", "--report: the mission sets record: off; a report requires a log"};
 inline constexpr MessageText result_not_writable{
     "app.result_not_writable", {"reason"}, "the result cannot be written: {reason}"};
 inline constexpr MessageText resume_log_missing{
@@ -88,15 +89,15 @@ inline constexpr MessageText resume_log_missing{
     {"mission"},
     "--resume: there is no log of the mission {mission}; name one, as in --resume FILE.mcap"};
 inline constexpr MessageText seconds_invalid{
-    "app.seconds_invalid", {"found"}, "give seconds, above 0 and up to 1e7, not '{found}'"};
+    "app.seconds_invalid", {"found"}, "'{found}' is not a number of seconds above 0 and up to 1e7"};
 inline constexpr MessageText speed_invalid{
     "app.speed_invalid",
     {"found"},
-    "--speed '{found}': give real, max, or a multiple of real time, for example 10"};
+    "--speed '{found}' is invalid. Valid: real, max, or a multiple of real time, for example 10"};
 inline constexpr MessageText value_type_differs{"app.value_type_differs",
-                                                "something is not what it was taken for"};
+                                                "a value has another type than expected"};
 inline constexpr MessageText whole_number_invalid{
-    "app.whole_number_invalid", {"found"}, "give a whole number from 0, not '{found}'"};
+    "app.whole_number_invalid", {"found"}, "'{found}' is not a whole number from 0 up"};
 inline constexpr MessageText with_file_missing{
     "app.with_file_missing",
     {"component", "example"},

@@ -8,16 +8,16 @@ namespace fulmar::graph_messages {
 inline constexpr MessageText age_unlimited{
     "graph.age_unlimited",
     {"component", "input", "reason"},
-    "{component}.{input} leads to the vehicle and is flown on however old it is{reason}"};
+    "{component}.{input} leads to the vehicle and is accepted at any age{reason}"};
 inline constexpr MessageText airframe_map_expected{
     "graph.airframe_map_expected", {"found"}, "expected a map with the fields of an airframe; found {found}"};
 inline constexpr MessageText assignment_expected{"graph.assignment_expected",
                                                  "expected component.parameter=value"};
-inline constexpr MessageText comparison_chained{"graph.comparison_chained",
-                                                "a comparison has two sides; join two of them with 'and'"};
+inline constexpr MessageText comparison_chained{
+    "graph.comparison_chained", "a comparison has two sides; join two comparisons with 'and'"};
 inline constexpr MessageText comparison_without_field{"graph.comparison_without_field",
                                                       {"left", "symbol", "right"},
-                                                      "'{left} {symbol} {right}' looks at no field"};
+                                                      "'{left} {symbol} {right}' compares no field"};
 inline constexpr MessageText component_of_other_io{
     "graph.component_of_other_io", {"component", "io"}, "{component} exists only with io: {io}"};
 inline constexpr MessageText component_rate_too_high{
@@ -27,12 +27,12 @@ inline constexpr MessageText component_rate_too_high{
 inline constexpr MessageText components_share_roles{
     "graph.components_share_roles",
     {"first", "first_roles", "second", "second_roles"},
-    "{first} fills {first_roles}, {second} fills {second_roles}; they cannot fly together"};
+    "{first} has the roles {first_roles} and {second} has {second_roles}; they cannot be active together"};
 inline constexpr MessageText condition_empty{"graph.condition_empty", "the condition is empty"};
 inline constexpr MessageText condition_expected{"graph.condition_expected",
                                                 "expected a condition under 'when'"};
 inline constexpr MessageText condition_text_invalid{
-    "graph.condition_text_invalid", {"found"}, "'{found}' is not understood"};
+    "graph.condition_text_invalid", {"found"}, "'{found}' is not valid in a condition"};
 inline constexpr MessageText condition_too_deep{"graph.condition_too_deep",
                                                 "the condition is nested too deep"};
 inline constexpr MessageText condition_too_long{"graph.condition_too_long", "the condition is too long"};
@@ -41,15 +41,15 @@ inline constexpr MessageText conjunction_expected{
 inline constexpr MessageText connection_cycle{
     "graph.connection_cycle",
     {"path", "component"},
-    "the wires form a cycle: {path}{component}. Mark one of them, as in {{from: nav.state, delayed: true}: "
-    "it then carries the value of the tick before"};
+    "the connections form a cycle: {path}{component}. Mark one of them, as in {{from: nav.state, delayed: "
+    "true}. It then carries the value of the previous tick"};
 inline constexpr MessageText control_character_found{
     "graph.control_character_found",
     {"code"},
-    "a text holds the control character {code}, which no name can"};
+    "a text holds the control character {code}, which is not valid in a name"};
 inline constexpr MessageText control_role_invalid{
     "graph.control_role_invalid",
-    "control: the vehicle obeys or not; name the roles whose outputs lead to it"};
+    "control: the role vehicle is not valid here; name the roles whose outputs lead to the vehicle"};
 inline constexpr MessageText dds_address_invalid{
     "graph.dds_address_invalid",
     {"key", "found"},
@@ -66,7 +66,7 @@ inline constexpr MessageText dds_port_missing{
 inline constexpr MessageText dds_port_unknown{
     "graph.dds_port_unknown", {"port", "choices"}, "dds.export: there is no port '{port}'.{choices}"};
 inline constexpr MessageText dds_rate_too_low{"graph.dds_rate_too_low",
-                                              "dds.export.rate: expected at least one in 285 years"};
+                                              "dds.export.rate: expected at least one message in 285 years"};
 inline constexpr MessageText dds_topic_invalid{
     "graph.dds_topic_invalid",
     {"found"},
@@ -76,7 +76,7 @@ inline constexpr MessageText dds_topic_repeated{
 inline constexpr MessageText dds_type_differs{
     "graph.dds_type_differs",
     {"topic", "type", "place", "found"},
-    "the topic {topic} has the type {type} already ({place}); it cannot be {found}, too"};
+    "the topic {topic} has the type {type} already ({place}); the type {found} is not possible"};
 inline constexpr MessageText dimension_differs{
     "graph.dimension_differs", {"found", "dimension", "expected"}, "{found} is {dimension}not {expected}"};
 inline constexpr MessageText document_repeated{"graph.document_repeated",
@@ -84,7 +84,7 @@ inline constexpr MessageText document_repeated{"graph.document_repeated",
 inline constexpr MessageText driver_output_invalid{
     "graph.driver_output_invalid",
     {"place", "output", "plugin"},
-    "{place}.run: a driver's outputs are queues; '{output}' of {plugin} is not one"};
+    "{place}.run: the outputs of a driver are queues; '{output}' of {plugin} is not one"};
 inline constexpr MessageText driver_with_input{"graph.driver_with_input",
                                                {"place", "plugin", "input"},
                                                "{place}.run: a driver has no inputs; {plugin} has '{input}'"};
@@ -92,39 +92,38 @@ inline constexpr MessageText duration_too_long{
     "graph.duration_too_long", {"found"}, "expected less than 285 years, found {found}"};
 inline constexpr MessageText duration_too_short{
     "graph.duration_too_short", {"found"}, "expected at least 1 ns, or 0, found {found}"};
-inline constexpr MessageText entry_repeated{"graph.entry_repeated", {"entry"}, "'{entry}' is there twice"};
+inline constexpr MessageText entry_repeated{"graph.entry_repeated", {"entry"}, "'{entry}' is given twice"};
 inline constexpr MessageText epoch_invalid{"graph.epoch_invalid", {"reason"}, "epoch: {reason}"};
-inline constexpr MessageText event_fields_missing{"graph.event_fields_missing",
-                                                  {"port", "type"},
-                                                  "'{port}' is {type}, which has no texts 'word' and 'text'"};
+inline constexpr MessageText event_fields_missing{
+    "graph.event_fields_missing",
+    {"port", "type"},
+    "'{port}' is {type}, which has no text fields 'word' and 'text'"};
 inline constexpr MessageText extends_cycle{
     "graph.extends_cycle", {"chain", "name"}, "extends: the files extend each other: {chain}{name}"};
 inline constexpr MessageText extends_file_invalid{
     "graph.extends_file_invalid", {"reason"}, "extends: {reason}"};
-inline constexpr MessageText failsafe_input_unknown{"graph.failsafe_input_unknown",
-                                                    {"input", "choices"},
-                                                    "failsafe: the vehicle takes no '{input}'.{choices}"};
-inline constexpr MessageText fallback_already_active{
-    "graph.fallback_already_active",
-    {"place", "component"},
-    "{place}.fallback: {component} is the component that fills the role already"};
+inline constexpr MessageText failsafe_input_unknown{
+    "graph.failsafe_input_unknown", {"input", "choices"}, "failsafe: the vehicle has no '{input}'.{choices}"};
+inline constexpr MessageText fallback_already_active{"graph.fallback_already_active",
+                                                     {"place", "component"},
+                                                     "{place}.fallback: {component} fills the role already"};
 inline constexpr MessageText field_ambiguous{
     "graph.field_ambiguous",
     {"place", "found", "choices"},
-    "{place}'{found}' could be any of {choices}; write the full name"};
+    "{place}'{found}' matches each of {choices}; write the full name"};
 inline constexpr MessageText field_name_missing{
     "graph.field_name_missing",
     {"found", "type", "fields"},
-    "'{found}' is a whole {type}; name a field of it. Valid: {fields}."};
+    "'{found}' is a whole {type}; name one of its fields. Valid: {fields}."};
 inline constexpr MessageText field_not_flag{
     "graph.field_not_flag",
     {"field", "plugin", "choices"},
-    "'{field}' of {plugin} is no flag, which is true or false.{choices}"};
-inline constexpr MessageText field_not_list{"graph.field_not_list", {"field"}, "'{field}' is no list"};
+    "'{field}' of {plugin} is not a flag, which is true or false.{choices}"};
+inline constexpr MessageText field_not_list{"graph.field_not_list", {"field"}, "'{field}' is not a list"};
 inline constexpr MessageText field_not_number{
     "graph.field_not_number", {"field", "kind"}, "'{field}' is {kind}, not a number"};
 inline constexpr MessageText field_repeated{
-    "graph.field_repeated", {"first_key"}, "the same field as '{first_key}', which is given above"};
+    "graph.field_repeated", {"first_key"}, "this key and '{first_key}' above name the same field"};
 inline constexpr MessageText field_unknown{"graph.field_unknown",
                                            {"place", "field", "type", "choices"},
                                            "{place}unknown field '{field}' of {type}.{choices}"};
@@ -136,7 +135,7 @@ inline constexpr MessageText file_missing{
 inline constexpr MessageText file_not_private{
     "graph.file_not_private",
     {"name", "file"},
-    "{name} is not loaded: everybody may write to it; chmod o-w {file}"};
+    "{name} is not loaded: all users can write to it; chmod o-w {file}"};
 inline constexpr MessageText file_not_readable{"graph.file_not_readable", {"name"}, "cannot read {name}"};
 inline constexpr MessageText file_not_regular{"graph.file_not_regular", {"path"}, "{path} is not a file"};
 inline constexpr MessageText file_owner_foreign{
@@ -146,11 +145,11 @@ inline constexpr MessageText file_owner_foreign{
 inline constexpr MessageText file_too_large{
     "graph.file_too_large",
     {"file"},
-    "{file} is larger than 16 MB: too large for a mission, an airframe or a plan"};
+    "{file} is larger than 16 MB, the limit for a mission, an airframe or a plan"};
 inline constexpr MessageText filler_unknown{
     "graph.filler_unknown",
     {"component", "role", "choices"},
-    "there is no component '{component}' that fills {role}.{choices}"};
+    "there is no component '{component}' with the role {role}.{choices}"};
 inline constexpr MessageText flag_compared_to_label{
     "graph.flag_compared_to_label", {"field", "found"}, "'{field}' is true or false, not '{found}'"};
 inline constexpr MessageText flag_compared_to_number{
@@ -167,18 +166,19 @@ inline constexpr MessageText flag_output_unknown{"graph.flag_output_unknown",
 inline constexpr MessageText folder_not_private{
     "graph.folder_not_private",
     {"name", "folder"},
-    "{name} is not loaded: everybody may replace files in its folder; chmod o-w {folder}"};
+    "{name} is not loaded: all users can replace files in its folder; chmod o-w {folder}"};
 inline constexpr MessageText hang_misplaced{
-    "graph.hang_misplaced", {"place"}, "{place}.hang: belongs to 'run: process'"};
+    "graph.hang_misplaced", {"place"}, "{place}.hang: the key is valid only with 'run: process'"};
 inline constexpr MessageText hardware_component_missing{
     "graph.hardware_component_missing",
     {"role", "with_role", "reason"},
-    "hardware: with io: fcu this mission needs --role {role}=COMPONENT or --with {with_role}=FILE: {reason}"};
+    "hardware: with io: fcu this mission requires --role {role}=COMPONENT or --with {with_role}=FILE: "
+    "{reason}"};
 inline constexpr MessageText hardware_not_allowed{
     "graph.hardware_not_allowed", {"reason"}, "hardware: this mission is for simulation only: {reason}"};
 inline constexpr MessageText hardware_reason_missing{
     "graph.hardware_reason_missing",
-    "hardware: 'because' is missing: the reason, for the one who is refused"};
+    "hardware: 'because' is missing; it states the reason for the rejection"};
 inline constexpr MessageText hardware_value_invalid{
     "graph.hardware_value_invalid",
     {"found"},
@@ -186,32 +186,32 @@ inline constexpr MessageText hardware_value_invalid{
 inline constexpr MessageText imported_input_connected{
     "graph.imported_input_connected",
     {"place"},
-    "a wire feeds this input already ({place}); remove one of the two"};
+    "a connection feeds this input already ({place}); remove one of the two"};
 inline constexpr MessageText imported_input_invalid{
     "graph.imported_input_invalid",
-    "this is a request, which others make through a service; a topic feeds a value or a queue"};
+    "this input is a request, which clients send through a service; a topic feeds a value or a queue"};
 inline constexpr MessageText imported_input_unknown{
     "graph.imported_input_unknown", {"plugin", "choices"}, "{plugin} has no such input.{choices}"};
 inline constexpr MessageText input_disconnected{
-    "graph.input_disconnected", {"input"}, "{input}cannot do without a wire; write another one in its place"};
+    "graph.input_disconnected", {"input"}, "{input}requires a connection; write another one in its place"};
 inline constexpr MessageText input_not_connected{
-    "graph.input_not_connected", {"input", "outputs"}, "{input}is not wired; {outputs}"};
+    "graph.input_not_connected", {"input", "outputs"}, "{input}has no connection; {outputs}"};
 inline constexpr MessageText integer_invalid{
     "graph.integer_invalid", {"found"}, "{found} is not a whole number"};
 inline constexpr MessageText integer_out_of_range{
     "graph.integer_out_of_range", {"found", "min", "max"}, "{found} is outside {min} .. {max}"};
 inline constexpr MessageText integer_too_large{"graph.integer_too_large", {"found"}, "{found} is too large"};
 inline constexpr MessageText io_unknown{
-    "graph.io_unknown", {"found", "choices"}, "unknown word '{found}'.{choices}"};
+    "graph.io_unknown", {"found", "choices"}, "unknown value '{found}'.{choices}"};
 inline constexpr MessageText item_count_invalid{
     "graph.item_count_invalid", {"count", "noun", "limit"}, "{count}{noun}, but this is a list of {limit}"};
 inline constexpr MessageText item_incomplete{
-    "graph.item_incomplete", {"type", "missing"}, "this is no whole {type}, missing: {missing}"};
+    "graph.item_incomplete", {"type", "missing"}, "this {type} is incomplete; missing: {missing}"};
 inline constexpr MessageText item_index_excessive{"graph.item_index_excessive",
                                                   {"count", "noun", "last"},
                                                   "the list has {count}{noun}, counted from [0] to [{last}]"};
 inline constexpr MessageText item_index_invalid{
-    "graph.item_index_invalid", {"found"}, "'{found}' is no place in a list, as in [0]"};
+    "graph.item_index_invalid", {"found"}, "'{found}' is not an index of a list, as in [0]"};
 inline constexpr MessageText item_index_missing{
     "graph.item_index_missing", {"path"}, "is a list; name one of its items, as in {path}[0]"};
 inline constexpr MessageText key_not_scalar{"graph.key_not_scalar",
@@ -221,19 +221,19 @@ inline constexpr MessageText key_repeated{
 inline constexpr MessageText key_unknown{
     "graph.key_unknown", {"place", "key", "choices"}, "{place}unknown key '{key}'.{choices}"};
 inline constexpr MessageText label_expected{
-    "graph.label_expected", {"field", "labels"}, "'{field}' is compared with a word. Valid: {labels}."};
+    "graph.label_expected", {"field", "labels"}, "'{field}' is compared with a label. Valid: {labels}."};
 inline constexpr MessageText label_unknown{
     "graph.label_unknown", {"field", "found", "choices"}, "'{field}' is never '{found}'.{choices}"};
 inline constexpr MessageText labels_differ{
-    "graph.labels_differ", {"left", "right"}, "'{left}' and '{right}' have different words"};
+    "graph.labels_differ", {"left", "right"}, "'{left}' and '{right}' have different labels"};
 inline constexpr MessageText latency_misplaced{
-    "graph.latency_misplaced", {"place"}, "{place}.latency: belongs to 'run: async'"};
-inline constexpr MessageText latency_missing{
-    "graph.latency_missing",
-    "'run: async' needs a latency above 0, as in latency: 200 ms: what it computes is seen that much later"};
+    "graph.latency_misplaced", {"place"}, "{place}.latency: the key is valid only with 'run: async'"};
+inline constexpr MessageText latency_missing{"graph.latency_missing",
+                                             "'run: async' requires a latency above 0, as in latency: 200 "
+                                             "ms. The outputs of the component appear after this time"};
 inline constexpr MessageText list_empty{"graph.list_empty", "the list is empty"};
 inline constexpr MessageText list_not_rising{
-    "graph.list_not_rising", {"found", "reason"}, "the list has to rise, and {found}{reason}"};
+    "graph.list_not_rising", {"found", "reason"}, "the list must rise, and {found}{reason}"};
 inline constexpr MessageText live_address_invalid{
     "graph.live_address_invalid",
     {"found"},
@@ -245,16 +245,17 @@ inline constexpr MessageText live_option_invalid{
 inline constexpr MessageText live_tiles_invalid{
     "graph.live_tiles_invalid",
     {"found"},
-    "live.tiles: expected http:// or https://, a host, and a path with {{z}, {{x} and {{y} once each and "
-    "without blanks, quotes, commas and semicolons, such as https://tile.example.org/{{z}/{{x}/{{y}.png, "
-    "found '{found}'"};
+    "live.tiles: '{found}' is not an address of tiles. Valid: http:// or https://, a host, and a path with "
+    "{{z}, {{x} and {{y} once each. Blanks, quotes, commas and semicolons are not valid. Example: "
+    "https://tile.example.org/{{z}/{{x}/{{y}.png"};
 inline constexpr MessageText live_tiles_missing{
-    "graph.live_tiles_missing", "live.attribution: names whose live.tiles are, and there are none"};
+    "graph.live_tiles_missing",
+    "live.attribution: the attribution states the source of live.tiles, which is missing"};
 inline constexpr MessageText live_token_missing{
     "graph.live_token_missing",
     {"host"},
-    "live.listen: {host} can be reached from other computers. Give a token in FULMAR_TOKEN or live.token, "
-    "which every client then has to show, or listen on 127.0.0.1"};
+    "live.listen: other computers can reach {host}. Set a token in FULMAR_TOKEN or live.token, which every "
+    "client must then present. Otherwise listen on 127.0.0.1"};
 inline constexpr MessageText map_expected{"graph.map_expected",
                                           {"place", "keys", "found"},
                                           "{place}expected a map with the keys {keys}; found {found}"};
@@ -263,17 +264,17 @@ inline constexpr MessageText memory_exhausted{"graph.memory_exhausted",
 inline constexpr MessageText memory_size_invalid{
     "graph.memory_size_invalid",
     {"found"},
-    "'{found}' is no amount of memory; write it with kB, MB or GB, as in 64 MB"};
+    "'{found}' is not an amount of memory; write it with kB, MB or GB, as in 64 MB"};
 inline constexpr MessageText message_types_differ{
     "graph.message_types_differ",
     {"output", "type", "component", "input", "reason"},
-    "{output} is another {type} than {component}.{input} takes: {reason}"};
+    "{output} is a different {type} from the one that {component}.{input} takes: {reason}"};
 inline constexpr MessageText mission_name_invalid{
-    "graph.mission_name_invalid", {"found"}, "mission: a name without '/' is wanted, found '{found}'"};
+    "graph.mission_name_invalid", {"found"}, "mission: expected a name without '/', found '{found}'"};
 inline constexpr MessageText mission_parameter_misplaced{
     "graph.mission_parameter_misplaced",
     {"place", "parameter", "key"},
-    "{place}.{parameter}: comes from the mission's '{key}'; set it there"};
+    "{place}.{parameter}: the value comes from the mission's '{key}'; set it there"};
 inline constexpr MessageText mission_rate_invalid{
     "graph.mission_rate_invalid",
     {"component", "rate", "min", "max", "plugin"},
@@ -281,10 +282,11 @@ inline constexpr MessageText mission_rate_invalid{
 inline constexpr MessageText more_faults{
     "graph.more_faults", {"limit"}, "there are more faults than these {limit}"};
 inline constexpr MessageText name_invalid{
-    "graph.name_invalid", {"found"}, "'{found}' is not a name; names are letters, digits and _"};
-inline constexpr MessageText name_too_long{"graph.name_too_long",
-                                           {"name", "length", "limit"},
-                                           "'{name}' has {length} characters; a name has {limit} at most"};
+    "graph.name_invalid", {"found"}, "'{found}' is not a name; a name has letters, digits and _"};
+inline constexpr MessageText name_too_long{
+    "graph.name_too_long",
+    {"name", "length", "limit"},
+    "'{name}' has {length} characters; the limit for a name is {limit}"};
 inline constexpr MessageText not_a_file{"graph.not_a_file", {"name"}, "{name} is not a file"};
 inline constexpr MessageText number_compared_to_label{
     "graph.number_compared_to_label",
@@ -303,7 +305,7 @@ inline constexpr MessageText operand_fault{"graph.operand_fault", {"field", "fau
 inline constexpr MessageText operand_missing{"graph.operand_missing",
                                              "the condition ends where a field or a number is expected"};
 inline constexpr MessageText operand_not_boolean{
-    "graph.operand_not_boolean", {"operand"}, "'{operand}' is not true or false; compare it with something"};
+    "graph.operand_not_boolean", {"operand"}, "'{operand}' is not true or false; compare it with a value"};
 inline constexpr MessageText operand_not_field{
     "graph.operand_not_field",
     {"found"},
@@ -311,24 +313,24 @@ inline constexpr MessageText operand_not_field{
 inline constexpr MessageText operand_not_scalar{
     "graph.operand_not_scalar",
     {"operand", "kind"},
-    "'{operand}' is {kind}, not a number, a word or true or false"};
+    "'{operand}' is {kind}; a condition takes a number, a label, or true or false"};
 inline constexpr MessageText operand_unordered{
     "graph.operand_unordered", {"operand"}, "'{operand}' has no order; compare it with == or !="};
 inline constexpr MessageText operands_incomparable{
     "graph.operands_incomparable", {"left", "right"}, "'{left}' and '{right}' cannot be compared"};
 inline constexpr MessageText operator_invalid{
-    "graph.operator_invalid", {"found", "remedy"}, "'{found}' is not understood; {remedy}"};
+    "graph.operator_invalid", {"found", "remedy"}, "'{found}' is not valid in a condition; {remedy}"};
 inline constexpr MessageText output_name_invalid{
     "graph.output_name_invalid",
     {"place", "found"},
-    "{place}.out: '{found}' is not a name; an optional port ends in '?'"};
+    "{place}.out: '{found}' is not a name; the name of an optional port ends in '?'"};
 inline constexpr MessageText output_not_provided{
     "graph.output_not_provided",
     {"input", "role", "output"},
-    "{input}needs {role}.{output}, which nobody provides in this run"};
+    "{input}requires {role}.{output}, which no component provides in this run"};
 inline constexpr MessageText output_repeated{"graph.output_repeated",
                                              {"place", "output"},
-                                             "{place}.out: '{output}' is there twice, with '?' and without"};
+                                             "{place}.out: '{output}' is given twice, with '?' and without"};
 inline constexpr MessageText parameter_in_record{
     "graph.parameter_in_record",
     {"use", "parameter", "suggestion", "record"},
@@ -344,24 +346,25 @@ inline constexpr MessageText parameter_name_expected{
 inline constexpr MessageText parameter_not_live{
     "graph.parameter_not_live",
     {"parameter"},
-    "{parameter} is fixed when the flight begins; whether it resumes is known when the vehicle has spoken"};
+    "{parameter} is fixed when the flight begins. The vehicle reports only later whether the flight resumes"};
 inline constexpr MessageText parameter_not_number{
-    "graph.parameter_not_number", {"parameter"}, "{parameter} is no number"};
+    "graph.parameter_not_number", {"parameter"}, "{parameter} is not a number"};
 inline constexpr MessageText parenthesis_unclosed{"graph.parenthesis_unclosed", "a ')' is missing"};
-inline constexpr MessageText parenthesis_unopened{"graph.parenthesis_unopened", "a ')' without its '('"};
+inline constexpr MessageText parenthesis_unopened{"graph.parenthesis_unopened", "a ')' has no matching '('"};
 inline constexpr MessageText path_not_accessible{
-    "graph.path_not_accessible", {"path", "reason"}, "{path} cannot be looked at: {reason}"};
-inline constexpr MessageText phase_parameter_fixed{"graph.phase_parameter_fixed",
-                                                   {"place", "parameter", "live"},
-                                                   "{place}.{parameter}: is fixed when the flight begins; a "
-                                                   "phase can set live parameters alone. Live: {live}."};
+    "graph.path_not_accessible", {"path", "reason"}, "{path} cannot be examined: {reason}"};
+inline constexpr MessageText phase_parameter_fixed{
+    "graph.phase_parameter_fixed",
+    {"place", "parameter", "live"},
+    "{place}.{parameter}: the parameter is fixed when the flight begins; a phase can set only live "
+    "parameters. Live: {live}."};
 inline constexpr MessageText phase_parameter_unknown{"graph.phase_parameter_unknown",
                                                      {"component", "parameter", "choices"},
                                                      "{component} has no parameter '{parameter}'.{choices}"};
 inline constexpr MessageText phase_set_repeated{
     "graph.phase_set_repeated",
     {"component"},
-    "'set' of {component} is there twice; one of its roles is enough"};
+    "'set' of {component} is given twice; give it at one of its roles"};
 inline constexpr MessageText phase_unreachable{
     "graph.phase_unreachable",
     {"phase", "first_phase"},
@@ -369,7 +372,7 @@ inline constexpr MessageText phase_unreachable{
 inline constexpr MessageText phase_vehicle_fixed{
     "graph.phase_vehicle_fixed",
     "the vehicle does not change in flight; choose it with io or with --role vehicle=NAME. A phase can 'set' "
-    "live parameters of the one that flies"};
+    "live parameters of the active vehicle"};
 inline constexpr MessageText plugin_component_unknown{
     "graph.plugin_component_unknown",
     {"reason", "name", "plugin", "component"},
@@ -379,18 +382,18 @@ inline constexpr MessageText plugin_file_missing{
 inline constexpr MessageText plugin_name_too_long{"graph.plugin_name_too_long",
                                                   {"component", "kind", "name", "plugin", "length", "limit"},
                                                   "components.{component}: the {kind} '{name}' of {plugin} "
-                                                  "has {length} characters; a name has {limit} at most"};
+                                                  "has {length} characters; the limit for a name is {limit}"};
 inline constexpr MessageText plugin_not_admitted{
-    "graph.plugin_not_admitted", {"plugin", "state"}, "{plugin}{state}; --with flies it all the same"};
+    "graph.plugin_not_admitted", {"plugin", "state"}, "{plugin}{state}; --with loads it in spite of this"};
 inline constexpr MessageText plugin_path_invalid{"graph.plugin_path_invalid",
                                                  {"path", "state"},
-                                                 "'{path}{state}: a plugin's file ends in .so or .py, and a "
-                                                 "component in it stands behind it, as in my_law.so/Law"};
+                                                 "'{path}{state}. The file of a plugin ends in .so or .py. "
+                                                 "The name of a component follows it, as in my_law.so/Law"};
 inline constexpr MessageText plugin_unknown{"graph.plugin_unknown",
                                             {"plugin", "folders", "choices"},
                                             "there is no plugin '{plugin}'. Searched in {folders}.{choices}"};
 inline constexpr MessageText plugin_without_components{
-    "graph.plugin_without_components", {"plugin"}, "{plugin} holds no component"};
+    "graph.plugin_without_components", {"plugin"}, "{plugin} has no component"};
 inline constexpr MessageText port_expected{
     "graph.port_expected", {"found"}, "expected a port such as nav.state, found '{found}'"};
 inline constexpr MessageText port_name_expected{
@@ -398,7 +401,7 @@ inline constexpr MessageText port_name_expected{
 inline constexpr MessageText probe_not_connectable{
     "graph.probe_not_connectable",
     {"output"},
-    "{output} is a probe: a number to look at, not a message to wire"};
+    "{output} is a probe: a number for observation, not a message to connect"};
 inline constexpr MessageText probe_without_fields{
     "graph.probe_without_fields",
     {"component", "probe"},
@@ -410,9 +413,10 @@ inline constexpr MessageText quantity_not_positive{
     "graph.quantity_not_positive", {"value"}, "{value} is not above 0"};
 inline constexpr MessageText rate_out_of_range{
     "graph.rate_out_of_range", {"rate"}, "rate: {rate} Hz is outside 0.1 .. 100000 Hz"};
-inline constexpr MessageText record_incomplete{"graph.record_incomplete",
-                                               {"place", "type", "missing", "hint"},
-                                               "{place}this is no whole {type}, missing: {missing}{hint}"};
+inline constexpr MessageText record_incomplete{
+    "graph.record_incomplete",
+    {"place", "type", "missing", "hint"},
+    "{place}this record is not a whole {type}, missing: {missing}{hint}"};
 inline constexpr MessageText record_map_expected{"graph.record_map_expected",
                                                  {"type", "found"},
                                                  "expected a map with the fields of {type}, found {found}"};
@@ -426,27 +430,28 @@ inline constexpr MessageText record_rate_invalid{"graph.record_rate_invalid",
 inline constexpr MessageText removed_connection_missing{
     "graph.removed_connection_missing",
     {"place", "input", "suggestion"},
-    "{place}.in: there is no wire '{input}' to take away{suggestion}"};
+    "{place}.in: there is no connection '{input}' to remove{suggestion}"};
 inline constexpr MessageText removed_key_missing{"graph.removed_key_missing",
                                                  {"place", "base", "key", "suggestion"},
-                                                 "{place}{base} has no '{key}' to take away{suggestion}"};
+                                                 "{place}{base} has no '{key}' to remove{suggestion}"};
 inline constexpr MessageText request_source_invalid{
     "graph.request_source_invalid",
     {"component", "input", "output"},
-    "{component}.{input} is a request, but {output} is sent in every step; a request is fed by an output "
+    "{component}.{input} is a request, but {output} is published in every step; a request requires an output "
     "that may stay silent"};
-inline constexpr MessageText role_ambiguous{"graph.role_ambiguous",
-                                            {"role", "components"},
-                                            "{role} is a role that {components} fill; name one of them"};
-inline constexpr MessageText role_empty{"graph.role_empty", {"role"}, "{role} is a role that nobody fills"};
+inline constexpr MessageText role_ambiguous{
+    "graph.role_ambiguous",
+    {"role", "components"},
+    "{role} is the role of several components: {components}. Name one of them"};
+inline constexpr MessageText role_empty{"graph.role_empty", {"role"}, "{role} is a role without a component"};
 inline constexpr MessageText role_filled_by_other{"graph.role_filled_by_other",
                                                   {"component", "roles", "role", "choices"},
-                                                  "{component} fills {roles}, not {role}.{choices}"};
+                                                  "{component} has the role {roles}, not {role}.{choices}"};
 inline constexpr MessageText role_groups_overlap{
     "graph.role_groups_overlap",
     {"place", "roles", "other", "other_roles"},
     "{place}{roles} overlap with those of {other}, {other_roles}: components that share roles fill the same "
-    "ones, or one alone"};
+    "roles, or only one"};
 inline constexpr MessageText role_input_unknown{
     "graph.role_input_unknown",
     {"role", "suggestion"},
@@ -454,17 +459,15 @@ inline constexpr MessageText role_input_unknown{
 inline constexpr MessageText role_inputs_conflict{
     "graph.role_inputs_conflict",
     {"component", "input"},
-    "components.{component}: the roles that it fills feed '{input}' from different outputs; write the one "
-    "that it is to have under its own 'in'"};
+    "components.{component}: its roles feed '{input}' from different outputs; write the valid one under the "
+    "component's own 'in'"};
 inline constexpr MessageText role_name_taken{
-    "graph.role_name_taken",
-    {"role"},
-    "roles.{role}: there is a component of that name too; rename one of them"};
+    "graph.role_name_taken", {"role"}, "roles.{role}: a component has the same name; rename one of them"};
 inline constexpr MessageText role_not_filled{
     "graph.role_not_filled", {"role", "reason"}, "roles.{role}: no component fills it{reason}"};
 inline constexpr MessageText role_not_filled_by{"graph.role_not_filled_by",
                                                 {"component", "role", "choices"},
-                                                "{component} does not fill {role}.{choices}"};
+                                                "{component} does not have the role {role}.{choices}"};
 inline constexpr MessageText role_output_differs{
     "graph.role_output_differs",
     {"component", "output", "other", "reason"},
@@ -472,7 +475,7 @@ inline constexpr MessageText role_output_differs{
 inline constexpr MessageText role_output_missing{
     "graph.role_output_missing",
     {"place", "role", "output", "type", "found"},
-    "{place}the role {role} wants an output '{output}' of type {type}{found}"};
+    "{place}the role {role} requires an output '{output}' of type {type}{found}"};
 inline constexpr MessageText role_outputs_clash{
     "graph.role_outputs_clash",
     {"place", "output"},
@@ -480,14 +483,14 @@ inline constexpr MessageText role_outputs_clash{
 inline constexpr MessageText save_not_enabled{
     "graph.save_not_enabled",
     {"host"},
-    "{host} can be reached from other computers, and the mission does not say live: {{save: on}"};
-inline constexpr MessageText save_off{"graph.save_off", "the mission says live: {{save: off}"};
+    "{host} is reachable from other computers, and the mission does not set live: {{save: on}"};
+inline constexpr MessageText save_off{"graph.save_off", "the mission sets live: {{save: off}"};
 inline constexpr MessageText seed_invalid{
     "graph.seed_invalid", {"found"}, "seed: expected a whole number from 0, found {found}"};
 inline constexpr MessageText source_missing{"graph.source_missing",
                                             "'from' is missing, as in {{from: nav.state, max_age: 0.5 s}"};
 inline constexpr MessageText still_named{
-    "graph.still_named", {"name", "places"}, "{name} is taken away here and still named by {places}"};
+    "graph.still_named", {"name", "places"}, "the layer removes {name}, and these still name it: {places}"};
 inline constexpr MessageText stored_file_missing{
     "graph.stored_file_missing", {"file"}, "the log holds no file {file}"};
 inline constexpr MessageText summary_key_reserved{
@@ -495,13 +498,13 @@ inline constexpr MessageText summary_key_reserved{
 inline constexpr MessageText summary_of_probe{
     "graph.summary_of_probe", {"probe"}, "'{probe}' is a probe; a summary shows messages"};
 inline constexpr MessageText text_field_missing{
-    "graph.text_field_missing", {"port", "type"}, "'{port}' is {type}, which has no text 'text' to tell"};
+    "graph.text_field_missing", {"port", "type"}, "'{port}' is {type}, which has no text field 'text'"};
 inline constexpr MessageText text_too_long{
-    "graph.text_too_long", {"size", "limit"}, "text of {size} bytes; there is room for {limit}"};
+    "graph.text_too_long", {"size", "limit"}, "the text has {size} bytes; the limit is {limit}"};
 inline constexpr MessageText three_numbers_expected{
     "graph.three_numbers_expected", {"names", "found"}, "expected three numbers [{names}], found {found}"};
 inline constexpr MessageText too_many_entries{
-    "graph.too_many_entries", {"count", "limit"}, "{count} of them; a mission has {limit} at most"};
+    "graph.too_many_entries", {"count", "limit"}, "{count} entries exceed the limit of {limit} in a mission"};
 inline constexpr MessageText transition_key_missing{
     "graph.transition_key_missing",
     {"key"},
@@ -539,25 +542,25 @@ inline constexpr MessageText vehicle_flag_invalid{
 inline constexpr MessageText vehicle_flags_missing{
     "graph.vehicle_flags_missing",
     {"vehicle", "plugin", "flags", "output", "example", "choices"},
-    "with io: fcu the vehicle has to say whether it is armed, on the ground and in control, and {vehicle} "
-    "({plugin}) has no flag {flags} in an output '{output}'; name its own at the role vehicle, as in flags: "
-    "{{{example}}.{choices}"};
+    "with io: fcu the vehicle must report whether it is armed, on the ground and in control. {vehicle} "
+    "({plugin}) has no flag {flags} in an output '{output}'. Name its own flags at the role vehicle, as in "
+    "flags: {{{example}}.{choices}"};
 inline constexpr MessageText vehicle_missing{
-    "graph.vehicle_missing", "no component is a vehicle; a mission needs one, such as use: sim_aero"};
+    "graph.vehicle_missing", "no component is a vehicle; a mission requires one, such as use: sim_aero"};
 inline constexpr MessageText vehicle_role_invalid{
     "graph.vehicle_role_invalid",
     {"place", "plugin", "role"},
     "{place}{plugin} is a vehicle and can fill only the role vehicle, not {role}"};
 inline constexpr MessageText vehicle_roles_shared{
-    "graph.vehicle_roles_shared", {"place"}, "{place}the vehicle fills the role vehicle alone"};
+    "graph.vehicle_roles_shared", {"place"}, "{place}the vehicle fills only the role vehicle"};
 inline constexpr MessageText vehicle_run_invalid{
     "graph.vehicle_run_invalid",
     {"place"},
-    "{place}.run: a vehicle runs in the loop; it has 'run: tick' alone"};
+    "{place}.run: a vehicle runs in the loop; only 'run: tick' is valid"};
 inline constexpr MessageText vehicle_without_flags{"graph.vehicle_without_flags",
                                                    " It has no flag in any output."};
 inline constexpr MessageText vehicles_repeated{
-    "graph.vehicles_repeated", {"vehicles"}, "a mission has one vehicle; here are {vehicles}"};
+    "graph.vehicles_repeated", {"vehicles"}, "a mission has one vehicle; found {vehicles}"};
 inline constexpr MessageText yaml_invalid{"graph.yaml_invalid", {"reason"}, "not valid YAML: {reason}"};
 
 }  // namespace fulmar::graph_messages

@@ -9,33 +9,34 @@ inline constexpr MessageText arithmetic_error{"isolate.arithmetic_error", "crash
 inline constexpr MessageText bus_error{"isolate.bus_error", "crashed (bus error)"};
 inline constexpr MessageText child_program_missing{
     "isolate.child_program_missing",
-    "the program fulmar-child is missing: no component can run in a process of its own."};
+    "the program fulmar-child is missing: no component can run in a separate process."};
 inline constexpr MessageText child_stopped{
     "isolate.child_stopped", {"file", "reason", "stage"}, "{file} {reason} while being {stage}"};
 inline constexpr MessageText child_version_differs{"isolate.child_version_differs",
-                                                   "fulmar-child is of another version than the host"};
+                                                   "fulmar-child and the host have different versions"};
 inline constexpr MessageText component_moved{
     "isolate.component_moved",
     {"file", "component", "index"},
-    "{file} has no component '{component}' in place {index} any more: its copy has changed"};
+    "{file} no longer has the component '{component}' at index {index}: its copy has changed"};
 inline constexpr MessageText component_name_too_long{"isolate.component_name_too_long",
                                                      "the component's name is longer than 255 bytes."};
 inline constexpr MessageText constructor_failed{"isolate.constructor_failed", "the constructor failed"};
-inline constexpr MessageText host_abi_differs{"isolate.host_abi_differs", "its host is of another ABI"};
+inline constexpr MessageText host_abi_differs{"isolate.host_abi_differs",
+                                              "the host of the script has another ABI"};
 inline constexpr MessageText illegal_instruction{"isolate.illegal_instruction",
                                                  "crashed (illegal instruction)"};
 inline constexpr MessageText memory_not_shared{
     "isolate.memory_not_shared", {"size", "reason"}, "cannot share {size} bytes with a child: {reason}."};
 inline constexpr MessageText not_created{"isolate.not_created", {"reason"}, "cannot be created: {reason}"};
 inline constexpr MessageText parameters_not_readable{
-    "isolate.parameters_not_readable", {"reason"}, "cannot read the parameters: {reason}"};
+    "isolate.parameters_not_readable", {"reason"}, "the parameters cannot be read: {reason}"};
 inline constexpr MessageText segmentation_fault{"isolate.segmentation_fault", "crashed (segmentation fault)"};
 inline constexpr MessageText stack_overflowed{"isolate.stack_overflowed", "crashed (stack overflow)"};
 inline constexpr MessageText tables_differ{
     "isolate.tables_differ",
     {"component"},
-    "the ports or parameters of '{component}' are not those that the host knows"};
+    "the ports or parameters of '{component}' differ from those that the host read"};
 inline constexpr MessageText vehicle_not_isolated{"isolate.vehicle_not_isolated",
-                                                  "a vehicle cannot run in a process of its own."};
+                                                  "a vehicle cannot run in a separate process."};
 
 }  // namespace fulmar::isolate_messages

@@ -8,11 +8,15 @@ namespace fulmar::loader_messages {
 inline constexpr MessageText checksum_not_available{"loader.checksum_not_available",
                                                     "SHA-256 is not available."};
 inline constexpr MessageText choice_count_invalid{
-    "loader.choice_count_invalid", {"parameter", "count"}, "{parameter} offers {count} choices"};
+    "loader.choice_count_invalid",
+    {"parameter", "count"},
+    "{parameter} has {count} choices, which is outside the valid range"};
 inline constexpr MessageText component_count_invalid{
-    "loader.component_count_invalid", {"count"}, "it has {count} components"};
+    "loader.component_count_invalid",
+    {"count"},
+    "the plugin has {count} components, which is outside the valid range"};
 inline constexpr MessageText component_repeated{
-    "loader.component_repeated", {"component"}, "it has two components '{component}'"};
+    "loader.component_repeated", {"component"}, "the plugin has two components '{component}'"};
 inline constexpr MessageText copy_not_readable{"loader.copy_not_readable", {"file"}, "cannot read {file}"};
 inline constexpr MessageText default_not_choice{
     "loader.default_not_choice", {"parameter"}, "{parameter} has a default that is none of its choices"};
@@ -29,27 +33,28 @@ inline constexpr MessageText default_too_long{
 inline constexpr MessageText elements_overlap{
     "loader.elements_overlap", {"field"}, "{field} has elements that overlap"};
 inline constexpr MessageText elf_header_truncated{"loader.elf_header_truncated",
-                                                  "is not a plugin: its ELF header is cut off"};
+                                                  "is not a plugin: its ELF header is truncated"};
 inline constexpr MessageText elf_missing{"loader.elf_missing", "is not a plugin: not an ELF shared object"};
 inline constexpr MessageText elf_not_shared{"loader.elf_not_shared",
                                             "is not a plugin: an ELF file, but not a shared object"};
 inline constexpr MessageText entry_outside_memory{"loader.entry_outside_memory",
-                                                  "its entry lies outside its memory"};
+                                                  "the entry lies outside the plugin's memory"};
 inline constexpr MessageText entry_symbol_missing{
     "loader.entry_symbol_missing", {"file", "symbol"}, "{file} has no symbol {symbol}: not a Fulmar plugin"};
 inline constexpr MessageText field_alignment_invalid{
     "loader.field_alignment_invalid", {"field"}, "field '{field}' is aligned more strictly than the struct"};
 inline constexpr MessageText field_name_invalid{
-    "loader.field_name_invalid", {"found"}, "'{found}' is no name for a field"};
+    "loader.field_name_invalid", {"found"}, "'{found}' is not a valid name for a field"};
 inline constexpr MessageText field_not_aligned{
     "loader.field_not_aligned", {"field"}, "{field} is not aligned"};
 inline constexpr MessageText field_outside_struct{
     "loader.field_outside_struct", {"field"}, "field '{field}' reaches beyond the struct"};
 inline constexpr MessageText field_repeated{
     "loader.field_repeated", {"type", "field"}, "{type} has two fields '{field}'"};
-inline constexpr MessageText field_shape_unknown{"loader.field_shape_unknown",
-                                                 {"field", "shape"},
-                                                 "{field} has shape {shape}, which this host does not know"};
+inline constexpr MessageText field_shape_unknown{
+    "loader.field_shape_unknown",
+    {"field", "shape"},
+    "{field} has shape {shape}, which this host does not support"};
 inline constexpr MessageText field_without_elements{
     "loader.field_without_elements", {"field"}, "{field} has room for no element"};
 inline constexpr MessageText fields_overlap{
@@ -66,20 +71,22 @@ inline constexpr MessageText function_outside_code{
 inline constexpr MessageText items_overlap_count{
     "loader.items_overlap_count", {"field"}, "{field} has items that overlap its count"};
 inline constexpr MessageText label_count_invalid{
-    "loader.label_count_invalid", {"field", "count"}, "{field} is an enum with {count} labels"};
+    "loader.label_count_invalid",
+    {"field", "count"},
+    "{field} is an enum with {count} labels, which is outside the valid range"};
 inline constexpr MessageText machine_differs{
     "loader.machine_differs", {"found", "expected"}, "is built for {found}, this host is {expected}"};
 inline constexpr MessageText name_invalid{"loader.name_invalid",
                                           {"item", "found"},
-                                          "{item} is '{found}': letters, digits and underscores are allowed"};
+                                          "{item} is '{found}': letters, digits and underscores are valid"};
 inline constexpr MessageText parameter_repeated{
     "loader.parameter_repeated", {"owner", "parameter"}, "{owner} has two parameters '{parameter}'"};
 inline constexpr MessageText pipe_not_created{
-    "loader.pipe_not_created", {"reason"}, "cannot make a pipe: {reason}."};
+    "loader.pipe_not_created", {"reason"}, "cannot create a pipe: {reason}."};
 inline constexpr MessageText plugin_abi_differs{
     "loader.plugin_abi_differs",
     {"file", "plugin_abi", "host_abi"},
-    "{file} is built for ABI {plugin_abi}, this host speaks {host_abi}"};
+    "{file} is built for ABI {plugin_abi}; this host has ABI {host_abi}"};
 inline constexpr MessageText plugin_changes_float_mode{
     "loader.plugin_changes_float_mode",
     {"plugin"},
@@ -117,43 +124,46 @@ inline constexpr MessageText plugin_too_large{
 inline constexpr MessageText plugin_truncated{
     "loader.plugin_truncated",
     {"expected", "found"},
-    "is cut off: its header promises {expected} bytes, the file has {found}"};
+    "is truncated: its header states {expected} bytes, the file has {found}"};
 inline constexpr MessageText port_is_input{
     "loader.port_is_input", {"port"}, "{port} is an input among the outputs"};
 inline constexpr MessageText port_is_output{
     "loader.port_is_output", {"port"}, "{port} is an output among the inputs"};
 inline constexpr MessageText port_kind_unknown{
-    "loader.port_kind_unknown", {"port", "kind"}, "{port} has kind {kind}, which this host does not know"};
+    "loader.port_kind_unknown", {"port", "kind"}, "{port} has kind {kind}, which this host does not support"};
 inline constexpr MessageText port_repeated{
     "loader.port_repeated", {"owner", "kind", "port"}, "{owner} has two {kind}{port}'"};
 inline constexpr MessageText probe_not_started{
-    "loader.probe_not_started", {"plugin", "reason"}, "{plugin} cannot be tried: {reason}"};
-inline constexpr MessageText probe_program_missing{
-    "loader.probe_program_missing",
-    {"program"},
-    "the program fulmar-probe is missing beside {program}: plugins cannot be tried before they are loaded."};
+    "loader.probe_not_started", {"plugin", "reason"}, "{plugin} cannot be probed: {reason}"};
+inline constexpr MessageText probe_program_missing{"loader.probe_program_missing",
+                                                   {"program"},
+                                                   "the program fulmar-probe is missing beside {program}: "
+                                                   "the host cannot test plugins before it loads them."};
 inline constexpr MessageText probe_timed_out{
     "loader.probe_timed_out", {"plugin", "stage", "limit"}, "{plugin} did not finish {stage} within {limit}"};
 inline constexpr MessageText program_headers_damaged{
-    "loader.program_headers_damaged", "is not a plugin: its ELF program headers are damaged or cut off"};
+    "loader.program_headers_damaged", "is not a plugin: its ELF program headers are damaged or truncated"};
 inline constexpr MessageText program_not_started{
     "loader.program_not_started", {"program", "reason"}, "cannot start {program}: {reason}."};
 inline constexpr MessageText queue_size_invalid{
-    "loader.queue_size_invalid", {"port", "capacity"}, "{port} is a queue with room for {capacity} items"};
+    "loader.queue_size_invalid",
+    {"port", "capacity"},
+    "{port} is a queue with room for {capacity} items, which is outside the valid range"};
 inline constexpr MessageText range_empty{
-    "loader.range_empty", {"parameter"}, "{parameter} has a range that is empty"};
-inline constexpr MessageText required_library_missing{
-    "loader.required_library_missing", {"plugin", "library"}, "{plugin} needs {library}, which is not there"};
+    "loader.range_empty", {"parameter"}, "{parameter} has an empty range"};
+inline constexpr MessageText required_library_missing{"loader.required_library_missing",
+                                                      {"plugin", "library"},
+                                                      "{plugin} requires {library}, which is missing"};
 inline constexpr MessageText required_symbol_missing{
     "loader.required_symbol_missing",
     {"plugin", "symbol"},
-    "{plugin} needs the symbol {symbol}, which nothing provides"};
+    "{plugin} requires the symbol {symbol}, which no library provides"};
 inline constexpr MessageText required_version_missing{
     "loader.required_version_missing",
     {"plugin", "version"},
-    "{plugin} needs {version}, which this system does not have"};
+    "{plugin} requires {version}, which this system does not have"};
 inline constexpr MessageText scalar_count_invalid{
-    "loader.scalar_count_invalid", {"field", "count"}, "{field} is one value and counts {count}"};
+    "loader.scalar_count_invalid", {"field", "count"}, "{field} is one value but has count {count}"};
 inline constexpr MessageText script_changes_float_mode{
     "loader.script_changes_float_mode",
     {"script"},
@@ -165,19 +175,19 @@ inline constexpr MessageText script_host_invalid{
 inline constexpr MessageText script_host_missing{
     "loader.script_host_missing",
     {"script", "plugin", "folders"},
-    "{script} needs the plugin {plugin}, which is not there. Searched in {folders}. It is built where the "
-    "development packages of the language are installed."};
+    "{script} requires the plugin {plugin}, which is missing. Searched in {folders}. The build makes this "
+    "plugin where the development packages of the language are installed."};
 inline constexpr MessageText script_not_opened{
-    "loader.script_not_opened", {"file"}, "{file} cannot be opened, and its host does not say why"};
+    "loader.script_not_opened", {"file"}, "{file} cannot be opened; its host gives no reason"};
 inline constexpr MessageText store_fault{"loader.store_fault", {"reason"}, "{reason}."};
 inline constexpr MessageText store_not_created{
-    "loader.store_not_created", {"folder"}, "the plugin store {folder} (FULMAR_STORE) cannot be made"};
+    "loader.store_not_created", {"folder"}, "the plugin store {folder} (FULMAR_STORE) cannot be created"};
 inline constexpr MessageText store_not_folder{
     "loader.store_not_folder", {"folder"}, "the plugin store {folder} is not a folder."};
-inline constexpr MessageText store_not_private{
-    "loader.store_not_private",
-    {"folder"},
-    "the plugin store {folder} is writable by others; chmod 700 it, or set FULMAR_STORE to another folder."};
+inline constexpr MessageText store_not_private{"loader.store_not_private",
+                                               {"folder"},
+                                               "other users can write to the plugin store {folder}; chmod "
+                                               "700 it, or set FULMAR_STORE to another folder."};
 inline constexpr MessageText store_not_writable{
     "loader.store_not_writable", {"folder"}, "cannot write into the plugin store {folder}"};
 inline constexpr MessageText store_owner_foreign{
@@ -189,36 +199,40 @@ inline constexpr MessageText store_suffix_invalid{
 inline constexpr MessageText stored_plugin_missing{
     "loader.stored_plugin_missing",
     {"file", "version", "sha256", "store"},
-    "{file} {version} with SHA-256 {sha256} flew, but the plugin store {store} no longer holds it; put that "
-    "file back, or choose another with --with"};
+    "the plugin store {store} no longer holds {file} {version} with SHA-256 {sha256}, which the flight used. "
+    "Put that file back, or choose another with --with"};
 inline constexpr MessageText struct_alignment_invalid{
     "loader.struct_alignment_invalid",
     {"type", "alignment", "size"},
-    "{type} has an alignment of {alignment} and a size of {size}"};
+    "{type} has an alignment of {alignment} and a size of {size}, which is not valid"};
 inline constexpr MessageText struct_size_invalid{
-    "loader.struct_size_invalid", {"type", "size"}, "{type} has a size of {size} bytes"};
+    "loader.struct_size_invalid",
+    {"type", "size"},
+    "{type} has a size of {size} bytes, which is outside the valid range"};
 inline constexpr MessageText table_outside_memory{
     "loader.table_outside_memory", {"elements"}, "{elements} lie outside the plugin's memory"};
 inline constexpr MessageText table_stride_invalid{
     "loader.table_stride_invalid",
     {"elements", "stride", "minimum"},
-    "{elements} lie {stride} bytes apart, where {minimum} are needed"};
+    "{elements} have a stride of {stride} bytes; an aligned stride of at least {minimum} bytes is required"};
 inline constexpr MessageText temporary_store_missing{"loader.temporary_store_missing",
                                                      "no folder for private copies of plugins"};
 inline constexpr MessageText text_memory_exhausted{
     "loader.text_memory_exhausted", {"size"}, "there is no memory for a text of {size} bytes"};
 inline constexpr MessageText text_missing{
     "loader.text_missing", {"item"}, "{item} is missing (a null pointer)"};
-inline constexpr MessageText text_not_terminated{"loader.text_not_terminated", {"item"}, "{item} has no end"};
+inline constexpr MessageText text_not_terminated{
+    "loader.text_not_terminated", {"item"}, "{item} does not end in NUL"};
 inline constexpr MessageText text_outside_memory{
     "loader.text_outside_memory", {"item"}, "{item} lies outside the plugin's memory"};
 inline constexpr MessageText too_many_fields{
-    "loader.too_many_fields", {"type", "count", "limit"}, "{type} has {count} fields; {limit} is the limit"};
+    "loader.too_many_fields", {"type", "count", "limit"}, "{type} has {count} fields; the limit is {limit}"};
 inline constexpr MessageText too_many_parameters{"loader.too_many_parameters",
                                                  {"owner", "count", "limit"},
-                                                 "{owner} has {count} parameters; {limit} is the limit"};
-inline constexpr MessageText too_many_ports{
-    "loader.too_many_ports", {"ports", "count", "limit"}, "{ports} are {count}; {limit} is the limit"};
+                                                 "{owner} has {count} parameters; the limit is {limit}"};
+inline constexpr MessageText too_many_ports{"loader.too_many_ports",
+                                            {"ports", "count", "limit"},
+                                            "{ports}: {count} ports exceed the limit of {limit}"};
 inline constexpr MessageText type_missing{"loader.type_missing", {"item"}, "{item} has no type"};
 inline constexpr MessageText type_name_missing{"loader.type_name_missing", "the type has no name"};
 inline constexpr MessageText type_outside_memory{"loader.type_outside_memory",
@@ -228,7 +242,7 @@ inline constexpr MessageText type_too_deep{
 inline constexpr MessageText unique_symbol_shared{
     "loader.unique_symbol_shared",
     {"plugin", "symbol", "other"},
-    "{plugin} has the unique symbol {symbol}, as {other}, which is loaded: one would fly with the data of "
+    "{plugin} has the unique symbol {symbol}, as has the loaded {other}. One plugin would use the data of "
     "the other. Build both with -fno-gnu-unique, or as fulmar_add_plugin does"};
 inline constexpr MessageText word_size_differs{"loader.word_size_differs",
                                                "is built for another word size or byte order"};

@@ -8,53 +8,56 @@ namespace fulmar::log_messages {
 inline constexpr MessageText attachment_checksum_invalid{"log.attachment_checksum_invalid",
                                                          "the checksum of an attachment is wrong"};
 inline constexpr MessageText attachment_index_wrong{"log.attachment_index_wrong",
-                                                    "an attachment index points at no attachment"};
+                                                    "an attachment index does not point at an attachment"};
 inline constexpr MessageText chunk_checksum_invalid{"log.chunk_checksum_invalid",
                                                     "the checksum of a chunk is wrong"};
-inline constexpr MessageText chunk_content_invalid{"log.chunk_content_invalid",
-                                                   "a chunk holds what does not belong there"};
-inline constexpr MessageText chunk_index_wrong{"log.chunk_index_wrong", "a chunk index points at no chunk"};
+inline constexpr MessageText chunk_content_invalid{
+    "log.chunk_content_invalid", "a chunk holds a record that is not a schema, channel or message"};
+inline constexpr MessageText chunk_index_wrong{"log.chunk_index_wrong",
+                                               "a chunk index does not point at a chunk"};
 inline constexpr MessageText chunk_not_decompressible{"log.chunk_not_decompressible",
                                                       "a chunk does not decompress"};
 inline constexpr MessageText chunk_size_differs{"log.chunk_size_differs",
-                                                "a chunk is not as long as it says"};
-inline constexpr MessageText chunk_too_large{"log.chunk_too_large", "a chunk claims to hold more than 32 MB"};
+                                                "a chunk has a length other than it states"};
+inline constexpr MessageText chunk_too_large{"log.chunk_too_large",
+                                             "a chunk states a size of more than 32 MB"};
 inline constexpr MessageText closing_magic_missing{"log.closing_magic_missing",
-                                                   "the closing magic is not there"};
+                                                   "the closing magic is missing"};
 inline constexpr MessageText compression_unknown{
-    "log.compression_unknown", {"found"}, "a chunk is compressed as '{found}'. Valid: zstd, or not at all"};
+    "log.compression_unknown", {"found"}, "a chunk has the compression '{found}'. Valid: zstd, or none"};
 inline constexpr MessageText content_not_readable{"log.content_not_readable", "the file cannot be read"};
 inline constexpr MessageText data_checksum_invalid{"log.data_checksum_invalid",
                                                    "the checksum of the data is wrong"};
 inline constexpr MessageText file_truncated{"log.file_truncated", "the file ends inside a record"};
 inline constexpr MessageText footer_offset_invalid{"log.footer_offset_invalid",
-                                                   "the footer points beside the summary"};
+                                                   "the footer does not point at the summary"};
 inline constexpr MessageText host_fields_differ{
     "log.host_fields_differ",
     {"topic", "type"},
-    "the log's {topic} has other fields than {type} has here: it was written by another version"};
+    "the log's {topic} and this version's {type} have different fields: another version wrote the log"};
 inline constexpr MessageText index_outside_chunk{"log.index_outside_chunk",
-                                                 "a message index points out of its chunk"};
+                                                 "a message index points outside its chunk"};
 inline constexpr MessageText index_target_invalid{"log.index_target_invalid",
-                                                  "a message index points at something else"};
+                                                  "a message index does not point at its message"};
 inline constexpr MessageText log_altered{
     "log.log_altered",
     {"file", "found", "expected"},
-    "somebody has changed '{file}': it has {found} bytes in place of {expected}"};
+    "another program changed '{file}': it has {found} bytes in place of {expected}"};
 inline constexpr MessageText log_exists{
     "log.log_exists", {"file"}, "'{file}' exists; a log never overwrites a file"};
 inline constexpr MessageText log_format_invalid{
-    "log.log_format_invalid", {"file"}, "'{file}' is no MCAP file"};
+    "log.log_format_invalid", {"file"}, "'{file}' is not an MCAP file"};
 inline constexpr MessageText log_moved{
-    "log.log_moved", {"file", "destination"}, "somebody has moved '{file}{destination}"};
+    "log.log_moved", {"file", "destination"}, "the file was moved from '{file}{destination}"};
 inline constexpr MessageText log_not_readable{"log.log_not_readable", {"file"}, "cannot read '{file}'"};
 inline constexpr MessageText log_not_writable{
     "log.log_not_writable", {"file", "reason"}, "cannot write '{file}': {reason}"};
-inline constexpr MessageText log_removed{"log.log_removed", {"file"}, "somebody has removed '{file}'"};
+inline constexpr MessageText log_removed{
+    "log.log_removed", {"file"}, "'{file}' was removed while it was being written"};
 inline constexpr MessageText message_channel_missing{"log.message_channel_missing",
                                                      "a message belongs to no channel"};
 inline constexpr MessageText metadata_index_wrong{"log.metadata_index_wrong",
-                                                  "a metadata index points at no metadata"};
+                                                  "a metadata index does not point at metadata"};
 inline constexpr MessageText partial_log_exists{
     "log.partial_log_exists", {"file", "state"}, "'{file}' exists: {state}"};
 inline constexpr MessageText record_memory_exhausted{"log.record_memory_exhausted",
@@ -63,7 +66,8 @@ inline constexpr MessageText record_too_large{"log.record_too_large", "a record 
 inline constexpr MessageText record_truncated{"log.record_truncated", "a record ends too early"};
 inline constexpr MessageText schemas_too_large{"log.schemas_too_large",
                                                "the schemas and channels take more than 32 MB"};
-inline constexpr MessageText statistics_differ{"log.statistics_differ", "the statistics do not fit the file"};
+inline constexpr MessageText statistics_differ{"log.statistics_differ",
+                                               "the statistics differ from the file"};
 inline constexpr MessageText summary_checksum_invalid{"log.summary_checksum_invalid",
                                                       "the checksum of the summary is wrong"};
 inline constexpr MessageText too_many_channels{"log.too_many_channels", "a log holds at most 65536 channels"};

@@ -11,7 +11,7 @@ inline constexpr MessageText bytes_invalid{
 inline constexpr MessageText encapsulation_invalid{
     "types.encapsulation_invalid",
     {"found"},
-    "a message has the encapsulation {found}; only 1, plain little-endian CDR, is read"};
+    "a message has the encapsulation {found}; only 1, plain little-endian CDR, is valid"};
 inline constexpr MessageText field_not_struct{
     "types.field_not_struct", {"field", "path"}, "'{field}' has no fields, so '{path}' does not exist."};
 inline constexpr MessageText field_not_terminated{
@@ -23,9 +23,9 @@ inline constexpr MessageText frames_differ{
 inline constexpr MessageText index_invalid{
     "types.index_invalid",
     {"found", "path"},
-    "'{found}' in '{path}' is not understood; an index is written like waypoints[3]."};
+    "'{found}' in '{path}' is not valid; an index is written like waypoints[3]."};
 inline constexpr MessageText index_missing{
-    "types.index_missing", {"field", "shape", "example"}, "'{field}{shape}: say {example}[0]."};
+    "types.index_missing", {"field", "shape", "example"}, "'{field}{shape}: write {example}[0]."};
 inline constexpr MessageText index_not_allowed{
     "types.index_not_allowed", {"field"}, "'{field}' is a single value and takes no index."};
 inline constexpr MessageText index_out_of_range{
@@ -33,7 +33,8 @@ inline constexpr MessageText index_out_of_range{
     {"field", "index", "array", "shape"},
     "'{field}[{index}]' does not exist: '{array}{shape}, counted from 0."};
 inline constexpr MessageText list_shape{"types.list_shape", {"limit"}, "a list of at most {limit}"};
-inline constexpr MessageText list_truncated{"types.list_truncated", "a list counts more than the bytes hold"};
+inline constexpr MessageText list_truncated{"types.list_truncated",
+                                            "a list has a larger count than its bytes hold"};
 inline constexpr MessageText message_too_long{"types.message_too_long",
                                               "a message is longer than its definition"};
 inline constexpr MessageText message_too_short{"types.message_too_short", "a message is too short"};
@@ -50,10 +51,9 @@ inline constexpr MessageText reader_differs{"types.reader_differs",
 inline constexpr MessageText text_not_terminated{"types.text_not_terminated", "a text does not end in NUL"};
 inline constexpr MessageText too_many_items{"types.too_many_items",
                                             {"field", "count", "capacity"},
-                                            "{field} has {count} items, its capacity is {capacity}"};
-inline constexpr MessageText writer_field_missing{
-    "types.writer_field_missing",
-    {"path", "field"},
-    "reader knows a field '{path}{field}' that the writer lacks"};
+                                            "{field} has {count} items; its capacity is {capacity}"};
+inline constexpr MessageText writer_field_missing{"types.writer_field_missing",
+                                                  {"path", "field"},
+                                                  "reader has a field '{path}{field}' that the writer lacks"};
 
 }  // namespace fulmar::types_messages

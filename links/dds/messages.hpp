@@ -10,14 +10,14 @@ inline constexpr MessageText address_invalid{
 inline constexpr MessageText domain_out_of_range{
     "dds.domain_out_of_range", {"domain", "limit"}, "dds: domain {domain} is outside 0 .. {limit}"};
 inline constexpr MessageText element_not_finite{"dds.element_not_finite",
-                                                "it holds a number that is not finite"};
+                                                "the value holds a number that is not finite"};
 inline constexpr MessageText exported_port_unknown{
     "dds.exported_port_unknown", {"port", "choices"}, "dds.export: there is no '{port}' to export.{choices}"};
 inline constexpr MessageText interface_unknown{
     "dds.interface_unknown",
     {"place", "address", "addresses"},
-    "{place}dds.interfaces: {address} is no address of this computer. Valid: {addresses}"};
-inline constexpr MessageText number_not_finite{"dds.number_not_finite", "it is not a finite number"};
+    "{place}dds.interfaces: {address} is not an address of this computer. Valid: {addresses}"};
+inline constexpr MessageText number_not_finite{"dds.number_not_finite", "the value is not a finite number"};
 inline constexpr MessageText parameter_type_invalid{
     "dds.parameter_type_invalid",
     "a parameter is a number, a flag, a text or a list of numbers, and cannot be deleted"};
@@ -25,20 +25,21 @@ inline constexpr MessageText parameter_type_unknown{
     "dds.parameter_type_unknown", {"type"}, "there is no parameter type {type}"};
 inline constexpr MessageText parameter_unknown{
     "dds.parameter_unknown", {"parameter", "choices"}, "there is no parameter '{parameter}'.{choices}"};
-inline constexpr MessageText participant_not_created{"dds.participant_not_created",
-                                                     {"domain", "addresses"},
-                                                     "dds: no participant could be made in domain {domain} "
-                                                     "on {addresses}; are these addresses of this computer?"};
+inline constexpr MessageText participant_not_created{
+    "dds.participant_not_created",
+    {"domain", "addresses"},
+    "dds: no participant could be created in domain {domain} on {addresses}; are these addresses of this "
+    "computer?"};
 inline constexpr MessageText reader_not_created{
     "dds.reader_not_created", {"topic"}, "dds: the topic {topic} could not be opened for reading"};
 inline constexpr MessageText too_many_parameters{
-    "dds.too_many_parameters", {"limit"}, "more than {limit} parameters in one call"};
+    "dds.too_many_parameters", {"limit"}, "the call has more than {limit} parameters"};
 inline constexpr MessageText topic_not_created{
-    "dds.topic_not_created", {"topic"}, "dds: the topic {topic} could not be made"};
+    "dds.topic_not_created", {"topic"}, "dds: the topic {topic} could not be created"};
 inline constexpr MessageText topic_type_differs{
     "dds.topic_type_differs",
     {"topic", "type", "found"},
-    "dds: the topic {topic} has the type {type} here, it cannot be {found}, too"};
+    "dds: the topic {topic} has the type {type} here; the type {found} is not possible"};
 inline constexpr MessageText writer_not_created{
     "dds.writer_not_created", {"topic"}, "dds: the topic {topic} could not be opened for writing"};
 

@@ -8,9 +8,9 @@ namespace fulmar::live_messages {
 inline constexpr MessageText binary_op_unknown{
     "live.binary_op_unknown", {"op"}, "there is no binary op {op}. Valid: 1 (data), 2 (service call)."};
 inline constexpr MessageText channel_already_advertised{
-    "live.channel_already_advertised", {"channel"}, "channel {channel} is advertised already"};
+    "live.channel_already_advertised", {"channel"}, "channel {channel} is already advertised"};
 inline constexpr MessageText channel_already_subscribed{
-    "live.channel_already_subscribed", {"channel"}, "channel {channel} is subscribed to already"};
+    "live.channel_already_subscribed", {"channel"}, "channel {channel} is already subscribed"};
 inline constexpr MessageText channel_not_advertised{
     "live.channel_not_advertised", {"channel"}, "channel {channel} is not advertised"};
 inline constexpr MessageText channel_unknown{
@@ -18,50 +18,51 @@ inline constexpr MessageText channel_unknown{
 inline constexpr MessageText encoding_unknown{
     "live.encoding_unknown", {"encoding"}, "there is no encoding '{encoding}'. Valid: cdr, json."};
 inline constexpr MessageText graph_not_subscribed{"live.graph_not_subscribed",
-                                                  "the connection graph is not subscribed to"};
+                                                  "the client has no subscription to the connection graph"};
 inline constexpr MessageText listen_address_invalid{
     "live.listen_address_invalid",
     {"address"},
-    "live.listen: '{address}' is no address. Valid: 127.0.0.1 (this computer alone), 0.0.0.0 (all), or one "
-    "of this computer's."};
+    "live.listen: '{address}' is not a valid address. Valid: 127.0.0.1 (this computer alone), 0.0.0.0 (all), "
+    "or an address of this computer."};
 inline constexpr MessageText listen_failed{"live.listen_failed",
                                            {"host", "port", "reason", "remedy"},
                                            "live: cannot listen on {host}:{port}: {reason}{remedy}"};
 inline constexpr MessageText mission_file_missing{"live.mission_file_missing",
-                                                  "this flight has no mission file that could be written"};
+                                                  "this flight has no mission file to write to"};
 inline constexpr MessageText op_form_invalid{
-    "live.op_form_invalid", {"reason"}, "the message has not the form that its op asks for: {reason}"};
+    "live.op_form_invalid", {"reason"}, "the message does not have the form that its op requires: {reason}"};
 inline constexpr MessageText op_unknown{
     "live.op_unknown", {"op", "choices"}, "there is no op '{op}'.{choices}"};
 inline constexpr MessageText parameter_name_invalid{"live.parameter_name_invalid",
                                                     "a parameter is named COMPONENT.PARAMETER"};
 inline constexpr MessageText parameter_not_record{
-    "live.parameter_not_record", {"component", "parameter"}, "{component}.{parameter} is no record"};
+    "live.parameter_not_record", {"component", "parameter"}, "{component}.{parameter} is not a record"};
 inline constexpr MessageText parameter_not_removable{"live.parameter_not_removable",
                                                      "a parameter cannot be removed"};
 inline constexpr MessageText parameter_unknown{
     "live.parameter_unknown", {"component", "parameter"}, "there is no parameter '{component}.{parameter}'"};
 inline constexpr MessageText request_invalid{"live.request_invalid", {"reason"}, "the request: {reason}"};
-inline constexpr MessageText request_not_object{"live.request_not_object", "the request is no JSON object"};
+inline constexpr MessageText request_not_object{"live.request_not_object",
+                                                "the request is not a JSON object"};
 inline constexpr MessageText request_text_missing{
-    "live.request_text_missing", {"key"}, "the request needs the text '{key}'"};
+    "live.request_text_missing", {"key"}, "the request requires the text '{key}'"};
 inline constexpr MessageText request_too_deep{"live.request_too_deep", "the request is nested too deeply"};
-inline constexpr MessageText save_in_progress{"live.save_in_progress",
-                                              "another one's parameters are being saved; ask again"};
+inline constexpr MessageText save_in_progress{
+    "live.save_in_progress", "parameters of another client are being saved; send the request again"};
 inline constexpr MessageText save_not_allowed{
-    "live.save_not_allowed", {"reason"}, "nothing is written from here: {reason}"};
+    "live.save_not_allowed", {"reason"}, "this flight writes no parameters into files: {reason}"};
 inline constexpr MessageText save_program_failed{
     "live.save_program_failed", {"program", "code"}, "{program} ended with exit code {code}"};
 inline constexpr MessageText save_program_killed{
     "live.save_program_killed", {"program", "signal"}, "{program} was stopped by signal {signal}"};
 inline constexpr MessageText save_program_missing{
     "live.save_program_missing",
-    "the program fulmar-save is missing beside this one: it writes parameters into files; cmake --build "
-    "build --target flight"};
-inline constexpr MessageText save_timed_out{
-    "live.save_timed_out",
-    {"program", "limit"},
-    "{program} has not answered within {limit} s and is stopped: what it has written is whole"};
+    "the program fulmar-save, which writes parameters into files, is missing beside this one. Build it: "
+    "cmake --build build --target flight"};
+inline constexpr MessageText save_timed_out{"live.save_timed_out",
+                                            {"program", "limit"},
+                                            "{program} has not answered within {limit} s; the host stopped "
+                                            "it. Each file that it has written is complete"};
 inline constexpr MessageText service_unknown{
     "live.service_unknown", {"service"}, "there is no service {service}"};
 inline constexpr MessageText subscription_in_use{
@@ -69,7 +70,7 @@ inline constexpr MessageText subscription_in_use{
 inline constexpr MessageText subscription_unknown{
     "live.subscription_unknown", {"subscription"}, "there is no subscription {subscription}"};
 inline constexpr MessageText too_many_channels{
-    "live.too_many_channels", {"limit"}, "a client may advertise {limit} channels"};
+    "live.too_many_channels", {"limit"}, "a client may advertise at most {limit} channels"};
 inline constexpr MessageText too_many_parameters{
     "live.too_many_parameters", {"limit"}, "a message sets at most {limit} parameters"};
 

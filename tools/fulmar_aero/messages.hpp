@@ -5,35 +5,37 @@
 
 namespace fulmar::aero_messages {
 
-inline constexpr MessageText adverse_yaw_high{"aero.adverse_yaw_high",
-                                              "very much adverse yaw; aircraft have up to 0.15 of it"};
+inline constexpr MessageText adverse_yaw_high{
+    "aero.adverse_yaw_high", "the adverse yaw is very high; aircraft have up to 0.15 of Cl_da"};
 inline constexpr MessageText aerodynamics_element_unsupported{
     "aero.aerodynamics_element_unsupported",
     {"element"},
-    "<aerodynamics>: <{element}> is not read; expected <axis> alone"};
+    "<aerodynamics>: <{element}> is not supported; expected only <axis>"};
 inline constexpr MessageText aileron_control_missing{
-    "aero.aileron_control_missing", "surfaces: no control drives the aileron; without it nothing rolls it"};
+    "aero.aileron_control_missing",
+    "surfaces: no control drives the aileron; the aircraft requires one for roll"};
 inline constexpr MessageText aircraft_duplicate{
     "aero.aircraft_duplicate",
     {"first_file"},
-    "it is a second aircraft beside {first_file}; expected the folder of one"};
+    "the file holds a second aircraft in addition to {first_file}; expected the folder of one aircraft"};
 inline constexpr MessageText aircraft_not_mergeable{
     "aero.aircraft_not_mergeable",
-    "it is a whole aircraft and is not merged with other files; give it alone"};
+    "the file holds a whole aircraft and cannot be merged with other files; give it alone"};
 inline constexpr MessageText airfoil_missing{
     "aero.airfoil_missing",
     {"airfoil"},
-    "the foil '{airfoil}' is not in this file; give an airfoil of that name in the drawing"};
+    "the airfoil '{airfoil}' is not in this file; give an airfoil of that name in the drawing"};
 inline constexpr MessageText airfoil_not_readable{"aero.airfoil_not_readable",
                                                   "the airfoil's coordinates cannot be read"};
 inline constexpr MessageText airfoil_order_invalid{
-    "aero.airfoil_order_invalid", "it does not go from the trailing edge over the top to the trailing edge"};
+    "aero.airfoil_order_invalid",
+    "the points do not go from the trailing edge over the top to the trailing edge"};
 inline constexpr MessageText airfoil_pair_unsupported{"aero.airfoil_pair_unsupported",
-                                                      "a section with two foils is not read"};
+                                                      "a section with two airfoils is not supported"};
 inline constexpr MessageText airfoil_point_invalid{
     "aero.airfoil_point_invalid",
     {"file", "line", "found"},
-    "{file}:{line}: '{found}' is no point of a section of chord 1"};
+    "{file}:{line}: '{found}' is not a point of a section of chord 1"};
 inline constexpr MessageText airframe_map_expected{
     "aero.airframe_map_expected", {"found"}, "expected a map with the fields of an airframe; found {found}"};
 inline constexpr MessageText airspeed_out_of_range{
@@ -43,7 +45,7 @@ inline constexpr MessageText airspeed_range_reversed{
 inline constexpr MessageText airspeeds_not_increasing{
     "aero.airspeeds_not_increasing",
     {"minimum", "cruise", "maximum"},
-    "the airspeeds {minimum}, {cruise} and {maximum} m/s do not rise from least to most"};
+    "the airspeeds {minimum}, {cruise} and {maximum} m/s do not increase from minimum to maximum"};
 inline constexpr MessageText altitude_out_of_range{
     "aero.altitude_out_of_range", {"found"}, "'{found}' is outside -1000 .. 20000 m"};
 inline constexpr MessageText aspect_ratio_unusual{
@@ -51,24 +53,27 @@ inline constexpr MessageText aspect_ratio_unusual{
     {"aspect_ratio"},
     "the aspect ratio b^2/S is {aspect_ratio}; wings have 2 to 40"};
 inline constexpr MessageText asymmetric_wing_unsupported{"aero.asymmetric_wing_unsupported",
-                                                         "a wing that is not symmetric is not read"};
+                                                         "a wing that is not symmetric is not supported"};
 inline constexpr MessageText avl_derivatives_missing{
     "aero.avl_derivatives_missing",
-    "expected 'Stability-axis derivatives...' or 'Geometry-axis derivatives...' and did not find it"};
-inline constexpr MessageText avl_header_incomplete{"aero.avl_header_incomplete",
-                                                   "this is no geometry of AVL: its header has six lines"};
+    "expected 'Stability-axis derivatives...' or 'Geometry-axis derivatives...'; found neither"};
+inline constexpr MessageText avl_header_incomplete{
+    "aero.avl_header_incomplete",
+    "the file is not an AVL geometry: the header of an AVL geometry has six lines"};
 inline constexpr MessageText avl_sideslip{"aero.avl_sideslip",
                                           "the analysis has a sideslip; expected Beta = 0"};
 inline constexpr MessageText axis_element_unsupported{
-    "aero.axis_element_unsupported", {"element"}, "<axis>: <{element}> is not read; expected <function>"};
+    "aero.axis_element_unsupported",
+    {"element"},
+    "<axis>: <{element}> is not supported; expected <function>"};
 inline constexpr MessageText axis_orientation_missing{
     "aero.axis_orientation_missing",
     "expected the line 'Standard axis orientation, X fwd, Z down' or 'Geometric axis orientation, X aft, Z "
-    "up'; without it the signs are not known"};
+    "up'. Without it the signs are unknown"};
 inline constexpr MessageText axis_unsupported{
     "aero.axis_unsupported",
     {"axis"},
-    "axis '{axis}' is not read; valid: LIFT, DRAG, SIDE, ROLL, PITCH, YAW"};
+    "the axis '{axis}' is not supported; valid: LIFT, DRAG, SIDE, ROLL, PITCH, YAW"};
 inline constexpr MessageText bandwidth_loop_unknown{
     "aero.bandwidth_loop_unknown",
     {"found", "choices"},
@@ -76,125 +81,135 @@ inline constexpr MessageText bandwidth_loop_unknown{
 inline constexpr MessageText bandwidth_too_high{
     "aero.bandwidth_too_high",
     {"loop", "found", "actuator", "actuator_lag", "half_step", "delay", "lag", "limit", "place"},
-    "{loop}: {found} rad/s is more than the {actuator} can give: {actuator_lag}, half a step {half_step} and "
-    "delay {delay} are a lag of {lag}, which allows at most {limit} rad/s ({place})"};
+    "{loop}: {found} rad/s is above the limit of the {actuator}. Its lag is {lag}: {actuator_lag}, half a "
+    "step {half_step} and delay {delay}. This lag allows at most {limit} rad/s ({place})"};
 inline constexpr MessageText bracket_not_closed{"aero.bracket_not_closed", "'<' has no '>'"};
 inline constexpr MessageText braking_insufficient{
     "aero.braking_insufficient",
     {"required", "available", "place"},
-    "it takes a braking force of {required} N, and the propeller brakes with {available} N at no "
-    "throttle{place}"};
-inline constexpr MessageText cell_count_mismatch{"aero.cell_count_mismatch",
-                                                 {"expected", "found"},
-                                                 "expected {expected} cells, as many as the heading has; "
-                                                 "found {found}; decimal commas, or is the file cut off?"};
-inline constexpr MessageText child_element_missing{"aero.child_element_missing",
-                                                   {"parent", "element"},
-                                                   "<{parent}>: expected <{element}> and did not find it"};
-inline constexpr MessageText chord_not_positive{"aero.chord_not_positive", "the chord must be more than 0"};
+    "the flight requires a braking force of {required} N, and the propeller brakes with {available} N at "
+    "zero throttle{place}"};
+inline constexpr MessageText cell_count_mismatch{
+    "aero.cell_count_mismatch",
+    {"expected", "found"},
+    "expected {expected} cells, as many as the heading has; found {found}. The file may have decimal commas "
+    "or be incomplete"};
+inline constexpr MessageText child_element_missing{
+    "aero.child_element_missing", {"parent", "element"}, "<{parent}>: expected <{element}>; found none"};
+inline constexpr MessageText chord_not_positive{"aero.chord_not_positive", "the chord is not above 0"};
 inline constexpr MessageText climb_too_steep{
-    "aero.climb_too_steep", {"found"}, "'{found}' is steeper than 80 deg at that airspeed"};
+    "aero.climb_too_steep", {"found"}, "'{found}' is steeper than 80 deg at this airspeed"};
 inline constexpr MessageText climb_unit_invalid{
     "aero.climb_unit_invalid",
     {"found"},
     "'{found}' is neither an angle, as in \"5 deg\", nor a rate, as in \"2 m/s\""};
 inline constexpr MessageText coefficient_zero{
-    "aero.coefficient_zero", {"finding"}, "{finding}, which no aircraft has: was it left out?"};
-inline constexpr MessageText coefficients_copied{"aero.coefficients_copied",
-                                                 {"same", "total", "aircraft"},
-                                                 "{same} of {total} coefficients are those of the {aircraft} "
-                                                 "to the digit, and wing or span are not: were they copied?"};
+    "aero.coefficient_zero", {"finding"}, "{finding}, which no aircraft has; the coefficient may be missing"};
+inline constexpr MessageText coefficients_copied{
+    "aero.coefficients_copied",
+    {"same", "total", "aircraft"},
+    "{same} of {total} coefficients are exactly those of the {aircraft}, but wing area or span is not. The "
+    "coefficients may be copies"};
 inline constexpr MessageText column_missing{"aero.column_missing",
                                             {"column", "heading"},
                                             "expected a column '{column}' in the heading; found '{heading}'"};
-inline constexpr MessageText command_unknown{
-    "aero.command_unknown", {"command", "choices"}, "fulmar aero: there is no command '{command}'.{choices}"};
-inline constexpr MessageText component_unknown{"aero.component_unknown",
-                                               {"component", "choices"},
-                                               "params: there is no component '{component}'.{choices}"};
+inline constexpr MessageText command_unknown{"aero.command_unknown",
+                                             {"command", "choices"},
+                                             "fulmar aero: the command '{command}' does not exist.{choices}"};
+inline constexpr MessageText component_unknown{
+    "aero.component_unknown",
+    {"component", "choices"},
+    "params: the component '{component}' does not exist.{choices}"};
 inline constexpr MessageText control_derivatives_missing{
     "aero.control_derivatives_missing",
-    "expected the derivatives by the controls ('name d1 ...') up to here and did not find them; is the file "
-    "cut off?"};
+    "expected the derivatives by the controls ('name d1 ...') up to this line; found none. The file may be "
+    "incomplete"};
 inline constexpr MessageText control_gain_unsupported{
-    "aero.control_gain_unsupported", {"control"}, "CONTROL {control}: only gains of 1 and -1 are read"};
+    "aero.control_gain_unsupported",
+    {"control"},
+    "CONTROL {control}: the gain is not supported; valid: 1, -1"};
 inline constexpr MessageText control_groups_mismatch{
     "aero.control_groups_mismatch",
     {"found", "first"},
-    "this analysis has {found} groups of controls, and the first one {first}: expected one version and one "
+    "this analysis has {found} groups of controls, and the first one {first}; expected one version and one "
     "aircraft in a file"};
 inline constexpr MessageText control_groups_missing{
     "aero.control_groups_missing",
     {"count"},
-    "expected {count} groups of controls, four lines each; is the file cut off?"};
+    "expected {count} groups of controls with four lines each; the file may be incomplete"};
 inline constexpr MessageText control_hinge_unsupported{
     "aero.control_hinge_unsupported",
     {"control", "hinge"},
-    "CONTROL {control}: the hinge at {hinge} of the chord is not read"};
+    "CONTROL {control}: the hinge at {hinge} of the chord is not supported; valid: above 0 and below 1"};
 inline constexpr MessageText control_incomplete{
-    "aero.control_incomplete", "CONTROL: expected name, gain, Xhinge, three of the hinge and SgnDup"};
-inline constexpr MessageText control_ineffective{"aero.control_ineffective",
-                                                 {"coefficient", "found", "hint"},
-                                                 "it has no effect, {coefficient} of it is {found}{hint}"};
-inline constexpr MessageText control_name_unknown{"aero.control_name_unknown",
-                                                  {"control"},
-                                                  "CONTROL '{control}': what it drives is told by its name; "
-                                                  "valid: aileron, elevator, rudder, flap, elevon"};
+    "aero.control_incomplete", "CONTROL: expected name, gain, Xhinge, three numbers of the hinge and SgnDup"};
+inline constexpr MessageText control_ineffective{
+    "aero.control_ineffective",
+    {"coefficient", "found", "hint"},
+    "the control has no effect: its {coefficient} is {found}{hint}"};
+inline constexpr MessageText control_name_unknown{
+    "aero.control_name_unknown",
+    {"control"},
+    "CONTROL '{control}': the name does not identify the control surface; valid: aileron, elevator, rudder, "
+    "flap, elevon"};
 inline constexpr MessageText control_pair_incomplete{
     "aero.control_pair_incomplete",
     {"control"},
-    "{control} pitches as well as it rolls or yaws: it is one half of a pair; expected its mirror as a "
-    "control of its own, or both in one group (name it aileron, elevator or rudder)"};
+    "{control} pitches as much as it rolls or yaws, as one half of a pair does. Give its mirror as a "
+    "separate control, or both in one group named aileron, elevator or rudder"};
 inline constexpr MessageText control_section_single{
     "aero.control_section_single",
     {"control"},
-    "CONTROL '{control}' stands at this section alone; it goes from one section to the next"};
+    "CONTROL '{control}' is at this section alone; a control extends from one section to the next"};
 inline constexpr MessageText controls_misplaced{
-    "aero.controls_misplaced", "controls: they stand with their surface, unless planform names a file"};
+    "aero.controls_misplaced", "controls: without a planform file, the controls belong in their surface"};
 inline constexpr MessageText count_missing{
-    "aero.count_missing", {"item"}, "expected the number of {item}; is the file cut off?"};
-inline constexpr MessageText count_out_of_range{"aero.count_out_of_range", "expected 0 to 100 of them"};
+    "aero.count_missing", {"item"}, "expected the number of {item}; the file may be incomplete"};
+inline constexpr MessageText count_out_of_range{"aero.count_out_of_range",
+                                                "the count is out of range; valid: 0 to 100"};
 inline constexpr MessageText cruise_lift_unreachable{
     "aero.cruise_lift_unreachable",
     {"airspeed", "mass", "lift_coefficient", "hint"},
-    "limits.airspeed_cruise: at {airspeed} m/s level flight of {mass} kg takes CL {lift_coefficient}, and "
-    "these surfaces have it at no angle within 25 deg{hint}"};
-inline constexpr MessageText cruise_lift_unusual{
-    "aero.cruise_lift_unusual",
-    {"lift_coefficient"},
-    "in cruise CL is {lift_coefficient}, usual is 0.2 to 0.9: mass, area or airspeed is in another unit"};
+    "limits.airspeed_cruise: at {airspeed} m/s level flight of {mass} kg requires CL {lift_coefficient}. "
+    "These surfaces reach it at no angle within 25 deg{hint}"};
+inline constexpr MessageText cruise_lift_unusual{"aero.cruise_lift_unusual",
+                                                 {"lift_coefficient"},
+                                                 "CL in cruise is {lift_coefficient}; the usual range is 0.2 "
+                                                 "to 0.9. Mass, area or airspeed is in another unit"};
 inline constexpr MessageText cruise_throttle_invalid{
-    "aero.cruise_throttle_invalid", {"throttle"}, "it is {throttle} and a part of full throttle, 0 to 1"};
+    "aero.cruise_throttle_invalid",
+    {"throttle"},
+    "the cruise throttle is {throttle}; valid: a fraction of full throttle, 0 to 1"};
 inline constexpr MessageText dead_band_unusual{
     "aero.dead_band_unusual",
     {"dead_band"},
-    "it is {dead_band}; servos have 0.1 to 1 deg: is it in degrees?"};
+    "the dead band is {dead_band}; servos have 0.1 to 1 deg. The value may be in degrees"};
 inline constexpr MessageText decimal_comma{
     "aero.decimal_comma", {"found"}, "'{found}...' has a decimal comma; save the file with decimal points"};
 inline constexpr MessageText density_unit_unknown{
-    "aero.density_unit_unknown", {"unit"}, "Density: '{unit}' is no unit that is known"};
+    "aero.density_unit_unknown", {"unit"}, "Density: the unit '{unit}' is unknown"};
 inline constexpr MessageText derivative_count_mismatch{
     "aero.derivative_count_mismatch",
     {"expected", "groups", "found"},
-    "expected {expected} numbers, total, alpha, beta, p, q, r, Mach, U and {groups} groups of controls; "
+    "expected {expected} numbers: total, alpha, beta, p, q, r, Mach, U and {groups} groups of controls; "
     "found {found}"};
 inline constexpr MessageText derivative_row_missing{
     "aero.derivative_row_missing",
     {"row"},
-    "expected the row '{row}' of the derivatives up to here and did not find it; is the file cut off, or was "
-    "VSPAERO run without its stability option (-stab)?"};
+    "expected the row '{row}' of the derivatives up to this line; found none. The file may be incomplete, or "
+    "VSPAERO ran without its stability option (-stab)"};
 inline constexpr MessageText derivative_table_missing{
     "aero.derivative_table_missing",
-    "expected a table of derivatives ('Coef Total Alpha Beta p q r ...') up to here and did not find it; is "
-    "the file cut off, or is it of a run with -pstab, -qstab or -rstab?"};
+    "expected a table of derivatives ('Coef Total Alpha Beta p q r ...') up to this line; found none. The "
+    "file may be incomplete, or of a run with -pstab, -qstab or -rstab"};
 inline constexpr MessageText document_end_missing{
     "aero.document_end_missing",
     {"end_tag"},
-    "expected '{end_tag}' up to here and did not find it; is the file cut off?"};
+    "expected '{end_tag}' up to this line; found none. The file may be incomplete"};
 inline constexpr MessageText drag_table_missing{
-    "aero.drag_table_missing", "expected a table with a column 'Cd' and a row 'Totals' and did not find it"};
+    "aero.drag_table_missing", "expected a table with a column 'Cd' and a row 'Totals'; found none"};
 inline constexpr MessageText duplicate_plane_unsupported{"aero.duplicate_plane_unsupported",
-                                                         "YDUPLICATE: only about y = 0"};
+                                                         "YDUPLICATE: only y = 0 is supported"};
 inline constexpr MessageText eigenvalue_form_invalid{"aero.eigenvalue_form_invalid",
                                                      "Eigenvalue: expected 'real + imaginary i'"};
 inline constexpr MessageText eigenvalue_row_invalid{
@@ -202,68 +217,73 @@ inline constexpr MessageText eigenvalue_row_invalid{
 inline constexpr MessageText element_nesting_excessive{"aero.element_nesting_excessive",
                                                        "elements are nested deeper than 50"};
 inline constexpr MessageText element_not_closed{
-    "aero.element_not_closed", {"element"}, "<{element}> does not end; is the file cut off?"};
+    "aero.element_not_closed", {"element"}, "<{element}> does not end; the file may be incomplete"};
 inline constexpr MessageText element_numbers_invalid{"aero.element_numbers_invalid",
                                                      {"element", "found", "count", "noun"},
-                                                     "<{element}>: '{found}' is not of {count}{noun}"};
+                                                     "<{element}>: expected {count}{noun}; found '{found}'"};
 inline constexpr MessageText element_unit_unknown{
     "aero.element_unit_unknown",
     {"element", "unit", "choices"},
-    "<{element}>: '{unit}' is no unit that is known; valid: {choices}"};
+    "<{element}>: the unit '{unit}' is unknown; valid: {choices}"};
 inline constexpr MessageText elevator_control_missing{
-    "aero.elevator_control_missing", "surfaces: no control drives the elevator; without it nothing trims it"};
+    "aero.elevator_control_missing",
+    "surfaces: no control drives the elevator; the aircraft requires one for trim"};
 inline constexpr MessageText elevator_drag_excessive{
     "aero.elevator_drag_excessive",
     {"change", "parasite_drag"},
-    "full elevator takes away CD {change}, more than the parasite drag {parasite_drag}: the aircraft would "
-    "be driven by it. The term is linear; is it that of a square, CD_de de^2?"};
+    "full elevator reduces CD by {change}, more than the parasite drag {parasite_drag}: the elevator would "
+    "drive the aircraft. The term is linear; the value may be that of a square, CD_de de^2"};
 inline constexpr MessageText elevator_trim_unusual{
-    "aero.elevator_trim_unusual", {"trim", "required"}, "it is {trim}, and level cruise takes {required}"};
+    "aero.elevator_trim_unusual",
+    {"trim", "required"},
+    "the trim is {trim}, and level cruise requires {required}"};
 inline constexpr MessageText encoding_unsupported{"aero.encoding_unsupported",
-                                                  "it is UTF-16; save it as UTF-8 or plain text"};
+                                                  "the file is UTF-16; save it as UTF-8 or plain text"};
 inline constexpr MessageText end_tag_missing{
-    "aero.end_tag_missing", {"element"}, "expected '</{element}>'; is the file cut off?"};
+    "aero.end_tag_missing", {"element"}, "expected '</{element}>'; the file may be incomplete"};
 inline constexpr MessageText entries_missing{
-    "aero.entries_missing", {"count", "item"}, "expected {count} {item}; is the file cut off?"};
+    "aero.entries_missing", {"count", "item"}, "expected {count} {item}; the file may be incomplete"};
 inline constexpr MessageText entry_form_unsupported{
     "aero.entry_form_unsupported",
     {"entry"},
-    "{entry} is written in a form that is not edited here; nothing was written"};
+    "this command cannot edit the form of {entry}; the file is unchanged"};
 inline constexpr MessageText equilibrium_missing{"aero.equilibrium_missing",
                                                  "no angles and deflections balance all forces and moments; "
-                                                 "`fulmar aero check` may tell which coefficient is wrong"};
-inline constexpr MessageText file_duplicate{"aero.file_duplicate", "it is given twice"};
-inline constexpr MessageText file_empty{"aero.file_empty", "it is empty"};
-inline constexpr MessageText flight_condition{"aero.flight_condition",
-                                              {"condition", "airspeed", "altitude"},
-                                              "{condition} at {airspeed} m/s, {altitude} m above the sea"};
+                                                 "`fulmar aero check` may report the wrong coefficient"};
+inline constexpr MessageText file_duplicate{"aero.file_duplicate", "the file is given twice"};
+inline constexpr MessageText file_empty{"aero.file_empty", "the file is empty"};
+inline constexpr MessageText flight_condition{
+    "aero.flight_condition",
+    {"condition", "airspeed", "altitude"},
+    "{condition} at {airspeed} m/s, {altitude} m above mean sea level"};
 inline constexpr MessageText flight_folder_missing{
-    "aero.flight_folder_missing", {"folder"}, "there is no folder for the flight: {folder}"};
+    "aero.flight_folder_missing", {"folder"}, "the folder for the flight does not exist: {folder}"};
 inline constexpr MessageText flow_not_solvable{
-    "aero.flow_not_solvable", "no flow is found about these panels: two of them may lie on each other"};
+    "aero.flow_not_solvable", "the flow about these panels has no solution: two panels may coincide"};
 inline constexpr MessageText format_unknown{
     "aero.format_unknown",
     {"file"},
-    "{file}:1: nobody knows this file; expected one of AVL (.st .sb .mass .run .eig), XFLR5 (stability log, "
-    "plane polar, plane or polar XML), VSPAERO (.stab .polar .flt .history .vspaero, mass properties, "
-    "parasite drag, results as CSV); or alone a whole aircraft of ROSflight (..._dynamics.yaml), JSBSim "
-    "(XML) or pyfly (JSON)"};
+    "{file}:1: the file format is unknown. Valid for AVL: .st .sb .mass .run .eig. Valid for XFLR5: "
+    "stability log, plane polar, plane or polar XML. Valid for VSPAERO: .stab .polar .flt .history .vspaero, "
+    "mass properties, parasite drag, results as CSV. Valid alone, as a whole aircraft: ROSflight "
+    "(..._dynamics.yaml), JSBSim (XML) or pyfly (JSON)"};
 inline constexpr MessageText forward_thrust_missing{
-    "aero.forward_thrust_missing", "together they do not push forward: look at tilt and toe"};
+    "aero.forward_thrust_missing", "the propellers together give no forward thrust; check tilt and toe"};
 inline constexpr MessageText fulmar_program_missing{
-    "aero.fulmar_program_missing", "fulmar aero tune --verify: there is no program fulmar beside this one"};
+    "aero.fulmar_program_missing",
+    "fulmar aero tune --verify: the program fulmar is missing beside this one"};
 inline constexpr MessageText function_factor_unsupported{
     "aero.function_factor_unsupported",
     {"found"},
-    "{found} is not read; expected one <product> of a <value>, aero/qbar-psf, metrics/Sw-sqft, metrics/bw-ft "
-    "or cbarw-ft, aero/bi2vel or ci2vel, and a state or a <table>"};
+    "{found} is not supported; expected one <product> of a <value>, aero/qbar-psf, metrics/Sw-sqft, "
+    "metrics/bw-ft or cbarw-ft, aero/bi2vel or ci2vel, and a state or a <table>"};
 inline constexpr MessageText function_factors_invalid{
     "aero.function_factors_invalid",
     "expected the dynamic pressure and S once, b or c once in moments alone, and bi2vel or ci2vel with rates "
     "alone"};
 inline constexpr MessageText function_product_unsupported{
     "aero.function_product_unsupported",
-    "expected one state or one table at most; a product of two is not read"};
+    "expected at most one state or one table; a product of two is not supported"};
 inline constexpr MessageText gain_count_mismatch{
     "aero.gain_count_mismatch",
     {"expected", "surfaces", "found"},
@@ -271,107 +291,109 @@ inline constexpr MessageText gain_count_mismatch{
 inline constexpr MessageText gain_form_unsupported{
     "aero.gain_form_unsupported",
     {"component", "gain"},
-    "{component}.{gain} stands in a form that is not edited here; nothing was written"};
+    "this command cannot edit the form of {component}.{gain}; the file is unchanged"};
 inline constexpr MessageText gains_duplicate{
     "aero.gains_duplicate",
     {"first_file"},
-    "it has gains, as {first_file} has; expected the folder of one aircraft"};
+    "the file holds gains, as {first_file} does; expected the folder of one aircraft"};
 inline constexpr MessageText geometry_incomplete{
-    "aero.geometry_incomplete", {"missing"}, "this is no whole geometry, missing: {missing}"};
+    "aero.geometry_incomplete", {"missing"}, "the geometry is incomplete, missing: {missing}"};
 inline constexpr MessageText geometry_map_expected{
     "aero.geometry_map_expected", {"found"}, "expected a map with the parts of an aircraft; found {found}"};
-inline constexpr MessageText heading_alpha_missing{"aero.heading_alpha_missing",
-                                                   "expected 'AoA_' in the heading of this analysis"};
+inline constexpr MessageText heading_alpha_missing{
+    "aero.heading_alpha_missing", "expected 'AoA_' in the heading of this analysis; found none"};
 inline constexpr MessageText heading_key_missing{
-    "aero.heading_key_missing", {"key"}, "expected '{key}' in the heading of this analysis"};
-inline constexpr MessageText heading_number_expected{"aero.heading_number_expected", "expected a number"};
+    "aero.heading_key_missing", {"key"}, "expected '{key}' in the heading of this analysis; found none"};
+inline constexpr MessageText heading_number_expected{"aero.heading_number_expected",
+                                                     "expected a number; found none"};
 inline constexpr MessageText heading_number_missing{
     "aero.heading_number_missing",
     {"key"},
-    "expected '{key} number' in the heading of this analysis and did not find it"};
+    "expected '{key} number' in the heading of this analysis; found none"};
 inline constexpr MessageText heading_reference_missing{
     "aero.heading_reference_missing",
-    "expected 'Sref_', 'Cref_' and 'Bref_' in a heading; found none: the reference quantities are missing"};
+    "expected 'Sref_', 'Cref_' and 'Bref_' in a heading; found none. The reference quantities are missing"};
 inline constexpr MessageText induced_drag_doubled{
     "aero.induced_drag_doubled",
-    "it adds to the induced drag CL^2/(pi e AR), which is always counted: C_D_alpha is of a linear polar; "
-    "leave it 0"};
+    "the term adds to the induced drag CL^2/(pi e AR), which always counts: C_D_alpha belongs to a linear "
+    "polar. Leave the term 0"};
 inline constexpr MessageText inertia_moments_impossible{
     "aero.inertia_moments_impossible",
     {"smallest", "middle", "largest", "xz", "xx", "yy"},
-    "no body has these moments: the principal ones are {smallest}, {middle} and {largest} kg m^2, and the "
-    "largest is more than the sum of the others; is xz ({xz}) wrong, or xx ({xx}) exchanged with yy ({yy})?"};
+    "the principal moments are {smallest}, {middle} and {largest} kg m^2. The largest is more than the sum "
+    "of the others, which no body has. xz ({xz}) may be wrong, or xx ({xx}) exchanged with yy ({yy})"};
 inline constexpr MessageText inertia_not_definite{
     "aero.inertia_not_definite",
     {"moment", "limit"},
-    "the inertia is not positive definite, one of its principal moments is {moment} kg m^2: xz has to be "
-    "less than {limit} either way"};
+    "the inertia is not positive definite: one principal moment is {moment} kg m^2. The magnitude of xz must "
+    "be less than {limit}"};
 inline constexpr MessageText inertia_not_positive{"aero.inertia_not_positive",
-                                                  "xx, yy and zz must be more than 0"};
+                                                  "xx, yy and zz must be above 0"};
 inline constexpr MessageText inertia_not_positive_definite{
     "aero.inertia_not_positive_definite",
     {"xz_squared", "xx_zz"},
-    "inertia: it is not positive definite: xz^2 = {xz_squared} must be less than xx zz = {xx_zz}; no body "
-    "has such an inertia"};
+    "inertia: the tensor is not positive definite: xz^2 = {xz_squared} must be less than xx zz = {xx_zz}. No "
+    "body has such an inertia"};
 inline constexpr MessageText inertia_values_expected{"aero.inertia_values_expected",
                                                      "expected xx yy zz [xz] in kg m^2"};
-inline constexpr MessageText input_is_folder{"aero.input_is_folder", "it is a folder; give the files in it"};
+inline constexpr MessageText input_is_folder{"aero.input_is_folder",
+                                             "the path is a folder; give the files in it"};
 inline constexpr MessageText json_invalid{"aero.json_invalid",
-                                          "it is no JSON that can be read; is it cut off?"};
+                                          "the file is not valid JSON; it may be incomplete"};
 inline constexpr MessageText json_object_expected{"aero.json_object_expected",
                                                   "expected a JSON object of coefficients"};
-inline constexpr MessageText key_missing{"aero.key_missing", {"key"}, "expected '{key}' and did not find it"};
+inline constexpr MessageText key_missing{
+    "aero.key_missing", {"key"}, "expected the key '{key}', which is missing"};
 inline constexpr MessageText keyword_value_missing{
-    "aero.keyword_value_missing", {"keyword"}, "the file ends behind {keyword}"};
+    "aero.keyword_value_missing", {"keyword"}, "the file ends after {keyword}"};
 inline constexpr MessageText labelled_line_missing{
-    "aero.labelled_line_missing", {"label"}, "expected a line '{label}' and did not find it"};
+    "aero.labelled_line_missing", {"label"}, "expected a line '{label}'; found none"};
 inline constexpr MessageText labelled_number_missing{
-    "aero.labelled_number_missing", {"key"}, "expected '{key} number' and did not find it"};
+    "aero.labelled_number_missing", {"key"}, "expected '{key} number'; found none"};
 inline constexpr MessageText level_flight_impossible{
     "aero.level_flight_impossible",
     {"airspeed", "reason", "default_hint"},
     "no level flight at {airspeed} m/s: {reason}{default_hint}"};
 inline constexpr MessageText lift_slope_unsupported{
-    "aero.lift_slope_unsupported", "CLAF: a lift slope other than that of a plate is not read"};
+    "aero.lift_slope_unsupported",
+    "CLAF: a lift slope other than that of a flat plate is not supported; valid: 1"};
 inline constexpr MessageText lift_squared_invalid{
-    "aero.lift_squared_invalid", "aero/cl-squared is read once, in drag, with a positive factor"};
+    "aero.lift_squared_invalid", "aero/cl-squared is valid once, in drag, with a positive factor"};
 inline constexpr MessageText limit_defaulted{
     "aero.limit_defaulted",
     {"default_value"},
-    "; the file does not say it, and {default_value} are the default"};
+    "; the file does not set this limit, and the default is {default_value}"};
 inline constexpr MessageText line_end{"aero.line_end", "the end of the line"};
 inline constexpr MessageText line_outside_surface{
-    "aero.line_outside_surface", {"found"}, "'{found}' stands outside a SURFACE"};
+    "aero.line_outside_surface", {"found"}, "'{found}' is outside a SURFACE"};
 inline constexpr MessageText location_unit_unknown{
-    "aero.location_unit_unknown",
-    {"unit"},
-    "<location>: '{unit}' is no unit that is known; valid: FT, IN, M"};
+    "aero.location_unit_unknown", {"unit"}, "<location>: the unit '{unit}' is unknown; valid: FT, IN, M"};
 inline constexpr MessageText log_airspeed_not_positive{"aero.log_airspeed_not_positive",
-                                                       "VInf: expected more than 0 m/s"};
+                                                       "VInf: expected a value above 0 m/s"};
 inline constexpr MessageText log_chord_unknown{"aero.log_chord_unknown",
-                                               "Cma is 0; the chord cannot be told from it"};
+                                               "Cma is 0; the chord cannot be computed from it"};
 inline constexpr MessageText log_control_missing{
     "aero.log_control_missing",
-    "expected 'Control derivatives' or the modes up to here and found neither; is the log cut off?"};
+    "expected 'Control derivatives' or the modes up to this line; found neither. The log may be incomplete"};
 inline constexpr MessageText log_reference_not_positive{"aero.log_reference_not_positive",
-                                                        "density, area and span must be more than 0"};
+                                                        "density, area and span must be above 0"};
 inline constexpr MessageText log_type_mismatch{
     "aero.log_type_mismatch",
     {"found"},
-    "it is the log of '{found}'; expected that of a stability analysis, 'Type 7 - Stability polar'"};
+    "the log is of '{found}'; expected the log of a stability analysis, 'Type 7 - Stability polar'"};
 inline constexpr MessageText log_unit_unknown{
-    "aero.log_unit_unknown", {"unit"}, "'{unit}' is no unit that is known"};
+    "aero.log_unit_unknown", {"unit"}, "the unit '{unit}' is unknown"};
 inline constexpr MessageText log_value_missing{
-    "aero.log_value_missing", {"key"}, "expected '{key} = number' up to here and did not find it"};
+    "aero.log_value_missing", {"key"}, "expected '{key} = number' up to this line; found none"};
 inline constexpr MessageText longitudinal_derivatives_missing{
     "aero.longitudinal_derivatives_missing",
-    "expected 'Longitudinal derivatives' up to here and did not find it; is the log cut off?"};
+    "expected 'Longitudinal derivatives' up to this line; found none. The log may be incomplete"};
 inline constexpr MessageText markup_not_closed{
-    "aero.markup_not_closed", {"opening"}, "{opening} does not end; is the file cut off?"};
+    "aero.markup_not_closed", {"opening"}, "{opening} does not end; the file may be incomplete"};
 inline constexpr MessageText mass_file_unit_unknown{
-    "aero.mass_file_unit_unknown", {"unit", "choices"}, "'{unit}' is no unit that is known; {choices}"};
-inline constexpr MessageText mass_missing{"aero.mass_missing",
-                                          "nothing has a mass; give surfaces, bodies or masses one"};
+    "aero.mass_file_unit_unknown", {"unit", "choices"}, "the unit '{unit}' is unknown; {choices}"};
+inline constexpr MessageText mass_missing{
+    "aero.mass_missing", "the total mass is not above 0; give surfaces, bodies or masses a mass"};
 inline constexpr MessageText mass_row_incomplete{
     "aero.mass_row_incomplete",
     {"count"},
@@ -379,118 +401,126 @@ inline constexpr MessageText mass_row_incomplete{
 inline constexpr MessageText mass_rows_missing{"aero.mass_rows_missing",
                                                "expected rows 'mass x y z Ixx Iyy Izz'; found none"};
 inline constexpr MessageText mass_sum_not_positive{
-    "aero.mass_sum_not_positive", {"mass"}, "the masses sum to {mass}; expected more than 0"};
+    "aero.mass_sum_not_positive", {"mass"}, "the sum of the masses is {mass}; expected a value above 0"};
 inline constexpr MessageText minimum_airspeed_low{
     "aero.minimum_airspeed_low",
     {"airspeed", "stall_airspeed"},
-    "it is {airspeed} m/s, and the wing stalls at {stall_airspeed} m/s; 1.2 times that is usual"};
+    "the minimum airspeed is {airspeed} m/s, and the wing stalls at {stall_airspeed} m/s; 1.2 times the "
+    "stall airspeed is usual"};
 inline constexpr MessageText mode_damping_low{
     "aero.mode_damping_low",
     {"mode", "damping_ratio", "limit", "consequence"},
-    "the {mode} is damped by {damping_ratio}, less than {limit}: {consequence}"};
+    "the damping ratio of the {mode} is {damping_ratio}, less than {limit}: {consequence}"};
 inline constexpr MessageText naca_digits_invalid{
-    "aero.naca_digits_invalid", {"found"}, "NACA '{found}' is not of four digits"};
+    "aero.naca_digits_invalid", {"found"}, "NACA '{found}' does not have four digits"};
 inline constexpr MessageText number_expected{
     "aero.number_expected", {"found"}, "expected a number; found {found}"};
-inline constexpr MessageText number_not_finite{"aero.number_not_finite", "it is not a finite number"};
+inline constexpr MessageText number_not_finite{"aero.number_not_finite", "the number is not finite"};
 inline constexpr MessageText option_not_positive{
-    "aero.option_not_positive", {"found"}, "'{found}' must be more than 0"};
+    "aero.option_not_positive", {"found"}, "'{found}' is not above 0"};
 inline constexpr MessageText oswald_factor_unusual{
     "aero.oswald_factor_unusual", {"factor"}, "Oswald's factor is {factor}; wings have 0.6 to 1"};
-inline constexpr MessageText output_not_writable{"aero.output_not_writable", "it cannot be written"};
+inline constexpr MessageText output_not_writable{"aero.output_not_writable", "the file cannot be written"};
 inline constexpr MessageText pack_resistance_unusual{
-    "aero.pack_resistance_unusual", {"ratio"}, "it is {ratio} times that of the motors: is it in milliohm?"};
+    "aero.pack_resistance_unusual",
+    {"ratio"},
+    "the resistance is {ratio} times that of the motors; the value may be in milliohm"};
 inline constexpr MessageText page_is_input{
-    "aero.page_is_input",
-    {"page"},
-    "'{page}' is a file that the page is made from; name another one behind -o"};
-inline constexpr MessageText pair_missing{
-    "aero.pair_missing",
-    {"key"},
-    "expected '{key} = number' up to here and did not find it; is the file cut off, or of another version?"};
+    "aero.page_is_input", {"page"}, "'{page}' is an input of the page; name another file with -o"};
+inline constexpr MessageText pair_missing{"aero.pair_missing",
+                                          {"key"},
+                                          "expected '{key} = number' up to this line; found none. The file "
+                                          "may be incomplete or of another version"};
 inline constexpr MessageText paired_servos_differ{
     "aero.paired_servos_differ",
     {"pair"},
-    "{pair}, and their servos are not alike: one moves otherwise than the other"};
-inline constexpr MessageText parameter_unknown{
-    "aero.parameter_unknown", {"parameter", "choices"}, "there is no parameter '{parameter}'.{choices}"};
-inline constexpr MessageText params_empty{"aero.params_empty",
-                                          "params: it is empty; take the key away, and it is written"};
+    "{pair}, and their servos differ: one moves differently from the other"};
+inline constexpr MessageText parameter_unknown{"aero.parameter_unknown",
+                                               {"parameter", "choices"},
+                                               "the parameter '{parameter}' does not exist.{choices}"};
+inline constexpr MessageText params_empty{
+    "aero.params_empty", "params: the key has no entries; remove the key, and the command writes it"};
 inline constexpr MessageText parasite_drag_doubled{
     "aero.parasite_drag_doubled",
     {"parasite_drag"},
-    "parasite drag is counted twice, here and as parasite_drag {parasite_drag}: C_D_0 and C_D_p are of two "
-    "different polars; keep one"};
+    "parasite drag counts twice, here and as parasite_drag {parasite_drag}: C_D_0 and C_D_p belong to two "
+    "different polars. Keep one"};
 inline constexpr MessageText picture_not_writable{
     "aero.picture_not_writable", {"file"}, "'{file}' cannot be written"};
 inline constexpr MessageText pitch_coefficient_digit{
     "aero.pitch_coefficient_digit",
     {"found", "aircraft", "original"},
-    "Cm_0 is {found}, ten times the {aircraft}'s {original} among coefficients that are its own: has a digit "
-    "been lost?"};
+    "Cm_0 is {found}, ten times the {aircraft}'s {original}, and other coefficients are the same. A digit "
+    "may be missing"};
 inline constexpr MessageText pitch_limits_reversed{"aero.pitch_limits_reversed",
-                                                   "the least pitch is not below the most"};
+                                                   "the minimum pitch is not below the maximum"};
 inline constexpr MessageText pitch_power_low{"aero.pitch_power_low",
                                              {"alpha", "required", "limit"},
-                                             "the most lift, at {alpha}, takes {required} of elevator, which "
-                                             "moves {limit}: it cannot be slowed to the stall"};
+                                             "maximum lift, at {alpha}, requires {required} of elevator, "
+                                             "which moves {limit}: the aircraft cannot slow to the stall"};
 inline constexpr MessageText pitch_rate_doubled{
     "aero.pitch_rate_doubled",
     {"corrected"},
-    ": is its rate q c/V instead of q c/2V? Then it would be {corrected}"};
+    ": the rate may be q c/V instead of q c/2V; the value would then be {corrected}"};
 inline constexpr MessageText pitch_rate_drag_unusual{
-    "aero.pitch_rate_drag_unusual", {"found"}, "it is {found}; usual is about 0"};
+    "aero.pitch_rate_drag_unusual", {"found"}, "the value is {found}; the usual value is about 0"};
 inline constexpr MessageText plane_body_unsupported{
-    "aero.plane_body_unsupported", "its body is not read; give it in `bodies` of the drawing"};
+    "aero.plane_body_unsupported",
+    "the body of the plane is not supported; give it in `bodies` of the drawing"};
 inline constexpr MessageText plane_element_open{
-    "aero.plane_element_open", {"element", "line"}, "<{element}> of line {line} has no end"};
+    "aero.plane_element_open", {"element", "line"}, "<{element}> of line {line} does not end"};
 inline constexpr MessageText plane_missing{
-    "aero.plane_missing", "there is no <explane> with a <Plane>: XFLR5 exports it as `Export plane to xml`"};
+    "aero.plane_missing",
+    "the file has no <explane> with a <Plane>: XFLR5 exports it as `Export plane to xml`"};
 inline constexpr MessageText plane_nesting_excessive{"aero.plane_nesting_excessive",
-                                                     "elements lie too deep in each other"};
+                                                     "elements are nested deeper than 20"};
 inline constexpr MessageText planform_format_unsupported{
-    "aero.planform_format_unsupported", "surfaces are read from AVL's .avl and XFLR5's .xml"};
+    "aero.planform_format_unsupported", "the format is not supported. Valid: AVL's .avl, XFLR5's .xml"};
 inline constexpr MessageText planform_keyword_unsupported{
     "aero.planform_keyword_unsupported",
     {"found"},
-    "'{found}' is not read here; known are SURFACE, YDUPLICATE, ANGLE, TRANSLATE, SCALE, COMPONENT, SECTION, "
-    "NACA, AFILE, CLAF, CDCL, CONTROL"};
+    "'{found}' is not supported here; valid: SURFACE, YDUPLICATE, ANGLE, TRANSLATE, SCALE, COMPONENT, "
+    "SECTION, NACA, AFILE, CLAF, CDCL, CONTROL"};
 inline constexpr MessageText planform_missing{
-    "aero.planform_missing", {"planform"}, "planform: there is no file '{planform}' beside the drawing"};
-inline constexpr MessageText planform_not_readable{"aero.planform_not_readable", "it cannot be read"};
-inline constexpr MessageText planform_numbers_missing{"aero.planform_numbers_missing",
-                                                      {"found", "count", "names"},
-                                                      "'{found}': {count} numbers are expected, {names}"};
+    "aero.planform_missing",
+    {"planform"},
+    "planform: the file '{planform}' does not exist beside the geometry file"};
+inline constexpr MessageText planform_not_readable{"aero.planform_not_readable", "the file cannot be read"};
+inline constexpr MessageText planform_numbers_missing{
+    "aero.planform_numbers_missing",
+    {"found", "count", "names"},
+    "'{found}': expected numbers, at least {count}: {names}"};
 inline constexpr MessageText planform_truncated{
-    "aero.planform_truncated", {"expected"}, "the file ends where {expected} should stand"};
+    "aero.planform_truncated", {"expected"}, "expected {expected}; found the end of the file"};
 inline constexpr MessageText point_mass_incomplete{"aero.point_mass_incomplete",
                                                    "<Point_Mass>: expected <Mass> and <coordinates>"};
 inline constexpr MessageText point_mass_unplaced{"aero.point_mass_unplaced",
-                                                 "a point mass without coordinates"};
+                                                 "the point mass has no coordinates"};
 inline constexpr MessageText polar_heading_missing{
     "aero.polar_heading_missing", "expected a heading 'alpha Beta CL CDi CDv CD ...'; found none"};
-inline constexpr MessageText positive_value_expected{"aero.positive_value_expected", "expected more than 0"};
+inline constexpr MessageText positive_value_expected{"aero.positive_value_expected",
+                                                     "expected a value above 0"};
 inline constexpr MessageText propeller_thrust_missing{
     "aero.propeller_thrust_missing",
-    "propellers: their speed follows from propulsion.ct0, and there is none"};
+    "propellers: propulsion.ct0 is missing or not above 0; the propeller speed follows from it"};
 inline constexpr MessageText proverse_yaw{"aero.proverse_yaw",
                                           "the aileron would yaw into the turn, and adverse yaw (negative) "
-                                          "is usual: is it in stability axes, or XFLR5's?"};
+                                          "is usual. The value may be in stability axes or in XFLR5's axes"};
 inline constexpr MessageText rate_by_span{
     "aero.rate_by_span",
     {"corrected"},
-    ": does it belong with the span b/2V instead of the chord c/2V? Then it would be {corrected}"};
+    ": the value may belong with the span b/2V instead of the chord c/2V; it would then be {corrected}"};
 inline constexpr MessageText reference_mismatch{
     "aero.reference_mismatch",
     {"quantity", "found", "unit", "source", "first_value", "first_unit", "first_file"},
-    "its {quantity} is {found}{unit} ({source}), and {first_value}{first_unit} in {first_file}: expected "
+    "the {quantity} is {found}{unit} ({source}), but {first_value}{first_unit} in {first_file}: expected "
     "files of one aircraft, with one unit of length"};
 inline constexpr MessageText reference_missing{
-    "aero.reference_missing", "this is no whole geometry, missing: reference (area, span, chord)"};
+    "aero.reference_missing", "the geometry is incomplete, missing: reference (area, span, chord)"};
 inline constexpr MessageText result_count_mismatch{
     "aero.result_count_mismatch",
     {"expected", "found"},
-    "expected {expected} numbers; found {found}; points, not commas, are in the numbers"};
+    "expected {expected} numbers; found {found}. Numbers require decimal points, not commas"};
 inline constexpr MessageText result_name_missing{"aero.result_name_missing",
                                                  "Results_Name: expected the name of a result"};
 inline constexpr MessageText result_number_expected{
@@ -498,193 +528,209 @@ inline constexpr MessageText result_number_expected{
 inline constexpr MessageText result_row_missing{
     "aero.result_row_missing",
     {"key", "result"},
-    "expected '{key},number' of {result} up to here and did not find it; is the file cut off?"};
+    "expected '{key},number' of {result} up to this line; found none. The file may be incomplete"};
 inline constexpr MessageText result_sideslip{
     "aero.result_sideslip", {"key"}, "this analysis has a sideslip; expected {key} 0"};
 inline constexpr MessageText roll_power_low{
     "aero.roll_power_low",
     {"helix", "rate"},
-    "full aileron holds p b/2V = {helix} only, {rate} deg/s; 0.07 is wanted"};
+    "full aileron holds only p b/2V = {helix}, {rate} deg/s; the recommended value is 0.07"};
 inline constexpr MessageText roll_rate_doubled{
     "aero.roll_rate_doubled",
     {"corrected"},
-    ": is its rate p b/V instead of p b/2V? Then it would be {corrected}"};
+    ": the rate may be p b/V instead of p b/2V; the value would then be {corrected}"};
 inline constexpr MessageText rosflight_file_missing{
-    "aero.rosflight_file_missing",
-    "expected a ROSflight file with wing_s, C_L_alpha, ... and found none in it"};
+    "aero.rosflight_file_missing", "the folder has no ROSflight file with wing_s, C_L_alpha, ..."};
 inline constexpr MessageText rosplane_folder_expected{
-    "aero.rosplane_folder_expected", "expected a folder with ROSplane's or ROSflight's parameter files"};
-inline constexpr MessageText row_incomplete{
-    "aero.row_incomplete",
-    {"expected", "found"},
-    "expected {expected} numbers, as many as the heading has names; found {found}; is the file cut off?"};
+    "aero.rosplane_folder_expected", "expected a folder with the parameter files of ROSplane or ROSflight"};
+inline constexpr MessageText row_incomplete{"aero.row_incomplete",
+                                            {"expected", "found"},
+                                            "expected {expected} numbers, as many as the heading has names; "
+                                            "found {found}. The file may be incomplete"};
 inline constexpr MessageText rows_missing{"aero.rows_missing",
-                                          "expected rows of numbers under the heading; found none"};
+                                          "expected rows of numbers below the heading; found none"};
 inline constexpr MessageText rudder_ineffective{"aero.rudder_ineffective",
-                                                ": the rudder moves nothing; turns are flown without it"};
+                                                ": the rudder has no effect; the aircraft turns without it"};
 inline constexpr MessageText rudder_missing{
     "aero.rudder_missing",
-    ": there is no rudder; nothing controls yaw, turns are flown with the ailerons alone"};
+    ": the aircraft has no rudder and no yaw control; it turns with the ailerons alone"};
 inline constexpr MessageText rudder_signs_equal{
     "aero.rudder_signs_equal",
     {"side", "yaw"},
-    "CY_dr is {side} and Cn_dr {yaw}: of one sign, as if the rudder were in front of the centre of gravity; "
-    "one of them has the wrong sign"};
+    "CY_dr is {side} and Cn_dr {yaw}: the same sign, as with a rudder in front of the centre of gravity. One "
+    "of them has the wrong sign"};
 inline constexpr MessageText run_unit_unknown{
     "aero.run_unit_unknown",
     {"unit"},
-    "'{unit}' is no unit that is known; a .mass file gives AVL its units (Lunit, Munit, Tunit)"};
+    "the unit '{unit}' is unknown; a .mass file gives AVL its units (Lunit, Munit, Tunit)"};
 inline constexpr MessageText section_chord_invalid{
-    "aero.section_chord_invalid", {"chord"}, "SECTION: the chord is {chord} and must be more than 0"};
+    "aero.section_chord_invalid", {"chord"}, "SECTION: the chord is {chord}; expected a value above 0"};
 inline constexpr MessageText servo_damping_unusual{
-    "aero.servo_damping_unusual", {"damping_ratio"}, "it is {damping_ratio}; servos have 0.5 to 2"};
-inline constexpr MessageText servo_frequency_unusual{"aero.servo_frequency_unusual",
-                                                     {"frequency", "hint"},
-                                                     "it is {frequency} rad/s; servos have 30 to 200{hint}"};
+    "aero.servo_damping_unusual",
+    {"damping_ratio"},
+    "the damping ratio is {damping_ratio}; servos have 0.5 to 2"};
+inline constexpr MessageText servo_frequency_unusual{
+    "aero.servo_frequency_unusual",
+    {"frequency", "hint"},
+    "the natural frequency is {frequency} rad/s; servos have 30 to 200{hint}"};
 inline constexpr MessageText servo_range_small{"aero.servo_range_small",
                                                {"minimum", "maximum", "throw_limit"},
-                                               "the servo goes from {minimum} to {maximum}, and controllers "
+                                               "the servo moves from {minimum} to {maximum}, but controllers "
                                                "command up to the throw, {throw_limit} either way"};
-inline constexpr MessageText servo_rate_not_positive{"aero.servo_rate_not_positive",
-                                                     "the servo does not move"};
+inline constexpr MessageText servo_rate_not_positive{
+    "aero.servo_rate_not_positive", "the rate limit is not above 0; the servo does not move"};
 inline constexpr MessageText servo_rate_unusual{
-    "aero.servo_rate_unusual", {"rate"}, "it is {rate} rad/s; servos have 3 to 15: is it in deg/s?"};
-inline constexpr MessageText servo_reversal_needed{"aero.servo_reversal_needed", "turn the servo, too"};
+    "aero.servo_rate_unusual",
+    {"rate"},
+    "the rate limit is {rate} rad/s; servos have 3 to 15 rad/s. The value may be in deg/s"};
+inline constexpr MessageText servo_reversal_needed{"aero.servo_reversal_needed", "reverse the servo, too"};
 inline constexpr MessageText shipped_file_read_only{
-    "aero.shipped_file_read_only", "a file of the installation is not written; copy it and name the copy"};
+    "aero.shipped_file_read_only",
+    "files of the installation are read-only; copy the file and name the copy"};
 inline constexpr MessageText sideslip_drag_asymmetric{
     "aero.sideslip_drag_asymmetric",
     {"linear", "square", "sideslip"},
-    "CD_beta is {linear} beside a square of {square}: drag is least at {sideslip} of sideslip, and a "
-    "symmetric aircraft has it at 0; set it to 0, it is what a fit has left"};
+    "CD_beta is {linear} beside a square of {square}: drag is least at {sideslip} of sideslip. A symmetric "
+    "aircraft has the minimum at 0. Set CD_beta to 0; it is the remainder of a fit"};
 inline constexpr MessageText speed_step_invalid{
-    "aero.speed_step_invalid", {"limit"}, "at most {limit} speeds, in steps of more than 0"};
+    "aero.speed_step_invalid", {"limit"}, "the step must be above 0 and give at most {limit} speeds"};
 inline constexpr MessageText squared_drag_negative{
-    "aero.squared_drag_negative", {"found"}, "it is {found}: the aircraft would be driven by its deflection"};
+    "aero.squared_drag_negative", {"found"}, "the value is {found}: the deflection would drive the aircraft"};
 inline constexpr MessageText stall_angle_low{
     "aero.stall_angle_low",
     {"alpha"},
-    "it is {alpha}; wings stall at 10 to 18 deg: with this it stalls in cruise"};
+    "the stall angle is {alpha}; wings stall at 10 to 18 deg. With this value the wing stalls in cruise"};
 inline constexpr MessageText stall_in_flight{
     "aero.stall_in_flight",
     {"time", "airspeed", "bank", "limit"},
-    "stalled at {time} s: at {airspeed} m/s and {bank} of bank its angle of attack went beyond the {limit} "
-    "of the most lift, and stayed there"};
+    "stalled at {time} s: at {airspeed} m/s and {bank} of bank, the angle of attack exceeds the {limit} of "
+    "maximum lift and stays there"};
 inline constexpr MessageText standing_bank_unusual{
     "aero.standing_bank_unusual",
     {"bank"},
-    "it stands on one side, banked by {bank}: has a contact the wrong sign of y?"};
+    "the aircraft stands on one side, with a bank of {bank}; a contact may have the wrong sign of y"};
 inline constexpr MessageText standing_pitch_unusual{
-    "aero.standing_pitch_unusual", {"pitch"}, "it stands with a pitch of {pitch}: is z, down, right in all?"};
+    "aero.standing_pitch_unusual",
+    {"pitch"},
+    "the aircraft stands with a pitch of {pitch}; check z (down) of all contacts"};
 inline constexpr MessageText static_margin_high{
-    "aero.static_margin_high", {"margin"}, "{margin}very stable in pitch, or the chord is not the mean one"};
+    "aero.static_margin_high",
+    {"margin"},
+    "{margin}very stable in pitch, or the chord is not the mean chord"};
 inline constexpr MessageText static_margin_low{
     "aero.static_margin_low", {"margin"}, "{margin}hardly stable in pitch"};
 inline constexpr MessageText straight_analysis_missing{
-    "aero.straight_analysis_missing", "all analyses are in a sideslip; expected one with Beta_ 0"};
-inline constexpr MessageText surface_name_missing{"aero.surface_name_missing", "a SURFACE without a name"};
+    "aero.straight_analysis_missing", "all analyses have a sideslip; expected one with Beta_ 0"};
+inline constexpr MessageText surface_name_missing{"aero.surface_name_missing",
+                                                  "SURFACE: the name is missing"};
 inline constexpr MessageText surface_throw_exceeded{
     "aero.surface_throw_exceeded",
     {"required", "surface", "throw_limit", "place"},
-    "it takes {required} of {surface}, which moves {throw_limit} either way ({place})"};
-inline constexpr MessageText surface_unknown{"aero.surface_unknown",
-                                             {"place", "surface", "choices"},
-                                             "{place}.surface: there is no surface {surface}.{choices}"};
-inline constexpr MessageText surfaces_and_planform{"aero.surfaces_and_planform",
-                                                   "planform: surfaces are given as well; one of both"};
+    "the flight requires {required} of {surface}, which moves {throw_limit} either way ({place})"};
+inline constexpr MessageText surface_unknown{
+    "aero.surface_unknown",
+    {"place", "surface", "choices"},
+    "{place}.surface: the surface {surface} does not exist.{choices}"};
+inline constexpr MessageText surfaces_and_planform{
+    "aero.surfaces_and_planform", "planform: the geometry gives surfaces as well; give one of the two"};
 inline constexpr MessageText surfaces_missing{
     "aero.surfaces_missing",
-    "this is no whole geometry, missing: surfaces, or a planform as in planform: wing.avl"};
+    "the geometry is incomplete, missing: surfaces, or a planform as in planform: wing.avl"};
 inline constexpr MessageText sweep_heading_missing{"aero.sweep_heading_missing",
                                                    "expected a heading 'Beta Mach AoA ...'; found none"};
 inline constexpr MessageText symmetric_fin_unsupported{
-    "aero.symmetric_fin_unsupported", "a fin that goes up and down is not read; give two fins"};
+    "aero.symmetric_fin_unsupported", "a fin that extends up and down is not supported; give two fins"};
 inline constexpr MessageText symmetry_plane_unsupported{
-    "aero.symmetry_plane_unsupported", "planes of symmetry are not read; give both halves by YDUPLICATE 0"};
+    "aero.symmetry_plane_unsupported",
+    "planes of symmetry are not supported; give both halves with YDUPLICATE 0"};
 inline constexpr MessageText table_axis_unsupported{
     "aero.table_axis_unsupported",
     {"property", "choices"},
-    "a table over '{property}' is not read; valid: {choices}"};
+    "a table over '{property}' is not supported; valid: {choices}"};
 inline constexpr MessageText table_element_unsupported{
-    "aero.table_element_unsupported", {"element"}, "<{element}> in a table is not read"};
+    "aero.table_element_unsupported", {"element"}, "<{element}> in a table is not supported"};
 inline constexpr MessageText table_empty{"aero.table_empty", "the table is empty"};
 inline constexpr MessageText table_invalid{
     "aero.table_invalid", {"index", "reason"}, "aero.tables[{index}].{reason}"};
 inline constexpr MessageText table_points_not_increasing{
     "aero.table_points_not_increasing",
     {"previous", "next"},
-    "the points of a table must rise; {previous} is followed by {next}"};
+    "the points of the table do not increase: {next} follows {previous}"};
 inline constexpr MessageText table_row_invalid{
     "aero.table_row_invalid",
     {"expected", "found"},
     "expected {expected} in this row of the table; found '{found}'"};
 inline constexpr MessageText table_states_unsupported{"aero.table_states_unsupported",
-                                                      "a table over three states is not read"};
+                                                      "a table over three states is not supported"};
 inline constexpr MessageText table_too_large{
     "aero.table_too_large",
     {"rows", "columns"},
-    "the table has {rows} by {columns} points; at most 32 by 16 and 256 values are read"};
+    "the table has {rows} by {columns} points; valid: at most 32 by 16 points and 256 values"};
 inline constexpr MessageText table_variable_missing{"aero.table_variable_missing",
                                                     "expected <independentVar> in the table"};
 inline constexpr MessageText tag_not_closed{"aero.tag_not_closed",
-                                            "a tag does not end; is the file cut off?"};
+                                            "a tag does not end; the file may be incomplete"};
 inline constexpr MessageText text_expected{
-    "aero.text_expected", "it is no text; binary projects (.xfl, .vsp3) are not read, export text from them"};
+    "aero.text_expected",
+    "the file is not text. Binary projects (.xfl, .vsp3) are not supported; export text from them"};
 inline constexpr MessageText three_numbers_expected{"aero.three_numbers_expected",
                                                     {"element", "found"},
                                                     "<{element}>: expected three numbers; found '{found}'"};
 inline constexpr MessageText throw_too_small{
-    "aero.throw_too_small", {"throw_limit"}, "the throw is {throw_limit} only; surfaces move 15 to 45 deg"};
+    "aero.throw_too_small", {"throw_limit"}, "the throw is only {throw_limit}; surfaces move 15 to 45 deg"};
 inline constexpr MessageText thrust_insufficient{
     "aero.thrust_insufficient",
     {"required", "available", "place"},
-    "it takes {required} N of thrust, and full throttle gives {available} N{place}"};
+    "the flight requires {required} N of thrust, and full throttle gives {available} N{place}"};
 inline constexpr MessageText thrust_off_centre{
     "aero.thrust_off_centre",
     {"direction", "arm"},
-    "together they turn the nose {direction}: their thrust acts {arm} m beside the centre of gravity; has "
-    "one the wrong sign of y?"};
+    "the propellers together turn the nose {direction}: their thrust acts {arm} m beside the centre of "
+    "gravity. One propeller may have the wrong sign of y"};
 inline constexpr MessageText time_constant_unusual{
     "aero.time_constant_unusual",
     {"time_constant"},
-    "it is {time_constant} s; servos have 0.01 to 0.1: is it in ms?"};
+    "the time constant is {time_constant} s; servos have 0.01 to 0.1 s. The value may be in ms"};
 inline constexpr MessageText too_few_waypoints{"aero.too_few_waypoints", "expected at least two waypoints"};
-inline constexpr MessageText too_many_airfoils{"aero.too_many_airfoils", "more airfoils than 16"};
+inline constexpr MessageText too_many_airfoils{"aero.too_many_airfoils",
+                                               "the planform has more than 16 airfoils"};
 inline constexpr MessageText too_many_control_parts{"aero.too_many_control_parts",
-                                                    "more parts of controls than 16 on one surface"};
+                                                    "the surface has more than 16 parts of controls"};
 inline constexpr MessageText too_many_controls{"aero.too_many_controls",
-                                               "more controls than 16 on one surface"};
+                                               "the surface has more than 16 controls"};
 inline constexpr MessageText too_many_files{
-    "aero.too_many_files", "it has more than 500 YAML files; give the folder of one aircraft"};
-inline constexpr MessageText too_many_masses{"aero.too_many_masses", "more masses than 64"};
+    "aero.too_many_files", "the folder has more than 500 YAML files; give the folder of one aircraft"};
+inline constexpr MessageText too_many_masses{"aero.too_many_masses", "the planform has more than 64 masses"};
 inline constexpr MessageText too_many_moment_tables{
     "aero.too_many_moment_tables",
     {"count"},
-    "AERORP and CG are not one point, and with tables of the moments that the forces have about the centre "
-    "of gravity there are {count} tables; an airframe has at most 8"};
-inline constexpr MessageText too_many_sections{"aero.too_many_sections", "more sections than 32"};
-inline constexpr MessageText too_many_surfaces{"aero.too_many_surfaces", "more surfaces than 16"};
+    "AERORP and CG differ. The tables of the force moments about the centre of gravity make {count} tables "
+    "in total; an airframe has at most 8"};
+inline constexpr MessageText too_many_sections{"aero.too_many_sections",
+                                               "the surface has more than 32 sections"};
+inline constexpr MessageText too_many_surfaces{"aero.too_many_surfaces",
+                                               "the planform has more than 16 surfaces"};
 inline constexpr MessageText too_many_tables{"aero.too_many_tables",
-                                             "it is the ninth table, and an airframe has at most 8"};
+                                             "this is the ninth table; an airframe has at most 8"};
 inline constexpr MessageText total_mass_not_positive{"aero.total_mass_not_positive",
-                                                     "Total Mass: expected more than 0"};
+                                                     "Total Mass: expected a value above 0"};
 inline constexpr MessageText trim_beyond_throw{"aero.trim_beyond_throw",
                                                {"trim", "throw_limit"},
                                                "the trim is {trim}, beyond the throw of {throw_limit}"};
 inline constexpr MessageText trim_mismatch{
     "aero.trim_mismatch",
     {"alpha", "airspeed", "first_file", "first_alpha", "first_airspeed"},
-    "it is trimmed at {alpha} and {airspeed} m/s, and {first_file} at {first_alpha} and {first_airspeed} "
-    "m/s: expected logs of one aircraft in one attitude"};
+    "the trim is {alpha} and {airspeed} m/s, but {first_file} has {first_alpha} and {first_airspeed} m/s: "
+    "expected logs of one aircraft in one attitude"};
 inline constexpr MessageText trim_value_missing{
-    "aero.trim_value_missing", {"key"}, "expected '{key}= number' up to here and did not find it"};
+    "aero.trim_value_missing", {"key"}, "expected '{key}= number' up to this line; found none"};
 inline constexpr MessageText tuning_out_of_range{"aero.tuning_out_of_range",
                                                  {"found", "minimum", "maximum", "unit"},
                                                  "'{found}' is outside {minimum} .. {maximum} {unit}"};
 inline constexpr MessageText turn_out_of_range{
     "aero.turn_out_of_range",
     {"found"},
-    "'{found}' is no turn that is flown; give a bank up to 80 deg or a radius from 1 m"};
+    "'{found}' is outside the range of turns; give a bank up to 80 deg or a radius from 1 m"};
 inline constexpr MessageText turn_unit_invalid{
     "aero.turn_unit_invalid",
     {"found"},
@@ -696,32 +742,32 @@ inline constexpr MessageText value_count_mismatch{"aero.value_count_mismatch",
 inline constexpr MessageText value_not_positive{
     "aero.value_not_positive",
     {"found", "unit"},
-    "it is {found}{unit} and must be more than 0; no model of the aircraft can be made"};
+    "{found}{unit} is not above 0; the aircraft model requires a positive value"};
 inline constexpr MessageText waypoint_position_invalid{
     "aero.waypoint_position_invalid", {"found"}, "w: expected three numbers in brackets; found '{found}'"};
 inline constexpr MessageText wing_dimensions_inconsistent{
     "aero.wing_dimensions_inconsistent",
     {"ratio"},
-    "chord times span is {ratio} of the area, which is 0.7 to 1.5 in one and the same wing; one of the three "
-    "is wrong or in another unit"};
+    "chord times span is {ratio} of the area; the same wing has 0.7 to 1.5. One of the three is wrong or in "
+    "another unit"};
 inline constexpr MessageText wing_loading_unusual{
     "aero.wing_loading_unusual",
     {"loading", "hint"},
     "the wing loading is {loading} kg/m2; small aircraft have 1 to 60. {hint}"};
-inline constexpr MessageText wing_sections_missing{"aero.wing_sections_missing", "a wing without sections"};
+inline constexpr MessageText wing_sections_missing{"aero.wing_sections_missing", "the wing has no sections"};
 inline constexpr MessageText xflr5_trim_missing{
     "aero.xflr5_trim_missing",
-    "XFLR5 found no angle without pitching moment, so that there are no derivatives; give the aircraft a "
+    "XFLR5 found no angle without pitching moment, so the log has no derivatives. Give the aircraft a "
     "trimmed attitude (centre of gravity, tail setting) and run the stability analysis again"};
 inline constexpr MessageText yaw_power_low{
     "aero.yaw_power_low",
     {"sideslip"},
-    "full rudder holds {sideslip} of sideslip only; 5 deg or more are usual"};
+    "full rudder holds only {sideslip} of sideslip; 5 deg or more are usual"};
 inline constexpr MessageText zero_lift_unusual{
     "aero.zero_lift_unusual",
     {"lift_coefficient", "alpha", "corrected"},
-    "CL_0 is {lift_coefficient}: without lift it would fly at {alpha}, usual is -5 to 0 deg; is it CL at the "
-    "angle that was analysed, as tools print it? At 0 it is CL - CL_alpha alpha: had it been 3 deg, CL_0 "
-    "would be {corrected}"};
+    "CL_0 is {lift_coefficient}: the angle of zero lift is {alpha}; the usual range is -5 to 0 deg. The "
+    "value may be CL at the analysed angle, as tools print it. CL_0 is CL - CL_alpha alpha; for an analysis "
+    "at 3 deg it would be {corrected}"};
 
 }  // namespace fulmar::aero_messages

@@ -6,12 +6,11 @@
 namespace fulmar::campaign_messages {
 
 inline constexpr MessageText build_failed{"campaign.build_failed",
-                                          "the build failed; what flew before stays as it is"};
-inline constexpr MessageText build_without_watch{"campaign.build_without_watch",
-                                                 "--build belongs to --watch"};
-inline constexpr MessageText seeds_on_hardware{
-    "campaign.seeds_on_hardware", "--seeds belongs to a simulation: on hardware nothing is drawn by chance"};
+                                          "the build failed; the former build stays in use"};
+inline constexpr MessageText build_without_watch{"campaign.build_without_watch", "--build requires --watch"};
+inline constexpr MessageText seeds_on_hardware{"campaign.seeds_on_hardware",
+                                               "--seeds requires a simulation: hardware has no random draws"};
 inline constexpr MessageText watched_file_missing{
-    "campaign.watched_file_missing", {"file"}, "{file} is gone; waiting for it"};
+    "campaign.watched_file_missing", {"file"}, "{file} is missing; the watch waits for it"};
 
 }  // namespace fulmar::campaign_messages

@@ -8,10 +8,10 @@ namespace fulmar::log_tool_messages {
 inline constexpr MessageText attachment_differs{
     "log_tool.attachment_differs", {"attachment", "line"}, "{attachment} differs from line {line} on"};
 inline constexpr MessageText common_figure_missing{"log_tool.common_figure_missing",
-                                                   "the two have no figure in common"};
-inline constexpr MessageText compression_failed{"log_tool.compression_failed", "cannot compress"};
+                                                   "the two results have no figure in common"};
+inline constexpr MessageText compression_failed{"log_tool.compression_failed", "cannot compress the data"};
 inline constexpr MessageText disk_write_failed{
-    "log_tool.disk_write_failed", {"file"}, "cannot write '{file}': the disk refuses it"};
+    "log_tool.disk_write_failed", {"file"}, "cannot write '{file}': the disk rejects the data"};
 inline constexpr MessageText element_index_missing{
     "log_tool.element_index_missing",
     {"path", "first_path", "last_path", "last"},
@@ -22,45 +22,47 @@ inline constexpr MessageText exportable_message_missing{
     "log_tool.exportable_message_missing",
     {"log", "reason"},
     "'{log}' has no message that can be exported{reason}"};
-inline constexpr MessageText field_unknown{
-    "log_tool.field_unknown", {"field", "choices"}, "'{field}' is no field of a port in it.{choices}"};
-inline constexpr MessageText field_without_numbers{"log_tool.field_without_numbers", " has no number in it"};
+inline constexpr MessageText field_unknown{"log_tool.field_unknown",
+                                           {"field", "choices"},
+                                           "'{field}' is not a field of a port in the log.{choices}"};
+inline constexpr MessageText field_without_numbers{"log_tool.field_without_numbers", " has no number"};
 inline constexpr MessageText fields_missing{
     "log_tool.fields_missing",
     {"log"},
-    "give at least one field behind the log, as in fulmar plot {log} nav.state.height_m -o height.svg"};
+    "give at least one field after the log, as in fulmar plot {log} nav.state.height_m -o height.svg"};
 inline constexpr MessageText figure_conversion_failed{"log_tool.figure_conversion_failed",
                                                       {"program", "file"},
-                                                      "{program} has not made '{file}' of the figure"};
+                                                      "{program} did not make '{file}' from the figure"};
 inline constexpr MessageText figure_format_unknown{
     "log_tool.figure_format_unknown",
     {"file"},
-    "'{file}' ends in nothing that a figure can be. Valid: .svg, .png, .pdf."};
+    "'{file}' does not end in a figure format. Valid: .svg, .png, .pdf."};
 inline constexpr MessageText figure_not_writable{
     "log_tool.figure_not_writable", {"file"}, "'{file}' cannot be written"};
-inline constexpr MessageText file_not_readable{"log_tool.file_not_readable", "the file cannot be read"};
+inline constexpr MessageText file_not_readable{"log_tool.file_not_readable", "the file is not readable"};
 inline constexpr MessageText file_not_writable{
     "log_tool.file_not_writable", {"file"}, "cannot write '{file}'"};
 inline constexpr MessageText folder_not_creatable{
     "log_tool.folder_not_creatable", {"folder", "reason"}, "cannot make the folder '{folder}': {reason}"};
-inline constexpr MessageText footer_missing{"log_tool.footer_missing", "there is no footer"};
+inline constexpr MessageText footer_missing{"log_tool.footer_missing", "the footer is missing"};
 inline constexpr MessageText input_step_missing{
     "log_tool.input_step_missing",
     {"span", "largest"},
-    "the input has no step: of its range of {span} at most {largest} is from one sample to the next"};
+    "the input has no step: the largest change between two samples is {largest} of a range of {span}"};
 inline constexpr MessageText interval_without_numbers{
     "log_tool.interval_without_numbers",
     {"begin", "end"},
-    " has no number in that time; the flight is from {begin} to {end}"};
+    " has no number in this interval; the flight is from {begin} to {end}"};
 inline constexpr MessageText label_count_mismatch{
     "log_tool.label_count_mismatch",
     {"expected", "found"},
-    "--labels takes a name for each field, with commas between them: {expected}, not {found}"};
+    "--labels requires one name for each field, with commas between them: {expected}, not {found}"};
 inline constexpr MessageText list_always_empty{
-    "log_tool.list_always_empty", {"path"}, "{path} is a list that is empty all the time"};
-inline constexpr MessageText list_longer{"log_tool.list_longer", "a list is longer than it was"};
+    "log_tool.list_always_empty", {"path"}, "{path} is a list that is always empty"};
+inline constexpr MessageText list_longer{"log_tool.list_longer",
+                                         "a list is longer than at the first read of the log"};
 inline constexpr MessageText log_after_fields{
-    "log_tool.log_after_fields", {"log"}, "'{log}' is a log: logs stand before the fields"};
+    "log_tool.log_after_fields", {"log"}, "'{log}' is a log: give the logs before the fields"};
 inline constexpr MessageText log_cut_off{
     "log_tool.log_cut_off", {"fault", "cut"}, "{fault} The log is cut off: {cut}"};
 inline constexpr MessageText log_exists{
@@ -68,11 +70,11 @@ inline constexpr MessageText log_exists{
     {"file"},
     "'{file}' exists; a log never overwrites a file. Name another with --out"};
 inline constexpr MessageText log_not_recoverable{
-    "log_tool.log_not_recoverable", {"reason"}, "nothing of it can be saved: {reason}"};
+    "log_tool.log_not_recoverable", {"reason"}, "the log has no recoverable data: {reason}"};
 inline constexpr MessageText log_still_growing{
     "log_tool.log_still_growing",
     {"log"},
-    "'{log}' is still being written: its flight gives it its name; recover it when that has ended"};
+    "'{log}' is still being written. The flight gives it its final name; recover the log after the flight"};
 inline constexpr MessageText mat_too_large{
     "log_tool.mat_too_large",
     "a MAT file of level 5 holds at most 2 GB per variable; export to npz, or fewer topics"};
@@ -83,53 +85,56 @@ inline constexpr MessageText messages_too_large{"log_tool.messages_too_large", "
 inline constexpr MessageText name_count_mismatch{
     "log_tool.name_count_mismatch",
     {"expected", "found"},
-    "--names takes a name for each log, with commas between them: {expected}, not {found}"};
+    "--names requires one name for each log, with commas between them: {expected}, not {found}"};
 inline constexpr MessageText names_count_invalid{
-    "log_tool.names_count_invalid", "--names takes two words and a comma, as in --names old,new"};
+    "log_tool.names_count_invalid",
+    "--names requires two names with a comma between them, as in --names old,new"};
 inline constexpr MessageText npz_text_too_large{
     "log_tool.npz_text_too_large",
     {"array"},
-    "{array} is more text than an npz file holds; export fewer topics at a time with --topic"};
+    "the text of {array} exceeds the size of an npz file; export fewer topics at a time with --topic"};
 inline constexpr MessageText npz_too_large{
     "log_tool.npz_too_large",
-    "the arrays need more than an npz file of 4 GB holds; export fewer topics at a time with --topic"};
+    "the arrays exceed the 4 GB of an npz file; export fewer topics at a time with --topic"};
 inline constexpr MessageText number_missing{
     "log_tool.number_missing", {"field", "interval"}, "{field}{interval}"};
 inline constexpr MessageText numbers_missing{
-    "log_tool.numbers_missing", {"field"}, "{field} has no number in the time that is looked at"};
+    "log_tool.numbers_missing", {"field"}, "{field} has no number in the selected time"};
 inline constexpr MessageText output_constant{"log_tool.output_constant",
                                              "the output does not move after the step"};
 inline constexpr MessageText output_is_log{
-    "log_tool.output_is_log", {"file", "remedy"}, "'{file}' is a log that is drawn; {remedy}"};
-inline constexpr MessageText path_is_text{"log_tool.path_is_text", {"path"}, "{path} is a text, no number"};
-inline constexpr MessageText path_not_list{"log_tool.path_not_list", {"path"}, "{path} is no list"};
+    "log_tool.output_is_log", {"file", "remedy"}, "'{file}' is a log of this plot; {remedy}"};
+inline constexpr MessageText path_is_text{
+    "log_tool.path_is_text", {"path"}, "{path} is a text, not a number"};
+inline constexpr MessageText path_not_list{"log_tool.path_not_list", {"path"}, "{path} is not a list"};
 inline constexpr MessageText path_not_number{
     "log_tool.path_not_number",
     {"path", "example_path", "example", "choices"},
-    "{path} is no number: give one of its fields, as in {example_path}.{example}. Valid: {choices}."};
+    "{path} is not a number: give one of its fields, as in {example_path}.{example}. Valid: {choices}."};
 inline constexpr MessageText record_kind_differs{"log_tool.record_kind_differs",
-                                                 "a record is not what the summary says"};
+                                                 "the kind of a record differs from the summary"};
 inline constexpr MessageText record_kind_unknown{"log_tool.record_kind_unknown",
-                                                 "a record is of no known kind"};
+                                                 "the kind of a record is unknown"};
 inline constexpr MessageText record_length_differs{"log_tool.record_length_differs",
-                                                   "a record is longer than what is in it"};
+                                                   "a record is longer than its content"};
 inline constexpr MessageText record_overlong{"log_tool.record_overlong",
-                                             "a record is longer than the summary says"};
+                                             "a record is longer than the summary states"};
 inline constexpr MessageText record_truncated{"log_tool.record_truncated", "the file ends inside a record"};
 inline constexpr MessageText response_missing{"log_tool.response_missing",
                                               {"step_fault", "join", "frequency_fault"},
                                               "{step_fault}{join}{frequency_fault}"};
 inline constexpr MessageText result_expected{
-    "log_tool.result_expected", "it is neither a log nor a result of fulmar run --json: not valid JSON"};
+    "log_tool.result_expected",
+    "the file is neither a log nor a result of fulmar run --json: not valid JSON"};
 inline constexpr MessageText sample_gap{
     "log_tool.sample_gap",
     {"series", "begin", "end"},
-    "the {series} has no sample from {begin} to {end}; choose a time without a gap, --from and --to"};
+    "the {series} has no sample from {begin} to {end}; choose a time without a gap with --from and --to"};
 inline constexpr MessageText segment_too_short{
     "log_tool.segment_too_short",
     {"segment", "duration", "sample_time", "min_segments"},
-    "segments of {segment} in {duration} at {sample_time} from sample to sample: a segment needs 16 samples, "
-    "and the time {min_segments} segments that overlap by half"};
+    "the segments are {segment} of {duration}, with {sample_time} between samples. A segment requires 16 "
+    "samples, and the time {min_segments} segments that overlap by half"};
 inline constexpr MessageText size_invalid{
     "log_tool.size_invalid",
     {"found"},
@@ -139,48 +144,50 @@ inline constexpr MessageText size_too_small{
 inline constexpr MessageText state_names_required{
     "log_tool.state_names_required",
     {"choices"},
-    "name the two that are compared, as in nav.state second.state. It has {choices}"};
+    "name the two states to compare, as in nav.state second.state. The log has {choices}"};
 inline constexpr MessageText states_missing{"log_tool.states_missing",
-                                            "there is no state of an aircraft (VehicleState) in it"};
+                                            "the log has no state of an aircraft (VehicleState)"};
 inline constexpr MessageText step_samples_missing{"log_tool.step_samples_missing",
-                                                  "a step takes samples of input and output"};
+                                                  "a step response requires samples of input and output"};
 inline constexpr MessageText step_samples_too_few{
     "log_tool.step_samples_too_few",
     {"before", "after"},
-    "the output has {before} samples in the second before the step and {after} from it on; at least 1 and 10 "
-    "are needed"};
+    "the output has {before} samples in the second before the step and {after} after it; at least 1 and 10 "
+    "are required"};
 inline constexpr MessageText subfield_unknown{
     "log_tool.subfield_unknown", {"path", "field", "choices"}, "{path} has no field '{field}'.{choices}"};
 inline constexpr MessageText summary_checksum_invalid{"log_tool.summary_checksum_invalid",
                                                       "the checksum of the summary is wrong"};
-inline constexpr MessageText summary_missing{"log_tool.summary_missing", "there is no summary"};
+inline constexpr MessageText summary_missing{"log_tool.summary_missing", "the summary is missing"};
 inline constexpr MessageText svg_converter_missing{
     "log_tool.svg_converter_missing",
     {"file"},
-    "'{file}' takes a program that draws SVG: apt install librsvg2-bin (rsvg-convert) or inkscape; without "
-    "one name a file that ends in .svg"};
+    "'{file}' requires a program that converts SVG: apt install librsvg2-bin (rsvg-convert) or inkscape. "
+    "Without one, name a file that ends in .svg"};
 inline constexpr MessageText time_range_invalid{
     "log_tool.time_range_invalid", {"begin", "end"}, "--from {begin} is not before --to {end}"};
 inline constexpr MessageText too_few_samples{
     "log_tool.too_few_samples",
     {"series", "count"},
-    "the {series} has {count} samples; a frequency response takes at least 10"};
-inline constexpr MessageText too_many_curves{"log_tool.too_many_curves",
-                                             {"count", "limit"},
-                                             "a panel would have {count} curves; {limit} can be told apart"};
-inline constexpr MessageText too_many_fields{"log_tool.too_many_fields", "its messages have too many fields"};
+    "the {series} has {count} samples; a frequency response requires at least 10"};
+inline constexpr MessageText too_many_curves{
+    "log_tool.too_many_curves",
+    {"count", "limit"},
+    "a panel would have {count} curves; at most {limit} are distinguishable"};
+inline constexpr MessageText too_many_fields{"log_tool.too_many_fields",
+                                             "its messages have too many fields: at most 20000 are valid"};
 inline constexpr MessageText too_many_numbers{
     "log_tool.too_many_numbers", {"limit"}, "its messages have more than {limit} numbers each"};
 inline constexpr MessageText too_many_states{
-    "log_tool.too_many_states", {"names"}, "two states are compared, not {names}"};
+    "log_tool.too_many_states", {"names"}, "the command compares two states, not {names}"};
 inline constexpr MessageText topic_ambiguous{
-    "log_tool.topic_ambiguous", {"name", "choices"}, "{name} may be each of {choices}; name one"};
+    "log_tool.topic_ambiguous", {"name", "choices"}, "{name} is ambiguous: it matches {choices}; name one"};
 inline constexpr MessageText topic_type_mismatch{"log_tool.topic_type_mismatch",
                                                  {"topic", "found", "expected", "choices"},
-                                                 "{topic} is a {found}, and no {expected}.{choices}"};
+                                                 "{topic} is a {found}, not a {expected}.{choices}"};
 inline constexpr MessageText topic_unknown{
-    "log_tool.topic_unknown", {"topic", "choices"}, "there is no {topic} in it.{choices}"};
+    "log_tool.topic_unknown", {"topic", "choices"}, "the log has no topic {topic}.{choices}"};
 inline constexpr MessageText value_without_parts{
-    "log_tool.value_without_parts", {"path", "part"}, "{path} is one value, it has no '{part}'"};
+    "log_tool.value_without_parts", {"path", "part"}, "{path} is one value; it has no '{part}'"};
 
 }  // namespace fulmar::log_tool_messages

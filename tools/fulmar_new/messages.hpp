@@ -6,11 +6,11 @@
 namespace fulmar::new_messages {
 
 inline constexpr MessageText component_always_stepped{
-    "new.component_always_stepped", "It is stepped from the start, and what it says is logged."};
+    "new.component_always_stepped", "The host steps it from the start, and logs its outputs."};
 inline constexpr MessageText component_unspecified{
     "new.component_unspecified",
-    "say what it is: --role ROLE, --template sensor, --template planner, or its ports, as in --in "
-    "state=nav.state --out range=Range"};
+    "the new component is not specified. Give --role ROLE, --template sensor, --template planner, or its "
+    "ports, as in --in state=nav.state --out range=Range"};
 inline constexpr MessageText file_not_readable{"new.file_not_readable", {"file"}, "cannot read {file}"};
 inline constexpr MessageText file_not_writable{"new.file_not_writable", {"file"}, "cannot write {file}"};
 inline constexpr MessageText folder_is_file{"new.folder_is_file", {"path"}, "{path} is a file, not a folder"};
@@ -21,19 +21,19 @@ inline constexpr MessageText folder_not_empty{
 inline constexpr MessageText input_type_unknown{
     "new.input_type_unknown",
     {"input", "output", "source"},
-    "--in {input}={output}: no component says what {source} carries"};
+    "--in {input}={output}: no component states the message type of {source}"};
 inline constexpr MessageText mission_unknown{
     "new.mission_unknown",
     {"mission", "choices"},
-    "--mission {mission}: there is no such file, and no shipped mission of that name.{choices}"};
+    "--mission {mission}: neither a file nor a shipped mission has that name.{choices}"};
 inline constexpr MessageText missions_missing{
     "new.missions_missing",
     {"folder", "program"},
-    "there are no missions in {folder}, and no source tree above {program}"};
+    "the folder {folder} has no missions, and no source tree is above {program}"};
 inline constexpr MessageText name_in_use{
     "new.name_in_use",
     {"mission", "kind", "name", "suggestion"},
-    "the mission {mission} has a {kind} called '{name}' already. Choose another name, as in my_{suggestion}"};
+    "the mission {mission} already has a {kind} called '{name}'. Choose another name, as in my_{suggestion}"};
 inline constexpr MessageText output_form_invalid{
     "new.output_form_invalid",
     {"output", "found"},
@@ -44,29 +44,29 @@ inline constexpr MessageText output_unknown{"new.output_unknown",
 inline constexpr MessageText phase_of_component{
     "new.phase_of_component",
     {"phase", "replaced", "former", "fallback"},
-    "It flies in the phase {phase}; {replaced}{former}{fallback}"};
+    "It is active in the phase {phase}; {replaced}{former}{fallback}"};
 inline constexpr MessageText plugin_name_invalid{
     "new.plugin_name_invalid",
     {"name"},
-    "'{name}' is no name for a plugin: letters, digits and _, a letter first, as in my_law"};
+    "'{name}' is not a valid plugin name: letters, digits and _, a letter first, as in my_law"};
 inline constexpr MessageText plugin_name_reserved{
     "new.plugin_name_reserved",
     {"name", "suggestion"},
-    "'{name}' means something to the build already. Choose another name, as in my_{suggestion}"};
+    "'{name}' is a reserved name of the build. Choose another name, as in my_{suggestion}"};
 inline constexpr MessageText port_duplicate{
-    "new.port_duplicate", {"port"}, "the port '{port}' is asked for twice"};
+    "new.port_duplicate", {"port"}, "the port '{port}' is given twice"};
 inline constexpr MessageText program_path_unknown{
-    "new.program_path_unknown", {"reason"}, "cannot tell where this program is: {reason}"};
-inline constexpr MessageText role_duplicate{"new.role_duplicate", {"role"}, "--role {role} is there twice"};
+    "new.program_path_unknown", {"reason"}, "cannot find the path of this program: {reason}"};
+inline constexpr MessageText role_duplicate{"new.role_duplicate", {"role"}, "--role {role} is given twice"};
 inline constexpr MessageText role_input_type_unknown{
     "new.role_input_type_unknown",
     {"role", "input", "source"},
-    "roles.{role}.in.{input}: no component says what {source} carries"};
+    "roles.{role}.in.{input}: no component states the message type of {source}"};
 inline constexpr MessageText role_inputs_conflict{
     "new.role_inputs_conflict",
     {"role", "input", "source", "other_source"},
-    "roles.{role}.in.{input} is {source}, and another of its roles has it from {other_source}: these roles "
-    "cannot be filled by one new component"};
+    "roles.{role}.in.{input} is {source}, but another of the given roles takes it from {other_source}. One "
+    "new component cannot fill these roles"};
 inline constexpr MessageText role_outputs_conflict{"new.role_outputs_conflict",
                                                    {"first_role", "second_role", "output"},
                                                    "the roles {first_role} and {second_role} both have an "
@@ -74,21 +74,21 @@ inline constexpr MessageText role_outputs_conflict{"new.role_outputs_conflict",
 inline constexpr MessageText role_template_unknown{
     "new.role_template_unknown",
     {"template_name", "role", "choices"},
-    "--template {template_name}: the role {role} has none of that name.{choices}"};
+    "--template {template_name}: the role {role} has no template of that name.{choices}"};
 inline constexpr MessageText role_unknown{
     "new.role_unknown",
     {"role", "mission", "choices"},
-    "--role {role}: {mission} has no such role.{choices} What has no role is asked for by --template sensor, "
-    "--template planner, --in and --out"};
+    "--role {role}: {mission} has no such role.{choices} For a component without a role give --template "
+    "sensor, --template planner, --in and --out"};
 inline constexpr MessageText role_with_ports{
-    "new.role_with_ports", "--role says all ports: --in and --out are of a component without a role"};
+    "new.role_with_ports", "--role defines all ports: --in and --out are for a component without a role"};
 inline constexpr MessageText roles_filled{
     "new.roles_filled", {"plural", "roles"}, "fills the role{plural}`{roles}` of"};
-inline constexpr MessageText roles_not_filled{"new.roles_not_filled", "stands beside the roles of"};
+inline constexpr MessageText roles_not_filled{"new.roles_not_filled", "fills no role of"};
 inline constexpr MessageText roles_template_missing{
     "new.roles_template_missing",
     {"template_name"},
-    "--template {template_name}: there is none for several roles at once"};
+    "--template {template_name}: no template covers several roles at once"};
 inline constexpr MessageText template_input_unknown{
     "new.template_input_unknown",
     {"input", "template_name", "choices"},
@@ -96,24 +96,25 @@ inline constexpr MessageText template_input_unknown{
 inline constexpr MessageText template_ports_mismatch{
     "new.template_ports_mismatch",
     {"template_name", "mission"},
-    "--template {template_name} is for other ports than {mission} has"};
+    "--template {template_name} requires other ports than {mission} has"};
 inline constexpr MessageText template_source_missing{
     "new.template_source_missing",
     {"template_name", "source", "mission", "input"},
-    "--template {template_name} reads {source}, which {mission} does not have: say where it comes from, --in "
+    "--template {template_name} reads {source}, which {mission} does not have: give its source with --in "
     "{input}=OWNER.PORT"};
 inline constexpr MessageText template_unknown{
     "new.template_unknown",
     {"template_name", "choices"},
-    "--template {template_name}: there is none of that name.{choices}"};
+    "--template {template_name}: no template has that name.{choices}"};
 inline constexpr MessageText template_with_outputs{
     "new.template_with_outputs", "--out: a template has its own outputs; change them in the source"};
 inline constexpr MessageText templates_missing{
     "new.templates_missing",
     {"folder"},
-    "there are no templates in {folder}: install the package fulmar-dev"};
+    "the folder {folder} has no templates: install the package fulmar-dev"};
 inline constexpr MessageText vehicle_replaced{
-    "new.vehicle_replaced", {"replaced"}, "It flies from the start, in place of {replaced}."};
-inline constexpr MessageText vehicle_with_roles{"new.vehicle_with_roles", "the vehicle fills its role alone"};
+    "new.vehicle_replaced", {"replaced"}, "It is active from the start, in place of {replaced}."};
+inline constexpr MessageText vehicle_with_roles{"new.vehicle_with_roles",
+                                                "the role vehicle cannot be combined with other roles"};
 
 }  // namespace fulmar::new_messages

@@ -6,12 +6,12 @@
 namespace fulmar::replay_messages {
 
 inline constexpr MessageText baseline_differs{"replay.baseline_differs",
-                                              "without the change, too, the replay differs from the log"};
+                                              "the replay differs from the log even without the change"};
 inline constexpr MessageText change_without_effect{
     "replay.change_without_effect",
     {"change", "component", "kind"},
-    "{change} would change nothing: {component} is {kind}, and in a replay its samples come out of the log. "
-    "Fly the mission anew with fulmar run"};
+    "{change} would change nothing: {component} is {kind}, and a replay takes its samples from the log. Fly "
+    "the mission again with fulmar run"};
 inline constexpr MessageText estimates_not_compared{
     "replay.estimates_not_compared", {"reason"}, "the estimates are not compared: {reason}"};
 inline constexpr MessageText first_tick_missing{
@@ -20,54 +20,55 @@ inline constexpr MessageText first_tick_missing{
     "the log begins with tick {tick} of its flight; a replay begins with the first: give the file before it"};
 inline constexpr MessageText folder_not_creatable{
     "replay.folder_not_creatable", {"folder"}, "cannot make a folder in {folder}"};
-inline constexpr MessageText log_changed{"replay.log_changed",
-                                         "the log has changed since its flight began to be replayed"};
-inline constexpr MessageText mission_missing{"replay.mission_missing",
-                                             "no mission is attached to it: it is not the log of a flight"};
+inline constexpr MessageText log_changed{"replay.log_changed", "the log has changed since the replay began"};
+inline constexpr MessageText mission_missing{
+    "replay.mission_missing", "the log has no attached mission: it is not the log of a flight"};
 inline constexpr MessageText overrides_not_recorded{
     "replay.overrides_not_recorded",
-    "it does not say how its mission was changed on the command line: it is older than replays"};
+    "the log does not state the command-line changes of its mission: it is older than the replay function"};
 inline constexpr MessageText plugin_not_recorded{
-    "replay.plugin_not_recorded", {"component"}, "it does not say which plugin flew as '{component}'"};
+    "replay.plugin_not_recorded", {"component"}, "the log does not state the plugin of '{component}'"};
 inline constexpr MessageText plugins_not_recorded{"replay.plugins_not_recorded",
-                                                  "it does not say which plugins flew"};
+                                                  "the log does not state the plugins of the flight"};
 inline constexpr MessageText probes_mismatch{
-    "replay.probes_mismatch", {"vehicle"}, "the log has other probes of {vehicle}"};
-inline constexpr MessageText record_without_log{"replay.record_without_log",
-                                                "--record needs --log FILE: the replay's own log holds more"};
+    "replay.probes_mismatch",
+    {"vehicle"},
+    "the probes of {vehicle} in the log differ from those of the plugin"};
+inline constexpr MessageText record_without_log{
+    "replay.record_without_log", "--record requires --log FILE: it adds ports to the replay's own log"};
 inline constexpr MessageText replay_interrupted{"replay.replay_interrupted", "interrupted"};
 inline constexpr MessageText replay_log_failed{
     "replay.replay_log_failed", {"reason"}, "the replay's log: {reason}"};
 inline constexpr MessageText samples_between_ticks{
     "replay.samples_between_ticks", {"topic"}, "the log has samples of {topic} between two ticks"};
 inline constexpr MessageText samples_lost{
-    "replay.samples_lost", {"count", "topic"}, "the log has lost {count} samples of {topic}"};
+    "replay.samples_lost", {"count", "topic"}, "the log lacks {count} samples of {topic}"};
 inline constexpr MessageText tick_gap_too_large{
     "replay.tick_gap_too_large",
     {"limit"},
     "the log holds more than {limit} MB between two messages about its ticks"};
 inline constexpr MessageText ticks_empty{"replay.ticks_empty", "the log holds no tick"};
-inline constexpr MessageText ticks_lost{
-    "replay.ticks_lost",
-    {"begin", "end"},
-    "the log has lost its ticks {begin} to {end}: it can be replayed no further than that"};
+inline constexpr MessageText ticks_lost{"replay.ticks_lost",
+                                        {"begin", "end"},
+                                        "the log has lost its ticks {begin} to {end}: a replay ends there"};
 inline constexpr MessageText ticks_missing{
-    "replay.ticks_missing", "the log has no /fulmar/ticks: it is not a flight's, or older than replays"};
+    "replay.ticks_missing",
+    "the log has no /fulmar/ticks: it is not the log of a flight, or it is older than the replay function"};
 inline constexpr MessageText ticks_not_in_order{"replay.ticks_not_in_order",
                                                 "the log's ticks are not in order"};
 inline constexpr MessageText too_many_events{
     "replay.too_many_events",
     {"limit"},
-    "the log tells of more guards, signals and late results than the {limit} MB that a replay has room for"};
+    "the log holds more than {limit} MB of guards, signals and late results, which is the limit of a replay"};
 inline constexpr MessageText too_many_samples{
     "replay.too_many_samples",
     {"port"},
-    "the log has more samples of {port} in a tick than there is room for"};
+    "the log has more samples of {port} in one tick than the port holds"};
 inline constexpr MessageText topic_not_in_order{
-    "replay.topic_not_in_order", {"topic"}, "the log's {topic} is not in the order of time"};
+    "replay.topic_not_in_order", {"topic"}, "the messages of {topic} in the log are not in order of time"};
 inline constexpr MessageText topic_type_mismatch{
     "replay.topic_type_mismatch",
     {"topic", "type"},
-    "the log's {topic} has other fields than {type} has here: it was written by another version"};
+    "the fields of {topic} in the log differ from those of {type} here: another version wrote the log"};
 
 }  // namespace fulmar::replay_messages

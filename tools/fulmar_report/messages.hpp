@@ -6,31 +6,31 @@
 namespace fulmar::report_messages {
 
 inline constexpr MessageText compression_failed{"report.compression_failed",
-                                                "zlib cannot compress: there is not enough memory"};
+                                                "zlib cannot compress: the memory is not sufficient"};
 inline constexpr MessageText log_duplicate{
     "report.log_duplicate", {"log"}, "'{log}' is given twice: name each log once"};
 inline constexpr MessageText messages_too_large{"report.messages_too_large", "its messages are too large"};
 inline constexpr MessageText name_count_mismatch{
     "report.name_count_mismatch",
     {"expected", "found"},
-    "--names takes a name for each log, with commas between them: {expected}, not {found}"};
+    "--names takes one name for each log, separated by commas: {expected}, not {found}"};
 inline constexpr MessageText page_not_built{
     "report.page_not_built",
-    "this Fulmar was built without the page of a flight, which a report needs: install nodejs and npm, "
-    "configure and build again"};
+    "this build of Fulmar does not include the page of a flight, which a report requires. Install nodejs and "
+    "npm, configure and build again"};
 inline constexpr MessageText page_version_mismatch{
     "report.page_version_mismatch", "the page has no place for a log: it is of another version"};
 inline constexpr MessageText report_exists{
-    "report.report_exists", {"file"}, "{file} is there already: give another name with -o"};
+    "report.report_exists", {"file"}, "{file} exists already: give another name with -o"};
 inline constexpr MessageText report_not_writable{
     "report.report_not_writable", {"file"}, "{file} cannot be written"};
 inline constexpr MessageText result_expected{
     "report.result_expected",
     {"file"},
-    "'{file}' is no result of one flight, as fulmar run --json prints it"};
+    "'{file}' is not the result of one flight, as fulmar run --json prints it"};
 inline constexpr MessageText result_with_logs{"report.result_with_logs",
-                                              "--result belongs to a report of one log"};
+                                              "--result requires a report of one log"};
 inline constexpr MessageText too_many_logs{
-    "report.too_many_logs", {"limit", "found"}, "a report has room for {limit} logs, not {found}"};
+    "report.too_many_logs", {"limit", "found"}, "a report takes at most {limit} logs, not {found}"};
 
 }  // namespace fulmar::report_messages

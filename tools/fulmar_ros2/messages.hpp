@@ -8,15 +8,15 @@ namespace fulmar::ros2_messages {
 inline constexpr MessageText field_name_invalid{
     "ros2.field_name_invalid",
     {"message", "field"},
-    "{message}.{field} is no name of a field in ROS: lower-case letters, digits and single underscores."};
+    "{message}.{field} is not a valid field name in ROS: lower-case letters, digits and single underscores."};
 inline constexpr MessageText file_not_writable{
     "ros2.file_not_writable", {"file", "reason"}, "{file} cannot be written: {reason}"};
 inline constexpr MessageText folder_expected{
-    "ros2.folder_expected", {"path"}, "{path} is there and is no folder."};
+    "ros2.folder_expected", {"path"}, "{path} exists and is not a folder."};
 inline constexpr MessageText folder_in_use{
     "ros2.folder_in_use",
     {"folder"},
-    "{folder} holds something else; name a folder that is new, empty, or was written by this command."};
+    "{folder} holds other files; name a folder that is new, empty, or was written by this command."};
 inline constexpr MessageText folder_not_creatable{
     "ros2.folder_not_creatable", {"folder", "reason"}, "{folder} cannot be made: {reason}"};
 inline constexpr MessageText message_name_ambiguous{
@@ -27,6 +27,6 @@ inline constexpr MessageText message_name_ambiguous{
 inline constexpr MessageText message_name_invalid{
     "ros2.message_name_invalid",
     {"message"},
-    "'{message}' is no name of a ROS message: a capital letter, then letters and digits."};
+    "'{message}' is not a valid name of a ROS message: a capital letter, then letters and digits."};
 
 }  // namespace fulmar::ros2_messages

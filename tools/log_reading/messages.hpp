@@ -5,22 +5,23 @@
 
 namespace fulmar::reading_messages {
 
-inline constexpr MessageText field_incomplete{"reading.field_incomplete", "a field needs a type and a name"};
+inline constexpr MessageText field_incomplete{"reading.field_incomplete",
+                                              "a field requires a type and a name"};
 inline constexpr MessageText field_name_too_long{"reading.field_name_too_long", "the name is too long"};
 inline constexpr MessageText field_type_unknown{
-    "reading.field_type_unknown", {"type"}, "the type {type} is not known here"};
+    "reading.field_type_unknown", {"type"}, "the type {type} is unknown"};
 inline constexpr MessageText file_empty{"reading.file_empty", "it is empty"};
 inline constexpr MessageText file_is_directory{"reading.file_is_directory", "it is a directory"};
-inline constexpr MessageText file_missing{"reading.file_missing", "there is no such file"};
+inline constexpr MessageText file_missing{"reading.file_missing", "the file does not exist"};
 inline constexpr MessageText file_not_readable{
     "reading.file_not_readable", {"file", "reason"}, "cannot read '{file}': {reason}"};
-inline constexpr MessageText file_not_regular{"reading.file_not_regular", "it is no file"};
+inline constexpr MessageText file_not_regular{"reading.file_not_regular", "it is not a regular file"};
 inline constexpr MessageText line_fault{"reading.line_fault", {"line", "reason"}, "'{line}': {reason}"};
 inline constexpr MessageText list_length_invalid{"reading.list_length_invalid",
-                                                 "a list's length cannot be read"};
+                                                 "the length of the list is not readable"};
 inline constexpr MessageText messages_too_large{
     "reading.messages_too_large", {"limit"}, "the log has more than {limit} MB of messages at one time"};
-inline constexpr MessageText too_many_fields{"reading.too_many_fields", "too many fields"};
+inline constexpr MessageText too_many_fields{"reading.too_many_fields", "the type has too many fields"};
 inline constexpr MessageText too_many_values{
     "reading.too_many_values", {"limit"}, "a message has more than {limit} values"};
 inline constexpr MessageText type_definition_missing{
@@ -28,9 +29,9 @@ inline constexpr MessageText type_definition_missing{
 inline constexpr MessageText type_name_invalid{
     "reading.type_name_invalid",
     {"type"},
-    "'{type}' is no ROS message type, which has the form package/msg/Name"};
+    "'{type}' is not a ROS message type, which has the form package/msg/Name"};
 inline constexpr MessageText type_nesting_invalid{
-    "reading.type_nesting_invalid", {"type"}, "{type} is nested too deeply, or holds itself"};
+    "reading.type_nesting_invalid", {"type"}, "{type} is nested too deeply, or contains itself"};
 inline constexpr MessageText type_too_large{
     "reading.type_too_large", {"type", "field", "end"}, "{type} is too large: '{field}' ends at {end} bytes"};
 

@@ -87,7 +87,7 @@ TEST_CASE("on hardware it is said before arming whether, and where, the flight i
   {
     Program program("craft.arm_at=100");
     REQUIRE(program.says("phase second"));
-    CHECK(program.says("no log is written"));
+    CHECK(program.says("app.log_off"));
     program.send(SIGINT);
     CHECK(program.code() == 130);
   }
@@ -111,7 +111,7 @@ TEST_CASE(
   Program program("craft.arm_at=0");
   REQUIRE(program.says("phase second"));
   program.send(SIGTERM);
-  REQUIRE(program.says("the aircraft is armed: Ctrl-C once more within 5 s gives up control"));
+  REQUIRE(program.says("run.aircraft_armed: Ctrl-C once more within 5 s gives up control"));
   program.send(SIGINT);  // too soon after it: timeout(1) sends two at once
   program.send(SIGHUP);
   program.send(SIGALRM);
@@ -119,7 +119,7 @@ TEST_CASE(
   CHECK(program.runs());
   program.send(SIGINT);
   CHECK(program.code() == 130);
-  CHECK(program.text().find("control given up by a signal: the aircraft is its pilot's") !=
+  CHECK(program.text().find("control given up run.ended_by_signal: the aircraft is its pilot's") !=
         std::string::npos);
   CHECK(program.text().find("ended by") == std::string::npos);
 }
@@ -128,10 +128,10 @@ TEST_CASE("a third signal ends an armed flight at once") {
   Program program("craft.arm_at=0");
   REQUIRE(program.says("phase second"));
   program.send(SIGINT);
-  REQUIRE(program.says("the aircraft is armed"));
+  REQUIRE(program.says("run.aircraft_armed"));
   pause_s(0.6);
   program.send(SIGINT);
-  REQUIRE(program.says("control given up by a signal"));
+  REQUIRE(program.says("control given up run.ended_by_signal"));
   pause_s(0.6);
   program.send(SIGINT);
   CHECK(program.code() == 130);
@@ -143,12 +143,12 @@ TEST_CASE("a signal ends the flight of a disarmed aircraft at once") {
   REQUIRE(program.says("phase second"));
   program.send(SIGTERM);
   CHECK(program.code() == 130);
-  CHECK(program.text().find("the aircraft is armed") == std::string::npos);
+  CHECK(program.text().find("run.aircraft_armed") == std::string::npos);
 }
 
 TEST_CASE(
-    "while a component hangs, a second signal ends the program although the aircraft is armed: nobody flies "
-    "it any more") {
+    "while a component hangs, a second signal ends the program although run.aircraft_armed: nobody flies it "
+    "any more") {
   Program program("law_a.hang_at=0.5");
   REQUIRE(program.says("phase second"));
   pause_s(0.8);

@@ -115,7 +115,7 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
     CHECK(flown.result.outcome == Outcome::flown);
     REQUIRE(flown.result.guards.size() == 1);
     CHECK(flown.result.guards[0].component == "bad");
-    CHECK(flown.result.guards[0].action == "slc takes over");
+    CHECK(flown.result.guards[0].action == "new.phase_of_component(cruise, slc, ,  takes over if it fails.)");
     CHECK(flown.result.guards[0].what.find(row.reported) != std::string::npos);
     const double deviation = deviation_m(whole.truth, flown.truth);
     MESSAGE(std::string(row.fault) << std::string(row.how[0] == 'r' ? ", in a child" : ", in the loop")

@@ -51,9 +51,9 @@ TEST_CASE(
             "\"origin\":{\"alt_msl_m\":1387.0,\"lat_deg\":40.2463724,\"lon_deg\":-111.6474138}\n\"seed\":"
             "\"11\"\n"));
   CHECK(holds("\n0\nequal\nmine\nfresh.mcap\none-2.mcap\none-3.mcap\none-4.mcap\none.mcap\nwhole\n"));
-  CHECK(holds("m: interrupted (ended for a new flight)"));
+  CHECK(holds("m: interrupted (run.ended_for_restart)"));
   CHECK(holds("31 kg"));
-  CHECK(holds("what flew before stays as it is"));
+  CHECK(holds("app.former_mission_kept"));
   CHECK_FALSE(holds("       change\n"));
 }
 
@@ -64,8 +64,8 @@ TEST_CASE("a flight that is one of several refuses, and so does one whose seed i
                    "kill -INT $(cat pid); landed"));
   CAPTURE(r.out);
   CHECK(
-      r.out.starts_with("restart: refused: no new flight: this is one of the flights of --repeat\n1\n"
-                        "seed '-1': give a whole number from 0 to 18446744073709551615\n2\n"));
+      r.out.starts_with("restart: refused: run.restart_not_possible(this is one of the flights of "
+                        "--repeat)\n1\ntap.seed_invalid(-1)\n2\n"));
   CHECK(r.out.ends_with("\n2\n130\n"));
 }
 

@@ -57,12 +57,12 @@ std::string heard(const std::function<void()>& words) {
 }  // namespace
 
 TEST_CASE("what the language's library throws becomes a sentence for people") {
-  const std::string inside = "an error inside Fulmar (";
+  const std::string inside = "app.internal_error(";
   CHECK(reported([] { std::vector<int>().reserve(std::vector<int>().max_size() + 1); }) ==
-        inside + "std::length_error): something would have become longer than anything can be");
+        inside + "std::length_error): app.length_excessive");
   CHECK(reported([] { std::ignore = std::string().substr(1); }) ==
-        inside + "std::out_of_range): something was looked for where there is nothing");
-  const std::string taken = "something is not what it was taken for";
+        inside + "std::out_of_range): app.element_missing");
+  const std::string taken = "app.value_type_differs";
   CHECK(reported([] { std::ignore = std::get<int>(std::variant<double, int>(1.0)); }) ==
         inside + "std::bad_variant_access): " + taken);
   CHECK(reported([] { std::ignore = std::optional<int>().value(); }) ==
@@ -70,21 +70,22 @@ TEST_CASE("what the language's library throws becomes a sentence for people") {
   CHECK(reported([] { std::ignore = std::any_cast<int>(std::any(1.0)); }) ==
         inside + "std::bad_any_cast): " + taken);
   CHECK(reported([] { std::ignore = std::stoi("x"); }) ==
-        inside + "std::invalid_argument): something was given that makes no sense there");
+        inside + "std::invalid_argument): app.argument_invalid");
   CHECK(reported([] { std::function<void()>()(); }) ==
-        inside + "std::bad_function_call): there is nothing to call");
+        inside + "std::bad_function_call): app.callable_empty");
 }
 
 TEST_CASE("what has words for people keeps them") {
   CHECK(reported([] { throw Error("mission.yaml:3: no"); }) == "mission.yaml:3: no");
   CHECK(reported([] {
           throw std::system_error(std::make_error_code(std::errc::no_space_on_device), "basic_filebuf");
-        }) == "No space left on device");
+        }) == "app.result_not_writable(No space left on device)");
   CHECK(reported([] { std::ignore = std::filesystem::file_size("/nowhere"); }) ==
         "'/nowhere': No such file or directory");
-  CHECK(reported([] { throw std::bad_alloc(); }) == "there is not enough memory for that");
-  CHECK(reported([] { throw std::runtime_error("the ellipsoid is flat"); }) ==
-        "an error inside Fulmar (std::runtime_error): the ellipsoid is flat");
+  CHECK(reported([] { throw std::bad_alloc(); }) == "app.memory_exhausted");
+  CHECK(reported([] {
+          throw std::runtime_error("app.internal_error(std::runtime_error, the ellipsoid is flat)");
+        }) == "app.internal_error(std::runtime_error, the ellipsoid is flat)");
 }
 
 TEST_CASE("what the host says aloud holds nothing that a terminal obeys, and no time stamp") {

@@ -117,7 +117,7 @@ TEST_CASE("where nothing came from a role and nothing left the ground, the fligh
   CHECK(r.code == 1);
   const json j = json::parse(r.out);
   CHECK(j["result"] == "not begun");
-  CHECK(j["reason"] == "nothing came from the role sense; duration reached");
+  CHECK(j["reason"] == "run.role_output_absent(sense, duration reached)");
   CHECK(fly("", "{id: 1}", "{mute_at: -10}").out.find("lab: not begun (nothing came from the role sense;") !=
         std::string::npos);
 }

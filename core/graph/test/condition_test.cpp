@@ -50,7 +50,7 @@ struct World : SampleReader {
     if (name == "manage.path") return {{Source::Kind::component, 2, 0}, type_of<Path>()};
     if (name == "plan.plan") return {{Source::Kind::component, 3, 0}, type_of<Plan>()};
     if (name == "law.roll_error_rad") return {{Source::Kind::component, 4, 0}, nullptr};
-    throw Error("there is no port " + name);
+    throw Error("graph.dds_port_unknown(" + name);
   }
   bool operator()(const std::string& text) const { return Condition::compile(text, find)->holds(*this); }
 };
@@ -81,11 +81,13 @@ TEST_CASE("the flight time is a number in seconds that a condition can look at")
   world.time_ns = -2'500'000;  // before a simulated aircraft is armed
   CHECK(world("time < 0 s"));
   CHECK(Condition::compile("time > 1 s", World::find)->ports().empty());
-  CHECK(refused("time").find("'time' is not true or false") == 0);
-  CHECK(refused("time > 3 m") == "'time': 3 m is a length, not a time");
-  CHECK(refused("time == cruise") == "'time' is a number and cannot be compared with 'cruise'");
-  CHECK(refused("time > nav.state.height_m").find("'time' is in s and ") == 0);
-  CHECK(refused("manage.path.kind == time").find("'manage.path.kind' is never 'time'.") == 0);
+  CHECK(refused("time").find("graph.operand_not_boolean(time)") == 0);
+  CHECK(refused("time > 3 m") ==
+        "graph.operand_fault(time, graph.dimension_differs(3 m, a length, , a time))");
+  CHECK(refused("time == cruise") == "graph.number_compared_to_label(time, cruise)");
+  CHECK(refused("time > nav.state.height_m").find("graph.units_differ(time, s, nav.state.height_m, m)") == 0);
+  CHECK(refused("manage.path.kind == time")
+            .find("graph.label_unknown(manage.path.kind, time,  [line] line, orbit)") == 0);
 }
 
 TEST_CASE("and, or and not follow their truth tables and their precedence") {
@@ -183,48 +185,55 @@ TEST_CASE("a condition lists each port that it looks at once") {
 }
 
 TEST_CASE("a wrong condition is refused with a sentence") {
-  CHECK(refused("") == "the condition is empty");
-  CHECK(refused("nav.state.height_m <") == "the condition ends where a field or a number is expected");
-  CHECK(refused("nav.state.height_m < and") == "expected a field or a number before 'and'");
-  CHECK(refused("(vehicle.status.armed") == "a ')' is missing");
-  CHECK(refused("vehicle.status.armed)") == "a ')' without its '('");
+  CHECK(refused("") == "graph.condition_empty");
+  CHECK(refused("nav.state.height_m <") == "graph.operand_missing");
+  CHECK(refused("nav.state.height_m < and") == "graph.operand_expected(and)");
+  CHECK(refused("(vehicle.status.armed") == "graph.parenthesis_unclosed");
+  CHECK(refused("vehicle.status.armed)") == "graph.parenthesis_unopened");
   CHECK(refused("vehicle.status.armed vehicle.status.override") ==
-        "expected 'and' or 'or' before 'vehicle.status.override'");
-  CHECK(refused("nav.state.height_m = 3") == "'=' is not understood; write == to compare");
-  CHECK(refused("vehicle.status.armed && vehicle.status.override") == "'&&' is not understood; write and");
-  CHECK(refused("!vehicle.status.armed") == "'!' is not understood; write not");
-  CHECK(refused("nav.state.height_m > 3 $") == "'$' is not understood");
-  CHECK(refused("1 < nav.state.height_m < 3") == "a comparison has two sides; join two of them with 'and'");
-  CHECK(refused("3 < 4") == "'3 < 4' looks at no field");
-  CHECK(refused("armed") == "'armed' is not a field; a field is written like nav.state.height_m");
-  CHECK(refused("nav.state.height_m") ==
-        "'nav.state.height_m' is not true or false; compare it with something");
-  CHECK(refused("nav.state > 3")
-            .starts_with("'nav.state' is a whole VehicleState; name a field of it. Valid: position_m, "));
-  CHECK(refused("nav.state.position_m > 3") ==
-        "'nav.state.position_m' is a Vec3Ned, not a number, a word or true or false");
-  CHECK(refused("nav.state.height_m < 3 s") == "'nav.state.height_m': 3 s is a time, not a length");
+        "graph.conjunction_expected(vehicle.status.override)");
+  CHECK(refused("nav.state.height_m = 3") == "graph.operator_invalid(=, write == to compare)");
+  CHECK(refused("vehicle.status.armed && vehicle.status.override") ==
+        "graph.operator_invalid(&&, write and)");
+  CHECK(refused("!vehicle.status.armed") == "graph.operator_invalid(!, write not)");
+  CHECK(refused("nav.state.height_m > 3 $") == "graph.condition_text_invalid($)");
+  CHECK(refused("1 < nav.state.height_m < 3") == "graph.comparison_chained");
+  CHECK(refused("3 < 4") == "graph.comparison_without_field(3, <, 4)");
+  CHECK(refused("armed") == "graph.operand_not_field(armed)");
+  CHECK(refused("nav.state.height_m") == "graph.operand_not_boolean(nav.state.height_m)");
+  CHECK(
+      refused("nav.state > 3")
+          .starts_with(
+              "graph.field_name_missing(nav.state, VehicleState, position_m, velocity_mps, attitude, "
+              "roll_rad, pitch_rad, yaw_rad, rate_radps, specific_force_mps2, height_m, climb_rate_mps, "
+              "ground_speed_mps, course_rad, airspeed_mps, alpha_rad, beta_rad, wind_mps, gyro_bias_radps, "
+              "accel_bias_mps2, position_std_m, velocity_std_mps, attitude_std_rad, wind_std_mps, "
+              "airspeed_std_mps, origin_latitude_deg, origin_longitude_deg, origin_altitude_m, origin_valid, "
+              "attitude_valid, velocity_valid, position_valid, height_valid, airspeed_valid, wind_valid, "
+              "reset_count, reset_position_m, reset_velocity_mps, reset_yaw_rad, airspeed_from_model)"));
+  CHECK(refused("nav.state.position_m > 3") == "graph.operand_not_scalar(nav.state.position_m, a Vec3Ned)");
+  CHECK(refused("nav.state.height_m < 3 s") ==
+        "graph.operand_fault(nav.state.height_m, graph.dimension_differs(3 s, a time, , a length))");
   CHECK(refused("nav.state.height_m < nav.state.roll_rad") ==
-        "'nav.state.height_m' is in m and 'nav.state.roll_rad' in rad");
-  CHECK(refused("nav.state.height_m == low") ==
-        "'nav.state.height_m' is a number and cannot be compared with 'low'");
+        "graph.units_differ(nav.state.height_m, m, nav.state.roll_rad, rad)");
+  CHECK(refused("nav.state.height_m == low") == "graph.number_compared_to_label(nav.state.height_m, low)");
   CHECK(refused("manage.path.kind == obrit") ==
-        "'manage.path.kind' is never 'obrit'. Did you mean 'orbit'? Valid: line, orbit.");
-  CHECK(refused("manage.path.kind < orbit") == "'manage.path.kind' has no order; compare it with == or !=");
-  CHECK(refused("manage.path.kind == 1") ==
-        "'manage.path.kind' is compared with a word. Valid: line, orbit.");
+        "graph.label_unknown(manage.path.kind, obrit,  [orbit] line, orbit)");
+  CHECK(refused("manage.path.kind < orbit") == "graph.operand_unordered(manage.path.kind)");
+  CHECK(refused("manage.path.kind == 1") == "graph.label_expected(manage.path.kind, line, orbit)");
   CHECK(refused("manage.path.kind == manage.path.turn") ==
-        "'manage.path.kind' and 'manage.path.turn' have different words");
-  CHECK(refused("vehicle.status.armed == 1") == "'vehicle.status.armed' is true or false, not 1");
-  CHECK(refused("vehicle.status.armed == yes") == "'vehicle.status.armed' is true or false, not 'yes'");
+        "graph.labels_differ(manage.path.kind, manage.path.turn)");
+  CHECK(refused("vehicle.status.armed == 1") == "graph.flag_compared_to_number(vehicle.status.armed, 1)");
+  CHECK(refused("vehicle.status.armed == yes") == "graph.flag_compared_to_label(vehicle.status.armed, yes)");
   CHECK(refused("vehicle.status.armed == vehicle.status.health") ==
-        "'vehicle.status.armed' and 'vehicle.status.health' cannot be compared");
-  CHECK(refused("law.roll_error_rad.x > 3") == "'law.roll_error_rad' is a probe: one number, without fields");
-  CHECK(refused("law.roll_error_rad > 3 m") == "'law.roll_error_rad': 3 m is a length, not an angle");
+        "graph.operands_incomparable(vehicle.status.armed, vehicle.status.health)");
+  CHECK(refused("law.roll_error_rad.x > 3") == "graph.probe_without_fields(law, roll_error_rad)");
+  CHECK(refused("law.roll_error_rad > 3 m") ==
+        "graph.operand_fault(law.roll_error_rad, graph.dimension_differs(3 m, a length, , an angle))");
   CHECK(refused("nav.stat.height_m > 3") == "there is no port nav.stat");
   CHECK(refused("plan.plan.waypoints.airspeed_mps > 3") ==
-        "'waypoints' is a list of at most 1024: say waypoints[0].");
-  CHECK(refused(std::string(200, '(') + "vehicle.status.armed") == "the condition is nested too deep");
+        "types.index_missing(waypoints, ' is a list of at most 1024, waypoints)");
+  CHECK(refused(std::string(200, '(') + "vehicle.status.armed") == "graph.condition_too_deep");
 }
 
 TEST_CASE("fields of two units are compared as what they are") {

@@ -53,7 +53,7 @@ TEST_CASE("a mission that is not for hardware is refused there with its reason a
   const std::string no = "{fit: no, because: \"its phases fly by the true state\"}";
   CHECK(keyed(no, on("sim")) == "");
   CHECK(keyed(no, on("fcu")) ==
-        "hourglass.yaml:6: hardware: this mission is for simulation only: its phases fly by the true state");
+        "hourglass.yaml:6: graph.hardware_not_allowed(its phases fly by the true state)");
   CHECK(keyed("yes", on("fcu")) == "");
   CHECK(keyed("{fit: yes}", on("fcu")) == "");
   CHECK(Mission().faults(on("fcu")) == "");  // a mission that does not say may try
@@ -63,8 +63,7 @@ TEST_CASE("a mission may need a role or a component that the command line choose
   const std::string with = "{with: outer, because: \"no law of it has flown\"}";
   CHECK(keyed(with, on("sim")) == "");
   CHECK(keyed(with, on("fcu")) ==
-        "hourglass.yaml:6: hardware: with io: fcu this mission needs --role outer=COMPONENT or --with "
-        "outer=FILE: no law of it has flown");
+        "hourglass.yaml:6: graph.hardware_component_missing(outer, outer, no law of it has flown)");
   Overrides chosen = on("fcu");
   chosen.roles = {{"outer", "tecs"}};
   CHECK(keyed(with, chosen) == "");
@@ -74,12 +73,15 @@ TEST_CASE("a mission may need a role or a component that the command line choose
 
 TEST_CASE("what stands under hardware is checked in simulation too") {
   for (const char* io : {"sim", "fcu"}) {
-    CHECK(keyed("perhaps", on(io)).find("hourglass.yaml:6: hardware: expected yes, ") == 0);
+    CHECK(keyed("perhaps", on(io)).find("hourglass.yaml:6: graph.hardware_value_invalid(") == 0);
     CHECK(keyed("no", on(io)).find("found 'no'") != std::string::npos);
-    CHECK(keyed("{fit: no}", on(io)).find("hourglass.yaml:6: hardware: 'because' is missing") == 0);
-    CHECK(keyed("{with: outer}", on(io)).find("hourglass.yaml:6: hardware: 'because' is missing") == 0);
-    CHECK(keyed("{fits: no}", on(io)).find("unknown key 'fits'. Did you mean 'fit'?") != std::string::npos);
-    CHECK(keyed("[yes]", on(io)).find("hourglass.yaml:6: hardware: expected a map") == 0);
+    CHECK(keyed("{fit: no}", on(io)).find("hourglass.yaml:6: graph.hardware_reason_missing") == 0);
+    CHECK(keyed("{with: outer}", on(io)).find("hourglass.yaml:6: graph.hardware_reason_missing") == 0);
+    CHECK(
+        keyed("{fits: no}", on(io)).find("graph.key_unknown(hardware: , fits,  [fit] fit, with, because)") !=
+        std::string::npos);
+    CHECK(keyed("[yes]", on(io))
+              .find("hourglass.yaml:6: graph.map_expected(hardware: , fit, with, because, a list)") == 0);
   }
 }
 

@@ -61,17 +61,16 @@ TEST_CASE("a mission extends one that extends another one, to any depth, each re
 TEST_CASE("a layer that is not there, is broken, or is its own ground is the only fault") {
   Layered mission("extends: one.yaml\nsed: 3\n");
   mission.folder.write("one.yaml", "extends: nowhere.yaml\n");
-  CHECK(mission.faults() == "one.yaml:1: extends: there is no file nowhere.yaml");
+  CHECK(mission.faults() == "one.yaml:1: graph.extends_file_invalid(graph.file_missing(nowhere.yaml, ))");
   mission.folder.write("one.yaml", "- a list\n");
-  CHECK(mission.faults() == "one.yaml:1: extends: expected a map with the keys of a mission, found a list");
+  CHECK(mission.faults() ==
+        "one.yaml:1: extends: graph.value_not_valid(a map with the keys of a mission, a list)");
   mission.folder.write("one.yaml", "extends: two.yaml\n");
   mission.folder.write("two.yaml", "extends: one.yaml\n");
   CHECK(mission.faults() ==
-        "two.yaml:1: extends: the files extend each other: hourglass.yaml -> one.yaml -> "
-        "two.yaml -> one.yaml");
+        "two.yaml:1: graph.extends_cycle(hourglass.yaml -> one.yaml -> two.yaml -> , one.yaml)");
   mission.text = "extends: hourglass.yaml\n";
-  CHECK(mission.faults() ==
-        "hourglass.yaml:1: extends: the files extend each other: hourglass.yaml -> hourglass.yaml");
+  CHECK(mission.faults() == "hourglass.yaml:1: graph.extends_cycle(hourglass.yaml -> , hourglass.yaml)");
 }
 
 TEST_CASE("null takes away a wire, a component, a phase, a parameter, a key") {
@@ -84,7 +83,7 @@ TEST_CASE("null takes away a wire, a component, a phase, a parameter, a key") {
   CHECK(wire(graph, "score", "truth").from.kind == Source::Kind::none);
   CHECK(wire(graph, "score", "state").from.kind == Source::Kind::role);
   CHECK(param(graph, "sim", "wind_ned").number[0] == 0);
-  CHECK(join(names_of(graph.phases)) == "hold, takeoff, cruise");
+  CHECK(join(names_of(graph.phases)) == "types.name_unknown(");
   CHECK(nth(graph.phases, 1).roles[3].set.empty());
   CHECK_FALSE(graph.judge.done);
   REQUIRE(graph.judge.summary.size() == 1);
@@ -102,17 +101,20 @@ TEST_CASE("null for what is not there below is a fault of its own place") {
     Layered mission("extends: ground.yaml\n" + text);
     return mission.faults();
   };
-  CHECK(reported("components: {score: {in: {trth: null}}}\n") ==
-        "hourglass.yaml:2: components.score.in: there is no wire 'trth' to take away. Did you mean 'truth'?");
+  CHECK(
+      reported("components: {score: {in: {trth: null}}}\n") ==
+      "hourglass.yaml:2: graph.removed_connection_missing(components.score, trth, . Did you mean 'truth'?)");
   CHECK(reported("components:\n  scor: null\n") ==
-        "hourglass.yaml:3: components: ground.yaml has no 'scor' to take away. Did you mean 'score'?");
-  CHECK(reported("phases: {cruse: null}\n") ==
-        "hourglass.yaml:2: phases: ground.yaml has no 'cruse' to take away. Did you mean 'cruise'?");
+        "hourglass.yaml:3: graph.removed_key_missing(components: , ground.yaml, scor, . Did you mean "
+        "'score'?)");
+  CHECK(
+      reported("phases: {cruse: null}\n") ==
+      "hourglass.yaml:2: graph.removed_key_missing(phases: , ground.yaml, cruse, . Did you mean 'cruise'?)");
   CHECK(reported("components: {sim: {params: {wind: ~}}}\n") ==
-        "hourglass.yaml:2: components.sim.params: ground.yaml has no 'wind' to take away");
-  CHECK(reported("resume: null\n") == "hourglass.yaml:2: ground.yaml has no 'resume' to take away");
+        "hourglass.yaml:2: graph.removed_key_missing(components.sim.params: , ground.yaml, wind, )");
+  CHECK(reported("resume: null\n") == "hourglass.yaml:2: graph.removed_key_missing(, ground.yaml, resume, )");
   CHECK(reported("failsafe: {elevator: null}\n") ==
-        "hourglass.yaml:2: failsafe: ground.yaml has no 'elevator' to take away");
+        "hourglass.yaml:2: graph.removed_key_missing(failsafe: , ground.yaml, elevator, )");
   CHECK(reported("phases:\n  cruise: {next: [{to: calm, when: \"time > 9 s\"}]}\n  calm:\n"
                  "  research: null\n") == "");  // a phase in which no component changes
 }
@@ -144,29 +146,29 @@ TEST_CASE("null takes away the wire that a role brings, unless the input is requ
   mission.shelf.plugins["control_slc"]->components[0].inputs.push_back(optional<Rc>("rc"));
   CHECK(wire(mission.load(), "slc", "rc").from.kind == Source::Kind::none);
   mission.text += "  ekf: {in: {gnss: null}}\n";
-  CHECK(
-      mission.faults() ==
-      "hourglass.yaml:5: components.ekf: the input 'gnss' cannot do without a wire; write another one in its "
-      "place");
+  CHECK(mission.faults() == "hourglass.yaml:5: graph.input_disconnected(components.ekf: the input 'gnss' )");
 }
 
 TEST_CASE("of what was taken away and is still named there is one fault, with all places") {
   Layered mission("extends: ground.yaml\ncomponents:\n  manage: null\n");
   CHECK(mission.faults() ==
-        "hourglass.yaml:3: components.manage is taken away here and still named by roles.guide.in.path "
-        "(ground.yaml:16), components.score.in.path (ground.yaml:32), done (ground.yaml:8), progress "
-        "(ground.yaml:9)");
+        "hourglass.yaml:3: graph.still_named(components.manage, roles.guide.in.path (ground.yaml:16), "
+        "components.score.in.path (ground.yaml:32), done (ground.yaml:8), progress (ground.yaml:9))");
   mission.text = "extends: ground.yaml\nroles: {outer: null}\n";
   const std::string role = mission.faults();
-  CHECK(role.find("hourglass.yaml:2: roles.outer is taken away here and still named by ") == 0);
+  CHECK(role.find(
+            "hourglass.yaml:2: graph.still_named(roles.outer, phases.hold.outer (ground.yaml:36), "
+            "phases.takeoff.outer (ground.yaml:37), phases.cruise.outer (ground.yaml:38), "
+            "phases.research.outer (ground.yaml:39), components.slc.fills (ground.yaml:28), "
+            "components.tecs.fills (ground.yaml:29), components.mine.fills (ground.yaml:31), "
+            "roles.inner.in.attitude (ground.yaml:18), components.score.in.attitude (ground.yaml:32))") == 0);
   CHECK(role.find('\n') == std::string::npos);
   for (const char* by : {"phases.hold.outer (ground.yaml:36)", "components.slc.fills (ground.yaml:28)",
                          "roles.inner.in.attitude (ground.yaml:18)"})
     CHECK_MESSAGE(role.find(by) != std::string::npos, role);
   mission.text = "extends: ground.yaml\nphases: {takeoff: null}\n";
   CHECK(mission.faults() ==
-        "hourglass.yaml:2: phases.takeoff is taken away here and still named by phases.hold.next.to "
-        "(ground.yaml:36)");
+        "hourglass.yaml:2: graph.still_named(phases.takeoff, phases.hold.next.to (ground.yaml:36))");
 }
 
 TEST_CASE("figures, verdict and texts go with the component that a layer takes away, and are named") {
@@ -183,8 +185,8 @@ TEST_CASE("figures, verdict and texts go with the component that a layer takes a
   REQUIRE(graph.source.warnings.size() == 1);
   CHECK(graph.source.warnings[0].find("score") != std::string::npos);
   mission.text += "done: \"score.tracking.circuits > 1\"\n";  // what decides does not go
-  CHECK(mission.faults().find("hourglass.yaml:3: components.score is taken away here and still named by done "
-                              "(hourglass.yaml:4)") == 0);
+  CHECK(mission.faults().find(
+            "hourglass.yaml:3: graph.still_named(components.score, done (hourglass.yaml:4))") == 0);
 }
 
 TEST_CASE("figures go with a component of the other io, and with one that another plugin has replaced") {
@@ -194,7 +196,10 @@ TEST_CASE("figures go with a component of the other io, and with one that anothe
   Layered replaced("extends: ground.yaml\ncomponents: {score: {use: control_tecs/Outer, in: null}}\n");
   CHECK(replaced.faults().find("has no output") == std::string::npos);
   Layered slip("extends: ground.yaml\nsummary: {more: score.trackin}\n");
-  CHECK(slip.faults().find("has no output 'trackin'") != std::string::npos);
+  CHECK(
+      slip.faults().find(
+          "types.name_unknown_in(score (score/Score), output, trackin,  [tracking] tracking, estimation)") !=
+      std::string::npos);
 }
 
 TEST_CASE("a map of a few fields is no record, for whoever reads it") {
@@ -203,18 +208,19 @@ TEST_CASE("a map of a few fields is no record, for whoever reads it") {
     const std::string reported = mission.faults(set(reader, "{mass: 5 kg, aero: {lift: {alpha: 5}}}"));
     CHECK(reported.find(
               std::string("--set ") + reader + "={mass: 5 kg, aero: {lift: {alpha: 5}}}: " + reader +
-              ": this is no whole Airframe, missing: inertia.xx, inertia.yy, inertia.zz, wing.area, "
+              ": graph.record_incomplete(, Airframe, inertia.xx, inertia.yy, inertia.zz, ), wing.area, "
               "wing.span, wing.chord, aero.pitch.alpha, propulsion.ct0, aileron.limit, elevator.limit, "
               "rudder.limit; to change one thing in a record, name it, as in airframe.inertia.xx") == 0);
   }
-  CHECK(mission.faults(set("sim.airframe.mass", "-5 kg")).find("-5 kg is outside") != std::string::npos);
+  CHECK(mission.faults(set("sim.airframe.mass", "-5 kg"))
+            .find("graph.value_out_of_range(-5 kg, 0.0001, 1e+06,  kg, )") != std::string::npos);
   CHECK(mission.faults(set("sim.airframe.wing.area_m2", "-1")).find("-1 is outside") != std::string::npos);
   mission.folder.write("anaconda.yaml", "mass: 4 kg\n");
-  CHECK(mission.faults().find("anaconda.yaml:1: this is no whole Airframe, missing: ") == 0);
+  CHECK(mission.faults().find("anaconda.yaml:1: graph.record_incomplete(") == 0);
   CHECK(mission.faults().find('\n') == std::string::npos);  // once, though several read it
   Mission nowhere;
   nowhere.replace("lon: -111.6474138, ", "");
-  CHECK(nowhere.faults() == "hourglass.yaml:4: origin: this is no whole Origin, missing: lon");
+  CHECK(nowhere.faults() == "hourglass.yaml:4: graph.record_incomplete(origin: , Origin, lon, )");
 }
 
 TEST_CASE("a path leads into a record: the rest of the record stays") {
@@ -263,22 +269,29 @@ TEST_CASE("a path that leads nowhere is told with the valid fields") {
     return mission.faults(set(name, value));
   };
   CHECK(reported("sim.airframe.mas", "5 kg")
-            .find("sim.airframe: unknown field 'mas' of Airframe. Did you mean "
-                  "'mass'?") != std::string::npos);
+            .find("graph.field_unknown(sim.airframe: , mas, Airframe,  [mass] name, mass_kg, inertia, wing, "
+                  "aero, propulsion, aileron, elevator, rudder, mixer, limits, gear, flap)") !=
+        std::string::npos);
   CHECK(reported("sim.airframe.mass", "5").find("sim.airframe.mass: ") != std::string::npos);
   CHECK(reported("sim.airframe.mass", "5 m").find("sim.airframe.mass: ") != std::string::npos);
-  CHECK(reported("sim.airframe.mass.x", "5").find("sim.airframe.mass: has no parts") != std::string::npos);
-  CHECK(reported("sim.airframe.mass[0]", "5").find("'mass_kg' is no list") != std::string::npos);
-  CHECK(reported("sim.wing.span", "3 m")
-            .find("has no parameter 'wing.span'. Did you mean sim.airframe.wing.span, a "
-                  "field of the record 'airframe'?") != std::string::npos);
+  CHECK(reported("sim.airframe.mass.x", "5").find("sim.airframe.mass: graph.field_without_parts") !=
+        std::string::npos);
+  CHECK(reported("sim.airframe.mass[0]", "5").find("graph.field_not_list(mass_kg)") != std::string::npos);
+  CHECK(
+      reported("sim.wing.span", "3 m")
+          .find(
+              "graph.parameter_in_record(sim_aero/Aircraft, wing.span, sim.airframe.wing.span, airframe)") !=
+      std::string::npos);
   CHECK(reported("plan.turn_radius", "80 m") ==
         "--set plan.turn_radius=80 m: plan: path/Planner has no parameter 'turn_radius'. Did you mean "
         "plan.plan.turn_radius, a field of the record 'plan'?");
-  CHECK(reported("attitude.roll_limit", "30").find("30 is outside 0 .. 1.0472 rad. Did you mean 30 deg?") !=
+  CHECK(reported("attitude.roll_limit", "30")
+            .find("graph.value_out_of_range(30, 0, 1.0472,  rad, . Did you mean 30 deg?)") !=
         std::string::npos);
   CHECK(reported("attitude.roll_limit", "70").find("Did you mean") == std::string::npos);
-  CHECK(reported("sim.wind_ned.north", "5").find("has no parameter 'wind_ned.north'") != std::string::npos);
+  CHECK(reported("sim.wind_ned.north", "5")
+            .find("types.name_unknown_in(sim_aero/Aircraft, parameter, wind_ned.north,  [] rate, epoch, "
+                  "wind_ned, turbulence, airframe, origin)") != std::string::npos);
 }
 
 TEST_CASE("a path into a list counts its items from 0") {
@@ -289,17 +302,17 @@ TEST_CASE("a path into a list counts its items from 0") {
   CHECK(plan.waypoints[0].airspeed_mps != 18);
   CHECK(mission.faults(set("plan.plan.waypoints[9].airspeed", "18 m/s")).find("counted from [0]") !=
         std::string::npos);
-  CHECK(mission.faults(set("plan.plan.waypoints[x].airspeed", "9 m/s")).find("'[x]' is no place in a list") !=
-        std::string::npos);
   CHECK(
-      mission.faults(set("plan.plan.waypoints.airspeed", "9 m/s")).find("is a list; name one of its items") !=
+      mission.faults(set("plan.plan.waypoints[x].airspeed", "9 m/s")).find("graph.item_index_invalid([x])") !=
       std::string::npos);
+  CHECK(mission.faults(set("plan.plan.waypoints.airspeed", "9 m/s"))
+            .find("graph.item_index_missing(plan.plan.waypoints)") != std::string::npos);
 }
 
 TEST_CASE("a field alone is no record: what was never given stays missing") {
   Mission mission;
   mission.replace("airframe: anaconda.yaml\n", "");
-  CHECK(mission.faults(set("sim.airframe.mass", "5 kg")).find("the parameter 'airframe' is missing") !=
+  CHECK(mission.faults(set("sim.airframe.mass", "5 kg")).find("graph.parameter_missing(") !=
         std::string::npos);
 }
 
@@ -339,7 +352,7 @@ TEST_CASE("the command line records more, in front of what the mission records")
   o.record = {"nav.state@100"};
   CHECK(mission.faults(o).find("100 has no unit") != std::string::npos);
   o.record = {"nav.state@0 Hz"};
-  CHECK(mission.faults(o).find("a rate is from 0.001 to 1e6 Hz") != std::string::npos);
+  CHECK(mission.faults(o).find("graph.record_rate_invalid") != std::string::npos);
   o.record = {"@5 Hz"};
   CHECK(mission.faults(o) == "--record @5 Hz: record.ports: '' matches no port.");
 }

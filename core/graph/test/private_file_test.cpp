@@ -51,14 +51,11 @@ TEST_CASE("what all may write is refused") {
   Place place;
   const fs::path real = fs::canonical(place.folder.path);
   ::chmod((real / "build/law.so").c_str(), 0646);
-  const std::string fault =
-      "law.so is not loaded: everybody may write to it; chmod o-w " + (real / "build/law.so").string();
+  const std::string fault = "graph.file_not_private(" + (real / "build/law.so").string();
   CHECK(place.said("build/law.so") == fault);
   place.put("open/x.so", "x");
   ::chmod((real / "open").c_str(), 0777);
-  CHECK(place.said("open/x.so") ==
-        "x.so is not loaded: everybody may replace files in its folder; chmod o-w " +
-            (real / "open").string());
+  CHECK(place.said("open/x.so") == "graph.folder_not_private(" + (real / "open").string());
   ::chmod((real / "open").c_str(), 01777);  // as /tmp: others cannot replace it
   CHECK(place.said("open/x.so") == "");
 }
@@ -72,8 +69,7 @@ TEST_CASE("a file of another user is refused") {
   REQUIRE(::chown((place.folder.path / "other.so").c_str(), 4711, 4711) == 0);
   unsetenv("SUDO_UID");
   CHECK(place.said("other.so") ==
-        "other.so is not loaded: it belongs to the user 4711, neither to you nor to root; chown it: " +
-            (fs::canonical(place.folder.path) / "other.so").string());
+        "graph.file_owner_foreign(" + (fs::canonical(place.folder.path) / "other.so").string());
   setenv("SUDO_UID", "4711", 1);
   CHECK(place.said("other.so") == "");
   unsetenv("SUDO_UID");
@@ -93,8 +89,7 @@ TEST_CASE("a mission asks before it opens a file, and says where the file is use
   } catch (const Error& fault) {
     said = fault.what();
   }
-  CHECK(said.find("m.yaml:3: components.mine: law.so is not loaded: everybody may write to it") !=
-        std::string::npos);
+  CHECK(said.find("m.yaml:3: components.mine: graph.file_not_private(") != std::string::npos);
   CHECK_FALSE(fs::exists(store));
   unsetenv("FULMAR_PROBE");
   unsetenv("FULMAR_STORE");

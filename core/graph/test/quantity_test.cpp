@@ -81,33 +81,36 @@ TEST_CASE("quantities are converted into the declared unit") {
 TEST_CASE("an unusual declared unit is taken as written and as nothing else") {
   CHECK(in("5 steps", "steps") == 5);
   CHECK(in("5", "steps") == 5);
-  CHECK(refused("5 m", "steps") == "5 m: the unit here is steps");
+  CHECK(refused("5 m", "steps") == "5 m: graph.unit_not_accepted(steps)");
 }
 
 TEST_CASE("a wrong quantity is refused with a sentence") {
-  CHECK(refused("5 kg", "m") == "5 kg is a mass, not a length");
-  CHECK(refused("5 deg", "") == "5 deg is an angle, not a plain number");
-  CHECK(refused("5 m", "m/s") == "5 m is a length, not a speed");
-  CHECK(refused("5 Hz", "rad/s") == "5 Hz is a frequency, not an angular rate");
-  CHECK(refused("5 m^5", "m") == "5 m^5 is not a length");
-  CHECK(refused("5 m", "rad s/m") == "5 m is a length, not in rad s/m");
-  CHECK(refused("3 sec", "s") == "3 sec: unknown unit 'sec'; a time is written with s, ms, us, ns, min, h");
-  CHECK(refused("3 m/", "m/s") == "3 m/: unknown unit 'm/'; a speed is written with m/s, km/h, kt, ft/s");
-  CHECK(refused("abc", "m") == "'abc' is not a number");
-  CHECK(refused("", "m") == "'' is not a number");
-  CHECK(refused("- 3", "m") == "'- 3' is not a number");
-  CHECK(refused(".nan", "m") == ".nan is not a finite number");
-  CHECK(refused("-.inf", "m") == "-.inf is not a finite number");
-  CHECK(refused("NaN", "m") == "NaN is not a finite number");
-  CHECK(refused("1e999", "m") == "1e999 is too large or too small for a number");
-  CHECK(refused("1e308 km", "m") == "1e308 km is too large for a number");
+  CHECK(refused("5 kg", "m") == "graph.dimension_differs(5 kg, a mass, , a length)");
+  CHECK(refused("5 deg", "") == "graph.dimension_differs(5 deg, an angle, , a plain number)");
+  CHECK(refused("5 m", "m/s") == "graph.dimension_differs(5 m, a length, , a speed)");
+  CHECK(refused("5 Hz", "rad/s") == "graph.dimension_differs(5 Hz, a frequency, , an angular rate)");
+  CHECK(refused("5 m^5", "m") == "graph.dimension_differs(5 m^5, , a length)");
+  CHECK(refused("5 m", "rad s/m") == "graph.dimension_differs(5 m, a length, , in rad s/m)");
+  CHECK(refused("3 sec", "s") ==
+        "3 sec: graph.unit_unknown(sec, ; graph.unit_examples(a time, s, ms, us, ns, min, h))");
+  CHECK(refused("3 m/", "m/s") ==
+        "3 m/: graph.unit_unknown(m/, ; graph.unit_examples(a speed, m/s, km/h, kt, ft/s))");
+  CHECK(refused("abc", "m") == "graph.number_invalid(abc)");
+  CHECK(refused("", "m") == "graph.number_invalid()");
+  CHECK(refused("- 3", "m") == "graph.number_invalid(- 3)");
+  CHECK(refused(".nan", "m") == "graph.number_not_finite(.nan)");
+  CHECK(refused("-.inf", "m") == "graph.number_not_finite(-.inf)");
+  CHECK(refused("NaN", "m") == "graph.number_not_finite(NaN)");
+  CHECK(refused("1e999", "m") == "graph.number_not_representable(1e999)");
+  CHECK(refused("1e308 km", "m") == "graph.number_too_large(1e308 km)");
 }
 
 TEST_CASE(
     "where a unit is required a bare number is refused, but for plain numbers and degrees of latitude") {
   CHECK(refused("5", "m", UnitRule::required) ==
-        "5 has no unit; a length is written with m, cm, mm, km, ft, in, nmi");
-  CHECK(refused("5", "rad", UnitRule::required) == "5 has no unit; an angle is written with deg, rad");
+        "graph.unit_missing(5, graph.unit_examples(a length, m, cm, mm, km, ft, in, nmi))");
+  CHECK(refused("5", "rad", UnitRule::required) ==
+        "graph.unit_missing(5, graph.unit_examples(an angle, deg, rad))");
   CHECK(quantity_in("0.9", "", UnitRule::required) == 0.9);
   CHECK(quantity_in("40.25", "deg", UnitRule::required) == 40.25);
 }
@@ -120,11 +123,11 @@ TEST_CASE("a range is told in the unit that was written") {
     });
   };
   constexpr double inf = std::numeric_limits<double>::infinity();
-  CHECK(outside("9", "rad/rad", 0, 2) == "9 is outside 0 .. 2 rad/rad");
+  CHECK(outside("9", "rad/rad", 0, 2) == "graph.value_out_of_range(9, 0, 2,  rad/rad, )");
   CHECK(outside("200 deg", "rad", -3.14159265358979, 3.14159265358979) ==
-        "200 deg is outside -180 .. 180 deg");
-  CHECK(outside("-1 cm", "m", 0, inf) == "-1 cm is below 0 cm");
-  CHECK(outside("31 degC", "K", -inf, 303.15) == "31 degC is above 30 degC");
+        "graph.value_out_of_range(200 deg, -180, 180,  deg, )");
+  CHECK(outside("-1 cm", "m", 0, inf) == "graph.value_too_small(-1 cm, 0,  cm, )");
+  CHECK(outside("31 degC", "K", -inf, 303.15) == "graph.value_too_large(31 degC, 30,  degC, )");
   CHECK(outside("180 deg", "rad", -3.1416, 3.1416) == "");
   CHECK(outside("2", "", 0, 2) == "");  // the ends belong to it
   CHECK(outside("0", "", 0, 2) == "");

@@ -49,7 +49,7 @@ FoundPlugin Shelf::open(const std::string& name) {
   if (it != plugins.end()) return {it->second, nullptr};
   std::vector<std::string> names;
   for (const auto& [key, info] : plugins) names.push_back(key);
-  throw Error("there is no plugin '" + name + "'. Searched in shelf." + choices_text(name, names));
+  throw Error("graph.plugin_file_missing(" + name + "'. Searched in shelf." + choices_text(name, names));
 }
 
 Shelf::Shelf() {

@@ -32,21 +32,22 @@ TEST_CASE("a mission names shipped files, and what is not there is told with wha
   mission.folder.write("anaconda.yaml", "{}");  // not the one that is named
   mission.text = "extends: fulmar:missions/comon.yaml\n";
   const std::string said = mission.faults();
-  CHECK(said.find("hourglass.yaml:1: extends: there is no file fulmar:missions/comon.yaml. Did you mean "
-                  "'fulmar:missions/common.yaml'?") == 0);
+  CHECK(
+      said.find("hourglass.yaml:1: graph.extends_file_invalid(graph.file_missing(fulmar:missions/comon.yaml, "
+                ". Did you mean 'fulmar:missions/common.yaml'?))") == 0);
   CHECK(said.find("aerosonde") == std::string::npos);
 }
 
 TEST_CASE("a shipped mission is loaded by its name") {
   CHECK_THROWS_WITH_AS(load_mission("fulmar:missions/hour.yaml"),
-                       "there is no file fulmar:missions/hour.yaml. Did you mean "
-                       "'fulmar:missions/hourglass.yaml' or 'fulmar:plans/hourglass.yaml'?",
+                       "graph.file_missing(fulmar:missions/hour.yaml, . Did you mean "
+                       "'fulmar:missions/hourglass.yaml' or 'fulmar:plans/hourglass.yaml'?)",
                        Error);
   CHECK_THROWS_WITH_AS(load_mission("hourglas"),
-                       "there is no file hourglas. Did you mean 'fulmar:missions/hourglass.yaml' or "
-                       "'fulmar:plans/hourglass.yaml'?",
+                       "graph.file_missing(hourglas, . Did you mean 'fulmar:missions/hourglass.yaml' or "
+                       "'fulmar:plans/hourglass.yaml'?)",
                        Error);
-  CHECK_THROWS_WITH_AS(load_mission("nothing-like-it"), "there is no file nothing-like-it", Error);
+  CHECK_THROWS_WITH_AS(load_mission("nothing-like-it"), "graph.file_missing(nothing-like-it, )", Error);
 }
 
 TEST_CASE("a file of another folder is proposed under the name that it has from here") {
@@ -54,11 +55,12 @@ TEST_CASE("a file of another folder is proposed under the name that it has from 
   mission.folder.write("common.yaml", "rate: 400 Hz\n");
   mission.text = "extends: comon.yaml\n";
   CHECK(mission.faults() ==
-        "hourglass.yaml:1: extends: there is no file comon.yaml. Did you mean 'common.yaml'?");
+        "hourglass.yaml:1: graph.extends_file_invalid(graph.file_missing(comon.yaml, . Did you mean "
+        "'common.yaml'?))");
   Mission elsewhere;
   elsewhere.replace("airframe: anaconda.yaml", "airframe: craft/anaconda.yaml");
-  CHECK(elsewhere.faults().find("airframe: there is no file craft/anaconda.yaml. Did you mean "
-                                "'fulmar:airframes/anaconda.yaml'?") != std::string::npos);
+  CHECK(elsewhere.faults().find("airframe: graph.file_missing(craft/anaconda.yaml, . Did you mean "
+                                "'fulmar:airframes/anaconda.yaml'?)") != std::string::npos);
 }
 
 }  // namespace shipped_test

@@ -44,48 +44,44 @@ TEST_CASE("an origin at a pole, where north turns within a flight, is refused by
 
 TEST_CASE("parameters exist, fit and lie in their range") {
   CHECK(changed("turbulence: light", "turbulence: lihgt") ==
-        "21: components.sim.params.turbulence: unknown word 'lihgt'. Did you mean 'light'? Valid: none, "
-        "light, moderate.");
+        "21: components.sim.params.turbulence: graph.io_unknown(lihgt,  [light] none, light, moderate)");
   CHECK(changed("turbulence: light", "turbulnce: light") ==
-        "21: components.sim.params: sim_aero/Aircraft has no parameter 'turbulnce'. Did you mean "
-        "'turbulence'? Valid: rate, epoch, "
-        "wind_ned, turbulence, airframe, origin.");
+        "21: components.sim.params: types.name_unknown_in(sim_aero/Aircraft, parameter, turbulnce,  "
+        "[turbulence] rate, epoch, wind_ned, turbulence, airframe, origin)");
   CHECK(changed("[3, -4, 0]", "[3, -4]") ==
-        "21: components.sim.params.wind_ned: expected three numbers [north, east, down], found 2");
+        "21: components.sim.params.wind_ned: graph.three_numbers_expected(north, east, down, 2)");
   CHECK(changed("[3, -4, 0]", "[3 kt, -40 m/s, .inf]") ==
         "21: components.sim.params.wind_ned.east: -40 m/s is outside -30 .. 30 m/s\n21: "
-        "components.sim.params.wind_ned.down: .inf is not a "
-        "finite number");
+        "components.sim.params.wind_ned.down: graph.number_not_finite(.inf)");
   CHECK(
       changed("use: control_slc/Inner", "params: {roll_kp: 9, roll_limit: 80 deg}, use: control_slc/Inner") ==
       "30: components.attitude.params.roll_kp: 9 is outside 0 .. 2 rad/rad\n30: "
-      "components.attitude.params.roll_limit: 80 deg is outside "
-      "0 .. 60 deg");
+      "components.attitude.params.roll_limit: graph.value_out_of_range(80 deg, 0, 60,  deg, )");
   CHECK(changed("use: estimator_ekf", "params: {use_mag: 3, skip: 1.5, gate: {}}, use: estimator_ekf") ==
-        "23: components.ekf.params.use_mag: expected true or false, found '3'\n23: "
-        "components.ekf.params.skip: 1.5 is not a whole number\n"
-        "23: components.ekf.params.gate: expected a number in rad, found a map");
+        "23: components.ekf.params.use_mag: graph.flag_expected('3')\n23: components.ekf.params.skip: "
+        "graph.integer_invalid(1.5)\n23: components.ekf.params.gate: graph.value_not_valid(a number in rad, "
+        "a map)");
   CHECK(changed("plans/hourglass.yaml", "plans/hourglas.yaml") ==
-        "25: components.plan.params.plan: there is no file plans/hourglas.yaml. Did you mean "
-        "'plans/hourglass.yaml'?");
+        "25: components.plan.params.plan: graph.file_missing(plans/hourglas.yaml, . Did you mean "
+        "'plans/hourglass.yaml'?)");
   CHECK(changed("turbulence: light", "rate: 100 Hz") ==
-        "21: components.sim.params.rate: comes from the mission's 'rate'; set it there");
+        "21: graph.mission_parameter_misplaced(components.sim.params, rate, rate)");
   CHECK(changed("airframe: anaconda.yaml\n", "") ==
-        "20: components.sim: the parameter 'airframe' is missing; give the mission's 'airframe'\n29: "
-        "components.attitude: the parameter "
-        "'airframe' is missing; give the mission's 'airframe'");
+        "20: graph.parameter_missing(sim, airframe, , ; give the mission's 'airframe')\n29: "
+        "graph.parameter_missing(attitude, airframe, , ; give the mission's 'airframe')");
   CHECK(changed("airframe: anaconda.yaml", "airframe: annaconda.yaml") ==
-        "3: airframe: there is no file annaconda.yaml. Did you mean 'anaconda.yaml'?");
+        "3: airframe: graph.file_missing(annaconda.yaml, . Did you mean 'anaconda.yaml'?)");
   CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387, latt: 3") ==
-        "4: origin.alt_msl: 1387 has no unit; a length is written with m, cm, mm, km, ft, in, nmi\n"
-        "4: origin: unknown field 'latt' of Origin. Did you mean 'lat'? Valid: lat_deg, lon_deg, "
-        "alt_msl_m.");
-  CHECK(changed("alt_msl: 1387 m", "alt: 1387 m").find("'alt' of Origin. Did you mean 'alt_msl'? Valid") !=
+        "4: origin.alt_msl: graph.unit_missing(1387, graph.unit_examples(a length, m, cm, mm, km, ft, in, "
+        "nmi))\n4: graph.field_unknown(origin: , latt, Origin,  [lat] lat_deg, lon_deg, alt_msl_m)");
+  CHECK(changed("alt_msl: 1387 m", "alt: 1387 m")
+            .find("graph.field_unknown(origin: , alt, Origin,  [alt_msl] lat_deg, lon_deg, alt_msl_m)") !=
         std::string::npos);
-  CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387 m, given: true").find("unknown field 'given'") !=
+  CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387 m, given: true")
+            .find("graph.field_unknown(origin: , given, Origin,  [] lat_deg, lon_deg, alt_msl_m)") !=
         std::string::npos);
   CHECK(changed("rate: 400 Hz", "rate: 4000 Hz") ==
-        "21: components.sim: the mission's rate of 4000 Hz is outside 50 .. 2000 Hz of sim_aero/Aircraft");
+        "21: graph.mission_rate_invalid(sim, 4000, 50, 2000, sim_aero/Aircraft)");
 }
 
 TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes no vehicle") {
@@ -106,19 +102,20 @@ TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes
     CHECK(lost.set[0].value.number[0] == 3);  // the mission's base: what an overlay leaves out stays
     CHECK(lost.set[0].value.number[1] == 7);
   }
-  CHECK(
-      with("{use: spare, set: {wind_ned: [0, 0, 0]}}").first.find("the vehicle does not change in flight") !=
-      std::string::npos);
-  CHECK(with("{set: {turbulence: light}, fallback: spare}").first.find("the vehicle does not change") !=
+  CHECK(with("{use: spare, set: {wind_ned: [0, 0, 0]}}").first.find("graph.phase_vehicle_fixed") !=
         std::string::npos);
-  CHECK(with("{set: {rate: 200 Hz}}").first.find("is fixed when the flight begins") != std::string::npos);
-  CHECK(with("{set: {wind: 3}}").first.find("sim has no parameter 'wind'") != std::string::npos);
+  CHECK(with("{set: {turbulence: light}, fallback: spare}").first.find("graph.phase_vehicle_fixed") !=
+        std::string::npos);
+  CHECK(with("{set: {rate: 200 Hz}}").first.find("graph.phase_parameter_fixed(") != std::string::npos);
+  CHECK(with("{set: {wind: 3}}")
+            .first.find("graph.phase_parameter_unknown(sim, wind,  [] wind_ned, turbulence)") !=
+        std::string::npos);
   Overrides hardware;
   hardware.io = "fcu";
-  CHECK(with("{use: sim, set: {wind_ned: [0, 0, 0]}}", hardware).first.find("the vehicle does not change") !=
+  CHECK(with("{use: sim, set: {wind_ned: [0, 0, 0]}}", hardware).first.find("graph.phase_vehicle_fixed") !=
         std::string::npos);
-  CHECK(with("{set: {wind_ned: [0, 0, 0]}}", hardware).first.find("fcu has no parameter 'wind_ned'") !=
-        std::string::npos);
+  CHECK(with("{set: {wind_ned: [0, 0, 0]}}", hardware)
+            .first.find("graph.phase_parameter_unknown(fcu, wind_ned,  [] none)") != std::string::npos);
   Overrides spare;  // as with any role: it takes what it has
   spare.roles = {{"vehicle", "spare"}};
   CHECK(with("{use: sim, set: {wind_ned: [0, 0, 0]}}", spare).second.phases[2].roles[0].set.size() == 1);
@@ -234,7 +231,8 @@ TEST_CASE("a count beyond what a double counts exactly is refused, where no rang
   mission.replace("use: estimator_ekf, ", "use: estimator_ekf, params: {skip: 9e15}, ");
   CHECK(param(mission.load(), "ekf", "skip").integer == 9'000'000'000'000'000);
   mission.replace("skip: 9e15", "skip: 1e16");
-  CHECK(mission.faults().find("components.ekf.params.skip: 1e16 is too large") != std::string::npos);
+  CHECK(mission.faults().find("components.ekf.params.skip: graph.integer_too_large(1e16)") !=
+        std::string::npos);
 }
 
 }  // namespace values_test

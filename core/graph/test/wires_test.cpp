@@ -10,41 +10,38 @@ using namespace fulmar::core;
 using namespace fulmar::core::test;
 
 TEST_CASE("wires end at ports that exist and fit") {
-  CHECK(changed("plan: plan.plan", "plan: plan.pln") ==
-        "26: components.manage.in.plan: plan (path/Planner) has no output 'pln'. Did you mean 'plan'? Valid: "
-        "plan.");
+  CHECK(
+      changed("plan: plan.plan", "plan: plan.pln") ==
+      "26: components.manage.in.plan: types.name_unknown_in(plan (path/Planner), output, pln,  [plan] plan)");
   CHECK(changed("plan: plan.plan", "plan: pln.plan") ==
         "26: components.manage.in.plan: there is no role or component 'pln'. Did you mean 'plan'? Valid: "
         "vehicle, nav, guide, outer, "
         "inner, sim, ekf, truth, plan, manage, "
         "follow, slc, tecs, attitude, mine, score.");
   CHECK(changed("plan: plan.plan", "plan: nav.stat") ==
-        "26: components.manage.in.plan: the role nav has no output 'stat'. Did you mean 'state'? Valid: "
-        "state.");
+        "26: components.manage.in.plan: types.name_unknown_in(the role nav, output, stat,  [state] state)");
   CHECK(changed("plan: plan.plan", "plan: plan") ==
-        "26: components.manage.in.plan: expected a port such as nav.state, found 'plan'");
+        "26: components.manage.in.plan: graph.port_expected(plan)");
   CHECK(changed("plan: plan.plan", "plan: manage.progress") ==
         "26: components.manage.in.plan: manage.plan takes Plan, but manage.progress is Progress");
-  CHECK(changed(", plan: plan.plan", "") ==
-        "26: components.manage: the input 'plan' is not wired; outputs of type Plan: plan.plan");
+  CHECK(
+      changed(", plan: plan.plan", "") ==
+      "26: graph.input_not_connected(components.manage: the input 'plan' , outputs of type Plan: plan.plan)");
   CHECK(changed("path: manage.path}, out: {comm", "path: attitude.roll_error_rad}, out: {comm") ==
-        "16: roles.guide.in.path: attitude.roll_error_rad is a probe: a number to look at, not a message to "
-        "wire");
+        "16: roles.guide.in.path: graph.probe_not_connectable(attitude.roll_error_rad)");
   CHECK(changed("{state: nav.state, path: manage.path}, out: {comm",
                 "{state: nav.state, pth: manage.path}, out: {comm") ==
-        "16: roles.guide.in.pth: no component that fills guide has such an input. Did you mean 'path'?\n"
-        "27: components.follow: the input 'path' is not wired; outputs of type Path: manage.path");
+        "16: roles.guide.in.pth: graph.role_input_unknown(guide, path)\n27: "
+        "graph.input_not_connected(components.follow: the input 'path' , outputs of type Path: manage.path)");
   CHECK(changed("plan: plan.plan}", "plan: plan.plan, stat: nav.state}") ==
-        "26: components.manage.in.stat: path/Manager has no such input. Did you mean 'state'? Valid: state, "
-        "plan.");
+        "26: components.manage.in.stat: graph.imported_input_unknown(path/Manager,  [state] state, plan)");
   CHECK(changed("plan: plan.plan}", "plan: {from: plan.plan, max_age: 3 m, dely: true}}") ==
-        "26: components.manage.in.plan: unknown key 'dely'. Valid: from, max_age, delayed.\n26: "
-        "components.manage.in.plan.max_age: 3 m is "
-        "a length, not a time");
+        "26: graph.key_unknown(components.manage.in.plan: , dely,  [] from, max_age, delayed)\n26: "
+        "components.manage.in.plan.max_age: graph.dimension_differs(3 m, a length, , a time)");
   CHECK(changed("plan: plan.plan}", "plan: {max_age: 3 s}}") ==
-        "26: components.manage.in.plan: 'from' is missing, as in {from: nav.state, max_age: 0.5 s}");
+        "26: components.manage.in.plan: graph.source_missing");
   CHECK(changed("{state: nav.state, plan:", "{state: fcu.imu, plan:") ==
-        "26: components.manage.in.state: fcu exists only with io: fcu");
+        "26: components.manage.in.state: graph.component_of_other_io(fcu, fcu)");
   CHECK(changed("use: path/Planner,", "use: path/Planner, in: {edit: plan.plan},") ==
         "25: components.plan.in.edit: plan.edit takes PlanEdit, but plan.plan is Plan");
 }
@@ -58,9 +55,7 @@ TEST_CASE("a request is not fed by an output that is sent in every step") {
   port.kind = FULMAR_OUT_VALUE;
   mission.replace("use: path/Planner,", "use: path/Planner, in: {edit: {from: manage.wish, delayed: true}},");
   CHECK(mission.faults() ==
-        "hourglass.yaml:25: components.plan.in.edit: plan.edit is a request, but manage.wish is sent in "
-        "every step; a request is fed by an "
-        "output that may stay silent");
+        "hourglass.yaml:25: components.plan.in.edit: graph.request_source_invalid(plan, edit, manage.wish)");
   port.kind = FULMAR_OUT_EVENT;
   CHECK(mission.faults() == "");
 }
@@ -72,9 +67,8 @@ TEST_CASE("messages of one name and another table are told apart by their first 
   ++other->hash;
   mission.shelf.plugins["path"]->components[1].inputs[1].type = other;
   CHECK(mission.faults() ==
-        "hourglass.yaml:26: components.manage.in.plan: plan.plan is another Plan than manage.plan takes: "
-        "revision: reader has unit m, "
-        "writer none");
+        "hourglass.yaml:26: components.manage.in.plan: graph.message_types_differ(plan.plan, Plan, manage, "
+        "plan, revision: types.reader_differs(unit , m, none))");
 }
 
 TEST_CASE("a cycle is printed as a path, with the way out") {
@@ -87,10 +81,7 @@ TEST_CASE("a cycle is printed as a path, with the way out") {
   follow.inputs.back().optional = true;
   mission.replace("fills: guide,", "fills: guide, in: {back: inner.actuators},");
   CHECK(mission.faults() ==
-        "hourglass.yaml:27: the wires form a cycle: follow -> slc -> attitude -> follow. Mark one of them, "
-        "as in {from: nav.state, "
-        "delayed: true}: it then carries the value of the "
-        "tick before");
+        "hourglass.yaml:27: graph.connection_cycle(follow -> slc -> attitude -> , follow)");
   mission.replace("back: inner.actuators", "back: {from: inner.actuators, delayed: true}");
   CHECK(mission.faults() == "");
 }

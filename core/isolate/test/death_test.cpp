@@ -58,8 +58,9 @@ TEST_CASE("every way to die in a step is one failed step with its name, and the 
     const char* death;
   };
   for (const Case& c :
-       {Case{segfault, "crashed (segmentation fault)"}, Case{overflow, "crashed (stack overflow)"},
-        Case{aborts, "aborted"}, Case{terminates, "aborted"}, Case{exits, "ended itself (exit code 3)"},
+       {Case{segfault, "isolate.child_stopped(isolate_lab.so, crashed (segmentation fault), created)"},
+        Case{overflow, "crashed (stack overflow)"}, Case{aborts, "aborted"}, Case{terminates, "aborted"},
+        Case{exits, "isolate.child_stopped(isolate_lab.so, ended itself (exit code 3), created)"},
         Case{killed, "was killed (signal 9)"}, Case{divides, "crashed (arithmetic error)"},
         Case{hangs, "hung: no answer within 1500 ms"}}) {
     CAPTURE(c.death);
@@ -129,17 +130,18 @@ TEST_CASE("dying in configure, activate and retune is told in the same way") {
       status = where == std::string("in_activate") ? rig.activate() : rig.retune();
     }
     CHECK(status == FULMAR_FAILED);
-    CHECK(rig.text() == "crashed (segmentation fault)");
+    CHECK(rig.text() == "isolate.child_stopped(isolate_lab.so, crashed (segmentation fault), created)");
   }
 }
 
 TEST_CASE("a component that cannot be created is refused in a sentence") {
   CHECK(fault_of_setup("CrashBorn") ==
-        "mine: isolate_lab.so crashed (segmentation fault) while being created");
-  CHECK(fault_of_setup("ExitBorn") == "mine: isolate_lab.so ended itself (exit code 3) while being created");
-  CHECK(fault_of_setup("ThrowBorn") == "mine: cannot be created: the law is broken");
+        "mine: isolate.child_stopped(isolate_lab.so, crashed (segmentation fault), created)");
+  CHECK(fault_of_setup("ExitBorn") ==
+        "mine: isolate.child_stopped(isolate_lab.so, ended itself (exit code 3), created)");
+  CHECK(fault_of_setup("ThrowBorn") == "mine: isolate.not_created(the law is broken)");
   CHECK(fault_of_setup("HangBorn", 2'000'000'000) ==
-        "mine: isolate_lab.so hung: no answer within 2000 ms while being created");
+        "mine: isolate.child_stopped(isolate_lab.so, hung: no answer within 2000 ms, created)");
 }
 
 TEST_CASE("a component that cannot be destroyed says so and is gone all the same") {

@@ -52,29 +52,27 @@ TEST_CASE("the memory may have the number in the host that it has in the child")
 TEST_CASE("a child that finds another component than its host knows is refused") {
   IsolatedOptions options = options_for("Faulty");
   ComponentInfo info = lab()->info().components[options.index];
-  CHECK_THROWS_WITH_AS(
-      Isolated(lab()->info().components[0], options),
-      doctest::Contains("mine: isolate_lab.so has no component 'Everything' in place 1 any more"), Error);
-  options.index = 400;
-  CHECK_THROWS_WITH_AS(Isolated(info, options), doctest::Contains("no component 'Faulty' in place 400"),
+  CHECK_THROWS_WITH_AS(Isolated(lab()->info().components[0], options),
+                       doctest::Contains("mine: isolate.component_moved(isolate_lab.so, Everything, 1)"),
                        Error);
+  options.index = 400;
+  CHECK_THROWS_WITH_AS(Isolated(info, options),
+                       doctest::Contains("isolate.component_moved(isolate_lab.so, Faulty, 400)"), Error);
   options = options_for("Faulty");
   auto grown = std::make_shared<Type>(*info.inputs[0].type);
   grown->hash ^= 1;
   grown->size += 8;
   info.inputs[0].type = grown;
-  CHECK_THROWS_WITH_AS(
-      Isolated(info, options),
-      "mine: isolate_lab.so: the ports or parameters of 'Faulty' are not those that the host knows", Error);
+  CHECK_THROWS_WITH_AS(Isolated(info, options), "mine: isolate_lab.so: isolate.tables_differ(Faulty)", Error);
   info = lab()->info().components[options.index];
   info.vehicle = true;
-  CHECK_THROWS_WITH_AS(Isolated(info, options), "mine: a vehicle cannot run in a process of its own.", Error);
+  CHECK_THROWS_WITH_AS(Isolated(info, options), "mine: isolate.vehicle_not_isolated", Error);
   info.vehicle = false;
   options.copy = "/nowhere/at/all.so";
   CHECK_THROWS_WITH_AS(Isolated(info, options), doctest::Contains("mine: isolate_lab.so"), Error);
   ::setenv("FULMAR_CHILD", "/nowhere/fulmar-child", 1);
   CHECK_THROWS_WITH_AS(Isolated(info, options_for("Faulty")),
-                       "cannot start /nowhere/fulmar-child: No such file or directory.", Error);
+                       "loader.program_not_started(/nowhere/fulmar-child, No such file or directory)", Error);
   ::unsetenv("FULMAR_CHILD");
   CHECK(no_children());
 }

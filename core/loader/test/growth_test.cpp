@@ -55,9 +55,9 @@ TEST_CASE(
   CHECK(second.kind == 4);
   CHECK(second.added == 8);
   CHECK_THROWS_WITH(tables.element(reinterpret_cast<const Grown*>(older), 4, 0, "the elements"),
-                    "the elements lie 4 bytes apart, where 8 are needed");
+                    "loader.table_stride_invalid(the elements, 4, 8)");
   CHECK_THROWS_WITH(tables.element(reinterpret_cast<const Grown*>(newer), 20, 0, "the elements"),
-                    "the elements lie 20 bytes apart, where 8 are needed");
+                    "loader.table_stride_invalid(the elements, 20, 8)");
 }
 
 TEST_CASE("a plugin whose tables are longer than this host's is read and does its work") {
@@ -105,7 +105,7 @@ TEST_CASE("of an entry of ABI 1.0 no more is read than ABI 1.0 had") {
   const auto& at_the_end = *reinterpret_cast<const fulmar_plugin*>(memory + page - size);
   CHECK(read_entry(at_the_end, "old.so").components.at(0).name == "Scaler");
   reinterpret_cast<fulmar_plugin*>(memory + page - size)->abi_minor = 1;
-  CHECK_THROWS_WITH(read_entry(at_the_end, "old.so"), "old.so: its entry lies outside its memory");
+  CHECK_THROWS_WITH(read_entry(at_the_end, "old.so"), "old.so: loader.entry_outside_memory");
   ::munmap(memory, 2 * page);
 }
 

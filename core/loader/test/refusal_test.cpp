@@ -41,92 +41,91 @@ std::string host() {
 }  // namespace
 
 TEST_CASE("a file that is missing, a folder, or not a shared object is refused") {
-  CHECK(refusal(folder() / "no_such.so") ==
-        "no_such.so does not exist: no file " + (folder() / "no_such.so").string());
-  CHECK(refusal(FULMAR_TEST_PLUGIN_DIR "/stub") == "stub is not a plugin: " FULMAR_TEST_PLUGIN_DIR
-                                                   "/stub is not a regular file");
-  CHECK(refusal(write("text.so", "this is no code\n")) ==
-        "text.so is not a plugin: not an ELF shared object");
-  CHECK(refusal(write("empty.so", "")) == "empty.so is not a plugin: not an ELF shared object");
+  CHECK(refusal(folder() / "no_such.so") == "loader.plugin_missing(" + (folder() / "no_such.so").string());
+  CHECK(refusal(FULMAR_TEST_PLUGIN_DIR "/stub") == "loader.plugin_not_regular(" FULMAR_TEST_PLUGIN_DIR
+                                                   "loader.plugin_not_regular(");
+  CHECK(refusal(write("text.so", "this is no code\n")) == "loader.file_fault(text.so, loader.elf_missing)");
+  CHECK(refusal(write("empty.so", "")) == "loader.file_fault(empty.so, loader.elf_missing)");
   CHECK(refusal(write("stump.so", read(plugin("good")).substr(0, 10))) ==
-        "stump.so is not a plugin: its ELF header is cut off");
+        "loader.file_fault(stump.so, loader.elf_header_truncated)");
   CHECK(refusal(with_header("object.so", [](Elf64_Ehdr& h) { h.e_type = ET_REL; })) ==
-        "object.so is not a plugin: an ELF file, but not a shared object");
+        "loader.file_fault(object.so, loader.elf_not_shared)");
 }
 
 TEST_CASE("a file that is cut off is refused before anything maps it") {
   const std::string whole = read(plugin("good"));
   CHECK(refusal(write("short.so", whole.substr(0, whole.size() - 1))) ==
-        "short.so is cut off: its header promises " + std::to_string(whole.size()) + " bytes, the file has " +
-            std::to_string(whole.size() - 1));
+        "loader.file_fault(short.so, loader.plugin_truncated(17400, 17399))" + std::to_string(whole.size()) +
+            " bytes, the file has " + std::to_string(whole.size() - 1));
   CHECK(refusal(write("header.so", whole.substr(0, 64))) ==
-        "header.so is not a plugin: its ELF program headers are damaged or cut off");
+        "loader.file_fault(header.so, loader.program_headers_damaged)");
   CHECK(refusal(with_header("far.so", [](Elf64_Ehdr& h) { h.e_phoff = ~0ull; })) ==
-        "far.so is not a plugin: its ELF program headers are damaged or cut off");
+        "loader.file_fault(far.so, loader.program_headers_damaged)");
 }
 
 TEST_CASE("a file for another machine is refused") {
   CHECK(refusal(with_header("alien.so", [](Elf64_Ehdr& h) { h.e_machine = EM_S390; })) ==
-        "alien.so is built for s390, this host is " + host());
+        "loader.file_fault(alien.so, loader.machine_differs(s390, x86_64))" + host());
   CHECK(refusal(with_header("odd.so", [](Elf64_Ehdr& h) { h.e_machine = 9999; })) ==
-        "odd.so is built for machine 9999, this host is " + host());
+        "loader.file_fault(odd.so, loader.machine_differs(machine 9999, x86_64))" + host());
   const Elf64_Half other = host() == "aarch64" ? EM_X86_64 : EM_AARCH64;
   CHECK(refusal(with_header("arm.so", [&](Elf64_Ehdr& h) { h.e_machine = other; })) ==
-        std::string("arm.so is built for ") + (other == EM_AARCH64 ? "aarch64" : "x86_64") +
-            ", this host is " + host());
+        std::string("loader.file_fault(arm.so, loader.machine_differs(aarch64, x86_64))") +
+            (other == EM_AARCH64 ? "aarch64" : "x86_64") + ", this host is " + host());
 }
 
 TEST_CASE("a shared object that is no plugin, or of another ABI, is refused") {
-  CHECK(refusal(plugin("no_entry")) == "no_entry.so has no symbol fulmar_plugin_entry: not a Fulmar plugin");
-  CHECK(refusal(plugin("wrong_abi")) == "wrong_abi.so is built for ABI 2.0, this host speaks 1.2");
+  CHECK(refusal(plugin("no_entry")) == "loader.entry_symbol_missing(no_entry.so, fulmar_plugin_entry)");
+  CHECK(refusal(plugin("wrong_abi")) == "loader.plugin_abi_differs(wrong_abi.so, 2.0, 1.2)");
   CHECK(refusal(plugin("newer_minor")) == "accepted");
 }
 
 TEST_CASE("a plugin whose needs are not met is refused") {
   CHECK(refusal(plugin("missing_library")) ==
-        "missing_library.so needs libfulmar_test_stub.so, which is not there");
+        "loader.required_library_missing(missing_library.so, libfulmar_test_stub.so)");
   CHECK(refusal(plugin("missing_symbol")) ==
-        "missing_symbol.so needs the symbol fulmar_test_nowhere, which nothing provides");
+        "loader.required_symbol_missing(missing_symbol.so, fulmar_test_nowhere)");
 }
 
 TEST_CASE("what the system's loader says becomes a sentence") {
   using fulmar::core::load_fault;
   CHECK(load_fault("x.so", "libfoo.so.1: cannot open shared object file: No such file or directory") ==
-        "x.so needs libfoo.so.1, which is not there");
+        "loader.required_library_missing(x.so, libfoo.so.1)");
   CHECK(load_fault("x.so", "/lib/libm.so.6: version `GLIBC_2.99' not found (required by /store/ab.so)") ==
-        "x.so needs GLIBC_2.99, which this system does not have");
+        "loader.required_version_missing(x.so, GLIBC_2.99)");
   CHECK(load_fault("x.so", "/store/ab.so: undefined symbol: exp10, version LIB_1") ==
-        "x.so needs the symbol exp10, which nothing provides");
+        "loader.required_symbol_missing(x.so, exp10)");
   CHECK(load_fault("x.so", "/store/ab.so: ELF load command alignment not page-aligned") ==
-        "x.so cannot be loaded: ELF load command alignment not page-aligned");
-  CHECK(load_fault("x.so", nullptr) == "x.so cannot be loaded: no reason given");
+        "loader.plugin_not_loadable(x.so, ELF load command alignment not page-aligned)");
+  CHECK(load_fault("x.so", nullptr) == "loader.plugin_not_loadable(x.so, no reason given)");
 }
 
 TEST_CASE("tables that the host does not understand are refused by name") {
   CHECK(refusal(plugin("unknown_port")) ==
-        "unknown_port.so: port 'place' of component 'Point' has kind 99, which this host does not know");
+        "unknown_port.so: loader.port_kind_unknown(port 'place' of component 'Point', 99)");
   CHECK(refusal(plugin("misplaced_port")) ==
-        "misplaced_port.so: port 'place' of component 'Point' is an input among the outputs");
+        "misplaced_port.so: loader.port_is_input(port 'place' of component 'Point')");
   CHECK(refusal(plugin("unknown_param")) ==
-        "unknown_param.so: parameter 'gain' of component 'Point' has kind 98, which this host does not know");
+        "unknown_param.so: loader.port_kind_unknown(parameter 'gain' of component 'Point', 98)");
   CHECK(refusal(plugin("unknown_field")) ==
-        "unknown_field.so: type 'Point': field 'x_m' has kind 97, which this host does not know");
+        "unknown_field.so: loader.port_kind_unknown(type 'Point': field 'x_m', 97)");
 }
 
 TEST_CASE("tables that contradict themselves are refused by name") {
-  CHECK(refusal(plugin("overlap")) == "overlap.so: type 'Point': fields 'x_m' and 'y_m' overlap");
-  CHECK(refusal(plugin("misaligned")) == "misaligned.so: type 'Point': field 'y_m' is not aligned");
-  CHECK(refusal(plugin("beyond")) == "beyond.so: type 'Point': field 'y_m' reaches beyond the struct");
-  CHECK(refusal(plugin("same_names")) == "same_names.so: type 'Point' has two fields 'x_m'");
-  CHECK(refusal(plugin("bad_name")) == "bad_name.so: type 'Point': 'y m' is no name for a field");
+  CHECK(refusal(plugin("overlap")) == "overlap.so: type 'Point': loader.fields_overlap(x_m, y_m)");
+  CHECK(refusal(plugin("misaligned")) ==
+        "misaligned.so: loader.field_not_aligned(type 'Point': field 'y_m')");
+  CHECK(refusal(plugin("beyond")) == "beyond.so: type 'Point': loader.field_outside_struct(y_m)");
+  CHECK(refusal(plugin("same_names")) == "same_names.so: loader.field_repeated(type 'Point', x_m)");
+  CHECK(refusal(plugin("bad_name")) == "bad_name.so: type 'Point': loader.field_name_invalid(y m)");
   CHECK(refusal(plugin("bad_default")) ==
-        "bad_default.so: parameter 'gain' of component 'Point' has a default outside its range");
+        "bad_default.so: loader.default_out_of_range(parameter 'gain' of component 'Point')");
   CHECK(refusal(plugin("bad_stride")) ==
-        "bad_stride.so: the outputs of component 'Point' lie 8 bytes apart, where 32 are needed");
+        "bad_stride.so: loader.table_stride_invalid(the outputs of component 'Point', 8, 32)");
   CHECK(refusal(plugin("wild_text")) ==
-        "wild_text.so: component 'Point': the description lies outside the plugin's memory");
-  CHECK(refusal(plugin("no_step")) == "no_step.so: component 'Point' lacks the function step");
-  CHECK(refusal(plugin("no_read")) == "no_read.so: component 'Point' lacks the function read");
+        "wild_text.so: loader.text_outside_memory(component 'Point': the description)");
+  CHECK(refusal(plugin("no_step")) == "no_step.so: loader.function_missing(component 'Point', step)");
+  CHECK(refusal(plugin("no_read")) == "no_read.so: loader.function_missing(component 'Point', read)");
 }
 
 TEST_CASE("files that would share static data are not loaded side by side") {
@@ -141,23 +140,24 @@ TEST_CASE("files that would share static data are not loaded side by side") {
 
 TEST_CASE("the last words of a plugin that cannot be loaded are in its refusal, without control characters") {
   CHECK(refusal(plugin("words_throws")) ==
-        "words_throws.so crashed while being loaded (signal 6): what():  the licence server is not reached");
+        "loader.plugin_crashed(words_throws.so, loaded, 6, : what():  the licence server is not reached)");
   CHECK(refusal(plugin("words_exits")) ==
-        "words_exits.so ended the process while being loaded (exit code 1): the runtime does not come first");
+        "loader.plugin_ended_process(words_exits.so, loaded, 1, : the runtime does not come first)");
   const std::string aborted = refusal(plugin("words_aborts"));
-  CHECK(aborted.starts_with("words_aborts.so crashed while being loaded (signal 6): "));
+  CHECK(aborted.starts_with(
+      "loader.plugin_crashed(words_aborts.so, loaded, 6, : ?[31mSUMMARY: out of licences?)"));
   CHECK_MESSAGE(aborted.find("SUMMARY: out of licences") != std::string::npos, aborted);
   CHECK(aborted.find_first_of("\x1b\x07\n") == std::string::npos);
 }
 
 TEST_CASE("what a plugin does while it is loaded happens to a child") {
-  CHECK(refusal(plugin("crash")) == "crash.so crashed while being loaded (signal 11)");
-  CHECK(refusal(plugin("crash_unload")) == "crash_unload.so crashed while being unloaded (signal 6)");
-  CHECK(refusal(plugin("exits")) == "exits.so ended the process while being loaded (exit code 0)");
+  CHECK(refusal(plugin("crash")) == "loader.plugin_crashed(crash.so, loaded, 11, )");
+  CHECK(refusal(plugin("crash_unload")) == "loader.plugin_crashed(crash_unload.so, unloaded, 6, )");
+  CHECK(refusal(plugin("exits")) == "loader.plugin_ended_process(exits.so, loaded, 0, )");
   const Environment limit("FULMAR_PROBE_SECONDS", "0.4");
-  CHECK(refusal(plugin("hang")) == "hang.so did not finish loading within 1.6 s");
+  CHECK(refusal(plugin("hang")) == "loader.probe_timed_out(hang.so, loading, 1.6 s)");
   const std::string busy = refusal(plugin("busy"));  // on a busy machine the clock on the wall may be first
-  CHECK((busy == "busy.so did not finish loading within 0.4 s of the CPU" ||
+  CHECK((busy == "loader.probe_timed_out(busy.so, loading, 0.4 s of the CPU)" ||
          busy == "busy.so did not finish loading within 1.6 s"));
 }
 
@@ -167,10 +167,10 @@ TEST_CASE("what a plugin has started where it is tried ends with the trial, wher
   struct Deed {
     const char *then, *reported;
   };
-  for (const Deed& deed : {Deed{"hang", "sly_setsid.so did not finish loading within 4 s"},
-                           Deed{"crash", "sly_setsid.so crashed while being loaded (signal 11)"},
-                           Deed{"exit", "sly_setsid.so ended the process while being loaded (exit code 0)"},
-                           Deed{"", "accepted"}}) {
+  for (const Deed& deed :
+       {Deed{"hang", "loader.probe_timed_out(sly_setsid.so, loading, 4 s)"},
+        Deed{"crash", "loader.plugin_crashed(sly_setsid.so, loaded, 11, )"},
+        Deed{"exit", "loader.plugin_ended_process(sly_setsid.so, loaded, 0, )"}, Deed{"", "accepted"}}) {
     CAPTURE(deed.then);
     fs::remove(file);
     const Environment what("SLY_THEN", deed.then);
@@ -198,14 +198,12 @@ TEST_CASE("a process that may open few files can try a plugin all the same") {
 }
 
 TEST_CASE("a plugin that changes the floating-point mode is refused") {
-  CHECK(refusal(plugin("rounding")) ==
-        "rounding.so changes the floating-point mode when it is loaded (built with -ffast-math?)");
+  CHECK(refusal(plugin("rounding")) == "loader.plugin_changes_float_mode(rounding.so)");
   if (!fs::exists(plugin("fast_math"))) {
     MESSAGE("this compiler has no crtfastmath.o: denormals not tried");
     return;
   }
-  CHECK(refusal(plugin("fast_math")) ==
-        "fast_math.so changes the floating-point mode when it is loaded (built with -ffast-math?)");
+  CHECK(refusal(plugin("fast_math")) == "loader.plugin_changes_float_mode(fast_math.so)");
 }
 
 TEST_CASE("a refused plugin leaves no copy in the store") {
@@ -215,7 +213,8 @@ TEST_CASE("a refused plugin leaves no copy in the store") {
 
 TEST_CASE("without the probing program nothing is loaded") {
   const Environment missing("FULMAR_PROBE", "/nowhere/fulmar-probe");
-  CHECK(refusal(plugin("overlap")) == "cannot start /nowhere/fulmar-probe: No such file or directory.");
+  CHECK(refusal(plugin("overlap")) ==
+        "loader.program_not_started(/nowhere/fulmar-probe, No such file or directory)");
 }
 
 TEST_CASE("a store that others can write to is refused") {
@@ -223,9 +222,7 @@ TEST_CASE("a store that others can write to is refused") {
   fs::create_directory(open);
   ::chmod(open.c_str(), 0777);
   const Environment store("FULMAR_STORE", open.string());
-  CHECK(refusal(plugin("good_open")) ==
-        "the plugin store " + open.string() +
-            " is writable by others; chmod 700 it, or set FULMAR_STORE to another folder.");
+  CHECK(refusal(plugin("good_open")) == "the plugin store " + open.string() + "loader.store_not_private(");
 }
 
 TEST_CASE("a copy in the store that was tampered with is replaced") {
@@ -266,9 +263,8 @@ TEST_CASE("a version that is no longer there is named") {
   } catch (const fulmar::core::Error& fault) {
     said = fault.what();
   }
-  CHECK(said == "my_law.so 1.4.0 with SHA-256 " + sha + " flew, but the plugin store " +
-                    (folder() / "store").string() +
-                    " no longer holds it; put that file back, or choose another with --with");
+  CHECK(said == "my_law.so 1.4.0 with SHA-256 " + sha + "loader.stored_plugin_missing(" +
+                    (folder() / "store").string() + "loader.stored_plugin_missing(");
 }
 
 TEST_CASE("the store keeps the 128 copies that were used last") {

@@ -106,7 +106,8 @@ TEST_CASE("who says 'max_age: off' flies on, and is warned before") {
           std::string(one_phase),
       {{"plan.stop_at", "0.1"}});
   REQUIRE(g.source.warnings.size() == 1);
-  CHECK(g.source.warnings[0].find("one.signal leads to the vehicle and is flown on however old it is") !=
+  CHECK(g.source.warnings[0].find(
+            "graph.age_unlimited(one, signal, , even when its writer was stopped: max_age is off)") !=
         std::string::npos);
   const FlightResult r = Flight(g, options(2)).run();
   REQUIRE(r.guards.size() == 1);

@@ -98,15 +98,18 @@ TEST_CASE("what cannot be is refused in the asker's thread, with what would be r
   Control& control = *flight.control();
   REQUIRE(flight.step());
   const auto none = [](const std::string&) { FAIL("nobody may be answered"); };
-  CHECK(holds(refusal([&] { control.set_parameter("one", "u", "1.5", none); }), "1.5 is outside -1 .. 1"));
+  CHECK(holds(refusal([&] { control.set_parameter("one", "u", "1.5", none); }),
+              "graph.value_out_of_range(1.5, -1, 1, , )"));
   CHECK(holds(refusal([&] { control.set_parameter("one", "u", "nan", none); }), "u"));
   CHECK(holds(refusal([&] { control.set_parameter("one", "u", "fast", none); }), "fast"));
-  CHECK(holds(refusal([&] { control.set_parameter("one", "uu", "0", none); }), "Did you mean 'u'?"));
-  CHECK(holds(refusal([&] { control.set_parameter("ome", "u", "0", none); }), "Did you mean 'one'?"));
+  CHECK(holds(refusal([&] { control.set_parameter("one", "uu", "0", none); }),
+              "types.name_unknown_in('one', parameter, uu,  [u] u, id, fault, fault_at, refuse, fixed)"));
+  CHECK(holds(refusal([&] { control.set_parameter("ome", "u", "0", none); }),
+              "types.name_unknown(component, ome,  [one] sim, filter, one, watch)"));
   CHECK(holds(refusal([&] { control.set_parameter("one", "fixed", "0", none); }), "set-up parameter"));
   CHECK(holds(refusal([&] { control.set_parameter("one", "fault", "nothing", none); }), "none"));
-  CHECK(holds(refusal([&] { control.enter_phase("fli", none); }), "Did you mean 'fly'?"));
-  CHECK(holds(refusal([&] { control.request("watch", "asks", ask(0), none); }), "Did you mean 'ask'?"));
+  CHECK(holds(refusal([&] { control.enter_phase("fli", none); }), "run.phase_unknown(fli,  [fly] fly)"));
+  CHECK(holds(refusal([&] { control.request("watch", "asks", ask(0), none); }), "run.entrance_unknown("));
   CHECK(holds(refusal([&] { control.publish("watch", "burst", {}); }), "imported"));
   CHECK(holds(refusal([&] { control.swap("nobody", "x.so", none); }), "there is no component 'nobody'"));
   REQUIRE(flight.step());
@@ -130,9 +133,9 @@ TEST_CASE(
     CHECK(bad.wait(flight) == "cannot go back");
     control.request("watch", "ask", ask(1), late.take());
     flight.finish();
-    CHECK(refusal([&] { control.enter_phase("fly", {}); }) == "the flight has ended");
+    CHECK(refusal([&] { control.enter_phase("fly", {}); }) == "run.flight_ended");
   }
-  CHECK(late.wait() == "the flight has ended");
+  CHECK(late.wait() == "run.flight_ended");
 }
 
 TEST_CASE(
@@ -151,7 +154,7 @@ TEST_CASE(
       const std::string why =
           refusal([&] { control.set_parameter("one", "u", text, [&](const std::string&) { ++answered; }); });
       ++(why.empty() ? accepted : full);
-      if (!why.empty()) CHECK(holds(why, "there is no room for more"));
+      if (!why.empty()) CHECK(holds(why, "run.too_many_commands(1024)"));
     }
     over = true;
   });
@@ -192,9 +195,9 @@ TEST_CASE("a swap is refused in whole sentences, and tells what it did to the pa
   Reply nowhere, folder, done;
   const std::string file = "/tmp/" + std::string(400, 'x') + ".so";
   control.swap("one", file, nowhere.take());
-  CHECK(holds(nowhere.wait(flight), "there is no plugin '" + file + "'"));
+  CHECK(holds(nowhere.wait(flight), "graph.plugin_file_missing(" + file + "'"));
   control.swap("one", "/etc/hostname", folder.take());
-  CHECK(holds(folder.wait(flight), "'/etc' is a folder: a plugin's file ends in .so or .py"));
+  CHECK(holds(folder.wait(flight), "graph.plugin_path_invalid(/etc, ' is a folder)"));
   control.swap("one", variant("_wider"), done.take());
   CHECK(done.wait(flight) == "");
   for (const ComponentView& c : control.view().components)
@@ -253,8 +256,8 @@ TEST_CASE("a request to a component that does not fly is refused, not kept for t
   control.request("watch", "ask", ask(1), before.take());
   CHECK(before.wait(flight) == "was not answered");  // that step threw
   control.request("watch", "ask", ask(1), after.take());
-  CHECK(after.wait(flight) == "does not fly now");
-  CHECK(refusal([&] { request(flight, "watch", "ask", 0.0); }) == "watch does not fly now");
+  CHECK(after.wait(flight) == "run.component_not_active(watch)");
+  CHECK(refusal([&] { request(flight, "watch", "ask", 0.0); }) == "run.component_not_active(watch)");
 }
 
 TEST_CASE("a request that its component has not come to when the flight ends is answered once") {
@@ -267,7 +270,7 @@ TEST_CASE("a request that its component has not come to when the flight ends is 
     REQUIRE(flight.step());
     flight.control()->request("watch", "ask", ask(1), [&](const std::string& refusal) {
       ++answers;
-      CHECK(refusal == "the flight has ended");
+      CHECK(refusal == "run.flight_ended");
     });
     for (int n = 0; n < 3; ++n) REQUIRE(flight.step());  // it waits at the component
     flight.finish();
@@ -408,7 +411,7 @@ TEST_CASE("a sample from outside is the input's at the next tick; a damaged one 
   CHECK(holds(refusal([&] {
                 control.publish("ear", "signal", {message.begin(), message.end() - 1});
               }),
-              "bytes are no"));
+              "run.message_size_invalid(ear, signal, 7, Signal)"));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::memcpy(message.data() + type->fields[0].offset, &nan, sizeof nan);
   CHECK(holds(refusal([&] { control.publish("ear", "signal", message); }), "nan"));

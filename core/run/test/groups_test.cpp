@@ -136,7 +136,7 @@ TEST_CASE("what a phase sets holds in all its roles, and is said once") {
   CHECK(value(g, flight, "sim", "applied", "u_frac") == doctest::Approx(-0.4));
   CHECK(refusal(std::string(both) +
                 "phases:\n  fly: {sense: {use: both, set: {u: 0}}, law: {use: both, set: {u: -0.4}}}\n")
-            .find("phases.fly: 'set' of both is there twice") != std::string::npos);
+            .find("phases.fly: graph.phase_set_repeated(both)") != std::string::npos);
 }
 
 TEST_CASE("--role puts the group, or a single one, in its place in every phase") {
@@ -156,15 +156,16 @@ TEST_CASE("--role puts the group, or a single one, in its place in every phase")
 TEST_CASE("groups that cannot be are refused, with a sentence") {
   const std::string flies = one_phase;
   CHECK(refusal("  both: {fills: [sense, sense], use: lab/Both, in: {signal: vehicle.signal}}\n" + flies)
-            .find("components.both.fills: 'sense' is there twice") != std::string::npos);
+            .find("components.both.fills: graph.entry_repeated(sense)") != std::string::npos);
   CHECK(refusal("  both: {fills: [sense, lw], use: lab/Both, in: {signal: vehicle.signal}}\n" + flies)
-            .find("components.both: there is no role 'lw'. Did you mean 'law'?") != std::string::npos);
+            .find("components.both: types.name_unknown(role, lw,  [law] vehicle, sense, law)") !=
+        std::string::npos);
   CHECK(refusal("  both: {fills: [sense, law], use: lab/Both}\n" + flies)
-            .find("the roles that it fills feed 'signal' from different outputs") != std::string::npos);
+            .find("graph.role_inputs_conflict(both, signal)") != std::string::npos);
   CHECK(refusal("  both: {fills: [vehicle, law], use: lab/Both}\n" + flies)
-            .find("the vehicle fills the role vehicle alone") != std::string::npos);
+            .find("graph.vehicle_roles_shared(components.both.fills: )") != std::string::npos);
   CHECK(refusal(std::string(both) + "phases:\n  fly: {sense: filter, law: both}\n")
-            .find("phases.fly.law: both fills sense and law, filter fills sense; they cannot fly together") !=
+            .find("phases.fly.law: graph.components_share_roles(both, sense and law, filter, sense)") !=
         std::string::npos);
 }
 

@@ -177,7 +177,7 @@ TEST_CASE(
     CHECK(interrupt == 0);
     CHECK(obeyed(g, flight));
   }
-  CHECK(said.count("the aircraft is armed: Ctrl-C once more within 5 s gives up control") == 2);
+  CHECK(said.count("run.aircraft_armed: Ctrl-C once more within 5 s gives up control") == 2);
   CHECK(fly_until(flight, 11.9));
   interrupt = 15;
   CHECK(fly_until(flight, 11.91));
@@ -192,7 +192,7 @@ TEST_CASE(
   const FlightResult r = flight.finish();
   CHECK(1e-9 * static_cast<double>(r.last_ns) == doctest::Approx(11.9025 + 1).epsilon(1e-9));
   CHECK(r.outcome == Outcome::interrupted);
-  CHECK(r.reason == "control given up by a signal: the aircraft is its pilot's");
+  CHECK(r.reason == "control given up run.ended_by_signal: the aircraft is its pilot's");
 }
 
 TEST_CASE(
@@ -258,16 +258,18 @@ TEST_CASE(
     return std::string();
   };
   CHECK(fault("control: [lawn]\n") ==
-        "craft.yaml:11: control: there is no role 'lawn'. Did you mean 'law'? Valid: vehicle, law.");
-  CHECK(fault("control: [vehicle]\n") ==
-        "craft.yaml:11: control: the vehicle obeys or not; name the roles whose outputs lead to it");
-  CHECK(fault("control: law\n") ==
-        "craft.yaml:11: control: expected a list of roles such as [guide, outer, inner], found 'law'");
+        "craft.yaml:11: control: types.name_unknown(role, lawn,  [law] vehicle, law)");
+  CHECK(fault("control: [vehicle]\n") == "craft.yaml:11: graph.control_role_invalid");
+  CHECK(
+      fault("control: law\n") ==
+      "craft.yaml:11: control: graph.value_not_valid(a list of roles such as [guide, outer, inner], 'law')");
   CHECK(fault("tell: [vehicle.status]\n") ==
-        "craft.yaml:11: tell: 'vehicle.status' is State, which has no text 'text' to tell");
+        "craft.yaml:11: tell: graph.text_field_missing(vehicle.status, State)");
   CHECK(fault("tell: [notices]\n") ==
-        "craft.yaml:11: tell: expected a port such as vehicle.notices, found 'notices'");
-  CHECK(fault("tell: [vehicle.notes]\n").find("the role vehicle has no output 'notes'") != std::string::npos);
+        "craft.yaml:11: tell: graph.port_name_expected(vehicle.notices, notices)");
+  CHECK(fault("tell: [vehicle.notes]\n")
+            .find("types.name_unknown_in(the role vehicle, output, notes,  [notices] status, applied, "
+                  "notices)") != std::string::npos);
   CHECK(fault("tell: [vehicle.notices]\n").empty());
   const fs::path file = folder().path / "quiet.yaml";
   std::ofstream(file) << "roles:\n  vehicle: {out: {status: Arm, notices?: Note}}\ncomponents:\n  cart: "
@@ -349,10 +351,9 @@ TEST_CASE("a flag of any name protects the aircraft once the mission names it") 
   interrupt = 2;
   CHECK(fly_until(flight, 2));
   CHECK(interrupt == 0);
-  CHECK(said.count("the aircraft is armed: Ctrl-C once more within 5 s gives up control") == 1);
-  CHECK_THROWS_WITH(
-      swap(flight, "law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
-      "law_a cannot be swapped: the aircraft is armed. A component is swapped on the ground, disarmed");
+  CHECK(said.count("run.aircraft_armed: Ctrl-C once more within 5 s gives up control") == 1);
+  CHECK_THROWS_WITH(swap(flight, "law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
+                    "run.swap_not_possible(law_a, run.aircraft_armed)");
   while (flight.step()) {  // it disarms in the air at 3 s
   }
   CHECK(flight.finish().last_ns == 3'000'000'000);
@@ -363,9 +364,8 @@ TEST_CASE("disarmed in the air nothing is swapped, by the flag that the mission 
   Said said;
   Flight flight(g, listening(said));
   CHECK(fly_until(flight, 3.5));
-  CHECK_THROWS_WITH(
-      swap(flight, "law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
-      "law_a cannot be swapped: the aircraft is in the air. A component is swapped on the ground, disarmed");
+  CHECK_THROWS_WITH(swap(flight, "law_a", FULMAR_TEST_PLUGIN_DIR "/craft.so"),
+                    "run.swap_not_possible(law_a, run.aircraft_in_air)");
 }
 
 TEST_CASE(
@@ -374,14 +374,14 @@ TEST_CASE(
       " Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, "
       "state.in_control.";
   CHECK(refusal("") ==
-        "strange.yaml:5: roles.vehicle: with io: fcu the vehicle has to say whether it is armed, on the "
-        "ground and in control, and craft "
-        "(craft/Strange) has no flag armed, on_ground, in_control in an output 'status'; name its own at the "
-        "role vehicle, as in flags: "
-        "{armed: PORT.FIELD, on_ground: PORT.FIELD, in_control: PORT.FIELD}." +
+        "strange.yaml:5: roles.vehicle: graph.vehicle_flags_missing(craft, craft/Strange, armed, on_ground, "
+        "in_control, status, armed: PORT.FIELD, on_ground: PORT.FIELD, in_control: PORT.FIELD,  Its flags: "
+        "applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, state.in_control.)" +
             all);
   CHECK(refusal(", flags: {armed: gear.motors_live, in_control: gear.obeys}")
-            .find("has no flag on_ground in an output") != std::string::npos);
+            .find("graph.vehicle_flags_missing(craft, craft/Strange, on_ground, status, on_ground: "
+                  "PORT.FIELD,  Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, "
+                  "state.on_ground, state.in_control.)") != std::string::npos);
   CHECK(refusal("", "sim") == "");  // what is simulated can be left alone
 }
 
@@ -396,16 +396,20 @@ TEST_CASE("a flag that cannot be one is refused with the choices, in simulation 
   CHECK(fault("state.tick_s") ==
         at + "'state.tick_s' of craft/Strange is no flag, which is true or false." + all);
   CHECK(fault("geer.obeys") ==
-        at + "craft (craft/Strange) has no output 'geer'. Did you mean 'gear'? Valid: applied, gear, state.");
+        at + "graph.flag_output_unknown(craft, craft/Strange, geer,  [gear] applied, gear, state)");
   CHECK(fault("armed") == at + "expected a field of an output such as status.armed, found 'armed'." + all);
   CHECK(fault("gear.obey").find("Did you mean 'obeys'?") != std::string::npos);
   CHECK(refusal(", flags: {arm: gear.obeys}", "sim")
-            .find("unknown key 'arm'. Valid: armed, on_ground, in_control.") != std::string::npos);
+            .find("graph.key_unknown(roles.vehicle.flags: , arm,  [] armed, on_ground, in_control)") !=
+        std::string::npos);
   CHECK(fault("lamps.red") ==
-        at + "craft (craft/Strange) has no output 'lamps'. Valid: applied, gear, state.");
+        at + "graph.flag_output_unknown(craft, craft/Strange, lamps,  [] applied, gear, state)");
   CHECK(refusal(", flags: {armed: lamps.red}", "sim", its_ports + ", lamps?: Lamps") == "");
   CHECK(refusal(", flags: {armed: lamps.red}", "fcu", its_ports + ", lamps?: Lamps")
-            .find("has no flag armed, on_ground, in_control") != std::string::npos);
+            .find("graph.vehicle_flags_missing(craft, craft/Strange, armed, on_ground, in_control, status, "
+                  "armed: PORT.FIELD, on_ground: PORT.FIELD, in_control: PORT.FIELD,  Its flags: "
+                  "applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, "
+                  "state.in_control.)") != std::string::npos);
 }
 
 TEST_CASE(
@@ -425,7 +429,7 @@ TEST_CASE(
   CHECK_FALSE(flight.step());
   const FlightResult r = flight.finish();
   CHECK(r.outcome == Outcome::interrupted);
-  CHECK(r.reason == "by a signal");
+  CHECK(r.reason == "run.ended_by_signal");
 }
 
 TEST_CASE("in simulation control that was there and is lost is lost, though nothing said 'armed'") {

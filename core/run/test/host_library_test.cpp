@@ -124,7 +124,7 @@ TEST_CASE("Fast DDS is in the process once a flight asks for it, and its faults 
   DdsOptions options;
   options.on = true;
   options.domain = 233;
-  CHECK_THROWS_WITH_AS(library.open(host, options), "dds: domain 233 is outside 0 .. 232", Error);
+  CHECK_THROWS_WITH_AS(library.open(host, options), "dds.domain_out_of_range(233, 232)", Error);
   options.domain = test::own_domain();
   const auto bridge = library.open(host, options);
   CHECK(bridge->stats().sent == 0);

@@ -168,7 +168,7 @@ TEST_CASE("a driver that fails is stopped, and told of") {
   CHECK(r.outcome == Outcome::flown);
   REQUIRE(r.guards.size() == 1);
   CHECK(r.guards[0].component == "gauge");
-  CHECK(r.guards[0].what == "says that it failed");
+  CHECK(r.guards[0].what == "run.vehicle_failed(says that it failed)");
 }
 
 TEST_CASE("a driver's sample is valid when the driver says, else when it arrives") {
@@ -207,17 +207,18 @@ TEST_CASE("run modes that do not fit are refused") {
     return std::string();
   };
   CHECK(refused("  think: {use: lab/Thinker, run: async, in: {signal: sense.signal}}\n")
-            .find("needs a latency above 0") != std::string::npos);
+            .find("graph.latency_missing") != std::string::npos);
   CHECK(
-      refused("  gauge: {use: lab/Ticker, latency: 20 ms, run: driver}\n").find("belongs to 'run: async'") !=
+      refused("  gauge: {use: lab/Ticker, latency: 20 ms, run: driver}\n").find("graph.latency_misplaced(") !=
       std::string::npos);
   CHECK(refused("  gauge: {use: lab/Thinker, run: driver, in: {signal: sense.signal}}\n")
-            .find("a driver's outputs are queues") != std::string::npos);
-  CHECK(
-      refused("  sim: {fills: vehicle, use: lab/Cart, run: process}\n").find("a vehicle runs in the loop") !=
-      std::string::npos);
-  CHECK(refused("  one: {fills: law, use: lab/Law, memory: 64 parsecs}\n").find("is no amount of memory") !=
+            .find("graph.driver_output_invalid(components.gauge, thought, lab/Thinker)") !=
         std::string::npos);
+  CHECK(refused("  sim: {fills: vehicle, use: lab/Cart, run: process}\n")
+            .find("graph.vehicle_run_invalid(components.sim)") != std::string::npos);
+  CHECK(
+      refused("  one: {fills: law, use: lab/Law, memory: 64 parsecs}\n").find("graph.memory_size_invalid(") !=
+      std::string::npos);
 }
 
 TEST_CASE(

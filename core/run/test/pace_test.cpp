@@ -191,7 +191,7 @@ TEST_CASE("many ticks can be cut short by a pause, by going on, and by the fligh
   aloft.control().pace({PaceOrder::What::step, 1'000'000, 0},
                        [&](const std::string& why) { promise.set_value(why); });
   aloft.end();
-  CHECK(promise.get_future().get() == "the flight has ended");
+  CHECK(promise.get_future().get() == "run.flight_ended");
 }
 
 TEST_CASE("a paused flight ends by a signal, and its log is whole") {
@@ -201,7 +201,7 @@ TEST_CASE("a paused flight ends by a signal, and its log is whole") {
   aloft.pace(order(pause));
   const FlightResult result = aloft.end();
   CHECK(result.outcome == Outcome::interrupted);
-  CHECK(result.reason == "by a signal");
+  CHECK(result.reason == "run.ended_by_signal");
   CHECK(result.log.error == "");
   CHECK(fs::exists(log));
 }
@@ -278,11 +278,13 @@ TEST_CASE("on hardware nothing of that is possible, and each says so") {
     }
     return "";
   };
-  CHECK(why(order(pause)) == "this flight is on hardware, io: fcu: an aircraft cannot be paused");
-  CHECK(why(order(resume)) == "this flight is on hardware, io: fcu: an aircraft cannot be paused");
-  CHECK(holds(why({PaceOrder::What::step, 1, 0}), "an aircraft cannot be stepped"));
-  CHECK(holds(why({PaceOrder::What::speed, 0, 2}), "no speed but that of the clock"));
-  CHECK(holds(why(order(PaceOrder::What::restart)), "an aircraft cannot be put back to where it began"));
+  CHECK(why(order(pause)) == "run.hardware_pace_fixed(an aircraft cannot be paused)");
+  CHECK(why(order(resume)) == "run.hardware_pace_fixed(an aircraft cannot be paused)");
+  CHECK(holds(why({PaceOrder::What::step, 1, 0}), "run.hardware_pace_fixed(an aircraft cannot be stepped)"));
+  CHECK(holds(why({PaceOrder::What::speed, 0, 2}),
+              "run.hardware_pace_fixed(its time has no speed but that of the clock)"));
+  CHECK(holds(why(order(PaceOrder::What::restart)),
+              "run.hardware_pace_fixed(an aircraft cannot be put back to where it began)"));
 }
 
 TEST_CASE("a flight makes room for another one as it ends otherwise: its log is whole, who asked is told") {
@@ -300,13 +302,13 @@ TEST_CASE("a flight makes room for another one as it ends otherwise: its log is 
     CHECK(aloft.pace({PaceOrder::What::restart, 0, 0, 11}) == "");
     const FlightResult result = aloft.wait();
     CHECK(result.outcome == Outcome::interrupted);
-    CHECK(result.reason == "ended for a new flight");
+    CHECK(result.reason == "run.ended_for_restart");
     REQUIRE(aloft.flight().restart());
     CHECK(aloft.flight().restart()->seed == 11u);
     CHECK(result.log.error == "");
     CHECK(fs::exists(log));
     if (paused) CHECK(holds(stepped.get_future().get(), "of 1000000 ticks"));
-    CHECK_THROWS_WITH(aloft.control().pace(order(PaceOrder::What::restart), {}), "the flight has ended");
+    CHECK_THROWS_WITH(aloft.control().pace(order(PaceOrder::What::restart), {}), "run.flight_ended");
   }
 }
 
@@ -323,7 +325,7 @@ TEST_CASE("of two who ask for another flight at once one gets it, and the other 
     second.set_value(late.what());
   }
   CHECK(first.get_future().get() == "");
-  CHECK(second.get_future().get() == "the flight has ended");
+  CHECK(second.get_future().get() == "run.flight_ended");
   aloft.wait();
   CHECK(aloft.flight().restart()->seed == 3u);
 }
@@ -334,7 +336,7 @@ TEST_CASE("a flight whose owner begins no other refuses to make room, and flies 
   o.speed = 1;
   Flight flight(g, o);
   CHECK_THROWS_WITH(flight.control()->pace(order(PaceOrder::What::restart), {}),
-                    "no new flight: who began this flight begins no other");
+                    "run.restart_not_possible(who began this flight begins no other)");
   CHECK(flight.step());
 }
 
@@ -356,7 +358,7 @@ TEST_CASE("ticks and speeds are read whole, and what is none is told with what w
   CHECK(speed_order("max").speed == 0);
   CHECK(speed_order("0.25").speed == 0.25);
   for (const char* const wrong : {"", "0", "-1", "1.5", "1x", "1000001", "99999999999999999999"})
-    CHECK_THROWS_WITH(step_order(wrong), doctest::Contains("a whole number of ticks from 1 to 1000000"));
+    CHECK_THROWS_WITH(step_order(wrong), doctest::Contains("tap.step_count_invalid("));
   for (const char* const wrong : {"", "0", "-1", "fast", "2x", "nan", "inf", "0.001", "1e7"})
     CHECK_THROWS_WITH(speed_order(wrong), doctest::Contains("real, max, or a multiple of real time"));
   CHECK_FALSE(restart_order("").seed);

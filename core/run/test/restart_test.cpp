@@ -58,16 +58,17 @@ TEST_CASE("a log that does not fit is refused with a sentence; a field that it d
   };
   Graph renamed = g;
   renamed.mission = "crafty";
-  CHECK(fault(renamed) == ": is a log of the mission craft, not of crafty");
+  CHECK(fault(renamed) == ": run.mission_differs(craft, crafty)");
   Graph phases = g;
   phases.phases[1].name = "third";
-  CHECK(fault(phases) ==
-        ": it ends in the phase 'second', which this mission does not have. Valid: first, third.");
+  CHECK(fault(phases) == ": run.log_phase_unknown(second,  [] first, third)");
   const Graph more = craft("record: {ports: [craft.remark]}\n" + two_phases);
   const Resume r = read_resume(more, cut_log(more, 3));
   CHECK(r.phase == "second");
   REQUIRE(r.missing.size() == 1);
-  CHECK(r.missing[0].starts_with("resume.law_a.heirloom: the log has no topic '/law/command'."));
+  CHECK(
+      r.missing[0].starts_with("resume.law_a.heirloom: log.topic_unknown(/law/command,  [] /fulmar/event, "
+                               "/fulmar/ticks, /vehicle/status, /vehicle/applied, /craft/remark, /rosout)"));
 }
 
 TEST_CASE(

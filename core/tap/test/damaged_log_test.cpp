@@ -144,7 +144,8 @@ TEST_CASE("a log that fails is told of while the flight lasts") {
       if (i == 10'000) return 2;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    return log.log.error() == "cannot write '" + (folder.path / "a.mcap.part").string() + "': File too large"
+    return log.log.error() ==
+                   "log.log_not_writable(" + (folder.path / "a.mcap.part").string() + "': File too large"
                ? 0
                : 3;
   });
@@ -159,7 +160,7 @@ TEST_CASE("a file that is being written is known as such until its writer ends")
     TapedLog log({.file = folder.path / "a.mcap", .epoch_ns = epoch_ns}, two_channels());
     fly(log, 1000);
     CHECK(OutFile::grows(part));
-    CHECK_THROWS_WITH_AS(write_log(folder.path / "a.mcap", 1), doctest::Contains("another run is writing it"),
+    CHECK_THROWS_WITH_AS(write_log(folder.path / "a.mcap", 1), doctest::Contains("log.partial_log_exists("),
                          Error);
     log.close();
     CHECK_FALSE(OutFile::grows(folder.path / "a.mcap"));
@@ -245,7 +246,7 @@ TEST_CASE("a log that somebody has cut or lengthened in flight is not called who
       fs::resize_file(part, 0);
     fly(log, 1000);
     const LogResult result = log.close();
-    CHECK_MESSAGE(result.error.find("somebody has changed '" + part.string()) == 0, result.error);
+    CHECK_MESSAGE(result.error.find("log.log_altered(" + part.string()) == 0, result.error);
     CHECK(fs::exists(part));
     CHECK_FALSE(fs::exists(folder.path / "a.mcap"));
   }

@@ -155,7 +155,7 @@ TEST_CASE("bytes that are cut off, too many, or not CDR are refused") {
   Blob many = bytes;
   many[4 + 56] = std::byte{5};  // five samples in a list for four
   CHECK_THROWS_WITH_AS(cdr_decode(*type, many.data(), many.size(), bytes_of(out)),
-                       "bytes do not hold a Mixed: samples_volt has 5 items, its capacity is 4", Error);
+                       "types.bytes_invalid(Mixed, types.too_many_items(samples_volt, 5, 4))", Error);
   bytes[1] = std::byte{0};  // big endian
   CHECK_THROWS_AS(cdr_decode(*type, bytes.data(), bytes.size(), bytes_of(out)), Error);
 }

@@ -131,8 +131,7 @@ TEST_CASE("an export of a port that is not there is refused, with the choices") 
   scene.options.exports[0].where = {"m.yaml", 7};
   CHECK_THROWS_WITH_AS(
       scene.open(),
-      doctest::Contains("m.yaml:7: dds.export: there is no 'nav.stat' to export. Did you mean '/nav/state'?"),
-      Error);
+      doctest::Contains("m.yaml:7: dds.exported_port_unknown(nav.stat,  [/nav/state] /nav/state)"), Error);
 }
 
 TEST_CASE("another vendor's DDS publishes into an imported port: the loop gets the exact struct" *

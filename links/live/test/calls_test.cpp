@@ -38,15 +38,14 @@ TEST_CASE_FIXTURE(Fixture,
   CHECK(many["reason"].get<std::string>().find("'legs'") != std::string::npos);
   CHECK(brackets["reason"].get<std::string>().find("'name'") != std::string::npos);
   const std::string deep = R"({"legs": )" + std::string(100, '[') + std::string(100, ']') + "}";
-  CHECK(call_json("/plan/add_leg", deep)["reason"] == "the request is nested too deeply");
+  CHECK(call_json("/plan/add_leg", deep)["reason"] == "live.request_too_deep");
   CHECK(control.heard().empty());
 }
 
 TEST_CASE_FIXTURE(Fixture, "requests that do not hold what they should are answered, and reach nobody") {
   for (const char* payload : {"{", "[]", "5", "nonsense"})
-    CHECK(call_json("/plan/add_leg", payload)["reason"] == "the request is no JSON object");
-  CHECK(call_json("/plan/add_leg", std::string(100'000, '['))["reason"] ==
-        "the request is nested too deeply");
+    CHECK(call_json("/plan/add_leg", payload)["reason"] == "live.request_not_object");
+  CHECK(call_json("/plan/add_leg", std::string(100'000, '['))["reason"] == "live.request_too_deep");
   Leg leg{1, true, 0.25, {1, 2, 3}};
   leg.course_rad = std::nan("");
   for (const std::string& payload : {std::string(), std::string("\0\1\0\0", 4), cdr_of(*leg_type(), leg),
@@ -66,30 +65,27 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
                   R"({"component": "slc", "name": "roll_kp", "text": "20 kg"})")["reason"] ==
         "'20 kg' is not a number");
   CHECK(call_json("/fulmar/phase", R"({"phase": "hold"})")["accepted"] == true);
-  CHECK(call_json("/fulmar/phase", R"({"phase": 5})")["reason"] == "the request needs the text 'phase'");
+  CHECK(call_json("/fulmar/phase", R"({"phase": 5})")["reason"] == "live.request_text_missing(phase)");
   CHECK(call_json("/fulmar/swap", R"({"component": "slc", "file": "x.so"})")["reason"] ==
         "the vehicle is armed");
   CHECK(call_json("/fulmar/reset_guards", "")["accepted"] == true);
   CHECK(call_json("/fulmar/record", R"({"component": "slc", "name": "roll_kp"})")["reason"] ==
-        "slc.roll_kp is no record");
+        "live.parameter_not_record(slc, roll_kp)");
   CHECK(call_json("/fulmar/record", R"({"component": "slc", "name": "fence"})")["reason"] ==
-        "there is no parameter 'slc.fence'");
+        "live.parameter_unknown(slc, fence)");
   CHECK(call_json("/fulmar/view", "{}")["paused"] == false);
   CHECK(call_json("/fulmar/pause", "{}")["accepted"] == true);
   CHECK(call_json("/fulmar/pause", "{}")["reason"] == "the flight is paused already");
   CHECK(call_json("/fulmar/view", "{}")["paused"] == true);
   CHECK(call_json("/fulmar/step", R"({"ticks": "40"})")["accepted"] == true);
-  CHECK(call_json("/fulmar/step", R"({"ticks": "0"})")["reason"] ==
-        "step '0': give a whole number of ticks from 1 to 1000000");
-  CHECK(call_json("/fulmar/step", "{}")["reason"] == "the request needs the text 'ticks'");
+  CHECK(call_json("/fulmar/step", R"({"ticks": "0"})")["reason"] == "tap.step_count_invalid(0, 1000000)");
+  CHECK(call_json("/fulmar/step", "{}")["reason"] == "live.request_text_missing(ticks)");
   CHECK(call_json("/fulmar/resume", "{}")["accepted"] == true);
   CHECK(call_json("/fulmar/speed", R"({"speed": "max"})")["accepted"] == true);
-  CHECK(call_json("/fulmar/speed", R"({"speed": "warp"})")["reason"] ==
-        "speed 'warp': give real, max, or a multiple of real time from 0.01 to 1e6");
+  CHECK(call_json("/fulmar/speed", R"({"speed": "warp"})")["reason"] == "tap.speed_invalid(warp)");
   CHECK(call_json("/fulmar/restart", R"({"seed": "11"})")["accepted"] == true);
   CHECK(call_json("/fulmar/restart", R"({"seed": ""})")["accepted"] == true);
-  CHECK(call_json("/fulmar/restart", R"({"seed": "eleven"})")["reason"] ==
-        "seed 'eleven': give a whole number from 0 to 18446744073709551615");
+  CHECK(call_json("/fulmar/restart", R"({"seed": "eleven"})")["reason"] == "tap.seed_invalid(eleven)");
   const std::vector<std::string> expected = {
       "set slc.roll_kp 0.8", "phase hold", "swap slc x.so", "reset", "pause", "pause", "step 40", "resume",
       "speed max",           "restart 11", "restart"};
@@ -142,9 +138,9 @@ TEST_CASE_FIXTURE(Fixture, "calls of services that are not there fail") {
   CHECK(*peer.last("serviceCallFailure") == json({{"op", "serviceCallFailure"},
                                                   {"serviceId", 99},
                                                   {"callId", 5},
-                                                  {"message", "there is no service 99"}}));
+                                                  {"message", "live.service_unknown(99)"}}));
   call("/fulmar/view", "ros1", "");
-  CHECK(peer.last("serviceCallFailure")->at("message") == "there is no encoding 'ros1'. Valid: cdr, json.");
+  CHECK(peer.last("serviceCallFailure")->at("message") == "live.encoding_unknown(ros1)");
   CHECK(counters.refused == 2);
 }
 
@@ -167,12 +163,12 @@ TEST_CASE_FIXTURE(Fixture, "a client publishes into an imported input, in CDR an
   CHECK(counters.refused == 0);
 
   hub.binary(id, "\1" + le(1) + "short");
-  CHECK(peer.last_status().find("/plan/edits: bytes do not hold a Mixed") == 0);
+  CHECK(peer.last_status().find("/plan/edits: types.bytes_invalid(") == 0);
   hub.binary(id, "\1" + le(2) + R"({"sped_mps": 1})");
   CHECK(peer.last_status().find("sped_mps") != std::string::npos);
   say({{"op", "unadvertise"}, {"channelIds", {1}}});
   hub.binary(id, "\1" + le(1) + cdr_of(*mixed_type(), mixed));
-  CHECK(peer.last_status() == "channel 1 is not advertised");
+  CHECK(peer.last_status() == "live.channel_not_advertised(1)");
   CHECK(counters.refused == 3);
   CHECK(control.heard().size() == 2);
 }
@@ -184,8 +180,7 @@ TEST_CASE_FIXTURE(Fixture, "only what the mission imports can be published on") 
     return peer.last_status();
   };
   CHECK(refusal("/plan/add_leg", "cdr", "").find("nothing can be published on '/plan/add_leg'") == 0);
-  CHECK(refusal("/plan/edits", "protobuf", "") ==
-        "/plan/edits: there is no encoding 'protobuf'. Valid: cdr, json.");
+  CHECK(refusal("/plan/edits", "protobuf", "") == "/plan/edits: live.encoding_unknown(protobuf)");
   CHECK(refusal("/plan/edits", "cdr", "std_msgs/msg/String") ==
         "/plan/edits takes fulmar_msgs/msg/Mixed, not std_msgs/msg/String");
   CHECK(counters.refused == 3);

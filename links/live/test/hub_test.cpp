@@ -288,10 +288,10 @@ TEST_CASE_FIXTURE(Fixture, "subscriptions that contradict each other are refused
          {{"id", 4}, {"channelId", 5}},
          {{"id", 5}, {"channelId", 2}}}}});
   CHECK(counters.refused == 4);
-  CHECK(peer.last_status() == "there is no channel 5");
+  CHECK(peer.last_status() == "live.channel_unknown(5)");
   CHECK(tap.wanted(1, 0));
   say({{"op", "unsubscribe"}, {"subscriptionIds", {1, 99}}});
-  CHECK(peer.last_status() == "there is no subscription 99");
+  CHECK(peer.last_status() == "live.subscription_unknown(99)");
   CHECK(peer.closed == 0);
 }
 
@@ -305,7 +305,8 @@ TEST_CASE_FIXTURE(Fixture, "parameters are read as what they are") {
   say({{"op", "getParameters"}, {"parameterNames", {"slc.law", "slc.roll_k"}}});
   CHECK(peer.last("parameterValues")->at("parameters").size() == 1);
   CHECK_FALSE(peer.last("parameterValues")->contains("id"));
-  CHECK(peer.last_status().find("there is no parameter 'slc.roll_k'. Did you mean 'slc.roll_kp'?") == 0);
+  CHECK(peer.last_status().find(
+            "dds.parameter_unknown(slc.roll_k,  [slc.roll_kp] slc.law, slc.roll_kp, slc.span_m)") == 0);
 }
 
 TEST_CASE_FIXTURE(Fixture,
@@ -344,12 +345,12 @@ TEST_CASE_FIXTURE(Fixture, "a parameter that cannot be set says why, and what it
   std::vector<std::string> said;
   for (const json& t : peer.texts)
     if (t["op"] == "status") said.push_back(t["message"]);
-  CHECK(std::find(said.begin(), said.end(), "slc.roll_kp: 9 is outside 0 .. 2 rad/rad") != said.end());
-  CHECK(std::find(said.begin(), said.end(), "roll_kp: a parameter is named COMPONENT.PARAMETER") !=
+  CHECK(std::find(said.begin(), said.end(), "slc.roll_kp: graph.value_out_of_range(9, 0, 2,  rad/rad, )") !=
         said.end());
-  CHECK(std::find(said.begin(), said.end(), "slc.roll_kp: a parameter cannot be removed") != said.end());
+  CHECK(std::find(said.begin(), said.end(), "roll_kp: live.parameter_name_invalid") != said.end());
+  CHECK(std::find(said.begin(), said.end(), "slc.roll_kp: live.parameter_not_removable") != said.end());
   CHECK(std::any_of(said.begin(), said.end(), [](const std::string& t) {
-    return t.find("scl.roll_kp: there is no component 'scl'. Did you mean 'slc'?") == 0;
+    return t.find("scl.roll_kp: save.component_unknown(scl,  [slc] slc, plan)") == 0;
   }));
   CHECK(counters.refused == 0);  // the rules of the protocol were kept
 }
@@ -408,7 +409,7 @@ TEST_CASE_FIXTURE(Fixture, "of a message with many faults ten are told, and it t
   CHECK(statuses({{"op", "subscribeParameterUpdates"}, {"parameterNames", names}}) == 11);
   CHECK(statuses({{"op", "advertise"}, {"channels", channels}}) == 11);
   CHECK(statuses({{"op", "setParameters"}, {"parameters", sets}}) == 1);
-  CHECK(peer.last_status() == "a message sets at most 10000 parameters");
+  CHECK(peer.last_status() == "live.too_many_parameters(10000)");
   CHECK(statuses({{"op", "unsubscribe"}, {"subscriptionIds", std::vector<int>(40'000, 7)}}) == 11);
   CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 5 * sanitizer_slowdown);
   CHECK(statuses({{"op", "getParameters"}, {"parameterNames", {"slc.roll_kb"}}}) == 1);

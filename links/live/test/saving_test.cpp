@@ -63,8 +63,8 @@ TEST_CASE("the program gets what flies in JSON, and a client its answer") {
 }
 
 TEST_CASE("a program that fails is one sentence: it crashes, ends, answers something else, or nothing") {
-  CHECK(Program("kill -SEGV $$").answer().reason.ends_with("was stopped by signal 11"));
-  CHECK(Program("exit 3").answer().reason.ends_with("ended with exit code 3"));
+  CHECK(Program("kill -SEGV $$").answer().reason.ends_with("live.save_program_killed("));
+  CHECK(Program("exit 3").answer().reason.ends_with("live.save_program_failed("));
   for (const char* const other : {"", "echo no", "echo []", "echo '{\"accepted\": 1}'"}) {
     const SaveAnswer answer = Program(other).answer();
     CHECK_FALSE(answer.accepted);
@@ -72,18 +72,16 @@ TEST_CASE("a program that fails is one sentence: it crashes, ends, answers somet
   }
   const SaveAnswer late = Program("exec sleep 100").answer(std::chrono::seconds(0));
   CHECK_FALSE(late.accepted);
-  CHECK(late.reason.find("has not answered within 0 s") != std::string::npos);
+  CHECK(late.reason.find("live.save_timed_out(") != std::string::npos);
   const Program gone("");
   fs::remove(gone.file);
-  CHECK(gone.answer().reason == "cannot start " + gone.file.string() + ": No such file or directory.");
+  CHECK(gone.answer().reason == "cannot start " + gone.file.string() + "loader.program_not_started(");
 }
 
 TEST_CASE("answers where there is no such program" * doctest::skip()) {
   FlightView view = MockControl().view();
   view.file = "/nowhere/m.yaml";
-  CHECK(save(view, "", "").reason ==
-        "the program fulmar-save is missing beside this one: it writes parameters into files; cmake --build "
-        "build --target flight");
+  CHECK(save(view, "", "").reason == "live.save_program_missing");
 }
 
 TEST_CASE("a host without fulmar-save beside it answers which program is missing, and how it is built") {
@@ -99,21 +97,20 @@ TEST_CASE("a host without fulmar-save beside it answers which program is missing
 
 TEST_CASE("nothing is started where no file may be written, or none is known") {
   Program program("echo started > \"$0.in\"");
-  program.view.no_save = "the mission says live: {save: off}";
-  CHECK(program.answer().reason == "nothing is written from here: the mission says live: {save: off}");
+  program.view.no_save = "graph.save_off";
+  CHECK(program.answer().reason == "live.save_not_allowed(graph.save_off)");
   program.view.no_save = "";
   program.view.file = "";
-  CHECK(program.answer().reason == "this flight has no mission file that could be written");
+  CHECK(program.answer().reason == "live.mission_file_missing");
   CHECK_FALSE(fs::exists(program.file.string() + ".in"));
 }
 
 TEST_CASE_FIXTURE(Fixture, "the service answers from beside the hub, in JSON and in CDR") {
   const json refused = call_json("/fulmar/save", R"({"component": "slc", "mark": ""})");
   CHECK(refused["accepted"] == false);
-  CHECK(refused["reason"] == "this flight has no mission file that could be written");
+  CHECK(refused["reason"] == "live.mission_file_missing");
   CHECK((refused["lines"] == "" && refused["mark"] == ""));
-  CHECK(call_json("/fulmar/save", R"({"component": "slc"})")["reason"] ==
-        "the request needs the text 'mark'");
+  CHECK(call_json("/fulmar/save", R"({"component": "slc"})")["reason"] == "live.request_text_missing(mark)");
   CHECK(call_json("/fulmar/view", "{}")["no_save"] == "");
   const std::size_t before = peer.binaries.size();
   call("/fulmar/save", "cdr",
@@ -121,7 +118,7 @@ TEST_CASE_FIXTURE(Fixture, "the service answers from beside the hub, in JSON and
   REQUIRE(until([&] { return peer.binaries.size() > before; }));
   const std::string& answer = peer.binaries.back();
   CHECK(answer[20] == 0);  // not accepted
-  CHECK(answer.find("this flight has no mission file") != std::string::npos);
+  CHECK(answer.find("live.mission_file_missing") != std::string::npos);
   const std::size_t then = peer.binaries.size();
   call("/fulmar/save", "cdr", "");  // what is no request is answered in the same form
   REQUIRE(until([&] { return peer.binaries.size() > then; }));

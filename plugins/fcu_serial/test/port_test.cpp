@@ -118,26 +118,26 @@ int free_port() { return UdpPeer().number(); }
 
 TEST_CASE("a device that is not there is named, with those that are or that none is") {
   const std::string text = fault_of("/dev/ttyACM_no_such");
-  CHECK(has(text, "there is no device /dev/ttyACM_no_such"));
-  CHECK((has(text, "no USB serial device is plugged in") || has(text, "there is /dev/tty")));
+  CHECK(has(text, "port.device_missing(/dev/ttyACM_no_such, port.usb_device_missing)"));
+  CHECK((has(text, "port.usb_device_missing") || has(text, "there is /dev/tty")));
 }
 
 TEST_CASE("a folder, a file and a device without a line are no serial ports") {
-  CHECK(has(fault_of("/tmp"), "/tmp is a folder, no serial port"));
+  CHECK(has(fault_of("/tmp"), "port.path_not_port(/tmp,  is a folder)"));
   const std::string file =
       std::filesystem::temp_directory_path() / ("fulmar_port_" + std::to_string(getpid()));
   std::ofstream(file) << "x";
-  CHECK(has(fault_of(file), file + " is a file, no serial port"));
+  CHECK(has(fault_of(file), file + "port.path_not_port("));
   std::filesystem::remove(file);
-  CHECK(has(fault_of("/dev/null"), "/dev/null is no serial port"));
-  CHECK(has(fault_of(""), "no port is named"));
+  CHECK(has(fault_of("/dev/null"), "port.device_not_serial(/dev/null)"));
+  CHECK(has(fault_of(""), "port.port_missing"));
 }
 
 TEST_CASE("an impossible rate is refused with what is possible") {
   const Pty pty;
   for (const std::int64_t baud :
        {std::int64_t{0}, std::int64_t{-9600}, std::int64_t{49}, std::int64_t{1} << 40}) {
-    CHECK(has(fault_of(pty.name(), baud), std::to_string(baud) + " baud is no rate of a serial port"));
+    CHECK(has(fault_of(pty.name(), baud), std::to_string(baud) + "port.baud_out_of_range("));
   }
 }
 
@@ -169,7 +169,7 @@ TEST_CASE("a port is held against a second opening, by root, too, and free again
   const Pty pty;
   {
     const auto port = Port::open(pty.name());
-    CHECK(has(fault_of(pty.name()), "is held by this program"));
+    CHECK(has(fault_of(pty.name()), "port.port_in_use("));
     if (geteuid() == 0) {
       REQUIRE(chmod(pty.device().c_str(), 0666) == 0);
       CHECK(has(fault_as_nobody(pty.device()), "is held by"));
@@ -260,7 +260,7 @@ TEST_CASE("a device that goes throws from read, refuses writes, and its name may
   pty.pull();
   CHECK_THROWS_AS(port->read(room, 100), PortError);
   CHECK_FALSE(port->write(room));
-  CHECK(has(fault_of(pty.name()), "there is no device"));
+  CHECK(has(fault_of(pty.name()), "port.device_missing("));
   port.reset();
   pty.plug();
   CHECK(fault_of(pty.name()) == "opened");
@@ -271,10 +271,10 @@ TEST_CASE("an address that is none is refused with an example") {
                             "udp:127.0.0.1:70000", "udp::14525",
                             "udp:127.0.0.1:14525:", "udp:127.0.0.1:14525:14520:1", "udp:127.0.0.1:145 25"}) {
     CAPTURE(where);
-    CHECK(has(fault_of(where), "is no address: write udp:ADDRESS:PORT"));
+    CHECK(has(fault_of(where), "port.udp_address_invalid("));
   }
   CHECK(has(fault_of("udp:autopilot.local:14525"),
-            "'autopilot.local' in 'udp:autopilot.local:14525' is no IPv4 number"));
+            "port.ip_address_invalid(autopilot.local, udp:autopilot.local:14525)"));
   CHECK(fault_of("udp:localhost:14525:" + std::to_string(free_port())) == "opened");
 }
 

@@ -145,11 +145,11 @@ TEST_CASE("a script that cannot be opened is a fault of the mission, with its li
   text.replace(text.find("use: law.py"), 11, "use: law.py/MyLow");
   std::ofstream(folder() / "mission.yaml") << text;
   const Result low = fulmar("check " + (folder() / "mission.yaml").string());
-  CHECK(low.err.find("the plugin law.py has no component 'MyLow'. Did you mean 'MyLaw'?") !=
+  CHECK(low.err.find("types.name_unknown_in(the plugin law.py, component, MyLow,  [MyLaw] MyLaw)") !=
         std::string::npos);
   text.replace(text.find("law.py"), 6, "lww.py");
   std::ofstream(folder() / "mission.yaml") << text;
-  CHECK(fulmar("check " + (folder() / "mission.yaml").string()).err.find("there is no plugin 'lww.py'") !=
+  CHECK(fulmar("check " + (folder() / "mission.yaml").string()).err.find("graph.plugin_unknown(") !=
         std::string::npos);
 }
 
@@ -160,11 +160,11 @@ TEST_CASE(
   ::unsetenv("FULMAR_PROBE_SECONDS");
   CHECK(loop.code == 4);
   // 2 s of the CPU, or on a busy machine 8 s by the clock on the wall
-  CHECK(loop.err.find("law.py did not finish loading within ") != std::string::npos);
+  CHECK(loop.err.find("loader.probe_timed_out(law.py, loading, 2 s of the CPU)") != std::string::npos);
   CHECK(fulmar("check " + mission("import os\nos._exit(3)\n"))
-            .err.find("law.py ended the process while being loaded (exit code 3)") != std::string::npos);
+            .err.find("loader.plugin_ended_process(law.py, loaded, 3, )") != std::string::npos);
   CHECK(fulmar("check " + mission("import os\nos.abort()\n"))
-            .err.find("law.py crashed while being loaded (signal 6)") != std::string::npos);
+            .err.find("loader.plugin_crashed(law.py, loaded, 6, )") != std::string::npos);
 }
 
 }  // namespace flight_test

@@ -64,7 +64,8 @@ TEST_CASE("the mission is in order in simulation and on a flight controller; a w
   const Said r = typed(std::string("check ") + mission + " --set attitude_signal.shape=triangle");
   CHECK(r.code == 4);
   for (const char* word :
-       {"attitude_signal.shape", "none, step, doublet, square, sine, chirp, d3211, multisine"})
+       {"attitude_signal.shape",
+        "graph.io_unknown(triangle,  [] none, step, doublet, square, sine, chirp, d3211, multisine)"})
     CHECK_MESSAGE(holds(r.out, word), r.out);
   const Said large = typed(std::string("check ") + mission + " --set \"surface_signal.size=40 deg\"");
   CHECK(large.code == 4);

@@ -72,7 +72,7 @@ TEST_CASE("an aircraft that cannot trim is refused with the parameter and the re
   CHECK(refused_airframe([](Airframe&) {}) == "flies");
   // 45 kg on 0.52 m2 at 17 m/s: CL is 441.3 N / (q S)
   const std::string heavy = refused_airframe([](Airframe& a) { a.mass_kg = 45; });
-  CHECK(heavy.find("airframe.limits.airspeed_cruise: no level flight at") == 0);
+  CHECK(heavy.find("airframe.limits.airspeed_cruise: aero.level_flight_impossible(") == 0);
   CHECK(heavy.find("the wing stalls: it would have to carry CL 5.") != std::string::npos);
   const std::string elevator = refused_airframe([](Airframe& a) { a.elevator.limit_rad = 0.02; });
   CHECK(elevator.find("airframe.elevator.limit: ") == 0);
@@ -135,8 +135,14 @@ TEST_CASE("a motion that runs away ends the flight with its cause") {
     if (status != Status::failed) b->write();
   }
   CHECK(status == Status::failed);
-  CHECK(b->error().find("the motion has left the model: ") != std::string::npos);
-  CHECK(b->error().find("of the airframe is wrong") != std::string::npos);
+  CHECK(b->error().find(
+            "run.vehicle_failed(the motion has left the model: speed 1.85e+05 m/s, body rate 1.51e+07 rad/s; "
+            "a coefficient or inertia of the airframe is wrong, or the rate of the loop too low for it)") !=
+        std::string::npos);
+  CHECK(b->error().find(
+            "run.vehicle_failed(the motion has left the model: speed 1.85e+05 m/s, body rate 1.51e+07 rad/s; "
+            "a coefficient or inertia of the airframe is wrong, or the rate of the loop too low for it)") !=
+        std::string::npos);
 }
 
 TEST_CASE("a flow beyond the tables of an airframe has left the model, one inside has not") {

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <cstdio>  // RECORD
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -100,7 +99,7 @@ struct Written {
   explicit Written(std::string_view value) noexcept : text(value) {}
   explicit Written(const char* value) noexcept : text(value) {}
   template <class Number>
-    requires std::integral<Number> || std::floating_point<Number>
+  requires std::integral<Number> || std::floating_point<Number>
   explicit Written(Number value) noexcept {
     const auto end = std::to_chars(room.data(), room.data() + room.size(), value);
     text = {room.data(), static_cast<std::size_t>(end.ptr - room.data())};
@@ -124,14 +123,11 @@ template <std::size_t N>
 class MessageText {
  public:
   // A name between braces that is not an argument ends the compilation.
-  constexpr MessageText(const char* code, const char* text)
-    requires(N == 0)
-      : code_(code), text_(text) {
+  constexpr MessageText(const char* code, const char* text) requires(N == 0) : code_(code), text_(text) {
     check();
   }
   template <std::size_t M>
-    requires(M == N)
-  constexpr MessageText(const char* code, const char* const (&names)[M], const char* text)
+  requires(M == N) constexpr MessageText(const char* code, const char* const (&names)[M], const char* text)
       : code_(code), text_(text) {
     for (std::size_t i = 0; i < N; ++i) names_[i] = names[i];
     check();
@@ -139,37 +135,24 @@ class MessageText {
 
   constexpr std::string_view code() const { return code_; }
   /// Of a message without arguments. [tick]
-  const char* c_str() const noexcept
-    requires(N == 0)
-  {
-    return writes_codes() ? code_ : text_;
-  }
+  const char* c_str() const noexcept requires(N == 0) { return writes_codes() ? code_ : text_; }
 
   template <class... Values>
-    requires(sizeof...(Values) == N)
-  Diagnostic operator()(const Values&... values) const {
+  requires(sizeof...(Values) == N) Diagnostic operator()(const Values&... values) const {
     Diagnostic made;
     made.code = code_;
     made.arguments.reserve(N);
     std::size_t i = 0;
     (made.arguments.push_back({names_[i++], value_of(values)}), ...);
     made.text = text_of(made.arguments);
-    if (const char* rec = std::getenv("FULMAR_RECORD")) {  // RECORD
-      FILE* f = std::fopen(rec, "a");  // RECORD
-      struct Text { std::string all; void put(std::string_view part) { all += part; } } a, b;  // RECORD
-      put_sentence(a, [&](std::size_t k) { return made.arguments[k].text(); });  // RECORD
-      put_key(b, [&](std::size_t k) { return made.arguments[k].text(); });  // RECORD
-      const std::string l = a.all + "\x1f" + b.all + "\x1e";  // RECORD
-      if (f) { std::fwrite(l.data(), 1, l.size(), f); std::fclose(f); }  // RECORD
-    }  // RECORD
     return made;
   }
 
   /// Into a room of `size` characters, of which a zero is the last. Returns the length of the whole text, as
   /// snprintf does. [tick]
   template <class... Values>
-    requires(sizeof...(Values) == N)
-  std::size_t write(char* room, std::size_t size, const Values&... values) const noexcept {
+  requires(sizeof...(Values) == N) std::size_t write(char* room, std::size_t size, const Values&... values)
+  const noexcept {
     detail::Room out{room, size};
     if constexpr (N == 0) {
       put(out, [](std::size_t) { return std::string_view(); });
@@ -275,7 +258,7 @@ class MessageText {
   const char* text_;
 };
 
-MessageText(const char*, const char*) -> MessageText<0>;
+MessageText(const char*, const char*)->MessageText<0>;
 template <std::size_t M>
 MessageText(const char*, const char* const (&)[M], const char*) -> MessageText<M>;
 

@@ -66,11 +66,11 @@ TEST_CASE("a limit that the file leaves out is told as the default that it is") 
     return finding(call("check --json " + file).json(), "faults", "limits.airspeed_max")["sentence"]
         .get<std::string>();
   };
-  CHECK(sentence(with_limit).find("no level flight at 27 m/s: ") == 0);
+  CHECK(sentence(with_limit).find("aero.level_flight_impossible(") == 0);
   CHECK(sentence(with_limit).find("default") == std::string::npos);
   const std::string without = sentence(folder.write("without.yaml", text));
-  CHECK(without.find("no level flight at 25 m/s: ") == 0);
-  CHECK(without.ends_with("; the file does not say it, and 25 m/s are the default"));
+  CHECK(without.find("aero.level_flight_impossible(") == 0);
+  CHECK(without.ends_with("aero.limit_defaulted(25 m/s)"));
 }
 
 TEST_CASE("a derivative of the wrong sign is found, with what it would do" * doctest::test_suite("amounts")) {
@@ -88,17 +88,16 @@ TEST_CASE("a derivative of the wrong sign is found, with what it would do" * doc
         {"rudder: 0.19", "rudder: -0.19", "warnings", "aero.side.rudder", "hinge convention"},
         {"elevator: 0.13}", "elevator: -0.47351}", "warnings", "aero.lift.elevator", "XFLR5"},
         {"beta: -0.13,", "beta: -0.00195,", "warnings", "aero.roll.beta", "-0.28 to -0.005"},
-        {"aileron: -0.011", "aileron: 0.011", "warnings", "aero.yaw.aileron",
-         "adverse yaw (negative) is usual"},
-        {"aileron: -0.011", "aileron: -0.06", "warnings", "aero.yaw.aileron", "very much adverse yaw"}})
+        {"aileron: -0.011", "aileron: 0.011", "warnings", "aero.yaw.aileron", "aero.proverse_yaw"},
+        {"aileron: -0.011", "aileron: -0.06", "warnings", "aero.yaw.aileron", "aero.adverse_yaw_high"}})
     is_found(mistake);
 }
 
 TEST_CASE("a lift at no angle of attack that belongs to another angle is found, to either side") {
-  for (const Mistake& mistake :
-       {Mistake{"zero: 0.506", "zero: 0.8", "warnings", "aero.lift.zero",
-                "CL_0 is 0.8: without lift it would fly at -8.2 deg"},  // 0.8 / 5.61
-        {"zero: 0.506", "zero: -0.45", "warnings", "aero.lift.zero", "would fly at 4.6 deg"}})
+  for (const Mistake& mistake : {Mistake{"zero: 0.506", "zero: 0.8", "warnings", "aero.lift.zero",
+                                         "aero.zero_lift_unusual(0.8, -8.2 deg, 0.506)"},  // 0.8 / 5.61
+                                 {"zero: 0.506", "zero: -0.45", "warnings", "aero.lift.zero",
+                                  "aero.zero_lift_unusual(-0.45, 4.6 deg, -0.744)"}})
     is_found(mistake);
 }
 
@@ -115,13 +114,15 @@ TEST_CASE("degrees for radians and other units are found, with what was likely m
         {"stall_alpha: 15 deg", "stall_alpha_rad: 15", "faults", "wing.stall_alpha",
          "is it in degrees? Write '15 deg'"},
         {"rudder:   {limit: 40 deg, rate_limit: 500 deg/s", "rudder:   {limit: 40 deg, rate_limit_radps: 500",
-         "warnings", "rudder.rate_limit", "is it in deg/s?"},
-        {"roll_max: 45 deg", "roll_max_rad: 45", "faults", "limits.roll_max", "is it in degrees?"},
+         "warnings", "rudder.rate_limit", "aero.servo_rate_unusual(500)"},
+        {"roll_max: 45 deg", "roll_max_rad: 45", "faults", "limits.roll_max",
+         "aero.dead_band_unusual(28.6 deg)"},
         {"xx_kgm2: 0.24855, yy_kgm2: 0.3784, zz_kgm2: 0.618", "xx_kgm2: 2485.5, yy_kgm2: 3784, zz_kgm2: 6180",
          "faults", "inertia.xx", "is it in kg cm^2? That would be 0.249 kg m^2"},
         {"mass: 4.5 kg", "mass: 4500 kg", "faults", "mass", "in grams"},
-        {"area_m2: 0.52", "area_m2: 5.6", "faults", "wing.chord", "one of the three is wrong"},
-        {"q: -38.21", "q: -1.3", "warnings", "aero.pitch.q", "belong with the span"}})
+        {"area_m2: 0.52", "area_m2: 5.6", "faults", "wing.chord",
+         "aero.wing_dimensions_inconsistent(0.0873)"},
+        {"q: -38.21", "q: -1.3", "warnings", "aero.pitch.q", "aero.rate_by_span("}})
     is_found(mistake);
 }
 
@@ -132,7 +133,7 @@ TEST_CASE("drag that is counted twice, left out, or drives is found" * doctest::
         {"drag:  {elevator", "drag:  {alpha: 0.132, elevator", "warnings", "aero.drag.alpha", "linear polar"},
         {"parasite_drag: 0.043", "parasite_drag: 0", "faults", "aero.parasite_drag", "CD_p is 0"},
         {"drag:  {elevator: 0.0135}", "drag:  {elevator: 0.2}", "faults", "aero.drag.elevator",
-         "is it that of a square"},
+         "aero.elevator_drag_excessive("},
         {"drag:  {elevator: 0.0135}", "drag:  {elevator: 0.0135, beta: -0.0058}", "warnings",
          "aero.drag.beta", "cannot grow to one side"},
         {"pitch: {zero", "pitch: {beta: 0.16, zero", "warnings", "aero.pitch.beta", "not converged"}})
@@ -150,10 +151,10 @@ TEST_CASE("what cannot be flown is found" * doctest::test_suite("amounts")) {
         {"climb_rate_max: 5 m/s", "climb_rate_max: 14 m/s", "warnings", "limits.climb_rate_max",
          "N of thrust"},
         {"roll_max: 45 deg", "roll_max: 75 deg", "warnings", "limits.roll_max", "the wing stalls"},
-        {"trim: 0.1212 rad", "trim: -0.1212 rad", "warnings", "elevator.trim", "level cruise takes"},
+        {"trim: 0.1212 rad", "trim: -0.1212 rad", "warnings", "elevator.trim", "aero.elevator_trim_unusual("},
         {"aileron:  {limit: 40 deg", "aileron:  {limit: 5 deg", "warnings", "aero.roll.aileron",
          "p b/2V = 0.0291"},
-        {"xz_kgm2: 0.06", "xz_kgm2: 0.2", "warnings", "inertia", "more than the sum of the others"}})
+        {"xz_kgm2: 0.06", "xz_kgm2: 0.2", "warnings", "inertia", "aero.inertia_moments_impossible("}})
     is_found(mistake);
 }
 
@@ -196,15 +197,14 @@ TEST_CASE("the traps of the Skywalker X8's published model are found") {
     REQUIRE_MESSAGE(!found.is_null(), key);
     CHECK_MESSAGE(found["sentence"].get<std::string>().find(sentence) != std::string::npos, found.dump());
   };
-  says("warnings", "inertia", "more than the sum of the others");  // Jxz as published
-  says("warnings", "inertia.xx", "of the span");                   // longer than a rod's, nearly
-  says("warnings", "aero.pitch.q",
-       "belong with the span b/2V instead of the chord c/2V? Then it would be -7.65");
-  says("warnings", "aero.drag.beta", "cannot grow to one side");      // C_D_beta1
-  says("warnings", "aero.drag.zero", "counted twice");                // C_D_0 beside C_D_p
-  says("warnings", "aero.drag.alpha", "linear polar");                // C_D_alpha1
-  says("faults", "aero.drag.elevator", "is it that of a square");     // C_D_delta_e de^2
-  says("warnings", "aero.yaw.rudder", "turns are flown without it");  // elevons alone
+  says("warnings", "inertia", "aero.inertia_moments_impossible(");  // Jxz as published
+  says("warnings", "inertia.xx", "of the span");                    // longer than a rod's, nearly
+  says("warnings", "aero.pitch.q", "aero.rate_by_span(-7.65)");
+  says("warnings", "aero.drag.beta", "cannot grow to one side");          // C_D_beta1
+  says("warnings", "aero.drag.zero", "counted twice");                    // C_D_0 beside C_D_p
+  says("warnings", "aero.drag.alpha", "linear polar");                    // C_D_alpha1
+  says("faults", "aero.drag.elevator", "aero.elevator_drag_excessive(");  // C_D_delta_e de^2
+  says("warnings", "aero.yaw.rudder", "aero.rudder_ineffective");         // elevons alone
   CHECK(result["figures"]["static_margin_ratio"].get<double>() ==
         Approx(0.2524 / 4.02033).epsilon(1e-4).scale(0));
   CHECK(finding(result, "faults", "limits.airspeed_cruise").is_null());  // and it flies, without a rudder
@@ -224,12 +224,12 @@ TEST_CASE(
     CHECK_MESSAGE(found["sentence"].get<std::string>().find(what) != std::string::npos, found.dump());
   };
   says(result, "faults", "aero.yaw", "the Dutch roll doubles in");  // by its product of inertia, as published
-  says(result, "warnings", "inertia", "the largest is more than the sum of the others");
-  says(result, "warnings", "aero.drag.beta", "drag is least at 1.1 deg of sideslip");
-  says(result, "warnings", "aero.yaw.rudder", "nothing controls yaw");
+  says(result, "warnings", "inertia", "aero.inertia_moments_impossible(");
+  says(result, "warnings", "aero.drag.beta", "aero.sideslip_drag_asymmetric(-0.00584, 0.148, 1.1 deg)");
+  says(result, "warnings", "aero.yaw.rudder", "aero.rudder_missing");
   const Folder folder;
   const std::string published = folder.write("x8.yaml", changed("x8", "q: -7.6512739", "q: -1.3012370"));
-  says(call("check --json " + published).json(), "warnings", "aero.pitch.q", "it would be -7.65");
+  says(call("check --json " + published).json(), "warnings", "aero.pitch.q", "aero.rate_by_span(-7.65)");
 }
 
 TEST_CASE("the static margin counts the tables, by their slope at cruise") {
@@ -263,18 +263,19 @@ TEST_CASE("tables that cannot be read are refused with their line") {
     CHECK_MESSAGE(answer.says(file + ":" + std::to_string(line) + ": " + says), answer.out);
   };
   refused("{coefficient: pitch, over: alpha, at: [0, 0.2, 0.1], values: [1, 2, 3]}",
-          "aero.tables[0].at[2]: the list has to rise, and 0.1 comes after 0.2");
+          "aero.tables[0].at[2]: graph.list_not_rising(0.1,  comes after 0.2)");
   refused("{coefficient: pitch, over: alpha, at: [0, 0.1, 0.1], values: [1, 2, 3]}",
-          "aero.tables[0].at[2]: the list has to rise, and 0.1 is there twice");
+          "aero.tables[0].at[2]: graph.list_not_rising(0.1,  is there twice)");
   refused("{coefficient: pitch, over: alpha, at: [0, 0.1], values: [1, 2, 3]}",
-          "aero.tables[0].values: there are 3, and 2 points have 2");
+          "aero.table_invalid(0, values: there are 3, and 2 points have 2)");
   refused("{coefficient: pitch, over: alpha, at: [-5, 5], values: [1, 2]}",
-          "aero.tables[0].at: angles are in radians");
+          "aero.table_invalid(0, at: angles are in radians, and these go beyond half a turn)");
   refused("{over: alpha, at: [0, 1]}",
-          "aero.tables[0]: this is no whole CoefficientTable, missing: coefficient, values");
+          "aero.tables[0]: graph.item_incomplete(CoefficientTable, coefficient, values)");
   refused("{coefficient: pitch, over: aleph, at: [0, 1], values: [1, 2]}", "aero.tables[0].over: ");
   refused("{coefficient: pitch, over: alpha, at: [0, 1], value: [1, 2]}",
-          "aero.tables[0]: unknown field 'value' of CoefficientTable");
+          "graph.field_unknown(aero.tables[0]: , value, CoefficientTable,  [values] coefficient, over, "
+          "at_ratio, and_over, and_at_ratio, values_ratio)");
 }
 
 }  // namespace check_test

@@ -233,13 +233,14 @@ TEST_CASE("JSBSim's XML as far as it is products; anything else is refused by it
     return refusal([&] { jsbsim_aircraft(lines_of("gull.xml", with(xml, old, by))); });
   };
   CHECK(says(refused("<value>0.25</value>", "<sum><value>1</value></sum>"),
-             "function 'CLo': <sum> is not read"));
+             "function 'CLo': aero.function_factor_unsupported(<sum>)"));
   CHECK(says(refused("fcs/left-aileron-pos-rad", "aero/alphadot-rad_sec"),
-             "the property 'aero/alphadot-rad_sec' is not read"));
-  CHECK(says(refused("name=\"LIFT\"", "name=\"X\""), "axis 'X' is not read"));
-  CHECK(says(refused("unit=\"LBS\"", "unit=\"STONE\""), "'STONE' is no unit"));
+             "aero.function_factor_unsupported(the property 'aero/alphadot-rad_sec')"));
+  CHECK(says(refused("name=\"LIFT\"", "name=\"X\""), "aero.axis_unsupported(X)"));
+  CHECK(
+      says(refused("unit=\"LBS\"", "unit=\"STONE\""), "aero.element_unit_unknown(emptywt, STONE, KG, LBS)"));
   CHECK(says(refused("</axis>\n</aerodynamics></fdm_config>", ""), "is the file cut off?"));
-  CHECK(says(refused("aero/ci2vel", "metrics/Sw-sqft"), "expected the dynamic pressure and S once"));
+  CHECK(says(refused("aero/ci2vel", "metrics/Sw-sqft"), "aero.function_factors_invalid"));
 }
 
 TEST_CASE("JSBSim's tables over states are the airframe's, by their units and the lengths of moments") {
@@ -285,21 +286,25 @@ TEST_CASE("JSBSim's tables over states are the airframe's, by their units and th
                            const std::string& more = "") {
     return refusal([&] { read(with_table(axis, variables, data, more)); });
   };
-  CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n1 0.2\n"), "the points of a table must rise"));
-  CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n2\n"), "function 'tabled': expected 2 numbers in this row"));
-  CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n2 0.2 x\n"), "expected 2 numbers in this row"));
+  CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n1 0.2\n"),
+             "aero.table_points_not_increasing(0.0175, 0.0175)"));
+  CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n2\n"), "function 'tabled': aero.table_row_invalid("));
+  CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n2 0.2 x\n"), "aero.table_row_invalid("));
   CHECK(says(refused("LIFT", by_alpha, "\n1 0,1\n2 0,2\n"), "decimal comma"));
-  CHECK(says(refused("LIFT", by_alpha, "\n"), "the table is empty"));
+  CHECK(says(refused("LIFT", by_alpha, "\n"), "aero.table_empty"));
   CHECK(says(refused("LIFT", "", "\n1 2\n"), "expected <independentVar>"));
-  CHECK(says(refused("LIFT", "<independentVar>aero/h_b-mac-ft</independentVar>", "\n1 2\n"),
-             "a table over 'aero/h_b-mac-ft' is not read; valid: aero/alpha-rad"));
+  CHECK(says(
+      refused("LIFT", "<independentVar>aero/h_b-mac-ft</independentVar>", "\n1 2\n"),
+      "aero.table_axis_unsupported(aero/h_b-mac-ft, aero/alpha-rad, aero/alpha-deg, aero/beta-rad, "
+      "aero/beta-deg, velocities/mach, fcs/elevator-pos-rad, fcs/elevator-pos-deg, fcs/left-aileron-pos-rad, "
+      "fcs/left-aileron-pos-deg, fcs/aileron-pos-rad, fcs/rudder-pos-rad, fcs/rudder-pos-deg)"));
   CHECK(says(refused("LIFT", "<independentVar lookup=\"table\">aero/alpha-rad</independentVar>", "\n1 2\n"),
-             "a table over three states is not read"));
+             "aero.table_states_unsupported"));
   CHECK(says(refused("LIFT", by_alpha, "\n1 0.1\n2 0.2\n", "<property>aero/beta-rad</property>"),
-             "a product of two is not read"));
+             "aero.function_product_unsupported"));
   std::string many = "\n";
   for (int i = 0; i < 33; ++i) many += std::to_string(i) + " 0.1\n";
-  CHECK(says(refused("LIFT", by_alpha, many), "at most 32 by 16"));
+  CHECK(says(refused("LIFT", by_alpha, many), "aero.table_too_large(33, 1)"));
 }
 
 TEST_CASE("AVL's machine-readable form and SM are the same aircraft, with the lines of the file") {
@@ -315,10 +320,10 @@ TEST_CASE("AVL's machine-readable form and SM are the same aircraft, with the li
         Approx(0.25 - 0.42 * 2 * std::numbers::pi / 180).epsilon(1e-4));
   const std::string less = with(tern_text("tern_mrf.st"), "  4.800000000000000E+00  0.000000000000000E+00  |",
                                 "  4.800000000000000E+00  |");
-  CHECK(says(refusal([&] { aircraft({less}); }), "file_0:32: expected 2 numbers for 'CLa, CLb'; found 1"));
+  CHECK(says(refusal([&] { aircraft({less}); }), "file_0:32: aero.value_count_mismatch(2, CLa, CLb, 1)"));
   CHECK(says(
       refusal([&] { aircraft({with(tern_text("tern_mrf.st"), "   3  | # control", " 300  | # control")}); }),
-      "expected 0 to 100 of them"));
+      "aero.count_out_of_range"));
   // a version between the two: nothing says about which axes Cld and Cnd are
   std::string between;
   std::istringstream in(tern_text("tern_new.st"));
@@ -344,9 +349,9 @@ TEST_CASE("OpenVSP's results as CSV: mass, parasite drag, derivatives") {
   CHECK(read_text(results_text, "tern", 0.01).body.xx.x == Approx(0.15e-4));
   CHECK(read_text(drag_text).polar.at(0).CD.x == 0.021);
   CHECK(says(refusal([] { read_text(with(results_text, "Total_CG,0.070000,", "Total_CG,")); }),
-             "tern:3: Total_CG: expected 3 numbers; found 2"));
+             "tern:3: Total_CG: aero.result_count_mismatch(3, 2)"));
   CHECK(says(refusal([] { read_text(with(results_text, "2.2e-02", "nan")); }),
-             "tern:16: Total_CD_Total: expected a number; found 'nan'"));
+             "tern:16: Total_CD_Total: aero.result_number_expected(nan)"));
   CHECK(says(refusal([] { read_text(with(results_text, "Total_Izz,3.2e-01\n", "")); }),
              "expected 'Total_Izz,number'"));
   CHECK(says(read_text("Results_Name,CompGeom\nTotal_Wet_Area,3\n").unused, "it has CompGeom"));
@@ -367,7 +372,7 @@ TEST_CASE("OpenVSP's results as CSV: mass, parasite drag, derivatives") {
   }
   is_tern(aircraft({text}), 1e-6);
   CHECK(says(refusal([&] { aircraft({with(text, "FC_Sref_,0.4", "FC_Sref_,0")}); }),
-             "FC_Sref_: expected more than 0"));
+             "FC_Sref_: aero.positive_value_expected"));
   CHECK(says(refusal([&] { aircraft({with(text, "FC_Beta_,0", "FC_Beta_,4")}); }), "has a sideslip"));
 }
 

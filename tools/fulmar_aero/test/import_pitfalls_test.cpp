@@ -114,7 +114,9 @@ TEST_CASE("10: a group belongs to its row, whatever its name; halves of pairs ar
   std::string text = with(tern_text("tern.stab"), "AILERON ", "@@@@@@@ ");
   text = with(text, "ELEVATOR GROUP", "AILERON GROUP ");
   text = with(text, "@@@@@@@ ", "ELEVATOR");
-  CHECK(says(refusal([&] { aircraft({text}); }), "is it the column of another control?"));
+  CHECK(
+      says(refusal([&] { aircraft({text}); }),
+           "aero.control_ineffective(Cl, 0,  and another moment 1.2; is it the column of another control?)"));
   // names that say nothing: by what they do
   text = with(with(with(tern_text("tern.stab"), "AILERON ", "ONE     "), "ELEVATOR GROUP", "A 2 deg group "),
               "RUDDER ", "THREE  ");
@@ -162,10 +164,10 @@ TEST_CASE("10: a group belongs to its row, whatever its name; halves of pairs ar
   CHECK(tail.v_tail);
   CHECK(tail.of[1][pitch].x == Approx(-0.2));
   CHECK(tail.of[2][yaw].x == Approx(-0.16));
-  CHECK(says(refusal([&] { control_columns({left}); }), "is one half of a pair"));
+  CHECK(says(refusal([&] { control_columns({left}); }), "aero.control_pair_incomplete('left')"));
   left.of[roll].x = left.of[yaw].x = left.of[pitch].x = 0;
   left.name = "aileron";
-  CHECK(says(refusal([&] { control_columns({left}); }), "it has no effect"));
+  CHECK(says(refusal([&] { control_columns({left}); }), "aero.control_ineffective("));
 }
 
 TEST_CASE("11: a polar of VSPAERO 6.2 has 21 numbers under 20 names") {
@@ -230,15 +232,15 @@ TEST_CASE(
   CHECK(says(refusal([&] {
                aircraft({log, with(tern_text("tern_e.log"), "Alpha=3.8", "Alpha=4.8")});
              }),
-             "expected logs of one aircraft in one attitude"));
+             "aero.trim_mismatch(4.82 deg, 14.52, file_0, 3.82 deg, 14.52)"));
   std::string failed = log.substr(0, log.find("      Longitudinal derivatives"));
   failed += "       Unsuccessfull attempt to trim the model for control position=0.00 - skipping.\n";
-  CHECK(says(refusal([&] { aircraft({failed}); }), "XFLR5 found no angle without pitching moment"));
+  CHECK(says(refusal([&] { aircraft({failed}); }), "aero.xflr5_trim_missing"));
   CHECK(says(refusal([&] {
                aircraft({with(failed.substr(0, failed.find("Unsucc")), "Type 7 - Stability",
                               "Type 1 - Fixed speed")});
              }),
-             "expected that of a stability analysis"));
+             "aero.log_type_mismatch(Type 1 - Fixed speed polar)"));
   // the same group twice: the first counts, and a difference is told
   const Aircraft twice = aircraft({log, with(log, "CLde=", "CLde= 1")});
   CHECK(says(twice.notes, "the first is taken"));
@@ -326,7 +328,7 @@ TEST_CASE("20: another reference chord, span and area are brought to the first f
                aircraft({tern_text("tern.st"), with(other, "Sref_                   0.4000000",
                                                     "Sref_                   4.3000000")});
              }),
-             "expected files of one aircraft"));
+             "aero.reference_mismatch(area, 4.3,  m2, file_1:4 Sref_, 0.4,  m2, file_0)"));
 }
 
 TEST_CASE("21: feet and inches") {
@@ -408,7 +410,7 @@ TEST_CASE("two versions in one file are refused, and other tables of version 4.1
   }
   CHECK(aircraft({no_groups}).c[roll][t_p].x == Approx(-0.48));
   CHECK(says(refusal([&] { aircraft({tern_text("tern.stab") + no_groups}); }),
-             "expected one version and one aircraft in a file"));
+             "aero.control_groups_mismatch(0, 3)"));
   is_tern(aircraft({tern_text("tern.stab") + "CFx_p   0.1\nCMm_(q + alpha_dot)   0.2\n"}), 1e-6);
 }
 
@@ -418,16 +420,16 @@ TEST_CASE("23: what XFLR5 knows badly is told") {
 }
 
 TEST_CASE("what is broken or foreign is refused with the line and what was expected") {
-  CHECK(says(refusal([] { read_text("alpha,CL\n0,0.5\n"); }), "nobody knows this file; expected one of AVL"));
+  CHECK(says(refusal([] { read_text("alpha,CL\n0,0.5\n"); }), "aero.format_unknown("));
   CHECK(says(refusal([] { aircraft({tern_text("tern.mass")}); }), "there are no derivatives in these files"));
   const std::string german = with(tern_text("tern_e.log"), "Longitudinal derivatives", "Laengsstabilitaet");
-  CHECK(says(refusal([&] { aircraft({german}); }), "expected 'Longitudinal derivatives'"));
+  CHECK(says(refusal([&] { aircraft({german}); }), "aero.longitudinal_derivatives_missing"));
   CHECK(says(refusal([&] { aircraft({with(tern_text("tern.st"), "Sref =", "Saaa =")}); }),
-             "expected 'Sref = number'"));
+             "aero.pair_missing(Sref)"));
   CHECK(says(refusal([&] { aircraft({with(tern_text("tern.st"), "CLa =   4.800000", "CLa = **********")}); }),
-             "file_0:40: CLa: expected a number; found '**********'"));
+             "file_0:40: CLa: aero.number_expected('**********')"));
   CHECK(says(refusal([&] { aircraft({with(tern_text("tern.st"), "CLa =   4.800000", "CLa =        NaN")}); }),
-             "expected a number; found 'NaN'"));
+             "aero.number_expected('NaN')"));
   CHECK(
       says(refusal([&] { aircraft({with(tern_text("tern.stab"), "Bref_", "Xref_")}); }), "expected 'Bref_'"));
   CHECK(
@@ -436,7 +438,7 @@ TEST_CASE("what is broken or foreign is refused with the line and what was expec
   CHECK(says(refusal([&] {
                aircraft({with(tern_text("tern_e.log"), "g\n\n   ___Center", "stone\n\n   ___Center")});
              }),
-             "'stone' is no unit"));
+             "aero.log_unit_unknown(stone)"));
   // one group more than columns: the file is of no one version
   CHECK(says(refusal([&] {
                aircraft({with(tern_text("tern.stab"), "RUDDER                 +1.000 deg",
@@ -445,7 +447,7 @@ TEST_CASE("what is broken or foreign is refused with the line and what was expec
              }),
              "found 11"));
   CHECK(says(refusal([] { read_text("# mass table: mass x y z Ixx Iyy Izz\n1.0 0.1\n"); }),
-             "tern:2: expected 'mass x y z"));
+             "tern:2: aero.mass_row_incomplete(2)"));
   CHECK(read_text(" Calculated polar for: NACA 2412\n").unused ==
         "it is of an airfoil, not of an aircraft; the plane's polar has the drag");
 }

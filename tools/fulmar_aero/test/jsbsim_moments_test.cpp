@@ -141,7 +141,7 @@ TEST_CASE("more tables than an airframe has, with those of the moments, are refu
   std::string five;
   for (int i = 0; i < 5; ++i) five += table;
   CHECK(read(gull(behind, behind, five)).notes.size() > 0);
-  CHECK(says(refusal([&] { read(gull(behind, ahead, five)); }), "there are 10 tables"));
+  CHECK(says(refusal([&] { read(gull(behind, ahead, five)); }), "aero.too_many_moment_tables(10)"));
 }
 
 }  // namespace jsbsim_moments_test

@@ -26,20 +26,19 @@ TEST_CASE("suspicious servos are found" * doctest::test_suite("amounts")) {
     return checked("elevator: {limit: 40 deg,", "elevator: {limit: 40 deg, " + more + ",");
   };
   CHECK(servo("natural_frequency_radps: 10")
-            .says("elevator.natural_frequency: it is 10 rad/s; servos have 30 to 200: "
-                  "is it in Hz? Then it would be 62.8 rad/s"));
+            .says("elevator.natural_frequency: aero.servo_frequency_unusual(10, : is it in Hz? Then it would "
+                  "be 62.8 rad/s)"));
   CHECK(servo("natural_frequency: 100 rad/s, damping: 17")
-            .says("elevator.damping: it is 17; servos have 0.5 to 2"));
-  CHECK(servo("dead_band_rad: 0.5").says("elevator.dead_band: it is 28.6 deg"));
-  CHECK(servo("max: 30 deg").says("elevator.max: the servo goes from -40.0 deg to 30.0 deg"));
+            .says("elevator.damping: aero.servo_damping_unusual(17)"));
+  CHECK(servo("dead_band_rad: 0.5").says("elevator.dead_band: aero.dead_band_unusual(28.6 deg)"));
+  CHECK(servo("max: 30 deg").says("elevator.max: aero.servo_range_small(-40.0 deg, 30.0 deg, 40.0 deg)"));
   CHECK_FALSE(servo("natural_frequency: 100 rad/s, damping: 1.71").says("elevator."));
 }
 
 TEST_CASE("elevons that are not alike are found") {
-  CHECK(
-      checked("elevator: {limit: 40 deg,", "mixer: elevons\nelevator: {limit: 35 deg,")
-          .says(
-              "mixer: 'aileron' and 'elevator' are the left and the right elevon, and their servos are not"));
+  CHECK(checked("elevator: {limit: 40 deg,", "mixer: elevons\nelevator: {limit: 35 deg,")
+            .says("mixer: aero.paired_servos_differ('aileron' and 'elevator' are the left and the right "
+                  "elevon)"));
   CHECK_FALSE(
       checked("elevator: {limit: 40 deg,", "mixer: elevons\nelevator: {limit: 40 deg,").says("mixer"));
 }
@@ -49,11 +48,11 @@ TEST_CASE("propellers that turn the aircraft, and a battery in milliohm, are fou
     return checked("  battery: 24 V", "  battery: 24 V\n  propellers: " + list);
   };
   CHECK(places("[{at_m: [0, 0.5, 0]}, {at_m: [0, 0.5, 0]}]")
-            .says("propulsion.propellers: together they turn the nose left: their thrust acts 0.5 m beside"));
+            .says("propulsion.propellers: aero.thrust_off_centre(left, 0.5)"));
   CHECK_FALSE(places("[{at_m: [0, -0.5, 0]}, {at_m: [0, 0.5, 0], turns: left}]").says("propellers"));
-  CHECK(places("[{at_m: [0, 0, 0], tilt: 180 deg}]").says("together they do not push forward"));
-  CHECK(
-      checked("  battery: 24 V", "  battery: 24 V\n  pack: {resistance_ohm: 20}").says("is it in milliohm?"));
+  CHECK(places("[{at_m: [0, 0, 0], tilt: 180 deg}]").says("aero.forward_thrust_missing"));
+  CHECK(checked("  battery: 24 V", "  battery: 24 V\n  pack: {resistance_ohm: 20}")
+            .says("aero.pack_resistance_unusual(476)"));
 }
 
 TEST_CASE("the gear's attitude is told, and one on which nothing stands is refused with its line") {

@@ -51,7 +51,7 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 TEST_CASE("a device that is no flight controller is told in one sentence within 5 s") {
   CHECK(holds(complaint_about(""), "is silent"));
   CHECK(holds(complaint_about("$GNGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n"),
-              "sends text, not MAVLink"));
+              "fcu.text_received(/dev/ttyUSB3)"));
   fulmar::Random random(2);
   std::string noise;
   for (int i = 0; i < 3000; ++i) noise += static_cast<char>(static_cast<int>(random.uniform() * 256));
@@ -63,7 +63,7 @@ TEST_CASE("a device that is no flight controller is told in one sentence within 
   const Frame beat = encode(Heartbeat{}, 1);
   CHECK(holds(
       complaint_about({beat.bytes.begin(), beat.bytes.begin() + static_cast<std::ptrdiff_t>(beat.size)}),
-      "no status of ROSflight 2"));
+      "fcu.rosflight_status_missing(/dev/ttyUSB3, 200)"));
 }
 
 TEST_CASE("an old firmware is told by its version") {
@@ -71,8 +71,7 @@ TEST_CASE("an old firmware is told by its version") {
   options.version = "v1.4.2-3-gabc";
   Bench bench(options);
   Client client = bench.client();
-  CHECK_THROWS_WITH(client.connect(),
-                    doctest::Contains("firmware v1.4.2-3-gabc: Fulmar needs ROSflight 2.0"));
+  CHECK_THROWS_WITH(client.connect(), doctest::Contains("fcu.firmware_too_old(/dev/ttyACM0, v1.4.2-3-gabc)"));
   CHECK(bench.now_us < 5'000'000);
 }
 
@@ -81,7 +80,7 @@ TEST_CASE("a controller that streams but does not answer is told") {
   options.answers = false;
   Bench bench(options);
   Client client = bench.client();
-  CHECK_THROWS_WITH(client.connect(), doctest::Contains("sends, but does not answer"));
+  CHECK_THROWS_WITH(client.connect(), doctest::Contains("fcu.version_not_reported(/dev/ttyACM0)"));
   CHECK(bench.now_us < 5'000'000);
 }
 
@@ -107,7 +106,7 @@ TEST_CASE("an answer without a version is an answer") {
   Bench bench(options);
   Client client = bench.client();
   client.connect();
-  CHECK(client.version() == "without a version");
+  CHECK(client.version() == "fcu.firmware_untested(without a version, 2.0.1)");
 }
 
 TEST_CASE("an attitude that is not a number is told in words") {

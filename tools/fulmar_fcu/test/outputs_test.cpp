@@ -75,17 +75,17 @@ TEST_CASE("without a yes nothing moves") {
 TEST_CASE("what keeps the outputs from following is told: the switch, the radio, arming") {
   Standing bench;
   bench.firmware.inputs.rc_us[5] = 2000;
-  CHECK(bench.test_outputs().says("The pilot has the outputs (attitude override switch on)"));
+  CHECK(bench.test_outputs().says("fcu.pilot_override_active(attitude override switch on)"));
   Standing silent;
   silent.firmware.inputs.rc_frames = false;
-  CHECK(silent.test_outputs().says("No radio frames come"));
+  CHECK(silent.test_outputs().says("fcu.radio_frames_missing"));
   Standing armed;
   armed.on_command = [&](Frame&) {
     if (armed.firmware.commands() == 100)
       armed.firmware.inputs.rc_us = {1500, 1500, 1000, 1500, 2000, 2000, 1000, 1000};
   };
   const Captured result = armed.test_outputs();
-  CHECK((result.says("It got ARMED: the test has stopped") || result.says("The pilot took over")));
+  CHECK((result.says("fcu.armed_during_test") || result.says("The pilot took over")));
   CHECK(armed.firmware.commands() < 160);
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("a controller that acknowledges a reboot and stays is found out") {
   Standing bench(options);
   Client client = bench.client();
   client.connect();
-  CHECK(Captured([&] { return reboot_command(client, {}); }).says("acknowledged, but did not restart"));
+  CHECK(Captured([&] { return reboot_command(client, {}); }).says("fcu.reboot_not_done"));
 }
 
 TEST_CASE("a calibration that fails is told in the firmware's words") {
@@ -145,7 +145,7 @@ TEST_CASE("samples of a file become the twelve parameters that undo their distor
   std::ofstream(path) << "x,y,z\n1e-6,2e-6\n";
   CHECK(Captured([&] {
           return calibrate_command(client, sure, what);
-        }).says(path + ":2: expected three numbers"));
+        }).says(path + "fcu.sample_line_invalid("));
   std::remove(path.c_str());
 }
 
@@ -171,7 +171,8 @@ TEST_CASE("the guide is done after six sides, each turned once around") {
     still.take({1e-5, 2e-5, 3e-5});
   }
   CHECK(still.done_sides() == 0);
-  CHECK(still.text().find("upright (level): turn it once around, slowly: 1 of 12") != std::string::npos);
+  CHECK(still.text().find("fcu.side_in_progress(0 of 6 sides done. , upright (level), 1)") !=
+        std::string::npos);
 }
 
 }  // namespace

@@ -77,20 +77,19 @@ TEST_CASE("every fault of a file is told with its line") {
     return text.find(part) != std::string::npos;
   };
   CHECK(holds(fault_of("RC_ARM_CHM: 4\n", controller),
-              ".yaml:1: the controller has no parameter 'RC_ARM_CHM'. Did you mean RC_ARM_CHN?"));
+              ".yaml:1: fcu.file_parameter_unknown(RC_ARM_CHM, fcu.parameter_suggestion(RC_ARM_CHN))"));
   CHECK(holds(fault_of("ACC_LPF: 0.1\nRC_ARM_CHN: 1.5\n", controller),
-              ".yaml:2: RC_ARM_CHN is a whole number, not '1.5'"));
+              ".yaml:2: fcu.whole_number_expected(RC_ARM_CHN, 1.5)"));
   CHECK(holds(fault_of("- {name: ACC_LPF, type: 6, value: 1}\n", controller),
-              ".yaml:1: ACC_LPF is of type 9 (number) in the controller"));
-  CHECK(holds(fault_of("- {name: ACC_LPF, type: 5, value: 1}\n"),
-              "type is 6 (whole number) or 9 (number), found '5'"));
+              ".yaml:1: fcu.parameter_type_mismatch(ACC_LPF, 9 (number))"));
+  CHECK(holds(fault_of("- {name: ACC_LPF, type: 5, value: 1}\n"), "fcu.parameter_type_invalid('5')"));
   CHECK(holds(fault_of("- {name: ACC_LPF, value: 1}\n"), "no 'type'"));
   CHECK(holds(fault_of("ACC_LPF: 1\nACC_LPF: 2\n"), ":2"));
   CHECK(holds(fault_of("- {name: A, type: 6, value: 1}\n- {name: A, type: 6, value: 1}\n"),
-              "stands twice in this file, first in line 1"));
-  CHECK(holds(fault_of("ACC_LPF: [1, 2]\n"), "expected a number, found a list"));
+              "fcu.parameter_duplicate(A, 1)"));
+  CHECK(holds(fault_of("ACC_LPF: [1, 2]\n"), "fcu.number_expected(a list)"));
   CHECK(holds(fault_of("A: 1\nACC_LPF: [1, 2\n"), ".yaml:"));
-  CHECK(holds(fault_of("just words\n"), "expected 'NAME: value' lines"));
+  CHECK(holds(fault_of("just words\n"), "fcu.parameter_list_expected('just words')"));
   const std::string several = fault_of("A: 1\nB: 2\nACC_LPF: x\n", controller);
   CHECK(std::count(several.begin(), several.end(), '\n') >= 2);
 }

@@ -103,7 +103,7 @@ TEST_CASE("what a type does not hold is refused with a sentence") {
   says(whole, "2147483648", "too large");
   says(whole, "99999999999999999999", "too large");
   const Param channels{"RC_NUM_CHN", 3, true, 0, 0};
-  says(channels, "99", "RC_NUM_CHN is 4 to 16, not 99");
+  says(channels, "99", "fcu.value_out_of_range(RC_NUM_CHN, 4, 16, 99)");
   says(channels, "3", "4 to 16");
   CHECK(parse_value(channels, "8") == 8);
   says(whole, "-2", "RC_ARM_CHN is -1 to 15");
@@ -141,11 +141,11 @@ TEST_CASE("a text that comes by chance is not taken for the reason of a refusal 
     CHECK(result.code == 1);
     CHECK_FALSE(result.says("Cal"));
     if (silent)
-      CHECK(result.says("was not acknowledged within 3 s"));
+      CHECK(result.says("fcu.acknowledgement_timeout(/dev/ttyACM0, writing the parameters)"));
     else
       CHECK(result.complaint ==
-            "The controller refused writing the parameters and gave no reason: its flash does not "
-            "take them, and they are gone after a power cycle.");
+            "fcu.action_refused(writing the parameters,  and gave no reason: its flash does not take them, "
+            "and they are gone after a power cycle.)");
   }
 }
 

@@ -76,7 +76,7 @@ TEST_CASE("what another computer says does not command the terminal") {
 }
 
 TEST_CASE("what libraries throw is told in words for people") {
-  CHECK(sentence_of(std::bad_alloc()) == "there is not enough memory for that");
+  CHECK(sentence_of(std::bad_alloc()) == "app.memory_exhausted");
   CHECK(sentence_of(
             fs::filesystem_error("status", "a/b", std::make_error_code(std::errc::filename_too_long))) ==
         "'a/b': File name too long");
@@ -86,7 +86,7 @@ TEST_CASE("what libraries throw is told in words for people") {
   } catch (const std::exception& fault) {
     said = sentence_of(fault);
   }
-  CHECK(said == "what the other side has said has not the form that it should have");
+  CHECK(said == "app.message_form_invalid");
 }
 
 TEST_CASE("without a flight every word says what to do") {
@@ -95,12 +95,9 @@ TEST_CASE("without a flight every word says what to do") {
         "phase x", "swap a b", "reset", "pause", "resume", "step", "step 5", "speed max", "restart"}) {
     const Result r = shell(program + " " + words + " --at 127.0.0.1:1");
     CHECK(r.code == 1);
-    CHECK(r.err ==
-          "no flight listens on 127.0.0.1:1: start one with fulmar run MISSION --speed real --live 8765, or "
-          "name it with --at\n");
+    CHECK(r.err == "remote.flight_not_found(127.0.0.1:1)\n");
   }
-  CHECK(shell(program + " list --at 127.0.0.1:0x").err ==
-        "'127.0.0.1:0x': '0x' is no port; give HOST:PORT, as in 127.0.0.1:8765\n");
+  CHECK(shell(program + " list --at 127.0.0.1:0x").err == "remote.port_number_invalid(127.0.0.1:0x, 0x)\n");
   CHECK(shell(program + " complete port x --at 127.0.0.1:1").out == "");
 }
 
@@ -120,8 +117,8 @@ TEST_CASE("a token is asked for, and taken from the command line or the environm
   CHECK(shell(at + " --token secret").code == 0);
   const Result wrong = shell(at + " --token sesame");
   CHECK(wrong.code == 1);
-  CHECK(wrong.err ==
-        "the flight on " + flight.at() + " refuses this token: give it with --token or in FULMAR_TOKEN\n");
+  CHECK(wrong.err == "remote.token_rejected(" + flight.at() +
+                         " refuses this token: give it with --token or in FULMAR_TOKEN\n");
 }
 
 TEST_CASE("list names components, ports with their rates, requests and phases") {
@@ -194,24 +191,20 @@ TEST_CASE("names that are not there are answered with the nearest and the choice
     CHECK(r.code == 1);
     return r.err;
   };
-  CHECK(said("echo slx.leg") ==
-        "nothing in this flight is called 'slx'. Did you mean 'slc'? Valid: fulmar, plan, slc.\n");
-  CHECK(said("echo slc.lag") == "slc has no port 'lag'. Did you mean 'leg'? Valid: leg.\n");
-  CHECK(said("echo slc") == "'slc' is no port: give slc.PORT. Valid: leg.\n");
+  CHECK(said("echo slx.leg") == "remote.owner_unknown(slx,  [slc] fulmar, plan, slc)\n");
+  CHECK(said("echo slc.lag") == "remote.port_unknown(slc, lag,  [leg] leg)\n");
+  CHECK(said("echo slc") == "remote.port_name_expected(slc, slc, leg)\n");
   CHECK(said("echo slc.leg.corse_deg") ==
-        "slc.leg has no field 'corse_deg'. Did you mean 'course_deg'? Valid: kind, has_course, course_deg, "
-        "position_m.\n");
+        "remote.field_unknown(slc.leg, corse_deg,  [course_deg] kind, has_course, course_deg, position_m)\n");
   CHECK(said("plot slc.leg") ==
-        "'slc.leg' is a message: give one of its fields, as in slc.leg.kind. Valid: kind, has_course, "
-        "course_deg, position_m.\n");
+        "remote.message_field_expected(slc.leg, slc.leg, kind, kind, has_course, course_deg, position_m)\n");
   CHECK(said("param get slc.rol_kp")
-            .starts_with("slc has no parameter 'rol_kp'. Did you mean 'roll_kp'? Valid: roll_kp, law,"));
-  CHECK(said("phase cruse") ==
-        "this flight has no phase 'cruse'. Did you mean 'cruise'? Valid: hold, cruise.\n");
+            .starts_with(
+                "remote.parameter_unknown(slc, rol_kp,  [roll_kp] roll_kp, law, note, wind, count, on)"));
+  CHECK(said("phase cruse") == "remote.phase_unknown(cruse,  [cruise] hold, cruise)\n");
   CHECK(said("call plan.add_log a=1") ==
-        "this flight takes no request 'plan.add_log'. Did you mean 'plan.add_leg'? Valid: plan.add_leg.\n");
-  CHECK(said("swap sls x.so") ==
-        "this flight has no component 'sls'. Did you mean 'slc'? Valid: slc, plan.\n");
+        "remote.request_unknown(plan.add_log,  [plan.add_leg] plan.add_leg)\n");
+  CHECK(said("swap sls x.so") == "remote.component_unknown(sls,  [slc] slc, plan)\n");
 }
 
 TEST_CASE("parameters are listed with range and kind, read, and set as in a mission file") {
@@ -233,15 +226,16 @@ TEST_CASE("parameters are listed with range and kind, read, and set as in a miss
 
   r = typed(flight, "param set slc.roll_kp 9");
   CHECK(r.code == 1);
-  CHECK(r.err == "slc.roll_kp is not set to 9: 9 is outside 0 .. 2 rad/rad\n");
+  CHECK(r.err ==
+        "remote.parameter_rejected(slc.roll_kp, 9, graph.value_out_of_range(9, 0, 2,  rad/rad, ), )\n");
   CHECK(typed(flight, "param set slc.roll_kp").err ==
         "'slc.roll_kp' has no value: give NAME VALUE [NAME VALUE ...]\n");
   CHECK(typed(flight, "param set slc.roll_kp").code == 2);
   CHECK(typed(flight, "param set").code == 2);
   r = typed(flight, "param set slc.wind '[1, 1, 1]' slc.roll_kp 9 slc.count 8");
   CHECK(r.err ==
-        "slc.roll_kp is not set to 9: 9 is outside 0 .. 2 rad/rad; already set: slc.wind; not tried: "
-        "slc.count\n");
+        "remote.parameter_rejected(slc.roll_kp, 9, graph.value_out_of_range(9, 0, 2,  rad/rad, ), ; already "
+        "set: slc.wind; not tried: slc.count)\n");
   CHECK(typed(flight, "param set --help").out.find("NAME VALUE [NAME VALUE ...]") != std::string::npos);
   CHECK(typed(flight, "param set slc.roll_kp -1").code == 0);  // no option
 }
@@ -265,7 +259,7 @@ TEST_CASE("what flies is saved to the mission's file when that is agreed to, and
   CHECK(content(file) == before);
   r = typed(flight, "param save --mission " + file.string() + " </dev/null");
   CHECK(r.code == 1);
-  CHECK(r.err == "nothing was written: say --yes, or answer at a terminal\n");
+  CHECK(r.err == "remote.confirmation_required\n");
   CHECK(typed(flight, "param save --yes --mission " + file.string()).code == 0);
   CHECK(content(file) == after);
   CHECK(typed(flight, "param save --yes --mission " + file.string()).out ==
@@ -276,8 +270,7 @@ TEST_CASE("what flies is saved to the mission's file when that is agreed to, and
   CHECK(r.code == 1);
   CHECK(r.err == other.string() + " is the mission 'other', but 'mock <1>' flies: nothing was written\n");
   CHECK(content(other) == "components:\n  slc:\n    params: {roll_kp: 0.5}\n");
-  CHECK(typed(flight, "param save").err ==
-        "the flight does not say which file its mission is: give it with --mission\n");
+  CHECK(typed(flight, "param save").err == "remote.mission_file_unknown\n");
 }
 
 TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is exit code 1") {
@@ -379,7 +372,7 @@ TEST_CASE("the first word that is a log makes a plot one of logs; options of the
   const MockFlight flight;
   const Result lost = typed(flight, "plot lost.mcap slc.leg.course_deg -o lost.svg");
   CHECK(lost.code == 1);
-  CHECK(lost.err.find("cannot read 'lost.mcap': there is no such file") != std::string::npos);
+  CHECK(lost.err.find("reading.file_not_readable(lost.mcap, reading.file_missing)") != std::string::npos);
   const Result live = typed(flight, "plot slc.leg.course_deg --over slc.leg.course_deg");
   CHECK(live.code == 2);
   CHECK(live.err.find(

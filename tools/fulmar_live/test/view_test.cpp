@@ -96,13 +96,13 @@ TEST_CASE("what a viewer cannot do, and one that nobody knows, is refused with w
               "foxglove, rerun, plotjuggler."));
   r = view("none.mcap --print");
   CHECK(r.code == 1);
-  CHECK(holds(r.text, "there is no log 'none.mcap'"));
+  CHECK(holds(r.text, "remote.log_missing(none.mcap)"));
   r = view(folder.path.string());
   CHECK(r.code == 1);
   CHECK(holds(r.text, "is a folder"));
   r = view(FULMAR_SOURCE_DIR "/README.md");
   CHECK(r.code == 1);
-  CHECK(holds(r.text, "README.md is no log"));
+  CHECK(holds(r.text, "remote.log_expected("));
   fs::rename(folder.log(), folder.path / "b.mcap.part");
   r = view((folder.path / "b.mcap.part").string());
   CHECK(r.code == 1);
@@ -121,7 +121,7 @@ TEST_CASE("the page of a log that is there is opened as it is, unless the log is
   fs::last_write_time(page, log_s - std::chrono::seconds(1));
   r = view("'" + folder.log() + "' --in page --print");
   CHECK(r.code == 1);
-  CHECK(holds(r.text, "older than the log"));
+  CHECK(holds(r.text, "remote.page_outdated("));
   std::string kept;
   std::ifstream(page) >> kept;
   CHECK(kept == "mine");

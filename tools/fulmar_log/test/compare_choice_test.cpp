@@ -23,7 +23,9 @@ TEST_CASE("a receiver beside the aircraft's own is the reference; --fixes and --
   CHECK(
       compared(log + " --truth second").at("errors").at("first").at("truth").is_null());  // it is the second
   CHECK(say(log + " --fixes nav.state").text ==
-        log + ": /nav/state is a VehicleState, and no Gnss. Valid: /reference/gnss, /vehicle/gnss.");
+        log +
+            ": log_tool.topic_type_mismatch(/nav/state, VehicleState, Gnss,  [] /reference/gnss, "
+            "/vehicle/gnss)");
   CHECK(say(log + " --fixes vehicle.gnss --truth second").code == 2);
 }
 
@@ -58,7 +60,7 @@ TEST_CASE("a log of an older layout is read as far as it goes; fields that mean 
   CHECK(first.at("position_north_m").at("claimed").is_null());
   CHECK(j.at("errors").at("first").at("nees").is_null());
   CHECK(j.at("errors").at("second").at("channels").at("position_north_m").at("claimed") == 1);
-  CHECK(say(other).text == "/nav/state: airspeed_mps: reader has kind f64, writer f32");
+  CHECK(say(other).text == "/nav/state: airspeed_mps: types.reader_differs(kind , f64, f32)");
 }
 
 TEST_CASE("which states: by port, topic or owner; what cannot be is told with what there is") {
@@ -88,19 +90,20 @@ TEST_CASE("which states: by port, topic or owner; what cannot be is told with wh
     CHECK(said.code == 1);
     CHECK(said.text == why);
   };
-  refused(log, log + ": name the two that are compared, as in nav.state second.state. It has " +
-                   core::join({all}));
-  refused(log + " nav second third", "two states are compared, not nav, second, third");
-  refused(log + " nav thrid.state",
-          log + ": there is no /thrid/state in it. Did you mean '/third/state'? Valid: " + all + ".");
-  refused(log + " nav vehicle.gnss",
-          log + ": /vehicle/gnss is a Gnss, and no VehicleState. Valid: " + all + ".");
-  refused(alone, alone +
-                     ": name the two that are compared, as in nav.state second.state. It has /nav/state, "
-                     "/vehicle/truth");
-  refused(none, none + ": there is no state of an aircraft (VehicleState) in it");
+  refused(log, log + ": log_tool.state_names_required(" + core::join({all}));
+  refused(log + " nav second third", "log_tool.too_many_states(nav, second, third)");
+  refused(log + " nav thrid.state", log +
+                                        ": log_tool.topic_unknown(/thrid/state,  [/third/state] /nav/state, "
+                                        "/second/state, /third/state, /vehicle/truth)" +
+                                        all + ".");
+  refused(log + " nav vehicle.gnss", log +
+                                         ": log_tool.topic_type_mismatch(/vehicle/gnss, Gnss, VehicleState,  "
+                                         "[] /nav/state, /second/state, /third/state, /vehicle/truth)" +
+                                         all + ".");
+  refused(alone, alone + ": log_tool.state_names_required(/nav/state, /vehicle/truth)");
+  refused(none, none + ": log_tool.states_missing");
   refused(log + " " + (folder.path / "no.mcap").string(),
-          "cannot read '" + (folder.path / "no.mcap").string() + "': there is no such file");
+          "cannot read '" + (folder.path / "no.mcap").string() + "': reading.file_missing");
   const json by_truth =
       compared(alone + " nav vehicle.truth");  // one estimate and the truth: their difference
   CHECK(by_truth.at("errors").at("first").at("truth").is_null());

@@ -270,12 +270,12 @@ TEST_CASE("where nothing can be saved no file is made, nor of a log that is stil
   const std::filesystem::path bad = folder.path / "bad.mcap", good = folder.path / "good.mcap";
   write_sample({.file = folder.path / "a.mcap"}, 400);
   store(bad, contents(folder.path / "a.mcap").substr(0, 30) + std::string(5000, 'x'));
-  CHECK_THROWS_WITH_AS(recover_log(bad, good), doctest::Contains("nothing of it can be saved: byte "), Error);
+  CHECK_THROWS_WITH_AS(recover_log(bad, good), doctest::Contains("log_tool.log_not_recoverable("), Error);
   CHECK_FALSE(std::filesystem::exists(good));
   CHECK_FALSE(std::filesystem::exists(good.string() + ".part"));
   Sample open({.file = folder.path / "open.mcap"});
   CHECK_THROWS_WITH_AS(recover_log(folder.path / "open.mcap.part", good),
-                       doctest::Contains("is still being written"), Error);
+                       doctest::Contains("log_tool.log_still_growing("), Error);
   CHECK_FALSE(std::filesystem::exists(good.string() + ".part"));
 }
 
@@ -332,7 +332,7 @@ TEST_CASE("schemas without end are not kept in memory") {
   McapStream stream(folder.path / "a.mcap");
   CHECK(stream.next() == nullptr);
   CHECK(stream.log().schemas.size() == 15);  // 16 of 2 MB and some bytes are more than 32 MB
-  CHECK(stream.log().fault.ends_with(": the schemas and channels take more than 32 MB"));
+  CHECK(stream.log().fault.ends_with(": log.schemas_too_large"));
 }
 
 }  // namespace damaged_test

@@ -107,7 +107,7 @@ TEST_CASE("a message more, a topic more, other metadata, another attachment: eac
   CHECK(e.only_a.empty());
   CHECK_FALSE(e.first.has_value());  // what is in both is the same
   CHECK(e.metadata == std::vector<std::string>{"run: seed is 8 and 7"});
-  CHECK(e.attachments == std::vector<std::string>{"plan.yaml differs from line 2 on"});
+  CHECK(e.attachments == std::vector<std::string>{"log_tool.attachment_differs(plan.yaml, 2)"});
 }
 
 TEST_CASE(

@@ -99,7 +99,8 @@ TEST_CASE("a definition of others: header, constants, small integers, defaults, 
 
 TEST_CASE("what is no definition is refused, naming the field; what holds itself, too") {
   CHECK_THROWS_WITH_AS(parse_ros2msg("a/msg/B", "wstring name\n"),
-                       "a/msg/B: 'wstring name': the type wstring is not known here", Error);
+                       "a/msg/B: reading.line_fault(wstring name, reading.field_type_unknown(wstring))",
+                       Error);
   CHECK_THROWS_WITH_AS(parse_ros2msg("a/msg/B", "B b\n"), doctest::Contains("holds itself"), Error);
   CHECK_THROWS_AS(parse_ros2msg("a/msg/B", "int32[0] b\n"), Error);
   CHECK_THROWS_AS(parse_ros2msg("a/msg/B", "int32[x b\n"), Error);

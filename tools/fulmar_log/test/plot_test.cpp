@@ -199,7 +199,7 @@ TEST_CASE(
   const ReadFigure own = drawn({.words = {log, "nav.state.position_m.north"}, .over = ".position_m.east"});
   CHECK(own.panels[0].curves[0].points().size() == f.panels[0].curves[0].points().size());
   CHECK(refused({.words = {log, "slc.error_m"}, .over = ".position_m.east", .out = "x.svg"}) ==
-        log + ": slc has no field 'position_m'. Valid: error_m.");
+        log + ": log_tool.subfield_unknown(slc, position_m,  [] error_m)");
 }
 
 TEST_CASE("a track of north over east has the plan behind it, unless it is not wanted") {

@@ -16,35 +16,34 @@ TEST_CASE("a field that cannot be drawn is refused with the fields that exist") 
   const auto says = [&](const std::string& field) {
     return refused({.words = {log, field}, .out = "x.svg"});
   };
-  CHECK(says("nav.stat.height_m") == log +
-                                         ": 'nav.stat.height_m' is no field of a port in it. Did you mean "
-                                         "'nav.state'? Valid: fulmar.event, nav.state, slc.probes.");
-  CHECK(
-      says("nav.state.heigth_m") ==
-      log +
-          ": nav.state has no field 'heigth_m'. Did you mean 'height_m'? Valid: height_m, roll_deg, yaw_deg, "
-          "position_m, rates_degps, name, levels_volt, mode.");
+  CHECK(says("nav.stat.height_m") ==
+        log +
+            ": log_tool.field_unknown(nav.stat.height_m,  [nav.state] fulmar.event, nav.state, slc.probes)");
+  CHECK(says("nav.state.heigth_m") ==
+        log +
+            ": log_tool.subfield_unknown(nav.state, heigth_m,  [height_m] height_m, roll_deg, yaw_deg, "
+            "position_m, rates_degps, name, levels_volt, mode)");
   const std::string is_structure =
-      " is no number: give one of its fields, as in nav.state.position_m.north. Valid: "
-      "north, east, down.";
+      "log_tool.path_not_number(nav.state.position_m, nav.state.position_m, north, north, east, down)";
   CHECK(says("nav.state.position_m") == log + ": nav.state.position_m" + is_structure);
-  CHECK(
-      says("nav.state")
-          .starts_with(log + ": nav.state is no number: give one of its fields, as in nav.state.height_m."));
-  CHECK(says("nav.state.name") == log + ": nav.state.name is a text, no number");
+  CHECK(says("nav.state")
+            .starts_with(log + ": log_tool.path_not_number(nav.state, nav.state, height_m, height_m, "
+                               "roll_deg, yaw_deg, position_m, rates_degps, name, levels_volt, mode)"));
+  CHECK(says("nav.state.name") == log + ": log_tool.path_is_text(nav.state.name)");
   const std::string is_list =
-      ": nav.state.levels_volt is a list: give one of its elements, nav.state.levels_volt[0] "
-      "to nav.state.levels_volt[1]";
+      ": log_tool.element_index_missing(nav.state.levels_volt, nav.state.levels_volt, nav.state.levels_volt, "
+      "1)";
   for (const char* field : {"nav.state.levels_volt", "nav.state.levels_volt[2]", "nav.state.levels_volt[x]"})
     CHECK(says(field) == log + is_list);
-  CHECK(says("nav.state.height_m.x") == log + ": nav.state.height_m is one value, it has no 'x'");
-  CHECK(says("nav.state.height_m[0]") == log + ": nav.state.height_m is no list");
+  CHECK(says("nav.state.height_m.x") == log + ": log_tool.value_without_parts(nav.state.height_m, x)");
+  CHECK(says("nav.state.height_m[0]") == log + ": log_tool.path_not_list(nav.state.height_m)");
   CHECK(drawn({.words = {log, "nav.state.levels_volt[1]"}}).panels[0].y_words == "levels[1] [V]");
   CHECK(refused({.words = {log, "nav.state.height_m"}, .out = "x.svg", .from_s = 100}) ==
-        log + ": nav.state.height_m has no number in that time; the flight is from 0.0 s to 6.0 s");
+        log +
+            ": log_tool.number_missing(nav.state.height_m, log_tool.interval_without_numbers(0.0 s, 6.0 s))");
   CHECK(refused({.words = {log, "nav.state.height_m"}, .out = "x.svg", .from_s = 3, .to_s = 2}) ==
         "--from 3 is not before --to 2");
-  CHECK(refused({.words = {log}, .out = "x.svg"}).starts_with("give at least one field behind the log"));
+  CHECK(refused({.words = {log}, .out = "x.svg"}).starts_with("log_tool.fields_missing("));
   CHECK(refused({.words = {log, "slc.error_m", log}, .out = "x.svg"}) ==
         "'" + log + "' is a log: logs stand before the fields");
   CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .names = "a,b"}) ==
@@ -53,31 +52,27 @@ TEST_CASE("a field that cannot be drawn is refused with the fields that exist") 
         "--labels takes a name for each field, with commas between them: 1, not 2");
   for (const char* size : {"160", "160x", "0x90mm", "160x90cm", "160x9000mm", "x", "-1x5mm", "nanxnanmm"})
     CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .size = size}) ==
-          std::string("--size ") + size +
-              ": give width and height in millimetres, at most 2000, as in 160x90mm");
+          std::string("--size ") + size + "log_tool.size_invalid(");
   const std::string small = refused({.words = {log, "slc.error_m"}, .out = "x.svg", .size = "20x20mm"});
   CHECK(small.starts_with("--size 20x20mm has no room for its axes and 1 panel; it takes at least "));
   std::string enough = small.substr(small.rfind(' ') + 1);
   CHECK(drawn({.words = {log, "slc.error_m"}, .size = enough}).high_mm > 20);
-  CHECK(refused({.words = {log, "slc.error_m"}}) ==
-        "give the figure's file, as in -o figure.svg (or .png, .pdf)");
+  CHECK(refused({.words = {log, "slc.error_m"}}) == "log_tool.output_is_log(");
   CHECK(refused({.words = {log, "slc.error_m"}, .out = log})
             .starts_with("'" + log + "' is a log that is drawn"));
-  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.jpg"}) ==
-        "'x.jpg' ends in nothing that a figure can be. Valid: .svg, .png, .pdf.");
+  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.jpg"}) == "log_tool.figure_format_unknown(x.jpg)");
   const std::string nowhere_file = (folder.path / "none" / "x.svg").string();
   CHECK(refused({.words = {log, "slc.error_m"}, .out = nowhere_file}) ==
         "'" + nowhere_file + "' cannot be written");
   const std::string missing = (folder.path / "b.mcap").string();
-  CHECK(refused({.words = {missing, "slc.error_m"}, .out = "x.svg"}).find("there is no such file") !=
+  CHECK(refused({.words = {missing, "slc.error_m"}, .out = "x.svg"}).find("reading.file_missing") !=
         std::string::npos);
   CHECK(plot::names_a_log(missing));
   CHECK(plot::names_a_log("flight.mcap.part"));
   CHECK_FALSE(plot::names_a_log("nav.state.height_m"));
   std::string panel = "slc.error_m";
   for (std::size_t i = 0; i < chart::max_curves; ++i) panel += ",slc.error_m";
-  CHECK(refused({.words = {log}, .panels = {panel}, .out = "x.svg"}) ==
-        "a panel would have 37 curves; 36 can be told apart");
+  CHECK(refused({.words = {log}, .panels = {panel}, .out = "x.svg"}) == "log_tool.too_many_curves(37, 36)");
 }
 
 TEST_CASE("a log that was cut off is drawn as far as it goes, and reported") {
@@ -92,15 +87,15 @@ TEST_CASE("a log that was cut off is drawn as far as it goes, and reported") {
   const ReadFigure f =
       read_figure(chart::figure_svg(plot::log_figure({.words = {cut, "nav.state.height_m"}}, notes)));
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0].starts_with(cut + " is cut off: byte "));
+  CHECK(notes[0].starts_with(cut + "log_tool.log_cut_off("));
   const std::vector<Point> points = f.panels[0].curves[0].points();
   CHECK(points.size() > 50);
   CHECK(points.back().x > 5);
   CHECK(points.back().x < 55);
   core::test::store(cut, bytes.substr(0, 900));
   const std::string none = refused({.words = {cut, "nav.state.height_m"}, .out = "x.svg"});
-  CHECK(none.starts_with(cut + ": 'nav.state.height_m' is no field of a port in it."));
-  CHECK(none.find(" The log is cut off: byte ") != std::string::npos);
+  CHECK(none.starts_with(cut + "log_tool.log_cut_off("));
+  CHECK(none.find("log_tool.log_cut_off(") != std::string::npos);
 }
 
 TEST_CASE("the numbers of a log are completed as they are typed") {
@@ -145,7 +140,7 @@ TEST_CASE("a PNG is made by a program that is there; without one the package is 
     return file;
   };
   const std::string broken = make_program("inkscape", "exit 3");
-  CHECK(says() == broken + " has not made '" + out + "' of the figure");
+  CHECK(says() == broken + "log_tool.figure_conversion_failed(" + out + "' of the figure");
   make_program("rsvg-convert",
                "test \"$1 $2 $3 $4 $5 $6 $7\" = \"-d 300 -p 300 -f png -o\" && read all < \"$9\" && echo "
                "\"$all\" > \"$8\"");

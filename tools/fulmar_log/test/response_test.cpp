@@ -112,12 +112,14 @@ TEST_CASE("no step, no answer, no samples: each in a sentence") {
     return std::string();
   };
   const Series step = step_of(1, 4), ramp = sampled([](double t) { return t; }, -2, 4, 100);
-  CHECK(says(ramp, step) ==
-        "the input has no step: of its range of 6 at most 0.01 is from one sample to the next");
-  CHECK(says(step_of(0, 4), step).starts_with("the input has no step: of its range of 0 "));
-  CHECK(says(step, step_of(0, 4)) == "the output does not move after the step");
-  CHECK(says(step, sampled([](double t) { return t; }, 1, 4, 100)).starts_with("the output has 0 samples"));
-  CHECK(says({}, step) == "a step takes samples of input and output");
+  CHECK(says(ramp, step) == "log_tool.input_step_missing(6, 0.01)");
+  CHECK(says(step_of(0, 4), step)
+            .starts_with("log_tool.response_missing(the input has no step: of its range of 0 at most 0 is "
+                         "from one sample to the next, , )"));
+  CHECK(says(step, step_of(0, 4)) == "log_tool.output_constant");
+  CHECK(says(step, sampled([](double t) { return t; }, 1, 4, 100))
+            .starts_with("log_tool.step_samples_too_few(0, 301)"));
+  CHECK(says({}, step) == "log_tool.step_samples_missing");
 }
 
 /// A logarithmic sweep from 0.1 to 5 Hz in 60 s, four seconds of rest on either side, and what a lag of first
@@ -238,10 +240,9 @@ TEST_CASE("a gap, too little time and too few samples are refused with figures")
   Series holed = x;
   holed.t_s.erase(holed.t_s.begin() + 500, holed.t_s.begin() + 600);
   holed.x.erase(holed.x.begin() + 500, holed.x.begin() + 600);
-  CHECK(says(x, holed) ==
-        "the output has no sample from 9.98 s to 12.00 s; choose a time without a gap, --from and --to");
-  CHECK(says(x, x, 15).starts_with("segments of 15.00 s in 20.00 s at 0.02 s from sample to sample"));
-  CHECK(says({{1, 2}, {1, 2}}, x) == "the input has 2 samples; a frequency response takes at least 10");
+  CHECK(says(x, holed) == "log_tool.sample_gap(output, 9.98 s, 12.00 s)");
+  CHECK(says(x, x, 15).starts_with("log_tool.segment_too_short(15.00 s, 20.00 s, 0.02 s, 3)"));
+  CHECK(says({{1, 2}, {1, 2}}, x) == "log_tool.too_few_samples(input, 2)");
   CHECK(says(x, x, 10).empty());
 }
 
@@ -374,20 +375,18 @@ TEST_CASE("what is not in the log is told with what there is") {
   };
   const std::string state = "nav.state.roll_rad", command = "outer.attitude.roll_rad";
   CHECK(says("nav.stat.roll_rad", state) ==
-        "1 : 'nav.stat.roll_rad' is no field of a port in it. Did you mean 'nav.state'? Valid: nav.state, "
-        "outer.attitude.");
+        "1 : log_tool.field_unknown(nav.stat.roll_rad,  [nav.state] nav.state, outer.attitude)");
   CHECK(says("outer.attitude.rol_rad", state) ==
-        "1 : outer.attitude has no field 'rol_rad'. Did you mean 'roll_rad'? Valid: roll_rad, pitch_rad, "
-        "throttle_frac.");
+        "1 : types.name_unknown_in(outer.attitude, field, rol_rad,  [roll_rad] roll_rad, pitch_rad, "
+        "throttle_frac)");
   CHECK(says(command, state, "--phase cruise") == "1 : the flight had no phase 'cruise'. Valid: none.");
-  CHECK(says(command, state, "--from 100") ==
-        "1 : outer.attitude.roll_rad has no number in the time that is looked at");
+  CHECK(says(command, state, "--from 100") == "1 : log_tool.numbers_missing(outer.attitude.roll_rad)");
   CHECK(says(command, state, "--step --from 5").starts_with("1 : the input has no step"));
   CHECK(say(log + " --input " + command).code == 2);
   CHECK(says(command, state, "--step --frequency").starts_with("2"));
   CHECK(says(command, state, "--band 0").starts_with("2"));
   CHECK(say("nowhere.mcap --input a.b --output c.d").text ==
-        "cannot read 'nowhere.mcap': there is no such file");
+        "reading.file_not_readable(nowhere.mcap, reading.file_missing)");
 }
 
 }  // namespace response_test

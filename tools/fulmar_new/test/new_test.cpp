@@ -259,21 +259,20 @@ TEST_CASE("ports and templates that cannot be are refused with a sentence") {
     CHECK(result.code == 1);
     CHECK_MESSAGE(holds(result.words, words), result.words);
   };
-  refused("",
-          "say what it is: --role ROLE, --template sensor, --template planner, or its ports, as in --in ");
+  refused("", "new.component_unspecified");
   refused("--in state=nav.stat",
           "--in state=nav.stat: hourglass.yaml has no such output. Did you mean 'nav.state'?");
   refused("--in nav.state", "--in nav.state: write NAME=OWNER.PORT, as in state=nav.state");
   refused("--out range=range",
           "--out range=range: write NAME=Message, as in range=Range, or edits=PlanEdit[] for a queue");
-  refused("--out a=A --out a=B", "the port 'a' is asked for twice");
+  refused("--out a=A --out a=B", "new.port_duplicate(a)");
   refused("--template planer",
           "--template planer: there is none of that name. Did you mean 'planner'? Valid: planner, sensor.");
   refused("--template planner --in edits=nav.state", "--in edits: the template planner has no such input.");
   refused("--template planner --out a=A", "--out: a template has its own outputs; change them in the source");
   refused("--role outer --in state=nav.state", "--role says all ports");
   refused("--role outer --role outer", "--role outer is there twice");
-  refused("--role outer --role vehicle", "the vehicle fills its role alone");
+  refused("--role outer --role vehicle", "new.vehicle_with_roles");
 }
 
 TEST_CASE("a struct never takes a name that the SDK has") {
@@ -282,22 +281,19 @@ TEST_CASE("a struct never takes a name that the SDK has") {
 }
 
 TEST_CASE("what cannot be written is refused with a sentence, and nothing is overwritten") {
-  CHECK(call("new 9lives --role outer").words ==
-        "'9lives' is no name for a plugin: letters, digits and _, a letter first, as in my_law\n");
-  CHECK(call("new test --role outer").words ==
-        "'test' means something to the build already. Choose another name, as in my_test\n");
-  CHECK(call("new ekf --role nav").words ==
-        "the mission hourglass has a component called 'ekf' already. Choose another name, as in my_ekf\n");
+  CHECK(call("new 9lives --role outer").words == "new.plugin_name_invalid(9lives)\n");
+  CHECK(call("new test --role outer").words == "new.plugin_name_reserved(test, test)\n");
+  CHECK(call("new ekf --role nav").words == "new.name_in_use(hourglass, component, ekf, ekf)\n");
   CHECK(holds(call("new a_law --role outer --mission hourglas").words,
               "--mission hourglas: there is no such file, and no shipped mission of that name. Did you mean "
               "'hourglass'? Valid: autotune, by_hand, calm, "));
   file_with("taken", "mine");
-  CHECK(call("new a_law --role outer --dir taken").words == "taken is a file, not a folder\n");
+  CHECK(call("new a_law --role outer --dir taken").words == "new.folder_is_file(taken)\n");
   fs::create_directories(folder() / "full");
   file_with("full/file", "mine");
   const Result refused = call("new a_law --role outer --dir full");
   CHECK(refused.code == 1);
-  CHECK(refused.words == "the folder full is not empty\n");
+  CHECK(refused.words == "new.folder_not_empty(full)\n");
   CHECK(text_of(folder() / "full/file") == "mine");
   CHECK_THROWS_AS(find_places("/nowhere/bin/fulmar"), Error);
 }

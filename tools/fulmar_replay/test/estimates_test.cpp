@@ -86,7 +86,7 @@ TEST_CASE("a log that records no estimate says so; the experiment is flown all t
         std::string::npos);
   const Result none = fulmar("log compare " + log.string());
   CHECK(none.code == 1);
-  CHECK(none.err.find("name the two that are compared") != std::string::npos);
+  CHECK(none.err.find("log_tool.state_names_required(") != std::string::npos);
 }
 
 TEST_CASE("what --with cannot mean is refused before anything flies") {
@@ -108,6 +108,6 @@ TEST_CASE("without the program of logs an experiment is flown, and it is told wh
   const Result r = shell((home / "bin/fulmar").string() + " replay " + flown().string() +
                          " --set \"ekf.gnss_position_time=1 s\"");
   CHECK(r.code == 0);
-  CHECK(r.err.find("the estimates are not compared: the program fulmar-log is missing beside this one") !=
+  CHECK(r.err.find("replay.estimates_not_compared(the program fulmar-log is missing beside this one)") !=
         std::string::npos);
 }

@@ -190,7 +190,7 @@ TEST_CASE("no name and no word of a log ends the element that holds it") {
   const json inside = json::parse(html.substr(8, html.size() - 17));
   CHECK(inside["logs"][0]["name"] == "<!--");
   CHECK(inside["logs"][0]["told"]["rows"][0]["words"] == "</script><b>");
-  CHECK_THROWS_WITH_AS(report::with_logs("<p>", text), doctest::Contains("has no place for a log"),
+  CHECK_THROWS_WITH_AS(report::with_logs("<p>", text), doctest::Contains("report.page_version_mismatch"),
                        core::Error);
 }
 

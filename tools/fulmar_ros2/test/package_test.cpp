@@ -199,13 +199,10 @@ TEST_CASE("two different messages of one name are refused") {
   Collector collector;
   collector.add(plugin("a.so", FULMAR_F64));
   collector.add(plugin("a.so", FULMAR_F64));
-  CHECK_THROWS_WITH(
-      collector.add(plugin("b.so", FULMAR_I64)),
-      "two different messages are called Thing: one of a.so and one of b.so. Write a package for each.");
+  CHECK_THROWS_WITH(collector.add(plugin("b.so", FULMAR_I64)),
+                    "ros2.message_name_ambiguous(Thing, a.so, b.so)");
   Collector other;
-  CHECK_THROWS_WITH(
-      other.add(plugin("a.so", FULMAR_F64, "X_m")),
-      "Thing.X_m is no name of a field in ROS: lower-case letters, digits and single underscores.");
+  CHECK_THROWS_WITH(other.add(plugin("a.so", FULMAR_F64, "X_m")), "ros2.field_name_invalid(Thing, X_m)");
 }
 
 TEST_CASE("a folder of somebody else is left alone, one of ours is brought up to date") {
@@ -236,7 +233,7 @@ TEST_CASE("the program writes a package, refuses another's folder with 1, and te
   CHECK(fs::exists(folder.path / "msg/VehicleState.msg"));
   CHECK(run("interface-package " + folder.path.string() + plugins) == 0);
   CHECK(run("interface-package " + (folder.path / "msg").string() + plugins, &said) == 1);
-  CHECK(said.find("holds something else") != std::string::npos);
+  CHECK(said.find("ros2.folder_in_use(") != std::string::npos);
   CHECK(run("interface-package " + folder.path.string() + " no_such_plugin") == 1);
   CHECK(run("") == 2);
   CHECK(run("--help") == 0);

@@ -153,11 +153,11 @@ TEST_CASE("an alias is replaced by the value; an anchor whose aliases others use
   const std::string mission = "components:\n  slc: {params: {roll_kp: &k 0.5, pitch_kp: *k}}\n";
   CHECK(saved(mission, {number("pitch_kp", 0.75, "rad/rad"), number("roll_kp", 0.5, "rad/rad")}) ==
         "components:\n  slc: {params: {roll_kp: &k 0.5, pitch_kp: 0.75}}\n");
-  CHECK(refused(mission, {number("roll_kp", 0.75, "rad/rad")}) ==
-        "m.yaml: slc.roll_kp is 0.75 now; write it by hand: the same text also gives "
-        "components.slc.params.pitch_kp");
+  CHECK(
+      refused(mission, {number("roll_kp", 0.75, "rad/rad")}) ==
+      "m.yaml: slc.roll_kp is 0.75 now; write it by hand: save.text_shared(components.slc.params.pitch_kp)");
   CHECK(refused("x: &g {roll_kp: 1}\ncomponents: {slc: {params: *g}}\n", {number("yaw_kp", 2)}) ==
-        "m.yaml: slc.yaw_kp is 2 now; write it by hand: 'params' is *g, which stands elsewhere");
+        "m.yaml: slc.yaw_kp is 2 now; write it by hand: save.map_is_alias(params, *g)");
 }
 
 TEST_CASE("a value is written into the file that it came from: what the mission extends, or the airframe") {
@@ -204,8 +204,8 @@ TEST_CASE(
     CHECK(both.also.empty());
     REQUIRE(both.refused.size() == 1);
     CHECK(both.refused[0] ==
-          "plane.yaml: slc.course_kp is 2.5 now; write it by hand: the same text also gives "
-          "params.control_slc/Autotune.course_kp");
+          "plane.yaml: slc.course_kp is 2.5 now; write it by hand: "
+          "save.text_shared(params.control_slc/Autotune.course_kp)");
   }
   // another place of that text is no parameter of the airframe
   folder.file("plane.yaml",
@@ -235,9 +235,7 @@ TEST_CASE("an added line is shown as one, and a file that has changed meanwhile 
   REQUIRE(plan.files.size() == 1);
   CHECK(diff_text(plan.files[0]) == "m.yaml:5\n+       b: 2\n");
   folder.file("m.yaml", "mission: other\n");
-  CHECK_THROWS_WITH_AS(write_edit(plan.files[0]),
-                       (mission.string() + " has changed meanwhile; nothing was written to it").c_str(),
-                       Error);
+  CHECK_THROWS_WITH_AS(write_edit(plan.files[0]), (mission.string() + "save.file_changed(").c_str(), Error);
 }
 
 TEST_CASE("writing leaves other files alone, and keeps the mode of its own and the link to it") {
@@ -305,11 +303,10 @@ TEST_CASE("a file that is read-only is left alone, by an administrator too") {
 
 TEST_CASE("block scalars and broken files are refused") {
   CHECK(refused("components:\n  slc:\n    params:\n      note: |\n        a\n", {text("note", "b")}) ==
-        "m.yaml: slc.note is b now; write it by hand: it is written in a form that is not changed here");
+        "m.yaml: slc.note is b now; write it by hand: save.value_form_unsupported");
   CHECK(refused("components:\n  slc:\n    params:\n      wind:\n        - 1\n        - 2\n        - 3\n",
                 {vector("wind", 1, 2, 4, "m")}) ==
-        "m.yaml: slc.wind is [1 m, 2 m, 4 m] now; write it by hand: a list is changed only when it is "
-        "written in brackets, [a, b, c]");
+        "m.yaml: slc.wind is [1 m, 2 m, 4 m] now; write it by hand: save.list_form_unsupported");
   const Folder folder;
   CHECK_THROWS_AS(plan_save(folder.file("m.yaml", "a: {b\n"), {number("x", 1)}, {}), Error);
 }

@@ -85,7 +85,7 @@ TEST_CASE_FIXTURE(Folder,
                   "what is not what was shown is not written: another file, another value, another mark") {
   const SaveAnswer shown = save(view, "", "");
   put(text + "# more\n");
-  holds(save(view, "", shown.mark).reason, "is not what was shown any more: look again");
+  holds(save(view, "", shown.mark).reason, "save.preview_outdated");
   CHECK(content() == text + "# more\n");
   put(text);
   view.components[0].params[0].base.number[0] = 0.6;
@@ -97,22 +97,22 @@ TEST_CASE_FIXTURE(Folder,
 TEST_CASE_FIXTURE(Folder, "why nothing can be written is one sentence") {
   view.set = {"slc.roll_kp"};
   CHECK(save(view, "slc", "").reason == "slc.roll_kp was given by --set: written, it is the mission's");
-  holds(save(view, "scl", "").reason, "there is no component 'scl'. Did you mean 'slc'?");
+  holds(save(view, "scl", "").reason, "save.component_unknown(scl,  [slc] slc, plan)");
   FlightView other = view;
-  other.no_save = "the mission says live: {save: off}";
+  other.no_save = "graph.save_off";
   const SaveAnswer off = save(other, "slc", "");
   CHECK_FALSE(off.accepted);
   CHECK((off.lines.empty() && off.mark.empty()));
-  CHECK(off.reason == "nothing is written from here: the mission says live: {save: off}");
+  CHECK(off.reason == "live.save_not_allowed(graph.save_off)");
   other = view;
   other.file = "";
-  CHECK(save(other, "", "").reason == "this flight has no mission file that could be written");
+  CHECK(save(other, "", "").reason == "live.mission_file_missing");
   put("mission: another\n");
-  holds(save(view, "", "").reason, "is the mission 'another', but 'mock <1>' flies: nothing was written");
+  holds(save(view, "", "").reason, "save.mission_name_mismatch(");
   put("mission: [\n");
   CHECK_FALSE(save(view, "", "").accepted);
   fs::remove(file);
-  CHECK(save(view, "", "").reason == "the mission's file " + file.string() + " is gone");
+  CHECK(save(view, "", "").reason == "save.mission_file_missing(" + file.string() + " is gone");
 }
 
 TEST_CASE_FIXTURE(

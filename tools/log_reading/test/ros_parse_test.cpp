@@ -132,23 +132,25 @@ TEST_CASE("a definition that cannot be read is refused with the line that is wro
   const auto refused = [](const std::string& text) {
     return refusal([&] { parse_ros_definition("a/msg/B", text); });
   };
-  CHECK(refused("complex64 x\n") == "a/msg/B: 'complex64 x': the type complex64 is not known here");
-  CHECK(refused("float64\n") == "a/msg/B: 'float64': a field needs a type and a name");
-  CHECK(refused("float64[x] y\n") == "a/msg/B: 'float64[x] y': a list's length cannot be read");
-  CHECK(refused("float64[0] y\n") == "a/msg/B: 'float64[0] y': a list's length cannot be read");
-  CHECK(refused("float64[4000000000] y\n") == "a/msg/B is too large: 'y' ends at 32000000000 bytes");
-  CHECK(refused(std::string("bool ") + std::string(300, 'x')).ends_with("the name is too long"));
+  CHECK(refused("complex64 x\n") ==
+        "a/msg/B: reading.line_fault(complex64 x, reading.field_type_unknown(complex64))");
+  CHECK(refused("float64\n") == "a/msg/B: reading.line_fault(float64, reading.field_incomplete)");
+  CHECK(refused("float64[x] y\n") ==
+        "a/msg/B: reading.line_fault(float64[x] y, reading.list_length_invalid)");
+  CHECK(refused("float64[0] y\n") ==
+        "a/msg/B: reading.line_fault(float64[0] y, reading.list_length_invalid)");
+  CHECK(refused("float64[4000000000] y\n") == "reading.type_too_large(a/msg/B, y, 32000000000)");
+  CHECK(refused(std::string("bool ") + std::string(300, 'x')).ends_with("reading.field_name_too_long"));
   std::string many;
   for (int i = 0; i < 20'001; ++i) many += "bool x" + std::to_string(i) + "\n";
-  CHECK(refused(many) == "a/msg/B: 'bool x20000': too many fields");
+  CHECK(refused(many) == "a/msg/B: reading.line_fault(bool x20000, reading.too_many_fields)");
   std::string chain = "C10 x\nC20 y\n";  // the second is too deep by what the first has already read
   for (int i = 1; i <= 20; ++i)
     chain += "====\nMSG: a/C" + std::to_string(i) + "\n" + (i == 1 ? "bool" : "C" + std::to_string(i - 1)) +
              " x\n";
-  CHECK(refused(chain) == "a/msg/C10 is nested too deeply, or holds itself");
-  CHECK(refused("B b\n") == "a/msg/B is nested too deeply, or holds itself");
-  CHECK(refusal([] { parse_ros_definition("B", ""); }) ==
-        "'B' is no ROS message type, which has the form package/msg/Name");
+  CHECK(refused(chain) == "reading.type_nesting_invalid(a/msg/C10)");
+  CHECK(refused("B b\n") == "reading.type_nesting_invalid(a/msg/B)");
+  CHECK(refusal([] { parse_ros_definition("B", ""); }) == "reading.type_name_invalid(B)");
   CHECK(parse_ros_definition("a/msg/Empty", "")->size == 1);
 }
 

@@ -95,7 +95,7 @@ class Datagrams : public Endpoint {
     sockaddr_in here = address(local);
     remote_ = address(remote);
     if (::bind(socket_, reinterpret_cast<sockaddr*>(&here), sizeof here) != 0)
-      throw std::runtime_error("UDP port " + std::to_string(local) + " is in use");
+      throw std::runtime_error("UDP port " + std::to_string(local) + "live.subscription_in_use(1)");
   }
   ~Datagrams() override { ::close(socket_); }
   Datagrams(const Datagrams&) = delete;

@@ -219,7 +219,7 @@ TEST_CASE("a drawing whose surfaces are in another program's file is seen as if 
   folder.write("none.yaml", "name: gull\nplanform: wind.avl\n" + rest);
   const Answer none = call("see " + (folder.path / "none.yaml").string() + " -o " + out);
   CHECK(none.code == 4);
-  CHECK(none.says("none.yaml:2: planform: there is no file 'wind.avl' beside the drawing"));
+  CHECK(none.says("none.yaml:2: aero.planform_missing(wind.avl)"));
 }
 
 TEST_CASE("a hostile name stays text; two of one name are told apart by their files") {
@@ -271,12 +271,12 @@ TEST_CASE("what cannot be seen is refused in a sentence") {
   for (const std::string word : {"see ", "fly "}) {
     const Answer own = call(word + mine + " -o " + folder.path.string() + "/./mine.yaml");
     CHECK(own.code == 4);
-    CHECK(own.says("mine.yaml' is a file that the page is made from"));
+    CHECK(own.says("aero.page_is_input("));
     CHECK(text_of(mine) == before);
   }
   const Answer unwritten = call("see " + airframes + "x8.yaml -o " + folder.path.string() + "/no/p.html");
   CHECK(unwritten.code != 0);
-  CHECK(unwritten.says("/no/p.html' cannot be written"));
+  CHECK(unwritten.says("aero.picture_not_writable("));
 }
 
 TEST_CASE("the same files give the same page" * doctest::test_suite("amounts")) {

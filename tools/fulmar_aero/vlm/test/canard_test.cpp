@@ -35,7 +35,7 @@ TEST_CASE("an elevator and a rudder ahead of the centre of gravity are turned as
   CHECK(turned["Cm"].get<double>() < 0);
   CHECK(turned["CL"].get<double>() < 0);
   CHECK(front["turned"] ==
-        "elevator: positive is trailing edge up, which takes the nose down here: turn the servo, too");
+        "elevator: positive is trailing edge up, which takes the nose down here: aero.servo_reversal_needed");
   const std::string out = (folder.path / "canard.yaml.out").string();
   CHECK(text_of(out).find("trailing edge up") != std::string::npos);
   const fulmar::Airframe a = read_airframe_file(out).airframe;
@@ -60,11 +60,15 @@ TEST_CASE("winglets of their own in the vortex of the wing tip: the sentence say
   const Answer answer =
       call("vlm " + folder.write("w.yaml", with(text_of(petrel), "  - name: fin\n", winglets)));
   CHECK(answer.code == 4);
-  CHECK_MESSAGE(answer.says("so a vortex passes a control point of another surface"), answer.out);
+  CHECK_MESSAGE(
+      answer.says("aero.cruise_lift_unreachable(15, 2.5, 0.448, ; their lift is not that of wings (CL_alpha "
+                  "4.4, CL -1.66 at 25 deg), so a vortex passes a control point of another surface: make "
+                  "winglets sections of their wing, part a tail from the wing's wake, or change `spanwise`)"),
+      answer.out);
   // too heavy is another sentence
   const Answer heavy =
       call("vlm " + folder.write("h.yaml", with(text_of(petrel), "mass: 0.62 kg, x", "mass: 62 kg, x")));
-  CHECK(heavy.says("at no angle within 25 deg"));
+  CHECK(heavy.says("aero.cruise_lift_unreachable("));
   CHECK_FALSE(heavy.says("vortex"));
 }
 

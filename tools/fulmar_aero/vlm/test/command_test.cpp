@@ -71,21 +71,24 @@ TEST_CASE("what is wrong with a drawing is told with its line") {
     const char *old, *by, *at, *sentence;
   };
   const std::vector<Bad> all{
-      {"reference: {area", "# {area", nullptr, "missing: reference (area, span, chord)"},
-      {"chord: 0.16 m", "chord: -0.16 m", "chord: 0.16 m", "-0.16 m is outside 0.001"},
+      {"reference: {area", "# {area", nullptr, "aero.reference_missing"},
+      {"chord: 0.16 m", "chord: -0.16 m", "chord: 0.16 m",
+       "graph.value_out_of_range(-0.16 m, 0.001, 1000,  m, )"},
       {"y: 0.9 m", "y: 0.3 m", "y: 0.9 m", "the sections cross: this one goes back from y = 0.45 m to 0.3 m"},
       {"y: 0.9 m", "y: -0.9 m", "y: 0.9 m", "-0.9 m is on the left"},
       {"to: 0.86 m", "to: 1.2 m", "to: 0.86 m", "from 0.5 m to 1.2 m is outside its surface 'wing'"},
       {"to: 0.86 m", "to: 0.4 m", "to: 0.86 m", "it ends at 0.4 m and begins at 0.5 m"},
-      {"incidence: 2 deg", "incidense: 2 deg", "incidence: 2 deg", "Did you mean 'incidence'"},
-      {"spanwise: 20", "spanwise: 0", "spanwise: 20", "0 is outside 1 .. 200"},
-      {"spanwise: 20", "spanwise: -1", "spanwise: 20", "-1 is outside 1 .. 200"},
-      {"spanwise: 20", "spanwise: 1000000", "spanwise: 20", "1000000 is outside 1 .. 200"},
-      {"chordwise: 8", "chordwise: 0", "chordwise: 8", "0 is outside 1 .. 40"},
+      {"incidence: 2 deg", "incidense: 2 deg", "incidence: 2 deg",
+       "graph.field_unknown(surfaces[0]: , incidense, LiftingSurface,  [incidence] name, mirror, x_m, z_m, "
+       "incidence_rad, chordwise, spanwise, chord_spacing, span_spacing, mass_kg, sections, controls)"},
+      {"spanwise: 20", "spanwise: 0", "spanwise: 20", "graph.value_out_of_range(0, 1, 200, , )"},
+      {"spanwise: 20", "spanwise: -1", "spanwise: 20", "graph.value_out_of_range(-1, 1, 200, , )"},
+      {"spanwise: 20", "spanwise: 1000000", "spanwise: 20", "graph.value_out_of_range(1000000, 1, 200, , )"},
+      {"chordwise: 8", "chordwise: 0", "chordwise: 8", "graph.value_out_of_range(0, 1, 40, , )"},
       {"chordwise: 8\n    spanwise: 20", "chordwise: 40\n    spanwise: 60", "  - name: wing", "at most 4000"},
       {"airfoil: wing}", "airfoil: wink}", "airfoil: wing}",
        "there is no airfoil 'wink'. Did you mean 'wing'?"},
-      {"naca: \"2412\"", "naca: \"24x2\"", "naca: \"2412\"", "is not of four digits"},
+      {"naca: \"2412\"", "naca: \"24x2\"", "naca: \"2412\"", "aero.naca_digits_invalid(24x2)"},
       {"naca: \"2412\", ", "", "naca: \"2412\"", "'wing' has no shape; give one of naca"},
       {"drives: rudder", "drives: elevator", "drives: rudder", "'fin' stands upright; only a rudder"},
       {"drives: elevator", "drives: rudder", "drives: elevator", "'tailplane' lies flat"},
@@ -93,9 +96,10 @@ TEST_CASE("what is wrong with a drawing is told with its line") {
       {"area: 0.3969 m^2", "area: 3.969 m^2", "reference:", "3.969 m^2, but the largest surface has"},
       {"span: 1.8 m", "span: 0.9 m", "reference:", "0.9 m, but the surfaces span 1.8 m"},
       {"name: tailplane", "name: wing", "  - name: tailplane", "'wing' is there twice"},
-      {"area: 0.3969 m^2", "area: 0.3969 m", "reference:", "0.3969 m is a length"},
-      {"drives: aileron", "drives: flap", "surfaces:", "no control drives the aileron"},
-      {"airspeed_cruise: 15 m/s", "airspeed_cruise: 4 m/s", "limits:", "level flight of 2.5 kg takes CL"},
+      {"area: 0.3969 m^2", "area: 0.3969 m",
+       "reference:", "graph.dimension_differs(0.3969 m, a length, , an area)"},
+      {"drives: aileron", "drives: flap", "surfaces:", "aero.aileron_control_missing"},
+      {"airspeed_cruise: 15 m/s", "airspeed_cruise: 4 m/s", "limits:", "aero.cruise_lift_unreachable("},
   };
   for (const Bad& bad : all) {
     CAPTURE(bad.by);
@@ -207,15 +211,16 @@ TEST_CASE("surfaces of an AVL file: the same flow as drawn") {
     const char *old, *by, *sentence;
   };
   for (const Bad& bad :
-       {Bad{"CONTROL\nelevator", "CONTROL\ncanard", "CONTROL 'canard': what it drives is told by its name"},
-        Bad{"0 0 0.0\n0.51", "1 0 0.0\n0.51", "wing.avl:3: planes of symmetry are not read"},
-        Bad{"elevator 1.0", "elevator 2.0", "only gains of 1 and -1"},
-        Bad{"ANGLE\n-1.5", "NOWAKE\n-1.5", "'NOWAKE' is not read here"},
-        Bad{"CONTROL\nelevator", "CONTROL\nrudder", "CONTROL 'rudder' stands at this section alone"},
-        Bad{"0.024 1.0", "0.024 one", "5 numbers are expected"},
-        Bad{"0 0 0 0.28 0", "0 0 0 -0.28 0", "the chord is -0.28 and must be more than 0"},
-        Bad{"NACA\n2412", "NACA\n24x2", "'24x2' is not of four digits"},
-        Bad{"NACA\n2412", "AFILE\nnone.dat", "none.dat: the airfoil's coordinates cannot be read"}}) {
+       {Bad{"CONTROL\nelevator", "CONTROL\ncanard", "aero.control_name_unknown(canard)"},
+        Bad{"0 0 0.0\n0.51", "1 0 0.0\n0.51", "wing.avl:3: aero.symmetry_plane_unsupported"},
+        Bad{"elevator 1.0", "elevator 2.0", "aero.control_gain_unsupported(elevator)"},
+        Bad{"ANGLE\n-1.5", "NOWAKE\n-1.5", "aero.planform_keyword_unsupported(NOWAKE)"},
+        Bad{"CONTROL\nelevator", "CONTROL\nrudder", "aero.control_section_single(rudder)"},
+        Bad{"0.024 1.0", "0.024 one",
+            "aero.planform_numbers_missing(0.024 one 0.0524 0.2 0, 5, Xle Yle Zle Chord Ainc)"},
+        Bad{"0 0 0 0.28 0", "0 0 0 -0.28 0", "aero.section_chord_invalid(-0.28)"},
+        Bad{"NACA\n2412", "NACA\n24x2", "aero.naca_digits_invalid(24x2)"},
+        Bad{"NACA\n2412", "AFILE\nnone.dat", "none.dat: aero.airfoil_not_readable"}}) {
     CAPTURE(bad.by);
     folder.write("bad.avl", with(avl_text, bad.old, bad.by));
     auto other = std::make_unique<Geometry>();
@@ -244,11 +249,12 @@ TEST_CASE("surfaces, masses and units of an XFLR5 file") {
   CHECK(g->masses[0].mass_kg == doctest::Approx(4.5).epsilon(1e-9));
   CHECK(g->masses[0].z_m == doctest::Approx(-0.02).epsilon(1e-9));
   for (const auto& [old, by, sentence] :
-       {std::array{"NACA 2412</Left", "Clark Y</Left", "a section with two foils"},
+       {std::array{"NACA 2412</Left", "Clark Y</Left", "aero.airfoil_pair_unsupported"},
         std::array{"<Symetric>true", "<Symetric>false", "not symmetric"},
-        std::array{"<Chord>280", "<Chord>x", "plane.xml:9: <Chord>: 'x' is not of 1 number"},
+        std::array{"<Chord>280", "<Chord>x",
+                   "plane.xml:9: aero.element_numbers_invalid(Chord, x, 1,  number)"},
         std::array{"</Plane>", "</Plain>", "</Plain> ends <Plane>"},
-        std::array{"<Name>Merlin</Name>", "<has_body>true</has_body>", "its body is not read"}}) {
+        std::array{"<Name>Merlin</Name>", "<has_body>true</has_body>", "aero.plane_body_unsupported"}}) {
     const std::string why = sentence;
     CAPTURE(why);
     folder.write("bad.xml", with(xml_text, old, by));
@@ -270,7 +276,7 @@ TEST_CASE("a drawing names a file of another program, and controls on it") {
   const Answer both =
       call("vlm " + folder.write("b.yaml", "name: merlin\nplanform: wing.avl\nsurfaces: []\n" + rest));
   CHECK(both.code == 4);
-  CHECK(both.says("b.yaml:2: planform: surfaces are given as well"));
+  CHECK(both.says("b.yaml:2: aero.surfaces_and_planform"));
   const Answer none = call("vlm " + folder.write("c.yaml", "name: merlin\nplanform: plane.xml\n" + rest));
   CHECK(none.code == 4);
   CHECK(none.says("missing: reference"));
@@ -280,7 +286,7 @@ TEST_CASE("a drawing names a file of another program, and controls on it") {
                                  "control: {drives: flap, from: 0 m, to: 0.3 m}}\n" +
                                      rest));
   CHECK(where.code == 4);
-  CHECK_MESSAGE(where.says("d.yaml:4: controls[0].surface: there is no surface 'winc'. Did you mean 'wing'?"),
+  CHECK_MESSAGE(where.says("d.yaml:4: aero.surface_unknown(controls[0], 'winc',  [wing] wing, htail)"),
                 where.out);
 }
 
@@ -311,7 +317,7 @@ TEST_CASE("from a drawing to a flown mission: vlm, then fly" * doctest::test_sui
   const Answer answer = call("fly " + out + " --write");
   CHECK_MESSAGE(answer.code == 0, answer.out);
   CHECK(answer.says("no fault, no warning"));
-  CHECK(answer.says("steady level flight at 15 m/s"));
+  CHECK(answer.says("aero.flight_condition(steady level flight, 15, 0)"));
   CHECK(answer.says("Dutch roll"));
   CHECK(answer.says("hourglass in light turbulence: flown"));
   CHECK(text_of(out).find("params:") != std::string::npos);

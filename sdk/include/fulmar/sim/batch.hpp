@@ -20,6 +20,7 @@
 
 namespace fulmar::sim {
 
+/// Many simulations in one call. Throws std::invalid_argument for wrong sizes, actions or steps.
 class Batch {
  public:
   /// Aircraft `i` has the seed mix_seed(seed, i). `threads` is one or more, the caller's own among them.

@@ -9,6 +9,7 @@
 
 namespace fulmar::sim {
 
+/// Charge taken from a battery, and its voltage without load. It never drains without a capacity.
 class BatteryState {
  public:
   explicit BatteryState(const Propulsion& p) : full_volt_(p.battery_volt), battery_(p.pack) {}

@@ -15,6 +15,7 @@
 
 namespace fulmar::sim {
 
+/// Sum of turbulence, gust and thermals. Velocities in m/s, body axes unless a suffix says NED.
 class Disturbances {
  public:
   Disturbances(const Weather& w, std::uint64_t seed)

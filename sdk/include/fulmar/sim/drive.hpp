@@ -10,6 +10,7 @@
 
 namespace fulmar::sim {
 
+/// One surface with servo and fault. Angles in rad, time in s.
 class Drive {
  public:
   explicit Drive(const Surface& s) : servo_(s) {}

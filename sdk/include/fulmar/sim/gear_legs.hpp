@@ -15,6 +15,7 @@
 
 namespace fulmar::sim {
 
+/// One leg: a spring and damper at its foot, body axes, m from the centre of gravity.
 struct Leg {
   Eigen::Vector3d r_b = Eigen::Vector3d::Zero();  ///< of its foot, unloaded
   double k = 0, c = 0;                            ///< N/m, N s/m: vertical
@@ -53,6 +54,7 @@ struct Standing {
   Eigen::Quaterniond tilt = Eigen::Quaterniond::Identity();
 };
 
+/// Legs and hull points of an airframe, and how it stands on them. Body axes, m.
 class Legs {
  public:
   /// `friction`: factor on what the airframe says.

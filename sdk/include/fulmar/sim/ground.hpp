@@ -16,6 +16,7 @@
 
 namespace fulmar::sim {
 
+/// Contact of gear and hull with flat ground at height 0: forces, touch-downs, crash.
 class Ground {
  public:
   /// `friction`: factor on what the airframe says, for wet grass or ice.

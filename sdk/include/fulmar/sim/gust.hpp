@@ -11,8 +11,10 @@
 
 namespace fulmar::sim {
 
+/// `pulse` rises and falls, `rise` stays at its peak.
 enum class GustShape : std::uint8_t { pulse, rise };
 
+/// A gust that `Gust::fire` starts.
 struct GustSpec {
   Eigen::Vector3d velocity_b = Eigen::Vector3d::Zero();  ///< of the air at its peak, body axes, m/s
   double length_m = 30;                                  ///< flown through the air from its edge to its peak

@@ -10,6 +10,7 @@
 
 namespace fulmar::sim {
 
+/// Speeds of all motors, rad/s, over one step of the plant.
 class Motors {
  public:
   /// In balance.

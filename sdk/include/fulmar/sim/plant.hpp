@@ -35,7 +35,7 @@ struct Terrain {
   double friction_ratio = 1;                    ///< of gear and ground, times the airframe's
   bool ground_effect = false;                   ///< less induced drag close to it
 };
-struct Earth {
+struct Earth {  ///< the Earth below the aircraft
   EarthModel model = EarthModel::flat;
   double lat_rad = 0, lon_rad = 0;  ///< of the origin
   Terrain terrain{};
@@ -49,7 +49,7 @@ struct Touch {
   RigidBody at;
 };
 
-class Plant {
+class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body axes
  public:
   Plant(const Airframe& a, const Weather& weather, double origin_altitude_m, std::uint64_t seed,
         const Earth& earth = {})

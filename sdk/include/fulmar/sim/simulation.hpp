@@ -13,6 +13,7 @@
 // A value: no pointer, no thread, no allocation in a step. The same seed, start and commands give the same
 // flight to the bit. Only `step` and `set` refuse, by std::invalid_argument and before anything has moved.
 // What has crashed or left the model (departure.hpp) stays as it is until `reset`, `stand`, `fly` or `set`.
+// Suffixes of frames (_n, _b): fulmar/flight/math/attitude.hpp.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -35,6 +36,7 @@ inline std::string shown(double value) {
   return text.data();
 }
 
+/// What surrounds the aircraft; defaults are still standard air over flat ground at sea level.
 struct SimulationOptions {
   double origin_altitude_m = 0;  ///< above mean sea level, of height 0
   Weather weather{};
@@ -48,6 +50,7 @@ struct FlightState {
   double propeller_radps = 0;
 };
 
+/// One aircraft, see above. Positions and velocities in NED from the origin, SI units.
 class Simulation {
  public:
   static constexpr double max_s = 0.1;  ///< beyond it the short period of small aircraft is not resolved
@@ -146,6 +149,7 @@ inline constexpr char action_names[] = "throttle_frac aileron_rad elevator_rad r
 inline constexpr std::size_t row_columns = 26;
 inline constexpr std::size_t action_columns = 4;
 
+/// Writes the `row_columns` values of `row_names`.
 inline void write_row(const Simulation& sim, double* row) {
   const RigidBody& x = sim.body();
   const AirData air = sim.air_data();

@@ -9,6 +9,7 @@
 
 namespace fulmar::sim {
 
+/// Servos, mixer and surfaces of one airframe. Deflections in rad, signs as in `Actuators`.
 class Surfaces {
  public:
   explicit Surfaces(const Airframe& a)

@@ -22,6 +22,7 @@ inline double updraft_over_height(double z) {
   return shape(z) / shape(strongest);
 }
 
+/// The thermals of a `Thermals` message, which drift with the wind where they say so.
 class Updrafts {
  public:
   Updrafts() = default;

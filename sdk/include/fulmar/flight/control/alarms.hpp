@@ -8,6 +8,7 @@
 
 namespace fulmar {
 
+/// One alarm: its flag in SafetyState, the cause in notices, and the text for the pilot.
 struct NamedAlarm {
   bool SafetyState::*flag;
   Cause cause;
@@ -31,12 +32,14 @@ inline constexpr std::array<NamedAlarm, 13> alarms{{
     {&SafetyState::fence, Cause::fence, "fence"},
 }};
 
+/// The entry of `alarms` with this flag; the last entry when no alarm has it.
 constexpr const NamedAlarm& alarm(bool SafetyState::*flag) {
   for (const NamedAlarm& a : alarms)
     if (a.flag == flag) return a;
   return alarms.back();
 }
 
+/// True when the flag is set and no worse alarm includes it.
 constexpr bool is_raised(const NamedAlarm& a, const SafetyState& s) {
   return s.*a.flag && !(a.worse && s.*a.worse);
 }

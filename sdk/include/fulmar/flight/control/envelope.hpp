@@ -87,6 +87,8 @@ struct Envelope {
   }
 };
 
+/// Stall protection of one outer law: minimum airspeed, maximum pitch and bank, stall detection and recovery.
+/// Call `step` once a tick; angles in rad, airspeeds true, in m/s.
 class EnvelopeGuard {
  public:
   void configure(const Airframe& a) {

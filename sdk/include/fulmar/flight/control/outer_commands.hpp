@@ -14,6 +14,7 @@
 
 namespace fulmar {
 
+/// Gains and rate limits of OuterCommands.
 struct OuterTuning {
   CourseTuning course;
   TakeoffTuning takeoff;
@@ -26,8 +27,12 @@ inline bool flying(const VehicleState& state, const FlightLimits& limits) {
   return !standing(state) && (!state.airspeed_valid || state.airspeed_mps > 0.6 * limits.airspeed_min_mps);
 }
 
+/// Action of an outer law in this step: engine off on the ground, take-off run, guidance, wings level without
+/// a valid state, or roll-out.
 enum class OuterAction : std::uint8_t { wait, take_off, hold, level, roll_out };
 
+/// Roll, pitch and throttle commands of an outer law, bumpless over changes of law, phase and controller.
+/// Roll and pitch in rad, throttle 0 to 1.
 class OuterCommands {
  public:
   /// A new law, phase or controller: go on from `last`. What the take-off law asked for says nothing about

@@ -72,6 +72,7 @@ struct OuterParams {
   Record<Airframe> airframe{"limits, trims, and the derivatives for the feed-forward of turns"};
 };
 
+/// Tuning from the parameters; the roll limit is the smaller of the parameter and the airframe's.
 inline OuterTuning tuning(const OuterParams& p) {
   const FlightLimits& limits = p.airframe->limits;
   OuterTuning t;
@@ -96,6 +97,7 @@ struct LevelTurn {
   double drag_newton;  ///< beyond that of level flight
   Envelope within;     ///< what may be asked for
 };
+/// Result of a law's `hold`: pitch command in rad, throttle 0 to 1.
 struct PitchThrottle {
   double pitch_rad, throttle_frac;
 };
@@ -105,6 +107,8 @@ inline double air_density(const VehicleState& state) {
   return standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
 }
 
+/// Level turn at bank `roll_rad`, true airspeed `Va`, m/s, and density `rho`, kg/m3. `within` stays at its
+/// defaults.
 inline LevelTurn level_turn(double roll_rad, double Va, double rho, const OuterParams& p) {
   const TurnTrims trims(*p.airframe, Va, rho);
   const TurnTrim turn = trims.at(roll_rad), level = trims.at(0);
@@ -114,6 +118,7 @@ inline LevelTurn level_turn(double roll_rad, double Va, double rho, const OuterP
           {}};
 }
 
+/// The same in the standard atmosphere at the aircraft's altitude.
 inline LevelTurn level_turn(double roll_rad, double Va, const VehicleState& state, const OuterParams& p) {
   return level_turn(roll_rad, Va, air_density(state), p);
 }

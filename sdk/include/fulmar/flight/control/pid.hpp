@@ -7,10 +7,12 @@
 
 namespace fulmar {
 
+/// Gains, in units of the output per unit of error, per error and second, and per rate.
 struct PidGains {
   double kp = 0, ki = 0, kd = 0;
 };
 
+/// Input of one step. `error` is set-point minus measurement; `feedforward` has the unit of the output.
 struct PidInput {
   double error = 0;
   double rate = 0;  ///< time derivative of the measurement: damps, and does not kick when the set-point steps
@@ -18,6 +20,7 @@ struct PidInput {
   double min = -1, max = 1;  ///< of the output
 };
 
+/// One PID loop. Units are those of the gains; Åström & Hägglund (2006), chapter 3.
 class Pid {
  public:
   /// u = feedforward + kp e + I - kd rate, within [min, max]. `dt_s` is the time since the last step; 0

@@ -26,10 +26,12 @@ inline double pitch_ceiling(const VehicleState& state, const FlightLimits& limit
   if (!state.airspeed_valid) return limits.pitch_max_rad;
   return limits.pitch_max_rad * smoothly(state.airspeed_mps, 0.8 * slowest_mps, slowest_mps);
 }
+/// The same with the airframe's minimum airspeed.
 inline double pitch_ceiling(const VehicleState& state, const FlightLimits& limits) {
   return pitch_ceiling(state, limits, limits.airspeed_min_mps);
 }
 
+/// Tuning of TakeoffRun. Speeds are true airspeed, m/s, unless a comment names another.
 struct TakeoffTuning {
   double throttle_frac = 1;
   double pitch_rad = 0.2;  ///< after rotation

@@ -19,6 +19,8 @@ struct TurnRates {
 inline constexpr double steepest_turn_rad = 1.2, steepest_turn_tan = 2.5721516221263188,
                         steepest_turn_load = 2.759703601332406;
 
+/// TurnRates at bank, pitch and true airspeed. The tangent is that of at most `steepest_turn_rad`, the
+/// airspeed at least 1 m/s.
 inline TurnRates turn_rates(double roll_rad, double pitch_rad, double airspeed_mps,
                             double gravity_mps2 = 9.80665) {
   const double s = std::sin(roll_rad), c = std::cos(roll_rad);  // both at once, which a tangent is not
@@ -34,6 +36,7 @@ inline double load_factor(double roll_rad) {
   return std::abs(roll_rad) <= steepest_turn_rad ? 1 / std::cos(roll_rad) : steepest_turn_load;
 }
 
+/// Angle of attack, elevator and drag of a level turn.
 struct TurnTrim {
   double alpha_rad = 0;
   double elevator_rad = 0;

@@ -34,6 +34,7 @@ struct AirOf {
 };
 using Air = AirOf<double>;
 
+/// Density, kg/m3, of dry air as an ideal gas.
 inline double air_density(double pressure_pa, double temperature_kelvin) {
   return pressure_pa / (isa::gas_constant * temperature_kelvin);
 }
@@ -49,6 +50,7 @@ inline double geopotential_altitude(double geometric_m) {
   return isa::earth_radius * geometric_m / (isa::earth_radius + geometric_m);
 }
 
+/// `standard_air` over the scalar `S`. `altitude_m`: geopotential, above mean sea level.
 template <class S>
 AirOf<S> standard_air_of(const S& altitude_m, const AirOffset& offset = {}) {
   using std::exp, std::pow;

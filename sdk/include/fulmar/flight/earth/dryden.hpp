@@ -13,6 +13,7 @@
 
 namespace fulmar {
 
+/// Levels of MIL-F-8785C.
 enum class Turbulence : std::uint8_t { none, light, moderate, severe };
 
 /// Scale lengths, m, and deviations, m/s, along body x, y, z.
@@ -31,6 +32,7 @@ inline DrydenScales dryden_scales(Turbulence turbulence) {
   return {{200, 200, 50}, k * Eigen::Vector3d(1.06, 1.06, 0.7)};
 }
 
+/// Gust velocity along the body axes, m/s. The same seed and steps give the same gusts.
 class Dryden {
  public:
   Dryden(const DrydenScales& scales, std::uint64_t seed) : scales_(scales), random_(seed) {

@@ -17,6 +17,7 @@
 
 namespace fulmar {
 
+/// Angular velocity of turbulent air about the body axes, rad/s, for one wing span.
 class DrydenRotation {
  public:
   /// `span_m`: of the wing, above 0.

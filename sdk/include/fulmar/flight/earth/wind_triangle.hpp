@@ -34,6 +34,7 @@ inline WindTriangle fly_course(double course_rad, double airspeed_mps, double wi
   return triangle;
 }
 
+/// The same; the vertical wind is ignored.
 inline WindTriangle fly_course(double course_rad, double airspeed_mps, const Vec3<Ned>& wind_mps) {
   return fly_course(course_rad, airspeed_mps, wind_mps.north, wind_mps.east);
 }

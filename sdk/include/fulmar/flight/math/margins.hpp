@@ -12,6 +12,7 @@
 
 namespace fulmar {
 
+/// The open loop at one frequency.
 struct LoopSample {
   double radps = 0;
   std::complex<double> gain;  ///< L(j omega)

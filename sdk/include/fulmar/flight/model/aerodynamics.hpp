@@ -14,6 +14,7 @@
 
 namespace fulmar {
 
+/// Aerodynamic force, N, and moment, N m, in body axes, about the centre of gravity. Angles in rad.
 class Aerodynamic {
  public:
   explicit Aerodynamic(const Airframe& a)

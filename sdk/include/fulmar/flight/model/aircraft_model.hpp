@@ -17,7 +17,9 @@ namespace fulmar {
 
 /// Where a state and an input stand in the vectors. m, m/s, rad, rad/s; rad and a part of full throttle.
 namespace model {
+/// North, east and down, m; velocity in body axes, m/s; Euler angles, rad; body rates, rad/s.
 enum State : int { north, east, down, u, v, w, roll, pitch, yaw, p, q, r };
+/// Deflections in rad, signs as in `Actuators`; throttle 0 to 1.
 enum Input : int { aileron, elevator, rudder, throttle };
 inline constexpr int states = 12, inputs = 4;
 template <class S>
@@ -40,6 +42,7 @@ Eigen::Vector3<S> air_velocity(double Va, const S& alpha, const S& beta) {
   return {Va * cos(alpha) * cos(beta), Va * sin(beta), Va * sin(alpha) * cos(beta)};
 }
 
+/// The model of one airframe in still standard air. `S` is double, or Dual for derivatives.
 class AircraftModel {
  public:
   /// `altitude_m`: above mean sea level, where the state `down` is 0; geopotential, where that is another

@@ -11,6 +11,7 @@
 
 namespace fulmar {
 
+/// A, 12 x 12, and B, 12 x 4, in the order and units of model::State and model::Input.
 struct LinearModel {
   Eigen::Matrix<double, model::states, model::states> A;
   Eigen::Matrix<double, model::states, model::inputs> B;
@@ -50,6 +51,7 @@ LinearModel linear_model(const Model& m, const model::StateVector<double>& x,
   return out;
 }
 
+/// The rows and columns of these states and inputs; couplings to others are left out.
 template <std::size_t N, std::size_t M>
 LinearBlock<N, M> block_of(const LinearModel& all, const std::array<int, N>& states,
                            const std::array<int, M>& inputs) {

@@ -34,6 +34,7 @@ inline double trimmed_lift(const Aerodynamic& aero, const Airframe& a, double al
 struct MostLift {
   double coefficient = 0, alpha_rad = 0;
 };
+/// Searched in steps of 1e-3 rad from 0 to 0.1 rad beyond the stall angle, at most 1 rad.
 inline MostLift max_lift(const Airframe& a) {
   const Aerodynamic aero(a);
   MostLift most;

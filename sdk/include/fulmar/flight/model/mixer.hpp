@@ -16,11 +16,13 @@ struct Stops {
   double min = 0, max = 0;
   bool reach(double angle) const { return angle >= min && angle <= max; }
 };
+/// Stops in rad: `min_rad` and `max_rad` where the airframe gives them, else -limit and +limit.
 inline Stops stops(const Surface& s) {
   constexpr double unsaid = 9;  // rad
   return {s.min_rad < -unsaid ? -s.limit_rad : s.min_rad, s.max_rad > unsaid ? s.limit_rad : s.max_rad};
 }
 
+/// Servo angles, rad, that give these deflections; flaps pass unchanged. Not limited to the stops.
 inline Deflections to_servos(Mixer mixer, Deflections d) {
   if (mixer == Mixer::elevons) {
     const double elevator = d.elevator, aileron = d.aileron;
@@ -34,6 +36,7 @@ inline Deflections to_servos(Mixer mixer, Deflections d) {
   return d;
 }
 
+/// Inverse of `to_servos`.
 inline Deflections from_servos(Mixer mixer, Deflections servos) {
   if (mixer == Mixer::elevons) {
     const double left = servos.aileron, right = servos.elevator;
@@ -49,6 +52,7 @@ inline Deflections from_servos(Mixer mixer, Deflections servos) {
 
 /// Which of the three servos would have to go beyond its stops: none when all reach.
 enum class Beyond : unsigned char { none, aileron, elevator, rudder };
+/// The first of elevator, aileron and rudder servo that these deflections, rad, drive beyond its stops.
 inline Beyond beyond_stops(const Airframe& a, const Deflections& d) {
   const Deflections servos = to_servos(a.mixer, d);
   if (!stops(a.elevator).reach(servos.elevator)) return Beyond::elevator;

@@ -24,6 +24,7 @@ namespace fulmar {
 /// Where two modes of a kind are real, the faster one has its name first.
 enum class ModeKind : std::uint8_t { short_period, phugoid, dutch_roll, roll, spiral, roll_spiral };
 
+/// One mode of motion: an eigenvalue of A, or a pair, with the participation of each state.
 struct Mode {
   ModeKind kind = ModeKind::short_period;
   std::complex<double> eigenvalue;        ///< of a pair the one above the real axis, 1/s

@@ -11,12 +11,14 @@
 
 namespace fulmar {
 
+/// True when a coefficient depends on the flaps.
 inline bool has_flaps(const Aerodynamics& a) {
   for (const Derivatives* c : {&a.lift, &a.drag, &a.side, &a.roll, &a.pitch, &a.yaw})
     if (c->flap_ratio != 0) return true;
   return false;
 }
 
+/// True when the airframe has any of the terms of this header.
 inline bool has_more(const Aerodynamics& a) {
   const DragSquared& d = a.drag_squared;
   return d.beta_ratio != 0 || d.aileron_ratio != 0 || d.elevator_ratio != 0 || d.rudder_ratio != 0 ||
@@ -29,11 +31,13 @@ inline double propeller_disc(const Propulsion& p) {
   return p.disc.area_m2 > 0 ? p.disc.area_m2 : std::numbers::pi / 4 * D * D;
 }
 
+/// Arguments of the tables, in the order of TableVariable. `sound_mps`: speed of sound.
 template <class S>
 TablePoint<S> table_point(const AirDataOf<S>& air, const DeflectionsOf<S>& d, double sound_mps) {
   return {S(0.0), air.alpha, air.beta, S(air.Va / sound_mps), d.aileron, d.elevator, d.rudder};
 }
 
+/// CD of the squares of sideslip and deflections, rad.
 template <class S>
 S squared_drag(const DragSquared& of, const S& beta, const DeflectionsOf<S>& d) {
   return of.beta_ratio * beta * beta + of.aileron_ratio * d.aileron * d.aileron +

@@ -22,6 +22,7 @@ inline Eigen::Vector3d axis_of(const PropellerPlace& p) {
           -std::sin(p.tilt_rad)};
 }
 
+/// All propellers of an airframe: force, N, and moment, N m, in body axes, about the centre of gravity.
 class Propellers {
  public:
   static constexpr std::size_t most = 8;

@@ -17,6 +17,7 @@ inline bool has_thrust(const Propulsion& p) {
   return p.disc.area_m2 > 0 || p.ct0_ratio != 0 || p.ct1_ratio != 0 || p.ct2_ratio != 0;
 }
 
+/// One motor with its propeller. Speed in rad/s, airspeed in m/s, density in kg/m3.
 class Propeller {
  public:
   explicit Propeller(const Propulsion& p)

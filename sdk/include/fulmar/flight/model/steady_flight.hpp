@@ -20,8 +20,10 @@
 
 namespace fulmar {
 
+/// How a SteadyCondition states its turn.
 enum class Turn : std::uint8_t { none, bank, radius };
 
+/// The flight that is asked for; true airspeed.
 struct SteadyCondition {
   double airspeed_mps = 0;
   double climb_rad = 0;  ///< flight path angle, up
@@ -47,6 +49,7 @@ enum class TrimLimit : std::uint8_t {
   not_found,
 };
 
+/// Result of `steady_flight`. States and inputs are in the order and units of model::State and model::Input.
 struct SteadyFlight {
   SteadyCondition condition;
   TrimLimit limit = TrimLimit::not_found;

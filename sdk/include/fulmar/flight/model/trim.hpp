@@ -16,6 +16,7 @@
 
 namespace fulmar {
 
+/// Result of `trimmed_flight`.
 struct Trim {
   double alpha_rad = 0, beta_rad = 0, pitch_rad = 0;
   double roll_rad = 0;  ///< wings are level where a rudder holds the heading

@@ -13,6 +13,7 @@
 
 namespace fulmar::navigation {
 
+/// Fuses the modelled airspeed into the filter while the pitot is lost, and ends when it contradicts.
 class ModelledAirspeed {
  public:
   /// With each inertial sample, after those of the other sensors. `commanded`: the throttle is what the motor

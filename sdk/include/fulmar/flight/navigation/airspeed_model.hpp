@@ -16,6 +16,7 @@
 
 namespace fulmar {
 
+/// Recursive least squares for the seven parameters c0 to c6; speeds are equivalent airspeed, m/s.
 class AirspeedModel {
  public:
   static constexpr int size = 7;

@@ -103,7 +103,7 @@ struct Scalar {
   MoreRow more = MoreRow::Zero();
 };
 
-struct Fused {
+struct Fused {  ///< result of one scalar update
   bool accepted = false;
   double ratio = 0;  ///< innovation / its deviation
 };

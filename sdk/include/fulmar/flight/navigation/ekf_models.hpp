@@ -12,6 +12,7 @@
 
 namespace fulmar::ekf {
 
+/// Air-relative velocity without gusts, NED, m/s; the vertical wind is 0.
 inline Eigen::Vector3d air_velocity(const Nominal& x) {
   return {x.v_n.x() - x.wind.x(), x.v_n.y() - x.wind.y(), x.v_n.z()};
 }

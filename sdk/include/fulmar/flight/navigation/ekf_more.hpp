@@ -29,6 +29,7 @@ struct Motion {
 /// change per unit of an appended state: its column of the transition.
 using Drive = Eigen::Matrix<double, 9, 1> (*)(const Motion&);
 
+/// Model of one appended state.
 struct MoreState {
   double std = 1;         ///< before it is learnt, in its unit
   double walk = 0;        ///< unit/sqrt(s): a random walk
@@ -36,6 +37,8 @@ struct MoreState {
   Drive drive = nullptr;  ///< what it does to the motion; none: only measurements see it
 };
 
+/// Up to `max_more` appended states of a filter with `size` error states: values, covariance, and covariance
+/// with the filter.
 template <int size>
 class MoreStates {
  public:

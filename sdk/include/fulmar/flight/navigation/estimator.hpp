@@ -24,7 +24,7 @@
 
 namespace fulmar::navigation {
 
-struct Ekf {
+struct Ekf {  ///< a component; or a member of one, with the same calls
   static constexpr const char* doc =
       "Attitude, velocity, position, wind and sensor biases by an error-state extended Kalman filter.";
   using Inputs = navigation::Inputs;

@@ -74,7 +74,7 @@ struct Resets {
   double yaw_rad = 0, at_s = never;
 };
 
-class Navigator {
+class Navigator {  ///< from samples of sensors to the state of the filter; SI units, NED and body axes
  public:
   /// Set-up and live changes: noises only.
   void tune(const Params& p) {

@@ -7,6 +7,7 @@
 
 namespace fulmar::navigation {
 
+/// Group of parameters of a component that holds the estimator.
 struct Params {
   Record<Origin> origin{"origin of the local frame; without it the first good fixes decide"};
   Param start_height{0, "m", -1000, 1000,

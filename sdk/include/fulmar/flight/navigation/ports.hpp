@@ -16,6 +16,7 @@
 
 namespace fulmar::navigation {
 
+/// Input ports; only the inertial unit is required.
 struct Inputs {
   In<Imu> imu;
   Optional<Gnss> gnss;
@@ -26,6 +27,7 @@ struct Inputs {
   Optional<ControllerAttitude> attitude;
   Optional<Actuators> commands;  ///< what flies the aircraft: from its throttle an airspeed without a tube
 };
+/// Output ports. The probes are states and innovations of the filter.
 struct Outputs {
   Out<VehicleState> state;
   Out<FilterCheck> check;        // for consistency tests

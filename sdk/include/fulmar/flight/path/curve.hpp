@@ -11,6 +11,7 @@
 
 namespace fulmar {
 
+/// One cubic Bezier curve p(u), u from 0 to 1, NED.
 struct Curve {
   std::array<Vec3<Ned>, 4> p;  ///< begin, two handles, end, in metres
 
@@ -99,6 +100,7 @@ struct Curve {
   }
 };
 
+/// The curve of a path whose `is_curve` is set.
 inline Curve curve_of(const Path& path) { return {path.control_m}; }
 
 /// Publishes a curve, for an aircraft that is closest to `u` on it: also as the line or orbit that touches it

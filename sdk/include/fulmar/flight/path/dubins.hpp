@@ -15,6 +15,7 @@ struct Pose {
   double north_m = 0, east_m = 0, course_rad = 0;
 };
 
+/// Right, straight and left parts in their order: "rsl" is right, straight, left.
 enum class DubinsWord : std::uint8_t { rsr, rsl, lsr, lsl, rlr, lrl };
 inline constexpr std::array dubins_words{DubinsWord::rsr, DubinsWord::rsl, DubinsWord::lsr,
                                          DubinsWord::lsl, DubinsWord::rlr, DubinsWord::lrl};

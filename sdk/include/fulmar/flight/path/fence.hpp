@@ -43,6 +43,7 @@ struct Places {
   List<Place, 16> places;
 };
 
+/// A place in the local frame, m; `up_m` above the origin.
 struct Spot {
   double north_m = 0, east_m = 0, up_m = 0;
 };

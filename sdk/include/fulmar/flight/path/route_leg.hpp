@@ -14,6 +14,7 @@
 
 namespace fulmar {
 
+/// 1 for a right turn, -1 for a left one.
 constexpr double sign_of(Turn turn) { return turn == Turn::right ? 1 : -1; }
 
 /// The pose after `length_m` along a path of constant curvature (right positive).
@@ -200,6 +201,7 @@ class NearestSearch {
   const RoutePiece* of_ = nullptr;
 };
 
+/// Closest point of one leg.
 inline RoutePoint nearest(const RouteLeg& leg, double north_m, double east_m) {
   NearestSearch search(north_m, east_m);
   search.consider(leg);

@@ -2,9 +2,9 @@
 // lib/libfulmar_sim.so: the model behind C functions, for the Python package beside it, and the reader of
 // airframe files for C++ (fulmar/sim/airframe_file.hpp).
 //
-// Functions that return int return 0, or 1 for an error; `fulmar_sim_error()` of the same thread has its text.
-// A call that fails changes nothing. Arrays are row-major, one row per aircraft, with `count` rows. `only`
-// selects aircraft by `count` flags; null selects all. Frames: NED from the origin, and body axes.
+// Functions that return int return 0, or 1 for an error; `fulmar_sim_error()` of the same thread has its
+// text. A call that fails changes nothing. Arrays are row-major, one row per aircraft, with `count` rows.
+// `only` selects aircraft by `count` flags; null selects all. Frames: NED from the origin, and body axes.
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes an airframe none that can be simulated, beyond the range of a single field.
+// Rules of an airframe beyond the range of a single field.
 #pragma once
 #include <cmath>
 #include <cstdio>

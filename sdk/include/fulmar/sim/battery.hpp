@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A battery: its voltage without load falls with the charge that was taken, by a line or a curve. What it
-// loses under load is in propulsion.hpp, where motor and battery are in balance.
+// A battery: its voltage without load falls with the charge that was taken, by a line or a curve. The loss
+// under load is in propulsion.hpp, where motor and battery are in balance.
 #pragma once
 #include <algorithm>
 #include <cstdint>

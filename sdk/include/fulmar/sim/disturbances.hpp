@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What moves the air beside the steady wind: Dryden turbulence, a discrete gust, thermals.
+// Motion of the air beside the steady wind: Dryden turbulence, a discrete gust, thermals.
 #pragma once
 #include <Eigen/Core>
 #include <cmath>
@@ -28,7 +28,7 @@ class Disturbances {
         rotates_(w.turbulence != Turbulence::none && w.gust_span_m > 0),
         by_height_(w.turbulence != Turbulence::none && w.turbulence_height == TurbulenceHeight::actual) {}
 
-  /// What it is depends on where the aircraft is.
+  /// True when it depends on the place of the aircraft.
   bool of_place() const { return by_height_ || gust_.active() || updrafts_.any(); }
   void fire(const GustSpec& gust) { gust_.fire(gust); }
 

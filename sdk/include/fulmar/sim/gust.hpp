@@ -38,7 +38,7 @@ class Gust {
   }
   bool active() const { return active_; }
 
-  /// Velocity of the air after `dt` more at airspeed `Va`: the air stands still and is flown through.
+  /// Velocity of the air after `dt` more at airspeed `Va`: the gust is fixed in the air mass.
   Eigen::Vector3d advance(double dt, double Va) {
     if (!active_) return Eigen::Vector3d::Zero();
     flown_m_ += Va * dt;

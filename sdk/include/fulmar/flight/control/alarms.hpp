@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The alarms of SafetyState: flag, cause and words, the worst first. The one place for all who report them.
+// The alarms of SafetyState: flag, cause and text, the worst first. Every component that reports an alarm
+// uses this table.
 #pragma once
 #include <array>
 

@@ -29,7 +29,7 @@ class Pid {
     const double direct = in.feedforward + gains.kp * in.error - gains.kd * in.rate;
     const double increment = gains.ki * in.error * dt_s;
     const double u = direct + integral_;
-    // Only growth into the limit is refused: an error of the other sign always unwinds.
+    // Only growth into the limit is blocked: an error of the other sign always unwinds.
     const bool deepens =
         (increment > 0 && u + increment > in.max) || (increment < 0 && u + increment < in.min);
     if (!deepens) integral_ += increment;
@@ -60,10 +60,10 @@ class Pid {
   bool saturated_ = false;
 };
 
-/// While a limit governs a demand there is nothing to learn from the error; but what was learnt before must
-/// not hold the aircraft away for ever. When less than half of the demand is flown for some seconds, this is
-/// what is missing of it, to be integrated: up as far as the integral is below 0, since an engine that does
-/// not give a climb teaches nothing, and down to `least`.
+/// While a limit governs a demand, the error is not integrated; but an old integral must not hold the
+/// aircraft away for ever. When less than half of the demand is met for some seconds, this returns the
+/// missing part for integration: up while the integral is below 0, since a climb beyond the engine's power
+/// teaches nothing, and down to `least`.
 class LateDemand {
  public:
   /// `demanded` and `flown` in one unit; `integral` and `least` in that of the output.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trim of a steady coordinated turn, from an airframe's linear lift and pitching moment: what a control law
-// feeds forward so that height does not sag when the wing banks. Beard & McLain, Small Unmanned Aircraft
-// (2012), sections 5.3 and 9.2.
+// Trim of a steady coordinated turn, from an airframe's linear lift and pitching moment: the feed-forward of
+// a law that keeps height in a bank. Beard & McLain, Small Unmanned Aircraft (2012), sections 5.3 and 9.2.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -56,7 +55,7 @@ class TurnTrims {
     const double determinant = L.alpha_ratio * M.elevator_ratio - L.elevator_ratio * M.alpha_ratio;
     if (std::abs(determinant) < 1e-9 || qS_ < 1e-9) return;
     solvable_ = true;
-    // Divisions are what a trim costs, and a law asks for two at each step.
+    // Divisions dominate the cost of a trim, and a law needs two in each step.
     per_determinant_ = 1 / determinant;
     level_lift_ = a_.mass_kg * g_ / qS_;
     half_chord_time_ = 0.5 * a_.wing.chord_m / Va_;

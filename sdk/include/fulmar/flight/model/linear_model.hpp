@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The model about a steady flight: d(x - x*)/dt = A (x - x*) + B (u - u*), by automatic differentiation of
-// what flies in the simulator. Beard & McLain, Small Unmanned Aircraft (2012), section 5.5.
+// the simulator's model. Beard & McLain, Small Unmanned Aircraft (2012), section 5.5.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -32,7 +32,7 @@ inline constexpr std::array<int, 8> motion_states{u, w, q, pitch, v, p, r, roll}
 inline constexpr std::array<int, 4> all_inputs{aileron, elevator, rudder, throttle};
 }  // namespace model
 
-/// By automatic differentiation, which only who calls it compiles.
+/// By automatic differentiation; a template, so that only its users compile it.
 template <std::same_as<AircraftModel> Model>
 LinearModel linear_model(const Model& m, const model::StateVector<double>& x,
                          const model::InputVector<double>& input) {

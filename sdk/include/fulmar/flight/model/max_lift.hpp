@@ -8,7 +8,7 @@
 
 namespace fulmar {
 
-/// Of the pitching moment, what tables say at an angle of attack, all else 0.
+/// Part of the pitching moment coefficient from tables at an angle of attack, all other arguments 0.
 inline double tables_at(const Airframe& a, double alpha) {
   double sum = 0;
   for (const CoefficientTable& t : a.aero.tables)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Aileron, elevator and rudder, and the servos that move the surfaces. Beard & McLain, section 4.2: elevons,
-// delta_e = (right + left) / 2, delta_a = (left - right) / 2; ruddervators alike with the rudder. The servos
-// stand in the places of `Deflections`: left and right elevon in those of aileron and elevator, left and
-// right ruddervator in those of elevator and rudder.
+// delta_e = (right + left) / 2, delta_a = (left - right) / 2; ruddervators alike with the rudder. Servo
+// angles use the fields of `Deflections`: left and right elevon those of aileron and elevator, left and right
+// ruddervator those of elevator and rudder.
 #pragma once
 #include <algorithm>
 

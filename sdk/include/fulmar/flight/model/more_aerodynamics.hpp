@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an airframe may have beside its derivatives: drag over squares, the pitching moment of separated flow,
-// tables, flaps.
+// Optional terms of an airframe beside its derivatives: drag over squares, the pitching moment of separated
+// flow, tables, flaps.
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -44,10 +44,10 @@ S squared_drag(const DragSquared& of, const S& beta, const DeflectionsOf<S>& d) 
          of.elevator_ratio * d.elevator * d.elevator + of.rudder_ratio * d.rudder * d.rudder;
 }
 
-/// What is to be added to the derivatives' Cm0 + Cm_alpha ((1 - sigma) alpha + sigma sin(alpha)), so that it
-/// becomes (1 - sigma) (Cm0 + Cm_alpha alpha) + sigma Cm_fp sign(alpha) sin^2(alpha): the blending of Beard &
-/// McLain (4.9) for the moment, as Gryte, Hann, Alam, Rohac, Johansen & Fossen, "Aerodynamic modeling of the
-/// Skywalker X8 Fixed-Wing Unmanned Aerial Vehicle", ICUAS 2018, have it.
+/// Added to the derivatives' Cm0 + Cm_alpha ((1 - sigma) alpha + sigma sin(alpha)), it gives (1 - sigma) (Cm0
+/// + Cm_alpha alpha) + sigma Cm_fp sign(alpha) sin^2(alpha): the blending of Beard & McLain (4.9) for the
+/// moment, as in Gryte, Hann, Alam, Rohac, Johansen & Fossen, "Aerodynamic modeling of the Skywalker X8
+/// Fixed-Wing Unmanned Aerial Vehicle", ICUAS 2018.
 template <class S>
 S stalled_pitch(const Aerodynamics& a, const AirDataOf<S>& air, const S& sigma) {
   using std::copysign;

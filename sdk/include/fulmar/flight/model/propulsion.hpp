@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Electric motor and propeller. Source: Beard & McLain, supplement to Small Unmanned Aircraft, "Propeller
 // thrust and torque" (2nd edition 4.3): thrust and torque polynomials over the advance ratio, motor speed
-// from the balance of torques. Or, where the airframe says so, the disc of the first edition (2012), section
+// from the balance of torques. Where the airframe selects it, the disc of the first edition (2012), section
 // 4.3, whose throttle is the propeller's speed over that at full throttle.
 #pragma once
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Six degrees of freedom over flat ground: a rigid body in NED, advanced by the classical fourth-order
-// Runge-Kutta method with the loads evaluated anew at each of its four stages. Source: Beard & McLain
-// (3.14)-(3.17), with the velocity in NED and the attitude as a quaternion.
+// Runge-Kutta method with loads at each of its four stages. Source: Beard & McLain (3.14)-(3.17), with the
+// velocity in NED and the attitude as a quaternion.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -129,8 +129,8 @@ inline RigidBody advanced(const RigidBody& x, const RigidBodyRate& d, double dt)
 
 /// One step. `first` is the load at the present state; `load_at(state, part)` gives it at a later stage,
 /// `part` of the step on: 0.5 or 1. Quaternions of the stages are not normalised: the error is of the
-/// method's order; the result is. `g_n` is the acceleration of gravity, or what else `rate_of` knows, such as
-/// the turning Earth of earth.hpp.
+/// method's order; the result is. `g_n` is the acceleration of gravity, or another argument of `rate_of`,
+/// such as the rotating Earth of round_earth.hpp.
 template <class Gravity = Eigen::Vector3d, class LoadAt>
 RigidBody runge_kutta(const RigidBody& x, const Load& first, double dt, const MassProperties& body,
                       const Gravity& g_n, LoadAt&& load_at) {

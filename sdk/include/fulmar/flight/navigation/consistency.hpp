@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is what an estimate says of its errors true? Errors beside the deviations that were claimed for them, the
-// normalised squared error of nine states, and whether innovations are white and as large as expected.
-// Bar-Shalom, Li & Kirubarajan, Estimation with Applications to Tracking and Navigation (2001), section 5.4.
+// Consistency of an estimate: errors against reported standard deviations, the normalised squared error of
+// nine states, whiteness and size of innovations. Source: Bar-Shalom, Li & Kirubarajan, Estimation with
+// Applications to Tracking and Navigation (2001), section 5.4.
 #pragma once
 #include <Eigen/Dense>
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace fulmar::consistency {
 
-/// Of one quantity: how large its errors are, and how often they stay within what was claimed.
+/// Errors of one quantity, and the share within its reported standard deviation.
 struct Channel {
   double error2 = 0, claim2 = 0;
   std::size_t n = 0, within_1 = 0, within_2 = 0;
@@ -64,7 +64,7 @@ class Nees {
         eigen(truth.position_m) - eigen(estimate.position_m);
     return e;
   }
-  /// What the estimate claims for them.
+  /// The standard deviations that the estimate reports.
   static Errors claims(const VehicleState& estimate) {
     Errors std;
     std << eigen(estimate.attitude_std_rad), eigen(estimate.velocity_std_mps), eigen(estimate.position_std_m);

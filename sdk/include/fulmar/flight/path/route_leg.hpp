@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a route is made of: lines and arcs with heights, legs of several pieces, and the closest point of a
-// leg. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 11.
+// Parts of a route: lines and arcs with heights, legs of several pieces, and the closest point of a leg.
+// Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 11.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -40,8 +40,8 @@ struct RoutePiece {
   double curvature() const { return kind == PathKind::line ? 0 : sign_of(turn) / radius_m; }
   double height_at(double along_m) const { return height_m + climb_ratio * along_m; }
 
-  /// Metres from the beginning to the projection of a point. On an arc in [-pi, pi] radii: who flies a longer
-  /// one unwraps.
+  /// Metres from the beginning to the projection of a point. On an arc in [-pi, pi] radii; callers unwrap
+  /// longer arcs.
   double along(double north, double east) const {
     const double n = north - north_m, e = east - east_m;
     if (kind == PathKind::line) return n * unit_north_ratio + e * unit_east_ratio;

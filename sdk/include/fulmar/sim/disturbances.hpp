@@ -62,8 +62,8 @@ class Disturbances {
   }
   double passing(double Va) const { return gust_airspeed_mps_ > 0 ? gust_airspeed_mps_ : Va; }
 
-  /// Lengths and deviations go with the height in steps of 1 %: to discretise the filters costs more than to
-  /// advance them.
+  /// Lengths and standard deviations follow the height in steps of 1 %: to discretise the filters costs more
+  /// than to advance them.
   void follow(double height_m) {
     constexpr double lowest_m = mil8785c::lowest_ft * mil8785c::foot;
     const double h = std::max(height_m, lowest_m);

@@ -159,7 +159,7 @@ class EnvelopeGuard {
     const double sink = std::min(climb_rate_mps, 0.0) - s.climb_rate_mps;
     const double left_m = height_error_m - ahead_s * std::max(s.climb_rate_mps, 0.0);
     if (!s.height_valid || (!stalled_ && sink < held_mps && left_m < below_m)) regains_ = false;
-    // The sink that a hand-over brings along ends without that.
+    // A sink at a switch ends by itself.
     falls_s_ = sink > fall_mps && height_error_m > below_m ? falls_s_ + dt_s : 0;
     if (stalled_ || falls_s_ > falls_s) regains_ = s.height_valid;
     return regains_ && s.airspeed_valid && s.velocity_valid;

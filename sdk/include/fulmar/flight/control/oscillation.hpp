@@ -62,7 +62,7 @@ class Quietening {
     gain_ = std::max(share * gain_, least);
     return true;
   }
-  /// Nothing has swung yet: after a hand-over, on the ground. The gain stays.
+  /// Clears the count: after a switch, on the ground. The gain stays.
   void begin() { swings_.reset(); }
   void restore() { *this = {}; }
   double gain() const { return gain_; }

@@ -39,8 +39,8 @@ class Pid {
   }
 
   /// Bumpless start: the next step with the same input and dt 0 returns `output`. The integral takes up the
-  /// difference, at most `integral_limit` of it: a hand-over far from trim must not leave a bias that takes
-  /// long to unwind.
+  /// difference, at most `integral_limit` of it: a switch far from trim must not leave a bias that takes long
+  /// to unwind.
   void reset_to(double output, const PidGains& gains = {}, const PidInput& in = {},
                 double integral_limit = 1e300) {
     const double direct = in.feedforward + gains.kp * in.error - gains.kd * in.rate;

@@ -76,8 +76,8 @@ inline Air standard_air(double altitude_m, const AirOffset& offset = {}) {
   return standard_air_of(altitude_m, offset);
 }
 
-/// Density of the standard air, computed anew once the altitude has changed by a metre: within 1e-4 of it,
-/// for laws that ask at each step.
+/// Density of the standard air, recomputed when the altitude has changed by a metre: within 1e-4, for laws
+/// that need it in each step.
 class NearbyDensity {
  public:
   double at(double altitude_m) {

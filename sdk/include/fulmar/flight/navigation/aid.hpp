@@ -105,7 +105,7 @@ class Innovations {
   bool biased() const { return biased_; }
 
  private:
-  // Receivers are off by two of their deviations for minutes (README.md of estimator_ekf): that is no fault.
+  // GNSS errors of two standard deviations last for minutes (README.md of estimator_ekf) and are no fault.
   static constexpr double mean_s = 4, variance_s = 2, most = 6;
   static constexpr double noisy_std = 2, calm_std = 1.5, biased_mean = 3, centred_mean = 2;
 

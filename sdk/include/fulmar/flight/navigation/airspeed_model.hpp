@@ -89,8 +89,8 @@ class AirspeedModel {
   static constexpr double V0 = 15, g = 9.80665;                     ///< scales: m/s, m/s2
   static constexpr double window_s = 60, min_s = 5, learnt_s = 20;  ///< of the residual; before it is used
   static constexpr double min_mps2 = 0.02, max_shared = 0.9, max_off = 3;
-  static constexpr double sure = 3;     ///< deviations of the slope
-  static constexpr double walk = 2e-3;  ///< of the prior deviation, per root of a second
+  static constexpr double sure = 3;     ///< standard deviations of the slope
+  static constexpr double walk = 2e-3;  ///< of the prior standard deviation, per root of a second
 
   static double square(double x) { return x * x; }
   /// m/s2: thrust below 2 g, drag and lift's tilt below some g.

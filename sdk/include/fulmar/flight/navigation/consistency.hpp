@@ -34,8 +34,8 @@ struct Channel {
   double share_2() const { return over_n(static_cast<double>(within_2)); }
 };
 
-/// Of one sensor, over many flights: the mean of the squared innovations in deviations (1: as large as
-/// expected), and how far they follow each other. Their mean is not taken off: it should be 0.
+/// One sensor over many flights: mean squared innovation in standard deviations (1: as expected), and
+/// correlation of successive ones. Their mean is not subtracted, because it should be 0.
 struct Innovations {
   static constexpr std::size_t lags = 5;
   std::array<double, lags + 1> products{};
@@ -50,7 +50,7 @@ struct Innovations {
   double correlation(std::size_t lag) const { return products[0] > 0 ? products[lag] / products[0] : 0; }
 };
 
-/// e' P^-1 e of attitude, velocity and position, from deviations and the correlations between them.
+/// e' P^-1 e of attitude, velocity and position, from standard deviations and the correlations between them.
 class Nees {
  public:
   static constexpr double low = 2.70, high = 19.02;  ///< 95 % of chi-square of 9 degrees of freedom

@@ -104,7 +104,7 @@ struct Scalar {
 
 struct Fused {  ///< result of one scalar update
   bool accepted = false;
-  double ratio = 0;  ///< innovation / its deviation
+  double ratio = 0;  ///< innovation / its standard deviation
 };
 
 }  // namespace ekf
@@ -218,7 +218,8 @@ class ErrorStateEkf {
     corrected_.vt += dx.segment<3>(ekf::vel) * time_s_;
   }
 
-  /// A part of the state is forgotten: new value in `nominal`, new deviation, no correlation with the rest.
+  /// Resets a part of the state: new value in `nominal`, new standard deviation, no correlation with the
+  /// rest.
   void forget(int first, int count, double std) {
     for (int i = first; i < first + count; ++i) {
       P_.row(i).setZero();
@@ -380,7 +381,7 @@ class ErrorStateEkf {
     x_.heading_rad *= markov<1>(heading, noise.heading_std, heading_decay_.of(T / noise.heading_time));
     markov<2>(gnss, noise.gnss_std, gnss_decay_.of(T / noise.gnss_time));
   }
-  /// x' = phi x + w of `n` states: each keeps its deviation. Returns phi.
+  /// x' = phi x + w of `n` states, each with a constant standard deviation. Returns phi.
   template <int n>
   double markov(int first, double std, double phi) {
     P_.middleRows<n>(first) *= phi;

@@ -83,7 +83,7 @@ inline Scalar baro_height_in_flight(const Nominal& x, double pressure_pa, double
   return z;
 }
 
-/// Metres per pascal in the standard atmosphere: turns a deviation of the pressure into one of the height.
+/// Metres per pascal in the standard atmosphere: converts a pressure error into a height error.
 inline double metres_per_pascal(const Air& air) { return 1 / (air.density_kgm3 * isa::g0); }
 
 /// True airspeed |u_n| plus the gust along the flight. A pitot reads the magnitude of the air velocity up to

@@ -59,7 +59,7 @@ class MoreStates {
   /// Covariance with the filter's own states: a row for each appended one.
   const Eigen::Matrix<double, max_more, size>& cross() const { return C_; }
 
-  /// A new value and deviation, without correlation with the rest.
+  /// A new value and standard deviation, without correlation with the rest.
   void set(int i, double value, double std) {
     y_(i) = value;
     C_.row(i).setZero();

@@ -81,8 +81,8 @@ class Gusts {
     const double length = std::max(u_g.norm(), 1.0);
     fuse(Va_mps - u_g.norm(), -u_g.head<2>() / length, speed_std * speed_std);
   }
-  /// The air comes from ahead; `side_mps` is the deviation of its side component that has nothing to do with
-  /// gusts, `r_y` the wing's direction.
+  /// Zero sideslip; `side_mps` is the standard deviation of the side component without gusts, m/s, `r_y` the
+  /// direction of the wing, NED.
   void sideslip(const MeanWind& wind, const Eigen::Vector3d& r_y, double side_mps, double time_s,
                 const Params& p) {
     predict(wind, time_s, p);

@@ -165,15 +165,15 @@ class Navigator {  ///< from samples of sensors to the state of the filter; SI u
 
   void status(const VehicleStatus& s) { status_ = s; }
 
-  /// A scalar of the sensor whose book is `aid`: within its gate, in deviations, it moves the state. So the
-  /// shipped measurements come in, and so does one more.
+  /// Fuses a scalar of the sensor with the monitor `aid` when it is within `gate` standard deviations. The
+  /// shipped measurements use it, and so does a user's sensor.
   ekf::Fused fuse(const ekf::Scalar& z, double variance, double gate, Aid& aid) {
     const ekf::Fused fused = filter_.fuse(z, variance, gate);
     aid.record(fused, time_s_);
     health_.refused += !fused.accepted;
     return fused;
   }
-  /// Scalars that come in together or not at all: whether the worst of them passes. In deviations.
+  /// Common gate of several scalars, in standard deviations: true when the worst of them passes.
   bool within(std::initializer_list<double> ratios, double gate, Aid& aid);
   /// Time for which the gate has rejected this sensor; 0 when the last measurement was accepted.
   double refused_for_s(const Aid& aid) const {

@@ -48,7 +48,7 @@ class UnitNoise {
 /// is slow: n fixes within twice its correlation time have the information of one.
 class FixNoise {
  public:
-  /// Innovations, NED, m/s, and the deviation that the receiver states.
+  /// Innovations, NED, m/s, and the standard deviation that the receiver reports.
   void add(const Eigen::Vector3d& innovation_mps, double std_mps, double time_s) {
     const double dt = time_s - last_s_;
     last_s_ = time_s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters of the estimator. Noises are physical: densities per sqrt(Hz), deviations of one sample in the
-// sensor's unit.
+// Parameters of the estimator. Noises are physical: densities per sqrt(Hz), standard deviations of one sample
+// in the sensor's unit.
 #pragma once
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/plugin.hpp"

@@ -104,7 +104,8 @@ class Wander {
 /// all of it is the sensor's.
 class BaroStep {
  public:
-  /// A sample's innovation, its own deviation, whether the gate took it. The step, once it has lasted.
+  /// Innovation of a sample, m, its standard deviation, and whether the gate accepted it. Returns the step,
+  /// m, once it has lasted.
   std::optional<double> sampled(double innovation_m, double std_m, bool accepted, double time_s) {
     const bool at_once =
         took_ && time_s - time_s_ < max_s && std::abs(innovation_m - before_m_) > most * std_m;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters of the estimator. Noises are physical: densities per sqrt(Hz), deviations of one sample in the
-// sensor's unit.
+// Parameters of the estimator. Noises are physical: densities per sqrt(Hz), standard deviations of one sample
+// in the sensor's unit.
 #pragma once
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/plugin.hpp"
 
 namespace fulmar::navigation {
 
+/// Group of parameters of a component that holds the estimator.
 struct Params {
   Record<Origin> origin{"origin of the local frame; without it the first good fixes decide"};
   Param start_height{0, "m", -1000, 1000,

@@ -6,11 +6,7 @@ install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs PATTERN referen
 install(DIRECTORY ${CMAKE_BINARY_DIR}/docs/reference DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs OPTIONAL)
 
 if(FULMAR_TESTS)
-<<<<<<< HEAD
-  foreach(program tutorials reference layers code_size commas mutate quotes)
-=======
-  foreach(program tutorials reference layers code_size commas docstrings mutate)
->>>>>>> docs-f
+  foreach(program tutorials reference layers code_size commas docstrings mutate quotes)
     add_test(NAME ${program}_py_test COMMAND /usr/bin/python3 -B ${CMAKE_SOURCE_DIR}/cmake/${program}_test.py)
   endforeach()
 endif()

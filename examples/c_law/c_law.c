@@ -129,7 +129,7 @@ static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in
 
 static const fulmar_component component = {
     .name = "CLaw",
-    .doc = "Proportional course, height and airspeed hold, in C.",
+    .doc = "Proportional course and height hold and PI airspeed hold, in C.",
     .inputs = inputs,
     .outputs = outputs,
     .params = params,

@@ -16,7 +16,7 @@ struct ZoneClearance {
 };
 
 struct Watch {
-  static constexpr const char* doc = "Distance of the flight from the no-fly zones.";
+  static constexpr const char* doc = "Distance of the aircraft from the no-fly zones.";
   struct Inputs {
     In<VehicleState> state;
   };
@@ -24,7 +24,7 @@ struct Watch {
     Out<ZoneClearance> clearance;
   };
   struct Params {
-    Record<Zones> zones{"the no-fly zones", required};
+    Record<Zones> zones{"no-fly zones", required};
   };
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {

@@ -33,9 +33,7 @@ struct Compare {
     Probe horizontal_m;                   // of the last fix
   };
   struct Params {
-    Param latency{
-        0, "s", 0, 0.6,
-        "from the time of a reference fix to its arrival: it is compared with the estimate of then"};
+    Param latency{0, "s", 0, 0.6, "delay from the time of a reference fix to its arrival"};
   };
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {

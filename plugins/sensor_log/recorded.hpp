@@ -24,7 +24,7 @@ struct Recording {
 };
 
 struct Recorded {
-  static constexpr const char* doc = "A recorded flight: its sensors, from files, at the times of then.";
+  static constexpr const char* doc = "A recorded flight: its sensors from files, at the recorded times.";
   struct Inputs {
     Optional<Actuators> actuators;
   };
@@ -40,8 +40,8 @@ struct Recorded {
     OutQueue<Notice, 10> notices;
   };
   struct Params {
-    Record<Description> log{"which columns of which files are which sensor", required};
-    TextParam<256> folder{"", "where the files are; relative to the current directory"};
+    Record<Description> log{"assignment of the columns of the files to the sensors", required};
+    TextParam<256> folder{"", "folder of the files, relative to the current directory"};
   };
 
   void configure(const Params& p) {

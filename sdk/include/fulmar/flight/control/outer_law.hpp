@@ -32,44 +32,42 @@ namespace fulmar {
 struct OuterParams {
   Choice<OuterLaw> law{
       OuterLaw::hold,
-      "hold: follow guidance; takeoff: full throttle, wings level, rotate, keep the runway's course; "
-      "roll_out: throttle closed, wings level, pitch as the wheels give it"};
+      "active law; hold: follow guidance; takeoff: full throttle, wings level, rotation, course of the "
+      "runway; roll_out: closed throttle, wings level, pitch of the aircraft on its wheels"};
 
   Param course_kp{2.0, "rad/rad", 0, 10,
                   "roll per course error at cruise ground speed: course bandwidth = kp g / Va"};
   Param course_ki{0.0, "rad/(rad s)", 0, 2, "roll per integrated course error"};
-  Param roll_limit{0.785, "rad", 0.05, 1.2,
-                   "largest roll command; the airframe's own limit holds as well, and near the stall what "
-                   "the wing carries"};
-  Param roll_rate_limit{1.0, "rad/s", 0.1, 6, "fastest change of the roll command"};
+  Param roll_limit{
+      0.785, "rad", 0.05, 1.2,
+      "limit of the roll command, with the limits of the airframe and of the lift near the stall"};
+  Param roll_rate_limit{1.0, "rad/s", 0.1, 6, "rate limit of the roll command"};
   Param roll_smoothing{0.1, "s", 0, 2, "time constant of the roll command"};
 
   Param pitch_limit{0.35, "rad", 0.1, 1.0,
-                    "largest pitch command, either way; the airframe's own limits hold as well"};
-  Param pitch_rate_limit{0.8, "rad/s", 0.05, 6, "fastest change of the pitch command"};
-  Param throttle_rate_limit{2.0, "1/s", 0.1, 20, "fastest change of the throttle"};
-  Param turn_kff{1.0, "ratio", 0, 2, "share of the pitch and throttle that a banked turn needs, fed forward"};
+                    "limit of the pitch command, either way, with the limits of the airframe"};
+  Param pitch_rate_limit{0.8, "rad/s", 0.05, 6, "rate limit of the pitch command"};
+  Param throttle_rate_limit{2.0, "1/s", 0.1, 20, "rate limit of the throttle"};
+  Param turn_kff{1.0, "ratio", 0, 2, "fed-forward share of the pitch and throttle for a banked turn"};
 
   Param takeoff_throttle{1.0, "ratio", 0, 1, "throttle of the take-off law"};
   Param takeoff_pitch{0.21, "rad", 0, 0.6, "pitch of the take-off law after rotation"};
-  Param takeoff_airspeed{13.0, "m/s", 3, 60, "airspeed at which the take-off law rotates"};
+  Param takeoff_airspeed{13.0, "m/s", 3, 60, "rotation airspeed of the take-off law"};
   Param takeoff_kp{1.0, "rad/rad", 0, 5, "roll per course error of the take-off law, airborne"};
-  Param takeoff_roll_limit{0.15, "rad", 0, 0.5, "largest roll command of the take-off law"};
+  Param takeoff_roll_limit{0.15, "rad", 0, 0.5, "limit of the roll command of the take-off law"};
 
-  Param launch_acceleration{0, "m/s2", 0, 200,
-                            "along the nose: the take-off law waits for a throw with the motor off; 0: it "
-                            "rolls"};
-  Param launch_speed{4.0, "m/s", 0.5, 60, "over ground, that makes a throw of an acceleration"};
+  Param launch_acceleration{
+      0, "m/s2", 0, 200,
+      "acceleration along the nose that counts as a launch; motor off before it; 0: rolling take-off"};
+  Param launch_speed{4.0, "m/s", 0.5, 60, "minimum ground speed of a launch"};
   Param launch_delay{0.3, "s", 0, 5,
-                     "from the end of the push to the motor: the propeller clears hand or rail"};
+                     "delay from the end of the push to the motor start: clearance of the propeller"};
 
-  Param airspeed_smoothing{0.5, "s", 0, 10,
-                           "time constant of the airspeed whose trim is flown: pitch does not follow gusts"};
+  Param airspeed_smoothing{0.5, "s", 0, 10, "time constant of the airspeed for the trim"};
 
-  Flag stall_guard{true,
-                   "a stall is recognised and left, and the angle of attack limits pitch; off in a flare"};
+  Flag stall_guard{true, "switch for stall recovery and the pitch limit by angle of attack; off in a flare"};
 
-  Record<Airframe> airframe{"limits, trims, and the derivatives for the feed-forward of turns"};
+  Record<Airframe> airframe{"airframe with limits, trims and derivatives for the feed-forward of turns"};
 };
 
 /// Tuning from the parameters; the roll limit is the smaller of the parameter and the airframe's.

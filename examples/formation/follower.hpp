@@ -18,13 +18,13 @@ namespace fulmar::formation {
 
 /// Where the aircraft is, as seen from its slot.
 struct SlotError {
-  double ahead_m = 0;  ///< along the slot's way
-  double right_m = 0;  ///< of the slot's way
-  double above_m = 0;
-  double rms_m = unknown_std;  ///< of the distance from the slot, while it was kept: from within `reached` on
-  double worst_m = unknown_std;  ///< the greatest of them
-  bool reached = false;
-  bool evading = false;  ///< keeps clear of another aircraft instead
+  double ahead_m = 0;            ///< position error along the track of the slot, ahead positive
+  double right_m = 0;            ///< position error to the right of the track of the slot
+  double above_m = 0;            ///< position error above the slot
+  double rms_m = unknown_std;    ///< distance from the slot since it was reached, root mean square
+  double worst_m = unknown_std;  ///< largest distance from the slot since it was reached
+  bool reached = false;          ///< true after the slot was reached
+  bool evading = false;          ///< true in an evasion of another aircraft
 };
 
 struct Follower {

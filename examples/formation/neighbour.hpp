@@ -16,10 +16,10 @@ enum class Hearing : std::uint8_t {
 
 /// What is known of another aircraft.
 struct Sight {
-  Hearing hearing = Hearing::never;
-  double age_s = unknown_std;             ///< of what it said last
-  double distance_m = unknown_std;        ///< now
-  double least_distance_m = unknown_std;  ///< so far, since both are in the air
+  Hearing hearing = Hearing::never;       ///< state of the link
+  double age_s = unknown_std;             ///< age of the last state of the other aircraft
+  double distance_m = unknown_std;        ///< present distance
+  double least_distance_m = unknown_std;  ///< smallest distance so far with both aircraft in the air
 };
 
 struct Neighbour {

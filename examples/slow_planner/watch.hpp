@@ -11,8 +11,8 @@
 namespace fulmar::slow_planner {
 
 struct ZoneClearance {
-  double least_m = unknown_std;  ///< to the rim of the nearest zone, so far; negative: it was entered
-  double now_m = unknown_std;
+  double least_m = unknown_std;  ///< smallest distance to the border of a zone so far; negative: inside
+  double now_m = unknown_std;    ///< present distance to the border of the nearest zone
 };
 
 struct Watch {

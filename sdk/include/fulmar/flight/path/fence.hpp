@@ -20,21 +20,21 @@ inline constexpr double not_given = 1e9, same_place_m = 1;
 
 /// Either north, east of the origin, or latitude, longitude.
 struct FencePoint {
-  double north_m = not_given, east_m = not_given;
-  double lat_deg = not_given, lon_deg = not_given;
+  double north_m = not_given, east_m = not_given;   ///< local position, from the origin
+  double lat_deg = not_given, lon_deg = not_given;  ///< geodetic position, WGS-84
 };
 
 /// A file. Corners in order, either way round; the last one is joined to the first.
 struct Fence {
   Text<64> name;
   List<FencePoint, 64> corners;
-  double floor_m = -not_given, ceiling_m = not_given;  ///< above the origin
+  double floor_m = -not_given, ceiling_m = not_given;  ///< floor and ceiling, above the origin
 };
 
-/// Where the aircraft can come down. `up`: of the ground there, above the origin.
+/// A landing place. `up`: height of the ground there, above the origin.
 struct Place {
-  double north_m = not_given, east_m = not_given, up_m = 0;
-  double lat_deg = not_given, lon_deg = not_given;
+  double north_m = not_given, east_m = not_given, up_m = 0;  ///< local position, from the origin
+  double lat_deg = not_given, lon_deg = not_given;           ///< geodetic position, WGS-84
 };
 
 /// A file. The first is home.

@@ -40,7 +40,7 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     Param height{1, "m", 0.05, 50, "acceptable height error"};
     Param course{0.1, "rad", 0.005, 2, "acceptable course error"};
     Param sideslip{0.3, "rad", 0.005, 2, "acceptable sideslip"};
-    Param alpha{0.3, "rad", 0.005, 2, "acceptable deviation of the angle of attack from trim"};
+    Param alpha{0.3, "rad", 0.005, 2, "acceptable error of the angle of attack"};
     Param roll{0.4, "rad", 0.005, 3, "acceptable roll error"};
     Param pitch{0.3, "rad", 0.005, 3, "acceptable pitch error"};
     Param rate{3, "rad/s", 0.05, 20, "acceptable roll, pitch and yaw rate"};

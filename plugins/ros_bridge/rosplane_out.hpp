@@ -38,7 +38,7 @@ struct Throws {
 };
 
 struct Rosplane {
-  static constexpr const char* doc = "Publishes the flight in the messages of ROSplane and ROSflight 2.0.";
+  static constexpr const char* doc = "Output of the flight in the messages of ROSplane and ROSflight 2.0.";
   struct Inputs {
     Optional<VehicleState> state;
     Optional<GuidanceCommand> command;

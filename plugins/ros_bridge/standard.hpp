@@ -17,7 +17,7 @@ namespace fulmar::ros_bridge {
 
 struct Standard {
   static constexpr const char* doc =
-      "Publishes the flight in standard messages of ROS 2: world east-north-up, body forward-left-up.";
+      "Output of the flight in standard messages of ROS 2: world east-north-up, body forward-left-up.";
   struct Inputs {
     Optional<VehicleState> state;
     Optional<Imu> imu;

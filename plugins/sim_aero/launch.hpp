@@ -16,7 +16,7 @@ struct LaunchParams {
                             "high, over 4 m; none: rolling take-off",
                             setup};
   Param launch_after{5, "s", 0, 3600, "time from the first arming to the launch", setup};
-  Param launch_speed{0, "m/s", 0, 60, "ground speed at release; 0: 9 by hand, 16 by catapult", setup};
+  Param launch_speed{0, "m/s", 0, 60, "ground speed at release; 0: 9 for `hand`, 16 for `catapult`", setup};
   Param launch_pitch{0.2, "rad", 0, 0.8, "pitch of the nose and of the path during the push", setup};
 };
 

@@ -86,7 +86,7 @@ struct Surface {
                                        ///< simulation
   double min_rad = -10;                ///< lower stop of the servo; below -9: at the largest deflection
   double max_rad = 10;                 ///< upper stop of the servo; above 9: at the largest deflection
-  double dead_band_rad = 0;            ///< smallest change of the command that moves the servo
+  double dead_band_rad = 0;            ///< width of the band in which a changed command does not move it
   double natural_frequency_radps = 0;  ///< natural frequency of a second-order servo, in place of the time
                                        ///< constant; 0: none
   double damping_ratio = 1;            ///< damping ratio of a second-order servo

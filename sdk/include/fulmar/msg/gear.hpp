@@ -27,7 +27,7 @@ struct Gear {
   double length_m = 0.6;                 ///< distance between the front and the rear contact
   double track_m = 0.4;                  ///< distance between the left and the right contact
   double rolling_friction_ratio = 0.05;  ///< friction of rolling
-  double side_friction_ratio = 0.6;      ///< friction of side slip
+  double side_friction_ratio = 0.6;      ///< friction across the heading
   List<GearContact, 12> contacts;        ///< contact points in place of nose wheel, main wheels and tail
                                          ///< skid
   List<Vec3<Body>, 12> hull_m;           ///< points that break on contact; empty: wing tips, nose and back

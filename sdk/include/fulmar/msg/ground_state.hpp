@@ -12,8 +12,8 @@ struct GroundState {
   Contact contact = Contact::unknown;            ///< estimated contact
   bool landed = false;                           ///< flag after a flight: on the ground and too slow to fly,
                                                  ///< until the next take-off starts
-  bool throttle_locked = false;                  ///< lock of the throttle since `landed`; a hand-over by the
-                                                 ///< pilot or a take-off request ends it
+  bool throttle_locked = false;                  ///< lock of the throttle since `landed`; a return of
+                                                 ///< control by the pilot or a take-off request ends it
   std::uint32_t lift_offs = 0, touch_downs = 0;  ///< number of lift-offs and touch-downs since the start
   double since_s = 0;                            ///< time since the last change of `contact`
   double touch_evidence_ratio = 0;               ///< evidence for a touch-down; 1: sufficient

@@ -29,7 +29,7 @@ struct NotReady {
   bool wind = false;       ///< wind above the take-off limit
   bool fence = false;      ///< position outside the geofence, or within its margin
   bool height = false;     ///< height above the ceiling, or within its margin
-  bool motor = false;      ///< no acceleration at open throttle, until a hand-over or a disarming
+  bool motor = false;      ///< no acceleration at open throttle, until a change of control or a disarming
 };
 
 /// Failures for the phases of a mission. Each flag is set and cleared with its own delay.

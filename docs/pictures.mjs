@@ -13,7 +13,7 @@ if (missing) {
   console.error(missing);
   process.exit(1);
 }
-const turn_s = 112; // flight time of the picture
+const turn_s = 110.5; // flight time of the picture
 const browser = await browse(modules, chromium);
 const open = async (url, width, height) => {
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: "light" });
@@ -73,7 +73,7 @@ async function drawing() {
     copy(from, to);
     const set = (e, values) => Object.entries(values).forEach(([name, value]) => e.setAttribute(name, value));
     to.setAttribute("viewBox", "0 0 460 290");
-    set(to, { xmlns: "http://www.w3.org/2000/svg", width: 690, height: 435, "font-family": "sans-serif" });
+    set(to, { xmlns: "http://www.w3.org/2000/svg", width: 575, height: 362, "font-family": "sans-serif" });
     const ground = document.createElementNS("http://www.w3.org/2000/svg", "rect");
     set(ground, { width: "100%", height: "100%", fill: "#ffffff" });
     to.prepend(ground);

@@ -5,9 +5,11 @@
   cmake/prose.py              exits 1 and lists each fault as file:line
   cmake/prose.py --count      prints words and the longest sentences of each page as well
   cmake/prose.py FILE...      checks these files alone
+  cmake/prose.py --reference FOLDER
+                              checks the descriptions in the pages of cmake/reference.sh alone
 
-A page whose second paragraph says "Written by `command`" is generated; its words are counted apart. Code blocks and code spans are left out of the rules, not
-of the count.
+Without files, the descriptions in build/docs/reference are checked too if they exist. A page whose second paragraph says "Written by `command`" is
+generated; its words are counted apart. Code blocks and code spans are left out of the rules, not of the count.
 """
 import argparse
 import pathlib
@@ -32,6 +34,15 @@ terms = {
     r"\bborne out\b|\bin vain\b|\bbids?\b": "plain verb",
     r"\bgets? company\b|\bneighbours?\b": "plain noun",
 }
+
+# A description of a component, a parameter or a field is a noun phrase.
+description_terms = {
+    **terms,
+    r"(?<!standard )(?<!Allan )\bdeviations?\b": "standard deviation, error",
+    r"\bby hand\b|\bas far as\b": "plain noun",
+}
+first_words = r"(until|while|whether|what|who|how|if|when|and|or|to|not|else|its|their)\b"
+described = {"component": 2, "parameter": 2, "field": 1}  # the first column of a table, and the fewest words of a text
 
 
 def pages(names):
@@ -107,11 +118,47 @@ def faults(path, text):
                 yield f"{path}:{line}: '{match[0]}'; use: {standard}"
 
 
+def descriptions(text):
+    """(line, column, name, description) of each row of the tables that `described` names."""
+    head = []
+    for number, line in enumerate(text.splitlines(), 1):
+        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+        if not cells:
+            head = []
+        elif not head:
+            head = cells
+        elif head[0] in described and head[-1] == "what" and len(cells) == len(head) and cells[-1].strip("-"):
+            yield number, head[0], re.sub(r"[`\[\]]|\(.*", "", cells[0]), cells[-1]
+
+
+def description_faults(path, text):
+    for line, column, name, description in descriptions(text):
+        where = f"{path}:{line}: {column} {name}"
+        if len(description.split()) < described[column]:
+            yield f"{where}: '{description}' is too short, at least {described[column]} words"
+        if re.match(first_words, description, re.IGNORECASE):
+            yield f"{where}: not a noun phrase: {description[:70]}"
+        plain = re.sub(r"`[^`]*`", "CODE", description)
+        for term, standard in description_terms.items():
+            for match in re.finditer(term, plain, re.IGNORECASE):
+                yield f"{where}: '{match[0]}'; use: {standard}"
+
+
+def check_reference(folder):
+    """The number of faults, printed, in the descriptions of a folder of generated pages."""
+    found = [fault for page in sorted(folder.glob("*.md")) for fault in description_faults(page, page.read_text())]
+    print(*found, sep="\n", end="\n" if found else "")
+    return len(found)
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("files", nargs="*")
     arguments.add_argument("--count", action="store_true", help="print the words of each page")
+    arguments.add_argument("--reference", type=pathlib.Path, metavar="FOLDER", help="check the descriptions in these pages alone")
     options = arguments.parse_args()
+    if options.reference:
+        return 1 if check_reference(options.reference) else 0
     written = generated = bad = 0
     for path in pages(options.files):
         text = path.read_text()
@@ -126,6 +173,8 @@ def main():
             print(f"{count:6} {len(of_page):4} {path}")
         else:
             print(*of_page, sep="\n", end="\n" if of_page else "")
+    if not options.files:
+        bad += check_reference(pathlib.Path("build/docs/reference"))
     print(f"{written} words, {generated} more in generated pages, {bad} faults")
     if not options.files and written > most_words:
         print(f"more than {most_words} words in pages that are not generated")

@@ -16,7 +16,10 @@ echo "a line" | refuse "" >/dev/null
 [ "$bad" -eq 1 ] || { echo "a broken rule would go unnoticed"; exit 1; }
 bad=0
 python3 cmake/layers.py >/dev/null || python3 cmake/layers.py | refuse "The folders of core stand on each other:"
+python3 cmake/quotes.py 2>&1 | refuse "A document quotes its source as it is:"
+docs/pictures.sh --check 2>&1 | refuse "A picture of the documents is missing, too large, not used or older than its inputs (docs/pictures.sh PREFIX_OR_BUILD):"
 python3 cmake/code_size.py 2>&1 >/dev/null | refuse "Too large:"
+python3 cmake/docstrings.py | refuse "A public declaration has no docstring:"
 git ls-files core links sdk plugins tools bench examples | grep -E '\.(cpp|hpp|h|c)$' | grep -v '^core/test/abi_1/' | xargs python3 cmake/commas.py |
   refuse "One statement a line, not a chain of commas (cmake/commas.py --fix FILE splits it):"
 git grep -nE '^#include [<"](core|links)/' -- plugins sdk examples | refuse "Plugins and SDK must not include core:"

@@ -421,7 +421,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 def default_pages():
     """All pages; those that compile most begin first, so that none of them is left alone at the end."""
-    pages = [*(ROOT / "docs" / f"{name}.md" for name in ("missions", "live", "viewers", "logs", "ros2", "many-flights", "vehicles", "aero", "aircraft", "by_hand")),
+    pages = [*(ROOT / "docs" / f"{name}.md" for name in ("missions", "live", "viewers", "logs", "ros2", "many-flights", "vehicles", "aero", "aircraft", "by_hand", "tour")),
              *sorted((ROOT / "docs/tutorial").glob("[0-9]-*.md")), *sorted((ROOT / "examples").glob("*/README.md"))]
     return sorted(pages, key=lambda page: -page.read_text().count("cmake --build"))
 

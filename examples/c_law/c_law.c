@@ -76,8 +76,8 @@ static const fulmar_param params[PARAM_COUNT] = {
     [AIRSPEED_KP] = PARAM("airspeed_kp", "s/m", "throttle per airspeed error", 0.1, 0, 1),
     [THROTTLE_TRIM] = PARAM("throttle_trim", "", "throttle in level flight", 0.4, 0, 1),
     [PITCH_TRIM] = PARAM("pitch_trim", "rad", "pitch in level flight", 0.02, -0.3, 0.3),
-    [ROLL_MAX] = PARAM("roll_max", "rad", "limit, either way", 0.6, 0, 1.2),
-    [PITCH_MAX] = PARAM("pitch_max", "rad", "limit, either way", 0.25, 0, 0.6),
+    [ROLL_MAX] = PARAM("roll_max", "rad", "limit of the roll command, either way", 0.6, 0, 1.2),
+    [PITCH_MAX] = PARAM("pitch_max", "rad", "limit of the pitch command, either way", 0.25, 0, 0.6),
 };
 
 /* ---- the law

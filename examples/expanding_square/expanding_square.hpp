@@ -16,8 +16,7 @@
 using namespace fulmar;
 
 struct ExpandingSquare {
-  static constexpr const char* doc =
-      "An expanding-square search that is put into the plan and taken out again.";
+  static constexpr const char* doc = "Expanding-square search, inserted into the plan and removed again.";
   static constexpr std::size_t max_corners = 24;
   struct Inputs {
     In<VehicleState> state;
@@ -31,11 +30,11 @@ struct ExpandingSquare {
     Probe corners_ratio;  // of the search that were reached
   };
   struct Params {
-    Count after{2, 1, 1000, "waypoints before the search"};
-    Param spacing{120, "m", 5, 5000, "between tracks"};
+    Count after{2, 1, 1000, "number of waypoints before the search"};
+    Param spacing{120, "m", 5, 5000, "distance between two tracks"};
     Param first_leg{0, "rad", -3.15, 3.15, "course of the first leg"};
-    Count corners{9, 1, max_corners, "of the square"};
-    Flag left{false, "turn left at the corners, in place of right"};
+    Count corners{9, 1, max_corners, "number of corners of the square"};
+    Flag left{false, "switch for turns to the left at the corners"};
   };
 
   /// Corner `k`, from 0, as seen from where the search begins.

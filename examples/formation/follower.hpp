@@ -18,17 +18,17 @@ namespace fulmar::formation {
 
 /// Where the aircraft is, as seen from its slot.
 struct SlotError {
-  double ahead_m = 0;  ///< along the slot's way
-  double right_m = 0;  ///< of the slot's way
-  double above_m = 0;
-  double rms_m = unknown_std;  ///< of the distance from the slot, while it was kept: from within `reached` on
-  double worst_m = unknown_std;  ///< the greatest of them
-  bool reached = false;
-  bool evading = false;  ///< keeps clear of another aircraft instead
+  double ahead_m = 0;            ///< position error along the track of the slot, ahead positive
+  double right_m = 0;            ///< position error to the right of the track of the slot
+  double above_m = 0;            ///< position error above the slot
+  double rms_m = unknown_std;    ///< distance from the slot since it was reached, root mean square
+  double worst_m = unknown_std;  ///< largest distance from the slot since it was reached
+  bool reached = false;          ///< true after the slot was reached
+  bool evading = false;          ///< true in an evasion of another aircraft
 };
 
 struct Follower {
-  static constexpr const char* doc = "Fills `guide`: keeps a slot beside a leader.";
+  static constexpr const char* doc = "Guidance that keeps a slot beside a leader.";
   struct Inputs {
     In<VehicleState> state;
     Optional<VehicleState> leader;     // imported, or Neighbour's
@@ -39,22 +39,25 @@ struct Follower {
     Out<SlotError> slot;
   };
   struct Params {
-    Vector<Body> offset{{-20, 20, 0},
-                        "m",
-                        -1000,
-                        1000,
-                        "of the slot from the leader: ahead, right, down, along the leader's course"};
+    Vector<Body> offset{
+        {-20, 20, 0},
+        "m",
+        -1000,
+        1000,
+        "position of the slot from the leader: ahead, right, down in the axes of the leader's course"};
     Param separation{10, "m", 1, 500,
-                     "from any other aircraft: nearer ones are kept clear of, and no slot is nearer"};
-    Param look_ahead{2, "s", 0, 10, "how long before it would be lost the separation is looked after"};
-    Param timeout{4, "s", 0.02, 60, "silence of the leader after which this has failed"};
-    Param chi_infinity{0.9, "rad", 0.1, 1.4, "approach angle to the slot's line from far away"};
-    Param k_cross{0.03, "1/m", 0.001, 1, "how sharply to turn onto it, at the reference speed"};
-    Param reference_speed{17, "m/s", 1, 200, "ground speed for which k_cross holds; it falls as that grows"};
-    Param k_along{0.25, "1/s", 0.01, 2, "closing speed per metre behind the slot"};
-    Param closing_max{5, "m/s", 0.1, 50, "of that speed, either way"};
+                     "minimum distance from any other aircraft and of the slot from the leader"};
+    Param look_ahead{2, "s", 0, 10, "horizon of the prediction of the separation"};
+    Param timeout{4, "s", 0.02, 60, "largest time without a state of the leader before failure"};
+    Param chi_infinity{0.9, "rad", 0.1, 1.4, "approach angle to the line of the slot at large distance"};
+    Param k_cross{0.03, "1/m", 0.001, 1,
+                  "gain of the approach to the line of the slot, at the reference speed"};
+    Param reference_speed{17, "m/s", 1, 200,
+                          "ground speed at which k_cross holds; the gain falls with the ground speed"};
+    Param k_along{0.25, "1/s", 0.01, 2, "closing speed per distance behind the slot"};
+    Param closing_max{5, "m/s", 0.1, 50, "largest closing speed, either way"};
     Param reached{10, "m", 1, 500, "distance from the slot within which it counts as reached"};
-    Record<Airframe> airframe{"whose limits of airspeed and bank are kept"};
+    Record<Airframe> airframe{"airframe with the limits of airspeed and bank"};
   };
 
   void configure(const Params& p) { retune(p); }

@@ -16,15 +16,14 @@ enum class Hearing : std::uint8_t {
 
 /// What is known of another aircraft.
 struct Sight {
-  Hearing hearing = Hearing::never;
-  double age_s = unknown_std;             ///< of what it said last
-  double distance_m = unknown_std;        ///< now
-  double least_distance_m = unknown_std;  ///< so far, since both are in the air
+  Hearing hearing = Hearing::never;       ///< state of the link
+  double age_s = unknown_std;             ///< age of the last state of the other aircraft
+  double distance_m = unknown_std;        ///< present distance
+  double least_distance_m = unknown_std;  ///< smallest distance so far with both aircraft in the air
 };
 
 struct Neighbour {
-  static constexpr const char* doc =
-      "Hears another aircraft: whether it speaks, how far off it is, and its state for those who fly by it.";
+  static constexpr const char* doc = "Receiver for the state of another aircraft: link, distance and state.";
   struct Inputs {
     In<VehicleState> state;
     Optional<VehicleState> heard;  // imported
@@ -34,9 +33,9 @@ struct Neighbour {
     Sight sight;
   };
   struct Params {
-    Param timeout{2, "s", 0.02, 60, "silence after which it counts as silent"};
-    Param latency{0, "s", 0, 5, "age of its state when it arrives here, as far as it is known"};
-    Param airborne{5, "m", 0, 1000, "height above which both count for the least distance"};
+    Param timeout{2, "s", 0.02, 60, "largest time without a message before the link counts as lost"};
+    Param latency{0, "s", 0, 5, "transmission delay of the state of the other aircraft"};
+    Param airborne{5, "m", 0, 1000, "height of both aircraft above which the minimum distance counts"};
   };
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out);

@@ -35,17 +35,17 @@ struct Indi {  // fills the role `inner`
     Probe yaw_acceleration_error_ratio;
   };
   struct Params {
-    Param roll{6, "1/s", 0, 30, "roll rate asked for per roll error"};
-    Param pitch{8, "1/s", 0, 30, "pitch rate asked for per pitch error"};
-    Param roll_rate{18, "1/s", 0, 60, "roll acceleration asked for per error of the roll rate"};
-    Param pitch_rate{15, "1/s", 0, 60, "the same, pitch"};
-    Param yaw_rate{5, "1/s", 0, 60, "the same, yaw"};
+    Param roll{6, "1/s", 0, 30, "roll rate command per roll error"};
+    Param pitch{8, "1/s", 0, 30, "pitch rate command per pitch error"};
+    Param roll_rate{18, "1/s", 0, 60, "roll acceleration command per roll rate error"};
+    Param pitch_rate{15, "1/s", 0, 60, "pitch acceleration command per pitch rate error"};
+    Param yaw_rate{5, "1/s", 0, 60, "yaw acceleration command per yaw rate error"};
     Param filter{40, "rad/s", 5, 300, "natural frequency of the filter on rates and surfaces"};
-    Param effectiveness{1, "ratio", 0.2, 5, "of the surfaces, times what the airframe says"};
+    Param effectiveness{1, "ratio", 0.2, 5, "factor on the surface effectiveness of the airframe"};
     Param roll_kff{0.7, "ratio", 0, 2, "share of the commanded roll rate that is fed forward"};
     Param command_filter{0.04, "s", 0.005, 1, "time constant of the differentiated roll command"};
-    Param fade{0.3, "s", 0.01, 5, "time constant with which it takes over from what flew before"};
-    Record<Airframe> airframe{"moments of inertia, effect, lag and throws of the surfaces, limits"};
+    Param fade{0.3, "s", 0.01, 5, "time constant of the bumpless transfer"};
+    Record<Airframe> airframe{"airframe with inertia, surface effectiveness, servo lag, throws and limits"};
   };
 
   /// Angular acceleration per surface (aileron, elevator, rudder) and unit of dynamic pressure, rad/s2 / rad

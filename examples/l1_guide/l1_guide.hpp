@@ -16,7 +16,7 @@
 using namespace fulmar;
 
 struct L1Guide {  // fills the role `guide`
-  static constexpr const char* doc = "Steers for a point of the path ahead, with a lateral acceleration.";
+  static constexpr const char* doc = "Guidance to a point ahead on the path by lateral acceleration (L1).";
   struct Inputs {
     In<VehicleState> state;
     In<Path> path;
@@ -28,9 +28,9 @@ struct L1Guide {  // fills the role `guide`
     Probe corner_ratio;   // 1: that point lies on the next piece
   };
   struct Params {
-    Param period{7, "s", 2, 60, "of the oscillation about the path: smaller is tighter"};
-    Param damping{0.75, "ratio", 0.3, 1.5, "of that oscillation"};
-    Flag corners{true, "look round the corner, where the path says what comes next"};
+    Param period{7, "s", 2, 60, "period of the oscillation about the path: smaller is tighter"};
+    Param damping{0.75, "ratio", 0.3, 1.5, "damping ratio of the oscillation about the path"};
+    Flag corners{true, "switch for the look-ahead into the next leg"};
   };
 
   struct Point {

@@ -18,7 +18,8 @@
 using namespace fulmar;
 
 struct Lqr {  // fills the roles `outer` and `inner` at once
-  static constexpr const char* doc = "Course, height and airspeed to surfaces: a linear-quadratic regulator.";
+  static constexpr const char* doc =
+      "Course, height and airspeed hold by a linear-quadratic regulator on the surfaces.";
   using X = Plant;  // its names of states and inputs
   using State = Plant::State;
   using Input = Plant::Input;
@@ -35,24 +36,23 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     Probe saturated_ratio;  // actuators at their limits
   };
   struct Params {
-    Param airspeed{1, "m/s", 0.05, 20, "acceptable error, as all of these: the square of its inverse weighs"};
-    Param height{1, "m", 0.05, 50, "of the height"};
-    Param course{0.1, "rad", 0.005, 2, "of the course"};
-    Param sideslip{0.3, "rad", 0.005, 2, "of the sideslip"};
-    Param alpha{0.3, "rad", 0.005, 2, "of the angle of attack"};
-    Param roll{0.4, "rad", 0.005, 3, "of the roll angle"};
-    Param pitch{0.3, "rad", 0.005, 3, "of the pitch angle"};
-    Param rate{3, "rad/s", 0.05, 20, "of roll, pitch and yaw rate"};
-    Param integral{8, "s", 0.5, 100, "for which an error of height, airspeed or course is acceptable"};
-    Param throttle{0.3, "ratio", 0.01, 5, "use of the throttle"};
-    Param aileron{0.1, "rad", 0.01, 5, "use of the aileron"};
-    Param elevator{0.2, "rad", 0.01, 5, "use of the elevator"};
-    Param rudder{0.1, "rad", 0.01, 5, "use of the rudder"};
-    Param bank{6, "rad/s", 0.5, 20,
-               "natural frequency with which the bank that guidance asks for is taken up"};
-    Param fade{1, "s", 0.05, 20, "in which the bump of a hand-over is gone"};
-    Record<Airframe> airframe{"what the model is made from; limits, throws"};
-    Record<Origin> origin{"its altitude says how dense the air is"};
+    Param airspeed{1, "m/s", 0.05, 20, "acceptable airspeed error; its weight is the inverse square"};
+    Param height{1, "m", 0.05, 50, "acceptable height error"};
+    Param course{0.1, "rad", 0.005, 2, "acceptable course error"};
+    Param sideslip{0.3, "rad", 0.005, 2, "acceptable sideslip"};
+    Param alpha{0.3, "rad", 0.005, 2, "acceptable error of the angle of attack"};
+    Param roll{0.4, "rad", 0.005, 3, "acceptable roll error"};
+    Param pitch{0.3, "rad", 0.005, 3, "acceptable pitch error"};
+    Param rate{3, "rad/s", 0.05, 20, "acceptable roll, pitch and yaw rate"};
+    Param integral{8, "s", 0.5, 100, "acceptable duration of an error of height, airspeed or course"};
+    Param throttle{0.3, "ratio", 0.01, 5, "acceptable use of the throttle"};
+    Param aileron{0.1, "rad", 0.01, 5, "acceptable use of the aileron"};
+    Param elevator{0.2, "rad", 0.01, 5, "acceptable use of the elevator"};
+    Param rudder{0.1, "rad", 0.01, 5, "acceptable use of the rudder"};
+    Param bank{6, "rad/s", 0.5, 20, "natural frequency of the response to the bank of the guidance"};
+    Param fade{1, "s", 0.05, 20, "time constant of the bumpless transfer"};
+    Record<Airframe> airframe{"airframe of the linear model, with limits and throws"};
+    Record<Origin> origin{"origin of the local frame; its altitude sets the air density"};
   };
 
   const Plant& plant() const { return plant_; }

@@ -22,9 +22,9 @@ class MyLaw:
         course_kp = f.Param(1.2, "rad/rad", 0, 5, "roll per course error")
         height_kp = f.Param(0.02, "rad/m", 0, 0.2, "pitch per height error")
         airspeed_kp = f.Param(0.08, "s/m", 0, 1, "throttle per airspeed error")
-        roll_max = f.Param(math.radians(40), "rad", 0, 1, "largest bank")
-        pitch_trim = f.Param(math.radians(2), "rad", -0.3, 0.3, "pitch of level cruise")
-        throttle_trim = f.Param(0.5, "", 0, 1, "throttle of level cruise")
+        roll_max = f.Param(math.radians(40), "rad", 0, 1, "limit of the roll command, either way")
+        pitch_trim = f.Param(math.radians(2), "rad", -0.3, 0.3, "pitch in level flight")
+        throttle_trim = f.Param(0.5, "", 0, 1, "throttle in level flight")
 
     def step(self, tick, inp, p, out):
         state, command = inp.state, inp.command

@@ -18,7 +18,8 @@ struct RadarRange {
 };
 
 struct RadarAltimeter {
-  static constexpr const char* doc = "Slant range to flat ground along the body's z axis, one step late.";
+  static constexpr const char* doc =
+      "Slant range to flat ground along the body's z axis, with a delay of one step.";
   struct Inputs {
     In<VehicleState> truth;
   };
@@ -26,9 +27,9 @@ struct RadarAltimeter {
     OutQueue<RadarRange, 4> range;
   };
   struct Params {
-    Param noise_std{0.25, "m", 0, 10, "of one measurement"};
-    Param max_range{120, "m", 1, 5000, "farther ground gives no echo"};
-    Param max_tilt{0.6, "rad", 0.05, 1.4, "beyond this the ground reflects the beam away"};
+    Param noise_std{0.25, "m", 0, 10, "standard deviation of a measurement"};
+    Param max_range{120, "m", 1, 5000, "largest range with an echo"};
+    Param max_tilt{0.6, "rad", 0.05, 1.4, "largest tilt of the beam with an echo"};
     Param dropout{0.02, "ratio", 0, 1, "share of measurements without an echo, at random"};
   };
 

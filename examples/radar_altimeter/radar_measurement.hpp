@@ -13,12 +13,13 @@ using navigation::Navigator;
 
 struct RadarMeasurement {
   struct Params {
-    Flag use_radar{true, "false: flies as the shipped estimator"};
-    Param radar_gate{5, "ratio", 2, 20, "innovations beyond this many deviations are refused"};
-    Param max_age{0.3, "s", 0.02, 0.5, "older ranges are left out"};
-    Count stuck_after{10, 2, 1000, "equal ranges in a row: the radar is stuck"};
-    Param reopen_after{5, "s", 0.5, 60, "ranges refused so long: height and barometer are doubted"};
-    Param doubt{3, "m", 0.1, 100, "how far height and barometer are doubted then"};
+    Flag use_radar{true, "use of the radar; false: same estimate as the shipped estimator"};
+    Param radar_gate{5, "ratio", 2, 20, "gate of the innovation in standard deviations"};
+    Param max_age{0.3, "s", 0.02, 0.5, "largest age of a range that is used"};
+    Count stuck_after{10, 2, 1000, "number of equal ranges in a row that counts as a stuck sensor"};
+    Param reopen_after{5, "s", 0.5, 60,
+                       "duration of rejected ranges after which height and barometer are down-weighted"};
+    Param doubt{3, "m", 0.1, 100, "standard deviation that is then added to height and barometer bias"};
   };
 
   /// Range r = h / c along r_z, the body's z axis in NED, with c = r_z.down = cos phi cos theta. Height and

@@ -21,7 +21,7 @@ inline constexpr std::size_t no_leg = static_cast<std::size_t>(-1);
 
 struct Detour {
   static constexpr const char* doc =
-      "Leads a plan round no-fly zones, in the least time in the present wind. Needs `run: async`.";
+      "Detours of a plan around no-fly zones, fastest in the present wind. Needs `run: async`.";
   struct Inputs {
     In<VehicleState> state;  // for its wind
     In<Plan> plan;
@@ -33,10 +33,10 @@ struct Detour {
     Probe flight_s;     // one round of it, in the wind of then
   };
   struct Params {
-    Record<Zones> zones{"the no-fly zones", required};
-    Param margin{20, "m", 0, 1000, "least distance of the path from a zone's rim", setup};
-    Count iterations{8000, 100, 100000, "samples of one search, one search per step", setup};
-    Count improvements{4, 0, 1000, "further searches per leg, once there is a plan", setup};
+    Record<Zones> zones{"no-fly zones", required};
+    Param margin{20, "m", 0, 1000, "minimum distance of the path from the border of a zone", setup};
+    Count iterations{8000, 100, 100000, "number of samples per search; one search per step", setup};
+    Count improvements{4, 0, 1000, "number of further searches per leg after the first plan", setup};
   };
 
   explicit Detour(std::uint64_t seed) : seed_(seed) {}

@@ -11,12 +11,12 @@
 namespace fulmar::slow_planner {
 
 struct ZoneClearance {
-  double least_m = unknown_std;  ///< to the rim of the nearest zone, so far; negative: it was entered
-  double now_m = unknown_std;
+  double least_m = unknown_std;  ///< smallest distance to the border of a zone so far; negative: inside
+  double now_m = unknown_std;    ///< present distance to the border of the nearest zone
 };
 
 struct Watch {
-  static constexpr const char* doc = "Distance of the flight from the no-fly zones.";
+  static constexpr const char* doc = "Distance of the aircraft from the no-fly zones.";
   struct Inputs {
     In<VehicleState> state;
   };
@@ -24,7 +24,7 @@ struct Watch {
     Out<ZoneClearance> clearance;
   };
   struct Params {
-    Record<Zones> zones{"the no-fly zones", required};
+    Record<Zones> zones{"no-fly zones", required};
   };
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {

@@ -10,8 +10,8 @@
 namespace fulmar::slow_planner {
 
 struct Zone {
-  double north_m = 0, east_m = 0;
-  double radius_m = 0;
+  double north_m = 0, east_m = 0;  ///< centre of the zone, from the origin
+  double radius_m = 0;             ///< radius of the zone
 };
 
 /// A file of zones. They reach from the ground to any height.

@@ -17,7 +17,7 @@ using namespace fulmar;
 
 struct SplineFollower {  // fills the role `guide`
   static constexpr const char* doc =
-      "Keeps distance and angle to a curve at zero, with a lateral acceleration.";
+      "Path following of a curve: cross-track error and course error to zero by lateral acceleration.";
   struct Inputs {
     In<VehicleState> state;
     In<Path> path;
@@ -28,11 +28,10 @@ struct SplineFollower {  // fills the role `guide`
     Probe curvature_ratio;
   };
   struct Params {
-    Param length{20, "m", 5, 500, "in which a deviation decays: smaller is tighter"};
-    Param damping{0.8, "ratio", 0.3, 2, "of that decay"};
-    Param lead_time{0.5, "s", 0, 3,
-                    "how long before the curvature changes its bank is commanded: what rolling takes"};
-    Param approach_max{1.05, "rad", 0.2, 1.5, "angle to the path from far away"};
+    Param length{20, "m", 5, 500, "decay length of the cross-track error: smaller is tighter"};
+    Param damping{0.8, "ratio", 0.3, 2, "damping ratio of the decay"};
+    Param lead_time{0.5, "s", 0, 3, "lead time of the bank command before a change of curvature"};
+    Param approach_max{1.05, "rad", 0.2, 1.5, "approach angle to the path at large distance"};
   };
 
   /// The path where the aircraft is closest to it, and its curvature where it will be when it has rolled.

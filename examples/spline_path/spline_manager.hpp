@@ -16,7 +16,7 @@
 using namespace fulmar;
 
 struct SplineManager {
-  static constexpr const char* doc = "A smooth curve through the waypoints, and how far it has been flown.";
+  static constexpr const char* doc = "Smooth curve through the waypoints, and the progress along it.";
   struct Inputs {
     In<VehicleState> state;
     In<Plan> plan;
@@ -27,10 +27,11 @@ struct SplineManager {
     Probe along_ratio;  // of the leg
   };
   struct Params {
-    Param tension{0, "ratio", 0, 1, "0: Catmull-Rom; 1: straight legs with sharp corners"};
-    Param rejoin_distance{60, "m", 10, 1000, "off the curve by more than this: draw a new way to it"};
-    Param hold_height{50, "m", 0, 10000, "lowest height of the orbit that is flown without a plan"};
-    Count first_item{0, 0, 65535, "index of the waypoint to begin with"};
+    Param tension{0, "ratio", 0, 1,
+                  "tension of the spline; 0: Catmull-Rom; 1: straight legs with sharp corners"};
+    Param rejoin_distance{60, "m", 10, 1000, "distance from the curve beyond which a new curve is computed"};
+    Param hold_height{50, "m", 0, 10000, "minimum height of the orbit that is flown without a plan"};
+    Count first_item{0, 0, 65535, "index of the first waypoint"};
   };
 
   /// Of the leg that ends at waypoint `i`. A circuit of two is a circle; the ends of an open plan are

@@ -14,8 +14,9 @@
 namespace fulmar::manual {
 
 struct EnvelopeParams {
-  Flag protection{true, "bank, pitch, stall and overspeed are kept from the pilot; false: as to land"};
-  Param stall_airspeed{0, "m/s", 0, 300, "with wings level; 0: the airframe's minimum airspeed over 1.2"};
+  Flag protection{true, "switch for the limits of bank, pitch, stall and overspeed; false for a landing"};
+  Param stall_airspeed{0, "m/s", 0, 300,
+                       "stall airspeed with wings level; 0: minimum airspeed of the airframe over 1.2"};
 };
 
 struct Envelope {

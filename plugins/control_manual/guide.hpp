@@ -16,8 +16,7 @@ namespace fulmar::manual {
 
 struct Guide {
   static constexpr const char* doc =
-      "The sticks move course, height and airspeed, each axis by itself; or it is held, or comes from the "
-      "path.";
+      "Course, height and airspeed commands: each axis from the sticks, held, or from the path.";
   /// Where a command comes from: the pilot moves it; another guide; it stays; or what is flown now, so that
   /// what holds it has nothing to do while the pilot flies that axis further in, and holds it without him.
   enum class Axis : std::uint8_t { sticks, automatic, hold, flown };
@@ -34,19 +33,19 @@ struct Guide {
   };
   struct Params {
     StickParams sticks;
-    Choice<Axis> course{Axis::sticks, "who says the course; sticks: roll"};
-    Choice<Axis> height{Axis::sticks, "who says the height; sticks: pitch"};
-    Choice<Axis> airspeed{Axis::sticks, "who says the airspeed; sticks: throttle"};
-    Param course_rate{0.5, "rad/s", 0, 3, "at full roll stick"};
-    Param climb_rate{3.0, "m/s", 0, 50, "at full pitch stick; the airframe's own limits hold as well"};
-    Param airspeed_rate{1.0, "m/s2", 0, 20, "with the throttle stick at one of its ends; its middle is 0"};
-    Param throttle_dead_zone{0.15, "ratio", 0, 0.5,
-                             "of the throttle stick around its middle: nothing centres it"};
-    Param course_lead{0.8, "rad", 0.05, 3, "the course runs ahead of what is flown by at most so much"};
-    Param height_lead{15, "m", 1, 1000, "the height runs ahead of what is flown by at most so much"};
-    Param height_min{20, "m", -1000, 20000, "floor of the height that sticks ask for"};
-    Param height_max{120, "m", -1000, 20000, "ceiling of the height that sticks ask for"};
-    Record<Airframe> airframe{"limits of airspeed, climb and bank", required};
+    Choice<Axis> course{Axis::sticks, "source of the course command; sticks: the roll stick"};
+    Choice<Axis> height{Axis::sticks, "source of the height command; sticks: the pitch stick"};
+    Choice<Axis> airspeed{Axis::sticks, "source of the airspeed command; sticks: the throttle stick"};
+    Param course_rate{0.5, "rad/s", 0, 3, "course rate at full roll stick"};
+    Param climb_rate{3.0, "m/s", 0, 50, "climb rate at full pitch stick, within the limits of the airframe"};
+    Param airspeed_rate{1.0, "m/s2", 0, 20,
+                        "rate of the airspeed command at full or closed throttle stick; 0 at its centre"};
+    Param throttle_dead_zone{0.15, "ratio", 0, 0.5, "dead zone of the throttle stick around its centre"};
+    Param course_lead{0.8, "rad", 0.05, 3, "largest lead of the course command over the course flown"};
+    Param height_lead{15, "m", 1, 1000, "largest lead of the height command over the height flown"};
+    Param height_min{20, "m", -1000, 20000, "lower limit of the height command from the sticks"};
+    Param height_max{120, "m", -1000, 20000, "upper limit of the height command from the sticks"};
+    Record<Airframe> airframe{"airframe with the limits of airspeed, climb and bank", required};
   };
 
   void configure(const Params& p) {

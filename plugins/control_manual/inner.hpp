@@ -13,8 +13,7 @@ namespace fulmar::manual {
 
 struct Inner {
   static constexpr const char* doc =
-      "Aileron, elevator, rudder and throttle from the sticks: surface, rate or attitude, each axis by "
-      "itself.";
+      "Aileron, elevator, rudder and throttle from the sticks: each axis as surface, rate or attitude.";
   enum class Law : std::uint8_t { surface, rate, attitude };
   enum class Rudder : std::uint8_t { surface, damper };
   enum class Throttle : std::uint8_t { stick, automatic };
@@ -32,24 +31,26 @@ struct Inner {
   struct Params {
     StickParams sticks;
     EnvelopeParams envelope;
-    Choice<Law> aileron{Law::rate, "what the roll stick says; attitude: the outer law does"};
-    Choice<Law> elevator{Law::rate, "what the pitch stick says; attitude: the outer law does"};
-    Choice<Rudder> rudder{Rudder::damper, "the yaw stick says the surface, alone or beside a yaw damper"};
-    Choice<Throttle> throttle{Throttle::stick, "who says the throttle; automatic: the outer law"};
-    Param throw_share{1, "ratio", 0.05, 1, "of the throw at full stick, from the trim"};
-    Param roll_rate{1.5, "rad/s", 0.05, 6, "at full stick, and the most that an attitude asks for"};
-    Param pitch_rate{0.6, "rad/s", 0.05, 3, "at full stick, beyond that of a turn; the most for an attitude"};
-    Param roll_gain{4, "1/s", 0.1, 20, "roll rate per roll error, also towards the largest bank"};
-    Param pitch_gain{3, "1/s", 0.1, 20, "pitch rate per pitch error, also towards the largest pitch"};
-    Param roll_damping{8, "1/s", 0, 50, "what the aileron adds to the airframe's roll damping"};
-    Param pitch_damping{12, "1/s", 0, 50, "what the elevator adds to the airframe's pitch damping"};
-    Param integral{3, "1/s", 0, 20, "of both rate loops: integral over proportional gain"};
-    Param yaw_damping{0.3, "rad s/rad", 0, 5,
-                      "rudder against yaw rate beyond that of the turn, at cruise speed"};
-    Param yaw_washout{0.6, "rad/s", 0.01, 10, "wash-out pole of the yaw damper"};
-    Param airspeed_smoothing{0.5, "s", 0, 10, "time constant of the airspeed that gains and trims follow"};
-    Param blend{0.3, "s", 0.01, 5, "time constant with which what flew before is forgotten"};
-    Record<Airframe> airframe{"throws, trims, limits, and the derivatives behind every gain", required};
+    Choice<Law> aileron{Law::rate,
+                        "quantity commanded by the roll stick; attitude: roll command of the outer law"};
+    Choice<Law> elevator{Law::rate,
+                         "quantity commanded by the pitch stick; attitude: pitch command of the outer law"};
+    Choice<Rudder> rudder{Rudder::damper, "mode of the yaw stick: surface alone, or surface and yaw damper"};
+    Choice<Throttle> throttle{Throttle::stick, "source of the throttle; automatic: the outer law"};
+    Param throw_share{1, "ratio", 0.05, 1, "share of the throw at full stick, from the trim"};
+    Param roll_rate{1.5, "rad/s", 0.05, 6, "roll rate at full stick, and its limit in attitude mode"};
+    Param pitch_rate{0.6, "rad/s", 0.05, 3,
+                     "pitch rate at full stick beyond that of a turn, and its limit in attitude mode"};
+    Param roll_gain{4, "1/s", 0.1, 20, "roll rate per roll error, also at the bank limit"};
+    Param pitch_gain{3, "1/s", 0.1, 20, "pitch rate per pitch error, also at the pitch limit"};
+    Param roll_damping{8, "1/s", 0, 50, "roll damping that the aileron adds to that of the airframe"};
+    Param pitch_damping{12, "1/s", 0, 50, "pitch damping that the elevator adds to that of the airframe"};
+    Param integral{3, "1/s", 0, 20, "ratio of integral to proportional gain of both rate loops"};
+    Param yaw_damping{0.3, "rad s/rad", 0, 5, "rudder per yaw rate beyond that of the turn, at cruise speed"};
+    Param yaw_washout{0.6, "rad/s", 0.01, 10, "pole of the wash-out filter of the yaw damper"};
+    Param airspeed_smoothing{0.5, "s", 0, 10, "time constant of the airspeed for gains and trims"};
+    Param blend{0.3, "s", 0.01, 5, "time constant of the bumpless transfer"};
+    Record<Airframe> airframe{"airframe with throws, trims, limits and derivatives", required};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {

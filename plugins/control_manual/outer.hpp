@@ -12,7 +12,7 @@ namespace fulmar::manual {
 
 struct Outer {
   static constexpr const char* doc =
-      "Roll and pitch angle and throttle from the sticks or from an outer law, each axis by itself.";
+      "Roll, pitch and throttle commands: each axis from the sticks or from an outer law.";
   /// Where an axis comes from: its stick; an outer law; or the attitude that the aircraft has, while the
   /// pilot flies it further in, so that whoever takes over goes on from there.
   enum class Source : std::uint8_t { stick, automatic, flown };
@@ -29,16 +29,16 @@ struct Outer {
   struct Params {
     StickParams sticks;
     EnvelopeParams envelope;
-    Choice<Source> roll{Source::stick, "who says the roll angle"};
-    Choice<Source> pitch{Source::stick, "who says the pitch angle"};
-    Choice<Source> throttle{Source::stick, "who says the throttle; flown: the stick, as nothing measures it"};
-    Param roll_range{0.5, "rad", 0.02, 1.5, "roll at full stick"};
-    Param pitch_range{0.5, "rad", 0.02, 1.2,
-                      "pitch at full stick, beyond that of its middle: level flight at cruise"};
-    Param roll_rate_limit{2.0, "rad/s", 0.1, 6, "fastest change of the roll command: a stick may be thrown"};
-    Param pitch_rate_limit{1.0, "rad/s", 0.05, 6, "fastest change of the pitch command"};
-    Param blend{0.5, "s", 0.01, 5, "time constant with which what flew before is forgotten"};
-    Record<Airframe> airframe{"limits, and the pitch of level flight", required};
+    Choice<Source> roll{Source::stick, "source of the roll command"};
+    Choice<Source> pitch{Source::stick, "source of the pitch command"};
+    Choice<Source> throttle{
+        Source::stick, "source of the throttle command; flown: the stick, because throttle is not measured"};
+    Param roll_range{0.5, "rad", 0.02, 1.5, "roll angle at full stick"};
+    Param pitch_range{0.5, "rad", 0.02, 1.2, "pitch angle at full stick, relative to level flight at cruise"};
+    Param roll_rate_limit{2.0, "rad/s", 0.1, 6, "rate limit of the roll command"};
+    Param pitch_rate_limit{1.0, "rad/s", 0.05, 6, "rate limit of the pitch command"};
+    Param blend{0.5, "s", 0.01, 5, "time constant of the bumpless transfer"};
+    Record<Airframe> airframe{"airframe with limits and the pitch of level flight", required};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {

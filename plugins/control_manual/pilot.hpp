@@ -11,10 +11,9 @@
 namespace fulmar::manual {
 
 struct StickParams {
-  Param dead_zone{0.05, "ratio", 0, 0.5, "of the sticks, around their middle"};
-  Param expo{0.3, "ratio", 0, 1, "share of the cube: sticks are gentle around their middle"};
-  Param timeout{0.5, "s", 0.02, 10,
-                "after so long without a frame of the transmitter the pilot is not there"};
+  Param dead_zone{0.05, "ratio", 0, 0.5, "dead zone of the sticks around their centre"};
+  Param expo{0.3, "ratio", 0, 1, "share of the cubic term of the stick curve"};
+  Param timeout{0.5, "s", 0.02, 10, "largest age of a transmitter frame before the pilot counts as absent"};
 };
 
 struct Sticks {
@@ -77,7 +76,7 @@ class Blend {
 /// For the conditions of phases, which cannot see that nothing comes.
 struct Pilot {
   static constexpr const char* doc =
-      "Whether the pilot is there, for the conditions of phases; passes on what he does.";
+      "Presence of the pilot for the conditions of phases, and the frames of the transmitter.";
   struct Inputs {
     Optional<Rc> rc;
   };
@@ -87,8 +86,7 @@ struct Pilot {
     Probe stick_age_s;  // of the last frame; 1e9: none, no link, or not finite
   };
   struct Params {
-    Param timeout{0.5, "s", 0.02, 10,
-                  "after so long without a frame of the transmitter the pilot is not there"};
+    Param timeout{0.5, "s", 0.02, 10, "largest age of a transmitter frame before the pilot counts as absent"};
   };
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const double age = stick_age_s(in.rc, tick);

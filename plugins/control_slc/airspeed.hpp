@@ -29,20 +29,20 @@ struct Airspeed {
   struct Params {
     Param speed_kp{0.6, "1/s", 0, 10, "acceleration per airspeed error"};
     Param speed_ki{0.1, "1/s^2", 0, 10, "acceleration per integrated airspeed error"};
-    Param speed_filter{0.3, "s", 0, 10, "time constant of the airspeed that the error is taken of"};
+    Param speed_filter{0.3, "s", 0, 10, "time constant of the airspeed filter for the error"};
     Param energy_kff{1.0, "ratio", 0, 2,
-                     "share of the thrust fed forward that climb, drag and a moving airspeed command need"};
+                     "share of the fed-forward thrust for climb, drag and a changing airspeed command"};
     Param command_filter{0.2, "s", 0.005, 5, "time constant of the differentiated airspeed command"};
-    Param thrust{50.0, "N", 1, 10000, "force per unit of throttle near cruise"};
-    Param throttle_rate_limit{2.0, "1/s", 0.1, 100, "fastest change of the throttle"};
+    Param thrust{50.0, "N", 1, 10000, "thrust per throttle near cruise"};
+    Param throttle_rate_limit{2.0, "1/s", 0.1, 100, "rate limit of the throttle"};
     // A rate, where Inner fades: an exponential would begin as fast as the difference is large, and no inner
     // loop follows an attitude that turns so fast. The outer laws have these rates for every command.
     Param take_over_rate{0.5, "rad/s", 0.05, 6,
-                         "at which roll and pitch go from what was flown before to what is wanted"};
+                         "rate limit of the roll and pitch commands in the bumpless transfer"};
     Param pitch_trade{0, "rad", 0, 0.2,
-                      "most change of the pitch that is wanted, where the throttle is at its stop and the "
-                      "airspeed is off: down when too slow, up when too fast"};
-    Record<Airframe> airframe{"mass, trims, limits, and the drag that is fed forward"};
+                      "largest change of pitch with saturated throttle and an airspeed error: down when too "
+                      "slow, up when too fast"};
+    Record<Airframe> airframe{"airframe with mass, trims, limits and drag"};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {

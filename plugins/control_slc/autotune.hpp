@@ -18,9 +18,8 @@ namespace fulmar::slc {
 
 struct Autotune {
   static constexpr const char* doc =
-      "control_slc/Inner that finds its gains in flight, measures their margins, and goes back if they do "
-      "not "
-      "hold.";
+      "control_slc/Inner with an autotune in flight: finds gains, measures their margins, and restores the "
+      "old gains if a margin is too small.";
   struct Inputs {
     Inner::Inputs law;
     Optional<VehicleStatus> status;  // wired: ends while commands do not move the aircraft
@@ -32,20 +31,24 @@ struct Autotune {
   };
   struct Params {
     Inner::Params law;
-    Flag tune{false, "false to true begins; false again ends it, and leaves the gains that were kept"};
-    Param wanted_gain_margin{8, "dB", 3, 20, "that gains are chosen for"};
-    Param wanted_phase_margin{0.96, "rad", 0.3, 1.5, "that gains are chosen for"};
-    Param wanted_delay_margin{0.08, "s", 0, 1, "that gains are chosen for"};
-    Param least_gain_margin{6, "dB", 1, 20, "measured in the second excitation: less goes back"};
-    Param least_phase_margin{0.7854, "rad", 0.1, 1.5, "measured in the second excitation: less goes back"};
+    Flag tune{false, "switch of the autotune: true starts it, false ends it and keeps the accepted gains"};
+    Param wanted_gain_margin{8, "dB", 3, 20, "gain margin of the design"};
+    Param wanted_phase_margin{0.96, "rad", 0.3, 1.5, "phase margin of the design"};
+    Param wanted_delay_margin{0.08, "s", 0, 1, "delay margin of the design"};
+    Param least_gain_margin{6, "dB", 1, 20, "minimum measured gain margin; below it the old gains return"};
+    Param least_phase_margin{0.7854, "rad", 0.1, 1.5,
+                             "minimum measured phase margin; below it the old gains return"};
     Param roll_size{0.1, "rad", 0.005, 0.35, "peak of the excitation of the aileron"};
     Param pitch_size{0.15, "rad", 0.005, 0.35, "peak of the excitation of the elevator"};
     Param yaw_size{0.15, "rad", 0.005, 0.35, "peak of the excitation of the rudder"};
-    Param noise_limit{0.15, "ratio", 0.02, 1, "largest standard error of 1 + L, relative, that is believed"};
-    Param roll_bound{0.785, "rad", 0.05, 1.5, "beyond this roll, either way, it ends"};
-    Param pitch_bound{0.44, "rad", 0.05, 1.5, "beyond this pitch, either way, it ends"};
-    Param height_bound{20, "m", 1, 1000, "so far from the height at which it began it ends"};
-    Param time_limit{90, "s", 20, 600, "of the whole"};
+    Param noise_limit{0.15, "ratio", 0.02, 1, "largest relative standard error of 1 + L that is accepted"};
+    Param roll_bound{0.785, "rad", 0.05, 1.5,
+                     "limit of the roll angle, either way; beyond it the autotune ends"};
+    Param pitch_bound{0.44, "rad", 0.05, 1.5,
+                      "limit of the pitch angle, either way; beyond it the autotune ends"};
+    Param height_bound{20, "m", 1, 1000,
+                       "limit of the height change since the start; beyond it the autotune ends"};
+    Param time_limit{90, "s", 20, 600, "largest duration of the autotune"};
   };
 
   void configure(const Params& p) {

@@ -41,28 +41,25 @@ struct Inner {
     Param roll_ki{0.1, "rad/(rad s)", 0, 10, "aileron per integrated roll error"};
     Param roll_kd{0.02, "rad s/rad", 0, 5, "aileron per roll rate"};
     Param roll_kff{0.15, "rad s/rad", 0, 5,
-                   "aileron per commanded roll rate: the airframe's own roll damping"};
+                   "aileron per commanded roll rate: the roll damping of the airframe"};
     Param roll_from_sideslip{0.0, "rad/rad", -5, 5,
-                             "aileron per sideslip: damps the dutch roll of an aircraft without a rudder"};
+                             "aileron per sideslip: dutch roll damping for an aircraft without a rudder"};
 
     Param pitch_kp{4.0, "rad/rad", 0, 20, "nose-up elevator per pitch error"};
     Param pitch_ki{2.0, "rad/(rad s)", 0, 40, "nose-up elevator per integrated pitch error"};
-    Param pitch_kd{0.5, "rad s/rad", 0, 10, "elevator against pitch rate beyond that of the turn"};
-    Param turn_kff{1.0, "ratio", 0, 2,
-                   "share of the elevator that a banked turn and the present speed need, fed forward"};
+    Param pitch_kd{0.5, "rad s/rad", 0, 10, "elevator per pitch rate beyond that of the turn"};
+    Param turn_kff{1.0, "ratio", 0, 2, "fed-forward share of the elevator for bank and airspeed"};
 
-    Param yaw_kd{0.3, "rad s/rad", 0, 5, "rudder against yaw rate beyond that of the turn"};
-    Param yaw_washout{0.6, "rad/s", 0.01, 10, "wash-out pole of the yaw damper"};
+    Param yaw_kd{0.3, "rad s/rad", 0, 5, "rudder per yaw rate beyond that of the turn"};
+    Param yaw_washout{0.6, "rad/s", 0.01, 10, "pole of the wash-out filter of the yaw damper"};
 
     Param command_filter{0.04, "s", 0.005, 1, "time constant of the differentiated roll command"};
-    Param airspeed_smoothing{
-        0.5, "s", 0, 10,
-        "time constant of the airspeed that gains, trim and turn rates follow: surfaces do not follow gusts"};
+    Param airspeed_smoothing{0.5, "s", 0, 10, "time constant of the airspeed for gains, trim and turn rates"};
     Param scale_limit{2.5, "ratio", 1, 10,
-                      "largest growth of the gains at low dynamic pressure, largest reduction at high"};
-    Flag quieten{true, "an axis that oscillates by too high gains gets less of them, and says so"};
+                      "limit of the gain factor at low dynamic pressure, and of its inverse at high"};
+    Flag quieten{true, "switch for the gain reduction and report of an axis that oscillates"};
     Record<Airframe> airframe{
-        "throws, trims, cruise speed, and the derivatives for the feed-forward of turns"};
+        "airframe with throws, trims, cruise speed and derivatives for the feed-forward of turns"};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& params, const Applied<Outputs>& last) {

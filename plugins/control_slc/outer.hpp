@@ -31,14 +31,14 @@ struct Outer {
 
     Param altitude_kp{0.09, "rad/m", 0, 1, "pitch per height error: height bandwidth = kp Va"};
     Param altitude_ki{0.01, "rad/(m s)", 0, 0.5, "pitch per integrated height error"};
-    Param altitude_kd{0.03, "rad s/m", 0, 0.5, "pitch per error of climb rate"};
+    Param altitude_kd{0.03, "rad s/m", 0, 0.5, "pitch per climb rate error"};
 
     Param airspeed_kp{0.15, "1/(m/s)", 0, 1, "throttle per airspeed error"};
     Param airspeed_ki{0.06, "1/m", 0, 1, "throttle per integrated airspeed error"};
-    Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed demand above cruise"};
-    Param climb_kff{0.04, "1/(m/s)", 0, 0.5, "throttle per demanded climb rate"};
+    Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed command above cruise"};
+    Param climb_kff{0.04, "1/(m/s)", 0, 0.5, "throttle per climb rate command"};
     Param thrust{50.0, "N", 1, 10000,
-                 "force per unit of throttle near cruise: turns the drag of a turn into throttle"};
+                 "thrust per throttle near cruise: converts the drag of a turn to throttle"};
   };
 
   void configure(const Params& p) { loop_.configure(p.common); }

@@ -16,7 +16,8 @@ namespace fulmar::tecs {
 
 struct ErrorLaw {
   static constexpr const char* doc =
-      "Course hold, and height and airspeed by the errors of total energy and balance; take-off law.";
+      "Course hold, and height and airspeed hold by the errors of total energy and energy balance; take-off "
+      "law.";
   struct Inputs {
     In<VehicleState> state;
     In<GuidanceCommand> command;
@@ -34,21 +35,19 @@ struct ErrorLaw {
   struct Params {
     OuterParams common;
 
-    Param total_gain{1.5, "1/s", 0, 5, "rate of the total energy per its error: moves the throttle"};
-    Param total_integral{0.2, "1/s2", 0, 5, "the same, per integrated error"};
-    Param balance_gain{1.2, "1/s", 0, 5, "rate of the balance per its error: moves pitch"};
-    Param balance_integral{0.1, "1/s2", 0, 5, "the same, per integrated error"};
-    Param speed_weight{1.0, "ratio", 0, 2,
-                       "0: pitch holds height alone; 1: both, as in the book; 2: pitch holds airspeed alone"};
-    Param airspeed_filter{0.5, "s", 0, 10,
-                          "over which the airspeed that pitch answers follows the measured one: gusts are "
-                          "the throttle's business"};
-    Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed demand above cruise"};
-    Param thrust{50.0, "N", 1, 10000,
-                 "force per unit of throttle near cruise: turns energy rates into throttle"};
+    Param total_gain{1.5, "1/s", 0, 5, "total energy rate per total energy error, by throttle"};
+    Param total_integral{0.2, "1/s2", 0, 5, "total energy rate per integrated total energy error"};
+    Param balance_gain{1.2, "1/s", 0, 5, "energy balance rate per energy balance error, by pitch"};
+    Param balance_integral{0.1, "1/s2", 0, 5, "energy balance rate per integrated energy balance error"};
+    Param speed_weight{
+        1.0, "ratio", 0, 2,
+        "weight of airspeed in pitch; 0: height alone; 1: both, as in the book; 2: airspeed alone"};
+    Param airspeed_filter{0.5, "s", 0, 10, "time constant of the airspeed for pitch"};
+    Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed command above cruise"};
+    Param thrust{50.0, "N", 1, 10000, "thrust per throttle near cruise: converts energy rates to throttle"};
     Param underspeed_band{
         0.15, "ratio", 0.01, 0.5,
-        "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
+        "share of the minimum airspeed below it at which airspeed has all priority at full throttle"};
   };
 
   void configure(const Params& p) { loop_.configure(p.common); }

@@ -16,7 +16,7 @@ namespace fulmar::tecs {
 
 struct Outer {
   static constexpr const char* doc =
-      "Course hold, and height and airspeed by total energy rate; take-off law.";
+      "Course hold, and height and airspeed hold by total energy rate; take-off law.";
   struct Inputs {
     In<VehicleState> state;
     In<GuidanceCommand> command;
@@ -36,31 +36,26 @@ struct Outer {
   struct Params {
     OuterParams common;
 
-    Param altitude_gain{1.2, "1/s", 0, 5, "climb rate demanded per height error"};
-    Param airspeed_gain{1.2, "1/s", 0, 5, "acceleration demanded per airspeed error"};
-    Param climb_acceleration_limit{4.0, "m/s2", 0.1, 30, "fastest change of the demanded climb rate"};
-    Param acceleration_filter{
-        0.25, "s", 0, 5,
-        "time constant of the measured acceleration: keeps the accelerometer's noise off the elevator"};
-    Param airspeed_filter{0.5, "s", 0, 10,
-                          "over which the airspeed that pitch answers follows the measured one: gusts are "
-                          "the throttle's business"};
+    Param altitude_gain{1.2, "1/s", 0, 5, "climb rate command per height error"};
+    Param airspeed_gain{1.2, "1/s", 0, 5, "acceleration command per airspeed error"};
+    Param climb_acceleration_limit{4.0, "m/s2", 0.1, 30, "rate limit of the climb rate command"};
+    Param acceleration_filter{0.25, "s", 0, 5, "time constant of the filter of the measured acceleration"};
+    Param airspeed_filter{0.5, "s", 0, 10, "time constant of the airspeed for pitch"};
     Param speed_weight{0.4, "ratio", 0, 2,
-                       "0: pitch holds height alone; 1: both; 2: pitch holds airspeed alone"};
+                       "weight of airspeed in pitch; 0: height alone; 1: both; 2: airspeed alone"};
 
-    Param throttle_damping{
-        0.5, "ratio", 0, 5,
-        "throttle per error of the total energy rate, as a share of what the thrust model asks for"};
-    Param throttle_integral{0.6, "1/s", 0, 5, "the same, per integrated error"};
-    Param pitch_damping{0.6, "ratio", 0, 5,
-                        "flight path angle per error of the energy balance rate over g V"};
-    Param pitch_integral{0.2, "1/s", 0, 5, "the same, per integrated error"};
-    Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed demand above cruise"};
-    Param thrust{50.0, "N", 1, 10000,
-                 "force per unit of throttle near cruise: turns energy rates into throttle"};
+    Param throttle_damping{0.5, "ratio", 0, 5,
+                           "throttle per total energy rate error, as a share of the thrust model"};
+    Param throttle_integral{
+        0.6, "1/s", 0, 5, "throttle per integrated total energy rate error, as a share of the thrust model"};
+    Param pitch_damping{0.6, "ratio", 0, 5, "flight path angle per energy balance rate error over g V"};
+    Param pitch_integral{0.2, "1/s", 0, 5,
+                         "flight path angle per integrated energy balance rate error over g V"};
+    Param airspeed_kff{0.03, "1/(m/s)", 0, 0.2, "throttle per airspeed command above cruise"};
+    Param thrust{50.0, "N", 1, 10000, "thrust per throttle near cruise: converts energy rates to throttle"};
     Param underspeed_band{
         0.15, "ratio", 0.01, 0.5,
-        "airspeed below the minimum, as a share of it, at which speed has all priority and throttle is full"};
+        "share of the minimum airspeed below it at which airspeed has all priority at full throttle"};
   };
 
   void configure(const Params& p) { loop_.configure(p.common); }

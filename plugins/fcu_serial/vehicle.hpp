@@ -31,8 +31,7 @@ namespace fulmar::fcu {
 template <class AnyLink>
 class Vehicle {
  public:
-  static constexpr const char* doc =
-      "A flight controller that runs ROSflight 2, on a serial port or over UDP.";
+  static constexpr const char* doc = "A flight controller with ROSflight 2, on a serial port or over UDP.";
   struct Inputs {
     Optional<Actuators> actuators;
     Optional<AuxOutputs> aux;
@@ -56,30 +55,25 @@ class Vehicle {
     OutQueue<ControllerParameter, 16> parameters;
   };
   struct Params {
-    TextParam<128> port{"/dev/ttyACM0", "a serial port, or udp:REMOTE:PORT of firmware in simulation"};
-    Count baud{921600, 1200, 12000000, "bits per second; no matter to a USB port", setup};
-    Record<Airframe> airframe{"throws and reversals of the surfaces", required};
-    Param command_rate{400,  "Hz", 50, 1000, "commands per second at most: each new one goes out, 51 bytes",
-                       setup};
-    Flag send_attitude{false, "sends the input `state` to correct the controller's own estimate, 50 Hz"};
-    Flag needs_state{false, "flies by the input `state`: no command before there is one", setup};
-    Flag needs_path{false, "flies along the input `path`: not ready before there is one", setup};
+    TextParam<128> port{"/dev/ttyACM0", "serial port, or udp:REMOTE:PORT of simulated firmware"};
+    Count baud{921600, 1200, 12000000, "bit rate; not used by a USB port", setup};
+    Record<Airframe> airframe{"airframe with the throws and directions of the surfaces", required};
+    Param command_rate{400, "Hz", 50, 1000, "largest rate of commands; each has 51 bytes", setup};
+    Flag send_attitude{
+        false,
+        "switch for the attitude of the input `state` that corrects the controller's estimate at 50 Hz"};
+    Flag needs_state{false, "switch for the need of the input `state`: no command without it", setup};
+    Flag needs_path{false, "switch for the need of the input `path`: not ready without it", setup};
     Param pitot_zero_limit{
-        pitot_zero_limit_pa,
-        "Pa",
-        0,
-        1000,
-        "a zero of the pitot tube beyond it was taken in wind or in the air, and is not used",
-        setup};
-    Count pitot_zeroed{
-        0, 0, 1, "1: a reboot in flight has zeroed the airspeed, the pitot tube is not used; for `resume`"};
-    Param time_scale{
-        1,
-        "ratio",
-        0.1,
-        100,
-        "flight time per time on the wall, for a controller in simulation whose clock runs faster",
-        setup};
+        pitot_zero_limit_pa, "Pa", 0, 1000, "largest zero offset of the pitot that is accepted", setup};
+    Count pitot_zeroed{0, 0, 1,
+                       "record of an airspeed zeroed by a reboot in flight, for `resume`; 1: pitot not used"};
+    Param time_scale{1,
+                     "ratio",
+                     0.1,
+                     100,
+                     "ratio of flight time to wall clock, for a simulated controller with a faster clock",
+                     setup};
   };
 
   void configure(const Params& p) {

@@ -12,27 +12,27 @@
 namespace fulmar::hand {
 
 struct AxisParams {
-  Count roll_axis{0, -1, 31, "of the roll stick; right is positive; -1: none", setup};
-  Flag roll_reversed{false, "left is positive", setup};
-  Count pitch_axis{1, -1, 31, "of the pitch stick; pulled is positive; -1: none", setup};
-  Flag pitch_reversed{false, "pushed is positive, as of a transmitter on USB", setup};
-  Count throttle_axis{2, -1, 31, "of the throttle; open is positive; -1: none, and it stays closed", setup};
-  Flag throttle_reversed{false, "closed is positive, as of a slider", setup};
-  Count yaw_axis{3, -1, 31, "of the yaw stick; right is positive; -1: none", setup};
-  Flag yaw_reversed{false, "left is positive", setup};
-  Count aux1_axis{4, -1, 31, "of the first switch; -1: none", setup};
-  Count aux2_axis{5, -1, 31, "of the second switch; -1: none", setup};
-  Count aux3_axis{6, -1, 31, "of the third switch; -1: none", setup};
-  Count aux4_axis{7, -1, 31, "of the fourth switch; -1: none", setup};
+  Count roll_axis{0, -1, 31, "axis of the roll stick, right positive; -1: none", setup};
+  Flag roll_reversed{false, "reversal of the roll axis: left positive", setup};
+  Count pitch_axis{1, -1, 31, "axis of the pitch stick, pull positive; -1: none", setup};
+  Flag pitch_reversed{false, "reversal of the pitch axis: push positive, as with a transmitter on USB",
+                      setup};
+  Count throttle_axis{2, -1, 31, "axis of the throttle, open positive; -1: none, throttle closed", setup};
+  Flag throttle_reversed{false, "reversal of the throttle axis: closed positive, as with a slider", setup};
+  Count yaw_axis{3, -1, 31, "axis of the yaw stick, right positive; -1: none", setup};
+  Flag yaw_reversed{false, "reversal of the yaw axis: left positive", setup};
+  Count aux1_axis{4, -1, 31, "axis of the first switch; -1: none", setup};
+  Count aux2_axis{5, -1, 31, "axis of the second switch; -1: none", setup};
+  Count aux3_axis{6, -1, 31, "axis of the third switch; -1: none", setup};
+  Count aux4_axis{7, -1, 31, "axis of the fourth switch; -1: none", setup};
 };
 
 struct ButtonParams {
-  Count aux1_button{-1, -1, 63, "in place of the axis; -1: none", setup};
-  Count aux2_button{-1, -1, 63, "in place of the axis; -1: none", setup};
-  Count aux3_button{-1, -1, 63, "in place of the axis; -1: none", setup};
-  Count aux4_button{-1, -1, 63, "in place of the axis; -1: none", setup};
-  Flag buttons_latch{true, "a press turns the switch over; false: it is on as long as the button is down",
-                     setup};
+  Count aux1_button{-1, -1, 63, "button of the first switch, in place of the axis; -1: none", setup};
+  Count aux2_button{-1, -1, 63, "button of the second switch, in place of the axis; -1: none", setup};
+  Count aux3_button{-1, -1, 63, "button of the third switch, in place of the axis; -1: none", setup};
+  Count aux4_button{-1, -1, 63, "button of the fourth switch, in place of the axis; -1: none", setup};
+  Flag buttons_latch{true, "toggle mode of the buttons; false: on while pressed", setup};
 };
 
 struct Joystick {
@@ -45,11 +45,12 @@ struct Joystick {
     Probe unknown_records_ratio;  // since the start: what no joystick sends
   };
   struct Params {
-    TextParam<128> device{Text<128>("/dev/input/js0"), "the joystick, or a pipe of its records"};
+    TextParam<128> device{Text<128>("/dev/input/js0"),
+                          "device file of the joystick, or a pipe of its records"};
     AxisParams axes;
     ButtonParams buttons;
-    Param dead_zone{0.02, "", 0, 0.5, "of the three sticks, around the centre", setup};
-    Param expo{0, "", 0, 1, "of the three sticks: share of the cube", setup};
+    Param dead_zone{0.02, "", 0, 0.5, "dead zone of the three sticks around their centre", setup};
+    Param expo{0, "", 0, 1, "share of the cubic term of the stick curve", setup};
   };
 
   void configure(const Params& p) {

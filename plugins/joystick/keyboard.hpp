@@ -108,10 +108,10 @@ struct Keyboard {
     Probe unknown_keys_ratio;  // since the start
   };
   struct Params {
-    TextParam<128> device{Text<128>("/dev/tty"), "the terminal, or a pipe of characters"};
-    Param deflection{0.25, "", 0.01, 1, "of a stick by one press of a key", setup};
-    Param throttle_step{0.05, "", 0.005, 1, "by one press of a key", setup};
-    Param return_time{0.5, "s", 0.05, 60, "time constant with which a stick returns to the centre", setup};
+    TextParam<128> device{Text<128>("/dev/tty"), "device file of the terminal, or a pipe of characters"};
+    Param deflection{0.25, "", 0.01, 1, "change of a stick per key press", setup};
+    Param throttle_step{0.05, "", 0.005, 1, "change of the throttle per key press", setup};
+    Param return_time{0.5, "s", 0.05, 60, "time constant of the return of a stick to its centre", setup};
   };
 
   void configure(const Params& p) {

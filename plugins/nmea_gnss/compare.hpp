@@ -15,11 +15,11 @@ namespace fulmar::nmea {
 
 /// Estimate minus reference, both at the time of the reference: root mean squares since the first fix.
 struct ReferenceDifference {
-  double north_m = 0, east_m = 0;
-  double horizontal_m = 0;
-  double height_m = 0;
-  double horizontal_max_m = 0;
-  std::uint32_t samples = 0;  ///< that were compared
+  double north_m = 0, east_m = 0;  ///< position difference, north and east
+  double horizontal_m = 0;         ///< horizontal distance
+  double height_m = 0;             ///< height difference
+  double horizontal_max_m = 0;     ///< largest horizontal distance
+  std::uint32_t samples = 0;       ///< number of compared fixes
 };
 
 struct Compare {
@@ -33,9 +33,7 @@ struct Compare {
     Probe horizontal_m;                   // of the last fix
   };
   struct Params {
-    Param latency{
-        0, "s", 0, 0.6,
-        "from the time of a reference fix to its arrival: it is compared with the estimate of then"};
+    Param latency{0, "s", 0, 0.6, "delay from the time of a reference fix to its arrival"};
   };
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {

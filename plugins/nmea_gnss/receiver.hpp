@@ -23,9 +23,9 @@ struct Receiver {
     Probe bad_lines_ratio;  // lines dropped since the start: garbled, cut, without a right checksum
   };
   struct Params {
-    TextParam<128> port{"", "the serial port, such as /dev/ttyUSB0"};
-    Count baud{9600, 4800, 921600, "bits per second", setup};
-    Param range_std{3, "m", 0.01, 100, "deviation of one range, for receivers that send no GST", setup};
+    TextParam<128> port{"", "serial port, such as /dev/ttyUSB0"};
+    Count baud{9600, 4800, 921600, "bit rate", setup};
+    Param range_std{3, "m", 0.01, 100, "standard deviation of one range, for receivers without GST", setup};
   };
 
   void configure(const Params& p) {

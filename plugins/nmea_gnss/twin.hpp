@@ -16,8 +16,7 @@
 namespace fulmar::nmea {
 
 struct Twin {
-  static constexpr const char* doc =
-      "Simulated twin of the receiver: the truth with errors, in the same message.";
+  static constexpr const char* doc = "Simulated receiver: the truth with errors, in the same message.";
   struct Inputs {
     In<VehicleState> truth;
     Optional<Gnss> clock;  // of the vehicle: to know the UTC
@@ -26,13 +25,14 @@ struct Twin {
     OutQueue<Gnss, 16> gnss;
   };
   struct Params {
-    Param rate{5, "Hz", 0.1, 20, "solutions per second", setup};
-    Param latency{0.1, "s", 0, 0.5, "from the time of a solution to its arrival", setup};
-    Param horizontal_std{0.7, "m", 0, 100, "slow error, each axis", setup};
-    Param vertical_std{1.2, "m", 0, 100, "slow error", setup};
-    Param correlation_time{60, "s", 0.1, 1e5, "of the slow errors", setup};
-    Param white_std{0.05, "m", 0, 100, "error of its own of each sample, each axis", setup};
-    Param speed_std{0.05, "m/s", 0, 10, "error of the ground speed, each axis", setup};
+    Param rate{5, "Hz", 0.1, 20, "rate of the solutions", setup};
+    Param latency{0.1, "s", 0, 0.5, "delay from the time of a solution to its arrival", setup};
+    Param horizontal_std{0.7,  "m", 0, 100, "standard deviation of the slow horizontal error, each axis",
+                         setup};
+    Param vertical_std{1.2, "m", 0, 100, "standard deviation of the slow vertical error", setup};
+    Param correlation_time{60, "s", 0.1, 1e5, "correlation time of the slow errors", setup};
+    Param white_std{0.05, "m", 0, 100, "standard deviation of the white error of a sample, each axis", setup};
+    Param speed_std{0.05, "m/s", 0, 10, "standard deviation of the ground speed error, each axis", setup};
   };
 
   explicit Twin(std::uint64_t seed) : random_(seed) {}

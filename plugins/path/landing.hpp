@@ -26,7 +26,7 @@ namespace fulmar::path {
 
 struct Landing {
   static constexpr const char* doc =
-      "Lands: a circle onto the final approach, glide slope, flare, roll; goes around when it is off.";
+      "Landing: circle onto the final approach, glide slope, flare, roll; go-around outside the limits.";
   struct Inputs {
     In<VehicleState> state;
     Optional<GroundState> ground;    // of the touch-down; without it, what the state says of it
@@ -41,30 +41,32 @@ struct Landing {
   };
   struct Params {
     FieldParams field;
-    Record<Runway> runway{"the strip; heading is the one that is landed in; in place of the plan's"};
-    Record<PlanFile> plan{"the flight's, of which the runway counts"};
-    Record<Origin> origin{"of the local frame"};
-    Record<Airframe> airframe{"limits of the airspeed", required};
-    Record<safety::Fence> fence{
-        "in which circle, approach and runway have to lie; without it none is looked at"};
-    Param fence_margin{15, "m", 0, 1000, "that they leave to the fence and its ceiling, as safety/Monitor's"};
+    Record<Runway> runway{"runway with the landing heading, in place of the runway of the plan"};
+    Record<PlanFile> plan{"plan of the flight; its runway is used"};
+    Record<Origin> origin{"origin of the local frame"};
+    Record<Airframe> airframe{"airframe with the limits of the airspeed", required};
+    Record<safety::Fence> fence{"geofence for circle, approach and runway; without it no check"};
+    Param fence_margin{
+        15, "m", 0, 1000,
+        "distance of circle and approach from the geofence and its ceiling, as in safety/Monitor"};
     PatternParams pattern;
-    Param approach_ratio{1.1, "ratio", 1, 2, "approach airspeed over the airframe's minimum"};
-    Param wind_share{0.5, "ratio", 0, 1,
-                     "of the head wind that approach and flare are faster by, up to the cruise airspeed"};
-    Param flare_height{3.5, "m", 0.2, 30, "above the runway, where the flare begins"};
-    Param touch_sink{0.4, "m/s", 0.05, 2, "sink rate that the flare ends with"};
-    Param decrab{0, "rad", 0, 0.4,
-                 "most sideslip by which the flare turns the nose to the runway; needs the output `sideslip` "
-                 "wired to the inner loops"};
+    Param approach_ratio{1.1, "ratio", 1, 2, "ratio of approach airspeed to the minimum of the airframe"};
+    Param wind_share{
+        0.5, "ratio", 0, 1,
+        "share of the head wind that is added to the airspeed of approach and flare, up to cruise"};
+    Param flare_height{3.5, "m", 0.2, 30, "height above the runway at the start of the flare"};
+    Param touch_sink{0.4, "m/s", 0.05, 2, "sink rate at the end of the flare"};
+    Param decrab{
+        0, "rad", 0, 0.4,
+        "largest sideslip of the de-crab in the flare; needs the output `sideslip` wired to the inner loops"};
     GoAroundLimits limits;
-    Param deceleration{0.8, "m/s2", 0.05, 10, "of the roll, by which the runway has to be long enough"};
+    Param deceleration{0.8, "m/s2", 0.05, 10,
+                       "deceleration of the landing roll, for the check of the runway length"};
     WindLimits wind;
-    Param late_sink{
-        0.7, "m/s", 0.05, 3,
-        "largest sink rate of a flare that lasts longer than its height says: the height was wrong"};
-    Param roll_time{60, "s", 5, 3600, "of the roll, after which the landing counts as ended"};
-    Flag go_around{false, "climb away now; false lets it come again"};
+    Param late_sink{0.7, "m/s", 0.05, 3,
+                    "largest sink rate of a flare that lasts longer than expected from its height"};
+    Param roll_time{60, "s", 5, 3600, "duration of the roll after which the landing counts as ended"};
+    Flag go_around{false, "request for a go-around; false permits the next approach"};
   };
 
   void configure(const Params& p) {

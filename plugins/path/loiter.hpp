@@ -11,7 +11,8 @@ namespace fulmar::path {
 enum class LoiterAt : std::uint8_t { here, point };
 
 struct Loiter {
-  static constexpr const char* doc = "Circles where it is, or round a point, and goes to a height meanwhile.";
+  static constexpr const char* doc =
+      "Circle at the present position or around a point, with a change of height.";
   struct Inputs {
     In<VehicleState> state;
   };
@@ -21,15 +22,16 @@ struct Loiter {
   };
   struct Params {
     FieldParams field;
-    Record<Airframe> airframe{"its cruise airspeed", required};
-    Choice<LoiterAt> at{LoiterAt::here, "here: the circle that begins where it takes over; point: round one"};
-    Param north{0, "m", -1e5, 1e5, "of the point, from the origin"};
-    Param east{0, "m", -1e5, 1e5, "of the point, from the origin"};
-    Param height{-1, "m", -1, 1e5, "above the origin; below 0: that at which it takes over"};
-    Param rate{2, "m/s", 0.1, 50, "at which the height that is asked for goes there, up or down"};
-    Param radius{80, "m", 10, 1e4, "of the circle"};
-    Choice<Turn> turn{Turn::left, "how it is flown"};
-    Param airspeed{0, "m/s", 0, 100, "true airspeed; 0: the airframe's cruise"};
+    Record<Airframe> airframe{"airframe with the cruise airspeed", required};
+    Choice<LoiterAt> at{LoiterAt::here,
+                        "kind of circle; here: starts at the present position; point: around north, east"};
+    Param north{0, "m", -1e5, 1e5, "north position of the point, from the origin"};
+    Param east{0, "m", -1e5, 1e5, "east position of the point, from the origin"};
+    Param height{-1, "m", -1, 1e5, "height of the circle above the origin; below 0: height at activation"};
+    Param rate{2, "m/s", 0.1, 50, "rate of the height command, up or down"};
+    Param radius{80, "m", 10, 1e4, "radius of the circle"};
+    Choice<Turn> turn{Turn::left, "turn direction of the circle"};
+    Param airspeed{0, "m/s", 0, 100, "true airspeed command; 0: cruise airspeed of the airframe"};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>&) {

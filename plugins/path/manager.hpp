@@ -25,7 +25,7 @@ namespace fulmar::path {
 
 struct Manager {
   static constexpr const char* doc =
-      "The piece of the plan's route that is to be flown now, and how far the plan has been flown.";
+      "The active piece of the route of the plan, and the progress of the flight.";
   struct Inputs {
     In<VehicleState> state;
     In<Plan> plan;
@@ -35,15 +35,18 @@ struct Manager {
     Progress progress;
   };
   struct Params {
-    Param hold_height{50, "m", 0, 10000, "lowest height of the orbit that is flown while the plan is empty"};
-    Count first_item{0, 0, 65535, "index of the waypoint to begin with; changed in flight: go there at once"};
+    Param hold_height{50, "m", 0, 10000, "minimum height of the orbit that is flown while the plan is empty"};
+    Count first_item{0, 0, 65535,
+                     "index of the first waypoint; a change in flight selects that waypoint at once"};
     Param rejoin_distance{25, "m", 5, 1000,
-                          "off the way to the plan by more than this: draw a new one from here"};
-    Param fillet_bank{0.72, "rad", 0, 1.4,
-                      "a fillet that takes more than this in the wind is flown wider; 0: never"};
-    Param reckon_std{50, "m", 0, 1000, "without a fix the plan goes on up to this deviation of the position"};
+                          "distance from the path beyond which a new path to the plan starts"};
+    Param fillet_bank{
+        0.72, "rad", 0, 1.4,
+        "largest bank in a fillet with the present wind; beyond it the fillet is wider; 0: off"};
+    Param reckon_std{50, "m", 0, 1000,
+                     "largest standard deviation of the position for the plan without a fix"};
     Param reckon_time{115, "s", 0, 3600,
-                      "and for so long after the position stopped being valid, 5 s after the fix"};
+                      "largest time of the plan after the position became invalid, 5 s after the last fix"};
   };
 
   void configure(const Params& p) { retune(p); }

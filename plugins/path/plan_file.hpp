@@ -10,19 +10,22 @@ inline constexpr double not_given = unknown_std;
 
 /// Either north, east, up of the origin, or latitude, longitude, altitude above mean sea level.
 struct PlanFileWaypoint {
-  double north_m = not_given, east_m = not_given, up_m = not_given;
-  double lat_deg = not_given, lon_deg = not_given, alt_msl_m = not_given;
-  double course_rad = not_given;    ///< pass in this direction; without it the corner is rounded
-  double airspeed_mps = not_given;  ///< of the leg that ends here; without it the plan's
+  double north_m = not_given, east_m = not_given, up_m = not_given;  ///< local position, from the origin
+  double lat_deg = not_given, lon_deg = not_given, alt_msl_m = not_given;  ///< geodetic position, WGS-84,
+                                                                           ///< altitude above mean sea level
+  double course_rad = not_given;    ///< course at the waypoint; without it
+                                    ///< a fillet at the corner
+  double airspeed_mps = not_given;  ///< airspeed on the leg that ends here;
+                                    ///< without it the airspeed of the plan
 };
 
 struct PlanFile {
   Text<64> name;
-  PlanEnd end = PlanEnd::circuit;
-  double airspeed_mps = 15;
-  double turn_radius_m = 50;
+  PlanEnd end = PlanEnd::circuit;  ///< continuation after the last waypoint
+  double airspeed_mps = 15;        ///< airspeed of legs without their own
+  double turn_radius_m = 50;       ///< radius of turns
   List<PlanFileWaypoint, 1024> waypoints;
-  Runway runway;       ///< of the landing that is given this plan
+  Runway runway;       ///< runway of a landing with this plan
   bool given = false;  // false: no plan at all
 };
 

@@ -33,16 +33,13 @@ struct Planner {
     OutQueue<Notice, 4> notices;  // edits refused, for people
   };
   struct Params {
-    Record<PlanFile> plan{"waypoints; without it the plan begins empty"};
-    Record<Origin> origin{"of the local frame"};
-    Record<Airframe> airframe{"airspeeds and bank; without it the plan's are not compared"};
-    Record<safety::Fence> fence{"corners, floor, ceiling; waypoints outside are refused"};
-    Param lowest{1,
-                 "m",
-                 -1e4,
-                 1e4,
-                 "above the origin: lower waypoints are refused; less where the ground falls away",
-                 setup};
+    Record<PlanFile> plan{"waypoints; without it the plan is empty"};
+    Record<Origin> origin{"origin of the local frame"};
+    Record<Airframe> airframe{"airframe with airspeeds and bank for the checks; without it no check"};
+    Record<safety::Fence> fence{"geofence with corners, floor and ceiling; waypoints outside are rejected"};
+    Param lowest{
+        1,    "m", -1e4, 1e4, "minimum height of a waypoint above the origin; less where the ground is lower",
+        setup};
   };
 
   void configure(const Params& p);

@@ -20,18 +20,19 @@ namespace fulmar::path {
 
 /// How lines, orbits and curves are approached. A group of parameters, of whoever follows them.
 struct FieldParams {
-  Param chi_infinity{1.05, "rad", 0.1, 1.57, "approach angle to a line from far away"};
-  Param k_path{0.05, "1/m", 0.001, 1, "how sharply to turn onto a line, at the reference speed"};
-  Param k_orbit{1.5, "ratio", 0.05, 20, "how sharply to turn onto an orbit, at the reference speed"};
-  Param reference_speed{17, "m/s", 1, 200,
-                        "ground speed for which k_path and k_orbit hold; they fall as it grows"};
-  Param lead_time{0.42, "s", 0, 5,
-                  "how long before a change of curvature its bank is commanded: what rolling takes"};
+  Param chi_infinity{1.05, "rad", 0.1, 1.57, "approach angle to a line at large distance"};
+  Param k_path{0.05, "1/m", 0.001, 1, "gain of the approach to a line, at the reference speed"};
+  Param k_orbit{1.5, "ratio", 0.05, 20, "gain of the approach to an orbit, at the reference speed"};
+  Param reference_speed{
+      17, "m/s", 1, 200,
+      "ground speed at which k_path and k_orbit hold; the gains fall with the ground speed"};
+  Param lead_time{0.42, "s", 0, 5, "lead time of the bank command before a change of curvature"};
   Param roll_max{0.785, "rad", 0, 1.4, "limit of the bank that is fed forward"};
 };
 
 struct VectorField {
-  static constexpr const char* doc = "Follows a line, an orbit or a curve by a vector field of courses.";
+  static constexpr const char* doc =
+      "Guidance along a line, an orbit or a curve by a vector field of courses.";
   struct Inputs {
     In<VehicleState> state;
     In<Path> path;
@@ -44,10 +45,12 @@ struct VectorField {
   };
   struct Params {
     FieldParams field;
-    Param reckon_std{50, "m", 0, 1000, "without a fix the plan goes on up to this deviation of the position"};
-    Param reckon_time{115, "s", 0, 3600,
-                      "and for so long after the position stopped being valid, 5 s after the fix"};
-    Param lost_radius{100, "m", 20, 5000, "of the circle that is flown after that"};
+    Param reckon_std{50, "m", 0, 1000,
+                     "largest standard deviation of the position for path following without a fix"};
+    Param reckon_time{
+        115, "s", 0, 3600,
+        "largest time of path following after the position became invalid, 5 s after the last fix"};
+    Param lost_radius{100, "m", 20, 5000, "radius of the circle that is flown after a lost position"};
   };
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);

@@ -16,7 +16,7 @@ enum class GoalMode : std::uint8_t { replace, append };
 
 /// rviz's "2D Goal Pose", or any node's.
 struct Goal {
-  static constexpr const char* doc = "Turns a goal pose of ROS 2 (ENU) into edits of the plan.";
+  static constexpr const char* doc = "Plan edits from a goal pose of ROS 2 (ENU).";
   struct Inputs {
     Queue<RosPoseStamped> goal;
     Optional<VehicleState> state;
@@ -27,11 +27,11 @@ struct Goal {
   };
   struct Params {
     Choice<GoalMode> mode{GoalMode::replace,
-                          "replace: the goal is the whole plan; append: it is the last waypoint"};
-    Flag use_heading{false, "arrive in the direction that the pose points to"};
+                          "use of the goal; replace: it is the whole plan; append: it is the last waypoint"};
+    Flag use_heading{false, "use of the heading of the pose at the goal"};
     Param height{0, "m", 0, 10000,
-                 "above the origin, of goals with z = 0, as rviz sends them; 0: the present height"};
-    Param airspeed{0, "m/s", 0, 200, "of the leg to the goal; 0: the plan's"};
+                 "height above the origin for goals with z = 0, as rviz sends them; 0: present height"};
+    Param airspeed{0, "m/s", 0, 200, "airspeed on the leg to the goal; 0: airspeed of the plan"};
   };
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
@@ -75,7 +75,8 @@ struct Goal {
 /// Flies by twists: linear.x true airspeed, linear.z climb, angular.z turn to the left, in FLU. Fills the
 /// role `guide`.
 struct Velocity {
-  static constexpr const char* doc = "Guides by twists of ROS 2: speed ahead, climb, turn to the left.";
+  static constexpr const char* doc =
+      "Guidance from twists of ROS 2: forward speed, climb rate, turn rate to the left.";
   struct Inputs {
     In<VehicleState> state;
     Optional<RosTwist> twist;
@@ -84,13 +85,13 @@ struct Velocity {
     GuidanceCommand command;
   };
   struct Params {
-    Param airspeed_min{10, "m/s", 0, 200, "slower ones are raised to it"};
-    Param airspeed_max{25, "m/s", 0, 200, "faster ones are cut"};
-    Param climb_max{3, "m/s", 0, 50, "either way"};
-    Param turn_max{0.4, "rad/s", 0, 2, "either way"};
-    Param height_min{20, "m", 0, 10000, "above the origin; the commanded height stays above it"};
+    Param airspeed_min{10, "m/s", 0, 200, "lower limit of the airspeed command"};
+    Param airspeed_max{25, "m/s", 0, 200, "upper limit of the airspeed command"};
+    Param climb_max{3, "m/s", 0, 50, "largest climb rate command, either way"};
+    Param turn_max{0.4, "rad/s", 0, 2, "largest turn rate command, either way"};
+    Param height_min{20, "m", 0, 10000, "lower limit of the commanded height above the origin"};
     Param timeout{0.5, "s", 0.05, 60,
-                  "a twist that is older is forgotten: straight on, level, at the last airspeed"};
+                  "largest age of a twist; after it straight and level flight at the last airspeed"};
   };
 
   Status activate(const Tick& tick, const Inputs& in, const Params& p, const Outputs&) {

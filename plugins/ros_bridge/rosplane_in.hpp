@@ -34,8 +34,7 @@ inline bool all_finite(const std::array<float, 3>& v) { return all_finite(v[0], 
 
 /// A path follower, or signal_generator: /controller_command.
 struct RosplaneFollower {
-  static constexpr const char* doc =
-      "Fills `guide` with the controller commands that a node of ROSplane publishes.";
+  static constexpr const char* doc = "Guidance commands from the controller commands of a ROSplane node.";
   struct Inputs {
     Optional<RosplaneControllerCommands> controller_command;
   };
@@ -43,7 +42,7 @@ struct RosplaneFollower {
     Out<GuidanceCommand> command;
   };
   struct Params {
-    Param timeout{0.5, "s", 0.02, 60, "silence after which it has failed"};
+    Param timeout{0.5, "s", 0.02, 60, "largest age of a message before failure"};
   };
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
     return take_over(in.controller_command, p.timeout, last);
@@ -66,7 +65,7 @@ struct RosplaneFollower {
 /// A controller: rosflight's /command.
 struct RosplaneController {
   static constexpr const char* doc =
-      "Fills `inner` with the command that a controller of ROSplane sends to the flight controller.";
+      "Actuator commands from a ROSplane controller's command to the flight controller.";
   struct Inputs {
     Optional<RosflightCommand> command;
   };
@@ -74,10 +73,12 @@ struct RosplaneController {
     Out<Actuators> actuators;
   };
   struct Params {
-    Record<Airframe> airframe{"whose throws a command of 1 means"};
-    Flag elevator_up{
-        true, "positive elevator raises the nose, as ROSplane's anaconda has it with REV_ELEVATOR 1", setup};
-    Param timeout{0.1, "s", 0.01, 60, "silence after which it has failed"};
+    Record<Airframe> airframe{"airframe with the throws for a command of 1"};
+    Flag elevator_up{true,
+                     "sign of the elevator; true: positive raises the nose, as in the anaconda of ROSplane "
+                     "with REV_ELEVATOR 1",
+                     setup};
+    Param timeout{0.1, "s", 0.01, 60, "largest age of a message before failure"};
   };
   void configure(const Params& p) { throws_ = Throws::of(*p.airframe, p.elevator_up); }
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
@@ -102,7 +103,7 @@ struct RosplaneController {
 
 /// A path manager: /current_path.
 struct RosplanePath {
-  static constexpr const char* doc = "Publishes the piece of path that a path manager of ROSplane chooses.";
+  static constexpr const char* doc = "Path from a ROSplane path manager.";
   struct Inputs {
     Optional<RosplaneCurrentPath> current_path;
   };
@@ -110,7 +111,7 @@ struct RosplanePath {
     Out<Path> path;
   };
   struct Params {
-    Param timeout{1, "s", 0.02, 60, "silence after which it has failed; the last piece is flown on"};
+    Param timeout{1, "s", 0.02, 60, "largest age of a message before failure; the last path stays active"};
   };
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
     if (silent(in.current_path, p.timeout)) return Status::degraded;
@@ -140,8 +141,7 @@ struct RosplanePath {
 
 /// A path planner: /waypoint_path, and the service /add_waypoint.
 struct RosplaneWaypoints {
-  static constexpr const char* doc =
-      "Turns the waypoints that a node of ROSplane publishes, or asks for, into edits of the plan.";
+  static constexpr const char* doc = "Plan edits from the waypoints and requests of a ROSplane node.";
   struct Inputs {
     Queue<RosplaneWaypoint> waypoint_path;
     Request<RosplaneAddWaypoint> add_waypoint;
@@ -199,7 +199,7 @@ struct RosplaneWaypoints {
 
 /// An estimator: /estimated_state.
 struct RosplaneEstimator {
-  static constexpr const char* doc = "Fills `nav` with the state that an estimator of ROSplane publishes.";
+  static constexpr const char* doc = "Navigation state from a ROSplane estimator.";
   struct Inputs {
     Optional<RosplaneState> estimated_state;
   };
@@ -207,7 +207,7 @@ struct RosplaneEstimator {
     Out<VehicleState> state;
   };
   struct Params {
-    Param timeout{0.1, "s", 0.01, 60, "silence after which it has failed"};
+    Param timeout{0.1, "s", 0.01, 60, "largest age of a message before failure"};
   };
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {
     return take_over(in.estimated_state, p.timeout, last);

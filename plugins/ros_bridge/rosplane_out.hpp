@@ -38,7 +38,7 @@ struct Throws {
 };
 
 struct Rosplane {
-  static constexpr const char* doc = "Publishes the flight in the messages of ROSplane and ROSflight 2.0.";
+  static constexpr const char* doc = "Output of the flight in the messages of ROSplane and ROSflight 2.0.";
   struct Inputs {
     Optional<VehicleState> state;
     Optional<GuidanceCommand> command;
@@ -73,14 +73,15 @@ struct Rosplane {
     Out<RosflightBatteryStatus> battery;
   };
   struct Params {
-    Record<Airframe> airframe{"whose throws are 1 in `command`"};
-    Flag elevator_up{
-        true,
-        "positive elevator in `command` raises the nose, as ROSplane's anaconda has it with REV_ELEVATOR 1",
+    Record<Airframe> airframe{"airframe with the throws that are 1 in `command`"};
+    Flag elevator_up{true,
+                     "sign of the elevator in `command`; true: positive raises the nose, as in the anaconda "
+                     "of ROSplane with REV_ELEVATOR 1",
+                     setup};
+    Count epoch{
+        1767225600, 0, 4102444800,
+        "UTC of flight time 0 in seconds since 1970, until the first fix; equal to the epoch of the mission",
         setup};
-    Count epoch{1767225600, 0, 4102444800,
-                "UTC of flight time 0 in seconds since 1970, until a fix tells it; as the mission's epoch",
-                setup};
   };
 
   void configure(const Params& p) { throws_ = Throws::of(*p.airframe, p.elevator_up); }

@@ -17,9 +17,8 @@ namespace fulmar::ros_bridge {
 
 struct Scene {
   static constexpr const char* doc =
-      "What 3-D panels and maps draw: the aircraft's pose and place on the Earth, the plan's way, aircraft "
-      "and "
-      "waypoints as markers.";
+      "Scene for 3-D panels and maps: pose and geographic position of the aircraft, route of the plan, "
+      "markers of aircraft and waypoints.";
   struct Inputs {
     Optional<VehicleState> state;
     Optional<Gnss> gnss;  // for the map, as long as the state has no place on the Earth
@@ -33,16 +32,16 @@ struct Scene {
     Out<RosMarkerArray> markers;  // aircraft and waypoints; when the plan changes
   };
   struct Params {
-    TextParam<48> world{"map", "frame of positions, ENU"};
-    TextParam<48> base{"base_link", "frame of the body, FLU"};
-    Count epoch{1767225600, 0, 4102444800, "UTC of flight time 0 in seconds since 1970: that of the log",
+    TextParam<48> world{"map", "name of the frame of positions, ENU"};
+    TextParam<48> base{"base_link", "name of the body frame, FLU"};
+    Count epoch{1767225600, 0, 4102444800, "UTC of flight time 0 in seconds since 1970, as in the log",
                 setup};
     Param geoid_separation{0, "m", -120, 100,
-                           "of the ellipsoid from mean sea level, which is added to altitudes"};
-    Param repeat{60, "s", 10, 3600, "route and markers are told again so often, for who comes late"};
-    Param magnify{5, "ratio", 0.1, 100, "the aircraft is drawn so many times as large as it is"};
-    Param waypoint_size{6, "m", 0.1, 1000, "diameter of a waypoint's ball"};
-    Record<Airframe> airframe{"for the size of its wing"};
+                           "height of mean sea level above the ellipsoid, added to altitudes"};
+    Param repeat{60, "s", 10, 3600, "period of repeated route and markers, for late subscribers"};
+    Param magnify{5, "ratio", 0.1, 100, "scale of the drawn aircraft"};
+    Param waypoint_size{6, "m", 0.1, 1000, "diameter of a waypoint marker"};
+    Record<Airframe> airframe{"airframe with the wing span"};
   };
 
   void configure(const Params& p) {

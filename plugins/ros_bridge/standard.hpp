@@ -17,7 +17,7 @@ namespace fulmar::ros_bridge {
 
 struct Standard {
   static constexpr const char* doc =
-      "Publishes the flight in standard messages of ROS 2: world east-north-up, body forward-left-up.";
+      "Output of the flight in standard messages of ROS 2: world east-north-up, body forward-left-up.";
   struct Inputs {
     Optional<VehicleState> state;
     Optional<Imu> imu;
@@ -39,16 +39,18 @@ struct Standard {
     Out<RosPath> piece;  // the line, orbit or curve that is followed now
   };
   struct Params {
-    TextParam<48> world{"map", "frame of positions, ENU"};
-    TextParam<48> base{"base_link", "frame of the body, FLU"};
-    Flag ned_frames{true, "also tells the transforms to <world>_ned and <base>_frd"};
-    Count epoch{1767225600, 0, 4102444800,
-                "UTC of flight time 0 in seconds since 1970, until a fix tells it; as the mission's epoch",
-                setup};
+    TextParam<48> world{"map", "name of the frame of positions, ENU"};
+    TextParam<48> base{"base_link", "name of the body frame, FLU"};
+    Flag ned_frames{true, "switch for the additional transforms to <world>_ned and <base>_frd"};
+    Count epoch{
+        1767225600, 0, 4102444800,
+        "UTC of flight time 0 in seconds since 1970, until the first fix; equal to the epoch of the mission",
+        setup};
     Param geoid_separation{0, "m", -120, 100,
-                           "of the ellipsoid from mean sea level, which is added to altitudes of fixes"};
-    Param rate_std{0, "rad/s", 0, 10, "deviation of body rates, for covariances; 0: not known"};
-    Param force_std{0, "m/s2", 0, 100, "deviation of the accelerometers, for covariances; 0: not known"};
+                           "height of mean sea level above the ellipsoid, added to altitudes of fixes"};
+    Param rate_std{0, "rad/s", 0, 10, "standard deviation of body rates, for covariances; 0: unknown"};
+    Param force_std{0, "m/s2", 0, 100,
+                    "standard deviation of the accelerometers, for covariances; 0: unknown"};
   };
 
   void configure(const Params& p);

@@ -21,9 +21,8 @@ namespace fulmar::safety {
 
 struct AircraftWatch {
   static constexpr const char* doc =
-      "Reports a motor without thrust, a low battery, wind beyond the limit, and a bank or pitch that does "
-      "not "
-      "follow its command.";
+      "Reports of a motor without thrust, a low battery, wind beyond the limit, and a bank or pitch error "
+      "that does not decrease.";
   struct Inputs {
     In<VehicleState> state;
     Optional<Actuators> actuators;       // without it nothing is reported of the motor
@@ -35,14 +34,15 @@ struct AircraftWatch {
     OutQueue<Notice, 12> notices;
   };
   struct Params {
-    Record<Airframe> airframe{"thrust, drag, limits", required};
-    Flag monitored{false, "a Monitor reports motor, battery and wind"};
-    Param bank_error{0.26, "rad", 0.01, 3, "off the command, neither less nor closing"};
-    Param pitch_error{0.21, "rad", 0.01, 3, "off the command, neither less nor closing"};
-    Param follow_raise{1, "s", 0, 60, "of that, until it is reported"};
-    Param follow_clear{3, "s", 0, 60, "of less than half of it, until its end is reported"};
-    Param pause{30, "s", 0, 3600, "between two reports of the same cause"};
-    Param flying{7, "m/s", 0, 100, "ground speed from which on the aircraft flies, without `ground`"};
+    Record<Airframe> airframe{"airframe with thrust, drag and limits", required};
+    Flag monitored{false, "switch for reports of motor, battery and wind by a Monitor instead"};
+    Param bank_error{0.26, "rad", 0.01, 3, "bank error that does not decrease, for a report"};
+    Param pitch_error{0.21, "rad", 0.01, 3, "pitch error that does not decrease, for a report"};
+    Param follow_raise{1, "s", 0, 60, "duration of such an error before the report"};
+    Param follow_clear{3, "s", 0, 60,
+                       "duration of less than half of that error before the report of its end"};
+    Param pause{30, "s", 0, 3600, "minimum time between two reports of the same cause"};
+    Param flying{7, "m/s", 0, 100, "minimum ground speed of flight, without `ground`"};
     BatteryLimits battery;
     EngineLimits engine;
     WindLimits wind;

@@ -11,9 +11,10 @@
 namespace fulmar::safety {
 
 struct GateLimits {
-  Param take_off_wind{0.55, "ratio", 0, 5, "wind over cruise airspeed, above which it is not ready"};
-  Param motor_test{3, "s", 0, 60,
-                   "open throttle without motion before a take-off, until the motor has failed"};
+  Param take_off_wind{0.55, "ratio", 0, 5, "largest ratio of wind to cruise airspeed for a take-off"};
+  Param motor_test{
+      3, "s", 0, 60,
+      "time with open throttle and without motion, before a take-off, that counts as a motor failure"};
 };
 
 /// What only a take-off run shows, kept until a hand-over or a disarming: a motor that does not move the

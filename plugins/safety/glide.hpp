@@ -15,7 +15,7 @@ namespace fulmar::safety {
 
 struct Glide {
   static constexpr const char* doc =
-      "Glides: throttle closed, airspeed held by pitch, course by bank; wings level and a flare above the "
+      "Glide with closed throttle: airspeed by pitch, course by bank; wings level and flare above the "
       "ground.";
   struct Inputs {
     In<VehicleState> state;
@@ -30,15 +30,16 @@ struct Glide {
   };
   struct Params {
     OuterParams common;
-    Param airspeed_kp{0.06, "rad/(m/s)", 0, 1, "pitch per airspeed that is too high"};
-    Param airspeed_ki{0.015, "rad/m", 0, 1, "pitch per integrated airspeed that is too high"};
+    Param airspeed_kp{0.06, "rad/(m/s)", 0, 1, "pitch per airspeed excess"};
+    Param airspeed_ki{0.015, "rad/m", 0, 1, "pitch per integrated airspeed excess"};
     Param airspeed_kd{0.03, "rad/(m/s2)", 0, 1, "pitch per acceleration along the flight path"};
-    Param flare_time{1.5, "s", 0.1, 10, "to the ground at the present sink; less of it, and it flares"};
-    Param flare_kd{0.06, "rad/(m/s)", 0, 1, "pitch per sink that is too fast, in the flare"};
-    Param ground{0, "m", -1000, 10000, "height of the ground above the origin, where nobody says it"};
-    Param touch_sink{1.0, "m/s", 0, 3, "that the flare ends with"};
+    Param flare_time{1.5, "s", 0.1, 10,
+                     "time to the ground at the present sink rate at the start of the flare"};
+    Param flare_kd{0.06, "rad/(m/s)", 0, 1, "pitch per sink rate excess in the flare"};
+    Param ground{0, "m", -1000, 10000, "height of the ground above the origin, without the input `progress`"};
+    Param touch_sink{1.0, "m/s", 0, 3, "sink rate at the end of the flare"};
     Param level_time{2.6, "s", 0, 60,
-                     "to the ground at the present sink; less of it, and the wings are levelled"};
+                     "time to the ground at the present sink rate below which the wings are levelled"};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params& p, const Applied<Outputs>& last) {

@@ -27,8 +27,7 @@ class HeldFor {
 
 struct Ground {
   static constexpr const char* doc =
-      "Lift-off and touch-down by acceleration, climb rate, height and speed; closes the throttle after a "
-      "landing.";
+      "Lift-off and touch-down by acceleration, climb rate, height and speed; throttle lock after a landing.";
   struct Inputs {
     In<VehicleState> state;
     Optional<VehicleStatus> status;     // armed, and who flies; without it armed and no pilot
@@ -41,15 +40,14 @@ struct Ground {
     OutQueue<Notice, 4> notices;
   };
   struct Params {
-    Record<Airframe> airframe{"airspeeds", required};
+    Record<Airframe> airframe{"airframe with airspeeds", required};
     TouchParams touch;
-    Param touch_height{
-        15, "m", 1, 1000,
-        "above or below the place of the take-off, or the runway, where a touch-down with power "
-        "is possible; with the throttle closed it is possible at any height"};
-    Param lift_height{1.5, "m", 0.2, 50, "above the place where it stood, from which on it flies"};
-    Param slow{0.6, "ratio", 0.1, 1, "of the least airspeed: slower than that it does not fly"};
-    Param landed_after{0.5, "s", 0, 60, "of slow rolling, after which the throttle is locked"};
+    Param touch_height{15, "m", 1, 1000,
+                       "height band around the place of the take-off or the runway for a touch-down with "
+                       "power; no limit with closed throttle"};
+    Param lift_height{1.5, "m", 0.2, 50, "height above the place of the start that counts as flight"};
+    Param slow{0.6, "ratio", 0.1, 1, "share of the minimum airspeed below which flight is impossible"};
+    Param landed_after{0.5, "s", 0, 60, "duration of slow rolling before the throttle is locked"};
   };
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {

@@ -21,8 +21,8 @@ enum class HomeMode : std::uint8_t { home, glide, wait, descend, level };
 
 struct Home {
   static constexpr const char* doc =
-      "Flies home and circles there; glides to a place within reach and onto it into the wind; without "
-      "satellites home by the reckoned position and a circle; or straight on, wings level.";
+      "Return home and circle there; glide to a place in range with a landing into the wind; return by dead "
+      "reckoning and a circle without satellites; or straight on, wings level.";
   struct Inputs {
     In<VehicleState> state;
     Optional<SafetyState>
@@ -35,26 +35,29 @@ struct Home {
   struct Params {
     Choice<HomeMode> mode{
         HomeMode::home,
-        "home: there and circle; glide: without motor to a place and onto it; wait: home by "
-        "the reckoned position, else a circle here; descend: the same without motor; "
-        "level: straight on"};
-    Record<Airframe> airframe{"airspeeds, and the glide", required};
-    Record<Origin> origin{"of the local frame, for lat and lon"};
-    Record<Places> places{"where to come down; the first is home. Without it, the origin"};
-    Param return_height{70, "m", 0, 10000, "above home, on the way and on the circle"};
-    Param fence_height{10, "m", 0, 1000, "above the floor and below the ceiling of the fence at least"};
-    Param radius{70, "m", 10, 5000, "of the circle at home; as much more as the wind takes"};
-    Param k_orbit{2, "ratio", 0.1, 20, "how sharply to turn onto a circle, Beard & McLain (10.13)"};
-    Param least_ground_speed{6, "m/s", 0, 100, "on the way home; against more wind it flies faster"};
-    Param least_height{40, "m", 0, 10000, "above home, of the circle while the position is not known"};
-    Param reckon_std{50, "m", 0, 1000,
-                     "a position is reckoned on up to this deviation; beyond, a circle by bank"};
-    Param wait_bank{0.26, "rad", 0.02, 1, "of the circle while the position is not known, to the right"};
-    Param glide_margin{1.2, "ratio", 1, 2, "least airspeed of a glide over the airframe's least"};
-    Param glide_radius{35, "m", 10, 1000, "of the circle above a place"};
-    Param glide_bank{0.5, "rad", 0.05, 1, "of the turn into the wind, as far as the height for it goes"};
-    Param final_height{30, "m", 2, 500, "above the place, where the last piece into the wind begins"};
-    Param straight_height{15, "m", 0, 500, "below it no turn is begun"};
+        "mode of the return; home: flight home and circle; glide: to a place, without motor; wait: home by "
+        "dead reckoning, else a circle; descend: the same without motor; level: straight on"};
+    Record<Airframe> airframe{"airframe with airspeeds and glide performance", required};
+    Record<Origin> origin{"origin of the local frame, for lat and lon"};
+    Record<Places> places{"landing places, home first; without it the origin"};
+    Param return_height{70, "m", 0, 10000, "height above home of the way and the circle"};
+    Param fence_height{10, "m", 0, 1000, "minimum distance from floor and ceiling of the geofence"};
+    Param radius{70, "m", 10, 5000, "radius of the circle at home, enlarged for the wind"};
+    Param k_orbit{2, "ratio", 0.1, 20, "gain of the approach to a circle, Beard & McLain (10.13)"};
+    Param least_ground_speed{
+        6, "m/s", 0, 100, "minimum ground speed on the way home; the airspeed rises against stronger wind"};
+    Param least_height{40, "m", 0, 10000, "minimum height above home of the circle without a position"};
+    Param reckon_std{
+        50, "m", 0, 1000,
+        "largest standard deviation of a position for dead reckoning; beyond it a circle at fixed bank"};
+    Param wait_bank{0.26, "rad", 0.02, 1, "bank of the circle without a position, to the right"};
+    Param glide_margin{1.2, "ratio", 1, 2,
+                       "ratio of the minimum glide airspeed to the minimum airspeed of the airframe"};
+    Param glide_radius{35, "m", 10, 1000, "radius of the circle above a landing place"};
+    Param glide_bank{0.5, "rad", 0.05, 1, "bank of the turn into the wind, within the available height"};
+    Param final_height{30, "m", 2, 500,
+                       "height above the landing place at the start of the final glide into the wind"};
+    Param straight_height{15, "m", 0, 500, "height below which no turn starts"};
   };
 
   void configure(const Params& p) {

@@ -18,8 +18,8 @@ namespace fulmar::safety {
 
 struct Monitor {
   static constexpr const char* doc =
-      "What has failed - fence, receiver, pitot tube, radio, link, battery, attitude, motor, wind, estimate "
-      "-, what to do about it, and what speaks against a take-off.";
+      "Failures of geofence, receiver, pitot, radio, link, battery, attitude, motor, wind and estimate; the "
+      "answer to them; the reasons against a take-off.";
   struct Inputs {
     In<VehicleState> state;
     Optional<VehicleStatus> status;     // without it nothing is said of battery and link
@@ -33,15 +33,15 @@ struct Monitor {
     OutQueue<Notice, 12> notices;
   };
   struct Params {
-    Record<Airframe> airframe{"thrust, drag, limits", required};
-    Record<Origin> origin{"of the local frame, for lat and lon"};
-    Record<Fence> fence{"corners, floor, ceiling; without it there is none"};
-    Record<Places> places{"where to come down; the first is home. Without it, the origin"};
+    Record<Airframe> airframe{"airframe with thrust, drag and limits", required};
+    Record<Origin> origin{"origin of the local frame, for lat and lon"};
+    Record<Fence> fence{"geofence with corners, floor and ceiling; without it no check"};
+    Record<Places> places{"landing places, home first; without it the origin"};
     Choice<SafetyAnswer> asked{SafetyAnswer::none,
-                               "the answer as long as nothing is wrong: home, land and wait, for a pilot"};
-    Flag landing{false, "while it is true the floor of the fence does not count"};
+                               "answer on request without a failure: home, land or wait, for a pilot"};
+    Flag landing{false, "switch for a landing: the floor of the geofence does not count"};
 
-    Param airborne_raise{1.5, "s", 0, 60, "off the ground, until it flies: a landing may bounce"};
+    Param airborne_raise{1.5, "s", 0, 60, "time off the ground that counts as flight: longer than a bounce"};
 
     FenceLimits fencing;
     GnssDelays gnss;

@@ -12,14 +12,17 @@
 namespace fulmar::safety {
 
 struct EngineLimits {
-  Param engine_share{0.25, "ratio", -2, 1, "of the thrust that the model expects: less has failed"};
-  Param engine_thrust{0.05, "ratio", 0, 2, "of the weight: less thrust than that says nothing"};
-  Param engine_missing{0.1, "ratio", 0, 2, "of the weight: less thrust that is missing is sinking air"};
+  Param engine_share{0.25, "ratio", -2, 1,
+                     "share of the expected thrust below which the motor counts as failed"};
+  Param engine_thrust{0.05, "ratio", 0, 2, "share of the weight; no check at a smaller expected thrust"};
+  Param engine_missing{0.1, "ratio", 0, 2,
+                       "share of the weight; a smaller thrust deficit counts as sinking air"};
   Param engine_smoothing{1, "s", 0.05, 20, "time constant of thrust and drag"};
-  Param engine_raise{2, "s", 0, 600, "of a force that brakes, until it is said; of none, twice as long"};
-  Param engine_clear{5, "s", 0, 600, "of more than twice as much, until it is taken back"};
-  Param weak_share{0.5, "ratio", -2, 1, "of the expected thrust: less is a weak motor"};
-  Param weak_raise{8, "s", 0, 600, "of that, until it is reported"};
+  Param engine_raise{2, "s", 0, 600,
+                     "time with a braking force before the report; twice that without thrust"};
+  Param engine_clear{5, "s", 0, 600, "time above twice that share before the report ends"};
+  Param weak_share{0.5, "ratio", -2, 1, "share of the expected thrust below which the motor counts as weak"};
+  Param weak_raise{8, "s", 0, 600, "time with a weak motor before the report"};
 };
 
 inline constexpr double there_volt = 1;  ///< below it there is no battery, or none that is measured

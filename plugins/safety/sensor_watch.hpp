@@ -16,9 +16,8 @@ namespace fulmar::safety {
 
 struct SensorWatch {
   static constexpr const char* doc =
-      "Reports sensors that are silent, stuck, refused, noisy or biased in flight, a lost position, and "
-      "their "
-      "return.";
+      "Reports of sensors that are silent, stuck, rejected, noisy or biased in flight, of a lost position, "
+      "and of their return.";
   struct Inputs {
     In<VehicleState> state;
     Optional<NavigationHealth> health;  // without it the position alone is watched
@@ -28,12 +27,13 @@ struct SensorWatch {
     OutQueue<Notice, 12> notices;
   };
   struct Params {
-    Param raise{0.3, "s", 0, 600, "silent, stuck or refused, until it is reported"};
-    Param raise_soft{10, "s", 0, 600, "noisy or biased, until it is reported"};
-    Param raise_inertial{1, "s", 0, 600, "two of the others refused at once, until it is reported"};
-    Param clear{3, "s", 0, 600, "in order, until its return is reported"};
-    Param pause{30, "s", 0, 3600, "between two reports of the same sensor"};
-    Param flying{7, "m/s", 0, 100, "ground speed from which on the aircraft flies, without `ground`"};
+    Param raise{0.3, "s", 0, 600, "time of a silent, stuck or rejected sensor before the report"};
+    Param raise_soft{10, "s", 0, 600, "time of a noisy or biased sensor before the report"};
+    Param raise_inertial{1, "s", 0, 600,
+                         "time of two other sensors rejected at once before the report of the inertial unit"};
+    Param clear{3, "s", 0, 600, "time of normal operation before the report of the return"};
+    Param pause{30, "s", 0, 3600, "minimum time between two reports of the same sensor"};
+    Param flying{7, "m/s", 0, 100, "minimum ground speed of flight, without `ground`"};
   };
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {

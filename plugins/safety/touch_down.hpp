@@ -14,7 +14,7 @@
 namespace fulmar::safety {
 
 struct TouchParams {
-  Param touch_odds{1e5, "ratio", 10, 1e12, "how much likelier on the ground than in the air it has to be"};
+  Param touch_odds{1e5, "ratio", 10, 1e12, "likelihood ratio of ground to air that counts as a touch-down"};
   Param touch_off{4, "m", 0.1, 1000, "standard deviation of the estimated height above the ground"};
   Param touch_still{0.1, "m/s", 0.02, 2, "standard deviation of the climb rate on a level runway"};
 };

@@ -86,8 +86,7 @@ struct Score {
     Out<Verdict> verdict;
   };
   struct Params {
-    Param start_height{20, "m", 0, 10000,
-                       "without a progress to tell of the first waypoint: score from this height on"};
+    Param start_height{20, "m", 0, 10000, "height at which the score starts, without the input `progress`"};
   };
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out);

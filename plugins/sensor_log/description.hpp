@@ -27,23 +27,24 @@ enum class LocalAxes : std::uint8_t { ned, enu };
 /// with corrections, 5 RTK float, 6 RTK fixed.
 enum class FixCode : std::uint8_t { fulmar, dimensions, navsat, px4 };
 
-/// Of flight time; `to` is the first moment outside.
+/// Interval of flight time; `to` is the first instant outside.
 struct Window {
   double from_s = -1e9, to_s = 1e9;
 };
 
 /// The rows of one sensor.
 struct Source {
-  Name file;   ///< in the folder: *.csv, *.mcap, *.ulg; "": there is no such sensor
-  Name topic;  ///< of a bag or a ULog; of its second instance "sensor_mag#1"
-  Name time;   ///< column: when the row arrived
-  TimeUnit unit = TimeUnit::s;
-  double shift_s = 0;  ///< is added to that time: between the clocks of two files
-  double delay_s = 0;  ///< what the row says was so much earlier
-  Name changes;        ///< column: rows in which it is as in the row before are left out
+  Name file;                    ///< file in the folder: *.csv, *.mcap, *.ulg; "": no such sensor
+  Name topic;                   ///< topic of a bag or a ULog; "sensor_mag#1" is a second instance
+  Name time;                    ///< column with the time of arrival of a row
+  TimeUnit unit = TimeUnit::s;  ///< unit of that time
+  double shift_s = 0;           ///< addition to that time: offset between the clocks of two files
+  double delay_s = 0;           ///< delay from the measurement to that time
+  Name changes;                 ///< column that marks new samples: rows with the value of the row before are
+                                ///< skipped
 };
 
-/// Numbers of an axis each, in the order x, y, z. value = scale (number - offset), in body axes.
+/// Columns of the axes x, y, z. value = scale (number - offset), in body axes.
 struct RateColumns {
   std::array<Name, 3> columns;
   RateUnit unit = RateUnit::radps;
@@ -65,7 +66,7 @@ struct FieldColumns {
 struct PressureColumn {
   Name column;
   PressureUnit unit = PressureUnit::pa;
-  double height_zero_m = 0;  ///< above mean sea level, of unit `m`
+  double height_zero_m = 0;  ///< height of the zero of unit `m` above mean sea level
   double offset_pa = 0, scale_ratio = 1;
 };
 struct PitotColumn {
@@ -74,10 +75,12 @@ struct PitotColumn {
   double offset_pa = 0, scale_ratio = 1;
 };
 struct PlaceColumns {
-  std::array<Name, 3> columns;  ///< latitude, longitude, altitude above mean sea level
+  std::array<Name, 3> columns;  ///< columns of latitude, longitude and altitude above mean sea
+                                ///< level
   AngleUnit unit = AngleUnit::deg;
   LengthUnit altitude_unit = LengthUnit::m;
-  double geoid_m = 0;  ///< mean sea level above the ellipsoid, where altitudes are above that one
+  double geoid_m = 0;  ///< height of mean sea level above the ellipsoid, for altitudes
+                       ///< above the ellipsoid
 };
 struct VelocityColumns {
   std::array<Name, 3> columns;
@@ -85,7 +88,7 @@ struct VelocityColumns {
   LocalAxes axes = LocalAxes::ned;
 };
 struct FixColumn {
-  Name column;  ///< "": every row is a three-dimensional fix
+  Name column;  ///< column of the fix type; "": a three-dimensional fix in every row
   FixCode code = FixCode::fulmar;
 };
 
@@ -115,15 +118,16 @@ struct GnssLog {
   PlaceColumns position;
   VelocityColumns velocity;
   FixColumn fix;
-  Name satellites, horizontal_std, vertical_std, speed_std;  ///< columns; deviations in m and m/s
+  Name satellites, horizontal_std, vertical_std, speed_std;  ///< columns; standard deviations in m and m/s
   List<Window, 32> withhold;
 };
 
 struct Description {
   Name name;
-  double utc_at_zero_s = 0;  ///< UTC of flight time 0, since 1970; 0: not known
-  Window use;                ///< what lies outside is left out; a file that ends before `to` ends early
-  Window armed, airborne;
+  double utc_at_zero_s = 0;  ///< UTC of flight time 0, since 1970; 0: unknown
+  Window use;                ///< interval of flight time that is used; a file that ends before `to` ends
+                             ///< early
+  Window armed, airborne;    ///< intervals of the armed state and of flight
   ImuLog imu;
   MagLog mag;
   BaroLog baro;

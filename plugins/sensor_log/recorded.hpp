@@ -13,18 +13,18 @@
 
 namespace fulmar::sensor_log {
 
-/// How far the recording is, and how many of its rows are no samples.
+/// Progress of the recording, and number of its rows that are no samples.
 struct Recording {
-  bool ended = false;  ///< this tick is the last one
-  double left_s = 0;
-  std::uint64_t not_finite = 0;    ///< rows left out: a cell is empty, NaN or infinite
-  std::uint64_t out_of_range = 0;  ///< rows left out: what they say is nowhere on Earth
-  std::uint64_t out_of_order = 0;  ///< rows left out: their stamp is not after those before
-  std::uint64_t withheld = 0;      ///< samples in the windows of `withhold`
+  bool ended = false;              ///< true at the last tick
+  double left_s = 0;               ///< time left
+  std::uint64_t not_finite = 0;    ///< number of skipped rows with an empty, NaN or infinite cell
+  std::uint64_t out_of_range = 0;  ///< number of skipped rows with impossible values
+  std::uint64_t out_of_order = 0;  ///< number of skipped rows with a stamp not after the previous ones
+  std::uint64_t withheld = 0;      ///< number of samples in the windows of `withhold`
 };
 
 struct Recorded {
-  static constexpr const char* doc = "A recorded flight: its sensors, from files, at the times of then.";
+  static constexpr const char* doc = "A recorded flight: its sensors from files, at the recorded times.";
   struct Inputs {
     Optional<Actuators> actuators;
   };
@@ -40,8 +40,8 @@ struct Recorded {
     OutQueue<Notice, 10> notices;
   };
   struct Params {
-    Record<Description> log{"which columns of which files are which sensor", required};
-    TextParam<256> folder{"", "where the files are; relative to the current directory"};
+    Record<Description> log{"assignment of the columns of the files to the sensors", required};
+    TextParam<256> folder{"", "folder of the files, relative to the current directory"};
   };
 
   void configure(const Params& p) {

@@ -8,7 +8,7 @@ namespace fulmar::signal {
 
 struct Attitude {
   static constexpr const char* doc =
-      "Between outer and inner law: adds a step, doublet, sweep or multisine to roll, pitch or throttle.";
+      "Step, doublet, sweep or multisine on roll, pitch or throttle, between outer and inner law.";
   enum class Channel : std::uint8_t { roll, pitch, throttle };
 
   struct Inputs {
@@ -24,9 +24,9 @@ struct Attitude {
   };
   struct Params {
     SignalParams signal;
-    Choice<Channel> channel{Channel::pitch, "what it is added to"};
-    Param size{0.0873, "rad", -0.6, 0.6, "of the signal on roll or pitch"};
-    Param throttle_size{0.1, "ratio", -0.5, 0.5, "of the signal on the throttle"};
+    Choice<Channel> channel{Channel::pitch, "channel of the signal"};
+    Param size{0.0873, "rad", -0.6, 0.6, "amplitude of the signal on roll or pitch"};
+    Param throttle_size{0.1, "ratio", -0.5, 0.5, "amplitude of the signal on the throttle"};
     BoundParams bounds;
   };
 

@@ -13,13 +13,16 @@
 namespace fulmar::signal {
 
 struct BoundParams {
-  Param roll_bound{0.785, "rad", 0.05, 3.15, "beyond this roll, either way, the signal is aborted"};
-  Param pitch_bound{0.5, "rad", 0.05, 1.6, "beyond this pitch, either way, the signal is aborted"};
-  Param height_bound{20, "m", 0.5, 10000, "so far from the height at which it was asked for it is aborted"};
-  Param stall_airspeed{
-      0, "m/s", 0, 300,
-      "with wings level; 1.1 times this aborts. 0: the airframe's minimum airspeed over 1.2"};
-  Record<Airframe> airframe{"limits and throws, which no signal leaves", required};
+  Param roll_bound{0.785, "rad", 0.05, 3.15,
+                   "limit of the roll angle, either way; beyond it the signal is aborted"};
+  Param pitch_bound{0.5, "rad", 0.05, 1.6,
+                    "limit of the pitch angle, either way; beyond it the signal is aborted"};
+  Param height_bound{20, "m", 0.5, 10000,
+                     "limit of the height change since the request; beyond it the signal is aborted"};
+  Param stall_airspeed{0, "m/s", 0, 300,
+                       "stall airspeed with wings level; abort below 1.1 times this; 0: minimum airspeed of "
+                       "the airframe over 1.2"};
+  Record<Airframe> airframe{"airframe with the limits and throws of every signal", required};
 };
 
 /// Outputs of each component, beside what is added to each of its channels.

@@ -9,7 +9,7 @@ namespace fulmar::signal {
 
 struct Guidance {
   static constexpr const char* doc =
-      "Between guide and outer law: adds a step, doublet, sweep or multisine to course, height or airspeed.";
+      "Step, doublet, sweep or multisine on course, height or airspeed, between guide and outer law.";
   enum class Channel : std::uint8_t { course, height, airspeed };
 
   struct Inputs {
@@ -25,10 +25,10 @@ struct Guidance {
   };
   struct Params {
     SignalParams signal;
-    Choice<Channel> channel{Channel::height, "what it is added to"};
-    Param course_size{0.262, "rad", -1.05, 1.05, "of the signal on the course"};
-    Param height_size{5, "m", -50, 50, "of the signal on the height"};
-    Param airspeed_size{1.5, "m/s", -10, 10, "of the signal on the airspeed"};
+    Choice<Channel> channel{Channel::height, "channel of the signal"};
+    Param course_size{0.262, "rad", -1.05, 1.05, "amplitude of the signal on the course"};
+    Param height_size{5, "m", -50, 50, "amplitude of the signal on the height"};
+    Param airspeed_size{1.5, "m/s", -10, 10, "amplitude of the signal on the airspeed"};
     BoundParams bounds;
   };
 

@@ -9,7 +9,7 @@ namespace fulmar::signal {
 
 struct Surfaces {
   static constexpr const char* doc =
-      "Between inner law and vehicle: adds a step, doublet, sweep or multisine to a surface or the throttle.";
+      "Step, doublet, sweep or multisine on a surface or the throttle, between inner law and vehicle.";
   enum class Channel : std::uint8_t { aileron, elevator, rudder, throttle };
 
   struct Inputs {
@@ -27,9 +27,9 @@ struct Surfaces {
   };
   struct Params {
     SignalParams signal;
-    Choice<Channel> channel{Channel::elevator, "what it is added to"};
-    Param size{0.0524, "rad", -0.35, 0.35, "of the signal on a surface"};
-    Param throttle_size{0.1, "ratio", -0.5, 0.5, "of the signal on the throttle"};
+    Choice<Channel> channel{Channel::elevator, "channel of the signal"};
+    Param size{0.0524, "rad", -0.35, 0.35, "amplitude of the signal on a surface"};
+    Param throttle_size{0.1, "ratio", -0.5, 0.5, "amplitude of the signal on the throttle"};
     BoundParams bounds;
   };
 

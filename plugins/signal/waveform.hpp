@@ -16,16 +16,17 @@ namespace fulmar::signal {
 enum class Shape : std::uint8_t { none, step, doublet, square, sine, chirp, d3211, multisine };
 
 struct SignalParams {
-  Choice<Shape> shape{Shape::none, "what is added; any change of these, of channel or size begins anew"};
-  Param delay{1, "s", 0, 600, "from then until it begins"};
+  Choice<Shape> shape{Shape::none, "shape of the signal; a change of shape, channel or a size restarts it"};
+  Param delay{1, "s", 0, 600, "time from the request to the start of the signal"};
   Param duration{4, "s", 0.02, 600,
-                 "of the whole; square and sine: as many whole periods as fit, at least one"};
+                 "duration of the signal; square and sine: the whole periods in it, at least one"};
   Param frequency{0.5, "Hz", 0.005, 50,
-                  "of square and sine; where a chirp begins; the lowest of a multisine"};
-  Param frequency_end{3, "Hz", 0.005, 50, "where a chirp ends; the highest of a multisine"};
-  Count every{1, 1, 64,
-              "multisine: every so many-th harmonic of 1 / duration; others may have those between"};
-  Count run{0, 0, 1000000, "another number begins the same again"};
+                  "frequency of square and sine; start of a chirp; lowest frequency of a multisine"};
+  Param frequency_end{3, "Hz", 0.005, 50, "end frequency of a chirp; highest frequency of a multisine"};
+  Count every{
+      1, 1, 64,
+      "step between the harmonics of 1 / duration in a multisine; other signals may use those between"};
+  Count run{0, 0, 1000000, "number of the run; a change repeats the signal"};
 };
 
 /// One signal. `at` is within -1 and 1, and exactly 0 before 0 s and from end_s() on.

@@ -20,10 +20,10 @@ struct ActuationParams {
       "Hz",
       0,
       2000,
-      "commands move the outputs at frames of the radio only; 111 on ROSflight hardware; 0: at once",
+      "rate of the radio frames at which commands move the outputs; 111 on ROSflight hardware; 0: at once",
       setup};
-  Param pwm_resolution{0, "s", 0, 1e-4, "of the servos' pulses of 1 to 2 ms; 0: none", setup};
-  Param link_latency{0, "s", 0, 0.1, "of commands on their way to the outputs", setup};
+  Param pwm_resolution{0, "s", 0, 1e-4, "resolution of the servo pulses of 1 to 2 ms; 0: none", setup};
+  Param link_latency{0, "s", 0, 0.1, "delay of the commands to the outputs", setup};
 };
 
 struct ActuationSpec {

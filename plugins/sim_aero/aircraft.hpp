@@ -43,8 +43,8 @@
 namespace fulmar::sim {
 
 struct SensorParams {
-  Record<SensorSuite> sensor_file{"a set of sensors in a file, in place of `sensors`"};
-  Flag calibrated{false, "biases that a calibration on the ground takes off are off", setup};
+  Record<SensorSuite> sensor_file{"set of sensors in a file, in place of `sensors`"};
+  Flag calibrated{false, "removal of the biases that a calibration on the ground finds", setup};
 };
 
 class Aircraft {
@@ -72,25 +72,26 @@ class Aircraft {
     OutQueue<Notice, 4> notices;  // who flies
   };
   struct Params {
-    Record<Airframe> airframe{"the aircraft", required};
-    Record<Origin> origin{"of the local frame; Provo airport when not given"};
-    Param rate{400, "Hz", 10, 2000, "of the loop: one read advances time by one period", setup};
-    Param settle{5, "s", 0, 3600, "standing still before the first armed tick", setup};
-    Param epoch{1767225600, "s", 0, 4102444800, "UTC of flight time 0, since 1970; 2026-01-01", setup};
+    Record<Airframe> airframe{"airframe of the aircraft", required};
+    Record<Origin> origin{"origin of the local frame; without it Provo airport"};
+    Param rate{400, "Hz", 10, 2000, "rate of the loop: one read advances time by one period", setup};
+    Param settle{5, "s", 0, 3600, "time on the ground before the first armed tick", setup};
+    Param epoch{1767225600, "s", 0, 4102444800, "UTC of flight time 0, since 1970; default 2026-01-01",
+                setup};
     WindParams wind;
-    Choice<EarthModel> earth{EarthModel::flat,
-                             "flat: 9.80665 m/s2; gravity: by latitude and height; wgs84: turning ellipsoid",
-                             setup};
-    Choice<SensorSet> sensors{SensorSet::rosflight, "errors of the sensors", setup};
+    Choice<EarthModel> earth{
+        EarthModel::flat,
+        "model of the Earth; flat: 9.80665 m/s2; gravity: by latitude and height; wgs84: rotating ellipsoid",
+        setup};
+    Choice<SensorSet> sensors{SensorSet::rosflight, "set of sensors, with its errors", setup};
     SensorParams own_sensors;
-    Param truth_rate{50, "Hz", 1, 2000, "of the truth", setup};
-    Param motion_rate{
-        10, "Hz", 1, 2000, "of the deflections and angular accelerations; identification needs 100", setup};
+    Param truth_rate{50, "Hz", 1, 2000, "rate of the output `truth`", setup};
+    Param motion_rate{10, "Hz", 1, 2000, "rate of the output `motion`; identification needs 100", setup};
     StartParams start;
     ActuationParams outputs;
-    Flag motor{true, "false: the motor stops"};
+    Flag motor{true, "operation of the motor; false: the motor stops"};
     SensorSwitches works;
-    Flag rc_link{true, "false: no radio link"};
+    Flag rc_link{true, "operation of the radio link; false: no link"};
     StickParams sticks;
     FaultParams faults;
     Surroundings around;

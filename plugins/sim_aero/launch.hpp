@@ -11,13 +11,13 @@ namespace fulmar::sim {
 enum class LaunchKind : std::uint8_t { none, hand, catapult };
 
 struct LaunchParams {
-  Choice<LaunchKind> launch{
-      LaunchKind::none,
-      "hand: held 1.5 m high, pushed over 1.5 m; catapult: 1 m high, over 4 m; none: it rolls", setup};
-  Param launch_after{5, "s", 0, 3600, "after it was armed for the first time", setup};
-  Param launch_speed{
-      0, "m/s", 0, 60, "over ground, with which it is let go; 0: 9 by hand, 16 off a catapult", setup};
-  Param launch_pitch{0.2, "rad", 0, 0.8, "of nose and way while it is pushed", setup};
+  Choice<LaunchKind> launch{LaunchKind::none,
+                            "kind of launch; hand: from 1.5 m high, push over 1.5 m; catapult: from 1 m "
+                            "high, over 4 m; none: rolling take-off",
+                            setup};
+  Param launch_after{5, "s", 0, 3600, "time from the first arming to the launch", setup};
+  Param launch_speed{0, "m/s", 0, 60, "ground speed at release; 0: 9 for `hand`, 16 for `catapult`", setup};
+  Param launch_pitch{0.2, "rad", 0, 0.8, "pitch of the nose and of the path during the push", setup};
 };
 
 class Launch {

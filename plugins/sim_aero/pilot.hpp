@@ -14,15 +14,15 @@ namespace fulmar::sim {
 
 /// Sticks and switches of a pilot without a transmitter.
 struct StickParams {
-  Flag pilot_flies{false, "the pilot overrides: the sticks below move surfaces and motor"};
-  Param stick_roll{0, "", -1, 1, "of the pilot; right is positive"};
-  Param stick_pitch{0, "", -1, 1, "of the pilot; nose up is positive"};
-  Param stick_yaw{0, "", -1, 1, "of the pilot; nose right is positive"};
-  Param stick_throttle{0, "", 0, 1, "of the pilot"};
-  Param aux1{0, "", -1, 1, "switch of the pilot"};
-  Param aux2{0, "", -1, 1, "switch of the pilot"};
-  Param aux3{0, "", -1, 1, "switch of the pilot"};
-  Param aux4{0, "", -1, 1, "switch of the pilot"};
+  Flag pilot_flies{false, "override by the pilot: the sticks below move surfaces and motor"};
+  Param stick_roll{0, "", -1, 1, "roll stick of the pilot; right is positive"};
+  Param stick_pitch{0, "", -1, 1, "pitch stick of the pilot; nose up is positive"};
+  Param stick_yaw{0, "", -1, 1, "yaw stick of the pilot; nose right is positive"};
+  Param stick_throttle{0, "", 0, 1, "throttle stick of the pilot"};
+  Param aux1{0, "", -1, 1, "first switch of the pilot"};
+  Param aux2{0, "", -1, 1, "second switch of the pilot"};
+  Param aux3{0, "", -1, 1, "third switch of the pilot"};
+  Param aux4{0, "", -1, 1, "fourth switch of the pilot"};
 };
 
 inline Rc rc_of(const StickParams& p) {
@@ -36,8 +36,10 @@ inline Actuators by_hand(const Rc& rc, const Airframe& a) {
 }
 
 struct PilotParams {
-  Count override_switch{0, 0, 4, "of the wired pilot: aux1 to aux4, on above 0.6; 0: none", setup};
-  Count arm_switch{0, 0, 4, "of the wired pilot: it arms and disarms when it is turned over; 0: none", setup};
+  Count override_switch{0, 0, 4, "aux channel for the override by the wired pilot, on above 0.6; 0: none",
+                        setup};
+  Count arm_switch{0, 0, 4, "aux channel that arms and disarms when it changes, of the wired pilot; 0: none",
+                   setup};
 };
 
 /// What the aircraft's receiver knows of a pilot whose transmitter is wired to the input `pilot`.

@@ -10,11 +10,11 @@
 namespace fulmar::sim {
 
 struct SensorSwitches {
-  Flag imu_works{true, "false: silent"};
-  Flag gnss_works{true, "false: silent"};
-  Flag mag_works{true, "false: silent"};
-  Flag baro_works{true, "false: silent"};
-  Flag pitot_works{true, "false: silent"};
+  Flag imu_works{true, "operation of the inertial unit; false: silent"};
+  Flag gnss_works{true, "operation of the satellite receiver; false: silent"};
+  Flag mag_works{true, "operation of the magnetometer; false: silent"};
+  Flag baro_works{true, "operation of the barometer; false: silent"};
+  Flag pitot_works{true, "operation of the pitot; false: silent"};
 };
 
 /// The time at which the sensors were switched on, and what flight time 0 is in UTC.

@@ -11,60 +11,65 @@
 
 namespace fulmar::sim {
 
-/// When a sensor speaks.
+/// Timing of the samples of a sensor.
 struct Timing {
-  double rate_hz = 100;         ///< a loop that is slower reads it once per tick
-  double latency_s = 0;         ///< from the time that the sample is stamped with to its arrival
-  double jitter_s = 0;          ///< samples are early or late by up to this
-  double dropouts_frac = 0;     ///< share of the samples that get lost
-  double dropout_length_s = 0;  ///< mean length of a gap; 0: each sample is lost for itself
+  double rate_hz = 100;         ///< rate of the samples; a slower loop reads one per tick
+  double latency_s = 0;         ///< delay from the time stamp of a sample to its arrival
+  double jitter_s = 0;          ///< largest error of the sampling time, either way
+  double dropouts_frac = 0;     ///< share of lost samples
+  double dropout_length_s = 0;  ///< mean length of a gap; 0: independent losses
 };
 
-/// Where a sensor is and how askew it sits.
+/// Position and misalignment of a sensor.
 struct Mount {
-  Vec3<Body> position_m;                            ///< from the centre of gravity
-  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< from the body's axes to the sensor's, 3-2-1
+  Vec3<Body> position_m;                            ///< position from the centre of gravity
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< rotation from the body axes to the sensor axes,
+                                                    ///< 3-2-1
 };
 
 struct GyroErrors {
-  double noise_per_root_hz_radps = 0;  ///< one-sided density
-  double noise_radps = 0;              ///< deviation of each sample, whatever the rate; beside the density
-  double bias_range_radps = 0;         ///< at turn-on, drawn evenly from +-this
-  double bias_std_radps = 0;           ///< at turn-on, normal
-  double instability_radps = 0;        ///< lowest point of the Allan deviation
-  double instability_time_s = 30;      ///< averaging time of that point
-  double walk_radps = 0;               ///< deviation of the rate random walk after one second
-  double drift_radps = 0;              ///< stationary deviation of a Gauss-Markov process
-  double drift_time_s = 1;             ///< its time constant
-  bool drift_from_zero = false;        ///< else it begins with its stationary deviation
-  Vec3<Body> warm_up_radps;            ///< an offset that fades
-  double warm_up_time_s = 1;
-  double scale_range_ratio = 0;    ///< error of the scale, drawn evenly from +-this
-  double cross_axis_ratio = 0;     ///< of each axis into each other one, drawn evenly from +-this
-  double g_sensitivity_radps = 0;  ///< per 9.80665 m/s2 along the same axis, drawn evenly from +-this
-  double vibration_radps = 0;      ///< amplitude at vibration_speed
-  double bandwidth_hz = 0;         ///< -3 dB of a first-order low-pass; 0: none
-  double range_radps = 0;          ///< larger values are cut; 0: none
-  double step_radps = 0;           ///< of the digits; 0: none
+  double noise_per_root_hz_radps = 0;  ///< noise density, one-sided
+  double noise_radps = 0;              ///< standard deviation of the noise of a sample at any rate, in
+                                       ///< addition to the density
+  double bias_range_radps = 0;         ///< largest bias at turn-on, uniform distribution, either way
+  double bias_std_radps = 0;           ///< standard deviation of the bias at turn-on, normal distribution
+  double instability_radps = 0;        ///< bias instability: minimum of the Allan deviation
+  double instability_time_s = 30;      ///< averaging time of that minimum
+  double walk_radps = 0;               ///< standard deviation of the rate random walk after one second
+  double drift_radps = 0;              ///< stationary standard deviation of a Gauss-Markov drift
+  double drift_time_s = 1;             ///< time constant of the drift
+  bool drift_from_zero = false;        ///< initial value of the drift: true for 0, false for its stationary
+                                       ///< distribution
+  Vec3<Body> warm_up_radps;            ///< offset at turn-on that decays
+  double warm_up_time_s = 1;           ///< time constant of the warm-up
+  double scale_range_ratio = 0;        ///< largest scale error, uniform distribution, either way
+  double cross_axis_ratio = 0;         ///< largest coupling of each axis into another one, uniform
+                                       ///< distribution, either way
+  double g_sensitivity_radps = 0;      ///< largest error per 9.80665 m/s2 along the same axis, uniform
+                                       ///< distribution, either way
+  double vibration_radps = 0;          ///< amplitude of the vibration at vibration_speed
+  double bandwidth_hz = 0;             ///< bandwidth of a first-order low-pass, -3 dB; 0: none
+  double range_radps = 0;              ///< measurement range, either way; 0: none
+  double step_radps = 0;               ///< resolution; 0: none
 };
 
 struct AccelErrors {
-  double noise_per_root_hz_mps2 = 0;
-  double noise_mps2 = 0;
-  double bias_range_mps2 = 0;
-  double bias_std_mps2 = 0;
-  double instability_mps2 = 0;
-  double instability_time_s = 30;
-  double walk_mps2 = 0;
-  double drift_mps2 = 0;
-  double drift_time_s = 1;
-  bool drift_from_zero = false;
-  double scale_range_ratio = 0;
-  double cross_axis_ratio = 0;
-  double vibration_mps2 = 0;
-  double bandwidth_hz = 0;
-  double range_mps2 = 0;
-  double step_mps2 = 0;
+  double noise_per_root_hz_mps2 = 0;  ///< noise density, one-sided
+  double noise_mps2 = 0;              ///< standard deviation of the noise of a sample
+  double bias_range_mps2 = 0;         ///< largest bias at turn-on, uniform distribution, either way
+  double bias_std_mps2 = 0;           ///< standard deviation of the bias at turn-on, normal distribution
+  double instability_mps2 = 0;        ///< bias instability: minimum of the Allan deviation
+  double instability_time_s = 30;     ///< averaging time of that minimum
+  double walk_mps2 = 0;               ///< standard deviation of the random walk after one second
+  double drift_mps2 = 0;              ///< stationary standard deviation of a Gauss-Markov drift
+  double drift_time_s = 1;            ///< time constant of the drift
+  bool drift_from_zero = false;       ///< initial value of the drift: true for 0
+  double scale_range_ratio = 0;       ///< largest scale error, uniform distribution, either way
+  double cross_axis_ratio = 0;        ///< largest coupling of each axis into another one, either way
+  double vibration_mps2 = 0;          ///< amplitude of the vibration at vibration_speed
+  double bandwidth_hz = 0;            ///< bandwidth of a first-order low-pass, -3 dB; 0: none
+  double range_mps2 = 0;              ///< measurement range, either way; 0: none
+  double step_mps2 = 0;               ///< resolution; 0: none
 };
 
 struct ImuErrors {
@@ -72,69 +77,70 @@ struct ImuErrors {
   Mount mount;
   GyroErrors gyro;
   AccelErrors accel;
-  double vibration_speed_radps = 0;   ///< of the motor, where the vibrations have their amplitude; 0: none
-  double vibration_second_ratio = 0;  ///< what the second harmonic has of the first
+  double vibration_speed_radps = 0;   ///< motor speed at the full amplitude of the vibrations; 0: none
+  double vibration_second_ratio = 0;  ///< ratio of the second harmonic to the first
 };
 
 struct MagErrors {
   Timing timing{50};
-  Mount mount;  ///< its position counts nothing
-  double noise_tesla = 0;
-  double bias_range_tesla = 0;
-  double drift_tesla = 0;
-  double drift_time_s = 1;
-  bool drift_from_zero = false;
-  Vec3<Body> hard_iron_tesla;
-  std::array<double, 9> soft_iron_ratio{};  ///< beyond the identity, row by row
-  double scale_range_ratio = 0;
-  double cross_axis_ratio = 0;
-  Vec3<Body> current_tesla;  ///< per ampere of the motor
-  double range_tesla = 0;
-  double step_tesla = 0;
+  Mount mount;                              ///< misalignment; its position is not used
+  double noise_tesla = 0;                   ///< standard deviation of the noise of a sample
+  double bias_range_tesla = 0;              ///< largest bias at turn-on, uniform distribution, either way
+  double drift_tesla = 0;                   ///< stationary standard deviation of a Gauss-Markov drift
+  double drift_time_s = 1;                  ///< time constant of the drift
+  bool drift_from_zero = false;             ///< initial value of the drift: true for 0
+  Vec3<Body> hard_iron_tesla;               ///< field of magnetised parts
+  std::array<double, 9> soft_iron_ratio{};  ///< soft iron matrix minus the identity, row by row
+  double scale_range_ratio = 0;             ///< largest scale error, uniform distribution, either way
+  double cross_axis_ratio = 0;              ///< largest coupling of each axis into another one, either way
+  Vec3<Body> current_tesla;                 ///< field per ampere of the motor
+  double range_tesla = 0;                   ///< measurement range, either way; 0: none
+  double step_tesla = 0;                    ///< resolution; 0: none
 };
 
-/// A barometer or a pitot tube with its pressure gauge.
+/// A barometer or a pitot with its pressure sensor.
 struct PressureErrors {
   Timing timing{100};
-  Vec3<Body> position_m;  ///< of the tube, from the centre of gravity; of a barometer it counts nothing
-  double noise_pa = 0;
-  double bias_range_pa = 0;
-  double walk_pa = 0;
-  double drift_pa = 0;
-  double drift_time_s = 1;
-  bool drift_from_zero = false;
-  double scale_range_ratio = 0;  ///< of a pitot tube
-  double static_port_ratio = 0;  ///< the static port feels its pressure and this share of the dynamic one
-  double alpha_ratio = 0;        ///< of a pitot tube: its pressure grows by this share per radian of alpha
-  double beta_ratio = 0;         ///< and of |beta|
-  double range_pa = 0;
-  double step_pa = 0;
+  Vec3<Body> position_m;         ///< position of the pitot from the centre of gravity; not used for a
+                                 ///< barometer
+  double noise_pa = 0;           ///< standard deviation of the noise of a sample
+  double bias_range_pa = 0;      ///< largest bias at turn-on, uniform distribution, either way
+  double walk_pa = 0;            ///< standard deviation of the random walk after one second
+  double drift_pa = 0;           ///< stationary standard deviation of a Gauss-Markov drift
+  double drift_time_s = 1;       ///< time constant of the drift
+  bool drift_from_zero = false;  ///< initial value of the drift: true for 0
+  double scale_range_ratio = 0;  ///< largest scale error of a pitot, uniform distribution, either way
+  double static_port_ratio = 0;  ///< error of the static port, as a share of the dynamic pressure
+  double alpha_ratio = 0;        ///< relative growth of the pressure of a pitot per radian of alpha
+  double beta_ratio = 0;         ///< relative growth of the pressure of a pitot per radian of |beta|
+  double range_pa = 0;           ///< measurement range; 0: none
+  double step_pa = 0;            ///< resolution; 0: none
 };
 
 struct PositionErrors {
-  double noise_m = 0;
-  double drift_m = 0;
-  double drift_time_s = 1;
-  bool drift_from_zero = false;
+  double noise_m = 0;            ///< standard deviation of the noise of a fix, each axis
+  double drift_m = 0;            ///< stationary standard deviation of a Gauss-Markov drift
+  double drift_time_s = 1;       ///< time constant of the drift
+  bool drift_from_zero = false;  ///< initial value of the drift: true for 0
 };
 
 struct VelocityErrors {
-  double noise_mps = 0;
-  double drift_mps = 0;
-  double drift_time_s = 1;
-  bool drift_from_zero = false;
+  double noise_mps = 0;          ///< standard deviation of the noise of a fix, each axis
+  double drift_mps = 0;          ///< stationary standard deviation of a Gauss-Markov drift
+  double drift_time_s = 1;       ///< time constant of the drift
+  bool drift_from_zero = false;  ///< initial value of the drift: true for 0
 };
 
 struct GnssErrors {
   Timing timing{10};
-  Vec3<Body> position_m;  ///< of the antenna, from the centre of gravity
-  PositionErrors horizontal, vertical;
-  VelocityErrors speed, climb;
-  double start_up_s = 0;           ///< after power-on there is no fix before
-  double horizontal_std_m = 0.01;  ///< what the receiver claims
-  double vertical_std_m = 0.01;    ///< what it claims
-  double speed_std_mps = 0.01;     ///< what it claims
-  FixType fix = FixType::fix_3d;
+  Vec3<Body> position_m;                ///< position of the antenna from the centre of gravity
+  PositionErrors horizontal, vertical;  ///< errors of the position
+  VelocityErrors speed, climb;          ///< errors of the velocity
+  double start_up_s = 0;                ///< time from power-on to the first fix
+  double horizontal_std_m = 0.01;       ///< reported standard deviation of the horizontal position
+  double vertical_std_m = 0.01;         ///< reported standard deviation of the altitude
+  double speed_std_mps = 0.01;          ///< reported standard deviation of the velocity
+  FixType fix = FixType::fix_3d;        ///< reported type of the fix
 };
 
 /// A parameter `Record<SensorSuite>`.
@@ -144,9 +150,10 @@ struct SensorSuite {
   MagErrors mag;
   PressureErrors baro, pitot;
   GnssErrors gnss;
-  bool calibrated = false;        ///< what a calibration on the ground takes off is off
-  bool single_precision = false;  ///< of all but the receiver, as a flight controller sends
-  double temperature_kelvin = 300.15;
+  bool calibrated = false;             ///< removal of the biases that a calibration on the ground finds
+  bool single_precision = false;       ///< single precision of all sensors except the receiver, as from a
+                                       ///< flight controller
+  double temperature_kelvin = 300.15;  ///< temperature of the sensors
 };
 
 }  // namespace fulmar::sim

@@ -14,11 +14,14 @@
 namespace fulmar::sim {
 
 struct StartParams {
-  Param start_north{0, "m", -1e5, 1e5, "position at flight time 0", setup};
-  Param start_east{0, "m", -1e5, 1e5, "position at flight time 0", setup};
-  Param start_height{0, "m", 0, 5000, "0: on the ground; more: in trimmed level flight", setup};
-  Param start_heading{0, "rad", -full_turn, full_turn, "from north, clockwise", setup};
-  Param start_airspeed{0, "m/s", 0, 100, "of a start in the air; 0: the airframe's cruise", setup};
+  Param start_north{0, "m", -1e5, 1e5, "north position at flight time 0", setup};
+  Param start_east{0, "m", -1e5, 1e5, "east position at flight time 0", setup};
+  Param start_height{
+      0, "m", 0, 5000, "height at flight time 0; 0: on the ground; above: trimmed level flight", setup};
+  Param start_heading{0,    "rad", -full_turn, full_turn, "heading at flight time 0, from north, clockwise",
+                      setup};
+  Param start_airspeed{
+      0, "m/s", 0, 100, "airspeed of a start in the air; 0: cruise airspeed of the airframe", setup};
 };
 
 /// From where it stands into the hand, or onto the catapult.

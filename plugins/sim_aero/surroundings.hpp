@@ -16,23 +16,25 @@ namespace fulmar::sim {
 
 struct AirParams {
   Choice<TurbulenceHeight> turbulence_height{
-      TurbulenceHeight::fixed, "fixed: as at 50 m; actual: by the aircraft's height, MIL-F-8785C", setup};
+      TurbulenceHeight::fixed,
+      "height of the turbulence model; fixed: 50 m; actual: height of the aircraft, MIL-F-8785C", setup};
   Param turbulence_wind{
-      0, "m/s", 0, 50, "at 20 ft, of actual turbulence below 1000 ft; 0: by its strength", setup};
+      0, "m/s", 0, 50, "wind at 20 ft of actual turbulence below 1000 ft; 0: by its strength", setup};
   Record<Thermals> thermals{"columns of rising air"};
-  Vector<Body> gust{{0, 0, 0}, "m/s", -50, 50, "discrete gust, 1 - cos: velocity of the air at its peak"};
-  Param gust_length{30, "m", 0.1, 1000, "of the way through the air from the gust's edge to its peak"};
-  Choice<GustShape> gust_shape{GustShape::pulse, "pulse: rises and falls; rise: rises and stays"};
-  Param gust_at{-1, "s", -1, 1e6, "flight time at which the gust begins; below 0: never"};
-  Param gust_every{0, "s", 0, 1e5, "the gust comes again after this time; 0: once"};
-  Flag gust_now{false, "a change to true lets a gust begin"};
+  Vector<Body> gust{{0, 0, 0}, "m/s", -50, 50, "peak air velocity of the discrete gust, 1 - cos"};
+  Param gust_length{30, "m", 0.1, 1000, "distance through the air from the edge of the gust to its peak"};
+  Choice<GustShape> gust_shape{GustShape::pulse, "shape of the gust; pulse: rise and fall; rise: rise alone"};
+  Param gust_at{-1, "s", -1, 1e6, "flight time at the start of the gust; below 0: never"};
+  Param gust_every{0, "s", 0, 1e5, "period of the gust; 0: once"};
+  Flag gust_now{false, "trigger of a gust, by a change to true"};
 };
 
 struct GroundParams {
-  Param ground_slope{0, "rad", 0, 0.8, "of the ground, a plane through the origin", setup};
-  Param ground_slope_towards{0, "rad", -6.2832, 6.2832, "where it rises: from north, clockwise", setup};
-  Param ground_friction{1, "", 0, 5, "of gear and ground, times the airframe's; wet ground below 1", setup};
-  Flag ground_effect{false, "less induced drag close to the ground", setup};
+  Param ground_slope{0, "rad", 0, 0.8, "slope of the ground, a plane through the origin", setup};
+  Param ground_slope_towards{
+      0, "rad", -6.2832, 6.2832, "direction in which the ground rises: from north, clockwise", setup};
+  Param ground_friction{1, "", 0, 5, "factor on the friction of gear and ground; wet ground below 1", setup};
+  Flag ground_effect{false, "ground effect: less induced drag close to the ground", setup};
 };
 
 struct Surroundings {

@@ -15,9 +15,9 @@ struct TruthState {
     Out<VehicleState> state;
   };
   struct Params {
-    Param position_std{0.01, "m", 1e-6, 1e3, "what the state claims, each axis"};
-    Param velocity_std{0.01, "m/s", 1e-6, 1e3, "what the state claims, each axis"};
-    Param attitude_std{0.001, "rad", 1e-6, 1, "what the state claims, each axis"};
+    Param position_std{0.01, "m", 1e-6, 1e3, "reported standard deviation of the position, each axis"};
+    Param velocity_std{0.01, "m/s", 1e-6, 1e3, "reported standard deviation of the velocity, each axis"};
+    Param attitude_std{0.001, "rad", 1e-6, 1, "reported standard deviation of the attitude, each axis"};
   };
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {

@@ -17,16 +17,21 @@ constexpr double full_turn = 2 * std::numbers::pi;  ///< rad
 
 struct WindParams {
   Vector<Ned> wind_ned{{0, 0, 0}, "m/s", -50, 50, "steady velocity of the air"};
-  Param wind_speed{-1, "m/s", -1, 50, "steady and level, in place of wind_ned; below 0: wind_ned counts"};
-  Param wind_from{0, "rad", -full_turn, full_turn, "where wind_speed comes from: from north, clockwise"};
-  Choice<WindProfile> wind_profile{WindProfile::constant, "how the steady wind grows with height", setup};
-  Param wind_reference{10,   "m", 0.1, 300, "height at which wind_ned and wind_speed hold, with a profile",
+  Param wind_speed{-1, "m/s", -1, 50,
+                   "speed of a steady level wind, in place of wind_ned; below 0: wind_ned is used"};
+  Param wind_from{0, "rad", -full_turn, full_turn,
+                  "direction from which wind_speed blows: from north, clockwise"};
+  Choice<WindProfile> wind_profile{WindProfile::constant, "height profile of the steady wind", setup};
+  Param wind_reference{10,   "m", 0.1, 300, "reference height of wind_ned and wind_speed in the profile",
                        setup};
-  Param wind_exponent{1.0 / 7, "", 0, 1, "of the power profile", setup};
-  Param wind_roughness{0.03, "m", 1e-4, 5, "of the log profile: 0.03 grass, 0.6 trees and houses", setup};
-  Choice<Turbulence> turbulence{Turbulence::none, "Dryden model at 50 m", setup};
-  Param temperature_offset{0, "K", -60, 60, "of the air, at every altitude; 0: standard", setup};
-  Param pressure_offset{0, "Pa", -10000, 10000, "of the air at mean sea level; 0: standard", setup};
+  Param wind_exponent{1.0 / 7, "", 0, 1, "exponent of the power profile", setup};
+  Param wind_roughness{
+      0.03, "m", 1e-4, 5, "roughness length of the log profile: 0.03 grass, 0.6 trees and houses", setup};
+  Choice<Turbulence> turbulence{Turbulence::none, "strength of the turbulence, Dryden model at 50 m", setup};
+  Param temperature_offset{
+      0, "K", -60, 60, "offset of the air temperature at every altitude; 0: standard atmosphere", setup};
+  Param pressure_offset{
+      0, "Pa", -10000, 10000, "offset of the air pressure at mean sea level; 0: standard atmosphere", setup};
 };
 
 /// Velocity of the air, NED, m/s: a wind from the west blows to the east.

@@ -135,7 +135,8 @@ class SourceWriter {
         text += "    " + output_type(output) + " " + output.name + ";\n";
     if (!c_.vehicle()) return text + "  };\n  struct Params {};\n\n";
     return text +
-           "  };\n  struct Params {\n    Param rate{400, \"Hz\", 10, 2000, \"of the loop; the mission's\", "
+           "  };\n  struct Params {\n    Param rate{400, \"Hz\", 10, 2000, \"rate of the loop; the rate of "
+           "the mission\", "
            "setup};\n  };\n\n";
   }
 

@@ -2,9 +2,9 @@
 // lib/libfulmar_sim.so: the model behind C functions, for the Python package beside it, and the reader of
 // airframe files for C++ (fulmar/sim/airframe_file.hpp).
 //
-// Functions that return int give 0, or 1 after a refusal, whose sentence is `fulmar_sim_error()` of the same
-// thread. What is refused has moved nothing. Arrays are row-major, one row an aircraft; `only` says of each
-// whether it is meant, null means all.
+// Functions that return int return 0, or 1 for an error; `fulmar_sim_error()` of the same thread has its
+// text. A call that fails changes nothing. Arrays are row-major, one row per aircraft, with `count` rows.
+// `only` selects aircraft by `count` flags; null selects all. Frames: NED from the origin, and body axes.
 #include <unistd.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ namespace {
 
 thread_local std::string last_error;
 
-/// `call`, whose exceptions end here as a sentence.
+/// Runs `call`; an exception becomes `last_error` and the result 1.
 template <class Call>
 int guarded(Call call) noexcept {
   try {
@@ -85,10 +85,15 @@ void fly(sim::Simulation& aircraft, double height_m, double airspeed_mps, double
 #pragma GCC visibility push(default)
 extern "C" {
 
+/// Text of the last error of this thread; valid until its next one.
 const char* fulmar_sim_error() { return last_error.c_str(); }
+/// Names, with units, of the 26 columns of `rows`, separated by spaces.
 const char* fulmar_sim_rows_are() { return sim::row_names; }
+/// The same of the 4 columns of `actions`: throttle 0 to 1, deflections in rad.
 const char* fulmar_sim_actions_are() { return sim::action_names; }
 
+/// Reads an airframe file, or a shipped one ("fulmar:airframes/anaconda.yaml"), into an Airframe of `size`
+/// bytes.
 int fulmar_sim_read_airframe(const char* name, void* airframe, std::size_t size) {
   return guarded([&] {
     demand(size == sizeof(Airframe), "libfulmar_sim.so and the headers are of different releases");
@@ -97,7 +102,8 @@ int fulmar_sim_read_airframe(const char* name, void* airframe, std::size_t size)
   });
 }
 
-/// Null when it is refused. At rest on the ground, heading north. `turbulence` is 0 (none) to 3 (severe).
+/// `count` aircraft at rest on the ground, heading north; null for an error. `threads` 1 to 256; `dt_s` in
+/// (0, 0.1] s; origin altitude -1000 to 20000 m above mean sea level; `turbulence` 0 (none) to 3 (severe).
 fulmar_sim* fulmar_sim_new(const char* airframe, std::size_t count, unsigned threads, double dt_s,
                            double origin_altitude_m, unsigned turbulence, std::uint64_t seed) {
   std::unique_ptr<fulmar_sim> made;
@@ -116,11 +122,12 @@ fulmar_sim* fulmar_sim_new(const char* airframe, std::size_t count, unsigned thr
   return made.release();
 }
 
+/// Releases the simulation. In a forked process it does nothing.
 void fulmar_sim_delete(fulmar_sim* all) {
-  if (!all->is_copy()) delete all;  // there, nobody could wait for the threads
+  if (!all->is_copy()) delete all;  // a fork has no threads to join
 }
 
-/// As made anew; aircraft i draws from mix_seed(seed, i). The wind stays.
+/// Back to the state after `fulmar_sim_new`; aircraft i has the seed mix_seed(seed, i). The wind stays.
 int fulmar_sim_reset(fulmar_sim* all, const bool* only, std::uint64_t seed) {
   return guarded(all, [&](fulmar_sim& s) {
     for (std::size_t i = 0; i < s.batch.size(); ++i) {
@@ -131,7 +138,7 @@ int fulmar_sim_reset(fulmar_sim* all, const bool* only, std::uint64_t seed) {
   });
 }
 
-/// Into steady level flight above the origin; `starts` is height, airspeed, heading.
+/// Steady level flight above the origin. `starts`, count x 3: height, m; true airspeed, m/s; heading, rad.
 int fulmar_sim_start_in_flight(fulmar_sim* all, const bool* only, const double* starts) {
   return guarded(all, [&](fulmar_sim& s) {
     std::vector<std::pair<std::size_t, sim::Simulation>> flying;
@@ -148,7 +155,7 @@ int fulmar_sim_start_in_flight(fulmar_sim* all, const bool* only, const double* 
   });
 }
 
-/// Into `actions` what keeps each in the steady flight of its last `fly`.
+/// Writes to `actions`, count x 4, the commands of the last steady flight that each aircraft started in.
 int fulmar_sim_trim(fulmar_sim* all, double* actions) {
   return guarded(all, [&](fulmar_sim& s) {
     for (std::size_t i = 0; i < s.batch.size(); ++i) {
@@ -159,7 +166,7 @@ int fulmar_sim_trim(fulmar_sim* all, double* actions) {
   });
 }
 
-/// Velocity of the air, north, east, down.
+/// `wind_n`, count x 3: velocity of the air, north, east, down, m/s, each within +-1000.
 int fulmar_sim_set_wind(fulmar_sim* all, const double* wind_n) {
   return guarded(all, [&](fulmar_sim& s) {
     const std::size_t n = s.batch.size();
@@ -173,7 +180,7 @@ int fulmar_sim_set_wind(fulmar_sim* all, const double* wind_n) {
   });
 }
 
-/// `steps` steps under these actions, then the rows.
+/// `steps` steps of `dt_s` with constant `actions`, count x 4; then writes `rows`, count x 26.
 int fulmar_sim_step(fulmar_sim* all, const double* actions, unsigned steps, double* rows) {
   return guarded(all, [&](fulmar_sim& s) {
     const std::size_t n = s.batch.size();
@@ -182,12 +189,13 @@ int fulmar_sim_step(fulmar_sim* all, const double* actions, unsigned steps, doub
   });
 }
 
+/// Writes the present state to `rows`, count x 26.
 int fulmar_sim_rows(fulmar_sim* all, double* rows) {
   return guarded(all,
                  [&](fulmar_sim& s) { s.batch.rows(std::span(rows, s.batch.size() * sim::row_columns)); });
 }
 
-/// Of rows, what `state_of_row` reads.
+/// Sets position, velocity, attitude, body rate, deflections and propeller speed from `rows`, count x 26.
 int fulmar_sim_set_rows(fulmar_sim* all, const bool* only, const double* rows) {
   return guarded(all, [&](fulmar_sim& s) {
     for (const bool set : {false, true})  // look at all of them first

@@ -290,7 +290,7 @@ struct Vector {
 };
 
 /// A matrix of numbers: R times C parameters, "K_0_0", "K_0_1", ..., counted from 0, row by row.
-///   Matrix<2, 3> K{{{1, 0, 0}, {0, 1, 0}}, "rad/rad", -10, 10, "state feedback"};  // p.K(1, 2)
+///   Matrix<2, 3> K{{{1, 0, 0}, {0, 1, 0}}, "rad/rad", -10, 10, "state feedback gain"};  // p.K(1, 2)
 template <std::size_t R, std::size_t C>
 struct Matrix {
   double value[R][C]{};

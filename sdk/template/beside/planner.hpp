@@ -13,7 +13,7 @@
 using namespace fulmar;
 
 struct MyLaw {
-  static constexpr const char* doc = "Flies one detour after some waypoints, then goes on with the plan.";
+  static constexpr const char* doc = "A detour after some waypoints, then the rest of the plan.";
   struct Inputs {
     In<Progress> progress;
     In<VehicleState> state;
@@ -23,8 +23,8 @@ struct MyLaw {
     OutQueue<PlanEdit, 16> edits;  // all that one step pushes arrive together, in their order
   };
   struct Params {
-    Count after{2, 1, 1000, "waypoints before the detour"};
-    Vector<Ned> detour{{0, 0, -80}, "m", -10000, 10000, "where it leads, from the origin"};
+    Count after{2, 1, 1000, "number of waypoints before the detour"};
+    Vector<Ned> detour{{0, 0, -80}, "m", -10000, 10000, "position of the detour, from the origin"};
   };
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {

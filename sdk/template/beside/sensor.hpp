@@ -29,9 +29,9 @@ struct MyLaw {
     OutQueue<MyLawRange, 4> range;  // a queue: no reader misses a sample, each with its time of validity
   };
   struct Params {
-    Param noise_std{0.05, "m", 0, 10, "deviation of one measurement"};
-    Param bias_std{0.02, "m", 0, 10, "deviation of the constant error, drawn once", setup};
-    Param range_max{120, "m", 1, 10000, "farther ground is not seen"};
+    Param noise_std{0.05, "m", 0, 10, "standard deviation of a measurement"};
+    Param bias_std{0.02, "m", 0, 10, "standard deviation of the constant error, drawn once", setup};
+    Param range_max{120, "m", 1, 10000, "largest range with a measurement"};
   };
 
   explicit MyLaw(std::uint64_t seed) : seed_(seed), noise_(seed) {}

@@ -27,8 +27,8 @@ struct MyLaw {  // fills the role `guide`
     Probe cross_track_m;
   };
   struct Params {
-    Param lookahead{35, "m", 1, 500, "of the carrot before the foot on a line"};
-    Param k_orbit{2.5, "ratio", 0.1, 20, "how sharply to turn onto an orbit"};
+    Param lookahead{35, "m", 1, 500, "distance of the carrot ahead on a line"};
+    Param k_orbit{2.5, "ratio", 0.1, 20, "gain of the approach to an orbit"};
     Param roll_max{0.785, "rad", 0, 1.4, "limit of the bank that is fed forward"};
   };
 

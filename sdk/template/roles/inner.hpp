@@ -27,11 +27,11 @@ struct MyLaw {  // fills the role `inner`
   };
   struct Params {
     Param roll_kp{1.2, "rad/rad", 0, 10, "aileron per roll error"};
-    Param roll_kd{0.1, "rad s/rad", 0, 5, "aileron against roll rate"};
+    Param roll_kd{0.1, "rad s/rad", 0, 5, "aileron per roll rate"};
     Param pitch_kp{4.0, "rad/rad", 0, 20, "nose-up elevator per pitch error"};
-    Param pitch_kd{0.5, "rad s/rad", 0, 5, "elevator against pitch rate"};
-    Param yaw_kd{0.2, "rad s/rad", 0, 5, "rudder against sideslip's yaw rate"};
-    Record<Airframe> airframe{"throws and trims"};
+    Param pitch_kd{0.5, "rad s/rad", 0, 5, "elevator per pitch rate"};
+    Param yaw_kd{0.2, "rad s/rad", 0, 5, "rudder per yaw rate of a sideslip"};
+    Record<Airframe> airframe{"airframe with throws and trims"};
   };
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {

@@ -35,13 +35,13 @@ struct MyLaw {  // fills the role `nav`
     VehicleState state;
   };
   struct Params {
-    Param k_velocity{2.0, "1/s", 0, 20, "velocity towards GNSS"};
-    Param k_position{0.5, "1/s", 0, 20, "position towards GNSS"};
-    Param k_tilt{0.4, "ratio", 0, 5, "roll and pitch by the velocity error"};
-    Param k_heading{0.3, "1/s", 0, 5, "heading towards the magnetometer"};
-    Param k_bias{0.02, "1/s", 0, 1, "gyro bias by the same corrections"};
-    Param k_wind{0.1, "1/s", 0, 5, "wind by the airspeed"};
-    Param declination{0.19, "rad", -3.2, 3.2, "of the compass, when it began by itself"};
+    Param k_velocity{2.0, "1/s", 0, 20, "gain of the velocity towards GNSS"};
+    Param k_position{0.5, "1/s", 0, 20, "gain of the position towards GNSS"};
+    Param k_tilt{0.4, "ratio", 0, 5, "gain of roll and pitch from the velocity error"};
+    Param k_heading{0.3, "1/s", 0, 5, "gain of the heading towards the magnetometer"};
+    Param k_bias{0.02, "1/s", 0, 1, "gain of the gyro bias from the same corrections"};
+    Param k_wind{0.1, "1/s", 0, 5, "gain of the wind from the airspeed"};
+    Param declination{0.19, "rad", -3.2, 3.2, "magnetic declination at a start without a predecessor"};
   };
 
   Status activate(const Tick&, const Inputs& in, const Params&, const Applied<Outputs>& last) {

@@ -29,9 +29,9 @@ struct MyLaw {  // fills the role `outer`
     Param height_kp{0.03, "rad/m", 0, 1, "pitch per height error"};
     Param airspeed_kp{0.1, "s/m", 0, 1, "throttle per airspeed error"};
     Param throttle_trim{0.4, "", 0, 1, "throttle in level flight"};
-    Param roll_max{0.6, "rad", 0, 1.2, "limit, either way"};
+    Param roll_max{0.6, "rad", 0, 1.2, "limit of the roll command, either way"};
     Param pitch_trim{0.02, "rad", -0.3, 0.3, "pitch in level flight"};
-    Param pitch_max{0.25, "rad", 0, 0.6, "limit, either way"};
+    Param pitch_max{0.25, "rad", 0, 0.6, "limit of the pitch command, either way"};
   };
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {

@@ -23,7 +23,7 @@
 using namespace fulmar;
 
 struct MyLaw {  // fills the role `vehicle`
-  static constexpr const char* doc = "MyLaw.";
+  static constexpr const char* doc = "MyLaw vehicle.";
   struct Inputs {
     Optional<Actuators> actuators;  // nobody commands before the first phase
     Request<ArmRequest> arm;
@@ -39,8 +39,8 @@ struct MyLaw {  // fills the role `vehicle`
     Out<VehicleState> truth;  // a simulator's; remove it where nobody knows the truth
   };
   struct Params {
-    Record<Origin> origin{"of the local frame"};
-    Param rate{400, "Hz", 50, 1000, "of the loop; the mission's", setup};
+    Record<Origin> origin{"origin of the local frame"};
+    Param rate{400, "Hz", 50, 1000, "rate of the loop; the rate of the mission", setup};
   };
 
   /// May allocate, open devices, and throw a sentence.

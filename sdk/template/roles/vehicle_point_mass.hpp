@@ -45,16 +45,17 @@ struct MyLaw {  // fills the role `vehicle`
     Out<VehicleState> truth;
   };
   struct Params {
-    Record<Airframe> airframe{"speeds and trims", required};
-    Record<Origin> origin{"of the local frame"};
-    Param rate{400, "Hz", 50, 1000, "of the loop; the mission's", setup};
-    Param epoch{1767225600, "s", 0, 4102444800, "UTC of flight time 0, since 1970; the mission's", setup};
-    Param start_heading{0, "rad", -6.3, 6.3, "from north, clockwise", setup};
+    Record<Airframe> airframe{"airframe with airspeeds and trims", required};
+    Record<Origin> origin{"origin of the local frame"};
+    Param rate{400, "Hz", 50, 1000, "rate of the loop; the rate of the mission", setup};
+    Param epoch{1767225600, "s", 0, 4102444800, "UTC of flight time 0, since 1970; the epoch of the mission",
+                setup};
+    Param start_heading{0, "rad", -6.3, 6.3, "heading at the start, from north, clockwise", setup};
     Param roll_rate{6, "radps/rad", 0.1, 50, "steady roll rate per aileron"};
     Param pitch_rate{3, "radps/rad", 0.1, 50, "steady pitch rate per elevator"};
-    Param lag{0.08, "s", 0.01, 1, "of roll and pitch rate"};
-    Param path_lag{0.5, "s", 0.05, 5, "of the climb angle behind the pitch angle"};
-    Param acceleration_max{6, "m/s2", 1, 50, "at full throttle, standing"};
+    Param lag{0.08, "s", 0.01, 1, "time constant of roll and pitch rate"};
+    Param path_lag{0.5, "s", 0.05, 5, "time constant of the climb angle behind the pitch angle"};
+    Param acceleration_max{6, "m/s2", 1, 50, "acceleration at full throttle and zero speed"};
   };
 
   void configure(const Params& p) {

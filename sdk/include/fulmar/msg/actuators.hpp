@@ -6,13 +6,13 @@
 
 namespace fulmar {
 
-/// Deflections and throttle as the aerodynamics know them; the vehicle turns them into what its servos want.
-/// Beard & McLain, chapter 4.
+/// Deflections of the surfaces and throttle, as in the aerodynamics. The vehicle converts them to servo
+/// commands. Beard & McLain, chapter 4.
 struct Actuators {
-  double throttle_frac = 0;  ///< 0 to 1
-  double aileron_rad = 0;    ///< positive rolls right
-  double elevator_rad = 0;   ///< positive is trailing edge down: nose down
-  double rudder_rad = 0;     ///< positive is trailing edge left: nose left
+  double throttle_frac = 0;  ///< throttle, 0 to 1
+  double aileron_rad = 0;    ///< aileron deflection; positive rolls right
+  double elevator_rad = 0;   ///< elevator deflection; positive is trailing edge down, nose down
+  double rudder_rad = 0;     ///< rudder deflection; positive is trailing edge left, nose left
 };
 
 /// No surface turns by more than a quarter: degrees that were meant as radians do.

@@ -14,12 +14,13 @@ struct Inertia {
 };
 
 struct Wing {
-  double area_m2 = 1;                 ///< S
-  double span_m = 1;                  ///< b
-  double chord_m = 1;                 ///< c, mean aerodynamic
-  double oswald_ratio = 0.9;          ///< e
-  double stall_alpha_rad = 0.2618;    ///< alpha0 of the blending function, Beard & McLain (4.9)
-  double stall_sharpness_ratio = 50;  ///< M of the blending function
+  double area_m2 = 1;                 ///< wing area S
+  double span_m = 1;                  ///< wing span b
+  double chord_m = 1;                 ///< mean aerodynamic chord c
+  double oswald_ratio = 0.9;          ///< Oswald efficiency e
+  double stall_alpha_rad = 0.2618;    ///< stall angle of attack, alpha0 of the blending function, Beard &
+                                      ///< McLain (4.9)
+  double stall_sharpness_ratio = 50;  ///< sharpness of the stall, M of the blending function
 };
 
 /// One coefficient and its derivatives: value = c0 + alpha a + beta b + (p b/2V) p + (q c/2V) q + (r b/2V) r
@@ -34,60 +35,64 @@ struct Derivatives {
 /// Beard & McLain, chapter 4. Drag: parasite + induced CL^2/(pi e AR) + all terms of `drag`; an airframe with
 /// a linear polar instead of an induced one sets drag.zero and drag.alpha, the others leave them 0.
 struct Aerodynamics {
-  double parasite_drag_ratio = 0;  ///< C_D_p
-  Derivatives lift, drag, side;    ///< CL, CD, CY
-  Derivatives roll, pitch, yaw;    ///< Cl, Cm, Cn
-  DragSquared drag_squared;
-  /// Cm_fp: with separated flow Cm is this sign(alpha) sin^2(alpha). 0: the derivatives go on there.
-  double pitch_stalled_ratio = 0;
-  double wash_frac = 0;  ///< of elevator and rudder, that stands in the propeller's slipstream
-  List<CoefficientTable, 8> tables;
+  double parasite_drag_ratio = 0;    ///< parasite drag C_D_p
+  Derivatives lift, drag, side;      ///< coefficients CL, CD, CY and their derivatives
+  Derivatives roll, pitch, yaw;      ///< coefficients Cl, Cm, Cn and their derivatives
+  DragSquared drag_squared;          ///< drag over the squares of sideslip and deflections
+  double pitch_stalled_ratio = 0;    ///< pitching moment Cm_fp of separated flow: Cm = Cm_fp sign(alpha)
+                                     ///< sin^2(alpha); 0: the derivatives hold there
+  double wash_frac = 0;              ///< share of elevator and rudder in the slipstream of the propeller
+  List<CoefficientTable, 8> tables;  ///< tables of coefficients
 };
 
-/// Motor and propeller as a disc, Beard & McLain, Small Unmanned Aircraft (2012), section 4.3. Air leaves it
-/// at Va + throttle (exit speed - Va).
+/// Motor and propeller as a disc, Beard & McLain, Small Unmanned Aircraft (2012), section 4.3. The exit speed
+/// of the air is Va + throttle (exit speed - Va).
 struct DiscMotor {
-  double area_m2 = 0;           ///< S_prop; 0: there is none
-  double efficiency_ratio = 1;  ///< C_prop
-  double exit_speed_mps = 0;    ///< k_motor, at full throttle
-  double torque_ratio = 0;      ///< k_T_P, N m s^2: torque over the square of the propeller's speed
-  double speed_radps = 1;       ///< k_Omega: of the propeller at full throttle
+  double area_m2 = 0;           ///< area of the propeller disc S_prop; 0: no disc
+  double efficiency_ratio = 1;  ///< efficiency C_prop
+  double exit_speed_mps = 0;    ///< exit speed k_motor at full throttle
+  double torque_ratio = 0;      ///< torque over the square of the propeller speed, k_T_P, N m s^2
+  double speed_radps = 1;       ///< propeller speed at full throttle, k_Omega
 };
 
 /// Electric motor and propeller, Beard & McLain, supplement to chapter 4: thrust and torque over the advance
-/// ratio. With `disc` that model counts in place of it.
+/// ratio. With `disc` that model is used instead.
 struct Propulsion {
-  double propeller_diameter_m = 0.3;
+  double propeller_diameter_m = 0.3;                   ///< diameter of the propeller
   double ct0_ratio = 0, ct1_ratio = 0, ct2_ratio = 0;  ///< thrust coefficient: CT0 + CT1 J + CT2 J^2
-  double cq0_ratio = 0, cq1_ratio = 0, cq2_ratio = 0;  ///< torque coefficient
-  double torque_constant_ratio = 0.01;                 ///< K_Q, N m/A; also V s/rad
-  double resistance_ohm = 0.05;
-  double no_load_amp = 1;
-  double battery_volt = 12;       ///< at full throttle
-  double time_constant_s = 0.05;  ///< of motor and propeller spinning up
-  /// Of all that turns with a propeller, about its axis. 0: the airframe feels neither gyroscopic moment nor
-  /// spinning up.
-  double propeller_inertia_kgm2 = 0;
-  List<PropellerPlace, 8> propellers;  ///< each with a motor of its own; empty: one, on the x axis
-  Battery pack;                        ///< what its battery loses; `battery_volt` is its voltage when full
-  DiscMotor disc;
+  double cq0_ratio = 0, cq1_ratio = 0, cq2_ratio = 0;  ///< torque coefficient: CQ0 + CQ1 J + CQ2 J^2
+  double torque_constant_ratio = 0.01;                 ///< torque constant K_Q, N m/A; also V s/rad
+  double resistance_ohm = 0.05;                        ///< resistance of the motor
+  double no_load_amp = 1;                              ///< no-load current of the motor
+  double battery_volt = 12;                            ///< voltage of the full battery, at full throttle
+  double time_constant_s = 0.05;                       ///< time constant of the speed of motor and propeller
+  double propeller_inertia_kgm2 = 0;                   ///< inertia of a propeller with its rotating parts,
+                                                       ///< about its axis; 0: no gyroscopic moment and no
+                                                       ///< reaction to speed changes
+  List<PropellerPlace, 8> propellers;                  ///< places of the propellers, each with its own
+                                                       ///< motor; empty: one on the x axis
+  Battery pack;                                        ///< losses of the battery; `battery_volt` is its full
+                                                       ///< voltage
+  DiscMotor disc;                                      ///< disc model of motor and propeller
 };
 
-/// One control surface: how far it moves, how its servo follows, and what hardware needs to drive it.
+/// One control surface: throw, response of its servo, and data for its hardware.
 struct Surface {
-  double limit_rad = 0.5;  ///< throw, either way
-  double rate_limit_radps = 10;
-  double time_constant_s = 0.02;
-  double trim_rad = 0;    ///< deflection in trimmed cruise: the feed-forward of the inner loop
-  bool reversed = false;  ///< of the servo on the real aircraft; a simulated one knows its own sense
-  double min_rad = -10;   ///< where its servo stops, if not at the throw; below -9 it does
-  double max_rad = 10;
-  double dead_band_rad = 0;            ///< width within which a changed command does not move it
-  double natural_frequency_radps = 0;  ///< of a servo of second order, in place of the time constant; 0: none
-  double damping_ratio = 1;
+  double limit_rad = 0.5;              ///< largest deflection, either way
+  double rate_limit_radps = 10;        ///< largest rate of the deflection
+  double time_constant_s = 0.02;       ///< time constant of the servo
+  double trim_rad = 0;                 ///< deflection in trimmed cruise: the feed-forward of the inner loop
+  bool reversed = false;               ///< reversal of the servo on the real aircraft; not used in
+                                       ///< simulation
+  double min_rad = -10;                ///< lower stop of the servo; below -9: at the largest deflection
+  double max_rad = 10;                 ///< upper stop of the servo; above 9: at the largest deflection
+  double dead_band_rad = 0;            ///< width of the band in which a changed command does not move it
+  double natural_frequency_radps = 0;  ///< natural frequency of a second-order servo, in place of the time
+                                       ///< constant; 0: none
+  double damping_ratio = 1;            ///< damping ratio of a second-order servo
 };
 
-/// What the servos move. Beard & McLain, section 4.2.
+/// Layout of the surfaces that the servos move. Beard & McLain, section 4.2.
 enum class Mixer : std::uint8_t {
   conventional,
   elevons,  ///< `aileron` is the left one, `elevator` the right one
@@ -95,25 +100,26 @@ enum class Mixer : std::uint8_t {
 };
 
 struct FlightLimits {
-  double airspeed_min_mps = 10, airspeed_cruise_mps = 15, airspeed_max_mps = 25;
-  double roll_max_rad = 0.785, pitch_max_rad = 0.35, pitch_min_rad = -0.35;
-  double climb_rate_max_mps = 4, sink_rate_max_mps = 3;
-  double throttle_cruise_frac = 0.5;
+  double airspeed_min_mps = 10, airspeed_cruise_mps = 15, airspeed_max_mps = 25;  ///< minimum, cruise and
+                                                                                  ///< maximum true airspeed
+  double roll_max_rad = 0.785, pitch_max_rad = 0.35, pitch_min_rad = -0.35;  ///< limits of roll and pitch
+  double climb_rate_max_mps = 4, sink_rate_max_mps = 3;  ///< limits of climb and sink rate
+  double throttle_cruise_frac = 0.5;                     ///< throttle in level cruise
 };
 
 /// One aircraft: a parameter `Record<Airframe> airframe` is filled from the mission's `airframe:`.
 struct Airframe {
   Text<32> name;
-  double mass_kg = 1;
+  double mass_kg = 1;  ///< mass of the aircraft
   Inertia inertia;
   Wing wing;
   Aerodynamics aero;
   Propulsion propulsion;
   Surface aileron, elevator, rudder;
-  Mixer mixer = Mixer::conventional;
+  Mixer mixer = Mixer::conventional;  ///< layout of the surfaces
   FlightLimits limits;
   Gear gear;
-  Surface flap;  ///< in the air only where some coefficient has a derivative over it
+  Surface flap;  ///< flaps; without effect if no coefficient has a derivative over them
 };
 
 /// What no aircraft is without: its defaults would fly as some other one.

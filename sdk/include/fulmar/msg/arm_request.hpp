@@ -4,9 +4,9 @@
 
 namespace fulmar {
 
-/// Asks a simulated vehicle to arm or disarm. On hardware the pilot arms.
+/// Request to arm or disarm a simulated vehicle. On hardware the pilot arms.
 struct ArmRequest {
-  bool armed = true;
+  bool armed = true;  ///< state on request: true arms
 };
 
 }  // namespace fulmar

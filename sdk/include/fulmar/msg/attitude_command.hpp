@@ -6,11 +6,11 @@
 
 namespace fulmar {
 
-/// What the outer loops want of the inner ones.
+/// Command of the outer loops to the inner loops.
 struct AttitudeCommand {
-  double roll_rad = 0;
-  double pitch_rad = 0;
-  double throttle_frac = 0;  ///< 0 to 1
+  double roll_rad = 0;       ///< roll command
+  double pitch_rad = 0;      ///< pitch command
+  double throttle_frac = 0;  ///< throttle command, 0 to 1
 };
 
 /// Beyond these no attitude differs from one within: degrees that were meant as radians do.

@@ -9,7 +9,7 @@ namespace fulmar {
 enum class AutotuneStage : std::uint8_t { idle, exciting, searching, verifying, finished, aborted };
 enum class AutotuneAxis : std::uint8_t { none, roll, pitch, yaw };
 enum class AutotuneVerdict : std::uint8_t { open, kept, reverted, left_out };
-/// Why an axis went back or was left out; `ended`: all of it ended while this axis was under test.
+/// Reason of a reverted or excluded axis; `ended`: the autotune ended during the test of this axis.
 enum class AutotuneReason : std::uint8_t {
   none,
   margins_do_not_hold,
@@ -23,28 +23,30 @@ enum class AutotuneReason : std::uint8_t {
   no_time
 };
 
-/// What an autotune in flight does and has found. Arrays: roll, pitch, yaw damper. Margins are those of the
-/// loop broken at the surface, measured in flight; 0: not measured.
+/// State and results of an autotune in flight. Arrays: roll, pitch, yaw damper. Margins are those of the loop
+/// broken at the surface, measured in flight; 0: not measured.
 struct AutotuneReport {
-  AutotuneStage stage = AutotuneStage::idle;
-  AutotuneAxis axis = AutotuneAxis::none;
-  AutotuneVerdict roll = AutotuneVerdict::open;
+  AutotuneStage stage = AutotuneStage::idle;     ///< stage of the autotune
+  AutotuneAxis axis = AutotuneAxis::none;        ///< axis under test
+  AutotuneVerdict roll = AutotuneVerdict::open;  ///< verdict on each axis
   AutotuneVerdict pitch = AutotuneVerdict::open;
   AutotuneVerdict yaw = AutotuneVerdict::open;
-  bool done = false;                        ///< finished or aborted
-  double time_s = 0;                        ///< since it was asked for; stands when it is done
-  std::array<double, 3> before_kp_ratio{};  ///< gains that it began with
-  std::array<double, 3> before_ki_ratio{};
-  std::array<double, 3> before_kd_ratio{};
-  std::array<double, 3> kp_ratio{};  ///< gains in use
-  std::array<double, 3> ki_ratio{};
-  std::array<double, 3> kd_ratio{};
-  std::array<double, 3> before_gain_margin_ratio{};  ///< by which the gain may grow, or shrink: the less
-  std::array<double, 3> before_phase_margin_rad{};
-  std::array<double, 3> gain_margin_ratio{};  ///< of the gains that were tried last
-  std::array<double, 3> phase_margin_rad{};
-  std::array<double, 3> crossover_radps{};
-  std::array<double, 3> noise_ratio{};  ///< relative standard error of 1 + L where it matters
+  bool done = false;                                 ///< flag of the end: finished or aborted
+  double time_s = 0;                                 ///< time since the request, constant after the end
+  std::array<double, 3> before_kp_ratio{};           ///< gains before the autotune
+  std::array<double, 3> before_ki_ratio{};           ///< gains before the autotune
+  std::array<double, 3> before_kd_ratio{};           ///< gains before the autotune
+  std::array<double, 3> kp_ratio{};                  ///< gains in use
+  std::array<double, 3> ki_ratio{};                  ///< gains in use
+  std::array<double, 3> kd_ratio{};                  ///< gains in use
+  std::array<double, 3> before_gain_margin_ratio{};  ///< gain margin before the autotune, the smaller of
+                                                     ///< upward and downward
+  std::array<double, 3> before_phase_margin_rad{};   ///< phase margin before the autotune
+  std::array<double, 3> gain_margin_ratio{};         ///< gain margin of the gains tried last
+  std::array<double, 3> phase_margin_rad{};          ///< phase margin of the gains tried last
+  std::array<double, 3> crossover_radps{};           ///< crossover frequency of the gains tried last
+  std::array<double, 3> noise_ratio{};               ///< relative standard error of 1 + L near the
+                                                     ///< crossover
   AutotuneReason roll_reason = AutotuneReason::none;
   AutotuneReason pitch_reason = AutotuneReason::none;
   AutotuneReason yaw_reason = AutotuneReason::none;

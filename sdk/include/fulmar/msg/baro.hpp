@@ -6,8 +6,8 @@ namespace fulmar {
 
 /// Static pressure.
 struct Baro {
-  double pressure_pa = 0;              ///< absolute
-  double temperature_kelvin = 288.15;  ///< of the sensor, not of the air
+  double pressure_pa = 0;              ///< absolute static pressure
+  double temperature_kelvin = 288.15;  ///< temperature of the sensor, not of the air
 };
 
 }  // namespace fulmar

@@ -4,11 +4,11 @@
 
 namespace fulmar {
 
-/// A flight controller's own estimate. Its heading drifts: nothing corrects it there.
+/// A flight controller's own attitude estimate. Its heading drifts: it is not corrected there.
 struct ControllerAttitude {
-  Quat attitude;          ///< body to NED
-  Vec3<Body> rate_radps;  ///< filtered
-  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
+  Quat attitude;                                    ///< attitude, body to NED
+  Vec3<Body> rate_radps;                            ///< filtered body rate
+  double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;  ///< 3-2-1 Euler angles of `attitude`
 };
 
 }  // namespace fulmar

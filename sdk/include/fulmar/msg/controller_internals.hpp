@@ -6,21 +6,22 @@ namespace fulmar {
 
 enum class OuterLaw : std::uint8_t { hold, takeoff, roll_out };
 
-/// What an outer loop thinks, for the log and for tuning.
+/// Internal signals of an outer law, for the log and for tuning.
 struct ControllerInternals {
-  OuterLaw law = OuterLaw::hold;
-  double course_error_rad = 0;
-  double height_error_m = 0;
-  double airspeed_error_mps = 0;
-  double roll_rad = 0;   ///< commanded
-  double pitch_rad = 0;  ///< commanded
-  bool roll_saturated = false;
-  bool pitch_saturated = false;
-  bool throttle_saturated = false;
-  bool stalled = false;              ///< it recovers from a stall: height and course are not held
-  bool airspeed_raised = false;      ///< more than commanded is held: load factor, mass or angle of attack
-  bool bank_limited = false;         ///< by what the wing carries at this airspeed
-  bool height_uncontrolled = false;  ///< it sinks at the limit of what the law can ask for
+  OuterLaw law = OuterLaw::hold;     ///< active law
+  double course_error_rad = 0;       ///< course error
+  double height_error_m = 0;         ///< height error
+  double airspeed_error_mps = 0;     ///< airspeed error
+  double roll_rad = 0;               ///< roll command
+  double pitch_rad = 0;              ///< pitch command
+  bool roll_saturated = false;       ///< saturation of the roll command
+  bool pitch_saturated = false;      ///< saturation of the pitch command
+  bool throttle_saturated = false;   ///< saturation of the throttle
+  bool stalled = false;              ///< stall recovery: height and course are not held
+  bool airspeed_raised = false;      ///< airspeed raised above the command: load factor, mass or angle of
+                                     ///< attack
+  bool bank_limited = false;         ///< bank limited by the lift at this airspeed
+  bool height_uncontrolled = false;  ///< sink at the limit of the commands of the law
 };
 
 template <>

@@ -4,7 +4,7 @@
 
 namespace fulmar {
 
-/// What of a simulated aircraft can fail.
+/// Part of a simulated aircraft with the fault.
 enum class FaultTarget : std::uint8_t {
   gyro,
   accel,
@@ -22,33 +22,34 @@ enum class FaultTarget : std::uint8_t {
   icing
 };
 
-/// How. Not everything fails in every way: who is asked says what is valid.
+/// Kind of the fault. Each target accepts some of them; a rejected request lists them.
 enum class FaultKind : std::uint8_t {
-  none,     ///< the request is taken back
-  off,      ///< says nothing, or zero where others share its message; the motor stops; no radio link
-  stuck,    ///< says its last value again and again; a surface stays where it is
-  wrong,    ///< an offset
-  slow,     ///< lags behind
-  noisy,    ///< more noise
-  jumping,  ///< an offset that changes at random times
-  hardover_positive,  ///< to its limit, signs as in `Actuators`
+  none,               ///< end of the fault
+  off,                ///< no message, or zero in a shared message; the motor stops; no radio link
+  stuck,              ///< repetition of the last value; a surface stays in place
+  wrong,              ///< offset
+  slow,               ///< lag
+  noisy,              ///< additional noise
+  jumping,            ///< offset that changes at random times
+  hardover_positive,  ///< deflection to the limit, signs as in `Actuators`
   hardover_negative,
-  free,     ///< no servo holds it: it trails with the flow
-  lost,     ///< broken off: without effect
-  weak,     ///< the motor gets a share of the voltage
-  empty,    ///< the battery's voltage fades
-  growing,  ///< ice
+  free,     ///< surface without a servo: it trails with the flow
+  lost,     ///< surface broken off: without effect
+  weak,     ///< share of the voltage at the motor
+  empty,    ///< falling voltage of the battery
+  growing,  ///< growth of ice
   melting
 };
 
-/// Asks a simulated aircraft to fail. Accepted, it holds until its time is over, another one for the same
-/// target comes, or one of the kind `none` takes it back.
+/// Request for a fault of a simulated aircraft. An accepted fault holds until its time ends, another request
+/// for the same target is accepted, or a request of the kind `none` ends it.
 struct FaultRequest {
-  FaultTarget what = FaultTarget::gyro;
-  FaultKind kind = FaultKind::none;
-  double size_ratio = 0;  ///< in the unit of what it is the size of; 0: what the parameters say
-  double ramp_s = 0;      ///< grows to its size within this time
-  double for_s = 0;       ///< holds for so long; 0: until it is taken back
+  FaultTarget what = FaultTarget::gyro;  ///< part with the fault
+  FaultKind kind = FaultKind::none;      ///< kind of the fault
+  double size_ratio = 0;                 ///< size of the fault, in the unit of its quantity; 0: size in the
+                                         ///< parameters
+  double ramp_s = 0;                     ///< rise time to the size
+  double for_s = 0;                      ///< duration of the fault; 0: until its end is requested
 };
 
 }  // namespace fulmar

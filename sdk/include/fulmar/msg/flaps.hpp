@@ -6,9 +6,9 @@
 
 namespace fulmar {
 
-/// Where the flaps are to go. Whoever lands or takes off says it; silence is retracted.
+/// Command of the flaps, from a landing or take-off component; without a message they are retracted.
 struct Flaps {
-  double flap_rad = 0;  ///< positive is trailing edge down, both sides
+  double flap_rad = 0;  ///< flap deflection; positive is trailing edge down, both sides
 };
 template <>
 inline constexpr std::array<FieldRange, 1> field_ranges<Flaps>{

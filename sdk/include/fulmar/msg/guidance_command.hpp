@@ -9,17 +9,19 @@ enum class LateralMode : std::uint8_t {
   acceleration  ///< fly `lateral_acceleration_mps2`
 };
 
-/// What guidance wants of the outer loops. Whoever commands an acceleration fills course and bank all the
-/// same, as the course that is flown and the bank that it takes: an outer law that knows no acceleration goes
-/// by these.
+/// Command of guidance to the outer loops. Guidance with an acceleration also fills course and bank, with the
+/// course flown and the bank of that acceleration, for outer laws without acceleration commands.
 struct GuidanceCommand {
-  double course_rad = 0;
-  double height_m = 0;              ///< above the origin
-  double climb_rate_mps = 0;        ///< feed-forward: slope of the path at the present ground speed
-  double airspeed_mps = 0;          ///< true airspeed
-  double roll_feedforward_rad = 0;  ///< bank that the path's curvature needs at the present ground speed
-  LateralMode lateral = LateralMode::course;
-  double lateral_acceleration_mps2 = 0;  ///< level, square to the heading, right positive: g tan(bank)
+  double course_rad = 0;                      ///< course command
+  double height_m = 0;                        ///< height command above the origin
+  double climb_rate_mps = 0;                  ///< feed-forward climb rate: slope of the path at the present
+                                              ///< ground speed
+  double airspeed_mps = 0;                    ///< true airspeed command
+  double roll_feedforward_rad = 0;            ///< feed-forward bank for the curvature of the path at the
+                                              ///< present ground speed
+  LateralMode lateral = LateralMode::course;  ///< mode of the lateral command
+  double lateral_acceleration_mps2 = 0;       ///< horizontal acceleration command normal to the heading,
+                                              ///< right positive: g tan(bank)
 };
 
 template <>

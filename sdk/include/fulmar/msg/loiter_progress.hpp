@@ -4,11 +4,11 @@
 
 namespace fulmar {
 
-/// Of a circle that is flown to wait, to climb or to come down.
+/// Progress on a circle for waiting, climb or descent.
 struct LoiterProgress {
-  double cross_m = 0;         ///< outside the circle is positive
-  double height_error_m = 0;  ///< above the height wanted is positive
-  double laps_ratio = 0;      ///< flown round it since it was taken up
+  double cross_m = 0;         ///< cross-track error; outside the circle is positive
+  double height_error_m = 0;  ///< height error; above the command is positive
+  double laps_ratio = 0;      ///< number of laps since the activation
   bool there = false;         ///< on the circle, at its height
 };
 

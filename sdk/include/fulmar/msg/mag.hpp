@@ -6,7 +6,7 @@ namespace fulmar {
 
 /// Magnetic field in body axes.
 struct Mag {
-  Vec3<Body> field_tesla;
+  Vec3<Body> field_tesla;  ///< magnetic field at the sensor
 };
 
 }  // namespace fulmar

@@ -4,12 +4,13 @@
 
 namespace fulmar {
 
-/// Truth of a simulator: where the servos have moved the surfaces, and what follows. For identification and
-/// figures, never for control.
+/// Truth of a simulator: deflections and the resulting accelerations. For identification and figures, never
+/// for control.
 struct MotionTruth {
-  double aileron_rad = 0, elevator_rad = 0, rudder_rad = 0, flap_rad = 0;  ///< with lag, rate limit and stops
-  double propeller_radps = 0;                                              ///< of the first motor
-  Vec3<Body> angular_acceleration_radps2;                                  ///< relative to inertial space
+  double aileron_rad = 0, elevator_rad = 0, rudder_rad = 0, flap_rad = 0;  ///< deflections after lag, rate
+                                                                           ///< limit and stops
+  double propeller_radps = 0;                                              ///< speed of the first motor
+  Vec3<Body> angular_acceleration_radps2;  ///< angular acceleration relative to inertial space
 };
 
 }  // namespace fulmar

@@ -6,8 +6,8 @@ namespace fulmar {
 
 enum class Severity : std::uint8_t { info, warning, error, critical };
 
-/// What a notice is about, the same for all components that report it: an alert for each. Those of
-/// SafetyState have the name of its flag. New ones are appended.
+/// Subject of a notice, the same for all components that report it: one alert for each. Those of SafetyState
+/// have the name of its flag. New ones are appended.
 enum class Cause : std::uint8_t {
   none,
   fence,
@@ -33,12 +33,11 @@ enum class Cause : std::uint8_t {
   pitch
 };
 
-/// One line for the person at the terminal and for the log. A port of notices is told when the mission lists
-/// it under `tell:`.
+/// One line for the terminal and the log. A port of notices is printed if the mission lists it under `tell:`.
 struct Notice {
-  Text<96> text;
-  Severity severity = Severity::info;
-  Cause cause = Cause::none;  ///< with `info`: it is over
+  Text<96> text;                       ///< text of the notice
+  Severity severity = Severity::info;  ///< severity of the notice
+  Cause cause = Cause::none;           ///< subject of the notice; with `info`: end of the alert
 };
 
 template <>

@@ -6,10 +6,10 @@ namespace fulmar {
 
 /// Origin of the local frame. A parameter `Record<Origin> origin` is filled from the mission's `origin:`.
 struct Origin {
-  double lat_deg = 0;
-  double lon_deg = 0;
-  double alt_msl_m = 0;
-  bool given = false;  ///< false: the first good fixes decide
+  double lat_deg = 0;    ///< latitude, WGS-84
+  double lon_deg = 0;    ///< longitude, WGS-84
+  double alt_msl_m = 0;  ///< altitude above mean sea level
+  bool given = false;    ///< true if the mission defines it; false: mean of the first good fixes
 };
 
 /// Where ground is, and where the models of air hold; not at a pole, where north turns within a flight.

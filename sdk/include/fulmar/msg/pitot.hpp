@@ -4,12 +4,12 @@
 
 namespace fulmar {
 
-/// Differential pressure of a pitot tube, and the indicated airspeed that it means at sea-level density
-/// (1.225 kg/m3).
+/// Differential pressure of a pitot, and its indicated airspeed at sea-level density (1.225 kg/m3).
 struct Pitot {
-  double pressure_pa = 0;  ///< total minus static; negative values are noise around zero, or a swapped tube
-  double indicated_airspeed_mps = 0;
-  double temperature_kelvin = 288.15;  ///< of the sensor
+  double pressure_pa = 0;              ///< total minus static pressure; negative values are noise around
+                                       ///< zero, or swapped hoses
+  double indicated_airspeed_mps = 0;   ///< indicated airspeed
+  double temperature_kelvin = 288.15;  ///< temperature of the sensor
 };
 
 }  // namespace fulmar

@@ -6,18 +6,18 @@
 namespace fulmar {
 
 enum class Turns : std::uint8_t {
-  right,  ///< clockwise, seen from behind: the aircraft is rolled left
+  right,  ///< clockwise, seen from behind: the reaction rolls the aircraft left
   left
 };
 
-/// Where one of several like propellers stands.
+/// Place of one of several equal propellers.
 struct PropellerPlace {
-  Vec3<Body> at_m;      ///< of its disc, from the centre of gravity
-  double tilt_rad = 0;  ///< of its axis, up
-  double toe_rad = 0;   ///< of its axis, to the right
-  Turns turns = Turns::right;
-  /// Part of full throttle that full rudder takes from it or gives to it: nose left is more on the right.
-  double differential_frac = 0;
+  Vec3<Body> at_m;               ///< position of its disc, from the centre of gravity
+  double tilt_rad = 0;           ///< tilt of its axis, up
+  double toe_rad = 0;            ///< toe angle of its axis, to the right
+  Turns turns = Turns::right;    ///< direction of rotation
+  double differential_frac = 0;  ///< share of full throttle that full rudder adds or removes: nose left is
+                                 ///< more on the right
 };
 
 template <>
@@ -26,17 +26,18 @@ inline constexpr std::array<FieldRange, 3> field_ranges<PropellerPlace>{
 
 /// Voltage of a battery without load over the used part of its capacity.
 struct BatteryCurve {
-  List<double, 16> used_frac;  ///< rising; its ends hold beyond them
-  List<double, 16> open_volt;  ///< as many
+  List<double, 16> used_frac;  ///< used share of the capacity, rising; constant voltage beyond its ends
+  List<double, 16> open_volt;  ///< open-circuit voltage at each point
 };
 
-/// What a battery loses under load and over time. Its voltage when full is the propulsion's. By itself it
-/// loses nothing.
+/// Losses of a battery under load and over time. Its full voltage is that of the propulsion. By default it
+/// has no losses.
 struct Battery {
-  double capacity_ah = 0;     ///< 0: without end
-  double resistance_ohm = 0;  ///< of its cells and cables; shared by all motors
-  double empty_volt = 0;      ///< without load, when its capacity is used; 0: as when full
-  BatteryCurve curve;  ///< in place of the line from full to empty; its first voltage is that of the full one
+  double capacity_ah = 0;     ///< capacity; 0: unlimited
+  double resistance_ohm = 0;  ///< resistance of its cells and cables, shared by all motors
+  double empty_volt = 0;      ///< open-circuit voltage of the empty battery; 0: as when full
+  BatteryCurve curve;         ///< voltage curve in place of the line from full to empty; its first voltage
+                              ///< is that of the full battery
 };
 
 template <>

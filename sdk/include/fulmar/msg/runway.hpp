@@ -6,13 +6,15 @@
 
 namespace fulmar {
 
-/// A strip to land on, from the point where it begins: the threshold, the middle of its near end. Either in
-/// the local frame or geodetic; what is not given is `unknown_std`.
+/// A runway for a landing, from its threshold at the middle of the near end. Either in the local frame or
+/// geodetic; a value that is not given is `unknown_std`.
 struct Runway {
-  double north_m = unknown_std, east_m = unknown_std, up_m = unknown_std;  ///< of the origin
-  double heading_rad = 0;  ///< in which it is landed on, from north, clockwise
-  double length_m = 0;     ///< from the threshold on; 0: there is no runway
-  double lat_deg = unknown_std, lon_deg = unknown_std, alt_msl_m = unknown_std;  ///< WGS-84
+  double north_m = unknown_std, east_m = unknown_std, up_m = unknown_std;  ///< position of the threshold
+                                                                           ///< from the origin
+  double heading_rad = 0;  ///< landing heading, from north, clockwise
+  double length_m = 0;     ///< length from the threshold; 0: no runway
+  double lat_deg = unknown_std, lon_deg = unknown_std, alt_msl_m = unknown_std;  ///< geodetic position of
+                                                                                 ///< the threshold, WGS-84
 };
 
 template <>

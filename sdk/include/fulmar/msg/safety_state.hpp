@@ -4,62 +4,64 @@
 
 namespace fulmar {
 
-/// What the aircraft is to do about what has failed: one word, so that exactly one condition of a mission
-/// holds, however much fails at once. The one that stands earlier wins.
+/// Answer of the aircraft to the failures: one value, so that exactly one condition of a mission holds. The
+/// first of them that applies is active.
 enum class SafetyAnswer : std::uint8_t {
-  none,     ///< go on; on the ground always
-  level,    ///< wings level: the attitude is excessive, or the estimate is not to be believed
-  glide,    ///< down without motor, now, to the nearest place within reach
-  descend,  ///< down without motor in a circle: the position has been unknown for too long
-  wait,     ///< circle at this height: the position is not known
+  none,     ///< continue; on the ground always
+  level,    ///< wings level: excessive attitude, or invalid estimate
+  glide,    ///< down without motor, at once, to the nearest place in range
+  descend,  ///< down without motor in a circle: position lost for too long
+  wait,     ///< circle at this height: no position
   land,     ///< return and land
   home      ///< return and circle there
 };
 
-/// Which way round the fence leaves room for a turn back.
+/// Direction in which the geofence leaves room for a turn back.
 enum class SafetyTurn : std::uint8_t { either, left, right };
 
-/// What speaks against a take-off of an aircraft on the ground; in the air all of it is false.
+/// Reasons against a take-off of an aircraft on the ground; in the air all are false.
 struct NotReady {
-  bool estimator = false;  ///< attitude, height or velocity are not valid
-  bool position = false;   ///< not valid, or the receiver fails
-  bool pitot = false;      ///< silent or stuck
-  bool radio = false;      ///< lost, or required and silent
-  bool battery = false;    ///< low or empty
-  bool wind = false;       ///< above the limit of a take-off
-  bool fence = false;      ///< outside of it, or nearer than its margin
-  bool height = false;     ///< above its ceiling, or nearer than its margin
-  bool motor = false;      ///< no acceleration at open throttle, until a hand-over or a disarming
+  bool estimator = false;  ///< invalid attitude, height or velocity
+  bool position = false;   ///< invalid position, or failed receiver
+  bool pitot = false;      ///< silent or stuck pitot
+  bool radio = false;      ///< radio lost, or required and silent
+  bool battery = false;    ///< low or empty battery
+  bool wind = false;       ///< wind above the take-off limit
+  bool fence = false;      ///< position outside the geofence, or within its margin
+  bool height = false;     ///< height above the ceiling, or within its margin
+  bool motor = false;      ///< no acceleration at open throttle, until a change of control or a disarming
 };
 
-/// What is wrong, of which a mission makes phases. A flag rises and falls with a delay of its own.
+/// Failures for the phases of a mission. Each flag is set and cleared with its own delay.
 struct SafetyState {
-  bool fence = false;        ///< it would be left if the aircraft did not turn back now, or has been left
-  bool gnss_lost = false;    ///< no position that can be used
-  bool pitot_lost = false;   ///< the airspeed is not measured
-  bool radio_lost = false;   ///< the pilot's transmitter is not heard
-  bool link_lost = false;    ///< the vehicle's status does not come
-  bool battery_low = false;  ///< enough to return
-  bool battery_empty = false;
-  bool attitude_excessive = false;
-  bool engine_failed = false;     ///< thrust is demanded, and the energy does not come
-  bool wind_excessive = false;    ///< the wind leaves too little of the cruise speed
-  bool estimator_failed = false;  ///< attitude, velocity or height are not valid
-  bool airborne = false;
-  SafetyAnswer answer = SafetyAnswer::none;
-  SafetyTurn turn = SafetyTurn::either;
-  double fence_margin_m =
-      1e9;  ///< room that the turn back leaves, on the ground the distance; negative: outside. 1e9: none
-  double height_margin_m = 1e9;            ///< room to floor and ceiling, less what the pull-out takes
-  double floor_m = -1e9, ceiling_m = 1e9;  ///< of the fence, above the origin
-  double thrust_ratio = 1;   ///< force along the flight path over what the model says of this throttle
-  double wind_ratio = 0;     ///< wind speed over cruise airspeed
-  double waiting_s = 0;      ///< since the position was lost
-  double returning_s = 0;    ///< since the answer is `home`
-  bool engine_weak = false;  ///< less thrust than modelled, but enough for level flight
-  bool drifting = false;     ///< the wind exceeds the largest airspeed
-  bool ready = false;        ///< on the ground, and nothing speaks against a take-off
-  NotReady not_ready;
+  bool fence = false;                        ///< geofence violation, present or unavoidable without an
+                                             ///< immediate turn back
+  bool gnss_lost = false;                    ///< no usable position
+  bool pitot_lost = false;                   ///< no measured airspeed
+  bool radio_lost = false;                   ///< no frames of the pilot's transmitter
+  bool link_lost = false;                    ///< no status of the vehicle
+  bool battery_low = false;                  ///< low battery, sufficient for the return
+  bool battery_empty = false;                ///< empty battery
+  bool attitude_excessive = false;           ///< excessive roll or pitch
+  bool engine_failed = false;                ///< missing thrust at open throttle
+  bool wind_excessive = false;               ///< excessive wind for the cruise airspeed
+  bool estimator_failed = false;             ///< invalid attitude, velocity or height
+  bool airborne = false;                     ///< true in flight
+  SafetyAnswer answer = SafetyAnswer::none;  ///< answer to the failures
+  SafetyTurn turn = SafetyTurn::either;      ///< direction of a turn back
+  double fence_margin_m = 1e9;               ///< room left by a turn back, on the ground the distance;
+                                             ///< negative: outside; 1e9: no geofence
+  double height_margin_m = 1e9;              ///< room to floor and ceiling, less that of the pull-out
+  double floor_m = -1e9, ceiling_m = 1e9;    ///< floor and ceiling of the geofence, above the origin
+  double thrust_ratio = 1;                   ///< ratio of the force along the flight path to the model at
+                                             ///< this throttle
+  double wind_ratio = 0;                     ///< ratio of wind speed to cruise airspeed
+  double waiting_s = 0;                      ///< time since the position was lost
+  double returning_s = 0;                    ///< time since the start of the answer `home`
+  bool engine_weak = false;                  ///< less thrust than modelled, but enough for level flight
+  bool drifting = false;                     ///< wind above the largest airspeed
+  bool ready = false;                        ///< on the ground without a reason against a take-off
+  NotReady not_ready;                        ///< reasons against a take-off
 };
 
 template <>

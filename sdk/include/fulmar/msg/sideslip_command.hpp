@@ -6,10 +6,10 @@
 
 namespace fulmar {
 
-/// The sideslip that the rudder is to fly, past the outer loops, which know none. Whoever asks for it feeds
-/// the bank forward that keeps the course meanwhile. It counts as long as it is said anew.
+/// Sideslip command to the rudder, past the outer loops. Its sender adds the feed-forward bank that keeps the
+/// course. It is valid only while it is repeated.
 struct SideslipCommand {
-  double sideslip_rad = 0;  ///< asin(v / Va): positive is air from the right, the nose left of it
+  double sideslip_rad = 0;  ///< sideslip asin(v / Va): positive is air from the right, nose left of it
 };
 
 template <>

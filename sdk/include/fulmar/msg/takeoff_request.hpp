@@ -4,9 +4,9 @@
 
 namespace fulmar {
 
-/// Opens the throttle that a landing has closed, for another take-off.
+/// Request to unlock the throttle after a landing, for another take-off.
 struct TakeoffRequest {
-  bool confirmed = true;
+  bool confirmed = true;  ///< confirmation of the request
 };
 
 }  // namespace fulmar

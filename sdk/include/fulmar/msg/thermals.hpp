@@ -6,17 +6,17 @@ namespace fulmar {
 
 /// A column of rising air. A negative strength is sinking air.
 struct Thermal {
-  double north_m = 0, east_m = 0;  ///< of its axis at flight time 0, from the origin
-  double strength_mps = 2;         ///< up, on the axis at the height where it is strongest
-  double radius_m = 60;            ///< where the updraft is 1/e of that on the axis
-  double top_m = 1000;             ///< z_i: depth of the convective layer, above the ground at the origin
-  bool drifts = false;             ///< its axis goes with the steady wind
+  double north_m = 0, east_m = 0;  ///< position of its axis at flight time 0, from the origin
+  double strength_mps = 2;         ///< updraft on the axis at the height of its maximum
+  double radius_m = 60;            ///< radius at which the updraft is 1/e of that on the axis
+  double top_m = 1000;             ///< depth z_i of the convective layer, above the ground at the origin
+  bool drifts = false;             ///< drift of the axis with the steady wind
 };
 
 /// The file of the parameter `thermals`.
 struct Thermals {
   List<Thermal, 16> thermals;
-  bool given = false;  ///< set by the host
+  bool given = false;  ///< true if the mission defines them; set by the host
 };
 
 template <>

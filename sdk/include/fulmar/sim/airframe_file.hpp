@@ -9,16 +9,16 @@
 #include "fulmar/msg/airframe.hpp"
 
 extern "C" {
-/// 0, or 1 when it is refused.
+/// Reads an airframe into an Airframe of `size` bytes. Returns 0, or 1 for an error.
 int fulmar_sim_read_airframe(const char* name, void* airframe, std::size_t size);
-/// What the last refusal of this thread said.
+/// Text of the last error of this thread.
 const char* fulmar_sim_error();
 }
 
 namespace fulmar::sim {
 
-/// `name`: a file, or one that is shipped, as in fulmar:airframes/anaconda.yaml. Throws std::invalid_argument
-/// with file:line for every fault.
+/// `name`: a file, or a shipped one such as "fulmar:airframes/anaconda.yaml". Throws std::invalid_argument
+/// that lists every fault with file:line.
 inline Airframe read_airframe(const std::string& name) {
   Airframe a;
   if (fulmar_sim_read_airframe(name.c_str(), &a, sizeof a) != 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes an airframe none that can be simulated, beyond the range of a single field.
+// Rules of an airframe beyond the range of a single field.
 #pragma once
 #include <cmath>
 #include <cstdio>
@@ -19,12 +19,14 @@ struct AirframeFault {
 
 namespace rules {
 
+/// A number in a message, four digits.
 inline std::string short_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
 }
 
+/// Path of a field of a list: "list[i].field".
 inline std::string item(const char* list, std::size_t i, const char* field) {
   return std::string(list) + "[" + std::to_string(i) + "]." + field;
 }
@@ -56,6 +58,7 @@ inline double spanned(const Gear& gear) {
   return most;
 }
 
+/// Where all contacts are as seen from the centre of gravity, for a message.
 inline std::string where_contacts_are(const Gear& gear) {
   const auto all = [&](auto&& is) { return std::all_of(gear.contacts.begin(), gear.contacts.end(), is); };
   if (all([](const GearContact& c) { return c.at_m.x < 0; })) return "behind";
@@ -65,6 +68,8 @@ inline std::string where_contacts_are(const Gear& gear) {
   return "on one side of";
 }
 
+/// Contacts, where there are any: at least three, not on one line, around the centre of gravity, with shares
+/// that sum to 1.
 inline AirframeFault gear_fault(const Airframe& a) {
   const Gear& gear = a.gear;
   const std::size_t n = gear.contacts.size();
@@ -82,6 +87,7 @@ inline AirframeFault gear_fault(const Airframe& a) {
   return {};
 }
 
+/// Stops of a servo: the lower one below the upper one. `name` is the field of the surface.
 inline AirframeFault surface_fault(const char* name, const Surface& s) {
   const Stops at = stops(s);
   if (at.min < at.max || s.limit_rad == 0) return {};
@@ -90,6 +96,7 @@ inline AirframeFault surface_fault(const char* name, const Surface& s) {
                                               " rad above: it cannot move"};
 }
 
+/// Propellers with a share of the rudder: beside the plane of symmetry, with a rudder that has a throw.
 inline AirframeFault propeller_fault(const Airframe& a) {
   for (std::size_t i = 0; i < a.propulsion.propellers.size(); ++i) {
     const PropellerPlace& p = a.propulsion.propellers[i];
@@ -102,6 +109,7 @@ inline AirframeFault propeller_fault(const Airframe& a) {
   return {};
 }
 
+/// Voltages and discharge curve: lists of equal size, rising, that begin with the full battery.
 inline AirframeFault battery_fault(const Propulsion& p) {
   const Battery& b = p.pack;
   const BatteryCurve& c = b.curve;
@@ -126,6 +134,7 @@ inline AirframeFault battery_fault(const Propulsion& p) {
 
 }  // namespace rules
 
+/// The first fault of an airframe by all rules above.
 inline AirframeFault airframe_fault(const Airframe& a) {
   if (AirframeFault f = rules::surface_fault("aileron", a.aileron)) return f;
   if (AirframeFault f = rules::surface_fault("elevator", a.elevator)) return f;

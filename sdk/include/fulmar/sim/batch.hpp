@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Many aircraft, stepped in one call by several threads. Arrays are row-major, one row an aircraft: actions
-// N x 4, rows N x 26 (simulation.hpp). Each aircraft flies by itself, so that the number of threads changes
-// no bit of what they do.
+// Many aircraft, stepped in one call by several threads. Arrays are row-major, one row an aircraft: actions N
+// x 4, rows N x 26 (simulation.hpp). Aircraft are independent, so the number of threads changes no bit of the
+// result.
 #pragma once
 #include <algorithm>
 #include <condition_variable>
@@ -20,6 +20,7 @@
 
 namespace fulmar::sim {
 
+/// Many simulations in one call. Throws std::invalid_argument for wrong sizes, actions or steps.
 class Batch {
  public:
   /// Aircraft `i` has the seed mix_seed(seed, i). `threads` is one or more, the caller's own among them.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A battery: its voltage without load falls with the charge that was taken, by a line or a curve. What it
-// loses under load is in propulsion.hpp, where motor and battery are in balance.
+// A battery: its voltage without load falls with the charge that was taken, by a line or a curve. The loss
+// under load is in propulsion.hpp, where motor and battery are in balance.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 namespace fulmar::sim {
 
+/// Charge taken from a battery, and its voltage without load. It never drains without a capacity.
 class BatteryState {
  public:
   explicit BatteryState(const Propulsion& p) : full_volt_(p.battery_volt), battery_(p.pack) {}

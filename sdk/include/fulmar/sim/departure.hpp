@@ -20,7 +20,7 @@ enum class Departure : std::uint8_t {
   beyond_beta,   ///< sideslip beyond the airframe's tables
 };
 
-/// Written so that what is not a number has diverged, too.
+/// Written so that NaN counts as diverged.
 inline bool diverged(const RigidBody& x) {
   constexpr double fastest = 1e5, farthest = 1e8;  // m/s and rad/s; m
   return !(x.v_n.squaredNorm() + x.omega_b.squaredNorm() < fastest * fastest &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What moves the air beside the steady wind: Dryden turbulence, a discrete gust, thermals.
+// Motion of the air beside the steady wind: Dryden turbulence, a discrete gust, thermals.
 #pragma once
 #include <Eigen/Core>
 #include <cmath>
@@ -15,6 +15,7 @@
 
 namespace fulmar::sim {
 
+/// Sum of turbulence, gust and thermals. Velocities in m/s, body axes unless a suffix says NED.
 class Disturbances {
  public:
   Disturbances(const Weather& w, std::uint64_t seed)
@@ -27,7 +28,7 @@ class Disturbances {
         rotates_(w.turbulence != Turbulence::none && w.gust_span_m > 0),
         by_height_(w.turbulence != Turbulence::none && w.turbulence_height == TurbulenceHeight::actual) {}
 
-  /// What it is depends on where the aircraft is.
+  /// True when it depends on the place of the aircraft.
   bool of_place() const { return by_height_ || gust_.active() || updrafts_.any(); }
   void fire(const GustSpec& gust) { gust_.fire(gust); }
 
@@ -61,8 +62,8 @@ class Disturbances {
   }
   double passing(double Va) const { return gust_airspeed_mps_ > 0 ? gust_airspeed_mps_ : Va; }
 
-  /// Lengths and deviations go with the height in steps of 1 %: to discretise the filters costs more than to
-  /// advance them.
+  /// Lengths and standard deviations follow the height in steps of 1 %: to discretise the filters costs more
+  /// than to advance them.
   void follow(double height_m) {
     constexpr double lowest_m = mil8785c::lowest_ft * mil8785c::foot;
     const double h = std::max(height_m, lowest_m);

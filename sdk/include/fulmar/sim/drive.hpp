@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A control surface with its servo, and what becomes of it when one of the two fails.
+// A control surface with its servo, and the faults of both.
 #pragma once
 #include <Eigen/Core>
 #include <cmath>
@@ -10,6 +10,7 @@
 
 namespace fulmar::sim {
 
+/// One surface with servo and fault. Angles in rad, time in s.
 class Drive {
  public:
   explicit Drive(const Surface& s) : servo_(s) {}
@@ -29,13 +30,13 @@ class Drive {
   void trail_at(double angle) { trailing_ = angle; }
 
  private:
-  /// Apart, so that a surface in order costs what it did without faults.
+  /// A function of its own, so that a surface without fault does not pay for it.
   [[gnu::noinline]] void fail(double command, double dt) {
     switch (kind_) {
       case FaultKind::stuck: return;
       case FaultKind::hardover_positive: return servo_.advance(servo_.max(), dt);
       case FaultKind::hardover_negative: return servo_.advance(servo_.min(), dt);
-      case FaultKind::slow: return servo_.advance(command, speed_ * dt);  // it lives in slower time
+      case FaultKind::slow: return servo_.advance(command, speed_ * dt);  // slower time
       case FaultKind::free: return servo_.advance(trailing_, dt);
       default: servo_.advance(command, dt);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The legs of an aircraft: those that follow from its size, or its contact points; and how it stands on them.
+// The legs of an aircraft: from its size, or its contact points; and how it stands on them.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -15,18 +15,19 @@
 
 namespace fulmar::sim {
 
+/// One leg: a spring and damper at its foot, body axes, m from the centre of gravity.
 struct Leg {
   Eigen::Vector3d r_b = Eigen::Vector3d::Zero();  ///< of its foot, unloaded
   double k = 0, c = 0;                            ///< N/m, N s/m: vertical
   double k_t = 0, c_t = 0;                        ///< along the ground, while it does not slip
   double rolling = 0;                             ///< friction along its heading
   bool skid = false;                              ///< `rolling` is its friction in every direction
-  const char* part = "";                          ///< what a pilot calls it
+  const char* part = "";                          ///< its name in reports
   Eigen::Vector2d bristle = Eigen::Vector2d::Zero();
   bool down = false;
 };
 
-/// What a pilot calls a wheel or skid whose foot is at `r_b`.
+/// Name of a wheel or skid whose foot is at `r_b`.
 inline const char* leg_part(const Eigen::Vector3d& r_b, bool skid) {
   constexpr double middle = 0.02;  // m
   const bool front = r_b.x() > 0;
@@ -53,9 +54,10 @@ struct Standing {
   Eigen::Quaterniond tilt = Eigen::Quaterniond::Identity();
 };
 
+/// Legs and hull points of an airframe, and how it stands on them. Body axes, m.
 class Legs {
  public:
-  /// `friction`: factor on what the airframe says.
+  /// `friction`: factor on the airframe's friction.
   explicit Legs(const Airframe& a, double friction = 1)
       : weight_(a.mass_kg * isa::g0), friction_(friction), span_(a.wing.span_m) {
     if (a.gear.contacts.empty())

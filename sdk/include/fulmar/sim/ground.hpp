@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Flat ground and the gear on it: nose wheel, two main wheels, tail skid, or the airframe's contact points.
 // Each is a spring and damper along the vertical; friction is a bristle that stretches before it slips
-// (Dahl/LuGre without the Stribeck part), so an aircraft that stands does not creep.
+// (Dahl/LuGre without the Stribeck part), so an aircraft at rest does not creep.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -16,16 +16,17 @@
 
 namespace fulmar::sim {
 
+/// Contact of gear and hull with flat ground at height 0: forces, touch-downs, crash.
 class Ground {
  public:
-  /// `friction`: factor on what the airframe says, for wet grass or ice.
+  /// `friction`: factor on the airframe's friction, for wet grass or ice.
   explicit Ground(const Airframe& a, double friction = 1)
       : legs_(a, friction), sliding_(friction * a.gear.side_friction_ratio) {}
 
   /// Too high for anything to touch.
   bool clear(const RigidBody& x) const { return -x.p_n.z() > legs_.reach(); }
 
-  /// Adds what the gear does at state `x`.
+  /// Adds the load of the gear at state `x`.
   void add_load(const RigidBody& x, Load& load) const {
     if (clear(x)) return;
     const Eigen::Matrix3d R = x.q_nb.toRotationMatrix();
@@ -86,13 +87,13 @@ class Ground {
   const Standing& standing() const { return legs_.standing(); }
   bool touching() const { return touching_; }
   bool crashed() const { return crashed_; }
-  /// Touch-downs, and the contact that broke it: how many, and what touched at the last one.
+  /// Number of touch-downs, the contact that broke included, and the part that touched last.
   std::uint32_t touches() const { return touches_; }
   const char* touched_part() const { return part_; }
 
  private:
   static constexpr double hardest_touch = 3;      ///< m/s
-  static constexpr double shortest_flight = 0.5;  ///< s: what returns earlier has bounced
+  static constexpr double shortest_flight = 0.5;  ///< s: an earlier return is a bounce
 
   struct Contact {
     double depth = 0, sink = 0, normal = 0;
@@ -118,7 +119,7 @@ class Ground {
     }
   }
 
-  /// No more than friction holds, of a force or of the bristle behind it. A skid knows no heading.
+  /// Limits a force, or the bristle behind it, by friction. A skid has no heading.
   static void hold(const Leg& l, double max_along, double max_across, double& along, double& across) {
     if (!l.skid) {
       along = std::clamp(along, -max_along, max_along);

@@ -11,8 +11,10 @@
 
 namespace fulmar::sim {
 
+/// `pulse` rises and falls, `rise` stays at its peak.
 enum class GustShape : std::uint8_t { pulse, rise };
 
+/// A gust that `Gust::fire` starts.
 struct GustSpec {
   Eigen::Vector3d velocity_b = Eigen::Vector3d::Zero();  ///< of the air at its peak, body axes, m/s
   double length_m = 30;                                  ///< flown through the air from its edge to its peak
@@ -36,7 +38,7 @@ class Gust {
   }
   bool active() const { return active_; }
 
-  /// Velocity of the air after `dt` more at airspeed `Va`: the air stands still and is flown through.
+  /// Velocity of the air after `dt` more at airspeed `Va`: the gust is fixed in the air mass.
   Eigen::Vector3d advance(double dt, double Va) {
     if (!active_) return Eigen::Vector3d::Zero();
     flown_m_ += Va * dt;

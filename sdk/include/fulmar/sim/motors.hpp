@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motors that turn at speeds of their own, because some of them have a share of the rudder's command. Where a
-// battery sags each sees what it would lose if all had its throttle.
+// Motors at speeds of their own, because some have a share of the rudder's command. With a sagging battery
+// each has the loss that it would have if all had its throttle.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 
 namespace fulmar::sim {
 
+/// Speeds of all motors, rad/s, over one step of the plant.
 class Motors {
  public:
   /// In balance.

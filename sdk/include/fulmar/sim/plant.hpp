@@ -26,8 +26,8 @@
 
 namespace fulmar::sim {
 
-/// What lies below: flat ground and constant gravity, flat ground and gravity by latitude and height, or the
-/// turning ellipsoid.
+/// Earth model: flat ground and constant gravity, flat ground and gravity by latitude and height, or the
+/// rotating ellipsoid.
 enum class EarthModel : std::uint8_t { flat, gravity, wgs84 };
 /// The ground at the aircraft's feet, not with the turning ellipsoid.
 struct Terrain {
@@ -35,21 +35,21 @@ struct Terrain {
   double friction_ratio = 1;                    ///< of gear and ground, times the airframe's
   bool ground_effect = false;                   ///< less induced drag close to it
 };
-struct Earth {
+struct Earth {  ///< the Earth below the aircraft
   EarthModel model = EarthModel::flat;
   double lat_rad = 0, lon_rad = 0;  ///< of the origin
   Terrain terrain{};
 };
 
-/// The last touch-down, or the contact that broke the aircraft: what touched, and the state at that moment,
-/// velocity and attitude as the ground sees them, the position in the frame of the origin.
+/// The last touch-down, or the contact that broke the aircraft: the part, and the state at that moment,
+/// velocity and attitude relative to the ground, the position in the frame of the origin.
 struct Touch {
   std::uint32_t count = 0;  ///< 0: none yet
   const char* part = "";
   RigidBody at;
 };
 
-class Plant {
+class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body axes
  public:
   Plant(const Airframe& a, const Weather& weather, double origin_altitude_m, std::uint64_t seed,
         const Earth& earth = {})
@@ -117,8 +117,8 @@ class Plant {
   /// Of the last `fly`.
   const Trim& trim() const { return trim_; }
 
-  /// One step. `power` is the share of the battery's full voltage that the throttle deals out: 0 stops the
-  /// motor whatever it says.
+  /// One step. `power` is the share of the battery's full voltage at full throttle: 0 stops the motor at any
+  /// throttle.
   [[gnu::flatten]] void advance(const Actuators& command, double power, double dt) {
     throttle_ = power * std::clamp(command.throttle_frac, 0.0, 1.0);
     if (ground_.crashed()) {
@@ -166,7 +166,7 @@ class Plant {
     load_.force_b = -mass_.mass * (x_.q_nb.conjugate() * g_n_);
     load_.moment_b.setZero();
   }
-  /// The same with an acceleration along the nose, m/s2: in somebody's hand, on a catapult.
+  /// The same with an acceleration along the nose, m/s2: hand launch or catapult.
   void push(double mps2, double dt) {
     const Eigen::Vector3d a_n = mps2 * (x_.q_nb * Eigen::Vector3d::UnitX());
     x_.p_n += 0.5 * dt * dt * a_n;
@@ -214,7 +214,7 @@ class Plant {
   /// the body rate relative to the Earth, `p_n.z()` minus the height. On flat ground the same as `state`.
   const RigidBody& seen() const { return turns() ? seen_ : x_; }
   const Air& air() const { return air_; }
-  /// What an accelerometer at the centre of gravity measures.
+  /// Specific force at the centre of gravity, as an accelerometer measures it.
   Eigen::Vector3d specific_force() const {
     if (ground_.crashed()) return -(x_.q_nb.conjugate() * g_n_);
     return load_.force_b / mass_.mass;
@@ -262,7 +262,7 @@ class Plant {
     Deflections deflections;
     double Omega = 0;
     Eigen::Vector3d spin_up_nm =
-        Eigen::Vector3d::Zero();  ///< what the propellers' gain takes from the airframe
+        Eigen::Vector3d::Zero();  ///< reaction of the airframe to the propellers' spin-up
   };
 
   static Eigen::Matrix3d inertia(const Airframe& a) {
@@ -288,7 +288,7 @@ class Plant {
     return motor_decay_;
   }
 
-  /// What stands on the ground has flow from anywhere.
+  /// An aircraft on the ground may have flow from any direction.
   Departure judged() const {
     if (diverged(x_)) return Departure::diverged;
     return ground_.touching() || ground_.crashed() ? Departure::none : beyond_tables(aero_, relative(seen()));
@@ -311,8 +311,8 @@ class Plant {
     load_.moment_b -= moment(Omega_before);
   }
 
-  /// -omega x h - h', with the angular momentum h = I sum(Omega_i a_i) of what turns. Euler's equation of the
-  /// aircraft and its propellers.
+  /// -omega x h - h', with the angular momentum h = I sum(Omega_i a_i) of the propellers. Euler's equation of
+  /// the aircraft and its propellers.
   [[gnu::noinline]] void add_spin(const Stage& s, std::size_t i, const Eigen::Vector3d& omega_b,
                                   Load& load) const {
     const Eigen::Vector3d spin = propellers_.differential() ? motors_.spin(propellers_, i)
@@ -421,8 +421,8 @@ class Plant {
     ground_.add_load(slope_.seen(x), load);
   }
 
-  /// The load at the present state: the first stage of the next step, and what the accelerometer feels now.
-  /// Air and gravity are those of the present place for the whole next step.
+  /// The load at the present state: the first stage of the next step, and the present specific force. Air and
+  /// gravity are those of the present place for the whole next step.
   void refresh() {
     if (turns()) {
       level_ = LocalLevel(turning_, x_.p_n);

@@ -8,6 +8,7 @@
 
 namespace fulmar::sim {
 
+/// Second-order servo: position in any unit, `omega` in rad/s, damping ratio `zeta`.
 class SecondOrder {
  public:
   /// `omega` 0: none.

@@ -48,8 +48,8 @@ class Servo {
     angle_ = tau_ > 0 ? command + (angle_ - command) * decay(dt) : command;
   }
 
-  /// Apart, so that a plain servo costs what it did without. The dead band is a play: what the servo aims at
-  /// rests while the command is within half of the band from it.
+  /// A function of its own, so that a plain servo does not pay for it. The dead band is a play: the target
+  /// rests while the command is within half of the band.
   [[gnu::noinline]] void advance_other(double command, double dt) {
     aim_ = std::clamp(aim_, command - play_, command + play_);
     if (!second_.given()) return follow(aim_, dt);

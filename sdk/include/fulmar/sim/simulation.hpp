@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One simulated aircraft without host, mission and sensors: what `sim_aero` flies, for model-based control,
+// One simulated aircraft without host, mission and sensors: the one of `sim_aero`, for model-based control,
 // learning and tests.
 //
 //   Simulation sim(read_airframe("fulmar:airframes/anaconda.yaml"), {.origin_altitude_m = 1387}, 7);
@@ -11,8 +11,9 @@
 //   sim.body().v_n;
 //
 // A value: no pointer, no thread, no allocation in a step. The same seed, start and commands give the same
-// flight to the bit. Only `step` and `set` refuse, by std::invalid_argument and before anything has moved.
-// What has crashed or left the model (departure.hpp) stays as it is until `reset`, `stand`, `fly` or `set`.
+// flight to the bit. Only `step` and `set` throw, std::invalid_argument, and then change nothing. An aircraft
+// that has crashed or left the model (departure.hpp) stays so until `reset`, `stand`, `fly` or `set`.
+// Suffixes of frames (_n, _b): fulmar/flight/math/attitude.hpp.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -35,6 +36,7 @@ inline std::string shown(double value) {
   return text.data();
 }
 
+/// Surroundings of the aircraft; defaults are still standard air over flat ground at sea level.
 struct SimulationOptions {
   double origin_altitude_m = 0;  ///< above mean sea level, of height 0
   Weather weather{};
@@ -48,6 +50,7 @@ struct FlightState {
   double propeller_radps = 0;
 };
 
+/// One aircraft, see above. Positions and velocities in NED from the origin, SI units.
 class Simulation {
  public:
   static constexpr double max_s = 0.1;  ///< beyond it the short period of small aircraft is not resolved
@@ -56,7 +59,7 @@ class Simulation {
   explicit Simulation(const Airframe& a, const SimulationOptions& options = {}, std::uint64_t seed = 1)
       : airframe_(a), options_(options), plant_(made(seed)) {}
 
-  /// As made anew with this seed.
+  /// Back to the initial state with this seed.
   void reset(std::uint64_t seed) {
     plant_ = made(seed);
     time_s_ = 0;
@@ -99,7 +102,7 @@ class Simulation {
   Plant& plant() { return plant_; }  ///< wind, faults, icing
   const Airframe& airframe() const { return airframe_; }
 
-  /// What is wrong with a command or a state; "" when nothing is.
+  /// Error of a command or a state; "" when it is valid.
   static std::string validation_error(const Actuators& c) {
     const std::array<std::pair<const char*, double>, 4> all{{{"throttle_frac", c.throttle_frac},
                                                              {"aileron_rad", c.aileron_rad},
@@ -137,7 +140,7 @@ class Simulation {
   double time_s_ = 0;
 };
 
-/// A row of what a flight looks like, for arrays. on_ground and crashed are 0 or 1, departed is a Departure.
+/// Columns of a row of a flight, for arrays. on_ground and crashed are 0 or 1, departed is a Departure.
 inline constexpr char row_names[] =
     "north_m east_m down_m v_north_mps v_east_mps v_down_mps q_w q_x q_y q_z p_radps q_radps r_radps "
     "airspeed_mps alpha_rad beta_rad f_x_mps2 f_y_mps2 f_z_mps2 aileron_rad elevator_rad rudder_rad "
@@ -146,6 +149,7 @@ inline constexpr char action_names[] = "throttle_frac aileron_rad elevator_rad r
 inline constexpr std::size_t row_columns = 26;
 inline constexpr std::size_t action_columns = 4;
 
+/// Writes the `row_columns` values of `row_names`.
 inline void write_row(const Simulation& sim, double* row) {
   const RigidBody& x = sim.body();
   const AirData air = sim.air_data();
@@ -180,7 +184,7 @@ inline void write_row(const Simulation& sim, double* row) {
   std::copy(all.begin(), all.end(), row);
 }
 
-/// The inverse of `write_row`, of what a state can be set by: the first 13 columns, surfaces and propeller.
+/// The inverse of `write_row` for a FlightState: the first 13 columns, surfaces and propeller.
 inline FlightState state_of_row(const double* row) {
   FlightState s;
   s.body.p_n = {row[0], row[1], row[2]};

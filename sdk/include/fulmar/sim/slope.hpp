@@ -10,6 +10,7 @@
 
 namespace fulmar::sim {
 
+/// A plane through the origin. Default: level.
 class Slope {
  public:
   Slope() = default;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The three servos, their surfaces and the mixer between them and aileron, elevator and rudder. What limits
-// and fails is the servo and its surface: with a mixer an elevon or a ruddervator (mixer.hpp says whose place
-// it takes).
+// The three servos, their surfaces and the mixer between them and aileron, elevator and rudder. Limits and
+// faults are those of a servo and its surface: with a mixer, an elevon or a ruddervator (fields as in
+// mixer.hpp).
 #pragma once
 #include "fulmar/flight/model/mixer.hpp"
 #include "fulmar/msg/actuators.hpp"
@@ -9,6 +9,7 @@
 
 namespace fulmar::sim {
 
+/// Servos, mixer and surfaces of one airframe. Deflections in rad, signs as in `Actuators`.
 class Surfaces {
  public:
   explicit Surfaces(const Airframe& a)
@@ -19,7 +20,7 @@ class Surfaces {
     elevator_.advance(servos.elevator, dt);
     rudder_.advance(servos.rudder, dt);
   }
-  /// What the servos are told.
+  /// Commands of the servos.
   Deflections commanded(const Actuators& command) const {
     return to_servos(mixer_, {command.aileron_rad, command.elevator_rad, command.rudder_rad});
   }

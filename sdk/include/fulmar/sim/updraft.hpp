@@ -22,6 +22,7 @@ inline double updraft_over_height(double z) {
   return shape(z) / shape(strongest);
 }
 
+/// The thermals of a `Thermals` message; those with `drifts` move with the steady wind.
 class Updrafts {
  public:
   Updrafts() = default;

@@ -12,6 +12,7 @@
 
 namespace fulmar::sim {
 
+/// How the steady wind grows with height.
 enum class WindProfile : std::uint8_t { constant, power, log };
 
 /// Part of the steady wind that blows at a height above the ground: 1 at the reference height, no more than
@@ -36,6 +37,7 @@ struct WindShear {
 /// The turbulence of 50 m at every height, or that of the aircraft's own height.
 enum class TurbulenceHeight : std::uint8_t { fixed, actual };
 
+/// Wind, turbulence, thermals and the offset of the day.
 struct Weather {
   Eigen::Vector3d wind_n = Eigen::Vector3d::Zero();  ///< steady velocity of the air, at the reference height
   Turbulence turbulence = Turbulence::none;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The alarms of SafetyState: flag, cause and words, the worst first. The one place for all who report them.
+// The alarms of SafetyState: flag, cause and text, the worst first. Every component that reports an alarm
+// uses this table.
 #pragma once
 #include <array>
 
@@ -8,6 +9,7 @@
 
 namespace fulmar {
 
+/// One alarm: its flag in SafetyState, the cause in notices, and the text for the pilot.
 struct NamedAlarm {
   bool SafetyState::*flag;
   Cause cause;
@@ -31,12 +33,14 @@ inline constexpr std::array<NamedAlarm, 13> alarms{{
     {&SafetyState::fence, Cause::fence, "fence"},
 }};
 
+/// The entry of `alarms` with this flag; the last entry when no alarm has it.
 constexpr const NamedAlarm& alarm(bool SafetyState::*flag) {
   for (const NamedAlarm& a : alarms)
     if (a.flag == flag) return a;
   return alarms.back();
 }
 
+/// True when the flag is set and no worse alarm includes it.
 constexpr bool is_raised(const NamedAlarm& a, const SafetyState& s) {
   return s.*a.flag && !(a.worse && s.*a.worse);
 }

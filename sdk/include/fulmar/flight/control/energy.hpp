@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energy per mass and its rate: what throttle adds to and pitch shares out between speed and height.
-// Lambregts, "Vertical flight path and speed control autopilot design using total energy principles", AIAA
-// 83-2239 (1983).
+// Energy per mass and its rate: throttle changes the sum, pitch its distribution between speed and height.
 #pragma once
 #include <cmath>
 
@@ -11,8 +9,8 @@
 
 namespace fulmar {
 
-/// Acceleration along the air velocity, from what the accelerometer and the attitude say: leads a
-/// differentiated airspeed and has its noise not. The change of the wind is not in it.
+/// Acceleration along the air velocity from accelerometer and attitude: less delay than a differentiated
+/// airspeed, and less noise. The change of the wind is not included.
 inline double airspeed_rate(const VehicleState& state) {
   const double ca = std::cos(state.alpha_rad), sa = std::sin(state.alpha_rad), cb = std::cos(state.beta_rad),
                sb = std::sin(state.beta_rad);
@@ -50,7 +48,7 @@ struct EnergyRates {
   double potential = 0;  ///< g hdot
   double kinetic = 0;    ///< V Vdot
   double total() const { return potential + kinetic; }
-  /// What height gains minus what speed gains, each with its weight in [0, 1].
+  /// Gain of height minus gain of speed, each with its weight in [0, 1].
   double balance(double height_weight, double speed_weight) const {
     return height_weight * potential - speed_weight * kinetic;
   }

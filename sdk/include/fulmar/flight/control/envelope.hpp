@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What keeps an outer law off the stall, and brings it out of one: least airspeed by load factor, mass and
-// angle of attack; most bank by airspeed; most pitch by angle of attack. At cruise airspeed none of them
-// holds but the bank: no airspeed above cruise is asked for, and pitch is free. Lift of a turn: Anderson,
-// Introduction to Flight, turning flight. Recovery - less angle of attack, wings level, full power - as in
-// FAA, Airplane Flying Handbook, chapter 5.
+// Stall protection and recovery of an outer law: minimum airspeed by load factor, mass and angle of attack;
+// maximum bank by airspeed; maximum pitch by angle of attack. At cruise airspeed only the bank is limited: no
+// airspeed above cruise is demanded, and pitch is free. Lift of a turn: Anderson, Introduction to Flight,
+// turning flight. Recovery - less angle of attack, wings level, full power - as in FAA, Airplane Flying
+// Handbook, chapter 5.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ inline double bank_carried(double Va, double stall_mps) {
   return std::max(min_bank_rad, std::acos(std::min(cosine, 1.0)));
 }
 
-/// What a law may ask for at this moment.
+/// Limits of a law's commands in this step.
 struct Envelope {
   double airspeed_min_mps = 0;  ///< least airspeed to ask for
   double slowest_mps = 0;       ///< below it airspeed comes before height: no angle of attack is in it
@@ -87,6 +87,8 @@ struct Envelope {
   }
 };
 
+/// Stall protection of one outer law: minimum airspeed, maximum pitch and bank, stall detection and recovery.
+/// Call `step` once a tick; angles in rad, airspeeds true, in m/s.
 class EnvelopeGuard {
  public:
   void configure(const Airframe& a) {
@@ -95,7 +97,7 @@ class EnvelopeGuard {
   }
   bool configured() const { return configured_; }
 
-  /// A hand-over, a reset of the state, flight on the ground: what was seen is over.
+  /// At a switch of components, a reset of the state, or flight on the ground: clears all memory.
   void reset() {
     lift_.reset();
     gust_.reset();
@@ -157,7 +159,7 @@ class EnvelopeGuard {
     const double sink = std::min(climb_rate_mps, 0.0) - s.climb_rate_mps;
     const double left_m = height_error_m - ahead_s * std::max(s.climb_rate_mps, 0.0);
     if (!s.height_valid || (!stalled_ && sink < held_mps && left_m < below_m)) regains_ = false;
-    // The sink that a hand-over brings along ends without that.
+    // A sink at a switch ends by itself.
     falls_s_ = sink > fall_mps && height_error_m > below_m ? falls_s_ + dt_s : 0;
     if (stalled_ || falls_s_ > falls_s) regains_ = s.height_valid;
     return regains_ && s.airspeed_valid && s.velocity_valid;
@@ -181,14 +183,14 @@ class EnvelopeGuard {
   static bool sees_alpha(const VehicleState& s) {
     return s.airspeed_valid && s.wind_valid && s.velocity_valid && !s.airspeed_from_model;
   }
-  /// By the estimate where wind and airspeed are known, else what pitch and flight path leave.
+  /// The estimate where wind and airspeed are valid, else pitch minus flight path angle.
   double alpha(const VehicleState& s) const {
     if (!s.velocity_valid) return wing_.zero_alpha_rad;
     if (sees_alpha(s)) return s.alpha_rad;
     return (s.pitch_rad - climb_rad_) / std::max(std::cos(s.roll_rad), 0.5);
   }
 
-  /// Share of the most lift, by what the accelerometer says: the wing's own, vertical air or not.
+  /// Share of the maximum lift, from the accelerometer: the lift of the wing, independent of vertical air.
   void lift(const VehicleState& s, double density_kgm3, double dt_s) {
     constexpr double smoothed_s = 0.1, remembered_s = 0.3;
     const double most = 0.5 * density_kgm3 * V_ * V_ * wing_.area_m2 * wing_.max_lift;

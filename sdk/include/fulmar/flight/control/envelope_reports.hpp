@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an outer law says of its envelope: a stall and its end, and that it has lost the height.
+// Reports of an outer law: a stall and its end, and loss of height control.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ class HeightWatch {
   enum class Finding : std::uint8_t {
     held,
     lost,          ///< with power: the engine, the air or the envelope gives no more
-    contradiction  ///< and without power: what the law asks for does not agree with itself
+    contradiction  ///< and without power: the commands of the law contradict each other
   };
   void reset() { lost_s_ = idle_s_ = 0; }
 

@@ -13,14 +13,17 @@
 
 namespace fulmar {
 
+/// Gains and limits of CourseHold. `kp` is roll per course error, rad/rad.
 struct CourseTuning {
   double kp = 2, ki = 0;  ///< at the cruise speed; ki per second
   double cruise_mps = 15;
   double roll_max_rad = 0.785;
-  double roll_rate_max_radps = 1;  ///< of the command: what the roll loop can follow
+  double roll_rate_max_radps = 1;  ///< of the command, within the bandwidth of the roll loop
   double smoothing_s = 0.1;        ///< of the command
 };
 
+/// Course hold, B&M section 6.3.2. Output: roll command in rad, right positive, limited, smoothed and
+/// rate-limited.
 class CourseHold {
  public:
   /// Roll command. `feedforward_rad` is the bank that the path needs.

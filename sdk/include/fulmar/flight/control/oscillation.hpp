@@ -11,16 +11,15 @@
 namespace fulmar {
 
 /// Counts swings: half waves of a signal, each beyond a threshold, none much smaller than the one before,
-/// each as long as a half wave of 8 to 63 rad/s. Gusts and manoeuvres make two or three in a row. What the
-/// command alone makes of the signal is no oscillation of the loop: where it swings half as far, nothing
-/// counts.
+/// each as long as a half wave of 8 to 63 rad/s. Gusts and manoeuvres make two or three in a row. The part
+/// that the command causes is no oscillation of the loop: where it swings half as far, nothing counts.
 class Swings {
  public:
   /// Swings in a row that are an oscillation.
   static constexpr int many = 5;
 
-  /// True once `many` have been counted; then it counts anew. `caused`: the part of `signal` that comes from
-  /// the command, through gains and feed-forward.
+  /// True once `many` have been counted; then the count restarts. `caused`: the part of `signal` that comes
+  /// from the command, through gains and feed-forward.
   bool step(double signal, double caused, double threshold, double dt_s) {
     const double y = fast_.step(signal, wash_out_radps, dt_s),
                  c = std::abs(commanded_.step(caused, wash_out_radps, dt_s));
@@ -51,7 +50,7 @@ class Swings {
   bool positive_ = false, large_ = false;
 };
 
-/// What the gains of a loop are multiplied by: by `share` with each oscillation, down to `least`, and kept
+/// Factor on the gains of a loop: multiplied by `share` with each oscillation, down to `least`, and kept
 /// until `restore()`.
 class Quietening {
  public:
@@ -63,7 +62,7 @@ class Quietening {
     gain_ = std::max(share * gain_, least);
     return true;
   }
-  /// Nothing has swung yet: after a hand-over, on the ground. The gain stays.
+  /// Clears the count: after a switch, on the ground. The gain stays.
   void begin() { swings_.reset(); }
   void restore() { *this = {}; }
   double gain() const { return gain_; }

@@ -14,6 +14,7 @@
 
 namespace fulmar {
 
+/// Gains and rate limits of OuterCommands.
 struct OuterTuning {
   CourseTuning course;
   TakeoffTuning takeoff;
@@ -26,12 +27,16 @@ inline bool flying(const VehicleState& state, const FlightLimits& limits) {
   return !standing(state) && (!state.airspeed_valid || state.airspeed_mps > 0.6 * limits.airspeed_min_mps);
 }
 
+/// Action of an outer law in this step: engine off on the ground, take-off run, guidance, wings level without
+/// a valid state, or roll-out.
 enum class OuterAction : std::uint8_t { wait, take_off, hold, level, roll_out };
 
+/// Roll, pitch and throttle commands of an outer law, bumpless over changes of law, phase and controller.
+/// Roll and pitch in rad, throttle 0 to 1.
 class OuterCommands {
  public:
-  /// A new law, phase or controller: go on from `last`. What the take-off law asked for says nothing about
-  /// trim and is not taken up.
+  /// At a new law, phase or controller: continues from `last`. Commands of the take-off law contain no trim
+  /// and are not taken up.
   void start(OuterLaw law, const VehicleState& state, const AttitudeCommand& last) {
     taking_up_ = !(started_ && law_ == OuterLaw::takeoff);
     law_ = law;
@@ -43,10 +48,10 @@ class OuterCommands {
     if (law == OuterLaw::takeoff) run_.begin(state);
   }
 
-  /// The same, or when nobody's command is in force - `last` is null: the pilot flies, or a host begins in
-  /// the air - from the attitude that the aircraft has, as far as the law may ask for it, and the throttle of
-  /// level flight: the pilot's is not known, and what was asked for before he flew says nothing about now.
-  /// Zeros are a command: a glide, wings level. Returns whether integrals have something to take up.
+  /// The same after a switch. `last` is null when no command was applied: the pilot flew, or the host started
+  /// in the air. Then it begins with the attitude of the aircraft within the law's limits, and with cruise
+  /// throttle. Zeros are a valid command: a glide, wings level. Returns true when integrals have a command to
+  /// take up.
   bool take_over(OuterLaw law, const VehicleState& state, const AttitudeCommand* last,
                  const OuterTuning& tuning, const FlightLimits& limits) {
     AttitudeCommand from = last ? *last : AttitudeCommand{};
@@ -63,10 +68,10 @@ class OuterCommands {
     return last != nullptr;
   }
 
-  /// What is to be done in this step; starts the law anew when it was changed without a hand-over. Without a
-  /// `sense` in what is asked for: level.
+  /// Action of this step; restarts the law when it was changed without a switch. Without `sense`, the command
+  /// is not finite: level.
   OuterAction begin(OuterLaw law, const VehicleState& state, bool sense = true) {
-    if (!started_) {  // nobody flew before: there is nothing to go on from
+    if (!started_) {  // no component flew before: no command to continue from
       law_ = law;
       started_ = true;
       run_.begin(state);
@@ -86,7 +91,7 @@ class OuterCommands {
   AttitudeCommand take_off(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits,
                            double dt_s) {
     const AttitudeCommand wanted = run_.step(state, tuning.takeoff, limits, dt_s);
-    // A propeller in somebody's hand does not run down: what flew before may have asked for power.
+    // Hand launch: the motor stops at once, even when the last command had power.
     if (tuning.takeoff.launch_mps2 > 0 && !run_.launched()) throttle_.reset_to(0);
     return finish(course_.shape(wanted.roll_rad, tuning.course, dt_s), wanted.pitch_rad, wanted.throttle_frac,
                   tuning, dt_s);
@@ -118,7 +123,7 @@ class OuterCommands {
     return finish(course_.shape(0, tuning.course, dt_s), pitch_rad, throttle_frac, tuning, dt_s);
   }
 
-  /// Out of a stall, and up again. What holds next goes on from here, as after a hand-over.
+  /// Recovery from a stall and the climb after it. The next `hold` continues from here, as after a switch.
   AttitudeCommand recover(double roll_rad, double pitch_rad, double throttle_frac, const OuterTuning& tuning,
                           double dt_s) {
     finish(roll_rad, pitch_rad, throttle_frac, tuning, dt_s);
@@ -149,7 +154,7 @@ class OuterCommands {
     return last_;
   }
 
-  /// The next `hold` is the first since a hand-over: integrals are to take up what `last()` asks of them.
+  /// True when the next `hold` is the first after a switch: integrals then take up `last()`.
   bool taking_up() const { return taking_up_; }
   const AttitudeCommand& last() const { return last_; }
   OuterLaw law() const { return law_; }
@@ -179,7 +184,7 @@ inline double scheduling_airspeed(const VehicleState& state, const FlightLimits&
                               : limits.airspeed_cruise_mps;
 }
 
-/// What an outer law needs to do what it is asked for. Without one of them it still flies, degraded.
+/// True when all inputs of an outer law are valid; otherwise it flies degraded.
 inline bool enough_known(const VehicleState& state) {
   return state.attitude_valid && state.velocity_valid && state.height_valid && state.airspeed_valid;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the outer laws have in common beside how they hold height and speed: their parameters, the course of a
-// step, and what a banked turn costs. A law is left with a function from a turn to pitch and throttle.
+// Common part of outer laws: parameters, the sequence of a step, and the demands of a banked turn. A law
+// supplies a function from a turn to pitch and throttle.
 //
 //   struct Params { OuterParams common;  Param height_kp{...}; };
 //   void configure(const Params& p) { loop_.configure(p.common); }
@@ -32,46 +32,45 @@ namespace fulmar {
 struct OuterParams {
   Choice<OuterLaw> law{
       OuterLaw::hold,
-      "hold: follow guidance; takeoff: full throttle, wings level, rotate, keep the runway's course; "
-      "roll_out: throttle closed, wings level, pitch as the wheels give it"};
+      "active law; hold: follow guidance; takeoff: full throttle, wings level, rotation, course of the "
+      "runway; roll_out: closed throttle, wings level, pitch of the aircraft on its wheels"};
 
   Param course_kp{2.0, "rad/rad", 0, 10,
                   "roll per course error at cruise ground speed: course bandwidth = kp g / Va"};
   Param course_ki{0.0, "rad/(rad s)", 0, 2, "roll per integrated course error"};
-  Param roll_limit{0.785, "rad", 0.05, 1.2,
-                   "largest roll command; the airframe's own limit holds as well, and near the stall what "
-                   "the wing carries"};
-  Param roll_rate_limit{1.0, "rad/s", 0.1, 6, "fastest change of the roll command"};
+  Param roll_limit{
+      0.785, "rad", 0.05, 1.2,
+      "limit of the roll command, with the limits of the airframe and of the lift near the stall"};
+  Param roll_rate_limit{1.0, "rad/s", 0.1, 6, "rate limit of the roll command"};
   Param roll_smoothing{0.1, "s", 0, 2, "time constant of the roll command"};
 
   Param pitch_limit{0.35, "rad", 0.1, 1.0,
-                    "largest pitch command, either way; the airframe's own limits hold as well"};
-  Param pitch_rate_limit{0.8, "rad/s", 0.05, 6, "fastest change of the pitch command"};
-  Param throttle_rate_limit{2.0, "1/s", 0.1, 20, "fastest change of the throttle"};
-  Param turn_kff{1.0, "ratio", 0, 2, "share of the pitch and throttle that a banked turn needs, fed forward"};
+                    "limit of the pitch command, either way, with the limits of the airframe"};
+  Param pitch_rate_limit{0.8, "rad/s", 0.05, 6, "rate limit of the pitch command"};
+  Param throttle_rate_limit{2.0, "1/s", 0.1, 20, "rate limit of the throttle"};
+  Param turn_kff{1.0, "ratio", 0, 2, "fed-forward share of the pitch and throttle for a banked turn"};
 
   Param takeoff_throttle{1.0, "ratio", 0, 1, "throttle of the take-off law"};
   Param takeoff_pitch{0.21, "rad", 0, 0.6, "pitch of the take-off law after rotation"};
-  Param takeoff_airspeed{13.0, "m/s", 3, 60, "airspeed at which the take-off law rotates"};
+  Param takeoff_airspeed{13.0, "m/s", 3, 60, "rotation airspeed of the take-off law"};
   Param takeoff_kp{1.0, "rad/rad", 0, 5, "roll per course error of the take-off law, airborne"};
-  Param takeoff_roll_limit{0.15, "rad", 0, 0.5, "largest roll command of the take-off law"};
+  Param takeoff_roll_limit{0.15, "rad", 0, 0.5, "limit of the roll command of the take-off law"};
 
-  Param launch_acceleration{0, "m/s2", 0, 200,
-                            "along the nose: the take-off law waits for a throw with the motor off; 0: it "
-                            "rolls"};
-  Param launch_speed{4.0, "m/s", 0.5, 60, "over ground, that makes a throw of an acceleration"};
+  Param launch_acceleration{
+      0, "m/s2", 0, 200,
+      "acceleration along the nose that counts as a launch; motor off before it; 0: rolling take-off"};
+  Param launch_speed{4.0, "m/s", 0.5, 60, "minimum ground speed of a launch"};
   Param launch_delay{0.3, "s", 0, 5,
-                     "from the end of the push to the motor: the propeller clears hand or rail"};
+                     "delay from the end of the push to the motor start: clearance of the propeller"};
 
-  Param airspeed_smoothing{0.5, "s", 0, 10,
-                           "time constant of the airspeed whose trim is flown: pitch does not follow gusts"};
+  Param airspeed_smoothing{0.5, "s", 0, 10, "time constant of the airspeed for the trim"};
 
-  Flag stall_guard{true,
-                   "a stall is recognised and left, and the angle of attack limits pitch; off in a flare"};
+  Flag stall_guard{true, "switch for stall recovery and the pitch limit by angle of attack; off in a flare"};
 
-  Record<Airframe> airframe{"limits, trims, and the derivatives for the feed-forward of turns"};
+  Record<Airframe> airframe{"airframe with limits, trims and derivatives for the feed-forward of turns"};
 };
 
+/// Tuning from the parameters; the roll limit is the smaller of the parameter and the airframe's.
 inline OuterTuning tuning(const OuterParams& p) {
   const FlightLimits& limits = p.airframe->limits;
   OuterTuning t;
@@ -88,14 +87,15 @@ inline OuterTuning tuning(const OuterParams& p) {
   return t;
 }
 
-/// The level turn that is asked for, and what it needs beside level flight at the same airspeed: the share
-/// `turn_kff` of it, by the airframe's model (turn_trim.hpp).
+/// The commanded level turn, and the share `turn_kff` of its demands beyond level flight at the same
+/// airspeed, by the airframe's model (turn_trim.hpp).
 struct LevelTurn {
   double Va_mps;       ///< true airspeed for divisions, smoothed: never near 0 (scheduling_airspeed)
   double pitch_rad;    ///< trim, the turn's share included
   double drag_newton;  ///< beyond that of level flight
-  Envelope within;     ///< what may be asked for
+  Envelope within;     ///< limits of the commands
 };
+/// Result of a law's `hold`: pitch command in rad, throttle 0 to 1.
 struct PitchThrottle {
   double pitch_rad, throttle_frac;
 };
@@ -105,6 +105,8 @@ inline double air_density(const VehicleState& state) {
   return standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
 }
 
+/// Level turn at bank `roll_rad`, true airspeed `Va`, m/s, and density `rho`, kg/m3. `within` stays at its
+/// defaults.
 inline LevelTurn level_turn(double roll_rad, double Va, double rho, const OuterParams& p) {
   const TurnTrims trims(*p.airframe, Va, rho);
   const TurnTrim turn = trims.at(roll_rad), level = trims.at(0);
@@ -114,6 +116,7 @@ inline LevelTurn level_turn(double roll_rad, double Va, double rho, const OuterP
           {}};
 }
 
+/// The same in the standard atmosphere at the aircraft's altitude.
 inline LevelTurn level_turn(double roll_rad, double Va, const VehicleState& state, const OuterParams& p) {
   return level_turn(roll_rad, Va, air_density(state), p);
 }
@@ -127,15 +130,15 @@ struct OuterLoop {
   LowPass airspeed;          ///< m/s, for trims
   NearbyDensity density;     ///< kg/m3, of the standard atmosphere
   std::uint32_t resets = 0;  ///< of the state, seen so far
-  /// From another law, and has not stepped since. Nothing fades here, unlike in the inner law: the limits of
-  /// rates, which always hold, begin at what flew before (OuterCommands::start).
+  /// Set at a switch until the first step. Nothing is faded, unlike in the inner law: the rate limits, which
+  /// always apply, start at the last commands (OuterCommands::start).
   bool took_over = false;
   bool flares = false;  ///< of the law, which sets it: speed is to go, and no stall is to be left
 
-  /// Computes what the wing carries. Where a law has no `configure`, the first step does.
+  /// Computes the lift limits. Where a law has no `configure`, the first step does.
   void configure(const OuterParams& p) { guard.configure(*p.airframe); }
 
-  /// Goes on from what was applied last. False: nobody flew, and integrals are to begin empty.
+  /// Continues from the outputs applied last. False: no component flew, and integrals start empty.
   template <class Outputs>
   bool activate(const VehicleState& state, const OuterParams& p, const Applied<Outputs>& last) {
     airspeed.reset_to(scheduling_airspeed(state, p.airframe->limits));
@@ -151,8 +154,8 @@ struct OuterLoop {
   template <class Outputs, class Rest, class Hold>
   Status step(const Tick& tick, const VehicleState& state, const GuidanceCommand& command,
               const OuterParams& p, Outputs& out, Rest&& rest, Hold&& hold) {
-    // A gap must not throw the integrators. In the tick of a hand-over who flew before has stepped: two steps
-    // in one would be twice as fast as the command may go.
+    // A gap must not move the integrators far. In the tick of a switch the component before has stepped
+    // already; a second step would exceed the rate limits.
     const double dt = took_over ? 0 : std::clamp(tick.dt_s(), 0.0, 0.1);
     took_over = false;
     if (!guard.configured()) configure(p);
@@ -166,7 +169,7 @@ struct OuterLoop {
     const bool holds = action == OuterAction::hold;
     if (!holds) rest();
     if (!holds || state.reset_count != resets) guard.reset();
-    // No aircraft was as fast as before a reset of the state: what is smoothed begins anew.
+    // A reset of the state changes the airspeed: the smoothing starts again.
     if (!holds || state.reset_count != resets) airspeed.reset_to(Va);
     resets = state.reset_count;
     switch (action) {
@@ -233,7 +236,7 @@ struct OuterLoop {
                    : 1;
   }
 
-  /// What the step says of itself, and what is reported of the envelope.
+  /// Status and internals of the step, and reports of the envelope.
   template <class Outputs>
   Status judge(const Tick& tick, const VehicleState& state, Outputs& out, bool flying, bool sense,
                double dt) {

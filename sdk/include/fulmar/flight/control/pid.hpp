@@ -7,10 +7,12 @@
 
 namespace fulmar {
 
+/// Gains, in units of the output per unit of error, per error and second, and per rate.
 struct PidGains {
   double kp = 0, ki = 0, kd = 0;
 };
 
+/// Input of one step. `error` is set-point minus measurement; `feedforward` has the unit of the output.
 struct PidInput {
   double error = 0;
   double rate = 0;  ///< time derivative of the measurement: damps, and does not kick when the set-point steps
@@ -18,6 +20,7 @@ struct PidInput {
   double min = -1, max = 1;  ///< of the output
 };
 
+/// One PID loop. Units are those of the gains; Åström & Hägglund (2006), chapter 3.
 class Pid {
  public:
   /// u = feedforward + kp e + I - kd rate, within [min, max]. `dt_s` is the time since the last step; 0
@@ -26,7 +29,7 @@ class Pid {
     const double direct = in.feedforward + gains.kp * in.error - gains.kd * in.rate;
     const double increment = gains.ki * in.error * dt_s;
     const double u = direct + integral_;
-    // Only growth into the limit is refused: an error of the other sign always unwinds.
+    // Only growth into the limit is blocked: an error of the other sign always unwinds.
     const bool deepens =
         (increment > 0 && u + increment > in.max) || (increment < 0 && u + increment < in.min);
     if (!deepens) integral_ += increment;
@@ -36,8 +39,8 @@ class Pid {
   }
 
   /// Bumpless start: the next step with the same input and dt 0 returns `output`. The integral takes up the
-  /// difference, at most `integral_limit` of it: a hand-over far from trim must not leave a bias that takes
-  /// long to unwind.
+  /// difference, at most `integral_limit` of it: a switch far from trim must not leave a bias that takes long
+  /// to unwind.
   void reset_to(double output, const PidGains& gains = {}, const PidInput& in = {},
                 double integral_limit = 1e300) {
     const double direct = in.feedforward + gains.kp * in.error - gains.kd * in.rate;
@@ -57,10 +60,10 @@ class Pid {
   bool saturated_ = false;
 };
 
-/// While a limit governs a demand there is nothing to learn from the error; but what was learnt before must
-/// not hold the aircraft away for ever. When less than half of the demand is flown for some seconds, this is
-/// what is missing of it, to be integrated: up as far as the integral is below 0, since an engine that does
-/// not give a climb teaches nothing, and down to `least`.
+/// While a limit governs a demand, the error is not integrated; but an old integral must not hold the
+/// aircraft away for ever. When less than half of the demand is met for some seconds, this returns the
+/// missing part for integration: up while the integral is below 0, since a climb beyond the engine's power
+/// teaches nothing, and down to `least`.
 class LateDemand {
  public:
   /// `demanded` and `flown` in one unit; `integral` and `least` in that of the output.

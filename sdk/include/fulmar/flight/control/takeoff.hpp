@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every outer loop shares near the ground and near the stall: is the aircraft standing, how far may the
-// nose rise, and the take-off run.
+// Common parts of outer loops near the ground and near the stall: standing, pitch limit, and the take-off
+// run.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@
 
 namespace fulmar {
 
-/// On the ground and not moving. Without airspeed only what is low counts: a slow ground speed may as well be
-/// a strong head wind.
+/// On the ground and not moving. Without airspeed only a low height counts, because a slow ground speed may
+/// be a strong head wind.
 inline bool standing(const VehicleState& state) {
   constexpr double slow_mps = 3, low_m = 3;
   if (state.ground_speed_mps >= slow_mps || std::abs(state.climb_rate_mps) >= slow_mps) return false;
@@ -26,10 +26,12 @@ inline double pitch_ceiling(const VehicleState& state, const FlightLimits& limit
   if (!state.airspeed_valid) return limits.pitch_max_rad;
   return limits.pitch_max_rad * smoothly(state.airspeed_mps, 0.8 * slowest_mps, slowest_mps);
 }
+/// The same with the airframe's minimum airspeed.
 inline double pitch_ceiling(const VehicleState& state, const FlightLimits& limits) {
   return pitch_ceiling(state, limits, limits.airspeed_min_mps);
 }
 
+/// Tuning of TakeoffRun. Speeds are true airspeed, m/s, unless a comment names another.
 struct TakeoffTuning {
   double throttle_frac = 1;
   double pitch_rad = 0.2;  ///< after rotation
@@ -94,7 +96,7 @@ class TakeoffRun {
   bool launched() const { return launched_; }
 
  private:
-  /// Who holds it may turn it meanwhile: the course is that of the nose when it leaves.
+  /// The thrower may turn the aircraft: the course is that of the nose at the release.
   bool thrown(const VehicleState& state, const TakeoffTuning& tuning, double dt_s) {
     constexpr double for_s = 0.1, within_s = 0.5;
     const bool pushed = state.specific_force_mps2.x > tuning.launch_mps2;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trim of a steady coordinated turn, from an airframe's linear lift and pitching moment: what a control law
-// feeds forward so that height does not sag when the wing banks. Beard & McLain, Small Unmanned Aircraft
-// (2012), sections 5.3 and 9.2.
+// Trim of a steady coordinated turn, from an airframe's linear lift and pitching moment: the feed-forward of
+// a law that keeps height in a bank. Beard & McLain, Small Unmanned Aircraft (2012), sections 5.3 and 9.2.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -19,6 +18,8 @@ struct TurnRates {
 inline constexpr double steepest_turn_rad = 1.2, steepest_turn_tan = 2.5721516221263188,
                         steepest_turn_load = 2.759703601332406;
 
+/// TurnRates at bank, pitch and true airspeed. The tangent is that of at most `steepest_turn_rad`, the
+/// airspeed at least 1 m/s.
 inline TurnRates turn_rates(double roll_rad, double pitch_rad, double airspeed_mps,
                             double gravity_mps2 = 9.80665) {
   const double s = std::sin(roll_rad), c = std::cos(roll_rad);  // both at once, which a tangent is not
@@ -34,6 +35,7 @@ inline double load_factor(double roll_rad) {
   return std::abs(roll_rad) <= steepest_turn_rad ? 1 / std::cos(roll_rad) : steepest_turn_load;
 }
 
+/// Angle of attack, elevator and drag of a level turn.
 struct TurnTrim {
   double alpha_rad = 0;
   double elevator_rad = 0;
@@ -53,7 +55,7 @@ class TurnTrims {
     const double determinant = L.alpha_ratio * M.elevator_ratio - L.elevator_ratio * M.alpha_ratio;
     if (std::abs(determinant) < 1e-9 || qS_ < 1e-9) return;
     solvable_ = true;
-    // Divisions are what a trim costs, and a law asks for two at each step.
+    // Divisions dominate the cost of a trim, and a law needs two in each step.
     per_determinant_ = 1 / determinant;
     level_lift_ = a_.mass_kg * g_ / qS_;
     half_chord_time_ = 0.5 * a_.wing.chord_m / Va_;

@@ -34,6 +34,7 @@ struct AirOf {
 };
 using Air = AirOf<double>;
 
+/// Density, kg/m3, of dry air as an ideal gas.
 inline double air_density(double pressure_pa, double temperature_kelvin) {
   return pressure_pa / (isa::gas_constant * temperature_kelvin);
 }
@@ -49,6 +50,7 @@ inline double geopotential_altitude(double geometric_m) {
   return isa::earth_radius * geometric_m / (isa::earth_radius + geometric_m);
 }
 
+/// `standard_air` over the scalar `S`. `altitude_m`: geopotential, above mean sea level.
 template <class S>
 AirOf<S> standard_air_of(const S& altitude_m, const AirOffset& offset = {}) {
   using std::exp, std::pow;
@@ -74,8 +76,8 @@ inline Air standard_air(double altitude_m, const AirOffset& offset = {}) {
   return standard_air_of(altitude_m, offset);
 }
 
-/// Density of the standard air, computed anew once the altitude has changed by a metre: within 1e-4 of it,
-/// for laws that ask at each step.
+/// Density of the standard air, recomputed when the altitude has changed by a metre: within 1e-4, for laws
+/// that need it in each step.
 class NearbyDensity {
  public:
   double at(double altitude_m) {

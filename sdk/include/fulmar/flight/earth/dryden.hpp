@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dryden turbulence in body axes. Source: MIL-F-8785C / MIL-HDBK-1797; forming filters and figures of Beard &
-// McLain (4.24) and table 4.1. The filters are discretised exactly: what they put out is a sample of the
+// McLain (4.24) and table 4.1. The filters are discretised exactly: their output is a sample of the
 // continuous process at any step and any changing airspeed.
 #pragma once
 #include <Eigen/Core>
@@ -13,9 +13,10 @@
 
 namespace fulmar {
 
+/// Levels of MIL-F-8785C.
 enum class Turbulence : std::uint8_t { none, light, moderate, severe };
 
-/// Scale lengths, m, and deviations, m/s, along body x, y, z.
+/// Scale lengths, m, and standard deviations, m/s, along body x, y, z.
 struct DrydenScales {
   Eigen::Vector3d length{200, 200, 50};
   Eigen::Vector3d sigma{0, 0, 0};
@@ -31,6 +32,7 @@ inline DrydenScales dryden_scales(Turbulence turbulence) {
   return {{200, 200, 50}, k * Eigen::Vector3d(1.06, 1.06, 0.7)};
 }
 
+/// Gust velocity along the body axes, m/s. The same seed and steps give the same gusts.
 class Dryden {
  public:
   Dryden(const DrydenScales& scales, std::uint64_t seed) : scales_(scales), random_(seed) {
@@ -42,8 +44,8 @@ class Dryden {
     }
   }
 
-  /// Other lengths and deviations from here on. The state has no unit: gusts grow or shrink with the
-  /// deviations and do not jump.
+  /// New lengths and standard deviations from here on. The state has no unit: gusts grow or shrink with the
+  /// standard deviations and do not jump.
   void set_scales(const DrydenScales& scales) {
     scales_ = scales;
     dt_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scale lengths and deviations of Dryden turbulence over the height above the ground. Source: MIL-F-8785C
-// 3.7.2 (medium and high altitude) and 3.7.3 (low altitude), figures 7, 10 and 11.
+// Scale lengths and standard deviations of Dryden turbulence over the height above the ground. Source:
+// MIL-F-8785C 3.7.2 (medium and high altitude) and 3.7.3 (low altitude), figures 7, 10 and 11.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -37,7 +37,7 @@ inline double high_sigma(Turbulence strength, double h_ft) {
   return foot * (s[i - 1] + part * (s[i] - s[i - 1]));
 }
 
-/// Up to 1000 ft. Lengths: figure 10; deviations: figure 11, sigma_w = 0.1 of the wind at 20 ft.
+/// Up to 1000 ft. Lengths: figure 10; standard deviations: figure 11, sigma_w = 0.1 of the wind at 20 ft.
 inline DrydenScales low_altitude(double h_ft, double wind_20ft_mps) {
   const double h = std::clamp(h_ft, lowest_ft, low_top_ft), k = 0.177 + 0.000823 * h;
   const double L = foot * h / std::pow(k, 1.2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rotation of turbulent air over the wing: what gusts along the axes (dryden.hpp) leave out. Source:
+// Rotation of turbulent air over the wing, which gusts along the axes (dryden.hpp) leave out. Source:
 // MIL-F-8785C 3.7.5 with the spectra of 3.7.1.2, in the low-altitude form
 //   Phi_p = sigma_w^2/(V L_w) 0.8 (pi L_w/(4 b))^(1/3) / (1 + (4 b w/(pi V))^2)
 //   q_g = -(s/V)/(1 + 4 b s/(pi V)) w_g,   r_g = (s/V)/(1 + 3 b s/(pi V)) v_g
@@ -17,13 +17,14 @@
 
 namespace fulmar {
 
+/// Angular velocity of turbulent air about the body axes, rad/s, for one wing span.
 class DrydenRotation {
  public:
   /// `span_m`: of the wing, above 0.
   DrydenRotation(double span_m, std::uint64_t seed) : b_(span_m), random_(seed) { p_ = random_.normal(); }
 
-  /// Angular velocity of the air, rad/s, body axes, after a further `dt` at airspeed `Va`, where `gust_b` is
-  /// what `Dryden` of these scales says for the same moment, m/s.
+  /// Angular velocity of the air, rad/s, body axes, after a further `dt` at airspeed `Va`; `gust_b`, m/s, is
+  /// the gust of `Dryden` with these scales at the same moment.
   Eigen::Vector3d advance(double dt, double Va, const Eigen::Vector3d& gust_b, const DrydenScales& scales) {
     const double V = std::max(Va, 5.0);  // as Dryden: air is carried past what stands still, too
     const double pole = std::numbers::pi * V / (4 * b_), pole_r = std::numbers::pi * V / (3 * b_);
@@ -34,7 +35,8 @@ class DrydenRotation {
             pole_r / V * v_.step(gust_b.y(), pole_r, dt)};
   }
 
-  /// Of the rolling gusts, rad/s: the root of the integral of Phi_p over all frequencies above 0.
+  /// Standard deviation of the rolling gusts, rad/s: the root of the integral of Phi_p over all frequencies
+  /// above 0.
   static double deviation_p(const DrydenScales& scales, double span_m) {
     constexpr double pi = std::numbers::pi;
     const double L = scales.length.z(), b = span_m;
@@ -44,7 +46,7 @@ class DrydenRotation {
  private:
   double b_;
   Random random_;
-  double p_ = 0;  ///< of deviation 1
+  double p_ = 0;  ///< standard deviation 1
   WashOut v_, w_;
 };
 

@@ -43,6 +43,7 @@ inline constexpr std::array<Coefficient, 90> coefficients{{
 }};
 // clang-format on
 
+/// Place of degree `n` and order `m` in `coefficients`: 1 <= n <= 12, 0 <= m <= n.
 inline constexpr std::size_t index(int n, int m) { return static_cast<std::size_t>(n * (n + 1) / 2 + m - 1); }
 
 /// Schmidt semi-normalised associated Legendre functions of sin(phi') and their derivative by phi', n and m

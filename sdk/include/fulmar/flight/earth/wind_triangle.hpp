@@ -10,8 +10,8 @@
 
 namespace fulmar {
 
-/// What it takes to fly a course. When the wind leaves no way, `feasible` is false and the nose points as far
-/// against the cross wind as it can without going backwards.
+/// Heading and ground speed on a course. When the wind leaves no solution, `feasible` is false and the nose
+/// points as far against the cross wind as it can without flying backwards.
 struct WindTriangle {
   double heading_rad = 0;       ///< direction of the air velocity
   double ground_speed_mps = 0;  ///< along the course; negative: blown backwards
@@ -34,6 +34,7 @@ inline WindTriangle fly_course(double course_rad, double airspeed_mps, double wi
   return triangle;
 }
 
+/// The same; the vertical wind is ignored.
 inline WindTriangle fly_course(double course_rad, double airspeed_mps, const Vec3<Ned>& wind_mps) {
   return fly_course(course_rad, airspeed_mps, wind_mps.north, wind_mps.east);
 }

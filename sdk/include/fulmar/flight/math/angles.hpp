@@ -20,7 +20,7 @@ inline double wrap_2pi(double angle_rad) {
   return wrapped < 2 * std::numbers::pi ? wrapped : 0;  // a tiny negative angle rounds up to 2 pi itself
 }
 
-/// The short way from `from` to `to`, in [-pi, pi]: what a course error is.
+/// The short way from `from` to `to`, in [-pi, pi], as for a course error.
 inline double angle_difference(double to_rad, double from_rad) { return wrap_pi(to_rad - from_rad); }
 
 /// 0 below `from`, 1 above `to`, between them 3 t^2 - 2 t^3: value and slope are continuous. `from` may

@@ -2,6 +2,10 @@
 // Attitude: 3-2-1 Euler angles, rotation vectors, attitude from two directions. Quaternions turn body into
 // NED, scalar first. Sources: Beard & McLain (2012) chapter 2 and appendix B; Sola, Quaternion kinematics for
 // the error-state Kalman filter (2017); TRIAD: Black (1964).
+//
+// Suffixes of vectors and rotations in fulmar/flight and fulmar/sim: _n north, east, down from the origin;
+// _b body, forward, right, down from the centre of gravity; _e Earth-centred, Earth-fixed; q_nb and R_nb turn
+// body into NED. v_r is the velocity relative to the air in body axes, u_n the same in NED.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -18,6 +22,7 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   return m;
 }
 
+/// 3-2-1 Euler angles of the attitude q_nb: yaw, then pitch, then roll.
 struct Euler {
   double roll_rad = 0, pitch_rad = 0, yaw_rad = 0;
 };
@@ -36,6 +41,7 @@ inline Euler euler_from(const Eigen::Matrix3d& R_nb) {
     return {0, std::copysign(std::numbers::pi / 2, s), std::atan2(-R_nb(0, 1), R_nb(1, 1))};
   return {std::atan2(R_nb(2, 1), R_nb(2, 2)), std::asin(s), std::atan2(R_nb(1, 0), R_nb(0, 0))};
 }
+/// The same of a unit quaternion.
 inline Euler euler_from(const Eigen::Quaterniond& q_nb) { return euler_from(q_nb.toRotationMatrix()); }
 
 /// Quaternion of a rotation vector (axis times angle).

@@ -85,6 +85,7 @@ struct Dual {
 
 namespace Eigen {
 
+/// Lets Dual be the scalar of Eigen's matrices.
 template <int N>
 struct NumTraits<fulmar::Dual<N>> : GenericNumTraits<fulmar::Dual<N>> {
   using Real = fulmar::Dual<N>;
@@ -94,10 +95,12 @@ struct NumTraits<fulmar::Dual<N>> : GenericNumTraits<fulmar::Dual<N>> {
   enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = N, AddCost = N };
   enum { MulCost = 2 * N };
 };
+/// A Dual with a double gives a Dual.
 template <int N, class Operation>
 struct ScalarBinaryOpTraits<fulmar::Dual<N>, double, Operation> {
   using ReturnType = fulmar::Dual<N>;
 };
+/// A double with a Dual gives a Dual.
 template <int N, class Operation>
 struct ScalarBinaryOpTraits<double, fulmar::Dual<N>, Operation> {
   using ReturnType = fulmar::Dual<N>;

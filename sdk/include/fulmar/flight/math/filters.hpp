@@ -7,7 +7,7 @@
 
 namespace fulmar {
 
-/// exp(-x), computed anew when x changes: steps are mostly of one length.
+/// exp(-x), recomputed when x changes: most steps have one length.
 class Decay {
  public:
   double of(double x) {

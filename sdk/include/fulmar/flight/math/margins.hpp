@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability margins of a loop from samples of its frequency response. The loop closes by 1 + L: L is what is
-// measured around it, with the sign of negative feedback. Åström & Murray, Feedback Systems (2008), section
-// 9.3. They are margins of a loop that is stable when closed; whether it is, unstable_poles() tells.
+// Stability margins of a loop from samples of its frequency response. The loop closes by 1 + L: L is the
+// response around it, with the sign of negative feedback. Åström & Murray, Feedback Systems (2008), section
+// 9.3. They apply to a loop that is stable when closed, which unstable_poles() checks.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 
 namespace fulmar {
 
+/// The open loop at one frequency.
 struct LoopSample {
   double radps = 0;
   std::complex<double> gain;  ///< L(j omega)

@@ -83,7 +83,7 @@ inline TableRange table_range(const Aerodynamics& aero, TableVariable of) {
   return range;
 }
 
-/// What is wrong with a table that is read: "values: ...", or "" when nothing is.
+/// Error of a table that is read: "values: ...", or "" when it is valid.
 inline std::string table_fault(const CoefficientTable& t) {
   const auto beyond = [](TableVariable over, const auto& at) {
     return over != TableVariable::mach && !at.empty() &&

@@ -14,6 +14,7 @@
 
 namespace fulmar {
 
+/// Aerodynamic force, N, and moment, N m, in body axes, about the centre of gravity. Angles in rad.
 class Aerodynamic {
  public:
   explicit Aerodynamic(const Airframe& a)
@@ -74,9 +75,9 @@ class Aerodynamic {
     return out;
   }
 
-  /// Of elevator and rudder, so far as they stand in the slipstream of a propeller with this thrust, N. Far
-  /// behind it V^2 = Va^2 + 2 T / (rho A): Froude's momentum theory (Glauert, The Elements of Aerofoil and
-  /// Airscrew Theory, chapter XV). A braking propeller takes no more than the flow that there is.
+  /// Adds the effect of elevator and rudder in the slipstream of a propeller with this thrust, N. Far behind
+  /// it V^2 = Va^2 + 2 T / (rho A): Froude's momentum theory (Glauert, The Elements of Aerofoil and Airscrew
+  /// Theory, chapter XV). A braking propeller takes no more than the available flow.
   template <class S>
   void add_wash(const Eigen::Vector3<S>& v_r, const DeflectionsOf<S>& d, const S& thrust, const S& rho,
                 LoadOf<S>& load) const {
@@ -93,7 +94,7 @@ class Aerodynamic {
   }
   bool washed() const { return aero_.wash_frac != 0; }
 
-  /// What tables over the Mach number go by; without them it says nothing.
+  /// Whether tables depend on the Mach number; then it needs the speed of sound.
   bool over_mach() const { return over_mach_; }
   void set_speed_of_sound(double mps) { sound_mps_ = mps; }
 
@@ -118,7 +119,7 @@ class Aerodynamic {
     out.moment_b.z() += wing_.span_m * qS * of(aero_.yaw, C::yaw);
   }
 
-  /// What few airframes have: apart, so that the others do not pay for it.
+  /// Terms of few airframes, in a function of their own so that other airframes do not pay for them.
   template <class S>
   [[gnu::noinline]] void add_more(const AirDataOf<S>& air, const S& sigma, const DeflectionsOf<S>& d,
                                   const S& half_rho_S, LoadOf<S>& out) const {

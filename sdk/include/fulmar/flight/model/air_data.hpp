@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What aerodynamic forces are functions of: the flow past the aircraft and its deflections.
+// Arguments of aerodynamic forces: the flow past the aircraft and its deflections.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>

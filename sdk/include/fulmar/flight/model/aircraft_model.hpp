@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulated aircraft as one function, rate = f(state, inputs), of what flies in the simulator: the same
-// aerodynamics, propeller, air and rigid body. Twelve states as in Beard & McLain, Small Unmanned Aircraft
-// (2012), table 3.1; still air; propeller and servos have reached what they are commanded.
+// The simulated aircraft as one function, rate = f(state, inputs), with the simulator's aerodynamics,
+// propeller, air and rigid body. Twelve states as in Beard & McLain, Small Unmanned Aircraft (2012), table
+// 3.1; still air; propeller and servos at their commands.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -15,9 +15,11 @@
 
 namespace fulmar {
 
-/// Where a state and an input stand in the vectors. m, m/s, rad, rad/s; rad and a part of full throttle.
+/// Indices of states and inputs in their vectors.
 namespace model {
+/// North, east and down, m; velocity in body axes, m/s; Euler angles, rad; body rates, rad/s.
 enum State : int { north, east, down, u, v, w, roll, pitch, yaw, p, q, r };
+/// Deflections in rad, signs as in `Actuators`; throttle 0 to 1.
 enum Input : int { aileron, elevator, rudder, throttle };
 inline constexpr int states = 12, inputs = 4;
 template <class S>
@@ -40,6 +42,7 @@ Eigen::Vector3<S> air_velocity(double Va, const S& alpha, const S& beta) {
   return {Va * cos(alpha) * cos(beta), Va * sin(beta), Va * sin(alpha) * cos(beta)};
 }
 
+/// The model of one airframe in still standard air. `S` is double, or Dual for derivatives.
 class AircraftModel {
  public:
   /// `altitude_m`: above mean sea level, where the state `down` is 0; geopotential, where that is another

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The model about a steady flight: d(x - x*)/dt = A (x - x*) + B (u - u*), by automatic differentiation of
-// what flies in the simulator. Beard & McLain, Small Unmanned Aircraft (2012), section 5.5.
+// the simulator's model. Beard & McLain, Small Unmanned Aircraft (2012), section 5.5.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -11,6 +11,7 @@
 
 namespace fulmar {
 
+/// A, 12 x 12, and B, 12 x 4, in the order and units of model::State and model::Input.
 struct LinearModel {
   Eigen::Matrix<double, model::states, model::states> A;
   Eigen::Matrix<double, model::states, model::inputs> B;
@@ -31,7 +32,7 @@ inline constexpr std::array<int, 8> motion_states{u, w, q, pitch, v, p, r, roll}
 inline constexpr std::array<int, 4> all_inputs{aileron, elevator, rudder, throttle};
 }  // namespace model
 
-/// By automatic differentiation, which only who calls it compiles.
+/// By automatic differentiation; a template, so that only its users compile it.
 template <std::same_as<AircraftModel> Model>
 LinearModel linear_model(const Model& m, const model::StateVector<double>& x,
                          const model::InputVector<double>& input) {
@@ -50,6 +51,7 @@ LinearModel linear_model(const Model& m, const model::StateVector<double>& x,
   return out;
 }
 
+/// The rows and columns of these states and inputs; couplings to others are left out.
 template <std::size_t N, std::size_t M>
 LinearBlock<N, M> block_of(const LinearModel& all, const std::array<int, N>& states,
                            const std::array<int, M>& inputs) {

@@ -8,7 +8,7 @@
 
 namespace fulmar {
 
-/// Of the pitching moment, what tables say at an angle of attack, all else 0.
+/// Part of the pitching moment coefficient from tables at an angle of attack, all other arguments 0.
 inline double tables_at(const Airframe& a, double alpha) {
   double sum = 0;
   for (const CoefficientTable& t : a.aero.tables)
@@ -34,6 +34,7 @@ inline double trimmed_lift(const Aerodynamic& aero, const Airframe& a, double al
 struct MostLift {
   double coefficient = 0, alpha_rad = 0;
 };
+/// Searched in steps of 1e-3 rad from 0 to 0.1 rad beyond the stall angle, at most 1 rad.
 inline MostLift max_lift(const Airframe& a) {
   const Aerodynamic aero(a);
   MostLift most;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Aileron, elevator and rudder, and the servos that move the surfaces. Beard & McLain, section 4.2: elevons,
-// delta_e = (right + left) / 2, delta_a = (left - right) / 2; ruddervators alike with the rudder. The servos
-// stand in the places of `Deflections`: left and right elevon in those of aileron and elevator, left and
-// right ruddervator in those of elevator and rudder.
+// delta_e = (right + left) / 2, delta_a = (left - right) / 2; ruddervators alike with the rudder. Servo
+// angles use the fields of `Deflections`: left and right elevon those of aileron and elevator, left and right
+// ruddervator those of elevator and rudder.
 #pragma once
 #include <algorithm>
 
@@ -16,11 +16,13 @@ struct Stops {
   double min = 0, max = 0;
   bool reach(double angle) const { return angle >= min && angle <= max; }
 };
+/// Stops in rad: `min_rad` and `max_rad` where the airframe gives them, else -limit and +limit.
 inline Stops stops(const Surface& s) {
   constexpr double unsaid = 9;  // rad
   return {s.min_rad < -unsaid ? -s.limit_rad : s.min_rad, s.max_rad > unsaid ? s.limit_rad : s.max_rad};
 }
 
+/// Servo angles, rad, that give these deflections; flaps pass unchanged. Not limited to the stops.
 inline Deflections to_servos(Mixer mixer, Deflections d) {
   if (mixer == Mixer::elevons) {
     const double elevator = d.elevator, aileron = d.aileron;
@@ -34,6 +36,7 @@ inline Deflections to_servos(Mixer mixer, Deflections d) {
   return d;
 }
 
+/// Inverse of `to_servos`.
 inline Deflections from_servos(Mixer mixer, Deflections servos) {
   if (mixer == Mixer::elevons) {
     const double left = servos.aileron, right = servos.elevator;
@@ -49,6 +52,7 @@ inline Deflections from_servos(Mixer mixer, Deflections servos) {
 
 /// Which of the three servos would have to go beyond its stops: none when all reach.
 enum class Beyond : unsigned char { none, aileron, elevator, rudder };
+/// The first of elevator, aileron and rudder servo that these deflections, rad, drive beyond its stops.
 inline Beyond beyond_stops(const Airframe& a, const Deflections& d) {
   const Deflections servos = to_servos(a.mixer, d);
   if (!stops(a.elevator).reach(servos.elevator)) return Beyond::elevator;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Modes of motion of a linear model, told apart by which states take part in them, never by their order or
-// size. Participation factors: Perez-Arriaga, Verghese & Schweppe, "Selective modal analysis", IEEE Trans.
+// Modes of motion of a linear model, distinguished by the states that take part in them, never by their order
+// or size. Participation factors: Perez-Arriaga, Verghese & Schweppe, "Selective modal analysis", IEEE Trans.
 // PAS-101 (1982): |left eigenvector times right eigenvector|, which does not depend on units. Modes: Etkin &
 // Reid, Dynamics of Flight (1996), chapter 6.
 #pragma once
@@ -24,6 +24,7 @@ namespace fulmar {
 /// Where two modes of a kind are real, the faster one has its name first.
 enum class ModeKind : std::uint8_t { short_period, phugoid, dutch_roll, roll, spiral, roll_spiral };
 
+/// One mode of motion: an eigenvalue of A, or a pair, with the participation of each state.
 struct Mode {
   ModeKind kind = ModeKind::short_period;
   std::complex<double> eigenvalue;        ///< of a pair the one above the real axis, 1/s
@@ -33,9 +34,9 @@ struct Mode {
   bool stable() const { return eigenvalue.real() < 0; }
   double natural_radps() const { return std::abs(eigenvalue); }
   double damping_ratio() const { return -eigenvalue.real() / std::abs(eigenvalue); }
-  /// Until it has fallen (grown) to 1/e (e) of what it was.
+  /// Time to fall to 1/e, or to grow to e.
   double time_constant_s() const { return 1 / std::abs(eigenvalue.real()); }
-  /// Until it has become half, or, when it is not stable, twice as large.
+  /// Time to half, or, when it is not stable, to double.
   double half_or_double_s() const { return std::numbers::ln2 / std::abs(eigenvalue.real()); }
   double period_s() const { return 2 * std::numbers::pi / eigenvalue.imag(); }
 };
@@ -105,8 +106,8 @@ inline void name_modes(std::vector<Mode> modes, ModeKind kind, std::vector<Mode>
 }  // namespace detail
 
 /// The modes, in the order of `ModeKind`. Each kind but roll and spiral is a pair, or two real ones when it
-/// does not oscillate; roll and spiral may have become one pair (`roll_spiral`). A template, so that who only
-/// names a mode does not compile eigenvectors: they take longer than most files.
+/// does not oscillate; roll and spiral may have become one pair (`roll_spiral`). A template, so that only its
+/// users compile eigenvectors, which takes longer than most files.
 template <std::same_as<LinearModel> Model>
 std::vector<Mode> modes_of(const Model& all) {
   // places in model::motion_states

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an airframe may have beside its derivatives: drag over squares, the pitching moment of separated flow,
-// tables, flaps.
+// Optional terms of an airframe beside its derivatives: drag over squares, the pitching moment of separated
+// flow, tables, flaps.
 #pragma once
 #include <cmath>
 #include <numbers>
@@ -11,12 +11,14 @@
 
 namespace fulmar {
 
+/// True when a coefficient depends on the flaps.
 inline bool has_flaps(const Aerodynamics& a) {
   for (const Derivatives* c : {&a.lift, &a.drag, &a.side, &a.roll, &a.pitch, &a.yaw})
     if (c->flap_ratio != 0) return true;
   return false;
 }
 
+/// True when the airframe has any of the terms of this header.
 inline bool has_more(const Aerodynamics& a) {
   const DragSquared& d = a.drag_squared;
   return d.beta_ratio != 0 || d.aileron_ratio != 0 || d.elevator_ratio != 0 || d.rudder_ratio != 0 ||
@@ -29,21 +31,23 @@ inline double propeller_disc(const Propulsion& p) {
   return p.disc.area_m2 > 0 ? p.disc.area_m2 : std::numbers::pi / 4 * D * D;
 }
 
+/// Arguments of the tables, in the order of TableVariable. `sound_mps`: speed of sound.
 template <class S>
 TablePoint<S> table_point(const AirDataOf<S>& air, const DeflectionsOf<S>& d, double sound_mps) {
   return {S(0.0), air.alpha, air.beta, S(air.Va / sound_mps), d.aileron, d.elevator, d.rudder};
 }
 
+/// CD of the squares of sideslip and deflections, rad.
 template <class S>
 S squared_drag(const DragSquared& of, const S& beta, const DeflectionsOf<S>& d) {
   return of.beta_ratio * beta * beta + of.aileron_ratio * d.aileron * d.aileron +
          of.elevator_ratio * d.elevator * d.elevator + of.rudder_ratio * d.rudder * d.rudder;
 }
 
-/// What is to be added to the derivatives' Cm0 + Cm_alpha ((1 - sigma) alpha + sigma sin(alpha)), so that it
-/// becomes (1 - sigma) (Cm0 + Cm_alpha alpha) + sigma Cm_fp sign(alpha) sin^2(alpha): the blending of Beard &
-/// McLain (4.9) for the moment, as Gryte, Hann, Alam, Rohac, Johansen & Fossen, "Aerodynamic modeling of the
-/// Skywalker X8 Fixed-Wing Unmanned Aerial Vehicle", ICUAS 2018, have it.
+/// Added to the derivatives' Cm0 + Cm_alpha ((1 - sigma) alpha + sigma sin(alpha)), it gives (1 - sigma) (Cm0
+/// + Cm_alpha alpha) + sigma Cm_fp sign(alpha) sin^2(alpha): the blending of Beard & McLain (4.9) for the
+/// moment, as in Gryte, Hann, Alam, Rohac, Johansen & Fossen, "Aerodynamic modeling of the Skywalker X8
+/// Fixed-Wing Unmanned Aerial Vehicle", ICUAS 2018.
 template <class S>
 S stalled_pitch(const Aerodynamics& a, const AirDataOf<S>& air, const S& sigma) {
   using std::copysign;

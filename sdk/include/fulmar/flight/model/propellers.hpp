@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the propellers stand: what thrust and torque do at their places. Each is the one of propulsion.hpp
-// and sees the airspeed of the centre of gravity. Rigid-body statics: M = r x T a - s Q a with the unit
-// vector a of its axis, s = 1 where it turns right.
+// Propellers at their places: thrust and torque on the airframe. Each is the one of propulsion.hpp, at the
+// airspeed of the centre of gravity. Rigid-body statics: M = r x T a - s Q a with the unit vector a of its
+// axis, s = 1 where it turns right.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -22,6 +22,7 @@ inline Eigen::Vector3d axis_of(const PropellerPlace& p) {
           -std::sin(p.tilt_rad)};
 }
 
+/// All propellers of an airframe: force, N, and moment, N m, in body axes, about the centre of gravity.
 class Propellers {
  public:
   static constexpr std::size_t most = 8;
@@ -63,7 +64,7 @@ class Propellers {
     return max(S(0.0), min(S(1.0), S(of_all + places_[i].per_rudder * rudder)));
   }
 
-  /// What all of them do at one speed.
+  /// Adds the load of all of them at one speed.
   template <class S>
   void add(const S& thrust, const S& torque, LoadOf<S>& load) const {
     if (alone_) {
@@ -73,7 +74,7 @@ class Propellers {
       add(all_, thrust, torque, load);
     }
   }
-  /// What one of them does.
+  /// Adds the load of one of them.
   template <class S>
   void add_one(std::size_t i, const S& thrust, const S& torque, LoadOf<S>& load) const {
     add(places_[i], thrust, torque, load);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Electric motor and propeller. Source: Beard & McLain, supplement to Small Unmanned Aircraft, "Propeller
 // thrust and torque" (2nd edition 4.3): thrust and torque polynomials over the advance ratio, motor speed
-// from the balance of torques. Or, where the airframe says so, the disc of the first edition (2012), section
+// from the balance of torques. Where the airframe selects it, the disc of the first edition (2012), section
 // 4.3, whose throttle is the propeller's speed over that at full throttle.
 #pragma once
 #include <algorithm>
@@ -17,6 +17,7 @@ inline bool has_thrust(const Propulsion& p) {
   return p.disc.area_m2 > 0 || p.ct0_ratio != 0 || p.ct1_ratio != 0 || p.ct2_ratio != 0;
 }
 
+/// One motor with its propeller. Speed in rad/s, airspeed in m/s, density in kg/m3.
 class Propeller {
  public:
   explicit Propeller(const Propulsion& p)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Six degrees of freedom over flat ground: a rigid body in NED, advanced by the classical fourth-order
-// Runge-Kutta method with the loads evaluated anew at each of its four stages. Source: Beard & McLain
-// (3.14)-(3.17), with the velocity in NED and the attitude as a quaternion.
+// Runge-Kutta method with loads at each of its four stages. Source: Beard & McLain (3.14)-(3.17), with the
+// velocity in NED and the attitude as a quaternion.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -29,6 +29,7 @@ struct LoadOf {
 };
 using Load = LoadOf<double>;
 
+/// Mass, kg, and inertia about the centre of gravity in body axes, kg m2.
 struct MassProperties {
   MassProperties(double mass_kg, const Eigen::Matrix3d& inertia_kgm2)
       : mass(mass_kg), J(inertia_kgm2), J_inverse(inertia_kgm2.inverse()) {}
@@ -41,11 +42,13 @@ struct MassProperties {
 /// the one that Eigen has with two doubles a register, so that flights of before are the same to the bit.
 namespace plain {
 
+/// a x b.
 template <class S>
 Eigen::Vector3<S> cross(const Eigen::Vector3<S>& a, const Eigen::Vector3<S>& b) {
   return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
 }
 
+/// A v.
 template <class S, class T>
 Eigen::Vector3<S> product(const Eigen::Matrix3<T>& A, const Eigen::Vector3<S>& v) {
   return {A(0, 0) * v.x() + A(0, 1) * v.y() + A(0, 2) * v.z(),
@@ -74,6 +77,7 @@ Eigen::Vector3<S> rotated_back(const Eigen::Quaternion<S>& q, const Eigen::Vecto
           v.z() + q.w() * twice.z() + d.z()};
 }
 
+/// Euclidean length.
 template <class S>
 S norm(const Eigen::Vector3<S>& v) {
   using std::sqrt;
@@ -82,6 +86,7 @@ S norm(const Eigen::Vector3<S>& v) {
 
 }  // namespace plain
 
+/// Time derivative of RigidBodyOf: m/s, m/s2, 1/s, rad/s2.
 template <class S>
 struct RigidBodyRateOf {
   Eigen::Vector3<S> p_n, v_n;
@@ -112,6 +117,7 @@ RigidBodyRateOf<S> rate_of(const RigidBodyOf<S>& x, const LoadOf<S>& load, const
   return d;
 }
 
+/// One Euler step of `dt`, s. The quaternion is not normalised.
 inline RigidBody advanced(const RigidBody& x, const RigidBodyRate& d, double dt) {
   RigidBody y;
   y.p_n = x.p_n + dt * d.p_n;
@@ -123,8 +129,8 @@ inline RigidBody advanced(const RigidBody& x, const RigidBodyRate& d, double dt)
 
 /// One step. `first` is the load at the present state; `load_at(state, part)` gives it at a later stage,
 /// `part` of the step on: 0.5 or 1. Quaternions of the stages are not normalised: the error is of the
-/// method's order; the result is. `g_n` is the acceleration of gravity, or what else `rate_of` knows, such as
-/// the turning Earth of earth.hpp.
+/// method's order; the result is. `g_n` is the acceleration of gravity, or another argument of `rate_of`,
+/// such as the rotating Earth of round_earth.hpp.
 template <class Gravity = Eigen::Vector3d, class LoadAt>
 RigidBody runge_kutta(const RigidBody& x, const Load& first, double dt, const MassProperties& body,
                       const Gravity& g_n, LoadAt&& load_at) {

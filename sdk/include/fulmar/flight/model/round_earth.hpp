@@ -95,7 +95,7 @@ class RotatingEarth {
     return -wgs84::GM / (d * d) * ((1 + j * (1 - 5 * s * s)) / d * r + 2 * j * s * axis_n_);
   }
 
-  /// What a plumb line shows: attraction and the centrifugal part.
+  /// Gravity: attraction and the centrifugal part.
   Eigen::Vector3d gravity(const Eigen::Vector3d& p_n) const {
     const Eigen::Vector3d r = r0_n_ + p_n;
     return gravitation(p_n) + wgs84::omega * wgs84::omega * (r - r.dot(axis_n_) * axis_n_);
@@ -129,8 +129,8 @@ inline RigidBodyRate rate_of(const RigidBody& x, const Load& load, const MassPro
   return d;
 }
 
-/// North, east and down at the vehicle's own place: what wind, gravity, heading and altitude go by. Holds for
-/// the metres around it that one step of a flight covers: 100 m from it the altitude is wrong by 1 mm.
+/// North, east and down at the vehicle's own place, for wind, gravity, heading and altitude. Valid for the
+/// metres of one step: at 100 m the altitude is wrong by 1 mm.
 class LocalLevel {
  public:
   LocalLevel(const RotatingEarth& earth, const Eigen::Vector3d& p_n)

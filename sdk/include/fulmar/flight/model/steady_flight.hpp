@@ -20,8 +20,10 @@
 
 namespace fulmar {
 
+/// How a SteadyCondition states its turn.
 enum class Turn : std::uint8_t { none, bank, radius };
 
+/// The flight that is asked for; true airspeed.
 struct SteadyCondition {
   double airspeed_mps = 0;
   double climb_rad = 0;  ///< flight path angle, up
@@ -32,7 +34,7 @@ struct SteadyCondition {
   bool no_sideslip = false;
 };
 
-/// What stands against a steady flight.
+/// Limit that prevents a steady flight.
 enum class TrimLimit : std::uint8_t {
   none,
   no_aileron,  ///< it moves nothing
@@ -47,10 +49,11 @@ enum class TrimLimit : std::uint8_t {
   not_found,
 };
 
+/// Result of `steady_flight`. States and inputs are in the order and units of model::State and model::Input.
 struct SteadyFlight {
   SteadyCondition condition;
   TrimLimit limit = TrimLimit::not_found;
-  double residual = 0;  ///< what is left of the accelerations, m/s2 and rad/s2; heading is north
+  double residual = 0;  ///< remaining accelerations, m/s2 and rad/s2; heading is north
   model::StateVector<double> x = model::StateVector<double>::Zero();
   model::InputVector<double> input = model::InputVector<double>::Zero();
   double alpha_rad = 0, beta_rad = 0, turn_radps = 0;
@@ -131,7 +134,7 @@ class SteadyEquations {
   bool has_rudder_;
 };
 
-/// Newton's method from `z`; returns what is left.
+/// Newton's method from `z`; returns the residual.
 template <std::same_as<SteadyEquations> Equations>
 double solve_steady(const Equations& equations, SteadyEquations::Vector<double>& z) {
   constexpr int n = SteadyEquations::unknowns;
@@ -183,7 +186,7 @@ inline SteadyEquations::Vector<double> steady_guess(const AircraftModel& m, cons
   return z;
 }
 
-/// Drag of the wing at a lift, and what the flight path takes of the weight: the thrust that it needs, N.
+/// Thrust needed, N: drag of the wing at a lift, and the component of the weight along the flight path.
 inline double thrust_needed(const AircraftModel& m, const SteadyCondition& c, double CL, double rho) {
   const Airframe& a = m.airframe();
   const double Va = c.airspeed_mps;
@@ -194,7 +197,7 @@ inline double thrust_needed(const AircraftModel& m, const SteadyCondition& c, do
   return (drag + a.mass_kg * isa::g0 * std::sin(c.climb_rad)) / std::cos(alpha);
 }
 
-/// Why Newton's method has found nothing, as far as a balance of lift and thrust tells.
+/// Limit that explains why Newton's method failed, from a balance of lift and thrust.
 inline TrimLimit reason_of_none(const AircraftModel& m, const SteadyFlight& f) {
   const double Va = f.condition.airspeed_mps, rho = f.density_kgm3;
   const double load_factor = std::cos(f.condition.climb_rad) / std::cos(f.x(model::roll));
@@ -253,9 +256,8 @@ inline SteadyFlight filled(const AircraftModel& m, const SteadyCondition& c,
 
 }  // namespace detail
 
-/// The steady flight, or as far as it was found, with what stands against it. Several are possible beyond the
-/// stall; what is found is the one of attached flow. A template, so that only who calls it compiles its
-/// derivatives.
+/// The steady flight, or the best approximation with the limit that prevents it. Several are possible beyond
+/// the stall; the one of attached flow is found. A template, so that only its users compile its derivatives.
 template <std::same_as<AircraftModel> Model>
 SteadyFlight steady_flight(const Model& m, const SteadyCondition& c) {
   using E = detail::SteadyEquations;

@@ -16,16 +16,16 @@
 
 namespace fulmar {
 
+/// Result of `trimmed_flight`.
 struct Trim {
   double alpha_rad = 0, beta_rad = 0, pitch_rad = 0;
   double roll_rad = 0;  ///< wings are level where a rudder holds the heading
   Deflections deflections;
   double propeller_radps = 0, throttle_frac = 0;
-  bool found = false;  ///< false: no such flight, or deflections and throttle outside what the aircraft has
+  bool found = false;  ///< false: no such flight, or deflections or throttle beyond their limits
 };
 
-/// Whether the rudder does anything. Without one a sideslip and a bank are left to what else turns the
-/// aircraft.
+/// Whether the rudder has an effect. Without one, sideslip and bank are free unknowns.
 inline bool rudder_acts(const Airframe& a) {
   return std::abs(a.aero.yaw.rudder_ratio) > 1e-9 || std::abs(a.aero.side.rudder_ratio) > 1e-9 ||
          Propellers(a).differential();

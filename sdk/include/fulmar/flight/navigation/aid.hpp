@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The book that the navigator keeps of each sensor: what came, what became of it, and what that says of the
-// sensor. Every shipped measurement has one, and so does one that an author adds (estimator.hpp). Innovations
-// of a filter whose deviations are true have mean 0 and mean square 1 (Bar-Shalom, Li & Kirubarajan,
+// Sensor monitor: for each sensor, the arrivals, the results of its updates, and the state that follows from
+// them. Every shipped measurement has one, and so has one that an author adds (estimator.hpp). Innovations of
+// a consistent filter have mean 0 and mean square 1 in standard deviations (Bar-Shalom, Li & Kirubarajan,
 // Estimation with Applications to Tracking and Navigation (2001), section 5.4).
 #pragma once
 #include <algorithm>
@@ -31,7 +31,7 @@ class Arrivals {
     const double dt = time_s - sampled_s_;
     if (interval_s_ == 0 && sampled_s_ != never)
       interval_s_ = std::min(dt, max_s);
-    else if (interval_s_ > 0)  // a gap says nothing of the rate, a slower sensor does
+    else if (interval_s_ > 0)  // a gap does not change the rate, a slower sensor does
       interval_s_ += 0.1 * (std::min(dt, 3 * interval_s_) - interval_s_);
     repeated_ = sampled_s_ != never && values == values_ ? repeated_ + 1 : 0;
     if (repeated_ == 0) changed_s_ = time_s;
@@ -67,9 +67,10 @@ class Arrivals {
   double early_ = 0, early_s_ = 0;
 };
 
-/// Mean and deviation of the last seconds' innovations, in deviations. Each counts for the time since the one
-/// before, and for little more than a gate lets through: one outlier is no noise. The deviation is that of
-/// successive differences (von Neumann, Annals of Mathematical Statistics 12 (1941)): what lasts is no noise.
+/// Mean and standard deviation of the innovations of the last seconds, in standard deviations. Each counts
+/// for the time since the previous one, and for little more than a gate accepts: one outlier is no noise. The
+/// standard deviation is that of successive differences (von Neumann, Annals of Mathematical Statistics 12
+/// (1941)), without slow errors.
 class Innovations {
  public:
   void add(std::initializer_list<double> ratios, double time_s) {
@@ -104,7 +105,7 @@ class Innovations {
   bool biased() const { return biased_; }
 
  private:
-  // Receivers are off by two of their deviations for minutes (README.md of estimator_ekf): that is no fault.
+  // GNSS errors of two standard deviations last for minutes (README.md of estimator_ekf) and are no fault.
   static constexpr double mean_s = 4, variance_s = 2, most = 6;
   static constexpr double noisy_std = 2, calm_std = 1.5, biased_mean = 3, centred_mean = 2;
 
@@ -113,11 +114,11 @@ class Innovations {
   bool noisy_ = false, biased_ = false;
 };
 
-/// What successive innovations of a horizontal velocity have in common. White noise has nothing: this is what
-/// the estimate is wrong by, or what the receiver is off for longer than a fix. Neither is in a covariance
-/// that takes its errors for white, and nobody can tell them apart, so it counts in what is claimed. Of a
-/// first-order process with mean square c and correlation r from one to the next, the mean products are c r
-/// and c r^2: c is the square of the first over the second.
+/// Common part of successive innovations of a horizontal velocity: an error of the estimate, or of the
+/// receiver over more than one fix. A covariance with white errors has neither, and they cannot be separated,
+/// so it adds to the reported standard deviation. For a first-order process with mean square c and
+/// correlation r of neighbours, the mean products are c r and c r^2: c is the square of the first over the
+/// second.
 class SharedError {
  public:
   void add(const Eigen::Vector2d& innovation_mps, double time_s) {
@@ -145,11 +146,11 @@ class SharedError {
 
 /// Of one sensor. Times are those of the inertial samples, in seconds.
 struct Aid {
-  double ratio = 0;               ///< last innovation, in deviations
-  double accepted_s = never;      ///< when the gate let one through last
-  double refused_from_s = never;  ///< since then it has refused all of them; never: it took the last one
-  double believed_s = never;      ///< when it was believed after all, last
-  bool contradicts = false;       ///< itself, or what can be: biased, whatever the innovations say
+  double ratio = 0;               ///< last innovation, in standard deviations
+  double accepted_s = never;      ///< time of the last accepted measurement
+  double refused_from_s = never;  ///< since then all were rejected; never: the last one was accepted
+  double believed_s = never;      ///< when a rejected sensor was last accepted after a time-out
+  bool contradicts = false;       ///< it contradicts itself or physics: biased, whatever the innovations are
   std::uint32_t accepted = 0, refused = 0;
   Arrivals arrivals;
   Innovations innovations;
@@ -161,7 +162,7 @@ struct Aid {
     innovations.add(ratios, time_s);
     if (fused.accepted) {
       ++accepted;
-      // Believed after all, or back: by how much it was off while nobody listened says nothing of it now.
+      // Accepted again: innovations of the rejected time say nothing about the present.
       if (refused_from_s != never && time_s - refused_from_s > refused_s) innovations.centre();
       accepted_s = time_s;
       refused_from_s = never;
@@ -175,7 +176,7 @@ struct Aid {
     if (!arrivals.any()) return SensorState::never;
     if (arrivals.silent(now_s)) return SensorState::silent;
     if (flying && arrivals.stuck()) return SensorState::stuck;
-    if (innovations.noisy()) return SensorState::noisy;  // which tells why, when the gate refuses it as well
+    if (innovations.noisy()) return SensorState::noisy;  // noise is then also the reason of a rejection
     if (refused_from_s != never && now_s - refused_from_s > refused_s) return SensorState::refused;
     if (arrivals.disordered(now_s)) return SensorState::refused;
     return contradicts || innovations.biased() ? SensorState::biased : SensorState::ok;
@@ -199,7 +200,7 @@ inline bool good(const Gnss& g) {
 /// Of the inertial unit, from one sample to the next: beyond, it is shaken.
 inline constexpr double vibration_radps = 0.3, vibration_mps2 = 3;
 
-/// What came of each sensor, what its updates said, and the innovations of the last fix in deviations.
+/// All sensor monitors, and the innovations of the last fix in standard deviations.
 struct Health {
   Aid gyro, accel, horizontal, height, velocity, baro, pitot, sideslip, heading;
   Eigen::Vector3d position_innovation = Eigen::Vector3d::Zero(),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The airspeed while no tube says it: when the model of airspeed_model.hpp learns, when it is believed, and
-// how it comes into the filter. As long as the tube is used nothing of the filter depends on it.
+// Airspeed without a pitot: when the model of airspeed_model.hpp learns, when it is accepted, and how the
+// filter uses it. While the pitot is used, the filter does not depend on the model.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -13,10 +13,11 @@
 
 namespace fulmar::navigation {
 
+/// Fuses the modelled airspeed into the filter while the pitot is lost, and ends when it contradicts.
 class ModelledAirspeed {
  public:
-  /// With each inertial sample, after those of the other sensors. `commanded`: the throttle is what the motor
-  /// gets.
+  /// Call with each inertial sample, after the samples of other sensors. `commanded`: the motor gets this
+  /// throttle.
   void step(Navigator& navigator, double throttle_frac, bool commanded, double dt_s, const Params& p) {
     const bool flies = navigator.airborne() && navigator.aligned() && !navigator.settling();
     if (!flies || !commanded || !(dt_s < coasted_s)) {
@@ -38,28 +39,29 @@ class ModelledAirspeed {
     time_s_ = 0;
     block(navigator, mean, p);
   }
-  /// It says the airspeed, in place of the tube.
+  /// True when the model supplies the airspeed.
   bool in_use() const { return in_use_; }
-  /// By which the airspeed is less sure than the filter says. What the model has moved it by, against what
-  /// inertia and the wind say, is gusts or its own motor's doing, and which of the two it cannot tell: what
-  /// is more than usual for gusts may all be wrong.
+  /// Standard deviation to add to that of the filter. The change that the model has made against inertia and
+  /// wind is due to gusts or to a wrong motor model, which cannot be separated. The part beyond usual gusts
+  /// may all be wrong.
   double doubt_mps(const Navigator& n, const Params& p) const {
     return used(n) ? std::max(std::abs(moved_mps(n)) - usual_gust * n.gusts().std_mps(p), 0.0) : 0;
   }
 
  private:
-  static constexpr double lag_s = 0.1;   ///< of an electric motor with its propeller
-  static constexpr double tube_s = 0.5;  ///< without an accepted sample: the tube is lost
-  static constexpr double doubt_s = 8;   ///< what a tube said last before it was found to fail is not learnt
+  static constexpr double lag_s = 0.1;      ///< of an electric motor with its propeller
+  static constexpr double tube_s = 0.5;     ///< without an accepted sample the pitot is lost
+  static constexpr double doubt_s = 8;      ///< samples of this time before a detected fault are not learnt
   static constexpr double usual_std = 1.5;  ///< beyond it counts for less
-  // In no flight of bench_airspeed whose motor does what it is told one of the next three ended it.
+  // In bench_airspeed none of the next three ended a flight whose motor follows its command.
   static constexpr double refused_std = 4;           ///< beyond it is not used, twice in a row: never again
   static constexpr double off_std = 1.3, off_s = 2;  ///< the same of the mean over seconds
-  /// The same of the mean of what it has moved the airspeed by: in units of the gusts, at most 3.3 in flights
-  /// whose motor does what it is told.
+  /// The same for the mean change of the airspeed, in gust standard deviations: at most 3.3 in flights whose
+  /// motor follows its command.
   static constexpr double moved_most = 3.6, mean_s = 4, calm_mps = 0.5, moved_s = 10;
-  static constexpr double usual_gust = 0.5;  ///< in deviations of the gusts: what is not doubted
-  static constexpr double wrong_mps = 1.5;   ///< by which a wrong model may have moved the wind, each axis
+  static constexpr double usual_gust =
+      0.5;  ///< in gust standard deviations: change that does not count as an error
+  static constexpr double wrong_mps = 1.5;  ///< by which a wrong model may have moved the wind, each axis
   static constexpr std::size_t waiting = static_cast<std::size_t>(doubt_s / AirspeedModel::block_s);
 
   void begin(double throttle_frac) {
@@ -91,13 +93,13 @@ class ModelledAirspeed {
     if (in_use_) use(n, b, said, root, p);
   }
 
-  /// Its error lasts, so it knows no better than that however often it is asked: it brings the airspeed to
-  /// its deviation and no further. Attitude and biases are not corrected by it.
+  /// Its error is slow, so repeated updates add no information: they reduce the standard deviation of the
+  /// airspeed to that of the model and no further. Attitude and biases are not corrected.
   void use(Navigator& n, const AirspeedModel::Block& b, const AirspeedModel::Said& said, double root,
            const Params& p) {
     ErrorStateEkf& f = n.filter();
     ekf::Scalar z = ekf::true_airspeed(f.state(), 0);
-    z.innovation = (said.Va_mps - b.Va_mps) / root;  // by means over the block: what changed in it is kept
+    z.innovation = (said.Va_mps - b.Va_mps) / root;  // means over the block: changes within it are kept
     const double noise = said.noise_std_mps / root, lasting = said.model_std_mps / root;
     const double ratio = ratio_of(n, z, std::hypot(noise, lasting), p);
     if (!agrees(n, ratio, p)) return;
@@ -110,21 +112,20 @@ class ModelledAirspeed {
     moved_ += ekf::air_velocity(f.state()).norm() - before;
   }
 
-  /// Innovation in deviations: of the model, of the airspeed without gusts, and of what gusts change since it
-  /// was used last.
+  /// Innovation in standard deviations: of the model, of the airspeed without gusts, and of the change of
+  /// gusts since the last use.
   double ratio_of(const Navigator& n, ekf::Scalar z, double std, const Params& p) const {
     const double since_s = std::clamp(n.time_s() - used_s_, AirspeedModel::block_s, 1.0);
     const double gust = n.gusts().std_mps(p) * std::sqrt(-2 * std::expm1(-since_s / n.gusts().time_s(p)));
     z.H(ekf::gust) = 0;
     return z.innovation / std::hypot(std, gust, n.filter().expected_std(z, 0));
   }
-  /// Since the tube was lost.
+  /// True when it was used since the pitot was lost.
   bool used(const Navigator& n) const { return used_s_ > n.health().pitot.accepted_s; }
   double moved_mps(const Navigator& n) const { return moved_ + n.filter().state().gust_mps; }
-  /// A motor that stops, or loses a propeller, looks as if it were suddenly faster by more than gusts change
-  /// from one block to the next; one that fades looks a little faster again and again. A single block may;
-  /// two in a row, the mean of seconds, or what it has moved, end it until a tube has said again what is
-  /// right.
+  /// A motor that stops or loses a propeller looks like a sudden gain of speed beyond gusts; a fading motor
+  /// like a repeated small one. One rejected block is allowed. Two in a row, the mean of seconds, or the
+  /// total change end the model until the pitot returns.
   bool agrees(Navigator& n, double ratio, const Params& p) {
     if (!used(n)) off_ = moved_ = mean_moved_ = 0;
     off_ += (ratio - off_) * AirspeedModel::block_s / off_s;

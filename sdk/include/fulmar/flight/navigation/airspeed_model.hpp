@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Airspeed without a tube: what throttle, airspeed and load make of the forward specific force is learnt
-// while a tube says the airspeed, and read backwards when none does. With V the equivalent airspeed and d the
-// throttle behind the propeller's lag, thrust over a small range of both and a parabolic polar give (Beard &
-// McLain, Small Unmanned Aircraft (2012), sections 4.2 and 4.3, lift from f_z put into drag and into the tilt
-// of the lift)
+// Airspeed without a pitot: the forward specific force as a function of throttle, airspeed and load is learnt
+// while the pitot works, and inverted when it is lost. With V the equivalent airspeed and d the throttle
+// behind the propeller's lag, thrust over a small range of both and a parabolic polar give (Beard & McLain,
+// Small Unmanned Aircraft (2012), sections 4.2 and 4.3, lift from f_z in drag and in the tilt of the lift)
 //   f_x = c0 + c1 d + c2 d^2 + c3 d V + c4 V^2 + c5 f_z + c6 f_z^2 / V^2
-// linear in what is not known. f_z carries alpha, so vertical gusts and turns are no error, and no attitude
-// is needed. Recursive least squares in the form of a Kalman filter whose parameters wander (Ljung, System
-// Identification (1999), section 11.2): what was never tried stays as unsure as it was.
+// linear in the unknowns. f_z contains alpha, so vertical gusts and turns are no error, and no attitude is
+// needed. Recursive least squares in the form of a Kalman filter with random-walk parameters (Ljung, System
+// Identification (1999), section 11.2): unexcited directions keep their uncertainty.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -16,6 +15,7 @@
 
 namespace fulmar {
 
+/// Recursive least squares for the seven parameters c0 to c6; speeds are equivalent airspeed, m/s.
 class AirspeedModel {
  public:
   static constexpr int size = 7;
@@ -29,17 +29,17 @@ class AirspeedModel {
     double throttle_frac = 0;           ///< behind the lag
     double Va_mps = 0;                  ///< equivalent: true times the root of the density ratio
   };
-  /// What the force says of the airspeed, equivalent, beside one that is nearly right.
+  /// Equivalent airspeed from the force, near a given one.
   struct Said {
     double Va_mps = 0;
-    double noise_std_mps = 0;  ///< of one block, as large as if it were alone: they follow each other
+    double noise_std_mps = 0;  ///< of one block, enlarged for the correlation of successive blocks
     double model_std_mps = 0;  ///< the same in every block: of the parameters
     bool known = false;        ///< the slope of the force by the airspeed is
   };
 
   AirspeedModel() { P_ = prior().cwiseAbs2().asDiagonal(); }
 
-  /// A block whose airspeed a tube has said.
+  /// Learns from a block whose airspeed is measured.
   void learn(const Block& b) {
     const Vector phi = regressors(b), P_phi = P_ * phi;
     const double R = square(std_mps2()) * alone(), S = phi.dot(P_phi) + R;
@@ -54,13 +54,13 @@ class AirspeedModel {
     shared_ += share * (off * before_ - shared_);
     before_ = left;
   }
-  /// Time goes on, learnt or not: the parameters wander.
+  /// Random walk of the parameters over `dt_s`, with or without learning.
   void wander(double dt_s) {
     const Vector most = prior().cwiseAbs2();
     for (int i = 0; i < size; ++i) P_(i, i) = std::min(P_(i, i) + square(walk * prior()(i)) * dt_s, most(i));
   }
 
-  /// One step of Newton from the airspeed in the block; in the slope counts how well it is known.
+  /// One Newton step from the airspeed of the block; the uncertainty of the slope counts.
   Said airspeed(const Block& b) const {
     Said said;
     const Vector along = slopes(b);
@@ -78,7 +78,7 @@ class AirspeedModel {
 
   double slope_per_s(const Block& b) const { return slopes(b).dot(theta_); }  ///< df_x/dV
   double std_mps2() const { return std::sqrt(std::max(square_, square(min_mps2))); }
-  /// So many blocks know as much as one.
+  /// Number of correlated blocks with the information of one independent block.
   double alone() const {
     const double r = std::clamp(shared_ / std::max(square_, square(min_mps2)), 0.0, max_shared);
     return (1 + r) / (1 - r);
@@ -89,8 +89,8 @@ class AirspeedModel {
   static constexpr double V0 = 15, g = 9.80665;                     ///< scales: m/s, m/s2
   static constexpr double window_s = 60, min_s = 5, learnt_s = 20;  ///< of the residual; before it is used
   static constexpr double min_mps2 = 0.02, max_shared = 0.9, max_off = 3;
-  static constexpr double sure = 3;     ///< deviations of the slope
-  static constexpr double walk = 2e-3;  ///< of the prior deviation, per root of a second
+  static constexpr double sure = 3;     ///< standard deviations of the slope
+  static constexpr double walk = 2e-3;  ///< of the prior standard deviation, per root of a second
 
   static double square(double x) { return x * x; }
   /// m/s2: thrust below 2 g, drag and lift's tilt below some g.

@@ -15,8 +15,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Says whether the inertial unit rests: a second of quarter-second blocks with little noise, whose means
-/// agree. Absolute values do not count: the gyros may have any bias.
+/// Detects rest of the inertial unit: a second of quarter-second blocks with little noise and equal means.
+/// Absolute values do not count, because gyros may have any bias.
 class Stillness {
  public:
   void update(const Vector3d& omega_b, const Vector3d& f_b, double dt) {
@@ -91,9 +91,9 @@ inline Quaterniond attitude_at_rest(const Vector3d& f_b) {  // yaw unknown: nort
   return attitude_from_directions(f_b, -Vector3d::UnitZ(), ahead, Vector3d::UnitX());
 }
 
-/// Biases of the gyros by the magnetic field, in flight, before there is an attitude: turned back by the
-/// gyros it stands still, but for their bias. y = y0 - G b with G = integral of Q [m]x, by least squares;
-/// nothing is told along the field.
+/// Gyro biases from the magnetic field in flight, before there is an attitude. Turned back by the gyros, the
+/// field is constant but for their bias. y = y0 - G b with G = integral of Q [m]x, by least squares; the
+/// component along the field is not observable.
 class FieldDrift {
  public:
   /// `y` = Q m: the field's direction, turned back.
@@ -120,8 +120,8 @@ class FieldDrift {
     Vector3d bias_b;
     Matrix3d covariance;
   };
-  /// With what was expected of it: `std`, rad/s, each axis. The field is known to `deviation_rad` that turns
-  /// with the aircraft. Gyros that show no bias across the field have been calibrated, along it as well.
+  /// With a prior of standard deviation `std`, rad/s, each axis. `deviation_rad`: field error that turns with
+  /// the aircraft. Gyros without a bias across the field are taken as calibrated along it as well.
   Bias bias(double std, double deviation_rad) const {
     const double T = last_s_ - first_s_;
     if (n_ < 4 || T < 0.3) return {Vector3d::Zero(), std * std * Matrix3d::Identity()};
@@ -192,12 +192,12 @@ class FlightAlignment {
     Vector3d f_n;               ///< mean specific force of the window
     Vector3d a_n, jerk_n;       ///< acceleration at the fix, and how fast it changed over the window
     Vector3d since_n;           ///< by how much the velocity has changed since the fix
-    Vector3d second_n;          ///< the direction that tells the heading
+    Vector3d second_n;          ///< the direction that gives the heading
     bool by_field;              ///< that of the field
     double window_s;
     double unseen_s;  ///< of the window before the first sample: there it was taken to go on evenly
   };
-  /// What is known beside the inertial samples; a null pointer is not known.
+  /// Further data beside the inertial samples; null: not available.
   struct Known {
     double gravity_mps2;
     const Vector3d* field_n;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is what an estimate says of its errors true? Errors beside the deviations that were claimed for them, the
-// normalised squared error of nine states, and whether innovations are white and as large as expected.
-// Bar-Shalom, Li & Kirubarajan, Estimation with Applications to Tracking and Navigation (2001), section 5.4.
+// Consistency of an estimate: errors against reported standard deviations, the normalised squared error of
+// nine states, whiteness and size of innovations. Source: Bar-Shalom, Li & Kirubarajan, Estimation with
+// Applications to Tracking and Navigation (2001), section 5.4.
 #pragma once
 #include <Eigen/Dense>
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace fulmar::consistency {
 
-/// Of one quantity: how large its errors are, and how often they stay within what was claimed.
+/// Errors of one quantity, and the share within its reported standard deviation.
 struct Channel {
   double error2 = 0, claim2 = 0;
   std::size_t n = 0, within_1 = 0, within_2 = 0;
@@ -34,8 +34,8 @@ struct Channel {
   double share_2() const { return over_n(static_cast<double>(within_2)); }
 };
 
-/// Of one sensor, over many flights: the mean of the squared innovations in deviations (1: as large as
-/// expected), and how far they follow each other. Their mean is not taken off: it should be 0.
+/// One sensor over many flights: mean squared innovation in standard deviations (1: as expected), and
+/// correlation of successive ones. Their mean is not subtracted, because it should be 0.
 struct Innovations {
   static constexpr std::size_t lags = 5;
   std::array<double, lags + 1> products{};
@@ -50,7 +50,7 @@ struct Innovations {
   double correlation(std::size_t lag) const { return products[0] > 0 ? products[lag] / products[0] : 0; }
 };
 
-/// e' P^-1 e of attitude, velocity and position, from deviations and the correlations between them.
+/// e' P^-1 e of attitude, velocity and position, from standard deviations and the correlations between them.
 class Nees {
  public:
   static constexpr double low = 2.70, high = 19.02;  ///< 95 % of chi-square of 9 degrees of freedom
@@ -64,7 +64,7 @@ class Nees {
         eigen(truth.position_m) - eigen(estimate.position_m);
     return e;
   }
-  /// What the estimate claims for them.
+  /// The standard deviations that the estimate reports.
   static Errors claims(const VehicleState& estimate) {
     Errors std;
     std << eigen(estimate.attitude_std_rad), eigen(estimate.velocity_std_mps), eigen(estimate.position_std_m);

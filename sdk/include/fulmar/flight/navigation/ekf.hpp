@@ -39,24 +39,23 @@ struct Noise {
   double gyro_bias_walk = 2e-5;   ///< rad/s/sqrt(s)
   double accel_bias_walk = 1e-3;  ///< m/s2/sqrt(s)
   double wind_walk = 0.02;        ///< m/s/sqrt(s)
-  double wind_shear = 0.005;      ///< per m/s of climb: adds to wind_walk what changes with height
+  double wind_shear = 0.005;      ///< per m/s of climb: added to wind_walk for wind that changes with height
   double gust_std = 1.0;          ///< m/s, first-order Gauss-Markov along the flight direction
   double gust_time = 3.0;         ///< s
   double baro_walk = 0.05;        ///< m/sqrt(s)
   double port_walk = 0;           ///< 1/sqrt(s): share of the dynamic pressure, see Nominal::port_ratio
-  double heading_std =
-      0.035;  ///< rad, first-order Gauss-Markov: what the magnetometer is off after calibration
-  double heading_time = 300;  ///< s
-  double gnss_std = 0;        ///< m, first-order Gauss-Markov: what a horizontal position is off for minutes
-  double gnss_time = 150;     ///< s
-  double delay_walk = 1e-4;   ///< s/sqrt(s), of a receiver's delay
+  double heading_std = 0.035;     ///< rad, first-order Gauss-Markov: magnetometer error after calibration
+  double heading_time = 300;      ///< s
+  double gnss_std = 0;            ///< m, first-order Gauss-Markov: horizontal GNSS error over minutes
+  double gnss_time = 150;         ///< s
+  double delay_walk = 1e-4;       ///< s/sqrt(s), of a receiver's delay
 };
 
-/// What the filter believes. Wind is the velocity of the air; `baro_m` is what the barometer reads too high;
-/// `port_ratio` is the share of the dynamic pressure that the static port sees on top of the static pressure:
-/// by so much of the velocity head u^2/2g the barometer reads too low in flight; `heading_rad` is what the
-/// magnetic heading reads too high; `gnss_delay_s` is how much older fixes are than they say. How far north
-/// and east of the aircraft a receiver sees it counts in the covariance alone.
+/// Nominal state: _n in NED, wind as the velocity of the air, biases in body axes. `baro_m`: offset of the
+/// barometer, positive when it reads high. `port_ratio`: share of the dynamic pressure at the static port;
+/// the barometer reads low by this share of u^2/2g. `heading_rad`: offset of the magnetic heading.
+/// `gnss_delay_s`: delay of fixes after their time stamps. The horizontal GNSS error is in the covariance
+/// alone.
 struct Nominal {
   Eigen::Quaterniond q_nb = Eigen::Quaterniond::Identity();
   Eigen::Vector3d v_n = Eigen::Vector3d::Zero(), p_n = Eigen::Vector3d::Zero();
@@ -103,9 +102,9 @@ struct Scalar {
   MoreRow more = MoreRow::Zero();
 };
 
-struct Fused {
+struct Fused {  ///< result of one scalar update
   bool accepted = false;
-  double ratio = 0;  ///< innovation / its deviation
+  double ratio = 0;  ///< innovation / its standard deviation
 };
 
 }  // namespace ekf
@@ -161,11 +160,10 @@ class ErrorStateEkf {
     if (step_.time >= covariance_period_s - 1e-9) propagate_covariance();
   }
 
-  /// One scalar update. What a receiver is off for minutes is considered and not estimated (Schmidt): no
-  /// measurement tells it from the position, and an estimate of it follows the filter's own drift. Its gain
-  /// is left out, so its variance stays; all else is as for the optimal gain. The measurement is refused if
-  /// its innovation exceeds `gate` deviations, by `variance`: who gives a larger one, so that correlated
-  /// samples weigh less, gates by `expected_std` first.
+  /// One scalar update. The slow GNSS error is considered and not estimated (Schmidt): it is not observable
+  /// apart from position, and an estimate follows the drift of the filter. Its gain is 0, so its variance
+  /// stays. The measurement is rejected when its innovation exceeds `gate` standard deviations, by
+  /// `variance`. Callers that enlarge `variance` for correlated samples gate by `expected_std` first.
   ekf::Fused fuse(const ekf::Scalar& z, double variance, double gate) {
     const ekf::Vector PHt = project(z);
     const double S = expected_variance(z, PHt) + variance;
@@ -181,10 +179,9 @@ class ErrorStateEkf {
     return {true, ratio};
   }
 
-  /// The same for a measurement that attitude and sensor biases shall not follow, though their uncertainty
-  /// counts (Schmidt's considered states), nor what was appended: a pseudo-measurement whose errors are
-  /// correlated in time. P' = (I
-  /// - K H) P (I - K H)' + K R K'.
+  /// The same without correcting attitude, sensor biases and appended states; their uncertainty counts
+  /// (Schmidt's considered states). For pseudo-measurements with time-correlated errors. P' = (I - K H) P (I
+  /// - K H)' + K R K'.
   ekf::Fused fuse_considering_attitude(const ekf::Scalar& z, double variance, double gate) {
     const ekf::Vector PHt = project(z);
     const double S = expected_variance(z, PHt) + variance, ratio = z.innovation / std::sqrt(S);
@@ -205,8 +202,8 @@ class ErrorStateEkf {
     return std::sqrt(expected_variance(z, project(z)) + variance);
   }
 
-  /// One state more, of whatever the filter does not know (ekf_more.hpp); a measurement sees it by
-  /// `Scalar::more`. Returns its index; throws when there is no room, so at set-up.
+  /// Appends a state of a component (ekf_more.hpp); measurements use it by `Scalar::more`. Returns its index;
+  /// throws when there is no room, so call at set-up.
   int append(const ekf::MoreState& state) { return more_.append(state); }
   const More& more() const { return more_; }
   More& more() { return more_; }
@@ -221,7 +218,8 @@ class ErrorStateEkf {
     corrected_.vt += dx.segment<3>(ekf::vel) * time_s_;
   }
 
-  /// A part of the state is forgotten: new value in `nominal`, new deviation, no correlation with the rest.
+  /// Resets a part of the state: new value in `nominal`, new standard deviation, no correlation with the
+  /// rest.
   void forget(int first, int count, double std) {
     for (int i = first; i < first + count; ++i) {
       P_.row(i).setZero();
@@ -230,7 +228,7 @@ class ErrorStateEkf {
     }
     more_.forget(first, count);
   }
-  /// Adds uncertainty, of an event that the model does not know: a gap, a collision.
+  /// Adds uncertainty for an event outside the model: a gap, a collision.
   void inflate(int first, int count, double std) {
     for (int i = first; i < first + count; ++i) P_(i, i) += std * std;
   }
@@ -245,8 +243,7 @@ class ErrorStateEkf {
     R_nb_ = x_.q_nb.toRotationMatrix();
   }
 
-  /// Where the aircraft was, as it is known now: what a late measurement is compared with. `age_s` is 0 for
-  /// the present.
+  /// Past state by the present estimate, for late measurements. `age_s` is 0 for the present.
   struct Past {
     Vector3 p_n, v_n;
     double age_s = 0;
@@ -281,7 +278,7 @@ class ErrorStateEkf {
  private:
   static constexpr double floor_ = 1e-14, scale_time_s = 2;
 
-  struct Step {  ///< what the covariance has not yet seen
+  struct Step {  ///< since the last update of the covariance
     Eigen::Matrix3d R_dt = Eigen::Matrix3d::Zero();
     Vector3 dv = Vector3::Zero(), turn = Vector3::Zero();
     double time = 0;
@@ -363,8 +360,8 @@ class ErrorStateEkf {
     const auto add = [&](int first, int count, double variance) {
       for (int i = first; i < first + count; ++i) P_(i, i) += variance;
     };
-    // The error that a scale has made grows by what there is times what there was: what goes to and fro, as
-    // in gusts, comes to nothing.
+    // Scale-factor error accumulates with the load now times the load before; the alternating loads of gusts
+    // cancel.
     const double lasting = scale_decay_.of(T / scale_time_s), load = step_.dv.norm() / T - gravity_mps2;
     const Vector3 turn = step_.turn / T;
     load_ = lasting * load_ + (1 - lasting) * load;
@@ -384,7 +381,7 @@ class ErrorStateEkf {
     x_.heading_rad *= markov<1>(heading, noise.heading_std, heading_decay_.of(T / noise.heading_time));
     markov<2>(gnss, noise.gnss_std, gnss_decay_.of(T / noise.gnss_time));
   }
-  /// x' = phi x + w of `n` states: each keeps its deviation. Returns phi.
+  /// x' = phi x + w of `n` states, each with a constant standard deviation. Returns phi.
   template <int n>
   double markov(int first, double std, double phi) {
     P_.middleRows<n>(first) *= phi;
@@ -399,8 +396,8 @@ class ErrorStateEkf {
     past_next_ = (past_next_ + 1) % past_.size();
     past_count_ = std::min(past_count_ + 1, past_.size());
   }
-  /// What was found out of the attitude was as true in the past: the velocity then differs by what the
-  /// specific force since makes of it. Corrections of less than half a degree are left out.
+  /// A correction of the attitude applies to past states as well: their velocity changes by the specific
+  /// force since then. Corrections below half a degree are left out.
   void turn_past(const ekf::Vector& dx) {
     const Vector3 R_dba = R_nb_ * dx.segment<3>(ekf::accel_bias),
                   R_dbg = R_nb_ * dx.segment<3>(ekf::gyro_bias);

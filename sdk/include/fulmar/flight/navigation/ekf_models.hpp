@@ -12,12 +12,12 @@
 
 namespace fulmar::ekf {
 
+/// Air-relative velocity without gusts, NED, m/s; the vertical wind is 0.
 inline Eigen::Vector3d air_velocity(const Nominal& x) {
   return {x.v_n.x() - x.wind.x(), x.v_n.y() - x.wind.y(), x.v_n.z()};
 }
 
-/// A fix that may be older than it says, by the state `delay`: `rate` is the derivative of the expected value
-/// by time.
+/// Latency of a fix by the state `delay`: `rate` is the derivative of the expected value by time.
 inline Scalar late(Scalar z, double rate) {
   z.H(delay) = -rate;
   return z;
@@ -41,8 +41,8 @@ inline Scalar velocity(const ErrorStateEkf& f, const ErrorStateEkf::Past& past, 
   return z;
 }
 
-/// Position, NED axis 0 to 2, late as above: dp - age dv + age^2/2 (-[f]x (theta + age/3 R bg) - R ba). To a
-/// horizontal one what the receiver is off for minutes is added.
+/// Position, NED axis 0 to 2, late as above: dp - age dv + age^2/2 (-[f]x (theta + age/3 R bg) - R ba). A
+/// horizontal one includes the slow GNSS error.
 inline Scalar position(const ErrorStateEkf& f, const ErrorStateEkf::Past& past, int axis, double measured_m) {
   Scalar z;
   z.innovation = measured_m - past.p_n(axis);
@@ -83,11 +83,11 @@ inline Scalar baro_height_in_flight(const Nominal& x, double pressure_pa, double
   return z;
 }
 
-/// Metres per pascal in the standard atmosphere: turns a deviation of the pressure into one of the height.
+/// Metres per pascal in the standard atmosphere: converts a pressure error into a height error.
 inline double metres_per_pascal(const Air& air) { return 1 / (air.density_kgm3 * isa::g0); }
 
-/// True airspeed |u_n| plus the gust along the flight. A pitot tube reads the length of the air velocity up
-/// to some 15 degrees of incidence.
+/// True airspeed |u_n| plus the gust along the flight. A pitot reads the magnitude of the air velocity up to
+/// some 15 degrees of incidence.
 inline Scalar true_airspeed(const Nominal& x, double measured_mps) {
   const Eigen::Vector3d u_n = air_velocity(x);
   const double Va = std::max(u_n.norm(), 1e-3);

@@ -19,7 +19,7 @@ using MoreVector = Eigen::Matrix<double, max_more, 1>;
 using MoreRow = Eigen::Matrix<double, 1, max_more>;
 using MoreCovariance = Eigen::Matrix<double, max_more, max_more>;
 
-/// What the inertial unit has felt over a step, biases taken off: means.
+/// Means of the inertial samples over a step, without biases.
 struct Motion {
   double time_s = 0;
   Eigen::Matrix3d R_nb = Eigen::Matrix3d::Identity();
@@ -29,13 +29,16 @@ struct Motion {
 /// change per unit of an appended state: its column of the transition.
 using Drive = Eigen::Matrix<double, 9, 1> (*)(const Motion&);
 
+/// Model of one appended state.
 struct MoreState {
   double std = 1;         ///< before it is learnt, in its unit
   double walk = 0;        ///< unit/sqrt(s): a random walk
   double time_s = 0;      ///< > 0: first-order Gauss-Markov instead, which keeps `std`
-  Drive drive = nullptr;  ///< what it does to the motion; none: only measurements see it
+  Drive drive = nullptr;  ///< its effect on the motion; null: only measurements depend on it
 };
 
+/// Up to `max_more` appended states of a filter with `size` error states: values, covariance, and covariance
+/// with the filter.
 template <int size>
 class MoreStates {
  public:
@@ -56,7 +59,7 @@ class MoreStates {
   /// Covariance with the filter's own states: a row for each appended one.
   const Eigen::Matrix<double, max_more, size>& cross() const { return C_; }
 
-  /// A new value and deviation, without correlation with the rest.
+  /// A new value and standard deviation, without correlation with the rest.
   void set(int i, double value, double std) {
     y_(i) = value;
     C_.row(i).setZero();

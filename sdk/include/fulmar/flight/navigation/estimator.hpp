@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped estimator as a component: sensors in, VehicleState out. Silent until it is aligned. A component
-// that knows one more sensor holds it, with its ports and parameters as groups of its own, and fuses more in
-// a hook; all else - alignment, gaps, origin, publication - stays what it is:
+// The shipped estimator as a component: sensors in, VehicleState out; no output before it is aligned. A
+// component with one more sensor holds it, with its ports and parameters as groups, and fuses the sensor in a
+// hook. Alignment, gaps, origin and publication stay the same:
 //
 //   struct Inputs  { navigation::Inputs sensors;  Queue<RadarRange> range; };
 //   struct Outputs { navigation::Outputs nav; };
@@ -24,7 +24,7 @@
 
 namespace fulmar::navigation {
 
-struct Ekf {
+struct Ekf {  ///< a component; or a member of one, with the same calls
   static constexpr const char* doc =
       "Attitude, velocity, position, wind and sensor biases by an error-state extended Kalman filter.";
   using Inputs = navigation::Inputs;
@@ -90,7 +90,7 @@ struct Ekf {
     probes(out);
     return healthy() ? Status::ok : Status::degraded;
   }
-  /// What was published last.
+  /// Kind of the last published state.
   enum class Shown : std::uint8_t {
     nothing,
     measured,  ///< the filter's state, or that there is none
@@ -99,9 +99,9 @@ struct Ekf {
   // Deviations beyond which a part of the state is not called valid.
   static constexpr double tilt_valid_rad = 0.25, yaw_valid_rad = 0.5, speed_valid_mps = 3;
   static constexpr double position_valid_m = 50, height_valid_m = 20;
-  static constexpr double tube_std_mps = 2;             ///< of the tube alone, rolling or standing
+  static constexpr double tube_std_mps = 2;             ///< of the pitot alone, rolling or standing
   static constexpr double pitot_lost_s = 1;             ///< without an accepted sample
-  static constexpr double commands_age_s = 0.5;         ///< older ones do not tell what the motor does
+  static constexpr double commands_age_s = 0.5;         ///< older commands do not describe the motor
   static constexpr double deviations_after_s = 0.0099;  ///< renewed at 100 Hz; a sample may be a little early
 
   /// A sample whose time is later than that of the one before, and not in the future.
@@ -138,7 +138,7 @@ struct Ekf {
     dt_s_ = 1e-9 * static_cast<double>(imu_ns_ - before_ns);
     return navigator_.imu(omega_b, f_b, 1e-9 * static_cast<double>(imu_ns_), p);
   }
-  /// What comes without an inertial sample beside it is not used, but it came.
+  /// Samples without an inertial sample in the same tick count as received and are not used.
   void missed(const Inputs& in, const Tick& tick) {
     take(in.mag, mag_ns_, tick);
     take(in.baro, baro_ns_, tick);
@@ -152,8 +152,8 @@ struct Ekf {
       navigator_.gnss(*in.gnss, 1e-9 * static_cast<double>(in.gnss.valid_at_ns()), p);
     if (take(in.pitot, pitot_ns_, tick)) navigator_.pitot(in.pitot->pressure_pa, p);
   }
-  /// What the controller's own attitude has turned by since the last inertial sample before the gap. Its
-  /// heading may be any: the same before and after.
+  /// Rotation of the controller's own attitude since the last inertial sample before the gap. Its heading may
+  /// have any offset that is constant.
   void turned(const Inputs& in, const Tick& tick, const Params& p) {
     if (!take(in.attitude, attitude_ns_, tick)) return;
     const Quaterniond q = eigen(in.attitude->attitude);
@@ -238,8 +238,8 @@ inline Status Ekf::coast(const Tick& tick, bool sample, const Params& p, Outputs
   return Status::degraded;
 }
 
-/// In a gap the rates go from those last seen to those of a steady turn: roll, which is steered, more slowly
-/// than what gusts do.
+/// In a gap the rates go from the last ones to those of a steady turn: the roll rate, which is controlled,
+/// more slowly than those due to gusts.
 inline Vector3d Ekf::coasted_rate(const ekf::Nominal& x, double gap_s, const Params& p) const {
   const Euler e = euler_from(x.q_nb);
   const double V = x.v_n.head<2>().norm();
@@ -250,7 +250,7 @@ inline Vector3d Ekf::coasted_rate(const ekf::Nominal& x, double gap_s, const Par
   return turn + Vector3d(steered, gusts, gusts).cwiseProduct(seen - turn);
 }
 
-/// Nobody knows how the aircraft moves: the last state stands in, and says that it is none.
+/// The motion is unknown: publishes the last state with its flags cleared.
 inline Status Ekf::blind(std::int64_t valid_at_ns, const Params& p, Outputs& out) {
   fill_deviations(p);
   widen(1e-9 * static_cast<double>(valid_at_ns) - navigator_.filter().time_s(), p);
@@ -266,7 +266,7 @@ inline Status Ekf::blind(std::int64_t valid_at_ns, const Params& p, Outputs& out
   return Status::degraded;
 }
 
-/// Deviations grow with what may have happened since the last sample.
+/// Standard deviations grow with the possible motion since the last sample.
 inline void Ekf::widen(double gap_s, const Params& p) {
   const auto wider = [](Vec3<Ned>& std, double more) {
     std = {std::hypot(std.north, more), std::hypot(std.east, more), std::hypot(std.down, more)};
@@ -310,7 +310,7 @@ inline void Ekf::fill(const ekf::Nominal& x, const Matrix3d& R_nb, const Vector3
   fill_air(x, R_nb);
 }
 
-/// A state that stood in for a gap was not the filter's: what the reset that ends the gap is seen against.
+/// The state published in a gap is not the filter's: the reset at the end of the gap is the difference to it.
 inline void Ekf::fill_reset(const ekf::Nominal& x, const Euler& e) {
   const Resets& r = navigator_.resets();
   VehicleState& s = state_;
@@ -328,7 +328,7 @@ inline void Ekf::fill_air(const ekf::Nominal& x, const Matrix3d& R_nb) {
   VehicleState& s = state_;
   const Eigen::Vector2d gust = navigator_.gusts().gust_mps();
   s.wind_mps = {x.wind.x() + gust.x(), x.wind.y() + gust.y(), 0};
-  if (!navigator_.airborne()) {  // rolling or standing: the tube alone knows
+  if (!navigator_.airborne()) {  // rolling or standing: the pitot alone measures it
     s.airspeed_mps = navigator_.pitot_mps();
     s.alpha_rad = s.beta_rad = 0;
     return;
@@ -382,8 +382,8 @@ inline void Ekf::fill_deviations(const Params& p) {
   s.airspeed_valid = known && (navigator_.airborne() ? pitot || s.airspeed_std_mps < speed_valid_mps : tube);
 }
 
-/// The filter holds its wind to be steady. What the gusts make of that: they are part of the published wind;
-/// and without fixes, when the ground speed is airspeed and wind, they go into it, and into the position.
+/// Standard deviations with gusts, which the filter's steady wind leaves out: those of the published wind;
+/// and without fixes those of velocity and position.
 inline void Ekf::fill_wind_deviations(const Params& p) {
   const ErrorStateEkf& f = navigator_.filter();
   const Gusts& g = navigator_.gusts();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gusts on top of the filter's steady wind: how strong they are, and the one that blows now. Nothing of
-// the filter follows them: docs/decisions.md says why.
+// Gusts beside the filter's steady wind: their strength and the present gust. The filter does not use them:
+// docs/decisions.md, record 62.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -12,17 +12,16 @@
 
 namespace fulmar::navigation {
 
-/// How strong the gusts are and how long they last. Of a first-order Gauss-Markov process of deviation s the
-/// mean square of the change over a time t is D(t) = 2 s^2 (1 - exp(-t / tau)), while a mean wind that is not
-/// known, or a tube of the wrong scale, changes little. With r = exp(-1 s / tau), D(4 s) / D(1 s) is 1 + r +
-/// r^2 + r^3.
+/// Standard deviation and time constant of gusts. Of a first-order Gauss-Markov process of standard deviation
+/// s the mean square of the change over a time t is D(t) = 2 s^2 (1 - exp(-t / tau)); a wrong mean wind or
+/// pitot scale changes little. With r = exp(-1 s / tau), D(4 s) / D(1 s) is 1 + r + r^2 + r^3.
 class GustStrength {
  public:
-  /// `excess` is the airspeed of the tube over the one that the mean wind gives.
+  /// `excess` is the airspeed of the pitot minus that of the mean wind.
   void add(double excess_mps, double time_s, const Params& p) {
     const double dt = time_s - last_s_;
     last_s_ = time_s;
-    if (!(dt < 1)) {  // the tube was silent, or the flight begins
+    if (!(dt < 1)) {  // the pitot had a gap, or the flight begins
       smooth_ = excess_mps;
       count_ = 0;
     }
@@ -49,7 +48,7 @@ class GustStrength {
 
   static double square(double x) { return x * x; }
   void solve(const Params& p) {
-    // What was smoothed away is missing from both: 2 s^2 smooth_s / tau, of a lag that is short beside tau.
+    // The smoothing reduces both by 2 s^2 smooth_s / tau, for a lag much shorter than tau.
     const double lost = 2 * square(std_mps(p)) * smooth_s / time_s(p), change_4 = change_4_ + lost;
     const double ratio = change_4 / std::max(change_1_ + lost, 1e-12);
     double r = 0.8;
@@ -64,8 +63,8 @@ class GustStrength {
   int count_ = 0;
 };
 
-/// The gust that blows now, north and east: a Kalman filter of two states beside the large one. What the mean
-/// wind is wrong by is part of the gust here, so its variance counts with that of the gusts.
+/// The present gust, north and east: a Kalman filter of two states beside the main filter. An error of the
+/// mean wind is part of the gust here, so its variance adds to that of the gusts.
 class Gusts {
  public:
   /// Of the large filter: v - w, and the variances of w.
@@ -74,7 +73,7 @@ class Gusts {
     Eigen::Vector2d variance;
   };
 
-  /// A sample of the tube.
+  /// A sample of the pitot.
   void airspeed(const MeanWind& wind, double Va_mps, double time_s, const Params& p) {
     strength_.add(Va_mps - wind.u_n.norm(), time_s, p);
     predict(wind, time_s, p);
@@ -82,8 +81,8 @@ class Gusts {
     const double length = std::max(u_g.norm(), 1.0);
     fuse(Va_mps - u_g.norm(), -u_g.head<2>() / length, speed_std * speed_std);
   }
-  /// The air comes from ahead; `side_mps` is the deviation of its side component that has nothing to do with
-  /// gusts, `r_y` the wing's direction.
+  /// Zero sideslip; `side_mps` is the standard deviation of the side component without gusts, m/s, `r_y` the
+  /// direction of the wing, NED.
   void sideslip(const MeanWind& wind, const Eigen::Vector3d& r_y, double side_mps, double time_s,
                 const Params& p) {
     predict(wind, time_s, p);
@@ -104,7 +103,7 @@ class Gusts {
   double time_s(const Params& p) const { return strength_.time_s(p); }
 
  private:
-  static constexpr double speed_std = 0.1;  ///< m/s, of a sample of the tube
+  static constexpr double speed_std = 0.1;  ///< m/s, of a sample of the pitot
 
   void predict(const MeanWind& wind, double time_s, const Params& p) {
     const double std = strength_.std_mps(p), dt = std::clamp(time_s - time_s_, 0.0, 1e3);
@@ -129,11 +128,11 @@ class Gusts {
   double time_s_ = 0;
 };
 
-/// By how much gusts put the filter's mean wind off. The filter takes those across for white and those along
-/// for a process of its own; they last longer than either. What comes of that is the covariance of the errors
-/// under the gains that the filter has, which are not those of this model: the error budget of a suboptimal
-/// filter (Gelb, Applied Optimal Estimation (1974), section 7.2). Errors are those of the mean wind, gusts
-/// north and east, and what the filter takes for the gust along, a.
+/// Error of the filter's mean wind due to gusts. The filter takes gusts across as white and gusts along as a
+/// process of its own; both last longer. The result is the covariance of the errors under the gains of the
+/// filter, which differ from those of this model: the error budget of a suboptimal filter (Gelb, Applied
+/// Optimal Estimation (1974), section 7.2). Errors are those of the mean wind, gusts north and east, and the
+/// gust along that the filter estimates, a.
 class MeanWindError {
  public:
   /// A measurement of the air along `h_n` (NED, north and east), and of a where `along` is 1. `gain`: by how
@@ -161,8 +160,8 @@ class MeanWindError {
 
  private:
   using Vector = Eigen::Matrix<double, 5, 1>;
-  /// Changes over one and four seconds tell the gusts' fast part: of Dryden's, whose slow part is the larger
-  /// one, so much less than there is.
+  /// Changes over one and four seconds show the fast part of gusts; the slow part of Dryden's is larger, so
+  /// the standard deviation is underestimated.
   static constexpr double slow_std = 1.2, slow_time = 1.4;
 
   void advance(double std, double tau_s, double time_s, const Params& p) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From sensors to the filter: alignment, which sample is used when and with what noise, recovery. Knows no
-// ports; time is in seconds. The filter and its equations: fulmar/flight/navigation/ekf.hpp and
-// ekf_models.hpp. Users include navigator_updates.hpp, or estimator.hpp for the component. Needs
-// GeographicLib, as geodesy.hpp.
+// From sensors to the filter: alignment, choice and noise of each sample, recovery. It has no ports; time is
+// in seconds. The filter and its equations: fulmar/flight/navigation/ekf.hpp and ekf_models.hpp. Users
+// include navigator_updates.hpp, or estimator.hpp for the component. Needs GeographicLib, as geodesy.hpp.
 #pragma once
 #include <initializer_list>
 #include <optional>
@@ -26,7 +25,7 @@
 namespace fulmar::navigation {
 
 inline constexpr double bridge_tilt_std = 0.01, bridge_tilt_rate = 0.01;  ///< rad, rad/s: of another's turn
-inline constexpr double bridge_accel_std = 1;  ///< m/s2: changes of the speed that nobody saw
+inline constexpr double bridge_accel_std = 1;  ///< m/s2: unmeasured changes of the speed
 inline constexpr double height_off_s = 3;      ///< over which a contradiction of the height is averaged
 inline constexpr double climb_off_s = 0.5;     ///< the same of the climb
 inline constexpr double height_step_m = 0.7;   ///< by which one fix moves the height at most
@@ -38,26 +37,26 @@ inline constexpr double heading_lost_s = 10;   ///< without an accepted magnetic
 inline constexpr double fix_stamp_std_s =
     0.004;  ///< from fix to fix: a receiver solves its epochs in some ms
 inline constexpr double clipped_for_s =
-    10;  ///< so long after a sample at its stop a unit has the noise that is told of it
+    10;  ///< so long after a saturated sample a unit has its configured noise
 inline constexpr double min_gust_mps = 1.2,
-                        max_gust_mps = 2;  ///< by how much a tube may be off for a second
+                        max_gust_mps = 2;  ///< largest error of a pitot over a second
 inline constexpr double coasted_s =
     0.02;  ///< so long without an inertial sample is a gap: slower units do not fly
 
-/// What the navigator knows of its attitude, and how it came to it.
-///   waiting -> aligning -> running -> lost -> regained -> lost ...; lost -> running when it stands again;
-///   lost -> running when somebody else has felt the turn; any -> running when it takes over from an estimate
-///   that flies; in flight aligning -> trying -> running, or back when the fixes contradict.
+/// State of the attitude:
+///   waiting -> aligning -> running -> lost -> regained -> lost ...; lost -> running at rest;
+///   lost -> running when another unit has measured the turn; any -> running when it takes over from an
+///   active estimate; in flight aligning -> trying -> running, or back when the fixes contradict.
 enum class Mode : std::uint8_t {
   waiting,   ///< for the first inertial sample
   aligning,  ///< for the first attitude: at rest or in flight
-  trying,    ///< has one in flight, and waits for fixes that bear it out
+  trying,    ///< has one in flight, and waits for fixes that confirm it
   running,   ///< aligned, with a full prior
-  lost,      ///< a gap was too long to be bridged: looks for the attitude anew, keeps what changes slowly
+  lost,      ///< a gap was too long to be bridged: aligns again, keeps slow states
   regained   ///< aligned again in flight
 };
 
-/// What was seen or told and still holds; each comes and goes by itself.
+/// Available data; each flag is set and cleared on its own.
 struct Seen {
   bool yaw = false, position = false, height = false;
   bool origin = false;     ///< of the local frame
@@ -74,7 +73,7 @@ struct Resets {
   double yaw_rad = 0, at_s = never;
 };
 
-class Navigator {
+class Navigator {  ///< from samples of sensors to the state of the filter; SI units, NED and body axes
  public:
   /// Set-up and live changes: noises only.
   void tune(const Params& p) {
@@ -94,7 +93,7 @@ class Navigator {
     n.heading_std = p.mag_deviation;
     n.heading_time = p.mag_deviation_time;
     n.gnss_time = p.gnss_position_time;
-    if (n.gnss_std == 0) n.gnss_std = p.gnss_horizontal_std;  // until a receiver tells its own
+    if (n.gnss_std == 0) n.gnss_std = p.gnss_horizontal_std;  // until a receiver reports its own
     filter_.gravity_mps2 = p.gravity;
   }
 
@@ -148,10 +147,10 @@ class Navigator {
   const Resets& resets() const { return resets_; }
   bool airborne() const { return airborne_; }
   const ErrorStateEkf& filter() const { return filter_; }
-  ErrorStateEkf& filter() { return filter_; }  ///< for what fuse and doubt do not cover
+  ErrorStateEkf& filter() { return filter_; }  ///< for uses beyond fuse and doubt
   const Gusts& gusts() const { return gusts_; }
   const MeanWindError& wind_error() const { return wind_error_; }
-  /// m/s: what innovations of the level velocity share, beyond what a fix is taken to be off for longer.
+  /// m/s: common part of the innovations of the horizontal velocity beyond the slow part that is counted.
   double shared_speed_mps() const { return fix_noise_.beyond(health_.level.std_mps()); }
   /// Since the fixes stopped; 0 with fixes.
   double outage_s() const {
@@ -161,31 +160,31 @@ class Navigator {
   const Health& health() const { return health_; }
   Health& health() { return health_; }
   LocalFrame::Geodetic origin() const { return frame_.origin(); }
-  double pitot_mps() const { return pitot_mps_; }  ///< smoothed true airspeed of the tube alone
+  double pitot_mps() const { return pitot_mps_; }  ///< smoothed true airspeed of the pitot alone
   double time_s() const { return time_s_; }
 
   void status(const VehicleStatus& s) { status_ = s; }
 
-  /// A scalar of the sensor whose book is `aid`: within its gate, in deviations, it moves the state. So the
-  /// shipped measurements come in, and so does one more.
+  /// Fuses a scalar of the sensor with the monitor `aid` when it is within `gate` standard deviations. The
+  /// shipped measurements use it, and so does a user's sensor.
   ekf::Fused fuse(const ekf::Scalar& z, double variance, double gate, Aid& aid) {
     const ekf::Fused fused = filter_.fuse(z, variance, gate);
     aid.record(fused, time_s_);
     health_.refused += !fused.accepted;
     return fused;
   }
-  /// Scalars that come in together or not at all: whether the worst of them passes. In deviations.
+  /// Common gate of several scalars, in standard deviations: true when the worst of them passes.
   bool within(std::initializer_list<double> ratios, double gate, Aid& aid);
-  /// For how long its gate has refused everything that this sensor measured; 0 when it took the last one.
+  /// Time for which the gate has rejected this sensor; 0 when the last measurement was accepted.
   double refused_for_s(const Aid& aid) const {
     return aid.refused_from_s == never ? 0 : time_s_ - std::max(aid.refused_from_s, aligned_s_);
   }
-  /// One of the two is wrong: of these parts of the state nobody is surer than `std` any more, so that a
-  /// sensor which is right comes in again, while one that is far off stays out.
+  /// Two sources contradict: raises these parts of the state to at least `std`, so that a correct sensor is
+  /// accepted again, while one that is far off stays rejected.
   void doubt(std::initializer_list<int> parts, double std, Aid& aid);
 
   bool at_stop() const { return time_s_ - clipped_s_ < clipped_for_s; }  ///< or was a moment ago
-  /// A sample that is held at a stop has no noise of its own, and what went past it is not over when it is.
+  /// A saturated sample has no noise of its own, and the part that was cut off is still missing afterwards.
   void learn_noise(const Vector3d& omega_b, const Vector3d& f_b, double dt, const Params& p);
   /// One inertial sample, valid at `time_s`. False: it is not newer than the last one and was ignored.
   bool imu(const Vector3d& omega_b, const Vector3d& f_b, double time_s, const Params& p) {
@@ -211,7 +210,7 @@ class Navigator {
     const Vector3d ahead = ekf::air_velocity(filter_.state()).normalized();
     late_mps_ = (late_mps_ + (filter_.state().v_n - v).dot(ahead)) * std::exp(-dt / late_s);
     if (dt > coasted_s) bridged(dt, p);
-    // At its stop the unit says less than what happens.
+    // A saturated unit reports less than the motion.
     if (airborne_ && health_.rates.clipped())
       filter_.inflate(ekf::theta, 3, 2 * p.gap_rate_std * std::sqrt(dt));
     if (airborne_ && health_.forces.clipped()) filter_.inflate(ekf::vel, 3, p.gap_accel_std * std::sqrt(dt));
@@ -221,8 +220,8 @@ class Navigator {
     return true;
   }
 
-  /// Over a gap that is too long to be coasted: somebody else has felt the turn of the body, `turn_b`. The
-  /// air meets the aircraft as before.
+  /// Bridges a gap that is too long to be coasted by `turn_b`, the rotation of the body measured by another
+  /// unit. The air-relative velocity in body axes stays.
   void bridge(const Quaterniond& turn_b, const Params& p) {
     const double T = time_s_ - filter_.time_s();
     ekf::Nominal x = filter_.state();
@@ -256,14 +255,14 @@ class Navigator {
   /// Reads the same again and again in flight: nothing is learnt from it, however long it goes on.
   bool stuck(const Aid& aid) const { return airborne_ && aid.arrivals.stuck(); }
 
-  /// How long a sensor is refused before it is believed after all. Who had to be believed a short time ago is
-  /// no steady witness: now it is likelier back than off.
+  /// Time after which a rejected sensor is accepted. It is shorter for a sensor that was accepted in this way
+  /// a short time ago: more likely it is right now.
   double patience_s(const Aid& aid, const Params& p) const {
     return time_s_ - aid.believed_s < 60 ? std::min(2.0, p.gnss_reset_after.value) : p.gnss_reset_after.value;
   }
 
-  /// Fixes within twice the correlation time of their error know as much as one: the factor on their
-  /// variance.
+  /// Number of fixes within twice the correlation time of their error, which together have the information of
+  /// one: the factor on their variance.
   double samples_in(double correlation_s, double last_s) const {
     return 1 + 2 * correlation_s / std::clamp(time_s_ - last_s, 0.02, 10.0);
   }
@@ -293,14 +292,13 @@ class Navigator {
   }
   /// The filter has moved that from `before` by this measurement, and gusts were in it.
   void spoil_wind(const Vector3d& before, const ekf::Scalar& z, const Params& p) {
-    if (std::abs(z.innovation) < 1e-9) return;  // of no gain that a number could tell
+    if (std::abs(z.innovation) < 1e-9) return;  // too small for a gain
     wind_error_.fused((air() - before) / z.innovation, z.H.segment<2>(ekf::wind).transpose(), z.H(ekf::gust),
                       gusts_, time_s_, p);
   }
   double declination() const { return std::atan2(field_n_.y(), field_n_.x()); }
 
-  /// Nothing but the inertial unit can be fooled by a smooth flight: another witness has to agree that the
-  /// aircraft stands.
+  /// A smooth flight looks like rest to the inertial unit: another sensor has to confirm rest.
   bool at_rest_by_others(const Params& p) const {
     const bool gnss_slow = time_s_ - gnss_s_ < 2 && gnss_speed_ < 1.5,
                gnss_fast = time_s_ - gnss_s_ < 2 && gnss_speed_ >= 1.5;
@@ -334,7 +332,7 @@ class Navigator {
     seen_.yaw = yaw_std < 0.5;
   }
 
-  /// After a gap that was too long to be bridged: the attitude has to be found anew.
+  /// After a gap that was too long to be bridged: attitude lost, alignment begins.
   void lose() {
     if (mode_ == Mode::trying) return try_again();
     mode_ = Mode::lost;
@@ -354,8 +352,8 @@ class Navigator {
     filter_.inflate(ekf::theta, 3, 0.3 * p.gap_rate_std * dt * dt);
     filter_.inflate(ekf::vel, 3, 0.3 * p.gap_accel_std * dt * dt);
   }
-  /// Found anew after a gap: attitude and velocity. What changes slowly is kept and has become less sure:
-  /// biases, wind, the barometer's offset, the magnetometer's deviation.
+  /// Aligned again after a gap: new attitude and velocity. Slow states are kept with larger standard
+  /// deviations: biases, wind, the barometer's offset, the magnetometer's error.
   void begin_again(const Quaterniond& q_nb, const Vector3d& v_n, const Params& p, double tilt_std,
                    double yaw_std) {
     const double gap = std::sqrt(std::max(time_s_ - filter_.time_s(), 0.0));
@@ -391,8 +389,8 @@ class Navigator {
     const Vector3d f_b = still_.f();
     x.q_nb = has_mag ? attitude_at_rest(f_b, mag_b_, declination()) : attitude_at_rest(f_b);
     x.gyro_bias = still_.omega();
-    // At rest nothing but the accelerometers tells the tilt, and tilt the yaw by the dip of the field: no
-    // prior of their own, the updates at rest tie them to the prior of the accelerometer bias.
+    // At rest only the accelerometers observe the tilt, and tilt gives the yaw by the dip of the field: no
+    // priors of their own, the updates at rest tie them to the prior of the accelerometer bias.
     begin(x, p, time_s_, 0.5, has_mag ? 1 : 1.8);
     seen_.yaw = has_mag;
     seen_.position = seen_.height = seen_.baro_zero = false;
@@ -479,16 +477,16 @@ class Navigator {
   double gnss_s_ = never, gnss_speed_ = 0, mag_s_ = never, mag_fused_s_ = never, pitot_s_ = never,
          pitot_mps_ = 0, baro_s_ = never, baro_back_s_ = never;
   static constexpr double late_s = 0.1;  ///< by which an airspeed may be late
-  double late_mps_ = 0;                  ///< what the airspeed has changed by within that time
+  double late_mps_ = 0;                  ///< change of the airspeed within that time
   std::int64_t origin_count_ = 0;
   double baro_pa_ = 0, height_seen_s_ = never, height_off_m_ = 0, climb_seen_s_ = never, climb_off_mps_ = 0;
   Mode mode_ = Mode::waiting;
   Resets resets_;
   Seen seen_;
-  std::optional<VehicleStatus> status_;  ///< the last that the vehicle told
+  std::optional<VehicleStatus> status_;  ///< the last one of the vehicle
   bool located_ = false;                 ///< has had a position: the next that is set is a reset
-  bool resting_ = false;                 ///< stands, by the inertial unit and another witness
-  bool airborne_ = false;                ///< the air carries it: alpha, beta and the tube mean something
+  bool resting_ = false;                 ///< at rest by the inertial unit and another sensor
+  bool airborne_ = false;                ///< in flight: alpha, beta and the pitot are valid
 };
 
 }  // namespace fulmar::navigation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the navigator (navigator.hpp) does with the air: barometer, pitot tube, and that it comes from ahead.
+// Air data of the navigator (navigator.hpp): barometer, pitot, and zero sideslip.
 #pragma once
 #include "fulmar/flight/navigation/navigator.hpp"
 
@@ -43,7 +43,7 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
     if (off <= p.air_gate * std::hypot(known, std))
       variance = std::max(variance, known * known * (off / baro_step_m - 1));
   }
-  // What may be a step does not come in by degrees through the wider gate of a turn.
+  // A possible step is not accepted by degrees through the wider gate of a turn.
   const double alone = p.baro_noise * ekf::metres_per_pascal(air_);
   const bool may_step = health_.baro_step.may_be() &&
                         std::abs(z.innovation) > p.air_gate * filter_.expected_std(z, alone * alone);
@@ -60,13 +60,13 @@ inline void Navigator::baro(double pressure_pa, const Params& p) {
   }
 }
 
-/// A tube that has stepped is not used until it has stepped back, or so long ago that it may be right and
-/// by little; nor one that is off by more than gusts are.
+/// A pitot that has stepped is not used until it has stepped back, or for long enough that a small error may
+/// be right; nor one whose error exceeds gusts.
 inline bool Navigator::tube_contradicts(double Va, const Params& p) {
   const double noise = p.pitot_noise / (air_.density_kgm3 * std::max(Va, 0.5 * p.min_airspeed)),
                sample = std::hypot(noise, p.pitot_speed_std) * health_.pitot.innovations.std();
   ekf::Scalar z = ekf::true_airspeed(filter_.state(), Va);
-  z.H(ekf::gust) = 0;  // by what has been learnt of them
+  z.H(ekf::gust) = 0;  // by their learnt strength
   const double without_tube = ekf::air_velocity(filter_.state()).norm();
   const double doubt = std::hypot(std::clamp(gusts_.std_mps(p), min_gust_mps, max_gust_mps),
                                   filter_.expected_std(z, 0), late_mps_);
@@ -100,9 +100,9 @@ inline void Navigator::pitot(double pressure_pa, const Params& p) {
   spoil_wind(before, z, p);
 }
 
-/// After a start in flight the attitude may be hardly known about one axis, where the field lies along the
-/// specific force: there, where the nose points says more than how gusts go on for seconds spoils. Asked
-/// sooner it says the same again: three of 800 starts of bench_air_start were then sure of a wrong attitude.
+/// After a start in flight the attitude may be almost unknown about one axis, where the field is along the
+/// specific force; zero sideslip then adds information. Updates more often than gusts last add none: three of
+/// 800 starts of bench_air_start then had a small standard deviation of a wrong attitude.
 inline void Navigator::sideslip(const Params& p) {
   constexpr double gust_lasts_s = 2;
   sideslip_s_ = time_s_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the navigator (navigator.hpp) does with each sample of GNSS and magnetometer, and the noise of the
-// inertial unit; navigator_air.hpp has barometer and pitot tube.
+// Updates of the navigator (navigator.hpp): GNSS, magnetometer, and the noise of the inertial unit;
+// navigator_air.hpp has barometer and pitot.
 #pragma once
 #include <utility>
 
@@ -88,8 +88,8 @@ inline void Navigator::bound_delay(const Params& p) {
   filter_.correct(dx);
 }
 
-/// Where the aircraft was when the fix was taken, by the delay known so far. A little ahead, where that says
-/// so of a fix that is hardly late.
+/// State at the time of the fix, by the estimated delay. It may be a little ahead of the present for a fix
+/// with hardly any delay.
 inline ErrorStateEkf::Past Navigator::at_fix(double valid_s, const Params& p) const {
   const double time_s = valid_s - p.gnss_delay - filter_.state().gnss_delay_s;
   ErrorStateEkf::Past past = filter_.at(std::min(time_s, time_s_));
@@ -109,7 +109,7 @@ inline Vector3d Navigator::acceleration_at(double time_s) const {
   return (after.v_n - before.v_n) / span;
 }
 
-/// What has been set since `before`. What is set at one time is one reset.
+/// Adds the change since `before` to the published reset. Changes at one time are one reset.
 inline void Navigator::count_reset(const ekf::Nominal& before) {
   const ekf::Nominal& now = filter_.state();
   if (resets_.at_s != time_s_) resets_ = {resets_.count + 1, Vector3d::Zero(), Vector3d::Zero(), 0, time_s_};
@@ -160,14 +160,14 @@ inline void Navigator::gnss_velocity(const Gnss& g, double valid_s, const Params
     count_reset(before);
   } else {
     health_.level.add({fix[0].innovation, fix[1].innovation}, time_s_);
-    // Without a heading from elsewhere the yaw is what the accelerations of the fixes make of it: then it
-    // counts that their errors follow each other, or the yaw walks away with them.
+    // Without another heading, the accelerations of the fixes determine the yaw: then the correlation of
+    // their errors counts, or the yaw drifts with them.
     const bool heading = resting_ || time_s_ - health_.heading.accepted_s < heading_lost_s;
     fix_noise_.add({fix[0].innovation, fix[1].innovation, fix[2].innovation}, std, time_s_);
-    // After a stop of the unit the attitude is what is wrong, and waits for every fix.
+    // After saturation of the unit the attitude is wrong, and every fix has its full weight.
     const double level = !heading ? slow * variance : at_stop() ? variance : fix_noise_.level(slow_level);
     for (int i = 0; i < 3; ++i) {
-      const double by_stamp = fix_stamp_std_s * a_n(i);  // what of its time is no delay that lasts
+      const double by_stamp = fix_stamp_std_s * a_n(i);  // jitter of the time stamp
       filter_.fuse(z(i), by_stamp * by_stamp + (i < 2 ? level : fix_noise_.climb(n)), 1e3);
     }
   }
@@ -184,7 +184,7 @@ inline double Navigator::climb_samples(double innovation_mps, double std, double
   return 1 + (slow - 1) / (1 + doubt);
 }
 
-/// The first fix, and the one that is believed after all.
+/// Sets the position to a fix: the first one, or one accepted after a time-out.
 inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
   if (!seen_.origin) return;
   const Vector3d p_n = frame_.to_ned(g.latitude_deg, g.longitude_deg, g.altitude_m);
@@ -192,8 +192,7 @@ inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
   filter_.noise.gnss_std = known(g.horizontal_std_m, p.gnss_horizontal_std, p.gnss_position_floor);
   forget_level();
   filter_.forget(ekf::pos + 2, 1, known(g.vertical_std_m, p.gnss_vertical_std, 1));
-  // On the ground the place of the start tells the height better than the receiver, unless the receiver
-  // contradicts.
+  // On the ground the start height is more accurate than the receiver, unless the receiver contradicts.
   if (resting_)
     filter_.fuse(ekf::position(filter_, filter_.at(time_s_), 2, -p.start_height),
                  p.start_height_std * p.start_height_std, p.gnss_gate);
@@ -202,8 +201,7 @@ inline void Navigator::place(const Gnss& g, double time_s, const Params& p) {
   height_off_m_ = 0;
 }
 
-/// The horizontal position was set to where the receiver sees the aircraft: the sum of the position and of
-/// what the receiver is off is known.
+/// The horizontal position was set to that of the receiver: the sum of position and GNSS error is known.
 inline void Navigator::forget_level() {
   const double std = filter_.noise.gnss_std;
   filter_.forget(ekf::pos, 2, 1e3);
@@ -212,10 +210,10 @@ inline void Navigator::forget_level() {
   for (int i = 0; i < 2; ++i) filter_.fuse(ekf::position(filter_, now, i, now.p_n(i)), std * std, 1e9);
 }
 
-/// The first attitude in flight: that of the fix, from which on the inertial samples up to now are integrated
-/// as if it had come in time. What it may be wrong by comes from the velocities, their age, the biases and
-/// the second direction, and goes with them: e is the error of the mean specific force, theta = f x e / f^2,
-/// and the turn about f that keeps the second direction m in the plane of both.
+/// The first attitude in flight: that of the fix, then integrated to the present by the inertial samples. Its
+/// errors come from the velocities, their age, the biases and the second direction, and correlate with them:
+/// e is the error of the mean specific force, theta = f x e / f^2, and the turn about f that keeps the second
+/// direction m in the plane of both.
 inline void Navigator::begin_in_flight(const Gnss& g, const FlightAlignment::Found& found, double time_s,
                                        const Params& p) {
   const double now_s = time_s_, T = found.window_s;
@@ -248,8 +246,8 @@ inline void Navigator::begin_in_flight(const Gnss& g, const FlightAlignment::Fou
   row(ekf::theta, 15) = p.gnss_delay_std * theta_e * found.jerk_n;
   row(ekf::vel, 15) = p.gnss_delay_std * found.a_n;
   A(ekf::delay, 15) = p.gnss_delay_std;
-  // The heading of the field is less sure than its direction, by its horizontal share; of that direction only
-  // what lies across the specific force counts.
+  // The heading of the field is less certain than its direction, by its horizontal share; only the part of
+  // the direction across the specific force counts.
   const double field = field_n_.head<2>().norm() / across.norm();
   if (found.by_field) row(ekf::theta, 16) = p.mag_deviation * field * up;
   A(ekf::heading, 16) = p.mag_deviation;
@@ -269,9 +267,9 @@ inline void Navigator::begin_in_flight(const Gnss& g, const FlightAlignment::Fou
   mode_ = Mode::trying;
 }
 
-/// After a fix: whether it bears out the first attitude in flight. That is believed as soon as the
-/// acceleration that it makes of the specific force is known; what tilt and the accelerometers' biases make
-/// of it together nobody can tell before a turn.
+/// After a fix: whether it confirms the first attitude in flight. The attitude is valid when the acceleration
+/// that it gives with the specific force is known; tilt and accelerometer biases cannot be separated before a
+/// turn.
 inline void Navigator::try_attitude(const Params& p) {
   constexpr double max_ratio = 3;
   const double tilt_std = std::max(0.046, 1.3 * p.accel_bias_std / p.gravity);
@@ -334,7 +332,7 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   }
   const Vector3d& off = health_.position_innovation;
   Aid& level = health_.horizontal;
-  // As long as the velocity is right, as far as anybody knows.
+  // While the velocity is accepted.
   const bool asked = airborne_ && !stuck(level) && health_.velocity.refused_from_s == never &&
                      time_s_ - health_.velocity.believed_s > 60;
   if (asked)
@@ -343,7 +341,7 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
     health_.wander.missed();
   level.contradicts = asked && health_.wander.wanders();
   if (stuck(level) || (asked && health_.wander.doubted())) {
-    // However long: an aircraft does not stand in the air, nor goes where its velocity does not.
+    // Whatever the time: an aircraft does not stand in the air, and moves with its velocity.
   } else if (within({off.x(), off.y()}, p.gnss_gate, level)) {
     for (int i = 0; i < 2; ++i) filter_.fuse(z(i), variance, 1e3);
   } else if (time_s_ - std::max(level.accepted_s, aligned_s_) > patience_s(level, p) &&
@@ -359,9 +357,8 @@ inline void Navigator::gnss_position(const Gnss& g, double valid_s, const Params
   if (!stuck(health_.height)) gnss_height(z(2), v_std, p);
 }
 
-/// Receiver and barometer can both be wrong, so what they disagree in is resolved over seconds, and the
-/// height takes no step: not even when the receiver was refused until it has to be believed. Only what no
-/// flight resolves by degrees is set.
+/// Receiver and barometer can both be wrong, so their difference is resolved over seconds without a step of
+/// the height, even after a long rejection. Only a difference that no flight resolves by degrees is set.
 inline void Navigator::gnss_height(const ekf::Scalar& z, double std, const Params& p) {
   const double dt = std::clamp(time_s_ - height_seen_s_, 0.0, 10.0),
                refused_s = time_s_ - std::max(health_.height.accepted_s, aligned_s_);
@@ -370,10 +367,10 @@ inline void Navigator::gnss_height(const ekf::Scalar& z, double std, const Param
   health_.position_innovation.z() = z.innovation / filter_.expected_std(z, std * std);
   const double variance = height_variance(z, std, p);  // by when one was accepted before this one
   const bool agrees = within({health_.position_innovation.z()}, p.gnss_gate, health_.height);
-  // One that scatters is not believed by a single fix, however long it is refused.
+  // A single fix of a scattering receiver is not accepted, however long it is rejected.
   if (!agrees && (refused_s <= p.gnss_reset_after || health_.height.innovations.noisy())) return;
   if (agrees || std::abs(z.innovation) < height_set_m) {
-    filter_.fuse(z, variance, 1e9);  // not accepted by its gate: then the next one is believed as well
+    filter_.fuse(z, variance, 1e9);  // not counted as accepted by its gate, so that the next one is used too
     return;
   }
   const ekf::Nominal before = filter_.state();
@@ -385,8 +382,8 @@ inline void Navigator::gnss_height(const ekf::Scalar& z, double std, const Param
   health_.height.accepted_s = time_s_;
 }
 
-/// Its error is slow, so a fix hardly counts; the more, and steeply so, the farther off it has been for
-/// seconds. What it may move bounds it from below.
+/// Its error is slow, so a fix has little weight; the weight grows steeply with the duration and size of a
+/// contradiction. The possible motion bounds the variance from below.
 inline double Navigator::height_variance(const ekf::Scalar& z, double std, const Params& p) const {
   const double doubt = std::pow(height_off_m_ / std::max(p.gnss_height_doubt.value, std), 8);
   const double known = filter_.expected_std(z, 0);
@@ -406,7 +403,7 @@ inline void Navigator::mag(const Vector3d& field_b, const Params& p) {
     return;
   }
   const double horizontal = field_n_.head<2>().norm() / field_n_.norm();
-  if (!seen_.field || horizontal < 0.15) return;  // near the magnetic poles the needle does not know
+  if (!seen_.field || horizontal < 0.15) return;  // near the magnetic poles there is no heading
   if (time_s_ - mag_fused_s_ < 0.1 - 1e-4)
     return;  // its errors are correlated: more samples would not be more information
   mag_fused_s_ = time_s_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Noise that samples tell of themselves: of an inertial unit, and the part of a receiver's velocity error
-// that changes from fix to fix.
+// Noise from samples: of an inertial unit, and the white part of a receiver's velocity error.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -11,10 +10,9 @@
 
 namespace fulmar::navigation {
 
-/// White noise of three axes of an inertial unit, as a spectral density, from third differences: of white
-/// noise of deviation s their mean square is (1 + 9 + 9 + 1) s^2, while a motion of w rad/s gets by with (w
-/// dt)^3 of itself: at 100 Hz and 2 Hz with 0.002. A unit below 80 Hz tells nothing: the motion is in its
-/// differences.
+/// White noise of three axes of an inertial unit, as a spectral density, from third differences: for white
+/// noise of standard deviation s their mean square is (1 + 9 + 9 + 1) s^2, while a motion of w rad/s adds (w
+/// dt)^3 of itself: 0.002 at 100 Hz and 2 Hz. Below 80 Hz the motion dominates, and nothing is learnt.
 class UnitNoise {
  public:
   void sampled(const Eigen::Vector3d& values, double dt) {
@@ -29,8 +27,8 @@ class UnitNoise {
     const double variance = third.squaredNorm() / (3 * 20);
     mean_ += dt / seen_s_ * (variance * dt - mean_);
   }
-  /// In unit/sqrt(Hz); `told`: before it is learnt. Neither so quiet that nothing else would be wrong with
-  /// the unit, nor, shaken, so loud that nothing else would count.
+  /// In unit/sqrt(Hz); `reported`: the value before learning. Bounded both ways, so that other errors of a
+  /// quiet unit count, and other sensors beside a shaken one.
   double density(double reported) const {
     if (seen_s_ < min_s) return reported;
     return std::min(std::sqrt(mean_ + min_share * reported * min_share * reported), max_share * reported);
@@ -45,12 +43,12 @@ class UnitNoise {
   int count_ = 0;
 };
 
-/// A receiver states one deviation of its velocity. What of it changes from fix to fix, the innovations'
-/// successive differences tell (von Neumann, Annals of Mathematical Statistics 12 (1941)); the rest is slow,
-/// and of that n fixes within twice its correlation time know as much as one.
+/// Split of a receiver's reported velocity error: the part that changes from fix to fix follows from
+/// successive differences of innovations (von Neumann, Annals of Mathematical Statistics 12 (1941)). The rest
+/// is slow: n fixes within twice its correlation time have the information of one.
 class FixNoise {
  public:
-  /// Innovations, NED, m/s, and the deviation that the receiver states.
+  /// Innovations, NED, m/s, and the standard deviation that the receiver reports.
   void add(const Eigen::Vector3d& innovation_mps, double std_mps, double time_s) {
     const double dt = time_s - last_s_;
     last_s_ = time_s;
@@ -70,7 +68,7 @@ class FixNoise {
     const double white = known() ? std::min(climb_, reported_) : 0;
     return white + n * (reported_ - white);
   }
-  /// m/s, of one axis of the level velocity: what of `shared` is more than the slow part that is counted.
+  /// m/s, of one axis of the horizontal velocity: the part of `shared` beyond the slow part that is counted.
   double beyond(double shared_mps) const {
     return std::sqrt(std::max(shared_mps * shared_mps - (reported_ - white_level()), 0.0));
   }

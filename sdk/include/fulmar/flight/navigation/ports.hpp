@@ -16,6 +16,7 @@
 
 namespace fulmar::navigation {
 
+/// Input ports; only the inertial unit is required.
 struct Inputs {
   In<Imu> imu;
   Optional<Gnss> gnss;
@@ -24,15 +25,16 @@ struct Inputs {
   Optional<Pitot> pitot;
   Optional<VehicleStatus> status;
   Optional<ControllerAttitude> attitude;
-  Optional<Actuators> commands;  ///< what flies the aircraft: from its throttle an airspeed without a tube
+  Optional<Actuators> commands;  ///< active commands: their throttle gives the airspeed without a pitot
 };
+/// Output ports. The probes are states and innovations of the filter.
 struct Outputs {
   Out<VehicleState> state;
   Out<FilterCheck> check;        // for consistency tests
   Out<NavigationHealth> health;  // at 5 Hz
   Probe horizontal_ratio, height_ratio, velocity_ratio, baro_ratio, pitot_ratio, sideslip_ratio,
-      heading_ratio;    ///< innovations in deviations
-  Probe refused_ratio;  ///< measurements refused by their gates so far
+      heading_ratio;    ///< innovations in standard deviations
+  Probe refused_ratio;  ///< measurements rejected by their gates so far
   Probe gust_mps, gust_north_mps, gust_east_mps, baro_bias_m, static_port_ratio, heading_deviation_rad,
       gnss_delay_s;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Witnesses against a sensor beside the innovations of the filter: what it says of itself, and what no
-// aircraft and no air does. In hourglasses without fault (both sets of sensors, light and moderate
-// turbulence, eight seeds each) nothing comes nearer to its threshold than 0.85 of it.
+// Fault detectors beside the innovations of the filter: from the sensor alone, and from limits of aircraft
+// and air. In hourglasses without fault (both sets of sensors, light and moderate turbulence, eight seeds
+// each) all values stay below 0.85 of their thresholds.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -15,9 +15,8 @@ namespace fulmar::navigation {
 
 inline constexpr double never = -1e9;
 
-/// Three axes of the inertial unit, sample by sample. Nothing is expected of them, but white noise that no
-/// flight makes is vibration, and an axis that stays exactly where it is, the sooner at the largest that it
-/// has ever said, is at its stop.
+/// Three axes of the inertial unit, sample by sample. White noise beyond that of flight is vibration. An axis
+/// that repeats its value exactly is saturated, sooner at the largest value so far.
 class Triad {
  public:
   void sampled(const Eigen::Vector3d& values, double noisy_std) {
@@ -26,7 +25,7 @@ class Triad {
       const bool same = values[i] == before_[i];
       changed_[i] = same ? 0 : std::min(changed_[i] + 1, lively_samples);
       lively_[i] = std::max(lively_[i], changed_[i]);
-      // An axis without noise may stay where it is: what says the same has to have said something else.
+      // An axis without noise may repeat its value: only after varying values a repetition counts.
       repeated_[i] = same && values[i] != 0 && lively_[i] == lively_samples ? repeated_[i] + 1 : 0;
       most_[i] = std::max(most_[i], std::abs(values[i]));
       square += 0.5 * (values[i] - before_[i]) * (values[i] - before_[i]) / 3;
@@ -43,7 +42,7 @@ class Triad {
     since_clipped_ = clipped_ ? 0 : std::min(since_clipped_ + 1, reported_samples);
   }
   bool clipped() const { return clipped_; }
-  /// As long as whoever looks now and then has to see it.
+  /// Kept long enough for a periodic reader.
   bool was_clipped() const { return since_clipped_ < reported_samples; }
   bool noisy() const { return noisy_; }
 
@@ -59,12 +58,12 @@ class Triad {
   bool begun_ = false, noisy_ = false, clipped_ = false;
 };
 
-/// Whether a receiver's position goes where its velocity says. The two come from different measurements, so a
-/// position that is pulled away by something the velocity does not know shows here long before it is as wrong
-/// as the receiver may be. A jump is no wander: the gate sees it.
+/// Whether a receiver's position follows its velocity. The two come from different measurements, so a
+/// position that is pulled away shows here long before it exceeds the error of the receiver. A jump is left
+/// to the gate.
 class Wander {
  public:
-  /// A fix, north and east; `std_m`: what it claims of its position.
+  /// A fix, north and east; `std_m`: the reported standard deviation of its position.
   void fix(const Eigen::Vector2d& p_n, const Eigen::Vector2d& v_n, double std_m, double time_s) {
     const double dt = time_s - time_s_;
     const bool known = !std::exchange(missed_, false);
@@ -78,7 +77,7 @@ class Wander {
       return;
     }
     off_ = std::exp(-dt / memory_s) * off_ + step;
-    // What this receiver's positions and velocities differ by all the time, of which a fault teaches little.
+    // Usual difference between positions and velocities of this receiver; a fault changes it little.
     const double least = min_share * std_m, seen = std::min(off_.norm(), 2 * std::max(usual_, least));
     usual_ = std::sqrt(usual_ * usual_ + (seen * seen - usual_ * usual_) * std::min(dt / usual_s, 1.0));
     const double limit = std::max(limit_share * std_m, times * usual_);
@@ -105,7 +104,8 @@ class Wander {
 /// all of it is the sensor's.
 class BaroStep {
  public:
-  /// A sample's innovation, its own deviation, whether the gate took it. The step, once it has lasted.
+  /// Innovation of a sample, m, its standard deviation, and whether the gate accepted it. Returns the step,
+  /// m, once it has lasted.
   std::optional<double> sampled(double innovation_m, double std_m, bool accepted, double time_s) {
     const bool at_once =
         took_ && time_s - time_s_ < max_s && std::abs(innovation_m - before_m_) > most * std_m;
@@ -134,12 +134,12 @@ class BaroStep {
   int count_ = 0;
 };
 
-/// Whether the tube's airspeed steps: within a few samples no gust changes by a metre per second, but a tube
-/// that is plugged, kicked or zeroed does. The sum of all steps tells whether it has stepped back. And
-/// whether it is off for a second by more than gusts are, or has gone there within one.
+/// Whether the pitot's airspeed steps: within a few samples gusts change by less than a metre per second; a
+/// plugged, bent or zeroed pitot changes by more. The sum of all steps shows a step back. Also whether it is
+/// off for a second by more than gusts are, or became so within one.
 class TubeSteps {
  public:
-  /// The tube's true airspeed, and the one without it; `noise`: of a sample of their difference, `std`: of
+  /// True airspeed of the pitot, and the one without it; `noise`: of a sample of their difference, `std`: of
   /// the difference with gusts. m/s.
   void sampled(double tube, double otherwise, double noise, double std, double time_s) {
     const double dt = std::clamp(time_s - time_s_, 0.0, 1.0);
@@ -155,7 +155,7 @@ class TubeSteps {
       seconds_ = dt > max_s ? 0 : std::min(seconds_ + 1, second_.size());
       seconds_s_ = time_s;
     }
-    // Within a second a first-order Gauss-Markov gust changes by a share of what it is.
+    // Within a second a first-order Gauss-Markov gust changes by a share of its standard deviation.
     const double gust = std::max(std, strong_mps), change_1 = gust * std::sqrt(2 / gust_time_s);
     const bool falls = seconds_ == second_.size() && std::abs(mean_) > std::abs(second_.back()) &&
                        std::abs(mean_ - second_.back()) > change_times * change_1;
@@ -178,13 +178,13 @@ class TubeSteps {
                           forgotten_s = 30, max_s = 0.15;
   static constexpr double mean_s = 0.6, off_std = 5, back_std = 2.5, strong_mps = 2;
   static constexpr double bearable_mps = 3.5;  ///< an aircraft at its least airspeed does not stall by it
-  static constexpr double agreed_s = 6;  ///< the wind estimated without the tube may drift past agreement
+  static constexpr double agreed_s = 6;  ///< the wind estimated without the pitot may drift past agreement
 
   static double agreed(double std) { return std::min(back_std * std, bearable_mps); }
 
-  /// The last three samples, each, from the median of the three before the one in between: one odd sample is
-  /// no step. Both must have stepped: the airspeed without the tube steps when the receiver is believed after
-  /// all.
+  /// The last three samples, each relative to the median of the three before the one in between: one odd
+  /// sample is no step. Both must have stepped: the airspeed without the pitot steps when a rejected receiver
+  /// is accepted.
   void step(double limit, double std) {
     double step = 0;
     for (const auto which : {&Said::tube, &Said::excess}) {

@@ -11,6 +11,7 @@
 
 namespace fulmar {
 
+/// One cubic Bezier curve p(u), u from 0 to 1, NED.
 struct Curve {
   std::array<Vec3<Ned>, 4> p;  ///< begin, two handles, end, in metres
 
@@ -43,7 +44,7 @@ struct Curve {
     if (std::hypot(d.north, d.east) < 1e-6) d = p[3] - p[0];
     return std::atan2(d.east, d.north);
   }
-  /// 1/m, right positive; within what an arc of a metre has.
+  /// 1/m, right positive, within +-1.
   double curvature(double u) const {
     const Vec3<Ned> d = slope(u), b = bend(u);
     const double v = std::hypot(d.north, d.east);
@@ -99,10 +100,11 @@ struct Curve {
   }
 };
 
+/// The curve of a path whose `is_curve` is set.
 inline Curve curve_of(const Path& path) { return {path.control_m}; }
 
-/// Publishes a curve, for an aircraft that is closest to `u` on it: also as the line or orbit that touches it
-/// there, for those who know no curves.
+/// Publishes a curve, for an aircraft that is closest to `u` on it; also as the osculating line or orbit at
+/// that point, for readers without curves.
 inline void set_curve(Path& path, const Curve& curve, double u) {
   const Vec3<Ned> at = curve.point(u);
   const double chi = curve.course_rad(u), kappa = curve.curvature(u), climb = curve.climb_ratio(u);

@@ -15,6 +15,7 @@ struct Pose {
   double north_m = 0, east_m = 0, course_rad = 0;
 };
 
+/// Right, straight and left parts in their order: "rsl" is right, straight, left.
 enum class DubinsWord : std::uint8_t { rsr, rsl, lsr, lsl, rlr, lrl };
 inline constexpr std::array dubins_words{DubinsWord::rsr, DubinsWord::rsl, DubinsWord::lsr,
                                          DubinsWord::lsl, DubinsWord::rlr, DubinsWord::lrl};
@@ -34,8 +35,8 @@ constexpr int dubins_turn(DubinsWord word, int part) {
   return turns[static_cast<std::size_t>(word)][static_cast<std::size_t>(part)];
 }
 
-/// Angle in [0, 2 pi). What is short of a full turn by rounding alone is no turn: else a straight path would
-/// begin with a loop.
+/// Angle in [0, 2 pi). A value within rounding of a full turn is 0: else a straight path would begin with a
+/// loop.
 inline double positive_angle(double angle_rad) {
   constexpr double full = 2 * std::numbers::pi;
   const double a = angle_rad - full * std::floor(angle_rad / full);

@@ -20,21 +20,21 @@ inline constexpr double not_given = 1e9, same_place_m = 1;
 
 /// Either north, east of the origin, or latitude, longitude.
 struct FencePoint {
-  double north_m = not_given, east_m = not_given;
-  double lat_deg = not_given, lon_deg = not_given;
+  double north_m = not_given, east_m = not_given;   ///< local position, from the origin
+  double lat_deg = not_given, lon_deg = not_given;  ///< geodetic position, WGS-84
 };
 
 /// A file. Corners in order, either way round; the last one is joined to the first.
 struct Fence {
   Text<64> name;
   List<FencePoint, 64> corners;
-  double floor_m = -not_given, ceiling_m = not_given;  ///< above the origin
+  double floor_m = -not_given, ceiling_m = not_given;  ///< floor and ceiling, above the origin
 };
 
-/// Where the aircraft can come down. `up`: of the ground there, above the origin.
+/// A landing place. `up`: height of the ground there, above the origin.
 struct Place {
-  double north_m = not_given, east_m = not_given, up_m = 0;
-  double lat_deg = not_given, lon_deg = not_given;
+  double north_m = not_given, east_m = not_given, up_m = 0;  ///< local position, from the origin
+  double lat_deg = not_given, lon_deg = not_given;           ///< geodetic position, WGS-84
 };
 
 /// A file. The first is home.
@@ -43,11 +43,12 @@ struct Places {
   List<Place, 16> places;
 };
 
+/// A place in the local frame, m; `up_m` above the origin.
 struct Spot {
   double north_m = 0, east_m = 0, up_m = 0;
 };
 
-/// North and east of the origin. `what` names the point in a refusal.
+/// North and east of the origin; throws std::runtime_error, in which `what` names the point.
 template <class P>
 Spot spot_of(const P& p, const Origin& origin, const std::string& what) {
   const bool local = p.north_m < not_given && p.east_m < not_given;
@@ -63,7 +64,7 @@ Spot spot_of(const P& p, const Origin& origin, const std::string& what) {
   return {at.x(), at.y(), 0};
 }
 
-/// Refuses a place that is named twice: two within 1 m.
+/// Throws std::runtime_error for two places within 1 m.
 inline std::vector<Spot> places_of(const Places& file, const Origin& origin) {
   std::vector<Spot> spots;
   for (std::size_t i = 0; i < file.places.size(); ++i) {
@@ -77,12 +78,12 @@ inline std::vector<Spot> places_of(const Places& file, const Origin& origin) {
   return spots;
 }
 
-/// Twice the area to the left of a -> b, of c: sign says on which side it lies.
+/// Twice the signed area of a, b, c: positive when c is to the right of a -> b, seen from above.
 inline double side_of(const Spot& a, const Spot& b, const Spot& c) {
   return (b.north_m - a.north_m) * (c.east_m - a.east_m) - (b.east_m - a.east_m) * (c.north_m - a.north_m);
 }
 
-/// Do two pieces of line have a point in common?
+/// True when the segments a b and c d have a common point.
 inline bool meet(const Spot& a, const Spot& b, const Spot& c, const Spot& d) {
   const auto within = [](const Spot& p, const Spot& q, const Spot& r) {
     return std::min(p.north_m, q.north_m) <= r.north_m && r.north_m <= std::max(p.north_m, q.north_m) &&
@@ -100,7 +101,7 @@ class Polygon {
   bool given() const { return !corners_.empty(); }
   const std::vector<Spot>& corners() const { return corners_; }
 
-  /// Refuses what is no fence.
+  /// Throws std::runtime_error for an invalid fence.
   void set(const Fence& fence, const Origin& origin) {
     corners_.clear();
     for (std::size_t i = 0; i < fence.corners.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a route is made of: lines and arcs with heights, legs of several pieces, and the closest point of a
-// leg. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 11.
+// Parts of a route: lines and arcs with heights, legs of several pieces, and the closest point of a leg.
+// Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 11.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -14,6 +14,7 @@
 
 namespace fulmar {
 
+/// 1 for a right turn, -1 for a left one.
 constexpr double sign_of(Turn turn) { return turn == Turn::right ? 1 : -1; }
 
 /// The pose after `length_m` along a path of constant curvature (right positive).
@@ -39,8 +40,8 @@ struct RoutePiece {
   double curvature() const { return kind == PathKind::line ? 0 : sign_of(turn) / radius_m; }
   double height_at(double along_m) const { return height_m + climb_ratio * along_m; }
 
-  /// Metres from the beginning to the projection of a point. On an arc in [-pi, pi] radii: who flies a longer
-  /// one unwraps.
+  /// Metres from the beginning to the projection of a point. On an arc in [-pi, pi] radii; callers unwrap
+  /// longer arcs.
   double along(double north, double east) const {
     const double n = north - north_m, e = east - east_m;
     if (kind == PathKind::line) return n * unit_north_ratio + e * unit_east_ratio;
@@ -200,6 +201,7 @@ class NearestSearch {
   const RoutePiece* of_ = nullptr;
 };
 
+/// Closest point of one leg.
 inline RoutePoint nearest(const RouteLeg& leg, double north_m, double east_m) {
   NearestSearch search(north_m, east_m);
   search.consider(leg);

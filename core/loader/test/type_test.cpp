@@ -183,7 +183,7 @@ TEST_CASE("a name that is not there is answered with the valid ones") {
   };
   CHECK(fault("position_m.noth") == "types.name_unknown_in(Vec3, field, noth,  [north] north, east, down)");
   CHECK(fault("lap.count") == "types.field_not_struct(lap, lap.count)");
-  CHECK(fault("gains_ratio") == "types.index_missing(gains_ratio, ' is types.array_shape(4), gains_ratio)");
+  CHECK(fault("gains_ratio") == "types.index_missing(gains_ratio, ' is an array of 4, gains_ratio)");
   CHECK(fault("waypoints") == "types.index_missing(waypoints, ' is a list of at most 5, waypoints)");
   CHECK(fault("waypoints[5].hold") ==
         "types.index_out_of_range(waypoints, 5, waypoints, ' is a list of at most 5)");

@@ -20,7 +20,7 @@ TEST_CASE("a law is stopped in the tick in which the component that feeds it is,
   REQUIRE(r.guards.size() == 2);
   CHECK(r.guards[0].component == "plan");
   CHECK(r.guards[1].component == "one");
-  CHECK(r.guards[1].what == "input 'signal' comes from plan, which was stopped");
+  CHECK(r.guards[1].what == "run.input_of_stopped(signal, plan)");
   CHECK(r.guards[1].action == "two takes over");  // it has its signal from elsewhere
   CHECK(r.guards[1].at_ns == 100'000'000);
   CHECK(value(g, flight, "two", "command", "seen_m") == value(g, flight, "sim", "signal", "x_m"));
@@ -36,8 +36,8 @@ TEST_CASE("the chain to the vehicle may be of components without a role alone") 
   Flight flight(g, options(0.3));
   const FlightResult r = flight.run();
   REQUIRE(r.guards.size() == 3);
-  CHECK(r.guards[1].what == "input 'signal' comes from plan, which was stopped");
-  CHECK(r.guards[2].what == "input 'signal' comes from manage, which was stopped");
+  CHECK(r.guards[1].what == "run.input_of_stopped(signal, plan)");
+  CHECK(r.guards[2].what == "run.input_of_stopped(signal, manage)");
   CHECK(r.guards[2].action == "failsafe");
   CHECK(r.guards[2].at_ns == 100'000'000);
   CHECK(r.outcome == Outcome::failed);
@@ -74,7 +74,7 @@ TEST_CASE("an output that may stay silent is as old as the last step of its writ
       {{"plan.mute_at", "0.1"}});
   const FlightResult r = Flight(strict, options(5)).run();
   REQUIRE(r.guards.size() == 1);
-  CHECK(r.guards[0].what == "input 'signal' is 0.302 s old, the limit is 0.300 s");
+  CHECK(r.guards[0].what == "run.input_too_old(signal, 0.302, 0.300)");
 }
 
 TEST_CASE("a slow writer has three of its steps before its reader is stopped") {
@@ -120,7 +120,7 @@ TEST_CASE("who waits for the first sample of a writer that was stopped does not 
   const FlightResult r = Flight(by_role, options(1)).run();
   CHECK(r.outcome == Outcome::failed);
   REQUIRE(r.guards.size() >= 2);
-  CHECK(r.guards[1].what == "input 'signal' comes from filter, which was stopped");
+  CHECK(r.guards[1].what == "run.input_of_stopped(signal, filter)");
   CHECK(r.guards.back().action == "failsafe");
   CHECK(r.guards.back().at_ns <= -997'500'000);  // the second tick
   const Graph by_name = mission(std::string(through_plan) + with_fallback, {{"plan.stop_at", "-10"}});
@@ -140,7 +140,7 @@ TEST_CASE("a newcomer that fails in its first step leaves nothing of its predece
   const FlightResult r = Flight(g, options(0.3)).run();
   REQUIRE(r.guards.size() == 2);
   CHECK(r.guards[0].component == "other");
-  CHECK(r.guards[1].what == "input 'signal' comes from other, which was stopped");
+  CHECK(r.guards[1].what == "run.input_of_stopped(signal, other)");
   CHECK(r.guards[1].at_ns <= 102'500'000);
 }
 
@@ -186,7 +186,7 @@ TEST_CASE("what stands between the laws and the vehicle without a role is watche
   CHECK(relayed("", "relay.echo", 3).first.guards.empty());
   const auto [stopped, given] = relayed("stop_at: 0.1 s", "relay.echo", 0.2);
   CHECK(stopped.outcome == Outcome::failed);
-  CHECK(stopped.reason == "failsafe: sim: input 'command' comes from relay, which was stopped");
+  CHECK(stopped.reason == "run.failsafe(sim, run.input_of_stopped(command, relay))");
   REQUIRE(stopped.guards.size() == 2);
   CHECK(stopped.guards[0].component == "relay");
   CHECK(stopped.guards[1].action == "failsafe");
@@ -222,15 +222,13 @@ TEST_CASE("an output that has a habit of speaking and falls silent is told of, a
   const Said filter =
       said_of(one_phase, {{"filter.mute_at", "0.1"}, {"filter.until", "2.5"}, {"filter.mute_again", "2.8"}});
   REQUIRE(filter.lines.size() == 3);
-  CHECK(filter.lines[0] ==
-        "    1.10 s  filter: nothing on 'signal' for 1.0 s, though it steps: who reads it goes on with the "
-        "last of it");
-  CHECK(filter.lines[1] == "    2.50 s  filter: speaks on 'signal' again");
+  CHECK(filter.lines[0] == "    1.10 s  filter: run.output_silent_event(run.output_silent(signal, 1.0))");
+  CHECK(filter.lines[1] == "    2.50 s  filter: run.output_resumed(signal)");
   CHECK(filter.lines[2].find("3.80 s  filter: nothing on 'signal'") != std::string::npos);
   // the result has it, once
   REQUIRE(filter.result.guards.size() == 1);
   CHECK(filter.result.guards[0].component == "filter");
-  CHECK(filter.result.guards[0].what == "nothing on 'signal' for 1.0 s, though it steps");
+  CHECK(filter.result.guards[0].what == "run.output_silent(signal, 1.0)");
   CHECK(filter.result.guards[0].action == "its last sample stays");
   CHECK(filter.result.outcome == Outcome::flown);
   // without a role, on the way to the vehicle
@@ -306,7 +304,7 @@ TEST_CASE("a law that says nothing to the vehicle, though its inputs come, loses
   CHECK(said_of(law + with_fallback).lines.empty());
   const Said fallen = said_of(law + with_fallback, {{"one.mute_at", "0.1"}});
   REQUIRE(fallen.result.guards.size() == 2);
-  CHECK(fallen.result.guards[1].what == "nothing on 'command', though it steps and all its inputs come");
+  CHECK(fallen.result.guards[1].what == "run.command_missing(command)");
   CHECK(fallen.result.guards[1].action == "two takes over");
   CHECK(std::abs(fallen.result.guards[1].at_ns - 1'100'000'000) < 10'000'000);
   CHECK(fallen.result.outcome == Outcome::flown);

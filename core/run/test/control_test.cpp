@@ -256,7 +256,7 @@ TEST_CASE("a request to a component that does not fly is refused, not kept for t
   control.request("watch", "ask", ask(1), before.take());
   CHECK(before.wait(flight) == "was not answered");  // that step threw
   control.request("watch", "ask", ask(1), after.take());
-  CHECK(after.wait(flight) == "run.component_not_active(watch)");
+  CHECK(after.wait(flight) == "run.target_not_active");
   CHECK(refusal([&] { request(flight, "watch", "ask", 0.0); }) == "run.component_not_active(watch)");
 }
 

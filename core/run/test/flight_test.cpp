@@ -116,7 +116,7 @@ TEST_CASE("a phase hands over in the tick in which its condition has held for it
   CHECK(r.phases[1].name == "second");
   CHECK(r.phases[1].from_ns == 100'000'000);
   CHECK(r.phases[2].from_ns == 300'000'000);
-  CHECK(said[1] == "    0.10 s  phase second");
+  CHECK(said[1] == "    0.10 s  run.phase_entered(second)");
   // the newcomer got the outputs last applied in its role
   double taken = 0;
   std::memcpy(&taken, flight.sample(port(g, "two", "taken_over_frac")), sizeof taken);
@@ -151,7 +151,7 @@ TEST_CASE("a newcomer that refuses leaves the old one flying") {
   const FlightResult r = flight.run();
   CHECK(r.outcome == Outcome::flown);
   REQUIRE(r.guards.size() == 1);
-  CHECK(r.guards[0].what == "cannot take over: refuses to take over");
+  CHECK(r.guards[0].what == "run.cannot_take_over(refuses to take over)");
   CHECK(r.guards[0].action == "the old one stays");
   CHECK(value(g, flight, "sim", "applied", "by") == 1);
 }
@@ -187,7 +187,7 @@ TEST_CASE("when nobody is left the failsafe values are sent for their time, then
   Flight in_time(g, options(0.3));
   const FlightResult r = in_time.run();
   CHECK(r.outcome == Outcome::failed);
-  CHECK(r.reason == "failsafe: one: output 'command': u_frac is nan");
+  CHECK(r.reason == "run.failsafe(one, output 'command': u_frac is nan)");
   CHECK(r.guards[0].action == "failsafe");
   CHECK(value(g, in_time, "sim", "applied", "u_frac") == -0.25);
   CHECK(value(g, in_time, "sim", "applied", "present") == 1);
@@ -211,7 +211,7 @@ TEST_CASE("a law whose required input has gone stale is not flown on") {
   CHECK(r.guards[0].component == "filter");
   CHECK(r.guards[0].action == "held");
   CHECK(r.guards[1].component == "one");
-  CHECK(r.guards[1].what == "input 'signal' comes from filter, which was stopped");
+  CHECK(r.guards[1].what == "run.input_of_stopped(signal, filter)");
   CHECK(r.guards[1].action == "failsafe");  // the fallback would fly on the same old signal
   for (const GuardEvent& guard : r.guards) CHECK(guard.at_ns == 100'000'000);
 }
@@ -304,7 +304,7 @@ TEST_CASE("a paced flight stops a component that is over its budget five times i
   paced.speed = 1000;
   const FlightResult r = Flight(budgeted, paced).run();
   REQUIRE(r.guards.size() == 1);
-  CHECK(r.guards[0].what == "was over its time budget in 5 steps in a row");
+  CHECK(r.guards[0].what == "run.time_budget_exceeded");
   CHECK(r.guards[0].action == "two takes over");
 }
 
@@ -323,7 +323,7 @@ TEST_CASE("a phase whose component and fallback are both stopped leaves flying w
   const FlightResult r = flight.run();
   CHECK(r.outcome == Outcome::flown);
   CHECK(value(g, flight, "sim", "applied", "by") == 3);
-  CHECK(said.back() == "    0.40 s  law: nobody that this phase names can fly: three goes on");
+  CHECK(said.back() == "    0.40 s  law: run.no_candidate(three)");
 }
 
 TEST_CASE("a newcomer whose required input has no sample does not take over") {
@@ -338,7 +338,7 @@ TEST_CASE("a newcomer whose required input has no sample does not take over") {
   CHECK(r.outcome == Outcome::flown);
   REQUIRE(r.guards.size() == 1);
   CHECK(r.guards[0].component == "hungry");
-  CHECK(r.guards[0].what == "cannot take over: input 'never' has no sample");
+  CHECK(r.guards[0].what == "run.cannot_take_over(run.input_empty(never))");
   CHECK(value(g, flight, "sim", "applied", "by") == 2);  // the phase's fallback
 }
 

@@ -23,7 +23,7 @@ TEST_CASE("the vehicle's failure ends the flight") {
   Flight other(still, options(1));
   for (int i = 0; i < 1000 && other.step(); ++i) {
   }
-  CHECK(other.finish().reason == "run.vehicle_failed(time went from 200000000 to 200000000 ns)");
+  CHECK(other.finish().reason == "run.vehicle_failed(run.time_not_monotonic(200000000, 200000000))");
 }
 
 TEST_CASE("done, failed and timeout end a flight, in words") {
@@ -190,7 +190,7 @@ TEST_CASE("each event is a line for log panels as well, with its level and the t
   CHECK(levels == 20 * line);
   CHECK(reported.back().code == Code::concluded);  // the verdict is the last word
   CHECK(std::string(reported.back().name.data()) == "flown");
-  CHECK(std::string(reported.back().words.data()) == "flown (duration reached)");
+  CHECK(std::string(reported.back().words.data()) == "run.concluded(flown, duration reached)");
   Event bad = event_of(Code::failsafe);
   CHECK(int{log_line_of(bad, 0).level} == 50);
   CHECK(int{log_line_of(event_of(Code::guard), 0).level} == 30);

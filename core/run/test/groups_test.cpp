@@ -98,7 +98,7 @@ TEST_CASE("without a fallback that can fly there is failsafe, not half a group")
   Flight flight(g, options(0.3));
   const FlightResult r = flight.run();
   CHECK(r.outcome == Outcome::failed);
-  CHECK(r.reason == "failsafe: both: both are broken");
+  CHECK(r.reason == "run.failsafe(both, both are broken)");
   CHECK(value(g, flight, "sim", "applied", "u_frac") == -0.25);
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("one of its followers refuses: it keeps all its roles") {
   Flight flight(g, options(0.2));
   const FlightResult r = flight.run();
   REQUIRE(r.guards.size() == 1);
-  CHECK(r.guards[0].what == "cannot take over: refuses to take over");
+  CHECK(r.guards[0].what == "run.cannot_take_over(refuses to take over)");
   CHECK(r.guards[0].action == "the old one stays");
   CHECK(value(g, flight, "sim", "applied", "by") == 7);
   CHECK(value(g, flight, "filter", "signal", "tick_s") ==

@@ -159,7 +159,7 @@ TEST_CASE(
   const FlightResult r = flight.finish();
   CHECK(r.last_ns == 5'000'000'000);
   CHECK(r.outcome == Outcome::failed);
-  CHECK(r.reason == "failsafe: law_a: says that it failed");
+  CHECK(r.reason == "run.failsafe(law_a, says that it failed)");
 }
 
 TEST_CASE(
@@ -192,7 +192,7 @@ TEST_CASE(
   const FlightResult r = flight.finish();
   CHECK(1e-9 * static_cast<double>(r.last_ns) == doctest::Approx(11.9025 + 1).epsilon(1e-9));
   CHECK(r.outcome == Outcome::interrupted);
-  CHECK(r.reason == "control given up run.ended_by_signal: the aircraft is its pilot's");
+  CHECK(r.reason == "run.control_given_up");
 }
 
 TEST_CASE(
@@ -231,7 +231,7 @@ TEST_CASE(
   fly_until(flight, 1);
   flight.finish();
   REQUIRE(said.lines.size() == 4);
-  CHECK(said.lines[0] == "    0.00 s  phase flight");
+  CHECK(said.lines[0] == "    0.00 s  run.phase_entered(flight)");
   CHECK(said.lines[1] == "    0.50 s  craft: all is well");
   CHECK(said.lines[2] == "    0.50 s  craft: bell  rings");
   CHECK(said.lines[3] == "    0.50 s  craft: changed");  // once, though it is written in every tick

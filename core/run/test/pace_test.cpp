@@ -112,7 +112,7 @@ TEST_CASE("a paused flight stands still, answers, and takes parameters at once")
   CHECK(aloft.pace(order(pause)) == "");
   CHECK(aloft.view().pace.paused);
   const std::int64_t then = aloft.now_ns();
-  CHECK(aloft.pace(order(pause)) == "the flight is paused already");
+  CHECK(aloft.pace(order(pause)) == "run.flight_already_paused");
   CHECK(aloft.set("0.5") == "");
   for (int i = 0; i < 5; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));  // several periods: there would be ticks
@@ -121,14 +121,14 @@ TEST_CASE("a paused flight stands still, answers, and takes parameters at once")
   CHECK(aloft.pace(order(resume)) == "");
   CHECK_FALSE(aloft.view().pace.paused);
   aloft.wait_until([&] { return aloft.now_ns() > then; });
-  CHECK(aloft.pace(order(resume)) == "the flight is not paused");
+  CHECK(aloft.pace(order(resume)) == "run.flight_not_paused");
   CHECK(aloft.end().outcome == Outcome::interrupted);
   CHECK(value(aloft.graph(), aloft.flight(), "one", "command", "u_frac") == 0.5);
 }
 
 TEST_CASE("N ticks are flown, not one more or less, and whoever asked is answered behind the last") {
   Aloft aloft;
-  CHECK(aloft.step(3) == "the flight is not paused: nothing to step");
+  CHECK(aloft.step(3) == "run.step_without_pause");
   aloft.pace(order(pause));
   const std::int64_t then = aloft.now_ns();
   for (const std::uint64_t n : {1u, 2u, 400u, 1u}) {

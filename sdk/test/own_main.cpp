@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// doctest's main of the project's own tests: messages, also of the programs that a test starts, are written as
-// codes with their arguments. A sentence can change without a change of a test.
+// doctest's main of the project's own tests: messages, also of the programs that a test starts, are written
+// as codes with their arguments. A sentence can change without a change of a test.
 #include <cstdlib>
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>

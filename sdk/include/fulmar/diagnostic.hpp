@@ -164,6 +164,15 @@ class MessageText {
     return out.used;
   }
 
+  /// As a text of limited size: `notice.text = low.to<Text<96>>(height)`. [tick]
+  template <class Fit, class... Values>
+  requires(sizeof...(Values) == N) Fit to(const Values&... values)
+  const noexcept {
+    Fit made{};
+    write(made.bytes.data(), made.bytes.size(), values...);
+    return made;
+  }
+
  private:
   template <class Out, class TextOf>
   void put(Out& out, const TextOf& argument) const {

@@ -8,7 +8,8 @@
 
 Limits: a file has 400 lines, comments included, or what cmake/long_files.txt lists for it; a function of core/ and
 links/ has 60 lines, a struct of these 15 data members; a struct of plugins/ and tools/ has 25 data members, ports and
-parameters included, or what cmake/wide_structs.txt lists for it. Both lists only shrink.
+parameters included, or what cmake/wide_structs.txt lists for it. Both lists only shrink. A catalogue of messages
+(messages.hpp, MessageText) is a table of texts: it is counted apart and may be long.
 """
 import re
 import subprocess
@@ -106,8 +107,12 @@ def git_files(*folders):
     return [name for name in listed if (root / name).exists() and not name.startswith("core/test/abi_1/")]
 
 
+def is_catalogue(name):
+    return name.endswith("messages.hpp") and "MessageText" in (root / name).read_text()
+
+
 def main():
-    sources = [f for f in git_files() if f.endswith((".cpp", ".hpp", ".h", ".c", ".ts", ".py", ".sh", ".mjs"))]
+    sources = [f for f in git_files() if not is_catalogue(f) and f.endswith((".cpp", ".hpp", ".h", ".c", ".ts", ".py", ".sh", ".mjs"))]
     faults = against_list("long_file", {f: (root / f).read_text().count("\n") for f in sources}, FILE_LINES, "lines")
     core, plugins = members_of(["core", "links"]), members_of(["plugins", "tools"])
     faults += [f"{name} has {n} data members; {MEMBERS} is the limit" for name, n in core.items() if n > MEMBERS]
@@ -119,11 +124,16 @@ def main():
         if "/test/" in name or not name.endswith((".cpp", ".hpp", ".h", ".c")):
             continue
         text = (root / name).read_text()
+        if is_catalogue(name):
+            size["links/texts"] += code_lines(text)
+            continue
         top, *folders = name.split("/")[:-1]
         size[f"links/{folders[0]}" if top == "links" else folders[0] if folders else "(core)"] += code_lines(text)
         faults += [f"{name}:{line}: a function of {lines} lines; {FUNCTION_LINES} is the limit" for line, lines in long_functions(text)]
+    texts = size.pop("links/texts", 0)
     for folder, lines in size.most_common():
         print(f"{lines:6d}  {folder}")
+    print(f"{texts:6d}  catalogues of messages, not in the sums below")
     flies = sum(size[folder] for folder in FLIES)
     print(f"{flies:6d}  what flies: {', '.join(FLIES)}")
     print(f"{sum(lines for folder, lines in size.items() if not folder.startswith('links/')):6d}  core")

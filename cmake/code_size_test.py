@@ -51,6 +51,14 @@ class CodeSize(unittest.TestCase):
         self.write("cmake/long_files.txt", "401 sdk/long.hpp\n")
         self.assertEqual(self.size().returncode, 0)
 
+    def test_a_catalogue_of_messages_is_counted_apart(self):
+        self.write("core/run/messages.hpp", 'inline constexpr MessageText a{"run.a", "b"};\n' * 401)
+        found = self.size("--most", "4")
+        self.assertEqual(found.returncode, 0, found.stderr)
+        self.assertIn("   401  catalogues", found.stdout)
+        self.write("core/run/messages.hpp", "int a;\n" * 401)
+        self.refused("core/run/messages.hpp has 401 lines; 400 is the limit")
+
     def test_the_list_of_long_files_shrinks(self):
         self.write("cmake/long_files.txt", "450 sdk/long.hpp\n")
         self.write("sdk/long.hpp", "int a;\n" * 449)

@@ -47,13 +47,14 @@ class Chance {
 struct Part {
   FaultTarget what;
   const char* name;
-  std::vector<std::string> names;  ///< of it in a reason
+  std::vector<std::string> names;  ///< of it in a reason, as a sentence or a code
 };
 
 inline const std::vector<Part>& sensors() {
   using T = FaultTarget;
-  static const std::vector<std::string> inertial{"gyro", "accelerometer", "attitude"},
-      satellites{"GNSS", "position lost", "no position"};
+  static const std::vector<std::string> inertial{"gyro", "accelerometer", "attitude", "inertial_wrong",
+                                                 "estimator_failed"},
+      satellites{"GNSS", "position lost", "no position", "position_lost", "gnss_lost"};
   static const std::vector<Part> list{{T::gyro, "gyro", inertial},
                                       {T::accel, "accel", inertial},
                                       {T::gnss_position, "gnss_position", satellites},
@@ -66,9 +67,11 @@ inline const std::vector<Part>& sensors() {
 inline const std::vector<Part>& surfaces() {
   using T = FaultTarget;
   static const std::vector<Part> list{
-      {T::aileron, "aileron", {"aileron", "excessive attitude"}},
-      {T::elevator, "elevator", {"elevator", "excessive attitude", "control of height"}},
-      {T::rudder, "rudder", {"rudder", "excessive attitude"}}};
+      {T::aileron, "aileron", {"aileron", "excessive attitude", "attitude_excessive", "bank_off"}},
+      {T::elevator,
+       "elevator",
+       {"elevator", "excessive attitude", "attitude_excessive", "pitch_off", "control of height"}},
+      {T::rudder, "rudder", {"rudder", "excessive attitude", "attitude_excessive"}}};
   return list;
 }
 
@@ -113,19 +116,19 @@ inline void draw_actuator(Drawn& d, Chance& chance) {
   } else if (which < 4.5) {
     const bool off = chance.one_in(2);
     d.failure = off ? "engine off" : "engine weak";
-    d.names = {"motor", "thrust"};
+    d.names = {"motor", "thrust", "engine_"};
     d.fault.what = FaultTarget::engine;
     d.fault.kind = off ? FaultKind::off : FaultKind::weak;
     if (!off) d.fault.size_ratio = chance.between(0.2, 0.8);
   } else if (which < 5.5) {
     d.failure = "battery empty";
-    d.names = {"battery", "motor", "thrust"};
+    d.names = {"battery", "motor", "thrust", "engine_"};
     d.fault.what = FaultTarget::battery;
     d.fault.kind = FaultKind::empty;
     d.fault.size_ratio = chance.between(10, 300);
   } else {
     d.failure = "icing";
-    d.names = {"ice. ", "stall", "control of height"};
+    d.names = {"ice. ", "engine_weak", "stall", "control of height"};
     d.fault.what = FaultTarget::icing;
     d.fault.kind = FaultKind::growing;
     d.fault.size_ratio = chance.between(0.005, 0.05);
@@ -143,7 +146,7 @@ inline void draw_link(Drawn& d, Chance& chance) {
     return;
   }
   d.failure = "gap of all samples";
-  d.names = {"gyro", "accelerometer", "attitude"};
+  d.names = {"gyro", "accelerometer", "attitude", "inertial_wrong", "estimator_failed"};
   for (const char* works : {"imu_works", "gnss_works", "mag_works", "baro_works", "pitot_works"})
     d.settings.push_back({works, {0, 0, 0}, {1, 0, 0}});
   d.lasts_s = chance.between(0.2, 6);
@@ -155,7 +158,8 @@ inline void draw_wind(Drawn& d, Chance& chance) {
   if (chance.one_in(3)) {
     const double peak = chance.between(5, 16);
     d.failure = "gust";
-    d.names = {"above the limit", "stall", "excessive attitude", "off its command"};
+    d.names = {"above the limit",    "wind_excessive",  "stall",    "excessive attitude",
+               "attitude_excessive", "off its command", "bank_off", "pitch_off"};
     d.settings.push_back({"gust", {0, peak * std::cos(to), peak * std::sin(to)}, {0, 0, 0}});
     d.settings.push_back({"gust_now", {1, 0, 0}, {0, 0, 0}});
     d.lasts_s = 20;
@@ -163,7 +167,13 @@ inline void draw_wind(Drawn& d, Chance& chance) {
   }
   const double speed = chance.between(8, 22);
   d.failure = "wind";
-  d.names = {"m/s, above the limit", "too much wind", "the top airspeed", "wind of"};
+  d.names = {"m/s, above the limit",
+             "wind_excessive",
+             "too much wind",
+             "the top airspeed",
+             "drift",
+             "wind of",
+             "crosswind"};
   d.settings.push_back({"wind_ned", {speed * std::cos(to), speed * std::sin(to), 0}, {3.5355, -3.5355, 0}});
   d.grows_s = chance.between(5, 20);
   if (chance.one_in(2)) d.lasts_s = chance.between(20, 120);
@@ -172,7 +182,7 @@ inline void draw_wind(Drawn& d, Chance& chance) {
 inline void draw_pilot(Drawn& d, Chance& chance) {
   d.group = "pilot";
   d.failure = "takes over";
-  d.names = {"the pilot flies"};
+  d.names = {"the pilot flies", "pilot_flies"};
   for (const char* stick : {"stick_roll", "stick_pitch"})
     d.settings.push_back({stick, {chance.between(-0.2, 0.2), 0, 0}, {0, 0, 0}});
   d.settings.push_back({"stick_throttle", {chance.between(0, 1), 0, 0}, {0, 0, 0}});

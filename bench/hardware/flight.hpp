@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,14 @@ inline bool in_order(const std::vector<std::string>& flown, const std::vector<st
   return next == wanted.size();
 }
 
+/// `parts`: one, or several separated by '|': a sentence and its code.
+inline bool holds_one_of(const std::string& line, const std::string& parts) {
+  std::istringstream all(parts);
+  for (std::string part; std::getline(all, part, '|');)
+    if (line.find(part) != std::string::npos) return true;
+  return false;
+}
+
 /// "": the flight was as the case asks. Else the first thing that was not.
 inline std::string verdict(const Case& c, const Landing& l) {
   if (l.crashed) return "crashed";
@@ -69,7 +78,7 @@ inline std::string verdict(const Case& c, const Landing& l) {
   if (!in_order(l.phases, c.phases)) return "left out a phase";
   for (const std::string& words : c.reported)
     if (std::none_of(l.said.begin(), l.said.end(), [&](const auto& line) {
-          return line.second.find(words) != std::string::npos && line.first >= l.last_event_s &&
+          return holds_one_of(line.second, words) && line.first >= l.last_event_s &&
                  line.first <= l.last_event_s + c.reported_within_s;
         }))
       return "no line with \"" + words + "\"";

@@ -142,7 +142,7 @@ TEST_CASE("what cannot be flown is told in one sentence") {
                         (folder.path / "log.yaml").string() + " arrive from 0 s to 60 s\n");
   const Said nowhere = bench((folder.path / "log.yaml").string() + " --folder nowhere --starts 30");
   CHECK(nowhere.code == 1);
-  CHECK(nowhere.out.find("nowhere/imu.csv cannot be read") != std::string::npos);
+  CHECK(nowhere.out.find("sensor_log.file_missing(nowhere/imu.csv)") != std::string::npos);
   for (const char* const none : {"", "log.yaml --starts 30", "log.yaml --folder . --starts 30,x",
                                  "log.yaml --folder . --starts 30 --seconds 0", "log.yaml --what 1"}) {
     const Said usage = bench(none);

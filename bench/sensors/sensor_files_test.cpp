@@ -107,15 +107,19 @@ TEST_CASE("the Allan deviation of a shipped set is that of its data sheet") {
 
 TEST_CASE("what is wrong in a file of sensors is told with its line") {
   CHECK(reported_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n").find("sensor_files_test.yaml:2: ") == 0);
-  CHECK(reported_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n").find("Did you mean") !=
+  CHECK(reported_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n")
+            .find("graph.key_unknown(nois_per_root_hz, [noise_per_root_hz] ") != std::string::npos);
+  CHECK(reported_of("mag:\n  timing: {rate: -5 Hz}\n")
+            .find(":2: mag.timing.rate: graph.value_out_of_range(-5 Hz, ") != std::string::npos);
+  CHECK(reported_of("gnss: {timing: {dropouts: 1.5}}\n").find("graph.value_out_of_range(1.5, 0, 0.99, ") !=
         std::string::npos);
-  CHECK(reported_of("mag:\n  timing: {rate: -5 Hz}\n").find(":2: mag.timing.rate: -5 Hz is outside") !=
+  CHECK(reported_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("graph.value_out_of_range(") ==
         std::string::npos);
-  CHECK(reported_of("gnss: {timing: {dropouts: 1.5}}\n").find("outside 0 .. 0.99") != std::string::npos);
-  CHECK(reported_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("is outside 0 ug .. ") ==
-        std::string::npos);
-  CHECK(reported_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("is below 0") != std::string::npos);
-  CHECK(reported_of("imu: {accel: {noise_per_root_hz: 100 deg/s}}\n").find("not an acceleration") !=
+  CHECK(
+      reported_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("graph.value_too_small(-100 ug, 0") !=
+      std::string::npos);
+  CHECK(reported_of("imu: {accel: {noise_per_root_hz: 100 deg/s}}\n")
+            .find("graph.dimension_differs(100 deg/s, an angular rate, , an acceleration)") !=
         std::string::npos);
   CHECK(reported_of("imu: {accel: {noise_per_root_hz: 100 ug}}\n").empty());
 }

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/app/extern_command.hpp"
+#include "core/app/messages.hpp"
 #include "core/app/program.hpp"
 #include "core/app/run_command.hpp"
 #include "core/error.hpp"
@@ -66,13 +67,12 @@ struct Commands {
     for (const std::string& word : extern_commands()) valid.push_back(word);
     std::erase(valid, "complete");  // for shells
     const std::string word = words[0];
-    std::fprintf(stderr, "fulmar: there is no command '%s'.%s\n", for_terminal(word).c_str(),
-                 choices_text(word, valid).c_str());
+    std::fprintf(
+        stderr, "fulmar: %s\n",
+        fulmar::app_messages::command_unknown(for_terminal(word), choices_text(word, valid)).text.c_str());
     if (word == "fcu" || word == "ros2" || word == "aero" || word == "import")
-      std::fprintf(stderr,
-                   "The program fulmar-%s is not there: `cmake --build build --target "
-                   "tools` makes it.\n",
-                   words[0]);
+      std::fprintf(stderr, "fulmar: %s\n",
+                   fulmar::app_messages::program_not_built("fulmar-" + word).text.c_str());
     return 2;
   }
 

@@ -16,6 +16,8 @@ inline constexpr MessageText command_program_missing{
     "app.command_program_missing",
     {"command", "program"},
     "fulmar {command}: the program {program} is missing beside this one"};
+inline constexpr MessageText command_unknown{
+    "app.command_unknown", {"found", "choices"}, "there is no command '{found}'.{choices}"};
 inline constexpr MessageText condition_violated{"app.condition_violated",
                                                 "a required condition does not hold"};
 inline constexpr MessageText dds_without_pace{
@@ -37,7 +39,9 @@ inline constexpr MessageText live_without_pace{
 inline constexpr MessageText log_incomplete{
     "app.log_incomplete",
     {"reason", "count", "file"},
-    "the log is incomplete: {reason}; {count} messages are lost{file}"};
+    "the log is incomplete: {reason}; {count} messages are lost, {file} holds the rest"};
+inline constexpr MessageText log_lost{
+    "app.log_lost", {"reason", "count"}, "the log is incomplete: {reason}; {count} messages are lost"};
 inline constexpr MessageText log_not_recorded{
     "app.log_not_recorded", {"log"}, "--log {log}: the mission sets record: off, so the host writes no log"};
 inline constexpr MessageText log_off{"app.log_off", "the flight writes no log"};
@@ -47,6 +51,12 @@ inline constexpr MessageText memory_exhausted{"app.memory_exhausted",
                                               "there is not enough memory for this operation"};
 inline constexpr MessageText message_form_invalid{"app.message_form_invalid",
                                                   "the received message does not have the required form"};
+inline constexpr MessageText output_not_writable{"app.output_not_writable",
+                                                 "the output cannot be written; is the disk full?"};
+inline constexpr MessageText program_not_built{
+    "app.program_not_built",
+    {"program"},
+    "the program {program} is missing. Build it: cmake --build build --target tools"};
 inline constexpr MessageText realtime_priority_missing{
     "app.realtime_priority_missing", "the loop runs without real-time priority; --realtime sets it"};
 inline constexpr MessageText realtime_without_pace{"app.realtime_without_pace",

@@ -147,7 +147,7 @@ int run_program(CLI::App& app, const std::function<int()>& words, int fault) {
   try {
     const int code = ended_by(app, words);
     if (code != 0 || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return code;
-    std::fprintf(stderr, "fulmar: the output cannot be written; is the disk full?\n");
+    std::fprintf(stderr, "fulmar: %s\n", app_messages::output_not_writable.c_str());
   } catch (const Error& e) {
     std::fprintf(stderr, "%s\n", for_terminal(e.what()).c_str());
     if (has_json_option(app)) print_json(e);

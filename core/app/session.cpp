@@ -248,9 +248,9 @@ void Session::print(const FlightResult& result, bool alone) const {
 int Session::code_of(const FlightResult& result) const {
   const bool whole = result.log.error.empty();
   if (!whole)
-    warn(app_messages::log_incomplete(
-        result.log.error, result.log.dropped,
-        result.log.file.empty() ? "" : ", and what there is is in " + result.log.file.string()));
+    warn(result.log.file.empty()
+             ? app_messages::log_lost(result.log.error, result.log.dropped)
+             : app_messages::log_incomplete(result.log.error, result.log.dropped, result.log.file.string()));
   else if (result.log.dropped > 0)
     warn(app_messages::log_with_gaps(result.log.dropped));
   if (!whole) return ExitCode::failed;  // however the flight ended

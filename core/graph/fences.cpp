@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -26,8 +27,8 @@ void report_two_fences(Draft& draft) {
     if (!first)
       first = &c;
     else if (given_record(*first, "fence")->data != fence->data)
-      draft.graph.source.warnings.push_back(c.where.text() + ": " + c.name + ".fence is another one than " +
-                                            first->name + ".fence: the aircraft may leave one of them");
+      draft.graph.source.warnings.push_back(
+          located(c.where, graph_messages::fences_differ(c.name, first->name)).line());
   }
 }
 

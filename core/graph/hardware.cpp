@@ -57,9 +57,9 @@ constexpr std::string_view contact_fields[] = {"on_ground", "crashed"};
 constexpr const char* contact_known = "contact_known";
 
 /// Refused with io: fcu, warned of with io: sim.
-void object(Draft& draft, const Where& where, const std::string& sentence) {
-  if (draft.graph.io == Io::fcu) return draft.report.add(where, sentence);
-  const std::string warning = where.text() + ": " + sentence;
+void object(Draft& draft, const Where& where, const Diagnostic& message) {
+  if (draft.graph.io == Io::fcu) return draft.report.add(where, message);
+  const std::string warning = located(where, message).line();
   std::vector<std::string>& warnings = draft.graph.source.warnings;
   if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
 }
@@ -156,13 +156,10 @@ class SimulatorPorts {
       if (!is_vehicle(name[0]) || name.size() < 3) continue;
       const std::string path = "phases." + phase + ".next: " + name[0] + "." + name[1];
       if (lacks(name[1]))
-        object(draft_, t.when.where, path + " exists in simulation only");
+        object(draft_, t.when.where, graph_messages::simulated_output(path));
       else if (is_guess(name, names))
         object(draft_, t.when.where,
-               path + "." + name.back() +
-                   ": a flight controller does not measure it, as its contact_known says; decide by an "
-                   "estimate, as safety/Ground gives one, or ask for " +
-                   name[0] + "." + name[1] + ".contact_known too");
+               graph_messages::contact_not_measured(path, name.back(), name[0] + "." + name[1]));
     }
   }
 
@@ -174,9 +171,7 @@ class SimulatorPorts {
       const std::string port = vehicle_port(candidate.wires[i].from);
       if (!port.empty() && lacks(port))
         object(draft_, candidate.wires[i].where,
-               reader.name + "." + reader.info().inputs[i].name + " comes from vehicle." + port +
-                   ", which exists in simulation only, and " + reader.name +
-                   " steers the aircraft or decides its phase");
+               graph_messages::simulated_input(reader.name, reader.info().inputs[i].name, port));
     }
   }
 

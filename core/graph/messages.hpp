@@ -11,6 +11,7 @@ inline constexpr MessageText age_unlimited{
     "{component}.{input} leads to the vehicle and is accepted at any age{reason}"};
 inline constexpr MessageText airframe_map_expected{
     "graph.airframe_map_expected", {"found"}, "expected a map with the fields of an airframe; found {found}"};
+inline constexpr MessageText anchor_recursive{"graph.anchor_recursive", "an anchor contains itself"};
 inline constexpr MessageText assignment_expected{"graph.assignment_expected",
                                                  "expected component.parameter=value"};
 inline constexpr MessageText comparison_chained{
@@ -43,6 +44,13 @@ inline constexpr MessageText connection_cycle{
     {"path", "component"},
     "the connections form a cycle: {path}{component}. Mark one of them, as in {{from: nav.state, delayed: "
     "true}. It then carries the value of the previous tick"};
+inline constexpr MessageText connection_left_out{
+    "graph.connection_left_out", {"place", "use"}, "{place} is left out: {use} of --with has no such input"};
+inline constexpr MessageText contact_not_measured{
+    "graph.contact_not_measured",
+    {"place", "field", "status"},
+    "{place}.{field}: a flight controller does not measure the contact, as its contact_known states. Decide "
+    "by an estimate, as safety/Ground publishes one, or require {status}.contact_known too"};
 inline constexpr MessageText control_character_found{
     "graph.control_character_found",
     {"code"},
@@ -107,6 +115,10 @@ inline constexpr MessageText failsafe_input_unknown{
 inline constexpr MessageText fallback_already_active{"graph.fallback_already_active",
                                                      {"place", "component"},
                                                      "{place}.fallback: {component} fills the role already"};
+inline constexpr MessageText fences_differ{
+    "graph.fences_differ",
+    {"component", "other"},
+    "{component}.fence differs from {other}.fence: the aircraft may leave one of them"};
 inline constexpr MessageText field_ambiguous{
     "graph.field_ambiguous",
     {"place", "found", "choices"},
@@ -269,6 +281,10 @@ inline constexpr MessageText message_types_differ{
     "graph.message_types_differ",
     {"output", "type", "component", "input", "reason"},
     "{output} is a different {type} from the one that {component}.{input} takes: {reason}"};
+inline constexpr MessageText message_types_mismatch{
+    "graph.message_types_mismatch",
+    {"component", "input", "type", "output", "found"},
+    "{component}.{input} takes {type}, but {output} is {found}"};
 inline constexpr MessageText mission_name_invalid{
     "graph.mission_name_invalid", {"found"}, "mission: expected a name without '/', found '{found}'"};
 inline constexpr MessageText mission_parameter_misplaced{
@@ -292,6 +308,9 @@ inline constexpr MessageText number_compared_to_label{
     "graph.number_compared_to_label",
     {"field", "found"},
     "'{field}' is a number and cannot be compared with '{found}'"};
+inline constexpr MessageText number_count_invalid{"graph.number_count_invalid",
+                                                  {"count", "names", "found"},
+                                                  "expected {count} numbers [{names}], found {found}"};
 inline constexpr MessageText number_invalid{"graph.number_invalid", {"found"}, "'{found}' is not a number"};
 inline constexpr MessageText number_not_finite{
     "graph.number_not_finite", {"found"}, "{found} is not a finite number"};
@@ -331,6 +350,10 @@ inline constexpr MessageText output_not_provided{
 inline constexpr MessageText output_repeated{"graph.output_repeated",
                                              {"place", "output"},
                                              "{place}.out: '{output}' is given twice, with '?' and without"};
+inline constexpr MessageText outputs_not_in_flight{
+    "graph.outputs_not_in_flight",
+    {"keys"},
+    "without {keys}: the component or its output is not in this flight"};
 inline constexpr MessageText parameter_in_record{
     "graph.parameter_in_record",
     {"use", "parameter", "suggestion", "record"},
@@ -365,6 +388,11 @@ inline constexpr MessageText phase_set_repeated{
     "graph.phase_set_repeated",
     {"component"},
     "'set' of {component} is given twice; give it at one of its roles"};
+inline constexpr MessageText phase_settings_lost{
+    "graph.phase_settings_lost",
+    {"role", "component", "phase", "parameters"},
+    "--role {role}={component}: {component} also has the role in the phase {phase}, which sets {parameters}; "
+    "{component} has no such live parameter"};
 inline constexpr MessageText phase_unreachable{
     "graph.phase_unreachable",
     {"phase", "first_phase"},
@@ -398,6 +426,8 @@ inline constexpr MessageText port_expected{
     "graph.port_expected", {"found"}, "expected a port such as nav.state, found '{found}'"};
 inline constexpr MessageText port_name_expected{
     "graph.port_name_expected", {"example", "found"}, "expected a port such as {example}, found '{found}'"};
+inline constexpr MessageText port_not_provided{
+    "graph.port_not_provided", {"component", "port"}, "no component provides {component}.{port} in this run"};
 inline constexpr MessageText probe_not_connectable{
     "graph.probe_not_connectable",
     {"output"},
@@ -487,6 +517,17 @@ inline constexpr MessageText save_not_enabled{
 inline constexpr MessageText save_off{"graph.save_off", "the mission sets live: {{save: off}"};
 inline constexpr MessageText seed_invalid{
     "graph.seed_invalid", {"found"}, "seed: expected a whole number from 0, found {found}"};
+inline constexpr MessageText setting_hidden{
+    "graph.setting_hidden",
+    {"parameter", "value", "phases"},
+    "--set {parameter}={value} has no effect in {phases}: a phase sets this parameter"};
+inline constexpr MessageText simulated_input{
+    "graph.simulated_input",
+    {"component", "input", "port"},
+    "{component}.{input} comes from vehicle.{port}, which exists in simulation only, and {component} steers "
+    "the aircraft or decides its phase"};
+inline constexpr MessageText simulated_output{
+    "graph.simulated_output", {"place"}, "{place} exists in simulation only"};
 inline constexpr MessageText source_missing{"graph.source_missing",
                                             "'from' is missing, as in {{from: nav.state, max_age: 0.5 s}"};
 inline constexpr MessageText still_named{
@@ -503,6 +544,8 @@ inline constexpr MessageText text_too_long{
     "graph.text_too_long", {"size", "limit"}, "the text has {size} bytes; the limit is {limit}"};
 inline constexpr MessageText three_numbers_expected{
     "graph.three_numbers_expected", {"names", "found"}, "expected three numbers [{names}], found {found}"};
+inline constexpr MessageText time_invalid{
+    "graph.time_invalid", {"found"}, "'{found}' is not a time such as 2026-01-01T00:00Z"};
 inline constexpr MessageText too_many_entries{
     "graph.too_many_entries", {"count", "limit"}, "{count} entries exceed the limit of {limit} in a mission"};
 inline constexpr MessageText transition_key_missing{
@@ -562,5 +605,10 @@ inline constexpr MessageText vehicle_without_flags{"graph.vehicle_without_flags"
 inline constexpr MessageText vehicles_repeated{
     "graph.vehicles_repeated", {"vehicles"}, "a mission has one vehicle; found {vehicles}"};
 inline constexpr MessageText yaml_invalid{"graph.yaml_invalid", {"reason"}, "not valid YAML: {reason}"};
+inline constexpr MessageText yaml_text_too_large{
+    "graph.yaml_text_too_large", {"limit"}, "more than {limit} MB of text, with the text of every alias"};
+inline constexpr MessageText yaml_too_deep{"graph.yaml_too_deep", {"limit"}, "nested more than {limit} deep"};
+inline constexpr MessageText yaml_too_many_values{
+    "graph.yaml_too_many_values", {"limit"}, "more than {limit} values, with the values of every alias"};
 
 }  // namespace fulmar::graph_messages

@@ -396,7 +396,7 @@ std::optional<PortName> parse_port_name(const std::string& text, const Where& wh
 std::int64_t parse_utc_ns(const std::string& text) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, used = 0;
   double second = 0;
-  const auto wrong = [&] { return Error("'" + text + "' is not a time such as 2026-01-01T00:00Z"); };
+  const auto wrong = [&] { return Error(graph_messages::time_invalid(text)); };
   if (std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d%n", &year, &month, &day, &hour, &minute, &used) < 5)
     throw wrong();
   std::string rest = text.substr(static_cast<std::size_t>(used));

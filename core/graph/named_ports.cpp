@@ -24,7 +24,7 @@ FindPort finder(Draft& draft, bool built) {
     if (target.unclear) {
       const int role = draft.role(owner);
       if (role < 0 || nth(draft.roles, role).unclear) throw Unclear{};
-      throw NobodyProvides(owner + "." + port + " is provided by nobody in this run");
+      throw NobodyProvides(graph_messages::port_not_provided(owner, port));
     }
     if (target.source.kind == Source::Kind::component) {
       Candidate& candidate = nth(draft.candidates, target.source.index);
@@ -33,7 +33,7 @@ FindPort finder(Draft& draft, bool built) {
       else
         target.source.index = candidate.component;
     } else if (built && !provided(draft.graph, target.source)) {
-      throw NobodyProvides(owner + "." + port + " is provided by nobody in this run");
+      throw NobodyProvides(graph_messages::port_not_provided(owner, port));
     }
     return std::pair{target.source, target.type};
   };
@@ -271,8 +271,8 @@ void compile_phases(Draft& draft) {
   std::vector<std::string> gone;
   for (const auto& [key, port] : draft.graph.judge.left_out) gone.push_back(key + " (" + port + ")");
   if (!gone.empty())
-    draft.graph.source.warnings.push_back(draft.text.file->name + ": without " + join(gone) +
-                                          ": the component or its output is not in this flight");
+    draft.graph.source.warnings.push_back(
+        located(Where{draft.text.file->name, 0}, graph_messages::outputs_not_in_flight(join(gone))).line());
 }
 
 }  // namespace fulmar::core

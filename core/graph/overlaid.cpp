@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
+#include "core/graph/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -32,9 +33,7 @@ void report_hidden_values(Draft& draft) {
     if (path.param < 0) continue;
     const std::vector<std::string> phases = phases_that_set(draft, i, path.param);
     if (!phases.empty())
-      draft.graph.source.warnings.push_back(
-          "--set " + name + "=" + value + " has no effect in " + join(phases) +
-          (phases.size() == 1 ? ": the phase sets" : ": the phases set") + " this parameter");
+      draft.graph.source.warnings.push_back(graph_messages::setting_hidden(name, value, join(phases)).line());
   }
 }
 
@@ -58,9 +57,8 @@ void report_lost_settings(Draft& draft) {
         if (text.role != role || !text.set.is(Node::Kind::map) || text.use.text == component) continue;
         const std::vector<std::string> lost = lost_settings(draft, text, seated);
         if (!lost.empty())
-          draft.graph.source.warnings.push_back("--role " + role + "=" + component + ": it flies the phase " +
-                                                phase.name + ", too, which sets " + join(lost) + "; " +
-                                                component + " has no such live parameter");
+          draft.graph.source.warnings.push_back(
+              graph_messages::phase_settings_lost(role, component, phase.name, join(lost)).line());
       }
   }
 }

@@ -168,8 +168,7 @@ class Filler {
     const std::vector<std::string> names = names_of(type.fields);
     if (node.items.size() != names.size())
       return fault(node, place.path,
-                   "expected " + std::to_string(names.size()) + " numbers [" + join(names) + "], found " +
-                       std::to_string(node.items.size()));
+                   graph_messages::number_count_invalid(names.size(), join(names), node.items.size()));
     for (std::size_t i = 0; i < names.size(); ++i)
       fill_element(type.fields[i], node.items[i], data + type.fields[i].offset,
                    {place.path + "." + names[i], place.unit, place.rule});

@@ -50,8 +50,9 @@ std::string misfit(const std::string& owner, const Port& input, const PortName& 
     if (target.type->name == input.type->name)
       return graph_messages::message_types_differ(from.text(), input.type->name, owner, input.name, reason)
           .line();
-    return owner + "." + input.name + " takes " + input.type->name + ", but " + from.text() + " is " +
-           target.type->name;
+    return graph_messages::message_types_mismatch(owner, input.name, input.type->name, from.text(),
+                                                  target.type->name)
+        .line();
   }
   if (input.kind == FULMAR_IN_REQUEST && target.kind == FULMAR_OUT_VALUE)
     return graph_messages::request_source_invalid(owner, input.name, from.text()).line();
@@ -71,8 +72,8 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
   const ComponentInfo& info = candidate.info();
   const int input = info.input(text.name);
   if (input < 0 && is_exchanged(draft, candidate.name)) {
-    const std::string sentence = path + " is left out: " + candidate.use + " of --with has no such input";
-    return draft.graph.source.warnings.push_back(text.where.text() + ": " + sentence);
+    const Diagnostic message = graph_messages::connection_left_out(path, candidate.use);
+    return draft.graph.source.warnings.push_back(located(text.where, message).line());
   }
   if (input < 0)
     return draft.report.add(
@@ -138,8 +139,8 @@ Target find_target(const Draft& draft, const PortName& name) {
   if (draft.text.component(name.owner)) throw NoOwner(name.owner, not_there(draft, name.owner));
   std::vector<std::string> names = names_of(draft.roles);
   for (const Candidate& other : draft.candidates) names.push_back(other.name);
-  throw NoOwner(name.owner,
-                "there is no role or component '" + name.owner + "'." + choices_text(name.owner, names));
+  throw NoOwner(name.owner, types_messages::name_unknown("role or component", name.owner,
+                                                         choices_text(name.owner, names)));
 }
 
 void resolve_wires(Draft& draft) {

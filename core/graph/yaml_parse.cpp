@@ -50,7 +50,7 @@ class Builder : public YAML::EventHandler {
   /// The place of what was refused.
   struct Refused {
     int line;
-    std::string sentence;
+    Diagnostic message;
   };
   Node root;
 
@@ -75,7 +75,7 @@ class Builder : public YAML::EventHandler {
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     begin(mark, Node::Kind::null);
     const auto it = anchors_.find(anchor);
-    if (it == anchors_.end()) throw Refused{line_of(mark), "an anchor contains itself"};
+    if (it == anchors_.end()) throw Refused{line_of(mark), graph_messages::anchor_recursive()};
     const Anchor& known = it->second;
     if (static_cast<int>(open_.size()) + known.size.depth > deepest) throw too_deep(mark);
     count(known.size, mark);
@@ -114,7 +114,7 @@ class Builder : public YAML::EventHandler {
   /// A text that stands in no file has no lines.
   int line_of(const YAML::Mark& mark) const { return file_->path.empty() ? 0 : mark.line + 1; }
   Refused too_deep(const YAML::Mark& mark) const {
-    return {line_of(mark), "nested more than " + std::to_string(deepest) + " deep"};
+    return {line_of(mark), graph_messages::yaml_too_deep(deepest)};
   }
 
   bool key_is_next() const {
@@ -135,11 +135,8 @@ class Builder : public YAML::EventHandler {
   void count(const Size& size, const YAML::Mark& mark) {
     values_ += size.values;
     text_ += size.text;
-    const std::string as_often = ", each alias counted as what it stands for";
-    if (values_ > max_values)
-      throw Refused{line_of(mark), "more than " + std::to_string(max_values) + " values" + as_often};
-    if (text_ > max_text)
-      throw Refused{line_of(mark), "more than " + std::to_string(max_text >> 20) + " MB of text" + as_often};
+    if (values_ > max_values) throw Refused{line_of(mark), graph_messages::yaml_too_many_values(max_values)};
+    if (text_ > max_text) throw Refused{line_of(mark), graph_messages::yaml_text_too_large(max_text >> 20)};
   }
 
   void open(Node node, const YAML::Mark& mark, YAML::anchor_t anchor) {
@@ -271,7 +268,7 @@ Node first_document(const FilePtr& file, Report& report) {
   } catch (const Builder::SecondDocument& second) {
     report.add({file->name, second.line}, graph_messages::document_repeated());
   } catch (const Builder::Refused& refused) {
-    report.add({file->name, refused.line}, refused.sentence);
+    report.add({file->name, refused.line}, refused.message);
     return {};
   }
   return std::move(builder.root);

@@ -83,7 +83,7 @@ const char* signal_words(int signal, bool stack_overflow) noexcept {
     case SIGBUS: return isolate_messages::bus_error.c_str();
     case SIGFPE: return isolate_messages::arithmetic_error.c_str();
     case SIGILL: return isolate_messages::illegal_instruction.c_str();
-    case SIGABRT: return "aborted";
+    case SIGABRT: return isolate_messages::aborted.c_str();
     default: return nullptr;
   }
 }
@@ -139,11 +139,12 @@ std::string Isolated::end() {
   if (alive_) call(Call::quit, std::min(options_.setup_ns, std::int64_t{2'000'000'000}), nullptr);
   std::string problem;
   if (!alive_ && !died_before)
-    problem = options_.name + ": " + options_.file + " " + death_ + " while being destroyed";
+    problem =
+        located(options_.name, isolate_messages::child_stopped(options_.file, death_, "destroyed")).line();
   const bool dumps = !alive_ && control().signal.load() != 0 && std::getenv("FULMAR_CORE") != nullptr;
   if (!process_.wait(dumps ? 10 * second : second)) process_.kill();
   alive_ = false;
-  if (!death_[0]) std::snprintf(death_, sizeof death_, "has ended");
+  if (!death_[0]) isolate_messages::child_gone.write(death_, sizeof death_);
   return problem;
 }
 
@@ -256,7 +257,7 @@ std::uint32_t Isolated::retune(const fulmar_value* values, fulmar_error* error) 
     if (place.capacity == 0) continue;
     const std::size_t length = std::strlen(v.text ? v.text : "");
     if (length >= place.capacity) {
-      report(error, "a text parameter is longer than its room");
+      report(error, isolate_messages::text_too_long.c_str());
       return FULMAR_FAILED;
     }
     std::memcpy(at<std::byte>(place.at), v.text ? v.text : "", length + 1);
@@ -323,8 +324,9 @@ bool Isolated::wait(std::int64_t limit_ns) noexcept {
     }
     if (monotonic_ns() < end) continue;
     hung_ = true;
-    std::snprintf(death_, sizeof death_, "hung: no answer within %.6g ms",
-                  1e-6 * static_cast<double>(limit_ns));
+    char limit_ms[32];
+    std::snprintf(limit_ms, sizeof limit_ms, "%.6g", 1e-6 * static_cast<double>(limit_ns));
+    isolate_messages::child_hung.write(death_, sizeof death_, limit_ms);
     alive_ = false;
     process_.kill();
     return false;
@@ -354,9 +356,9 @@ void Isolated::note_death() noexcept {
   if (const char* known = signal_words(signal, overflow))
     std::snprintf(death_, sizeof death_, "%s", known);
   else if (signal != 0)
-    std::snprintf(death_, sizeof death_, "was killed (signal %d)", signal);
+    isolate_messages::child_killed.write(death_, sizeof death_, signal);
   else
-    std::snprintf(death_, sizeof death_, "ended itself (exit code %d)", process_.exit_code());
+    isolate_messages::child_exited.write(death_, sizeof death_, process_.exit_code());
 }
 
 std::uint32_t Isolated::dead(fulmar_error* error) noexcept {

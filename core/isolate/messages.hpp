@@ -5,8 +5,14 @@
 
 namespace fulmar::isolate_messages {
 
+inline constexpr MessageText aborted{"isolate.aborted", "aborted"};
 inline constexpr MessageText arithmetic_error{"isolate.arithmetic_error", "crashed (arithmetic error)"};
 inline constexpr MessageText bus_error{"isolate.bus_error", "crashed (bus error)"};
+inline constexpr MessageText child_exited{
+    "isolate.child_exited", {"code"}, "ended itself (exit code {code})"};
+inline constexpr MessageText child_gone{"isolate.child_gone", "has ended"};
+inline constexpr MessageText child_hung{"isolate.child_hung", {"limit"}, "hung: no answer within {limit} ms"};
+inline constexpr MessageText child_killed{"isolate.child_killed", {"signal"}, "was killed (signal {signal})"};
 inline constexpr MessageText child_program_missing{
     "isolate.child_program_missing",
     "the program fulmar-child is missing: no component can run in a separate process."};
@@ -21,6 +27,8 @@ inline constexpr MessageText component_moved{
 inline constexpr MessageText component_name_too_long{"isolate.component_name_too_long",
                                                      "the component's name is longer than 255 bytes."};
 inline constexpr MessageText constructor_failed{"isolate.constructor_failed", "the constructor failed"};
+inline constexpr MessageText fork_refused{
+    "isolate.fork_refused", {"function", "reason"}, "calls {function} in flight; {reason}"};
 inline constexpr MessageText host_abi_differs{"isolate.host_abi_differs",
                                               "the host of the script has another ABI"};
 inline constexpr MessageText illegal_instruction{"isolate.illegal_instruction",
@@ -36,6 +44,8 @@ inline constexpr MessageText tables_differ{
     "isolate.tables_differ",
     {"component"},
     "the ports or parameters of '{component}' differ from those that the host read"};
+inline constexpr MessageText text_too_long{"isolate.text_too_long",
+                                           "a text parameter is longer than its capacity"};
 inline constexpr MessageText vehicle_not_isolated{"isolate.vehicle_not_isolated",
                                                   "a vehicle cannot run in a separate process."};
 

@@ -50,8 +50,6 @@ inline void make_arithmetic_plain() noexcept {
 #endif
 }
 
-inline constexpr const char* changed_arithmetic = "has changed the floating-point mode, which is everybody's";
-
 /// What arithmetic does, found by doing it: portable where control words are not.
 struct FloatMode {
   bool denormal_operands, denormal_results, extended;

@@ -62,6 +62,8 @@ inline constexpr MessageText fields_overlap{
 inline constexpr MessageText file_fault{"loader.file_fault", {"file", "fault"}, "{file} {fault}"};
 inline constexpr MessageText file_not_readable{
     "loader.file_not_readable", {"file", "reason"}, "cannot read {file}: {reason}."};
+inline constexpr MessageText float_mode_changed{"loader.float_mode_changed",
+                                                "has changed the floating-point mode of the process"};
 inline constexpr MessageText function_missing{
     "loader.function_missing", {"owner", "function"}, "{owner} lacks the function {function}"};
 inline constexpr MessageText function_outside_code{

@@ -231,7 +231,7 @@ void FlightControl::end() {
     waiting_.all.clear();
   }
   for (const auto& [pointer, waiting] : left)
-    if (waiting->answer) waiting->answer("the flight has ended");
+    if (waiting->answer) waiting->answer(run_messages::flight_ended.c_str());
 }
 
 void FlightControl::run() noexcept {

@@ -85,11 +85,11 @@ void Flight::Impl::note_behind(double seconds) {
   if (seconds < worth_saying_s || catching_up) return;
   catching_up = true;
   if (!state.options.say) return;
-  std::array<char, 160> words;
-  std::snprintf(words.data(), words.size(),
-                "%8.2f s  the flight is %.1f s behind the clock on the wall: the program stood still, or the "
-                "machine is too slow; it catches up as fast as it can",
-                1e-9 * static_cast<double>(state.now_ns), seconds);
+  std::array<char, 200> words;
+  const int begin =
+      std::snprintf(words.data(), words.size(), "%8.2f s  ", 1e-9 * static_cast<double>(state.now_ns));
+  const auto used = static_cast<std::size_t>(begin);
+  run_messages::flight_behind.write(words.data() + used, words.size() - used, Fixed{seconds, 1});
   state.options.say(words.data(), true);
 }
 

@@ -65,6 +65,11 @@ inline constexpr MessageText failsafe_over{"run.failsafe_over",
                                            "no commands until disarmed: the pilot has control"};
 inline constexpr MessageText flight_already_paused{"run.flight_already_paused",
                                                    "the flight is already paused"};
+inline constexpr MessageText flight_behind{
+    "run.flight_behind",
+    {"delay_s"},
+    "the flight is {delay_s} s behind the real time: the program was stopped, or the machine is too slow. It "
+    "catches up as fast as it can"};
 inline constexpr MessageText flight_ended{"run.flight_ended", "the flight has ended"};
 inline constexpr MessageText flight_not_paused{"run.flight_not_paused", "the flight is not paused"};
 inline constexpr MessageText guard_not_reset{
@@ -97,6 +102,8 @@ inline constexpr MessageText library_missing{"run.library_missing",
                                              "fulmar, or build it: cmake --build build --target {target}"};
 inline constexpr MessageText library_needs{
     "run.library_needs", {"fault", "needs"}, "{fault}. It needs {needs}"};
+inline constexpr MessageText live_view_missing{
+    "run.live_view_missing", {"reason"}, "the flight has no live view: {reason}"};
 inline constexpr MessageText log_failed{
     "run.log_failed", {"reason"}, "the flight continues without a log: {reason}"};
 inline constexpr MessageText log_phase_missing{"run.log_phase_missing", "the log holds no phase"};

@@ -102,8 +102,7 @@ void Flight::Impl::open_to_others() {
   try {
     onlookers.live = live->open(*recorder.tap(), *onlookers.control, graph.live, page_folder());
   } catch (const Error& fault) {  // another flight on this computer is no reason not to fly
-    if (state.options.say)
-      state.options.say(std::string("nobody can watch this flight: ") + fault.what(), true);
+    if (state.options.say) state.options.say(run_messages::live_view_missing(fault.what()), true);
   }
 }
 

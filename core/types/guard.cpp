@@ -2,6 +2,7 @@
 // The check of every published message. Fields are flattened at load into steps; neighbouring doubles without
 // a range become one run.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -9,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/types/element.hpp"
+#include "core/types/messages.hpp"
 #include "core/types/walk.hpp"
 
 namespace fulmar::core {
@@ -205,7 +207,7 @@ class Explainer {
     std::uint32_t count = field.count;
     if (field.shape == FULMAR_LIST) {
       count = load<std::uint32_t>(at);
-      if (count > field.count) return append(" has %u items, more than its %u", count, field.count);
+      if (count > field.count) return fault(types_messages::too_many_items, count, field.count);
       at += field.items;
     }
     const std::size_t here = length_;
@@ -220,12 +222,13 @@ class Explainer {
   bool element(const Field& field, const std::byte* at) noexcept {
     if (field.kind == FULMAR_STRUCT) return fields(*field.type, at);
     if (field.kind == FULMAR_TEXT)
-      return std::memchr(at, '\0', field.stride) == nullptr && append(" is a text without an end");
+      return std::memchr(at, '\0', field.stride) == nullptr && fault(types_messages::field_not_terminated);
     const double x = number_at(field, at);
     if (std::isnan(x)) return append(" is nan");
     if (std::isinf(x)) return append(x > 0 ? " is inf" : " is -inf");
-    if (field.kind == FULMAR_BOOL && x > 1) return append(" is %g, which is neither false nor true", x);
-    if (field.kind == FULMAR_ENUM && x > byte_limit(field)) return append(" is %g, which no label names", x);
+    if (field.kind == FULMAR_BOOL && x > 1) return fault(types_messages::flag_value_invalid, x);
+    if (field.kind == FULMAR_ENUM && x > byte_limit(field))
+      return fault(types_messages::label_value_invalid, x);
     if (x < field.min || x > field.max) return append(" is %.9g, outside [%g, %g]", x, field.min, field.max);
     return false;
   }
@@ -238,6 +241,14 @@ class Explainer {
     const int n = std::snprintf(text_ + length_, size_ - length_, format, args...);
 #pragma GCC diagnostic pop
     if (n > 0) length_ = std::min(length_ + static_cast<std::size_t>(n), size_ - 1);
+    return true;
+  }
+  /// A message about the path so far, in its place.
+  template <std::size_t N, class... Values>
+  bool fault(const MessageText<N>& message, const Values&... values) noexcept {
+    std::array<char, 512> path{};
+    std::copy_n(text_, std::min(length_, path.size() - 1), path.data());
+    message.write(text_, size_, path.data(), values...);
     return true;
   }
   void cut(std::size_t length) noexcept {

@@ -18,6 +18,8 @@ inline constexpr MessageText field_not_terminated{
     "types.field_not_terminated", {"field"}, "{field} does not end in NUL"};
 inline constexpr MessageText field_too_long{
     "types.field_too_long", {"field", "limit"}, "{field} is longer than {limit}"};
+inline constexpr MessageText flag_value_invalid{
+    "types.flag_value_invalid", {"field", "value"}, "{field} is {value}, which is neither false nor true"};
 inline constexpr MessageText frames_differ{
     "types.frames_differ", {"expected", "found"}, "reader has frame {expected}, writer {found}"};
 inline constexpr MessageText index_invalid{
@@ -32,6 +34,8 @@ inline constexpr MessageText index_out_of_range{
     "types.index_out_of_range",
     {"field", "index", "array", "shape"},
     "'{field}[{index}]' does not exist: '{array}{shape}, counted from 0."};
+inline constexpr MessageText label_value_invalid{
+    "types.label_value_invalid", {"field", "value"}, "{field} is {value}, which has no label"};
 inline constexpr MessageText list_shape{"types.list_shape", {"limit"}, "a list of at most {limit}"};
 inline constexpr MessageText list_truncated{"types.list_truncated",
                                             "a list has a larger count than its bytes hold"};

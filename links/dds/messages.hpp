@@ -30,10 +30,27 @@ inline constexpr MessageText participant_not_created{
     {"domain", "addresses"},
     "dds: no participant could be created in domain {domain} on {addresses}; are these addresses of this "
     "computer?"};
+inline constexpr MessageText peer_reliability_differs{
+    "dds.peer_reliability_differs",
+    {"topic"},
+    "dds: another participant reads {topic} reliably, but its export has best_effort: the two do not match"};
+inline constexpr MessageText peer_type_differs{"dds.peer_type_differs",
+                                               {"action", "topic", "found", "type"},
+                                               "dds: another participant {action} {topic} with the type "
+                                               "{found}; here it is {type}: the two do not match"};
 inline constexpr MessageText reader_not_created{
     "dds.reader_not_created", {"topic"}, "dds: the topic {topic} could not be opened for reading"};
+inline constexpr MessageText sample_refused{
+    "dds.sample_refused",
+    {"topic", "port", "reason"},
+    "dds: a sample of {topic} for {port} is refused: {reason}. Further ones are only counted"};
+inline constexpr MessageText several_parameters{
+    "dds.several_parameters",
+    "several parameters cannot be set at one instant; set_parameters sets one after another"};
 inline constexpr MessageText too_many_parameters{
     "dds.too_many_parameters", {"limit"}, "the call has more than {limit} parameters"};
+inline constexpr MessageText too_many_requests{
+    "dds.too_many_requests", {"count"}, "{count} requests wait for an answer; there is no room for more"};
 inline constexpr MessageText topic_not_created{
     "dds.topic_not_created", {"topic"}, "dds: the topic {topic} could not be created"};
 inline constexpr MessageText topic_type_differs{

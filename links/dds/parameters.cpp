@@ -215,9 +215,7 @@ void set_parameters(Control& control, CdrReader in, const Server::Reply& reply, 
   if (list.empty()) return results->open == 0 ? results->send() : results->set(0, "");
   // Each change takes effect between two ticks, and two need not share the pair.
   const bool several = at_once && list.size() > 1;
-  if (several)
-    return results->set(
-        0, "several parameters cannot be set in one instant; set_parameters sets them one after the other");
+  if (several) return results->set(0, dds_messages::several_parameters());
   if (list.size() > max_at_once) throw Error(dds_messages::too_many_parameters(max_at_once));
   const FlightView view = control.view();
   for (std::size_t i = 0; i < list.size(); ++i)

@@ -9,6 +9,7 @@
 #include "core/log/events.hpp"
 #include "core/types/ros_service.hpp"
 #include "core/types/wire.hpp"
+#include "links/dds/messages.hpp"
 
 namespace fulmar::core::dds {
 namespace {
@@ -41,8 +42,7 @@ struct Requests {
       reply(response(*encoder, refusal));
     };
     if (!guard.check(message.data())) return answer(guard.explain(message.data()));
-    if (unanswered->load() >= max_unanswered)
-      return answer(std::to_string(max_unanswered) + " requests wait for their answer already");
+    if (unanswered->load() >= max_unanswered) return answer(dds_messages::too_many_requests(max_unanswered));
     ++*unanswered;
     try {
       control.request(component, port, std::move(message),

@@ -36,19 +36,14 @@ void Others::found(const std::string& topic, const std::string& type, bool write
   const auto at = topics_.find(topic);
   if (at == topics_.end() || at->second.we_write == writer) return;
   Topic& t = at->second;
-  const char* who = writer ? "writes" : "reads";
   if (t.type != type) {
     if (!std::exchange(t.reported_type, true))
-      say_(std::string("dds: another participant ") + who + " " + topic + " with the type " + type +
-               "; here it is " + t.type + ": the two do not meet",
-           Tone::warning);
+      say_(dds_messages::peer_type_differs(writer ? "writes" : "reads", topic, type, t.type), Tone::warning);
   } else if (writer && best_effort) {
     t.best_effort_writer = true;
   } else if (!writer && !best_effort && t.best_effort) {
     if (!std::exchange(t.reported_effort, true))
-      say_("dds: another participant reads " + topic +
-               " reliably, but it is exported with best_effort: the two do not meet",
-           Tone::warning);
+      say_(dds_messages::peer_reliability_differs(topic), Tone::warning);
   }
 }
 
@@ -191,9 +186,7 @@ void Imports::use(Topic& topic, const Reader::Sample& sample) {
   const double latency_s =
       static_cast<double>(std::chrono::nanoseconds(now).count() - sample.written_ns) * 1e-9;
   if (!why.empty() && !std::exchange(topic.reported, true))
-    host_.say("dds: a sample of " + topic.stats.topic + " for " + topic.stats.port + " is refused: " + why +
-                  "; more of them are counted, not told",
-              Tone::warning);
+    host_.say(dds_messages::sample_refused(topic.stats.topic, topic.stats.port, why), Tone::warning);
   const std::lock_guard lock(mutex_);
   DdsStats::Import& stats = topic.stats;
   if (!why.empty() || !taken) {

@@ -156,8 +156,7 @@ void Hub::guarded(ClientId id, const Work& work) {
   client->refusals = 0;
   try {
     work(*client);
-    if (client->refusals > max_refusals)
-      status(*client, 2, "more of this message is refused; these are the first reasons");
+    if (client->refusals > max_refusals) status(*client, 2, live_messages::more_refused());
   } catch (const Malformed& e) {
     refuse(*client, e.what());
     client->peer->close(1007, e.what());
@@ -215,13 +214,17 @@ void Hub::status(Client& client, int level, const std::string& message) {
   send_json(client, {{"op", "status"}, {"level", level}, {"message", message}});
 }
 
-void Hub::refuse(Client& client, const std::string& why, const std::function<std::string()>& hint) {
-  ++counters_.refused;
-  complain(client, why, hint);
+void Hub::refuse(Client& client, const std::string& why) {
+  refuse(client, [&] { return why; });
 }
 
-void Hub::complain(Client& client, const std::string& why, const std::function<std::string()>& hint) {
-  if (++client.refusals <= max_refusals) status(client, 2, why + (hint ? hint() : ""));
+void Hub::refuse(Client& client, const std::function<std::string()>& why) {
+  ++counters_.refused;
+  complain(client, why);
+}
+
+void Hub::complain(Client& client, const std::function<std::string()>& why) {
+  if (++client.refusals <= max_refusals) status(client, 2, why());
 }
 
 bool Hub::reported_enough(const Client& client) { return client.refusals >= max_refusals; }
@@ -338,9 +341,7 @@ void Hub::warn_of_drops() {
   feed_.loss_reported = now;
   for (const auto& [id, client] : clients_) {
     if (client->dropped == client->reported) continue;
-    status(*client, 1,
-           "This connection is too slow for what it has subscribed to: " + std::to_string(client->dropped) +
-               " messages left out.");
+    status(*client, 1, live_messages::client_too_slow(client->dropped));
     client->reported = client->dropped;
   }
 }
@@ -357,10 +358,7 @@ void Hub::flush_parameters() {
       const ParameterView* p = find_parameter(now, name);
       if (p == nullptr) continue;
       values.push_back(parameter_json(name, *p));
-      if (p->overlaid)
-        status(
-            *client, 1,
-            name + " is set, but the phase '" + now.phase.now + "' has another value for it while it lasts.");
+      if (p->overlaid) status(*client, 1, live_messages::parameter_overlaid(name, now.phase.now));
     }
     if (reply->id)
       send_json(*client, {{"op", "parameterValues"}, {"parameters", values}, {"id", *reply->id}});

@@ -146,9 +146,11 @@ class Hub {
   void status(Client& client, int level, const std::string& message);
   /// Tells why, with `hint()` behind it. Of one message the first ten refusals: more help nobody, and hints
   /// take their time, of which the other clients have a part.
-  void complain(Client& client, const std::string& why, const std::function<std::string()>& hint = {});
+  void complain(Client& client, const std::function<std::string()>& why);
   /// The same, counted as against the rules.
-  void refuse(Client& client, const std::string& why, const std::function<std::string()>& hint = {});
+  void refuse(Client& client, const std::string& why);
+  /// `why` is made for those alone that are sent.
+  void refuse(Client& client, const std::function<std::string()>& why);
   void refuse_parameter(Client& client, const std::string& name, const std::vector<std::string>& known);
   static bool reported_enough(const Client& client);
   template <class Work>

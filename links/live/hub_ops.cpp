@@ -114,13 +114,13 @@ void Hub::import_channel(Client& client, const json& channel) {
       topics.push_back("/" + c.name + "/" + p.name);
       if (topics.back() != topic) continue;
       if (!schema.empty() && schema != ros_name(*p.type))
-        return refuse(client, topic + " takes " + ros_name(*p.type) + ", not " + schema);
+        return refuse(client, live_messages::topic_type_differs(topic, ros_name(*p.type), schema));
       client.imports.emplace(id, Import{c.name, p.name, topic, p.type, encoding == "json", Guard(*p.type)});
       return;
     }
   }
-  refuse(client, "nothing can be published on '" + topic + "': the mission's dds.import does not name it.",
-         [&] { return choices_text(topic, topics); });
+  refuse(client,
+         [&] { return live_messages::topic_not_imported(topic, choices_text(topic, topics)).line(); });
 }
 
 void Hub::client_unadvertise(Client& client, const json& message) {
@@ -131,7 +131,8 @@ void Hub::client_unadvertise(Client& client, const json& message) {
 }
 
 void Hub::refuse_parameter(Client& client, const std::string& name, const std::vector<std::string>& known) {
-  refuse(client, "there is no parameter '" + name + "'.", [&] { return choices_text(name, known); });
+  refuse(client,
+         [&] { return live_messages::parameter_path_unknown(name, choices_text(name, known)).line(); });
 }
 
 void Hub::get_parameters(Client& client, const json& message) {
@@ -194,7 +195,7 @@ void Hub::set_one(Client& asker, const std::shared_ptr<Pending>& pending, const 
                              mailbox->put([done, refusal] { done(refusal); });
                            });
   } catch (const Error& e) {
-    complain(asker, name + ": " + e.what());
+    complain(asker, [&] { return name + ": " + e.what(); });
     done("");
   }
 }

@@ -15,6 +15,10 @@ inline constexpr MessageText channel_not_advertised{
     "live.channel_not_advertised", {"channel"}, "channel {channel} is not advertised"};
 inline constexpr MessageText channel_unknown{
     "live.channel_unknown", {"channel"}, "there is no channel {channel}"};
+inline constexpr MessageText client_too_slow{
+    "live.client_too_slow",
+    {"count"},
+    "this connection is too slow for its subscriptions: {count} messages are lost"};
 inline constexpr MessageText encoding_unknown{
     "live.encoding_unknown", {"encoding"}, "there is no encoding '{encoding}'. Valid: cdr, json."};
 inline constexpr MessageText graph_not_subscribed{"live.graph_not_subscribed",
@@ -29,6 +33,8 @@ inline constexpr MessageText listen_failed{"live.listen_failed",
                                            "live: cannot listen on {host}:{port}: {reason}{remedy}"};
 inline constexpr MessageText mission_file_missing{"live.mission_file_missing",
                                                   "this flight has no mission file to write to"};
+inline constexpr MessageText more_refused{"live.more_refused",
+                                          "more of this message is refused; these are the first reasons"};
 inline constexpr MessageText op_form_invalid{
     "live.op_form_invalid", {"reason"}, "the message does not have the form that its op requires: {reason}"};
 inline constexpr MessageText op_unknown{
@@ -39,6 +45,12 @@ inline constexpr MessageText parameter_not_record{
     "live.parameter_not_record", {"component", "parameter"}, "{component}.{parameter} is not a record"};
 inline constexpr MessageText parameter_not_removable{"live.parameter_not_removable",
                                                      "a parameter cannot be removed"};
+inline constexpr MessageText parameter_overlaid{
+    "live.parameter_overlaid",
+    {"parameter", "phase"},
+    "{parameter} is set, but the phase '{phase}' has another value for it while it is active"};
+inline constexpr MessageText parameter_path_unknown{
+    "live.parameter_path_unknown", {"parameter", "choices"}, "there is no parameter '{parameter}'.{choices}"};
 inline constexpr MessageText parameter_unknown{
     "live.parameter_unknown", {"component", "parameter"}, "there is no parameter '{component}.{parameter}'"};
 inline constexpr MessageText request_invalid{"live.request_invalid", {"reason"}, "the request: {reason}"};
@@ -47,6 +59,9 @@ inline constexpr MessageText request_not_object{"live.request_not_object",
 inline constexpr MessageText request_text_missing{
     "live.request_text_missing", {"key"}, "the request requires the text '{key}'"};
 inline constexpr MessageText request_too_deep{"live.request_too_deep", "the request is nested too deeply"};
+inline constexpr MessageText save_answer_invalid{
+    "live.save_answer_invalid",
+    "fulmar-save did not answer with JSON that has accepted, reason, lines and mark"};
 inline constexpr MessageText save_in_progress{
     "live.save_in_progress", "parameters of another client are being saved; send the request again"};
 inline constexpr MessageText save_not_allowed{
@@ -73,5 +88,11 @@ inline constexpr MessageText too_many_channels{
     "live.too_many_channels", {"limit"}, "a client may advertise at most {limit} channels"};
 inline constexpr MessageText too_many_parameters{
     "live.too_many_parameters", {"limit"}, "a message sets at most {limit} parameters"};
+inline constexpr MessageText topic_not_imported{
+    "live.topic_not_imported",
+    {"topic", "choices"},
+    "nothing can be published on '{topic}': dds.import of the mission does not name it.{choices}"};
+inline constexpr MessageText topic_type_differs{
+    "live.topic_type_differs", {"topic", "type", "found"}, "{topic} has the type {type}, not {found}"};
 
 }  // namespace fulmar::live_messages

@@ -46,7 +46,7 @@ SaveAnswer save(const FlightView& view, const std::string& component, const std:
     const json said = json::parse(answer_of_program(dumped(save_request(view, component, mark)), limit));
     answer = {said.at("accepted"), said.at("reason"), said.at("lines"), said.at("mark")};
   } catch (const json::exception&) {
-    answer.reason = "fulmar-save has answered something else than JSON with accepted, reason, lines and mark";
+    answer.reason = live_messages::save_answer_invalid();
   } catch (const std::exception& fault) {
     answer.reason = fault.what();
   }

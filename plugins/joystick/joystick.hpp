@@ -6,6 +6,7 @@
 
 #include "events.hpp"
 #include "fulmar/flight/control/sticks.hpp"
+#include "messages.hpp"
 #include "source.hpp"
 #include "transmitter.hpp"
 
@@ -88,7 +89,7 @@ struct Joystick {
       if (n < bytes.size()) break;
       wait_ms = 0;
     }
-    if (state_.foreign()) source_.close("what it sends is no joystick's");
+    if (state_.foreign()) source_.close(joystick_messages::records_foreign.c_str());
   }
 
   Rc frame(const Params& p) const {

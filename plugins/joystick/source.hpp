@@ -14,6 +14,8 @@
 #include <string>
 #include <string_view>
 
+#include "messages.hpp"
+
 namespace fulmar::hand {
 
 class Source {
@@ -46,7 +48,8 @@ class Source {
     close();
     fd_ = ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     there_ = fd_ >= 0;
-    if (!there_) fault_ = errno == EACCES ? "permission denied (group input?)" : strerrordesc_np(errno);
+    if (!there_)
+      fault_ = errno == EACCES ? joystick_messages::permission_missing.c_str() : strerrordesc_np(errno);
     if (is_open() && isatty(fd_) == 1) take_terminal();
     return is_open();
   }
@@ -60,7 +63,7 @@ class Source {
     const ssize_t n = ::read(fd_, room.data(), room.size());
     if (n > 0) return static_cast<std::size_t>(n);
     if (n < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
-    close_or_wait(n == 0 ? "nobody sends" : strerrordesc_np(errno));
+    close_or_wait(n == 0 ? joystick_messages::sender_missing.c_str() : strerrordesc_np(errno));
     return 0;
   }
 
@@ -88,13 +91,14 @@ class Source {
 
   /// Ctrl-C and Ctrl-Z keep their meaning.
   void take_terminal() {
-    if (tcgetpgrp(fd_) != getpgrp()) return close("the terminal belongs to another program");
+    if (tcgetpgrp(fd_) != getpgrp()) return close(joystick_messages::terminal_in_use.c_str());
     has_settings_ = tcgetattr(fd_, &settings_) == 0;
     termios raw = settings_;
     raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     raw.c_cc[VMIN] = 1;
     raw.c_cc[VTIME] = 0;
-    if (!has_settings_ || tcsetattr(fd_, TCSANOW, &raw) != 0) close("the terminal cannot be set up");
+    if (!has_settings_ || tcsetattr(fd_, TCSANOW, &raw) != 0)
+      close(joystick_messages::terminal_setup_failed.c_str());
   }
 
   int fd_ = -1;
@@ -107,11 +111,10 @@ class Source {
 /// In `configure`. What is not there yet is waited for in flight.
 inline std::string checked_path(std::string_view name) {
   std::string path(name);
-  if (path.empty())
-    throw std::runtime_error("the parameter 'device' is empty; it names a device, such as /dev/input/js0");
+  if (path.empty()) throw std::runtime_error(joystick_messages::device_missing().line());
   struct stat found {};
   if (stat(path.c_str(), &found) == 0 && !S_ISCHR(found.st_mode) && !S_ISFIFO(found.st_mode))
-    throw std::runtime_error(path + " is neither a device nor a pipe");
+    throw std::runtime_error(joystick_messages::device_invalid(path).line());
   return path;
 }
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <string>
 
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/rc.hpp"
 #include "fulmar/plugin.hpp"
+#include "messages.hpp"
 
 namespace fulmar::hand {
 
@@ -36,10 +36,11 @@ class Transmitter {
     was_ = link;
     char words[192];
     if (link)
-      std::snprintf(words, sizeof words, "%s: the pilot is %s", device.c_str(), back ? "back" : "there");
+      (back ? joystick_messages::pilot_back : joystick_messages::pilot_present)
+          .write(words, sizeof words, device);
     else
-      std::snprintf(words, sizeof words, "%s: the pilot is %s: %s", device.c_str(),
-                    lost ? "lost" : "not there", why);
+      (lost ? joystick_messages::pilot_lost : joystick_messages::pilot_absent)
+          .write(words, sizeof words, device, why);
     notices.push({Text<96>(words), link ? Severity::info : Severity::warning}, on_arrival);
   }
 

@@ -10,6 +10,7 @@
 #include "epochs.hpp"
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/plugin.hpp"
+#include "messages.hpp"
 #include "serial_port.hpp"
 
 namespace fulmar::nmea {
@@ -30,16 +31,13 @@ struct Receiver {
 
   void configure(const Params& p) {
     path_ = p.port.view();
-    if (path_.empty())
-      throw std::runtime_error(
-          "the parameter 'port' is not set; it names a serial port, such as /dev/ttyUSB0");
+    if (path_.empty()) throw std::runtime_error(nmea_gnss_messages::port_missing().line());
     struct stat found {};
     if (stat(path_.c_str(), &found) == 0 && !S_ISCHR(found.st_mode))
-      throw std::runtime_error(path_ + " is not a serial port");
+      throw std::runtime_error(nmea_gnss_messages::port_not_serial(path_).line());
     const auto code = baud_code(p.baud);
     if (!code) {
-      throw std::runtime_error("the parameter 'baud' is " + std::to_string(p.baud.value) +
-                               ". Valid: 4800, 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600");
+      throw std::runtime_error(nmea_gnss_messages::baud_not_valid(p.baud.value).line());
     }
     baud_ = *code;
     lines_ = {};

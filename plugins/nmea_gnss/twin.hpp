@@ -12,6 +12,7 @@
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
 #include "fulmar/random.hpp"
+#include "messages.hpp"
 
 namespace fulmar::nmea {
 
@@ -39,7 +40,7 @@ struct Twin {
 
   void configure(const Params& p) {
     if (p.latency * p.rate > static_cast<double>(late_.size() - 1))
-      throw std::runtime_error("the latency holds more samples than fit");
+      throw std::runtime_error(nmea_gnss_messages::latency_too_long().line());
     period_ns_ = std::llround(1e9 / p.rate);
     latency_ns_ = std::llround(1e9 * p.latency);
     decay_ = std::exp(-1 / (p.rate * p.correlation_time));

@@ -79,9 +79,10 @@ struct Landing {
     site_.take(p.runway.given() ? *p.runway : p.plan->runway, of, p.plan.given() && !p.runway.given());
     if (p.origin.given()) site_.put(p.origin->lat_deg, p.origin->lon_deg, p.origin->alt_msl_m);
     if (site_.runway().length_m < needed)
-      throw std::runtime_error(of + ".length: " + std::to_string(std::lround(site_.runway().length_m)) +
-                               " m is too short; aim, flare and roll take " +
-                               std::to_string(std::lround(needed)) + " m in still air");
+      throw std::runtime_error(
+          located(of + ".length",
+                  path_messages::runway_too_short(std::lround(site_.runway().length_m), std::lround(needed)))
+              .line());
     check_slope(p.airframe->limits, p.approach_ratio, p.pattern.glide_slope);
     if (p.fence.is_given && site_.located())
       site_.within_fence(*p.fence, *p.origin, p.fence_margin, pattern_of(p.pattern));

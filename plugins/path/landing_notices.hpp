@@ -3,11 +3,12 @@
 // the aircraft does.
 #pragma once
 #include <cmath>
-#include <cstdio>
 
+#include "fulmar/fitted.hpp"
 #include "fulmar/msg/landing_progress.hpp"
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/plugin.hpp"
+#include "messages.hpp"
 
 namespace fulmar::path {
 
@@ -24,15 +25,13 @@ class LandingNotices {
     wind(before, now, out);
     if (now.stage == LandingStage::stopped && before.stage == LandingStage::roll_out &&
         times.rolled_s > times.roll_limit_s)
-      say("still rolling %.0f s after the touch-down: brake by hand", times.rolled_s, out);
+      say(path_messages::roll_long, Fixed{times.rolled_s, 0}, out);
   }
 
  private:
-  void say(const char* format, double value, Out& out, Severity severity = Severity::warning) const {
+  void say(const MessageText<1>& text, Fixed value, Out& out, Severity severity = Severity::warning) const {
     Notice notice;
-    char text[96];
-    std::snprintf(text, sizeof text, format, value);
-    notice.text = text;
+    notice.text = fitted<96>(text, value);
     notice.severity = severity;
     out.push(notice, now_ns_);
   }
@@ -40,13 +39,12 @@ class LandingNotices {
   void go_around(const LandingProgress& now, double flare_s, Out& out) const {
     switch (now.reason) {
       case LandingReason::cross_track:
-        return say("go-around: %.0f m off the centre line", std::abs(now.cross_m), out);
-      case LandingReason::height: return say("go-around: off the glide slope at %.0f m", now.height_m, out);
+        return say(path_messages::go_around_cross_track, Fixed{std::abs(now.cross_m), 0}, out);
+      case LandingReason::height: return say(path_messages::go_around_slope, Fixed{now.height_m, 0}, out);
       case LandingReason::position:
-        return say("go-around: no valid position or height at %.0f m", now.height_m, out);
-      case LandingReason::flare_long:
-        return say("go-around: no touch-down in %.0f s of flare, the height is wrong", flare_s, out);
-      default: return say("go-around at %.0f m, as commanded", now.height_m, out, Severity::info);
+        return say(path_messages::go_around_position, Fixed{now.height_m, 0}, out);
+      case LandingReason::flare_long: return say(path_messages::go_around_flare, Fixed{flare_s, 0}, out);
+      default: return say(path_messages::go_around_commanded, Fixed{now.height_m, 0}, out, Severity::info);
     }
   }
 
@@ -59,15 +57,11 @@ class LandingNotices {
     const bool refused = now.stage == LandingStage::join && now_ns_ - said_ns_ > repeat_ns;
     if (!warned && !refused) return;
     said_ns_ = now_ns_;
-    const double value = crosswind ? std::abs(now.cross_wind_mps) : now.needed_m;
+    const Fixed value = crosswind ? Fixed{std::abs(now.cross_wind_mps), 1} : Fixed{now.needed_m, 0};
     if (warned)
-      say(crosswind ? "crosswind of %.1f m/s is beyond the limit: landing all the same"
-                    : "the landing takes %.0f m, more than the runway: landing all the same",
-          value, out);
+      say(crosswind ? path_messages::crosswind_landing : path_messages::runway_short_landing, value, out);
     else
-      say(crosswind ? "crosswind of %.1f m/s is beyond the limit: circling, take over"
-                    : "the landing takes %.0f m, more than the runway: circling, take over",
-          value, out);
+      say(crosswind ? path_messages::crosswind_waiting : path_messages::runway_short_waiting, value, out);
   }
 
   std::int64_t now_ns_ = 0, said_ns_ = -1'000'000'000'000;

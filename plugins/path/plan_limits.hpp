@@ -4,7 +4,6 @@
 #pragma once
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -12,6 +11,7 @@
 #include "fulmar/flight/path/fence.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/plan.hpp"
+#include "messages.hpp"
 
 namespace fulmar::path {
 
@@ -24,13 +24,13 @@ inline void check_fence(const Plan& plan, const safety::Fence& fence, const Orig
     if (w.frame == WaypointFrame::geodetic && !origin.given) continue;
     const double up_m = -w.position_m.down;
     const double room_m = polygon.room_m(w.position_m.north, w.position_m.east);
-    const std::string which = "waypoint " + std::to_string(i + 1) + " of the plan is ";
     if (room_m < 0)
-      throw std::runtime_error(which + std::to_string(std::lround(-room_m)) + " m outside the fence");
+      throw std::runtime_error(path_messages::waypoint_outside_fence(i + 1, std::lround(-room_m)).line());
     if (up_m > fence.ceiling_m || up_m < fence.floor_m)
-      throw std::runtime_error(which + "at " + std::to_string(std::lround(up_m)) + " m, " +
-                               (up_m > fence.ceiling_m ? "above the ceiling" : "below the floor") +
-                               " of the fence");
+      throw std::runtime_error((up_m > fence.ceiling_m
+                                    ? path_messages::waypoint_above_ceiling
+                                    : path_messages::waypoint_below_floor)(i + 1, std::lround(up_m))
+                                   .line());
   }
 }
 
@@ -39,9 +39,9 @@ inline std::array<char, 96> airspeed_doubt(const Plan& plan, const FlightLimits&
   std::array<char, 96> words{};
   const auto look = [&](double Va) {
     if (words[0] != 0 || Va <= 0 || (Va >= limits.airspeed_min_mps && Va <= limits.airspeed_max_mps)) return;
-    std::snprintf(words.data(), words.size(),
-                  "%.0f m/s is beyond the airframe's %.0f to %.0f m/s, flown at the limit", Va,
-                  limits.airspeed_min_mps, limits.airspeed_max_mps);
+    path_messages::airspeed_beyond_airframe.write(words.data(), words.size(), Fixed{Va, 0},
+                                                  Fixed{limits.airspeed_min_mps, 0},
+                                                  Fixed{limits.airspeed_max_mps, 0});
   };
   look(plan.airspeed_mps);
   for (const Waypoint& w : plan.waypoints) look(w.airspeed_mps);
@@ -55,10 +55,9 @@ inline std::array<char, 96> radius_doubt(const Plan& plan, const FlightLimits& l
   const double Va2 = plan.airspeed_mps * plan.airspeed_mps;
   const double least_m = Va2 / (g_mps2 * std::tan(limits.roll_max_rad));
   if (plan.turn_radius_m < least_m)
-    std::snprintf(words.data(), words.size(),
-                  "turn_radius %.0f m takes %.0f deg of bank; roll_max %.0f deg gives %.0f m",
-                  plan.turn_radius_m, degrees * std::atan(Va2 / (g_mps2 * plan.turn_radius_m)),
-                  degrees * limits.roll_max_rad, least_m);
+    path_messages::turn_radius_tight.write(words.data(), words.size(), Fixed{plan.turn_radius_m, 0},
+                                           Fixed{degrees * std::atan(Va2 / (g_mps2 * plan.turn_radius_m)), 0},
+                                           Fixed{degrees * limits.roll_max_rad, 0}, Fixed{least_m, 0});
   return words;
 }
 

@@ -14,6 +14,7 @@
 #include "fulmar/msg/plan_edit.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
+#include "messages.hpp"
 #include "plan_file.hpp"
 #include "plan_limits.hpp"
 
@@ -64,6 +65,7 @@ struct Planner {
   void begin_group(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out);
   void drop_group(const Tick& tick, const char* reason, Outputs& out);
   void report(const Tick& tick, const PlanEditResult& result, Outputs& out);
+  Text<96> words_of(const PlanEditResult& result) const;  // of a refusal
   const char* apply(Plan& plan, PlanEdit edit, bool alone, std::uint32_t& waypoint_id);
   const char* set(Plan& plan, const PlanEdit& edit) const;
   void put(Plan& plan, const PlanEdit& edit, const Waypoint& w) const;
@@ -100,12 +102,11 @@ inline bool given(double x) { return x != not_given; }
 inline Waypoint waypoint_of(const PlanFileWaypoint& f, std::size_t number) {
   const bool local = given(f.north_m) || given(f.east_m) || given(f.up_m);
   const bool geodetic = given(f.lat_deg) || given(f.lon_deg) || given(f.alt_msl_m);
-  const std::string who = "waypoint " + std::to_string(number) + " of the plan ";
-  if (local == geodetic) throw std::runtime_error(who + "needs either north, east, up or lat, lon, alt_msl");
+  if (local == geodetic) throw std::runtime_error(path_messages::waypoint_place_ambiguous(number).line());
   if (local && !(given(f.north_m) && given(f.east_m) && given(f.up_m)))
-    throw std::runtime_error(who + "needs north, east and up");
+    throw std::runtime_error(path_messages::waypoint_place_missing(number, "north, east and up").line());
   if (geodetic && !(given(f.lat_deg) && given(f.lon_deg) && given(f.alt_msl_m)))
-    throw std::runtime_error(who + "needs lat, lon and alt_msl");
+    throw std::runtime_error(path_messages::waypoint_place_missing(number, "lat, lon and alt_msl").line());
   Waypoint w;
   if (local) {
     w.position_m = {f.north_m, f.east_m, -f.up_m};
@@ -125,8 +126,7 @@ inline Waypoint waypoint_of(const PlanFileWaypoint& f, std::size_t number) {
 
 inline void Planner::configure(const Params& p) {
   if (p.plan->given && p.plan->waypoints.size() == 0)
-    throw std::runtime_error(
-        "the plan has no waypoints; to change one thing in a plan, name it, as in plan.turn_radius");
+    throw std::runtime_error(path_messages::plan_empty().line());
   lowest_m_ = p.lowest;
   auto plan = std::make_unique<Plan>();
   plan->revision = plan_.revision;
@@ -135,21 +135,21 @@ inline void Planner::configure(const Params& p) {
   plan->airspeed_mps = p.plan->airspeed_mps;
   plan->turn_radius_m = p.plan->turn_radius_m;
   if (!(plan->airspeed_mps > 0 && plan->airspeed_mps < 1000))
-    throw std::runtime_error("the plan's airspeed must be positive");
+    throw std::runtime_error(path_messages::plan_airspeed_not_positive().line());
   if (!(plan->turn_radius_m >= 1 && plan->turn_radius_m < 1e5))
-    throw std::runtime_error("the plan's turn_radius must be at least 1 m");
+    throw std::runtime_error(path_messages::plan_turn_radius_small().line());
   if (p.origin->given) know_origin(p.origin->lat_deg, p.origin->lon_deg, p.origin->alt_msl_m);
   for (std::size_t i = 0; i < p.plan->waypoints.size(); ++i) {
     Waypoint w = detail::waypoint_of(p.plan->waypoints[i], i + 1);
     resolve(w);
     const char* fault = fault_of(w);
     if (!fault) fault = fault_of_neighbours(w, i > 0 ? &plan->waypoints[i - 1] : nullptr, nullptr);
-    if (fault) throw std::runtime_error("waypoint " + std::to_string(i + 1) + " of the plan: " + fault);
+    if (fault) throw std::runtime_error(path_messages::waypoint_not_valid(i + 1, fault).line());
     w.id = next_id_++;
     plan->waypoints.push_back(w);
   }
   if (plan->waypoints.size() == 1 && plan->end == PlanEnd::circuit)
-    throw std::runtime_error("the plan has one waypoint, which makes no circuit: give more, or end: orbit");
+    throw std::runtime_error(path_messages::circuit_of_one().line());
   if (p.fence.given()) check_fence(*plan, *p.fence, *p.origin);
   plan_ = *plan;
   changed_ = doubtful_ = true;
@@ -175,7 +175,7 @@ inline Status Planner::step(const Tick& tick, const Inputs& in, const Params& p,
     report_unflyable(tick, out);
   }
   refused_ += in.edits.lost();
-  if (in.edits.lost() > 0 && !group_.by_request) drop_group(tick, "edits were lost on the way", out);
+  if (in.edits.lost() > 0 && !group_.by_request) drop_group(tick, path_messages::edits_lost.c_str(), out);
   for (const auto& sample : in.edits) take(tick, sample.value, false, out);
   for (const auto request : in.edit) {
     if (const char* reason = take(tick, request.value(), true, out)) {

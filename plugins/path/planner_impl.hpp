@@ -3,9 +3,8 @@
 // place as a whole.
 #pragma once
 #include <algorithm>
-#include <charconv>
-#include <cstdio>
 
+#include "fulmar/fitted.hpp"
 #include "planner.hpp"
 
 namespace fulmar::path {
@@ -37,7 +36,7 @@ inline const char* Planner::take(const Tick& tick, const PlanEdit& edit, bool by
 }
 
 inline void Planner::begin_group(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out) {
-  drop_group(tick, "its group was not complete when another began", out);
+  drop_group(tick, path_messages::group_incomplete.c_str(), out);
   group_.number = edit.group;
   group_.size = edit.group_size;
   group_.taken = 0;
@@ -64,11 +63,11 @@ inline const char* Planner::take_into_group(const PlanEdit& edit, PlanEditResult
   group_.last_id = edit.id;
   ++group_.taken;
   if (group_.refused) {
-    reason = "another edit of its group was refused";
+    reason = path_messages::group_refused.c_str();
   } else if (edit.group_size == 0) {
-    reason = "an edit of a group says of how many: group_size";
+    reason = path_messages::group_size_missing.c_str();
   } else if (edit.group_size != group_.size) {
-    reason = "the edits of its group differ in group_size";
+    reason = path_messages::group_sizes_differ.c_str();
   } else {
     reason = apply(group_.plan, edit, false, result.waypoint_id);
   }
@@ -81,12 +80,21 @@ inline const char* Planner::take_into_group(const PlanEdit& edit, PlanEditResult
 }
 
 inline const char* Planner::commit() {
-  if (group_.changes != changes_) return "the plan was changed while its group came";
+  if (group_.changes != changes_) return path_messages::group_outdated.c_str();
   if (const char* fault = fault_of_spacing(group_.plan)) return fault;
   const std::uint32_t revision = plan_.revision;
   plan_ = group_.plan;
   plan_.revision = revision;
   return nullptr;
+}
+
+inline Text<96> Planner::words_of(const PlanEditResult& result) const {
+  const std::string_view reason = result.reason.view();
+  if (unreported_ == 0)
+    return result.id == 0 ? fitted<96>(path_messages::edit_without_id_refused, reason)
+                          : fitted<96>(path_messages::edit_refused, result.id, reason);
+  return result.id == 0 ? fitted<96>(path_messages::edit_without_id_refused_again, reason, unreported_)
+                        : fitted<96>(path_messages::edit_refused_again, result.id, reason, unreported_);
 }
 
 /// To the asker, and, when refused, to people: each reason, but one that comes again and again once a second,
@@ -101,29 +109,7 @@ inline void Planner::report(const Tick& tick, const PlanEditResult& result, Outp
   }
   Notice notice;
   notice.severity = Severity::warning;
-  std::size_t used = 0;
-  const auto say = [&](std::string_view words) {
-    const std::size_t n = std::min(words.size(), notice.text.bytes.size() - 1 - used);
-    std::copy_n(words.begin(), n, notice.text.bytes.begin() + static_cast<std::ptrdiff_t>(used));
-    used += n;
-  };
-  const auto count = [&](std::uint32_t number) {
-    std::array<char, 10> digits{};
-    const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-    say({digits.data(), static_cast<std::size_t>(end - digits.data())});
-  };
-  say("plan edit ");
-  if (result.id != 0) {
-    count(result.id);
-    say(" ");
-  }
-  say("refused: ");
-  say(result.reason.view());
-  if (unreported_ > 0) {
-    say(" (and ");
-    count(unreported_);
-    say(" before)");
-  }
+  notice.text = words_of(result);
   out.notices.push(notice, tick.now_ns);
   reported_reason_ = result.reason;
   reported_ns_ = tick.now_ns;
@@ -139,16 +125,17 @@ inline const char* Planner::apply(Plan& plan, PlanEdit edit, bool alone, std::ui
   const bool adds = edit.kind == PlanEditKind::append || edit.kind == PlanEditKind::insert;
   const bool at_existing = edit.kind == PlanEditKind::replace || edit.kind == PlanEditKind::remove ||
                            edit.kind == PlanEditKind::set_current;
-  if (edit.kind > PlanEditKind::set_current) return "no such kind of edit";
+  if (edit.kind > PlanEditKind::set_current) return path_messages::edit_kind_unknown.c_str();
   if (edit.waypoint_id != 0 && (at_existing || edit.kind == PlanEditKind::insert)) {
     for (edit.index = 0; edit.index < n && list[edit.index].id != edit.waypoint_id;) ++edit.index;
-    if (edit.index == n) return "there is no waypoint of this id";
+    if (edit.index == n) return path_messages::waypoint_id_unknown.c_str();
   }
   const std::uint32_t i = edit.index;
-  if (adds && list.full()) return "the plan is full: 1024 waypoints";
+  if (adds && list.full()) return path_messages::plan_full.c_str();
   if (at_existing && i >= n)
-    return n == 0 ? "the plan has no waypoints" : "there is no waypoint of this index; the first is 0";
-  if (edit.kind == PlanEditKind::insert && i > n) return "the index is beyond the end of the plan";
+    return n == 0 ? path_messages::plan_without_waypoints.c_str()
+                  : path_messages::waypoint_index_unknown.c_str();
+  if (edit.kind == PlanEditKind::insert && i > n) return path_messages::index_beyond_end.c_str();
 
   Waypoint w = edit.waypoint;
   if (edit.kind == PlanEditKind::append) edit.index = n;
@@ -171,18 +158,20 @@ inline const char* Planner::apply(Plan& plan, PlanEdit edit, bool alone, std::ui
 inline const char* Planner::set(Plan& plan, const PlanEdit& edit) const {
   switch (edit.setting) {
     case PlanSetting::end:
-      if (edit.end > PlanEnd::orbit) return "no such end of a plan";
+      if (edit.end > PlanEnd::orbit) return path_messages::end_unknown.c_str();
       plan.end = edit.end;
       return nullptr;
     case PlanSetting::turn_radius:
-      if (!(edit.turn_radius_m >= 1 && edit.turn_radius_m <= 1e5)) return "turn_radius is 1 m to 100 km";
+      if (!(edit.turn_radius_m >= 1 && edit.turn_radius_m <= 1e5))
+        return path_messages::turn_radius_out_of_range.c_str();
       plan.turn_radius_m = edit.turn_radius_m;
       return nullptr;
     case PlanSetting::airspeed:
-      if (!(edit.airspeed_mps >= 3 && edit.airspeed_mps <= 300)) return "airspeed is 3 to 300 m/s";
+      if (!(edit.airspeed_mps >= 3 && edit.airspeed_mps <= 300))
+        return path_messages::airspeed_out_of_range.c_str();
       plan.airspeed_mps = edit.airspeed_mps;
       return nullptr;
-    default: return "no such setting of a plan";
+    default: return path_messages::setting_unknown.c_str();
   }
 }
 
@@ -217,23 +206,23 @@ inline void Planner::put(Plan& plan, const PlanEdit& edit, const Waypoint& w) co
 }
 
 inline const char* Planner::fault_of(const Waypoint& w) const {
-  if (w.frame > WaypointFrame::geodetic) return "no such kind of waypoint";
+  if (w.frame > WaypointFrame::geodetic) return path_messages::waypoint_kind_unknown.c_str();
   const bool geodetic = w.frame == WaypointFrame::geodetic;
   if (geodetic) {
     if (!std::isfinite(w.latitude_deg) || !std::isfinite(w.longitude_deg) || !std::isfinite(w.altitude_m))
-      return "a coordinate is not finite";
-    if (std::abs(w.latitude_deg) > 90) return "the latitude is beyond 90 degrees";
-    if (std::abs(w.longitude_deg) > 360) return "the longitude is beyond 360 degrees";
+      return path_messages::coordinate_not_finite.c_str();
+    if (std::abs(w.latitude_deg) > 90) return path_messages::latitude_out_of_range.c_str();
+    if (std::abs(w.longitude_deg) > 360) return path_messages::longitude_out_of_range.c_str();
   }
   const Vec3<Ned>& p = w.position_m;
   if (!std::isfinite(p.north) || !std::isfinite(p.east) || !std::isfinite(p.down))
-    return "a coordinate is not finite";
+    return path_messages::coordinate_not_finite.c_str();
   if (std::hypot(p.north, p.east) > farthest_m || std::abs(p.down) > farthest_m)
-    return "more than 100 km from the origin";
+    return path_messages::origin_too_far.c_str();
   const bool placed = !geodetic || origin_known_;
-  if (placed && -p.down < lowest_m_) return "lower than the planner allows: its parameter 'lowest'";
-  if (!std::isfinite(w.course_rad)) return "the course is not finite";
-  if (!(w.airspeed_mps >= 0 && w.airspeed_mps < 1000)) return "the airspeed is negative or not finite";
+  if (placed && -p.down < lowest_m_) return path_messages::waypoint_low.c_str();
+  if (!std::isfinite(w.course_rad)) return path_messages::course_not_finite.c_str();
+  if (!(w.airspeed_mps >= 0 && w.airspeed_mps < 1000)) return path_messages::airspeed_not_valid.c_str();
   return nullptr;
 }
 
@@ -245,15 +234,15 @@ inline bool Planner::close(const Waypoint& a, const Waypoint& b) const {
 
 inline const char* Planner::fault_of_neighbours(const Waypoint& w, const Waypoint* before,
                                                 const Waypoint* after) const {
-  if (before && close(w, *before)) return "less than 1 m from the waypoint before it";
-  if (after && close(w, *after)) return "less than 1 m from the waypoint after it";
+  if (before && close(w, *before)) return path_messages::waypoint_before_close.c_str();
+  if (after && close(w, *after)) return path_messages::waypoint_after_close.c_str();
   return nullptr;
 }
 
 /// Of the plan that a group makes: on the way there waypoints may have been anywhere.
 inline const char* Planner::fault_of_spacing(const Plan& plan) const {
   for (std::uint32_t i = 1; i < plan.waypoints.count; ++i)
-    if (close(plan.waypoints[i - 1], plan.waypoints[i])) return "two waypoints would be less than 1 m apart";
+    if (close(plan.waypoints[i - 1], plan.waypoints[i])) return path_messages::waypoints_close.c_str();
   return nullptr;
 }
 
@@ -272,7 +261,7 @@ inline void Planner::report_unflyable(const Tick& tick, Outputs& out) {
     Notice notice;
     notice.severity = Severity::error;
     std::array<char, 96> words{};
-    std::snprintf(words.data(), words.size(), "waypoint %u of the plan: %s", i + 1, fault);
+    path_messages::waypoint_not_valid.write(words.data(), words.size(), i + 1, fault);
     fit_words(words.data(), notice.text.bytes.data(), notice.text.bytes.size());
     out.notices.push(notice, tick.now_ns);
     return;

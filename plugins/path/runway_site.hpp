@@ -13,6 +13,7 @@
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/runway.hpp"
+#include "messages.hpp"
 
 namespace fulmar::path {
 
@@ -32,14 +33,13 @@ class RunwaySite {
     };
     const int local = given(runway_.north_m, runway_.east_m, runway_.up_m),
               geodetic = given(runway_.lat_deg, runway_.lon_deg, runway_.alt_msl_m);
-    if (runway_.length_m <= 0 && local + geodetic > 0) throw std::runtime_error(name + ": needs a length");
+    if (runway_.length_m <= 0 && local + geodetic > 0)
+      throw std::runtime_error(fulmar::located(name, path_messages::runway_length_missing()).line());
     if (runway_.length_m <= 0)
       throw std::runtime_error(
-          std::string(from_plan ? "plan" : "runway") +
-          ": there is no runway to land on; give one here or in the plan, as {north, east, "
-          "up, heading, length} or {lat, lon, alt_msl, heading, length}");
+          fulmar::located(from_plan ? "plan" : "runway", path_messages::runway_missing()).line());
     if (local + geodetic != 3 || (local != 0 && geodetic != 0))
-      throw std::runtime_error(name + ": needs either north, east, up or lat, lon, alt_msl");
+      throw std::runtime_error(fulmar::located(name, path_messages::runway_place_ambiguous()).line());
     located_ = local == 3;
   }
   /// A geodetic runway, once the origin of the local frame is given.
@@ -91,19 +91,20 @@ class RunwaySite {
     constexpr int points = 72;
     for (int i = 0; i < points; ++i) {
       const double a = 2 * std::numbers::pi * i / points;
-      look("the circle onto the final approach", fence,
+      look(path_messages::landing_circle.c_str(), fence,
            orbit.origin_m.north + p.circle_radius_m * std::cos(a),
            orbit.origin_m.east + p.circle_radius_m * std::sin(a), margin_m);
     }
     for (int i = 0; i <= points; ++i) {
       const double along = -p.final_length_m + (p.final_length_m + runway_.length_m) * i / points;
-      look(along < 0 ? "the final approach" : "the runway", fence, runway_.north_m + along * c,
-           runway_.east_m + along * s, margin_m);
+      look((along < 0 ? path_messages::final_approach : path_messages::runway).c_str(), fence,
+           runway_.north_m + along * c, runway_.east_m + along * s, margin_m);
     }
     if (fix_height(p) + margin_m > record.ceiling_m)
-      throw std::runtime_error("fence.ceiling_m: the circle onto the final approach is " +
-                               std::to_string(std::lround(fix_height(p))) + " m high, the ceiling " +
-                               std::to_string(std::lround(record.ceiling_m)) + " m");
+      throw std::runtime_error(
+          fulmar::located("fence.ceiling_m", path_messages::landing_above_ceiling(
+                                                 std::lround(fix_height(p)), std::lround(record.ceiling_m)))
+              .line());
   }
 
  private:
@@ -111,12 +112,12 @@ class RunwaySite {
                    double margin_m) {
     const double room = fence.room_m(north_m, east_m);
     if (room >= margin_m) return;
-    const auto m = [](double x) { return std::to_string(std::lround(x)) + " m"; };
-    throw std::runtime_error("fence.corners: " + std::string(what) + ", " + m(north_m) + " north, " +
-                             m(east_m) + " east, " +
-                             (room < 0 ? "lies " + m(-room) + " outside of the fence"
-                                       : "leaves " + m(room) + " to the fence, of " + m(margin_m)) +
-                             "; move the fence, or set final_length, circle_radius, circle");
+    const auto north = std::lround(north_m), east = std::lround(east_m);
+    const Diagnostic fault =
+        room < 0
+            ? path_messages::landing_outside_fence(what, north, east, std::lround(-room))
+            : path_messages::landing_near_fence(what, north, east, std::lround(room), std::lround(margin_m));
+    throw std::runtime_error(fulmar::located("fence.corners", fault).line());
   }
 
   Runway runway_;  ///< in the local frame, if `located_`
@@ -130,10 +131,10 @@ inline void check_slope(const FlightLimits& limits, double approach_ratio, doubl
   const double sink = V * std::sin(glide_slope_rad), most = limits.sink_rate_max_mps;
   if (sink <= most) return;
   const auto number = [](double x) { return std::to_string(x).substr(0, 5); };
-  throw std::runtime_error("glide_slope: " + number(glide_slope_rad) + " rad at the " + number(V) +
-                           " m/s of the approach sinks by " + number(sink) +
-                           " m/s in still air, and the airframe's limits.sink_rate_max is " + number(most) +
-                           " m/s; at most " + number(std::asin(most / V)) + " rad");
+  throw std::runtime_error(located("glide_slope", path_messages::glide_slope_steep(
+                                                      number(glide_slope_rad), number(V), number(sink),
+                                                      number(most), number(std::asin(most / V))))
+                               .line());
 }
 
 }  // namespace fulmar::path

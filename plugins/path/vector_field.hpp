@@ -14,6 +14,7 @@
 #include "fulmar/msg/path.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
+#include "messages.hpp"
 #include "reckoning.hpp"
 
 namespace fulmar::path {
@@ -84,9 +85,7 @@ struct VectorField {
     out.command = last_;
     out.cross_track_m = 0.0;
     out.height_error_m = 0.0;
-    if (!waits_)
-      report("no position: circle to the right, it drifts with the wind. Pilot: take over",
-             Severity::critical, tick, out);
+    if (!waits_) report(path_messages::position_lost.c_str(), Severity::critical, tick, out);
     waits_ = true;
     return Status::degraded;
   }
@@ -181,7 +180,7 @@ inline Status VectorField::step(const Tick& tick, const Inputs& in, const Params
   const Path& path = *in.path;
   if (!reckoning_.located(state, tick.now_ns, p.reckon_std, p.reckon_time) && commanded_)
     return wait(tick, state, p, out);
-  if (waits_) report("the position is back: the path is flown again", Severity::info, tick, out);
+  if (waits_) report(path_messages::position_back.c_str(), Severity::info, tick, out);
   waits_ = false;
   const double Vg = state.ground_speed_mps, chi = state.course_rad;
   const double k =

@@ -13,10 +13,11 @@ The module is made by the plugin `python`, which hosts scripts; names that begin
 """
 import collections
 import ctypes
-import difflib
 import enum
 import math
 from ctypes import c_bool, c_char, c_double, c_int64, c_uint8, c_uint32, c_uint64
+
+from fulmar_plugin_texts import choices as _choices, text as _text
 
 unknown_std = 1e9  # deviation of what nobody knows
 
@@ -45,11 +46,6 @@ class DeclarationError(Exception):
     def __init__(self, path, sentence):
         super().__init__(".".join(path) + ": " + sentence)
         self.path = path
-
-
-def _choices(name, valid):
-    near = difflib.get_close_matches(name, valid, 1)
-    return (f" Did you mean '{near[0]}'?" if near else "") + " Valid: " + ", ".join(valid) + "."
 
 
 # ---- messages ------------------------------------------------------------------------------------------------------------------
@@ -215,7 +211,7 @@ def _declare(name, body):
     foreign = isinstance(body.get("ros_type"), str)
     annotations = body.pop("__annotations__", {})
     if not annotations:
-        raise DeclarationError((name,), "a message has at least one field: airspeed_mps: float")
+        raise DeclarationError((name,), _text("fields_missing"))
     scope = dict(globals())
     module = __import__("sys").modules.get(body.get("__module__"))
     scope.update(vars(module) if module else {})
@@ -240,15 +236,14 @@ def _element(path, kind):
         return _Element(_TEXT, c_char * kind.size, None, None)
     if isinstance(kind, type) and issubclass(kind, enum.IntEnum):
         if [e.value for e in kind] != list(range(len(kind))):
-            raise DeclarationError(path, f"the words of {kind.__name__} count from 0, without gaps")
+            raise DeclarationError(path, _text("enum_values_invalid", kind.__name__))
         return _Element(_ENUM, u8, None, [e.name for e in kind])
     if isinstance(kind, type) and issubclass(kind, Message) and kind is not Message:
         return _Element(_STRUCT, kind, kind, None)
     if isinstance(kind, type) and kind in _SCALARS:
         number, ctype = _SCALARS[kind]
         return _Element(number, ctype, None, None)
-    raise DeclarationError(path, f"{kind!r} is no type of a field. Valid: float, f32, bool, int, u8, i32, u32, i64, u64, an IntEnum, "
-                                 "Text(n), Array(type, n), List(type, n), Ned, Body, Quat and messages")
+    raise DeclarationError(path, _text("field_type_invalid", repr(kind)))
 
 
 def _unit(path, element, needed):
@@ -260,7 +255,7 @@ def _unit(path, element, needed):
                 return printed, low, high
             return (printed if suffix == "_ns" and element.kind in (5, 6) else ""), -math.inf, math.inf
     if needed:
-        raise DeclarationError(path, "the name of a number ends in its unit: " + " ".join(u[0] for u in _units))
+        raise DeclarationError(path, _text("unit_missing", " ".join(u[0] for u in _units)))
     return "", -math.inf, math.inf
 
 
@@ -305,13 +300,13 @@ def _message(path, kind, scope):
     if isinstance(kind, type) and issubclass(kind, Message) and kind is not Message:
         return kind
     if not isinstance(kind, str):
-        raise DeclarationError(path, f"{kind!r} is no message; give its name or class")
+        raise DeclarationError(path, _text("message_type_invalid", repr(kind)))
     own = scope.get(kind)
     if kind in _shared:
         return _shared[kind]
     if isinstance(own, type) and issubclass(own, Message):
         return own
-    raise DeclarationError(path, f"there is no message '{kind}'." + _choices(kind, sorted(_shared)))
+    raise DeclarationError(path, _text("message_unknown", kind, _choices(kind, sorted(_shared))))
 
 
 # ---- ports ---------------------------------------------------------------------------------------------------------------------

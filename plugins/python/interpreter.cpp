@@ -9,8 +9,8 @@
 
 #include "messages.hpp"
 
-// The text of fulmar_plugin.py and runtime.py.
-extern "C" const char fulmar_plugin_source[], fulmar_runtime_source[];
+// The text of fulmar_plugin.py, runtime.py and texts.py.
+extern "C" const char fulmar_plugin_source[], fulmar_runtime_source[], fulmar_texts_source[];
 
 namespace fulmar::python {
 namespace {
@@ -73,6 +73,7 @@ py::module_ make_module(const char* name, const char* file, const char* source) 
 }
 
 void make_modules() {
+  make_module("fulmar_plugin_texts", "fulmar_plugin_texts.py", fulmar_texts_source);
   const py::module_ plugin = make_module("fulmar_plugin", "fulmar_plugin.py", fulmar_plugin_source);
   plugin.attr("_units") = unit_rules();
   plugin.attr("_share")(message_tables());

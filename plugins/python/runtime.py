@@ -134,7 +134,7 @@ def _members(cls, inner, kinds, what):
             if name.startswith("_") or isinstance(value, (staticmethod, classmethod, types.FunctionType)):
                 continue
             if not isinstance(value, kinds):
-                raise f.DeclarationError((cls.__name__, inner, name), f"{value!r} is no {what}")
+                raise f.DeclarationError((cls.__name__, inner, name), f._text("declaration_invalid", repr(value), what))
             found[name] = value
     return found
 
@@ -145,7 +145,7 @@ def _ports(cls, inner, kinds, what, scope):
         path = (cls.__name__, inner, name)
         message = None if port.message is None else f._message(path, port.message, scope)
         if message is None and not any(name.endswith(u[0]) and len(name) > len(u[0]) for u in f._units):
-            raise f.DeclarationError(path, "the name of a probe ends in its unit: roll_error_rad")
+            raise f.DeclarationError(path, f._text("probe_unit_missing"))
         ports.append((name, port.kind, port.flags, port.capacity, message))
     return ports
 
@@ -166,7 +166,7 @@ def _describe(cls, scope):
     outputs = _ports(cls, "Outputs", (f.Out, f.Event, f.OutQueue, f.Probe), "output; Outputs holds Out, Event, OutQueue and Probe", scope)
     vehicle = hasattr(cls, "read")
     if vehicle and not hasattr(cls, "write"):
-        raise f.DeclarationError((cls.__name__,), "a vehicle has read and write")
+        raise f.DeclarationError((cls.__name__,), f._text("vehicle_incomplete"))
     return _Described(cls, cls.__name__, inspect.cleandoc(cls.__doc__ or ""), inputs, outputs, _params(cls, scope), vehicle)
 
 
@@ -182,10 +182,10 @@ def _components(module, name):
         if not _is_component(cls, module) or any(d.cls is cls for d in found):
             continue
         if not hasattr(cls, "step") and not hasattr(cls, "read"):
-            raise f.DeclarationError((cls.__name__,), "it has no method step(self, tick, inp, p, out)")
+            raise f.DeclarationError((cls.__name__,), f._text("step_missing"))
         found.append(_describe(cls, vars(module)))
     if not found:
-        raise ImportError(f"{name} holds no component: a class with Outputs and a method step(self, tick, inp, p, out)")
+        raise ImportError(f"{name}: " + f._text("component_missing"))
     return found
 
 
@@ -369,7 +369,7 @@ def _rebound(out, name, own):
             own.publish()
         return
     wanted = own._message.__name__ if isinstance(own, f.Message) else "a queue: push to it"
-    raise TypeError(f"out.{name} is {wanted}, not {type(given).__name__}")
+    raise TypeError(f._text("output_type_invalid", name, wanted, type(given).__name__))
 
 
 # ---- faults --------------------------------------------------------------------------------------------------------------------
@@ -402,7 +402,7 @@ def _explain(error, file):
     at = own[-1]
     place = f"{os.path.basename(at.filename)}:{at.lineno}"
     if isinstance(error, ModuleNotFoundError) and error.name:
-        return f"{place}: there is no Python module '{error.name}'"
+        return f"{place}: " + f._text("module_missing", error.name)
     where = "" if at.name == "<module>" else f" in {at.name}"
     return f"{place}{where}: {type(error).__name__}: {error}" + (f" [{at.line}]" if at.line else "")
 

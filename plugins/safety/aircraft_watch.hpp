@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "battery.hpp"
+#include "fulmar/fitted.hpp"
 #include "fulmar/flight/math/angles.hpp"
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/attitude_command.hpp"
 #include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/notice.hpp"
+#include "messages.hpp"
 #include "motor.hpp"
 #include "reported.hpp"
 
@@ -137,36 +138,37 @@ struct AircraftWatch {
   void report(const Inputs& in, const Params& p, double dt, const Tick& tick, Outputs& out) {
     constexpr double degrees = 180 / std::numbers::pi;
     const double volt = in.status ? in.status->battery_volt : 0;
-    const auto line = [&](Cause cause, bool now, Severity severity, const char* wrong, double figure,
-                          const char* right) {
+    const auto line = [&](Cause cause, bool now, Severity severity, const auto& wrong, Fixed figure,
+                          const MessageText<0>& right) {
       const Reported::News news = reported_[index_of(cause)].step(now, !now, 0, 0, p.pause, tick.now_s(), dt);
       if (news == Reported::News::none) return;
       Notice notice;
       notice.cause = cause;
       notice.severity = now ? severity : Severity::info;
-      std::snprintf(notice.text.bytes.data(), notice.text.bytes.size(), now ? wrong : right, figure);
+      if (!now)
+        notice.text = right.c_str();
+      else if constexpr (requires { wrong.c_str(); })
+        notice.text = wrong.c_str();
+      else
+        notice.text = fitted<96>(wrong, figure);
       out.notices.push(notice, tick.now_ns);
     };
-    line(Cause::bank, bank_.lost(), Severity::critical,
-         "bank %.0f deg off its command: the ailerons do not turn it. Pilot: take over",
-         degrees * bank_.error_rad(), "bank follows its command");
-    line(Cause::pitch, pitch_.lost(), Severity::critical,
-         "pitch %.0f deg off its command: the elevator does not turn it. Pilot: take over",
-         degrees * pitch_.error_rad(), "pitch follows its command");
+    namespace m = safety_messages;
+    line(Cause::bank, bank_.lost(), Severity::critical, m::bank_off, Fixed{degrees * bank_.error_rad(), 0},
+         m::bank_follows);
+    line(Cause::pitch, pitch_.lost(), Severity::critical, m::pitch_off,
+         Fixed{degrees * pitch_.error_rad(), 0}, m::pitch_follows);
     if (p.monitored) return;
-    line(Cause::engine_failed, motor_.failed(), Severity::critical,
-         "no thrust from the motor. Pilot: land ahead", 0, "the motor gives thrust");
+    line(Cause::engine_failed, motor_.failed(), Severity::critical, m::engine_failed, {}, m::motor_back);
     if (!motor_.failed())
-      line(Cause::engine_weak, motor_.weak(), Severity::warning,
-           "weak motor, %.0f %% of its thrust, or ice. Pilot: return and land",
-           100 * std::clamp(motor_.ratio(), 0.0, 1.0), "the motor has its thrust");
-    line(Cause::battery_empty, battery_.empty(), Severity::critical, "battery empty, %.1f V. Pilot: land now",
-         volt, "battery not empty");
-    line(Cause::battery_low, battery_.low(), Severity::warning, "battery low, %.1f V. Pilot: return and land",
-         volt, "battery not low");
-    line(Cause::wind_excessive, windy_.raised(), Severity::warning,
-         "wind %.0f m/s, above the limit. Pilot: return and land", std::hypot(wind_.north, wind_.east),
-         "wind below the limit");
+      line(Cause::engine_weak, motor_.weak(), Severity::warning, m::engine_weak,
+           Fixed{100 * std::clamp(motor_.ratio(), 0.0, 1.0), 0}, m::thrust_back);
+    line(Cause::battery_empty, battery_.empty(), Severity::critical, m::battery_empty, Fixed{volt, 1},
+         m::battery_charged);
+    line(Cause::battery_low, battery_.low(), Severity::warning, m::battery_low, Fixed{volt, 1},
+         m::battery_high);
+    line(Cause::wind_excessive, windy_.raised(), Severity::warning, m::wind_excessive,
+         Fixed{std::hypot(wind_.north, wind_.east), 0}, m::wind_back);
   }
 
   Follows bank_, pitch_;

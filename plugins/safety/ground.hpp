@@ -9,6 +9,7 @@
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/takeoff_request.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
+#include "messages.hpp"
 #include "touch_down.hpp"
 
 namespace fulmar::safety {
@@ -98,7 +99,7 @@ struct Ground {
     bool asked = false;
     for (auto request : in.takeoff) {
       if (now_.contact == Contact::air) {
-        request.refuse("the aircraft flies");
+        request.refuse(safety_messages::aircraft_flies.c_str());
         continue;
       }
       request.accept();
@@ -195,16 +196,15 @@ struct Ground {
   bool released() const { return released_at_ == now_.touch_downs; }
 
   void report(const Tick& tick, Outputs& out) {
-    const auto say = [&](const char* text) {
+    const auto say = [&](const MessageText<0>& text) {
       Notice notice;
-      notice.text = text;
+      notice.text = text.c_str();
       out.notices.push(notice, tick.now_ns);
     };
-    if (now_.lift_offs != reported_.lift_offs) say("lift-off");
-    if (now_.touch_downs > reported_.touch_downs) say("touch-down");
-    if (now_.touch_downs < reported_.touch_downs) say("still in the air");
-    if (now_.throttle_locked && !reported_.throttle_locked)
-      say("landed: the throttle stays closed until the pilot hands over or a take-off is requested");
+    if (now_.lift_offs != reported_.lift_offs) say(safety_messages::lift_off);
+    if (now_.touch_downs > reported_.touch_downs) say(safety_messages::touch_down);
+    if (now_.touch_downs < reported_.touch_downs) say(safety_messages::still_in_air);
+    if (now_.throttle_locked && !reported_.throttle_locked) say(safety_messages::throttle_locked);
     reported_ = now_;
   }
 

@@ -13,6 +13,7 @@
 #include "fulmar/msg/safety_state.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "glide_model.hpp"
+#include "messages.hpp"
 #include "reckoned.hpp"
 
 namespace fulmar::safety {
@@ -63,7 +64,7 @@ struct Home {
   void configure(const Params& p) {
     spots_ = p.places.is_given ? places_of(*p.places, *p.origin) : std::vector<Spot>{};
     if (p.places.is_given && spots_.empty())
-      throw std::runtime_error("places.places: there are none; the first is home");
+      throw std::runtime_error(located("places.places", safety_messages::places_missing()).line());
     if (spots_.empty()) spots_.push_back({});
   }
   void retune(const Params& p) {

@@ -106,7 +106,7 @@ inline void Monitor::configure(const Params& p) {
   polygon_ = {};
   places_ = p.places.is_given ? places_of(*p.places, *p.origin) : std::vector<Spot>{};
   if (p.places.is_given && places_.empty())
-    throw std::runtime_error("places.places: there are none; the first is home");
+    throw std::runtime_error(located("places.places", safety_messages::places_missing()).line());
   if (places_.empty()) places_.push_back({});
   if (p.fence.is_given) {
     polygon_.set(*p.fence, *p.origin);
@@ -114,14 +114,15 @@ inline void Monitor::configure(const Params& p) {
     ceiling_m_ = now_.ceiling_m = p.fence->ceiling_m;
     const double room = polygon_.room_m(places_[0].north_m, places_[0].east_m);
     if (room < p.fencing.fence_margin)
-      throw std::runtime_error("fence.corners: home, " + std::to_string(std::lround(places_[0].north_m)) +
-                               " m north, " + std::to_string(std::lround(places_[0].east_m)) +
-                               (room < 0 ? " m east, lies outside of the fence"
-                                         : " m east, lies nearer to the fence than fence_margin"));
+      throw std::runtime_error(
+          located("fence.corners",
+                  (room < 0 ? safety_messages::home_outside_fence : safety_messages::home_near_fence)(
+                      std::lround(places_[0].north_m), std::lround(places_[0].east_m)))
+              .line());
   }
   const BatteryLimits& b = p.battery;
   if (b.battery_empty > b.battery_low || b.volt_empty > b.volt_low)
-    throw std::runtime_error("battery_empty, volt_empty: above battery_low, volt_low");
+    throw std::runtime_error(safety_messages::battery_limits_crossed().line());
 }
 
 /// By the estimate of ground contact; without it, what the status says of the ground, and a speed that

@@ -3,13 +3,14 @@
 // aircraft does now, and what the pilot should do.
 #pragma once
 #include <array>
-#include <cstdio>
 
+#include "fulmar/fitted.hpp"
 #include "fulmar/msg/ground_state.hpp"
 #include "fulmar/msg/navigation_health.hpp"
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
+#include "messages.hpp"
 #include "reported.hpp"
 
 namespace fulmar::safety {
@@ -53,10 +54,9 @@ struct SensorWatch {
     const Reported::News news = position_.step(flies && had_position_ && !s.position_valid, s.position_valid,
                                                0, p.clear, p.pause, now_s, dt);
     if (news == Reported::News::raised)
-      say(Severity::critical, Cause::gnss_lost,
-          "position lost: it is reckoned by air data and drifts. Pilot: be ready", tick, out);
+      say(Severity::critical, Cause::gnss_lost, safety_messages::position_lost.c_str(), tick, out);
     if (news == Reported::News::cleared)
-      say(Severity::info, Cause::gnss_lost, "the position is valid again", tick, out);
+      say(Severity::info, Cause::gnss_lost, safety_messages::position_valid.c_str(), tick, out);
     return Status::ok;
   }
 
@@ -66,32 +66,33 @@ struct SensorWatch {
     SensorHealth NavigationHealth::*health;
     Cause cause;
     Severity severity;
-    const char* answer;  // what the aircraft does now, and the pilot
+    const MessageText<0>* answer;  // what the aircraft does now, and the pilot
   };
   static constexpr std::array<Sensor, 7> sensors{{
       {"gyro", &NavigationHealth::gyro, Cause::gyro, Severity::critical,
-       "the attitude is not reliable. Pilot: take over"},
+       &safety_messages::attitude_unreliable},
       {"accelerometer", &NavigationHealth::accel, Cause::accelerometer, Severity::critical,
-       "the attitude is not reliable. Pilot: take over"},
+       &safety_messages::attitude_unreliable},
       {"GNSS position", &NavigationHealth::gnss_position, Cause::gnss_lost, Severity::warning,
-       "dead reckoning by air data"},
+       &safety_messages::dead_reckoning},
       {"GNSS velocity", &NavigationHealth::gnss_velocity, Cause::gnss_velocity, Severity::warning,
-       "velocity by position and air data"},
+       &safety_messages::velocity_by_position},
       {"magnetometer", &NavigationHealth::mag, Cause::magnetometer, Severity::warning,
-       "heading by GNSS course"},
-      {"barometer", &NavigationHealth::baro, Cause::barometer, Severity::warning, "height by GNSS"},
+       &safety_messages::heading_by_course},
+      {"barometer", &NavigationHealth::baro, Cause::barometer, Severity::warning,
+       &safety_messages::height_by_gnss},
       {"pitot tube", &NavigationHealth::pitot, Cause::pitot_lost, Severity::warning,
-       "airspeed estimated from GNSS and wind"},
+       &safety_messages::airspeed_estimated},
   }};
 
-  static const char* word(SensorState state) {
+  static const MessageText<0>* word(SensorState state) {
     switch (state) {
-      case SensorState::silent: return "silent";
-      case SensorState::stuck: return "stuck";
-      case SensorState::noisy: return "noisy";
-      case SensorState::refused: return "refused, it contradicts the others";
-      case SensorState::biased: return "biased";
-      default: return "in order";
+      case SensorState::silent: return &safety_messages::silent;
+      case SensorState::stuck: return &safety_messages::stuck;
+      case SensorState::noisy: return &safety_messages::noisy;
+      case SensorState::refused: return &safety_messages::rejected;
+      case SensorState::biased: return &safety_messages::biased;
+      default: return &safety_messages::in_order;
     }
   }
 
@@ -106,13 +107,14 @@ struct SensorWatch {
     for (std::size_t i = 0; i < bad.size(); ++i) {
       const Reported::News news =
           reported[i].step(flies && bad[i], good || (i == 0 && soft), raise[i], p.clear, p.pause, now_s, dt);
-      char text[96];
+      Text<96> text;
       if (news == Reported::News::raised) {
-        std::snprintf(text, sizeof text, "%s %s: %s", sensor.name, word(h.state), sensor.answer);
+        text = fitted<96>(safety_messages::sensor_failed, sensor.name, word(h.state)->c_str(),
+                          sensor.answer->c_str());
         say(sensor.severity, sensor.cause, text, tick, out);
       } else if (news == Reported::News::cleared) {
-        std::snprintf(text, sizeof text, "%s in order again after %.0f s", sensor.name,
-                      reported[i].since_s(now_s) - p.clear);
+        text = fitted<96>(safety_messages::sensor_back, sensor.name,
+                          Fixed{reported[i].since_s(now_s) - p.clear, 0});
         say(Severity::info, sensor.cause, text, tick, out);
       }
     }
@@ -128,14 +130,12 @@ struct SensorWatch {
     const Reported::News news =
         inertial_.step(flies && n >= 2, n == 0, p.raise_inertial, p.clear, p.pause, now_s, dt);
     if (news == Reported::News::raised)
-      say(Severity::critical, Cause::inertial,
-          "gyro or accelerometer wrong, several sensors contradict them. Pilot: take over", tick, out);
+      say(Severity::critical, Cause::inertial, safety_messages::inertial_wrong.c_str(), tick, out);
     if (news == Reported::News::cleared)
-      say(Severity::info, Cause::inertial, "gyro and accelerometer agree with the other sensors again", tick,
-          out);
+      say(Severity::info, Cause::inertial, safety_messages::inertial_back.c_str(), tick, out);
   }
 
-  static void say(Severity severity, Cause cause, const char* text, const Tick& tick, Outputs& out) {
+  static void say(Severity severity, Cause cause, const Text<96>& text, const Tick& tick, Outputs& out) {
     Notice notice;
     notice.cause = cause;
     notice.severity = severity;

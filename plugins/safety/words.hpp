@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <initializer_list>
 #include <numbers>
 
 #include "fulmar/flight/control/alarms.hpp"
@@ -14,6 +12,7 @@
 #include "fulmar/msg/safety_state.hpp"
 #include "fulmar/plugin.hpp"
 #include "gate.hpp"
+#include "messages.hpp"
 
 namespace fulmar::safety {
 
@@ -45,13 +44,14 @@ class Reports {
   }
 
  private:
-  static constexpr std::array<const char*, 7> does{
-      "goes on",           "levels the wings",  "glides down", "descends in a circle, motor off",
-      "circles and waits", "returns and lands", "returns home"};
+  static constexpr std::array<const MessageText<0>*, 7> does{
+      &safety_messages::goes_on,  &safety_messages::levels, &safety_messages::glides,
+      &safety_messages::descends, &safety_messages::waits,  &safety_messages::lands,
+      &safety_messages::returns};
 
   const char* answer() const {
-    if (lands_ && now_->answer == SafetyAnswer::none) return "finishes the landing";
-    return does[static_cast<std::size_t>(now_->answer)];
+    if (lands_ && now_->answer == SafetyAnswer::none) return safety_messages::finishes.c_str();
+    return does[static_cast<std::size_t>(now_->answer)]->c_str();
   }
 
   void push(const char* text, Severity severity, Cause cause = Cause::none) {
@@ -62,37 +62,34 @@ class Reports {
     out_->push(notice, tick_->now_ns);
     said_ = true;
   }
-  static Line line(const char* text) { return joined({text}); }
-  template <class First, class... A>
-  static Line line(const char* format, First first, A... a) {
-    Line text{};
-    std::snprintf(text.data(), text.size(), format, first, a...);
-    return text;
+  template <std::size_t N, class... Values>
+  static Line line(const MessageText<N>& text, const Values&... values) {
+    Line made{};
+    text.write(made.data(), made.size(), values...);
+    return made;
   }
 
-  /// Parts one after the other, as far as there is room.
-  static Line joined(std::initializer_list<const char*> parts) {
-    Line text{};
-    std::size_t used = 0;
-    for (const char* part : parts)
-      for (; *part != 0 && used + 1 < text.size(); ++part) text[used++] = *part;
-    return text;
-  }
-
-  void say(bool SafetyState::*flag, const Line& wrong, const char* right, const char* pilot) {
+  void say(bool SafetyState::*flag, const Line& wrong, const MessageText<0>& right, const char* pilot) {
     const bool raised = now_->*flag;
     if (raised == reported_.*flag) return;
     const Cause cause = alarm(flag).cause;
-    const char* const what = raised ? wrong.data() : right;
+    const char* const what = raised ? wrong.data() : right.c_str();
     if (!now_->airborne) return push(what, raised ? Severity::warning : Severity::info, cause);
     if (raised)
-      return push(joined({what, ": ", answer(), ". Pilot: ", pilot}).data(), Severity::warning, cause);
+      return push(line(safety_messages::alarm, what, answer(), pilot).data(), Severity::warning, cause);
     const bool free = now_->answer == SafetyAnswer::none;
-    push(joined({what, free ? ": " : ": still ", answer()}).data(), Severity::info, cause);
+    push(line(free ? safety_messages::cleared : safety_messages::cleared_still, what, answer()).data(),
+         Severity::info, cause);
   }
-  /// The text of an alarm, and a figure.
-  void say(bool SafetyState::*flag, const char* right, const char* pilot, const Line& figure = {}) {
-    say(flag, joined({alarm(flag).words, figure.data()}), right, pilot);
+  /// The text of an alarm.
+  void say(bool SafetyState::*flag, const MessageText<0>& right, const char* pilot) {
+    say(flag, line(*alarm(flag).message), right, pilot);
+  }
+  /// The text of an alarm, with a figure.
+  template <std::size_t N, class... Figures>
+  void say(bool SafetyState::*flag, const MessageText<0>& right, const char* pilot,
+           const MessageText<N>& with, const Figures&... figures) {
+    say(flag, line(with, alarm(flag).words(), figures...), right, pilot);
   }
 
   void faults(const Facts& f) {
@@ -100,39 +97,36 @@ class Reports {
     constexpr double deg = std::numbers::pi / 180;
     const int charge = static_cast<int>(std::lround(100 * std::clamp(f.battery_ratio, 0.0, 1.0)));
     const int thrust = static_cast<int>(std::lround(100 * std::clamp(now_->thrust_ratio, 0.0, 1.0)));
-    say(&S::engine_failed, "the motor gives thrust", "land ahead");
-    if (!now_->engine_failed)
-      say(&S::engine_weak, "the motor has its thrust", "no go-around", line(", %d %% of its thrust", thrust));
-    say(&S::battery_empty, "battery not empty", "land now", line(", %d %%", charge));
-    say(&S::attitude_excessive,
-        joined({alarm(&S::attitude_excessive).words, line(", roll %.0f", std::abs(f.roll_rad) / deg).data(),
-                line(", pitch %.0f deg", std::abs(f.pitch_rad) / deg).data()}),
-        "attitude in limits", "take over");
-    say(&S::estimator_failed, "estimate valid", "take over");
-    say(&S::gnss_lost, "position back", "take over by sight");
-    say(&S::battery_low, "battery not low", "clear the runway", line(", %d %%", charge));
-    say(&S::pitot_lost, "airspeed measured again", "fly fast");
-    say(&S::wind_excessive, "wind below the limit", "keep the field clear", line(", %.0f m/s", f.wind_mps));
-    say(&S::radio_lost, "radio back", "check the transmitter");
-    say(&S::link_lost, "vehicle status back", "check the link");
+    using namespace safety_messages;
+    say(&S::engine_failed, motor_back, "land ahead");
+    if (!now_->engine_failed) say(&S::engine_weak, thrust_back, "no go-around", thrust_left, thrust);
+    say(&S::battery_empty, battery_charged, "land now", charge_left, charge);
+    say(&S::attitude_excessive, attitude_back, "take over", tilted, Fixed{std::abs(f.roll_rad) / deg, 0},
+        Fixed{std::abs(f.pitch_rad) / deg, 0});
+    say(&S::estimator_failed, estimate_back, "take over");
+    say(&S::gnss_lost, position_back, "take over by sight");
+    say(&S::battery_low, battery_high, "clear the runway", charge_left, charge);
+    say(&S::pitot_lost, airspeed_back, "fly fast");
+    say(&S::wind_excessive, wind_back, "keep the field clear", wind_at, Fixed{f.wind_mps, 0});
+    say(&S::radio_lost, radio_back, "check the transmitter");
+    say(&S::link_lost, link_back, "check the link");
     if (now_->drifting != reported_.drifting)
-      push(now_->drifting
-               ? line("wind %.0f m/s exceeds the top airspeed: nose into wind, drifts. Pilot: land",
-                      f.wind_mps)
-                     .data()
-               : "wind below the top airspeed: holds its ground",
+      push((now_->drifting ? line(drifts, Fixed{f.wind_mps, 0}) : line(drift_ended)).data(),
            now_->drifting ? Severity::warning : Severity::info, Cause::drifting);
   }
 
   /// Distances without a sign.
   static Line side(double room_m) {
-    return line(room_m < 0 ? "outside the fence by %.0f m" : "%.0f m to the fence", std::abs(room_m));
+    return line(room_m < 0 ? safety_messages::outside_fence : safety_messages::near_fence,
+                Fixed{std::abs(room_m), 0});
   }
   static Line ceiling(double below_m) {
-    return line(below_m < 0 ? "above the ceiling by %.0f m" : "%.0f m to the ceiling", std::abs(below_m));
+    return line(below_m < 0 ? safety_messages::above_ceiling : safety_messages::near_ceiling,
+                Fixed{std::abs(below_m), 0});
   }
   static Line floor(double above_m) {
-    return line(above_m < 0 ? "below the floor by %.0f m" : "%.0f m to the floor", std::abs(above_m));
+    return line(above_m < 0 ? safety_messages::below_floor : safety_messages::near_floor,
+                Fixed{std::abs(above_m), 0});
   }
   static Line where(const Facts& f) {
     if (f.by_side) return side(f.room_m);
@@ -140,7 +134,8 @@ class Reports {
   }
 
   void place(const Facts& f) {
-    const char* const right = f.kept_fence ? "inside the fence, the return goes on" : "inside the fence";
+    const MessageText<0>& right =
+        f.kept_fence ? safety_messages::inside_fence_returning : safety_messages::inside_fence;
     say(&SafetyState::fence, where(f), right, "keep inside");
   }
 
@@ -148,14 +143,13 @@ class Reports {
   void changes(const Facts& f) {
     if (said_ || !now_->airborne || !reported_.airborne || now_->answer == reported_.answer) return;
     if (now_->answer == SafetyAnswer::descend)
-      push(joined({f.drift_ends_wait ? "near the fence after " : "no position for ",
-                   line("%.0f s", now_->waiting_s).data(), f.drift_ends_wait ? " without position: " : ": ",
-                   answer(), ". Pilot: take over"})
+      push(line(f.drift_ends_wait ? safety_messages::descends_near_fence
+                                  : safety_messages::descends_without_position,
+                Fixed{now_->waiting_s, 0}, answer())
                .data(),
            Severity::warning);
     else if (now_->answer == SafetyAnswer::land)
-      push(line("returning for %.0f s: lands. Pilot: clear the runway", now_->returning_s).data(),
-           Severity::warning);
+      push(line(safety_messages::lands_after_return, Fixed{now_->returning_s, 0}).data(), Severity::warning);
   }
 
   /// The list of what is missing, when it has been the same for a while; once before a flight that is enough.
@@ -169,9 +163,9 @@ class Reports {
     bits_ = bits;
     if (same_s_ < settled_s || since_s_ < apart_s || bits == listed_) return;
     if (bits != 0)
-      push(joined({"not ready: ", missing(f).data()}).data(), Severity::warning);
+      push(line(safety_messages::not_ready, missing(f).data()).data(), Severity::warning);
     else
-      push("ready for take-off", Severity::info);
+      push(safety_messages::ready.c_str(), Severity::info);
     listed_ = bits;
     since_s_ = 0;
   }
@@ -187,18 +181,25 @@ class Reports {
   Line missing(const Facts& f) const {
     const NotReady& n = now_->not_ready;
     Line list{};
-    const auto add = [&list](bool is, const Line& what) {
-      if (is) list = joined({list.data(), list[0] != 0 ? ", " : "", what.data()});
+    std::size_t used = 0;
+    const auto put = [&](const char* words) {
+      for (; *words != 0 && used + 1 < list.size(); ++words) list[used++] = *words;
     };
-    add(n.motor, line("no thrust from the motor"));
+    const auto add = [&](bool is, const Line& what) {
+      if (!is) return;
+      if (used > 0) put(", ");
+      put(what.data());
+    };
+    using namespace safety_messages;
+    add(n.motor, line(flight_messages::engine_failed));
     add(n.fence, side(f.room_m));
     add(n.height, ceiling(f.below_ceiling_m));
-    add(n.wind, f.tail_wind ? line("tail wind in the run") : line("wind %.0f m/s", f.ground_wind_mps));
-    add(n.pitot, line("pitot"));
-    add(n.battery, line("battery"));
-    add(n.radio, line("radio"));
-    add(n.position, line("position"));
-    add(n.estimator, line("estimate"));
+    add(n.wind, f.tail_wind ? line(tail_wind) : line(wind_strong, Fixed{f.ground_wind_mps, 0}));
+    add(n.pitot, line(pitot_missing));
+    add(n.battery, line(battery_missing));
+    add(n.radio, line(radio_missing));
+    add(n.position, line(position_missing));
+    add(n.estimator, line(estimate_missing));
     return list;
   }
 

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
 #include <cstddef>
-#include <cstdio>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -14,37 +12,40 @@
 #include "fulmar/flight/control/alarms.hpp"
 #include "fulmar/msg/contact_truth.hpp"
 #include "fulmar/msg/safety_state.hpp"
+#include "messages.hpp"
 #include "score_messages.hpp"
 
 namespace fulmar::score {
 
-inline const char* answer_words(SafetyAnswer answer) {
+inline const MessageText<0>& answer_text(SafetyAnswer answer) {
   switch (answer) {
     case SafetyAnswer::none: break;
-    case SafetyAnswer::level: return "wings level";
-    case SafetyAnswer::glide: return "glide";
-    case SafetyAnswer::descend: return "descent without motor";
-    case SafetyAnswer::wait: return "circle and wait";
-    case SafetyAnswer::land: return "return and land";
-    case SafetyAnswer::home: return "return home";
+    case SafetyAnswer::level: return score_messages::wings_level;
+    case SafetyAnswer::glide: return score_messages::glide;
+    case SafetyAnswer::descend: return score_messages::descent;
+    case SafetyAnswer::wait: return score_messages::wait;
+    case SafetyAnswer::land: return score_messages::land;
+    case SafetyAnswer::home: return score_messages::home;
   }
-  return "go on";
+  return score_messages::go_on;
 }
 
 /// A line that grows until its room is full.
 template <std::size_t N>
 class Line {
  public:
-  [[gnu::format(printf, 2, 3)]] void add(const char* format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    const int n = std::vsnprintf(bytes_.data() + size_, N - size_, format, arguments);
-    va_end(arguments);
-    size_ = std::min(N - 1, size_ + static_cast<std::size_t>(std::max(n, 0)));
+  void add(std::string_view words) {
+    const std::size_t n = std::min(words.size(), left());
+    std::copy_n(words.begin(), n, bytes_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += n;
+  }
+  template <std::size_t M, class... Values>
+  void add(const MessageText<M>& text, const Values&... values) {
+    const std::size_t n = text.write(bytes_.data() + size_, N - size_, values...);
+    size_ = std::min(N - 1, size_ + n);
   }
   bool empty() const { return size_ == 0; }
   std::size_t left() const { return N - 1 - size_; }
-  const char* c_str() const { return bytes_.data(); }
   std::string_view view() const { return {bytes_.data(), size_}; }
 
  private:
@@ -56,7 +57,10 @@ class Line {
 inline Line<128> alarm_words(const SafetyState& s) {
   Line<128> line;
   for (const NamedAlarm& a : alarms)
-    if (is_raised(a, s)) line.add("%s%s", line.empty() ? "" : " and ", a.words);
+    if (is_raised(a, s)) {
+      if (!line.empty()) line.add(" and ");
+      line.add(*a.message);
+    }
   return line;
 }
 
@@ -75,26 +79,33 @@ class Story {
     if (s.answer == before || s.answer == SafetyAnswer::none || !flies) return false;
     if (answers_.left() < 60) return false;
     const Line<128> why = alarm_words(s);
-    answers_.add("%s%s at %.1f s", answers_.empty() ? "" : ", ", answer_words(s.answer), now_s);
-    if (!why.empty()) answers_.add(" (%s)", why.c_str());
+    const char* const answer = answer_text(s.answer).c_str();
+    if (!answers_.empty()) answers_.add(", ");
+    if (why.empty())
+      answers_.add(score_messages::answered, answer, Fixed{now_s, 1});
+    else
+      answers_.add(score_messages::answered_because, answer, Fixed{now_s, 1}, why.view());
     return true;
   }
 
   Verdict verdict() const {
     Verdict v;
-    v.text = grounded_ ? "never left the ground" : answers_.view();
+    v.text = grounded_ ? score_messages::never_airborne.c_str() : answers_.view();
     return v;
   }
 
   Verdict verdict(const Crash& c) const {
     constexpr double degrees = 180 / std::numbers::pi;
-    Line<320> line;
-    line.add(
-        "%s touched at %.2f s, sink %.1f m/s, bank %.0f deg, %.1f m/s over ground, %.0f m %s and %.0f m %s",
-        c.part.view().empty() ? "an unknown part" : c.part.bytes.data(), c.at_s, c.sink_mps,
-        degrees * c.roll_rad, c.ground_speed_mps, std::abs(c.north_m), c.north_m < 0 ? "south" : "north",
-        std::abs(c.east_m), c.east_m < 0 ? "west" : "east");
-    if (!answers_.empty()) line.add("; before: %s", answers_.c_str());
+    Line<320> crash, line;
+    crash.add(score_messages::crashed,
+              c.part.view().empty() ? std::string_view(score_messages::part_unknown.c_str()) : c.part.view(),
+              Fixed{c.at_s, 2}, Fixed{c.sink_mps, 1}, Fixed{degrees * c.roll_rad, 0},
+              Fixed{c.ground_speed_mps, 1}, Fixed{std::abs(c.north_m), 0}, c.north_m < 0 ? "south" : "north",
+              Fixed{std::abs(c.east_m), 0}, c.east_m < 0 ? "west" : "east");
+    if (answers_.empty())
+      line = crash;
+    else
+      line.add(score_messages::crashed_after, crash.view(), answers_.view());
     Verdict v;
     v.word = "crashed";
     v.text = line.view();

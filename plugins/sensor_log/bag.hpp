@@ -27,7 +27,7 @@ inline std::uint32_t crc32(std::string_view bytes) {
 class Bag {
  public:
   Bag(const File& file, std::string_view topic) : file_(file), topic_(topic) {
-    if (!file.bytes.starts_with(magic)) refuse(file, " is no MCAP file");
+    if (!file.bytes.starts_with(magic)) refuse(file.key, sensor_log_messages::file_not_mcap(file.path));
   }
 
   Table read(const std::vector<Wanted>& wanted) {
@@ -57,12 +57,12 @@ class Bag {
   template <class Use>
   void scan(const Use& use) {
     Cursor all{&file_, file_.bytes, magic.size(), 0};
-    if (!records(all, use, false)) all.fault("the file ends early: its data has no end");
+    if (!records(all, use, false)) all.fault(sensor_log_messages::data_without_end());
     if (type_) return;
     std::vector<std::string> topics;
     for (const auto& [id, name] : topics_)
       if (std::find(topics.begin(), topics.end(), name) == topics.end()) topics.push_back(name);
-    refuse(key_of_topic(), "no topic '" + topic_ + "' in " + file_.path + "; there are " + all_of(topics));
+    refuse(key_of_topic(), sensor_log_messages::topic_unknown(topic_, file_.path, all_of(topics)));
   }
 
   std::string key_of_topic() const { return file_.key.substr(0, file_.key.rfind('.')) + ".topic"; }
@@ -102,12 +102,10 @@ class Bag {
     const std::string name(record.text()), encoding(record.text());
     topics_[id] = name;
     if (name != topic_ || (type_ && id == channel_)) return;
-    if (type_)
-      refuse(key_of_topic(), "'" + topic_ + "' has two channels in " + file_.path + "; one can be read");
+    if (type_) refuse(key_of_topic(), sensor_log_messages::topic_ambiguous(topic_, file_.path));
     const Schema& s = schemas_[of];
     if (encoding != "cdr" || s.encoding != "ros2msg")
-      refuse(key_of_topic(), "'" + topic_ + "' is encoded as '" + encoding + "' with a schema '" +
-                                 s.encoding + "'; what can be read is cdr with ros2msg");
+      refuse(key_of_topic(), sensor_log_messages::encoding_unsupported(topic_, encoding, s.encoding));
     channel_ = id;
     type_name_ = s.name;
     type_.emplace(file_, topic_, s.name, s.text);
@@ -122,24 +120,23 @@ class Bag {
     Cursor packed = record.part(record.number<std::uint64_t>());
     std::string plain;
     if (!compression.empty()) {
-      if (compression != "zstd")
-        record.fault("a chunk is packed with '" + compression + "'; what can be read is zstd, or none");
+      if (compression != "zstd") record.fault(sensor_log_messages::chunk_packing_unsupported(compression));
       plain = unpacked(packed, size);
     }
     Cursor inside{&file_, compression.empty() ? packed.data : std::string_view(plain), 0, packed.base};
     if (checksum != 0 && checksum != crc32(inside.data))
-      packed.fault("a chunk is damaged: its checksum is not that of its content");
+      packed.fault(sensor_log_messages::chunk_checksum_wrong());
     records(inside, use, true);
   }
 
   static std::string unpacked(const Cursor& packed, std::uint64_t size) {
-    if (size > (std::uint64_t{1} << 30)) packed.fault("a chunk of more than 1 GB");
+    if (size > (std::uint64_t{1} << 30)) packed.fault(sensor_log_messages::chunk_too_large());
     const auto said = ZSTD_getFrameContentSize(packed.data.data(), packed.data.size());
     std::string plain;
     if (said == size || said == ZSTD_CONTENTSIZE_UNKNOWN) plain.resize(static_cast<std::size_t>(size));
     const std::size_t got =
         ZSTD_decompress(plain.data(), plain.size(), packed.data.data(), packed.data.size());
-    if (ZSTD_isError(got) != 0 || got != size) packed.fault("a chunk is damaged");
+    if (ZSTD_isError(got) != 0 || got != size) packed.fault(sensor_log_messages::chunk_damaged());
     return plain;
   }
 

@@ -56,11 +56,9 @@ class Csv {
       else
         row(text);
     }
-    if (names_.empty()) refuse(key_, path_ + " is empty; its first line has to name the columns");
+    if (names_.empty()) refuse(key_, sensor_log_messages::file_empty(path_));
     // half a number is a number as well
-    if (cut)
-      refuse(key_,
-             place() + ": the file ends early: its last line is not ended; every row ends with a line break");
+    if (cut) refuse(key_, sensor_log_messages::last_line_cut(place()));
     return std::move(table_);
   }
 
@@ -83,7 +81,7 @@ class Csv {
       const auto at = std::find(names_.begin(), names_.end(), each.name);
       if (at == names_.end()) refuse_column(each, place(), names_);
       if (std::find(at + 1, names_.end(), each.name) != names_.end())
-        refuse(each.use, place() + " names two columns '" + each.name + "'");
+        refuse(each.use, sensor_log_messages::column_repeated(place(), each.name));
       place_of_.push_back(static_cast<std::size_t>(at - names_.begin()));
     }
   }
@@ -91,9 +89,10 @@ class Csv {
   void row(std::string_view text) {
     const std::vector<std::string_view>& cells = cells_of(text);
     if (cells.size() != names_.size())
-      refuse(key_, place() + ": " + std::to_string(cells.size()) + (cells.size() == 1 ? " cell" : " cells") +
-                       " where the first line names " + std::to_string(names_.size()) + " columns" +
-                       (cells.size() < names_.size() ? ": the file ends early, or the row is cut" : ""));
+      refuse(key_, cells.size() == 1 ? sensor_log_messages::row_of_one_cell(place(), names_.size())
+                   : cells.size() < names_.size()
+                       ? sensor_log_messages::row_cut(place(), cells.size(), names_.size())
+                       : sensor_log_messages::row_too_long(place(), cells.size(), names_.size()));
     for (std::size_t i = 0; i < wanted_.size(); ++i) cell(cells[place_of_[i]], i);
     table_.lines.push_back(line_);
   }
@@ -111,8 +110,7 @@ class Csv {
     if (whole && code == std::errc::result_out_of_range)
       number = text.find_first_of("eE") != text.npos && text.find("-", 1) != text.npos ? 0 : infinity;
     else if (!text.empty() && (code != std::errc{} || !whole))
-      refuse(wanted.use, place() + ": '" + std::string(text.substr(0, 40)) + "' in column '" + wanted.name +
-                             "' is no number");
+      refuse(wanted.use, sensor_log_messages::number_not_valid(place(), text.substr(0, 40), wanted.name));
     put(column, wanted, number);
   }
 

@@ -20,8 +20,8 @@ struct Cursor {
 
   bool more() const { return at < data.size(); }
   std::size_t left() const { return data.size() - at; }
-  [[noreturn]] void fault(const std::string& sentence) const {
-    refuse(*file, ": byte " + std::to_string(base + at) + ": " + sentence);
+  [[noreturn]] void fault(const Diagnostic& reason) const {
+    refuse(file->key, sensor_log_messages::file_damaged(file->path, base + at, reason));
   }
   /// The next `size` bytes, as a cursor of their own.
   Cursor part(std::uint64_t size) {
@@ -29,7 +29,7 @@ struct Cursor {
     return {file, take(size), 0, begin};
   }
   std::string_view take(std::uint64_t size) {
-    if (size > left()) fault("the file ends early, or is damaged");
+    if (size > left()) fault(sensor_log_messages::data_cut());
     at += static_cast<std::size_t>(size);
     return data.substr(at - static_cast<std::size_t>(size), static_cast<std::size_t>(size));
   }
@@ -70,7 +70,7 @@ inline void put_number(Prim prim, Cursor& from, Column& column, const Wanted& wa
     case Prim::i64: return put_one<std::int64_t>(from, column, wanted);
     case Prim::f32: return put_one<float>(from, column, wanted);
     case Prim::f64: return put_one<double>(from, column, wanted);
-    default: from.fault("no number");
+    default: from.fault(sensor_log_messages::number_missing());
   }
 }
 

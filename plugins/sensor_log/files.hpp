@@ -29,7 +29,7 @@ class Files {
     const File file = open(from, key);
     if (kind_of(file) == Kind::csv) {
       if (!from.topic.view().empty())
-        refuse(key + ".from.topic", file.path + " has none; bags and ULogs have");
+        refuse(key + ".from.topic", sensor_log_messages::topics_not_in_file(file.path));
       return {};
     }
     return kind_of(file) == Kind::bag ? Bag(file, from.topic.view()).look()
@@ -44,7 +44,7 @@ class Files {
     if (file.path.ends_with(".csv")) return Kind::csv;
     if (file.path.ends_with(".mcap")) return Kind::bag;
     if (file.path.ends_with(".ulg") || file.path.ends_with(".ulog")) return Kind::ulog;
-    refuse(file.key, "'" + file.path + "' is no kind of file that can be read: *.csv, *.mcap, *.ulg");
+    refuse(file.key, sensor_log_messages::file_kind_unknown(file.path));
   }
 
   /// Several sensors may be in one file, which is read once.
@@ -54,9 +54,9 @@ class Files {
     const auto [at, fresh] = bytes_.try_emplace(file.path);
     if (fresh) {
       std::ifstream stream(file.path, std::ios::binary);
-      if (!stream) refuse(file, " cannot be read; --set recorded.folder=FOLDER says where the files are");
+      if (!stream) refuse(file.key, sensor_log_messages::file_missing(file.path));
       at->second.assign(std::istreambuf_iterator<char>(stream), {});
-      if (stream.bad()) refuse(file, " cannot be read");
+      if (stream.bad()) refuse(file.key, sensor_log_messages::file_unreadable(file.path));
     }
     file.bytes = at->second;
     return file;

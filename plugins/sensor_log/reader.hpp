@@ -49,9 +49,9 @@ class Reader {
   /// The number of the column in a row.
   std::size_t want(const Name& column, const std::string& use, std::int64_t unit = 0) {
     if (column.view().empty())
-      refuse(key_ + "." + use, "names no column of " + path_ +
-                                   (files_.has_lines(from_) ? "; valid is one of its first line"
-                                                            : ", and a topic of this type has no usual one"));
+      refuse(key_ + "." + use,
+             (files_.has_lines(from_) ? sensor_log_messages::column_not_named
+                                      : sensor_log_messages::column_of_topic_not_named)(path_));
     wanted_.push_back({std::string(column.view()), key_ + "." + use, unit});
     return wanted_.size() - 1;
   }
@@ -86,10 +86,9 @@ class Reader {
     }
     keep_order(series, stamps_ns, samples, lines);
     if (table_.rows() == 0 && !files_.has_lines(from_))
-      refuse(key_ + ".from.topic", path_ + " has no message of it");
+      refuse(key_ + ".from.topic", sensor_log_messages::topic_empty(path_));
     if (series.samples.empty())
-      refuse(key_ + ".from.file", path_ + ": none of its " + std::to_string(table_.rows()) +
-                                      " rows can be used: the file ends early, or these are not the columns");
+      refuse(key_ + ".from.file", sensor_log_messages::rows_unusable(path_, table_.rows()));
     return series;
   }
 

@@ -51,17 +51,14 @@ struct Recorded {
     ticks_.clear();
     next_ = 0;
     refuse_description(d_);
-    if (p.folder.view().empty())
-      refuse("folder", "is not given; --set recorded.folder=FOLDER says where " + files_of(d_) + " are");
+    if (p.folder.view().empty()) refuse("folder", sensor_log_messages::folder_missing(files_of(d_)));
     read_files(std::string(p.folder.view()));
     begin_at_zero();
     plan();
   }
 
   Status read(Tick& tick, const Params&, Outputs& out) {
-    if (next_ == ticks_.size())
-      throw std::runtime_error(
-          "the recording has ended, and the mission goes on: its `done:` is vehicle.recording.ended");
+    if (next_ == ticks_.size()) throw std::runtime_error(sensor_log_messages::recording_ended().line());
     const PlannedTick& now = ticks_[next_++];
     tick.now_ns = now.now_ns;
     show(out.gnss, gnss_, now, Sensor::gnss);
@@ -152,7 +149,7 @@ struct Recorded {
     add(events, Sensor::baro, baro_, d_.baro.withhold);
     add(events, Sensor::pitot, pitot_, d_.pitot.withhold);
     ticks_ = Planner().plan(std::move(events));
-    if (ticks_.empty()) refuse("log.use", "no sample of the recording lies in these times");
+    if (ticks_.empty()) refuse("log.use", sensor_log_messages::use_empty());
   }
 
   template <class M, class Windows>

@@ -35,8 +35,7 @@ inline std::string files_of(const Description& d) {
 }
 
 inline void refuse_window(const Window& w, const std::string& key) {
-  if (w.to_s <= w.from_s)
-    refuse(key, "from " + seconds(w.from_s) + " to " + seconds(w.to_s) + " is no time; `to` is after `from`");
+  if (w.to_s <= w.from_s) refuse(key, sensor_log_messages::window_empty(seconds(w.from_s), seconds(w.to_s)));
 }
 
 template <class Log>
@@ -44,8 +43,7 @@ void refuse_sensor(const Log& log, const std::string& key, bool has_columns) {
   for (std::size_t i = 0; i < log.withhold.size(); ++i)
     refuse_window(log.withhold[i], key + ".withhold[" + std::to_string(i) + "]");
   if (!used(log) && (has_columns || !log.from.time.view().empty()))
-    refuse(key + ".from.file",
-           "names no file; without one there is no such sensor, and its other keys mean nothing");
+    refuse(key + ".from.file", sensor_log_messages::file_not_named());
 }
 
 inline void refuse_description(const Description& d) {
@@ -55,7 +53,7 @@ inline void refuse_description(const Description& d) {
   refuse_sensor(d.baro, "log.baro", !d.baro.pressure.column.view().empty());
   refuse_sensor(d.pitot, "log.pitot", !d.pitot.pressure.column.view().empty());
   refuse_sensor(d.gnss, "log.gnss", said(d.gnss.position.columns));
-  if (files_of(d).empty()) refuse("log", "describes no sensor; there are imu, mag, baro, pitot, gnss");
+  if (files_of(d).empty()) refuse("log", sensor_log_messages::sensors_missing());
   refuse_window(d.use, "log.use");
   refuse_window(d.armed, "log.armed");
   refuse_window(d.airborne, "log.airborne");
@@ -73,10 +71,9 @@ class Meeting {
       last_ns_ = s.at_ns.back();
     }
     if (s.at_ns.front() <= last_ns_ && s.at_ns.back() >= first_ns_) return;
-    refuse(s.key + ".from", "the times of " + s.path + ", " + seconds_of(s.at_ns.front()) + " to " +
-                                seconds_of(s.at_ns.back()) + ", and of " + path_ + ", " +
-                                seconds_of(first_ns_) + " to " + seconds_of(last_ns_) +
-                                ", do not meet; `shift:` is added to a clock");
+    refuse(s.key + ".from",
+           sensor_log_messages::times_apart(s.path, seconds_of(s.at_ns.front()), seconds_of(s.at_ns.back()),
+                                            path_, seconds_of(first_ns_), seconds_of(last_ns_)));
   }
 
  private:
@@ -90,13 +87,13 @@ void refuse_early_end(const Series<M>& s, const Window& use) {
   if (use.to_s == Window{}.to_s || s.at_ns.back() >= ns_of(use.to_s)) return;
   const std::string place =
       s.line_word == std::string_view("line") ? ":" : std::string(": ") + s.line_word + " ";
-  refuse(s.key + ".from.file", s.path + place + std::to_string(s.last_line) + ": the file ends early, at " +
-                                   seconds_of(s.at_ns.back()) + "; `use:` wants it to " + seconds(use.to_s));
+  refuse(s.key + ".from.file",
+         sensor_log_messages::file_ends_early(s.path + place + std::to_string(s.last_line),
+                                              seconds_of(s.at_ns.back()), seconds(use.to_s)));
 }
 
 inline std::string cut_words(const std::string& path, std::size_t at, std::int64_t last_ns) {
-  return path.substr(path.rfind('/') + 1) + ": cut off: byte " + std::to_string(at) + ", at " +
-         seconds_of(last_ns) + "; read up to there";
+  return sensor_log_messages::file_cut(path.substr(path.rfind('/') + 1), at, seconds_of(last_ns));
 }
 
 template <class M>
@@ -109,9 +106,10 @@ std::string words_of(const Series<M>& s) {
   add(out.not_finite, " not finite");
   add(out.out_of_range, " out of range");
   add(out.out_of_order, " out of order");
-  return s.path.substr(s.path.rfind('/') + 1) + ": left out " + std::to_string(out.all()) +
-         (out.all() == 1 ? " row, the first" : " rows, the first") + " is " + s.line_word + " " +
-         std::to_string(out.first_line) + ": " + all_of(reasons);
+  const std::string file = s.path.substr(s.path.rfind('/') + 1);
+  const std::string first = s.line_word + (" " + std::to_string(out.first_line));
+  if (out.all() == 1) return sensor_log_messages::row_left_out(file, first, all_of(reasons));
+  return sensor_log_messages::rows_left_out(file, out.all(), first, all_of(reasons));
 }
 
 }  // namespace fulmar::sensor_log

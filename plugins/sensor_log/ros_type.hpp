@@ -63,7 +63,7 @@ class RosType {
     put_stamp(stamps.logged, stamped_[0], wanted, table);
     put_stamp(stamps.published, stamped_[1], wanted, table);
     const auto head = bytes.take(4);
-    if (head[0] != 0 || head[1] != 1) bytes.fault("the message is no little-endian XCDR1");
+    if (head[0] != 0 || head[1] != 1) bytes.fault(sensor_log_messages::message_not_xcdr());
     bytes = bytes.part(bytes.left());  // positions, to which numbers are aligned, count from here
     walk(fields_, bytes, wanted, &table);
   }
@@ -128,7 +128,7 @@ class RosType {
   std::vector<RosField> grown(const std::string& type, const std::string& prefix, int depth) {
     const auto found = types_.find(type);
     if (found == types_.end() || depth > 16 || ++structures_ > 1000)
-      refuse(file_, ": " + topic_ + " does not say what '" + type + "' is");
+      refuse(file_.key, sensor_log_messages::type_unknown(file_.path, topic_, type));
     std::vector<RosField> fields = found->second;
     for (RosField& f : fields) {
       const std::string name = prefix + f.name;
@@ -176,7 +176,7 @@ class RosType {
         align(bytes, 4);
         count = bytes.number<std::uint32_t>();
       }
-      if (count > bytes.left()) bytes.fault("the message ends early");
+      if (count > bytes.left()) bytes.fault(sensor_log_messages::message_cut());
       for (std::size_t i = 0; i < count; ++i) {
         if (f.prim == Prim::structure)
           walk(f.inside, bytes, wanted, f.sequence || f.array ? nullptr : table);

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "messages.hpp"
+
 namespace fulmar::sensor_log {
 
 /// A column that is wanted. Stamps are whole nanoseconds: a double of the nanoseconds since 1970 has steps of
@@ -33,8 +35,8 @@ struct Table {
 };
 
 /// `key`: of the description, beginning with the parameter's name: the host finds file and line of it.
-[[noreturn]] inline void refuse(const std::string& key, const std::string& sentence) {
-  throw std::runtime_error(key + ": " + sentence);
+[[noreturn]] inline void refuse(const std::string& key, const Diagnostic& message) {
+  throw std::runtime_error(located(key, message).line());
 }
 
 inline std::string all_of(const std::vector<std::string>& names) {
@@ -46,7 +48,7 @@ inline std::string all_of(const std::vector<std::string>& names) {
 /// `place`: where the names of columns are.
 [[noreturn]] inline void refuse_column(const Wanted& wanted, const std::string& place,
                                        const std::vector<std::string>& there) {
-  refuse(wanted.use, "no column '" + wanted.name + "' in " + place + "; there are " + all_of(there));
+  refuse(wanted.use, sensor_log_messages::column_unknown(wanted.name, place, all_of(there)));
 }
 
 /// A file, and the key of the description that names it.
@@ -54,10 +56,6 @@ struct File {
   std::string path, key;
   std::string_view bytes;
 };
-
-[[noreturn]] inline void refuse(const File& file, const std::string& sentence) {
-  refuse(file.key, file.path + sentence);
-}
 
 /// Of a stamp that is none.
 inline constexpr std::int64_t no_stamp = std::numeric_limits<std::int64_t>::min();

@@ -15,7 +15,8 @@ class Ulog {
  public:
   /// `topic`: "sensor_mag", or "sensor_mag#1" of the second instance.
   Ulog(const File& file, std::string_view topic) : file_(file), topic_(topic) {
-    if (!file.bytes.starts_with("ULog\x01\x12\x35")) refuse(file, " is no ULog");
+    if (!file.bytes.starts_with("ULog\x01\x12\x35"))
+      refuse(file.key, sensor_log_messages::file_not_ulog(file.path));
   }
 
   Table read(const std::vector<Wanted>& wanted) {
@@ -72,8 +73,9 @@ class Ulog {
     }
     if (!logged_)
       refuse(file_.key.substr(0, file_.key.rfind('.')) + ".topic",
-             "no topic '" + topic_ + "' in " + file_.path + "; there are " + all_of(topics_) +
-                 (cut_at_ > 0 ? "; the file is cut off at byte " + std::to_string(cut_at_) : ""));
+             cut_at_ > 0 ? sensor_log_messages::topic_unknown_in_cut_file(topic_, file_.path, all_of(topics_),
+                                                                          cut_at_)
+                         : sensor_log_messages::topic_unknown(topic_, file_.path, all_of(topics_)));
   }
 
   /// PX4 writes until the power goes: the last record of a part need not be whole.
@@ -95,8 +97,7 @@ class Ulog {
     record.take(8);
     const std::string_view bits = record.take(8);
     for (std::size_t i = 0; i < bits.size(); ++i)
-      if ((bits[i] & ~(i == 0 ? 1 : 0)) != 0)
-        record.fault("the log is of a later kind, which cannot be read");
+      if ((bits[i] & ~(i == 0 ? 1 : 0)) != 0) record.fault(sensor_log_messages::log_too_new());
     if (bits[0] == 0) return;
     for (std::uint64_t& begin : appended_) begin = record.number<std::uint64_t>();
   }
@@ -143,7 +144,8 @@ class Ulog {
   void flatten(const std::string& type, const std::string& prefix, std::size_t& at, std::vector<Place>& all,
                int depth) const {
     const auto found = formats_.find(type);
-    if (found == formats_.end() || depth > 8) refuse(file_, " has no format of '" + type + "'");
+    if (found == formats_.end() || depth > 8)
+      refuse(file_.key, sensor_log_messages::format_missing(file_.path, type));
     std::string_view rest = found->second;
     const std::size_t before = all.size();
     while (!rest.empty()) {
@@ -154,7 +156,7 @@ class Ulog {
       if (blank == std::string_view::npos) continue;
       one(field.substr(0, blank), prefix + std::string(field.substr(blank + 1)), at, all, depth);
     }
-    if (all.size() == before) refuse(file_, ": the format of '" + type + "' has no field");
+    if (all.size() == before) refuse(file_.key, sensor_log_messages::format_empty(file_.path, type));
   }
 
   /// "float[3]", "prefix.gyro_rad"
@@ -166,7 +168,7 @@ class Ulog {
     if (bracket < type.size()) std::from_chars(type.data() + bracket + 1, type.data() + type.size(), count);
     for (std::size_t i = 0; i < count; ++i) {
       if (all.size() > 65535)  // a message has 65535 bytes at most
-        refuse(file_, ": '" + std::string(type) + " " + name + "' is more than a message can hold");
+        refuse(file_.key, sensor_log_messages::format_too_large(file_.path, type, name));
       const std::string each = bracket < type.size() ? name + "[" + std::to_string(i) + "]" : name;
       const Prim prim = prim_of(base);
       if (prim == Prim::structure) {

@@ -8,6 +8,7 @@
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
+#include "messages.hpp"
 #include "waveform.hpp"
 
 namespace fulmar::signal {
@@ -37,24 +38,20 @@ struct SignalInputs {
   Optional<VehicleStatus> status;  // wired: aborted while commands do not move the aircraft
 };
 
-inline constexpr std::string_view not_obeyed = "signal aborted: commands do not move the aircraft";
-
 /// Why nothing may be added now; "" when it may. `begun_m`: the height at which it was asked for.
 inline std::string_view trouble(const SignalInputs& in, const BoundParams& p, double begun_m) {
   const VehicleState& s = *in.state;
   const FlightLimits& limits = p.airframe->limits;
   const double stall = p.stall_airspeed > 0 ? p.stall_airspeed.value : limits.airspeed_min_mps / 1.2;
-  if (in.status && !in.status->in_control) return not_obeyed;
+  if (in.status && !in.status->in_control) return signal_messages::aborted_by_pilot.c_str();
   if (in.state.stale() || !s.attitude_valid || !s.height_valid || !s.airspeed_valid)
-    return "signal aborted: attitude, height or airspeed is not known";
+    return signal_messages::aborted_by_estimate.c_str();
   // Each the other way round: what is no number is out of its bound.
-  if (!(std::abs(s.roll_rad) <= p.roll_bound)) return "signal aborted: roll is beyond roll_bound";
-  if (!(std::abs(s.pitch_rad) <= p.pitch_bound)) return "signal aborted: pitch is beyond pitch_bound";
-  if (!(std::abs(s.height_m - begun_m) <= p.height_bound))
-    return "signal aborted: height has moved by height_bound";
-  if (!(s.airspeed_mps >= 1.1 * stall)) return "signal aborted: airspeed is below 1.1 times the stall";
-  if (!(s.airspeed_mps <= limits.airspeed_max_mps))
-    return "signal aborted: airspeed is above the airframe's maximum";
+  if (!(std::abs(s.roll_rad) <= p.roll_bound)) return signal_messages::aborted_by_roll.c_str();
+  if (!(std::abs(s.pitch_rad) <= p.pitch_bound)) return signal_messages::aborted_by_pitch.c_str();
+  if (!(std::abs(s.height_m - begun_m) <= p.height_bound)) return signal_messages::aborted_by_height.c_str();
+  if (!(s.airspeed_mps >= 1.1 * stall)) return signal_messages::aborted_by_airspeed_low.c_str();
+  if (!(s.airspeed_mps <= limits.airspeed_max_mps)) return signal_messages::aborted_by_airspeed_high.c_str();
   return "";
 }
 
@@ -84,7 +81,7 @@ class Excitation {
       request_ = {};
       aborted_ = false;
     }
-    if (!somebody_flew && running_) abort(not_obeyed);
+    if (!somebody_flew && running_) abort(signal_messages::aborted_by_pilot.c_str());
     running_ = false;
     last_ = left_ = {};
   }

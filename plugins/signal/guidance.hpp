@@ -43,9 +43,9 @@ struct Guidance {
                         : channel == Channel::height ? p.height_size
                                                      : p.airspeed_size;
     const bool lost = channel == Channel::course && in.command->lateral == LateralMode::acceleration;
-    const Status status = excitation_.step(
-        tick, in.signal, p.signal, p.bounds, static_cast<std::size_t>(channel), size,
-        lost ? "signal aborted: guidance asks for an acceleration, not for a course" : "", out.reported);
+    const Status status =
+        excitation_.step(tick, in.signal, p.signal, p.bounds, static_cast<std::size_t>(channel), size,
+                         lost ? signal_messages::aborted_by_acceleration.c_str() : "", out.reported);
     const GuidanceCommand& asked = *in.command;
     const FlightLimits& limits = p.bounds.airframe->limits;
     out.command = asked;

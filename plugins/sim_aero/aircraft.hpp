@@ -28,6 +28,7 @@
 #include "fulmar/sim/airframe_rules.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "launch.hpp"
+#include "messages.hpp"
 #include "model_params.hpp"
 #include "motion.hpp"
 #include "pilot.hpp"
@@ -113,9 +114,7 @@ class Aircraft {
     constexpr double degree = std::numbers::pi / 180;
     const GroundParams& g = p.around.ground;
     if (p.earth == EarthModel::wgs84 && g.ground_slope > 0)
-      throw std::runtime_error(
-          "ground_slope: the ground of earth: wgs84 follows the ellipsoid; use flat or "
-          "gravity");
+      throw std::runtime_error(located("ground_slope", sim_aero_messages::ground_slope_unsupported()).line());
     return {p.earth,
             degree * origin_.lat_deg,
             degree * origin_.lon_deg,
@@ -228,7 +227,8 @@ class Aircraft {
   }
 
   void answer(const Request<ArmRequest>::One& request) {
-    if (request.value().armed && plant_->crashed()) return request.refuse("the aircraft has crashed");
+    if (request.value().armed && plant_->crashed())
+      return request.refuse(sim_aero_messages::aircraft_crashed.c_str());
     arming_.ask(request.value().armed);
     request.accept();
   }

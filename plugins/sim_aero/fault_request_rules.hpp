@@ -52,20 +52,23 @@ inline std::string Faults::refusal(const FaultRequest& r) {
   };
   const auto kinds = kinds_of(r.what);
   if (std::find(kinds.begin(), kinds.end(), r.kind) == kinds.end()) {
-    std::string words = name(r.what) + " has no fault '" + name(r.kind) + "'; valid: ";
-    for (const FaultKind& kind : kinds) words += (&kind == kinds.data() ? "" : ", ") + name(kind);
-    return words;
+    std::string valid;
+    for (const FaultKind& kind : kinds) valid += (&kind == kinds.data() ? "" : ", ") + name(kind);
+    return sim_aero_messages::fault_unknown(name(r.what), name(r.kind), valid);
   }
   const SizeRange range = size_range(r.what, r.kind);
   char limits[64];
   std::snprintf(limits, sizeof limits, "%g to %g%s%s", range.min, range.max, range.unit[0] ? " " : "",
                 range.unit);
-  if (r.size_ratio != 0 && !range.any()) return "size: the fault '" + name(r.kind) + "' has none";
-  if (r.size_ratio != 0 && !range.holds(r.size_ratio)) return std::string("size: valid is ") + limits;
+  if (r.size_ratio != 0 && !range.any())
+    return located("size", sim_aero_messages::fault_without_size(name(r.kind)));
+  if (r.size_ratio != 0 && !range.holds(r.size_ratio))
+    return located("size", sim_aero_messages::fault_size_out_of_range(limits));
   if (r.what == FaultTarget::icing && r.kind != FaultKind::none && r.size_ratio == 0)
-    return "size: icing needs its rate, share per second";
-  if (!(r.ramp_s >= 0 && r.ramp_s <= 3600)) return "ramp: valid is 0 to 3600 s";
-  if (!(r.for_s >= 0 && r.for_s <= 1e6)) return "for: valid is 0 to 1000000 s";
+    return located("size", sim_aero_messages::icing_rate_missing());
+  if (!(r.ramp_s >= 0 && r.ramp_s <= 3600))
+    return located("ramp", sim_aero_messages::fault_ramp_out_of_range());
+  if (!(r.for_s >= 0 && r.for_s <= 1e6)) return located("for", sim_aero_messages::fault_time_out_of_range());
   return "";
 }
 

@@ -15,6 +15,7 @@
 #include "fulmar/eigen.hpp"
 #include "fulmar/msg/fault_request.hpp"
 #include "fulmar/sim/fault.hpp"
+#include "messages.hpp"
 
 namespace fulmar::sim {
 

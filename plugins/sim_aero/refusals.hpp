@@ -9,6 +9,7 @@
 #include "fulmar/flight/model/steady_flight.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/sim/plant.hpp"
+#include "messages.hpp"
 
 namespace fulmar::sim {
 
@@ -21,47 +22,47 @@ inline std::string degrees(double rad) { return figures(rad * 57.29577951308232)
 
 /// Why this is no aircraft that flies: a map of some fields leaves the rest at nothing. Empty when it is one.
 inline std::string missing_part(const Airframe& a) {
-  if (!(a.aero.lift.alpha_ratio > 0)) return "the airframe has no lift: aero.lift.alpha is missing";
-  if (!has_thrust(a.propulsion))
-    return "the airframe has no thrust: propulsion.ct0 or propulsion.disc is missing";
+  if (!(a.aero.lift.alpha_ratio > 0)) return sim_aero_messages::lift_missing();
+  if (!has_thrust(a.propulsion)) return sim_aero_messages::thrust_missing();
   const Inertia& J = a.inertia;
   if (!(J.xz_kgm2 * J.xz_kgm2 < J.xx_kgm2 * J.zz_kgm2))
-    return "airframe.inertia.xz: the inertia is not positive definite: xz is " + figures(J.xz_kgm2) +
-           " kg m2, and its square has to be less than xx zz, so xz less than " +
-           figures(std::sqrt(J.xx_kgm2 * J.zz_kgm2)) + " either way";
+    return located("airframe.inertia.xz", sim_aero_messages::inertia_not_definite(
+                                              figures(J.xz_kgm2), figures(std::sqrt(J.xx_kgm2 * J.zz_kgm2))));
   return "";
 }
 
 /// What stands against a steady flight, and the parameter that says so.
 inline std::string trim_words(const Airframe& a, const SteadyFlight& f, const std::string& airspeed_from) {
   const auto surface = [&](const char* name, double value, double limit) {
-    return "airframe." + std::string(name) + ".limit: no level flight at " +
-           figures(f.condition.airspeed_mps) + " m/s: it takes " + degrees(value) + " of " + name +
-           ", which moves " + degrees(limit);
+    return located("airframe." + std::string(name) + ".limit",
+                   sim_aero_messages::surface_too_small(figures(f.condition.airspeed_mps), degrees(value),
+                                                        name, degrees(limit)))
+        .line();
   };
-  const auto at = [&](const std::string& field, const std::string& why) {
-    return field + ": no level flight at " + figures(f.condition.airspeed_mps) + " m/s: " + why;
+  const auto at = [&](const std::string& field, const Diagnostic& why) {
+    return located(field, sim_aero_messages::level_flight_impossible(figures(f.condition.airspeed_mps), why))
+        .line();
   };
   const double Va = f.condition.airspeed_mps, q = 0.5 * f.density_kgm3 * Va * Va;
   switch (f.limit) {
     case TrimLimit::none: break;
-    case TrimLimit::no_aileron: return at("airframe.aero.roll", "the aileron does not roll it");
-    case TrimLimit::no_elevator: return at("airframe.aero.pitch", "the elevator does not pitch it");
-    case TrimLimit::no_thrust: return at("airframe.propulsion", "the propeller has no thrust");
+    case TrimLimit::no_aileron: return at("airframe.aero.roll", sim_aero_messages::aileron_without_effect());
+    case TrimLimit::no_elevator:
+      return at("airframe.aero.pitch", sim_aero_messages::elevator_without_effect());
+    case TrimLimit::no_thrust:
+      return at("airframe.propulsion", sim_aero_messages::propeller_without_thrust());
     case TrimLimit::stall:
-      return at(airspeed_from, "the wing stalls: it would have to carry CL " +
-                                   figures(a.mass_kg * isa::g0 / (q * a.wing.area_m2)) +
-                                   ", and the most is " + figures(max_lift(a).coefficient));
+      return at(airspeed_from,
+                sim_aero_messages::wing_stalls(figures(a.mass_kg * isa::g0 / (q * a.wing.area_m2)),
+                                               figures(max_lift(a).coefficient)));
     case TrimLimit::elevator: return surface("elevator", f.input(model::elevator), a.elevator.limit_rad);
     case TrimLimit::aileron: return surface("aileron", f.input(model::aileron), a.aileron.limit_rad);
     case TrimLimit::rudder: return surface("rudder", f.input(model::rudder), a.rudder.limit_rad);
-    case TrimLimit::throttle_high:
-      return at("airframe.propulsion", "it takes more thrust than full throttle gives");
-    case TrimLimit::throttle_low:
-      return at("airframe.propulsion", "the propeller would have to brake more than it does");
+    case TrimLimit::throttle_high: return at("airframe.propulsion", sim_aero_messages::thrust_too_small());
+    case TrimLimit::throttle_low: return at("airframe.propulsion", sim_aero_messages::brake_too_small());
     case TrimLimit::not_found: break;
   }
-  return at(airspeed_from, "no angles and deflections balance all forces and moments");
+  return at(airspeed_from, sim_aero_messages::balance_impossible());
 }
 
 /// Why the flight cannot go on. [ends the flight]
@@ -70,14 +71,12 @@ inline std::string departure_words(const Plant& p) {
   if (d == Departure::beyond_alpha || d == Departure::beyond_beta) {
     const AirData air(p.air_velocity_b());
     const bool alpha = d == Departure::beyond_alpha;
-    return (alpha ? "angle of attack " : "sideslip ") + degrees(alpha ? air.alpha : air.beta) +
-           " is beyond the tables of the airframe" + table_ends(p.aerodynamic(), d);
+    return sim_aero_messages::flow_beyond_tables(alpha ? "angle of attack" : "sideslip",
+                                                 degrees(alpha ? air.alpha : air.beta),
+                                                 table_ends(p.aerodynamic(), d));
   }
   const RigidBody& x = p.state();
-  return "the motion has left the model: speed " + figures(x.v_n.norm()) + " m/s, body rate " +
-         figures(x.omega_b.norm()) +
-         " rad/s; a coefficient or inertia of the airframe is wrong, or the rate of "
-         "the loop too low for it";
+  return sim_aero_messages::motion_diverged(figures(x.v_n.norm()), figures(x.omega_b.norm()));
 }
 
 }  // namespace fulmar::sim

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "fulmar/random.hpp"
+#include "messages.hpp"
 #include "sensor_suite.hpp"
 
 namespace fulmar::sim {
@@ -73,13 +74,9 @@ class SensorLine {
         period_s_(1 / std::min(t.rate_hz, tick_hz)),
         random_(seed) {
     if (t.jitter_s > 0.45 / t.rate_hz)
-      throw std::runtime_error(
-          std::string("sensor_file: ") + name +
-          ".timing.jitter is more than 0.45 of the time between two samples, which would "
-          "change places");
+      throw std::runtime_error(located("sensor_file", sim_aero_messages::jitter_too_large(name)).line());
     if (t.latency_s > (Delay<T>::capacity - 1) * period_s_)
-      throw std::runtime_error(std::string("sensor_file: ") + name +
-                               ".timing.latency is more than 63 samples are under way for");
+      throw std::runtime_error(located("sensor_file", sim_aero_messages::latency_too_large(name)).line());
     if (t.dropouts_frac > 0) lose(t);
   }
 

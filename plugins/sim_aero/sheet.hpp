@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "fulmar/random.hpp"
+#include "messages.hpp"
 
 namespace fulmar::sim {
 
@@ -64,9 +65,7 @@ struct Wander {
   static double deviation(const SheetSpec& sheet) {
     const double wanted = sheet.instability * sheet.instability;
     if (lowest(sheet, 0) > wanted)
-      throw std::runtime_error(
-          "sensor_file: a bias instability is below what noise and random walk alone leave within 30 times "
-          "instability_time; a longer time, less noise, or a larger instability");
+      throw std::runtime_error(located("sensor_file", sim_aero_messages::instability_too_small()).line());
     double low = 0, high = 4 * sheet.instability;
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);

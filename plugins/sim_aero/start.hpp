@@ -8,6 +8,7 @@
 #include "fulmar/plugin.hpp"
 #include "fulmar/sim/plant.hpp"
 #include "launch.hpp"
+#include "messages.hpp"
 #include "refusals.hpp"
 #include "wind_params.hpp"
 
@@ -40,7 +41,7 @@ inline void place(Plant& plant, const Airframe& a, double origin_alt_m, const St
   const double Va = own ? p.start_airspeed : a.limits.airspeed_cruise_mps;
   const SteadyFlight flight = steady_flight(AircraftModel(a, origin_alt_m + p.start_height), {Va});
   if (in_air && launch.given())
-    throw std::runtime_error("launch: it begins in the air, by start_height; give one of them");
+    throw std::runtime_error(located("launch", sim_aero_messages::launch_in_air()).line());
   if (!in_air && flight.found()) {
     plant.stand(p.start_north, p.start_east, p.start_heading);
     if (launch.given()) lift(plant, launch.height_m(), launching.launch_pitch);
@@ -50,7 +51,7 @@ inline void place(Plant& plant, const Airframe& a, double origin_alt_m, const St
     throw std::runtime_error(
         trim_words(a, flight, own ? "start_airspeed" : "airframe.limits.airspeed_cruise"));
   if (plant.height_above_ground() < a.gear.height_m)
-    throw std::runtime_error("start_height: the ground is higher at this place; ground_slope says how high");
+    throw std::runtime_error(located("start_height", sim_aero_messages::start_below_ground()).line());
   plant.shift(1e-9 * static_cast<double>(now_ns));
 }
 

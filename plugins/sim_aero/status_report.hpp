@@ -6,6 +6,7 @@
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/vehicle_status.hpp"
 #include "fulmar/plugin.hpp"
+#include "messages.hpp"
 #include "sensors.hpp"
 
 namespace fulmar::sim {
@@ -35,7 +36,7 @@ class StatusReport {
   void report_pilot(const VehicleStatus& s, std::int64_t now_ns, Notices& notices) const {
     if (!s.armed || !last_.armed || s.override == last_.override) return;
     Notice notice;
-    notice.text = s.override ? "the pilot flies" : "the pilot hands over";
+    notice.text = (s.override ? sim_aero_messages::pilot_flies : sim_aero_messages::pilot_hands_over).c_str();
     notices.push(notice, now_ns);
   }
 

@@ -9,6 +9,7 @@
 #include "fulmar/eigen.hpp"
 #include "fulmar/plugin.hpp"
 #include "fulmar/sim/weather.hpp"
+#include "messages.hpp"
 #include "surroundings.hpp"
 
 namespace fulmar::sim {
@@ -42,7 +43,7 @@ inline Eigen::Vector3d steady_wind(const WindParams& p) {
 
 inline Weather weather(const WindParams& p, const AirParams& air) {
   if (p.wind_profile == WindProfile::log && p.wind_reference <= p.wind_roughness)
-    throw std::runtime_error("wind_reference: the log profile has no wind as low as wind_roughness");
+    throw std::runtime_error(located("wind_reference", sim_aero_messages::wind_reference_low()).line());
   return {steady_wind(p),
           p.turbulence,
           {p.wind_profile, p.wind_reference, p.wind_exponent, p.wind_roughness},

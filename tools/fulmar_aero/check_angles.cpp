@@ -14,9 +14,9 @@ namespace {
 void check_angle(Findings& f, const std::string& field, double rad, double most) {
   f.looked_at();
   if (std::abs(rad) <= most) return;
-  std::string sentence = "it is " + figures(rad) + " rad, which is " + degrees(rad, 0);
-  if (std::abs(rad) * degree <= most) sentence += ": is it in degrees? Write '" + figures(rad) + " deg'";
-  f.fault(field, rad, sentence);
+  const std::string hint =
+      std::abs(rad) * degree <= most ? aero_messages::angle_in_degrees(figures(rad)).line() : "";
+  f.fault(field, rad, aero_messages::angle_too_large(figures(rad), degrees(rad, 0), hint));
 }
 
 void check_surface(Findings& f, const std::string& name, const Surface& s) {

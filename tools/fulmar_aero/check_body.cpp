@@ -31,16 +31,14 @@ void check_gyration(Findings& f, const char* field, double inertia) {
   const Airframe& a = f.file().airframe;
   if (plausible(inertia, a)) return;
   const double radius = std::sqrt(inertia / a.mass_kg);
-  std::string sentence = "its radius of gyration is " + figures(radius) + " m, " +
-                         figures(radius / a.wing.span_m) +
-                         " of the span; aircraft have 0.08 to 0.2, a bare rod 0.29";
+  std::string hint;
   for (const UnitOfInertia& unit : inertia_units)
     if (plausible(inertia * unit.factor, a)) {
-      sentence += ": is it in " + std::string(unit.name) + "? That would be " +
-                  figures(inertia * unit.factor) + " kg m^2";
+      hint = aero_messages::inertia_unit_suspect(unit.name, figures(inertia * unit.factor)).line();
       break;
     }
   const double part = radius / a.wing.span_m;
+  const auto sentence = aero_messages::gyration_radius_unusual(figures(radius), figures(part), hint);
   if (part < min_gyration / 4 || part > 4 * max_gyration)
     f.fault(field, inertia, sentence);
   else
@@ -86,9 +84,9 @@ void check_loading(Findings& f) {
   f.figure("wing_loading_kgpm2", loading, "wing loading", figures(loading) + " kg/m2");
   if (loading >= 0.5 && loading <= 150) return;
   f.fault("mass_kg", a.mass_kg,
-          aero_messages::wing_loading_unusual(
-              figures(loading),
-              loading > 150 ? "Is the mass in grams, or the area in ft^2?" : "Is the area in another unit?"));
+          aero_messages::wing_loading_unusual(figures(loading), loading > 150
+                                                                    ? aero_messages::mass_unit_suspect()
+                                                                    : aero_messages::area_unit_suspect()));
 }
 
 }  // namespace

@@ -80,13 +80,10 @@ bool by_angle(const Rule& rule) {
 
 /// ": is it per degree? ...", or "" when no common mistake explains the size.
 std::string likely_mistake(const Rule& rule, const Airframe& a, double value) {
-  const auto would = [&](double factor) {
-    return ": is it %? Then it would be " + figures(value * factor) + " per rad";
-  };
-  const auto with = [](std::string text, const char* what) { return text.replace(text.find('%'), 1, what); };
-  if (by_angle(rule) && usual(rule, value * per_degree)) return with(would(per_degree), "per degree");
+  if (by_angle(rule) && usual(rule, value * per_degree))
+    return aero_messages::derivative_per_degree(figures(value * per_degree)).line();
   if (by_angle(rule) && usual(rule, value / per_degree))
-    return with(would(1 / per_degree), "turned from degrees once too often");
+    return aero_messages::derivative_converted_twice(figures(value / per_degree)).line();
   const double b = a.wing.span_m, c = a.wing.chord_m;
   if (rule.of == &D::q_ratio && usual(rule, value * b / c))
     return aero_messages::rate_by_span(figures(value * b / c)).line();
@@ -118,12 +115,12 @@ std::string no_rudder(const Airframe& a) {
 }
 
 void missing(Findings& f, const Rule& rule) {
-  const std::string what = std::string(rule.symbol) + " is 0";
-  const bool rudder = rule.of == &D::rudder_ratio;
-  if (rule.wrong_sign == warning || rudder || rule.of == &D::beta_ratio)
-    f.warn(rule.field, 0, what + (rudder ? no_rudder(f.file().airframe) : std::string(": was it left out?")));
+  if (rule.of == &D::rudder_ratio)
+    f.warn(rule.field, 0, aero_messages::rudder_derivative_zero(rule.symbol, no_rudder(f.file().airframe)));
+  else if (rule.wrong_sign == warning || rule.of == &D::beta_ratio)
+    f.warn(rule.field, 0, aero_messages::derivative_omitted(rule.symbol));
   else
-    f.fault(rule.field, 0, aero_messages::coefficient_zero(what));
+    f.fault(rule.field, 0, aero_messages::coefficient_zero(rule.symbol));
 }
 
 void check_one(Findings& f, const Rule& rule) {
@@ -133,16 +130,15 @@ void check_one(Findings& f, const Rule& rule) {
   if (usual(rule, value)) return;
   const bool sided = rule.low * rule.high > 0;
   if (value == 0 && sided) return missing(f, rule);
-  const std::string what = std::string(rule.symbol) + " is " + figures(value);
   if (sided && value * rule.low < 0) {
-    const std::string sentence =
-        what + ", and " + (rule.low > 0 ? "positive" : "negative") + " is right: " + rule.otherwise;
+    const auto sentence = aero_messages::derivative_sign_wrong(
+        rule.symbol, figures(value), rule.low > 0 ? "positive" : "negative", rule.otherwise);
     return rule.wrong_sign == fault ? f.fault(rule.field, value, sentence)
                                     : f.warn(rule.field, value, sentence);
   }
   const std::string mistake = likely_mistake(rule, a, value);
-  const std::string sentence =
-      what + "; aircraft have " + figures(rule.low) + " to " + figures(rule.high) + mistake;
+  const auto sentence = aero_messages::derivative_unusual(rule.symbol, figures(value), figures(rule.low),
+                                                          figures(rule.high), mistake);
   const bool degrees = by_angle(rule) && !mistake.empty();
   return absurd(rule, value, degrees) ? f.fault(rule.field, value, sentence)
                                       : f.warn(rule.field, value, sentence);

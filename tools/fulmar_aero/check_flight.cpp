@@ -81,8 +81,8 @@ void check_envelope(Findings& f, const AircraftModel& m) {
     const SteadyFlight flight = fly(m, c);
     if (!flight.found())
       f.warn(field, value,
-             "no " + condition_words(c, m.altitude_m()) + ": " + limit_words(f.file(), m, flight) +
-                 defaulted(f, field, shown));
+             aero_messages::flight_impossible(condition_words(c, m.altitude_m()),
+                                              limit_words(f.file(), m, flight), defaulted(f, field, shown)));
   };
   const auto rate = [](double mps) { return figures(mps) + " m/s"; };
   one("limits.climb_rate_max_mps", l.climb_rate_max_mps, rate(l.climb_rate_max_mps),
@@ -114,8 +114,8 @@ void check_mode(Findings& f, const Mode& mode) {
   const ModeWanted& want = wanted[std::size_t(mode.kind)];
   const std::string name = mode_name(mode.kind);
   if (!mode.stable() && mode.half_or_double_s() < want.double_s) {
-    const std::string sentence =
-        "the " + name + " doubles in " + fixed(mode.half_or_double_s(), 2) + " s: " + want.else_what;
+    const auto sentence =
+        aero_messages::mode_unstable(name, fixed(mode.half_or_double_s(), 2), want.else_what);
     const bool slow = mode.kind == ModeKind::phugoid || mode.kind == ModeKind::spiral;
     return slow ? f.warn(want.field, mode.eigenvalue.real(), sentence)
                 : f.fault(want.field, mode.eigenvalue.real(), sentence);

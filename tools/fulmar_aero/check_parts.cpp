@@ -18,9 +18,9 @@ void check_servo(Findings& f, const std::string& name, const Surface& s) {
   if (frequency > 0 && (frequency < 15 || frequency > 600))
     f.warn(name + ".natural_frequency_radps", frequency,
            aero_messages::servo_frequency_unusual(
-               figures(frequency), frequency < 15 ? ": is it in Hz? Then it would be " +
-                                                        figures(frequency * 360 * degree) + " rad/s"
-                                                  : ": is it in deg/s?"));
+               figures(frequency),
+               frequency < 15 ? aero_messages::servo_frequency_in_hertz(figures(frequency * 360 * degree))
+                              : aero_messages::servo_frequency_in_degrees()));
   if (frequency > 0 && (s.damping_ratio < 0.3 || s.damping_ratio > 3))
     f.warn(name + ".damping_ratio", s.damping_ratio,
            aero_messages::servo_damping_unusual(figures(s.damping_ratio)));
@@ -47,9 +47,9 @@ void check_mixer(Findings& f) {
   const bool elevons = a.mixer == Mixer::elevons;
   const Surface &left = elevons ? a.aileron : a.elevator, &right = elevons ? a.elevator : a.rudder;
   if (alike(left, right)) return;
-  const std::string names = elevons ? "'aileron' and 'elevator' are the left and the right elevon"
-                                    : "'elevator' and 'rudder' are the left and the right ruddervator";
-  f.warn("mixer", 0, aero_messages::paired_servos_differ(names));
+  f.warn("mixer", 0,
+         elevons ? aero_messages::paired_servos_differ("aileron", "elevator", "elevon")
+                 : aero_messages::paired_servos_differ("elevator", "rudder", "ruddervator"));
 }
 
 void check_propellers(Findings& f) {

@@ -17,12 +17,12 @@ void check_margin(Findings& f) {
   if (aero.lift.alpha_ratio <= 0) return;
   const double margin = -aero.pitch.alpha_ratio / aero.lift.alpha_ratio;
   f.figure("static_margin_ratio", margin, "static margin", figures(margin) + " of the chord");
-  const std::string what =
-      "the static margin -Cm_alpha/CL_alpha is " + figures(margin) + " of the chord, usual is 0.05 to 0.3: ";
   if (margin > 0.3)
-    f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio, aero_messages::static_margin_high(what));
+    f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio,
+           aero_messages::static_margin_high(figures(margin)));
   else if (margin > 0 && margin < 0.05)
-    f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio, aero_messages::static_margin_low(what));
+    f.warn("aero.pitch.alpha_ratio", aero.pitch.alpha_ratio,
+           aero_messages::static_margin_low(figures(margin)));
 }
 
 /// The helix angle p b/2V that full aileron holds; 0.07 is what MIL-F-8785 once asked of light aircraft.

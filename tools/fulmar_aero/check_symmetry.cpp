@@ -29,12 +29,12 @@ constexpr std::array<Term, 4> longitudinal_terms{{{"zero_ratio", &D::zero_ratio}
 /// Of lift, drag and pitch to the left or right; of side, roll and yaw to angle of attack and elevator.
 template <std::size_t N>
 void check_cross(Findings& f, const char* table, const D& of, const std::array<Term, N>& terms, double most,
-                 const char* why) {
+                 const MessageText<1>& why) {
   for (const Term& term : terms) {
     f.looked_at();
     const double value = of.*(term.of);
     if (std::abs(value) > most)
-      f.warn(std::string("aero.") + table + "." + term.name, value, "it is " + figures(value) + why);
+      f.warn(std::string("aero.") + table + "." + term.name, value, why(figures(value)));
   }
 }
 
@@ -83,13 +83,12 @@ void check_adverse_yaw(Findings& f) {
   if (aero.roll.aileron_ratio == 0) return;
   const double part = aero.yaw.aileron_ratio / aero.roll.aileron_ratio;
   f.figure("adverse_yaw_ratio", part, "aileron yaw to roll", figures(part));
-  const std::string what = "Cn_da is " + figures(aero.yaw.aileron_ratio) + ", " + figures(part) + " of Cl_da";
   if (part < -0.15)
     f.warn("aero.yaw.aileron_ratio", aero.yaw.aileron_ratio,
-           fulmar::located(what, aero_messages::adverse_yaw_high()));
+           aero_messages::adverse_yaw_high(figures(aero.yaw.aileron_ratio), figures(part)));
   else if (part > 0.02)
     f.warn("aero.yaw.aileron_ratio", aero.yaw.aileron_ratio,
-           fulmar::located(what, aero_messages::proverse_yaw()));
+           aero_messages::proverse_yaw(figures(aero.yaw.aileron_ratio), figures(part)));
 }
 
 void check_rudder_pair(Findings& f) {
@@ -104,19 +103,14 @@ void check_rudder_pair(Findings& f) {
 
 void check_symmetry(Findings& f) {
   const Aerodynamics& aero = f.file().airframe.aero;
-  const char* const cross =
-      ", and a symmetric aircraft has 0: is the analysis not converged, or the column another one?";
+  const auto& cross = aero_messages::cross_derivative_nonzero;
   check_cross(f, "lift", aero.lift, lateral_terms, 0.02 * std::max(1.0, aero.lift.alpha_ratio), cross);
   check_cross(f, "pitch", aero.pitch, lateral_terms, 0.02, cross);
   Derivatives drag = aero.drag;
   if (aero.drag_squared.beta_ratio > 0) drag.beta_ratio = 0;  // told beside the square
-  check_cross(f, "drag", drag, lateral_terms, 1e-3,
-              ": the drag of a symmetric aircraft cannot grow to one side and fall to the other; a term of "
-              "the square "
-              "belongs in drag_squared");
+  check_cross(f, "drag", drag, lateral_terms, 1e-3, aero_messages::drag_sided);
   for (const auto& [table, of] : {std::pair{"side", &aero.side}, {"roll", &aero.roll}, {"yaw", &aero.yaw}})
-    check_cross(f, table, *of, longitudinal_terms, 0.01,
-                ", and a symmetric aircraft has 0: it would turn by itself");
+    check_cross(f, table, *of, longitudinal_terms, 0.01, aero_messages::turning_bias);
   check_drag_of_sideslip(f);
   check_drag(f);
   check_adverse_yaw(f);

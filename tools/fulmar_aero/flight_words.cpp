@@ -18,12 +18,14 @@ double lift_needed(const AircraftModel& model, const SteadyFlight& f) {
 std::string stall_words(const AirframeFile& file, const AircraftModel& model, const SteadyFlight& f) {
   const MostLift most = max_lift(file.airframe);
   const double needed = lift_needed(model, f);
-  std::string text = "the wing stalls: it would have to carry CL " + fixed(needed, 2) + ", and the most is " +
-                     fixed(most.coefficient, 2) + " at " + degrees(most.alpha_rad, 1);
+  std::string hint;
   if (needed > most.coefficient && most.coefficient > 0)
-    text +=
-        "; that takes " + fixed(f.condition.airspeed_mps * std::sqrt(needed / most.coefficient), 1) + " m/s";
-  return text + " (" + file.where("wing.stall_alpha_rad").text() + ")";
+    hint = aero_messages::stall_airspeed_required(
+               fixed(f.condition.airspeed_mps * std::sqrt(needed / most.coefficient), 1))
+               .line();
+  return aero_messages::wing_stalls(fixed(needed, 2), fixed(most.coefficient, 2), degrees(most.alpha_rad, 1),
+                                    hint, file.where("wing.stall_alpha_rad").text())
+      .line();
 }
 
 std::string surface_words(const AirframeFile& file, const char* name, double value, double limit) {
@@ -61,15 +63,17 @@ std::string condition_words(const SteadyCondition& c, double altitude_m) {
 
 std::string limit_words(const AirframeFile& file, const AircraftModel& model, const SteadyFlight& f) {
   const Airframe& a = file.airframe;
-  const auto missing = [&](const char* what, const char* field) {
-    return std::string(what) + " (" + field + ": " + file.where(field).text() + ")";
+  const auto missing = [&](const MessageText<1>& what, const char* field) {
+    return what(std::string(field) + ": " + file.where(field).text()).line();
   };
   switch (f.limit) {
     case TrimLimit::none: break;
-    case TrimLimit::no_aileron: return missing("the aileron does not roll it", "aero.roll.aileron_ratio");
+    case TrimLimit::no_aileron:
+      return missing(aero_messages::aileron_without_roll, "aero.roll.aileron_ratio");
     case TrimLimit::no_elevator:
-      return missing("the elevator does not pitch it", "aero.pitch.elevator_ratio");
-    case TrimLimit::no_thrust: return missing("the propeller has no thrust", "propulsion.ct0_ratio");
+      return missing(aero_messages::elevator_without_pitch, "aero.pitch.elevator_ratio");
+    case TrimLimit::no_thrust:
+      return missing(aero_messages::propeller_without_thrust, "propulsion.ct0_ratio");
     case TrimLimit::stall: return stall_words(file, model, f);
     case TrimLimit::elevator:
       return surface_words(file, "elevator", f.input(model::elevator), a.elevator.limit_rad);
@@ -84,8 +88,10 @@ std::string limit_words(const AirframeFile& file, const AircraftModel& model, co
 }
 
 std::string no_flight(const AirframeFile& file, const AircraftModel& model, const SteadyFlight& f) {
-  return file.title() + ": no " + condition_words(f.condition, model.altitude_m()) + ": " +
-         limit_words(file, model, f);
+  return file.title() + ": " +
+         aero_messages::flight_impossible(condition_words(f.condition, model.altitude_m()),
+                                          limit_words(file, model, f), "")
+             .line();
 }
 
 FlightForces forces_of(const AircraftModel& model, const SteadyFlight& f) {

@@ -3,6 +3,7 @@
 #include "core/app/program.hpp"
 #include "core/types/text.hpp"
 #include "tools/fulmar_aero/commands.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/see/fly_report.hpp"
 #include "tools/fulmar_aero/see/page.hpp"
 #include "tools/fulmar_aero/words.hpp"
@@ -14,7 +15,8 @@ namespace {
 int steps_of_fly(const FlightOptions& options, bool write, FlyRecord& record) {
   const auto step = [&](const char* name, int code) {
     if (code == core::ExitCode::done) return true;
-    record.verdict = std::string("not flown: `fulmar aero ") + name + "` has failed";
+    record.verdict = aero_messages::flight_skipped(name).line();
+    std::fprintf(stderr, "%s\n", record.verdict.c_str());
     return false;
   };
   if (!step("check", check_command(options))) return core::ExitCode::failed;
@@ -29,8 +31,8 @@ int steps_of_fly(const FlightOptions& options, bool write, FlyRecord& record) {
   record.tuned = tune_outcome(options, tuning);
   for (const std::string& sentence : record.tuned->faults)
     std::fprintf(stderr, "%s\n", core::for_terminal(sentence).c_str());
-  record.verdict = record.tuned->code != core::ExitCode::done ? "flown, and not good enough"
-                   : write                                    ? "flown; the gains stand in the file"
+  record.verdict = record.tuned->code != core::ExitCode::done ? aero_messages::flight_unacceptable.c_str()
+                   : write                                    ? aero_messages::flight_acceptable.c_str()
                                                               : "flown";
   if (!record.tuned->flown || record.tuned->flown->result != "flown") record.verdict = "not flown";
   return record.tuned->code;
@@ -45,7 +47,6 @@ int fly_command(const FlightOptions& options, bool write, const std::string& rep
   Findings findings(file);
   FlyRecord record{&file, &findings, options.altitude_m(), {}, ""};
   const int code = steps_of_fly(options, write, record);
-  if (record.verdict.starts_with("not flown: `")) std::fprintf(stderr, "%s\n", record.verdict.c_str());
   if (report.empty()) return code;
   check_all(findings, record.altitude_m);
   write_page(report, fly_report_html(record));

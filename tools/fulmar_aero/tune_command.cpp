@@ -82,12 +82,13 @@ std::string beyond_actuators(const AirframeFile& file, const Plant& plant, const
 
 std::string heading(const AirframeFile& file, const Plant& plant, const Bandwidths& w) {
   return file.title() + ": about " + condition_words(plant.flight.condition, plant.altitude_m) + "\n" +
-         "assumed: a step of " + milliseconds(plant.step_s) + ", delay " + milliseconds(plant.delay_s) +
-         "; with the servos' lag, aileron " + milliseconds(plant.lag_s(model::aileron)) + ", elevator " +
-         milliseconds(plant.lag_s(model::elevator)) + ", throttle " +
-         milliseconds(plant.lag_s(model::throttle)) + "\nchosen, rad/s: roll " + figures(w.roll) +
-         ", pitch " + figures(w.pitch) + ", course " + figures(w.course) + ", height " + figures(w.height) +
-         ", airspeed " + figures(w.airspeed) + "\n";
+         aero_messages::tuning_assumptions(milliseconds(plant.step_s), milliseconds(plant.delay_s),
+                                           milliseconds(plant.lag_s(model::aileron)),
+                                           milliseconds(plant.lag_s(model::elevator)),
+                                           milliseconds(plant.lag_s(model::throttle)))
+             .line() +
+         "\nchosen, rad/s: roll " + figures(w.roll) + ", pitch " + figures(w.pitch) + ", course " +
+         figures(w.course) + ", height " + figures(w.height) + ", airspeed " + figures(w.airspeed) + "\n";
 }
 
 nlohmann::json gains_json(const std::vector<Gain>& gains, const std::vector<Gain>& shipped) {

@@ -157,8 +157,8 @@ TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, doub
 }
 
 std::string flight_text(const TuneFlight& flight) {
-  std::string text = "\nhourglass in light turbulence: " + flight.result +
-                     (flight.stalled.empty() ? "" : "; " + flight.stalled) + "\n";
+  const std::string stalled = flight.stalled.empty() ? "" : "; " + flight.stalled;
+  std::string text = "\n" + aero_messages::hourglass_result(flight.result + stalled).line() + "\n";
   for (const FlownFigure& f : flight.figures)
     text += "  " + padded(f.name, 16) + right(fixed(f.value, 2), 8) + " " + padded(f.unit, 5) +
             (f.least ? "at least " : "at most ") + figures(f.bound) + "\n";
@@ -179,12 +179,14 @@ nlohmann::json tune_flight_json(const TuneFlight& flight) {
 
 std::vector<std::string> flight_faults(const TuneFlight& flight, const std::string& title) {
   std::vector<std::string> all;
-  if (flight.result != "flown") all.push_back(title + ": the hourglass was not flown: " + flight.result);
+  if (flight.result != "flown")
+    all.push_back(located(title, aero_messages::hourglass_not_flown(flight.result)));
   if (!flight.stalled.empty()) all.push_back(title + ": " + flight.stalled);
   for (const FlownFigure& f : flight.figures)
     if (!f.kept())
-      all.push_back(title + ": " + f.name + " on the hourglass is " + fixed(f.value, 2) + " " + f.unit +
-                    ", " + (f.least ? "at least " : "at most ") + figures(f.bound) + " are asked for");
+      all.push_back(located(title, aero_messages::hourglass_bound_missed(
+                                       f.name, fixed(f.value, 2), f.unit,
+                                       (f.least ? "at least " : "at most ") + figures(f.bound))));
   return all;
 }
 

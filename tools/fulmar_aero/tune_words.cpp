@@ -2,6 +2,7 @@
 #include "tools/fulmar_aero/tune_words.hpp"
 
 #include "core/types/text.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -32,15 +33,12 @@ nlohmann::json margin_json(const std::string& at, const Margins& m) {
 
 void add_faults(const std::string& loop, const std::string& at, const Margins& m,
                 std::vector<std::string>& all) {
-  const std::string where = loop + ", broken at the " + at + ": ";
   if (m.gain_db < min_margins.gain_db)
-    all.push_back(where + "the gain may grow by " + fixed(m.gain_db, 1) + " dB only, 6 dB are the least");
+    all.push_back(aero_messages::gain_increase_small(loop, at, fixed(m.gain_db, 1)));
   if (m.reduction_db < min_margins.gain_db)
-    all.push_back(where + "the gain may fall by " + fixed(m.reduction_db, 1) +
-                  " dB only, 6 dB are the least");
+    all.push_back(aero_messages::gain_reduction_small(loop, at, fixed(m.reduction_db, 1)));
   if (m.phase_rad < min_margins.phase_rad)
-    all.push_back(where + "the phase margin is " + fixed(m.phase_rad / degree, 0) +
-                  " deg, 45 deg are the least");
+    all.push_back(aero_messages::phase_margin_small(loop, at, fixed(m.phase_rad / degree, 0)));
 }
 
 }  // namespace
@@ -58,8 +56,7 @@ Judged judge(const Plant& plant, const Laws& laws) {
 
 std::vector<std::string> Judged::faults(const std::string& title) const {
   std::vector<std::string> all;
-  if (unstable > 0)
-    all.push_back("the loops closed are not stable: " + std::to_string(unstable) + " of their poles grow");
+  if (unstable > 0) all.push_back(aero_messages::closed_loops_unstable(unstable));
   for (const LoopFigures& f : loops) {
     add_faults(f.name, f.actuator, f.at_actuator, all);
     add_faults(f.name, f.sensor, f.at_sensor, all);

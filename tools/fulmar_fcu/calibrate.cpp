@@ -141,9 +141,9 @@ class Run {
       }
     } catch (const std::exception&) {  // no answer, no device: told here
     }
-    throw BiasesLost(why + (changed ? " The former values could not be put back."
-                                    : " Whether the former values stand could not be read."),
-                     before);
+    throw BiasesLost(
+        changed ? fcu_messages::values_not_restored(why) : fcu_messages::restored_values_unknown(why),
+        before);
   }
   [[noreturn]] void give_up() const {
     const std::string limit = std::to_string(what_.limit_s) + " s";

@@ -32,7 +32,7 @@ struct Calibrated {
 };
 /// It failed, and what was set before could not be put back.
 struct BiasesLost : Error {
-  BiasesLost(const std::string& text, std::vector<Param> what) : Error(text), former(std::move(what)) {}
+  BiasesLost(const Diagnostic& text, std::vector<Param> what) : Error(text), former(std::move(what)) {}
   std::vector<Param> former;
 };
 /// Runs it to its end. Throws Error: armed, refused, failed (with the firmware's words), or no sign of its

@@ -53,9 +53,7 @@ double determinant(const Matrix3& A) { return dot(A[0], cross(A[1], A[2])); }
 
 std::string objection(const EllipsoidFit& fit, double micro) {
   if (!fit.ok()) return fcu_messages::fit_failed(fit.fault).line();
-  if (fit.coverage_ratio < 0.75)
-    return "No calibration: the samples cover " + percent(fit.coverage_ratio) +
-           " of all directions, 75 % are needed. Turn the aircraft all ways.";
+  if (fit.coverage_ratio < 0.75) return fcu_messages::coverage_low(percent(fit.coverage_ratio)).line();
   if (fit.uncertainty_ratio > 0.03) return fcu_messages::fit_uncertain(percent(fit.uncertainty_ratio)).line();
   if (fit.residual_ratio > 0.06) return fcu_messages::fit_scatter_high(percent(fit.residual_ratio)).line();
   if (fit.stretch_ratio > 2) return fcu_messages::axes_unequal(fixed(fit.stretch_ratio, 1)).line();

@@ -29,6 +29,10 @@ inline constexpr MessageText airspeed_at_rest{
     "{found} m/s at rest: cover the pitot, 'fulmar fcu calibrate airspeed'; in wind this value is valid"};
 inline constexpr MessageText airspeed_sensor_silent{
     "fcu.airspeed_sensor_silent", "no sensor sends data: the pitot is unplugged, or there is none"};
+inline constexpr MessageText arm_channel_invalid{
+    "fcu.arm_channel_invalid",
+    {"channel", "last"},
+    "RC_ARM_CHN is {channel}: switches may be on 4 to RC_NUM_CHN - 1 ({last}), or -1 to arm by the sticks"};
 inline constexpr MessageText arm_switch_on{"fcu.arm_switch_on", "is on: switch it off"};
 inline constexpr MessageText armed_during_test{
     "fcu.armed_during_test",
@@ -63,6 +67,10 @@ inline constexpr MessageText calibration_not_successful{
     "{remedy}"};
 inline constexpr MessageText calibration_stopped{
     "fcu.calibration_stopped", {"fault", "restored"}, "{fault}{restored}"};
+inline constexpr MessageText command_without_output{
+    "fcu.command_without_output",
+    {"command", "row"},
+    "No output follows the {command}: set a gain in SEC_MIXER_{row}_*."};
 inline constexpr MessageText commands_not_accepted{
     "fcu.commands_not_accepted",
     "The controller does not accept commands from this computer. The link may lose them, or OFFBOARD_TIMEOUT "
@@ -73,6 +81,10 @@ inline constexpr MessageText confirmation_required{
     "The confirmation requires a terminal: without one, add {flag}. Nothing was changed."};
 inline constexpr MessageText controller_armed{"fcu.controller_armed",
                                               "it is ARMED: disarm it, and stay away from the propeller"};
+inline constexpr MessageText coverage_low{"fcu.coverage_low",
+                                          {"coverage"},
+                                          "No calibration: the samples cover {coverage} of all directions, "
+                                          "75 % are needed. Turn the aircraft in all directions."};
 inline constexpr MessageText failsafe_in_control{"fcu.failsafe_in_control",
                                                  "none: failsafe, motor off and surfaces centred"};
 inline constexpr MessageText field_implausible{
@@ -115,12 +127,22 @@ inline constexpr MessageText fit_uncertain{
     "fcu.fit_uncertain",
     {"uncertainty"},
     "No calibration: its uncertainty would be {uncertainty}. Turn the aircraft further, in all directions."};
+inline constexpr MessageText fix_inaccurate{"fcu.fix_inaccurate",
+                                            {"fix", "satellites", "accuracy"},
+                                            "{fix}, {satellites} satellites, +-{accuracy} m: wait"};
 inline constexpr MessageText fix_missing{
     "fcu.fix_missing", {"fix", "satellites"}, "{fix}, {satellites} satellites: wait under open sky"};
 inline constexpr MessageText frame_loss_high{"fcu.frame_loss_high",
                                              "the cable is faulty, or the baud rate is too low"};
+inline constexpr MessageText gravity_implausible{
+    "fcu.gravity_implausible",
+    {"found"},
+    "gravity is {found} m/s2 at rest, not 9.81: 'fulmar fcu calibrate imu'"};
 inline constexpr MessageText heading_sensor_silent{"fcu.heading_sensor_silent",
                                                    "silent: the heading comes from GNSS alone"};
+inline constexpr MessageText imu_not_calibrated{
+    "fcu.imu_not_calibrated",
+    "not calibrated: lay it level, 'fulmar fcu calibrate imu', then 'params write'"};
 inline constexpr MessageText imu_rate_low{
     "fcu.imu_rate_low", {"rate"}, "{rate} Hz of 400: the line loses frames or is too slow"};
 inline constexpr MessageText imu_rate_too_low{
@@ -146,6 +168,19 @@ inline constexpr MessageText mavlink_version_unsupported{
     {"port"},
     "{port} sends MAVLink 2, as PX4 and ArduPilot do: Fulmar requires a flight controller with ROSflight "
     "firmware 2."};
+inline constexpr MessageText mixer_missing{
+    "fcu.mixer_missing",
+    {"found"},
+    "PRIMARY_MIXER is {found}, none: set 9 (fixed wing), 10 (V-tail) or 11 (your own matrix)."};
+inline constexpr MessageText mixer_of_multirotor{
+    "fcu.mixer_of_multirotor",
+    {"found"},
+    "PRIMARY_MIXER is {found}, a multirotor's: set 9 (fixed wing), 10 (V-tail) or 11 (your own)."};
+inline constexpr MessageText mixers_differ{
+    "fcu.mixers_differ",
+    {"output", "command", "pilot", "computer", "cause"},
+    "Output {output} answers the {command} of the pilot by {pilot} and of the computer by {computer}: "
+    "{cause}SECONDARY_MIXER 255 makes them equal."};
 inline constexpr MessageText multirotor_configured{
     "fcu.multirotor_configured",
     "FIXED_WING is 0, a multirotor: 'fulmar fcu params set FIXED_WING 1', write, power-cycle"};
@@ -155,6 +190,10 @@ inline constexpr MessageText number_too_large{
     "fcu.number_too_large",
     {"found", "parameter"},
     "{found} is outside the range of {parameter}: a number of 32 bits, up to 3.4e38."};
+inline constexpr MessageText output_kind_wrong{"fcu.output_kind_wrong",
+                                               {"output", "command", "kind", "wanted"},
+                                               "Output {output} follows the {command} but is set up as a "
+                                               "{kind}: set PRI_MIXER_OUT_{output} to {wanted}."};
 inline constexpr MessageText output_not_moved{
     "fcu.output_not_moved",
     {"output", "position"},
@@ -163,6 +202,10 @@ inline constexpr MessageText output_without_command{"fcu.output_without_command"
                                                     "follows none of the four commands"};
 inline constexpr MessageText outputs_frozen{"fcu.outputs_frozen",
                                             "none: without radio frames the outputs are frozen"};
+inline constexpr MessageText override_switch_missing{
+    "fcu.override_switch_missing",
+    {"channel", "last"},
+    "no override switch: RC_ATT_OVRD_CHN is {channel}: switches may be on 4 to RC_NUM_CHN - 1 ({last})"};
 inline constexpr MessageText override_switch_off{
     "fcu.override_switch_off",
     "off: the computer controls the aircraft as soon as it sends; begin with the pilot"};
@@ -260,6 +303,10 @@ inline constexpr MessageText reboot_unanswered{
     {"controller"},
     "{controller} did not answer and did not restart: power-cycle it."};
 inline constexpr MessageText receiver_silent{"fcu.receiver_silent", "silent: check the plug of the receiver"};
+inline constexpr MessageText restored_values_unknown{
+    "fcu.restored_values_unknown",
+    {"fault"},
+    "{fault} It could not be read whether the former values are restored."};
 inline constexpr MessageText reversal_in_file{
     "fcu.reversal_in_file",
     {"surface", "parameter"},
@@ -270,6 +317,8 @@ inline constexpr MessageText rosflight_status_missing{
     {"port", "frames"},
     "{port} sends MAVLink ({frames} frames), but no status of ROSflight 2. Flash ROSflight firmware 2, or "
     "choose the right port."};
+inline constexpr MessageText rotation_at_rest{
+    "fcu.rotation_at_rest", {"found"}, "it turns at {found} deg/s at rest: 'fulmar fcu calibrate imu'"};
 inline constexpr MessageText round_trip_excessive{"fcu.round_trip_excessive", "too slow for flight"};
 inline constexpr MessageText round_trip_long{"fcu.round_trip_long", "more than 10 ms"};
 inline constexpr MessageText round_trip_missing{"fcu.round_trip_missing",
@@ -301,10 +350,16 @@ inline constexpr MessageText status_lost{
     "fcu.status_lost", {"port"}, "{port} no longer sends its status: it is unplugged, or it reboots."};
 inline constexpr MessageText status_lost_during_test{
     "fcu.status_lost_during_test", {"port"}, "{port} no longer sends its status: the test has stopped."};
+inline constexpr MessageText stick_channel_invalid{
+    "fcu.stick_channel_invalid", {"last"}, "a stick is on a channel outside of 0 to RC_NUM_CHN - 1 ({last})"};
 inline constexpr MessageText stick_override_off{
     "fcu.stick_override_off",
     {"found"},
     "RC_OVRD_DEV is {found}: the sticks do not take over, only the switch does"};
+inline constexpr MessageText sticks_on_one_channel{
+    "fcu.sticks_on_one_channel",
+    {"channel"},
+    "two sticks are on channel {channel}: look at RC_X_CHN, RC_Y_CHN, RC_Z_CHN, RC_F_CHN"};
 inline constexpr MessageText subcommand_missing{
     "fcu.subcommand_missing",
     {"command", "choices"},
@@ -317,6 +372,12 @@ inline constexpr MessageText surface_reversed_twice{"fcu.surface_reversed_twice"
                                                     {"parameter", "surface"},
                                                     "{parameter} is 1 and the airframe file sets reversed: "
                                                     "together they reverse the {surface} twice; remove one"};
+inline constexpr MessageText surface_without_output{
+    "fcu.surface_without_output",
+    {"surface"},
+    "No output follows the {surface}: right only for an aircraft without one."};
+inline constexpr MessageText switch_shared{
+    "fcu.switch_shared", "one switch both arms and overrides: give RC_ARM_CHN a channel of its own"};
 inline constexpr MessageText terminal_required{
     "fcu.terminal_required", "The calibration by hand requires a terminal; without one use --from FILE.csv."};
 inline constexpr MessageText text_received{"fcu.text_received",
@@ -330,6 +391,13 @@ inline constexpr MessageText throttle_axis_invalid{
 inline constexpr MessageText throttle_limited_by_pilot{
     "fcu.throttle_limited_by_pilot",
     "TAKE_MIN_THR is 1: the pilot's stick limits the computer's throttle; set 0, or fly with the stick up"};
+inline constexpr MessageText throttle_stick_up{
+    "fcu.throttle_stick_up", {"found"}, "at {found} %: it must be down to arm"};
+inline constexpr MessageText throttle_switch_missing{
+    "fcu.throttle_switch_missing",
+    {"channel", "last"},
+    "no throttle override switch: RC_THR_OVRD_CHN is {channel}: switches may be on 4 to RC_NUM_CHN - 1 "
+    "({last})"};
 inline constexpr MessageText timeout_too_long{
     "fcu.timeout_too_long", "the aircraft flies on for this time without a computer; 100 is usual"};
 inline constexpr MessageText timeout_too_short{"fcu.timeout_too_short",
@@ -338,12 +406,16 @@ inline constexpr MessageText trim_too_large{
     "fcu.trim_too_large",
     {"parameter", "found"},
     "{parameter} is {found}; the controller adds it to every command: trim the linkage instead"};
+inline constexpr MessageText v_tail_gain_doubled{"fcu.v_tail_gain_doubled",
+                                                 "the firmware's secondary V-tail has twice the gain. "};
 inline constexpr MessageText value_not_taken{
     "fcu.value_not_taken", {"parameter"}, "{parameter} did not take its value: try again."};
 inline constexpr MessageText value_out_of_range{"fcu.value_out_of_range",
                                                 {"parameter", "minimum", "maximum", "found"},
                                                 "{parameter} is {minimum} to {maximum}, not {found}: the "
                                                 "controller would accept the value, but not work with it."};
+inline constexpr MessageText values_not_restored{
+    "fcu.values_not_restored", {"fault"}, "{fault} The former values could not be restored."};
 inline constexpr MessageText values_restored{"fcu.values_restored", " The former values are restored."};
 inline constexpr MessageText version_not_reported{
     "fcu.version_not_reported",

@@ -75,24 +75,19 @@ Mixer mixer_of(const std::vector<Param>& params) {
 }
 
 std::vector<std::string> mixer_faults(const Mixer& m) {
-  if (m.choice < 0 || m.choice > 11)
-    return {"PRIMARY_MIXER is " + std::to_string(m.choice) +
-            ", none: set 9 (fixed wing), 10 (V-tail) or 11 (your own matrix)."};
-  if (m.choice < 9)
-    return {"PRIMARY_MIXER is " + std::to_string(m.choice) +
-            ", a multirotor's: set 9 (fixed wing), 10 (V-tail) or 11 (your own)."};
+  if (m.choice < 0 || m.choice > 11) return {fcu_messages::mixer_missing(m.choice).line()};
+  if (m.choice < 9) return {fcu_messages::mixer_of_multirotor(m.choice).line()};
   std::vector<std::string> out;
   for (const Row& row : rows) {
     const OutputKind wanted = row.command == row_throttle ? OutputKind::motor : OutputKind::servo;
     const std::vector<int> outputs = m.outputs_of(row.command);
     if (outputs.empty() && row.command != row_rudder && row.command != row_aileron)
-      out.push_back(std::string("No output follows the ") + row.name + ": set a gain in SEC_MIXER_" +
-                    std::to_string(row.command) + "_*.");
+      out.push_back(fcu_messages::command_without_output(row.name, row.command));
     for (const int j : outputs)
       if (m.kind[at(j)] != wanted)
-        out.push_back("Output " + std::to_string(j) + " follows the " + row.name + " but is set up as a " +
-                      (wanted == OutputKind::motor ? "servo" : "motor") + ": set PRI_MIXER_OUT_" +
-                      std::to_string(j) + (wanted == OutputKind::motor ? " to 2." : " to 1."));
+        out.push_back(fcu_messages::output_kind_wrong(j, row.name,
+                                                      wanted == OutputKind::motor ? "servo" : "motor",
+                                                      wanted == OutputKind::motor ? 2 : 1));
   }
   return out;
 }
@@ -102,18 +97,15 @@ std::vector<std::string> mixer_remarks(const Mixer& m) {
   if (m.choice < 0 || m.choice > 11) return out;  // a fault: there is none
   for (const Row& row : rows) {
     if (m.outputs_of(row.command).empty() && (row.command == row_rudder || row.command == row_aileron))
-      out.push_back(std::string("No output follows the ") + row.name +
-                    ": right for an aircraft without one only.");
+      out.push_back(fcu_messages::surface_without_output(row.name));
     for (int j = 0; j < 10; ++j) {
       const double pilot = m.primary[at(row.command)][at(j)], computer = m.secondary[at(row.command)][at(j)];
       if (std::fabs(pilot - computer) > 1e-4 * (1 + std::fabs(pilot)))
-        out.push_back("Output " + std::to_string(j) + " answers the " + std::string(row.name) +
-                      " of the pilot by " + fixed(pilot, 2) + " and of the computer by " +
-                      fixed(computer, 2) + ": " +
-                      (m.secondary_choice == 10 && std::fabs(computer) > std::fabs(pilot)
-                           ? "the firmware's secondary V-tail has twice the gain. "
-                           : "") +
-                      "SECONDARY_MIXER 255 makes them equal.");
+        out.push_back(
+            fcu_messages::mixers_differ(j, row.name, fixed(pilot, 2), fixed(computer, 2),
+                                        m.secondary_choice == 10 && std::fabs(computer) > std::fabs(pilot)
+                                            ? fcu_messages::v_tail_gain_doubled.c_str()
+                                            : ""));
     }
   }
   return out;

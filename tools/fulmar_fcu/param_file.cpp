@@ -116,8 +116,9 @@ std::vector<Change> changes(const std::vector<FileParam>& file, const std::vecto
     const auto it = std::find(names.begin(), names.end(), wanted.name);
     if (it == names.end()) {
       const std::string near = core::nearest(wanted.name, names);
-      report.add(wanted.where, fcu_messages::file_parameter_unknown(
-                                   wanted.name, near.empty() ? "" : " Did you mean " + near + "?"));
+      report.add(wanted.where,
+                 fcu_messages::file_parameter_unknown(
+                     wanted.name, near.empty() ? "" : fcu_messages::parameter_suggestion(near).line()));
       continue;
     }
     const Param& param = now[static_cast<std::size_t>(it - names.begin())];

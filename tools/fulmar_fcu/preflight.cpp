@@ -66,30 +66,30 @@ void firmware(Judge& j) {
 void rest(Judge& j, const Rest& r) {
   constexpr double deg = 180 / std::numbers::pi, gravity = 9.80665;
   const std::string gravity_text = fixed(r.gravity_mps2, 2) + " m/s2",
-                    turn_text = fixed(r.turn_rps * deg, 2) + " deg/s",
-                    redo = " at rest: 'fulmar fcu calibrate imu'";
+                    turn_text = fixed(r.turn_rps * deg, 2) + " deg/s";
   const double off = std::fabs(r.gravity_mps2 - gravity);
   if (r.accel_rms_mps2 > 1 || r.gyro_rms_rps * deg > 5)
     return j.warn(
         "IMU", fcu_messages::aircraft_in_motion(fixed(r.accel_rms_mps2, 1), fixed(r.gyro_rms_rps * deg, 0)));
   if (off > 0.15)
     j.add(off > 0.5 ? Verdict::fail : Verdict::warn, "IMU",
-          "gravity is " + gravity_text + redo.substr(0, 8) + ", not 9.81" + redo.substr(8));
+          fcu_messages::gravity_implausible(fixed(r.gravity_mps2, 2)));
   if (r.turn_rps * deg > 0.5)
-    j.add(r.turn_rps * deg > 3 ? Verdict::fail : Verdict::warn, "IMU", "it turns at " + turn_text + redo);
+    j.add(r.turn_rps * deg > 3 ? Verdict::fail : Verdict::warn, "IMU",
+          fcu_messages::rotation_at_rest(fixed(r.turn_rps * deg, 2)));
   if (off <= 0.15 && r.turn_rps * deg <= 0.5) j.ok("IMU", "calibrated; " + gravity_text + ", " + turn_text);
 }
 
 void inertial(Judge& j) {
   const bool no_accel = j.all_zero({"ACC_X_BIAS", "ACC_Y_BIAS", "ACC_Z_BIAS"}),
              no_gyro = j.all_zero({"GYRO_X_BIAS", "GYRO_Y_BIAS", "GYRO_Z_BIAS"});
-  const std::string redo = "not calibrated: lay it level, 'fulmar fcu calibrate imu', then 'params write'";
+  const Diagnostic redo = fcu_messages::imu_not_calibrated();
   if ((no_accel && no_gyro) || (j.f.status.error_code & error_uncalibrated_imu) != 0)
     j.fail("IMU", redo);
   else if (no_accel)  // as a calibration that failed leaves it
-    j.fail("IMU", "ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS are 0: " + redo);
+    j.fail("IMU", fulmar::located("ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS are 0", redo));
   else if (no_gyro && j.whole("ARM_CAL_GYRO") == 0)
-    j.fail("IMU", "GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS are 0: " + redo);
+    j.fail("IMU", fulmar::located("GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS are 0", redo));
   else if (j.f.rest)
     rest(j, *j.f.rest);
 }
@@ -194,7 +194,7 @@ void radio(Judge& j) {
     j.warn("override switch", fcu_messages::override_switch_off());
   const double stick = map.throttle(*j.f.rc);
   if (stick > j.value("RC_ARM_THRESHOLD"))
-    j.warn("throttle stick", "at " + fixed(100 * stick, 0) + " %: it must be down to arm");
+    j.warn("throttle stick", fcu_messages::throttle_stick_up(fixed(100 * stick, 0)));
 }
 
 void pilot(Judge& j) {
@@ -215,8 +215,8 @@ void outside(Judge& j) {
   else if (j.f.gnss->fix_type < 3 || j.f.gnss->fix_type == 5)
     j.fail("GNSS", fcu_messages::fix_missing(fix_words(j.f.gnss->fix_type), j.f.gnss->num_sat));
   else if (j.f.gnss->h_acc > 5 || j.f.gnss->num_sat < 6)
-    j.warn("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) +
-                       " satellites, +-" + fixed(j.f.gnss->h_acc, 1) + " m: wait");
+    j.warn("GNSS", fcu_messages::fix_inaccurate(fix_words(j.f.gnss->fix_type), j.f.gnss->num_sat,
+                                                fixed(j.f.gnss->h_acc, 1)));
   else
     j.ok("GNSS", fix_words(j.f.gnss->fix_type) + ", " + std::to_string(j.f.gnss->num_sat) +
                      " satellites, +-" + fixed(j.f.gnss->h_acc, 1) + " m");

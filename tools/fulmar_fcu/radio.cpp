@@ -54,27 +54,21 @@ std::vector<std::string> map_faults(const RadioMap& map) {
   const std::array<int, 4> sticks{map.x, map.y, map.z, map.f};
   for (std::size_t i = 0; i < sticks.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
-      if (sticks[i] == sticks[k])
-        out.push_back("two sticks are on channel " + std::to_string(sticks[i] + 1) +
-                      ": look at RC_X_CHN, RC_Y_CHN, RC_Z_CHN, RC_F_CHN");
+      if (sticks[i] == sticks[k]) out.push_back(fcu_messages::sticks_on_one_channel(sticks[i] + 1));
   if (std::any_of(sticks.begin(), sticks.end(),
                   [&](int c) { return c < 0 || c >= std::min(map.channels, 8); }))
-    out.push_back("a stick is on a channel outside of 0 to RC_NUM_CHN - 1 (" +
-                  std::to_string(map.channels - 1) + ")");
-  const std::string range =
-      ": switches may be on 4 to RC_NUM_CHN - 1 (" + std::to_string(map.channels - 1) + ")";
+    out.push_back(fcu_messages::stick_channel_invalid(map.channels - 1));
   if (!map.mapped(RadioMap::attitude_override))
-    out.push_back("no override switch: RC_ATT_OVRD_CHN is " +
-                  std::to_string(map.channel[RadioMap::attitude_override]) + range);
+    out.push_back(
+        fcu_messages::override_switch_missing(map.channel[RadioMap::attitude_override], map.channels - 1));
   if (!map.mapped(RadioMap::throttle_override))
-    out.push_back("no throttle override switch: RC_THR_OVRD_CHN is " +
-                  std::to_string(map.channel[RadioMap::throttle_override]) + range);
+    out.push_back(
+        fcu_messages::throttle_switch_missing(map.channel[RadioMap::throttle_override], map.channels - 1));
   if (map.channel[RadioMap::arm] >= 0 && !map.mapped(RadioMap::arm))
-    out.push_back("RC_ARM_CHN is " + std::to_string(map.channel[RadioMap::arm]) + range +
-                  ", or -1 to arm by the sticks");
+    out.push_back(fcu_messages::arm_channel_invalid(map.channel[RadioMap::arm], map.channels - 1));
   if (map.mapped(RadioMap::arm) && (map.channel[RadioMap::arm] == map.channel[RadioMap::attitude_override] ||
                                     map.channel[RadioMap::arm] == map.channel[RadioMap::throttle_override]))
-    out.push_back("one switch both arms and overrides: give RC_ARM_CHN a channel of its own");
+    out.push_back(fcu_messages::switch_shared());
   return out;
 }
 

@@ -82,7 +82,7 @@ std::string sensors_text(const Client& client) {
   std::string out;
   const auto q = client.last<AttitudeQuaternion>();
   if (q && !finite(*q)) {
-    out += line("attitude", "not a number any more: power-cycle the controller");
+    out += line("attitude", fcu_messages::attitude_not_finite());
   } else if (q) {
     const Euler e = euler(*q);
     out +=

@@ -8,6 +8,7 @@
 
 #include "core/graph/steering.hpp"
 #include "tools/fulmar_inspect/advice.hpp"
+#include "tools/fulmar_inspect/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -58,11 +59,15 @@ bool names(const std::string& text, const std::string& component) {
   return false;
 }
 
-/// Component -> why it does not steer any more, though it did in a layer.
-using Bypassed = std::vector<std::pair<std::string, std::string>>;
+/// A component that steers in a layer and not in the mission.
+struct Replaced {
+  std::string name, mission;  // where it steers
+  std::string successors;
+};
+using Bypassed = std::vector<Replaced>;
 
 bool is_listed(const Bypassed& list, const std::string& name) {
-  return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; });
+  return std::any_of(list.begin(), list.end(), [&](const auto& entry) { return entry.name == name; });
 }
 
 Bypassed bypassed(const Graph& graph, const MissionText& text, const Names& steer) {
@@ -76,8 +81,7 @@ Bypassed bypassed(const Graph& graph, const MissionText& text, const Names& stee
     for (const std::string& name : before) {
       const Component* const c = find_named(graph.components, name);
       if (!c || !c->roles.empty() || steer.count(name) > 0 || is_listed(list, name)) continue;
-      list.emplace_back(name, name + ", which steers in " + layer.file->name + " and not here: " +
-                                  join(newcomers) + (newcomers.size() == 1 ? " does" : " do"));
+      list.push_back({name, layer.file->name, join(newcomers)});
     }
   }
   return list;
@@ -86,20 +90,20 @@ Bypassed bypassed(const Graph& graph, const MissionText& text, const Names& stee
 /// What a mission says that looks at `component`.
 std::vector<std::pair<Where, std::string>> onlookers(const MissionText& text, const std::string& component) {
   std::vector<std::pair<Where, std::string>> list;
-  const auto look = [&](const Word& word, const std::string& sentence) {
-    if (names(word.text, component)) list.emplace_back(word.where, sentence);
+  const auto look = [&](const Word& word, const std::string& reader) {
+    if (names(word.text, component)) list.emplace_back(word.where, reader);
   };
   const auto transitions = [&](const std::vector<TransitionText>& next, const std::string& phase) {
-    for (const TransitionText& t : next) look(t.when, "phases." + phase + ".next looks at ");
+    for (const TransitionText& t : next) look(t.when, "phases." + phase + ".next");
   };
-  if (text.judge.done) look(*text.judge.done, "done looks at ");
-  if (text.judge.failed) look(*text.judge.failed, "failed looks at ");
-  if (text.judge.flown) look(*text.judge.flown, "flown looks at ");
-  if (text.judge.verdict) look(*text.judge.verdict, "verdict comes from ");
-  for (const Word& word : text.judge.progress) look(word, "progress shows ");
-  for (const auto& [key, word] : text.judge.summary) look(word, "summary." + key + " shows ");
-  for (const auto& [param, word] : text.resume) look(word, "resume." + param + " takes up what was of ");
-  for (const Word& word : text.report) look(word, "tell listens to ");
+  if (text.judge.done) look(*text.judge.done, "done");
+  if (text.judge.failed) look(*text.judge.failed, "failed");
+  if (text.judge.flown) look(*text.judge.flown, "flown");
+  if (text.judge.verdict) look(*text.judge.verdict, "verdict");
+  for (const Word& word : text.judge.progress) look(word, "progress");
+  for (const auto& [key, word] : text.judge.summary) look(word, "summary." + key);
+  for (const auto& [param, word] : text.resume) look(word, "resume." + param);
+  for (const Word& word : text.report) look(word, "tell");
   transitions(text.any, "any");
   for (const PhaseText& phase : text.phases) transitions(phase.next, phase.name);
   return list;
@@ -115,8 +119,8 @@ void add_unreported(const MissionText& text, Advice& advice) {
       const ComponentText* const component = text.component(owner);
       const bool there = text.role(owner) || (component && exists(*component, text.io));
       if (!still && there)
-        advice.push_back(text.report[0].where.text() + ": tell: leaves out " + word.text + ", which " +
-                         word.where.text() + " lists; a list takes the place of the other");
+        advice.push_back(
+            located(text.report[0].where, inspect_messages::tell_incomplete(word.text, word.where.text())));
     }
 }
 
@@ -124,19 +128,21 @@ void add_unreported(const MissionText& text, Advice& advice) {
 
 void add_bypassed(const Graph& graph, const MissionText& text, Advice& advice) {
   const Bypassed list = bypassed(graph, text, who_steers(graph, text));
-  const auto add = [&](const std::string& sentence) {
+  const auto add = [&](const Where& where, const std::string& reader, const Replaced& replaced) {
+    const std::string sentence =
+        located(where, inspect_messages::replaced_component_read(reader, replaced.name, replaced.mission,
+                                                                 replaced.successors));
     if (std::find(advice.begin(), advice.end(), sentence) == advice.end()) advice.push_back(sentence);
   };
-  for (const auto& [name, why] : list) {
-    const int index = index_named(graph.components, name);
+  for (const Replaced& replaced : list) {
+    const int index = index_named(graph.components, replaced.name);
     for (const Component& reader : graph.components)
       for (std::size_t k = 0; k < reader.wires.size() && !is_listed(list, reader.name); ++k) {
         const Wire& wire = reader.wires[k];
         if (wire.from.kind == Source::Kind::component && wire.from.index == index)
-          add(wire.where.text() + ": " + reader.name + "." + reader.info().inputs[k].name + " comes from " +
-              why);
+          add(wire.where, reader.name + "." + reader.info().inputs[k].name, replaced);
       }
-    for (const auto& [where, sentence] : onlookers(text, name)) add(where.text() + ": " + sentence + why);
+    for (const auto& [where, reader] : onlookers(text, replaced.name)) add(where, reader, replaced);
   }
   add_unreported(text, advice);
 }

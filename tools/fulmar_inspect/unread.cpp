@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tools/fulmar_inspect/advice.hpp"
+#include "tools/fulmar_inspect/messages.hpp"
 
 namespace fulmar::core {
 namespace {
@@ -59,15 +60,15 @@ void add_unread(const Graph& graph, Advice& advice) {
       const Open writer = only_writer(graph, input, reader);
       if (!writer.port || !incompatibility(*writer.port->type, *input.type).empty()) continue;
       const Open to{&reader, &input};
-      const std::string wired =
-          "; wire it, as in " + reader.name + ": {in: {" + input.name + ": " + writer.text() + "}}";
+      const std::string wiring = reader.name + ": {in: {" + input.name + ": " + writer.text() + "}}";
       const bool read = is_read(graph, *writer.owner, writer.owner->info().output(writer.port->name));
       if (!read && writer.port->kind != FULMAR_OUT_VALUE)
-        advice.push_back(writer.owner->where.text() + ": " + writer.text() + " has no reader; " + to.text() +
-                         " takes " + input.type->name + wired);
+        advice.push_back(located(
+            writer.owner->where,
+            inspect_messages::output_without_reader(writer.text(), to.text(), input.type->name, wiring)));
       else if (read && input.kind == FULMAR_IN_QUEUE)
-        advice.push_back(reader.where.text() + ": " + to.text() + " has no source; " + writer.text() +
-                         " gives " + input.type->name + wired);
+        advice.push_back(located(reader.where, inspect_messages::input_without_source(
+                                                   to.text(), writer.text(), input.type->name, wiring)));
     }
 }
 

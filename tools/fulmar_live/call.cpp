@@ -49,17 +49,16 @@ json message_of(const std::vector<std::string>& words) {
   if (words.empty()) return json::object();
   if (words.size() == 1 && words[0].starts_with('{')) {
     json message = read_yaml(words[0]);
-    if (!message.is_object()) throw WrongUsage("'" + words[0] + "' is no map {field: value}");
+    if (!message.is_object()) throw WrongUsage(remote_messages::map_expected(words[0]));
     return message;
   }
   json message = json::object();
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw WrongUsage("'" + word +
-                       "' is not of the form field=value; or give all in braces, as in '{radius_m: 80}'");
+      throw WrongUsage(remote_messages::field_form_invalid(word));
     const std::string field = word.substr(0, equals);
-    if (message.contains(field)) throw WrongUsage("the field '" + field + "' is given twice");
+    if (message.contains(field)) throw WrongUsage(remote_messages::field_duplicate(field));
     message[field] = read_yaml(word.substr(equals + 1));
   }
   return message;
@@ -70,7 +69,7 @@ int report(const Session::Verdict& verdict, const std::string& what) {
     std::printf("%s: accepted\n", what.c_str());
     return 0;
   }
-  std::fprintf(stderr, "%s: refused: %s\n", what.c_str(), verdict.reason.c_str());
+  std::fprintf(stderr, "%s\n", remote_messages::request_rejected(what, verdict.reason).text.c_str());
   return 1;
 }
 
@@ -90,9 +89,7 @@ void require_no_fields(Session& session, const std::string& service, const std::
   if (!session.channels().contains(service)) return;
   std::vector<std::string> fields;
   for (const Field& f : session.type(service)->fields) fields.push_back(f.name);
-  if (!fields.empty())
-    throw WrongUsage(name + " needs a field at least, as in fulmar call " + name + " " + fields.front() +
-                     "=VALUE. Valid: " + join(fields) + ".");
+  if (!fields.empty()) throw WrongUsage(remote_messages::field_missing(name, fields.front(), join(fields)));
 }
 
 /// A plugin's file here, "my_law.so" or "my_law.so/Law", as the host has a current directory of its own.

@@ -54,7 +54,7 @@ class Echo {
     reported_ = true;
     for (const PortField& p : ports_)
       if (!heard_.contains(p.topic))
-        std::fprintf(stderr, "waiting for the first sample of %s\n", p.label.c_str());
+        std::fprintf(stderr, "%s\n", remote_messages::first_sample_awaited(p.label).text.c_str());
   }
 
   bool due(const Session::Sample& sample) {

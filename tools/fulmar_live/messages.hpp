@@ -23,10 +23,22 @@ inline constexpr MessageText encoding_unsupported{
     "remote.encoding_unsupported",
     {"topic", "encoding"},
     "{topic} has the encoding '{encoding}', which is not supported"};
+inline constexpr MessageText field_duplicate{
+    "remote.field_duplicate", {"field"}, "the field '{field}' is given twice"};
+inline constexpr MessageText field_form_invalid{
+    "remote.field_form_invalid",
+    {"found"},
+    "'{found}' is not of the form field=value; or give all in braces, as in '{{radius_m: 80}'"};
 inline constexpr MessageText field_is_scalar{
     "remote.field_is_scalar", {"path", "field"}, "{path} is a single value and has no field '{field}'"};
+inline constexpr MessageText field_missing{
+    "remote.field_missing",
+    {"request", "suggestion", "choices"},
+    "{request} needs a field at least, as in fulmar call {request} {suggestion}=VALUE. Valid: {choices}."};
 inline constexpr MessageText field_unknown{
     "remote.field_unknown", {"path", "field", "choices"}, "{path} has no field '{field}'.{choices}"};
+inline constexpr MessageText first_sample_awaited{
+    "remote.first_sample_awaited", {"port"}, "waiting for the first sample of {port}"};
 inline constexpr MessageText flight_expected{
     "remote.flight_expected",
     {"address", "reason"},
@@ -46,6 +58,8 @@ inline constexpr MessageText index_out_of_range{
     {"path", "size", "last"},
     "{path} has room for {size} elements; the last one is [{last}]"};
 inline constexpr MessageText list_expected{"remote.list_expected", {"path"}, "{path} is not a list"};
+inline constexpr MessageText live_option_of_log{
+    "remote.live_option_of_log", "--seconds is of a running flight; of a log name --from and --to"};
 inline constexpr MessageText log_expected{
     "remote.log_expected", {"file"}, "{file} is not a log: it does not begin as an MCAP file"};
 inline constexpr MessageText log_incomplete{
@@ -59,6 +73,12 @@ inline constexpr MessageText log_missing{
     "remote.log_missing",
     {"log"},
     "the log '{log}' does not exist. Give the file of a log, or 'running' for the flight at --at"};
+inline constexpr MessageText log_option_without_log{
+    "remote.log_option_without_log",
+    {"option", "field"},
+    "{option} is of logs: give a log first, as in fulmar plot flight.mcap {field}"};
+inline constexpr MessageText map_expected{
+    "remote.map_expected", {"found"}, "'{found}' is not a map {{field: value}"};
 inline constexpr MessageText message_field_expected{
     "remote.message_field_expected",
     {"message", "port", "suggestion", "choices"},
@@ -70,6 +90,8 @@ inline constexpr MessageText mission_file_missing{
 inline constexpr MessageText mission_file_unknown{
     "remote.mission_file_unknown",
     "the flight does not report its mission file: give the file with --mission"};
+inline constexpr MessageText number_invalid{
+    "remote.number_invalid", {"kind", "found"}, "give {kind}, not '{found}'"};
 inline constexpr MessageText numeric_field_expected{
     "remote.numeric_field_expected", {"field"}, "{field} is not a number"};
 inline constexpr MessageText owner_unknown{
@@ -93,8 +115,19 @@ inline constexpr MessageText parameter_rejected{
 inline constexpr MessageText parameter_unknown{"remote.parameter_unknown",
                                                {"component", "parameter", "choices"},
                                                "{component} has no parameter '{parameter}'.{choices}"};
+inline constexpr MessageText parameter_value_missing{
+    "remote.parameter_value_missing",
+    {"parameter"},
+    "'{parameter}' has no value: give NAME VALUE [NAME VALUE ...]"};
+inline constexpr MessageText parameters_missing{
+    "remote.parameters_missing",
+    "give NAME VALUE [NAME VALUE ...], as in fulmar param set slc.roll_limit \"35 deg\""};
+inline constexpr MessageText parameters_unchanged{"remote.parameters_unchanged",
+                                                  "The files say already what flies."};
 inline constexpr MessageText pattern_unmatched{
     "remote.pattern_unmatched", {"pattern"}, "no parameter of this flight matches '{pattern}'"};
+inline constexpr MessageText phase_overlays_parameter{
+    "remote.phase_overlays_parameter", ", from the next phase on: this phase sets it to something else"};
 inline constexpr MessageText phase_unknown{
     "remote.phase_unknown", {"phase", "choices"}, "this flight has no phase '{phase}'.{choices}"};
 inline constexpr MessageText plugin_expected{
@@ -115,6 +148,8 @@ inline constexpr MessageText program_not_startable{
     "remote.program_not_startable", {"program"}, "{program} cannot be started"};
 inline constexpr MessageText program_start_failed{
     "remote.program_start_failed", {"program", "reason"}, "{program} cannot be started: {reason}"};
+inline constexpr MessageText request_rejected{
+    "remote.request_rejected", {"request", "reason"}, "{request}: refused: {reason}"};
 inline constexpr MessageText request_unknown{
     "remote.request_unknown", {"request", "choices"}, "this flight has no request '{request}'.{choices}"};
 inline constexpr MessageText restarted_flight_missing{
@@ -137,5 +172,12 @@ inline constexpr MessageText verdict_missing{
     "the response of the flight on {address} does not state whether the request is accepted"};
 inline constexpr MessageText view_missing{
     "remote.view_missing", {"address"}, "the flight on {address} does not report its description"};
+inline constexpr MessageText viewer_not_installed{
+    "remote.viewer_not_installed", {"viewer"}, "{viewer} is not installed here: open it by hand."};
+inline constexpr MessageText viewer_unknown{
+    "remote.viewer_unknown", {"viewer", "choices"}, "there is no viewer '{viewer}'.{choices}"};
+inline constexpr MessageText viewer_without_live_view{
+    "remote.viewer_without_live_view",
+    "rerun opens logs, not a running flight; for that --in page, lichtblick, foxglove or plotjuggler"};
 
 }  // namespace fulmar::remote_messages

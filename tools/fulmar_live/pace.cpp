@@ -19,7 +19,7 @@ int order(Session& session, const std::string& service, const nlohmann::json& re
           const std::string& what) {
   const Session::Verdict verdict = session.order(service, request);
   if (!verdict.accepted) {
-    std::fprintf(stderr, "%s: refused: %s\n", what.c_str(), verdict.reason.c_str());
+    std::fprintf(stderr, "%s\n", remote_messages::request_rejected(what, verdict.reason).text.c_str());
     return 1;
   }
   const double now_s = 1e-9 * static_cast<double>(session.view().value("now_ns", std::int64_t{0}));
@@ -80,7 +80,7 @@ int restart_command(const LiveAddress& target, const std::string& seed) {
   const std::string old = session.id();
   const auto [accepted, reason] = session.order("/fulmar/restart", {{"seed", seed}});
   if (!accepted) {
-    std::fprintf(stderr, "restart: refused: %s\n", reason.c_str());
+    std::fprintf(stderr, "%s\n", remote_messages::request_rejected("restart", reason).text.c_str());
     return 1;
   }
   if (!another_comes(target, old)) throw Error(remote_messages::restarted_flight_missing(target.text()));

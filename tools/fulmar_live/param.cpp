@@ -95,8 +95,7 @@ std::string already_set(const std::vector<std::string>& words, std::size_t refus
 }  // namespace
 
 int param_set_command(const LiveAddress& target, const std::vector<std::string>& words) {
-  if (words.size() % 2 != 0)
-    throw WrongUsage("'" + words.back() + "' has no value: give NAME VALUE [NAME VALUE ...]");
+  if (words.size() % 2 != 0) throw WrongUsage(remote_messages::parameter_value_missing(words.back()));
   Session session(target);
   const std::vector<NamedParam> params = params_of(session.view());
   for (std::size_t i = 0; i < words.size(); i += 2)
@@ -109,8 +108,7 @@ int param_set_command(const LiveAddress& target, const std::vector<std::string>&
       throw Error(remote_messages::parameter_rejected(p.name, words[i + 1], without_name(reason, p),
                                                       already_set(words, i)));
     std::printf("%s: %s -> %s%s\n", p.name.c_str(), shown_value(p.info, p.value).c_str(),
-                words[i + 1].c_str(),
-                p.overlaid ? ", from the next phase on: this phase sets it to something else" : "");
+                words[i + 1].c_str(), p.overlaid ? remote_messages::phase_overlays_parameter.c_str() : "");
   }
   return 0;
 }
@@ -150,7 +148,7 @@ int param_save_command(const LiveAddress& target, const SaveOptions& options) {
   for (const std::string& sentence : plan.also) std::fprintf(stderr, "%s\n", sentence.c_str());
   const int code = plan.refused.empty() ? 0 : 1;
   if (plan.files.empty()) {
-    if (plan.refused.empty()) std::printf("The files say already what flies.\n");
+    if (plan.refused.empty()) std::printf("%s\n", remote_messages::parameters_unchanged.c_str());
     return code;
   }
   if (options.dry_run) return code;

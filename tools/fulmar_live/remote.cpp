@@ -13,6 +13,7 @@
 #include "tools/fulmar_live/client.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/completion.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/fulmar_live/view.hpp"
 #include "tools/fulmar_log/plot_log.hpp"
 
@@ -27,7 +28,7 @@ CLI::Validator number_check(const char* what, bool whole) {
         const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), x);
         const bool good = code == std::errc{} && end == text.data() + text.size() && x > 0 && x <= 1e15 &&
                           (!whole || text.find_first_not_of("0123456789") == std::string::npos);
-        return good ? std::string() : std::string("give ") + what + ", not '" + text + "'";
+        return good ? std::string() : remote_messages::number_invalid(what, text).text;
       },
       "");
 }
@@ -167,8 +168,7 @@ struct RemoteCommands::Impl {
   bool draws_logs() {
     figure.words = curves.fields;
     const bool logs = plot::names_a_log(figure.words[0]);
-    if (logs && live_seconds->count() > 0)
-      throw WrongUsage("--seconds is of a running flight; of a log name --from and --to");
+    if (logs && live_seconds->count() > 0) throw WrongUsage(remote_messages::live_option_of_log());
     return logs;
   }
   int plot_logs() const {
@@ -178,8 +178,8 @@ struct RemoteCommands::Impl {
   int plot_live() const {
     for (const CLI::Option* option : log_options)
       if (option->count() > 0)
-        throw WrongUsage(option->get_name(false, true) +
-                         " is of logs: give a log first, as in fulmar plot flight.mcap " + curves.fields[0]);
+        throw WrongUsage(
+            remote_messages::log_option_without_log(option->get_name(false, true), curves.fields[0]));
     return plot_command(target(), curves);
   }
 
@@ -203,9 +203,7 @@ struct RemoteCommands::Impl {
         "Several are set one after another; the first that is refused ends it, and those before it stay set.",
         "param set slc.roll_limit \"35 deg\" attitude.roll_kp 0.6", [] { return 0; });
     take_rest(set, "NAME VALUE [NAME VALUE ...]", [this] {
-      if (words.empty())
-        throw WrongUsage(
-            "give NAME VALUE [NAME VALUE ...], as in fulmar param set slc.roll_limit \"35 deg\"");
+      if (words.empty()) throw WrongUsage(remote_messages::parameters_missing());
       return param_set_command(target(), words);
     });
     CLI::App* keep =

@@ -171,14 +171,11 @@ Opening opening_of(const std::string& viewer, const std::string& log, const Live
             ""};
   }
   if (in == "rerun") {
-    if (log.empty())
-      throw WrongUsage(
-          "rerun opens logs, not a running flight; for that --in page, lichtblick, foxglove or "
-          "plotjuggler");
+    if (log.empty()) throw WrongUsage(remote_messages::viewer_without_live_view());
     return {{"rerun", log}, "", "", {}, ""};
   }
-  throw WrongUsage("there is no viewer '" + in + "'." +
-                   choices_text(in, std::vector<std::string>(viewers.begin(), viewers.end())));
+  throw WrongUsage(remote_messages::viewer_unknown(
+      in, choices_text(in, std::vector<std::string>(viewers.begin(), viewers.end()))));
 }
 
 int view_command(const LiveAddress& target, const ViewOptions& options) {
@@ -199,7 +196,7 @@ int view_command(const LiveAddress& target, const ViewOptions& options) {
   if (!has_display() || ::isatty(STDOUT_FILENO) == 0) return 0;
   const std::string program = in_path(opening.words.front());
   if (program.empty()) {
-    std::printf("%s is not installed here: open it by hand.\n", opening.words.front().c_str());
+    std::printf("%s\n", remote_messages::viewer_not_installed(opening.words.front()).text.c_str());
     return 1;
   }
   std::fflush(stdout);

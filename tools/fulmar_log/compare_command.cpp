@@ -137,9 +137,9 @@ int compare_command(const CompareArguments& words) {
   const StateLog& b = two_logs ? other : a;
   const Topics topics = chosen(a, b, names);
   nlohmann::json all = nlohmann::json::array();
-  const std::string nothing = "No estimate (VehicleState) stands in both logs: none is compared.";
+  const auto nothing = log_tool_messages::common_estimate_missing();
   if (topics.empty() && !words.changed) throw Error(nothing);
-  if (topics.empty() && !words.json) std::printf("%s\n", nothing.c_str());
+  if (topics.empty() && !words.json) std::printf("%s\n", nothing.line().c_str());
   bool some = words.changed;
   for (const auto& [first, second] : topics) {
     Side x = side_of(a, first, words), y = side_of(b, second, words);

@@ -7,6 +7,9 @@ namespace fulmar::log_tool_messages {
 
 inline constexpr MessageText attachment_differs{
     "log_tool.attachment_differs", {"attachment", "line"}, "{attachment} differs from line {line} on"};
+inline constexpr MessageText common_estimate_missing{
+    "log_tool.common_estimate_missing",
+    "the two logs have no estimate (VehicleState) in common; nothing is compared"};
 inline constexpr MessageText common_figure_missing{"log_tool.common_figure_missing",
                                                    "the two results have no figure in common"};
 inline constexpr MessageText compression_failed{"log_tool.compression_failed", "cannot compress the data"};
@@ -45,6 +48,8 @@ inline constexpr MessageText file_not_writable{
 inline constexpr MessageText folder_not_creatable{
     "log_tool.folder_not_creatable", {"folder", "reason"}, "cannot make the folder '{folder}': {reason}"};
 inline constexpr MessageText footer_missing{"log_tool.footer_missing", "the footer is missing"};
+inline constexpr MessageText frequency_figures_missing{
+    "log_tool.frequency_figures_missing", {"reason"}, "no frequency response: {reason}"};
 inline constexpr MessageText input_step_missing{
     "log_tool.input_step_missing",
     {"span", "largest"},
@@ -65,10 +70,14 @@ inline constexpr MessageText log_after_fields{
     "log_tool.log_after_fields", {"log"}, "'{log}' is a log: give the logs before the fields"};
 inline constexpr MessageText log_cut_off{
     "log_tool.log_cut_off", {"fault", "cut"}, "{fault} The log is cut off: {cut}"};
+inline constexpr MessageText log_damaged{"log_tool.log_damaged", "all records of the log are damaged"};
 inline constexpr MessageText log_exists{
     "log_tool.log_exists",
     {"file"},
     "'{file}' exists; a log never overwrites a file. Name another with --out"};
+inline constexpr MessageText log_grown{"log_tool.log_grown", "the file has grown during the recovery"};
+inline constexpr MessageText log_incomplete{
+    "log_tool.log_incomplete", {"log", "fault"}, "{log} is cut off: {fault}"};
 inline constexpr MessageText log_not_recoverable{
     "log_tool.log_not_recoverable", {"reason"}, "the log has no recoverable data: {reason}"};
 inline constexpr MessageText log_still_growing{
@@ -82,6 +91,8 @@ inline constexpr MessageText message_encoding_unsupported{"log_tool.message_enco
                                                           "its messages are not encoded as cdr with ros2msg"};
 inline constexpr MessageText message_type_missing{"log_tool.message_type_missing", "message without a type"};
 inline constexpr MessageText messages_too_large{"log_tool.messages_too_large", "its messages are too large"};
+inline constexpr MessageText messages_without_topic{
+    "log_tool.messages_without_topic", {"count"}, "{count} messages without a topic"};
 inline constexpr MessageText name_count_mismatch{
     "log_tool.name_count_mismatch",
     {"expected", "found"},
@@ -104,6 +115,8 @@ inline constexpr MessageText output_constant{"log_tool.output_constant",
                                              "the output does not move after the step"};
 inline constexpr MessageText output_is_log{
     "log_tool.output_is_log", {"file", "remedy"}, "'{file}' is a log of this plot; {remedy}"};
+inline constexpr MessageText output_missing{
+    "log_tool.output_missing", "give the file of the figure, as in -o figure.svg (or .png, .pdf)"};
 inline constexpr MessageText path_is_text{
     "log_tool.path_is_text", {"path"}, "{path} is a text, not a number"};
 inline constexpr MessageText path_not_list{"log_tool.path_not_list", {"path"}, "{path} is not a list"};
@@ -111,6 +124,10 @@ inline constexpr MessageText path_not_number{
     "log_tool.path_not_number",
     {"path", "example_path", "example", "choices"},
     "{path} is not a number: give one of its fields, as in {example_path}.{example}. Valid: {choices}."};
+inline constexpr MessageText phases_differ{
+    "log_tool.phases_differ",
+    {"first", "other"},
+    "the phases are those of {first}; {other} has other phases or other times"};
 inline constexpr MessageText record_kind_differs{"log_tool.record_kind_differs",
                                                  "the kind of a record differs from the summary"};
 inline constexpr MessageText record_kind_unknown{"log_tool.record_kind_unknown",
@@ -135,6 +152,8 @@ inline constexpr MessageText segment_too_short{
     {"segment", "duration", "sample_time", "min_segments"},
     "the segments are {segment} of {duration}, with {sample_time} between samples. A segment requires 16 "
     "samples, and the time {min_segments} segments that overlap by half"};
+inline constexpr MessageText servos_limited{"log_tool.servos_limited",
+                                            ": the figures are not those of small signals"};
 inline constexpr MessageText size_invalid{
     "log_tool.size_invalid",
     {"found"},
@@ -147,6 +166,8 @@ inline constexpr MessageText state_names_required{
     "name the two states to compare, as in nav.state second.state. The log has {choices}"};
 inline constexpr MessageText states_missing{"log_tool.states_missing",
                                             "the log has no state of an aircraft (VehicleState)"};
+inline constexpr MessageText step_figures_missing{
+    "log_tool.step_figures_missing", {"reason"}, "no figures of a step: {reason}"};
 inline constexpr MessageText step_samples_missing{"log_tool.step_samples_missing",
                                                   "a step response requires samples of input and output"};
 inline constexpr MessageText step_samples_too_few{

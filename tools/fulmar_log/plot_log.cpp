@@ -290,8 +290,7 @@ class FigureMaker {
       figure.bands.push_back({p.name, 1e-9 * double(p.begin_ns), 1e-9 * double(p.end_ns)});
     for (const OpenLog& log : logs_)
       if (!same_phases(log.info.phases, logs_[0].info.phases))
-        return notes_.push_back("the phases are those of " + logs_[0].file + "; " + log.file +
-                                " had others, or at other times");
+        return notes_.push_back(log_tool_messages::phases_differ(logs_[0].file, log.file));
   }
 
   chart::Figure figure;
@@ -356,7 +355,7 @@ chart::Figure log_figure(const LogPlotArguments& words, std::vector<std::string>
   for (std::size_t i = 0; i < asked.logs.size(); ++i) {
     logs.push_back(read_log(asked.logs[i], names[i], asked, words.over, time));
     if (!logs.back().info.file.fault.empty())
-      notes.push_back(asked.logs[i] + " is cut off: " + logs.back().info.file.fault);
+      notes.push_back(log_tool_messages::log_incomplete(asked.logs[i], logs.back().info.file.fault));
   }
   FigureMaker maker(asked, logs, notes);
   for (const auto& panel : by_unit(logs[0], asked.in_order)) maker.add_panel(panel);
@@ -378,7 +377,7 @@ chart::Figure log_figure(const LogPlotArguments& words, std::vector<std::string>
 }
 
 int plot_log_command(const LogPlotArguments& words) {
-  const std::string no_out = "give the figure's file, as in -o figure.svg (or .png, .pdf)";
+  const auto no_out = log_tool_messages::output_missing();
   if (words.out.empty()) throw UsageError(no_out);
   std::error_code none;
   for (const std::string& log : words.words)

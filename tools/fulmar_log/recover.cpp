@@ -23,7 +23,8 @@ std::string Recovery::left_out_text() const {
   add(left_out.attachments, "damaged attachment", "");
   add(left_out.metadata, "damaged record", " of metadata");
   add(left_out.others, "other damaged record", "");
-  add(left_out.messages, "message", " whose topic is lost");
+  if (left_out.messages > 0)
+    text += (text.empty() ? "" : ", ") + log_tool_messages::messages_without_topic(left_out.messages).line();
   return text;
 }
 
@@ -43,8 +44,8 @@ Recovery recover_log(McapStream& first, McapStream& second, const std::filesyste
     largest = std::max(largest, m->data.size());
   const McapFile& log = first.log();
   if (!any && log.attachments.empty() && !log.complete)
-    throw Error(log_tool_messages::log_not_recoverable(log.fault.empty() ? "all that is in it is damaged"
-                                                                         : log.fault));
+    throw Error(log_tool_messages::log_not_recoverable(
+        log.fault.empty() ? log_tool_messages::log_damaged().line() : log.fault));
   McapWriter::Options options;
   options.file = to;
   options.profile = log.profile;
@@ -73,7 +74,7 @@ Recovery recover_log(McapStream& first, McapStream& second, const std::filesyste
     out.end_message(m->data.size());
   }
   Recovery r{
-      out.close(), {}, grows ? "the file has grown while it was read" : log.fault, log.complete && !grows};
+      out.close(), {}, grows ? log_tool_messages::log_grown().line() : log.fault, log.complete && !grows};
   std::error_code ignored;
   if (!r.written.error.empty()) std::filesystem::remove(r.written.file, ignored);
   return r;

@@ -86,7 +86,7 @@ std::string step_text(const StepFigures& f, double band, const std::array<Signal
 std::string limited_text(const std::optional<double>& share) {
   if (!share) return "";
   std::string out = fmt::format("servos  {:.1f} % of this time at a stop or at the rate limit", 100 * *share);
-  if (*share > 0.01) out += ": the figures are not those of small signals";
+  if (*share > 0.01) out += log_tool_messages::servos_limited().line();
   return out + "\n";
 }
 std::string frequency_text(const FrequencyResponse& r) {
@@ -178,9 +178,9 @@ struct ResponseCommand::Impl {
     }
     std::string text = head_text(s[0], "input") + head_text(s[1], "output") + limited_text(limited);
     if (f) text += step_text(*f, band, s);
-    if (!f && !frequency) text += "\nno figures of a step: " + no_step + "\n";
+    if (!f && !frequency) text += "\n" + log_tool_messages::step_figures_missing(no_step).line() + "\n";
     if (r) text += frequency_text(*r);
-    if (!r && !step) text += "\nno frequency response: " + no_frequency + "\n";
+    if (!r && !step) text += "\n" + log_tool_messages::frequency_figures_missing(no_frequency).line() + "\n";
     std::cout << text;
     return 0;
   }

@@ -55,6 +55,8 @@ inline constexpr MessageText plugin_name_reserved{
     "'{name}' is a reserved name of the build. Choose another name, as in my_{suggestion}"};
 inline constexpr MessageText port_duplicate{
     "new.port_duplicate", {"port"}, "the port '{port}' is given twice"};
+inline constexpr MessageText port_form_invalid{
+    "new.port_form_invalid", {"option", "found", "form"}, "{option} {found}: write NAME={form}"};
 inline constexpr MessageText program_path_unknown{
     "new.program_path_unknown", {"reason"}, "cannot find the path of this program: {reason}"};
 inline constexpr MessageText role_duplicate{"new.role_duplicate", {"role"}, "--role {role} is given twice"};

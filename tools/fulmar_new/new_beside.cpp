@@ -26,7 +26,7 @@ bool is_word(const std::string& text) {
 }
 
 Asked read_asked(const std::string& option, const std::string& text, const std::string& example) {
-  const Error fault(option + " " + text + ": write NAME=" + example);
+  const Error fault(new_messages::port_form_invalid(option, text, example));
   const std::size_t at = text.find('=');
   if (at == std::string::npos) throw fault;
   Asked asked{text.substr(0, at), text.substr(at + 1)};

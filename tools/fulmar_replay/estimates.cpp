@@ -37,9 +37,8 @@ std::string compared_estimates(const std::filesystem::path& before, const std::f
   const std::filesystem::path program = own_program("fulmar-log");
   const std::unique_ptr<std::FILE, Close> out(program.empty() ? nullptr : std::tmpfile());
   if (!out) {
-    warn(replay_messages::estimates_not_compared(program.empty()
-                                                     ? "the program fulmar-log is missing beside this one"
-                                                     : "there is no room for a file"));
+    warn(replay_messages::estimates_not_compared(program.empty() ? replay_messages::log_program_missing()
+                                                                 : replay_messages::file_space_missing()));
     return "";
   }
   std::vector<std::string> words{"log",       "compare", before.string(), now.string(),

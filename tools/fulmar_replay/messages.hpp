@@ -14,13 +14,19 @@ inline constexpr MessageText change_without_effect{
     "the mission again with fulmar run"};
 inline constexpr MessageText estimates_not_compared{
     "replay.estimates_not_compared", {"reason"}, "the estimates are not compared: {reason}"};
+inline constexpr MessageText file_space_missing{"replay.file_space_missing", "there is no space for a file"};
 inline constexpr MessageText first_tick_missing{
     "replay.first_tick_missing",
     {"tick"},
     "the log begins with tick {tick} of its flight; a replay begins with the first: give the file before it"};
 inline constexpr MessageText folder_not_creatable{
     "replay.folder_not_creatable", {"folder"}, "cannot make a folder in {folder}"};
+inline constexpr MessageText input_not_repeatable{"replay.input_not_repeatable",
+                                                  {"tick", "reason"},
+                                                  "the input before tick {tick} is not repeatable: {reason}"};
 inline constexpr MessageText log_changed{"replay.log_changed", "the log has changed since the replay began"};
+inline constexpr MessageText log_program_missing{"replay.log_program_missing",
+                                                 "the program fulmar-log is missing beside this one"};
 inline constexpr MessageText mission_missing{
     "replay.mission_missing", "the log has no attached mission: it is not the log of a flight"};
 inline constexpr MessageText overrides_not_recorded{
@@ -28,6 +34,10 @@ inline constexpr MessageText overrides_not_recorded{
     "the log does not state the command-line changes of its mission: it is older than the replay function"};
 inline constexpr MessageText plugin_not_recorded{
     "replay.plugin_not_recorded", {"component"}, "the log does not state the plugin of '{component}'"};
+inline constexpr MessageText plugin_replaced{
+    "replay.plugin_replaced",
+    {"component", "plugin", "version", "sha256"},
+    "{component}: {plugin} {version} with SHA-256 {sha256} flies in its place"};
 inline constexpr MessageText plugins_not_recorded{"replay.plugins_not_recorded",
                                                   "the log does not state the plugins of the flight"};
 inline constexpr MessageText probes_mismatch{

@@ -149,8 +149,7 @@ Graph Recording::mission(const Overrides& changes, const Say& say) const {
     for (const Component& c : graph.components)
       if (say && c.name == flown.component && c.plugin->sha256 != flown.sha256 &&
           !names_component(changes.with, c.name))
-        say(c.name + ": " + c.plugin->file + " " + c.plugin->version + " with SHA-256 " + c.plugin->sha256 +
-                " flies in its place",
+        say(replay_messages::plugin_replaced(c.name, c.plugin->file, c.plugin->version, c.plugin->sha256),
             true);
   return alone(std::move(graph));
 }
@@ -202,8 +201,7 @@ void Player::apply(Command command, std::uint64_t tick) try {
             .string();
   flight_->apply(std::move(command));
 } catch (const Error& fault) {
-  result_.notes.push_back("what entered before tick " + std::to_string(tick) +
-                          " cannot be repeated: " + fault.what());
+  result_.notes.push_back(replay_messages::input_not_repeatable(tick, fault.what()));
 }
 
 std::unique_ptr<Flight> Player::fly(const std::atomic<bool>* stop) {

@@ -73,7 +73,7 @@ Answer answer_to(const json& request) {
   const std::vector<std::string> set = request.at("set");
   for (const std::string& name : plan.changed)
     if (std::find(set.begin(), set.end(), name) != set.end())
-      add(answer.reason, name + " was given by --set: written, it is the mission's");
+      add(answer.reason, save_messages::option_value_saved(name));
   return answer;
 }
 

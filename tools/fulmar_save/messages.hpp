@@ -11,6 +11,9 @@ inline constexpr MessageText change_not_effective{"save.change_not_effective",
 inline constexpr MessageText component_unknown{"save.component_unknown",
                                                {"component", "choices"},
                                                "the component '{component}' does not exist.{choices}"};
+inline constexpr MessageText edit_by_hand{"save.edit_by_hand",
+                                          {"parameter", "value", "reason"},
+                                          "{parameter} is now {value}; write it by hand: {reason}"};
 inline constexpr MessageText entry_exists{"save.entry_exists", {"entry"}, "the key {entry} exists already"};
 inline constexpr MessageText file_changed{
     "save.file_changed", {"file"}, "{file} has changed since it was read; nothing was written to it"};
@@ -29,12 +32,20 @@ inline constexpr MessageText mission_name_mismatch{
     "save.mission_name_mismatch",
     {"file", "mission", "flown_mission"},
     "{file} is the mission '{mission}', but the flight has '{flown_mission}': nothing was written"};
+inline constexpr MessageText option_value_saved{
+    "save.option_value_saved",
+    {"parameter"},
+    "{parameter} was given by --set: the change writes it to the mission"};
 inline constexpr MessageText parameter_kind_unknown{
     "save.parameter_kind_unknown",
     {"parameter", "kind"},
     "the parameter '{parameter}' is of the unknown kind '{kind}'"};
 inline constexpr MessageText preview_outdated{
     "save.preview_outdated", "the change differs from the preview: request the preview again"};
+inline constexpr MessageText text_of_other_plugin{
+    "save.text_of_other_plugin",
+    {"parameter", "plugin"},
+    "{parameter} is the same text for {plugin}, which does not fly"};
 inline constexpr MessageText text_shared{
     "save.text_shared", {"parameters"}, "the same text also sets {parameters}"};
 inline constexpr MessageText value_form_unsupported{"save.value_form_unsupported",

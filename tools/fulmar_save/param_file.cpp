@@ -178,11 +178,11 @@ class Saver {
       roots_[where.file] = parsed(after, files_[where.file].name);
       plan_.changed.push_back(name);
       for (const std::string& section : also)
-        plan_.also.push_back(files_[where.file].name + ": " + name + " is the same text for " + section +
-                             ", which does not fly");
+        plan_.also.push_back(
+            located(files_[where.file].name, save_messages::text_of_other_plugin(name, section)));
     } catch (const Error& fault) {
-      plan_.refused.push_back(files_[where.file].name + ": " + name + " is " + new_text(p) +
-                              " now; write it by hand: " + fault.what());
+      plan_.refused.push_back(
+          located(files_[where.file].name, save_messages::edit_by_hand(name, new_text(p), fault.what())));
     }
   }
 

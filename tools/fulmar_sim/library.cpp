@@ -18,6 +18,7 @@
 #include "fulmar/sim/airframe_file.hpp"
 #include "fulmar/sim/batch.hpp"
 #include "tools/fulmar_aero/airframe_file.hpp"
+#include "tools/fulmar_sim/messages.hpp"
 
 using namespace fulmar;
 
@@ -43,11 +44,11 @@ int guarded(Call call) noexcept {
     call();
     return 0;
   } catch (const std::bad_alloc&) {
-    last_error = "there is not enough memory for it";
+    last_error = simulation_messages::memory_exhausted.c_str();
   } catch (const std::exception& e) {
     last_error = e.what();
   } catch (...) {
-    last_error = "an unknown error";
+    last_error = simulation_messages::error_unknown.c_str();
   }
   return 1;
 }
@@ -56,28 +57,27 @@ int guarded(Call call) noexcept {
 template <class Call>
 int guarded(fulmar_sim* all, Call call) noexcept {
   return guarded([&] {
-    if (all->is_copy())
-      throw std::invalid_argument(
-          "the simulation was made by another process, whose threads did not come along: make one here");
+    if (all->is_copy()) throw std::invalid_argument(simulation_messages::other_process().line());
     const std::lock_guard lock(all->mutex);
     call(*all);
   });
 }
 
-void demand(bool right, const std::string& sentence) {
-  if (!right) throw std::invalid_argument(sentence);
+void demand(bool right, const Diagnostic& message) {
+  if (!right) throw std::invalid_argument(message.line());
 }
+
+std::string aircraft(std::size_t i) { return "aircraft " + std::to_string(i); }
 
 bool is_meant(const bool* only, std::size_t i) { return !only || only[i]; }
 
-void fly(sim::Simulation& aircraft, double height_m, double airspeed_mps, double heading_rad) {
+void fly(sim::Simulation& flying, double height_m, double airspeed_mps, double heading_rad) {
   const std::string height = sim::shown(height_m), airspeed = sim::shown(airspeed_mps);
-  demand(std::isfinite(height_m) && height_m > 0, "height is " + height + " m and must be more than 0");
-  demand(std::isfinite(airspeed_mps) && airspeed_mps > 0,
-         "airspeed is " + airspeed + " m/s and must be more than 0");
-  demand(std::isfinite(heading_rad), "heading is " + sim::shown(heading_rad));
-  demand(aircraft.fly({0, 0, -height_m}, heading_rad, airspeed_mps),
-         "no steady level flight at " + airspeed + " m/s and " + height + " m height");
+  demand(std::isfinite(height_m) && height_m > 0, simulation_messages::height_invalid(height));
+  demand(std::isfinite(airspeed_mps) && airspeed_mps > 0, simulation_messages::airspeed_invalid(airspeed));
+  demand(std::isfinite(heading_rad), simulation_messages::heading_not_finite(sim::shown(heading_rad)));
+  demand(flying.fly({0, 0, -height_m}, heading_rad, airspeed_mps),
+         simulation_messages::level_flight_missing(airspeed, height));
 }
 
 }  // namespace
@@ -110,7 +110,7 @@ fulmar_sim* fulmar_sim_new(const char* airframe, std::size_t count, unsigned thr
   guarded([&] {
     sim::Simulation::demand_step(dt_s);
     demand(origin_altitude_m >= -1000 && origin_altitude_m <= 20000,
-           "origin_altitude is " + sim::shown(origin_altitude_m) + " m and must be from -1000 to 20000");
+           simulation_messages::altitude_out_of_range(sim::shown(origin_altitude_m)));
     sim::SimulationOptions options;
     options.origin_altitude_m = origin_altitude_m;
     options.weather.turbulence = static_cast<Turbulence>(turbulence);
@@ -148,10 +148,10 @@ int fulmar_sim_start_in_flight(fulmar_sim* all, const bool* only, const double* 
       try {
         fly(flying.back().second, starts[3 * i], starts[3 * i + 1], starts[3 * i + 2]);
       } catch (const std::invalid_argument& e) {
-        throw std::invalid_argument("aircraft " + std::to_string(i) + ": " + e.what());
+        throw std::invalid_argument(located(aircraft(i), Diagnostic(e.what())).line());
       }
     }
-    for (auto& [i, aircraft] : flying) s.batch[i] = aircraft;
+    for (auto& [i, started] : flying) s.batch[i] = started;
   });
 }
 
@@ -171,8 +171,8 @@ int fulmar_sim_set_wind(fulmar_sim* all, const double* wind_n) {
   return guarded(all, [&](fulmar_sim& s) {
     const std::size_t n = s.batch.size();
     for (std::size_t k = 0; k < 3 * n; ++k)
-      demand(std::abs(wind_n[k]) <= 1000, "aircraft " + std::to_string(k / 3) + ": the wind is " +
-                                              sim::shown(wind_n[k]) + " m/s and must be within +-1000");
+      demand(std::abs(wind_n[k]) <= 1000,
+             located(aircraft(k / 3), simulation_messages::wind_out_of_range(sim::shown(wind_n[k]))));
     for (std::size_t i = 0; i < n; ++i) {
       s.wind_n[i] = {wind_n[3 * i], wind_n[3 * i + 1], wind_n[3 * i + 2]};
       s.batch[i].plant().set_wind(s.wind_n[i]);
@@ -203,7 +203,7 @@ int fulmar_sim_set_rows(fulmar_sim* all, const bool* only, const double* rows) {
         if (!is_meant(only, i)) continue;
         const sim::FlightState state = sim::state_of_row(rows + i * sim::row_columns);
         const std::string wrong = set ? "" : sim::Simulation::validation_error(state);
-        demand(wrong.empty(), "aircraft " + std::to_string(i) + ": " + wrong);
+        demand(wrong.empty(), located(aircraft(i), wrong));
         if (set) s.batch[i].set(state);
       }
   });

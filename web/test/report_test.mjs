@@ -18,8 +18,11 @@ if (skipped) {
 const folder = mkdtempSync(join(tmpdir(), "fulmar-report-")),
   file = (name) => join(folder, name);
 const hostile = "<!--<script><img src=x onerror=document.body.remove()>";
-const run = (...words) =>
-  execFileSync(fulmar, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"] }).toString();
+const run_as = (env, words) =>
+  execFileSync(fulmar, words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"], env }).toString();
+const run = (...words) => run_as(process.env, words);
+/** With codes in place of sentences. */
+const run_coded = (...words) => run_as({ ...process.env, FULMAR_MESSAGES: "codes" }, words);
 let browser,
   page,
   controller,
@@ -97,8 +100,11 @@ try {
     "--log",
     "two.mcap",
   );
-  assert.throws(() => run("report", "one.mcap"), /one\.html is there already: give another name with -o/);
-  assert.throws(() => run("report", "one.mcap", folder + "/one.mcap", "-o", "x.html"), /is given twice/);
+  assert.throws(() => run_coded("report", "one.mcap"), /report\.report_exists\(one\.html\)/);
+  assert.throws(
+    () => run_coded("report", "one.mcap", folder + "/one.mcap", "-o", "x.html"),
+    /report\.log_duplicate\([^)]*one\.mcap\)/,
+  );
   assert.match(
     run("report", "one.mcap", "two.mcap", "--names", "one,two", "-o", "both.html"),
     /^both\.html: .* MB/,

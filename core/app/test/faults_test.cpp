@@ -184,7 +184,7 @@ TEST_CASE("a failure that is requested in flight is answered, logged behind all 
   flight.finish();
   REQUIRE(answers.size() == 2);
   CHECK(answers[0] == "");
-  CHECK(answers[1] == "pitot has no fault 'lost'; valid: none, off, stuck, wrong, slow, noisy, jumping");
+  CHECK(answers[1] == "sim_aero.fault_unknown(pitot, lost, none, off, stuck, wrong, slow, noisy, jumping)");
   // The hashes of the ticks are made with the numbers of the topics: those that there have always been keep
   // theirs. Events for viewers are in no hash, and last.
   const WholeLog file = read_mcap(o.log_file);

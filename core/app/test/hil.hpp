@@ -200,7 +200,7 @@ inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std:
   bool reported = false;
   while (host.running() && wall_s() - begun < plan.limit_s) {
     nap(0.1);
-    if (reported || host.err().find("flies on until disarmed") == std::string::npos) continue;
+    if (reported || host.err().find("run.end_deferred(") == std::string::npos) continue;
     reported = true;
     peer.signal(SIGUSR1);
   }

@@ -197,19 +197,19 @@ TEST_CASE("a landing without a runway, in it or in its plan, and a short one are
   };
   std::string of = refusal("", "");
   CHECK_MESSAGE(reported(of, "land.yaml:5"), of);
-  CHECK_MESSAGE(reported(of, "there is no runway to land on"), of);
+  CHECK_MESSAGE(reported(of, "path.runway_missing"), of);
   of = refusal(", params: {plan: plan.yaml}", "");
   CHECK_MESSAGE(reported(of, "plan.yaml:1"), of);
-  CHECK_MESSAGE(reported(of, "there is no runway to land on"), of);
+  CHECK_MESSAGE(reported(of, "path.runway_missing"), of);
   const std::string here = "runway: {north: 0 m, east: 0 m, up: 0 m, heading: 135 deg, ";
   of = refusal(", params: {plan: plan.yaml}", here + "length: 150 m}\n");
   CHECK_MESSAGE(reported(of, "plan.yaml:5"), of);
-  CHECK_MESSAGE(reported(of, "150 m is too short"), of);
+  CHECK_MESSAGE(reported(of, "path.runway_too_short(150, "), of);
   of = refusal(", params: {plan: plan.yaml}", here + "length: 300 m, lat: 40.2 deg}\n");
-  CHECK_MESSAGE(reported(of, "either north, east, up or lat, lon, alt_msl"), of);
+  CHECK_MESSAGE(reported(of, "path.runway_place_ambiguous"), of);
   of = refusal(", params: {plan: plan.yaml}", "runway: {north: 0 m, east: 0 m, up: 0 m, heading: 135 deg}\n");
   CHECK_MESSAGE(reported(of, "plan.yaml:5"), of);
-  CHECK_MESSAGE(reported(of, "needs a length"), of);
+  CHECK_MESSAGE(reported(of, "path.runway_length_missing"), of);
   of = refusal(", params: {plan: plan.yaml}", here + "length: 300 m}\n");
   CHECK_MESSAGE(of == "flies", of);
   of = refusal(

@@ -50,14 +50,14 @@ TEST_CASE_FIXTURE(Folder, "a report is refused before the flight where none can 
     CHECK(shell("grep -q -- '" + words + "' out.txt"));
     CHECK(files(".mcap") == 0);
   };
-  refused("--no-log --report", "--no-log leaves that out: give one of them");
-  refused("--report x.yaml", "--report x.yaml: give a name that ends in .html, or none");
+  refused("--no-log --report", "app.report_excludes_no_log");
+  refused("--report x.yaml", "app.report_name_invalid(x.yaml)");
   CHECK(shell("printf 'mission: silent\\nextends: " FULMAR_SOURCE_DIR
               "/configs/missions/hourglass.yaml\\nrecord: off\\n' >silent.yaml"));
   CHECK_FALSE(shell(FULMAR_BIN_DIR "/fulmar run silent.yaml --duration 1 --report >out.txt 2>&1"));
-  CHECK(shell("grep -q 'record: off; there is no log to make it of' out.txt"));
+  CHECK(shell("grep -q app.report_without_log out.txt"));
   if (!fs::exists(FULMAR_BIN_DIR "/../share/fulmar/web/report.html")) return;  // built without Node.js
   CHECK(shell("echo mine >there.html"));
-  refused("--report there.html", "app.report_exists(");
+  refused("--report there.html", "app.report_exists(there.html)");
   CHECK(shell("grep -q mine there.html"));
 }

@@ -59,33 +59,32 @@ std::string heard(const std::function<void()>& words) {
 TEST_CASE("what the language's library throws becomes a sentence for people") {
   const std::string inside = "app.internal_error(";
   CHECK(reported([] { std::vector<int>().reserve(std::vector<int>().max_size() + 1); }) ==
-        inside + "std::length_error): app.length_excessive");
+        inside + "std::length_error, app.length_excessive)");
   CHECK(reported([] { std::ignore = std::string().substr(1); }) ==
-        inside + "std::out_of_range): app.element_missing");
-  const std::string taken = "app.value_type_differs";
+        inside + "std::out_of_range, app.element_missing)");
+  const std::string taken = "app.value_type_differs)";
   CHECK(reported([] { std::ignore = std::get<int>(std::variant<double, int>(1.0)); }) ==
-        inside + "std::bad_variant_access): " + taken);
+        inside + "std::bad_variant_access, " + taken);
   CHECK(reported([] { std::ignore = std::optional<int>().value(); }) ==
-        inside + "std::bad_optional_access): " + taken);
+        inside + "std::bad_optional_access, " + taken);
   CHECK(reported([] { std::ignore = std::any_cast<int>(std::any(1.0)); }) ==
-        inside + "std::bad_any_cast): " + taken);
+        inside + "std::bad_any_cast, " + taken);
   CHECK(reported([] { std::ignore = std::stoi("x"); }) ==
-        inside + "std::invalid_argument): app.argument_invalid");
+        inside + "std::invalid_argument, app.argument_invalid)");
   CHECK(reported([] { std::function<void()>()(); }) ==
-        inside + "std::bad_function_call): app.callable_empty");
+        inside + "std::bad_function_call, app.callable_empty)");
 }
 
 TEST_CASE("what has words for people keeps them") {
   CHECK(reported([] { throw Error("mission.yaml:3: no"); }) == "mission.yaml:3: no");
   CHECK(reported([] {
           throw std::system_error(std::make_error_code(std::errc::no_space_on_device), "basic_filebuf");
-        }) == "app.result_not_writable(No space left on device)");
+        }) == "No space left on device");
   CHECK(reported([] { std::ignore = std::filesystem::file_size("/nowhere"); }) ==
         "'/nowhere': No such file or directory");
   CHECK(reported([] { throw std::bad_alloc(); }) == "app.memory_exhausted");
-  CHECK(reported([] {
-          throw std::runtime_error("app.internal_error(std::runtime_error, the ellipsoid is flat)");
-        }) == "app.internal_error(std::runtime_error, app.internal_error(std::runtime_error, the ellipsoid is flat))");
+  CHECK(reported([] { throw std::runtime_error("the ellipsoid is flat"); }) ==
+        "app.internal_error(std::runtime_error, the ellipsoid is flat)");
 }
 
 TEST_CASE("what the host says aloud holds nothing that a terminal obeys, and no time stamp") {

@@ -183,7 +183,7 @@ Flown fly(const Graph& graph, const fs::path& log) {
   o.duration_s = 40;
   std::int64_t now_ns = 0;
   o.say = [&](const std::string& line, bool) {
-    if (line.find("failsafe") != std::string::npos) flown.failsafe.emplace_back(now_ns, line);
+    if (line.find("run.failsafe(") != std::string::npos) flown.failsafe.emplace_back(now_ns, line);
   };
   Flight flight(graph, o);
   const Component& vehicle = graph.components[static_cast<std::size_t>(graph.vehicle)];
@@ -219,7 +219,7 @@ class Chain {
     seen_.push_back(component);
     for (const GuardEvent& guard : result_.guards)
       if (guard.component == c.name && guard.at_ns <= at_ns_ &&
-          guard.what.find("cannot take over") == std::string::npos)
+          guard.what.find("run.cannot_take_over(") == std::string::npos)
         return c.name;
     for (std::size_t i = 0; i < c.wires.size(); ++i) {
       const Port& input = c.info().inputs[i];

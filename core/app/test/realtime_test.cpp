@@ -51,8 +51,9 @@ std::string in_child(Work&& work) {
 }
 
 /// What somebody without rights and limits is told.
-std::string as_nobody(rlim_t priorities, rlim_t memory) {
+std::string as_nobody(rlim_t priorities, rlim_t memory, const char* messages = "codes") {
   return in_child([&]() -> std::string {
+    setenv("FULMAR_MESSAGES", messages, 1);  // read by the first message: this process writes none itself
     if (getuid() == 0 && (setgroups(0, nullptr) != 0 || setgid(65534) != 0 || setuid(65534) != 0))
       return "cannot become nobody";
     const rlimit priority{priorities, priorities}, locked{memory, memory};
@@ -125,15 +126,16 @@ bool permitted() {
 
 TEST_CASE("without permission one sentence says what is missing and how to allow it") {
   const std::string nothing = as_nobody(0, 64 * 1024);
-  CHECK(nothing.find("--realtime: fulmar is not permitted to lock its memory (limit 64 kB)") == 0);
+  CHECK(nothing.find("run.realtime_not_permitted(to lock its memory (limit 64 kB), ") == 0);
   const std::string memory_alone = as_nobody(0, RLIM_INFINITY);
   if (memory_alone != "cannot lower a limit")  // a hard limit that this machine sets for everybody
-    CHECK(memory_alone.find("--realtime: fulmar is not permitted to run with priority 70 (limit 0)") == 0);
+    CHECK(memory_alone.find("run.realtime_not_permitted(to run with priority 70 (limit 0), ") == 0);
+  const std::string sentence = as_nobody(0, 64 * 1024, "sentences");
   for (const char* way :
        {"/etc/security/limits.d/fulmar.conf", "'@dialout - rtprio 70'", "'@dialout - memlock unlimited'",
         "setcap cap_sys_nice,cap_ipc_lock+ep ", "fulmar@.service"})
-    CHECK_MESSAGE(nothing.find(way) != std::string::npos, way);
-  CHECK(nothing.find('\n') == std::string::npos);
+    CHECK_MESSAGE(sentence.find(way) != std::string::npos, way);
+  CHECK(sentence.find('\n') == std::string::npos);
 }
 
 TEST_CASE("memory that would not suffice later is not called enough") {
@@ -141,9 +143,9 @@ TEST_CASE("memory that would not suffice later is not called enough") {
   REQUIRE(getrlimit(RLIMIT_MEMLOCK, &here) == 0);
   const rlim_t gigabyte = std::min<rlim_t>(
       here.rlim_max, rlim_t{1} << 30);  // more than this process has now, less than a flight may need
-  CHECK(
-      as_nobody(0, gigabyte).find("to lock its memory (limit " + std::to_string(gigabyte / 1024) + " kB)") !=
-      std::string::npos);
+  CHECK(as_nobody(0, gigabyte)
+            .find("run.realtime_not_permitted(to lock its memory (limit " + std::to_string(gigabyte / 1024) +
+                  " kB)") != std::string::npos);
 }
 
 TEST_CASE("the thread that takes it has it, and what it starts afterwards has not") {

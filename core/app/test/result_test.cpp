@@ -118,7 +118,7 @@ TEST_CASE("where nothing came from a role and nothing left the ground, the fligh
   const json j = json::parse(r.out);
   CHECK(j["result"] == "not begun");
   CHECK(j["reason"] == "run.role_output_absent(sense, duration reached)");
-  CHECK(fly("", "{id: 1}", "{mute_at: -10}").out.find("lab: not begun (nothing came from the role sense;") !=
+  CHECK(fly("", "{id: 1}", "{mute_at: -10}").out.find("lab: not begun (run.role_output_absent(sense, ") !=
         std::string::npos);
 }
 

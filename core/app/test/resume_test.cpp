@@ -183,9 +183,9 @@ TEST_CASE(
     const auto [code, out] = shell(here + run + " --no-log --duration 1 --resume" + log);
     CHECK(code == 0);
     CHECK(out.find("resumes from logs/hourglass-") != std::string::npos);
-    CHECK(out.find("   -5.00 s  resumed: phase cruise, manage.first_item = 0\n") != std::string::npos);
-    CHECK(out.find("   -5.00 s  phase cruise\n") != std::string::npos);
-    CHECK(out.find("phase takeoff") == std::string::npos);
+    CHECK(out.find("   -5.00 s  run.resumed(phase cruise, manage.first_item = 0)\n") != std::string::npos);
+    CHECK(out.find("   -5.00 s  run.phase_entered(cruise)\n") != std::string::npos);
+    CHECK(out.find("run.phase_entered(takeoff)") == std::string::npos);
   }
   const auto plain =
       shell(here + run + " --no-log --duration 1");  // simulation begins at the beginning unless asked

@@ -89,7 +89,8 @@ TEST_CASE("a reader gets every word of a paced flight, the first and the last") 
   CHECK(host.wait(60s) == 0);
   CHECK(text.find("hourglass: simulation, seed 7\n") == 0);
   std::size_t at = 0;
-  for (const char* words : {"phase hold\n", "phase takeoff\n", "phase cruise\n"}) {
+  for (const char* words :
+       {"run.phase_entered(hold)\n", "run.phase_entered(takeoff)\n", "run.phase_entered(cruise)\n"}) {
     CAPTURE(words);
     at = text.find(words, at);
     CHECK(at != std::string::npos);
@@ -104,7 +105,7 @@ TEST_CASE("the last words of a program that ends at once come after those that w
   Host host({"run", hourglass, "--no-log", "--speed", "1"});
   std::string text;
   char buffer[4096];
-  while (text.find("phase takeoff") == std::string::npos) {
+  while (text.find("run.phase_entered(takeoff)") == std::string::npos) {
     const ssize_t n = read(host.ends[0], buffer, sizeof buffer);
     REQUIRE(n > 0);
     text.append(buffer, static_cast<std::size_t>(n));

@@ -50,7 +50,7 @@ struct World : SampleReader {
     if (name == "manage.path") return {{Source::Kind::component, 2, 0}, type_of<Path>()};
     if (name == "plan.plan") return {{Source::Kind::component, 3, 0}, type_of<Plan>()};
     if (name == "law.roll_error_rad") return {{Source::Kind::component, 4, 0}, nullptr};
-    throw Error("graph.dds_port_unknown(" + name);
+    throw Error("there is no port " + name);
   }
   bool operator()(const std::string& text) const { return Condition::compile(text, find)->holds(*this); }
 };
@@ -230,7 +230,7 @@ TEST_CASE("a wrong condition is refused with a sentence") {
   CHECK(refused("law.roll_error_rad.x > 3") == "graph.probe_without_fields(law, roll_error_rad)");
   CHECK(refused("law.roll_error_rad > 3 m") ==
         "graph.operand_fault(law.roll_error_rad, graph.dimension_differs(3 m, a length, , an angle))");
-  CHECK(refused("nav.stat.height_m > 3") == "graph.dds_port_unknown(nav.stat");
+  CHECK(refused("nav.stat.height_m > 3") == "there is no port nav.stat");
   CHECK(refused("plan.plan.waypoints.airspeed_mps > 3") ==
         "types.index_missing(waypoints, ' is a list of at most 1024, waypoints)");
   CHECK(refused(std::string(200, '(') + "vehicle.status.armed") == "graph.condition_too_deep");

@@ -51,11 +51,11 @@ TEST_CASE("what all may write is refused") {
   Place place;
   const fs::path real = fs::canonical(place.folder.path);
   ::chmod((real / "build/law.so").c_str(), 0646);
-  const std::string fault = "graph.file_not_private(" + (real / "build/law.so").string();
+  const std::string fault = "graph.file_not_private(law.so, " + (real / "build/law.so").string() + ")";
   CHECK(place.said("build/law.so") == fault);
   place.put("open/x.so", "x");
   ::chmod((real / "open").c_str(), 0777);
-  CHECK(place.said("open/x.so") == "graph.folder_not_private(" + (real / "open").string());
+  CHECK(place.said("open/x.so") == "graph.folder_not_private(x.so, " + (real / "open").string() + ")");
   ::chmod((real / "open").c_str(), 01777);  // as /tmp: others cannot replace it
   CHECK(place.said("open/x.so") == "");
 }
@@ -68,8 +68,8 @@ TEST_CASE("a file of another user is refused") {
   Place place;
   REQUIRE(::chown((place.folder.path / "other.so").c_str(), 4711, 4711) == 0);
   unsetenv("SUDO_UID");
-  CHECK(place.said("other.so") ==
-        "graph.file_owner_foreign(" + (fs::canonical(place.folder.path) / "other.so").string());
+  CHECK(place.said("other.so") == "graph.file_owner_foreign(other.so, 4711, " +
+                                      (fs::canonical(place.folder.path) / "other.so").string() + ")");
   setenv("SUDO_UID", "4711", 1);
   CHECK(place.said("other.so") == "");
   unsetenv("SUDO_UID");
@@ -89,7 +89,7 @@ TEST_CASE("a mission asks before it opens a file, and says where the file is use
   } catch (const Error& fault) {
     said = fault.what();
   }
-  CHECK(said.find("m.yaml:3: components.mine: graph.file_not_private(") != std::string::npos);
+  CHECK(said.find("m.yaml:3: components.mine: graph.file_not_private(law.so, ") != std::string::npos);
   CHECK_FALSE(fs::exists(store));
   unsetenv("FULMAR_PROBE");
   unsetenv("FULMAR_STORE");

@@ -98,7 +98,7 @@ TEST_CASE("a record that lacks what its type asks for is told with all that is m
   CHECK(refused("mass: -5 kg") == "file.yaml:1: mass: graph.value_out_of_range(-5 kg, 0.0001, 1e+06,  kg, )");
   for (const char* yaml : {"wing: {area_m2: -1}", "wing: {span: 0 m}", "wing: {chord: -1 cm}",
                            "inertia: {yy_kgm2: -1}", "rudder: {limit: -1 deg}"})
-    CHECK(refused(yaml).find(" is outside ") != std::string::npos);
+    CHECK(refused(yaml).find("graph.value_out_of_range(") != std::string::npos);
 }
 
 TEST_CASE("the points of a table rise, and an item of a list is whole") {
@@ -155,20 +155,36 @@ TEST_CASE("numbers of every kind arrive exactly") {
 }
 
 TEST_CASE("every fault of a record is told at once, with the line of its own file") {
-  CHECK(
-      read<Sample>("big: -1\nsmall: 2147483648\nbyte: 1.5\nnarrow: 0.5\ngains: [1, 2]\nfew: [1 m, 2 m, 3 "
-                   "m]\ntext: eight888\ncolour: "
-                   "gren\nrange: 3 m\n"
-                   "bigg: 3\ngains_ratio: 7\ntime: [1]\n")
-          .faults == "file.yaml:1: big: graph.integer_out_of_range(-1, 0, 18446744073709551615)\nfile.yaml:2: small: graph.integer_out_of_range(2147483648, -2147483648, 2147483647)\nfile.yaml:3: byte: graph.integer_invalid(1.5)\nfile.yaml:4: narrow: graph.unit_missing(0.5, graph.unit_examples(a length, m, cm, mm, km, ft, in, nmi))\nfile.yaml:5: gains: graph.item_count_invalid(2,  items, exactly 3)\nfile.yaml:6: few: graph.item_count_invalid(3,  items, at most 2)\nfile.yaml:7: text: graph.text_too_long(8, 7)\nfile.yaml:8: colour: graph.io_unknown(gren,  [green] red, green)\nfile.yaml:9: graph.field_ambiguous(, range, range_m, range_s)\nfile.yaml:10: graph.field_unknown(, bigg, Sample,  Did you mean 'big'? [] time_ns, big, small, byte, narrow_m, gains_ratio, few_m, text, colour, range_m, range_s)\nfile.yaml:11: gains_ratio: graph.field_repeated(gains)\nfile.yaml:11: gains_ratio: graph.value_not_valid(a list of exactly 3, '7')\nfile.yaml:12: time: graph.value_not_valid(a whole number, a list)");
+  CHECK(read<Sample>("big: -1\nsmall: 2147483648\nbyte: 1.5\nnarrow: 0.5\ngains: [1, 2]\nfew: [1 m, 2 m, 3 "
+                     "m]\ntext: eight888\ncolour: "
+                     "gren\nrange: 3 m\n"
+                     "bigg: 3\ngains_ratio: 7\ntime: [1]\n")
+            .faults ==
+        "file.yaml:1: big: graph.integer_out_of_range(-1, 0, 18446744073709551615)\nfile.yaml:2: small: "
+        "graph.integer_out_of_range(2147483648, -2147483648, 2147483647)\nfile.yaml:3: byte: "
+        "graph.integer_invalid(1.5)\nfile.yaml:4: narrow: graph.unit_missing(0.5, graph.unit_examples(a "
+        "length, m, cm, mm, km, ft, in, nmi))\nfile.yaml:5: gains: graph.item_count_invalid(2,  items, "
+        "exactly 3)\nfile.yaml:6: few: graph.item_count_invalid(3,  items, at most 2)\nfile.yaml:7: text: "
+        "graph.text_too_long(8, 7)\nfile.yaml:8: colour: graph.io_unknown(gren,  [green] red, "
+        "green)\nfile.yaml:9: graph.field_ambiguous(, range, range_m, range_s)\nfile.yaml:10: "
+        "graph.field_unknown(, bigg, Sample,  Did you mean 'big'? [] time_ns, big, small, byte, narrow_m, "
+        "gains_ratio, few_m, text, colour, range_m, range_s)\nfile.yaml:11: gains_ratio: "
+        "graph.field_repeated(gains)\nfile.yaml:11: gains_ratio: graph.value_not_valid(a list of exactly 3, "
+        "'7')\nfile.yaml:12: time: graph.value_not_valid(a whole number, a list)");
 }
 
 TEST_CASE("faults inside nested things name the way to them") {
   CHECK(read<Airframe>(
             "wing:\n  span: 3 kg\n  are: 1 m^2\naileron: [1]\nelevator: {reversed: maybe}\nmass_kg: .nan\n")
-            .faults == "file.yaml:2: wing.span: graph.dimension_differs(3 kg, a mass, , a length)\nfile.yaml:3: graph.field_unknown(wing: , are, Wing,  Did you mean 'area'? [] area_m2, span_m, chord_m, oswald_ratio, stall_alpha_rad, stall_sharpness_ratio)\nfile.yaml:4: aileron: graph.record_map_expected(Surface, a list)\nfile.yaml:5: elevator.reversed: graph.flag_expected('maybe')\nfile.yaml:6: mass_kg: graph.number_not_finite(.nan)");
+            .faults ==
+        "file.yaml:2: wing.span: graph.dimension_differs(3 kg, a mass, , a length)\nfile.yaml:3: "
+        "graph.field_unknown(wing: , are, Wing,  Did you mean 'area'? [] area_m2, span_m, chord_m, "
+        "oswald_ratio, stall_alpha_rad, stall_sharpness_ratio)\nfile.yaml:4: aileron: "
+        "graph.record_map_expected(Surface, a list)\nfile.yaml:5: elevator.reversed: "
+        "graph.flag_expected('maybe')\nfile.yaml:6: mass_kg: graph.number_not_finite(.nan)");
   CHECK(read<Plan>("waypoints:\n  - {position_m: [1, 2]}\n  - {position: [1, 2, 3]}\n  - 7\n").faults ==
-        "file.yaml:2: waypoints[0].position_m: expected 3 numbers [north, east, down], found 2\nfile.yaml:3: "
+        "file.yaml:2: waypoints[0].position_m: graph.number_count_invalid(3, north, east, down, "
+        "2)\nfile.yaml:3: "
         "waypoints[1].position.north: graph.unit_missing(1, graph.unit_examples(a length, m, cm, mm, km, ft, "
         "in, nmi))\nfile.yaml:3: waypoints[1].position.east: graph.unit_missing(2, graph.unit_examples(a "
         "length, m, cm, mm, km, ft, in, nmi))\nfile.yaml:3: waypoints[1].position.down: "

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/graph/messages.hpp"
 #include "core/graph/test/shelf_types.hpp"
 #include "core/types/named.hpp"
 #include "fulmar/msg/actuators.hpp"
@@ -49,7 +50,7 @@ FoundPlugin Shelf::open(const std::string& name) {
   if (it != plugins.end()) return {it->second, nullptr};
   std::vector<std::string> names;
   for (const auto& [key, info] : plugins) names.push_back(key);
-  throw Error("graph.plugin_file_missing(" + name + "'. Searched in shelf." + choices_text(name, names));
+  throw Error(graph_messages::plugin_unknown(name, "shelf", choices_text(name, names)));
 }
 
 Shelf::Shelf() {

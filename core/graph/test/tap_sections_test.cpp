@@ -55,7 +55,8 @@ TEST_CASE("a slip in live: is told with its line and what is wanted") {
   for (const char* address : {"here", "127.0.0.1:99999", "127.0.0.1:", ":80", "1.5", "300.1.1.1:80",
                               "ground-station:80", "[::x]:80"}) {
     CAPTURE(address);
-    holds(faults("live: {listen: \"" + std::string(address) + "\"}"), "6: graph.live_address_invalid(");
+    holds(faults("live: {listen: \"" + std::string(address) + "\"}"),
+          "6: graph.live_address_invalid(" + std::string(address) + ")");
   }
   holds(faults("live: {save: perhaps}"), "6: live.save: graph.flag_expected('perhaps')");
   Mission off;
@@ -96,7 +97,8 @@ TEST_CASE("tiles are named by an address that no header and no pattern can mista
                           "https://[::1]:80/{z}/{x}/{y}",
                           "https://a.b#/{z}/{x}/{y}"}) {
     CAPTURE(url);
-    holds(said(url), "hourglass.yaml:6: graph.live_tiles_invalid(");
+    holds(said(url), "hourglass.yaml:6: graph.live_tiles_invalid(" +
+                         std::string(url).substr(0, std::string(url).find('\\')));
   }
   holds(faults("live: {attribution: Example}"), "6: graph.live_tiles_missing");
   Mission mission;
@@ -149,7 +151,7 @@ TEST_CASE(
   Mission mission;
   mission.replace("  plan:   {use: path/Planner",
                   "  other:  {use: path/VectorField, in: {path: manage.path}}\n  plan:   {use: path/Planner");
-  holds(mission.faults(), "graph.input_not_connected(");
+  holds(mission.faults(), "graph.input_not_connected(components.other: the input 'state' , ");
   mission.replace("seed: 7", "dds: {import: {other.state: /uav0/nav/state}}");
   CHECK(mission.faults() == "");
   Mission with_other_io;
@@ -185,13 +187,14 @@ TEST_CASE("a slip in dds: is told with its line and what is wanted") {
   holds(faults("dds: on"), "6: dds: graph.value_not_valid('off' or a map {export, import}, 'on')");
   holds(faults("dds: {export: nav.state}"),
         "6: dds.export: graph.value_not_valid(a list of ports such as [nav.state], 'nav.state')");
-  holds(faults("dds: {export: [nav.stat]}"), "Did you mean 'nav.state'?");
+  holds(faults("dds: {export: [nav.stat]}"), "graph.dds_port_unknown(nav.stat,  [nav.state] ");
   holds(faults("dds: {export: [{topic: /x}]}"), "6: graph.dds_port_missing");
   holds(faults("dds: {export: [{port: nav.state, topic: \"a b\"}]}"),
         "6: dds.export: graph.dds_topic_invalid(a b)");
   holds(faults("dds: {export: [{port: nav.state, topic: /x}, {port: manage.path, topic: /x}]}"),
         "6: graph.dds_topic_repeated(/x)");
-  holds(faults("dds: {import: [plan.edits]}"), "6: dds.import: expected a map");
+  holds(faults("dds: {import: [plan.edits]}"),
+        "6: dds.import: graph.value_not_valid(a map {component.input: /topic}, a list)");
   holds(faults("dds: {import: {plan.edis: /x}}"),
         "6: dds.import.plan.edis: graph.imported_input_unknown(path/Planner,  [edits] state, edits, edit)");
   holds(faults("dds: {import: {plan.edit: /x}}"), "graph.imported_input_invalid");

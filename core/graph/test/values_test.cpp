@@ -33,7 +33,7 @@ TEST_CASE("two fences that differ are reported, one for all is not") {
   };
   CHECK(warnings("1").empty());
   REQUIRE(warnings("1.5").size() == 1);
-  CHECK(warnings("1.5")[0].find("plan.fence is another one than ekf.fence") != std::string::npos);
+  CHECK(warnings("1.5")[0].find("graph.fences_differ(plan, ekf)") != std::string::npos);
 }
 
 TEST_CASE("an origin at a pole, where north turns within a flight, is refused by its line") {
@@ -50,9 +50,13 @@ TEST_CASE("parameters exist, fit and lie in their range") {
         "[turbulence] rate, epoch, wind_ned, turbulence, airframe, origin)");
   CHECK(changed("[3, -4, 0]", "[3, -4]") ==
         "21: components.sim.params.wind_ned: graph.three_numbers_expected(north, east, down, 2)");
-  CHECK(changed("[3, -4, 0]", "[3 kt, -40 m/s, .inf]") == "21: components.sim.params.wind_ned.east: graph.value_out_of_range(-40 m/s, -30, 30,  m/s, )\n21: components.sim.params.wind_ned.down: graph.number_not_finite(.inf)");
+  CHECK(changed("[3, -4, 0]", "[3 kt, -40 m/s, .inf]") ==
+        "21: components.sim.params.wind_ned.east: graph.value_out_of_range(-40 m/s, -30, 30,  m/s, )\n21: "
+        "components.sim.params.wind_ned.down: graph.number_not_finite(.inf)");
   CHECK(
-      changed("use: control_slc/Inner", "params: {roll_kp: 9, roll_limit: 80 deg}, use: control_slc/Inner") == "30: components.attitude.params.roll_kp: graph.value_out_of_range(9, 0, 2,  rad/rad, )\n30: components.attitude.params.roll_limit: graph.value_out_of_range(80 deg, 0, 60,  deg, )");
+      changed("use: control_slc/Inner", "params: {roll_kp: 9, roll_limit: 80 deg}, use: control_slc/Inner") ==
+      "30: components.attitude.params.roll_kp: graph.value_out_of_range(9, 0, 2,  rad/rad, )\n30: "
+      "components.attitude.params.roll_limit: graph.value_out_of_range(80 deg, 0, 60,  deg, )");
   CHECK(changed("use: estimator_ekf", "params: {use_mag: 3, skip: 1.5, gate: {}}, use: estimator_ekf") ==
         "23: components.ekf.params.use_mag: graph.flag_expected('3')\n23: components.ekf.params.skip: "
         "graph.integer_invalid(1.5)\n23: components.ekf.params.gate: graph.value_not_valid(a number in rad, "
@@ -67,10 +71,13 @@ TEST_CASE("parameters exist, fit and lie in their range") {
         "graph.parameter_missing(attitude, airframe, , ; give the mission's 'airframe')");
   CHECK(changed("airframe: anaconda.yaml", "airframe: annaconda.yaml") ==
         "3: airframe: graph.file_missing(annaconda.yaml, . Did you mean 'anaconda.yaml'?)");
-  CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387, latt: 3") == "4: origin.alt_msl: graph.unit_missing(1387, graph.unit_examples(a length, m, cm, mm, km, ft, in, nmi))\n4: graph.field_unknown(origin: , latt, Origin,  Did you mean 'lat'? [] lat_deg, lon_deg, alt_msl_m)");
+  CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387, latt: 3") ==
+        "4: origin.alt_msl: graph.unit_missing(1387, graph.unit_examples(a length, m, cm, mm, km, ft, in, "
+        "nmi))\n4: graph.field_unknown(origin: , latt, Origin,  Did you mean 'lat'? [] lat_deg, lon_deg, "
+        "alt_msl_m)");
   CHECK(changed("alt_msl: 1387 m", "alt: 1387 m")
-            .find("graph.field_unknown(origin: , alt, Origin,  [alt_msl] lat_deg, lon_deg, alt_msl_m)") !=
-        std::string::npos);
+            .find("graph.field_unknown(origin: , alt, Origin,  Did you mean 'alt_msl'? [] lat_deg, lon_deg, "
+                  "alt_msl_m)") != std::string::npos);
   CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387 m, given: true")
             .find("graph.field_unknown(origin: , given, Origin,  [] lat_deg, lon_deg, alt_msl_m)") !=
         std::string::npos);
@@ -100,7 +107,9 @@ TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes
         std::string::npos);
   CHECK(with("{set: {turbulence: light}, fallback: spare}").first.find("graph.phase_vehicle_fixed") !=
         std::string::npos);
-  CHECK(with("{set: {rate: 200 Hz}}").first.find("graph.phase_parameter_fixed(") != std::string::npos);
+  CHECK(with("{set: {rate: 200 Hz}}")
+            .first.find("graph.phase_parameter_fixed(phases.cruise.vehicle.set, rate, ") !=
+        std::string::npos);
   CHECK(with("{set: {wind: 3}}")
             .first.find("graph.phase_parameter_unknown(sim, wind,  [] wind_ned, turbulence)") !=
         std::string::npos);

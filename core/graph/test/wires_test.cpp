@@ -13,13 +13,16 @@ TEST_CASE("wires end at ports that exist and fit") {
   CHECK(
       changed("plan: plan.plan", "plan: plan.pln") ==
       "26: components.manage.in.plan: types.name_unknown_in(plan (path/Planner), output, pln,  [plan] plan)");
-  CHECK(changed("plan: plan.plan", "plan: pln.plan") == "26: components.manage.in.plan: there is no role or component 'pln'. [plan] vehicle, nav, guide, outer, inner, sim, ekf, truth, plan, manage, follow, slc, tecs, attitude, mine, score");
+  CHECK(changed("plan: plan.plan", "plan: pln.plan") ==
+        "26: components.manage.in.plan: types.name_unknown(role or component, pln,  [plan] vehicle, nav, "
+        "guide, outer, inner, sim, ekf, truth, plan, manage, follow, slc, tecs, attitude, mine, score)");
   CHECK(changed("plan: plan.plan", "plan: nav.stat") ==
         "26: components.manage.in.plan: types.name_unknown_in(the role nav, output, stat,  [state] state)");
   CHECK(changed("plan: plan.plan", "plan: plan") ==
         "26: components.manage.in.plan: graph.port_expected(plan)");
   CHECK(changed("plan: plan.plan", "plan: manage.progress") ==
-        "26: components.manage.in.plan: manage.plan takes Plan, but manage.progress is Progress");
+        "26: components.manage.in.plan: graph.message_types_mismatch(manage, plan, Plan, manage.progress, "
+        "Progress)");
   CHECK(
       changed(", plan: plan.plan", "") ==
       "26: graph.input_not_connected(components.manage: the input 'plan' , outputs of type Plan: plan.plan)");
@@ -39,7 +42,7 @@ TEST_CASE("wires end at ports that exist and fit") {
   CHECK(changed("{state: nav.state, plan:", "{state: fcu.imu, plan:") ==
         "26: components.manage.in.state: graph.component_of_other_io(fcu, fcu)");
   CHECK(changed("use: path/Planner,", "use: path/Planner, in: {edit: plan.plan},") ==
-        "25: components.plan.in.edit: plan.edit takes PlanEdit, but plan.plan is Plan");
+        "25: components.plan.in.edit: graph.message_types_mismatch(plan, edit, PlanEdit, plan.plan, Plan)");
 }
 
 TEST_CASE("a request is not fed by an output that is sent in every step") {

@@ -43,13 +43,15 @@ TEST_CASE("a role in --with stands for the component that fills it in this run")
 
 TEST_CASE("a role that several fill in turn is refused, with their names; so is what is neither") {
   Mission mission;
-  CHECK(mission.faults(with({{"outer", "control_tecs"}})) == "--with outer=control_tecs: graph.role_ambiguous(outer, slc, tecs, mine)");
+  CHECK(mission.faults(with({{"outer", "control_tecs"}})) ==
+        "--with outer=control_tecs: graph.role_ambiguous(outer, slc, tecs, mine)");
   Overrides one = with({{"outer", "control_slc/Outer"}});
   one.roles = {{"outer", "tecs"}};
   const Graph graph = mission.load(one);
   CHECK(graph.source.overrides.with == Pairs{{"tecs", "control_slc/Outer"}});
   CHECK(use_of(graph, "tecs") == "control_slc/Outer");
-  CHECK(mission.faults(with({{"navi", "x"}})).starts_with("--with navi=x: there is no component 'navi'."));
+  CHECK(mission.faults(with({{"navi", "x"}}))
+            .starts_with("--with navi=x: types.name_unknown(component, navi, "));
   CHECK(mission.faults(with({{"vehicle", "nothing"}})).find("components.sim: ") != std::string::npos);
 }
 
@@ -63,9 +65,10 @@ TEST_CASE("a filter of one's own takes the place of the shipped one with the inp
   const Graph graph = mission.load(with({{"nav", "my_filter"}}));
   CHECK(use_of(graph, "ekf") == "my_filter/MyFilter");
   REQUIRE(graph.source.warnings.size() == 1);
-  CHECK(graph.source.warnings[0].find("components.ekf.in.status") != std::string::npos);
+  CHECK(graph.source.warnings[0].find(
+            "graph.connection_left_out(components.ekf.in.status, my_filter/MyFilter)") != std::string::npos);
   mission.shelf.add("my_filter", "Other", inputs, ekf.outputs);
-  CHECK(mission.faults(with({{"nav", "my_filter"}})).find("--with ekf=my_filter/MyFilter") !=
+  CHECK(mission.faults(with({{"nav", "my_filter"}})).find(", ekf, my_filter, MyFilter)") !=
         std::string::npos);
   CHECK(mission.faults(with({{"nav", "my_filter/Other"}})) == "");
 }

@@ -19,6 +19,7 @@
 #include "core/isolate/messages.hpp"
 #include "core/loader/float_mode.hpp"
 #include "core/loader/library.hpp"
+#include "core/loader/messages.hpp"
 #include "core/loader/script.hpp"
 #include "core/loader/shared_object.hpp"
 #include "core/loader/table.hpp"
@@ -72,7 +73,7 @@ class Session {
       std::uint32_t status = judged(call, error);
       if (!plain_arithmetic()) {
         make_arithmetic_plain();
-        std::snprintf(error.text, sizeof error.text, "%s", changed_arithmetic);
+        loader_messages::float_mode_changed.write(error.text, sizeof error.text);
         status = FULMAR_FAILED;
       }
       answer(number, status, error);
@@ -250,7 +251,7 @@ class Session {
     if (!original_mark.is_set()) end_copy();
     const char* const fork = std::exchange(refused_fork, nullptr);
     if (fork == nullptr) return status;
-    std::snprintf(error.text, sizeof error.text, "calls %s in flight; %s", fork, copy_would_fly);
+    isolate_messages::fork_refused.write(error.text, sizeof error.text, fork, copy_would_fly);
     return FULMAR_FAILED;
   }
 

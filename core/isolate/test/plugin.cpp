@@ -205,7 +205,7 @@ struct Faulty {
         volatile char room[1];
         return deeper(0, room) == 1 ? Status::failed : Status::ok;
       }
-      case Fault::throws: throw std::runtime_error("isolate.not_created(the law is broken)");
+      case Fault::throws: throw std::runtime_error("the law is broken");
       case Fault::leaks: leak(1000); break;
       case Fault::killed: ::raise(SIGKILL); break;
       case Fault::divides: ::raise(SIGFPE); break;

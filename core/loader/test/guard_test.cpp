@@ -59,15 +59,15 @@ TEST_CASE("each bad value is named") {
         "heading_rad is inf");
   CHECK(words([](Route& r) { r.lap = 10; }) == "lap is 10, outside [-2, 9]");
   CHECK(words([](Route& r) { r.gains_ratio[2] = not_a_number; }) == "gains_ratio[2] is nan");
-  CHECK(words([](Route& r) { r.mode = 3; }) == "mode is 3, which no label names");
-  CHECK(words([](Route& r) { r.valid = 2; }) == "valid is 2, which is neither false nor true");
+  CHECK(words([](Route& r) { r.mode = 3; }) == "types.label_value_invalid(mode, 3)");
+  CHECK(words([](Route& r) { r.valid = 2; }) == "types.flag_value_invalid(valid, 2)");
   CHECK(words([](Route& r) { std::memset(r.label, 'x', sizeof r.label); }) ==
-        "label is a text without an end");
-  CHECK(words([](Route& r) { r.waypoints.count = 6; }) == "waypoints has 6 items, more than its 5");
+        "types.field_not_terminated(label)");
+  CHECK(words([](Route& r) { r.waypoints.count = 6; }) == "types.too_many_items(waypoints, 6, 5)");
   CHECK(words([](Route& r) { r.waypoints.items[2].position_m.down = not_a_number; }) ==
         "waypoints[2].position_m.down is nan");
   CHECK(words([](Route& r) { r.waypoints.items[2].hold = 7; }) ==
-        "waypoints[2].hold is 7, which is neither false nor true");
+        "types.flag_value_invalid(waypoints[2].hold, 7)");
   CHECK(words([](Route& r) { r.corners_m[1].north = not_a_number; }) == "corners_m[1].north is nan");
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("large arrays of structs are checked to the last item") {
   CHECK(guard.check(data));
   message[n - 1].hold = 2;
   CHECK_FALSE(guard.check(data));
-  CHECK(guard.explain(data) == "path[199].hold is 2, which is neither false nor true");
+  CHECK(guard.explain(data) == "types.flag_value_invalid(path[199].hold, 2)");
 }
 
 TEST_CASE("a one-sided range leaves the other side open but finite") {

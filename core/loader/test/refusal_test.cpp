@@ -41,9 +41,10 @@ std::string host() {
 }  // namespace
 
 TEST_CASE("a file that is missing, a folder, or not a shared object is refused") {
-  CHECK(refusal(folder() / "no_such.so") == "loader.plugin_missing(" + (folder() / "no_such.so").string());
-  CHECK(refusal(FULMAR_TEST_PLUGIN_DIR "/stub") == "loader.plugin_not_regular(" FULMAR_TEST_PLUGIN_DIR
-                                                   "loader.plugin_not_regular(");
+  CHECK(refusal(folder() / "no_such.so") ==
+        "loader.plugin_missing(no_such.so, " + (folder() / "no_such.so").string() + ")");
+  CHECK(refusal(FULMAR_TEST_PLUGIN_DIR "/stub") == "loader.plugin_not_regular(stub, " FULMAR_TEST_PLUGIN_DIR
+                                                   "/stub)");
   CHECK(refusal(write("text.so", "this is no code\n")) == "loader.file_fault(text.so, loader.elf_missing)");
   CHECK(refusal(write("empty.so", "")) == "loader.file_fault(empty.so, loader.elf_missing)");
   CHECK(refusal(write("stump.so", read(plugin("good")).substr(0, 10))) ==
@@ -55,8 +56,8 @@ TEST_CASE("a file that is missing, a folder, or not a shared object is refused")
 TEST_CASE("a file that is cut off is refused before anything maps it") {
   const std::string whole = read(plugin("good"));
   CHECK(refusal(write("short.so", whole.substr(0, whole.size() - 1))) ==
-        "loader.file_fault(short.so, loader.plugin_truncated(17400, 17399))" + std::to_string(whole.size()) +
-            " bytes, the file has " + std::to_string(whole.size() - 1));
+        "loader.file_fault(short.so, loader.plugin_truncated(" + std::to_string(whole.size()) + ", " +
+            std::to_string(whole.size() - 1) + "))");
   CHECK(refusal(write("header.so", whole.substr(0, 64))) ==
         "loader.file_fault(header.so, loader.program_headers_damaged)");
   CHECK(refusal(with_header("far.so", [](Elf64_Ehdr& h) { h.e_phoff = ~0ull; })) ==
@@ -65,13 +66,13 @@ TEST_CASE("a file that is cut off is refused before anything maps it") {
 
 TEST_CASE("a file for another machine is refused") {
   CHECK(refusal(with_header("alien.so", [](Elf64_Ehdr& h) { h.e_machine = EM_S390; })) ==
-        "loader.file_fault(alien.so, loader.machine_differs(s390, x86_64))" + host());
+        "loader.file_fault(alien.so, loader.machine_differs(s390, " + host() + "))");
   CHECK(refusal(with_header("odd.so", [](Elf64_Ehdr& h) { h.e_machine = 9999; })) ==
-        "loader.file_fault(odd.so, loader.machine_differs(machine 9999, x86_64))" + host());
+        "loader.file_fault(odd.so, loader.machine_differs(machine 9999, " + host() + "))");
   const Elf64_Half other = host() == "aarch64" ? EM_X86_64 : EM_AARCH64;
   CHECK(refusal(with_header("arm.so", [&](Elf64_Ehdr& h) { h.e_machine = other; })) ==
-        std::string("loader.file_fault(arm.so, loader.machine_differs(aarch64, x86_64))") +
-            (other == EM_AARCH64 ? "aarch64" : "x86_64") + ", this host is " + host());
+        std::string("loader.file_fault(arm.so, loader.machine_differs(") +
+            (other == EM_AARCH64 ? "aarch64" : "x86_64") + ", " + host() + "))");
 }
 
 TEST_CASE("a shared object that is no plugin, or of another ABI, is refused") {
@@ -132,14 +133,15 @@ TEST_CASE("files that would share static data are not loaded side by side") {
   if (!fs::exists(plugin("resident_unique"))) return;  // clang makes no such symbols
   const auto first = fulmar::core::Library::open(plugin("resident_unique"));
   const std::string second = refusal(plugin("resident_unique_too"));
-  for (const char* const word : {"resident_unique_too.so", "resident_unique.so", "-fno-gnu-unique"})
-    CHECK_MESSAGE(second.find(word) != std::string::npos, second);
+  CHECK_MESSAGE(second.starts_with("loader.unique_symbol_shared(resident_unique_too.so, "), second);
+  CHECK_MESSAGE(second.ends_with(", resident_unique.so)"), second);
   CHECK(refusal(plugin("resident_unique")) == "accepted");
   CHECK(refusal(plugin("unique_alone")) == "accepted");
 }
 
 TEST_CASE("the last words of a plugin that cannot be loaded are in its refusal, without control characters") {
-  CHECK(refusal(plugin("words_throws")) == "loader.plugin_crashed(words_throws.so, loaded, 6, : what():  loader.plugin_crashed(words_throws.so, loaded, 6, : what():  the licence server is not reached))");
+  CHECK(refusal(plugin("words_throws")) ==
+        "loader.plugin_crashed(words_throws.so, loaded, 6, : what():  the licence server is not reached)");
   CHECK(refusal(plugin("words_exits")) ==
         "loader.plugin_ended_process(words_exits.so, loaded, 1, : the runtime does not come first)");
   const std::string aborted = refusal(plugin("words_aborts"));
@@ -157,7 +159,7 @@ TEST_CASE("what a plugin does while it is loaded happens to a child") {
   CHECK(refusal(plugin("hang")) == "loader.probe_timed_out(hang.so, loading, 1.6 s)");
   const std::string busy = refusal(plugin("busy"));  // on a busy machine the clock on the wall may be first
   CHECK((busy == "loader.probe_timed_out(busy.so, loading, 0.4 s of the CPU)" ||
-         busy == "busy.so did not finish loading within 1.6 s"));
+         busy == "loader.probe_timed_out(busy.so, loading, 1.6 s)"));
 }
 
 TEST_CASE("what a plugin has started where it is tried ends with the trial, wherever it went") {
@@ -221,7 +223,7 @@ TEST_CASE("a store that others can write to is refused") {
   fs::create_directory(open);
   ::chmod(open.c_str(), 0777);
   const Environment store("FULMAR_STORE", open.string());
-  CHECK(refusal(plugin("good_open")) == "the plugin store " + open.string() + "loader.store_not_private(");
+  CHECK(refusal(plugin("good_open")) == "loader.store_not_private(" + open.string() + ")");
 }
 
 TEST_CASE("a copy in the store that was tampered with is replaced") {
@@ -262,8 +264,8 @@ TEST_CASE("a version that is no longer there is named") {
   } catch (const fulmar::core::Error& fault) {
     said = fault.what();
   }
-  CHECK(said == "my_law.so 1.4.0 with SHA-256 " + sha + "loader.stored_plugin_missing(" +
-                    (folder() / "store").string() + "loader.stored_plugin_missing(");
+  CHECK(said ==
+        "loader.stored_plugin_missing(my_law.so, 1.4.0, " + sha + ", " + (folder() / "store").string() + ")");
 }
 
 TEST_CASE("the store keeps the 128 copies that were used last") {

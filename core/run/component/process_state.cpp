@@ -11,8 +11,10 @@
 #include <csignal>
 #include <cstring>
 
+#include "core/loader/messages.hpp"
 #include "core/original.hpp"
 #include "core/run/component/problem.hpp"
+#include "core/run/messages.hpp"
 
 namespace fulmar::core {
 
@@ -38,7 +40,7 @@ void end_forked_copy() noexcept {
 std::uint32_t put_right(fulmar_error& problem) noexcept {
   if (!plain_arithmetic()) {
     make_arithmetic_plain();
-    put_problem(problem, changed_arithmetic);
+    put_problem(problem, loader_messages::float_mode_changed);
   } else {
     put_problem(problem, run_messages::call_refused, refused_call, refused_since);
   }
@@ -87,7 +89,6 @@ Function behind(const char* name) noexcept {
 
 using fulmar::core::refuse_fork;
 #include "core/fork_hooks.hpp"
-#include "core/run/messages.hpp"
 
 using fulmar::core::behind;
 using fulmar::core::refuse;

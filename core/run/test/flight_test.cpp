@@ -160,11 +160,11 @@ TEST_CASE("every fault of a law is caught in its tick, the fallback flies in the
   struct Case {
     const char *fault, *what;
   };
-  for (const Case& c : {Case{"nan", "output 'command': u_frac is nan"},
-                        Case{"range", "output 'command': u_frac is 1.5, outside [-1, 1]"},
-                        Case{"throws", "the law is broken  ?\xc3\xa9  2J"},
-                        Case{"fails", "run.vehicle_failed(says that it failed)"},
-                        Case{"probe_nan", "probe 'error_m' is not finite"}}) {
+  for (const Case& c :
+       {Case{"nan", "output 'command': u_frac is nan"},
+        Case{"range", "output 'command': u_frac is 1.5, outside [-1, 1]"},
+        Case{"throws", "the law is broken  ?\xc3\xa9  2J"}, Case{"fails", "says that it failed"},
+        Case{"probe_nan", "run.probe_not_finite(error_m)"}}) {
     CAPTURE(c.fault);
     const Graph g = mission(with_fallback, {{"one.fault", c.fault}, {"one.fault_at", "0.1"}});
     Flight flight(g, options(0.1));  // ends with the tick of the fault

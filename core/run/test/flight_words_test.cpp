@@ -149,13 +149,13 @@ TEST_CASE("the log holds each request, each refusal and its reason") {
   for (const McapFile::Message& m : file.messages) {
     if (m.channel != file.channel("/fulmar/event")) continue;
     const std::string bytes(reinterpret_cast<const char*>(m.data.data()), m.data.size());
-    for (const char* text : {"ask refused: cannot go back", "ask"})
+    for (const char* text : {"run.request_refused(ask, cannot go back)", "ask"})
       if (bytes.find("watch") != std::string::npos && bytes.find(text) != std::string::npos) {
         reported.push_back(text);
         break;
       }
   }
-  CHECK(reported == std::vector<std::string>{"ask", "ask", "ask refused: cannot go back"});
+  CHECK(reported == std::vector<std::string>{"ask", "ask", "run.request_refused(ask, cannot go back)"});
 }
 
 TEST_CASE("each event is a line for log panels as well, with its level and the time of the log") {

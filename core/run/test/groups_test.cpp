@@ -150,7 +150,7 @@ TEST_CASE("--role puts the group, or a single one, in its place in every phase")
   Overrides apart;
   apart.roles = {{"sense", "both"}, {"law", "two"}};
   CHECK_THROWS_WITH(load_mission(file, apart),
-                    "--role: two fills law, both fills sense and law; they cannot fly together");
+                    "--role: graph.components_share_roles(two, law, both, sense and law)");
 }
 
 TEST_CASE("groups that cannot be are refused, with a sentence") {

@@ -168,7 +168,7 @@ TEST_CASE("a driver that fails is stopped, and told of") {
   CHECK(r.outcome == Outcome::flown);
   REQUIRE(r.guards.size() == 1);
   CHECK(r.guards[0].component == "gauge");
-  CHECK(r.guards[0].what == "run.vehicle_failed(says that it failed)");
+  CHECK(r.guards[0].what == "says that it failed");
 }
 
 TEST_CASE("a driver's sample is valid when the driver says, else when it arrives") {

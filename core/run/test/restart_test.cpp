@@ -93,9 +93,9 @@ TEST_CASE(
       const bool resumed = asked || arm_at < 1;
       CHECK(flight.phase() == (resumed ? "second" : "first"));
       CHECK(applied(next, flight) == 1);
-      CHECK(said.count("resumed: phase second, law_a.heirloom = 1") == (resumed ? 1 : 0));
-      CHECK(said.count("not resumed: the aircraft is not in the air, armed") == (resumed ? 0 : 1));
-      CHECK(said.count("phase ") == (asked ? 2 : resumed ? 3 : 1));
+      CHECK(said.count("run.resumed(phase second, law_a.heirloom = 1") == (resumed ? 1 : 0));
+      CHECK(said.count("run.not_resumed_on_ground") == (resumed ? 0 : 1));
+      CHECK(said.count("phase_entered(") + said.count("run.resumed(phase ") == (asked ? 2 : resumed ? 3 : 1));
     }
 }
 
@@ -136,8 +136,9 @@ TEST_CASE("a parameter of a log that cannot be set any more is told, and the fli
   Flight flight(g, o);
   CHECK(fly_until(flight, 1));
   CHECK(flight.phase() == "second");
-  CHECK(said.count("phase ") == 3);  // the first, what is resumed, and the second: all in the first tick
-  CHECK(said.count("law_a: not resumed: law_a.heirloom: 7") == 1);
+  CHECK(said.count("run.phase_entered(") + said.count("run.resumed(phase ") ==
+        3);  // the first, what is resumed, and the second: all in the first tick
+  CHECK(said.count("law_a: run.not_resumed(run.value_out_of_range(law_a, heirloom, 7, ") == 1);
   CHECK(applied(g, flight) == doctest::Approx(1).epsilon(0.01));
 }
 

@@ -260,13 +260,10 @@ TEST_CASE("what does not meet by the rules of DDS is told once, in a sentence") 
   }
   spdlog::set_default_logger(usual);
   scene.bridge.reset();
-  CHECK(reported(
-      "dds: another participant reads rt/nav/state reliably, but it is exported with best_effort: the "
-      "two do not meet"));
-  CHECK(reported(
-      "dds: another participant writes rt/leader/state with the type geometry_msgs::msg::dds_::Pose_; "
-      "here it is "
-      "fulmar_msgs::msg::dds_::Mixed_: the two do not meet"));
+  CHECK(reported("dds.peer_reliability_differs(rt/nav/state)"));
+  CHECK(
+      reported("dds.peer_type_differs(writes, rt/leader/state, geometry_msgs::msg::dds_::Pose_, "
+               "fulmar_msgs::msg::dds_::Mixed_)"));
 }
 
 }  // namespace topics_test

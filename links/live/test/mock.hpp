@@ -57,7 +57,7 @@ class MockControl : public Control {
     if (component != "slc")
       throw Error("there is no component '" + component + "'." + choices_text(component, {"slc", "plan"}));
     if (param == "roll_kp" && (text.find_first_not_of("0123456789.e-") != std::string::npos))
-      throw Error("'" + text + "graph.number_invalid(");
+      throw Error("'" + text + "' is not a number");
     note("set " + component + "." + param + " " + text);
     work([this, param, text, answer = std::move(answer)] {
       ++sets;

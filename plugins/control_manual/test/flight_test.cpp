@@ -89,7 +89,7 @@ TEST_CASE("a word that is no choice of an axis is refused before the flight, wit
   const Said r = typed("check " FULMAR_SOURCE_DIR "/configs/missions/manual.yaml --set moved.course=stick");
   CHECK(r.code == 4);
   for (const char* word :
-       {"moved.course", "'stick'", "graph.io_unknown(stick,  [sticks] sticks, automatic, hold, flown)"})
+       {"moved.course: ", "graph.io_unknown(stick,  [sticks] sticks, automatic, hold, flown)"})
     CHECK_MESSAGE(holds(r.out, word), r.out);
   const Folder folder;
   const fs::path file = folder.path / "wrong.yaml";
@@ -108,9 +108,9 @@ TEST_CASE(
   const Said r = typed("run " + folder.mission().string() +
                        " --role transmitter=script --set script.lost=65 --duration 75 --no-log");
   CHECK_MESSAGE(r.code == 0, r.out);
-  CHECK_MESSAGE(holds(r.out, "65.59 s  phase cruise"),
+  CHECK_MESSAGE(holds(r.out, "65.59 s  run.phase_entered(cruise)"),
                 r.out);  // 0.5 s without a frame, 0.1 s of the condition
-  CHECK_MESSAGE(holds(r.out, "66.50 s  phase increments"), r.out);
+  CHECK_MESSAGE(holds(r.out, "66.50 s  run.phase_entered(increments)"), r.out);
 }
 
 TEST_CASE(
@@ -124,7 +124,7 @@ TEST_CASE(
                            log.string());
   REQUIRE_MESSAGE(flown.code == 0, flown.out);
   for (const char* phase : {"increments", "angles", "rates", "surfaces", "research"})
-    CHECK_MESSAGE(holds(flown.out, std::string("phase ") + phase), flown.out);
+    CHECK_MESSAGE(holds(flown.out, std::string("run.phase_entered(") + phase + ")"), flown.out);
   CHECK(holds(flown.out, "manual: flown (duration reached)"));
 
   REQUIRE(typed("log export " + log.string() + " --to csv --out " + csv.string()).code == 0);

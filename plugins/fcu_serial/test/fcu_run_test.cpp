@@ -79,7 +79,7 @@ TEST_CASE("a satellite receiver") {
     pty.write({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
     pause_us(20000);
   });
-  refused(fly(device.name()), "fcu.text_received(/dev/ttyUSB3)");
+  refused(fly(device.name()), "sends text, not MAVLink: it is no flight controller");
 }
 
 TEST_CASE("an old firmware") {

@@ -84,10 +84,10 @@ TEST_CASE("a line that loses nearly everything says nothing of the radio; a radi
   std::uint32_t dice = 1;
   f.world.lost = [&dice](const Packet&) { return (dice = dice * 1664525 + 1013904223) >> 24 >= 8; };  // 97 %
   f.fly(20);
-  CHECK(times(f, "fcu.outputs_frozen") == 0);
+  CHECK(times(f, "outputs are frozen") == 0);
   f.world.fcu.inputs.rc_frames = false;
   f.fly(10);
-  CHECK(times(f, "fcu.outputs_frozen") == 1);
+  CHECK(times(f, "outputs are frozen") == 1);
   f.world.lost = [](const Packet&) { return false; };
   f.world.fcu.inputs.rc_frames = true;
   f.fly(2);

@@ -77,7 +77,7 @@ TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") 
   over = true;
   pilot.join();
   CHECK_MESSAGE(first.code == 0, first.out);
-  CHECK(holds(first.out, "the pilot is there"));
+  CHECK(holds(first.out, "joystick.pilot_present(" + pipe.path() + ")"));
 
   const Said replayed = typed("replay " + log.string());
   CHECK(replayed.code == 0);
@@ -92,7 +92,7 @@ TEST_CASE("a roll is flown by hand, and its log flies it again, byte for byte") 
 TEST_CASE("without a joystick the aircraft is not armed, and the pilot is told why") {
   const Pipe pipe;
   const Said r = typed("run " + mission(pipe).string() + " --speed 4 --duration 3 --no-log");
-  CHECK(holds(r.out, "the pilot is not there: No such file or directory"));
+  CHECK(holds(r.out, "joystick.pilot_absent(" + pipe.path() + ", No such file or directory)"));
   CHECK(holds(r.out, "hold"));
   CHECK_FALSE(holds(r.out, "takeoff"));
 }

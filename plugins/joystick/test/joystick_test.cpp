@@ -81,7 +81,7 @@ TEST_CASE("sticks, throttle and switches come out as a transmitter's channels, e
   CHECK(rc.aux1_frac == 1);
   CHECK(rc.aux2_frac == 0);  // never heard of: the middle
   CHECK(rc.aux4_frac == -1);
-  CHECK(holds(reported(bench), "js0: the pilot is there"));
+  CHECK(holds(reported(bench), "joystick.pilot_present(" + pipe.path() + ")"));
   pipe.write(axis(0, -32768) + axis(2, 32767));
   rc = frame(bench);
   CHECK(rc.roll_frac == -1);  // a driver outside the kernel's range
@@ -189,19 +189,19 @@ TEST_CASE(
   CHECK(bench.step(frame_s) == Status::degraded);
   CHECK(bench.out.rc.count == 1);
   CHECK_FALSE(bench.out.rc.items[0].link);
-  CHECK(holds(reported(bench), "js0: the pilot is not there: No such file"));
+  CHECK(holds(reported(bench), "joystick.pilot_absent(" + pipe.path() + ", No such file"));
   frame(bench);
   CHECK(reported(bench) == "");
   pipe.plug();
   pipe.write(axis(0, 32767) + axis(2, 32767) + button(1, true));
   Rc rc = frame(bench);
   CHECK(rc.link);
-  CHECK(holds(reported(bench), "the pilot is back") == true);
+  CHECK(holds(reported(bench), "joystick.pilot_back(" + pipe.path() + ")") == true);
   pipe.pull();
   rc = frame(bench);
   CHECK_FALSE(rc.link);
   CHECK(rc.throttle_frac == 0);
-  CHECK(holds(reported(bench), "the pilot is lost: nobody sends"));
+  CHECK(holds(reported(bench), "joystick.pilot_lost(" + pipe.path() + ", joystick.sender_missing)"));
   frame(bench);
   CHECK(reported(bench) == "");
   pipe.plug();
@@ -211,7 +211,7 @@ TEST_CASE(
   CHECK(rc.link);
   CHECK(rc.roll_frac == 0);  // where the stick was before is not where it is
   CHECK(rc.throttle_frac == 0);
-  CHECK(holds(reported(bench), "the pilot is back"));
+  CHECK(holds(reported(bench), "joystick.pilot_back(" + pipe.path() + ")"));
 }
 
 TEST_CASE("a pipe that nobody has opened for writing is nobody") {
@@ -220,7 +220,7 @@ TEST_CASE("a pipe that nobody has opened for writing is nobody") {
   Bench<Joystick> bench;
   use(bench, pipe);
   CHECK_FALSE(frame(bench).link);
-  CHECK(holds(reported(bench), "not there: nobody sends"));
+  CHECK(holds(reported(bench), "joystick.pilot_absent(" + pipe.path() + ", joystick.sender_missing)"));
 }
 
 TEST_CASE("a sender that opens a pipe at any time does not find it broken, and a second one goes on") {
@@ -255,7 +255,7 @@ TEST_CASE("a record that no joystick sends changes nothing and is counted; many 
   for (int i = 0; i < 8; ++i) garbage += "garbage\n";
   pipe.write(garbage);
   CHECK_FALSE(frame(bench).link);
-  CHECK(holds(reported(bench), "lost: what it sends is no joystick's"));
+  CHECK(holds(reported(bench), "joystick.pilot_lost(" + pipe.path() + ", joystick.records_foreign"));
   CHECK(bench.out.unknown_records_ratio.value == 13);
   pipe.write(axis(0, -32767));
   CHECK(frame(bench).roll_frac == -1);  // it comes to its senses
@@ -301,16 +301,16 @@ TEST_CASE("what can be no joystick is refused before the flight; what may not be
   std::ofstream(pipe.path()) << "text";
   use(bench, pipe);
   CHECK_THROWS_WITH(bench.component().configure(bench.params),
-                    doctest::Contains("is neither a device nor a pipe"));
+                    ("joystick.device_invalid(" + pipe.path() + ")").c_str());
   bench.params.device.value = Text<128>("");
-  CHECK_THROWS_WITH(bench.component().configure(bench.params), doctest::Contains("'device' is empty"));
+  CHECK_THROWS_WITH(bench.component().configure(bench.params), "joystick.device_missing");
   std::filesystem::remove(pipe.path());
   if (geteuid() == 0) return;  // who may do everything
   pipe.make();
   chmod(pipe.path().c_str(), 0);
   use(bench, pipe);
   CHECK_FALSE(frame(bench).link);
-  CHECK(holds(reported(bench), "permission denied"));
+  CHECK(holds(reported(bench), "joystick.pilot_absent(" + pipe.path() + ", joystick.permission_missing"));
 }
 
 }  // namespace joystick_test

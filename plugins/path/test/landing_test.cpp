@@ -284,29 +284,29 @@ TEST_CASE("a fence that the pattern leaves, or comes too near to, is refused wit
     return strip.bench.configure() == Status::failed ? std::string(strip.bench.error()) : std::string();
   };
   const auto begins = [](const std::string& text, const char* with) { return text.find(with) == 0; };
-  const std::string circle = "fence.corners: the circle onto the final approach, ";
+  const auto near = [](const std::string& part) {
+    return "fence.corners: path.landing_near_fence(path." + part + ", ";
+  };
+  const std::string circle = near("landing_circle");
   CHECK(refused(box(256, 84, -686, 216)) == "");
-  CHECK(begins(refused(box(254, 84, -686, 216)),
-               (circle + "240 m north, -600 m east, leaves 14 m to the fence, of 15 m").c_str()));
+  CHECK(begins(refused(box(254, 84, -686, 216)), (circle + "240, -600, 14, 15)").c_str()));
   CHECK(begins(refused(box(230, 84, -686, 216)),
-               (circle + "240 m north, -600 m east, lies 10 m outside of the fence").c_str()));
+               "fence.corners: path.landing_outside_fence(path.landing_circle, 240, -600, 10)"));
   CHECK(begins(refused(box(256, 84, -684, 216)), circle.c_str()));
   CHECK(begins(refused(box(256, 86, -686, 216)), circle.c_str()));
   CHECK(begins(refused(box(256, 84, -686, 216), 1e9, true), circle.c_str()));  // to the other side
-  CHECK(begins(refused(box(256, 84, -686, 214)), "fence.corners: the runway, 100 m north, 200 m east"));
+  CHECK(begins(refused(box(256, 84, -686, 214)), (near("runway") + "100, 200, ").c_str()));
   CHECK(begins(refused({{256, -686}, {256, 216}, {84, 216}, {84, -350}, {95, -360}, {84, -370}, {84, -686}}),
-               "fence.corners: the final approach, 100 m north, -3"));
+               (near("final_approach") + "100, -3").c_str()));
   // tan(0.07) (400 + 50) m + 20 m = 51.6 m
   CHECK(refused(box(256, 84, -686, 216), 67) == "");
-  CHECK(refused(box(256, 84, -686, 216), 66) ==
-        "fence.ceiling_m: the circle onto the final approach is 52 m high, the ceiling 66 m");
+  CHECK(refused(box(256, 84, -686, 216), 66) == "fence.ceiling_m: path.landing_above_ceiling(52, 66)");
 }
 
 TEST_CASE("a runway that is too short is refused with what it takes") {
   Strip strip(200);
   CHECK(strip.bench.configure() == Status::failed);
-  CHECK(std::string(strip.bench.error()) ==
-        "runway.length: 200 m is too short; aim, flare and roll take 214 m in still air");
+  CHECK(std::string(strip.bench.error()) == "runway.length: path.runway_too_short(200, 214)");
   CHECK(Strip(215).bench.configure() == Status::ok);
 }
 
@@ -319,8 +319,7 @@ TEST_CASE("a glide slope that sinks more than the aircraft may is refused with w
   CHECK(strip.bench.configure() == Status::failed);
   // 1.1 12.9 sin 0.07 = 0.9925; asin(0.67 / 14.19) = 0.04723
   CHECK(std::string(strip.bench.error()) ==
-        "glide_slope: 0.070 rad at the 14.19 m/s of the approach sinks by 0.992 m/s in still air, and the "
-        "airframe's limits.sink_rate_max is 0.670 m/s; at most 0.047 rad");
+        "glide_slope: path.glide_slope_steep(0.070, 14.19, 0.992, 0.670, 0.047)");
   strip.bench.params.pattern.glide_slope.value = 0.047;
   CHECK(strip.bench.configure() == Status::ok);
   strip.bench.params.pattern.glide_slope.value = 0.07;
@@ -380,16 +379,13 @@ TEST_CASE(
   CHECK(strip.at(300, 0, 25).height_m == doctest::Approx(15));
   strip.bench.params.plan.value.runway.length_m = 200;
   CHECK(strip.bench.configure() == Status::failed);
-  CHECK(std::string(strip.bench.error()).starts_with("plan.runway.length: 200 m is too short"));
+  CHECK(std::string(strip.bench.error()).starts_with("plan.runway.length: path.runway_too_short(200, "));
   strip.bench.params.runway.value = own;
   strip.bench.params.runway.is_given = true;
   REQUIRE(strip.bench.configure() == Status::ok);
   CHECK(strip.at(300, 0, 25).height_m == doctest::Approx(25));
 
-  const char* const words =
-      ": there is no runway to land on; give one here or in the plan, as {north, east, up, heading, length} "
-      "or "
-      "{lat, lon, alt_msl, heading, length}";
+  const char* const words = ": path.runway_missing";
   Strip none;
   none.bench.params.runway = {.doc = ""};
   CHECK(none.bench.configure() == Status::failed);
@@ -416,7 +412,7 @@ TEST_CASE("a runway that is half local or half geodetic is refused") {
       r.lat_deg = 40;
     }
     CHECK(strip.bench.configure() == Status::failed);
-    CHECK(std::string(strip.bench.error()) == "runway: needs either north, east, up or lat, lon, alt_msl");
+    CHECK(std::string(strip.bench.error()) == "runway: path.runway_place_ambiguous");
   }
 }
 

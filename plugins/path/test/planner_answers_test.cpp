@@ -83,7 +83,7 @@ TEST_CASE("who sends an edit learns by its number whether it was taken, and why 
   CHECK_FALSE(r.accepted);
   CHECK_FALSE(r.in_force);
   CHECK(r.waypoint_id == 0);
-  CHECK(r.reason == "less than 1 m from the waypoint before it");
+  CHECK(r.reason == "path.waypoint_before_close");
   CHECK_FALSE(desk.bench.out.plan.written);
   desk.bench.push(desk.bench.in.edit, edit(PlanEditKind::clear, 43));
   desk.step();
@@ -100,8 +100,7 @@ TEST_CASE(
   bad.index = 9;
   desk.push(bad);
   REQUIRE(desk.bench.out.notices.count == 1);
-  CHECK(desk.bench.out.notices.items[0].text ==
-        "plan edit 7 refused: there is no waypoint of this index; the first is 0");
+  CHECK(desk.bench.out.notices.items[0].text == "path.edit_refused(7, path.waypoint_index_unknown)");
   CHECK(desk.bench.out.notices.items[0].severity == Severity::warning);
   int reported = 0;
   for (int i = 0; i < 49; ++i) {
@@ -112,12 +111,11 @@ TEST_CASE(
   desk.push(bad);
   REQUIRE(desk.bench.out.notices.count == 1);
   CHECK(desk.bench.out.notices.items[0].text ==
-        "plan edit 7 refused: there is no waypoint of this index; the first is 0 (and 49 before)");
+        "path.edit_refused_again(7, path.waypoint_index_unknown, 49)");
   CHECK(desk.bench.out.refused_ratio.value == 51);
   desk.push(of_group(edit(PlanEditKind::append, 0, 900), 3, 0));
   REQUIRE(desk.bench.out.notices.count == 1);  // another reason is told at once
-  CHECK(desk.bench.out.notices.items[0].text ==
-        "plan edit refused: an edit of a group says of how many: group_size");
+  CHECK(desk.bench.out.notices.items[0].text == "path.edit_without_id_refused(path.group_size_missing)");
 }
 
 TEST_CASE("a waypoint keeps its id whatever is edited around it, and an id is given once") {
@@ -143,7 +141,7 @@ TEST_CASE("a waypoint keeps its id whatever is edited around it, and an id is gi
   desk.push(away);
   CHECK(desk.norths() == Norths{0, 350, 600});
   desk.push(away);
-  CHECK(desk.result().reason == "there is no waypoint of this id");
+  CHECK(desk.result().reason == "path.waypoint_id_unknown");
   desk.push(edit(PlanEditKind::clear, 5));
   desk.push(edit(PlanEditKind::append, 6, 10));
   CHECK(desk.result().waypoint_id == 5);
@@ -177,8 +175,8 @@ TEST_CASE("of a group with one fault nothing takes effect, and each of its edits
   desk.step();
   REQUIRE(desk.bench.out.results.count == 3);
   CHECK(desk.result(0).accepted);
-  CHECK(desk.result(1).reason == "there is no waypoint of this id");
-  CHECK(desk.result(2).reason == "another edit of its group was refused");
+  CHECK(desk.result(1).reason == "path.waypoint_id_unknown");
+  CHECK(desk.result(2).reason == "path.group_refused");
   for (std::uint32_t i = 0; i < 3; ++i) CHECK_FALSE(desk.result(i).in_force);
   CHECK(desk.norths() == as_it_was);
   CHECK_FALSE(desk.bench.out.plan.written);
@@ -192,13 +190,13 @@ TEST_CASE("waypoints of a group may be anywhere on the way, but are apart at its
   first.waypoint_id = 1;
   second.waypoint_id = 2;
   desk.push(first);
-  CHECK(desk.result().reason == "less than 1 m from the waypoint after it");
+  CHECK(desk.result().reason == "path.waypoint_after_close");
   desk.push(of_group(first, 8, 2));
   desk.push(of_group(second, 8, 2));
   CHECK(desk.norths() == Norths{300, 0, 600});
   second.waypoint.position_m.north = 600;
   desk.push(of_group(second, 9, 1));
-  CHECK(desk.result().reason == "two waypoints would be less than 1 m apart");
+  CHECK(desk.result().reason == "path.waypoints_close");
   CHECK(desk.norths() == Norths{300, 0, 600});
 }
 
@@ -209,19 +207,19 @@ TEST_CASE("a group that is not completed, or comes while the plan is changed, is
   REQUIRE(desk.bench.out.results.count == 2);
   CHECK(desk.result(0).group == 5);
   CHECK(desk.result(0).id == 1);
-  CHECK(desk.result(0).reason == "its group was not complete when another began");
+  CHECK(desk.result(0).reason == "path.group_incomplete");
   CHECK(desk.result(1).accepted);
   desk.bench.push(desk.bench.in.edit, edit(PlanEditKind::append, 3, 1500));  // from the ground, meanwhile
   desk.step();
   CHECK(desk.result().in_force);
   desk.push(of_group(edit(PlanEditKind::append, 4, 1800), 6, 2));
-  CHECK(desk.result().reason == "the plan was changed while its group came");
+  CHECK(desk.result().reason == "path.group_outdated");
   CHECK(desk.norths() == Norths{0, 300, 600, 1500});
   desk.push(of_group(edit(PlanEditKind::append, 5, 1800), 7, 0));
-  CHECK(desk.result().reason == "an edit of a group says of how many: group_size");
+  CHECK(desk.result().reason == "path.group_size_missing");
   desk.push(of_group(edit(PlanEditKind::append, 6, 1800), 8, 2));
   desk.push(of_group(edit(PlanEditKind::append, 7, 2100), 8, 3));
-  CHECK(desk.result().reason == "the edits of its group differ in group_size");
+  CHECK(desk.result().reason == "path.group_sizes_differ");
 }
 
 TEST_CASE("revisions grow by one, also when a group began in the step that published another edit") {
@@ -250,10 +248,10 @@ TEST_CASE("end, radius and airspeed of the plan are edited, within their ranges"
   CHECK(desk.plan.waypoints.count == 3);
   radius.turn_radius_m = 0.5;
   desk.push(radius);
-  CHECK(desk.result().reason == "turn_radius is 1 m to 100 km");
+  CHECK(desk.result().reason == "path.turn_radius_out_of_range");
   speed.airspeed_mps = 1;
   desk.push(speed);
-  CHECK(desk.result().reason == "airspeed is 3 to 300 m/s");
+  CHECK(desk.result().reason == "path.airspeed_out_of_range");
   CHECK(desk.plan.turn_radius_m == 80);
 }
 

@@ -93,9 +93,9 @@ TEST_CASE("a waypoint outside the fence, above its ceiling or below its floor is
     return bench.configure() == Status::failed ? std::string(bench.error()) : std::string();
   };
   CHECK(refusal(900, 119) == "");
-  CHECK(refusal(3700, 70).find("waypoint 4 of the plan is 2700 m outside") != std::string::npos);
-  CHECK(refusal(900, 121).find("waypoint 4") != std::string::npos);
-  CHECK(refusal(900, 29).find("waypoint 4") != std::string::npos);
+  CHECK(refusal(3700, 70) == "path.waypoint_outside_fence(4, 2700)");
+  CHECK(refusal(900, 121) == "path.waypoint_above_ceiling(4, 121)");
+  CHECK(refusal(900, 29) == "path.waypoint_below_floor(4, 29)");
 }
 
 TEST_CASE("airspeed and bank beyond the airframe are reported once, within it never") {
@@ -184,29 +184,29 @@ TEST_CASE("a bad edit is refused with its reason and changes nothing") {
     CHECK_FALSE(bench.out.plan.written);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  refused(edit(PlanEditKind::remove, 3), "no waypoint of this index");
-  refused(edit(PlanEditKind::replace, 7, 0, 0), "no waypoint of this index");
-  refused(edit(PlanEditKind::set_current, 3), "no waypoint of this index");
-  refused(edit(PlanEditKind::insert, 4, 0, 0), "beyond the end");
-  refused(edit(PlanEditKind::append, 0, nan, 0), "not finite");
-  refused(edit(PlanEditKind::append, 0, 0, 0, nan), "not finite");
-  refused(edit(PlanEditKind::append, 0, 2e5, 0), "100 km");
-  refused(edit(PlanEditKind::append, 0, 600.5, 100), "less than 1 m from the waypoint before");
-  refused(edit(PlanEditKind::insert, 1, 300, 100.2), "less than 1 m from the waypoint after");
-  refused(edit(PlanEditKind::replace, 1, 600, 100), "less than 1 m from the waypoint after");
+  refused(edit(PlanEditKind::remove, 3), "path.waypoint_index_unknown");
+  refused(edit(PlanEditKind::replace, 7, 0, 0), "path.waypoint_index_unknown");
+  refused(edit(PlanEditKind::set_current, 3), "path.waypoint_index_unknown");
+  refused(edit(PlanEditKind::insert, 4, 0, 0), "path.index_beyond_end");
+  refused(edit(PlanEditKind::append, 0, nan, 0), "path.coordinate_not_finite");
+  refused(edit(PlanEditKind::append, 0, 0, 0, nan), "path.coordinate_not_finite");
+  refused(edit(PlanEditKind::append, 0, 2e5, 0), "path.origin_too_far");
+  refused(edit(PlanEditKind::append, 0, 600.5, 100), "path.waypoint_before_close");
+  refused(edit(PlanEditKind::insert, 1, 300, 100.2), "path.waypoint_after_close");
+  refused(edit(PlanEditKind::replace, 1, 600, 100), "path.waypoint_after_close");
   PlanEdit course = edit(PlanEditKind::append, 0, 900, 0);
   course.waypoint.course_rad = nan;
-  refused(course, "course");
+  refused(course, "path.course_not_finite");
   PlanEdit speed = edit(PlanEditKind::append, 0, 900, 0);
   speed.waypoint.airspeed_mps = -1;
-  refused(speed, "airspeed");
+  refused(speed, "path.airspeed_not_valid");
   PlanEdit kind = edit(PlanEditKind::append, 0, 900, 0);
   kind.kind = static_cast<PlanEditKind>(77);
-  refused(kind, "no such kind");
+  refused(kind, "path.edit_kind_unknown");
   PlanEdit pole = edit(PlanEditKind::append, 0);
   pole.waypoint.frame = WaypointFrame::geodetic;
   pole.waypoint.latitude_deg = 91;
-  refused(pole, "latitude");
+  refused(pole, "path.latitude_out_of_range");
   CHECK(ask(bench, edit(PlanEditKind::replace, 1, 300, 101)) == "accepted");  // near itself is no fault
 }
 
@@ -268,23 +268,28 @@ TEST_CASE("a file that is wrong is refused with a sentence that names the waypoi
     CHECK(bench.configure() == Status::failed);
     return bench.error();
   };
-  CHECK(fault([](PlanFile& f) { f.waypoints[1].lat_deg = 40; }).find("waypoint 2") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.waypoints[1].lat_deg = 40; }).find("path.waypoint_place_ambiguous(2)") !=
+        std::string::npos);
   CHECK(fault([](PlanFile& f) {
           f.waypoints[2].up_m = not_given;
-        }).find("waypoint 3 of the plan needs north, east and up") != std::string::npos);
+        }).find("path.waypoint_place_missing(3, north, east and up)") != std::string::npos);
   CHECK(fault([](PlanFile& f) {
           f.waypoints[2] = f.waypoints[1];
-        }).find("waypoint 3 of the plan: less than 1 m from the waypoint before it") != std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.waypoints.count = 1; }).find("one waypoint, which makes no circuit") !=
+        }).find("path.waypoint_not_valid(3, path.waypoint_before_close)") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.waypoints.count = 1; }).find("path.circuit_of_one") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.waypoints[0] = {}; }).find("path.waypoint_place_ambiguous(1)") !=
         std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.waypoints[0] = {}; }).find("waypoint 1") != std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.airspeed_mps = 0; }).find("airspeed") != std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.turn_radius_m = 0; }).find("turn_radius") != std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.airspeed_mps = 0; }).find("path.plan_airspeed_not_positive") !=
+        std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.turn_radius_m = 0; }).find("path.plan_turn_radius_small") !=
+        std::string::npos);
   CHECK(fault([](PlanFile& f) {
           f.waypoints.count = 0;
           f.given = true;
-        }).find("the plan has no waypoints") != std::string::npos);  // {turn_radius: 80 m} alone
-  CHECK(fault([](PlanFile& f) { f.waypoints[0].airspeed_mps = -3; }).find("airspeed") != std::string::npos);
+        }).find("path.plan_empty") != std::string::npos);  // {turn_radius: 80 m} alone
+  CHECK(fault([](PlanFile& f) {
+          f.waypoints[0].airspeed_mps = -3;
+        }).find("path.waypoint_not_valid(1, path.airspeed_not_valid)") != std::string::npos);
 }
 
 TEST_CASE("edits of the queue are applied in order, and what is refused is counted") {
@@ -315,7 +320,7 @@ TEST_CASE("a waypoint in the ground is refused, in a file, in an edit, and when 
   three_waypoints(bench);
   bench.params.plan.value.waypoints[1].up_m = -70;
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() == "waypoint 2 of the plan: lower than the planner allows: its parameter 'lowest'");
+  CHECK(bench.error() == "path.waypoint_not_valid(2, path.waypoint_low)");
   bench.params.lowest.value = -100;  // beside a cliff
   CHECK(bench.configure() == Status::ok);
 
@@ -324,7 +329,7 @@ TEST_CASE("a waypoint in the ground is refused, in a file, in an edit, and when 
   REQUIRE(air.configure() == Status::ok);
   air.push(air.in.edit, PlanEdit{});  // an append that says no place
   air.step(0.01);
-  CHECK(air.answer(air.in.edit, 0) == "lower than the planner allows: its parameter 'lowest'");
+  CHECK(air.answer(air.in.edit, 0) == "path.waypoint_low");
   CHECK(air.out.plan.value.waypoints.count == 3);
 
   Bench<Planner> map;
@@ -340,8 +345,7 @@ TEST_CASE("a waypoint in the ground is refused, in a file, in an edit, and when 
   CHECK(map.step(0.01) == Status::degraded);
   CHECK_FALSE(map.out.plan.written);
   REQUIRE(map.out.notices.count == 1);
-  CHECK(map.out.notices.items[0].text.view() ==
-        "waypoint 2 of the plan: lower than the planner allows: its parameter 'lowest'");
+  CHECK(map.out.notices.items[0].text.view() == "path.waypoint_not_valid(2, path.waypoint_low)");
   map.step(0.01);
   CHECK(map.out.notices.count == 0);
 }
@@ -351,7 +355,7 @@ TEST_CASE("too high is as far away as too deep") {
   for (const double down : {-1.1e5, 1.1e5}) {
     PlanEdit far = edit(PlanEditKind::append, 0, 900, 100);
     far.waypoint.position_m.down = down;
-    CHECK(ask(bench, far) == "more than 100 km from the origin");
+    CHECK(ask(bench, far) == "path.origin_too_far");
   }
 }
 

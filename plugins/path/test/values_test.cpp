@@ -297,7 +297,7 @@ TEST_CASE("a plan is in doubt beyond the airframe's airspeeds and bank, and at e
     CHECK_FALSE(fast(17, beyond).empty());
   }
   const std::string both = fast(99, 1);  // the first that is found
-  CHECK(both.find("99") == 0);
+  CHECK(both.starts_with("path.airspeed_beyond_airframe(99, "));
   const double least = 20 * 20 / (g * std::tan(limits.roll_max_rad));
   Plan plan;
   plan.airspeed_mps = 20;
@@ -308,10 +308,10 @@ TEST_CASE("a plan is in doubt beyond the airframe's airspeeds and bank, and at e
   plan.turn_radius_m = least / 2;  // twice the tangent of the bank
   const std::string words = radius_doubt(plan, limits).data();
   const auto degrees = [](double rad) { return std::to_string(std::lround(rad * 180 / pi)); };
-  CHECK(words.find(" " + degrees(std::atan(2 * std::tan(limits.roll_max_rad))) + " deg") !=
-        std::string::npos);
-  CHECK(words.find(" " + degrees(limits.roll_max_rad) + " deg") != std::string::npos);
-  CHECK(words.find(std::to_string(std::lround(least)) + " m") != std::string::npos);
+  CHECK(words.starts_with("path.turn_radius_tight("));
+  CHECK(words.find(", " + degrees(std::atan(2 * std::tan(limits.roll_max_rad))) + ", " +
+                   degrees(limits.roll_max_rad) + ", ") != std::string::npos);
+  CHECK(words.ends_with(", " + std::to_string(std::lround(least)) + ")"));
 }
 
 TEST_CASE("a waypoint outside the fence, above its ceiling or below its floor is refused by its number") {
@@ -340,10 +340,10 @@ TEST_CASE("a waypoint outside the fence, above its ceiling or below its floor is
   };
   CHECK(refused(299, 199, 99).empty());
   CHECK(refused(-49, -99, 21).empty());
-  CHECK(refused(330, 0, 50).find("waypoint 2 of the plan is 30 m outside") == 0);
-  CHECK(refused(0, -117, 50).find("waypoint 2 of the plan is 17 m outside") == 0);
-  CHECK(refused(0, 0, 101).find("at 101 m, above") != std::string::npos);
-  CHECK(refused(0, 0, 19).find("at 19 m, below") != std::string::npos);
+  CHECK(refused(330, 0, 50).find("path.waypoint_outside_fence(2, 30)") == 0);
+  CHECK(refused(0, -117, 50).find("path.waypoint_outside_fence(2, 17)") == 0);
+  CHECK(refused(0, 0, 101).find("path.waypoint_above_ceiling(2, 101)") != std::string::npos);
+  CHECK(refused(0, 0, 19).find("path.waypoint_below_floor(2, 19)") != std::string::npos);
 }
 
 TEST_CASE(

@@ -374,7 +374,8 @@ TEST_CASE("a misspelt name fails at once, and a whole message may be assigned") 
   CHECK(error("out.attitude.rol_rad = 1").find("'AttitudeCommand' object has no attribute 'rol_rad'") !=
         std::string::npos);
   CHECK(error("p.gian").find("'Params' object has no attribute 'gian'") != std::string::npos);
-  CHECK(error("out.attitude = 3").find("out.attitude is AttitudeCommand, not int") != std::string::npos);
+  CHECK(error("out.attitude = 3").find("python.output_type_invalid(attitude, AttitudeCommand, int)") !=
+        std::string::npos);
   CHECK(error("return 'ok'").find("return nothing, f.ok, f.degraded or f.failed") != std::string::npos);
   CHECK(error("return f.ok") == "ok");
   Law law(head + "out.attitude = f.AttitudeCommand(roll_rad=0.5); return f.degraded\n");

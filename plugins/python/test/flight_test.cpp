@@ -133,8 +133,7 @@ TEST_CASE(
 TEST_CASE("a script that cannot be opened is a fault of the mission, with its line and that of the script") {
   const Result missing = fulmar("check " + mission("import nosuchthing\n"));
   CHECK(missing.code == 4);
-  CHECK(missing.err.find(
-            "mission.yaml:9: components.mine: law.py:1: there is no Python module 'nosuchthing'") !=
+  CHECK(missing.err.find("mission.yaml:9: components.mine: law.py:1: python.module_missing(nosuchthing)") !=
         std::string::npos);
   const Result syntax = fulmar("check " + mission("class Law\n"));
   CHECK(syntax.err.find("law.py:1: expected ':'") != std::string::npos);
@@ -149,7 +148,7 @@ TEST_CASE("a script that cannot be opened is a fault of the mission, with its li
         std::string::npos);
   text.replace(text.find("law.py"), 6, "lww.py");
   std::ofstream(folder() / "mission.yaml") << text;
-  CHECK(fulmar("check " + (folder() / "mission.yaml").string()).err.find("graph.plugin_unknown(") !=
+  CHECK(fulmar("check " + (folder() / "mission.yaml").string()).err.find("graph.plugin_unknown(lww.py") !=
         std::string::npos);
 }
 
@@ -160,7 +159,7 @@ TEST_CASE(
   ::unsetenv("FULMAR_PROBE_SECONDS");
   CHECK(loop.code == 4);
   // 2 s of the CPU, or on a busy machine 8 s by the clock on the wall
-  CHECK(loop.err.find("loader.probe_timed_out(law.py, loading, 2 s of the CPU)") != std::string::npos);
+  CHECK(loop.err.find("loader.probe_timed_out(law.py, loading, ") != std::string::npos);
   CHECK(fulmar("check " + mission("import os\nos._exit(3)\n"))
             .err.find("loader.plugin_ended_process(law.py, loaded, 3, )") != std::string::npos);
   CHECK(fulmar("check " + mission("import os\nos.abort()\n"))

@@ -68,7 +68,7 @@ TEST_CASE("a bank that stays off its command is reported after a second, either 
     w.fly(0.9);
     CHECK(w.reported.empty());
     w.fly(0.2);
-    CHECK(w.count(Severity::critical, "bank 26 deg") == 1);
+    CHECK(w.count(Severity::critical, "safety.bank_off(26)") == 1);
     w.asked.roll_rad = side * 13 * deg;  // more than half of the 15 deg
     w.fly(10);
     CHECK(w.reported.size() == 1);
@@ -76,7 +76,7 @@ TEST_CASE("a bank that stays off its command is reported after a second, either 
     w.fly(2.9);
     CHECK(w.reported.size() == 1);
     w.fly(0.2);
-    CHECK(w.count(Severity::info, "bank") == 1);
+    CHECK(w.count(Severity::info, "safety.bank_follows") == 1);
   }
 }
 
@@ -88,12 +88,12 @@ TEST_CASE("a bank that closes on its command is a turn that begins, one that goe
     w.fly(1.9);
     CHECK(w.reported.empty());
     w.fly(0.3);  // 2 s off the command are no turn that begins
-    CHECK(w.count(Severity::critical, "bank") == 1);
+    CHECK(w.count(Severity::critical, "safety.bank_off(") == 1);
     Watching away;
     away.asked.roll_rad = side * 40 * deg;
     away.state.rate_radps.x = -side * 0.2;
     away.fly(1.1);
-    CHECK(away.count(Severity::critical, "bank") == 1);
+    CHECK(away.count(Severity::critical, "safety.bank_off(") == 1);
   }
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("an aircraft that rolls on and on is reported, though half of the way 
     w.state.rate_radps.x = 200 * deg;
     w.fly(0.02);
   }
-  CHECK(w.count(Severity::critical, "bank") == 1);
+  CHECK(w.count(Severity::critical, "safety.bank_off(") == 1);
 }
 
 TEST_CASE("the rates of bank and pitch are those of the Euler angles, in a steep turn too") {
@@ -115,7 +115,7 @@ TEST_CASE("the rates of bank and pitch are those of the Euler angles, in a steep
   turn.state.rate_radps = {0, rate * std::sin(roll), rate * std::cos(roll)};
   turn.asked.pitch_rad = 20 * deg;
   turn.fly(1.1);
-  CHECK(turn.count(Severity::critical, "pitch 20 deg") == 1);
+  CHECK(turn.count(Severity::critical, "safety.pitch_off(20)") == 1);
   CHECK(turn.reported.size() == 1);
   // With the nose at 40 deg the same turn takes a roll rate of -rate sin(pitch) to hold the bank.
   Watching climb;
@@ -126,7 +126,7 @@ TEST_CASE("the rates of bank and pitch are those of the Euler angles, in a steep
   climb.state.rate_radps = {rate * std::sin(pitch), rate * std::cos(pitch) * std::sin(roll),
                             -rate * std::cos(pitch) * std::cos(roll)};
   climb.fly(1.1);
-  CHECK(climb.count(Severity::critical, "bank 20 deg") == 1);
+  CHECK(climb.count(Severity::critical, "safety.bank_off(20)") == 1);
   CHECK(climb.reported.size() == 1);
 }
 
@@ -159,11 +159,11 @@ TEST_CASE("what comes and goes is reported once in 30 s") {
     w.asked.roll_rad = 0;
     w.fly(4);
   }
-  CHECK(w.count(Severity::critical, "bank") == 1);
+  CHECK(w.count(Severity::critical, "safety.bank_off(") == 1);
   w.fly(30);
   w.asked.roll_rad = 30 * deg;
   w.fly(2);
-  CHECK(w.count(Severity::critical, "bank") == 2);
+  CHECK(w.count(Severity::critical, "safety.bank_off(") == 2);
 }
 
 TEST_CASE("a motor without thrust and a weak one have their names, and a Monitor's are left to it") {
@@ -179,8 +179,8 @@ TEST_CASE("a motor without thrust and a weak one have their names, and a Monitor
     dead.actuators.throttle_frac = weak.actuators.throttle_frac = 1;
     dead.fly(10);
     weak.fly(20);
-    CHECK(dead.count(Severity::critical, "no thrust from the motor") == (monitored ? 0 : 1));
-    CHECK(weak.count(Severity::warning, "weak motor") == (monitored ? 0 : 1));
+    CHECK(dead.count(Severity::critical, "safety.engine_failed") == (monitored ? 0 : 1));
+    CHECK(weak.count(Severity::warning, "safety.engine_weak(") == (monitored ? 0 : 1));
     CHECK(dead.reported.size() == (monitored ? 0U : 1U));
   }
 }
@@ -193,10 +193,10 @@ TEST_CASE("a battery that fades is low at 0.83 of its voltage and empty at 0.75"
   CHECK(w.reported.empty());
   w.status.battery_volt = 0.82 * full;
   w.fly(3.1);
-  CHECK(w.count(Severity::warning, "battery low") == 1);
+  CHECK(w.count(Severity::warning, "safety.battery_low(") == 1);
   w.status.battery_volt = 0.74 * full;
   w.fly(3.1);
-  CHECK(w.count(Severity::critical, "battery empty") == 1);
+  CHECK(w.count(Severity::critical, "safety.battery_empty(") == 1);
   CHECK(w.reported.size() == 2);
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("wind above 0.6 of the cruise airspeed is reported from every side") {
     below.fly(30);
     above.fly(12);
     CHECK(below.reported.empty());
-    CHECK(above.count(Severity::warning, "wind") == 1);
+    CHECK(above.count(Severity::warning, "safety.wind_excessive(") == 1);
     above.state.wind_valid = false;  // not known any more: neither more nor less
     above.state.wind_mps = {};
     above.fly(60);

@@ -62,25 +62,25 @@ TEST_CASE("room is the distance to the nearest side, negative outside, whichever
 }
 
 TEST_CASE("what is no fence is refused in one sentence that names the corner") {
-  CHECK(refusal(fence_of({{0, 0}, {100, 0}})).find("fence.corners: 2 of them; a fence has 3") == 0);
-  CHECK(refusal(fence_of({{0, 0}, {100, 100}, {100, 0}, {0, 100}})).find("cross each other") !=
+  CHECK(refusal(fence_of({{0, 0}, {100, 0}})).find("fence.corners: flight.fence_corners_few(2)") == 0);
+  CHECK(refusal(fence_of({{0, 0}, {100, 100}, {100, 0}, {0, 100}})).find("flight.fence_sides_cross(") !=
         std::string::npos);
-  CHECK(refusal(fence_of({{0, 0}, {100, 0}, {50, 0}, {50, 100}})).find("cross each other") !=
+  CHECK(refusal(fence_of({{0, 0}, {100, 0}, {50, 0}, {50, 100}})).find("flight.fence_sides_cross(") !=
         std::string::npos);
   CHECK(refusal(fence_of({{0, 0}, {100, 0}, {100, 100}, {0, 100}})) == "");
   Fence f = fence_of({{0, 0}, {100, 0}, {100, 100}});
   f.floor_m = 100;
   f.ceiling_m = 50;
-  CHECK(refusal(f).find("fence.floor_m: 100 m is not below the ceiling, 50 m") == 0);
+  CHECK(refusal(f).find("fence.floor_m: flight.fence_floor_high(100, 50)") == 0);
   f = fence_of({{0, 0}, {100, 0}, {100, 100}});
   f.corners[1].lat_deg = 40;
   f.corners[1].lon_deg = 10;
-  CHECK(refusal(f).find("fence.corners[1]: both") == 0);
+  CHECK(refusal(f).find("fence.corners[1]: flight.place_given_twice") == 0);
   f.corners[1] = {};
-  CHECK(refusal(f).find("fence.corners[1]: give north and east, or lat and lon") == 0);
+  CHECK(refusal(f).find("fence.corners[1]: flight.place_missing") == 0);
   f.corners[1].lat_deg = 40;
   f.corners[1].lon_deg = 10;
-  CHECK(refusal(f).find("fence.corners[1]: lat and lon need the mission's origin") == 0);
+  CHECK(refusal(f).find("fence.corners[1]: flight.origin_missing") == 0);
 }
 
 TEST_CASE("latitude and longitude are metres from the origin") {
@@ -170,10 +170,10 @@ TEST_CASE("a place that is named twice is refused, one that lies a metre off is 
       return std::string(e.what());
     }
   };
-  CHECK(refused(9.5, 0.5) == "places.places[2]: is the same place as places.places[0]");
+  CHECK(refused(9.5, 0.5) == "places.places[2]: flight.places_equal(0)");
   CHECK(refused(9, 1.1) == "3");
   CHECK(refused(9, -1.1) == "3");
-  CHECK(refused(0, 0) == "places.places[2]: is the same place as places.places[1]");
+  CHECK(refused(0, 0) == "places.places[2]: flight.places_equal(1)");
 }
 
 TEST_CASE("height: what the reaction and the pull-out take") {

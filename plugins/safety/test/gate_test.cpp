@@ -48,26 +48,33 @@ TEST_CASE("an aircraft in order is ready at once, and no line is said of it") {
 }
 
 TEST_CASE("each thing that is wrong on the ground is refused by its name, once") {
-  refuses(&NotReady::fence, "not ready: outside the fence by 300 m",
+  refuses(&NotReady::fence, "safety.not_ready(safety.outside_fence(300))",
           [](Stands& w) { w.state.position_m.north = 1300; });
-  refuses(&NotReady::fence, "not ready: 0 m to the fence",
+  refuses(&NotReady::fence, "safety.not_ready(safety.near_fence(0))",
           [](Stands& w) { w.state.position_m.east = -1000; });
-  refuses(&NotReady::fence, "not ready: 14 m to the fence", [](Stands& w) { w.state.position_m.east = 986; });
-  refuses(&NotReady::height, "not ready: above the ceiling by 12 m",
+  refuses(&NotReady::fence, "safety.not_ready(safety.near_fence(14))",
+          [](Stands& w) { w.state.position_m.east = 986; });
+  refuses(&NotReady::height, "safety.not_ready(safety.above_ceiling(12))",
           [](Stands& w) { w.state.height_m = 132; });
-  refuses(&NotReady::height, "not ready: 10 m to the ceiling", [](Stands& w) { w.state.height_m = 110; });
-  refuses(&NotReady::pitot, "not ready: pitot", [](Stands& w) { w.health.pitot.state = SensorState::stuck; });
-  refuses(&NotReady::pitot, "not ready: pitot",
+  refuses(&NotReady::height, "safety.not_ready(safety.near_ceiling(10))",
+          [](Stands& w) { w.state.height_m = 110; });
+  refuses(&NotReady::pitot, "safety.not_ready(safety.pitot_missing)",
+          [](Stands& w) { w.health.pitot.state = SensorState::stuck; });
+  refuses(&NotReady::pitot, "safety.not_ready(safety.pitot_missing)",
           [](Stands& w) { w.health.pitot.state = SensorState::silent; });
-  refuses(&NotReady::position, "not ready: position", [](Stands& w) { w.state.position_valid = false; });
-  refuses(&NotReady::position, "not ready: position",
+  refuses(&NotReady::position, "safety.not_ready(safety.position_missing)",
+          [](Stands& w) { w.state.position_valid = false; });
+  refuses(&NotReady::position, "safety.not_ready(safety.position_missing)",
           [](Stands& w) { w.health.gnss_position.state = SensorState::silent; });
-  refuses(&NotReady::estimator, "not ready: estimate", [](Stands& w) { w.state.attitude_valid = false; });
-  refuses(&NotReady::radio, "not ready: radio",
+  refuses(&NotReady::estimator, "safety.not_ready(safety.estimate_missing)",
+          [](Stands& w) { w.state.attitude_valid = false; });
+  refuses(&NotReady::radio, "safety.not_ready(safety.radio_missing)",
           [](Stands& w) { w.params.radio.radio_required.value = true; });
-  refuses(&NotReady::battery, "not ready: battery", [](Stands& w) { w.status.battery_frac = 0.2; });
-  refuses(&NotReady::wind, "not ready: wind 10 m/s", [](Stands& w) { w.state.airspeed_mps = 10; });
-  refuses(&NotReady::wind, "not ready: wind ", [](Stands& w) {
+  refuses(&NotReady::battery, "safety.not_ready(safety.battery_missing)",
+          [](Stands& w) { w.status.battery_frac = 0.2; });
+  refuses(&NotReady::wind, "safety.not_ready(safety.wind_strong(10))",
+          [](Stands& w) { w.state.airspeed_mps = 10; });
+  refuses(&NotReady::wind, "safety.not_ready(safety.wind_strong(", [](Stands& w) {
     w.state.wind_mps = {6.6, -8.8, 0};
     w.state.wind_valid = true;
   });
@@ -107,7 +114,7 @@ TEST_CASE("tail wind is found in the take-off run: less airspeed than ground spe
     w.state.ground_speed_mps = w.state.velocity_mps.north = w.state.airspeed_mps =
         0;  // standing, the tube shows nothing of it
     CHECK(w.fly(30).not_ready.wind == (tail > 9.35));
-    CHECK(w.reported_of("not ready: tail wind in the run") == (tail > 9.35));
+    CHECK(w.reported_of("safety.not_ready(safety.tail_wind)") == (tail > 9.35));
     w.status.in_control = false;
     CHECK_FALSE(w.fly(1).not_ready.wind);
   }
@@ -130,12 +137,12 @@ TEST_CASE("a motor that does not move the aircraft at open throttle is not ready
   CHECK(w.out.safety.not_ready.motor);
   w.actuators.throttle_frac = 0;
   CHECK_FALSE(w.fly(10).ready);
-  CHECK(w.reported_of("not ready: no thrust from the motor"));
+  CHECK(w.reported_of("safety.not_ready(flight.engine_failed)"));
   w.status.in_control = false;
   w.fly(0.1);
   w.status.in_control = true;
   CHECK(w.fly(10).ready);
-  CHECK(w.reported_of("ready for take-off"));
+  CHECK(w.reported_of("safety.ready"));
   Stands rolls;
   rolls.actuators.throttle_frac = 1;
   rolls.fly(1);

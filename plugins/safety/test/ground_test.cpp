@@ -377,7 +377,7 @@ TEST_CASE("a take-off request opens the throttle on the ground, and is refused i
   c.take_off();
   c.push(c.in.takeoff, TakeoffRequest{});
   c.go(dt);
-  CHECK(c.answer(c.in.takeoff) == "the aircraft flies");
+  CHECK(c.answer(c.in.takeoff) == "safety.aircraft_flies");
   c.sink_to(0, 0.5);
   c.touch();
   c.fast(0);

@@ -194,12 +194,12 @@ TEST_CASE("places that are none, or have no position, are refused") {
   Way none;
   none.params.places.is_given = true;
   CHECK(none.configure() == Status::failed);
-  CHECK(none.error().find("places.places: there are none") == 0);
+  CHECK(none.error().find("places.places: safety.places_missing") == 0);
   Way lost;
   lost.params.places.value.places.push_back({});
   lost.params.places.is_given = true;
   CHECK(lost.configure() == Status::failed);
-  CHECK(lost.error().find("places.places[0]: give north and east") == 0);
+  CHECK(lost.error().find("places.places[0]: flight.place_missing") == 0);
 }
 
 TEST_CASE(

@@ -27,7 +27,7 @@ TEST_CASE("commands that did not move the aircraft say nothing of its motor") {
   CHECK_FALSE(w.out.safety.engine_failed);
   w.state.climb_rate_mps = 0;
   CHECK_FALSE(w.fly(10).engine_failed);  // nor what the pilot flew, once he has handed back
-  CHECK(w.reported.find("motor") == std::string::npos);
+  CHECK(w.reported.find("flight.engine_") == std::string::npos);
 }
 
 TEST_CASE("an alarm of the motor ends with a hand-over, and comes again when the motor is dead") {
@@ -68,7 +68,7 @@ TEST_CASE(
   CHECK(weak.out.safety.engine_weak);
   CHECK_FALSE(weak.out.safety.engine_failed);
   CHECK(weak.out.safety.answer == SafetyAnswer::land);
-  CHECK(weak.reported.find("weak motor, ") != std::string::npos);
+  CHECK(weak.reported.find("safety.thrust_left(flight.engine_weak, ") != std::string::npos);
   REQUIRE(thrust_of(a, 0.3, 13.2, rho) < turn_trim(a, 0, 13.2, rho).drag_newton);
   Watch dead;
   with(dead, 0.3);
@@ -120,7 +120,7 @@ TEST_CASE("the circle without a position ends when drift and doubt reach the fen
   const double drift_s =
       (1000 - 15 - 2 * 50 - 8 * down_s) / (8 + 2);  // the doubt grows by 1 m/s, counted twice
   CHECK(w.out.safety.waiting_s == doctest::Approx(24 - 3 + drift_s).epsilon(0.05));
-  CHECK(w.reported.find("near the fence after ") != std::string::npos);
+  CHECK(w.reported.find("safety.descends_near_fence(") != std::string::npos);
   Watch none;  // without a fence there is no bound but the time
   none.state.wind_mps = {12, 0, 0};
   none.fly(20);
@@ -137,7 +137,7 @@ TEST_CASE(
   w.state.position_valid = false;
   CHECK(w.fly(10).answer == SafetyAnswer::none);
   CHECK(w.out.safety.gnss_lost);
-  CHECK(w.reported.find("no position: finishes the landing. Pilot: ") != std::string::npos);
+  CHECK(w.reported.find("safety.alarm(flight.gnss_lost, safety.finishes, ") != std::string::npos);
   w.state.height_m = 13;
   CHECK(w.fly(0.1).answer == SafetyAnswer::wait);
   w.fly(121);
@@ -163,10 +163,10 @@ TEST_CASE("wind above the largest airspeed is reported, and that it has dropped"
   Watch w;
   w.state.wind_mps = {-30, 0, 0};
   CHECK(w.fly(40).drifting);
-  CHECK(w.reported.find("wind 30 m/s exceeds the top airspeed") != std::string::npos);
+  CHECK(w.reported.find("safety.drifts(30)") != std::string::npos);
   w.state.wind_mps = {-5, 0, 0};
   CHECK_FALSE(w.fly(60).drifting);
-  CHECK(w.reported.find("holds its ground") != std::string::npos);
+  CHECK(w.reported.find("safety.drift_ended") != std::string::npos);
 }
 
 TEST_CASE("outside the fence or above its ceiling the distance is said without a sign") {
@@ -175,13 +175,13 @@ TEST_CASE("outside the fence or above its ceiling the distance is said without a
   w.fly(2);
   w.state.position_m.north = 1285;
   w.fly(0.1);
-  CHECK(w.reported.find("outside the fence by 285 m: returns home. Pilot: ") != std::string::npos);
+  CHECK(w.reported.find("safety.alarm(safety.outside_fence(285), safety.returns, ") != std::string::npos);
   Watch high;
   high.fence();
   high.fly(2);
   high.state.height_m = 126;
   high.fly(0.1);
-  CHECK(high.reported.find("above the ceiling by 6 m: returns home. Pilot: ") != std::string::npos);
+  CHECK(high.reported.find("safety.alarm(safety.above_ceiling(6), safety.returns, ") != std::string::npos);
   for (const Watch* each : {&w, &high}) CHECK(each->reported.find('-') == std::string::npos);
 }
 

@@ -56,20 +56,21 @@ TEST_CASE("a fence or places that cannot be are refused with file and line") {
   const auto fence = [](const std::string& corners) {
     return "  watch: {params: {fence: {corners: [" + corners + "]}}}";
   };
-  refused(fence("{north: 500 m, east: 0 m}, {north: -500 m, east: 0 m}"), "a fence has 3 at least");
+  refused(fence("{north: 500 m, east: 0 m}, {north: -500 m, east: 0 m}"),
+          "fence.corners: flight.fence_corners_few(2)");
   refused(fence("{north: 500 m, east: -500 m}, {north: -500 m, east: 500 m}, {north: 500 m, east: 500 m}, "
                 "{north: -500 m, east: -500 m}"),
-          "cross each other");
+          "fence.corners: flight.fence_sides_cross(");
   refused(fence("{north: 500 m, east: 100 m}, {north: 500 m, east: 500 m}, {north: -500 m, east: 300 m}"),
-          "home, 0 m north, 0 m east, lies outside of the fence");
+          "safety.home_outside_fence(0, 0)");
   refused(fence("{north: 500 m}, {north: 500 m, east: 500 m}, {north: -500 m, east: 300 m}"),
-          "fence.corners[0]: give north and east, or lat and lon");
+          "fence.corners[0]: flight.place_missing");
   refused("  back: {params: {places: {places: []}}}", "the first is home");
   const std::string twice =
       "{places: [{north: 0 m, east: 0 m}, {north: 9 m, east: 0 m}, {north: 9.5 m, east: 0.5 m}]}";
   for (const char* who : {"back", "watch"})
     refused("  " + std::string(who) + ": {params: {places: " + twice + "}}",
-            "places.places[2]: is the same place as places.places[1]");
+            "places.places[2]: flight.places_equal(1)");
 }
 
 }  // namespace mission_test

@@ -29,7 +29,7 @@ TEST_CASE("each flag has an alarm, with words and the cause of its name") {
     });
     REQUIRE_MESSAGE(at != alarms.end(), name);
     CHECK(cause->labels[static_cast<std::size_t>(at->cause)] == name);
-    CHECK(at->words[0] != 0);
+    CHECK(at->words()[0] != 0);
   }
   CHECK(flags == alarms.size());
 }
@@ -66,7 +66,8 @@ TEST_CASE("the fence is told before it is reached, by what the turn back takes, 
   w.state.position_m.north = from + 3;
   CHECK(w.fly(0.1).fence);
   CHECK(w.out.safety.answer == SafetyAnswer::home);
-  CHECK(w.reported.find(" m to the fence: returns home") != std::string::npos);
+  CHECK(w.reported.find("safety.alarm(safety.near_fence(") != std::string::npos);
+  CHECK(w.reported.find("), safety.returns, keep inside)") != std::string::npos);
   w.state = kit::level();
   CHECK_FALSE(w.fly(3).fence);
   CHECK(w.out.safety.answer == SafetyAnswer::home);
@@ -125,8 +126,8 @@ TEST_CASE("home has to lie within the fence, with room") {
     Watch w;
     w.fence(south);
     CHECK(w.configure() == Status::failed);
-    CHECK(w.error().find("fence.corners: home, 0 m north, 0 m east, lies") == 0);
-    CHECK((w.error().find("outside") != std::string::npos) == (south > 0));
+    CHECK(w.error() == (south > 0 ? "fence.corners: safety.home_outside_fence(0, 0)"
+                                  : "fence.corners: safety.home_near_fence(0, 0)"));
   }
 }
 
@@ -256,7 +257,7 @@ TEST_CASE("the motor: the trim's throttle holds level flight, and no motor sinks
   CHECK(after > 1.9);
   CHECK(after < 4);
   CHECK(w.out.safety.answer == SafetyAnswer::glide);
-  CHECK(w.reported.find("no thrust from the motor: glides down") != std::string::npos);
+  CHECK(w.reported.find("safety.alarm(flight.engine_failed, safety.glides, ") != std::string::npos);
   w.actuators.throttle_frac = 0;  // nothing is demanded: nothing is learnt
   CHECK(w.fly(30).engine_failed);
   w.actuators.throttle_frac = 0.57;

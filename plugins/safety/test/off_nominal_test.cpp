@@ -125,9 +125,8 @@ TEST_CASE("a change is told once, and once when it is over, each time") {
 }
 
 TEST_CASE("home outside of the fence, to the north or to the east, is named by its own place") {
-  for (const auto& [north, east, words] :
-       {std::tuple{700.0, -40.0, "home, 700 m north, -40 m east, lies outside of the fence"},
-        {20.0, 800.0, "home, 20 m north, 800 m east, lies outside of the fence"}}) {
+  for (const auto& [north, east, words] : {std::tuple{700.0, -40.0, "safety.home_outside_fence(700, -40)"},
+                                           {20.0, 800.0, "safety.home_outside_fence(20, 800)"}}) {
     Bench<Monitor> w;
     fence(w);
     for (const auto& [n, e] : {std::pair{north, east}, {10.0, 20.0}}) {

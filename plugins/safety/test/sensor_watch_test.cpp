@@ -113,7 +113,9 @@ TEST_CASE("an inertial sensor that fails calls the pilot") {
     REQUIRE(w.reported.size() == 1);
     CHECK(w.reported[0].severity == Severity::critical);
     CHECK(w.reported[0].cause == (which == &NavigationHealth::gyro ? Cause::gyro : Cause::accelerometer));
-    CHECK(w.reported[0].text.view().find("Pilot: take over") != std::string_view::npos);
+    CHECK(w.reported[0].text.view() ==
+          "safety.sensor_failed(" + std::string(which == &NavigationHealth::gyro ? "gyro" : "accelerometer") +
+              ", safety.stuck, safety.attitude_unreliable)");
   }
 }
 
@@ -122,8 +124,7 @@ TEST_CASE("two sensors without anything in common that are rejected at once poin
   const auto reports = [](const Watching& w) {
     int n = 0;
     for (const Notice& each : w.reported)
-      n += each.severity == Severity::critical && each.text.view().find("gyro") != std::string_view::npos ? 1
-                                                                                                          : 0;
+      n += each.severity == Severity::critical && each.text.view() == "safety.inertial_wrong" ? 1 : 0;
     return n;
   };
   const std::array<SensorHealth H::*, 5> all{&H::gnss_position, &H::gnss_velocity, &H::mag, &H::baro,
@@ -217,12 +218,12 @@ TEST_CASE("in a flight each fault of a sensor is a line, and a flight in order h
   CHECK(flown("baro_fault: none") == "");
   for (const char* fault : {"off", "stuck", "wrong"})
     for (const auto& [sensor, name] :
-         {std::pair{"baro", "barometer "}, {"pitot", "pitot tube "}, {"mag", "magnetometer "}}) {
+         {std::pair{"baro", "(barometer, "}, {"pitot", "(pitot tube, "}, {"mag", "(magnetometer, "}}) {
       const std::string lines = flown(std::string(sensor) + "_fault: " + fault);
       CAPTURE(fault);
       CAPTURE(lines);
       CHECK(lines_of(lines, name) == 2);
-      CHECK(lines.find(name) < lines.find("in order again"));
+      CHECK(lines.find("safety.sensor_failed" + std::string(name)) < lines.find("safety.sensor_back"));
     }
 }
 
@@ -230,8 +231,8 @@ TEST_CASE("the circle of an aircraft without a position begins with a line and e
   const std::string lines =
       flown("gnss_position_fault: off", "components: {follow: {params: {reckon_time: 5 s}}}\n");
   CAPTURE(lines);
-  CHECK(lines_of(lines, "follow: no position: circle") == 1);
-  CHECK(lines_of(lines, "follow: the position is back") == 1);
+  CHECK(lines_of(lines, "follow: path.position_lost") == 1);
+  CHECK(lines_of(lines, "follow: path.position_back") == 1);
 }
 
 }  // namespace sensor_watch_test

@@ -663,7 +663,7 @@ TEST_CASE("a crash is told once, with what touched and what safety did before; f
     if (bench.out.verdict.written) verdict = bench.out.verdict.value;
     if (i == 1500) {
       CHECK(verdict.word.view().empty());
-      CHECK(verdict.text.view() == "glide at 10.0 s (no thrust from the motor)");
+      CHECK(verdict.text.view() == "score.answered_because(score.glide, 10.0, flight.engine_failed)");
     }
     if (!bench.out.crash.written) continue;
     ++crashes;
@@ -675,8 +675,8 @@ TEST_CASE("a crash is told once, with what touched and what safety did before; f
   CHECK(crash.east_m == -40);
   CHECK(verdict.word.view() == "crashed");
   CHECK(verdict.text.view() ==
-        "left wing tip touched at 20.00 s, sink 3.2 m/s, bank -45 deg, 14.1 m/s over ground, 12 m north and "
-        "40 m west; before: glide at 10.0 s (no thrust from the motor)");
+        "score.crashed_after(score.crashed(left wing tip, 20.00, 3.2, -45, 14.1, 12, north, 40, west), "
+        "score.answered_because(score.glide, 10.0, flight.engine_failed))");
 }
 
 TEST_CASE("an aircraft that stands is said to have never left the ground, and its alarms are no answers") {
@@ -694,9 +694,9 @@ TEST_CASE("an aircraft that stands is said to have never left the ground, and it
       bench.set(bench.in.ground, GroundState{lifts && i > 500 ? Contact::air : Contact::ground});
       bench.step(0.01);
       if (bench.out.verdict.written) verdict = bench.out.verdict.value;
-      if (i == 499) CHECK(verdict.text.view() == "never left the ground");
+      if (i == 499) CHECK(verdict.text.view() == "score.never_airborne");
     }
-    CHECK(verdict.text.view() == (lifts ? "" : "never left the ground"));
+    CHECK(verdict.text.view() == (lifts ? "" : "score.never_airborne"));
     CHECK(verdict.word.view().empty());
   }
 }

@@ -169,9 +169,12 @@ TEST_CASE("a topic without a header is stamped by its recorder; both stamps of a
   CHECK(flown(d, file("float32 x\n")).ticks_ns == std::vector<std::int64_t>{0, 1, 2});
   d.baro.from.time = "log_time";
   d.baro.from.unit = TimeUnit::s;
-  CHECK(flown(d, file("float32 x\n")).fault.find("none of its 3 rows") != std::string::npos);
+  const std::string none = flown(d, file("float32 x\n")).fault;
+  CHECK(none.find("sensor_log.rows_unusable(") != std::string::npos);
+  CHECK(none.ends_with(", 3)"));
   // a field of that name comes first
-  CHECK(flown(d, file("float32 log_time\n")).fault.find("no column 'x' in /own of") != std::string::npos);
+  CHECK(flown(d, file("float32 log_time\n")).fault.find("sensor_log.column_unknown(x, /own of ") !=
+        std::string::npos);
   d.baro.pressure.column = "log_time";
   CHECK(flown(d, file("float32 log_time\n")).ticks_ns ==
         std::vector<std::int64_t>{0, 1'000'000'000'000, 2'000'000'000'000});
@@ -188,9 +191,8 @@ TEST_CASE("NaN and stamps out of order in a bag: left out, counted, told with th
   CHECK(f.ticks_ns == std::vector<std::int64_t>{0, 10, 30});
   CHECK(f.last.not_finite == 1);
   CHECK(f.last.out_of_order == 2);
-  CHECK(f.notices ==
-        std::vector<std::string>{
-            "flight.mcap: left out 3 rows, the first is message 3: 1 not finite, 2 out of order"});
+  CHECK(f.notices == std::vector<std::string>{"sensor_log.rows_left_out(flight.mcap, 3, message 3, "
+                                              "1 not finite, 2 out of order)"});
 }
 
 TEST_CASE("what cannot be read of a bag is refused in one sentence") {
@@ -199,35 +201,35 @@ TEST_CASE("what cannot be read of a bag is refused in one sentence") {
     d.imu.from.topic = name;
     return d;
   };
-  CHECK(refusal(imu_topic(), "t,p\n1,2\n") == "log.imu.from.file: flight.mcap is no MCAP file");
+  CHECK(refusal(imu_topic(), "t,p\n1,2\n") == "log.imu.from.file: sensor_log.file_not_mcap(flight.mcap)");
   CHECK(refusal(topic("/imu"), bag()) ==
-        "log.imu.from.topic: no topic '/imu' in flight.mcap; there are /imu/data, /gnss, /pressure, "
-        "/airspeed, /mag, /fix");
+        "log.imu.from.topic: sensor_log.topic_unknown(/imu, flight.mcap, /imu/data, /gnss, /pressure, "
+        "/airspeed, /mag, /fix)");
   CHECK(refusal(topic("/mag"), bag()) ==
-        "log.imu.rate.columns[0]: names no column of flight.mcap, and a topic of this type has no usual one");
+        "log.imu.rate.columns[0]: sensor_log.column_of_topic_not_named(flight.mcap)");
   Description other = imu_topic();
   other.imu.from.time = "stamp";
   CHECK(refusal(other, bag())
-            .starts_with("log.imu.from.time: no column 'stamp' in /imu/data of flight.mcap; there are "
+            .starts_with("log.imu.from.time: sensor_log.column_unknown(stamp, /imu/data of flight.mcap, "
                          "header.stamp, orientation.x, "));
-  CHECK(refusal(imu_topic(), bag(false)) == "log.imu.from.file: flight.mcap: byte " +
+  CHECK(refusal(imu_topic(), bag(false)) == "log.imu.from.file: sensor_log.file_damaged(flight.mcap, " +
                                                 std::to_string(bag(false).size()) +
-                                                ": the file ends early: its data has no end");
+                                                ", sensor_log.data_without_end)");
   const std::string types = mcap_schema(1, "sensor_msgs/msg/Imu", imu_definition);
   CHECK(refusal(imu_topic(), mcap_begin() + types + mcap_channel(1, 1, "/imu/data", "json") + mcap_end()) ==
-        "log.imu.from.topic: '/imu/data' is encoded as 'json' with a schema 'ros2msg'; what can be read is "
-        "cdr with ros2msg");
+        "log.imu.from.topic: sensor_log.encoding_unsupported(/imu/data, json, ros2msg)");
   CHECK(refusal(imu_topic(), mcap_begin() + mcap_chunk_of(types.size(), 0, "lz4", "foreign") + mcap_end())
-            .find("a chunk is packed with 'lz4'; what can be read is zstd, or none") != std::string::npos);
+            .find("sensor_log.chunk_packing_unsupported(lz4)") != std::string::npos);
   const std::string whole = mcap_begin() + types + mcap_channel(1, 1, "/imu/data");
   CHECK(refusal(imu_topic(), whole + mcap_message(1, 0, std::string("\0\x01\0\0\1\2\3", 7)) + mcap_end())
-            .find("the file ends early, or is damaged") != std::string::npos);
+            .find("sensor_log.data_cut") != std::string::npos);
   CHECK(refusal(imu_topic(), whole + mcap_message(1, 0, std::string(400, '\0')) + mcap_end())
-            .find("the message is no little-endian XCDR1") != std::string::npos);
-  CHECK(refusal(imu_topic(), whole + mcap_end()).find("has no message of it") != std::string::npos);
+            .find("sensor_log.message_not_xcdr") != std::string::npos);
+  CHECK(refusal(imu_topic(), whole + mcap_end()).find("sensor_log.topic_empty(flight.mcap)") !=
+        std::string::npos);
   CHECK(refusal(imu_topic(), mcap_begin() + mcap_schema(1, "sensor_msgs/msg/Imu", "pkg/Other x\n") +
                                  mcap_channel(1, 1, "/imu/data") + mcap_end()) ==
-        "log.imu.from.file: flight.mcap: /imu/data does not say what 'pkg/Other' is");
+        "log.imu.from.file: sensor_log.type_unknown(flight.mcap, /imu/data, pkg/Other)");
 }
 
 TEST_CASE("the checksum is that of IEEE 802.3, whose check value is published") {
@@ -249,16 +251,16 @@ TEST_CASE("a chunk that is damaged, or is not as long as it says, is refused, no
   for (const char* name : {"", "zstd"}) {
     const bool zstd = *name != '\0';
     CHECK(said(records.size(), checksum ^ 1, name, zstd ? packed : records)
-              .ends_with(": a chunk is damaged: its checksum is not that of its content"));
+              .ends_with(", sensor_log.chunk_checksum_wrong)"));
   }
   const std::string unreported = packed_zstd(records, false);
   CHECK(said(records.size(), checksum, "zstd", unreported) == "");
   for (const std::uint64_t size : {records.size() - 1, records.size() + 1, std::size_t{1} << 29})
     for (const std::string& each : {packed, unreported})
-      CHECK(said(size, 0, "zstd", each).ends_with(": a chunk is damaged"));
-  CHECK(
-      said(records.size(), 0, "zstd", packed.substr(0, packed.size() - 1)).ends_with(": a chunk is damaged"));
-  CHECK(said(std::uint64_t{1} << 40, 0, "zstd", packed).ends_with(": a chunk of more than 1 GB"));
+      CHECK(said(size, 0, "zstd", each).ends_with(", sensor_log.chunk_damaged)"));
+  CHECK(said(records.size(), 0, "zstd", packed.substr(0, packed.size() - 1))
+            .ends_with(", sensor_log.chunk_damaged)"));
+  CHECK(said(std::uint64_t{1} << 40, 0, "zstd", packed).ends_with(", sensor_log.chunk_too_large)"));
 }
 
 TEST_CASE("a structure of nothing is one byte, and arrays of such have an end") {
@@ -284,7 +286,7 @@ TEST_CASE("a structure of nothing is one byte, and arrays of such have an end") 
     deep += "===\nMSG: pkg/A" + std::to_string(i) + "\npkg/A" + std::to_string(i + 1) + "[100] many\n";
   deep += "===\nMSG: pkg/A12\n";
   CHECK(refusal(d, file(deep, Cdr{}.put(6.25F).header(5, 6, "f").bytes() + std::string(300, '\0')))
-            .find("the message ends early") != std::string::npos);
+            .find("sensor_log.message_cut") != std::string::npos);
 }
 
 TEST_CASE("every beginning of a bag, and every bag with one byte changed, is read or refused in words") {

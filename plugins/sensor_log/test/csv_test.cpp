@@ -93,29 +93,26 @@ TEST_CASE("an empty cell is not a number, an overflow is infinite, an underflow 
 
 TEST_CASE("a missing column is told with the key that names it, the line, and the columns that are there") {
   CHECK(refusal("# a\nt,y,z\n1,2,3\n", {t, x}) ==
-        "log.imu.rate.columns[0]: no column 'x' in a.csv:2; there are t, y, z");
-  CHECK(refusal("t,x,x\n1,2,3\n", {t, x}) == "log.imu.rate.columns[0]: a.csv:1 names two columns 'x'");
+        "log.imu.rate.columns[0]: sensor_log.column_unknown(x, a.csv:2, t, y, z)");
+  CHECK(refusal("t,x,x\n1,2,3\n", {t, x}) ==
+        "log.imu.rate.columns[0]: sensor_log.column_repeated(a.csv:1, x)");
 }
 
 TEST_CASE("what is no number is told with its line, its column and itself") {
   CHECK(refusal("t,x\n1,2\n2,3;4\n", {t, x}) ==
-        "log.imu.rate.columns[0]: a.csv:3: '3;4' in column 'x' is no number");
-  CHECK(refusal("t,x\n1:30,2\n", {t, x}) == "log.imu.from.time: a.csv:2: '1:30' in column 't' is no number");
+        "log.imu.rate.columns[0]: sensor_log.number_not_valid(a.csv:3, 3;4, x)");
+  CHECK(refusal("t,x\n1:30,2\n", {t, x}) ==
+        "log.imu.from.time: sensor_log.number_not_valid(a.csv:2, 1:30, t)");
   CHECK(refusal("t,x\n1,2\n2,0x1p3\n", {t, x}) != "");
 }
 
 TEST_CASE(
     "a file that ends early is told with its last line: within a row, within a number, before the first "
     "row") {
-  CHECK(refusal("t,x\n1,2\n2", {t, x}) ==
-        "log.imu.from.file: a.csv:3: 1 cell where the first line names 2 columns: the file ends early, or "
-        "the row is cut");
-  CHECK(refusal("t,x\n1,2\n2,2", {t, x}) ==
-        "log.imu.from.file: a.csv:3: the file ends early: its last line is not ended; every row ends with a "
-        "line break");
-  CHECK(refusal("", {t, x}) == "log.imu.from.file: a.csv is empty; its first line has to name the columns");
-  CHECK(refusal("t,x\n1,2,3\n", {t, x}) ==
-        "log.imu.from.file: a.csv:2: 3 cells where the first line names 2 columns");
+  CHECK(refusal("t,x\n1,2\n2", {t, x}) == "log.imu.from.file: sensor_log.row_of_one_cell(a.csv:3, 2)");
+  CHECK(refusal("t,x\n1,2\n2,2", {t, x}) == "log.imu.from.file: sensor_log.last_line_cut(a.csv:3)");
+  CHECK(refusal("", {t, x}) == "log.imu.from.file: sensor_log.file_empty(a.csv)");
+  CHECK(refusal("t,x\n1,2,3\n", {t, x}) == "log.imu.from.file: sensor_log.row_too_long(a.csv:2, 3, 2)");
 }
 
 TEST_CASE("every beginning of a file is read or refused, never anything else") {

@@ -338,8 +338,7 @@ TEST_CASE(
       CHECK(f.fault == "");
       CHECK(f.imu.size() == 2);
       CHECK(f.last.not_finite == 1);
-      CHECK(f.notices ==
-            std::vector<std::string>{"imu.csv: left out 1 row, the first is line 3: 1 not finite"});
+      CHECK(f.notices == std::vector<std::string>{"sensor_log.row_left_out(imu.csv, line 3, 1 not finite)"});
     }
 }
 
@@ -377,7 +376,7 @@ TEST_CASE("stamps that repeat, go back or jump years ahead are left out and coun
   CHECK(f.last.out_of_order == 3);
   CHECK(f.last.not_finite == 0);
   CHECK(f.notices ==
-        std::vector<std::string>{"imu.csv: left out 3 rows, the first is line 4: 3 out of order"});
+        std::vector<std::string>{"sensor_log.rows_left_out(imu.csv, 3, line 4, 3 out of order)"});
 }
 
 TEST_CASE("after its last tick a recording fails, and says what ends a mission before that") {
@@ -392,8 +391,7 @@ TEST_CASE("after its last tick a recording fails, and says what ends a mission b
   CHECK(bench.read() == Status::ok);
   CHECK(bench.out.recording.ended);
   CHECK(bench.read() == Status::failed);
-  CHECK(bench.error() ==
-        "the recording has ended, and the mission goes on: its `done:` is vehicle.recording.ended");
+  CHECK(bench.error() == "sensor_log.recording_ended");
 }
 
 TEST_CASE("nothing is allocated in flight") {
@@ -439,40 +437,33 @@ TEST_CASE("what cannot be flown is refused in one sentence that begins with the 
     change(d);
     return fly(d, folder).fault;
   };
-  CHECK(refusal([](Description& d) { d = {}; }) ==
-        "log: describes no sensor; there are imu, mag, baro, pitot, gnss");
+  CHECK(refusal([](Description& d) { d = {}; }) == "log: sensor_log.sensors_missing");
   CHECK(refusal([](Description& d) { d.imu.from.file = "no.csv"; }) ==
-        "log.imu.from.file: " + at +
-            "no.csv cannot be read; --set recorded.folder=FOLDER says where the files are");
+        "log.imu.from.file: sensor_log.file_missing(" + at + "no.csv)");
   CHECK(refusal([](Description& d) { d.imu.from.file = "imu.mat"; }) ==
-        "log.imu.from.file: '" + at + "imu.mat' is no kind of file that can be read: *.csv, *.mcap, *.ulg");
+        "log.imu.from.file: sensor_log.file_kind_unknown(" + at + "imu.mat)");
   CHECK(refusal([](Description& d) { d.imu.from.time = ""; }) ==
-        "log.imu.from.time: names no column of " + at + "imu.csv; valid is one of its first line");
+        "log.imu.from.time: sensor_log.column_not_named(" + at + "imu.csv)");
   CHECK(refusal([](Description& d) { d.imu.rate.columns[1] = ""; }) ==
-        "log.imu.rate.columns[1]: names no column of " + at + "imu.csv; valid is one of its first line");
+        "log.imu.rate.columns[1]: sensor_log.column_not_named(" + at + "imu.csv)");
   CHECK(refusal([](Description& d) { d.imu.rate.columns[1] = "gy"; }) ==
-        "log.imu.rate.columns[1]: no column 'gy' in " + at + "imu.csv:1; there are t, p, q, r, x, y, z");
+        "log.imu.rate.columns[1]: sensor_log.column_unknown(gy, " + at + "imu.csv:1, t, p, q, r, x, y, z)");
   CHECK(refusal([](Description& d) {
           d.mag.field.columns = {"x", "y", "z"};
-        }) ==
-        "log.mag.from.file: names no file; without one there is no such sensor, and its other keys mean "
-        "nothing");
+        }) == "log.mag.from.file: sensor_log.file_not_named");
   CHECK(refusal([](Description& d) {
           d.imu.withhold.count = 1;
           d.imu.withhold.items[0] = {3, 2};
-        }) == "log.imu.withhold[0]: from 3 s to 2 s is no time; `to` is after `from`");
+        }) == "log.imu.withhold[0]: sensor_log.window_empty(3 s, 2 s)");
   CHECK(refusal([](Description& d) {
           d.use = {5, 6};
-        }) ==
-        "log.imu.from.file: " + at + "imu.csv:6: the file ends early, at 0.04 s; `use:` wants it to 6 s");
-  CHECK(refusal([](Description& d) { d.use.from_s = 5; }) ==
-        "log.use: no sample of the recording lies in these times");
-  CHECK(refusal([](Description& d) {
-          d.imu.from.file = "empty.csv";
-        }).starts_with("log.imu.from.file: " + at + "empty.csv: none of its 1 rows can be used"));
-  CHECK(refusal([](Description& d) { mag_columns(d); }) ==
-        "log.mag.from: the times of " + at + "mag.csv, 1000 s to 1000 s, and of " + at +
-            "imu.csv, 0 s to 0.04 s, do not meet; `shift:` is added to a clock");
+        }) == "log.imu.from.file: sensor_log.file_ends_early(" + at + "imu.csv:6, 0.04 s, 6 s)");
+  CHECK(refusal([](Description& d) { d.use.from_s = 5; }) == "log.use: sensor_log.use_empty");
+  CHECK(refusal([](Description& d) { d.imu.from.file = "empty.csv"; }) ==
+        "log.imu.from.file: sensor_log.rows_unusable(" + at + "empty.csv, 1)");
+  CHECK(refusal([](Description& d) { mag_columns(d); }) == "log.mag.from: sensor_log.times_apart(" + at +
+                                                               "mag.csv, 1000 s, 1000 s, " + at +
+                                                               "imu.csv, 0 s, 0.04 s)");
 }
 
 TEST_CASE("without a folder one sentence says how to give it, and which files are wanted") {
@@ -480,8 +471,7 @@ TEST_CASE("without a folder one sentence says how to give it, and which files ar
   bench.params.log.value = imu_alone();
   mag_columns(bench.params.log.value);
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() ==
-        "folder: is not given; --set recorded.folder=FOLDER says where imu.csv, mag.csv are");
+  CHECK(bench.error() == "folder: sensor_log.folder_missing(imu.csv, mag.csv)");
 }
 
 }  // namespace recorded_test

@@ -99,48 +99,47 @@ TEST_CASE("a description may name any field, nested ones and elements included")
 
 TEST_CASE("what cannot be read of a ULog is refused in one sentence") {
   CHECK(refusal(imu_topic(), "no log at all, but as long as the head of one") ==
-        "log.imu.from.file: flight.ulg is no ULog");
+        "log.imu.from.file: sensor_log.file_not_ulog(flight.ulg)");
   Description none = imu_topic();
   for (const char* const topic : {"sensor_mag#2", "sensor_mag#x", "sensor_mag#", "sensor_mag#1a"}) {
     none.imu.from.topic = topic;
-    CHECK(refusal(none, ulog()) == "log.imu.from.topic: no topic '" + std::string(topic) +
-                                       "' in flight.ulg; there are sensor_combined, vehicle_air_data, "
+    CHECK(refusal(none, ulog()) == "log.imu.from.topic: sensor_log.topic_unknown(" + std::string(topic) +
+                                       ", flight.ulg, sensor_combined, vehicle_air_data, "
                                        "differential_pressure, sensor_mag, "
-                                       "sensor_mag#1, sensor_gps, own");
+                                       "sensor_mag#1, sensor_gps, own)");
   }
   Description column = imu_topic();
   column.imu.rate.columns = {"gyro_rad[0]", "gyro_rad[3]", "gyro_rad[2]"};
   CHECK(refusal(column, ulog())
-            .starts_with(
-                "log.imu.rate.columns[1]: no column 'gyro_rad[3]' in sensor_combined of flight.ulg; there "
-                "are timestamp, gyro_rad[0], gyro_rad[1], gyro_rad[2], "));
-  CHECK(refusal(imu_topic(), ulog_begin(2) + ulog_topic(0, 1, "x")).find("of a later kind") !=
+            .starts_with("log.imu.rate.columns[1]: sensor_log.column_unknown(gyro_rad[3], sensor_combined of "
+                         "flight.ulg, timestamp, gyro_rad[0], gyro_rad[1], gyro_rad[2], "));
+  CHECK(refusal(imu_topic(), ulog_begin(2) + ulog_topic(0, 1, "x")).find("sensor_log.log_too_new") !=
         std::string::npos);
   CHECK(refusal(imu_topic(), ulog_begin() + ulog_topic(0, 1, "sensor_combined")) ==
-        "log.imu.from.file: flight.ulg has no format of 'sensor_combined'");
+        "log.imu.from.file: sensor_log.format_missing(flight.ulg, sensor_combined)");
   const std::string with_pose = ulog_format("sensor_combined:uint64_t timestamp;pose[2] p;");
   const auto one_topic = [](const std::string& formats) {
     return ulog_begin() + formats + ulog_topic(0, 1, "sensor_combined") + ulog_data(1, std::string(40, '\0'));
   };
   CHECK(refusal(imu_topic(), one_topic(with_pose)) ==
-        "log.imu.from.file: flight.ulg has no format of 'pose'");
+        "log.imu.from.file: sensor_log.format_missing(flight.ulg, pose)");
   CHECK(refusal(imu_topic(), one_topic(with_pose + ulog_format("pose:"))) ==
-        "log.imu.from.file: flight.ulg: the format of 'pose' has no field");
+        "log.imu.from.file: sensor_log.format_empty(flight.ulg, pose)");
   CHECK(refusal(imu_topic(), one_topic(with_pose + ulog_format("pose:pose[60000] p;"))) ==
-        "log.imu.from.file: flight.ulg has no format of 'pose'");
+        "log.imu.from.file: sensor_log.format_missing(flight.ulg, pose)");
   CHECK(refusal(imu_topic(), one_topic(with_pose + ulog_format("pose:float[60000] p;"))) ==
-        "log.imu.from.file: flight.ulg: 'float[60000] p[1].p' is more than a message can hold");
+        "log.imu.from.file: sensor_log.format_too_large(flight.ulg, float[60000], p[1].p)");
   const std::string silent = ulog_begin() + ulog_format("sensor_combined:uint64_t timestamp;float x;") +
                              ulog_topic(0, 1, "sensor_combined");
   Description empty = imu_topic();
   empty.imu.rate.columns = empty.imu.specific_force.columns = {"x", "x", "x"};
-  CHECK(refusal(empty, silent) == "log.imu.from.topic: flight.ulg has no message of it");
+  CHECK(refusal(empty, silent) == "log.imu.from.topic: sensor_log.topic_empty(flight.ulg)");
   Description csv = imu_topic();
   csv.imu.from.file = "imu.csv";
   const Folder folder;
   folder.write("imu.csv", level(3));
   CHECK(fly(csv, folder).fault ==
-        "log.imu.from.topic: " + folder.path.string() + "/imu.csv has none; bags and ULogs have");
+        "log.imu.from.topic: sensor_log.topics_not_in_file(" + folder.path.string() + "/imu.csv)");
 }
 
 TEST_CASE("a ULog that the power has cut is read up to its last whole record, and says where it is cut") {
@@ -163,7 +162,7 @@ TEST_CASE("a ULog that the power has cut is read up to its last whole record, an
     CHECK(f.imu.size() == kept);
     REQUIRE(f.notices.size() == (at == size ? 0 : 1));
     if (at == size) continue;
-    CHECK(f.notices[0].find("byte " + std::to_string(at)) != std::string::npos);
+    CHECK(f.notices[0].find("sensor_log.file_cut(flight.ulg, " + std::to_string(at) + ", ") == 0);
     CHECK(f.notices[0].find(seconds(0.005 * static_cast<double>(kept - 1))) != std::string::npos);
   }
 }

@@ -250,8 +250,8 @@ TEST_CASE("an airframe without lift or thrust is refused: some of its fields are
   CHECK(fault([](Airframe& a) {
           a = Airframe{};
           a.mass_kg = 5;
-        }).find("has no lift") != std::string::npos);
-  CHECK(fault([](Airframe& a) { a.propulsion = {}; }).find("has no thrust") != std::string::npos);
+        }).find("sim_aero.lift_missing") != std::string::npos);
+  CHECK(fault([](Airframe& a) { a.propulsion = {}; }).find("sim_aero.thrust_missing") != std::string::npos);
 }
 
 TEST_CASE("an airspeed that the aircraft cannot fly is refused with a sentence") {

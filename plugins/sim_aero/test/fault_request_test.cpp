@@ -36,12 +36,13 @@ constexpr auto wrong = FaultKind::wrong;
 TEST_CASE("a combination that there is not is refused with the valid ones") {
   auto b = airborne(SensorSet::perfect);
   CHECK(ask(*b, {baro, FaultKind::hardover_positive}) ==
-        "baro has no fault 'hardover_positive'; valid: none, off, stuck, wrong, slow, noisy, jumping");
+        "sim_aero.fault_unknown(baro, hardover_positive, none, off, stuck, wrong, slow, noisy, jumping)");
   CHECK(ask(*b, {FaultTarget::elevator, FaultKind::noisy}) ==
-        "elevator has no fault 'noisy'; valid: none, stuck, hardover_positive, hardover_negative, slow, "
-        "free, lost");
-  CHECK(ask(*b, {FaultTarget::radio, FaultKind::stuck}) == "radio has no fault 'stuck'; valid: none, off");
-  CHECK(ask(*b, {FaultTarget::engine, FaultKind::empty}).find("valid: none, off, weak") != std::string::npos);
+        "sim_aero.fault_unknown(elevator, noisy, none, stuck, hardover_positive, hardover_negative, slow, "
+        "free, lost)");
+  CHECK(ask(*b, {FaultTarget::radio, FaultKind::stuck}) == "sim_aero.fault_unknown(radio, stuck, none, off)");
+  CHECK(ask(*b, {FaultTarget::engine, FaultKind::empty}) ==
+        "sim_aero.fault_unknown(engine, empty, none, off, weak)");
 }
 
 TEST_CASE("each kind that a target has is accepted, and no other") {
@@ -61,13 +62,14 @@ TEST_CASE("each kind that a target has is accepted, and no other") {
 TEST_CASE("a size, a ramp or a time out of range is refused with the range") {
   auto b = airborne(SensorSet::perfect);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(ask(*b, {baro, wrong, 2e5}) == "size: valid is -100000 to 100000 Pa");
-  CHECK(ask(*b, {baro, wrong, nan}) == "size: valid is -100000 to 100000 Pa");
-  CHECK(ask(*b, {FaultTarget::engine, FaultKind::weak, 1.5}) == "size: valid is 0 to 1");
-  CHECK(ask(*b, {baro, FaultKind::stuck, 1}) == "size: the fault 'stuck' has none");
-  CHECK(ask(*b, {FaultTarget::icing, FaultKind::growing}) == "size: icing needs its rate, share per second");
-  CHECK(ask(*b, {baro, wrong, 100, -1}) == "ramp: valid is 0 to 3600 s");
-  CHECK(ask(*b, {baro, wrong, 100, 0, nan}) == "for: valid is 0 to 1000000 s");
+  CHECK(ask(*b, {baro, wrong, 2e5}) == "size: sim_aero.fault_size_out_of_range(-100000 to 100000 Pa)");
+  CHECK(ask(*b, {baro, wrong, nan}) == "size: sim_aero.fault_size_out_of_range(-100000 to 100000 Pa)");
+  CHECK(ask(*b, {FaultTarget::engine, FaultKind::weak, 1.5}) ==
+        "size: sim_aero.fault_size_out_of_range(0 to 1)");
+  CHECK(ask(*b, {baro, FaultKind::stuck, 1}) == "size: sim_aero.fault_without_size(stuck)");
+  CHECK(ask(*b, {FaultTarget::icing, FaultKind::growing}) == "size: sim_aero.icing_rate_missing");
+  CHECK(ask(*b, {baro, wrong, 100, -1}) == "ramp: sim_aero.fault_ramp_out_of_range");
+  CHECK(ask(*b, {baro, wrong, 100, 0, nan}) == "for: sim_aero.fault_time_out_of_range");
   CHECK(std::abs(off(*b)) < 1e-6);  // what was refused has changed nothing
 }
 

@@ -272,20 +272,20 @@ TEST_CASE("a gear on which nothing stands is refused, with the field and what is
   };
   CHECK(words({}) == "");
   CHECK(words({contact(0.3, 0, 0.2, 0.5), contact(-0.3, 0, 0.2, 0.5)}) ==
-        "gear.contacts: an aircraft stands on at least 3 contacts, and here are 2");
+        "gear.contacts: sim.contacts_few(2)");
   CHECK(words({contact(0.3, 0, 0.2, 0.5), contact(-0.3, 0.2, 0.2, 0.3), contact(-0.3, -0.2, 0.2, 0.3)}) ==
-        "gear.contacts: their shares of the weight, `carries`, sum to 1.1 and must to 1");
+        "gear.contacts: sim.contacts_shares_wrong(1.1)");
   CHECK(words({contact(0.3, 0, 0.2, 0.3), contact(0, 0, 0.2, 0.3), contact(-0.3, 0, 0.2, 0.4)}) ==
-        "gear.contacts: all of them are on one line: it would fall over");
+        "gear.contacts: sim.contacts_on_line");
   CHECK(words({contact(-0.1, 0, 0.2, 0.4), contact(-0.5, 0.2, 0.2, 0.3), contact(-0.5, -0.2, 0.2, 0.3)}) ==
-        "gear.contacts: all of them are behind the centre of gravity: it would tip over");
+        "gear.contacts: sim.contacts_beside(behind)");
   CHECK(words({contact(0.1, 0, 0.2, 0.4), contact(0.5, 0.2, 0.2, 0.3), contact(0.5, -0.2, 0.2, 0.3)}) ==
-        "gear.contacts: all of them are ahead of the centre of gravity: it would tip over");
+        "gear.contacts: sim.contacts_beside(ahead of)");
   CHECK(words({contact(0.3, 0.1, 0.2, 0.4), contact(-0.5, 0.2, 0.2, 0.3), contact(-0.5, 0.4, 0.2, 0.3)}) ==
-        "gear.contacts: all of them are right of the centre of gravity: it would tip over");
+        "gear.contacts: sim.contacts_beside(right of)");
   // around three corners of it, and yet beside it
   CHECK(words({contact(0.5, 0.1, 0.2, 0.4), contact(-0.1, -0.5, 0.2, 0.3), contact(0.6, -0.4, 0.2, 0.3)}) ==
-        "gear.contacts: all of them are on one side of the centre of gravity: it would tip over");
+        "gear.contacts: sim.contacts_beside(on one side of)");
   CHECK(words({contact(0.3, 0, 0.2, 0.4), contact(-0.3, 0.2, 0.2, 0.3), contact(-0.3, -0.2, 0.2, 0.3)}) ==
         "");
   CHECK_FALSE(airframe_fault(belly()));
@@ -299,17 +299,13 @@ TEST_CASE("servos, propellers and batteries that are none are refused") {
     return f ? f.field + ": " + f.sentence : std::string();
   };
   CHECK(words([](Airframe& a) { a.elevator.min_rad = a.elevator.max_rad = 0.2; }) ==
-        "elevator.min_rad: the servo would stop at 0.2 rad below and at 0.2 rad above: it cannot move");
-  CHECK(
-      words([](Airframe& a) { a.propulsion.propellers.push_back(yawing(0)); }) ==
-      "propulsion.propellers[0].differential_frac: it stands in the middle (y is 0), where more thrust does "
-      "not yaw");
+        "elevator.min_rad: sim.servo_fixed(0.2, 0.2)");
+  CHECK(words([](Airframe& a) { a.propulsion.propellers.push_back(yawing(0)); }) ==
+        "propulsion.propellers[0].differential_frac: sim.propeller_in_middle");
   CHECK(words([](Airframe& a) {
           a.rudder.limit_rad = 0;
           a.propulsion.propellers.push_back(yawing(1));
-        }) ==
-        "propulsion.propellers[0].differential_frac: it is a part of full throttle at full rudder, and "
-        "rudder.limit is 0");
+        }) == "propulsion.propellers[0].differential_frac: sim.propeller_without_rudder");
   const auto curve = [&](std::vector<double> used, std::vector<double> volt, double capacity_ah = 1) {
     return words([&](Airframe& a) {
       a.propulsion.battery_volt = 12;
@@ -319,19 +315,16 @@ TEST_CASE("servos, propellers and batteries that are none are refused") {
     });
   };
   CHECK(curve({0, 0.5, 1}, {12, 11, 10}) == "");
-  CHECK(curve({0, 0.5, 1}, {12, 11}) ==
-        "propulsion.pack.curve: 3 values of `used` and 2 of `open`: there must be as many");
+  CHECK(curve({0, 0.5, 1}, {12, 11}) == "propulsion.pack.curve: sim.battery_curve_mismatched(3, 2)");
   CHECK(curve({0, 0.5, 0.5}, {12, 11, 10}) ==
-        "propulsion.pack.curve.used_frac: the list has to rise, and 0.5 comes after 0.5");
-  CHECK(curve({0.1, 0.5}, {12, 11}) ==
-        "propulsion.pack.curve: it must begin with the full battery: used 0, open 12 V");
-  CHECK(curve({0, 0.5}, {11, 10}) ==
-        "propulsion.pack.curve: it must begin with the full battery: used 0, open 12 V");
-  CHECK(curve({0, 1}, {12, 11}, 0) == "propulsion.pack.curve: it needs the battery's `capacity`");
+        "propulsion.pack.curve.used_frac: sim.battery_curve_not_rising(0.5, 0.5)");
+  CHECK(curve({0.1, 0.5}, {12, 11}) == "propulsion.pack.curve: sim.battery_curve_start_wrong(12)");
+  CHECK(curve({0, 0.5}, {11, 10}) == "propulsion.pack.curve: sim.battery_curve_start_wrong(12)");
+  CHECK(curve({0, 1}, {12, 11}, 0) == "propulsion.pack.curve: sim.battery_capacity_missing");
   CHECK(words([](Airframe& a) {
           a.propulsion.battery_volt = 12;
           a.propulsion.pack.empty_volt = 13;
-        }) == "propulsion.pack.empty_volt: it is 13 V, more than the 12 V of the full battery");
+        }) == "propulsion.pack.empty_volt: sim.battery_empty_high(13, 12)");
 }
 
 }  // namespace gear_test

@@ -187,7 +187,8 @@ TEST_CASE("tables that cannot be read are refused by their place") {
   t.at_ratio.push_back(0);
   a.aero.tables.push_back(t);
   const auto b = airborne(a, 200);
-  CHECK_THROWS_WITH(pass(*b), doctest::Contains("airframe.aero.tables[0].values: there are 0"));
+  CHECK_THROWS_WITH(pass(*b),
+                    doctest::Contains("airframe.aero.tables[0].values: flight.table_values_of_one_point(0)"));
 }
 
 }  // namespace x8_test

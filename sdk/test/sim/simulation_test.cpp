@@ -162,19 +162,18 @@ TEST_CASE("what is no command, step or state is refused, and nothing has moved")
   Simulation sim = flying(7);
   const Row before = row(sim);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(refusal([&] { sim.step({0.5, 0, nan, 0}, dt); }) == "elevator_rad is nan");
-  CHECK(refusal([&] { sim.step({0.5, 0, 0, 0}, 0); }) == "dt is 0 s and must be in (0, 0.1] s");
-  CHECK(refusal([&] { sim.step({0.5, 0, 0, 0}, 0.11); }) != "");
+  CHECK(refusal([&] { sim.step({0.5, 0, nan, 0}, dt); }) == "sim.command_not_finite(elevator_rad, nan)");
+  CHECK(refusal([&] { sim.step({0.5, 0, 0, 0}, 0); }) == "sim.step_invalid(0)");
+  CHECK(refusal([&] { sim.step({0.5, 0, 0, 0}, 0.11); }) == "sim.step_invalid(0.11)");
   FlightState s = sim.state();
   s.body.v_n.y() = nan;
-  CHECK(refusal([&] { sim.set(s); }) == "the state has a number that is not finite");
+  CHECK(refusal([&] { sim.set(s); }) == "sim.state_not_finite");
   s = sim.state();
   s.body.q_nb.w() = 3;
-  CHECK(refusal([&] { sim.set(s); }) == "the attitude's quaternion is not of length 1");
+  CHECK(refusal([&] { sim.set(s); }) == "sim.state_not_normalised");
   s = sim.state();
   s.body.p_n.x() = 2e8;
-  CHECK(refusal([&] { sim.set(s); }) ==
-        "the state is beyond the model, which ends at 1e5 m/s and rad/s and 1e8 m from the origin");
+  CHECK(refusal([&] { sim.set(s); }) == "sim.state_beyond_model");
   CHECK(same(row(sim), before));
 }
 
@@ -223,15 +222,15 @@ TEST_CASE("arrays of another shape, numbers that are none and empty batches are 
   const auto step = [&](std::size_t a, std::size_t r) {
     return refusal([&] { batch.step({actions.data(), a}, dt, 1, {rows.data(), r}); });
   };
-  CHECK(step(7, 52) == "actions: 2 x 4 numbers are expected, 7 were given");
-  CHECK(step(9, 52) == "actions: 2 x 4 numbers are expected, 9 were given");
-  CHECK(step(8, 49) == "rows: 2 x 26 numbers are expected, 49 were given");
+  CHECK(step(7, 52) == "actions: sim.number_count_invalid(2, 4, 7)");
+  CHECK(step(9, 52) == "actions: sim.number_count_invalid(2, 4, 9)");
+  CHECK(step(8, 49) == "rows: sim.number_count_invalid(2, 26, 49)");
   actions[5] = std::numeric_limits<double>::infinity();
-  CHECK(step(8, 52) == "aircraft 1: aileron_rad is inf");
+  CHECK(step(8, 52) == "aircraft 1: sim.command_not_finite(aileron_rad, inf)");
   batch.rows(rows);
   CHECK(rows == before);
-  CHECK(refusal([] { Batch none(anaconda(), 0); }) == "a batch has one aircraft or more");
-  CHECK(refusal([] { Batch none(anaconda(), 1, {}, 1, 0); }) == "a batch has 1 to 256 threads");
+  CHECK(refusal([] { Batch none(anaconda(), 0); }) == "sim.batch_empty");
+  CHECK(refusal([] { Batch none(anaconda(), 1, {}, 1, 0); }) == "sim.batch_threads_invalid");
 }
 
 TEST_CASE(

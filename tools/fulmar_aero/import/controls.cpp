@@ -190,9 +190,8 @@ ControlColumns control_columns(const std::vector<Control>& controls) {
            fulmar::located(std::string(role_name(role)),
                            aero_messages::control_ineffective(
                                force_symbol(main_force(role)), figures(main),
-                               most > 0 ? " and another moment " + figures(most) +
-                                              "; is it the column of another control?"
-                                        : "; were its gains 0, or is the file of another run?")));
+                               most > 0 ? aero_messages::control_column_swapped(figures(most))
+                                        : aero_messages::control_gain_zero())));
   }
   return out;
 }

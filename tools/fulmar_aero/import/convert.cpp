@@ -38,9 +38,10 @@ Analysis chosen_of(const Input& input, const ImportOptions& options, double mass
   const Analysis* best = nullptr;
   for (const Analysis& a : input.analyses)
     if (!best || distance(a) < distance(*best)) best = &a;
-  notes.push_back(short_name(input) + ": it has " + std::to_string(input.analyses.size()) +
-                  " analyses; taken is the one at alpha " + degrees(best->alpha_rad.x, 1) + ", nearest to " +
-                  (options.alpha_rad > -10 ? "what was asked for" : "level flight without elevator"));
+  notes.push_back(fulmar::located(
+      short_name(input),
+      aero_messages::analysis_chosen(input.analyses.size(), degrees(best->alpha_rad.x, 1),
+                                     options.alpha_rad > -10 ? "--alpha" : "level flight without elevator")));
   return *best;
 }
 
@@ -104,8 +105,8 @@ void report_differences(const Chosen& first, const Chosen& other, std::vector<st
                 by_symbol(By(by)) + " " + figures(a.x) + " and " + figures(b.x);
     }
   if (!differ.empty())
-    notes.push_back(short_name(*first.input) + " and " + short_name(*other.input) +
-                    " differ, and the first is taken: " + differ);
+    notes.push_back(
+        aero_messages::derivatives_differ(short_name(*first.input), short_name(*other.input), differ));
 }
 
 /// Where a control of the same role was already found: of two files the first one counts.
@@ -180,14 +181,13 @@ void move_to_gravity(Analysis& a, const Body& body, const Input& input, Aircraft
   const double dx = body.cg_m[0] - a.reference_m[0], dz = body.cg_m[2] - a.reference_m[2];
   if (std::hypot(dx, dz) < 1e-4 * a.chord_m.x) return;
   move_reference(a, dx, dz);
-  const std::string shift = short_name(input) +
-                            ": moments and rates moved from its reference to the centre of gravity, " +
-                            figures(dx) + " m aft and " + figures(dz) + " m up";
-  if (std::hypot(dx, dz) > 0.5 * a.chord_m.x)
-    out.warnings.push_back(shift + ", " + figures(std::hypot(dx, dz) / a.chord_m.x) +
-                           " of the chord: is that the unit of length of the files, and their origin?");
+  const double part = std::hypot(dx, dz) / a.chord_m.x;
+  if (part > 0.5)
+    out.warnings.push_back(fulmar::located(
+        short_name(input), aero_messages::reference_moved_far(figures(dx), figures(dz), figures(part))));
   else
-    out.notes.push_back(shift);
+    out.notes.push_back(
+        fulmar::located(short_name(input), aero_messages::reference_moved(figures(dx), figures(dz))));
 }
 
 /// CD_p + CL^2/(pi e AR) = CD
@@ -242,15 +242,9 @@ void set_drag(const Analysis& a, const std::vector<Input>& inputs, const ImportO
   }
   if (options.parasite_drag > 0) out.parasite = {options.parasite_drag, "--parasite-drag"};
   if (out.parasite.x >= no_friction && out.parasite.x < min_friction)
-    out.warnings.push_back(
-        "CD_p is " + figures(out.parasite.x) + " (" + out.parasite.from +
-        "), less than the friction of a smooth plate: the analysis has too little induced drag "
-        "for this span (a coarse mesh?); say yours with --parasite-drag, or give a polar");
+    out.warnings.push_back(aero_messages::friction_small(figures(out.parasite.x), out.parasite.from));
   if (out.parasite.x >= no_friction) return;
-  out.warnings.push_back(
-      "the analysis is without friction: CD - CL^2/(pi e AR) is " + figures(out.parasite.x) +
-      "; taken is CD_p " + figures(assumed_friction) +
-      ", small aircraft have 0.02 to 0.05: say yours with --parasite-drag, or give a polar with friction");
+  out.warnings.push_back(aero_messages::friction_missing(figures(out.parasite.x), figures(assumed_friction)));
   out.parasite = {assumed_friction, "assumption: the files have no friction (they leave " +
                                         figures(out.converted_parasite) +
                                         "); small aircraft have 0.02 to 0.05"};
@@ -319,8 +313,7 @@ void report_convergence(const Analysis& a, const Input& input, Aircraft& out) {
   for (const Force force : {side, roll, yaw}) look(alpha, force);
   if (most > 0.05)
     out.warnings.push_back(
-        short_name(input) + ": " + which + " is " + figures(most) +
-        ", and a symmetric aircraft has 0: the analysis has not converged; tighten the solver");
+        fulmar::located(short_name(input), aero_messages::analysis_not_converged(which, figures(most))));
 }
 
 void set_modes(const std::vector<Input>& inputs, Aircraft& out) {
@@ -346,12 +339,10 @@ std::vector<Chosen> all_chosen(const std::vector<Input>& inputs, const ImportOpt
     if (!input.analyses.empty()) all.push_back({&input, chosen_of(input, options, mass, out.notes)});
   }
   if (!all.empty()) return all;
-  std::string sentence =
-      "there are no derivatives in these files; expected AVL's .st or .sb, XFLR5's stability log, or "
-      "VSPAERO's .stab";
+  std::string files;
   for (const Input& input : inputs)
-    sentence += "\n  " + input.file + ": " + input.what + (input.unused.empty() ? "" : ", " + input.unused);
-  throw core::Error(sentence);
+    files += "\n  " + input.file + ": " + input.what + (input.unused.empty() ? "" : ", " + input.unused);
+  throw core::Error(aero_messages::derivatives_missing(files));
 }
 
 void divide_by_gains(std::vector<Control>& controls, const std::vector<Input>& inputs,

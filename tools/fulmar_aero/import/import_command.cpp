@@ -73,7 +73,7 @@ std::string modes_text(const ModeComparison& modes, const PrintedModes& printed)
             (pair.max_ratio <= 0 ? ""
              : pair.agrees()
                  ? ""
-                 : ", more than " + fixed(100 * pair.max_ratio, 0) + " %: something was taken wrong") +
+                 : aero_messages::eigenvalue_difference_large(fixed(100 * pair.max_ratio, 0)).line()) +
             "\n";
   return text;
 }

@@ -412,14 +412,12 @@ void move_moments(const Lines& lines, const Element& metrics, const Element& mas
                   Tables& tables) {
   const auto point = place_of(lines, metrics, "AERORP"), centre = place_of(lines, mass, "CG");
   if (!point || !centre) {
-    a.notes.push_back(
-        std::string("moments are taken as about the centre of gravity: the file has no place ") +
-        (point ? "CG" : "AERORP"));
+    a.notes.push_back(aero_messages::moment_reference_missing(point ? "CG" : "AERORP"));
     return;
   }
   const Arm arm{(*point)[0] - (*centre)[0], (*point)[2] - (*centre)[2]};
   if (std::abs((*point)[1] - (*centre)[1]) > 1e-3 * a.span_m.x)
-    a.warnings.push_back("AERORP and CG are not in one plane; what that rolls and yaws is left out");
+    a.warnings.push_back(aero_messages::moment_reference_beside());
   if (std::abs(arm.aft) + std::abs(arm.up) < 1e-3 * a.chord_m.x) return;
   Mover move(a, arm);
   move.derivatives();
@@ -428,8 +426,7 @@ void move_moments(const Lines& lines, const Element& metrics, const Element& mas
   if (tables.size() + more.size() > max_tables)
     refuse(lines.where(metrics.line), aero_messages::too_many_moment_tables(tables.size() + more.size()));
   tables.insert(tables.end(), more.begin(), more.end());
-  a.notes.push_back("moments moved from AERORP to the centre of gravity: forces act " + figures(arm.aft, 3) +
-                    " m behind and " + figures(arm.up, 3) + " m above it");
+  a.notes.push_back(aero_messages::moments_moved(figures(arm.aft, 3), figures(arm.up, 3)));
 }
 
 }  // namespace

@@ -207,10 +207,7 @@ Input read_avl_derivatives(const Lines& lines, const ReadOptions& options) {
     read_avl_st(lines, pairs, sign, controls, mixed, a);
   if (controls.empty()) input.notes.push_back("it has no control surfaces");
   if (stability && !controls.empty() && controls[0].index.size() >= 3 && !lines.has("force CD"))
-    input.doubts.push_back(
-        "of this version of AVL it is not known about which axes Cld and Cnd are; taken are the body's. Give "
-        "its "
-        "SB, too, with --controls-from");
+    input.doubts.push_back(aero_messages::derivative_axes_unknown());
   if (lines.has("Symmetry:"))
     input.notes.push_back(
         "half of the aircraft was analysed with a plane of symmetry: forces to the side are AVL's");

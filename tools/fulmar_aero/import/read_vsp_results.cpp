@@ -170,11 +170,11 @@ Input read_vsp_results(const Lines& lines, const ReadOptions& options) {
       others += (others.empty() ? "" : ", ") + block.name;
     }
   }
-  if (!others.empty()) input.notes.push_back("not read of it: " + others);
+  if (!others.empty()) input.notes.push_back(aero_messages::results_unused(others));
   if (!input.analyses.empty() && options.length_m <= 0)
     input.notes.push_back("VSPAERO does not say its unit of length; taken as metre (--length-unit)");
   if (input.analyses.empty() && input.polar.empty() && !input.body.mass_kg.known)
-    input.unused = "it has none of Parasite_Drag, Mass_Properties and VSPAERO_Stab; it has " + others;
+    input.unused = aero_messages::results_missing(others).line();
   return input;
 }
 

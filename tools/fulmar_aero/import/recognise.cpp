@@ -44,14 +44,13 @@ Input read_known(const Lines& lines, const ReadOptions& options) {
   if (is_avl_mrf(lines)) return read_avl_derivatives(avl_plain_of_mrf(lines), options);
   if (lines.has("VERSION 1.0") && (has("| # surfaces") || has("| surfaces") || has("| # bodies")))
     return unused(lines, "AVL's machine-readable forces",
-                  "an airframe needs the total derivatives, AVL's ST, SB or SM");
+                  aero_messages::total_derivatives_missing("ST, SB or SM"));
   if (has("Vortex Lattice Output")) return read_avl_derivatives(lines, options);
   if (has("Run case") && has("->") && has("X_cg")) return read_avl_run(lines);
   if (has("Run case") && has("Eigenvalue")) return read_avl_modes(lines);
   if (has("Control Hinge Moments")) return unused(lines, "AVL hinge moments", "an airframe has none");
   if (has("Surface Forces") || has("Strip Forces") || has("Element Forces") || has("Shear/q"))
-    return unused(lines, "AVL forces of surfaces and strips",
-                  "an airframe needs the total derivatives, AVL's ST");
+    return unused(lines, "AVL forces of surfaces and strips", aero_messages::total_derivatives_missing("ST"));
   if (has(" the ") && has(" psi ") && has("|"))
     return unused(lines, "AVL system matrix", "the eigenvalues (.eig) say the same");
   // XFLR5
@@ -59,8 +58,7 @@ Input read_known(const Lines& lines, const ReadOptions& options) {
   if (has("<explane") || has("<Plane_Polar")) return read_xflr5_xml(lines);
   if (has("Plane name") && has("Polar name")) return read_xflr5_polar(lines);
   if (has("Calculated polar for"))
-    return unused(lines, "polar of an airfoil",
-                  "it is of an airfoil, not of an aircraft; the plane's polar has the drag");
+    return unused(lines, "polar of an airfoil", aero_messages::polar_of_airfoil());
   // OpenVSP
   if (has("Results_Name,")) return read_vsp_results(lines, options);
   if (has("Solver Case") || (has("Sref_") && has("Iter "))) return read_vspaero_history(lines);

@@ -167,8 +167,8 @@ void report_doubts(const Lines& lines, const Parameters& all, Aircraft& a) {
                        text.find("double check") != std::string::npos ||
                        text.find("convention") != std::string::npos;
     if (doubt && text.find('#') != std::string::npos)
-      a.notes.push_back(lines.place(i) + ": its author doubts: '" +
-                        trimmed(lines.all[i].substr(lines.all[i].find('#'))) + "'");
+      a.notes.push_back(fulmar::located(
+          lines.place(i), aero_messages::sign_doubted(trimmed(lines.all[i].substr(lines.all[i].find('#'))))));
   }
   if (a.c[roll][t_beta].x > 0)
     a.warnings.push_back(
@@ -181,8 +181,7 @@ void report_doubts(const Lines& lines, const Parameters& all, Aircraft& a) {
   for (const auto& [key, parameter] : all) {
     if (!begins(key, "C_L_alpha")) continue;
     if (parameter.node != "/fixedwing_forces_and_moments" && parameter.node != "/**")
-      a.notes.push_back("the parameters stand under '" + parameter.node +
-                        "', which no node of today's simulator reads");
+      a.notes.push_back(aero_messages::parameter_node_unknown(parameter.node));
   }
 }
 

@@ -90,10 +90,9 @@ std::string gains_text(const Lines& lines, RosplaneSet& out) {
     std::string why = lines.place(found->second.line, rule.theirs);
     if (rule.factor == full_deflection) why += " times 40 deg";
     if (rule.surface && value < 0) {
-      out.doubts.push_back(
-          lines.place(found->second.line) + ": " + rule.theirs + " is " + figures(found->second.value) +
-          ": its sign is that of a surface with the other sense; Fulmar's gains are positive, and " +
-          figures(-value) + " rad is taken");
+      out.doubts.push_back(fulmar::located(
+          lines.place(found->second.line),
+          aero_messages::gain_sign_reversed(rule.theirs, figures(found->second.value), figures(-value))));
       value = -value;
     }
     sections[rule.component] +=
@@ -102,12 +101,10 @@ std::string gains_text(const Lines& lines, RosplaneSet& out) {
   }
   for (const auto& [key, setting] : all)
     if (key == "autopilot" || key == "p_ff" || key == "trim_r" || key == "frequency")
-      out.doubts.push_back(lines.place(setting.line) + ": " + key +
-                           " is declared by no node of ROSplane 2.0: it never counts there");
+      out.doubts.push_back(fulmar::located(lines.place(setting.line), aero_messages::gain_undeclared(key)));
   if (lines.find("autopilot:"))
     out.doubts.push_back(
-        lines.place(*lines.find("autopilot:")) +
-        ": the gains stand under 'autopilot', and the node is 'controller': ROSplane flies its defaults");
+        fulmar::located(lines.place(*lines.find("autopilot:")), aero_messages::autopilot_node_renamed()));
   out.notes.push_back("gains: " + lines.place(0) + ": " + used +
                       "; all others are Fulmar's defaults, and `fulmar aero tune --write` computes them");
   std::string text =

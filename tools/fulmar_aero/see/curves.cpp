@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tools/fulmar_aero/flight_model.hpp"
+#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/mode_words.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
@@ -169,7 +170,7 @@ std::vector<Chart> trim_charts(const std::vector<AircraftCurves>& sets) {
                 .y = {row.words, row.unit},
                 .lines = {},
                 .keys = {},
-                .empty = "there is no level flight"};
+                .empty = aero_messages::level_flight_missing().line()};
     for (std::size_t i = 0; i < sets.size(); ++i) {
       add_line(
           chart, sets[i], int(i), sets[i].points, [](const LevelPoint& p) { return p.airspeed_mps; },
@@ -195,7 +196,7 @@ Chart envelope_chart(const std::vector<AircraftCurves>& sets) {
               .lines = {},
               .keys = {},
               .with_zero = true,
-              .empty = "there is no level flight"};
+              .empty = aero_messages::level_flight_missing().line()};
   for (std::size_t i = 0; i < sets.size(); ++i) {
     const auto speed = [](const EnvelopePoint& p) { return p.airspeed_mps; };
     add_line(chart, sets[i], int(i), sets[i].envelope, speed,
@@ -223,7 +224,7 @@ std::vector<Chart> mode_charts(const std::vector<AircraftCurves>& sets) {
             .keys = {},
             .unstable = true,
             .with_zero = true,
-            .empty = "there is no level flight"};
+            .empty = aero_messages::level_flight_missing().line()};
   Chart slow = all;
   slow.title = "Phugoid and spiral";
   for (const ModeKind kind : mode_kinds) {

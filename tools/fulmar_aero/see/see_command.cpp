@@ -281,8 +281,7 @@ std::string drawings_html(const std::vector<Seen>& all) {
     if (all[i].drawn)
       charts.push_back(lattice_chart(all[i], int(i)));
     else
-      out += sentence_html(all[i].curves.title +
-                           ": an airframe file says nothing of surfaces; give its drawing to see them.");
+      out += sentence_html(aero_messages::surfaces_not_in_file(all[i].curves.title).line());
   }
   if (charts.size() > 1) charts.push_back(outline_chart(all));
   if (!charts.empty())

@@ -85,12 +85,14 @@ TEST_CASE("moments of JSBSim are about AERORP, and move to the centre of gravity
   CHECK(a.c[yaw][t_beta].x == Approx(0.08 + 0.5 * 3 * 0.0254 / b));
   CHECK(a.c[roll][t_beta].x == Approx(-0.06 + 0.5 * 4 * 0.0254 / b));
   CHECK(a.c[pitch][t_q].x == -12);  // no force by rates, no moment of it
-  CHECK(says(a.c[pitch][t_alpha].from, "gull.xml:3 Cma, moved to the centre of gravity"));
-  CHECK(says(a.notes.back(), "forces act 0.0762 m behind and -0.102 m above it"));
-  CHECK(says(read(gull("", ahead, straight)).notes.back(), "the file has no place AERORP"));
-  CHECK(says(read(gull(behind, "", straight)).notes.back(), "the file has no place CG"));
-  CHECK(says(read(gull(behind, "<x>38</x><y>1</y><z>2</z>", straight)).warnings.back(), "not in one plane"));
-  CHECK(says(refusal([] { read(gull("<x>1</x><z>0</z>", ahead, straight)); }), "expected <y>"));
+  CHECK(says(a.c[pitch][t_alpha].from, "gull.xml:3 Cma, moved"));
+  CHECK(says(a.notes.back(), "aero.moments_moved(0.0762, -0.102)"));
+  CHECK(says(read(gull("", ahead, straight)).notes.back(), "aero.moment_reference_missing(AERORP)"));
+  CHECK(says(read(gull(behind, "", straight)).notes.back(), "aero.moment_reference_missing(CG)"));
+  CHECK(says(read(gull(behind, "<x>38</x><y>1</y><z>2</z>", straight)).warnings.back(),
+             "aero.moment_reference_beside"));
+  CHECK(says(refusal([] { read(gull("<x>1</x><z>0</z>", ahead, straight)); }),
+             "aero.child_element_missing(location, y)"));
 }
 
 TEST_CASE("a lift that is a table has a line that laws are made from; what is left of it moves as a table") {

@@ -26,8 +26,8 @@ TEST_CASE("suspicious servos are found" * doctest::test_suite("amounts")) {
     return checked("elevator: {limit: 40 deg,", "elevator: {limit: 40 deg, " + more + ",");
   };
   CHECK(servo("natural_frequency_radps: 10")
-            .says("elevator.natural_frequency: aero.servo_frequency_unusual(10, : is it in Hz? Then it would "
-                  "be 62.8 rad/s)"));
+            .says("elevator.natural_frequency: aero.servo_frequency_unusual(10, "
+                  "aero.servo_frequency_in_hertz(62.8))"));
   CHECK(servo("natural_frequency: 100 rad/s, damping: 17")
             .says("elevator.damping: aero.servo_damping_unusual(17)"));
   CHECK(servo("dead_band_rad: 0.5").says("elevator.dead_band: aero.dead_band_unusual(28.6 deg)"));
@@ -37,8 +37,7 @@ TEST_CASE("suspicious servos are found" * doctest::test_suite("amounts")) {
 
 TEST_CASE("elevons that are not alike are found") {
   CHECK(checked("elevator: {limit: 40 deg,", "mixer: elevons\nelevator: {limit: 35 deg,")
-            .says("mixer: aero.paired_servos_differ('aileron' and 'elevator' are the left and the right "
-                  "elevon)"));
+            .says("mixer: aero.paired_servos_differ(aileron, elevator, elevon)"));
   CHECK_FALSE(
       checked("elevator: {limit: 40 deg,", "mixer: elevons\nelevator: {limit: 40 deg,").says("mixer"));
 }
@@ -63,13 +62,14 @@ TEST_CASE("the gear's attitude is told, and one on which nothing stands is refus
   const Answer two = checked(gear, contacts("[{at_m: [0.4, 0, 0.25], carries: 0.2}, {at_m: [-0.1, 0, 0.25], "
                                             "carries: 0.8}]"));
   CHECK(two.code == 4);
-  CHECK(two.says("gear.contacts: an aircraft stands on at least 3 contacts, and here are 2"));
+  CHECK(two.says("gear.contacts: sim.contacts_few(2)"));
   const Folder folder;
   const std::string text = changed("anaconda", gear, contacts("[{at_m: [0.4, 0, 0.25], carries: 0.2}]"));
   const std::string file = folder.write("a.yaml", text);
   const auto line =
       1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(text.find("  contacts:")), '\n');
-  CHECK(call("trim " + file).says(file + ":" + std::to_string(line) + ": gear.contacts: an aircraft stands"));
+  CHECK(
+      call("trim " + file).says(file + ":" + std::to_string(line) + ": gear.contacts: sim.contacts_few(1)"));
 }
 
 TEST_CASE("a fault in an item of a list has the item's line") {
@@ -78,7 +78,7 @@ TEST_CASE("a fault in an item of a list has the item's line") {
               "  battery: 24 V\n  propellers:\n    - {at_m: [0, 1, 0]}\n    - {at_m: [0, 0, 0], "
               "differential: 0.2}");
   CHECK(answer.code == 4);
-  CHECK(answer.says("propulsion.propellers[1].differential: it stands in the middle"));
+  CHECK(answer.says("propulsion.propellers[1].differential: sim.propeller_in_middle"));
 }
 
 }  // namespace parts_test

@@ -100,10 +100,8 @@ TEST_CASE("delay takes phase, and bandwidth where nothing was asked for" * docte
   CHECK(late["gains"]["control_slc/Inner"]["pitch_kp"]["computed"].get<double>() <
         0.5 * now["gains"]["control_slc/Inner"]["pitch_kp"]["computed"].get<double>());
   // the lag that was assumed is told
-  CHECK(
-      call("tune " + file + " --delay '40 ms' --step '20 ms'")
-          .says("assumed: a step of 20 ms, delay 40 ms; with the servos' lag, aileron 60 ms, elevator 60 ms, "
-                "throttle 100 ms"));
+  CHECK(call("tune " + file + " --delay '40 ms' --step '20 ms'")
+            .says("aero.tuning_assumptions(20 ms, 40 ms, 60 ms, 60 ms, 100 ms)\n"));
 }
 
 TEST_CASE("too little margin is told for each loop, and nothing is written" *
@@ -115,7 +113,7 @@ TEST_CASE("too little margin is told for each loop, and nothing is written" *
       call("tune " + file +
            " --delay '60 ms' --write --bandwidth roll=6 --bandwidth pitch=6 --bandwidth course=5");
   CHECK(answer.code == 1);
-  CHECK_MESSAGE(answer.says("anaconda: course, broken at the course: the phase margin is "), answer.out);
+  CHECK_MESSAGE(answer.says("anaconda: aero.phase_margin_small(course, course, "), answer.out);
   CHECK(answer.says(" deg, 45 deg are the least"));
   CHECK(answer.says("dB only, 6 dB are the least"));
   CHECK(text_of(file) == text);
@@ -139,15 +137,15 @@ TEST_CASE("a bandwidth that an actuator cannot give is refused, with the limit a
   }
   const Answer stall = call("tune configs/airframes/anaconda.yaml --airspeed '8 m/s'");
   CHECK(stall.code == 1);
-  CHECK(stall.says("anaconda: no steady level flight at 8 m/s"));
+  CHECK(stall.says("anaconda: aero.flight_impossible(aero.flight_condition(steady level flight, 8, 0), "));
 }
 
 TEST_CASE("words that mean nothing are wrong usage") {
   const std::map<std::string, std::string> reported{
       {"--bandwidth 'rol=3'",
        "aero.bandwidth_loop_unknown(rol=3,  [roll] roll, pitch, course, height, airspeed)"},
-      {"--bandwidth roll", "aero.bandwidth_loop_unknown("},
-      {"--bandwidth 'roll=8 kg'", "graph.dimension_differs("},
+      {"--bandwidth roll", "aero.bandwidth_loop_unknown(roll, "},
+      {"--bandwidth 'roll=8 kg'", "graph.dimension_differs(8 kg, a mass, "},
       {"--bandwidth roll=0", "aero.tuning_out_of_range(0, 0.01, 1000, rad/s)"},
       {"--delay '2 s'", "aero.tuning_out_of_range(2 s, 0, 1, s)"},
       {"--step 0", "aero.tuning_out_of_range(0, 0.001, 0.1, s)"}};
@@ -165,8 +163,8 @@ TEST_CASE("gains of the file that no law has are refused by file and line") {
        "params.control_slc/Inner: aero.parameter_unknown(roll_kq,  [roll_kp] roll_kp, roll_ki, roll_kd, "
        "roll_kff, roll_from_sideslip, pitch_kp, pitch_ki, pitch_kd, turn_kff, yaw_kd, yaw_washout, "
        "command_filter, airspeed_smoothing, scale_limit, quieten, airframe)"},
-      {"roll_kp: 50", "50 is outside 0 .. 20"},
-      {"roll_kp: quick", "'quick'"}};
+      {"roll_kp: 50", "graph.value_out_of_range(50, 0, 20, "},
+      {"roll_kp: quick", "graph.number_invalid(quick)"}};
   for (const auto& [by, sentence] : reported) {
     const Answer answer = call("tune " + folder.write("a.yaml", changed("anaconda", "roll_kp: 1.4", by)));
     CHECK(answer.code == 4);
@@ -236,11 +234,11 @@ TEST_CASE("--verify flies the hourglass, and an aircraft that does not keep to i
           doctest::test_suite("amounts")) {
   const Answer flown = call("tune configs/airframes/x8.yaml --altitude '1457 m' --verify");
   CHECK_MESSAGE(flown.code == 0, flown.out);
-  CHECK(flown.says("hourglass in light turbulence: flown"));
+  CHECK(flown.says("aero.hourglass_result(flown"));
   const Answer slow = call(
       "tune configs/airframes/anaconda.yaml --verify --json --bandwidth height=0.04 --bandwidth pitch=0.2");
   CHECK(slow.code == 1);
-  CHECK_MESSAGE(slow.says("anaconda: height on the hourglass is "), slow.out);
+  CHECK_MESSAGE(slow.says("anaconda: aero.hourglass_bound_missed(height, "), slow.out);
   CHECK_MESSAGE(!slow.says("stalled"), slow.out);
 }
 
@@ -273,7 +271,7 @@ TEST_CASE("an outer law with a wrong least airspeed banks no further than the wi
   CHECK(stalled.code == 1);
   CHECK_MESSAGE(!stalled.says("stalled at "), stalled.out);
   const Answer kept = call("tune configs/airframes/anaconda.yaml --airspeed '12 m/s' --verify");
-  CHECK_MESSAGE(kept.says("hourglass in light turbulence: flown\n"), kept.out);
+  CHECK_MESSAGE(kept.says("aero.hourglass_result(flown)\n"), kept.out);
 }
 
 }  // namespace tune_test

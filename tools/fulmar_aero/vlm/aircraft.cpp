@@ -121,11 +121,10 @@ std::string turn_controls(const Geometry& g, SixDerivatives& whole) {
     int control;
     double Six::*moment;
     double right;  ///< its sign
-    const char* words;
+    const MessageText<0>& words;
   };
-  constexpr std::array<Sense, 2> senses{
-      {{to_elevator, &Six::Cm, -1, "elevator: positive is trailing edge up, which takes the nose down here"},
-       {to_rudder, &Six::Cn, -1, "rudder: positive is trailing edge right, which takes the nose left here"}}};
+  constexpr std::array<Sense, 2> senses{{{to_elevator, &Six::Cm, -1, aero_messages::elevator_leading_up},
+                                         {to_rudder, &Six::Cn, -1, aero_messages::rudder_leading_right}}};
   std::string turned;
   if (g.mixer != Mixer::conventional) return turned;
   for (const Sense& sense : senses) {
@@ -133,7 +132,7 @@ std::string turn_controls(const Geometry& g, SixDerivatives& whole) {
     if (column.*(sense.moment) * sense.right >= 0) continue;
     for (double Six::*const c : {&Six::CL, &Six::CD, &Six::CY, &Six::Cl, &Six::Cm, &Six::Cn})
       column.*c = -(column.*c);
-    turned += std::string(turned.empty() ? "" : "; ") + sense.words;
+    turned += std::string(turned.empty() ? "" : "; ") + sense.words.c_str();
   }
   return turned.empty() ? turned : fulmar::located(turned, aero_messages::servo_reversal_needed()).line();
 }
@@ -168,11 +167,10 @@ void doubt(const SixDerivatives& few, Aircraft& a) {
   const double lift = few.alpha.CL / all.alpha.CL,
                margin = few.alpha.Cm / few.alpha.CL - all.alpha.Cm / all.alpha.CL;
   if (std::abs(lift - 1) >= 0.05 || std::abs(margin) >= 0.05)
-    a.doubt = "not converged: with a sixth of the panels CL_alpha is " + figures(few.alpha.CL) +
-              " instead of " + figures(all.alpha.CL) + " and the static margin " +
-              fixed(-few.alpha.Cm / few.alpha.CL, 3) + " instead of " +
-              fixed(-all.alpha.Cm / all.alpha.CL, 3) +
-              "; give more panels, or part a tail from the height at which the wing's wake meets it";
+    a.doubt = aero_messages::lattice_not_converged(figures(few.alpha.CL), figures(all.alpha.CL),
+                                                   fixed(-few.alpha.Cm / few.alpha.CL, 3),
+                                                   fixed(-all.alpha.Cm / all.alpha.CL, 3))
+                  .line();
   struct Power {
     const char* name;
     double few, all;
@@ -181,9 +179,8 @@ void doubt(const SixDerivatives& few, Aircraft& a) {
                          Power{"Cl_aileron", few.control[to_aileron].Cl, all.control[to_aileron].Cl},
                          Power{"Cn_rudder", few.control[to_rudder].Cn, all.control[to_rudder].Cn}}) {
     if (std::abs(p.few - p.all) <= max_power_change * std::abs(p.all)) continue;
-    a.doubt += std::string(a.doubt.empty() ? "" : "; ") + "not converged: with a sixth of the panels " +
-               p.name + " is " + figures(p.few) + " instead of " + figures(p.all) +
-               "; give its surface more panels along the chord and the span";
+    a.doubt += std::string(a.doubt.empty() ? "" : "; ") +
+               aero_messages::control_not_converged(p.name, figures(p.few), figures(p.all)).line();
   }
 }
 
@@ -192,15 +189,11 @@ void lift_fault(const GeometryFile& file, double CL, const Aircraft& a, const Vl
   const auto lift = [&](double alpha) { return vlm.forces({.alpha = alpha}).CL; };
   const double slope = (lift(step) - lift(-step)) / (2 * step), far = lift(steepest);
   const bool of_wings = slope > 1 && slope < 9 && far > lift(step) && lift(-steepest) < lift(-step);
-  throw core::Error(located(
-      file.where("limits", 1u << 20),
-      aero_messages::cruise_lift_unreachable(
-          core::number_text(a.stream.airspeed_mps), figures(a.mass.mass_kg), figures(CL),
-          of_wings
-              ? ""
-              : "; their lift is not that of wings (CL_alpha " + figures(slope) + ", CL " + figures(far) +
-                    " at 25 deg), so a vortex passes a control point of another surface: make winglets "
-                    "sections of their wing, part a tail from the wing's wake, or change `spanwise`")));
+  throw core::Error(
+      located(file.where("limits", 1u << 20),
+              aero_messages::cruise_lift_unreachable(
+                  core::number_text(a.stream.airspeed_mps), figures(a.mass.mass_kg), figures(CL),
+                  of_wings ? "" : aero_messages::lift_not_of_wings(figures(slope), figures(far)).line())));
 }
 
 }  // namespace

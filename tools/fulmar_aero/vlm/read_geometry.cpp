@@ -28,38 +28,34 @@ class GeometryRules {
   void check() {
     for (std::size_t i = 0; i < g_.airfoils.size(); ++i) airfoil(i);
     for (std::size_t i = 0; i < g_.surfaces.size(); ++i) surface(i);
-    if (g_.surfaces.empty())
-      add(file_.where("surfaces", 0), "surfaces: there is none; an aircraft has at least a wing");
+    if (g_.surfaces.empty()) add(file_.where("surfaces", 0), aero_messages::wing_missing());
     if (report_.empty()) reference();
     if (report_.empty()) panels();
   }
 
  private:
-  void add(const core::Where& where, const std::string& sentence) { report_.add(where, sentence); }
+  void add(const core::Where& where, Diagnostic message) { report_.add(where, std::move(message)); }
 
   void airfoil(std::size_t i) {
     const Airfoil& a = g_.airfoils[i];
     const std::string own = "airfoils[" + std::to_string(i) + "]";
     const core::Where where = file_.where("airfoils", i);
     for (std::size_t k = 0; k < i; ++k)
-      if (g_.airfoils[k].name == a.name) add(where, own + ": " + quoted(a.name.view()) + " is there twice");
+      if (g_.airfoils[k].name == a.name)
+        add(where, located(own, aero_messages::name_repeated(a.name.view())));
     const int shapes =
         int(!a.naca.view().empty()) + int(a.alpha_zero_rad < 1e8) + int(!a.camber_x_frac.empty());
-    if (shapes != 1)
-      add(where, own + ": " + quoted(a.name.view()) + " has " +
-                     (shapes == 0 ? "no shape" : "several shapes") +
-                     "; give one of naca (four digits), alpha_zero and camber_x_frac with camber_z_frac");
+    if (shapes != 1) add(where, located(own, aero_messages::airfoil_shape_invalid(a.name.view(), shapes)));
     if (const std::string_view digits = a.naca.view();
         !digits.empty() &&
         (digits.size() != 4 || digits.find_first_not_of("0123456789") != std::string_view::npos))
-      add(where, own + ".naca: " + quoted(digits) + " is not of four digits, as in \"2412\"");
+      add(where, located(own + ".naca", aero_messages::naca_digits_invalid(digits)));
     if (a.camber_x_frac.size() != a.camber_z_frac.size() || a.camber_x_frac.size() == 1)
-      add(where, own + ": camber_x_frac has " + std::to_string(a.camber_x_frac.size()) +
-                     " places and camber_z_frac " + std::to_string(a.camber_z_frac.size()) +
-                     " heights; as many are needed, and at least 2");
-    if (a.alpha_zero_rad < 1e8 && std::abs(a.alpha_zero_rad) > 0.35)
       add(where,
-          own + ".alpha_zero: " + core::number_text(a.alpha_zero_rad) + " rad is outside -0.35 .. 0.35 rad");
+          located(own, aero_messages::camber_count_mismatch(a.camber_x_frac.size(), a.camber_z_frac.size())));
+    if (a.alpha_zero_rad < 1e8 && std::abs(a.alpha_zero_rad) > 0.35)
+      add(where, located(own + ".alpha_zero",
+                         aero_messages::alpha_zero_out_of_range(core::number_text(a.alpha_zero_rad))));
   }
 
   void surface(std::size_t i) {
@@ -67,12 +63,10 @@ class GeometryRules {
     const std::string own = "surfaces[" + std::to_string(i) + "]";
     for (std::size_t k = 0; k < i; ++k)
       if (g_.surfaces[k].name == s.name)
-        add(file_.where("surfaces", i), own + ".name: " + quoted(s.name.view()) + " is there twice");
+        add(file_.where("surfaces", i), located(own + ".name", aero_messages::name_repeated(s.name.view())));
     if (s.sections.size() < 2)
-      return add(file_.where("surfaces", i), own + ": " + quoted(s.name.view()) + " has " +
-                                                 std::to_string(s.sections.size()) +
-                                                 (s.sections.size() == 1 ? " section" : " sections") +
-                                                 "; it needs at least 2, from the root to the tip");
+      return add(file_.where("surfaces", i),
+                 located(own, aero_messages::sections_too_few(s.name.view(), s.sections.size())));
     sections(i, own);
     controls(i, own);
   }
@@ -85,24 +79,24 @@ class GeometryRules {
       const core::Where where = file_.where("surfaces", i, "sections", k);
       const std::string path = own + ".sections[" + std::to_string(k) + "]";
       if (s.mirror && now.y_m < 0)
-        add(where, path + ".y: " + metres(now.y_m) +
-                       " is on the left; of a surface with mirror the right half is given");
+        add(where, located(path + ".y", aero_messages::section_on_left(metres(now.y_m))));
       if (!now.airfoil.view().empty() &&
           std::none_of(g_.airfoils.begin(), g_.airfoils.end(),
                        [&](const Airfoil& a) { return a.name == now.airfoil; })) {
         std::vector<std::string> names;
         for (const Airfoil& a : g_.airfoils) names.emplace_back(a.name.view());
-        add(where, path + ".airfoil: there is no airfoil " + quoted(now.airfoil.view()) + "." +
-                       core::choices_text(std::string(now.airfoil.view()), names));
+        add(where,
+            located(path + ".airfoil",
+                    aero_messages::airfoil_unknown(
+                        now.airfoil.view(), core::choices_text(std::string(now.airfoil.view()), names))));
       }
       if (k == 0) continue;
       const WingSection& last = s.sections[k - 1];
       const double dy = now.y_m - last.y_m, dz = now.z_m - last.z_m, length = std::hypot(dy, dz);
       if (length < 1e-6)
-        add(where, path + ": it is at the same y and z as the section before it");
+        add(where, located(path, aero_messages::section_repeated()));
       else if (k > 1 && dy * before_y + dz * before_z < -1e-6 * length)
-        add(where, path + ": the sections cross: this one goes back from y = " + metres(last.y_m) + " to " +
-                       metres(now.y_m) + "; they go from the root to the tip");
+        add(where, located(path, aero_messages::sections_crossing(metres(last.y_m), metres(now.y_m))));
       before_y = length < 1e-6 ? 0 : dy / length;
       before_z = length < 1e-6 ? 0 : dz / length;
     }
@@ -123,26 +117,23 @@ class GeometryRules {
       const core::Where where = file_.where("surfaces", i, "controls", k);
       const std::string path = own + ".controls[" + std::to_string(k) + "]";
       if (!(c.from_m >= 0 && c.to_m <= span * (1 + 1e-3)))
-        add(where, path + ": from " + metres(c.from_m) + " to " + metres(c.to_m) +
-                       " is outside its surface " + quoted(s.name.view()) + ", which is " + metres(span) +
-                       " long");
+        add(where, located(path, aero_messages::control_outside_surface(metres(c.from_m), metres(c.to_m),
+                                                                        s.name.view(), metres(span))));
       else if (!(c.to_m > c.from_m))
-        add(where, path + ": it ends at " + metres(c.to_m) + " and begins at " + metres(c.from_m));
+        add(where, located(path, aero_messages::control_reversed(metres(c.to_m), metres(c.from_m))));
       for (std::size_t j = 0; j < k; ++j)
         if (c.from_m < s.controls[j].to_m - 1e-9 && s.controls[j].from_m < c.to_m - 1e-9)
-          add(where, path + ": it lies over controls[" + std::to_string(j) + "] of the same surface");
+          add(where, located(path, aero_messages::controls_overlap(j)));
       const bool pair =
           c.drives == Drives::aileron || c.drives == Drives::elevons || c.drives == Drives::v_tail;
       if (pair && !s.mirror)
-        add(where, path + ".drives: this takes a surface on each side, and " + quoted(s.name.view()) +
-                       " has no mirror");
+        add(where, located(path + ".drives", aero_messages::control_mirror_missing(s.name.view())));
       const bool needs_across = c.drives != Drives::rudder,
                  needs_up = c.drives == Drives::rudder || c.drives == Drives::v_tail;
       if (needs_across && across < 0.05 * span)
-        add(where, path + ".drives: " + quoted(s.name.view()) +
-                       " stands upright; only a rudder does something there");
+        add(where, located(path + ".drives", aero_messages::surface_upright(s.name.view())));
       if (needs_up && up < 0.05 * span)
-        add(where, path + ".drives: " + quoted(s.name.view()) + " lies flat; a rudder does nothing there");
+        add(where, located(path + ".drives", aero_messages::surface_flat(s.name.view())));
     }
   }
 
@@ -161,9 +152,7 @@ class GeometryRules {
     }
     if (sum <= most) return;
     add(file_.where("surfaces", at),
-        "surfaces: they have " + std::to_string(sum) + " panels, of which " +
-            quoted(g_.surfaces[at].name.view()) + " has " + std::to_string(largest) +
-            " (chordwise times spanwise, both halves); at most " + std::to_string(most) + " are solved");
+        aero_messages::too_many_panels(sum, g_.surfaces[at].name.view(), largest, most));
   }
 
   /// A slip of unit or of half and whole: coefficients would be right for an aircraft of another size.
@@ -184,14 +173,13 @@ class GeometryRules {
     const core::Where where = at ? at->where() : core::Where{file_.name, 0};
     const auto far = [](double said, double drawn) { return said < 0.6 * drawn || said > 1.7 * drawn; };
     if (far(g_.reference.area_m2, area))
-      add(where, "reference.area: " + core::number_text(g_.reference.area_m2) +
-                     " m^2, but the largest surface has " + figures(area, 5) + " m^2, both halves");
-    if (far(g_.reference.span_m, span))
       add(where,
-          "reference.span: " + metres(g_.reference.span_m) + ", but the surfaces span " + metres(span));
+          aero_messages::reference_area_mismatch(core::number_text(g_.reference.area_m2), figures(area, 5)));
+    if (far(g_.reference.span_m, span))
+      add(where, aero_messages::reference_span_mismatch(metres(g_.reference.span_m), metres(span)));
     if (far(g_.reference.chord_m * g_.reference.span_m, g_.reference.area_m2))
-      add(where, "reference.chord: " + metres(g_.reference.chord_m) + ", but area over span is " +
-                     metres(g_.reference.area_m2 / g_.reference.span_m));
+      add(where, aero_messages::reference_chord_mismatch(metres(g_.reference.chord_m),
+                                                         metres(g_.reference.area_m2 / g_.reference.span_m)));
   }
 
   const GeometryFile& file_;

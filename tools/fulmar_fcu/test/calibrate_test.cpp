@@ -59,8 +59,8 @@ TEST_CASE(
   Shaken bench;
   const Captured result = bench.calibrate("imu");
   CHECK(result.code == 1);
-  CHECK(result.says("'Too much movement for IMU cal'"));
-  CHECK(result.says("The former values are back."));
+  CHECK(result.says("fcu.calibration_failed(imu, Too much movement for IMU cal, "));
+  CHECK(result.says(", fcu.values_restored)"));
   CHECK(bench.as_before());
   bench.idle(5'000'000);  // nothing of the calibration comes after it
   CHECK(bench.as_before());
@@ -79,7 +79,7 @@ TEST_CASE("former biases that cannot be put back are named, each with its value"
     };
     const Captured result = bench.calibrate("imu");
     CHECK(result.code == 1);
-    CHECK(result.says("could not be put back"));
+    CHECK(result.says("fcu.values_not_restored(fcu.calibration_failed(imu, "));
     for (const char* line : {"ACC_X_BIAS       -0.037", "ACC_Y_BIAS       -0.089", "ACC_Z_BIAS       -0.074",
                              "GYRO_X_BIAS      0.008", "GYRO_Y_BIAS      -0.002", "GYRO_Z_BIAS      0.001"})
       CHECK_MESSAGE(result.says(line), line);
@@ -92,7 +92,7 @@ TEST_CASE("a calibration that is interrupted puts the former biases back as well
   client.connect();
   int asked = 0;
   client.cancelled = [&] { return bench.firmware.params().f(param("ACC_X_BIAS")) == 0 && ++asked > 20; };
-  CHECK_THROWS_WITH(calibrate(client, *find_calibration("imu")), doctest::Contains("former values are back"));
+  CHECK_THROWS_WITH(calibrate(client, *find_calibration("imu")), "Interrupted.fcu.values_restored");
   CHECK(bench.as_before());
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("a refused calibration changes nothing and promises nothing") {
     calibrate(client, *find_calibration("imu"));
     FAIL("it succeeded");
   } catch (const Error& e) {
-    CHECK(std::string(e.what()).find("former") == std::string::npos);
+    CHECK(std::string(e.what()).find("fcu.values_") == std::string::npos);
   }
   CHECK(bench.as_before());
 }

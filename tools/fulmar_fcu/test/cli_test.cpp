@@ -54,8 +54,8 @@ TEST_CASE("status, parameters and the check over a terminal line, as a user type
   CHECK(controller.run("params set RC_ARM_CHN 1.5").code == 1);
   CHECK(controller.run("mixer").says("elevator"));
   CHECK(controller.run("check").says("FAIL"));
-  CHECK(controller.run("test-outputs").says("--propeller-off"));
-  CHECK(controller.run("calibrate mag").says("a terminal"));
+  CHECK(controller.run("test-outputs").says("fcu.confirmation_required(--propeller-off, once it is)"));
+  CHECK(controller.run("calibrate mag").says("fcu.terminal_required"));
 }
 
 TEST_CASE("wrong usage ends with 2, and a device that is not there with 1") {
@@ -75,16 +75,14 @@ TEST_CASE("wrong usage ends with 2, and a device that is not there with 1") {
     const Run help(std::string(command) + " --help");
     CAPTURE(help.out);
     CHECK(help.code == 0);
-    CHECK(help.says(
-        "Example: fcu.subcommand_unknown( calibrate, gro,  [gyro] imu, gyro, rc, baro, airspeed, mag)" +
-        std::string(command)));
+    CHECK(help.says("Example: fulmar fcu " + std::string(command)));
     CHECK(help.out.find("Example", help.out.find("Example") + 1) == std::string::npos);
     CHECK_FALSE(
         std::regex_search(help.out, std::regex("REQUIRED *\n")));  // each positional has a word of help
   }
   const Run missing("--port /dev/ttyNOWHERE status");
   CHECK(missing.code == 1);
-  CHECK(missing.says("/dev/ttyNOWHERE"));
+  CHECK(missing.says("port.device_missing(/dev/ttyNOWHERE, "));
   CHECK(std::count(missing.out.begin(), missing.out.end(), '\n') == 1);
 }
 
@@ -121,7 +119,7 @@ TEST_CASE("a device that is pulled out ends what is under way with a sentence") 
   const Run status = controller.run("status --watch");
   pull.join();
   CHECK(status.code == 1);
-  CHECK(status.says("gone"));
+  CHECK(status.says("port.device_lost(" + controller.device.name() + ")"));
 }
 
 TEST_CASE("a port that another program holds is told with its name") {
@@ -130,7 +128,7 @@ TEST_CASE("a port that another program holds is told with its name") {
   testing::pause_us(1000000);
   const Run second = controller.run("status");
   CHECK(second.code == 1);
-  CHECK(second.says("held by"));
+  CHECK(second.says("port.port_in_use(" + controller.device.name() + ", another program, "));
   first.join();
 }
 

@@ -68,7 +68,7 @@ TEST_CASE("aileron, elevator and rudder move one after the other to both sides, 
 TEST_CASE("without a yes nothing moves") {
   Standing bench;
   const Captured result = bench.test_outputs(false);
-  CHECK(result.says("--propeller-off"));
+  CHECK(result.says("fcu.confirmation_required(--propeller-off, once it is)"));
   CHECK(bench.firmware.commands() == 0);
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("what keeps the outputs from following is told: the switch, the radio,
       armed.firmware.inputs.rc_us = {1500, 1500, 1000, 1500, 2000, 2000, 1000, 1000};
   };
   const Captured result = armed.test_outputs();
-  CHECK((result.says("fcu.armed_during_test") || result.says("The pilot took over")));
+  CHECK((result.says("fcu.armed_during_test") || result.says("fcu.pilot_took_over(")));
   CHECK(armed.firmware.commands() < 160);
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("a calibration that fails is told in the firmware's words") {
   what.what = "imu";
   const Captured result([&] { return calibrate_command(client, {}, what); });
   CHECK(result.code == 1);
-  CHECK(result.says("the controller says: 'large accel bias"));
+  CHECK(result.says("fcu.calibration_failed(imu, large accel bias"));
   CHECK(bench.firmware.params().f(param("ACC_X_BIAS")) == 1e-6f);  // as before: put back
 }
 
@@ -131,7 +131,9 @@ TEST_CASE("samples of a file become the twelve parameters that undo their distor
   what.what = "mag";
   what.file = path;
   Options sure;
-  CHECK(Captured([&] { return calibrate_command(client, sure, what); }).says("add --yes"));
+  CHECK(Captured([&] {
+          return calibrate_command(client, sure, what);
+        }).says("fcu.confirmation_required(--yes)"));
   CHECK(bench.firmware.params().f(param("MAG_X_BIAS")) == 0);
   sure.yes = true;
   CHECK(Captured([&] { return calibrate_command(client, sure, what); }).code == 0);
@@ -145,7 +147,7 @@ TEST_CASE("samples of a file become the twelve parameters that undo their distor
   std::ofstream(path) << "x,y,z\n1e-6,2e-6\n";
   CHECK(Captured([&] {
           return calibrate_command(client, sure, what);
-        }).says(path + "fcu.sample_line_invalid("));
+        }).says("fcu.sample_line_invalid(" + path + ", 2)"));
   std::remove(path.c_str());
 }
 

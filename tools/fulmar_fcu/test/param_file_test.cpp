@@ -83,7 +83,7 @@ TEST_CASE("every fault of a file is told with its line") {
   CHECK(holds(fault_of("- {name: ACC_LPF, type: 6, value: 1}\n", controller),
               ".yaml:1: fcu.parameter_type_mismatch(ACC_LPF, 9 (number))"));
   CHECK(holds(fault_of("- {name: ACC_LPF, type: 5, value: 1}\n"), "fcu.parameter_type_invalid('5')"));
-  CHECK(holds(fault_of("- {name: ACC_LPF, value: 1}\n"), "no 'type'"));
+  CHECK(holds(fault_of("- {name: ACC_LPF, value: 1}\n"), ".yaml:1: fcu.parameter_key_missing(type)"));
   CHECK(holds(fault_of("ACC_LPF: 1\nACC_LPF: 2\n"), ":2"));
   CHECK(holds(fault_of("- {name: A, type: 6, value: 1}\n- {name: A, type: 6, value: 1}\n"),
               "fcu.parameter_duplicate(A, 1)"));
@@ -96,11 +96,12 @@ TEST_CASE("every fault of a file is told with its line") {
 
 TEST_CASE("a file that is there is not written over, unless asked for") {
   const File file("A: 1\n");
-  CHECK_THROWS_WITH(write_param_file(file.path, "B: 2\n", false), doctest::Contains("is there already"));
+  CHECK_THROWS_WITH(write_param_file(file.path, "B: 2\n", false),
+                    ("fcu.file_exists(" + file.path + ")").c_str());
   write_param_file(file.path, "B: 2\n", true);
   CHECK(read_param_file(file.path)[0].name == "B");
   CHECK_THROWS_WITH(write_param_file("/nowhere/at/all.yaml", "B: 2\n", false),
-                    doctest::Contains("cannot be written"));
+                    "fcu.file_not_writable(/nowhere/at/all.yaml)");
 }
 
 TEST_CASE("a loaded mixer of one's own survives that the choice of a mixer fills the matrix") {

@@ -34,10 +34,11 @@ TEST_CASE("who goes on listening to a manager that was replaced is warned of") {
   Layered mission(
       "extends: ground.yaml\nroles: {guide: {in: {path: mine_too.path}}}\ncomponents:\n"
       "  mine_too: {use: path/Manager, in: {state: nav.state, plan: plan.plan}}\n");
-  const std::string why = "manage, which steers in ground.yaml and not here: mine_too does";
-  CHECK(advised(mission) == std::vector<std::string>{"ground.yaml:32: score.path comes from " + why,
-                                                     "ground.yaml:8: done looks at " + why,
-                                                     "ground.yaml:9: progress shows " + why});
+  const std::string why = ", manage, ground.yaml, mine_too)";
+  CHECK(advised(mission) ==
+        std::vector<std::string>{"ground.yaml:32: inspect.replaced_component_read(score.path" + why,
+                                 "ground.yaml:8: inspect.replaced_component_read(done" + why,
+                                 "ground.yaml:9: inspect.replaced_component_read(progress" + why});
   mission.text +=
       "  score: {in: {path: mine_too.path}}\ndone: \"mine_too.progress.circuits >= 2\"\nprogress: null\n";
   CHECK(advised(mission).empty());  // the former one flies along without a reader
@@ -56,13 +57,15 @@ TEST_CASE("also of a manager with messages of its own, by whatever looks at the 
                     {out<Progress>("way")});
   mission.shelf.add("spline", "Follower", {in<VehicleState>("state"), in<Progress>("way")},
                     {out<GuidanceCommand>("command")});
-  const std::string why = "manage, which steers in ground.yaml and not here: knots does";
+  const std::string why = ", manage, ground.yaml, knots)";
   CHECK(advised(mission) ==
         std::vector<std::string>{
-            "ground.yaml:32: score.path comes from " + why, "ground.yaml:8: done looks at " + why,
-            "hourglass.yaml:7: progress shows " + why, "hourglass.yaml:6: summary.progress shows " + why,
-            "hourglass.yaml:5: resume.attitude.roll_kp takes up what was of " + why,
-            "hourglass.yaml:8: phases.any.next looks at " + why});
+            "ground.yaml:32: inspect.replaced_component_read(score.path" + why,
+            "ground.yaml:8: inspect.replaced_component_read(done" + why,
+            "hourglass.yaml:7: inspect.replaced_component_read(progress" + why,
+            "hourglass.yaml:6: inspect.replaced_component_read(summary.progress" + why,
+            "hourglass.yaml:5: inspect.replaced_component_read(resume.attitude.roll_kp" + why,
+            "hourglass.yaml:8: inspect.replaced_component_read(phases.any.next" + why});
 }
 
 TEST_CASE("a list under tell that replaces another one is reported with the ports that it leaves out") {
@@ -71,9 +74,7 @@ TEST_CASE("a list under tell that replaces another one is reported with the port
   for (ComponentInfo& c : mission.shelf.plugins["path"]->components)
     c.outputs.push_back(out<Notice>("notices", FULMAR_OUT_QUEUE));
   CHECK(advised(mission) ==
-        std::vector<std::string>{
-            "hourglass.yaml:2: tell: leaves out manage.notices, which middle.yaml:2 lists; a "
-            "list takes the place of the other"});
+        std::vector<std::string>{"hourglass.yaml:2: inspect.tell_incomplete(manage.notices, middle.yaml:2)"});
   mission.text = "extends: middle.yaml\ntell: null\n";
   CHECK(advised(mission).empty());
 }
@@ -83,8 +84,8 @@ TEST_CASE("an output without a reader and an input of its type without a source 
   mission.shelf.add("detour", "Detour", {port<Notice>("results", FULMAR_IN_QUEUE)},
                     {out<PlanEdit>("edits", FULMAR_OUT_QUEUE)});
   CHECK(advised(mission) ==
-        std::vector<std::string>{"hourglass.yaml:2: detour.edits has no reader; plan.edits takes PlanEdit; "
-                                 "wire it, as in plan: {in: {edits: detour.edits}}"});
+        std::vector<std::string>{"hourglass.yaml:2: inspect.output_without_reader(detour.edits, plan.edits, "
+                                 "PlanEdit, plan: {in: {edits: detour.edits}})"});
   mission.text =
       "extends: ground.yaml\ncomponents: {detour: {use: detour}, plan: {in: {edits: detour.edits}}, "
       "log: {use: log, in: {notes: plan.results}}}\n";
@@ -92,8 +93,8 @@ TEST_CASE("an output without a reader and an input of its type without a source 
     if (c.name == "Planner") c.outputs.push_back(out<Notice>("results", FULMAR_OUT_QUEUE));
   mission.shelf.add("log", "Log", {port<Notice>("notes", FULMAR_IN_QUEUE)}, {});
   CHECK(advised(mission) ==
-        std::vector<std::string>{"hourglass.yaml:2: detour.results has no source; plan.results gives Notice; "
-                                 "wire it, as in detour: {in: {results: plan.results}}"});
+        std::vector<std::string>{"hourglass.yaml:2: inspect.input_without_source(detour.results, "
+                                 "plan.results, Notice, detour: {in: {results: plan.results}})"});
 }
 
 }  // namespace advice_test

@@ -102,7 +102,7 @@ name: {use: good/Scaler, in: {state: ...}}
 | output | message | kind |
 | --- | --- | --- |
 | `scaled` | [Sample](#sample) | value |
-| `news` | [Sample](#sample) | value, may stay silent |
+| `news` | [Sample](#sample) | inspect.event_output_kind |
 | `events` | [Sample](#sample) | queue of 8 |
 | `error_mps` |  | probe |
 

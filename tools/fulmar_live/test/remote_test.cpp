@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The words for a running flight, as a user types them, against the live view of a mock flight at 400 Hz.
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "core/app/program.hpp"
@@ -117,8 +118,7 @@ TEST_CASE("a token is asked for, and taken from the command line or the environm
   CHECK(shell(at + " --token secret").code == 0);
   const Result wrong = shell(at + " --token sesame");
   CHECK(wrong.code == 1);
-  CHECK(wrong.err == "remote.token_rejected(" + flight.at() +
-                         " refuses this token: give it with --token or in FULMAR_TOKEN\n");
+  CHECK(wrong.err == "remote.token_rejected(" + flight.at() + ",  refuses this token)\n");
 }
 
 TEST_CASE("list names components, ports with their rates, requests and phases") {
@@ -160,8 +160,9 @@ TEST_CASE("echo prints fields in degrees, whole messages, JSON lines and CSV, as
   CHECK(second["value"].get<double>() == doctest::Approx(course_deg(second["time_s"])).epsilon(1e-9));
 
   CHECK(typed(flight, "echo slc.leg --count 0")
-            .err.starts_with("--count: give a whole number from 1, not '0'\n"));
-  CHECK(typed(flight, "echo slc.leg --rate 0").err.starts_with("--rate: give a number above 0, not '0'\n"));
+            .err.starts_with("--count: remote.number_invalid(a whole number from 1, 0)\n"));
+  CHECK(typed(flight, "echo slc.leg --rate 0")
+            .err.starts_with("--rate: remote.number_invalid(a number above 0, 0)\n"));
 
   r = typed(flight, "echo slc.leg --csv --count 2 --rate 20");
   const Words rows = lines(r.out);
@@ -180,7 +181,7 @@ TEST_CASE("echo says that it waits when a port stays silent, and of which") {
     if (!r.err.empty() && lines(r.out).size() >= 2) break;
   }
   CHECK(r.code == 124);
-  CHECK(r.err == "waiting for the first sample of plan.add_leg\n");
+  CHECK(r.err == "remote.first_sample_awaited(plan.add_leg)\n");
   CHECK(lines(r.out).size() >= 2);
 }
 
@@ -222,17 +223,18 @@ TEST_CASE("parameters are listed with range and kind, read, and set as in a miss
   CHECK(flight.heard("set slc.wind [1, 2, -3]"));
   CHECK(typed(flight, "param get slc.roll_kp").out == "0.75 rad/rad\n");
   CHECK(typed(flight, "param set slc.law takeoff").out ==
-        "slc.law: climb -> takeoff, from the next phase on: this phase sets it to something else\n");
+        "slc.law: climb -> takeoffremote.phase_overlays_parameter\n");
 
   r = typed(flight, "param set slc.roll_kp 9");
   CHECK(r.code == 1);
   CHECK(r.err == "remote.parameter_rejected(slc.roll_kp, 9, 9 is outside 0 .. 2 rad/rad, )\n");
-  CHECK(typed(flight, "param set slc.roll_kp").err ==
-        "'slc.roll_kp' has no value: give NAME VALUE [NAME VALUE ...]\n");
+  CHECK(typed(flight, "param set slc.roll_kp").err == "remote.parameter_value_missing(slc.roll_kp)\n");
   CHECK(typed(flight, "param set slc.roll_kp").code == 2);
   CHECK(typed(flight, "param set").code == 2);
   r = typed(flight, "param set slc.wind '[1, 1, 1]' slc.roll_kp 9 slc.count 8");
-  CHECK(r.err == "remote.parameter_rejected(slc.roll_kp, 9, 9 is outside 0 .. 2 rad/rad, ; already set: slc.wind; not tried: slc.count)\n");
+  CHECK(r.err ==
+        "remote.parameter_rejected(slc.roll_kp, 9, 9 is outside 0 .. 2 rad/rad, ; already set: slc.wind; "
+        "not tried: slc.count)\n");
   CHECK(typed(flight, "param set --help").out.find("NAME VALUE [NAME VALUE ...]") != std::string::npos);
   CHECK(typed(flight, "param set slc.roll_kp -1").code == 0);  // no option
 }
@@ -259,13 +261,12 @@ TEST_CASE("what flies is saved to the mission's file when that is agreed to, and
   CHECK(r.err == "remote.confirmation_required\n");
   CHECK(typed(flight, "param save --yes --mission " + file.string()).code == 0);
   CHECK(content(file) == after);
-  CHECK(typed(flight, "param save --yes --mission " + file.string()).out ==
-        "The files say already what flies.\n");
+  CHECK(typed(flight, "param save --yes --mission " + file.string()).out == "remote.parameters_unchanged\n");
   const fs::path other = folder.path / "other.yaml";
   std::ofstream(other) << "components:\n  slc:\n    params: {roll_kp: 0.5}\n";
   r = typed(flight, "param save --yes --mission " + other.string());
   CHECK(r.code == 1);
-  CHECK(r.err == other.string() + " is the mission 'other', but 'mock <1>' flies: nothing was written\n");
+  CHECK(r.err == "save.mission_name_mismatch(" + other.string() + ", other, mock <1>)\n");
   CHECK(content(other) == "components:\n  slc:\n    params: {roll_kp: 0.5}\n");
   CHECK(typed(flight, "param save").err == "remote.mission_file_unknown\n");
 }
@@ -281,25 +282,22 @@ TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is ex
   CHECK(flight.leg() == "plan.add_leg: kind 0, course 0 0.5, position 0 0 0");
   r = typed(flight, "call plan.add_leg '{\"kind\": \"orbit\"}'");
   CHECK(r.code == 1);
-  CHECK(r.err == "plan.add_leg: refused: no orbits here\n");
+  CHECK(r.err == "remote.request_rejected(plan.add_leg, no orbits here)\n");
   r = typed(flight, "call plan.add_leg kind");
   CHECK(r.code == 2);
-  CHECK(r.err == "'kind' is not of the form field=value; or give all in braces, as in '{radius_m: 80}'\n");
+  CHECK(r.err == "remote.field_form_invalid(kind)\n");
   for (const char* nothing : {"call plan.add_leg", "call plan.add_leg '{}'"}) {
     r = typed(flight, nothing);
     CHECK(r.code == 2);
-    CHECK(r.err ==
-          "plan.add_leg needs a field at least, as in fulmar call plan.add_leg kind=VALUE. Valid: kind, "
-          "has_course, course_rad, "
-          "position_m.\n");
+    CHECK(r.err == "remote.field_missing(plan.add_leg, kind, kind, has_course, course_rad, position_m)\n");
   }
   CHECK_FALSE(flight.heard("request plan.add_leg {}"));
-  CHECK(typed(flight, "call plan.add_leg kind=line kind=orbit").err == "the field 'kind' is given twice\n");
+  CHECK(typed(flight, "call plan.add_leg kind=line kind=orbit").err == "remote.field_duplicate(kind)\n");
   CHECK(typed(flight, "call plan.add_leg '{kind: line, kind: orbit}'").code == 1);
   CHECK(typed(flight, "phase hold").out == "phase hold: accepted\n");
   r = typed(flight, "swap slc some.so");
   CHECK(r.code == 1);
-  CHECK(r.err == "swap slc: refused: the vehicle is armed\n");
+  CHECK(r.err == "remote.request_rejected(swap slc, the vehicle is armed)\n");
   CHECK(flight.heard("swap slc some.so"));
   const Folder folder;  // what lies here by the name of a plugin is no file of it
   fs::create_directories(folder.path / "control_slc");
@@ -312,8 +310,7 @@ TEST_CASE("requests, phases and swaps are asked for; a refusal is told and is ex
   std::ofstream(folder.path / "table.txt") << "x";
   r = typed(flight, "swap slc " + (folder.path / "table.txt").string());
   CHECK(r.code == 1);
-  CHECK(r.err ==
-        "'" + (folder.path / "table.txt").string() + "' is no plugin: a plugin's file ends in .so or .py\n");
+  CHECK(r.err == "remote.plugin_expected(" + (folder.path / "table.txt").string() + ")\n");
   CHECK_FALSE(flight.heard("swap slc " + (folder.path / "table.txt").string()));
   CHECK(flight.heard("swap slc control_slc"));
   CHECK(flight.heard("swap slc control_slc/Outer"));
@@ -328,7 +325,7 @@ TEST_CASE("the clock of a simulation is stopped, stepped and hurried, and list t
         "mock <1> (io: sim), phase cruise, 0.0 s, not armed, paused");
   const Result twice = typed(flight, "pause");
   CHECK(twice.code == 1);
-  CHECK(twice.err == "pause: refused: the flight is paused already\n");
+  CHECK(twice.err == "remote.request_rejected(pause, the flight is paused already)\n");
   CHECK(typed(flight, "step").code == 0);
   CHECK(flight.heard("step 1"));
   CHECK(typed(flight, "step 400").out == "step 400: accepted, at 0.0000 s of flight\n");
@@ -343,13 +340,12 @@ TEST_CASE("the clock of a simulation is stopped, stepped and hurried, and list t
   for (const char* wrong : {"step 0", "step 1.5", "step many"}) {
     const Result r = typed(flight, wrong);
     CHECK(r.code == 2);
-    CHECK(r.err.find("': give a whole number of ticks from 1 to 1000000\n") != std::string::npos);
+    CHECK(r.err == std::string("tap.step_count_invalid(") + (wrong + std::strlen("step ")) + ", 1000000)\n");
   }
   for (const char* wrong : {"speed warp", "speed 0", "speed 1e9"}) {
     const Result r = typed(flight, wrong);
     CHECK(r.code == 2);
-    CHECK(r.err.find("': give real, max, or a multiple of real time from 0.01 to 1e6\n") !=
-          std::string::npos);
+    CHECK(r.err == std::string("tap.speed_invalid(") + (wrong + std::strlen("speed ")) + ")\n");
   }
   CHECK(typed(flight, "speed").code == 2);
 }
@@ -372,13 +368,10 @@ TEST_CASE("the first word that is a log makes a plot one of logs; options of the
   CHECK(lost.err.find("reading.file_not_readable(lost.mcap, reading.file_missing)") != std::string::npos);
   const Result live = typed(flight, "plot slc.leg.course_deg --over slc.leg.course_deg");
   CHECK(live.code == 2);
-  CHECK(live.err.find(
-            "--over is of logs: give a log first, as in fulmar plot flight.mcap slc.leg.course_deg") !=
-        std::string::npos);
+  CHECK(live.err.find("remote.log_option_without_log(--over, slc.leg.course_deg)") != std::string::npos);
   const Result seconds = typed(flight, "plot lost.mcap slc.leg.course_deg -o lost.svg --seconds 3");
   CHECK(seconds.code == 2);
-  CHECK(seconds.err.find("--seconds is of a running flight; of a log name --from and --to") !=
-        std::string::npos);
+  CHECK(seconds.err.find("remote.live_option_of_log") != std::string::npos);
   CHECK(typed(flight, "plot lost.mcap -o lost.svg").code == 2);
 }
 

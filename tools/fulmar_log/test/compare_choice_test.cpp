@@ -90,20 +90,18 @@ TEST_CASE("which states: by port, topic or owner; what cannot be is told with wh
     CHECK(said.code == 1);
     CHECK(said.text == why);
   };
-  refused(log, log + ": log_tool.state_names_required(" + core::join({all}));
+  refused(log, log + ": log_tool.state_names_required(" + all + ")");
   refused(log + " nav second third", "log_tool.too_many_states(nav, second, third)");
   refused(log + " nav thrid.state", log +
                                         ": log_tool.topic_unknown(/thrid/state,  [/third/state] /nav/state, "
-                                        "/second/state, /third/state, /vehicle/truth)" +
-                                        all + ".");
+                                        "/second/state, /third/state, /vehicle/truth)");
   refused(log + " nav vehicle.gnss", log +
                                          ": log_tool.topic_type_mismatch(/vehicle/gnss, Gnss, VehicleState,  "
-                                         "[] /nav/state, /second/state, /third/state, /vehicle/truth)" +
-                                         all + ".");
+                                         "[] /nav/state, /second/state, /third/state, /vehicle/truth)");
   refused(alone, alone + ": log_tool.state_names_required(/nav/state, /vehicle/truth)");
   refused(none, none + ": log_tool.states_missing");
   refused(log + " " + (folder.path / "no.mcap").string(),
-          "cannot read '" + (folder.path / "no.mcap").string() + "': reading.file_missing");
+          "reading.file_not_readable(" + (folder.path / "no.mcap").string() + ", reading.file_missing)");
   const json by_truth =
       compared(alone + " nav vehicle.truth");  // one estimate and the truth: their difference
   CHECK(by_truth.at("errors").at("first").at("truth").is_null());
@@ -124,7 +122,7 @@ TEST_CASE("when nothing can be compared the exit code is 1, but for what asks fo
   CHECK(say(a + " " + a).code == 0);
   CHECK(say("--changed " + a + " " + b).code == 0);
   CHECK(say(a + " " + c).code == 1);
-  CHECK(say(a + " " + c).text == "No estimate (VehicleState) stands in both logs: none is compared.");
+  CHECK(say(a + " " + c).text == "log_tool.common_estimate_missing");
   CHECK(say("--changed " + a + " " + c).code == 0);
   CHECK(compared(a + " " + c + " nav second").at("compared") == 20);
 }

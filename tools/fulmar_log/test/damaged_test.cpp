@@ -262,7 +262,7 @@ TEST_CASE("without the summary at its end, too, a log is read on behind what is 
   store(p.folder.path / "bad.mcap", p.without_end(p.flipped(chunk_code, 0, head + 100)));
   const Recovery r = recover_log(p.folder.path / "bad.mcap", p.folder.path / "rest.mcap");
   CHECK(r.written.messages == 0);
-  CHECK(r.left_out_text() == "1 damaged chunk, 900 messages whose topic is lost");
+  CHECK(r.left_out_text() == "1 damaged chunk, log_tool.messages_without_topic(900)");
 }
 
 TEST_CASE("where nothing can be saved no file is made, nor of a log that is still being written") {
@@ -270,7 +270,8 @@ TEST_CASE("where nothing can be saved no file is made, nor of a log that is stil
   const std::filesystem::path bad = folder.path / "bad.mcap", good = folder.path / "good.mcap";
   write_sample({.file = folder.path / "a.mcap"}, 400);
   store(bad, contents(folder.path / "a.mcap").substr(0, 30) + std::string(5000, 'x'));
-  CHECK_THROWS_WITH_AS(recover_log(bad, good), doctest::Contains("log_tool.log_not_recoverable("), Error);
+  CHECK_THROWS_WITH_AS(recover_log(bad, good), doctest::Contains("log_tool.log_not_recoverable(byte "),
+                       Error);
   CHECK_FALSE(std::filesystem::exists(good));
   CHECK_FALSE(std::filesystem::exists(good.string() + ".part"));
   Sample open({.file = folder.path / "open.mcap"});
@@ -301,7 +302,7 @@ TEST_CASE(
     McapStream first(before), second(after);
     const Recovery r = recover_log(first, second, folder.path / ("recovered_" + after.filename().string()));
     CHECK(r.written.messages == 5);
-    CHECK(r.fault == "the file has grown while it was read");
+    CHECK(r.fault == "log_tool.log_grown");
     CHECK_FALSE(r.was_whole);
     const WholeLog recovered = read_mcap(r.written.file);
     CHECK(recovered.complete);

@@ -120,18 +120,20 @@ TEST_CASE("what is no log is refused, and why; info tells the epoch as a date an
   const std::string log = (folder.path / "a.mcap").string(), nothing = (folder.path / "empty.mcap").string();
   store(nothing, "");
   CHECK(call("log info " + folder.path.string()).out ==
-        "cannot read '" + folder.path.string() + "': reading.file_is_directory");
-  CHECK(call("log export --to csv " + nothing).out == "cannot read '" + nothing + "': reading.file_empty");
+        "reading.file_not_readable(" + folder.path.string() + ", reading.file_is_directory)");
+  CHECK(call("log export --to csv " + nothing).out ==
+        "reading.file_not_readable(" + nothing + ", reading.file_empty)");
   CHECK(call("log recover /dev/null").out ==
         "reading.file_not_readable(/dev/null, reading.file_not_regular)");
-  CHECK(call("log info " + log).out == "cannot read '" + log + "': reading.file_missing");
+  CHECK(call("log info " + log).out == "reading.file_not_readable(" + log + ", reading.file_missing)");
   {
     Sample sample({.file = log});
     sample.writer.metadata("fulmar", {{"epoch_ns", "1767225600250000000"}});
     sample.writer.metadata("overrides", {});
     sample.writer.close();
   }
-  CHECK(call("log diff " + log + " " + nothing).out == "cannot read '" + nothing + "': reading.file_empty");
+  CHECK(call("log diff " + log + " " + nothing).out ==
+        "reading.file_not_readable(" + nothing + ", reading.file_empty)");
   const std::string text = (folder.path / "text").string();
   std::fflush(stdout);
   const int own = dup(STDOUT_FILENO);
@@ -160,7 +162,7 @@ TEST_CASE("an export that fails leaves nothing half behind") {
     const Answer answer = call("log export " + log + " --to " + form + " --out " + out.string());
     setrlimit(RLIMIT_FSIZE, &before);
     CHECK(answer.code == 1);
-    CHECK(answer.out.find("cannot write") != std::string::npos);
+    CHECK(answer.out.find("log_tool.disk_write_failed(") != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(out.string() + ".part"));
     CHECK_FALSE(std::filesystem::exists(out / "mixed.csv.part"));
     CHECK_FALSE(std::filesystem::exists(out / "mixed.csv"));

@@ -261,7 +261,7 @@ TEST_CASE(
   const std::string c = flight.write(folder.path / "c.mcap");
   plot::log_figure({.words = {a, c, "slc.error_m"}}, notes);
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0] == "the phases are those of " + a + "; " + c + " had others, or at other times");
+  CHECK(notes[0] == "log_tool.phases_differ(" + a + ", " + c + ")");
 }
 
 }  // namespace plot_test

@@ -25,7 +25,7 @@ TEST_CASE("a field that cannot be drawn is refused with the fields that exist") 
             "position_m, rates_degps, name, levels_volt, mode)");
   const std::string is_structure =
       "log_tool.path_not_number(nav.state.position_m, nav.state.position_m, north, north, east, down)";
-  CHECK(says("nav.state.position_m") == log + ": nav.state.position_m" + is_structure);
+  CHECK(says("nav.state.position_m") == log + ": " + is_structure);
   CHECK(says("nav.state")
             .starts_with(log + ": log_tool.path_not_number(nav.state, nav.state, height_m, height_m, "
                                "roll_deg, yaw_deg, position_m, rates_degps, name, levels_volt, mode)"));
@@ -41,29 +41,34 @@ TEST_CASE("a field that cannot be drawn is refused with the fields that exist") 
   CHECK(refused({.words = {log, "nav.state.height_m"}, .out = "x.svg", .from_s = 100}) ==
         log +
             ": log_tool.number_missing(nav.state.height_m, log_tool.interval_without_numbers(0.0 s, 6.0 s))");
-  CHECK(refused({.words = {log, "nav.state.height_m"}, .out = "x.svg", .from_s = 3, .to_s = 2}) == "log_tool.time_range_invalid(3, 2)");
+  CHECK(refused({.words = {log, "nav.state.height_m"}, .out = "x.svg", .from_s = 3, .to_s = 2}) ==
+        "log_tool.time_range_invalid(3, 2)");
   CHECK(refused({.words = {log}, .out = "x.svg"}).starts_with("log_tool.fields_missing("));
   CHECK(refused({.words = {log, "slc.error_m", log}, .out = "x.svg"}) ==
-        "'" + log + "' is a log: logs stand before the fields");
-  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .names = "a,b"}) == "log_tool.name_count_mismatch(1, 2)");
-  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .labels = "a,b"}) == "log_tool.label_count_mismatch(1, 2)");
+        "log_tool.log_after_fields(" + log + ")");
+  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .names = "a,b"}) ==
+        "log_tool.name_count_mismatch(1, 2)");
+  CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .labels = "a,b"}) ==
+        "log_tool.label_count_mismatch(1, 2)");
   for (const char* size : {"160", "160x", "0x90mm", "160x90cm", "160x9000mm", "x", "-1x5mm", "nanxnanmm"})
     CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.svg", .size = size}) ==
-          std::string("--size ") + size + "log_tool.size_invalid(");
+          std::string("log_tool.size_invalid(") + size + ")");
   const std::string small = refused({.words = {log, "slc.error_m"}, .out = "x.svg", .size = "20x20mm"});
-  CHECK(small.starts_with("--size 20x20mm has no room for its axes and 1 panel; it takes at least "));
-  std::string enough = small.substr(small.rfind(' ') + 1);
+  CHECK(small.starts_with("log_tool.size_too_small(20, 20, chart.figure_too_small(1,  panel, "));
+  const std::size_t high = small.rfind(", "), wide = small.rfind(", ", high - 1);  // its last two arguments
+  const std::string enough = small.substr(wide + 2, high - wide - 2) + "x" +
+                             std::to_string(std::stoi(small.substr(high + 2))) + "mm";
   CHECK(drawn({.words = {log, "slc.error_m"}, .size = enough}).high_mm > 20);
-  CHECK(refused({.words = {log, "slc.error_m"}}) == "log_tool.output_is_log(");
-  CHECK(refused({.words = {log, "slc.error_m"}, .out = log})
-            .starts_with("'" + log + "' is a log that is drawn"));
+  CHECK(refused({.words = {log, "slc.error_m"}}) == "log_tool.output_missing");
+  CHECK(refused({.words = {log, "slc.error_m"}, .out = log}) ==
+        "log_tool.output_is_log(" + log + ", log_tool.output_missing)");
   CHECK(refused({.words = {log, "slc.error_m"}, .out = "x.jpg"}) == "log_tool.figure_format_unknown(x.jpg)");
   const std::string nowhere_file = (folder.path / "none" / "x.svg").string();
   CHECK(refused({.words = {log, "slc.error_m"}, .out = nowhere_file}) ==
-        "'" + nowhere_file + "' cannot be written");
+        "log_tool.figure_not_writable(" + nowhere_file + ")");
   const std::string missing = (folder.path / "b.mcap").string();
-  CHECK(refused({.words = {missing, "slc.error_m"}, .out = "x.svg"}).find("reading.file_missing") !=
-        std::string::npos);
+  CHECK(refused({.words = {missing, "slc.error_m"}, .out = "x.svg"})
+            .find("reading.file_not_readable(" + missing + ", reading.file_missing)") != std::string::npos);
   CHECK(plot::names_a_log(missing));
   CHECK(plot::names_a_log("flight.mcap.part"));
   CHECK_FALSE(plot::names_a_log("nav.state.height_m"));
@@ -84,15 +89,15 @@ TEST_CASE("a log that was cut off is drawn as far as it goes, and reported") {
   const ReadFigure f =
       read_figure(chart::figure_svg(plot::log_figure({.words = {cut, "nav.state.height_m"}}, notes)));
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0].starts_with(cut + "log_tool.log_cut_off("));
+  CHECK(notes[0].starts_with("log_tool.log_incomplete(" + cut + ", byte "));
   const std::vector<Point> points = f.panels[0].curves[0].points();
   CHECK(points.size() > 50);
   CHECK(points.back().x > 5);
   CHECK(points.back().x < 55);
   core::test::store(cut, bytes.substr(0, 900));
   const std::string none = refused({.words = {cut, "nav.state.height_m"}, .out = "x.svg"});
-  CHECK(none.starts_with(cut + "log_tool.log_cut_off("));
-  CHECK(none.find("log_tool.log_cut_off(") != std::string::npos);
+  CHECK(none.starts_with("log_tool.log_cut_off(" + cut + ": log_tool.field_unknown(nav.state.height_m, "));
+  CHECK(none.find("), byte ") != std::string::npos);
 }
 
 TEST_CASE("the numbers of a log are completed as they are typed") {
@@ -126,10 +131,7 @@ TEST_CASE("a PNG is made by a program that is there; without one the package is 
     return std::string();
   };
   const Path only(folder.path.string());
-  CHECK(says() ==
-        "'" + out +
-            "' takes a program that draws SVG: apt install librsvg2-bin (rsvg-convert) or inkscape; "
-            "without one name a file that ends in .svg");
+  CHECK(says() == "log_tool.svg_converter_missing(" + out + ")");
   const auto make_program = [&](const std::string& name, const std::string& does) {
     const std::string file = (folder.path / name).string();
     core::test::store(file, "#!/bin/sh\n" + does + "\n");
@@ -137,7 +139,7 @@ TEST_CASE("a PNG is made by a program that is there; without one the package is 
     return file;
   };
   const std::string broken = make_program("inkscape", "exit 3");
-  CHECK(says() == broken + "log_tool.figure_conversion_failed(" + out + "' of the figure");
+  CHECK(says() == "log_tool.figure_conversion_failed(" + broken + ", " + out + ")");
   make_program("rsvg-convert",
                "test \"$1 $2 $3 $4 $5 $6 $7\" = \"-d 300 -p 300 -f png -o\" && read all < \"$9\" && echo "
                "\"$all\" > \"$8\"");

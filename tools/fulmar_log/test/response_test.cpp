@@ -113,9 +113,7 @@ TEST_CASE("no step, no answer, no samples: each in a sentence") {
   };
   const Series step = step_of(1, 4), ramp = sampled([](double t) { return t; }, -2, 4, 100);
   CHECK(says(ramp, step) == "log_tool.input_step_missing(6, 0.01)");
-  CHECK(says(step_of(0, 4), step)
-            .starts_with("log_tool.response_missing(the input has no step: of its range of 0 at most 0 is "
-                         "from one sample to the next, , )"));
+  CHECK(says(step_of(0, 4), step) == "log_tool.input_step_missing(0, 0)");
   CHECK(says(step, step_of(0, 4)) == "log_tool.output_constant");
   CHECK(says(step, sampled([](double t) { return t; }, 1, 4, 100))
             .starts_with("log_tool.step_samples_too_few(0, 301)"));
@@ -332,7 +330,8 @@ TEST_CASE("one of the two alone, a part of the time, another band; the table say
     CHECK_MESSAGE(text.find(line) != std::string::npos, text);
   // half of what is asked for can be told: the other half says why not
   const std::string none = say(words + "--from 4").text;
-  CHECK_MESSAGE(none.find("no figures of a step: the input has no step") != std::string::npos, none);
+  CHECK_MESSAGE(none.find("log_tool.step_figures_missing(log_tool.input_step_missing(") != std::string::npos,
+                none);
 }
 
 TEST_CASE(
@@ -358,8 +357,8 @@ TEST_CASE(
   CHECK(share("") == doctest::Approx(0.15));
   CHECK(share("--from 4 --to 4.995") == doctest::Approx(1));
   CHECK(share("--from 3.5 --to 7.495") == doctest::Approx(0.375));
-  CHECK(say(words).text.find("servos  15.0 % of this time at a stop or at the rate limit: the figures") !=
-        std::string::npos);
+  CHECK(say(words).text.find("servos  15.0 % ") != std::string::npos);
+  CHECK(say(words).text.find("log_tool.servos_limited\n") != std::string::npos);
   const std::string other =
       stepped_log(folder) + " --input outer.attitude.roll_rad --output nav.state.roll_rad";
   CHECK(json::parse(say(other + " --json").text).at("servo_limited_ratio") == nullptr);
@@ -379,9 +378,11 @@ TEST_CASE("what is not in the log is told with what there is") {
   CHECK(says("outer.attitude.rol_rad", state) ==
         "1 : types.name_unknown_in(outer.attitude, field, rol_rad,  [roll_rad] roll_rad, pitch_rad, "
         "throttle_frac)");
-  CHECK(says(command, state, "--phase cruise") == "1 : types.name_unknown_in(the flight, phase, cruise,  [] none)");
+  CHECK(says(command, state, "--phase cruise") ==
+        "1 : types.name_unknown_in(the flight, phase, cruise,  [] none)");
   CHECK(says(command, state, "--from 100") == "1 : log_tool.numbers_missing(outer.attitude.roll_rad)");
-  CHECK(says(command, state, "--step --from 5").starts_with("1 : the input has no step"));
+  CHECK(says(command, state, "--step --from 5")
+            .starts_with("1 : log_tool.response_missing(log_tool.input_step_missing("));
   CHECK(say(log + " --input " + command).code == 2);
   CHECK(says(command, state, "--step --frequency").starts_with("2"));
   CHECK(says(command, state, "--band 0").starts_with("2"));

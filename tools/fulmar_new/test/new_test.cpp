@@ -88,9 +88,7 @@ TEST_CASE("the contract of a role is what the mission says of it") {
   CHECK(vehicle.inputs.back().kind == FULMAR_IN_REQUEST);  // arm
   CHECK(vehicle.outputs.back().optional);                  // truth
   CHECK_THROWS_WITH_AS(read_contract(mission, {"gude"}),
-                       "--role gude: hourglass.yaml has no such role. Did you mean 'guide'? Valid: vehicle, "
-                       "nav, guide, outer, inner. What has no role is asked for by --template sensor, "
-                       "--template planner, --in and --out",
+                       "new.role_unknown(gude, hourglass.yaml,  [guide] vehicle, nav, guide, outer, inner)",
                        Error);
 }
 
@@ -218,7 +216,7 @@ TEST_CASE("a vehicle is a frame to be filled in, or a point mass that flies") {
   REQUIRE(call("new toy --role vehicle --template point_mass").code == 0);
   CHECK(holds(text_of(folder() / "toy/toy.hpp"), "// A point mass that turns as it banks"));
   CHECK(holds(call("new toy2 --role vehicle --template mass").words,
-              "--template mass: the role vehicle has none of that name. Valid: point_mass."));
+              "new.role_template_unknown(mass, vehicle,  Valid: point_mass.)"));
 }
 
 TEST_CASE("templates for a sensor and a planner are wired to what the mission has") {
@@ -261,17 +259,16 @@ TEST_CASE("ports and templates that cannot be are refused with a sentence") {
   };
   refused("", "new.component_unspecified");
   refused("--in state=nav.stat",
-          "--in state=nav.stat: hourglass.yaml has no such output. Did you mean 'nav.state'?");
-  refused("--in nav.state", "--in nav.state: write NAME=OWNER.PORT, as in state=nav.state");
-  refused("--out range=range",
-          "--out range=range: write NAME=Message, as in range=Range, or edits=PlanEdit[] for a queue");
+          "new.output_unknown(state, nav.stat, hourglass.yaml,  [nav.state] vehicle.imu, ");
+  refused("--in nav.state", "new.port_form_invalid(--in, nav.state, OWNER.PORT, as in state=nav.state)");
+  refused("--out range=range", "new.output_form_invalid(range, range)");
   refused("--out a=A --out a=B", "new.port_duplicate(a)");
-  refused("--template planer",
-          "--template planer: there is none of that name. Did you mean 'planner'? Valid: planner, sensor.");
-  refused("--template planner --in edits=nav.state", "--in edits: the template planner has no such input.");
-  refused("--template planner --out a=A", "--out: a template has its own outputs; change them in the source");
-  refused("--role outer --in state=nav.state", "--role says all ports");
-  refused("--role outer --role outer", "--role outer is there twice");
+  refused("--template planer", "new.template_unknown(planer,  [planner] planner, sensor)");
+  refused("--template planner --in edits=nav.state",
+          "new.template_input_unknown(edits, planner,  [] progress, state, results)");
+  refused("--template planner --out a=A", "new.template_with_outputs");
+  refused("--role outer --in state=nav.state", "new.role_with_ports");
+  refused("--role outer --role outer", "new.role_duplicate(outer)");
   refused("--role outer --role vehicle", "new.vehicle_with_roles");
 }
 
@@ -285,8 +282,7 @@ TEST_CASE("what cannot be written is refused with a sentence, and nothing is ove
   CHECK(call("new test --role outer").words == "new.plugin_name_reserved(test, test)\n");
   CHECK(call("new ekf --role nav").words == "new.name_in_use(hourglass, component, ekf, ekf)\n");
   CHECK(holds(call("new a_law --role outer --mission hourglas").words,
-              "--mission hourglas: there is no such file, and no shipped mission of that name. Did you mean "
-              "'hourglass'? Valid: autotune, by_hand, calm, "));
+              "new.mission_unknown(hourglas,  [hourglass] autotune, by_hand, calm, "));
   file_with("taken", "mine");
   CHECK(call("new a_law --role outer --dir taken").words == "new.folder_is_file(taken)\n");
   fs::create_directories(folder() / "full");

@@ -113,9 +113,9 @@ TEST_CASE("a child that hung, was stopped or was killed dies in the same tick ag
     const char* reported;
   };
   for (const Row& row :
-       {Row{"hung", 0, {{"one.fault", "hangs"}, {"one.fault_at", "0.1"}}, "hung: no answer within 200 ms"},
-        Row{"stopped", SIGSTOP, {}, "hung: no answer within 200 ms"},
-        Row{"killed", SIGKILL, {}, "was killed (signal 9)"}}) {
+       {Row{"hung", 0, {{"one.fault", "hangs"}, {"one.fault_at", "0.1"}}, "isolate.child_hung(200)"},
+        Row{"stopped", SIGSTOP, {}, "isolate.child_hung(200)"},
+        Row{"killed", SIGKILL, {}, "isolate.child_killed(9)"}}) {
     CAPTURE(row.what);
     const Graph graph = mission(in_a_child + std::string(with_fallback), row.set);
     const fs::path log = fresh("child.mcap"), again = fresh("again.mcap");

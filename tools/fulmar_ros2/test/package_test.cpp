@@ -233,7 +233,7 @@ TEST_CASE("the program writes a package, refuses another's folder with 1, and te
   CHECK(fs::exists(folder.path / "msg/VehicleState.msg"));
   CHECK(run("interface-package " + folder.path.string() + plugins) == 0);
   CHECK(run("interface-package " + (folder.path / "msg").string() + plugins, &said) == 1);
-  CHECK(said.find("ros2.folder_in_use(") != std::string::npos);
+  CHECK(said.find("ros2.folder_in_use(" + (folder.path / "msg").string()) != std::string::npos);
   CHECK(run("interface-package " + folder.path.string() + " no_such_plugin") == 1);
   CHECK(run("") == 2);
   CHECK(run("--help") == 0);

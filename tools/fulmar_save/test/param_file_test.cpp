@@ -153,11 +153,10 @@ TEST_CASE("an alias is replaced by the value; an anchor whose aliases others use
   const std::string mission = "components:\n  slc: {params: {roll_kp: &k 0.5, pitch_kp: *k}}\n";
   CHECK(saved(mission, {number("pitch_kp", 0.75, "rad/rad"), number("roll_kp", 0.5, "rad/rad")}) ==
         "components:\n  slc: {params: {roll_kp: &k 0.5, pitch_kp: 0.75}}\n");
-  CHECK(
-      refused(mission, {number("roll_kp", 0.75, "rad/rad")}) ==
-      "m.yaml: slc.roll_kp is 0.75 now; write it by hand: save.text_shared(components.slc.params.pitch_kp)");
+  CHECK(refused(mission, {number("roll_kp", 0.75, "rad/rad")}) ==
+        "m.yaml: save.edit_by_hand(slc.roll_kp, 0.75, save.text_shared(components.slc.params.pitch_kp))");
   CHECK(refused("x: &g {roll_kp: 1}\ncomponents: {slc: {params: *g}}\n", {number("yaw_kp", 2)}) ==
-        "m.yaml: slc.yaw_kp is 2 now; write it by hand: save.map_is_alias(params, *g)");
+        "m.yaml: save.edit_by_hand(slc.yaw_kp, 2, save.map_is_alias(params, *g))");
 }
 
 TEST_CASE("a value is written into the file that it came from: what the mission extends, or the airframe") {
@@ -196,16 +195,16 @@ TEST_CASE(
   CHECK(plan.refused.empty());
   REQUIRE(plan.files.size() == 1);
   CHECK(diff_text(plan.files[0]) == "plane.yaml:3\n-     course_kp: 2\n+     course_kp: 2.5\n");
-  CHECK(plan.also == std::vector<std::string>{"plane.yaml: slc.course_kp is the same text for "
-                                              "control_slc/Autotune, which does not fly"});
+  CHECK(plan.also == std::vector<std::string>{"plane.yaml: save.text_of_other_plugin(slc.course_kp, "
+                                              "control_slc/Autotune)"});
   for (const char* other : {"control_slc/Autotune", "control_slc"}) {
     const SavePlan both = plan_save(mission, now, {"control_slc/Outer", other});
     CHECK(both.files.empty());
     CHECK(both.also.empty());
     REQUIRE(both.refused.size() == 1);
     CHECK(both.refused[0] ==
-          "plane.yaml: slc.course_kp is 2.5 now; write it by hand: "
-          "save.text_shared(params.control_slc/Autotune.course_kp)");
+          "plane.yaml: save.edit_by_hand(slc.course_kp, 2.5, "
+          "save.text_shared(params.control_slc/Autotune.course_kp))");
   }
   // another place of that text is no parameter of the airframe
   folder.file("plane.yaml",
@@ -235,7 +234,8 @@ TEST_CASE("an added line is shown as one, and a file that has changed meanwhile 
   REQUIRE(plan.files.size() == 1);
   CHECK(diff_text(plan.files[0]) == "m.yaml:5\n+       b: 2\n");
   folder.file("m.yaml", "mission: other\n");
-  CHECK_THROWS_WITH_AS(write_edit(plan.files[0]), (mission.string() + "save.file_changed(").c_str(), Error);
+  CHECK_THROWS_WITH_AS(write_edit(plan.files[0]), ("save.file_changed(" + mission.string() + ")").c_str(),
+                       Error);
 }
 
 TEST_CASE("writing leaves other files alone, and keeps the mode of its own and the link to it") {
@@ -282,7 +282,7 @@ TEST_CASE("what cannot be written whole leaves the file as it was, and nothing b
   }
   ::setrlimit(RLIMIT_FSIZE, &usual);
   std::signal(SIGXFSZ, handler);
-  CHECK(said == mission.string() + " cannot be written: File too large");
+  CHECK(said == "save.file_not_writable(" + mission.string() + ", File too large)");
   std::stringstream now;
   now << std::ifstream(mission, std::ios::binary).rdbuf();
   CHECK(now.str() == before);
@@ -303,10 +303,10 @@ TEST_CASE("a file that is read-only is left alone, by an administrator too") {
 
 TEST_CASE("block scalars and broken files are refused") {
   CHECK(refused("components:\n  slc:\n    params:\n      note: |\n        a\n", {text("note", "b")}) ==
-        "m.yaml: slc.note is b now; write it by hand: save.value_form_unsupported");
+        "m.yaml: save.edit_by_hand(slc.note, b, save.value_form_unsupported)");
   CHECK(refused("components:\n  slc:\n    params:\n      wind:\n        - 1\n        - 2\n        - 3\n",
                 {vector("wind", 1, 2, 4, "m")}) ==
-        "m.yaml: slc.wind is [1 m, 2 m, 4 m] now; write it by hand: save.list_form_unsupported");
+        "m.yaml: save.edit_by_hand(slc.wind, [1 m, 2 m, 4 m], save.list_form_unsupported)");
   const Folder folder;
   CHECK_THROWS_AS(plan_save(folder.file("m.yaml", "a: {b\n"), {number("x", 1)}, {}), Error);
 }

@@ -24,12 +24,37 @@ class Error(ValueError):
     """What is wrong, in a sentence; of a file with its name and line. Nothing has moved."""
 
 
+# The messages of the Python side: code and sentence.
+_TEXTS = {
+    "choice_unknown": "{} is {}; valid: {}",
+    "copy_unsupported": "a simulation cannot be copied or pickled: make another one and give it this one's state with set_state",
+    "file_name_expected": "airframe is {} and must be the name of a file",
+    "file_name_invalid": "airframe is {}: no file is named so",
+    "library_missing": "fulmar_sim: there is no libfulmar_sim.so in a folder lib/ above {}; build it: ninja -C build fulmar_sim",
+    "number_expected": "{} is {} and must be a number",
+    "numbers_expected": "{}: numbers are expected, {} was given",
+    "numbers_masked": "{}: some are masked",
+    "rows_expected": "{}: rows of numbers are expected",
+    "selection_invalid": "only is {} and must be an index below {}, a list of them, or {} bools",
+    "shape_invalid": "{}: the shape is {} and must be {}",
+    "simulation_closed": "the simulation is gone",
+    "whole_number_expected": "{} is {} and must be a whole number from {} to {}",
+}
+
+
+def _sentence(code, *values):
+    """The sentence of a message; with FULMAR_MESSAGES=codes simulation.code(value, ...), as in fulmar/diagnostic.hpp."""
+    if os.environ.get("FULMAR_MESSAGES") != "codes":
+        return _TEXTS[code].format(*values)
+    return f"simulation.{code}" + (f"({', '.join(map(str, values))})" if values else "")
+
+
 def _load():
     """<prefix>/lib/libfulmar_sim.so, for <prefix>/lib/python3/dist-packages/fulmar_sim or <build>/lib/python/fulmar_sim."""
     for folder in pathlib.Path(__file__).resolve().parents:
         if folder.name == "lib" and (folder / "libfulmar_sim.so").exists():
             return ctypes.CDLL(str(folder / "libfulmar_sim.so"))
-    raise ImportError(f"fulmar_sim: there is no libfulmar_sim.so in a folder lib/ above {__file__}; build it: ninja -C build fulmar_sim")
+    raise ImportError(_sentence("library_missing", __file__))
 
 
 def _declare(name, *arguments, result=ctypes.c_int):
@@ -68,13 +93,13 @@ def _is_bool(value):
 
 def _whole(value, what, least, most):
     if _is_bool(value) or not isinstance(value, (int, numpy.integer)) or not least <= value <= most:
-        raise Error(f"{what} is {value!r} and must be a whole number from {least} to {most}")
+        raise Error(_sentence("whole_number_expected", what, repr(value), least, most))
     return int(value)
 
 
 def _number(value, what):
     if _is_bool(value) or not isinstance(value, (int, float, numpy.integer, numpy.floating)):
-        raise Error(f"{what} is {value!r} and must be a number")
+        raise Error(_sentence("number_expected", what, repr(value)))
     return float(value)
 
 
@@ -83,11 +108,11 @@ def _numbers(values, what):
     try:
         given = numpy.asarray(values)
     except ValueError:  # rows that are not of one length
-        raise Error(f"{what}: rows of numbers are expected") from None
+        raise Error(_sentence("rows_expected", what)) from None
     if given.dtype.kind not in "iuf":
-        raise Error(f"{what}: numbers are expected, {type(values).__name__ if given.ndim == 0 else given.dtype} was given")
+        raise Error(_sentence("numbers_expected", what, type(values).__name__ if given.ndim == 0 else given.dtype))
     if numpy.ma.is_masked(values):
-        raise Error(f"{what}: some are masked")
+        raise Error(_sentence("numbers_masked", what))
     return numpy.array(given, dtype=float, order="C")
 
 
@@ -95,9 +120,9 @@ def _file(airframe):
     try:
         name = os.fsencode(airframe)
     except TypeError:
-        raise Error(f"airframe is {airframe!r} and must be the name of a file") from None
+        raise Error(_sentence("file_name_expected", repr(airframe))) from None
     if b"\0" in name:
-        raise Error(f"airframe is {airframe!r}: no file is named so")
+        raise Error(_sentence("file_name_invalid", repr(airframe)))
     return name
 
 
@@ -137,7 +162,7 @@ class Simulation:
         self.__del__()  # what it was before
         self._n = _whole(n, "n", 1, 10**5)
         if turbulence not in _TURBULENCE:
-            raise Error(f"turbulence is {turbulence!r}; valid: {', '.join(_TURBULENCE)}")
+            raise Error(_sentence("choice_unknown", "turbulence", repr(turbulence), ", ".join(_TURBULENCE)))
         self._sim = _new(_file(airframe), self._n, _whole(threads, "threads", 1, 256), _number(dt, "dt"),
                          _number(origin_altitude, "origin_altitude"), _TURBULENCE.index(turbulence), _whole(seed, "seed", 0, 2**64 - 1))
         if not self._sim:
@@ -149,7 +174,7 @@ class Simulation:
             _delete(sim)
 
     def __reduce_ex__(self, protocol):
-        raise Error("a simulation cannot be copied or pickled: make another one and give it this one's state with set_state")
+        raise Error(_sentence("copy_unsupported"))
 
     @property
     def n(self):
@@ -183,7 +208,7 @@ class Simulation:
         for column, (value, what) in enumerate(((height, "height"), (airspeed, "airspeed"), (heading, "heading"))):
             value = _numbers(value, what)
             if value.shape not in ((), (self._n,)):
-                raise Error(f"{what}: the shape is {value.shape} and must be {(self._n,)}, or one number is given")
+                raise Error(_sentence("shape_invalid", what, value.shape, f"{(self._n,)}, or one number is given"))
             starts[:, column] = value
         only = self._only(only)
         self._call(_start_in_flight, self._data(only), starts.ctypes.data)
@@ -215,7 +240,7 @@ class Simulation:
 
     def _call(self, function, *arguments):
         if not self._sim:
-            raise Error("the simulation is gone")
+            raise Error(_sentence("simulation_closed"))
         if function(self._sim, *arguments):
             raise _told()
 
@@ -224,13 +249,13 @@ class Simulation:
         if values.shape == (columns,):
             values = numpy.tile(values, (self._n, 1))
         if values.shape != (self._n, columns):
-            raise Error(f"{what}: the shape is {values.shape} and must be {(self._n, columns)} or {(columns,)}")
+            raise Error(_sentence("shape_invalid", what, values.shape, f"{(self._n, columns)} or {(columns,)}"))
         return values
 
     def _only(self, only):
         if only is None:
             return None
-        wrong = f"only is {only!r} and must be an index below {self._n}, a list of them, or {self._n} bools"
+        wrong = _sentence("selection_invalid", repr(only), self._n, self._n)
         try:
             chosen = numpy.asarray(only)
         except ValueError:

@@ -19,6 +19,7 @@ try:
 except ImportError:
     print("numpy is not there: the test is skipped")
     sys.exit(77)
+os.environ["FULMAR_MESSAGES"] = "codes"
 import fulmar_sim
 
 ANACONDA = "configs/airframes/anaconda.yaml"
@@ -165,49 +166,49 @@ class Refusals(Told):
         good = numpy.full((5, 4), 0.1)
         bad = good.copy()
         bad[3, 2] = NAN
-        self.assertEqual(self.refused(sim.step, bad), "aircraft 3: elevator_rad is nan")
-        self.assertEqual(self.refused(sim.step, good[:4]), "actions: the shape is (4, 4) and must be (5, 4) or (4,)")
-        self.assertEqual(self.refused(sim.step, 0.5), "actions: the shape is () and must be (5, 4) or (4,)")
-        self.assertEqual(self.refused(sim.step, good.ravel()), "actions: the shape is (20,) and must be (5, 4) or (4,)")
-        self.assertEqual(self.refused(sim.step, good.T), "actions: the shape is (4, 5) and must be (5, 4) or (4,)")
-        self.assertEqual(self.refused(sim.step, numpy.zeros((0, 4))), "actions: the shape is (0, 4) and must be (5, 4) or (4,)")
-        self.assertEqual(self.refused(sim.step, ["a"] * 4), "actions: numbers are expected, <U1 was given")
-        self.assertEqual(self.refused(sim.step, [[0, 0], [0]]), "actions: rows of numbers are expected")
-        self.assertEqual(self.refused(sim.step, None), "actions: numbers are expected, NoneType was given")
+        self.assertEqual(self.refused(sim.step, bad), "aircraft 3: sim.command_not_finite(elevator_rad, nan)")
+        self.assertEqual(self.refused(sim.step, good[:4]), "simulation.shape_invalid(actions, (4, 4), (5, 4) or (4,))")
+        self.assertEqual(self.refused(sim.step, 0.5), "simulation.shape_invalid(actions, (), (5, 4) or (4,))")
+        self.assertEqual(self.refused(sim.step, good.ravel()), "simulation.shape_invalid(actions, (20,), (5, 4) or (4,))")
+        self.assertEqual(self.refused(sim.step, good.T), "simulation.shape_invalid(actions, (4, 5), (5, 4) or (4,))")
+        self.assertEqual(self.refused(sim.step, numpy.zeros((0, 4))), "simulation.shape_invalid(actions, (0, 4), (5, 4) or (4,))")
+        self.assertEqual(self.refused(sim.step, ["a"] * 4), "simulation.numbers_expected(actions, <U1)")
+        self.assertEqual(self.refused(sim.step, [[0, 0], [0]]), "simulation.rows_expected(actions)")
+        self.assertEqual(self.refused(sim.step, None), "simulation.numbers_expected(actions, NoneType)")
         for dtype, name in ((complex, "complex128"), (bool, "bool"), (object, "object"), ("M8[s]", "datetime64[s]")):
-            self.assertEqual(self.refused(sim.step, numpy.zeros((5, 4), dtype=dtype)), f"actions: numbers are expected, {name} was given")
-        self.assertEqual(self.refused(sim.step, numpy.ma.masked_less(good, 1)), "actions: some are masked")
+            self.assertEqual(self.refused(sim.step, numpy.zeros((5, 4), dtype=dtype)), f"simulation.numbers_expected(actions, {name})")
+        self.assertEqual(self.refused(sim.step, numpy.ma.masked_less(good, 1)), "simulation.numbers_masked(actions)")
         for steps in (0, -1, 1.5, True, 2**32):
-            self.assertEqual(self.refused(sim.step, good, steps), f"steps is {steps} and must be a whole number from 1 to 4294967295")
-        self.assertEqual(self.refused(sim.set_wind, (0, 0, NAN)), "aircraft 0: the wind is nan m/s and must be within +-1000")
-        self.assertEqual(self.refused(sim.set_wind, (0, -1e300, 0)), "aircraft 0: the wind is -1e+300 m/s and must be within +-1000")
-        self.assertEqual(self.refused(sim.set_wind, (0, 0)), "wind: the shape is (2,) and must be (5, 3) or (3,)")
+            self.assertEqual(self.refused(sim.step, good, steps), f"simulation.whole_number_expected(steps, {steps}, 1, 4294967295)")
+        self.assertEqual(self.refused(sim.set_wind, (0, 0, NAN)), "aircraft 0: simulation.wind_out_of_range(nan)")
+        self.assertEqual(self.refused(sim.set_wind, (0, -1e300, 0)), "aircraft 0: simulation.wind_out_of_range(-1e+300)")
+        self.assertEqual(self.refused(sim.set_wind, (0, 0)), "simulation.shape_invalid(wind, (2,), (5, 3) or (3,))")
         self.assertEqual(sim.state.tobytes(), before.tobytes())
 
     def test_flights_that_are_none_are_refused_and_nothing_moves(self):
         sim = made()
         before = sim.state
         self.assertEqual(self.refused(sim.fly, 300, [17, 17, 2, 17, 17]),
-                         "aircraft 2: no steady level flight at 2 m/s and 300 m height")
-        self.assertEqual(self.refused(sim.fly, 0, 17), "aircraft 0: height is 0 m and must be more than 0")
-        self.assertEqual(self.refused(sim.fly, 300, NAN), "aircraft 0: airspeed is nan m/s and must be more than 0")
-        self.assertEqual(self.refused(sim.fly, 300, 17, NAN), "aircraft 0: heading is nan")
-        self.assertIn("no steady level flight", self.refused(sim.fly, 1e7, 17))
-        self.assertEqual(self.refused(sim.fly, 300, [17, 17]), "airspeed: the shape is (2,) and must be (5,), or one number is given")
-        self.assertEqual(self.refused(sim.fly, None, 17), "height: numbers are expected, NoneType was given")
+                         "aircraft 2: simulation.level_flight_missing(2, 300)")
+        self.assertEqual(self.refused(sim.fly, 0, 17), "aircraft 0: simulation.height_invalid(0)")
+        self.assertEqual(self.refused(sim.fly, 300, NAN), "aircraft 0: simulation.airspeed_invalid(nan)")
+        self.assertEqual(self.refused(sim.fly, 300, 17, NAN), "aircraft 0: simulation.heading_not_finite(nan)")
+        self.assertIn("aircraft 0: simulation.level_flight_missing(17, ", self.refused(sim.fly, 1e7, 17))
+        self.assertEqual(self.refused(sim.fly, 300, [17, 17]), "simulation.shape_invalid(airspeed, (2,), (5,), or one number is given)")
+        self.assertEqual(self.refused(sim.fly, None, 17), "simulation.numbers_expected(height, NoneType)")
         for only in (5, -6, [0, 5], 1.5, [0.5], True, "all", [[0], [1, 2]], numpy.ones(4, dtype=bool), numpy.ones((5, 1), dtype=bool)):
             for call in (lambda: sim.fly(300, 17, only=only), lambda: sim.reset(only=only), lambda: sim.set_state(before, only=only)):
-                self.assertEqual(self.refused(call), f"only is {only!r} and must be an index below 5, a list of them, or 5 bools")
+                self.assertEqual(self.refused(call), f"simulation.selection_invalid({only!r}, 5, 5)")
         sim.fly(300, 17, only=[])
-        self.assertIn("seed is -1", self.refused(sim.reset, -1))
+        self.assertIn("simulation.whole_number_expected(seed, -1, ", self.refused(sim.reset, -1))
         self.assertEqual(sim.state.tobytes(), before.tobytes())
 
     def test_states_that_are_none_are_refused_and_nothing_moves(self):
         sim = made()
         before = sim.state
-        for column, value, sentence in ((3, math.inf, "aircraft 4: the state has a number that is not finite"),
-                                        (6, 3, "aircraft 4: the attitude's quaternion is not of length 1"),
-                                        (3, 2e5, "aircraft 4: the state is beyond the model, which ends at 1e5 m/s and rad/s and 1e8 m from the origin")):
+        for column, value, sentence in ((3, math.inf, "aircraft 4: sim.state_not_finite"),
+                                        (6, 3, "aircraft 4: sim.state_not_normalised"),
+                                        (3, 2e5, "aircraft 4: sim.state_beyond_model")):
             state = sim.state
             state[:, 0] += 50
             state[4, column] = value
@@ -216,16 +217,16 @@ class Refusals(Told):
 
     def test_what_cannot_be_made_is_refused(self):
         make = fulmar_sim.Simulation
-        self.assertEqual(self.refused(make, ANACONDA, dt=0.2), "dt is 0.2 s and must be in (0, 0.1] s")
-        self.assertEqual(self.refused(make, ANACONDA, dt=NAN), "dt is nan s and must be in (0, 0.1] s")
-        self.assertEqual(self.refused(make, ANACONDA, dt="fast"), "dt is 'fast' and must be a number")
-        self.assertEqual(self.refused(make, ANACONDA, 0), "n is 0 and must be a whole number from 1 to 100000")
-        self.assertIn("threads is 0", self.refused(make, ANACONDA, threads=0))
-        self.assertEqual(self.refused(make, ANACONDA, turbulence="storm"), "turbulence is 'storm'; valid: none, light, moderate, severe")
+        self.assertEqual(self.refused(make, ANACONDA, dt=0.2), "sim.step_invalid(0.2)")
+        self.assertEqual(self.refused(make, ANACONDA, dt=NAN), "sim.step_invalid(nan)")
+        self.assertEqual(self.refused(make, ANACONDA, dt="fast"), "simulation.number_expected(dt, 'fast')")
+        self.assertEqual(self.refused(make, ANACONDA, 0), "simulation.whole_number_expected(n, 0, 1, 100000)")
+        self.assertIn("simulation.whole_number_expected(threads, 0, ", self.refused(make, ANACONDA, threads=0))
+        self.assertEqual(self.refused(make, ANACONDA, turbulence="storm"), "simulation.choice_unknown(turbulence, 'storm', none, light, moderate, severe)")
         for altitude in (NAN, 20001, -1001):
-            self.assertEqual(self.refused(make, ANACONDA, origin_altitude=altitude), f"origin_altitude is {altitude} m and must be from -1000 to 20000")
-        self.assertEqual(self.refused(make, ANACONDA, dt=True), "dt is True and must be a number")
-        self.assertEqual(self.refused(make, ANACONDA, turbulence=numpy.zeros(2)), "turbulence is array([0., 0.]); valid: none, light, moderate, severe")
+            self.assertEqual(self.refused(make, ANACONDA, origin_altitude=altitude), f"simulation.altitude_out_of_range({altitude})")
+        self.assertEqual(self.refused(make, ANACONDA, dt=True), "simulation.number_expected(dt, True)")
+        self.assertEqual(self.refused(make, ANACONDA, turbulence=numpy.zeros(2)), "simulation.choice_unknown(turbulence, array([0., 0.]), none, light, moderate, severe)")
         with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'gust'"):
             make(ANACONDA, gust=3)
 
@@ -234,16 +235,16 @@ class Refusals(Told):
         at = next(i for i, line in enumerate(lines) if line.startswith("mass"))
         with tempfile.TemporaryDirectory() as folder:
             bad = pathlib.Path(folder) / "bad.yaml"
-            for line, sentence in (("mass: -3 kg", "mass: -3 kg is outside 0.0001 .. 1e+06 kg"), ("mas: 3 kg", "Did you mean 'mass'?")):
+            for line, sentence in (("mass: -3 kg", "mass: graph.value_out_of_range(-3 kg, 0.0001, 1e+06,  kg, )"), ("mas: 3 kg", "graph.field_unknown(, mas, Airframe,  Did you mean 'mass'? [] name, ")):
                 bad.write_text("\n".join(lines[:at] + [line] + lines[at + 1:]) + "\n")
                 told = self.refused(fulmar_sim.Simulation, bad)
                 self.assertIn(f"bad.yaml:{at + 1}: ", told)
                 self.assertIn(sentence, told)
-        for name, sentence in (("none/anacoda.yaml", "there is no file none/anacoda.yaml. Did you mean 'fulmar:airframes/anaconda.yaml'?"),
-                               ("configs", "configs is a folder, not a file"), (5, "airframe is 5 and must be the name of a file"),
-                               (None, "airframe is None and must be the name of a file"), ("a\0b", "airframe is 'a\\x00b': no file is named so")):
+        for name, sentence in (("none/anacoda.yaml", "graph.file_missing(none/anacoda.yaml, . Did you mean 'fulmar:airframes/anaconda.yaml'?)"),
+                               ("configs", "graph.file_is_folder(configs)"), (5, "simulation.file_name_expected(5)"),
+                               (None, "simulation.file_name_expected(None)"), ("a\0b", "simulation.file_name_invalid('a\\x00b')")):
             self.assertEqual(self.refused(fulmar_sim.Simulation, name), sentence)
-        self.assertIn("hourglass.yaml:2: unknown field 'mission' of Airframe", self.refused(fulmar_sim.Simulation, "fulmar:missions/hourglass.yaml"))
+        self.assertIn("hourglass.yaml:2: graph.field_unknown(, mission, Airframe, ", self.refused(fulmar_sim.Simulation, "fulmar:missions/hourglass.yaml"))
         self.assertEqual(fulmar_sim.Simulation("fulmar:airframes/anaconda.yaml").n, 1)
 
     def test_a_child_process_is_told_that_the_threads_stayed_behind(self):
@@ -254,14 +255,14 @@ class Refusals(Told):
                 sim.step([0, 0, 0, 0])
             except fulmar_sim.Error as error:
                 sim.__del__()
-                os._exit(0 if "made by another process" in str(error) else 2)
+                os._exit(0 if str(error) == "simulation.other_process" else 2)
             os._exit(1)
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
 
     def test_nobody_gets_at_what_is_freed_or_beyond_its_arrays(self):
         sim = made()
         for call in (lambda: copy.copy(sim), lambda: copy.deepcopy(sim), lambda: pickle.dumps(sim)):
-            self.assertEqual(self.refused(call), "a simulation cannot be copied or pickled: make another one and give it this one's state with set_state")
+            self.assertEqual(self.refused(call), "simulation.copy_unsupported")
         with self.assertRaises(AttributeError):
             sim.n = 1
         sim.row_names = ()
@@ -271,11 +272,11 @@ class Refusals(Told):
         self.assertTrue(numpy.isfinite(sim.state).all())
         self.refused(sim.__init__, ANACONDA, turbulence="storm")
         for call in (lambda: sim.state, lambda: sim.trim, sim.reset, lambda: sim.fly(300, 17), lambda: sim.step([0] * 4), lambda: sim.set_wind([0] * 3)):
-            self.assertEqual(self.refused(call), "the simulation is gone")
+            self.assertEqual(self.refused(call), "simulation.simulation_closed")
         sim.__del__()
         sim.__init__(ANACONDA, 2)
         self.assertEqual(sim.state.shape, (2, 26))
-        self.assertEqual(self.refused(lambda: fulmar_sim.Simulation.__new__(fulmar_sim.Simulation).state), "the simulation is gone")
+        self.assertEqual(self.refused(lambda: fulmar_sim.Simulation.__new__(fulmar_sim.Simulation).state), "simulation.simulation_closed")
 
     def test_actions_that_another_thread_spoils_meanwhile_do_not_count(self):
         sim, actions = made(threads=2), numpy.zeros((5, 4))
@@ -287,7 +288,7 @@ class Refusals(Told):
             try:
                 sim.step(actions, steps=8000)  # some 10 ms
             except fulmar_sim.Error as error:  # on a machine that was busy elsewhere
-                self.assertEqual(str(error), "aircraft 0: throttle_frac is nan")
+                self.assertEqual(str(error), "aircraft 0: sim.command_not_finite(throttle_frac, nan)")
             spoiler.join()
             self.assertTrue(numpy.isfinite(sim.state).all())
 

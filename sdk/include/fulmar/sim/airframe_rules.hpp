@@ -8,6 +8,7 @@
 #include "fulmar/flight/model/mixer.hpp"
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/sim/gear_legs.hpp"
+#include "fulmar/sim/messages.hpp"
 
 namespace fulmar::sim {
 
@@ -74,16 +75,14 @@ inline AirframeFault gear_fault(const Airframe& a) {
   const Gear& gear = a.gear;
   const std::size_t n = gear.contacts.size();
   if (n == 0) return {};
-  const auto fault = [](const std::string& sentence) { return AirframeFault{"gear.contacts", sentence}; };
-  if (n < 3) return fault("an aircraft stands on at least 3 contacts, and here are " + std::to_string(n));
+  const auto fault = [](const Diagnostic& message) { return AirframeFault{"gear.contacts", message}; };
+  if (n < 3) return fault(sim_messages::contacts_few(n));
   double sum = 0;
   for (const GearContact& c : gear.contacts) sum += c.carries_ratio;
-  if (std::abs(sum - 1) > 1e-3)
-    return fault("their shares of the weight, `carries`, sum to " + short_number(sum) + " and must to 1");
-  if (spanned(gear) < 1e-6) return fault("all of them are on one line: it would fall over");
-  if (beside_contacts(gear))
-    return fault("all of them are " + where_contacts_are(gear) + " the centre of gravity: it would tip over");
-  if (!Legs(a).standing().found) return fault("it does not come to rest on them");
+  if (std::abs(sum - 1) > 1e-3) return fault(sim_messages::contacts_shares_wrong(short_number(sum)));
+  if (spanned(gear) < 1e-6) return fault(sim_messages::contacts_on_line());
+  if (beside_contacts(gear)) return fault(sim_messages::contacts_beside(where_contacts_are(gear)));
+  if (!Legs(a).standing().found) return fault(sim_messages::contacts_without_rest());
   return {};
 }
 
@@ -91,9 +90,8 @@ inline AirframeFault gear_fault(const Airframe& a) {
 inline AirframeFault surface_fault(const char* name, const Surface& s) {
   const Stops at = stops(s);
   if (at.min < at.max || s.limit_rad == 0) return {};
-  return {std::string(name) + ".min_rad", "the servo would stop at " + short_number(at.min) +
-                                              " rad below and at " + short_number(at.max) +
-                                              " rad above: it cannot move"};
+  return {std::string(name) + ".min_rad",
+          sim_messages::servo_fixed(short_number(at.min), short_number(at.max))};
 }
 
 /// Propellers with a share of the rudder: beside the plane of symmetry, with a rudder that has a throw.
@@ -102,9 +100,8 @@ inline AirframeFault propeller_fault(const Airframe& a) {
     const PropellerPlace& p = a.propulsion.propellers[i];
     if (p.differential_frac <= 0) continue;
     const std::string field = item("propulsion.propellers", i, "differential_frac");
-    if (p.at_m.y == 0) return {field, "it stands in the middle (y is 0), where more thrust does not yaw"};
-    if (a.rudder.limit_rad <= 0)
-      return {field, "it is a part of full throttle at full rudder, and rudder.limit is 0"};
+    if (p.at_m.y == 0) return {field, sim_messages::propeller_in_middle()};
+    if (a.rudder.limit_rad <= 0) return {field, sim_messages::propeller_without_rudder()};
   }
   return {};
 }
@@ -115,20 +112,19 @@ inline AirframeFault battery_fault(const Propulsion& p) {
   const BatteryCurve& c = b.curve;
   const std::string field = "propulsion.pack";
   if (b.empty_volt > p.battery_volt)
-    return {field + ".empty_volt", "it is " + short_number(b.empty_volt) + " V, more than the " +
-                                       short_number(p.battery_volt) + " V of the full battery"};
+    return {field + ".empty_volt",
+            sim_messages::battery_empty_high(short_number(b.empty_volt), short_number(p.battery_volt))};
   if (c.used_frac.size() != c.open_volt.size())
-    return {field + ".curve", std::to_string(c.used_frac.size()) + " values of `used` and " +
-                                  std::to_string(c.open_volt.size()) + " of `open`: there must be as many"};
+    return {field + ".curve", sim_messages::battery_curve_mismatched(c.used_frac.size(), c.open_volt.size())};
   if (c.used_frac.empty()) return {};
-  if (b.capacity_ah <= 0) return {field + ".curve", "it needs the battery's `capacity`"};
+  if (b.capacity_ah <= 0) return {field + ".curve", sim_messages::battery_capacity_missing()};
   for (std::size_t i = 1; i < c.used_frac.size(); ++i)
     if (!(c.used_frac[i] > c.used_frac[i - 1]))
-      return {field + ".curve.used_frac", "the list has to rise, and " + short_number(c.used_frac[i]) +
-                                              " comes after " + short_number(c.used_frac[i - 1])};
+      return {field + ".curve.used_frac",
+              sim_messages::battery_curve_not_rising(short_number(c.used_frac[i]),
+                                                     short_number(c.used_frac[i - 1]))};
   if (c.used_frac[0] != 0 || std::abs(c.open_volt[0] - p.battery_volt) > 1e-6 * p.battery_volt)
-    return {field + ".curve",
-            "it must begin with the full battery: used 0, open " + short_number(p.battery_volt) + " V"};
+    return {field + ".curve", sim_messages::battery_curve_start_wrong(short_number(p.battery_volt))};
   return {};
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "fulmar/random.hpp"
+#include "fulmar/sim/messages.hpp"
 #include "fulmar/sim/simulation.hpp"
 
 namespace fulmar::sim {
@@ -26,8 +27,9 @@ class Batch {
   /// Aircraft `i` has the seed mix_seed(seed, i). `threads` is one or more, the caller's own among them.
   Batch(const Airframe& a, std::size_t count, const SimulationOptions& options = {}, std::uint64_t seed = 1,
         unsigned threads = 1) {
-    if (count == 0) throw std::invalid_argument("a batch has one aircraft or more");
-    if (threads == 0 || threads > 256) throw std::invalid_argument("a batch has 1 to 256 threads");
+    if (count == 0) throw std::invalid_argument(sim_messages::batch_empty().line());
+    if (threads == 0 || threads > 256)
+      throw std::invalid_argument(sim_messages::batch_threads_invalid().line());
     all_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) all_.emplace_back(a, options, mix_seed(seed, i));
     try {
@@ -91,9 +93,8 @@ class Batch {
 
   void demand(std::size_t found, std::size_t columns, const char* what) const {
     if (found != all_.size() * columns)
-      throw std::invalid_argument(std::string(what) + ": " + std::to_string(all_.size()) + " x " +
-                                  std::to_string(columns) + " numbers are expected, " +
-                                  std::to_string(found) + " were given");
+      throw std::invalid_argument(
+          located(what, sim_messages::number_count_invalid(all_.size(), columns, found)).line());
   }
 
   /// The part of thread `t`: one piece, so that two threads do not write into one cache line but at its ends.

@@ -9,6 +9,7 @@
 
 #include "fulmar/flight/model/aerodynamics.hpp"
 #include "fulmar/flight/model/rigid_body.hpp"
+#include "fulmar/sim/messages.hpp"
 
 namespace fulmar::sim {
 
@@ -51,10 +52,12 @@ std::string table_ends(const Model& model, Departure d) {
   if constexpr (requires { model.alpha_range().holds(0.0) && model.beta_range().holds(0.0); }) {
     const auto& range = d == Departure::beyond_alpha ? model.alpha_range() : model.beta_range();
     constexpr double degree = 57.29577951308232;
-    char words[64];
-    std::snprintf(words, sizeof words, ", which end at %.3g and %.3g deg", range.min * degree,
-                  range.max * degree);
-    text = words;
+    const auto figure = [](double value) {
+      char words[32];
+      std::snprintf(words, sizeof words, "%.3g", value);
+      return std::string(words);
+    };
+    text = sim_messages::table_ends(figure(range.min * degree), figure(range.max * degree)).line();
   }
   return text;
 }

@@ -25,6 +25,7 @@
 #include <string>
 #include <utility>
 
+#include "fulmar/sim/messages.hpp"
 #include "fulmar/sim/plant.hpp"
 
 namespace fulmar::sim {
@@ -109,24 +110,23 @@ class Simulation {
                                                              {"elevator_rad", c.elevator_rad},
                                                              {"rudder_rad", c.rudder_rad}}};
     for (const auto& [name, value] : all)
-      if (!std::isfinite(value)) return std::string(name) + " is " + shown(value);
+      if (!std::isfinite(value)) return sim_messages::command_not_finite(name, shown(value));
     return "";
   }
   static std::string validation_error(const FlightState& s) {
     if (!s.body.p_n.allFinite() || !s.body.v_n.allFinite() || !s.body.omega_b.allFinite() ||
         !std::isfinite(s.deflections.aileron + s.deflections.elevator + s.deflections.rudder) ||
         !std::isfinite(s.propeller_radps))
-      return "the state has a number that is not finite";
-    if (!(std::abs(s.body.q_nb.norm() - 1) < 1e-6)) return "the attitude's quaternion is not of length 1";
-    if (diverged(s.body))
-      return "the state is beyond the model, which ends at 1e5 m/s and rad/s and 1e8 m from the origin";
+      return sim_messages::state_not_finite();
+    if (!(std::abs(s.body.q_nb.norm() - 1) < 1e-6)) return sim_messages::state_not_normalised();
+    if (diverged(s.body)) return sim_messages::state_beyond_model();
     return "";
   }
 
   /// Throws when no step can be so long.
   static void demand_step(double dt_s) {
     if (!(dt_s > 0 && dt_s <= max_s))
-      throw std::invalid_argument("dt is " + shown(dt_s) + " s and must be in (0, 0.1] s");
+      throw std::invalid_argument(sim_messages::step_invalid(shown(dt_s)).line());
   }
 
  private:

@@ -41,7 +41,7 @@ TEST_CASE("the page keeps what pages keep, and has both sets in every chart of f
     CHECK(std::count(chart.legend.begin(), chart.legend.end(), "anaconda") == 1);
     CHECK(std::count(chart.legend.begin(), chart.legend.end(), "petrel") == 1);
   }
-  CHECK(both().find("anaconda: an airframe file says nothing of surfaces") != std::string::npos);
+  CHECK(both().find("aero.surfaces_not_in_file(anaconda)") != std::string::npos);
   CHECK(both().find("petrel: surfaces and lattice, from above") != std::string::npos);
 }
 
@@ -243,15 +243,16 @@ TEST_CASE("an aircraft without level flight is shown as far as it goes") {
   const std::string heavy = folder.write("heavy.yaml", changed("anaconda", "mass: 4.5 kg", "mass: 400 kg"));
   const Answer answer = call("see " + heavy + " " + airframes + "x8.yaml -o " + out);
   CHECK(answer.code == 1);
-  CHECK(answer.says("no steady level flight at 17 m/s"));
+  CHECK(answer.says("aero.flight_impossible(aero.flight_condition(steady level flight, 17, 0), "));
   const std::string page = text_of(out);
   check_page(page);
-  CHECK(page.find("<p class=\"fault\">anaconda: no steady level flight at 17 m/s") != std::string::npos);
+  CHECK(page.find("<p class=\"fault\">anaconda: aero.flight_impossible(aero.flight_condition(steady level "
+                  "flight, 17, 0)") != std::string::npos);
   CHECK(chart_named(read_charts(page), "Elevator in level").all("line s0").empty());
   CHECK(chart_named(read_charts(page), "Elevator in level").all("line s1").size() == 1);
   // alone it has no curve there, and a sentence in its place
   CHECK(call("see " + heavy + " -o " + out).code == 1);
-  CHECK(text_of(out).find("<p>there is no level flight</p>") != std::string::npos);
+  CHECK(text_of(out).find("<p>aero.level_flight_missing</p>") != std::string::npos);
 }
 
 TEST_CASE("what cannot be seen is refused in a sentence") {
@@ -271,12 +272,12 @@ TEST_CASE("what cannot be seen is refused in a sentence") {
   for (const std::string word : {"see ", "fly "}) {
     const Answer own = call(word + mine + " -o " + folder.path.string() + "/./mine.yaml");
     CHECK(own.code == 4);
-    CHECK(own.says("aero.page_is_input("));
+    CHECK(own.says("aero.page_is_input(" + folder.path.string() + "/./mine.yaml)"));
     CHECK(text_of(mine) == before);
   }
   const Answer unwritten = call("see " + airframes + "x8.yaml -o " + folder.path.string() + "/no/p.html");
   CHECK(unwritten.code != 0);
-  CHECK(unwritten.says("aero.picture_not_writable("));
+  CHECK(unwritten.says("aero.picture_not_writable(" + folder.path.string() + "/no/p.html)"));
 }
 
 TEST_CASE("the same files give the same page" * doctest::test_suite("amounts")) {

@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 
+#include "fulmar/flight/messages.hpp"
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/msg/safety_state.hpp"
 
@@ -13,24 +14,28 @@ namespace fulmar {
 struct NamedAlarm {
   bool SafetyState::*flag;
   Cause cause;
-  const char* words;
+  const MessageText<0>* message;
   bool SafetyState::*worse = nullptr;  ///< includes this one
+
+  const char* words() const { return message->c_str(); }
 };
 
 inline constexpr std::array<NamedAlarm, 13> alarms{{
-    {&SafetyState::engine_failed, Cause::engine_failed, "no thrust from the motor"},
-    {&SafetyState::engine_weak, Cause::engine_weak, "weak motor", &SafetyState::engine_failed},
-    {&SafetyState::battery_empty, Cause::battery_empty, "battery empty"},
-    {&SafetyState::attitude_excessive, Cause::attitude_excessive, "excessive attitude"},
-    {&SafetyState::estimator_failed, Cause::estimator_failed, "attitude, height or velocity not valid"},
-    {&SafetyState::gnss_lost, Cause::gnss_lost, "no position"},
-    {&SafetyState::battery_low, Cause::battery_low, "battery low", &SafetyState::battery_empty},
-    {&SafetyState::pitot_lost, Cause::pitot_lost, "no airspeed"},
-    {&SafetyState::wind_excessive, Cause::wind_excessive, "wind above the limit"},
-    {&SafetyState::radio_lost, Cause::radio_lost, "pilot's radio lost"},
-    {&SafetyState::link_lost, Cause::link_lost, "no vehicle status"},
-    {&SafetyState::drifting, Cause::drifting, "wind above the top airspeed"},
-    {&SafetyState::fence, Cause::fence, "fence"},
+    {&SafetyState::engine_failed, Cause::engine_failed, &flight_messages::engine_failed},
+    {&SafetyState::engine_weak, Cause::engine_weak, &flight_messages::engine_weak,
+     &SafetyState::engine_failed},
+    {&SafetyState::battery_empty, Cause::battery_empty, &flight_messages::battery_empty},
+    {&SafetyState::attitude_excessive, Cause::attitude_excessive, &flight_messages::attitude_excessive},
+    {&SafetyState::estimator_failed, Cause::estimator_failed, &flight_messages::estimator_failed},
+    {&SafetyState::gnss_lost, Cause::gnss_lost, &flight_messages::gnss_lost},
+    {&SafetyState::battery_low, Cause::battery_low, &flight_messages::battery_low,
+     &SafetyState::battery_empty},
+    {&SafetyState::pitot_lost, Cause::pitot_lost, &flight_messages::pitot_lost},
+    {&SafetyState::wind_excessive, Cause::wind_excessive, &flight_messages::wind_excessive},
+    {&SafetyState::radio_lost, Cause::radio_lost, &flight_messages::radio_lost},
+    {&SafetyState::link_lost, Cause::link_lost, &flight_messages::link_lost},
+    {&SafetyState::drifting, Cause::drifting, &flight_messages::drifting},
+    {&SafetyState::fence, Cause::fence, &flight_messages::fence},
 }};
 
 /// The entry of `alarms` with this flag; the last entry when no alarm has it.

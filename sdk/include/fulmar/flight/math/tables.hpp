@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "fulmar/flight/messages.hpp"
 #include "fulmar/msg/airframe.hpp"
 
 namespace fulmar {
@@ -94,23 +95,25 @@ inline std::string table_fault(const CoefficientTable& t) {
       if (!(at[i] > at[i - 1])) return false;
     return true;
   };
-  if (t.over == TableVariable::none)
-    return "over: a table is over alpha, beta, mach, aileron, elevator or rudder";
-  if (t.at_ratio.empty()) return "at: a table has at least one point";
-  if (!rises(t.at_ratio)) return "at: the points have to rise";
-  if (beyond(t.over, t.at_ratio)) return "at: angles are in radians, and these go beyond half a turn";
+  if (t.over == TableVariable::none) return located("over", flight_messages::table_variable_missing());
+  if (t.at_ratio.empty()) return located("at", flight_messages::table_points_missing());
+  if (!rises(t.at_ratio)) return located("at", flight_messages::table_points_not_rising());
+  if (beyond(t.over, t.at_ratio)) return located("at", flight_messages::table_angle_large());
   const bool two = t.and_over != TableVariable::none;
-  if (two && t.and_over == t.over) return "and_over: it is the same variable as over";
-  if (two && t.and_at_ratio.empty()) return "and_at: it is missing, and and_over is given";
-  if (!two && !t.and_at_ratio.empty()) return "and_over: it is missing, and and_at is given";
-  if (!rises(t.and_at_ratio)) return "and_at: the points have to rise";
+  if (two && t.and_over == t.over) return located("and_over", flight_messages::table_variables_equal());
+  if (two && t.and_at_ratio.empty()) return located("and_at", flight_messages::table_second_points_missing());
+  if (!two && !t.and_at_ratio.empty())
+    return located("and_over", flight_messages::table_second_variable_missing());
+  if (!rises(t.and_at_ratio)) return located("and_at", flight_messages::table_points_not_rising());
   if (two && beyond(t.and_over, t.and_at_ratio))
-    return "and_at: angles are in radians, and these go beyond half a turn";
+    return located("and_at", flight_messages::table_angle_large());
   const std::size_t rows = t.at_ratio.size(), columns = two ? t.and_at_ratio.size() : 1;
   if (t.values_ratio.size() == rows * columns) return "";
-  return "values: there are " + std::to_string(t.values_ratio.size()) + ", and " + std::to_string(rows) +
-         (two ? " times " + std::to_string(columns) : "") +
-         (rows * columns == 1 ? " point has " : " points have ") + std::to_string(rows * columns);
+  const std::size_t found = t.values_ratio.size();
+  if (two)
+    return located("values", flight_messages::table_grid_mismatched(found, rows, columns, rows * columns));
+  return located("values", rows == 1 ? flight_messages::table_values_of_one_point(found)
+                                     : flight_messages::table_values_mismatched(found, rows));
 }
 
 }  // namespace fulmar

@@ -11,6 +11,7 @@
 
 #include "fulmar/flight/earth/geodesy.hpp"
 #include "fulmar/flight/math/angles.hpp"
+#include "fulmar/flight/messages.hpp"
 #include "fulmar/msg/origin.hpp"
 #include "fulmar/plugin.hpp"
 
@@ -54,11 +55,11 @@ Spot spot_of(const P& p, const Origin& origin, const std::string& what) {
   const bool local = p.north_m < not_given && p.east_m < not_given;
   const bool global = p.lat_deg < not_given && p.lon_deg < not_given;
   if (local == global)
-    throw std::runtime_error(what + (local ? ": both north, east and lat, lon are given; give one of the two"
-                                           : ": give north and east, or lat and lon"));
+    throw std::runtime_error(
+        located(what, (local ? flight_messages::place_given_twice : flight_messages::place_missing)())
+            .line());
   if (local) return {p.north_m, p.east_m, 0};
-  if (!origin.given)
-    throw std::runtime_error(what + ": lat and lon need the mission's origin, which is not given");
+  if (!origin.given) throw std::runtime_error(located(what, flight_messages::origin_missing()).line());
   const LocalFrame frame(origin.lat_deg, origin.lon_deg, origin.alt_msl_m);
   const Eigen::Vector3d at = frame.to_ned(p.lat_deg, p.lon_deg, origin.alt_msl_m);
   return {at.x(), at.y(), 0};
@@ -72,8 +73,8 @@ inline std::vector<Spot> places_of(const Places& file, const Origin& origin) {
     spots.back().up_m = file.places[i].up_m;
     for (std::size_t k = 0; k < i; ++k)
       if (std::hypot(spots[k].north_m - spots[i].north_m, spots[k].east_m - spots[i].east_m) < same_place_m)
-        throw std::runtime_error("places.places[" + std::to_string(i) +
-                                 "]: is the same place as places.places[" + std::to_string(k) + "]");
+        throw std::runtime_error(
+            located("places.places[" + std::to_string(i) + "]", flight_messages::places_equal(k)).line());
   }
   return spots;
 }
@@ -108,11 +109,12 @@ class Polygon {
       corners_.push_back(spot_of(fence.corners[i], origin, "fence.corners[" + std::to_string(i) + "]"));
     const std::size_t n = corners_.size();
     if (n < 3)
-      throw std::runtime_error("fence.corners: " + std::to_string(n) + " of them; a fence has 3 at least");
+      throw std::runtime_error(located("fence.corners", flight_messages::fence_corners_few(n)).line());
     if (fence.floor_m >= fence.ceiling_m)
-      throw std::runtime_error("fence.floor_m: " + std::to_string(std::lround(fence.floor_m)) +
-                               " m is not below the ceiling, " +
-                               std::to_string(std::lround(fence.ceiling_m)) + " m");
+      throw std::runtime_error(
+          located("fence.floor_m",
+                  flight_messages::fence_floor_high(std::lround(fence.floor_m), std::lround(fence.ceiling_m)))
+              .line());
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = i + 1; k < n; ++k) {
         const bool next = k == i + 1, last = i == 0 && k == n - 1;
@@ -125,8 +127,7 @@ class Polygon {
         } else if (!meet(corner(i), corner(i + 1), corner(k), corner(k + 1))) {
           continue;
         }
-        throw std::runtime_error("fence.corners: the sides from corner " + std::to_string(i) +
-                                 " and from corner " + std::to_string(k) + " cross each other");
+        throw std::runtime_error(located("fence.corners", flight_messages::fence_sides_cross(i, k)).line());
       }
   }
 

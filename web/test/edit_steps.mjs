@@ -48,7 +48,7 @@ export const edit_steps = ({
       "the flight's waypoint has moved",
       async () => (await position_of(item)).north !== at_m.north,
     );
-    await seen("what is drawn flies", ".plan .faint", (t) => t.includes("This is what flies"));
+    await seen("what is drawn flies", ".plan .faint", (t) => t.includes("This plan is active"));
     await until("the aircraft flies to it", async () => {
       const aim = await position_of(item),
         is = await value_of("manage.progress.distance_m");
@@ -66,7 +66,7 @@ export const edit_steps = ({
     await seen(
       "the reason",
       ".waypoints .refusal",
-      (t) => t === "Refused: lower than the planner allows: its parameter 'lowest'",
+      (t) => t === "Rejected: lower than the planner allows: its parameter 'lowest'",
     );
     assert.equal(
       await page
@@ -75,7 +75,7 @@ export const edit_steps = ({
       "2",
     );
     await shoot("plan_refused");
-    await page.click("text=Back to what flies");
+    await page.click("text=Discard draft");
     await until("the old height", async () => (await field.inputValue()) === "70");
   },
   async "Plan: added, moved up, removed"() {
@@ -118,11 +118,12 @@ export const edit_steps = ({
     await seen(
       "what is wrong with it",
       ".plan .refusal",
-      (t) => t === "Refused: mine.yaml: waypoint 0: up: '70 kg' is no length. Valid units: m, km, ft",
+      (t) =>
+        t === "Rejected: mine.yaml: waypoint 0: up: '70 kg' is not a valid length. Valid units: m, km, ft",
     );
     await load(words.replace(`north: ${first} m`, "north: 432.1 m"));
     await seen("a draft", ".plan .faint", (t) =>
-      t.includes("the aircraft flies the old plan until this is uploaded"),
+      t.includes("the aircraft follows the active plan until the upload"),
     );
     assert.equal((await plan()).waypoints[0].position_m.north, before.waypoints[0].position_m.north);
     await page.click("text=Upload");
@@ -135,7 +136,7 @@ export const edit_steps = ({
     await load(words.replace(/\{north: \S+ m, east: \S+ m, up: \S+ m/, place) + runway + "\n");
     await page.click("text=Upload");
     await until("it flies", async () => near((await plan()).waypoints[0].position_m.north, 399.8, 1, false));
-    await seen("as it flies", ".plan .faint", (t) => t.includes("This is what flies"));
+    await seen("as it flies", ".plan .faint", (t) => t.includes("This plan is active"));
     const [kept] = await Promise.all([page.waitForEvent("download"), page.click("text=Save file")]);
     await kept.saveAs(file);
     assert.ok(
@@ -161,7 +162,7 @@ export const edit_steps = ({
       "the range",
       '[data-param="roll_kp"] .refusal',
       (t) =>
-        t === "Refused: attitude.roll_kp: 900 is outside 0 .. 20 rad/rad" || t.includes("outside 0 .. 20"),
+        t === "Rejected: attitude.roll_kp: 900 is outside 0 .. 20 rad/rad" || t.includes("outside 0 .. 20"),
     );
     await shoot("tune");
     await row.locator("button").click();
@@ -184,7 +185,7 @@ export const edit_steps = ({
     writeFileSync(join(folder, "mine.yaml"), old + "# another's\n"); // another editor writes meanwhile
     await page.click("text=Write these lines");
     await seen("why not", ".side [role=alert]", (t) =>
-      t.includes("Refused: what would be written is not what was shown any more: look again"),
+      t.includes("Rejected: what would be written is not what was shown any more: look again"),
     );
     assert.equal(airframe(), old + "# another's\n");
     await page.click("text=Save slc…");
@@ -202,7 +203,7 @@ export const edit_steps = ({
     await shoot("saved");
     await page.click("text=Save slc…");
     await seen("no more to write", ".side [role=alert]", (t) =>
-      t.includes("The files say already what flies."),
+      t.includes("The files already contain the active values."),
     );
     await field.fill(before);
     await field.press("Enter");

@@ -159,7 +159,7 @@ const steps = () => ({
     await late.close();
     await page.getByLabel("Ticks to step").fill("200");
     await page.click("button >> text=Step");
-    await seen("done", ".sim .taken", (t) => t.includes("Flew 200 ticks"));
+    await seen("done", ".sim .taken", (t) => t.includes("Stepped 200 ticks"));
     assert.ok(Math.abs((await time()) - stands - 0.5) < 0.051, "200 ticks of 400 Hz");
     await shoot("simulation");
     await page.click("text=Resume");
@@ -179,7 +179,7 @@ const steps = () => ({
       "let go, in the middle",
       async () => Math.abs(Number(await ask("param", "get", "sim.stick_roll"))) < 0.01,
     );
-    await page.click("text=Give them back");
+    await page.click("text=Release the sticks");
     await until(
       "the autopilot flies",
       async () => (await ask("param", "get", "sim.pilot_flies")) === "false",
@@ -189,14 +189,14 @@ const steps = () => ({
     await tab("Simulation");
     assert.equal(await page.getByLabel("Seed of the new flight").inputValue(), "7");
     await page.getByLabel("Seed of the new flight").fill("eleven");
-    const button = page.locator("button.chip", { hasText: /New flight|end this one/ });
+    const button = page.locator("button.chip", { hasText: /New flight|end this flight/ });
     await button.click();
-    await seen("the question", "button.chip.asked", (t) => t === "end this one?");
+    await seen("the question", "button.chip.asked", (t) => t === "end this flight?");
     await shoot("new_flight");
     await until("asked no more", async () => (await button.textContent()) === "New flight");
     for (let i = 0; i < 2; ++i) await button.click();
     await seen("what is no seed", ".sim [role=alert]", (t) =>
-      t.includes("Refused: seed 'eleven': give a whole number from 0"),
+      t.includes("Rejected: seed 'eleven': give a whole number from 0"),
     );
     await page.getByLabel("Seed of the new flight").fill("11");
     const before = await value_of("nav.state.height_m");

@@ -157,7 +157,7 @@ const steps = {
         "slc.course_kp: 2.1 → 1.9 rad/rad",
     );
     assert.equal(await page.locator("button", { hasText: "Save slc" }).count(), 1);
-    await page.click("text=All back to what they were");
+    await page.click("text=Restore all");
     await until("as it was", async () => (await ask("param", "get", "slc.course_kp")).startsWith("2.1"));
   },
   async "commands: hold, return and land are flown, and taken back"() {

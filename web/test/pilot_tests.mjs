@@ -128,7 +128,7 @@ export const pilot_tests = (
   },
   "events of weight are alerts, but for what the strip says already"() {
     const event = (code, severity, component, words) =>
-      alert_of_event({ code, severity, component, words }, ["watch"], "flies on");
+      alert_of_event({ code, severity, component, words }, ["watch"], "continues the mission");
     assert.equal(event("notice", "info", "land", "on the glide slope"), null);
     assert.equal(event("notice", "warning", "watch", "no position: wait"), null);
     assert.equal(event("guard", "warning", "slc", "slc was stopped"), null);
@@ -153,7 +153,11 @@ export const pilot_tests = (
   },
   "flag, estimate and every component that reports one cause are one alert, and its end is over for all"() {
     const event = (severity, name, words) =>
-      alert_of_event({ code: "notice", severity, component: "sensors", name, words }, ["watch"], "flies on");
+      alert_of_event(
+        { code: "notice", severity, component: "sensors", name, words },
+        ["watch"],
+        "continues the mission",
+      );
     const book = new AlertBook(),
       now = () => book.list().map((h) => [h.alert.key, h.now]);
     const by_event = event("warning", "gnss_lost", "GNSS position silent: dead reckoning"),
@@ -195,7 +199,7 @@ export const pilot_tests = (
       alert_of_event(
         { code: "notice", severity: "critical", component: "sensors", name: "gyro", words: "gyro stuck" },
         ["watch"],
-        "flies on",
+        "continues the mission",
       ),
       5,
     );

@@ -152,17 +152,17 @@ export const plan_tests = ({ as_group, edits_between }, { read_plan_file, write_
         "end: never\nturn_radius: 5 rad\nwaypoints: [{north: x, east: 1 m}, 7, {lat: 40, lon: 7, alt_msl: 3 m}]\nspeed: 3",
       ),
       [
-        "there is no 'speed'. Valid: name, end, airspeed, turn_radius, waypoints, runway",
-        "end: 'never' is none. Valid: circuit, orbit",
-        "turn_radius: '5 rad' is no length. Valid units: m, km, ft",
-        "waypoint 0: north: 'x' is no length. Valid units: m, km, ft",
+        "unknown key 'speed'. Valid: name, end, airspeed, turn_radius, waypoints, runway",
+        "end: 'never' is not valid. Valid: circuit, orbit",
+        "turn_radius: '5 rad' is not a valid length. Valid units: m, km, ft",
+        "waypoint 0: north: 'x' is not a valid length. Valid units: m, km, ft",
         "waypoint 0: 'up' is missing",
-        "waypoint 1: has to be a map, {north: 400 m, east: -250 m, up: 70 m}",
-        "waypoint 2: is geodetic, and the flight does not know its origin yet",
+        "waypoint 1: must be a map, such as {north: 400 m, east: -250 m, up: 70 m}",
+        "waypoint 2: is geodetic, but the flight has no origin yet",
       ].join("\n"),
     );
     assert.match(faults("waypoints: [{north: 1"), /line|expected|end of the stream/);
-    assert.match(faults("3"), /no plan/);
-    assert.match(faults("name: x"), /'waypoints' has to be a list/);
+    assert.match(faults("3"), /not a plan/);
+    assert.match(faults("name: x"), /'waypoints' must be a list/);
   },
 });

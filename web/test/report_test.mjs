@@ -97,7 +97,7 @@ try {
     "--log",
     "two.mcap",
   );
-  assert.throws(() => run("report", "one.mcap"), /one\.html is there already: give another name with -o/);
+  assert.throws(() => run("report", "one.mcap"), /one\.html exists already: give another name with -o/);
   assert.throws(() => run("report", "one.mcap", folder + "/one.mcap", "-o", "x.html"), /is given twice/);
   assert.match(
     run("report", "one.mcap", "two.mcap", "--names", "one,two", "-o", "both.html"),
@@ -138,7 +138,7 @@ try {
   const box = await chart.locator(".u-over").boundingBox();
   await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.5 * box.height);
   const legend = await until("a value under the mouse", async () =>
-    /time:?\s*([\d.]+) s.*flown:?\s*([\d.]+) m/s.exec(await chart.locator(".u-legend").innerText()),
+    /time:?\s*([\d.]+) s.*actual:?\s*([\d.]+) m/s.exec(await chart.locator(".u-legend").innerText()),
   );
   const [at, height] = [Number(legend[1]), Number(legend[2])];
   assert.ok(at > 20 && at < 50, `${at} s`);
@@ -204,7 +204,7 @@ try {
   assert.match(await text("#parameters_that_differ"), /slc\.course_kp2\.11\.9/);
   assert.deepEqual(await page.locator("#flights thead th").allTextContents(), ["", "one", "two"]);
   assert.equal(await page.locator("#figures_of_merit tr", { hasText: "Tracking RMS error, " }).count(), 2);
-  assert.match(await text(".chart .u-legend"), /one, flown.*two, flown/s);
+  assert.match(await text(".chart .u-legend"), /one, actual.*two, actual/s);
   await page.keyboard.press("2");
   await page.getByLabel("Log").selectOption({ label: "two" });
   await until("the second flight", async () => Number(await moment().getAttribute("max")) < 41);
@@ -228,7 +228,7 @@ try {
   run("run", "mine.yaml", "--log", "mine.mcap", "--report");
   await open("mine.html");
   assert.match(await text("#errors_of_the_estimate"), /no truth and no fixes/);
-  assert.match(await text("#asked_and_flown"), /Nothing was recorded of this/);
+  assert.match(await text("#commanded_and_actual"), /No recorded data/);
   await whole("no_truth");
 
   // on hardware nobody knows the truth: the host at a flight controller's port, whose pilot arms, and disarms 12 s later
@@ -270,7 +270,7 @@ try {
     const shown = await page
       .locator(".chart", { hasText: "Height above the origin" })
       .getAttribute("aria-label");
-    const [low, high] = /flown: (-?[\d.]+) m to (-?[\d.]+) m/.exec(shown).slice(1).map(Number);
+    const [low, high] = /actual: (-?[\d.]+) m to (-?[\d.]+) m/.exec(shown).slice(1).map(Number);
     const valid = table
       .filter(
         (row) => row[names.indexOf("height_valid")] === "1" || row[names.indexOf("height_valid")] === "true",
@@ -320,7 +320,7 @@ try {
   writeFileSync(file("cut.mcap"), bytes.subarray(0, bytes.length / 2));
   assert.match(run("report", "cut.mcap"), /cut\.mcap ends early: byte \d+/);
   await open("cut.html");
-  assert.match(await text("#flights"), /log is wholeno: byte \d+/);
+  assert.match(await text("#flights"), /log completeno: byte \d+/);
   assert.match(await text("#verdict"), /without a verdict: byte \d+/);
 
   // whatever a log holds is text

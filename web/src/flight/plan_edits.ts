@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the plan that flies to the one that is wanted: the fewest edits, as one group, which the planner takes whole
+// Fewest edits from the active plan to the wanted one, as one group, which the planner accepts whole
 // or not at all. Waypoints that stay keep their ids, so that the leg that is flown goes on.
 import type { Plan, Waypoint } from "./route";
 
@@ -7,7 +7,7 @@ import type { Plan, Waypoint } from "./route";
 export type Edit = Record<string, unknown>;
 export interface EditOf {
   edit: Edit;
-  waypoint: number; // of the wanted plan; -1: of the plan as a whole
+  waypoint: number; // of the wanted plan; -1: of the complete plan
 }
 
 function message_of(w: Waypoint): Edit {
@@ -83,7 +83,7 @@ export function edits_between(now: Plan, wanted: Plan): EditOf[] {
   return edits;
 }
 
-/** The same edits with their number: a second try takes a new one. */
+/** The same edits with a group number: a second attempt needs a new one. */
 export function as_group(edits: EditOf[], group: number): EditOf[] {
   if (edits.length < 2) return edits;
   return edits.map((e) => ({ ...e, edit: { ...e.edit, group, group_size: edits.length } }));

@@ -8,7 +8,7 @@ export interface Waypoint {
   up: number;
   course: number | null; // rad
   airspeed: number; // 0: the plan's
-  id: number; // 0: the planner has not seen it
+  id: number; // 0: not yet in the planner
   geodetic: { latitude: number; longitude: number; altitude: number } | null;
 }
 export interface Plan {

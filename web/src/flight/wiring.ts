@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the components of a mission stand in a drawing, and how lines lead from outputs to inputs: in layers from left to right, by
-// the longest way to each (Sugiyama, Tagawa & Toda, 1981), and between the boxes, never through one.
+// Layout of the components of a mission, and lines from outputs to inputs: layers from left to right, by the longest path
+// to each (Sugiyama, Tagawa & Toda, 1981), and between the boxes, never through one.
 
 export interface Part {
   name: string;
@@ -48,7 +48,7 @@ interface Net {
   readers: { part: Part; input: string }[];
 }
 
-/** One for each port that somebody reads. All that fill a role share its ports. */
+/** One for each connected output port. The components of a role share its ports. */
 function nets_of(parts: Part[]): Net[] {
   const nets = new Map<string, Net>();
   for (const part of parts)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Foxglove WebSocket protocol, version 1, as a client: connects, comes again, notices within a second that
-// nobody is there. Knows nothing of flights.
+// Client of the Foxglove WebSocket protocol, version 1: connects, reconnects, and detects a silent server within a second.
+// Independent of flights.
 
 export interface Channel {
   id: number;
@@ -30,7 +30,7 @@ export interface LinkState {
 }
 
 const alive_ms = 200; // between two questions whose answers show how old is what comes with them
-const lost_ms = 750; // then nobody is
+const lost_ms = 750; // without a message: connection lost
 const again_ms = 500; // between two attempts
 const watch_ms = 100;
 const op_data = 1,
@@ -118,7 +118,7 @@ export class Socket {
     if (document.hidden) return; // a page that is not seen is put to sleep now and then
     const asks = this.up && this.sign_of_life.length > 0; // else nothing may be heard for a while
     if (this.quiet > lost_ms && (asks || this.quiet > 5 * lost_ms))
-      return this.lose("nothing is heard of the flight");
+      return this.lose("no answer from the flight");
     if (!asks || now - this.asked_ms < alive_ms) return;
     this.asked_ms = now;
     const id = "alive " + this.next_asked++;

@@ -236,19 +236,22 @@ export class MapView {
     say(this.attribution, scene.ground?.attribution ?? "");
     draw_scale(g, step, this.px_per_m, this, Boolean(scene.ground));
     if (scene.places) draw_places(g, scene.places, (p) => this.to_screen(p), this.px_per_m);
-    this.trail(g, scene.track);
     this.route(g, scene);
+    this.trail(g, scene.track); // above the route, which hides it on the path
     for (const track of scene.tracks ?? []) this.trail(g, track, track.colour, track.width);
     g.strokeStyle = colours.get("track");
     g.lineWidth = 3;
     g.setLineDash([1, 6]);
     this.line(g, scene.piece);
     g.setLineDash([]);
+    const aircraft = () =>
+      scene.state?.valid.position && draw_aircraft(g, scene.state.yaw, this.to_screen(scene.state));
+    if (scene.tracks) aircraft(); // in a report below the waypoint numbers
     this.waypoints(g, scene);
     if (!scene.places?.places.length) draw_home(g, this.to_screen({ n: 0, e: 0 }));
     if (scene.lost) draw_lost(g, scene.lost, (p) => this.to_screen(p), this.px_per_m);
     this.data(scene);
-    if (scene.state?.valid.position) draw_aircraft(g, scene.state.yaw, this.to_screen(scene.state));
+    if (!scene.tracks) aircraft();
     if (scene.crashed && scene.state) draw_crash(g, this.to_screen(scene.lost?.at ?? scene.state));
     if (scene.state?.valid.wind) draw_wind(g, scene.state, this.height);
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fewest edits from the active plan to the wanted one, as one group, which the planner accepts whole
-// or not at all. Waypoints that stay keep their ids, so that the leg that is flown goes on.
+// Fewest edits from the active plan to the wanted one, as one group, which the planner accepts
+// completely or rejects. Unchanged waypoints keep their ids, so that the active leg continues.
 import type { Plan, Waypoint } from "./route";
 
-/** A request of the type PlanEdit, as JSON: what is left out is 0. */
+/** A request of the type PlanEdit, as JSON: missing fields are 0. */
 export type Edit = Record<string, unknown>;
 export interface EditOf {
   edit: Edit;
@@ -34,7 +34,7 @@ function equal(a: Waypoint, b: Waypoint): boolean {
   );
 }
 
-/** The largest set of ids that stand in the same order in both: the others are moved. */
+/** The largest set of ids in the same order in both plans: the others are moved. */
 function in_order(ids: number[], places: Map<number, number>): Set<number> {
   const list = ids.filter((id) => places.has(id));
   const best: number[] = [],

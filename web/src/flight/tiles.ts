@@ -25,7 +25,7 @@ const a_m = 6378137,
 export const tile_px = 256,
   deepest = 19;
 
-/** Into so many parts along each side a tile is cut to be drawn as parallelograms: a side of S metres bends by S^2 tan(latitude) / R. */
+/** Parts along each side of a tile, each drawn as a parallelogram: a side of S metres bends by S^2 tan(latitude) / R. */
 export const parts_at = (px_per_m: number): number => (px_per_m < 0.1 ? 4 : 1);
 
 /** The north-west corner of a tile; x and y may have fractions. */
@@ -56,7 +56,7 @@ export class LocalPlane {
       r = (across + h) * Math.cos(lat);
     return [r * Math.cos(lon), r * Math.sin(lon), (across * (1 - e2) + h) * Math.sin(lat)];
   }
-  /** Radians in, and a height as that of the origin is; without one it is as high. */
+  /** Takes radians and a height in the frame of the origin; default: the height of the origin. */
   to_plane(lat: number, lon: number, h = this.h): Point & { up: number } {
     const p = this.earth_fixed(lat, lon, h);
     const [x, y, z] = [p[0] - this.at[0], p[1] - this.at[1], p[2] - this.at[2]];

@@ -72,7 +72,7 @@ export class Tune implements Page {
     const fixed_ones = component.params.length - rows.length;
     say(
       this.head,
-      `${component.use}: ${component.doc}${fixed_ones > 0 ? ` ${fixed_ones} parameters are fixed in flight.` : ""}`,
+      `${component.use}: ${component.doc}${fixed_ones > 0 ? ` Fixed in flight: ${fixed_ones}.` : ""}`,
     );
     this.filter.value = "";
     this.sift();

@@ -226,7 +226,7 @@ export class Wires implements Page {
     const form = el(
       "form",
       { class: "row swap" },
-      el("label", {}, "swap for ", input),
+      el("label", {}, "replace by ", input),
       el("button", { type: "submit" }, "Swap"),
     );
     form.addEventListener("submit", (e) => {

@@ -97,7 +97,7 @@ try {
     "--log",
     "two.mcap",
   );
-  assert.throws(() => run("report", "one.mcap"), /one\.html exists already: give another name with -o/);
+  assert.throws(() => run("report", "one.mcap"), /one\.html is there already: give another name with -o/);
   assert.throws(() => run("report", "one.mcap", folder + "/one.mcap", "-o", "x.html"), /is given twice/);
   assert.match(
     run("report", "one.mcap", "two.mcap", "--names", "one,two", "-o", "both.html"),

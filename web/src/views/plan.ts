@@ -186,7 +186,7 @@ export class PlanPage implements Page {
     if (first) return this.refuse(first.waypoint, first.reason);
     this.awaited = revision;
     this.sent = draft;
-    if (this.draft !== draft) void this.send(); // changed again in the meantime
+    if (this.draft !== draft && this.at_once.checked) void this.send(); // changed again in the meantime
   }
   private refuse(waypoint: number, reason: string): void {
     this.refused = waypoint;

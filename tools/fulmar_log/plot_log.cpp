@@ -223,8 +223,9 @@ std::vector<ChartPoint> points_of(const Samples& y, const Samples* over) {
   return points;
 }
 
-std::string axis_words(const core::LogNumber& n) {
-  return n.words + (n.unit.empty() ? "" : " [" + n.unit + "]");
+/// A ratio has no unit.
+std::string with_unit(const std::string& words, const std::string& unit) {
+  return unit.empty() || unit == "1" ? words : words + (words.empty() ? "[" : " [") + unit + "]";
 }
 
 class FigureMaker {
@@ -241,13 +242,13 @@ class FigureMaker {
         one_unit = one_unit && log.fields[f].number.unit == first.unit;
         one_word = one_word && log.fields[f].number.words == first.words;
       }
-    if (one_unit) panel.y = one_word ? axis_words(first) : first.unit.empty() ? "" : "[" + first.unit + "]";
+    if (one_unit) panel.y = with_unit(one_word ? first.words : "", first.unit);
     for (const std::size_t f : fields)
       for (const OpenLog& log : logs_) {
         const Samples& s = log.fields[f];
         std::string name = asked_.labels.empty() ? s.number.name : asked_.labels[f];
         if (logs_.size() > 1) name = fields.size() > 1 ? log.name + ": " + name : log.name;
-        if (!one_unit && !s.number.unit.empty()) name += " [" + s.number.unit + "]";
+        if (!one_unit) name = with_unit(name, s.number.unit);
         panel.curves.push_back({name, points_of(s, log.x_of(f)), s.number.held && !over_});
       }
     if (panel.curves.size() > chart::max_curves)
@@ -260,7 +261,7 @@ class FigureMaker {
     figure.x = "time [s]";
     if (!over_) return;
     const core::LogNumber& x = logs_[0].over[0].number;
-    figure.x = axis_words(x);
+    figure.x = with_unit(x.words, x.unit);
     const auto in_metres = [](const Samples& s) { return s.number.unit == "m"; };
     figure.even = figure.panels.size() == 1 &&
                   std::all_of(logs_[0].over.begin(), logs_[0].over.end(), in_metres) &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers over time as text that is short and that a browser unpacks: what a report is made of.
+// Numbers over time as compressed text for the page of a report.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -15,26 +15,26 @@ struct Columns {
   std::vector<std::vector<float>> values;  ///< one per field
 };
 
-/// zlib, in base64, of the columns one behind the other, the times first. Of each number there stays what is
-/// new: of a time the difference to the one before, of a value its bits that differ from those before. Then
-/// the lowest byte of each, the second lowest of each, and so on.
+/// Base64 of zlib of the columns in sequence, the times first. A time is stored as the difference to the one
+/// before, a value as the bits that differ from the one before. The lowest bytes of a column come first, then
+/// the second lowest bytes, and so on.
 std::string packed(const Columns& columns);
 
-/// Messages as they are in the log, each behind its length (4 bytes, little endian); zlib, in base64.
+/// Base64 of zlib of messages as in the log, each after its length (4 bytes, little endian).
 std::string packed(const std::vector<std::string>& messages);
 
-/// So many rows at most, from `series`: an error, and what is claimed for it. Of equal parts of the time the
-/// row with the largest error in size.
+/// At most `most` rows of `series` (error and reported standard deviation): the row with the largest absolute
+/// error of each time interval.
 Columns thinned_to_peaks(const Columns& series, std::size_t most);
 
 /// Every n-th row.
 Columns every(const Columns& columns, std::size_t n);
 
-/// Flight time, rounded; what does not fit is the nearest that does.
+/// Flight time, rounded and limited to the range.
 std::int32_t tenths_of_ms(std::int64_t ns);
 
 std::string base64(std::string_view bytes);
-/// As RFC 1950 has it, which browsers call "deflate".
+/// RFC 1950, called "deflate" in browsers.
 std::string compressed(const std::string& bytes);
 
 }  // namespace fulmar::report

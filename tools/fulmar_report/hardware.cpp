@@ -22,13 +22,13 @@ using core::McapFile;
 using nlohmann::json;
 
 constexpr std::string_view greeting = "connected: ";
-/// What a calibration sets.
+/// Parameters that a calibration sets.
 constexpr std::string_view calibrated[] = {"ACC_X_BIAS",  "ACC_Y_BIAS",   "ACC_Z_BIAS",     "GYRO_X_BIAS",
                                            "GYRO_Y_BIAS", "GYRO_Z_BIAS",  "MAG_X_BIAS",     "MAG_Y_BIAS",
                                            "MAG_Z_BIAS",  "MAG_CAL_A00",  "MAG_CAL_A11",    "MAG_CAL_A22",
                                            "BARO_BIAS",   "GROUND_LEVEL", "DIFF_PRESS_BIAS"};
 
-/// A log holds texts of any length: these are the messages with room for them.
+/// The messages with room for longer texts, as a log may contain them.
 struct LoggedNotice {
   Text<4096> text;
 };
@@ -36,7 +36,7 @@ struct LoggedParameter {
   Text<4096> name, value;
 };
 
-/// Who has the aircraft, by its status.
+/// In control, by the status.
 const char* pilot_of(const VehicleStatus& s) {
   if (!s.armed) return "disarmed";
   if (s.failsafe) return "failsafe";

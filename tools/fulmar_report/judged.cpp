@@ -23,11 +23,11 @@ namespace {
 using core::McapFile;
 using nlohmann::json;
 
-/// What NavigationHealth says of one sensor; its innovation stands there until the next measurement.
+/// One sensor of NavigationHealth, which repeats an innovation until the next measurement.
 struct Watched {
   const char* words;
   SensorHealth NavigationHealth::*sensor;
-  bool of_fixes;  // FilterCheck tells more of these
+  bool of_fixes;  // FilterCheck has these by axis
 };
 constexpr Watched watched[] = {{"GNSS position, larger axis", &NavigationHealth::gnss_position, true},
                                {"GNSS height", &NavigationHealth::gnss_height, true},
@@ -84,7 +84,7 @@ class InnovationReading {
   template <class Message>
   using Reader = std::optional<std::pair<std::uint16_t, states::MessageReader<Message>>>;
 
-  /// Of the first topic of its type: with several filters in a log the flown one is wired first.
+  /// Reads the first topic of its type: with several filters in a log the active one comes first.
   template <class Message>
   std::optional<Message> read(Reader<Message>& reader, const McapFile& log, const McapFile::Message& m) {
     if (!reader) reader.emplace(m.channel, states::MessageReader<Message>(log, m.channel));

@@ -22,13 +22,13 @@ namespace core = fulmar::core;
 namespace report = fulmar::report;
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_bytes = 4'900'000;  // of the file, unless a rate is asked for
+constexpr std::size_t most_bytes = 4'900'000;  // of the file, without --rate
 constexpr double usual_rate_hz = 10;
 
 struct Words {
   std::vector<std::string> logs, names;
   std::string out, result;
-  double rate_hz = 0;  // 0: the usual one, and fewer where the file would be too large
+  double rate_hz = 0;  // 0: the default, reduced for a file that is too large
 };
 
 std::string whole_text(std::istream& in) { return {std::istreambuf_iterator<char>(in), {}}; }
@@ -58,7 +58,7 @@ void check(const Words& words) {
   }
 }
 
-/// "a.mcap" -> "a.html"; of several the first and what it is set beside: "a-and-2.html".
+/// "a.mcap" -> "a.html"; of several logs "a-and-2.html".
 std::string usual_out(const std::vector<std::string>& logs) {
   fs::path file = fs::path(logs.front()).filename();
   while (file.extension() == ".part" || file.extension() == ".mcap") file = file.stem();
@@ -66,7 +66,7 @@ std::string usual_out(const std::vector<std::string>& logs) {
   return file.string() + (more > 0 ? "-and-" + std::to_string(more) : "") + ".html";
 }
 
-/// The step times in what `fulmar run --json` has printed.
+/// The step times in the output of `fulmar run --json`.
 nlohmann::json step_times(const std::string& file) {
   std::ifstream in;
   if (file != "-") in.open(file);

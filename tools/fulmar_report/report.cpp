@@ -17,7 +17,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr std::string_view place = "LOG_OF_THE_FLIGHT";
-constexpr std::size_t max_rows = 2000, min_rows = 300;  // of a curve that is judged
+constexpr std::size_t max_rows = 2000, min_rows = 300;  // of an error curve
 constexpr std::size_t max_reported = 100;               // events
 constexpr std::size_t thinnest = 64;
 
@@ -30,7 +30,7 @@ json metadata_of(const core::McapFile& log) {
   return all;
 }
 
-/// Of the parameters, those records that name places on the ground: fence, places, runway, and their origin.
+/// Parameter records of places on the ground: geofence, landing places, runway, and their origin.
 json ground_records(const json& parameters) {
   json records = json::array();
   if (!parameters.is_object()) return records;
@@ -45,7 +45,7 @@ json ground_records(const json& parameters) {
   return records;
 }
 
-/// Guards, failsafe, swaps, and whatever has the host's warning; what came in silence is no news.
+/// Guards, failsafe, swaps, parameters, and events of severity warning or higher.
 bool is_reported(const core::LogInfo::Event& e) {
   static const std::set<std::string> kinds{"guard", "failsafe", "swap", "parameter", "resume"};
   return kinds.contains(e.kind) || (!e.severity.empty() && e.severity != "info");
@@ -108,7 +108,7 @@ json log_json(const ReportedLog& log, std::size_t every_nth) {
           {"topics", std::move(topics)}};
 }
 
-/// Rows of a name and a value of each log; null where one lacks it. Of one log nothing.
+/// Rows of a name and a value per log; null for a log without it. Empty for one log.
 json parameters_that_differ(const std::vector<ReportedLog>& logs) {
   std::map<std::string, std::vector<json>> all;
   for (std::size_t i = 0; i < logs.size(); ++i) {
@@ -177,7 +177,7 @@ Fitted fitted_json(const std::vector<ReportedLog>& logs, std::size_t most_bytes)
     if (Fitted f{report_json(logs, n), n}; f.json.size() <= most_bytes || n >= thinnest) return f;
 }
 
-/// No text of the log may end the element that holds it.
+/// Escapes `<`, so that no text of the log ends its element.
 std::string with_logs(const std::string& page, const std::string& json_text) {
   const std::size_t at = page.find(place);
   if (at == std::string::npos) throw core::Error(report_messages::page_version_mismatch());

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs as one HTML file that a browser shows without anything else: their figures, and their messages,
-// thinned out, inside the page that is built for it (web/src/report.ts).
+// Logs as one self-contained HTML file: figures and thinned messages inside the page of web/src/report.ts.
 #pragma once
 #include <cstddef>
 #include <filesystem>
@@ -15,9 +14,9 @@
 
 namespace fulmar::report {
 
-inline constexpr std::size_t max_logs = 6;  ///< so many colours can be told apart
+inline constexpr std::size_t max_logs = 6;  ///< number of distinct colours
 
-/// All that a report says of one log.
+/// All data of one log in a report.
 struct ReportedLog {
   std::string name;
   core::LogInfo info;
@@ -30,23 +29,23 @@ struct ReportedLog {
   nlohmann::json steps;              // of `fulmar run --json`, microseconds by component; or null
 };
 
-/// Throws core::Error for what is no log.
+/// Throws core::Error for a file that is not a log.
 ReportedLog read_log(const std::filesystem::path& log, const std::string& name, double rate_hz);
 
-/// What each is called: the names of the files; with their folders where two would be alike; else as given.
+/// File names of the logs; with their folders where two are equal; else the paths as given.
 std::vector<std::string> short_names(const std::vector<std::string>& logs);
 
-/// What the page reads, JSON (web/src/report/model.ts). Of the streams only every n-th message.
+/// JSON for the page (web/src/report/model.ts), with every n-th message of the streams.
 std::string report_json(const std::vector<ReportedLog>& logs, std::size_t every_nth);
 
 struct Fitted {
   std::string json;
   std::size_t every_nth = 1;
 };
-/// The least thinned that has at most `most_bytes`; when nothing helps, what is left at every 64th message.
+/// The least thinned JSON of at most `most_bytes`; at the limit every 64th message, of any size.
 Fitted fitted_json(const std::vector<ReportedLog>& logs, std::size_t most_bytes);
 
-/// `page` with the JSON in it. Throws Error when the page has no place for it.
+/// `page` with the JSON in it. Throws Error for a page without a place for it.
 std::string with_logs(const std::string& page, const std::string& json);
 
 }  // namespace fulmar::report

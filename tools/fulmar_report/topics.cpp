@@ -20,7 +20,7 @@ namespace {
 using core::McapFile;
 
 constexpr double slow_hz = 2;
-constexpr std::uint32_t largest_message = 1u << 20;  // a log may claim anything
+constexpr std::uint32_t largest_message = 1u << 20;  // a damaged log may contain any size
 
 enum class Form { columns, slow, whole };
 struct Wanted {
@@ -29,7 +29,7 @@ struct Wanted {
   std::vector<std::string> fields;
 };
 
-/// What web/src looks at.
+/// The fields that web/src uses.
 const std::vector<Wanted>& all_wanted() {
   static const std::vector<Wanted> list{
       {"fulmar_msgs/msg/VehicleState",
@@ -72,17 +72,17 @@ const std::vector<Wanted>& all_wanted() {
   return list;
 }
 
-/// A topic on its way through the log.
+/// State of one topic while the log is read.
 struct Reading {
   ShownTopic shown;
   double gap_ns = 0;
   std::uint64_t kept_ns = 0;
   core::TypePtr type;
   std::vector<core::FieldRef> places;
-  std::optional<core::FieldRef> lateral;  // GuidanceCommand: 0 asks for a course
+  std::optional<core::FieldRef> lateral;  // GuidanceCommand: 0 is a course
   std::vector<std::byte> message;
 
-  /// Fields of ours that the log's definition lacks, as older ones do, are left out.
+  /// Fields that are missing in the log's definition, as in older logs, are left out.
   void find_fields(const std::vector<std::string>& fields) {
     type = core::parse_ros_definition(shown.type, shown.schema);
     if (type->size > largest_message) throw core::Error(report_messages::messages_too_large());
@@ -126,7 +126,7 @@ struct Reading {
   }
 };
 
-/// nullptr: not looked at.
+/// nullptr: topic not used.
 std::unique_ptr<Reading> begin(const McapFile& log, std::uint16_t channel, double rate_hz) {
   const McapFile::Channel& c = log.channels.at(channel);
   const auto schema = log.schemas.find(c.schema);
@@ -168,7 +168,7 @@ std::vector<ShownTopic> shown_topics(const std::filesystem::path& log, std::uint
       }
       if (at->second) at->second->take(*m, epoch_ns);
     } catch (const core::Error&) {
-      at->second = nullptr;  // damaged, or no message of ours
+      at->second = nullptr;  // damaged or of another definition
     }
   }
   std::vector<ShownTopic> all;

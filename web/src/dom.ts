@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elements without HTML: whatever a flight says becomes text, never markup.
+// Elements without HTML: data of a flight becomes text, never markup.
 
 type Child = Node | string | null | undefined | false;
 type Props = Record<string, unknown>;
@@ -22,7 +22,7 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** The same of a drawing: svg("line", {class: "wire", x1: 3}) */
+/** The same for a drawing: svg("line", {class: "wire", x1: 3}) */
 export function svg<K extends keyof SVGElementTagNameMap>(
   tag: K,
   props: Record<string, string | number> = {},
@@ -34,7 +34,7 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return element;
 }
 
-/** Writes only what is new: the rest of the page is not laid out again. */
+/** Writes only changes, so that the browser does not lay out the rest of the page again. */
 export function say(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
@@ -45,7 +45,7 @@ export function fill(element: Element, ...children: Child[]): void {
   element.replaceChildren(...(children.filter(Boolean) as (Node | string)[]));
 }
 
-/** A canvas that is as sharp as the screen: sized to its box, in CSS pixels for who draws. */
+/** A canvas at the resolution of the screen: sized to its box, with coordinates in CSS pixels. */
 export function sharp(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
   const ratio = window.devicePixelRatio || 1;
   const width = Math.round(canvas.clientWidth * ratio),
@@ -59,7 +59,7 @@ export function sharp(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
   return g;
 }
 
-/** Colours of the style sheet, for canvases; read anew when the scheme changes. */
+/** Colours of the style sheet, for canvases; read again when the colour scheme changes. */
 export class Colours {
   private cache = new Map<string, string>();
   constructor() {

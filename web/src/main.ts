@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page of a running flight: connects to where it came from, shows one view at a time.
+// The page of a running flight: connects to the server that sent it and shows one view at a time.
 import { el, fill, mark, say } from "./dom";
 import { names_of } from "./names";
 import { Flight } from "./protocol/flight";
@@ -65,7 +65,7 @@ function tabs(): void {
   });
 }
 
-/** Whether the flight is there; and if not, so that nobody overlooks it. */
+/** Shows a banner while the flight does not answer. */
 function link(now_ms: number): void {
   const { up, since_ms, why } = flight.link;
   const down = !up && now_ms - since_ms > lost_for_ms;
@@ -77,16 +77,16 @@ function link(now_ms: number): void {
   const what =
     flight.view === null ? "No answer from the flight" : ended ? "The flight has ended" : "Connection lost";
   const shown =
-    flight.view === null ? "" : ended ? " What is shown is its last moment." : " What is shown is old.";
+    flight.view === null ? "" : ended ? " The page shows its last data." : " The displayed data is old.";
   mark(banner, "ended", ended); // an end is no fault
   if (down)
     say(
       banner,
-      `✕ ${what}, ${seconds} s ago.${shown} ${ended ? "Waiting for another one." : "Trying again."}`,
+      `✕ ${what}, ${seconds} s ago.${shown} ${ended ? "Waiting for the next flight." : "Reconnecting."}`,
     );
 }
 
-/** The age of what is shown: on its way, in this browser, of the estimate itself, and since it was drawn. */
+/** Age of the displayed data: the largest of transport, this browser, the estimate itself, and the time since the last frame. */
 function shown_age_ms(now_ms: number): number {
   const view = flight.view,
     state = names_of(flight).state,
@@ -111,7 +111,7 @@ function head(): void {
   const view = flight.view;
   if (!view) return;
   say(byId("mission"), view.mission);
-  document.title = (alerts.element.dataset.level === "critical" ? "✕ " : "") + view.mission + " – Fulmar"; // also of a tab that is behind others
+  document.title = (alerts.element.dataset.level === "critical" ? "✕ " : "") + view.mission + " – Fulmar"; // also in the title of a tab in the background
   say(byId("phase"), view.phase);
   say(byId("clock"), clock(flight.now));
   say(byId("armed"), view.armed ? "armed" : "disarmed");
@@ -145,17 +145,17 @@ tabs();
 const wanted = location.hash.slice(1);
 show(pages.find((p) => p.name.toLowerCase().replace(/ /g, "_") === wanted) ?? (pages[0] as Page));
 let last_ms = 0,
-  took_ms = 0; // of the last picture
+  took_ms = 0; // by the last frame
 function frame(now_ms: number): void {
   requestAnimationFrame(frame);
-  // some 30 pictures a second; a browser that is behind first reads what has come, and draws a fifth of the time
+  // about 30 frames per second; a late browser first reads the received data and draws a fifth of the time
   const rest_ms = flight.late_ms() > behind_ms ? Math.max(least_often_ms, 4 * took_ms) : 30;
   const begun_ms = performance.now();
   if (begun_ms - last_ms < rest_ms) return;
   link(begun_ms);
   head();
   alerts.update();
-  fly.track.update(); // whatever is shown
+  fly.track.update(); // in every view
   shown?.update(now_ms);
   drawn_ms = last_ms = performance.now();
   took_ms = drawn_ms - begun_ms;
@@ -163,7 +163,7 @@ function frame(now_ms: number): void {
 requestAnimationFrame(frame);
 setInterval(() => tune.record(), 1000);
 setInterval(() => {
-  link(performance.now()); // also where no pictures are asked for
+  link(performance.now()); // also while the browser requests no frames
   age(performance.now());
 }, 200);
 byId("alerts").replaceWith(alerts.element);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which topic is what, by the type of its messages: a mission may name its roles as it likes.
+// Topics by message type, since a mission names its roles freely.
 import type { Message, Value } from "./protocol/schema";
 import { number_at } from "./protocol/schema";
 import { type Source, topic_of_type } from "./source";

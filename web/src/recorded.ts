@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight that was recorded, at any moment of it: the same as a flight that is connected, to those who look.
+// A recorded flight at any time: the same interface to the views as a connected one.
 import { type Message, decode, number_at, parse_schema } from "./protocol/schema";
 import { type Log, type PackedTopic, unpack_columns, unpack_messages } from "./report/model";
 import type { Series, Source, Topic } from "./source";
@@ -8,7 +8,7 @@ interface Recorded {
   topic: Topic;
   t: number[];
   message(i: number): Message | undefined;
-  column(path: string): ArrayLike<number> | undefined; // of every row, where there is one
+  column(path: string): ArrayLike<number> | undefined; // one value per row
   series: Map<string, { t: number[]; v: number[] }>;
 }
 
@@ -71,7 +71,7 @@ export class Recording implements Source {
   topics(): Topic[] {
     return [...this.all.values()].map((r) => r.topic);
   }
-  /** How many messages there are until now. */
+  /** Number of messages until now. */
   private until(t: number[]): number {
     let low = 0,
       high = t.length;
@@ -92,7 +92,7 @@ export class Recording implements Source {
       n = r ? this.until(r.t) : 0;
     return r && n > 0 ? this.now - (r.t[n - 1] as number) : Infinity;
   }
-  /** Of the whole flight. */
+  /** Values of the complete flight. */
   whole(topic: string, path: string): Series {
     const r = this.all.get(topic);
     if (!r) return { t: [], v: [] };
@@ -115,7 +115,7 @@ export class Recording implements Source {
       n = this.until(all.t);
     return { t: all.t.slice(0, n), v: all.v.slice(0, n) };
   }
-  /** All of them, at once: those of the whole flight. */
+  /** Calls `heard` at once for every message of the flight. */
   listen(topic: string, heard: (message: Message, t: number) => void): () => void {
     const r = this.all.get(topic);
     r?.t.forEach((t, i) => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report of one log, or of several side by side: a part to read and to print, and each flight at any moment.
+// Report of one log, or of several side by side: a part for reading and printing, and each flight at any moment.
 import { colours, el, fill, mark } from "./dom";
 import { Recording } from "./recorded";
 import { Moment } from "./report/moment";
@@ -24,15 +24,15 @@ const tabs = ["Report", "Flight"].map((name, i) =>
 );
 let shown = -1;
 
-/** The flight that was chosen; its views are made when they are first looked at. */
+/** View of the selected flight, created at its first use. */
 function moment(): Moment {
   const source = sources[Number(which.value)] as Recording;
   let made = moments.get(source);
   if (!made) moments.set(source, (made = new Moment(source)));
   return made;
 }
-function show(tab: number, anew = false): void {
-  if (tab === shown && !anew) return;
+function show(tab: number, again = false): void {
+  if (tab === shown && !again) return;
   shown = tab;
   tabs.forEach((button, i) => {
     button.setAttribute("aria-selected", String(i === tab));
@@ -45,7 +45,7 @@ function show(tab: number, anew = false): void {
   if (tab === 0) summary.draw();
 }
 
-/** Paper is white and as wide as it is, whatever the screen was. */
+/** Paper has a white background and a fixed width. */
 function to_paper(paper: boolean): void {
   mark(document.documentElement, "paper", paper);
   colours.forget();

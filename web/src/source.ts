@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where views get their figures from: a flight that is connected, or one that was recorded. A view that only
-// looks knows this and nothing else.
+// Data source of the views: a connected flight or a recorded one. Views that only display use nothing else.
 import type { Field, Message } from "./protocol/schema";
 
 export interface Topic {
@@ -9,7 +8,7 @@ export interface Topic {
   fields: Field[];
 }
 
-/** A field over flight time. Both lists are as long, the oldest first. */
+/** A field over flight time. Both lists have the same length, oldest first. */
 export interface Series {
   readonly t: number[]; // seconds
   readonly v: number[];
@@ -19,17 +18,17 @@ export interface Source {
   /** Seconds of flight. */
   readonly now: number;
   topics(): Topic[];
-  /** The newest message of a topic; undefined as long as there was none. Asking makes it come. */
+  /** The newest message of a topic; undefined before the first. The first call subscribes to it. */
   latest(topic: string): Message | undefined;
-  /** Seconds of flight since the newest message; Infinity as long as there was none. */
+  /** Seconds of flight since the newest message; Infinity before the first. */
   age(topic: string): number;
-  /** A field's values, of the last minutes at 50 a second at most. */
+  /** A field's values, of the last minutes, at most 50 per second. */
   series(topic: string, path: string): Series;
-  /** Every message of a topic from now on, until the function that is returned is called. */
+  /** Every message of a topic from now on, until the returned function is called. */
   listen(topic: string, heard: (message: Message, t: number) => void): () => void;
 }
 
-/** The first topic of a type, "VehicleState", that a predicate likes. */
+/** The first topic of a type, "VehicleState", that satisfies the predicate. */
 export function topic_of_type(
   source: Source,
   type: string,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the aircraft has been, five points a second, an hour of it; and where it may be when its position is lost.
+// Track of the aircraft, five points per second, for an hour; and the region of the aircraft while its position is invalid.
 import type { Lost, Track } from "./views/map";
 import { type Names, state_of } from "./names";
 import { type Message, number_at } from "./protocol/schema";
@@ -7,10 +7,10 @@ import type { Source } from "./source";
 
 const gap_s = 0.2,
   most = 18_000;
-const ring = 2.45; // of 95 % of a round normal distribution, in deviations
-const unknown_m = 1e6; // a deviation of that is none
+const ring = 2.45; // of 95 % of a round normal distribution, in standard deviations
+const unknown_m = 1e6; // a standard deviation of this size means unknown
 
-/** Where it was last, and a circle in which it is now by 95 %, as far as the estimate says. */
+/** Last valid position, and the 95 % circle of the estimate where there is one. */
 export function lost_position(
   message: Message | undefined,
   last: { n: number; e: number; t: number } | null,

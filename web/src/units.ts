@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers for people: degrees for radians, a unit behind every number, an en dash where there is none.
+// Displayed numbers: degrees for radians, a unit after every number, an en dash for a missing value.
 
 export const degrees = 180 / Math.PI;
 export const none = "–";
 
-/** Digits that matter: 0.0123, 1.23, 12.3, 123. */
+/** Significant digits: 0.0123, 1.23, 12.3, 123. */
 export function digits(value: number): string {
   if (!Number.isFinite(value)) return none;
   const size = Math.abs(value);
@@ -13,7 +13,7 @@ export function digits(value: number): string {
   return String(Number(value.toFixed(places)));
 }
 
-/** As a person writes it into a field: no more digits than the number has. */
+/** Text of an input field: at most six significant digits. */
 export function plain(value: number): string {
   return Number.isFinite(value) ? String(Number(value.toPrecision(6))) : "";
 }
@@ -27,7 +27,7 @@ export function fixed(value: number | undefined, places: number, unit: string): 
   );
 }
 
-/** What a parameter or field is shown in: its unit and how much of it one of the original is. */
+/** Displayed unit of a parameter or field, factor from the original unit, and unit to send for a typed value. */
 export function shown_unit(unit: string): { unit: string; scale: number; typed: string } {
   if (unit === "rad") return { unit: "°", scale: degrees, typed: "deg" };
   if (unit === "rad/s") return { unit: "°/s", scale: degrees, typed: "deg/s" };
@@ -46,7 +46,7 @@ export function bearing(rad: number | undefined): string {
   return String(whole).padStart(3, "0") + "°";
 }
 
-/** "12:05.3" of flight; before the first armed tick with a minus. */
+/** "12:05.3" of flight; negative before the first armed tick. */
 export function clock(seconds: number): string {
   if (!Number.isFinite(seconds)) return none;
   const size = Math.abs(seconds),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plan, Tune and Wires, driven as a person would; a part of page_test.mjs.
+// Plan, Tune and Wires, driven like a user; a part of page_test.mjs.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
@@ -19,7 +19,7 @@ export const edit_steps = ({
   seen,
   shoot,
 }) => ({
-  async "Plan: a waypoint that is dragged is dragged in the flight, and so is the target"() {
+  async "Plan: a dragged waypoint moves in the flight, and so does the target"() {
     await tab("Plan");
     await seen("the waypoints", ".waypoints tbody th", (t) => t.split("\n").length === 4);
     await shoot("plan");
@@ -31,7 +31,7 @@ export const edit_steps = ({
     const at_m = await position_of(item);
     const x = box.width / 2 + (at_m.east - e) * px,
       y = box.height / 2 - (at_m.north - n) * px;
-    // away from the aircraft, so that it is farther whatever the aircraft flies meanwhile
+    // away from the aircraft, so that the distance grows in any case
     const from = {
       north: await value_of("nav.state.position_m.north"),
       east: await value_of("nav.state.position_m.east"),
@@ -48,7 +48,7 @@ export const edit_steps = ({
       "the flight's waypoint has moved",
       async () => (await position_of(item)).north !== at_m.north,
     );
-    await seen("what is drawn flies", ".plan .faint", (t) => t.includes("This is what flies"));
+    await seen("the plan is active", ".plan .faint", (t) => t.includes("This plan is active"));
     await until("the aircraft flies to it", async () => {
       const aim = await position_of(item),
         is = await value_of("manage.progress.distance_m");
@@ -59,14 +59,14 @@ export const edit_steps = ({
       return Math.abs(Math.hypot(aim.north - now.north, aim.east - now.east) - is) < 0.3 * (far_px / px);
     });
   },
-  async "Plan: what is refused says why, in its row, and what flies stays"() {
+  async "Plan: a rejected edit shows its reason in its row, and the active plan stays"() {
     const field = page.getByLabel("up of waypoint 2, m");
     await field.fill("-30");
     await field.press("Enter");
     await seen(
       "the reason",
       ".waypoints .refusal",
-      (t) => t === "Refused: lower than the planner allows: its parameter 'lowest'",
+      (t) => t === "Rejected: lower than the planner allows: its parameter 'lowest'",
     );
     assert.equal(
       await page
@@ -75,10 +75,10 @@ export const edit_steps = ({
       "2",
     );
     await shoot("plan_refused");
-    await page.click("text=Back to what flies");
+    await page.click("text=Discard draft");
     await until("the old height", async () => (await field.inputValue()) === "70");
   },
-  async "Plan: added, moved up, removed"() {
+  async "Plan: waypoints are added, moved up, removed"() {
     const box = await page.locator(".plan canvas.map").boundingBox();
     await page.mouse.click(box.x + box.width - 120, box.y + box.height / 2);
     await until("five waypoints in the flight", async () => (await plan()).waypoints.length === 5);
@@ -95,7 +95,7 @@ export const edit_steps = ({
     await page.click('[aria-label="Remove, waypoint 3"]');
     await until("four again", async () => (await plan()).waypoints.length === 4);
   },
-  async "Plan: what is saved is the plan of a flight that is fit to fly, and what is loaded is a draft until it is uploaded"() {
+  async "Plan: a saved file is a valid plan, and a loaded file is a draft until the upload"() {
     const [saved] = await Promise.all([page.waitForEvent("download"), page.click("text=Save file")]);
     assert.equal(saved.suggestedFilename(), "plan.yaml");
     const file = join(folder, "plan.yaml");
@@ -118,11 +118,12 @@ export const edit_steps = ({
     await seen(
       "what is wrong with it",
       ".plan .refusal",
-      (t) => t === "Refused: mine.yaml: waypoint 0: up: '70 kg' is no length. Valid units: m, km, ft",
+      (t) =>
+        t === "Rejected: mine.yaml: waypoint 0: up: '70 kg' is not a valid length. Valid units: m, km, ft",
     );
     await load(words.replace(`north: ${first} m`, "north: 432.1 m"));
     await seen("a draft", ".plan .faint", (t) =>
-      t.includes("the aircraft flies the old plan until this is uploaded"),
+      t.includes("the aircraft follows the active plan until the upload"),
     );
     assert.equal((await plan()).waypoints[0].position_m.north, before.waypoints[0].position_m.north);
     await page.click("text=Upload");
@@ -135,7 +136,7 @@ export const edit_steps = ({
     await load(words.replace(/\{north: \S+ m, east: \S+ m, up: \S+ m/, place) + runway + "\n");
     await page.click("text=Upload");
     await until("it flies", async () => near((await plan()).waypoints[0].position_m.north, 399.8, 1, false));
-    await seen("as it flies", ".plan .faint", (t) => t.includes("This is what flies"));
+    await seen("as it flies", ".plan .faint", (t) => t.includes("This plan is active"));
     const [kept] = await Promise.all([page.waitForEvent("download"), page.click("text=Save file")]);
     await kept.saveAs(file);
     assert.ok(
@@ -144,7 +145,7 @@ export const edit_steps = ({
     );
     await run(fulmar, ["check", mission]);
   },
-  async "Tune: a slider sets the parameter of the flight, and the way back"() {
+  async "Tune: a slider sets the parameter of the flight, a button restores it"() {
     await tab("Tune");
     const row = page.locator('[data-param="roll_kp"]');
     const before = await ask("param", "get", "attitude.roll_kp");
@@ -161,13 +162,13 @@ export const edit_steps = ({
       "the range",
       '[data-param="roll_kp"] .refusal',
       (t) =>
-        t === "Refused: attitude.roll_kp: 900 is outside 0 .. 20 rad/rad" || t.includes("outside 0 .. 20"),
+        t === "Rejected: attitude.roll_kp: 900 is outside 0 .. 20 rad/rad" || t.includes("outside 0 .. 20"),
     );
     await shoot("tune");
     await row.locator("button").click();
     await until("as it was", async () => (await ask("param", "get", "attitude.roll_kp")) === before);
   },
-  async "Tune: what is saved are the lines that were shown, and no others"() {
+  async "Tune: only the lines shown are saved"() {
     await page.click('button[data-component="slc"]');
     const row = page.locator('[data-param="course_kp"]'),
       field = row.locator("input[type=text]"),
@@ -181,10 +182,10 @@ export const edit_steps = ({
     await shoot("save");
     const airframe = () => readFileSync(join(folder, "mine.yaml"), "utf8"),
       old = airframe();
-    writeFileSync(join(folder, "mine.yaml"), old + "# another's\n"); // another editor writes meanwhile
+    writeFileSync(join(folder, "mine.yaml"), old + "# another's\n"); // another editor writes in between
     await page.click("text=Write these lines");
     await seen("why not", ".side [role=alert]", (t) =>
-      t.includes("Refused: what would be written is not what was shown any more: look again"),
+      t.includes("Rejected: what would be written is not what was shown any more: look again"),
     );
     assert.equal(airframe(), old + "# another's\n");
     await page.click("text=Save slc…");
@@ -202,13 +203,13 @@ export const edit_steps = ({
     await shoot("saved");
     await page.click("text=Save slc…");
     await seen("no more to write", ".side [role=alert]", (t) =>
-      t.includes("The files say already what flies."),
+      t.includes("The files already contain the active values."),
     );
     await field.fill(before);
     await field.press("Enter");
     await until("as it was", async () => (await ask("param", "get", "slc.course_kp")).startsWith(before));
   },
-  async "Wires: rates, step times, and a swap that is refused in the air by the host's sentence"() {
+  async "Wires: rates, step times, and the host's message for a swap in the air"() {
     await tab("Wires");
     await page.click("button.link >> text=slc");
     await seen("a step time", ".wires tbody tr", (t) => /slc.*\d µs/.test(t));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight in real time, and its page in a browser without a window.
+// A flight in real time, and its page in a headless browser.
 import { spawn } from "node:child_process";
 import { once } from "node:events";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
@@ -8,13 +8,13 @@ import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
-/** Why nothing can be tested here; "" when it can. A chromium of snap sees no files but its own. */
+/** Reason to skip the tests, or "". A chromium of snap cannot read other files. */
 export function absent(modules, chromium) {
   if (!existsSync(join(modules, "playwright-core")))
-    return "the page's packages are not there: build the target `page`";
-  if (!chromium || !existsSync(chromium)) return "there is no chromium here (apt-get install chromium)";
+    return "the page's packages are missing: build the target `page`";
+  if (!chromium || !existsSync(chromium)) return "chromium is missing (apt-get install chromium)";
   if (readFileSync(chromium).subarray(0, 4096).includes("snap"))
-    return "this chromium is a snap, which cannot be driven from here";
+    return "this chromium is a snap, which a test cannot control";
   return "";
 }
 
@@ -52,7 +52,7 @@ export async function fly(fulmar, port, mission, ...options) {
     };
     child.stdout.on("data", hear);
     child.stderr.on("data", hear);
-    child.on("exit", () => reject(new Error("the flight did not begin:\n" + said)));
+    child.on("exit", () => reject(new Error("the flight did not start:\n" + said)));
   });
   await listens;
   return {
@@ -81,7 +81,7 @@ export async function browse(modules, chromium, ...more) {
   });
 }
 
-/** Until it holds, at most `patience` seconds. */
+/** Waits for a condition, at most `patience` seconds. */
 export async function until(what, holds, patience = 15) {
   const end = Date.now() + 1000 * patience;
   for (;;) {

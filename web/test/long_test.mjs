@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node long_test.mjs FULMAR NODE_MODULES CHROMIUM: what the page costs, and whether it grows. Bars: eight plots of 60 s at 50 samples a
+// node long_test.mjs FULMAR NODE_MODULES CHROMIUM: processor load and memory of the page. Limits: eight plots of 60 s at 50 samples a
 // second, in real time, without the 3-D view, take less than 30 % of one core in the browser; over an hour of flight the page's memory
 // stays what it is once its histories are full. Part of cmake/long.sh.
 import assert from "node:assert/strict";

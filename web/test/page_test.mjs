@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node page_test.mjs FULMAR NODE_MODULES CHROMIUM: flies in real time, and drives the page as a person would. What it changed is asked
-// of the flight by the command line.
+// node page_test.mjs FULMAR NODE_MODULES CHROMIUM: flies in real time and uses the page like a user. The command line reads the
+// results from the flight.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -20,12 +20,12 @@ if (skipped) {
 const run = promisify(execFile);
 const port = await free_port();
 const at = ["--at", `127.0.0.1:${port}`];
-/** The command line's word for it. */
+/** Output of a command. */
 const ask = async (...words) => (await run(fulmar, [...words, ...at])).stdout.trim();
 const value_of = async (field) =>
   Number((await ask("echo", field, "--count", "1", "--csv")).split("\n")[1].split(",")[1]);
 
-// Names that would be markup, if a page took them for it.
+// Names that contain markup.
 const folder = mkdtempSync(join(tmpdir(), "fulmar-page-"));
 const hostile = "<img src=x onerror=document.body.remove()>";
 copyFileSync("configs/airframes/anaconda.yaml", join(folder, "mine.yaml")); // what is saved goes into a file of our own
@@ -51,18 +51,18 @@ const tab = (name) => page.click(`#tabs button[data-page="${name}"]`);
 const seen = (what, selector, holds, patience) =>
   until(what, async () => holds((await page.locator(selector).allTextContents()).join("\n")), patience);
 
-/** Nothing may be wider than its box, and the page not than its window. */
+/** No element may be wider than its box, nor the page wider than its window. */
 async function whole(name) {
   const cut = () =>
     page.evaluate(() => {
-      const hidden = (e) => getComputedStyle(e).overflowX !== "visible"; // a reader does not scroll to the right for a number
+      const hidden = (e) => getComputedStyle(e).overflowX !== "visible"; // no horizontal scrolling for a number
       const list = [...document.querySelectorAll("body *")].filter(
         (e) => e.tagName !== "CANVAS" && e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1 && hidden(e),
       );
       if (document.documentElement.scrollWidth > innerWidth) list.push(document.documentElement);
       return list.map((e) => `${e.tagName}.${e.className} ${(e.value ?? e.textContent ?? "").slice(0, 40)}`);
     });
-  await until("drawn for this window", async () => (await cut()).length === 0).catch(() => {}); // charts follow it by and by
+  await until("drawn for this window", async () => (await cut()).length === 0).catch(() => {}); // charts follow with a delay
   assert.deepEqual(await cut(), [], name + ": cut off");
 }
 async function shoot(name) {
@@ -80,7 +80,7 @@ async function shoot(name) {
 
 // of a page that is open
 const steps = () => ({
-  async "the page comes from the flight alone, and soon"() {
+  async "the page loads from the flight alone, within 10 s"() {
     const begun = Date.now();
     await page.goto(`http://127.0.0.1:${port}/`);
     await seen("the phase", "#phase", (t) => t !== "–");
@@ -93,7 +93,7 @@ const steps = () => ({
     const other = await browser.newPage();
     await other.routeWebSocket(/./, (ws) => {
       const server = ws.connectToServer();
-      // Words alone, and of the view, the answer of a service, a component of another name.
+      // Forwards texts, and renames a component in the answer of a service.
       server.onMessage((m) => {
         if (typeof m === "string") ws.send(m);
         else if (m[0] === 3)
@@ -121,17 +121,17 @@ const steps = () => ({
       async () => (await ask("list")).includes("speed real") || !(await ask("list")).includes("speed 10"),
     );
   },
-  async "Fly: what there is to see"() {
+  async "Fly: contents"() {
     await tab("Fly");
     await seen(
-      "what happened before it was opened, too",
+      "also events from before it was opened",
       ".events",
       (t) =>
         /−0:05\.0.phase hold/.test(t) && t.includes("0:00.0·phase takeoff") && t.includes("phase cruise"),
     );
     await seen("a height", ".figures", (t) => /ground speed\d+\.\d m\/s/.test(t));
     await seen(
-      "who flies",
+      "active components",
       ".side .pairs",
       (t) => t.includes("outerslc") && t.includes("navekf") && t.includes("GNSS position✓ ok"),
     );
@@ -141,7 +141,7 @@ const steps = () => ({
     await shoot("fly");
   },
   ...edit_steps({ page, fulmar, folder, run, ask, value_of, plan, position_of, near, tab, seen, shoot }),
-  async "Simulation: paused, time stands; a step moves it by its ticks"() {
+  async "Simulation: a pause stops the time; a step moves it by its ticks"() {
     await tab("Simulation");
     await page.click("text=Pause");
     await seen("paused", "#pace", (t) => t === "paused");
@@ -149,9 +149,9 @@ const steps = () => ({
     const stands = await time();
     await page.waitForTimeout(300);
     assert.equal(await time(), stands);
-    const late = await browser.newPage(); // who comes now sees how it stands
+    const late = await browser.newPage(); // a new client sees the present state
     await late.goto(`http://127.0.0.1:${port}/`);
-    await until("figures of a flight that stands", async () =>
+    await until("figures of a paused flight", async () =>
       /ground speed\d+\.\d m\/s.*waypoint\d of 4/s.test((await late.locator(".figures").textContent()) ?? ""),
     );
     const [minutes, seconds] = (await late.locator("#clock").textContent()).split(":").map(Number);
@@ -159,13 +159,13 @@ const steps = () => ({
     await late.close();
     await page.getByLabel("Ticks to step").fill("200");
     await page.click("button >> text=Step");
-    await seen("done", ".sim .taken", (t) => t.includes("Flew 200 ticks"));
+    await seen("done", ".sim .taken", (t) => t.includes("Stepped 200 ticks"));
     assert.ok(Math.abs((await time()) - stands - 0.5) < 0.051, "200 ticks of 400 Hz");
     await shoot("simulation");
     await page.click("text=Resume");
     await until("time goes on", async () => (await time()) > stands + 0.7);
   },
-  async "By hand: keys move the sticks, until they are given back"() {
+  async "Manual flight: keys move the sticks until their release"() {
     await tab("Fly");
     await page.click("text=Take the sticks");
     await until("the pilot flies", async () => (await ask("param", "get", "sim.pilot_flies")) === "true");
@@ -179,24 +179,24 @@ const steps = () => ({
       "let go, in the middle",
       async () => Math.abs(Number(await ask("param", "get", "sim.stick_roll"))) < 0.01,
     );
-    await page.click("text=Give them back");
+    await page.click("text=Release the sticks");
     await until(
       "the autopilot flies",
       async () => (await ask("param", "get", "sim.pilot_flies")) === "false",
     );
   },
-  async "New flight: by two clicks, with another seed, on the same page"() {
+  async "New flight: two clicks, another seed, same page"() {
     await tab("Simulation");
     assert.equal(await page.getByLabel("Seed of the new flight").inputValue(), "7");
     await page.getByLabel("Seed of the new flight").fill("eleven");
-    const button = page.locator("button.chip", { hasText: /New flight|end this one/ });
+    const button = page.locator("button.chip", { hasText: /New flight|end this flight/ });
     await button.click();
-    await seen("the question", "button.chip.asked", (t) => t === "end this one?");
+    await seen("the question", "button.chip.asked", (t) => t === "end this flight?");
     await shoot("new_flight");
-    await until("asked no more", async () => (await button.textContent()) === "New flight");
+    await until("the question ends", async () => (await button.textContent()) === "New flight");
     for (let i = 0; i < 2; ++i) await button.click();
-    await seen("what is no seed", ".sim [role=alert]", (t) =>
-      t.includes("Refused: seed 'eleven': give a whole number from 0"),
+    await seen("an invalid seed", ".sim [role=alert]", (t) =>
+      t.includes("Rejected: seed 'eleven': give a whole number from 0"),
     );
     await page.getByLabel("Seed of the new flight").fill("11");
     const before = await value_of("nav.state.height_m");
@@ -212,14 +212,14 @@ const steps = () => ({
     assert.ok(await page.locator("#banner").isHidden());
     assert.match(page.url(), /#simulation$/);
   },
-  async "a flight that is gone is missed within a second, and found again"() {
+  async "a lost flight is detected within a second, and found again"() {
     await tab("Fly");
     await until("all of it is here", () =>
       page.evaluate(() => document.querySelector(".chase canvas")?.width > 300),
     );
     const hidden = () => page.locator("#banner").isHidden();
     assert.ok(await hidden());
-    // what the bar says when it comes up: how long ago the flight was heard
+    // first text of the banner: time since the last message
     await page.evaluate(() => {
       const bar = document.getElementById("banner");
       new MutationObserver(() => {
@@ -239,15 +239,15 @@ const steps = () => ({
     writeFileSync(
       mission,
       `mission: tiles\nextends: ${resolve("configs/missions/hourglass.yaml")}\n` +
-        `live: {tiles: "http://127.0.0.1:${tiles.port}/{z}/{x}/{y}.png", attribution: "Tiles of <b>nobody</b>"}\n`,
+        `live: {tiles: "http://127.0.0.1:${tiles.port}/{z}/{x}/{y}.png", attribution: "Tiles of <b>example</b>"}\n`,
     );
-    const loaded = page.waitForEvent("load"); // of another flight the page is another one
+    const loaded = page.waitForEvent("load"); // another flight has its own page
     flight = await fly(fulmar, port, mission);
     await loaded;
     await until("the next flight", hidden);
   },
-  async "Map: tiles lie where they belong, from where the mission says, and what does not come is no fault"() {
-    await seen("whose they are", ".attribution", (t) => t === "Tiles of <b>nobody</b>");
+  async "Map: tiles come from the server of the mission and lie at their place; a missing tile is no fault"() {
+    await seen("the attribution", ".attribution", (t) => t === "Tiles of <b>example</b>");
     await tab("Plan");
     await page.locator(".plan canvas.map").focus();
     await until("tiles", () => tiles.asked.length > 3);
@@ -260,7 +260,7 @@ const steps = () => ({
     await until(
       "the colours",
       async () => {
-        const [n, e, px] = (await page.locator(canvas).getAttribute("data-view")).split(",").map(Number); // it moves as news come
+        const [n, e, px] = (await page.locator(canvas).getAttribute("data-view")).split(",").map(Number); // the map moves with new data
         const x = box.width / 2 + (coloured.e - e) * px,
           y = box.height / 2 - (coloured.n - n) * px;
         const found = await colours_at(browser, page, canvas, [
@@ -286,23 +286,23 @@ const steps = () => ({
         );
       },
       60,
-    ); // a picture of a page with 3-D takes seconds where others compute
-    for (let i = 0; i < 9; ++i) await page.keyboard.press("+"); // farther in than there are tiles
-    await until("asked, and not there", () => tiles.asked.some((t) => t.z > 16));
+    ); // a screenshot with 3-D takes seconds on a busy machine
+    for (let i = 0; i < 9; ++i) await page.keyboard.press("+"); // beyond the deepest tiles
+    await until("requested and missing", () => tiles.asked.some((t) => t.z > 16));
     await page.waitForTimeout(500);
     await shoot("tiles_near");
     const zoomed = (await page.locator(canvas).getAttribute("data-view")).split(",").map(Number);
     const [first] = await colours_at(browser, page, canvas, [[box.width / 2, 8]]);
     assert.ok(
       Math.max(...first) - Math.min(...first) > 15,
-      `what is coarser stands in: ${first} at ${zoomed}`,
+      `a coarser tile replaces it: ${first} at ${zoomed}`,
     );
     assert.ok(
       tiles.asked.every((t) => t.referer === `http://127.0.0.1:${port}/`),
-      "the address of the page, which may hold a token, is not told",
+      "the address of the page, which may contain a token, is not sent",
     );
     assert.ok(tiles.asked.length < 300);
-    await page.goto("about:blank"); // before what it still asks for is gone
+    await page.goto("about:blank"); // ends the open requests first
     tiles.close();
     const others = foreign.filter((url) => !url.startsWith(`http://127.0.0.1:${tiles.port}/`));
     foreign.splice(0, foreign.length, ...others);
@@ -350,7 +350,7 @@ try {
       await page.screenshot({ path: join(shots, "failed.png") }).catch(() => {});
     }
   }
-  assert.deepEqual(foreign, [], "asked of others");
+  assert.deepEqual(foreign, [], "requests to other servers");
   assert.deepEqual(faults, [], "faults of the page");
 } finally {
   await browser.close();

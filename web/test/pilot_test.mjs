@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node pilot_test.mjs FULMAR NODE_MODULES CHROMIUM: failures of a flight, as its pilot sees them: alerts, safety row, map, commands, age.
+// node pilot_test.mjs FULMAR NODE_MODULES CHROMIUM: failures of a flight on the page: alerts, safety row, map, commands, age.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -19,7 +19,7 @@ const port = await free_port(),
   shots = shots_folder(modules);
 const ask = async (...words) => (await run(fulmar, [...words, "--at", `127.0.0.1:${port}`])).stdout.trim();
 const set = (...words) => ask("param", "set", ...words);
-// Without an end of its own: on the ground return_home is over after 30 s.
+// Without `done`: on the ground return_home ends after 30 s.
 const folder = mkdtempSync(join(tmpdir(), "fulmar-pilot-")),
   mission = join(folder, "pilot.yaml");
 writeFileSync(
@@ -101,7 +101,7 @@ async function at_a_glance(key) {
 }
 
 const steps = {
-  async "on the ground: what is missing before a take-off, and no command"() {
+  async "on the ground: missing conditions for the take-off, and no command"() {
     await page.goto(`http://127.0.0.1:${port}/`);
     await is("ready", ".prearm", "ready", "true");
     assert.equal(await page.locator(".command:disabled").count(), 3);
@@ -112,7 +112,7 @@ const steps = {
     await set("sim.gnss_works", "true");
     await is("ready again", ".prearm", "ready", "true");
   },
-  async "a flight whose view comes late is asked for nothing that it does not have"() {
+  async "a flight with a late view receives no request for missing data"() {
     const other = await browser.newPage(),
       refused = [];
     await other.routeWebSocket(/./, (ws) => {
@@ -130,7 +130,7 @@ const steps = {
     assert.equal(await other.locator("#toast").isVisible(), false);
     await other.close();
   },
-  async "maps show fence, runway and places"() {
+  async "maps show geofence, runway and places"() {
     for (const canvas of [map, ".plan canvas.map"]) {
       await tab(canvas === map ? "Fly" : "Plan");
       await is("fence", canvas, "fence", "4");
@@ -140,13 +140,13 @@ const steps = {
     await tab("Fly");
     await whole("fly", [[820, 1180], phone]);
   },
-  async "Wires: in its first seconds nothing is said of what was not listened to"() {
+  async "Wires: no rate in the first seconds of a subscription"() {
     await tab("Wires");
     const first = await page.locator(".twotables").textContent();
     assert.doesNotMatch(first, /never|\b0 Hz/);
     await whole("wires", [phone]);
   },
-  async "Tune: what was changed elsewhere is listed, also after a reload, and can be saved"() {
+  async "Tune: changes of other clients are listed, also after a reload, and can be saved"() {
     await set("slc.course_kp", "1.9");
     await page.goto(`http://127.0.0.1:${port}/#tune`);
     await page.reload();
@@ -157,10 +157,10 @@ const steps = {
         "slc.course_kp: 2.1 → 1.9 rad/rad",
     );
     assert.equal(await page.locator("button", { hasText: "Save slc" }).count(), 1);
-    await page.click("text=All back to what they were");
+    await page.click("text=Restore all");
     await until("as it was", async () => (await ask("param", "get", "slc.course_kp")).startsWith("2.1"));
   },
-  async "commands: hold, return and land are flown, and taken back"() {
+  async "commands: hold, return and land are executed and cancelled"() {
     await tab("Fly");
     await ask("call", "sim.arm", "{armed: true}");
     await until("in the air", async () => (await page.locator("#phase").textContent()) === "cruise");
@@ -189,9 +189,9 @@ const steps = {
     );
     await page.click('.command[data-command="land"]');
     await until("taken back", async () => (await ask("param", "get", "watch.asked")) === "none");
-    await ask("phase", "cruise"); // from an approach only by hand
+    await ask("phase", "cruise"); // an approach is left only by a request
   },
-  async "GNSS lost: an alert, the row, and the aircraft about where the estimate has it; it stays until acknowledged"() {
+  async "GNSS lost: an alert, the row, and the aircraft near its estimate; it stays until acknowledged"() {
     await set("sim.gnss_works", "false");
     await is("the alert", alert("gnss_lost"), "now", "true");
     await at_a_glance("gnss_lost");
@@ -206,7 +206,7 @@ const steps = {
     await until("acknowledged", async () => (await page.locator(".alert").count()) === 0);
     await is("on the map", map, "aircraft", "known");
   },
-  async "a browser that stood still shows how old it is, and then the newest"() {
+  async "a blocked browser shows the age of its data, then the newest"() {
     const largest = await page.evaluate(async () => {
       const field = document.getElementById("age");
       let most = 0;
@@ -221,7 +221,7 @@ const steps = {
     assert.ok(largest > 1000, `${largest} ms`);
     await until("the newest", async () => Number(await data("#age", "ms")) < 1000);
   },
-  async "a motor that is dead is an alert; acknowledged, it is one line as long as it lasts"() {
+  async "a failed motor is an alert; acknowledged, it is one line until its end"() {
     await set("sim.engine_fault", "off");
     await is("the alert", alert("engine_failed"), "now", "true");
     await ask("speed", "real"); // it is on its way down

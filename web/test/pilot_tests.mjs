@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a pilot is shown, without a browser: alerts, what is missing before a take-off, places, a lost position.
+// Displays for the pilot, without a browser: alerts, missing conditions before take-off, places, an invalid position.
 import assert from "node:assert/strict";
 
 const flying = (flags = {}, more = {}) => ({
@@ -19,7 +19,7 @@ export const pilot_tests = (
   { lost_position },
   near,
 ) => ({
-  "each flag of the safety monitor is an alert in the air and none on the ground, also one that the page has no words for"() {
+  "each flag of the safety monitor is an alert in the air and none on the ground, also an unknown one"() {
     assert.deepEqual(alerts_of(flying()), []);
     for (const flag of [...Object.keys(flags), "spoiler_jammed"]) {
       const [alert, ...others] = alerts_of(flying({ [flag]: true, answer: "home" }));
@@ -32,7 +32,7 @@ export const pilot_tests = (
       );
     }
   },
-  "what the aircraft does is said of every answer, and of the pilot or failsafe that flies instead"() {
+  "every answer has a text for the response of the aircraft, and so have pilot and failsafe"() {
     const does = (moment) => alerts_of(moment)[0].does;
     const said = ["none", "level", "glide", "descend", "wait", "land", "home"].map((answer) =>
       does(flying({ gnss_lost: true, answer })),
@@ -42,7 +42,7 @@ export const pilot_tests = (
     const failsafe = does(flying({ gnss_lost: true, answer: "wait" }, { status: { failsafe: true } }));
     assert.ok(!said.includes(pilot) && !said.includes(failsafe) && pilot !== failsafe);
   },
-  "the worst comes first, and a crash stands alone"() {
+  "the most severe alert comes first, and a crash is the only one"() {
     assert.deepEqual(
       keys(alerts_of(flying({ radio_lost: true, engine_failed: true, battery_low: true, gnss_lost: true }))),
       ["engine_failed", "gnss_lost", "radio_lost", "battery_low"],
@@ -58,7 +58,7 @@ export const pilot_tests = (
       ["crashed"],
     );
   },
-  "the vehicle's own troubles and stopped components are alerts, with or without a monitor; a lost position without one as well"() {
+  "faults of the vehicle and stopped components are alerts, with or without a monitor; without one an invalid position too"() {
     assert.deepEqual(keys(alerts_of(flying({}, { status: { failsafe: true } }))), ["failsafe"]);
     assert.deepEqual(keys(alerts_of(flying({}, { status: { health: "failed" } }))), ["vehicle_failed"]);
     assert.deepEqual(keys(alerts_of(flying({}, { status: { health: "degraded" } }))), ["vehicle_degraded"]);
@@ -98,7 +98,7 @@ export const pilot_tests = (
       [],
     );
   },
-  "an alert stays until it is acknowledged, also when its cause is over, and comes again when its cause does"() {
+  "an alert stays until it is acknowledged, also after its cause, and returns with its cause"() {
     const book = new AlertBook(),
       one = alerts_of(flying({ gnss_lost: true }));
     book.update(one, 10);
@@ -126,9 +126,9 @@ export const pilot_tests = (
       [17],
     );
   },
-  "events of weight are alerts, but for what the strip says already"() {
+  "severe events are alerts, except those that the strip already shows"() {
     const event = (code, severity, component, words) =>
-      alert_of_event({ code, severity, component, words }, ["watch"], "flies on");
+      alert_of_event({ code, severity, component, words }, ["watch"], "continues the mission");
     assert.equal(event("notice", "info", "land", "on the glide slope"), null);
     assert.equal(event("notice", "warning", "watch", "no position: wait"), null);
     assert.equal(event("guard", "warning", "slc", "slc was stopped"), null);
@@ -151,9 +151,13 @@ export const pilot_tests = (
     book.acknowledge(book.list()[0].alert.key);
     assert.deepEqual(book.list(), []);
   },
-  "flag, estimate and every component that reports one cause are one alert, and its end is over for all"() {
+  "flag, estimate and all components with one cause are one alert with one end"() {
     const event = (severity, name, words) =>
-      alert_of_event({ code: "notice", severity, component: "sensors", name, words }, ["watch"], "flies on");
+      alert_of_event(
+        { code: "notice", severity, component: "sensors", name, words },
+        ["watch"],
+        "continues the mission",
+      );
     const book = new AlertBook(),
       now = () => book.list().map((h) => [h.alert.key, h.now]);
     const by_event = event("warning", "gnss_lost", "GNSS position silent: dead reckoning"),
@@ -167,7 +171,7 @@ export const pilot_tests = (
     assert.deepEqual(now(), [["gnss_lost", true]]);
     book.update([by_flag], 7);
     assert.deepEqual(now(), [["gnss_lost", true]]);
-    book.update([], 8); // the flag is down: it was not the event's alone
+    book.update([], 8); // the flag ended: the alert was not the event's alone
     assert.deepEqual(now(), [["gnss_lost", false]]);
     book.raise(event("warning", "barometer", "barometer stuck: height by GNSS"), 9);
     book.update([], 10);
@@ -184,7 +188,7 @@ export const pilot_tests = (
     book.update([], 11);
     assert.deepEqual(now(), [["gnss_lost", false]]);
   },
-  "of an aircraft that lies on the ground nothing lasts but the crash"() {
+  "after a crash only the crash remains"() {
     const book = new AlertBook(),
       now = () =>
         book
@@ -195,7 +199,7 @@ export const pilot_tests = (
       alert_of_event(
         { code: "notice", severity: "critical", component: "sensors", name: "gyro", words: "gyro stuck" },
         ["watch"],
-        "flies on",
+        "continues the mission",
       ),
       5,
     );
@@ -205,7 +209,7 @@ export const pilot_tests = (
       ["gyro", false],
     ]);
   },
-  "what is missing before a take-off is a list"() {
+  "missing conditions before take-off are a list"() {
     assert.deepEqual(not_ready("fcu: not ready: no GNSS fix, no height"), ["no GNSS fix", "no height"]);
     assert.deepEqual(not_ready("the radio is lost"), []);
     assert.equal(gate_of({ airborne: false }), null);
@@ -213,7 +217,7 @@ export const pilot_tests = (
     assert.deepEqual(gate_of({ ready: true, not_ready: { radio: false } }), []);
     assert.deepEqual(alerts_of(flying({ ready: true })), []);
   },
-  "fence, places and runway come out of records, by metres or by degrees; a runway of its own wins over the plan's"() {
+  "geofence, places and runway come from records, in metres or degrees; a separate runway has priority over the plan's"() {
     const nothing = 1e9,
       origin = { lat_deg: 40, lon_deg: -111, alt_msl_m: 0 };
     const corner = (north_m, east_m) => ({ north_m, east_m, lat_deg: nothing, lon_deg: nothing });
@@ -256,7 +260,7 @@ export const pilot_tests = (
       { fence: [], places: [], runway: null },
     );
   },
-  "a lost position is shown about the estimate, by its deviation, or where it was when there is none"() {
+  "an invalid position is shown at the estimate with its standard deviation, or at its last place without one"() {
     const state = (valid, std) => ({
       position_valid: valid,
       position_m: { north: 30, east: 40 },

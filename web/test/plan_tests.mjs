@@ -21,7 +21,7 @@ export const plan_of = (waypoints, end = "circuit", radius = 50) => ({
 });
 
 export const plan_tests = ({ as_group, edits_between }, { read_plan_file, write_plan_file }, web, near) => ({
-  "the fewest edits: what stays keeps its id"() {
+  "the fewest edits: unchanged waypoints keep their ids"() {
     const now = plan_of([
       point(0, 0, 70, 1),
       point(100, 0, 70, 2),
@@ -74,7 +74,7 @@ export const plan_tests = ({ as_group, edits_between }, { read_plan_file, write_
       airspeed_mps: 0,
     });
   },
-  "every plan file that is shipped is read, and what is written is read again"() {
+  "every shipped plan file is read, written and read again"() {
     const configs = join(web, "../configs/plans"),
       origin = { latitude: 40.2463724, longitude: -111.6474138, altitude: 1387 };
     const now = plan_of([]);
@@ -101,7 +101,7 @@ export const plan_tests = ({ as_group, edits_between }, { read_plan_file, write_
     near(at.course, Math.PI / 2, 1e-12);
     near(at.airspeed, 5.1444, 1e-4);
   },
-  "what a flight does not tell again is saved as it was loaded: latitudes where a waypoint stays, the runway"() {
+  "data that only the file holds is saved as loaded: latitudes of unmoved waypoints, the runway"() {
     const origin = { latitude: 40.2463724, longitude: -111.6474138, altitude: 1387 },
       now = { end: "circuit", radius: 50, airspeed: 17, waypoints: [] };
     const text =
@@ -115,7 +115,7 @@ export const plan_tests = ({ as_group, edits_between }, { read_plan_file, write_
     const flown = {
       ...file,
       waypoints: file.waypoints.map((w) => ({ ...w, geodetic: null, north: w.north + 1e-3 })),
-    }; // as the planner tells it
+    }; // as the planner publishes it
     const again = read_plan_file(write_plan_file(flown, "x", file), now, origin);
     assert.deepEqual(
       again.waypoints.map((w) => w.geodetic),
@@ -134,11 +134,11 @@ export const plan_tests = ({ as_group, edits_between }, { read_plan_file, write_
     assert.deepEqual(
       moved.waypoints.map((w) => w.geodetic !== null),
       [false, false, true],
-      "one that was moved is where it was moved to",
+      "a moved waypoint has its new position",
     );
     assert.doesNotMatch(write_plan_file(flown, "x"), /runway|lat:/);
   },
-  "a bad plan file is told, every fault of it"() {
+  "all faults of a plan file are reported"() {
     const faults = (text, origin = null) => {
       try {
         read_plan_file(text, plan_of([]), origin);
@@ -152,17 +152,17 @@ export const plan_tests = ({ as_group, edits_between }, { read_plan_file, write_
         "end: never\nturn_radius: 5 rad\nwaypoints: [{north: x, east: 1 m}, 7, {lat: 40, lon: 7, alt_msl: 3 m}]\nspeed: 3",
       ),
       [
-        "there is no 'speed'. Valid: name, end, airspeed, turn_radius, waypoints, runway",
-        "end: 'never' is none. Valid: circuit, orbit",
-        "turn_radius: '5 rad' is no length. Valid units: m, km, ft",
-        "waypoint 0: north: 'x' is no length. Valid units: m, km, ft",
+        "unknown key 'speed'. Valid: name, end, airspeed, turn_radius, waypoints, runway",
+        "end: 'never' is not valid. Valid: circuit, orbit",
+        "turn_radius: '5 rad' is not a valid length. Valid units: m, km, ft",
+        "waypoint 0: north: 'x' is not a valid length. Valid units: m, km, ft",
         "waypoint 0: 'up' is missing",
-        "waypoint 1: has to be a map, {north: 400 m, east: -250 m, up: 70 m}",
-        "waypoint 2: is geodetic, and the flight does not know its origin yet",
+        "waypoint 1: must be a map, such as {north: 400 m, east: -250 m, up: 70 m}",
+        "waypoint 2: is geodetic, but the flight has no origin yet",
       ].join("\n"),
     );
     assert.match(faults("waypoints: [{north: 1"), /line|expected|end of the stream/);
-    assert.match(faults("3"), /no plan/);
-    assert.match(faults("name: x"), /'waypoints' has to be a list/);
+    assert.match(faults("3"), /not a plan/);
+    assert.match(faults("name: x"), /'waypoints' must be a list/);
   },
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node report_test.mjs FULMAR NODE_MODULES CHROMIUM: reports of short flights, opened as files, read, and printed.
+// node report_test.mjs FULMAR NODE_MODULES CHROMIUM: reports of short flights, opened as files, checked and printed.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { once } from "node:events";
@@ -73,7 +73,7 @@ async function whole(name) {
     await page.screenshot({ path: join(shots_folder(modules), `report_${name}_${width}.png`) });
   }
 }
-/** The log's data in a report, and a report with other data: what a log of somebody else may hold. */
+/** The log's data in a report, and a report with other data, as in a log from another source. */
 const data_of = (html) =>
   JSON.parse(/<script id="log" type="application\/json">(.*?)<\/script>/s.exec(html)[1]);
 const with_data = (html, data) =>
@@ -112,7 +112,7 @@ try {
   assert.ok(statSync(file("one.html")).size < 1.3e6, `${statSync(file("one.html")).size} bytes for a minute`);
   browser = await browse(modules, chromium);
 
-  // one log, whose figures are those of the run
+  // one log, with the figures of the run
   await open("one.html");
   assert.equal(await text("#mission"), hostile);
   const paper = ["north_m", "east_m", "altitude_m", "course_deg", "roll_deg", "pitch_deg", "airspeed_mps"];
@@ -144,7 +144,7 @@ try {
   const box = await chart.locator(".u-over").boundingBox();
   await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.5 * box.height);
   const legend = await until("a value under the mouse", async () =>
-    /time:?\s*([\d.]+) s.*flown:?\s*([\d.]+) m/s.exec(await chart.locator(".u-legend").innerText()),
+    /time:?\s*([\d.]+) s.*actual:?\s*([\d.]+) m/s.exec(await chart.locator(".u-legend").innerText()),
   );
   const [at, height] = [Number(legend[1]), Number(legend[2])];
   assert.ok(at > 20 && at < 50, `${at} s`);
@@ -157,12 +157,12 @@ try {
   await page.getByLabel("Shown to, s").fill("31");
   await page.getByLabel("Shown to, s").press("Enter");
   await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.4 * box.height);
-  await until("the time that was asked for", async () =>
+  await until("the selected time", async () =>
     /time:?\s*30\.[67]\d s/.test(await chart.locator(".u-legend").innerText()),
   );
   await whole("one");
 
-  // paper: white, nothing cut, and the screen is as it was afterwards
+  // paper: white, nothing cut, and afterwards the same screen
   await page.keyboard.press("Escape");
   await page.locator("#tabs button").nth(1).click();
   const printed = await page.evaluate(() => {
@@ -203,14 +203,14 @@ try {
   await until("the events", async () => (await text(".events")).includes("phase cruise"));
   await whole("flight");
   await page.click("text=Play");
-  await until("time goes on", async () => Number(await moment().inputValue()) > 50.3);
+  await until("time runs", async () => Number(await moment().inputValue()) > 50.3);
 
   // two logs, in the dark
   await open("both.html", "dark");
   assert.match(await text("#parameters_that_differ"), /slc\.course_kp2\.11\.9/);
   assert.deepEqual(await page.locator("#flights thead th").allTextContents(), ["", "one", "two"]);
   assert.equal(await page.locator("#figures_of_merit tr", { hasText: "Tracking RMS error, " }).count(), 2);
-  assert.match(await text(".chart .u-legend"), /one, flown.*two, flown/s);
+  assert.match(await text(".chart .u-legend"), /one, actual.*two, actual/s);
   await page.keyboard.press("2");
   await page.getByLabel("Log").selectOption({ label: "two" });
   await until("the second flight", async () => Number(await moment().getAttribute("max")) < 41);
@@ -234,10 +234,10 @@ try {
   run("run", "mine.yaml", "--log", "mine.mcap", "--report");
   await open("mine.html");
   assert.match(await text("#errors_of_the_estimate"), /no truth and no fixes/);
-  assert.match(await text("#asked_and_flown"), /Nothing was recorded of this/);
+  assert.match(await text("#commanded_and_actual"), /No recorded data/);
   await whole("no_truth");
 
-  // on hardware nobody knows the truth: the host at a flight controller's port, whose pilot arms, and disarms 12 s later
+  // hardware has no truth: the host at a flight controller's port, whose pilot arms, and disarms 12 s later
   const peer = join(dirname(fulmar), "fcu_peer");
   if (existsSync(peer)) {
     controller = spawn(peer, ["--link", file("controller"), "--arm-at", "1"], { stdio: "ignore" });
@@ -276,7 +276,7 @@ try {
     const shown = await page
       .locator(".chart", { hasText: "Height above the origin" })
       .getAttribute("aria-label");
-    const [low, high] = /flown: (-?[\d.]+) m to (-?[\d.]+) m/.exec(shown).slice(1).map(Number);
+    const [low, high] = /actual: (-?[\d.]+) m to (-?[\d.]+) m/.exec(shown).slice(1).map(Number);
     const valid = table
       .filter(
         (row) => row[names.indexOf("height_valid")] === "1" || row[names.indexOf("height_valid")] === "true",
@@ -298,7 +298,7 @@ try {
     console.log("not flown on a controller: build the target `fcu_peer`");
   }
 
-  // fence and places of a mission; a log that was cut off is shown as far as it goes, which is said
+  // geofence and places of a mission; a truncated log is shown to its end, and reported
   writeFileSync(
     file("turns.yaml"),
     `mission: turns\nextends: ${resolve("configs/missions/return_home.yaml")}\n`,
@@ -307,7 +307,7 @@ try {
   run("report", "turns.mcap", "-o", "turns.html");
   await open("turns.html");
   await whole("turns");
-  // fence, places and runway, as the mission names them, on the map of the summary and of the moment
+  // geofence, places and runway of the mission, on the map of the summary and of the moment
   const places = (selector) =>
     page
       .locator(selector)
@@ -326,10 +326,10 @@ try {
   writeFileSync(file("cut.mcap"), bytes.subarray(0, bytes.length / 2));
   assert.match(run("report", "cut.mcap"), /cut\.mcap ends early: byte \d+/);
   await open("cut.html");
-  assert.match(await text("#flights"), /log is wholeno: byte \d+/);
+  assert.match(await text("#flights"), /log completeno: byte \d+/);
   assert.match(await text("#verdict"), /without a verdict: byte \d+/);
 
-  // whatever a log holds is text
+  // all data of a log is text
   const html = readFileSync(file("one.html"), "utf8"),
     data = data_of(html),
     [log] = data.logs;
@@ -366,7 +366,7 @@ try {
 
   assert.deepEqual(faults, []);
   assert.deepEqual(asked, []);
-  console.log("reports are files of their own: read, printed, at any moment of the flight");
+  console.log("reports are self-contained files: read, printed, at any time of the flight");
 } finally {
   await browser?.close();
   for (const child of [host, controller]) child?.kill("SIGKILL");

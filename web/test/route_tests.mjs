@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The route of a plan, held to that of C++ by the program `route_points`, and the piece that is followed; a part of words_test.mjs.
+// The route of a plan, compared with C++ by the program `route_points`, and the active path segment; a part of words_test.mjs.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { plan_of, point } from "./plan_tests.mjs";
 
 export const route_tests = ({ Route, dubins, wrap }, { piece_ahead }, route_points, near) => ({
-  "a right angle is rounded by a quarter of the circle (Beard & McLain, 11.1)"() {
+  "the fillet of a right angle is a quarter circle (Beard & McLain, 11.1)"() {
     const plan = plan_of([point(0, 0), point(400, 0), point(400, 400), point(0, 400)]);
     const { entry, middle, exit, turn } = new Route(plan).passage(1);
     near(turn, Math.PI / 2, 1e-12);
@@ -26,7 +26,7 @@ export const route_tests = ({ Route, dubins, wrap }, { piece_ahead }, route_poin
       .reduce((a, b) => a + b, 0);
     near(length, 4 * 300 + 2 * Math.PI * 50, 0.5);
   },
-  "what is too tight for a fillet is passed through, every leg begins where the one before ends, no piece turns tighter than the radius"() {
+  "a corner too tight for a fillet is passed through, the legs are continuous, no segment is tighter than the radius"() {
     const plan = plan_of([
       point(0, 0),
       point(400, 0),
@@ -53,7 +53,7 @@ export const route_tests = ({ Route, dubins, wrap }, { piece_ahead }, route_poin
     const through = new Route(plan).passage(2).middle;
     assert.deepEqual([through.n, through.e, through.chi], [430, 30, -2]);
   },
-  "Dubins paths end where they are to, and have the lengths of closed forms"() {
+  "Dubins paths have the right end and the lengths of closed forms"() {
     let seed = 1;
     const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
     for (let k = 0; k < 300; ++k) {
@@ -96,7 +96,7 @@ export const route_tests = ({ Route, dubins, wrap }, { piece_ahead }, route_poin
     assert.equal(new Route(plan_of([point(5, 5)])).legs()[0].points.length, 73);
     assert.deepEqual(new Route(plan_of([])).legs(), []);
   },
-  "the route that is drawn is the one that is flown: fillets, courses, tight corners, points in one place, orbits"() {
+  "the drawn route is the flown one: fillets, courses, tight corners, points in one place, orbits"() {
     if (!route_points) return console.log("       not compared: route_points is not named");
     let seed = 7;
     const random = (most) => Math.floor((((seed = (seed * 16807) % 2147483647) - 1) / 2147483646) * most);
@@ -175,7 +175,7 @@ export const route_tests = ({ Route, dubins, wrap }, { piece_ahead }, route_poin
     assert.equal(at, flown.length);
     assert.ok(fillets > 40, `${fillets} fillets`);
   },
-  "the piece that is followed goes on from beside the aircraft"() {
+  "the active segment starts beside the aircraft"() {
     const path = (more) => ({
       kind: "line",
       turn: "right",

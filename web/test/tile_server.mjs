@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A server of map tiles for tests, and what a page shows of them.
+// A server of map tiles for tests, and the colours of a page.
 import { once } from "node:events";
 import { createServer } from "node:http";
 
@@ -32,7 +32,7 @@ export async function tile_server(at) {
   await once(server, "listening");
   return { asked, port: server.address().port, close: () => server.close() };
 }
-/** Colours of a canvas at these places, by a picture of the page: a canvas with images of others does not tell. */
+/** Colours of a canvas at these places, by a picture of the page: a canvas with images of other servers cannot be read. */
 export async function colours_at(browser, view, selector, places) {
   const picture = (await view.locator(selector).screenshot()).toString("base64");
   const empty = await browser.newPage();

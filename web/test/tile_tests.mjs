@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where tiles of web maps lie in the local plane; a part of words_test.mjs.
+// Position of web map tiles in the local plane; a part of words_test.mjs.
 import assert from "node:assert/strict";
 
 export const tile_tests = ({ LocalPlane, corner_of, parts_at, tile_at }, near) => ({
-  "tiles are those of web maps"() {
+  "tile numbers are those of web maps"() {
     const rad = Math.PI / 180,
       top = corner_of({ z: 0, x: 0, y: 0 });
     near(top.lat / rad, 85.0511287798, 1e-9); // EPSG 3857: where the world is a square
@@ -17,7 +17,7 @@ export const tile_tests = ({ LocalPlane, corner_of, parts_at, tile_at }, near) =
     near(back.lat, lat * rad, 1e-12);
     near(back.lon, lon * rad, 1e-12);
   },
-  "a tile lies where the flight's own geodesy has its corners, at the origin, 5 km and 70 km from it"() {
+  "the corners of a tile agree with the geodesy of the flight, at the origin, 5 km and 70 km from it"() {
     const rad = Math.PI / 180;
     // latitude, longitude, height of the origin; latitude and longitude of a place; its north and east by GeographicLib 2.1, LocalCartesian
     for (const [lat0, lon0, h, lat, lon, n, e] of [
@@ -38,7 +38,7 @@ export const tile_tests = ({ LocalPlane, corner_of, parts_at, tile_at }, near) =
       near(place.lon / rad, lon, 1e-8);
     }
   },
-  "5 km from the origin no pixel of a tile is drawn a pixel from where it lies, at any scale"() {
+  "5 km from the origin the pixels of a tile are accurate to one pixel, at any scale"() {
     const plane = new LocalPlane({ lat_deg: 63, lon_deg: 10, alt_msl_m: 150 });
     for (const px_per_m of [0.004, 0.02, 0.1, 1, 4]) {
       const z = plane.zoom_for(px_per_m);
@@ -75,7 +75,7 @@ export const tile_tests = ({ LocalPlane, corner_of, parts_at, tile_at }, near) =
     assert.deepEqual(
       plane.tiles_of({ n: -5000, e: -5000 }, { n: 5000, e: 5000 }, 19),
       [],
-      "nobody looks at a million",
+      "no million of tiles",
     );
   },
 });

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What views compute of figures and places, without a browser.
+// Computations of the views, without a browser.
 import assert from "node:assert/strict";
 
 export const view_tests = ({ label_side }, { Rates }, { last_step, value_at }, near) => ({
-  "a rate is measured over a whole interval, by flight time: the first one, in which samples start to come, gives none"() {
+  "a rate is measured over a full interval of flight time; the first interval gives none"() {
     const rates = new Rates(),
       seen = [];
     const count = (t, imu) => {
@@ -20,7 +20,7 @@ export const view_tests = ({ label_side }, { Rates }, { last_step, value_at }, n
     const none = undefined;
     assert.deepEqual(seen, [none, none, none, none, 400, 0, 400, 0, none, none, none, none, 400, 0]);
   },
-  "a waypoint's height stands away from the legs that meet there, at the right where both sides are as good"() {
+  "the height label of a waypoint is away from its legs, at the right where both sides are equal"() {
     const side = (at, ...next) =>
       Object.values(
         label_side(
@@ -54,7 +54,7 @@ export const view_tests = ({ label_side }, { Rates }, { last_step, value_at }, n
       ],
     );
   },
-  "the figures of a second-order step are those of its closed form"() {
+  "the figures of a second-order step equal its closed form"() {
     const zeta = 0.4,
       omega = 5,
       wd = omega * Math.sqrt(1 - zeta * zeta),
@@ -93,7 +93,7 @@ export const view_tests = ({ label_side }, { Rates }, { last_step, value_at }, n
     );
     near(down.overshoot, step.overshoot, 1e-9);
   },
-  "a ramp, a small change, a step before the window, and one that is too young are no steps; an angle steps across south"() {
+  "a ramp, a small change, a step before the window, and a step that is too recent are no steps; an angle steps across south"() {
     const t = Array.from({ length: 1000 }, (_, i) => i / 100),
       series = (f) => ({ t, v: t.map(f) });
     const flat = series(() => 0);

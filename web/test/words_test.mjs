@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// node words_test.mjs NODE_MODULES [ROUTE_POINTS]: what the page computes, without a browser: types, messages, the route, edits, plan files, steps.
+// node words_test.mjs NODE_MODULES [ROUTE_POINTS]: computations of the page, without a browser: types, messages, the route, edits, plan files, steps.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
@@ -58,7 +58,7 @@ const tests = {
     await load("track.ts"),
     near,
   ),
-  "a log without a verdict is bad where it was cut, and only there"() {
+  "a log without a verdict is a fault only if it is truncated"() {
     const log = (verdict, fault = "") =>
       verdict_of({ verdict: { words: "", severity: "", ...verdict }, fault, end_s: 61 });
     assert.deepEqual(log({ words: "crashed: nose", severity: "error" }), {
@@ -70,7 +70,7 @@ const tests = {
     assert.ok(cut.bad && cut.words.includes("byte 5"));
     assert.ok(!log({}).bad && !/killed/.test(log({}).words), log({}).words);
   },
-  "messages are read as XCDR1 has them: alignment, lists, texts, enumerations"() {
+  "messages are decoded from XCDR1: alignment, lists, texts, enumerations"() {
     const schema = [
       "uint8 OFF=0",
       "uint8 ON=3",
@@ -134,7 +134,7 @@ const tests = {
       { path: "at_ns", unit: "ns" },
     ]);
   },
-  "labels lose their field's name where all of them have it"() {
+  "labels lose the name of their field if all of them have it"() {
     const [code, plain] = parse_schema(
       "p/M",
       "uint8 CODE_A_B=0\nuint8 CODE_C=1\nuint8 code\nuint8 RIGHT=0\nuint8 LEFT=1\nuint8 turn\n",
@@ -142,7 +142,7 @@ const tests = {
     assert.deepEqual(code.labels, ["a_b", "c"]);
     assert.deepEqual(plain.labels, ["right", "left"]);
   },
-  "wires are drawn in layers, between the boxes, each line by itself: twenty components on one screen"() {
+  "connections are drawn in layers, between the boxes, without overlap: twenty components on one screen"() {
     const part = (name, role, inputs, outputs) => ({
       name,
       role,
@@ -242,7 +242,7 @@ const tests = {
       [0, 1],
     );
   },
-  "numbers for people"() {
+  "displayed numbers"() {
     assert.deepEqual(
       [digits(0.01234), digits(12.34), digits(1234.5), digits(0), digits(NaN), digits(1e-6)],
       ["0.0123", "12.3", "1235", "0", "–", "1.00e-6"],
@@ -266,7 +266,7 @@ const tests = {
     assert.equal(shown_unit("rad/rad").scale, 1);
   },
   "types agree"() {
-    // where the packages are, wherever that is
+    // in the folder of the packages
     const config = {
       extends: join(web, "tsconfig.json"),
       include: [join(web, "src")],

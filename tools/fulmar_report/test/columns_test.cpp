@@ -10,7 +10,7 @@ namespace report_test {
 
 using report::Columns;
 
-TEST_CASE("columns come back bit by bit, times before the flight and what is no number too") {
+TEST_CASE("columns are unpacked bit by bit, with times before the flight and NaN") {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const Columns c{{-50000, -49900, 0, 0, 2'000'000'000},
                   {{1, 1, -0.f, 3.25f, nan}, {0, 1e-30f, 1e30f, 5, 5}}};
@@ -24,7 +24,7 @@ TEST_CASE("columns come back bit by bit, times before the flight and what is no 
   CHECK(unpacked(report::packed(Columns{})).empty());
 }
 
-TEST_CASE("a stream whose values hardly change is short") {
+TEST_CASE("a stream with few changes is short") {
   Columns steady;
   steady.values.resize(1);
   for (int i = 0; i < 10'000; ++i) {
@@ -34,7 +34,7 @@ TEST_CASE("a stream whose values hardly change is short") {
   CHECK(report::packed(steady).size() < 400);  // 80 kB as it is
 }
 
-TEST_CASE("messages lie behind their lengths; base64 is that of RFC 4648, section 10") {
+TEST_CASE("messages follow their lengths; base64 is that of RFC 4648, section 10") {
   CHECK(unpacked(report::packed(std::vector<std::string>{"ab", "", "c"})) ==
         std::string("\2\0\0\0ab\0\0\0\0\1\0\0\0c", 15));
   CHECK(report::base64("") == "");
@@ -44,7 +44,7 @@ TEST_CASE("messages lie behind their lengths; base64 is that of RFC 4648, sectio
   CHECK(report::base64("\xff\xfe") == "//4=");
 }
 
-TEST_CASE("of each part of the time the largest error stays, with what was claimed for it") {
+TEST_CASE("each time interval keeps its largest error with the reported standard deviation") {
   Columns c;
   c.values.resize(2);
   for (int i = 0; i < 1000; ++i) {
@@ -66,7 +66,7 @@ TEST_CASE("of each part of the time the largest error stays, with what was claim
   CHECK(report::every(c, 400).values[1] == std::vector<float>{0, 400, 800});
 }
 
-TEST_CASE("times are rounded to tenths of a millisecond, and what cannot be told is the nearest that can") {
+TEST_CASE("times are rounded to tenths of a millisecond, and limited to the range") {
   CHECK(report::tenths_of_ms(49'999) == 0);
   CHECK(report::tenths_of_ms(-50'001) == -1);
   CHECK(report::tenths_of_ms(2'500'000) == 25);

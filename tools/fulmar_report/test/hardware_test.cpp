@@ -34,7 +34,7 @@ fcu::ControllerParameter parameter(const char* name, const char* value) {
 
 }  // namespace
 
-TEST_CASE("a log of hardware says with which controller it was flown, and who flew how long") {
+TEST_CASE("a log of hardware has the flight controller and the times in control") {
   const Folder folder;
   const std::string file = folder.path / "a.mcap";
   {
@@ -73,7 +73,7 @@ TEST_CASE("a log of hardware says with which controller it was flown, and who fl
   CHECK(h["link"]["worst_gap_s"] == 0.25);
 }
 
-TEST_CASE("a log of simulation has no controller, and what was not heard is null") {
+TEST_CASE("a log of simulation has no controller, and missing figures are null") {
   const Folder folder;
   const std::string sim = folder.path / "sim.mcap", bare = folder.path / "bare.mcap";
   {

@@ -26,12 +26,12 @@ const report::JudgedSeries& of(const std::vector<report::JudgedSeries>& all, con
 
 }  // namespace
 
-TEST_CASE("errors are the estimate's minus the truth, each beside what is claimed for it") {
+TEST_CASE("errors are estimate minus truth, with the reported standard deviation") {
   const Folder folder;
   const std::string file = folder.path / "a.mcap";
   {
     Log log(file);
-    for (int i = 0; i < 100; ++i) {  // north is 0.5 m off, one time in ten -2 m; 1 m is claimed
+    for (int i = 0; i < 100; ++i) {  // north is 0.5 m off, one time in ten -2 m; 1 m is reported
       VehicleState s = state(1), truth = state(0);
       s.position_m.north = i % 10 == 3 ? -2 : 0.5;
       s.roll_rad = 0.01;
@@ -69,7 +69,7 @@ TEST_CASE("errors are the estimate's minus the truth, each beside what is claime
   CHECK(j["rows"][12].contains("claimed") == false);
 }
 
-TEST_CASE("without a truth a receiver's fixes stand in for it, and it is said that they are no truth") {
+TEST_CASE("without a truth the fixes of a receiver are the reference, marked as no truth") {
   const Folder folder;
   const std::string file = folder.path / "a.mcap";
   {
@@ -102,7 +102,7 @@ TEST_CASE("without a truth a receiver's fixes stand in for it, and it is said th
   for (const report::JudgedSeries& s : all[0].series) CHECK(s.words != "roll");
 }
 
-TEST_CASE("a truth in the place of an estimate has no errors to show, nor has what nothing judges") {
+TEST_CASE("a truth in place of an estimate and an estimate without a reference have no errors") {
   const Folder folder;
   const std::string same = folder.path / "same.mcap", alone = folder.path / "alone.mcap";
   {
@@ -117,7 +117,7 @@ TEST_CASE("a truth in the place of an estimate has no errors to show, nor has wh
   CHECK(report::judged_estimates(states::look_for_states(alone)).empty());
 }
 
-TEST_CASE("an innovation counts once, however often it is told; fixes are told by axis where a filter does") {
+TEST_CASE("a repeated innovation counts once; fixes are by axis if the filter reports axes") {
   const Folder folder;
   const std::string with = folder.path / "with.mcap", without = folder.path / "without.mcap";
   {

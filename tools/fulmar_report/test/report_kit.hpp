@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs that are written by hand, and what a report packs of them unpacked again.
+// Logs for tests, and the unpacked data of their reports.
 #pragma once
 #include <zlib.h>
 

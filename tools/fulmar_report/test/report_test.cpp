@@ -66,7 +66,7 @@ const report::ShownTopic& topic(const std::vector<report::ShownTopic>& all, cons
 
 }  // namespace
 
-TEST_CASE("streams are thinned out to the rate, what is slow by nature to 2 Hz, events are whole") {
+TEST_CASE("streams are thinned to the rate, slow topics to 2 Hz, events are complete") {
   const Folder folder;
   const std::string file = folder.path / "a.mcap";
   {
@@ -105,7 +105,7 @@ TEST_CASE("streams are thinned out to the rate, what is slow by nature to 2 Hz, 
   CHECK(columns_of(events["t"], 3, 0).t == std::vector<std::int32_t>{5000, 5000, 5000});
 }
 
-TEST_CASE("a guide that commands lateral accelerations asks for no course") {
+TEST_CASE("a guide with lateral accelerations commands no course") {
   const Folder folder;
   const std::string file = folder.path / "a.mcap";
   {
@@ -138,7 +138,7 @@ TEST_CASE("phases, guards, parameters that differ, and where a log ends") {
   CHECK(log["end_s"] == 0.98);
   CHECK(log["fault"] == "");
   CHECK(log["phases"] == json::parse(R"([{"name": "cruise", "from_s": 0.5, "to_s": 0.98, "because": ""}])"));
-  REQUIRE(log["told"]["rows"].size() == 1);  // a phase and a request that was taken are no news
+  REQUIRE(log["told"]["rows"].size() == 1);  // a phase and an accepted request are not listed
   CHECK(log["told"]["rows"][0]["words"] == "stopped");
   CHECK(log["told"]["rows"][0]["severity"] == "warning");
   CHECK(log["told"]["rows"][0]["component"] == "slc");
@@ -153,7 +153,7 @@ TEST_CASE("phases, guards, parameters that differ, and where a log ends") {
   CHECK(half["fault"].get<std::string>().starts_with("byte "));
 }
 
-TEST_CASE("the verdict of a flight is its last word, and a log that was cut off has none") {
+TEST_CASE("the verdict of a flight is its last event, and a truncated log has none") {
   const Folder folder;
   const std::string file = folder.path / "a.mcap";
   write_flight(file, "{}");
@@ -178,7 +178,7 @@ TEST_CASE("the verdict of a flight is its last word, and a log that was cut off 
   CHECK(log["phases"][0]["because"] == "guard.safety.answer == home");
 }
 
-TEST_CASE("no name and no word of a log ends the element that holds it") {
+TEST_CASE("no text of a log ends its element") {
   const Folder folder;
   const std::string file = folder.path / "a.mcap";
   write_flight(file, R"({"<img>": {"</script>": 1}})", "</script><b>");
@@ -194,7 +194,7 @@ TEST_CASE("no name and no word of a log ends the element that holds it") {
                        core::Error);
 }
 
-TEST_CASE("what is too large is thinned out until it fits, or cannot be thinned out more") {
+TEST_CASE("a large report is thinned until it fits, or to the limit") {
   const Folder folder;
   const std::string file = folder.path / "a.mcap";
   {
@@ -215,14 +215,14 @@ TEST_CASE("what is too large is thinned out until it fits, or cannot be thinned 
   CHECK(report::fitted_json(logs, 1).every_nth == 64);
 }
 
-TEST_CASE("names are those of the files, with their folders where two would be alike") {
+TEST_CASE("names are those of the files, with their folders where two are equal") {
   using Names = std::vector<std::string>;
   CHECK(report::short_names({"/x/a.mcap", "b.mcap"}) == Names{"a.mcap", "b.mcap"});
   CHECK(report::short_names({"/x/a.mcap", "/y/a.mcap"}) == Names{"x/a.mcap", "y/a.mcap"});
   CHECK(report::short_names({"/x/z/a.mcap", "/y/z/a.mcap"}) == Names{"/x/z/a.mcap", "/y/z/a.mcap"});
 }
 
-TEST_CASE("what is no log is refused; a log without messages is a report without topics") {
+TEST_CASE("a file that is not a log is rejected; a log without messages is a report without topics") {
   const Folder folder;
   const std::string text = folder.path / "a.txt", empty = folder.path / "empty.mcap";
   core::test::store(text, "time,height\n0,1\n");

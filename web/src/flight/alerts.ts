@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a pilot has to see at once: what is wrong, what the aircraft does now, what he should do. Without a browser.
+// Alerts for the pilot: fault, response of the aircraft, action for the pilot. Without a browser.
 import type { Message } from "../protocol/schema";
 
 export type Level = "critical" | "warning" | "info";
@@ -16,14 +16,14 @@ export interface Moment {
   ground: Message | undefined; // GroundState
   contact: Message | undefined; // ContactTruth
   state: Message | undefined; // VehicleState
-  stopped: { name: string; role: string; heir: string }[]; // by guards; who flies in its place
+  stopped: { name: string; role: string; heir: string }[]; // by guards; `heir` is the component now active
 }
 
-/** What the answer of the safety monitor makes of the flight. */
+/** Response of the aircraft to each answer of the safety monitor. */
 export const answers: Record<string, string> = {
-  none: "flies on",
+  none: "continues the mission",
   level: "levels its wings",
-  glide: "glides to the nearest place, motor off",
+  glide: "glides to the nearest landing place, motor off",
   descend: "descends in a circle, motor off",
   wait: "circles here",
   land: "returns and lands",
@@ -81,8 +81,8 @@ export const flags: Record<string, Words & { short: string }> = {
   },
   fence: {
     level: "critical",
-    short: "fence",
-    what: "FENCE",
+    short: "geofence",
+    what: "GEOFENCE",
     pilot: "Watch the turn back. Take over if it does not turn.",
   },
   radio_lost: {
@@ -111,7 +111,7 @@ export const flags: Record<string, Words & { short: string }> = {
     pilot: "Let it come home. Expect a short, steep landing.",
   },
 };
-const no_flags = new Set(["airborne", "ready"]); // of SafetyState: no troubles
+const no_flags = new Set(["airborne", "ready"]); // of SafetyState: these are no faults
 
 /** Every flag of SafetyState, also one that is not listed above. */
 export function flags_of(safety: Message): [string, boolean][] {
@@ -129,10 +129,10 @@ export function on_ground(m: Moment): boolean {
 }
 export const crashed = (m: Moment): boolean => is(m.status, "crashed") || is(m.contact, "crashed");
 
-/** What the aircraft does now, as far as its controller and its safety monitor say. */
+/** Present action of the aircraft, from flight controller and safety monitor. */
 export function doing(m: Moment): string {
-  if (crashed(m)) return "lies on the ground";
-  if (is(m.status, "failsafe")) return "flies by the failsafe of its controller";
+  if (crashed(m)) return "is on the ground after a crash";
+  if (is(m.status, "failsafe")) return "executes the failsafe of the flight controller";
   if (is(m.status, "override")) return "follows the pilot's sticks";
   if (on_ground(m)) return "is on the ground";
   const answer = String(m.safety?.answer ?? "none");
@@ -181,12 +181,12 @@ function of_vehicle(m: Moment, does: string): Alert[] {
       key: "guard " + name,
       level: "warning",
       what: `${name.toUpperCase()} STOPPED BY A GUARD`,
-      does: heir ? `flies with ${heir}${role ? " as " + role : ""}` : does,
+      does: heir ? `uses ${heir}${role ? " as " + role : ""}` : does,
       pilot: "Land soon. The event list has the reason.",
     });
   return list;
 }
-/** A mission without a safety monitor still has an estimate. */
+/** Alerts from the validity of the estimate, without a safety monitor. */
 function of_estimate(m: Moment, does: string): Alert[] {
   if (m.safety || !m.state || on_ground(m) || crashed(m)) return [];
   const one = (flag: string): Alert => ({
@@ -200,7 +200,7 @@ function of_estimate(m: Moment, does: string): Alert[] {
   return m.state.position_valid === false ? [one("gnss_lost")] : [];
 }
 
-/** What is wrong in this moment, the worst first. What is wrong on the ground before a flight is no alert: see `not_ready`. */
+/** Present faults, the most severe first. Faults on the ground before a flight are no alerts: see `not_ready`. */
 export function alerts_of(m: Moment): Alert[] {
   const does = doing(m),
     list = [...of_vehicle(m, does), ...of_estimate(m, does)];
@@ -222,31 +222,31 @@ export function alerts_of(m: Moment): Alert[] {
   return list.sort((a, b) => Number(b.level === "critical") - Number(a.level === "critical"));
 }
 
-/** An alert until it is acknowledged, also when its cause is over. */
+/** An alert until it is acknowledged, also after its cause has ended. */
 export interface Held {
   alert: Alert;
   since_s: number; // of flight
-  now: boolean; // the cause lasts
+  now: boolean; // the cause is present
   seen: boolean; // acknowledged
-  told: boolean; // by an event: nothing but an event, or a flag of the same key, ends it
+  told: boolean; // raised by an event: only an event or a flag of the same key ends it
 }
 export class AlertBook {
   private held = new Map<string, Held>();
 
-  /** What is wrong now. Causes that are over stay until they are acknowledged. */
+  /** Present faults. Alerts whose cause has ended stay until they are acknowledged. */
   update(alerts: Alert[], now_s: number): void {
-    const lies = alerts.some((a) => a.key === "crashed"); // of an aircraft that lies on the ground nothing else lasts
+    const lies = alerts.some((a) => a.key === "crashed"); // after a crash all other causes end
     for (const h of this.held.values()) if (!h.told || lies) Object.assign(h, { now: false, told: false });
     for (const alert of alerts) this.raise(alert, now_s, false);
     for (const [key, h] of this.held) if (!h.now && h.seen) this.held.delete(key);
   }
-  /** Of an event: its end is another one, if there is any. */
+  /** Alert of an event; another event may end it. */
   raise(alert: Alert, now_s: number, told = true): void {
     const h = this.held.get(alert.key);
     if (h) Object.assign(h, { alert, now: true, told });
     else this.held.set(alert.key, { alert, since_s: now_s, now: true, seen: false, told });
   }
-  /** An event says that this cause is over. */
+  /** An event reports the end of this cause. */
   over(key: string): void {
     const h = this.held.get(key);
     if (h?.told) Object.assign(h, { now: false, told: false });
@@ -255,25 +255,25 @@ export class AlertBook {
     const h = this.held.get(key);
     if (!h) return;
     h.seen = true;
-    if (h.told && key.startsWith("event ")) this.held.delete(key); // it has no end
+    if (h.told && key.startsWith("event ")) this.held.delete(key); // no event ends it
   }
-  /** Those to be acknowledged: the worst first, then the newest. */
+  /** Alerts to acknowledge: the most severe first, then the newest. */
   list(): Held[] {
     const rank = (h: Held) => (h.now ? 0 : 2) + (h.alert.level === "critical" ? 0 : 1);
     return [...this.held.values()]
       .filter((h) => !h.seen)
       .sort((a, b) => rank(a) - rank(b) || b.since_s - a.since_s);
   }
-  /** Acknowledged, and not over. */
+  /** Acknowledged alerts whose cause is present. */
   lasting(): Held[] {
     return [...this.held.values()].filter((h) => h.seen && h.now);
   }
 }
 
-/** What a notice is about: a word of its component, the same as the flag of a monitor; "" of other events. */
+/** Cause of a notice, the same word as the flag of a monitor; "" for other events. */
 export const cause_of = (event: Message): string => (event.code === "notice" ? String(event.name ?? "") : "");
 
-/** An event of the host that a pilot has to see; null for all others. `monitor`: whose notices are flags as well. */
+/** Alert of a host event; null for events that need none. `monitors`: components whose notices are flags as well. */
 export function alert_of_event(event: Message, monitors: string[], does: string): Alert | null {
   const code = String(event.code),
     component = String(event.component),
@@ -283,7 +283,7 @@ export function alert_of_event(event: Message, monitors: string[], does: string)
     severity === "info" ||
     ["guard", "hung", "over_budget", "died", "took_over", "cannot_take_over", "concluded"].includes(code)
   )
-    return null; // a stopped component has its own
+    return null; // a stopped component has an alert of its own
   if (code === "notice" && (monitors.includes(component) || not_ready(words).length > 0)) return null;
   const level: Level = severity === "warning" ? "warning" : "critical";
   const cause = cause_of(event),
@@ -303,15 +303,15 @@ export function alert_of_event(event: Message, monitors: string[], does: string)
 const gate_words: Record<string, string> = {
   estimator: "estimate not valid",
   position: "no position",
-  pitot: "airspeed sensor",
+  pitot: "no valid airspeed",
   radio: "no radio",
   battery: "battery low",
-  wind: "too much wind",
-  fence: "outside the fence, or too near",
-  height: "above the ceiling of the fence, or too near",
+  wind: "excessive wind",
+  fence: "outside the geofence or near its border",
+  height: "above the geofence or near its ceiling",
   motor: "motor gives no thrust",
 };
-/** What the safety monitor has against a take-off; null of a monitor that does not judge it. */
+/** Conditions of the safety monitor that prevent a take-off; null without such a check. */
 export function gate_of(safety: Message | undefined): string[] | null {
   const gate = safety?.not_ready;
   if (typeof gate !== "object" || gate === null) return null;
@@ -320,7 +320,7 @@ export function gate_of(safety: Message | undefined): string[] | null {
     .map(([cause]) => gate_words[cause] ?? cause.replace(/_/g, " "));
 }
 
-/** "fcu: not ready: no GNSS fix, no height" -> what is missing; [] of other words. */
+/** "fcu: not ready: no GNSS fix, no height" -> the missing conditions; [] for other texts. */
 export function not_ready(words: string): string[] {
   const at = words.indexOf("not ready: ");
   return at < 0

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// On which side of a waypoint its height stands: away from the legs that meet there. x to the right, y down.
+// Side of a waypoint for its height label: away from its legs. x to the right, y down.
 export interface Spot {
   x: number;
   y: number;
 }
-/** In the order in which they are preferred. */
+/** In order of preference. */
 const sides: Spot[] = [
   { x: 1, y: 0 },
   { x: -1, y: 0 },

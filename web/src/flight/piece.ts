@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The piece of path that is followed now, from where the aircraft is beside it to where it ends, and the one behind it: also on the way
-// to a plan, and a fillet as wide as the wind makes it, which the plan does not show. Messages `Path`: Beard & McLain (2012), chapter 10.
+// The active path segment from the aircraft to its end, and the next one: also on the way to a plan, and with fillets as the wind
+// requires, which the plan does not show. Messages `Path`: Beard & McLain (2012), chapter 10.
 import { type Message, number_at } from "../protocol/schema";
 import { type Point, wrap } from "./route";
 
 const unknown_m = 1e8,
-  shown_m = 400; // of a piece that goes on for ever
+  shown_m = 400; // of an endless segment
 
 const known = (length: number) => (length < unknown_m ? Math.max(0, length) : NaN);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fence, places to come down at, and runway, in the local plane: out of records as sdk/include/fulmar/flight/path/fence.hpp and
-// msg/runway.hpp have them.
+// Geofence, landing places and runway in the local plane, from records of sdk/include/fulmar/flight/path/fence.hpp and
+// msg/runway.hpp.
 import { LocalPlane, type Place } from "./tiles";
 
 interface Point {
@@ -14,11 +14,11 @@ export interface Places {
 }
 type Fields = Record<string, unknown>;
 
-const given = (x: unknown): x is number => typeof x === "number" && Math.abs(x) < 1e8; // a value that is not given is 1e9
+const given = (x: unknown): x is number => typeof x === "number" && Math.abs(x) < 1e8; // 1e9: not given
 const list = (x: unknown): Fields[] =>
   Array.isArray(x) ? x.filter((i) => typeof i === "object" && i !== null) : [];
 
-/** By north and east, or by latitude and longitude, which take an origin. */
+/** From north and east, or from latitude and longitude, which need an origin. */
 function point_of(record: Fields, origin: Place | null): Point | null {
   if (given(record.north_m) && given(record.east_m)) return { n: record.north_m, e: record.east_m };
   if (!origin || !given(record.lat_deg) || !given(record.lon_deg)) return null;
@@ -35,7 +35,7 @@ function runway_of(record: Fields | undefined, origin: Place | null): Places["ru
   return at && { ...at, heading: record.heading_rad, length: record.length_m };
 }
 
-/** Of each kind the first. A runway of its own wins over that of a plan. */
+/** The first of each kind. A separate runway has priority over that of a plan. */
 export function places_of(records: readonly unknown[], origin: Place | null): Places {
   const all = list(records);
   const points = (key: string) => {

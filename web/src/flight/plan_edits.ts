@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the plan that flies to the one that is wanted: the fewest edits, as one group, which the planner takes whole
-// or not at all. Waypoints that stay keep their ids, so that the leg that is flown goes on.
+// Fewest edits from the active plan to the wanted one, as one group, which the planner accepts
+// completely or rejects. Unchanged waypoints keep their ids, so that the active leg continues.
 import type { Plan, Waypoint } from "./route";
 
-/** A request of the type PlanEdit, as JSON: what is left out is 0. */
+/** A request of the type PlanEdit, as JSON: missing fields are 0. */
 export type Edit = Record<string, unknown>;
 export interface EditOf {
   edit: Edit;
-  waypoint: number; // of the wanted plan; -1: of the plan as a whole
+  waypoint: number; // of the wanted plan; -1: of the complete plan
 }
 
 function message_of(w: Waypoint): Edit {
@@ -34,7 +34,7 @@ function equal(a: Waypoint, b: Waypoint): boolean {
   );
 }
 
-/** The largest set of ids that stand in the same order in both: the others are moved. */
+/** The largest set of ids in the same order in both plans: the others are moved. */
 function in_order(ids: number[], places: Map<number, number>): Set<number> {
   const list = ids.filter((id) => places.has(id));
   const best: number[] = [],
@@ -83,7 +83,7 @@ export function edits_between(now: Plan, wanted: Plan): EditOf[] {
   return edits;
 }
 
-/** The same edits with their number: a second try takes a new one. */
+/** The same edits with a group number: a second attempt needs a new one. */
 export function as_group(edits: EditOf[], group: number): EditOf[] {
   if (edits.length < 2) return edits;
   return edits.map((e) => ({ ...e, edit: { ...e.edit, group, group_size: edits.length } }));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plan file, as plugins/path/README.md has it: read, with every fault told at once, and written.
+// A plan file, as plugins/path/README.md has it: read, with all faults reported at once, and written.
 import { dump, load } from "js-yaml";
 import type { Plan, Waypoint } from "./route";
 import { LocalPlane } from "./tiles";
@@ -15,7 +15,7 @@ const keys = ["name", "end", "airspeed", "turn_radius", "waypoints", "runway"];
 const same_m = 0.05;
 const waypoint_keys = ["north", "east", "up", "lat", "lon", "alt_msl", "course", "airspeed"];
 
-/** What a file says that a flight does not tell again: which waypoints were geodetic, and the runway. */
+/** Data that only the file holds: geodetic waypoints and the runway. */
 export interface PlanFile {
   waypoints: Waypoint[];
   runway: unknown;
@@ -39,17 +39,17 @@ class Faults {
     const result = match && factor !== undefined ? Number(match[1]) * factor : NaN;
     if (Number.isFinite(result)) return result;
     this.list.push(
-      `${where}: '${String(value)}' is no ${kind}${Object.keys(table).length ? ". Valid units: " + Object.keys(table).join(", ") : ""}`,
+      `${where}: '${String(value)}' is not a valid ${kind}${Object.keys(table).length ? ". Valid units: " + Object.keys(table).join(", ") : ""}`,
     );
     return 0;
   }
   known(object: Record<string, unknown>, valid: string[], where: string): void {
     for (const key of Object.keys(object))
-      if (!valid.includes(key)) this.list.push(`${where}there is no '${key}'. Valid: ${valid.join(", ")}`);
+      if (!valid.includes(key)) this.list.push(`${where}unknown key '${key}'. Valid: ${valid.join(", ")}`);
   }
 }
 
-/** Metres from the origin, as the planner has them. */
+/** Metres from the origin, as in the planner. */
 function local(at: Origin, origin: Origin): { north: number; east: number; up: number } {
   const plane = new LocalPlane({
     lat_deg: origin.latitude,
@@ -64,7 +64,7 @@ function read_waypoint(entry: unknown, i: number, origin: Origin | null, faults:
   const where = `waypoint ${i}: `;
   const w: Waypoint = { north: 0, east: 0, up: 0, course: null, airspeed: 0, id: 0, geodetic: null };
   if (typeof entry !== "object" || entry === null || Array.isArray(entry)) {
-    faults.list.push(where + "has to be a map, {north: 400 m, east: -250 m, up: 70 m}");
+    faults.list.push(where + "must be a map, such as {north: 400 m, east: -250 m, up: 70 m}");
     return w;
   }
   const map = entry as Record<string, unknown>;
@@ -78,12 +78,12 @@ function read_waypoint(entry: unknown, i: number, origin: Origin | null, faults:
       const text = String(map[key] ?? "").replace(/\s*deg\s*$/, "");
       const value = Number(text);
       if (text === "" || !Number.isFinite(value))
-        faults.list.push(where + `${key}: '${String(map[key])}' is no latitude or longitude in degrees`);
+        faults.list.push(where + `${key}: '${String(map[key])}' is not a latitude or longitude in degrees`);
       return value;
     };
     w.geodetic = { latitude: degrees("lat"), longitude: degrees("lon"), altitude: at("alt_msl", "length") };
     if (origin) Object.assign(w, local(w.geodetic, origin));
-    else faults.list.push(where + "is geodetic, and the flight does not know its origin yet");
+    else faults.list.push(where + "is geodetic, but the flight has no origin yet");
   } else {
     w.north = at("north", "length");
     w.east = at("east", "length");
@@ -94,12 +94,12 @@ function read_waypoint(entry: unknown, i: number, origin: Origin | null, faults:
   return w;
 }
 
-/** What is not in the file is as in `now`. Throws Error with every fault, one a line. */
+/** Missing settings are those of `now`. Throws Error with all faults, one per line. */
 export function read_plan_file(text: string, now: Plan, origin: Origin | null): Plan & { runway?: unknown } {
   const faults = new Faults();
   const file = load(text) as unknown;
   if (typeof file !== "object" || file === null || Array.isArray(file))
-    throw new Error("This is no plan: it has to be a map with 'waypoints'.");
+    throw new Error("The file is not a plan: it must be a map with 'waypoints'.");
   const map = file as Record<string, unknown>;
   faults.known(map, keys, "");
   const plan: Plan & { runway?: unknown } = {
@@ -110,18 +110,18 @@ export function read_plan_file(text: string, now: Plan, origin: Origin | null): 
   };
   if (map.end !== undefined) {
     if (map.end === "circuit" || map.end === "orbit") plan.end = map.end;
-    else faults.list.push(`end: '${String(map.end)}' is none. Valid: circuit, orbit`);
+    else faults.list.push(`end: '${String(map.end)}' is not valid. Valid: circuit, orbit`);
   }
   if (map.turn_radius !== undefined) plan.radius = faults.number(map.turn_radius, "length", "turn_radius");
   if (map.airspeed !== undefined) plan.airspeed = faults.number(map.airspeed, "speed", "airspeed");
-  if (!Array.isArray(map.waypoints)) faults.list.push("'waypoints' has to be a list");
+  if (!Array.isArray(map.waypoints)) faults.list.push("'waypoints' must be a list");
   else plan.waypoints = map.waypoints.map((w, i) => read_waypoint(w, i, origin, faults));
   if (map.runway !== undefined) plan.runway = map.runway;
   if (faults.list.length > 0) throw new Error(faults.list.join("\n"));
   return plan;
 }
 
-/** Where a waypoint still stands where the file had it, to what the flight rounds: as the file had it. */
+/** Geodetic position of the file, if the waypoint has not moved by more than the rounding. */
 function geodetic_of(w: Waypoint, file: PlanFile | null): Origin | null {
   const same = (a: number, b: number) => Math.abs(a - b) < same_m;
   return (
@@ -133,7 +133,7 @@ function geodetic_of(w: Waypoint, file: PlanFile | null): Origin | null {
   );
 }
 
-/** `file`: what the plan was loaded from. */
+/** `file`: the loaded file of the plan. */
 export function write_plan_file(plan: Plan, name: string, file: PlanFile | null = null): string {
   const lines = [
     `name: ${JSON.stringify(name)}`,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How often something comes, by flight time: a simulation may be quicker than the clock.
+// Message rates in flight time, since a simulation may run faster than the clock.
 export class Rates {
   private rates = new Map<string, number>();
   private counts = new Map<string, number>();
   private at_s = 0;
   private counted = 0;
 
-  /** Counting begins. In the first interval samples only start to come: it gives no rate. */
+  /** Starts counting. The first interval gives no rate, since the subscription starts in it. */
   begin(): void {
     this.counted = 0;
     this.rates.clear();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The route that a plan describes, as sdk/include/fulmar/flight/path/route.hpp and dubins.hpp have it: the page draws
-// what will be flown. Sources: Beard & McLain (2012), sections 11.1 and 11.2; Shkel & Lumelsky (2001).
+// The route of a plan, equal to sdk/include/fulmar/flight/path/route.hpp and dubins.hpp: the page draws the path that will
+// be flown. Sources: Beard & McLain (2012), sections 11.1 and 11.2; Shkel & Lumelsky (2001).
 
 export interface Waypoint {
   north: number;
@@ -8,7 +8,7 @@ export interface Waypoint {
   up: number;
   course: number | null; // rad
   airspeed: number; // 0: the plan's
-  id: number; // 0: the planner has not seen it
+  id: number; // 0: not yet in the planner
   geodetic: { latitude: number; longitude: number; altitude: number } | null;
 }
 export interface Plan {
@@ -56,7 +56,7 @@ function advance(from: Pose, curvature: number, length: number): Pose {
   return { n: from.n + chord * Math.cos(chi), e: from.e + chord * Math.sin(chi), chi: from.chi + 2 * half };
 }
 
-// rsr, rsl, lsr, lsl, rlr, lrl; of words that are equally long the first
+// rsr, rsl, lsr, lsl, rlr, lrl; the first of equally long words
 const words = [
   [1, 0, 1],
   [1, 0, -1],

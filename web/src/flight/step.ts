@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a response follows the last step of its set-point: rise time from 10 to 90 %, overshoot, settling within 5 %,
-// of the step that was asked for.
+// Response to the last set-point step: rise time from 10 to 90 %, overshoot, settling within 5 %, relative to the commanded
+// step.
 import type { Series } from "../source";
 
 export interface StepResponse {
@@ -14,7 +14,7 @@ export interface StepResponse {
 
 const held_s = 0.5;
 
-/** The value that holds at time `t`; the first one before all. */
+/** The value held at time `t`; before all samples the first one. */
 export function value_at(s: Series, t: number): number {
   let low = 0,
     high = s.t.length;
@@ -27,8 +27,8 @@ export function value_at(s: Series, t: number): number {
 }
 
 /**
- * `least`: a smaller change is no step; one is over within `within_s` and then stays within a tenth of itself.
- * `turn`: what an angle counts from anew (2 pi), 0 for other quantities.
+ * `least`: smallest step. A step ends within `within_s` and then stays within a tenth of its size.
+ * `turn`: period of an angle (2 pi), 0 for other quantities.
  */
 export function last_step(
   asked: Series,
@@ -42,7 +42,7 @@ export function last_step(
   const n = asked.t.length;
   if (n < 2) return null;
   const to = asked.v[n - 1] as number;
-  let first = n - 1; // of those that are as the last one is
+  let first = n - 1; // first sample equal to the last one
   let size = 0;
   for (let i = n - 1; i >= 0 && (asked.t[i] as number) >= since; --i) {
     const away = off((asked.v[i] as number) - to);
@@ -53,14 +53,14 @@ export function last_step(
     if ((asked.t[first] as number) - (asked.t[i] as number) > within_s) break;
     if (Math.abs(away) > Math.abs(size)) size = away;
   }
-  // what goes on changing is no step
+  // a value that keeps changing is not a step
   if (Math.abs(size) < least || (asked.t[n - 1] as number) - (asked.t[first] as number) < held_s) return null;
-  // where it began: the newest sample that is away by the whole of it
+  // start of the step: the newest sample at the full distance
   let begin = first;
   while (begin > 0 && Math.abs(off((asked.v[begin] as number) - to)) < Math.abs(size) * 0.95) --begin;
   const at = asked.t[begin] as number,
     from = to + size;
-  const share = (v: number) => 1 - off(v - to) / size; // 0 before, 1 when it is there
+  const share = (v: number) => 1 - off(v - to) / size; // 0 before the step, 1 at its end
   let t10: number | null = null,
     t90: number | null = null,
     most = 0,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the tiles of a web map lie in the local plane: north and east of the origin, as everything on the map. Sources: WGS 84 (NIMA TR8350.2);
+// Position of web map tiles in the local plane, north and east of the origin. Sources: WGS 84 (NIMA TR8350.2);
 // spherical Mercator of web maps (EPSG:3857, EPSG Guidance Note 7-2); local plane: Groves, Principles of GNSS, Inertial, and Multisensor
 // Integrated Navigation Systems (2013), 2.4.
 
@@ -25,10 +25,10 @@ const a_m = 6378137,
 export const tile_px = 256,
   deepest = 19;
 
-/** Into so many parts along each side a tile is cut to be drawn as parallelograms: a side of S metres bends by S^2 tan(latitude) / R. */
+/** Parts along each side of a tile, each drawn as a parallelogram: a side of S metres bends by S^2 tan(latitude) / R. */
 export const parts_at = (px_per_m: number): number => (px_per_m < 0.1 ? 4 : 1);
 
-/** The north-west corner of a tile; x and y need not be whole. */
+/** The north-west corner of a tile; x and y may have fractions. */
 export function corner_of(t: Tile): { lat: number; lon: number } {
   const n = 2 ** t.z;
   return { lat: Math.atan(Math.sinh(Math.PI * (1 - (2 * t.y) / n))), lon: 2 * Math.PI * (t.x / n - 0.5) };
@@ -56,7 +56,7 @@ export class LocalPlane {
       r = (across + h) * Math.cos(lat);
     return [r * Math.cos(lon), r * Math.sin(lon), (across * (1 - e2) + h) * Math.sin(lat)];
   }
-  /** Radians in, and a height as that of the origin is; without one it is as high. */
+  /** Takes radians and a height in the frame of the origin; default: the height of the origin. */
   to_plane(lat: number, lon: number, h = this.h): Point & { up: number } {
     const p = this.earth_fixed(lat, lon, h);
     const [x, y, z] = [p[0] - this.at[0], p[1] - this.at[1], p[2] - this.at[2]];
@@ -85,7 +85,7 @@ export class LocalPlane {
     const most = 2 * Math.PI * a_m * Math.cos(this.lat) * px_per_m; // pixels round the earth
     return Math.min(deepest, Math.max(0, Math.round(Math.log2(most / tile_px))));
   }
-  /** The tiles that show any of a rectangle. At most `limit`, else none: nobody looks at that many. */
+  /** The tiles that show any of a rectangle. At most `limit`, else none. */
   tiles_of(low: Point, high: Point, z: number, limit = 200): Tile[] {
     const middle = { n: (low.n + high.n) / 2, e: (low.e + high.e) / 2 };
     const x: number[] = [],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the components of a mission stand in a drawing, and how lines lead from outputs to inputs: in layers from left to right, by
-// the longest way to each (Sugiyama, Tagawa & Toda, 1981), and between the boxes, never through one.
+// Layout of the components of a mission, and lines from outputs to inputs: layers from left to right, by the longest path
+// to each (Sugiyama, Tagawa & Toda, 1981), and between the boxes, never through one.
 
 export interface Part {
   name: string;
@@ -31,7 +31,7 @@ export interface Drawing {
   wires: Wire[];
 }
 
-/** Pixels: of a letter of the names and of the lines below, of the space between lines. */
+/** Pixels: width of a letter of the names and of the small lines, distance between lines. */
 export const name_letter = 7.2,
   small_letter = 5.9;
 const pitch = 4,
@@ -48,7 +48,7 @@ interface Net {
   readers: { part: Part; input: string }[];
 }
 
-/** One for each port that somebody reads. All that fill a role share its ports. */
+/** One for each connected output port. The components of a role share its ports. */
 function nets_of(parts: Part[]): Net[] {
   const nets = new Map<string, Net>();
   for (const part of parts)
@@ -67,9 +67,9 @@ function nets_of(parts: Part[]): Net[] {
   return [...nets.values()].filter((n) => n.from.length > 0);
 }
 
-/** The layer of each component. Where wires lead round in a circle, as they do by way of the vehicle, it begins with the vehicle. */
+/** The layer of each component. Closed loops of connections, as through the vehicle, start at the vehicle. */
 function layers_of(parts: Part[], nets: Net[]): Map<string, number> {
-  const key = (p: Part) => p.role || p.name; // who fills the same role stands in the same layer
+  const key = (p: Part) => p.role || p.name; // the components of a role share a layer
   const groups = [...new Set(parts.map(key))];
   const before = new Map(groups.map((g) => [g, new Set<string>()]));
   for (const net of nets)
@@ -85,7 +85,7 @@ function layers_of(parts: Part[], nets: Net[]): Map<string, number> {
     for (const g of layer.size === 0 ? stuck : free.length > 0 ? free : stuck)
       layer.set(g, Math.max(-1, ...[...(before.get(g) ?? [])].map((b) => layer.get(b) ?? -1)) + 1);
   }
-  // who reads nothing stands before the first who reads it
+  // a component without inputs is in the layer before its first reader
   for (const g of groups) {
     if ((before.get(g)?.size ?? 0) > 0 || (vehicle && g === key(vehicle))) continue;
     const readers = groups.filter((r) => before.get(r)?.has(g)).map((r) => layer.get(r) ?? 1);
@@ -94,7 +94,7 @@ function layers_of(parts: Part[], nets: Net[]): Map<string, number> {
   return new Map(parts.map((p) => [p.name, layer.get(key(p)) ?? 0]));
 }
 
-/** `lines`: what a box has to have room for below its name. */
+/** `lines`: number of letters that fit below the name. */
 export function draw_wiring(parts: Part[], lines: (part: Part) => number): Drawing {
   const nets = nets_of(parts),
     layer = layers_of(parts, nets);
@@ -106,14 +106,14 @@ export function draw_wiring(parts: Part[], lines: (part: Part) => number): Drawi
   const row = (p: Part) => columns[at(p)]?.indexOf(p) ?? 0;
 
   // A net has a vertical in the gutter behind each of its writers' layers and before each layer that it reaches from farther away, and
-  // then a lane below its writers' row; what leads back runs below all.
+  // then a lane below its writers' row; feedback connections run below all.
   const gutters: Net[][] = Array.from({ length: columns.length + 1 }, () => []); // [0]: left of the first column
   const lanes: Net[][] = Array.from({ length: rows }, () => []);
   const column = (net: Net) => at(net.from[0] as Part);
   const lane_row = (net: Net) =>
     net.readers.some(({ part }) => at(part) <= column(net)) ? rows - 1 : Math.min(...net.from.map(row));
   const add = (list: Net[] | undefined, net: Net) => list && !list.includes(net) && list.push(net);
-  for (const net of nets) add(gutters[column(net) + 1], net); // left of those that arrive: their pins are on the left
+  for (const net of nets) add(gutters[column(net) + 1], net); // left of the arriving lines: their pins are on the left
   for (const net of nets) {
     for (const { part } of net.readers) {
       if (at(part) === column(net) + 1) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight that is connected: a source of figures, and the door for all that can be asked of it.
+// A connected flight: source of the figures, and all requests to the flight.
 import { type Channel, type LinkState, type ServiceInfo, Socket } from "./socket";
 import { type Field, type Message, decode, number_at, parse_schema } from "./schema";
 import type { Place } from "../flight/tiles";
@@ -69,7 +69,7 @@ export interface Answer {
   reason: string;
 }
 
-/** Those whose output a topic is, or may be: of a role all that fill it. */
+/** Components that publish a topic: for a role all its components. */
 export function publishers(flight: Flight, topic: string): Component[] {
   return topic === ""
     ? []
@@ -77,7 +77,7 @@ export function publishers(flight: Flight, topic: string): Component[] {
 }
 
 const series_gap_s = 0.02,
-  series_length = 12_000; // four minutes at 50 a second
+  series_length = 12_000; // four minutes at 50 per second
 const view_every_ms = 1000,
   too_old_ms = 1000,
   new_ms = 400,
@@ -100,13 +100,13 @@ export class Flight implements Source {
   now = NaN;
   view: View | null = null;
   link: LinkState = { up: false, since_ms: performance.now(), why: "" };
-  /** What the flight said about requests of ours that have no answer of their own. */
+  /** Status messages of the flight on requests without an answer. */
   on_status: (level: number, words: string) => void = () => {};
   on_view: (view: View) => void = () => {};
   on_link: () => void = () => {};
-  /** Called when the topics are known, or others. */
+  /** Called when the list of topics arrives or changes. */
   readonly heard_of_channels: (() => void)[] = [];
-  /** Parameters that are records: fence, places, runway, plan. */
+  /** Parameters that are records: geofence, places, runway, plan. */
   records: unknown[] = [];
   private readonly socket: Socket;
   private heard = new Map<string, Heard>();
@@ -120,7 +120,7 @@ export class Flight implements Source {
   constructor(url: string) {
     this.socket = new Socket(url, {
       session: (id) => {
-        // another flight on this port: nothing that is shown belongs to it
+        // another flight on this port: the displayed data is not from it
         if (this.session !== "" && this.session !== id) location.reload();
         this.session = id;
       },
@@ -204,12 +204,12 @@ export class Flight implements Source {
     try {
       heard.message = decode(heard.topic.fields, heard.raw.view, heard.raw.offset);
     } catch {
-      heard.raw = null; // not what its description says
+      heard.raw = null; // the message does not match its schema
     }
     return heard.message;
   }
 
-  /** A browser or a way that is too slow goes without samples until it has read what was sent, and then has the newest. */
+  /** A slow browser or connection receives no samples until it has read the sent ones, then the newest. */
   private pace(): void {
     const age = this.socket.late_ms(),
       hold = !document.hidden && this.link.up && (this.held ? age > new_ms : age > too_old_ms);
@@ -220,7 +220,7 @@ export class Flight implements Source {
     );
   }
   private held = false;
-  /** How old what has come last can be at most: on its way from the flight, and in this browser. */
+  /** Largest possible age of the last data, in transport and in this browser. */
   age_ms(): number {
     return this.socket.age_ms();
   }
@@ -236,7 +236,7 @@ export class Flight implements Source {
   }
   private want(topic: string): Heard | undefined {
     const heard = this.heard.get(topic);
-    if (heard && this.epoch !== null) this.socket.want(heard.id, true); // before, nobody knows when its samples are
+    if (heard && this.epoch !== null) this.socket.want(heard.id, true); // the time of a sample needs the epoch
     return heard;
   }
   latest(topic: string): Message | undefined {
@@ -263,7 +263,7 @@ export class Flight implements Source {
   count(topic: string): number {
     return this.heard.get(topic)?.count ?? 0;
   }
-  /** Samples of every topic, or again only of those that somebody looks at. */
+  /** Samples of every topic, or only of the displayed ones. */
   want_all(on: boolean): void {
     for (const h of this.heard.values())
       this.socket.want(h.id, on || h.series.size > 0 || h.listeners.size > 0);
@@ -273,17 +273,17 @@ export class Flight implements Source {
     return info ? parse_schema(info.request.schemaName, info.request.schema) : [];
   }
 
-  // ---- what can be asked
+  // ---- requests
 
   has(service: string): boolean {
     return this.services.has(service);
   }
 
-  /** The view as it is now, or later. */
+  /** Reads the view, as it is at this time or later. */
   async refresh(): Promise<void> {
     const service = this.services.get("/fulmar/view");
     if (!service) return;
-    // one that is under way may be older than what the caller knows
+    // a pending one may be older than the change of the caller
     if (this.asked_view) return new Promise((done) => this.view_waiters.push(done));
     this.asked_view = true;
     try {
@@ -298,7 +298,7 @@ export class Flight implements Source {
       this.on_view(view);
       void this.read_records(view);
     } catch {
-      // the connection was lost: it will come again
+      // the connection was lost: the socket reconnects
     } finally {
       this.asked_view = false;
       const waiters = this.view_waiters;
@@ -307,7 +307,7 @@ export class Flight implements Source {
     }
   }
 
-  /** Records do not change in flight, but for a swap. */
+  /** Records change in flight only by a swap. */
   private async read_records(view: View): Promise<void> {
     const wanted = view.components.flatMap((c) =>
       c.params
@@ -332,7 +332,7 @@ export class Flight implements Source {
   }
   private read_for = "";
 
-  /** Asks, and says what the flight answered: also when nobody could be asked. */
+  /** Sends a request. Returns the answer, also without a connection. */
   async ask(service: string, request: unknown): Promise<Answer> {
     const info = this.services.get(service);
     if (!info) return { accepted: false, reason: "This flight has no service " + service + "." };
@@ -348,7 +348,7 @@ export class Flight implements Source {
   set_parameter(component: string, name: string, text: string): Promise<Answer> {
     return this.ask("/fulmar/set_parameter", { component, name, text });
   }
-  /** Many at once and often: refusals come as status. */
+  /** Frequent changes of many parameters: rejections arrive as status. */
   set_quickly(list: { name: string; value: unknown }[]): void {
     this.socket.set_parameters(list);
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages as the flight describes them: ROS 2 message text, read into a reader of XCDR1 bytes. An enumeration
-// becomes its label in small letters, as a mission file writes it.
+// Decoder of XCDR1 bytes from ROS 2 message text. An enumeration becomes its label in lower case, as in a mission file.
 
 export type Value = number | boolean | string | Value[] | Message;
 export interface Message {
@@ -11,10 +10,10 @@ export interface Field {
   name: string;
   type: string; // "float64", or the name of a message
   labels: string[]; // of an enumeration; else empty
-  list: boolean; // any number of them up to `count`
+  list: boolean; // a list of at most `count` items
   count: number; // 0: one value
   fields: Field[]; // of a message
-  unit: string; // "" when it has none
+  unit: string; // "" without a unit
 }
 
 const scalar_bytes: Record<string, number> = {
@@ -51,7 +50,7 @@ function parse_line(line: string): Line | null {
   };
 }
 
-/** Constants before a field are its labels, each with the field's name in front where that is needed. */
+/** Constants before a field are its labels, without the field's name as a prefix. */
 function labels_of(field: string, constants: Line[]): string[] {
   const labels: string[] = [];
   const prefix = field.toUpperCase() + "_";
@@ -80,7 +79,7 @@ const units: [string, string][] = [
   ["_frac", ""],
   ["_ratio", ""],
 ];
-/** Of a field, by the end of its name. */
+/** Unit of a field, by the end of its name. */
 export function unit_of(field: string): string {
   for (const [suffix, unit] of units) if (field.endsWith(suffix)) return unit;
   return "";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Foxglove WebSocket protocol, version 1, as a client: connects, comes again, notices within a second that
-// nobody is there. Knows nothing of flights.
+// Client of the Foxglove WebSocket protocol, version 1: connects, reconnects, and detects a silent server within a second.
+// Independent of flights.
 
 export interface Channel {
   id: number;
@@ -29,8 +29,8 @@ export interface LinkState {
   why: string; // it is down
 }
 
-const alive_ms = 200; // between two questions whose answers show how old is what comes with them
-const lost_ms = 750; // then nobody is
+const alive_ms = 200; // between two requests that measure the age of the data
+const lost_ms = 750; // without a message: connection lost
 const again_ms = 500; // between two attempts
 const watch_ms = 100;
 const op_data = 1,
@@ -48,11 +48,11 @@ export class Socket {
   private ws: WebSocket | null = null;
   private heard_ms = 0;
   private watched_ms = 0;
-  private quiet = 0; // ms since it was heard, of those in which this page was awake: what has come while it slept is read later
-  private asked = new Map<string, number>(); // questions without an answer, and when they were sent
+  private quiet = 0; // ms without a message while this page was active: a sleeping page reads its messages later
+  private asked = new Map<string, number>(); // requests without an answer, and their send times
   private next_asked = 1;
   private asked_ms = 0;
-  private known_ms = 0; // when the newest question was sent that has an answer
+  private known_ms = 0; // send time of the newest request with an answer
   private opened_ms = 0;
   private up = false;
   private calls = new Map<number, Call>();
@@ -67,7 +67,7 @@ export class Socket {
     this.open();
     setInterval(() => this.watch(), watch_ms);
     document.addEventListener("visibilitychange", () => {
-      this.known_ms = performance.now(); // nothing was asked while the page was hidden
+      this.known_ms = performance.now(); // no requests while the page is hidden
       this.heard();
     });
   }
@@ -115,21 +115,21 @@ export class Socket {
       if (now - this.opened_ms > again_ms) this.open();
       return;
     }
-    if (document.hidden) return; // a page that is not seen is put to sleep now and then
-    const asks = this.up && this.sign_of_life.length > 0; // else nothing may be heard for a while
+    if (document.hidden) return; // a hidden page may sleep
+    const asks = this.up && this.sign_of_life.length > 0; // otherwise the server may be silent for a while
     if (this.quiet > lost_ms && (asks || this.quiet > 5 * lost_ms))
-      return this.lose("nothing is heard of the flight");
+      return this.lose("no answer from the flight");
     if (!asks || now - this.asked_ms < alive_ms) return;
     this.asked_ms = now;
     const id = "alive " + this.next_asked++;
     this.asked.set(id, now);
     this.send({ op: "getParameters", parameterNames: this.sign_of_life, id });
   }
-  /** How old what has come last can be at most. Answers come behind the samples that were sent before them, through every queue on the way. */
+  /** Largest possible age of the last data. An answer passes every queue after the samples that were sent before it. */
   age_ms(): number {
     return performance.now() - this.known_ms;
   }
-  /** The same without the way there and back at its shortest: what waits in a queue. */
+  /** The same minus the shortest round trip: the delay in queues. */
   late_ms(): number {
     return this.age_ms() - (Number.isFinite(this.least_ms) ? this.least_ms : 0);
   }
@@ -142,7 +142,7 @@ export class Socket {
     this.known_ms = Math.max(this.known_ms, sent);
   }
   /** One parameter, so that the answer is short. */
-  sign_of_life: string[] = []; // empty: not known yet, and nothing is asked, since an empty list asks for all of them
+  sign_of_life: string[] = []; // empty: not known yet; no request, since an empty list requests all parameters
 
   private send(message: unknown): void {
     if (this.ws?.readyState === WebSocket.OPEN) this.ws.send(JSON.stringify(message));
@@ -199,14 +199,14 @@ export class Socket {
     }
   }
 
-  /** Samples of the channel from now on; a channel's id is its subscription's. */
+  /** Subscribes to the channel or ends it; the subscription has the channel's id. */
   want(channel: number, on: boolean): void {
     if (on) this.wanted.add(channel);
     else this.wanted.delete(channel);
     this.resubscribe();
   }
 
-  /** Only samples of these channels until it is called with null: so that what is on its way comes to an end. */
+  /** Samples of these channels only, until a call with null, so that the queues become empty. */
   hold(kept: Set<number> | null): void {
     this.kept = kept;
     this.resubscribe();
@@ -233,7 +233,7 @@ export class Socket {
     this.send({ op: "setParameters", parameters: list });
   }
 
-  /** Calls a service with JSON; its answer. */
+  /** Calls a service with JSON. Returns its answer. */
   call(service: number, request: unknown): Promise<unknown> {
     const ws = this.ws;
     if (!this.up || ws?.readyState !== WebSocket.OPEN)

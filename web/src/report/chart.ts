@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curves over flight time, on a page or on paper. All charts of a report show the same time.
+// Curves over flight time, on screen or paper. All charts of a report show the same time span.
 import uPlot from "uplot";
 import { colours, el } from "../dom";
 import type { Series } from "../source";
@@ -11,12 +11,12 @@ export interface Curve {
   colour: string; // of the style sheet
   dash?: number[];
   width?: number;
-  may_leave?: boolean; // what is shown does not grow for it
+  may_leave?: boolean; // the axis does not grow for it
 }
 export interface ChartText {
   title: string;
   unit: string;
-  least: number; // so much is shown at least, in the unit
+  least: number; // smallest axis range, in the unit
   around_zero?: boolean;
   note?: string;
 }
@@ -31,7 +31,7 @@ const longest_gap_s = 3,
 const sync = uPlot.sync("report");
 const all: LineChart[] = [];
 
-/** Of an angle that begins anew: a line is parted there even where the gap is narrower than what the screen has. */
+/** For angles that wrap: the line is interrupted even where the gap is below one pixel. */
 const parted: uPlot.Series.PathBuilder = (u, series, from, to) => {
   const stroke = new Path2D(),
     x = u.data[0],
@@ -50,7 +50,7 @@ const parted: uPlot.Series.PathBuilder = (u, series, from, to) => {
   return { stroke };
 };
 
-/** Times that go forwards, gaps where there is no number or nothing for long, and where an angle begins anew. */
+/** Increasing times, with gaps for missing values, long pauses and wraps of an angle. */
 function drawable(s: Series, turn: number): [number[], (number | null)[]] {
   const t: number[] = [],
     v: (number | null)[] = [];
@@ -104,12 +104,11 @@ export class LineChart {
       .filter((table) => table[0].length > 0);
     this.curves = curves.filter((c) => c.series.t.length > 0);
     this.data = tables.length > 0 ? uPlot.join(tables) : [[]];
-    if (this.curves.length === 0)
-      this.box.append(el("p", { class: "faint" }, "Nothing was recorded of this."));
+    if (this.curves.length === 0) this.box.append(el("p", { class: "faint" }, "No recorded data."));
     all.push(this);
   }
 
-  /** Its range in words, for who cannot see it. */
+  /** Its ranges as text, for screen readers. */
   private spoken(): string {
     const parts = this.curves
       .filter((c) => c.series.t.length > 0)
@@ -188,7 +187,7 @@ export class LineChart {
       this.plot.setScale("x", { min: shown.min as number, max: shown.max as number });
   }
 
-  /** Where phases begin; a name where there is room for it. */
+  /** Bands of the phases, with names where they fit. */
   private bands(u: uPlot): void {
     const g = u.ctx,
       ratio = devicePixelRatio,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The charts of a report: what was asked for and what was flown, errors of the estimate, innovations.
+// The charts of a report: commanded and actual values, errors of the estimate, innovations.
 import { value_at } from "../flight/step";
 import { names_of } from "../names";
 import type { Recording } from "../recorded";
@@ -8,7 +8,7 @@ import { degrees, fixed } from "../units";
 import { type Curve, LineChart, type Phase } from "./chart";
 import { type PackedSeries, unpack_columns } from "./model";
 
-/** Colours and dashes that tell the logs apart; the first alone has two colours. */
+/** Colours of the logs; a single log uses two colours. */
 export const log_colours = ["log1", "log2", "log3", "log4", "log5", "log6"];
 const bound_dash = [4, 4],
   asked_dash = [8, 4];
@@ -16,7 +16,7 @@ const bound_dash = [4, 4],
 function scaled(s: Series, scale: number): Series {
   return scale === 1 ? s : { t: s.t, v: s.v.map((v) => v * scale) };
 }
-/** Of several logs the first are drawn below the others, and wider, so that all are seen where they agree. */
+/** The first of several logs are drawn below the others and wider, so that equal curves stay visible. */
 export function width_of(log: number, logs: number): number {
   return 1.4 + 1.1 * (logs - 1 - log);
 }
@@ -93,7 +93,7 @@ const channels: Channel[] = [
   },
 ];
 
-/** Where the estimate calls it valid. */
+/** The estimate where it is valid. */
 function flown(source: Recording, topic: string, c: Channel): Series {
   const all = source.whole(topic, c.field),
     valid = source.whole(topic, c.valid);
@@ -104,7 +104,7 @@ function flown(source: Recording, topic: string, c: Channel): Series {
   };
 }
 
-/** A chart per channel, `height` alone for the profile. */
+/** A chart per channel. */
 export function channel_charts(sources: Recording[], phases: Phase[]): LineChart[] {
   const one = sources.length === 1;
   return channels.map((c) => {
@@ -115,14 +115,14 @@ export function channel_charts(sources: Recording[], phases: Phase[]): LineChart
         colour = log_colours[i] as string;
       const got = flown(source, n.state, c),
         asked = source.whole(c.asked(n), c.asked_field);
-      // at the times of what was flown, so that both stand at one time in the legend
+      // at the times of the actual values, so that the legend shows both at one time
       const begin = asked.t[0] ?? Infinity;
       const set = { t: got.t, v: got.t.map((t) => (t < begin ? NaN : value_at(asked, t))) };
       if (c.turn > 0) set.v = set.v.map((v) => whole_turn(v * c.scale));
       else set.v = set.v.map((v) => v * c.scale);
       if (asked.t.length > 0)
         curves.push({
-          name: who + "asked",
+          name: who + "commanded",
           series: set,
           colour: one ? "line2" : colour,
           dash: asked_dash,
@@ -130,7 +130,7 @@ export function channel_charts(sources: Recording[], phases: Phase[]): LineChart
         });
       if (got.t.length > 0)
         curves.push({
-          name: who + "flown",
+          name: who + "actual",
           series: got,
           colour: one ? "line1" : colour,
           width: width_of(i, sources.length),
@@ -176,7 +176,7 @@ export interface Judged {
 }
 const shown = (unit: string) => unit.replace(/^deg/, "°").replace("m/s2", "m/s²");
 
-/** One quantity, of one or several estimates, with three deviations to both sides of zero. */
+/** One quantity, of one or several estimates, with bounds of three standard deviations. */
 export async function error_chart(
   title: string,
   judged: Judged[],
@@ -185,7 +185,7 @@ export async function error_chart(
 ): Promise<LineChart> {
   const one = judged.length === 1,
     curves: Curve[] = [];
-  let widest = 0; // of what is claimed most of the time: at first it may be a multiple
+  let widest = 0; // of the usual reported standard deviation: at first it may be a multiple
   for (const [i, { name, series }] of judged.entries()) {
     const { t, values } = await unpack_columns(series.data, series.rows, series.columns);
     const who = one ? "" : name + ", ",
@@ -197,7 +197,7 @@ export async function error_chart(
       width: one ? 1.3 : width_of(i, judged.length),
     });
     const claimed = values[1];
-    if (!claimed || series.claimed === undefined || i > 0) continue; // the bounds of six are a thicket: those of the first
+    if (!claimed || series.claimed === undefined || i > 0) continue; // bounds of the first estimate only
     const bound = one ? "line2" : colour;
     widest = Math.max(widest, 3 * usual(claimed));
     curves.push({
@@ -239,18 +239,18 @@ export async function error_chart(
     phases,
   );
 }
-/** What nine of ten do not exceed. */
+/** 90th percentile. */
 function usual(v: Float32Array): number {
   const sorted = [...v].filter(Number.isFinite).sort((a, b) => a - b);
   return sorted[Math.floor(0.9 * (sorted.length - 1))] ?? 0;
 }
-/** Points near enough to each other that no gap is drawn between them. */
+/** Points close enough that no gap is drawn. */
 function dense(from: number, to: number, v: number): Series {
   const n = Math.max(2, Math.ceil(to - from) + 1),
     t = Array.from({ length: n }, (_, i) => from + ((to - from) * i) / (n - 1));
   return { t, v: t.map(() => v) };
 }
 function note_of(s: PackedSeries, unit: string): string {
-  const claim = s.claimed === undefined ? "" : `, claimed ${fixed(s.claimed, 3, unit)}`;
+  const claim = s.claimed === undefined ? "" : `, reported σ ${fixed(s.claimed, 3, unit)}`;
   return `RMS ${fixed(s.rms, 3, unit)}${unit === "σ" ? "" : claim}`;
 }

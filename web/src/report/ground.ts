@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fence, places, runway of a flight that was recorded, and where its position was last known.
+// Geofence, landing places and runway of a recorded flight, and its last valid position.
 import { type Places, places_of } from "../flight/places";
 import type { Place } from "../flight/tiles";
 import type { Names } from "../names";
@@ -8,7 +8,7 @@ import { lost_position } from "../track";
 import type { Lost } from "../views/marks";
 
 const kept = new WeakMap<Recording, Places>();
-/** Of the mission; one that the first fix has made is in no record. */
+/** Origin of the mission; an origin set by the first fix is not recorded. */
 function recorded_origin(records: unknown[]): Place | null {
   const of = records.find(
     (r) =>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// With which controller a flight was flown: firmware, link, battery, radio, who flew, calibration.
+// Flight controller of a flight: firmware, time in control, radio, battery, link, calibration.
 import { el } from "../dom";
 import { fixed, none } from "../units";
 import type { Hardware, Log } from "./model";
@@ -15,27 +15,27 @@ const link = (key: string) => (h: Hardware) => String(h.link[key] ?? none);
 
 const rows: Row[] = [
   ["firmware", (h) => h.firmware ?? none],
-  ["the computer flew", flew("computer")],
-  ["the pilot flew", flew("pilot")],
-  ["failsafe", flew("failsafe")],
-  ["armed, and neither flew", flew("neither")],
+  ["computer in control", flew("computer")],
+  ["pilot in control", flew("pilot")],
+  ["failsafe active", flew("failsafe")],
+  ["armed, neither in control", flew("neither")],
   ["disarmed", flew("disarmed")],
-  ["longest silence of the radio, armed", (h) => number(h.radio_age_max_s, 2, "s")],
+  ["longest gap of the radio, armed", (h) => number(h.radio_age_max_s, 2, "s")],
   ["battery, first", battery("first_volt", "V")],
-  ["battery, least", battery("least_volt", "V")],
+  ["battery, lowest", battery("least_volt", "V")],
   ["battery, last", battery("last_volt", "V")],
   ["largest current", battery("most_amp", "A")],
   ["frames", link("frames")],
   ["frames lost", link("missing")],
   ["frames damaged", link("bad")],
-  ["gaps of inertial samples", link("imu_gaps")],
+  ["gaps in inertial samples", link("imu_gaps")],
   ["longest gap", (h) => number(h.link.worst_gap_s, 3, "s")],
   ["commands", link("commands")],
   ["reboots", link("reboots")],
   ["parameters changed in flight", (h) => String(h.parameters_changed)],
 ];
 
-/** Nothing where no log is of hardware. */
+/** "" without a log of hardware. */
 export function hardware_section(logs: Log[]): HTMLElement | string {
   if (!logs.some((log) => log.hardware)) return "";
   const one = logs.length === 1,

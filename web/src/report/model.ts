@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `fulmar report` puts into the page: tools/fulmar_report/report.cpp, judged.cpp and topics.cpp.
+// Data that `fulmar report` adds to the page: tools/fulmar_report/report.cpp, judged.cpp and topics.cpp.
 
 /** Numbers over time, or messages, as tools/fulmar_report/columns.hpp packs them. */
 export interface PackedTopic {
@@ -8,7 +8,7 @@ export interface PackedTopic {
   schema: string;
   count: number;
   rows: number;
-  fields: string[]; // whose values are the columns; none: the messages themselves
+  fields: string[]; // fields of the columns; empty: complete messages
   data: string;
   t?: string;
 }
@@ -41,7 +41,7 @@ export interface Told {
   severity: string;
   words: string;
 }
-/** With which controller it was flown: tools/fulmar_report/hardware.cpp. */
+/** Flight controller: tools/fulmar_report/hardware.cpp. */
 export interface Hardware {
   firmware: string | null;
   calibration: Record<string, string> | null;
@@ -61,7 +61,7 @@ export interface Log {
   fault: string;
   metadata: Record<string, Record<string, string>>;
   figures: Record<string, unknown>; // those of `fulmar run --json`
-  verdict: { words: string; severity: string }; // no words: the log ends before the flight does
+  verdict: { words: string; severity: string }; // no words: the log ends before the flight
   phases: { name: string; from_s: number; to_s: number; because: string }[];
   told: { rows: Told[]; all: number };
   estimates: Estimate[];
@@ -69,12 +69,12 @@ export interface Log {
   hardware: Hardware | null; // null in simulation
   ticks: { n: number; mean_ms: number; p99_ms: number; max_ms: number } | null;
   steps: Record<string, { mean: number; p50: number; p99: number; max: number }> | null;
-  ground?: unknown[]; // records of fence, places, runway, origin
+  ground?: unknown[]; // records of geofence, landing places, runway, origin
   topics: PackedTopic[];
 }
 export interface ReportData {
   logs: Log[];
-  parameters: { name: string; values: unknown[] }[]; // that differ, a value of each log; null: it has none
+  parameters: { name: string; values: unknown[] }[]; // that differ, a value per log; null: none
 }
 
 async function bytes_of(base64: string): Promise<DataView> {
@@ -85,7 +85,7 @@ async function bytes_of(base64: string): Promise<DataView> {
   return new DataView(await new Response(inflated).arrayBuffer());
 }
 
-/** One behind the other, each behind its length. */
+/** Messages in sequence, each after its length. */
 export async function unpack_messages(data: string): Promise<{ view: DataView; places: number[] }> {
   const view = await bytes_of(data),
     places: number[] = [];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log to look at: the views of the page with what was recorded, at the moment that the slider is at.
+// The views of the page with recorded data, at the time of the slider.
 import { el, fill, say } from "../dom";
 import { piece_ahead } from "../flight/piece";
 import { names_of, plan_of, state_of } from "../names";
@@ -85,14 +85,14 @@ export class Moment {
     );
   }
 
-  /** What costs time is made when it is first looked at. */
+  /** Expensive parts, created at the first use. */
   private begin(): void {
     this.begun = true;
     this.events.begin();
     try {
       this.chase = new Chase(this.chase_canvas);
     } catch {
-      fill(this.chase_box, el("p", { class: "absent" }, "This browser shows no 3-D view: it has no WebGL."));
+      fill(this.chase_box, el("p", { class: "absent" }, "No 3-D view: this browser does not support WebGL."));
     }
   }
 

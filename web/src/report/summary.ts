@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report to read and to print: figures, map, curves, errors, what happened, what flew.
+// The report for reading and printing: figures, map, curves, errors, events, plugins.
 import { el } from "../dom";
 import { names_of, plan_of, state_of } from "../names";
 import type { Recording } from "../recorded";
@@ -25,7 +25,7 @@ import {
   verdict_line,
 } from "./tables";
 
-/** "Roll" of several estimates: those of one quantity beside each other. */
+/** Series of several estimates, by quantity. */
 function by_words(all: { name: string; rows: Log["innovations"] }[]): Map<string, Judged[]> {
   const out = new Map<string, Judged[]>();
   for (const { name, rows } of all)
@@ -57,7 +57,7 @@ export class Summary {
       this.time_bar(),
       section("Map and height", this.map.element, this.key_of_map(), height ? height.element : null),
       section(
-        "Asked and flown",
+        "Commanded and actual",
         el(
           "div",
           { class: "charts" },
@@ -96,9 +96,7 @@ export class Summary {
     if (all.length === 0)
       return section(
         "Errors of the estimate",
-        sentence(
-          "The log holds no truth and no fixes of a receiver that an estimate could be judged by, or no estimate.",
-        ),
+        sentence("The log has no estimate, or no truth and no fixes of a receiver to compare it with."),
       );
     const charts: HTMLElement[] = [];
     for (const [words, judged] of by_words(
@@ -116,12 +114,12 @@ export class Summary {
         e.truth
           ? null
           : sentence(
-              "There is no truth in this log. These are differences to the fixes of a receiver, which the filter may have used: the errors of both are in them.",
+              "The log has no truth. These are differences to the fixes of a receiver, which the filter may have used: they contain the errors of both.",
             ),
         estimate_table(e),
         e.nees
           ? sentence(
-              `NEES of 9 states: mean ${fixed(e.nees.mean, 2, "")} (9 of an honest filter), ${fixed(100 * e.nees.inside, 1, "%")} of the time inside 2.70 to 19.02 (95 %).`,
+              `NEES of 9 states: mean ${fixed(e.nees.mean, 2, "")} (9 expected for a consistent filter), ${fixed(100 * e.nees.inside, 1, "%")} of the time inside the 95 % interval 2.70 to 19.02.`,
             )
           : null,
       ),
@@ -130,7 +128,7 @@ export class Summary {
       "Errors of the estimate",
       ...tables,
       sentence(
-        "Estimate minus reference. Each point is the largest error of its part of the time; ±3 σ is what the estimate claims then.",
+        "Estimate minus reference. Each point is the largest error of its time interval; σ is the standard deviation that the estimate reports at that time.",
       ),
       el("div", { class: "charts" }, ...charts),
     );
@@ -141,17 +139,14 @@ export class Summary {
       one = logs.length === 1,
       some = logs.filter((log) => log.innovations.length > 0);
     if (some.length === 0)
-      return section(
-        "Innovations",
-        sentence("No filter told its innovations (FilterCheck, NavigationHealth) in what was recorded."),
-      );
+      return section("Innovations", sentence("The log has no innovations (FilterCheck, NavigationHealth)."));
     const charts: HTMLElement[] = [];
     for (const [words, judged] of by_words(some.map((log) => ({ name: log.name, rows: log.innovations }))))
       charts.push((await error_chart(words, judged, one ? (logs[0] as Log).phases : [], true)).element);
     return section(
       "Innovations",
       sentence(
-        "Measured minus expected, in expected deviations (σ). Of an honest filter 68.3 % are within 1 σ and 95.4 % within 2 σ.",
+        "Measured minus expected value, in expected standard deviations (σ). For a consistent filter 68.3 % are within 1 σ and 95.4 % within 2 σ.",
       ),
       ...some.map((log) =>
         one ? innovation_table(log) : el("div", {}, el("h3", {}, log.name), innovation_table(log)),
@@ -160,7 +155,7 @@ export class Summary {
     );
   }
 
-  /** One time for all charts. */
+  /** Time span of all charts. */
   private time_bar(): HTMLElement {
     const { logs } = this.data;
     const begin = Math.min(...logs.map((log) => log.begin_s)),
@@ -201,7 +196,7 @@ export class Summary {
       to,
       el("span", {}, "s"),
       whole,
-      el("span", { class: "faint" }, "or drag over a chart; a double click shows all of it"),
+      el("span", { class: "faint" }, "or drag in a chart; a double click shows the full time"),
     );
   }
 
@@ -229,7 +224,7 @@ export class Summary {
     const first = this.sources[0] as Recording,
       names = names_of(first),
       now = first.now;
-    first.now = first.log.end_s; // the plan as it was in the end
+    first.now = first.log.end_s; // the final plan
     const plan = plan_of(first.latest(names.plan)),
       state = state_of(first.latest(names.state));
     first.now = now;

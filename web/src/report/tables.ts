@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of a report. All that a log says becomes text.
+// The tables of a report. Data of a log becomes text.
 import { el } from "../dom";
 import { clock, fixed, none } from "../units";
 import type { Estimate, Log, PackedSeries, ReportData } from "./model";
@@ -7,7 +7,7 @@ import { verdict_of } from "./verdict";
 
 type Cell = string | HTMLElement;
 
-/** `words`: so many columns hold words, the rest numbers. */
+/** `words`: number of text columns; the rest are numbers. */
 export function table(heads: Cell[], rows: Cell[][], words = 1, kind = ""): HTMLElement {
   const cell = (tag: "td" | "th", c: Cell, i: number, scope?: string) =>
     el(tag, { class: i >= words ? "number" : "", scope }, c);
@@ -80,11 +80,11 @@ const is_group = (v: unknown): v is Group => typeof v === "object" && v !== null
 /** The columns of the flight tests of ROSplane 2.0. */
 const paper = ["north_m", "east_m", "altitude_m", "course_deg", "roll_deg", "pitch_deg", "airspeed_mps"];
 
-/** First those that have the columns of the paper, a row each; then the rest, a table each. */
+/** First the figures with the columns of the paper, one row each; then the others, one table each. */
 export function figure_tables(logs: Log[]): HTMLElement[] {
   const keys = [...new Set(logs.flatMap((log) => Object.keys(log.figures)))];
   if (keys.length === 0)
-    return [sentence("The mission names no figures of merit (summary:), or nothing of them was recorded.")];
+    return [sentence("The mission has no figures of merit (summary:), or their data was not recorded.")];
   const of = (log: Log, key: string) => log.figures[key];
   const tracks = (key: string) =>
     logs.some((log) => {
@@ -148,7 +148,7 @@ export function figure_tables(logs: Log[]): HTMLElement[] {
   return [el("div", { class: "tables" }, ...out)];
 }
 
-/** What became of the flight: the first line of a report. */
+/** Verdict of the flight: the first line of a report. */
 export function verdict_line(log: Log): HTMLElement {
   const { words, bad } = verdict_of(log);
   return el("p", { class: bad ? "verdict bad" : "verdict" }, words);
@@ -158,20 +158,23 @@ export function flight_table(logs: Log[]): HTMLElement {
   const said = (log: Log, key: string) => log.metadata.fulmar?.[key] ?? none;
   const rows: [string, (log: Log) => string][] = [
     ["mission", (log) => log.mission || none],
-    ["flies", (log) => ({ sim: "simulation", fcu: "flight controller" })[said(log, "io")] ?? said(log, "io")],
+    [
+      "vehicle",
+      (log) => ({ sim: "simulation", fcu: "flight controller" })[said(log, "io")] ?? said(log, "io"),
+    ],
     ["flight time, min:s", (log) => `${clock(log.begin_s)} to ${clock(log.end_s)}`],
     ["log", (log) => `${(log.bytes / 1e6).toFixed(1)} MB, ${log.messages} messages`],
     ["seed", (log) => said(log, "seed")],
     ["Fulmar", (log) => said(log, "version")],
     ["compiler", (log) => said(log, "toolchain")],
     [
-      "changed by the command line",
+      "command-line overrides",
       (log) =>
         Object.entries(log.metadata.overrides ?? {})
           .map(([k, v]) => `${k} ${v}`)
-          .join("; ") || "nothing",
+          .join("; ") || "none",
     ],
-    ["log is whole", (log) => (log.fault ? "no: " + log.fault : "yes")],
+    ["log complete", (log) => (log.fault ? "no: " + log.fault : "yes")],
   ];
   return table(
     ["", ...logs.map((log) => log.name)],
@@ -185,7 +188,7 @@ export function estimate_table(estimate: Estimate): HTMLElement {
   const unit = (s: PackedSeries) => s.unit.replace(/^deg/, "°").replace("m/s2", "m/s²");
   const percent = (x: number | undefined) => (x === undefined ? none : fixed(100 * x, 1, "%"));
   return table(
-    ["", "mean", "RMS", "largest", "claimed", "within 1 σ", "within 2 σ"],
+    ["", "mean", "RMS", "largest", "reported σ", "within 1 σ", "within 2 σ"],
     estimate.rows.map((s) => [
       s.words,
       ...[s.mean, s.rms, s.largest, s.claimed ?? NaN].map((v) => fixed(v, 3, unit(s))),
@@ -211,7 +214,7 @@ export function innovation_table(log: Log): HTMLElement {
 export function phase_table(log: Log): HTMLElement {
   if (log.phases.length === 0) return sentence("No phase was entered.");
   return table(
-    ["phase", "because", "from", "to", "lasts"],
+    ["phase", "transition", "from", "to", "duration"],
     log.phases.map((p) => [
       p.name,
       p.because || none,
@@ -225,12 +228,9 @@ export function phase_table(log: Log): HTMLElement {
 const signs: Record<string, string> = { warning: "⚠ ", error: "✕ ", critical: "✕✕ " };
 export function told_table(log: Log): HTMLElement {
   const { rows, all } = log.told;
-  if (rows.length === 0)
-    return sentence(
-      "No guard fired, nobody was swapped, no parameter was changed, and the host warned of nothing.",
-    );
+  if (rows.length === 0) return sentence("No guard action, swap, parameter change or warning.");
   const box = table(
-    ["time", "what", "who", "words"],
+    ["time", "event", "component", "message"],
     rows.map((e) => [fixed(e.t, 2, "s"), (signs[e.severity] ?? "") + e.kind, e.component || none, e.words]),
     99,
   );
@@ -245,11 +245,11 @@ export function time_tables(logs: Log[]): HTMLElement[] {
   if (ticks.length > 0)
     out.push(
       table(
-        ["from tick to tick", "ticks", "mean", "99 %", "largest"],
+        ["tick interval", "ticks", "mean", "99 %", "largest"],
         ticks.map((log) => {
           const t = log.ticks as NonNullable<Log["ticks"]>;
           return [
-            logs.length === 1 ? "as it was told" : log.name,
+            logs.length === 1 ? "recorded" : log.name,
             String(t.n),
             ms(t.mean_ms),
             ms(t.p99_ms),
@@ -262,14 +262,14 @@ export function time_tables(logs: Log[]): HTMLElement[] {
   if (steps)
     out.push(
       table(
-        ["one step of", "mean", "median", "99 %", "largest"],
+        ["step time", "mean", "median", "99 %", "largest"],
         Object.entries(steps).map(([name, s]) => [name, us(s.mean), us(s.p50), us(s.p99), us(s.max)]),
       ),
     );
   else
     out.push(
       sentence(
-        "How long the components took is in no log, as two equal flights have equal logs: fulmar run --report has it.",
+        "Logs contain no step times, so that equal flights have equal logs. fulmar run --report adds them.",
       ),
     );
   return out;
@@ -286,17 +286,17 @@ const plain = (v: unknown) =>
 export function parameter_table(data: ReportData): HTMLElement {
   if (data.logs.length === 1)
     return sentence(
-      "One log: nothing to compare with. What the command line changed stands above, what was changed in flight among the guards and changes.",
+      "Only one log. The section Flights lists command-line overrides, the section Guards and changes lists changes in flight.",
     );
-  if (data.parameters.length === 0) return sentence("All parameters were the same when the flights began.");
+  if (data.parameters.length === 0) return sentence("All parameters are equal at the start of the flights.");
   return table(
-    ["parameter, when the flight began", ...data.logs.map((log) => log.name)],
+    ["parameter at the start of the flight", ...data.logs.map((log) => log.name)],
     data.parameters.map((p) => [p.name, ...p.values.map(plain)]),
     99,
   );
 }
 
-/** Per component its file, version and hash; what differs between the logs bears a sign. */
+/** File, version and hash per component; differences between the logs have a sign. */
 export function plugin_table(logs: Log[]): HTMLElement {
   const components = [
     ...new Set(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What became of the flight, in a line. A whole file without a verdict is no killed host: flights ended without one once.
+// Verdict of the flight, in one line. A complete file may lack a verdict: old hosts wrote none.
 import { clock } from "../units";
 import type { Log } from "./model";
 
@@ -17,5 +17,5 @@ export function verdict_of(log: Pick<Log, "verdict" | "fault" | "end_s">): Verdi
     };
   const at = `The log ends at ${clock(log.end_s)} without a verdict: `;
   if (log.fault) return { words: `${at}${log.fault}.`, bad: true };
-  return { words: `${at}it is whole; its host wrote none, or it was recovered.`, bad: false };
+  return { words: `${at}the file is complete; the host wrote none, or the log was recovered.`, bad: false };
 }

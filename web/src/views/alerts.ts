@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The strip under the header: what is wrong, what the aircraft does, what the pilot should do, until it is acknowledged.
+// The strip below the header: fault, response of the aircraft, and action for the pilot, until the pilot acknowledges it.
 import { el, fill, mark, say } from "../dom";
 import {
   type Alert,
@@ -26,12 +26,12 @@ export class AlertStrip {
   private readonly book = new AlertBook();
   private stop: () => void = () => {};
   private shown = "";
-  /** What the vehicle says that it lacks before a take-off: by flight time, as it is said again and again. */
+  /** Missing conditions of the vehicle before take-off, with the flight time of the report, which is repeated. */
   readonly lacks = { what: [] as string[], t: -Infinity };
 
   constructor(private readonly flight: Flight) {}
 
-  /** Again, when the topics are known. What happened before the page was opened is in the list of events. */
+  /** Called when the topics are known. Earlier events are in the event list only. */
   begin(): void {
     this.stop();
     this.stop = this.flight.listen("/fulmar/event", (m, t) => {
@@ -43,7 +43,7 @@ export class AlertStrip {
       if (alert && this.flight.now - t < fresh_s) this.book.raise(alert, t);
     });
   }
-  /** Whose notices are flags as well. */
+  /** Components whose notices are flags as well. */
   private monitors(): string[] {
     return publishers(this.flight, names_of(this.flight).safety).map((c) => c.name);
   }
@@ -94,7 +94,7 @@ export class AlertStrip {
       this.lasting,
       lasting.length === 0
         ? ""
-        : "Acknowledged, and still so: " + lasting.map((h) => h.alert.what).join(" · "),
+        : "Acknowledged, still active: " + lasting.map((h) => h.alert.what).join(" · "),
     );
   }
 
@@ -112,7 +112,7 @@ export class AlertStrip {
           ? "at " + clock(h.since_s)
           : h.now
             ? "since " + clock(h.since_s)
-            : "is over, since " + clock(h.since_s),
+            : "past, began at " + clock(h.since_s),
       ),
       el("span", { class: "does" }, el("i", {}, "Aircraft "), alert.does),
       el("span", { class: "pilot" }, alert.pilot && el("i", {}, "Pilot "), alert.pilot),
@@ -130,7 +130,7 @@ export class AlertStrip {
       el(
         "span",
         { class: "what" },
-        `and ${rest.length} more: ` + rest.map((h) => h.alert.what + (h.now ? "" : " (over)")).join(" · "),
+        `and ${rest.length} more: ` + rest.map((h) => h.alert.what + (h.now ? "" : " (past)")).join(" · "),
       ),
       this.button(
         "Acknowledge these",

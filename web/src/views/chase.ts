@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The aircraft from behind, in three dimensions: attitude, surfaces, trail, the plan at its heights. Loaded after
-// the rest of the page. Scene axes: x east, y up, z south, so that a body axis of NED is (e, -d, -n).
+// 3-D view from behind: attitude, surfaces, track, the plan at its heights. Loaded after the rest of the page. Scene axes: x east, y up, z south, so that a body axis of NED is (e, -d, -n).
 import {
   AmbientLight,
   BoxGeometry,
@@ -28,8 +27,7 @@ import { colours } from "../dom";
 import { type Plan, Route } from "../flight/route";
 import type { State } from "../names";
 
-// A picture takes at most so much of the time, measured now and then: a computer without a graphics card has other
-// things to do.
+// Largest share of the time for drawing, measured at intervals: without a graphics card the processor draws.
 const share = 0.12,
   measure_every = 20,
   shortest_ms = 33,
@@ -158,7 +156,7 @@ export class Chase {
   private add_trail(s: State): void {
     const last = 3 * (this.trail_count - 1),
       [x = s.e, , z = -s.n] = this.trail_points.subarray(Math.max(0, last), Math.max(0, last) + 3);
-    if (this.trail_count > 0 && Math.hypot(x - s.e, z + s.n) > jump_m) this.trail_count = 0; // another moment, or another place
+    if (this.trail_count > 0 && Math.hypot(x - s.e, z + s.n) > jump_m) this.trail_count = 0; // another time or place
     if (this.trail_count === most_trail) {
       this.trail_points.copyWithin(0, 3 * 500);
       this.trail_count -= 500;
@@ -217,7 +215,7 @@ export class Chase {
       .makeBasis(axis(x), axis(y), axis(z))
       .setPosition(s.e, Math.max(s.up, 0.2), -s.n);
     if (surfaces) {
-      // about y (right) a positive turn lifts the nose: a trailing edge goes down by it
+      // a positive rotation about y (right) raises the nose and lowers a trailing edge
       this.model.right.rotation.y = -surfaces.aileron * -1;
       this.model.left.rotation.y = -surfaces.aileron;
       this.model.elevator.rotation.y = -surfaces.elevator * -1;
@@ -225,7 +223,7 @@ export class Chase {
       this.model.propeller.rotation.x += 0.3 + surfaces.throttle;
     }
     this.add_trail(s);
-    // the ground goes along, by whole squares
+    // the ground moves with the aircraft in steps of one square
     this.ground.position.set(Math.round(s.e / 50) * 50, 0, -Math.round(s.n / 50) * 50);
     const to = s.valid.velocity && s.ground > 2 ? s.course : s.yaw;
     if (Number.isNaN(this.heading)) this.heading = to;
@@ -238,9 +236,9 @@ export class Chase {
     );
     this.camera.lookAt(s.e, s.up + 0.6, -s.n);
     this.renderer.render(this.scene, this.camera);
-    if (this.pictures++ % measure_every !== 1) return; // the first one is not like the others
+    if (this.pictures++ % measure_every !== 1) return; // the first frame takes longer
     const g = this.renderer.getContext();
-    g.readPixels(0, 0, 1, 1, g.RGBA, g.UNSIGNED_BYTE, new Uint8Array(4)); // waits until the picture is there
+    g.readPixels(0, 0, 1, 1, g.RGBA, g.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the end of drawing
     this.period_ms = Math.min(longest_ms, Math.max(shortest_ms, (performance.now() - begun) / share));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Three large buttons: return, land, hold. A safety monitor is asked for its answer; without one a phase of the mission is entered.
+// Three large buttons: return, land, hold. They set the answer of the safety monitor; without a monitor they enter a phase of the mission.
 import { el, mark, say } from "../dom";
 import { names_of } from "../names";
 import { crashed, on_ground } from "../flight/alerts";
@@ -11,27 +11,27 @@ interface Command {
   words: string;
   title: string;
   answer: string; // of SafetyAnswer
-  phases: string[]; // the first that the mission has
+  phases: string[]; // the first one in the mission is used
 }
 const commands: Command[] = [
   {
     key: "return",
     words: "⌂ Return",
-    title: "Flies home and circles there",
+    title: "Return home and circle there",
     answer: "home",
     phases: ["return", "home"],
   },
   {
     key: "land",
     words: "⤓ Land",
-    title: "Returns and lands",
+    title: "Return and land",
     answer: "land",
     phases: ["land", "landing", "approach", "settle"],
   },
   {
     key: "hold",
     words: "⟳ Hold",
-    title: "Circles here and keeps its height",
+    title: "Circle here at constant height",
     answer: "wait",
     phases: ["loiter", "wait"],
   },
@@ -64,7 +64,7 @@ export class Commands {
     private readonly alerts: AlertStrip,
   ) {}
 
-  /** The monitor that a pilot may ask for an answer; "" when there is none. */
+  /** The safety monitor with a live parameter `asked`; "" without one. */
   private monitor(): string {
     const has = (c: Component) =>
       c.params.some((p) => p.name === "asked" && p.live && p.choices.includes("home"));
@@ -82,7 +82,7 @@ export class Commands {
       monitor = this.monitor(),
       phase = this.phase(c);
     const on = monitor !== "" ? this.asked(monitor) === c.answer : phase !== "" && f.view?.phase === phase;
-    // what has failed is answered before a pilot is
+    // the answer to a failure has priority over the pilot's command
     const answer = String(f.latest(names_of(f).safety)?.answer ?? "none"),
       overruled = !on && monitor !== "" && answer !== "none" && answer !== this.asked(monitor);
     const moment = this.alerts.moment();
@@ -97,14 +97,14 @@ export class Commands {
             : on_ground(moment)
               ? "on the ground"
               : moment.status?.override === true
-                ? "the pilot flies"
+                ? "pilot in control"
                 : overruled
-                  ? "safety comes first"
+                  ? "safety has priority"
                   : "";
     return { on, why_not };
   }
 
-  /** To land is final, and takes two. */
+  /** Landing is final and takes two clicks. */
   private async press(c: Command): Promise<void> {
     const { on } = this.state(c),
       monitor = this.monitor(),
@@ -120,10 +120,10 @@ export class Commands {
         ? await this.flight.set_parameter(monitor, "asked", on ? "none" : c.answer)
         : await this.flight.ask("/fulmar/phase", { phase: this.phase(c) });
     this.said.hidden = answer.accepted;
-    say(this.said, "Refused: " + answer.reason);
+    say(this.said, "Rejected: " + answer.reason);
     if (answer.accepted) setTimeout(() => this.look(c, monitor !== "", before), looked_at_ms);
   }
-  /** A phase may not follow the answer, and a mission may leave a phase at once. */
+  /** The transitions of a phase may ignore the answer, and a mission may leave a phase at once. */
   private look(c: Command, asked: boolean, before: string): void {
     const phase = this.flight.view?.phase ?? "",
       follows = asked ? phase !== before : phase === this.phase(c);
@@ -131,8 +131,8 @@ export class Commands {
     say(
       this.said,
       asked
-        ? `Phase ${phase} goes on: its transitions do not follow this command. Choose another phase.`
-        : `The mission left phase ${this.phase(c)} for ${phase} at once: its own transitions lead there.`,
+        ? `Phase ${phase} continues: its transitions do not use this command. Select another phase.`
+        : `A transition of the mission changed phase ${this.phase(c)} to ${phase} at once.`,
     );
   }
 
@@ -146,7 +146,7 @@ export class Commands {
       say(button.firstElementChild as Element, sure ? "press again" : c.words);
       say(
         button.lastElementChild as Element,
-        why_not || (on ? (this.monitor() === "" ? "flies now" : "on: press to fly on") : ""),
+        why_not || (on ? (this.monitor() === "" ? "active" : "on: press to cancel") : ""),
       );
       button.setAttribute("aria-pressed", String(on));
       button.dataset.on = String(on);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What happened, the newest above: events of the host, and what components have to tell.
+// Events of the host and notices of components, newest first.
 import { el, fill } from "../dom";
 import type { Source } from "../source";
 import { clock } from "../units";
@@ -20,16 +20,16 @@ export class EventList {
 
   constructor(private readonly source: Source) {}
 
-  /** Anew, when the topics are known: the host tells its last hundred again. */
+  /** Called when the topics are known: the host sends its last hundred events again. */
   begin(): void {
     this.stop();
     this.empty = true;
-    fill(this.list, el("li", { class: "faint" }, "None yet."));
+    fill(this.list, el("li", { class: "faint" }, "No events yet."));
     this.stop = this.source.listen("/fulmar/event", (m, t) => {
       const severity = String(m.severity);
       if (this.empty) fill(this.list);
       this.empty = false;
-      // a slider or a stick sets a parameter many times: its last value is enough
+      // a slider or a stick sets a parameter many times: only the last value is listed
       const of = m.code === "parameter_set" ? `${m.component}.${m.name}` : "";
       if (of !== "")
         [...this.list.children]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flight at a glance: from behind, on the map, instruments, who flies, how the sensors are, what happened.
+// Overview of the flight: view from behind, map, instruments, roles, sensors, events.
 import { el, fill, mark, say } from "../dom";
 import { piece_ahead } from "../flight/piece";
 import { type Names, names_of, plan_of, state_of } from "../names";
@@ -22,11 +22,11 @@ import { crashed, on_ground } from "../flight/alerts";
 import { places_now } from "./places";
 import { PreArm, SafetyRow } from "./safety";
 
-/** A number stays with its unit, wherever the line is broken. */
-const said_s = 12; // it is said every 10 s as long as it holds
+const said_s = 12; // the vehicle repeats its report every 10 s
+/** No line break between a number and its unit. */
 const whole = (words: string) => words.replace(/ /g, "\u00a0");
 
-/** A battery without voltage is none that is measured, and then neither is its current. */
+/** Without a voltage the battery is not measured, and neither is its current. */
 const measured = (status: Message | undefined) => (number_at(status, "battery_volt") ?? 0) > 0;
 
 export class Fly implements Page {
@@ -97,7 +97,7 @@ export class Fly implements Page {
     );
   }
 
-  /** three is most of the page: what is seen first does not wait for it. */
+  /** The library three is most of the page: the first display does not wait for it. */
   private async load_chase(): Promise<void> {
     if (this.loading) return;
     this.loading = true;
@@ -105,7 +105,7 @@ export class Fly implements Page {
       const { Chase } = await import("./chase");
       this.chase = new Chase(this.chase_canvas);
     } catch {
-      fill(this.chase_box, el("p", { class: "absent" }, "This browser shows no 3-D view: it has no WebGL."));
+      fill(this.chase_box, el("p", { class: "absent" }, "No 3-D view: this browser does not support WebGL."));
     }
   }
 
@@ -171,7 +171,7 @@ export class Fly implements Page {
     const moment = this.alerts.moment(),
       lacks = this.alerts.lacks;
     const lift_offs = number_at(moment.ground, "lift_offs");
-    const flown = lift_offs === undefined ? f.now > 20 : lift_offs > 0; // after a flight it is no news
+    const flown = lift_offs === undefined ? f.now > 20 : lift_offs > 0; // not after a flight
     this.prearm.update(
       names,
       f.view !== null && (on_ground(moment) || !f.view.armed) && !(flown && f.view.armed),
@@ -179,7 +179,7 @@ export class Fly implements Page {
     );
   }
 
-  /** Over the last second: of a propeller in gusts it jumps. A current that was never above 0 is not measured. */
+  /** Mean over the last second, since gusts change the current of a propeller fast. A current that was never above 0 is not measured. */
   private current(): string {
     const { t, v } = this.flight.series(this.names.status, "battery_amp"),
       since = this.flight.now - 1;
@@ -216,7 +216,7 @@ export class Fly implements Page {
       ["elevator", angle("elevator_rad")],
       ["rudder", angle("rudder_rad")],
       ["waypoint", items ? `${number_at(progress, "item")} of ${items}` : "–"],
-      ["distance to it", items ? digits(number_at(progress, "distance_m") ?? NaN) + " m" : "–"],
+      ["to waypoint", items ? digits(number_at(progress, "distance_m") ?? NaN) + " m" : "–"],
       ["circuits", items ? String(number_at(progress, "circuits") ?? "–") : "–"],
       ["from origin", s?.valid.position ? digits(Math.hypot(s.n, s.e)) + " m" : "–"],
       ["current", measured(status) ? this.current() : "–"],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tiles beneath the map: fetched as they are looked at, from where the mission says and nowhere else. One that does not come is none.
+// Tiles below the map. Only visible tiles are fetched, from the server that the mission names. A missing tile is left out.
 import { LocalPlane, type Place, type Tile, deepest, parts_at } from "../flight/tiles";
 import type { View } from "../protocol/flight";
 
@@ -15,7 +15,7 @@ const at_once = 6,
 
 export class Ground {
   private readonly plane: LocalPlane;
-  private readonly images = new Map<string, HTMLImageElement | "coming" | "failed">(); // the ones used last are at the end
+  private readonly images = new Map<string, HTMLImageElement | "coming" | "failed">(); // the most recently used ones are at the end
   private coming = 0;
 
   constructor(
@@ -26,10 +26,10 @@ export class Ground {
     this.plane = new LocalPlane(origin);
   }
 
-  /** Draws what there is and asks for what is missing. */
+  /** Draws the tiles that are loaded and requests the missing ones. */
   draw(g: CanvasRenderingContext2D, low: Point, high: Point, px_per_m: number, to_screen: Screen): void {
     const z = this.plane.zoom_for(px_per_m * Math.min(2, window.devicePixelRatio || 1));
-    const above = new Map<string, Tile>(); // in place of those that are not there
+    const above = new Map<string, Tile>(); // in place of missing ones
     const there: Tile[] = [];
     for (const tile of this.plane.tiles_of(low, high, z)) {
       if (this.image(tile)) there.push(tile);
@@ -43,7 +43,7 @@ export class Ground {
     }
   }
 
-  /** Of a tile that nobody has: what holds it at a smaller scale. Of one that is on its way: only if that is there already. */
+  /** For a failed tile: the tile of a smaller scale that contains it. For a tile that is loading: the same, if it is already loaded. */
   private stand_in(tile: Tile, above: Map<string, Tile>): void {
     let failed = this.images.get(key_of(tile)) === "failed";
     for (let up = 1; up <= levels_up && tile.z - up >= 0; ++up) {
@@ -78,7 +78,7 @@ export class Ground {
     };
     image.onload = () => done(image);
     image.onerror = () => done("failed");
-    image.referrerPolicy = "origin"; // who gives tiles away wants to know to whom; a token in the address is not told
+    image.referrerPolicy = "origin"; // tile servers require the origin of the page; the path with its token is not sent
     image.src = this.url
       .replace("{z}", String(tile.z))
       .replace("{x}", String(tile.x))
@@ -110,7 +110,7 @@ const key_of = (t: Tile) => `${t.z}/${t.x}/${t.y}`;
 
 let ground: Ground | null = null,
   made_of = "";
-/** What the mission says lies beneath its map; null where it says nothing, or not where its origin is. The same for all maps of the page. */
+/** The tiles of the mission; null without tiles or without an origin. All maps of the page share them. */
 export function ground_of(view: View | null): Ground | null {
   const of =
     view && view.tiles && view.origin ? JSON.stringify([view.tiles, view.attribution, view.origin]) : "";

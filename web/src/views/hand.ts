@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pilot's sticks of a simulated aircraft, by keys or a gamepad: they are parameters of the vehicle, and so
-// everything that the hand does is in the log.
+// The pilot's sticks of a simulated aircraft, by keys or a gamepad. They are parameters of the vehicle, so that the log contains them.
 import { el, fill, say } from "../dom";
 import type { Flight } from "../protocol/flight";
 import { fixed } from "../units";
@@ -17,7 +16,7 @@ export class HandPanel {
     class: "sticks",
     tabIndex: 0,
     role: "application",
-    "aria-label": "Sticks: click, then fly by keys",
+    "aria-label": "Sticks: click, then use the keys",
   });
   readonly flies = el("button", { class: "take", onclick: () => void this.toggle() }, "Take the sticks");
   private readonly said = el("p", { class: "refusal", role: "alert", hidden: true });
@@ -46,7 +45,7 @@ export class HandPanel {
     this.pad.addEventListener("blur", () => this.held.clear());
   }
 
-  /** The simulated vehicle that has sticks; "" when none has. */
+  /** The simulated vehicle with sticks; "" without one. */
   private vehicle(): string {
     return (
       this.flight.view?.components.find((c) => c.active && c.params.some((p) => p.name === "pilot_flies"))
@@ -64,12 +63,12 @@ export class HandPanel {
     if (take) this.begin();
     const answer = await this.flight.set_parameter(vehicle, "pilot_flies", String(take));
     this.said.hidden = answer.accepted;
-    say(this.said, "Refused: " + answer.reason);
+    say(this.said, "Rejected: " + answer.reason);
     await this.flight.refresh();
-    this.element.hidden = this.pad.hidden = !this.has; // what is hidden cannot have the keys
+    this.element.hidden = this.pad.hidden = !this.has; // a hidden element cannot receive keys
     if (this.has) this.pad.focus();
   }
-  /** The throttle where the autopilot has it, the rest in the middle. */
+  /** Throttle at the value of the autopilot, the other sticks at the centre. */
   private begin(): void {
     const topic = this.flight.topics().find((t) => t.type.endsWith("/Actuators"))?.name ?? "";
     const throttle = Number(this.flight.latest(topic)?.throttle_frac ?? 0);
@@ -122,12 +121,12 @@ export class HandPanel {
       now = performance.now();
     this.flies.hidden = vehicle === "";
     this.element.hidden = !has && this.said.hidden;
-    say(this.flies, has ? "Give them back" : "Take the sticks");
+    say(this.flies, has ? "Release the sticks" : "Take the sticks");
     this.pad.hidden = !has;
     const p = this.position;
     say(
       this.words,
-      `Arrows or W A S D: roll and pitch; Q E: yaw; R F: throttle; X: closed; or a gamepad. Throttle ${fixed(p.throttle * 100, 0, "%")}.`,
+      `Arrows or W A S D: roll and pitch; Q E: yaw; R F: throttle; X: throttle 0; or a gamepad. Throttle ${fixed(p.throttle * 100, 0, "%")}.`,
     );
     const seconds = (now - this.last_ms) / 1000;
     if (!has || seconds * 1000 < send_ms) return;

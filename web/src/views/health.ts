@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the estimator, its sensors and the links do.
+// State of the estimator, its sensors and the links.
 import { el, fill } from "../dom";
 import { type Names, state_of } from "../names";
 import { type Message, number_at } from "../protocol/schema";
@@ -52,7 +52,7 @@ export class HealthPanel {
     const std = (path: string) => number_at(message, path) ?? NaN;
     const position = Math.hypot(std("position_std_m.north"), std("position_std_m.east"));
     return [
-      ["state", lacks.length === 0 ? "valid" : "no " + lacks.join(", "), lacks.length === 0],
+      ["state", lacks.length === 0 ? "valid" : "invalid: " + lacks.join(", "), lacks.length === 0],
       ["position, 1 σ", position < 1e6 ? fixed(position, 1, "m") : "unknown", position < 1e6 ? null : false],
     ];
   }
@@ -77,23 +77,23 @@ export class HealthPanel {
         `${gnss.satellites}, ${String(gnss.fix).replace(/_/g, " ")}`,
         gnss.fix !== "none",
       ]);
-    if (rc) rows.push(["radio link", rc.link === true ? "there" : "none", rc.link === true]);
+    if (rc) rows.push(["radio link", rc.link === true ? "connected" : "not connected", rc.link === true]);
     if (!status) return rows;
     rows.push(["vehicle", String(status.health), status.health === "ok"]);
     const who =
       status.crashed === true
         ? "crashed"
         : status.failsafe === true
-          ? "its own failsafe"
+          ? "failsafe"
           : status.override === true
             ? "pilot"
             : status.in_control === true
               ? "autopilot"
-              : "nobody";
+              : "none";
     rows.push([
       "in control",
       who,
-      who === "autopilot" ? true : who === "pilot" || who === "nobody" ? null : false,
+      who === "autopilot" ? true : who === "pilot" || who === "none" ? null : false,
     ]);
     return rows;
   }

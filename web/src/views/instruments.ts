@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Attitude, airspeed, height and heading in one picture: ribbons that move behind a pointer, with the value that
-// is asked for marked on them.
+// Attitude, airspeed, height and heading: tapes that move behind a pointer, with marks at the commanded values.
 import { colours, sharp } from "../dom";
 import type { State } from "../names";
 import { bearing, degrees, fixed } from "../units";
@@ -17,7 +16,7 @@ const ribbon = 62,
   strip = 26,
   head = 0;
 
-/** A vertical ribbon: larger values above. */
+/** A vertical tape: larger values above. */
 function tape(
   g: CanvasRenderingContext2D,
   x: number,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A map: north up, metres from the origin, on a canvas, over tiles where the mission names some. Dragging moves it, the wheel and + - zoom.
+// A map: north up, metres from the origin, on a canvas, over the tiles of the mission. Dragging moves it; the wheel and + - zoom.
 import { colours, el, say, sharp } from "../dom";
 import { type Plan, type Point, Route } from "../flight/route";
 import { type Spot, label_side } from "../flight/labels";
@@ -26,21 +26,21 @@ export interface Track {
 }
 export interface Scene {
   plan: Plan | null;
-  draft: boolean; // the plan is not what the aircraft flies
+  draft: boolean; // the plan is not the active one
   state: State | null;
   track: Track;
-  item: number; // waypoint that is flown to, from 0; -1: none
-  chosen: number; // waypoint that is being edited; -1: none
-  refused: number; // waypoint whose last edit was refused; -1: none
-  ground?: Ground | null; // what lies beneath
-  places?: Places | null; // fence, runway, places to come down at
+  item: number; // target waypoint, from 0; -1: none
+  chosen: number; // selected waypoint; -1: none
+  refused: number; // waypoint whose last edit was rejected; -1: none
+  ground?: Ground | null; // tiles below the map
+  places?: Places | null; // geofence, runway, landing places
   crashed?: boolean;
-  lost?: Lost | null; // of an aircraft whose position is not known
-  piece: Point[]; // of the path that is followed now
-  tracks?: (Track & { colour: string; width: number })[]; // of a report: all of each flight, and all of it is shown
+  lost?: Lost | null; // while the position is invalid
+  piece: Point[]; // of the active path
+  tracks?: (Track & { colour: string; width: number })[]; // of a report: the complete track of each flight
 }
 export interface Hooks {
-  press?(at: Point, waypoint: number): boolean; // true: the press is not for the map
+  press?(at: Point, waypoint: number): boolean; // true: the map ignores the press
   move?(at: Point): void;
   release?(at: Point, moved: boolean): void;
 }
@@ -65,7 +65,7 @@ export class MapView {
   private px_per_m = 0;
   private follows = false;
   private touched = false;
-  private fitted = ""; // size of the picture that it was fitted to
+  private fitted = ""; // canvas size at the last fit
   private plan_drawn: { plan: Plan; legs: { to: number; points: Point[] }[] } | null = null;
   private seen: Scene | null = null;
 
@@ -82,8 +82,8 @@ export class MapView {
         { class: "mapkeys" },
         button("+", "Zoom in", () => this.zoom(1.4)),
         button("−", "Zoom out", () => this.zoom(1 / 1.4)),
-        button("Fit", "Show the plan whole", () => this.fit()),
-        button("Follow", "Keep the aircraft in the middle", () => (this.follows = !this.follows)),
+        button("Fit", "Show the complete plan", () => this.fit()),
+        button("Follow", "Keep the aircraft in the centre", () => (this.follows = !this.follows)),
       ),
     );
     this.canvas.addEventListener("pointerdown", (e) => this.press(e));
@@ -98,7 +98,7 @@ export class MapView {
     this.canvas.addEventListener("keydown", (e) => this.key(e));
   }
 
-  // ---- where things are
+  // ---- coordinates
   get width(): number {
     return this.canvas.clientWidth;
   }
@@ -144,7 +144,7 @@ export class MapView {
     this.px_per_m = Math.min(room(this.height, n1 - n0), room(this.width, e1 - e0));
   }
 
-  // ---- hands
+  // ---- pointer and keys
   private waypoint_at(x: number, y: number): number {
     let best = -1,
       nearest = reach_px;
@@ -207,7 +207,7 @@ export class MapView {
     move();
   }
 
-  // ---- the picture
+  // ---- drawing
   draw(scene: Scene): void {
     const comes = (had: unknown, has: unknown) => !had && Boolean(has);
     const news =
@@ -218,11 +218,11 @@ export class MapView {
     this.seen = scene;
     if (this.width === 0) return;
     const resized = !this.touched && this.fitted !== "" && this.fitted !== `${this.width} ${this.height}`;
-    if ((news || resized) && (scene.plan || scene.state || scene.tracks)) this.fit(); // until a hand chooses what is shown
+    if ((news || resized) && (scene.plan || scene.state || scene.tracks)) this.fit(); // until the user moves the map
     if (this.px_per_m === 0) return;
     const middle = scene.lost?.at ?? scene.state;
     if (this.follows && middle) this.centre = { n: middle.n, e: middle.e };
-    // where the picture is, for who cannot see it: north and east of its middle in m, pixels per metre
+    // for tests and assistive tools: north and east of the centre in m, pixels per metre
     this.canvas.dataset.view = [this.centre.n, this.centre.e, this.px_per_m].join();
     const g = sharp(this.canvas);
     g.fillStyle = colours.get("ground");
@@ -236,23 +236,26 @@ export class MapView {
     say(this.attribution, scene.ground?.attribution ?? "");
     draw_scale(g, step, this.px_per_m, this, Boolean(scene.ground));
     if (scene.places) draw_places(g, scene.places, (p) => this.to_screen(p), this.px_per_m);
-    this.trail(g, scene.track);
     this.route(g, scene);
+    this.trail(g, scene.track); // above the route, which hides it on the path
     for (const track of scene.tracks ?? []) this.trail(g, track, track.colour, track.width);
     g.strokeStyle = colours.get("track");
     g.lineWidth = 3;
     g.setLineDash([1, 6]);
     this.line(g, scene.piece);
     g.setLineDash([]);
+    const aircraft = () =>
+      scene.state?.valid.position && draw_aircraft(g, scene.state.yaw, this.to_screen(scene.state));
+    if (scene.tracks) aircraft(); // in a report below the waypoint numbers
     this.waypoints(g, scene);
     if (!scene.places?.places.length) draw_home(g, this.to_screen({ n: 0, e: 0 }));
     if (scene.lost) draw_lost(g, scene.lost, (p) => this.to_screen(p), this.px_per_m);
     this.data(scene);
-    if (scene.state?.valid.position) draw_aircraft(g, scene.state.yaw, this.to_screen(scene.state));
+    if (!scene.tracks) aircraft();
     if (scene.crashed && scene.state) draw_crash(g, this.to_screen(scene.lost?.at ?? scene.state));
     if (scene.state?.valid.wind) draw_wind(g, scene.state, this.height);
   }
-  /** What the picture shows, for who cannot see it. */
+  /** Contents of the map, for tests and assistive tools. */
   private data(scene: Scene): void {
     const { places, lost } = scene,
       data = this.canvas.dataset;
@@ -357,7 +360,7 @@ export class MapView {
       g.stroke();
     });
   }
-  /** Of waypoint `i`, away from its legs; not where it would lie on another waypoint, unless it is the chosen one. */
+  /** Of waypoint `i`, away from its legs; left out where it would cover another waypoint, unless the waypoint is selected. */
   private height_label(
     g: CanvasRenderingContext2D,
     words: string,

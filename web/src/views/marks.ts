@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What lies on every map besides the plan: fence, runway, places to come down at, the origin, the aircraft and the wind, and where an aircraft without
-// position may be.
+// Marks of every map besides the plan: geofence, runway, landing places, origin, aircraft, wind, and the region of an aircraft with
+// an invalid position.
 import { colours } from "../dom";
 import type { Spot } from "../flight/labels";
 import type { Places } from "../flight/places";
@@ -14,16 +14,16 @@ interface Point {
 type Screen = (p: Point) => { x: number; y: number };
 type Canvas = CanvasRenderingContext2D;
 
-/** The position is not known: where it was, and a circle about where it is by the estimate. */
+/** Invalid position: the last valid one, and a circle about the estimate. */
 export interface Lost {
   last: Point & { t: number };
   age_s: number;
   at: Point;
-  radius: number | null; // m; null: the estimate says nothing
+  radius: number | null; // m; null: no estimate
   yaw: number;
 }
 
-/** Words that can be read on lines and tiles. */
+/** Text that is legible on lines and tiles. */
 export function words_on(g: Canvas, words: string, x: number, y: number, colour = "text"): void {
   g.lineJoin = "round";
   g.lineWidth = 4;
@@ -79,7 +79,7 @@ function fence(g: Canvas, corners: Point[], to_screen: Screen): void {
   g.font = "11px system-ui";
   g.textAlign = "left";
   g.textBaseline = "bottom";
-  words_on(g, "fence", top.x + 4, top.y - 4, "fence");
+  words_on(g, "geofence", top.x + 4, top.y - 4, "fence");
 }
 
 function runway(g: Canvas, strip: NonNullable<Places["runway"]>, to_screen: Screen, px_per_m: number): void {
@@ -132,14 +132,14 @@ function spot(g: Canvas, { x, y }: { x: number; y: number }, letter: string): vo
   g.fillText(letter, x, y + 0.5);
 }
 
-/** H is home, L where it can land as well. */
+/** H is home, L another landing place. */
 export function draw_places(g: Canvas, places: Places, to_screen: Screen, px_per_m: number): void {
   fence(g, places.fence, to_screen);
   if (places.runway) runway(g, places.runway, to_screen, px_per_m);
   places.places.forEach((p, i) => spot(g, to_screen(p), i === 0 ? "H" : "L"));
 }
 
-/** Where a flight ended that should not have. */
+/** Place of a crash. */
 export function draw_crash(g: Canvas, { x, y }: { x: number; y: number }): void {
   g.strokeStyle = colours.get("alarm");
   g.lineWidth = 5;
@@ -194,13 +194,13 @@ export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: nu
   const lines = [
     `✕ position lost ${Math.round(lost.age_s)} s ago`,
     lost.radius === null
-      ? "no estimate of where it is"
+      ? "no position estimate"
       : `95 %: within ${Math.round(lost.radius)} m of the estimate`,
   ];
   g.font = "bold 13px system-ui";
   g.fillStyle = colours.get("alarm");
   const width = Math.max(...lines.map((l) => g.measureText(l).width)) + 16,
-    top = width + 200 < g.canvas.clientWidth ? 8 : 42; // beside the keys, or below them
+    top = width + 200 < g.canvas.clientWidth ? 8 : 42; // beside the buttons or below them
   g.fillRect(8, top, width, 42);
   g.fillStyle = "#fff";
   g.textAlign = "left";
@@ -208,7 +208,7 @@ export function draw_lost(g: Canvas, lost: Lost, to_screen: Screen, px_per_m: nu
   lines.forEach((l, i) => g.fillText(l, 16, top + 12 + 18 * i));
 }
 
-/** `step` metres as a bar in one corner, and where north is; on tiles with a ground of their own. */
+/** A bar of `step` metres in one corner and the north arrow; on tiles with a background. */
 export function draw_scale(
   g: Canvas,
   step: number,
@@ -267,7 +267,7 @@ export function draw_aircraft(g: Canvas, yaw: number, { x, y }: Spot): void {
   g.restore();
 }
 
-/** An arrow and words in the corner below, on a map of this height. */
+/** An arrow and text in the lower corner of a map of this height. */
 export function draw_wind(g: Canvas, s: State, height: number): void {
   const speed = Math.hypot(s.wind_n, s.wind_e),
     to = Math.atan2(s.wind_e, s.wind_n);

@@ -5,6 +5,6 @@ export interface Page {
   readonly element: HTMLElement;
   show?(): void;
   hide?(): void;
-  /** Some 30 times a second while it is shown. */
+  /** About 30 times per second while it is shown. */
   update(now_ms: number): void;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One live parameter: slider or switch, the value as it can be typed, its range, and the way back to what it was
-// when the flight began. Angles in degrees.
+// One live parameter: slider or switch, input field, range, and a button that restores the value at the start of the flight.
+// Angles in degrees.
 import { el, mark, say } from "../dom";
 import type { Flight, Param } from "../protocol/flight";
 import { digits, plain, shown_unit, with_unit } from "../units";
@@ -38,7 +38,7 @@ export class ParamRow {
   );
   private readonly note = el("span", { class: "faint note" });
   private readonly refusal = el("p", { class: "refusal", role: "alert", hidden: true });
-  private was: unknown; // when the flight began
+  private was: unknown; // at the start of the flight
   private value: unknown;
   private waiting: string | null = null;
   private last_ms = 0;
@@ -87,7 +87,7 @@ export class ParamRow {
       slider.addEventListener("input", () =>
         this.put(slider.valueAsNumber / scale, this.text_of(slider.valueAsNumber / scale)),
       );
-      // by keys in steps of a hundredth: with "any" a browser takes one of its own
+      // steps by key are set here: with "any" the browser chooses its own
       slider.addEventListener("keydown", (e) => this.key(e, slider));
       this.slider = slider;
     }
@@ -145,7 +145,7 @@ export class ParamRow {
     slider.dispatchEvent(new Event("input"));
   }
 
-  /** As a mission file has it: the host reads it with its unit. */
+  /** Text with unit, as in a mission file. */
   private text_of(value: unknown): string {
     const { scale, typed } = shown_unit(this.p.unit);
     if (typeof value === "number" && this.p.kind === "number")
@@ -172,7 +172,7 @@ export class ParamRow {
     this.put(this.value, bare && typed && this.p.kind === "number" ? `${text.trim()} ${typed}` : text);
   }
 
-  /** Many a second from a slider: the last one counts. */
+  /** A slider calls this many times per second: the last value is sent. */
   private put(value: unknown, text: string): void {
     this.touched_ms = performance.now();
     this.value = value;
@@ -192,13 +192,13 @@ export class ParamRow {
     this.timer = 0;
     this.touched_ms = answer.accepted ? performance.now() : -1e9;
     this.refusal.hidden = answer.accepted;
-    say(this.refusal, "Refused: " + answer.reason);
+    say(this.refusal, "Rejected: " + answer.reason);
     if (!answer.accepted) this.value = this.p.value;
     this.show_value(!answer.accepted);
     if (this.waiting !== null) this.timer = window.setTimeout(() => void this.send(), send_gap_ms);
   }
 
-  /** What the host says. Not while a hand is on it. */
+  /** Value of the host. Ignored while the user edits it. */
   show(p: Param): void {
     this.p = p;
     if (this.waiting === null && this.timer === 0 && performance.now() - this.touched_ms > 400)
@@ -215,9 +215,9 @@ export class ParamRow {
       this.slider.valueAsNumber = Number(this.value) * scale;
     this.back.disabled = !this.changed;
     const was = words_of(p, this.was) + (unit ? " " + unit : "");
-    this.back.title = "Back to " + was;
-    this.back.setAttribute("aria-label", `Back to ${was}, ${p.name}`);
-    say(this.note, p.overlaid ? "this phase flies another value" : this.changed ? "was " + was : "");
+    this.back.title = "Restore " + was;
+    this.back.setAttribute("aria-label", `Restore ${was}, ${p.name}`);
+    say(this.note, p.overlaid ? "other value in this phase" : this.changed ? "was " + was : "");
     mark(this.element, "changed", this.changed);
   }
 }

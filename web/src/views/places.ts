@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fence, places and runway of a connected flight, for its maps.
+// Geofence, landing places and runway of a connected flight, for its maps.
 import { type Places, places_of } from "../flight/places";
 import type { Place } from "../flight/tiles";
 import type { Names } from "../names";
 import type { Flight } from "../protocol/flight";
 import { type Message, number_at } from "../protocol/schema";
 
-/** What latitude and longitude are measured from; null as long as it is not known. */
+/** Origin of the local frame; null while it is unknown. */
 export function origin_of(state: Message | undefined): Place | null {
   if (state?.origin_valid !== true) return null;
   const x = (field: string) => number_at(state, field) ?? 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plan, on the map and as a table. Every change goes into a draft; it is sent at once, or when it is asked for.
+// The plan, on the map and as a table. Every change goes into a draft, which is sent at once or on Upload.
 import { el, mark, say } from "../dom";
 import { as_group, edits_between } from "../flight/plan_edits";
 import { piece_ahead } from "../flight/piece";
@@ -27,7 +27,7 @@ export class PlanPage implements Page {
   private readonly at_once = el("input", { type: "checkbox", id: "at_once" });
   private readonly adds = el("input", { type: "checkbox", id: "adds", checked: true });
   private readonly upload = el("button", { class: "main", onclick: () => void this.send() }, "Upload");
-  private readonly back = el("button", { onclick: () => this.drop() }, "Back to what flies");
+  private readonly back = el("button", { onclick: () => this.drop() }, "Discard draft");
   private readonly told = el("p", { class: "faint", role: "status" });
   private readonly refusal = el("p", { class: "refusal", role: "alert", hidden: true });
   private readonly file = el("input", {
@@ -44,9 +44,9 @@ export class PlanPage implements Page {
   private dragged = -1;
   private sending = false;
   private sent: Plan | null = null;
-  private awaited = -1; // revision beyond which the plan has what was sent
-  private loaded: PlanFile | null = null; // what the plan came from, if it came from a file
-  private decided = false; // whether changes go at once, by what flies
+  private awaited = -1; // a later revision contains the sent edits
+  private loaded: PlanFile | null = null; // the file of the plan, if any
+  private decided = false; // whether the default of `at_once` is set
 
   constructor(
     private readonly flight: Flight,
@@ -86,7 +86,7 @@ export class PlanPage implements Page {
             "div",
             { class: "row checks" },
             el("label", {}, this.at_once, " send each change at once"),
-            el("label", {}, this.adds, " a click on the map adds a waypoint"),
+            el("label", {}, this.adds, " click on the map adds a waypoint"),
           ),
           this.refusal,
           this.told,
@@ -108,7 +108,7 @@ export class PlanPage implements Page {
   private choose(i: number): void {
     this.chosen = i;
   }
-  /** A draft from now on; it is sent unless it is to wait. */
+  /** Makes the plan the draft, and sends it if changes are sent at once. */
   private change(plan: Plan): void {
     this.draft = plan;
     this.refused = -1;
@@ -166,7 +166,7 @@ export class PlanPage implements Page {
   private async send(): Promise<void> {
     const service = this.flight.request_of_type("PlanEdit");
     if (this.sending || !this.draft || !this.flown) return;
-    if (service === "") return this.refuse(-1, "Nobody in this flight takes edits of a plan.");
+    if (service === "") return this.refuse(-1, "No component of this flight accepts plan edits.");
     const draft = this.draft;
     const edits = as_group(edits_between(this.flown, draft), 1 + Math.floor(Math.random() * 0xfffffffe));
     if (edits.length === 0) return this.drop();
@@ -178,7 +178,7 @@ export class PlanPage implements Page {
         ...(await Promise.all(edits.slice(i, i + most_at_once).map((e) => this.flight.ask(service, e.edit)))),
       );
     this.sending = false;
-    // of a group the others are refused because one is
+    // one rejected edit rejects its group
     const reasons = answers
       .map((a, i) => ({ ...a, waypoint: edits[i]?.waypoint ?? -1 }))
       .filter((a) => !a.accepted);
@@ -186,18 +186,18 @@ export class PlanPage implements Page {
     if (first) return this.refuse(first.waypoint, first.reason);
     this.awaited = revision;
     this.sent = draft;
-    if (this.draft !== draft) void this.send(); // changed again meanwhile
+    if (this.draft !== draft && this.at_once.checked) void this.send(); // changed again in the meantime
   }
   private refuse(waypoint: number, reason: string): void {
     this.refused = waypoint;
     this.refusal.hidden = waypoint >= 0;
-    say(this.refusal, "Refused: " + reason);
+    say(this.refusal, "Rejected: " + reason);
     this.table.refuse(waypoint, reason);
   }
   private async fly_to(i: number): Promise<void> {
     const w = this.flown?.waypoints[i];
     if (this.draft || !w)
-      return this.refuse(i, "Upload the draft first: the aircraft flies to waypoints that it knows.");
+      return this.refuse(i, "Upload the draft first: only a waypoint of the active plan can be the target.");
     const answer = await this.flight.ask(this.flight.request_of_type("PlanEdit"), {
       kind: "set_current",
       waypoint_id: w.id,
@@ -214,9 +214,9 @@ export class PlanPage implements Page {
     try {
       const plan = read_plan_file(await file.text(), this.flown, this.origin()),
         flown = this.flown.waypoints;
-      plan.waypoints.forEach((w, i) => (w.id = flown[i]?.id ?? 0)); // as if each had been edited: the leg that is flown goes on where it stays
+      plan.waypoints.forEach((w, i) => (w.id = flown[i]?.id ?? 0)); // as edits of the active waypoints: the active leg continues if its waypoints stay
       this.loaded = { waypoints: plan.waypoints.map((w) => ({ ...w })), runway: plan.runway };
-      this.at_once.checked = false; // a whole plan is looked at before it flies
+      this.at_once.checked = false; // a loaded plan is checked before the upload
       this.chosen = -1;
       this.change(plan);
       this.map.fit();
@@ -256,7 +256,7 @@ export class PlanPage implements Page {
     }
     if (f.view && !this.decided) {
       this.decided = true;
-      this.at_once.checked = f.view.io === "sim"; // an aircraft waits until it is meant
+      this.at_once.checked = f.view.io === "sim"; // on a real aircraft only by Upload
     }
     const state = state_of(f.latest(names.state));
     const item = number_at(f.latest(names.progress), "item") ?? -1;
@@ -282,16 +282,16 @@ export class PlanPage implements Page {
     say(
       this.told,
       names.plan === ""
-        ? "Nobody in this flight has a plan."
+        ? "No component of this flight publishes a plan."
         : this.sending
           ? f.view?.paused
-            ? "Sent; the planner answers when the flight goes on."
+            ? "Sent; the planner answers when the simulation resumes."
             : "Sent; waiting for the planner."
           : paused
-            ? "Accepted; in force when the flight goes on."
+            ? "Accepted; active when the simulation resumes."
             : draft
-              ? "A draft: the aircraft flies the old plan until this is uploaded."
-              : "This is what flies.",
+              ? "Draft: the aircraft follows the active plan until the upload."
+              : "This plan is active.",
     );
   }
 }

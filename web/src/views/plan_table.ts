@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plan as a table that can be edited without a mouse. A refusal stands in the row that it is about.
+// The plan as a table for editing without a mouse. The reason of a rejection is shown below its row.
 import { el, fill, mark } from "../dom";
 import type { Plan, Waypoint } from "../flight/route";
 import { degrees, plain } from "../units";
@@ -165,7 +165,7 @@ export class PlanTable {
             el(
               "td",
               { colSpan: columns.length + 2 },
-              el("p", { class: "refusal", role: "alert" }, "Refused: " + this.reason),
+              el("p", { class: "refusal", role: "alert" }, "Rejected: " + this.reason),
             ),
           ),
         );

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is asked for against what is flown, over the last seconds, and the figures of the last step.
+// Commanded and actual values over the last seconds, and the figures of the last step.
 import uPlot from "uplot";
 import { colours, el, fill, say } from "../dom";
 import { last_step, value_at } from "../flight/step";
@@ -64,10 +64,10 @@ function pairs_of(n: Names): Pair[] {
 }
 
 export class Response {
-  private readonly choice = el("select", { "aria-label": "What is plotted" });
+  private readonly choice = el("select", { "aria-label": "Plotted quantity" });
   private readonly span = el(
     "select",
-    { "aria-label": "Time shown" },
+    { "aria-label": "Time span" },
     ...[10, 20, 60, 180].map((s) => el("option", { value: String(s) }, s + " s")),
   );
   private readonly box = el("div", { class: "plot" });
@@ -75,7 +75,7 @@ export class Response {
   readonly element = el(
     "section",
     { class: "grow" },
-    el("div", { class: "row" }, el("h2", {}, "Asked and flown"), this.choice, this.span),
+    el("div", { class: "row" }, el("h2", {}, "Commanded and actual"), this.choice, this.span),
     this.box,
     this.figures,
   );
@@ -88,7 +88,7 @@ export class Response {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => (this.plotted = ""));
   }
 
-  /** So that what went before is there when it is looked at. */
+  /** Subscribes, so that the past is available when the view opens. */
   record(): void {
     for (const p of pairs_of(names_of(this.source)))
       [this.source.series(...p.asked), this.source.series(...p.got)];
@@ -97,13 +97,13 @@ export class Response {
   update(now_ms: number): void {
     const seconds = Number(this.span.value),
       pixel_ms = (1000 * seconds) / Math.max(1, this.box.clientWidth);
-    if (now_ms - this.last_ms < Math.max(80, pixel_ms)) return; // before, nothing moves by a pixel
+    if (now_ms - this.last_ms < Math.max(80, pixel_ms)) return; // less than a pixel of motion
     this.last_ms = now_ms;
     const pairs = pairs_of(names_of(this.source));
     if (this.choice.childElementCount !== pairs.length)
       fill(this.choice, ...pairs.map((p) => el("option", { value: p.name }, p.name)));
     const pair = pairs.find((p) => p.name === this.choice.value) ?? pairs[0];
-    if (!pair) return say(this.figures, "Nothing in this flight commands an attitude or a course.");
+    if (!pair) return say(this.figures, "No component of this flight commands an attitude or a course.");
     const asked = this.source.series(...pair.asked),
       got = this.source.series(...pair.got);
     const now = this.source.now;
@@ -137,13 +137,13 @@ export class Response {
           series: [
             { label: "time", value: (_u, v) => fixed(v, 2, "s") },
             {
-              label: "asked",
+              label: "commanded",
               stroke: colours.get("line2"),
               width: 2,
               dash: [8, 4],
               value: (_u, v) => fixed(v, 2, unit),
             },
-            { label: "flown", stroke: colours.get("line1"), width: 2, value: (_u, v) => fixed(v, 2, unit) },
+            { label: "actual", stroke: colours.get("line1"), width: 2, value: (_u, v) => fixed(v, 2, unit) },
           ],
         },
         [[], [], []],
@@ -164,7 +164,7 @@ export class Response {
       const time = got.t[i] as number,
         value = got.v[i] as number;
       let want = value_at(asked, time);
-      if (pair.turn > 0) want = value + (want - value - pair.turn * Math.round((want - value) / pair.turn)); // beside it, not a turn away
+      if (pair.turn > 0) want = value + (want - value - pair.turn * Math.round((want - value) / pair.turn)); // the nearest equal angle
       t.push(time);
       g.push(value * scale);
       a.push(want * scale);
@@ -188,7 +188,7 @@ export class Response {
     if (!step)
       return say(
         this.figures,
-        `No step of the ${pair.name} that is asked for, of ${fixed(pair.least * scale, pair.turn ? 0 : 1, unit)} or more, in this time.`,
+        `No step of the commanded ${pair.name} of ${fixed(pair.least * scale, pair.turn ? 0 : 1, unit)} or more in this time span.`,
       );
     const time = (v: number | null) => (v === null ? "not yet" : fixed(v, 2, "s"));
     say(
@@ -199,7 +199,7 @@ export class Response {
   }
 }
 
-/** Degrees that go on where they would begin anew. */
+/** Removes the jumps of 360 degrees. */
 function unwrap(...lists: number[][]): void {
   for (const list of lists)
     for (let i = 1; i < list.length; ++i) {

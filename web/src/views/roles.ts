@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Phases and who fills which role now. A phase is entered by two clicks: the second one means it.
+// Phases, and the active component of each role. A phase is entered by two clicks.
 import { el, fill, mark } from "../dom";
 import type { Flight, View } from "../protocol/flight";
 
@@ -43,7 +43,7 @@ export class RolesPanel {
         const all = view.components.filter((c) => c.role.split(", ").includes(role));
         const flies = all.filter((c) => c.active && !c.stopped),
           stopped = all.filter((c) => c.stopped);
-        const words = el("b", {}, flies.map((c) => c.name).join(", ") || "nobody");
+        const words = el("b", {}, flies.map((c) => c.name).join(", ") || "none");
         mark(words, "bad", flies.length === 0);
         if (stopped.length > 0)
           words.append(el("span", { class: "bad" }, " ✕ stopped: " + stopped.map((c) => c.name).join(", ")));
@@ -61,7 +61,7 @@ export class RolesPanel {
         class: "chip" + (here ? " on" : asked ? " asked" : ""),
         "aria-pressed": String(here),
         disabled: here,
-        title: here ? "flies now" : "Enter this phase: click twice",
+        title: here ? "active phase" : "Enter this phase: click twice",
         onclick: () => void this.enter(phase),
       },
       asked ? "enter " + phase + "?" : phase,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The safety row: every flag of the safety monitor, its answer, and where the aircraft is; and what is missing before a take-off.
+// The safety row: every flag of the safety monitor, its answer, and the place of the aircraft; and the missing conditions before take-off.
 import { el, fill } from "../dom";
 import { answers, flags, flags_of, gate_of } from "../flight/alerts";
 import { type Names, state_of } from "../names";
@@ -18,7 +18,7 @@ export interface Item {
 const short = (flag: string) => flags[flag]?.short ?? flag.replace(/_/g, " ");
 const no_fence = 1e8;
 
-/** One word on each cause; two flags of one cause, as battery_low and battery_empty, are one item. */
+/** One word for each cause; two flags of one cause, such as battery_low and battery_empty, are one item. */
 function flag_items(safety: Message): Item[] {
   const items = new Map<string, Item>();
   for (const [flag, up] of flags_of(safety)) {
@@ -27,7 +27,7 @@ function flag_items(safety: Message): Item[] {
     if (known && !up) continue;
     items.set(words, { key: flag, words, value: "", good: !up });
   }
-  const fence = items.get("fence"),
+  const fence = items.get("geofence"),
     margin = Math.min(
       number_at(safety, "fence_margin_m") ?? Infinity,
       number_at(safety, "height_margin_m") ?? Infinity,
@@ -69,7 +69,7 @@ function place(source: Source, names: Names): Item {
     words: "aircraft",
     value: lies
       ? "crashed"
-      : (where === "air" ? "in the air" : where === "ground" ? "on the ground" : "air or ground?") + locked,
+      : (where === "air" ? "in the air" : where === "ground" ? "on the ground" : "unknown") + locked,
     good: lies ? false : null,
   };
 }
@@ -83,14 +83,14 @@ export function safety_items(source: Source, names: Names): Item[] {
     {
       key: "answer",
       words: "answer",
-      value: answers[answer] ?? answer,
+      value: answer === "none" ? "none" : (answers[answer] ?? answer),
       good: answer === "none" ? true : false,
     },
     ...flag_items(safety),
   ];
 }
 
-/** What speaks against a take-off: what the vehicle says, and what can be seen from here. */
+/** Conditions that prevent a take-off: those of the vehicle, and those from the messages here. */
 export function missing(source: Source, names: Names, said: string[]): string[] {
   const list = [...said],
     s = state_of(source.latest(names.state)),

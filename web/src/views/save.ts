@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What flies, written back into the files of mission and airframe: the host says which lines would change, and a second click writes them.
+// Writes active values into the files of mission and airframe: the host returns the lines that change, and a second click writes them.
 import { el, fill, say } from "../dom";
 import type { Flight } from "../protocol/flight";
 
@@ -26,7 +26,7 @@ export class SavePanel {
 
   constructor(private readonly flight: Flight) {}
 
-  /** Of these components something differs from what it was. */
+  /** `components`: those with changed parameters. */
   offer(components: string[]): void {
     const why_not = this.flight.view?.no_save ?? "";
     const now = JSON.stringify([components, why_not]);
@@ -48,7 +48,7 @@ export class SavePanel {
     fill(
       this.buttons,
       components.length > 0 &&
-        el("p", { class: "faint" }, `Not saved from here: ${why_not}. The terminal does it:`),
+        el("p", { class: "faint" }, `This page cannot save: ${why_not}. Use the terminal:`),
       components.length > 0 && el("code", {}, command),
       components.length > 0 && copy,
     );
@@ -64,7 +64,7 @@ export class SavePanel {
   private tell(answer: SaveAnswer, good: string): void {
     this.said.hidden = false;
     this.said.className = answer.accepted ? "taken" : "refusal";
-    say(this.said, [answer.accepted ? good : "Refused:", answer.reason].filter(Boolean).join(" "));
+    say(this.said, [answer.accepted ? good : "Rejected:", answer.reason].filter(Boolean).join(" "));
   }
 
   private async look(component: string): Promise<void> {
@@ -84,13 +84,13 @@ export class SavePanel {
           ),
         ),
     );
-    this.tell(answer, answer.lines === "" ? "The files say already what flies." : "");
+    this.tell(answer, answer.lines === "" ? "The files already contain the active values." : "");
     if (this.said.textContent === "") this.said.hidden = true;
     if (answer.mark === "") return;
     fill(
       this.choice,
       el("button", { class: "main", onclick: () => void this.write(answer.mark) }, "Write these lines"),
-      el("button", { onclick: () => this.clear() }, "Not now"),
+      el("button", { onclick: () => this.clear() }, "Cancel"),
     );
     this.choice.hidden = false;
   }

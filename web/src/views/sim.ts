@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can be asked of a simulation: its clock, its air, its faults, and a pilot's hand.
+// Requests to a simulation: clock, wind, faults, and requests of components.
 import { el, fill, mark, say } from "../dom";
 import type { Answer, Component, Flight } from "../protocol/flight";
 import type { Field } from "../protocol/schema";
@@ -12,7 +12,7 @@ const groups: [string, RegExp][] = [
   ["Faults", /(fault|_works$|^motor$|^rc_link$|icing)/],
 ];
 
-/** Of the air what moves it, of a fault what fails, by the parameter's name; the first that fits. */
+/** Groups of parameters by name; the first match counts. */
 const parts: [string, RegExp][] = [
   ["Wind", /^wind/],
   ["Gusts", /^gust/],
@@ -27,7 +27,7 @@ const parts: [string, RegExp][] = [
   ["Barometer", /^baro/],
   ["Surfaces", /^(aileron|elevator|rudder|fault_speed)/],
   ["Icing", /^icing/],
-  ["How sensors fail", /./],
+  ["Other", /./],
 ];
 
 export class Simulation implements Page {
@@ -49,7 +49,7 @@ export class Simulation implements Page {
     "button",
     {
       class: "chip",
-      title: "Ends this flight and begins its mission anew, as its files are now: click twice",
+      title: "End this flight and start its mission again from the current files: click twice",
       onclick: () => void this.begin_anew(),
     },
     "New flight",
@@ -71,31 +71,28 @@ export class Simulation implements Page {
   private tell(answer: Answer, good: string): void {
     this.said.hidden = false;
     this.said.className = answer.accepted ? "taken" : "refusal";
-    say(this.said, answer.accepted ? good : "Refused: " + answer.reason);
+    say(this.said, answer.accepted ? good : "Rejected: " + answer.reason);
   }
   private async toggle(): Promise<void> {
     const paused = this.flight.view?.paused === true;
     const answer = await this.flight.ask(paused ? "/fulmar/resume" : "/fulmar/pause", {});
     await this.flight.refresh();
-    this.tell(
-      answer,
-      paused ? "The flight goes on." : "Time stands still. Parameters and requests can be set meanwhile.",
-    );
+    this.tell(answer, paused ? "Resumed." : "Paused. Parameters and requests can still be set.");
   }
   private async do_step(): Promise<void> {
     const ticks = this.ticks.value.trim();
     const answer = await this.flight.ask("/fulmar/step", { ticks });
     await this.flight.refresh();
-    this.tell(answer, `Flew ${ticks} ticks.`);
+    this.tell(answer, `Stepped ${ticks} ticks.`);
   }
   private async set_speed(speed: string): Promise<void> {
     this.tell(
       await this.flight.ask("/fulmar/speed", { speed }),
-      `Flies at ${speed === "real" ? "real time" : speed + " times real time"}.`,
+      `Speed: ${speed === "real" ? "real time" : speed + " times real time"}.`,
     );
   }
 
-  /** Two clicks: the second one means it. The page is loaded anew when the new flight is there. */
+  /** Takes two clicks. The page reloads when the new flight starts. */
   private async begin_anew(): Promise<void> {
     const sure = this.asked_anew !== 0;
     clearTimeout(this.asked_anew);
@@ -103,13 +100,13 @@ export class Simulation implements Page {
     if (sure)
       this.tell(
         await this.flight.ask("/fulmar/restart", { seed: this.seed.value.trim() }),
-        "A new flight begins.",
+        "A new flight starts.",
       );
   }
   private ask_anew(on: boolean): void {
     this.asked_anew = on ? window.setTimeout(() => this.ask_anew(false), 3000) : 0;
     mark(this.anew, "asked", on);
-    say(this.anew, on ? "end this one?" : "New flight");
+    say(this.anew, on ? "end this flight?" : "New flight");
   }
 
   private make(): void {
@@ -122,7 +119,7 @@ export class Simulation implements Page {
           "section",
           {},
           el("h2", {}, "Simulation"),
-          el("p", {}, "This is an aircraft: its time cannot be stopped, and nothing of it fails on request."),
+          el("p", {}, "This is a real aircraft: pause, speed and faults are not available."),
         ),
       );
       return;
@@ -175,7 +172,7 @@ export class Simulation implements Page {
     return el(
       "section",
       { class: "params" },
-      el("h2", {}, `${name}, of ${c.name}`),
+      el("h2", {}, `${name} (${c.name})`),
       el("div", { class: "scroll rows" }, ...this.folded(rows, name === "Faults")),
     );
   }
@@ -206,7 +203,7 @@ export class Simulation implements Page {
     element: HTMLElement;
   }[] = [];
 
-  /** A form of a request's fields, as its message has them. */
+  /** A form with the fields of the request message. */
   private request(service: string): HTMLElement {
     const said = el("p", { role: "alert", hidden: true });
     const inputs: [Field, HTMLInputElement | HTMLSelectElement][] = [];
@@ -236,10 +233,10 @@ export class Simulation implements Page {
       const answer = await this.flight.ask(service, message);
       said.hidden = false;
       said.className = answer.accepted ? "taken" : "refusal";
-      say(said, answer.accepted ? "Accepted." : "Refused: " + answer.reason);
+      say(said, answer.accepted ? "Accepted." : "Rejected: " + answer.reason);
     };
     const name = service.slice(1).replace("/", ".");
-    const form = el("form", { class: "row" }, ...labels, el("button", { type: "submit" }, "Ask"));
+    const form = el("form", { class: "row" }, ...labels, el("button", { type: "submit" }, "Send"));
     form.addEventListener("submit", (e) => {
       e.preventDefault();
       void ask();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every live parameter, by component, beside the response that it shapes.
+// Live parameters by component, beside the response of the aircraft.
 import { el, fill, mark, say } from "../dom";
 import type { Component, Flight } from "../protocol/flight";
 import type { Page } from "./page";
@@ -39,12 +39,12 @@ export class Tune implements Page {
         "aside",
         { class: "side" },
         this.response.element,
-        el("section", {}, el("h2", {}, "Changed since the flight began"), this.changed, this.save.element),
+        el("section", {}, el("h2", {}, "Changed since the start"), this.changed, this.save.element),
       ),
     );
   }
 
-  /** Once in a while, whatever is shown. */
+  /** Called at intervals, in every view. */
   record(): void {
     this.response.record();
   }
@@ -68,11 +68,11 @@ export class Tune implements Page {
     const rows = this.live(component);
     fill(this.rows_box, ...rows.map((r) => r.element));
     if (rows.length === 0)
-      fill(this.rows_box, el("p", { class: "faint" }, "Nothing of this component can be changed in flight."));
+      fill(this.rows_box, el("p", { class: "faint" }, "This component has no live parameters."));
     const fixed_ones = component.params.length - rows.length;
     say(
       this.head,
-      `${component.use}: ${component.doc}${fixed_ones > 0 ? ` ${fixed_ones} more are fixed in flight.` : ""}`,
+      `${component.use}: ${component.doc}${fixed_ones > 0 ? ` Fixed in flight: ${fixed_ones}.` : ""}`,
     );
     this.filter.value = "";
     this.sift();
@@ -92,7 +92,7 @@ export class Tune implements Page {
         const swapped =
           this.listed !== "" &&
           JSON.parse(this.listed).some((c: [string, string], i: number) => c[1] !== view.components[i]?.use);
-        if (swapped) this.rows = new Map(); // a component has other parameters now
+        if (swapped) this.rows = new Map(); // a component has new parameters
         this.listed = listed;
         fill(
           this.list,
@@ -104,7 +104,7 @@ export class Tune implements Page {
               c.role ? el("span", { class: "faint" }, " " + c.role) : "",
             );
             mark(button, "idle", !c.active);
-            if (!c.active) button.append(el("span", { class: "faint" }, " (waits)"));
+            if (!c.active) button.append(el("span", { class: "faint" }, " (inactive)"));
             button.dataset.component = c.name;
             return button;
           }),
@@ -113,7 +113,7 @@ export class Tune implements Page {
         this.choose(view.components.some((c) => c.name === this.chosen) ? this.chosen : (usual?.name ?? ""));
       }
       for (const c of view.components) {
-        if (c.params.some((p) => JSON.stringify(p.value) !== JSON.stringify(p.begun))) this.live(c); // changed, wherever it was
+        if (c.params.some((p) => JSON.stringify(p.value) !== JSON.stringify(p.begun))) this.live(c); // also changed by another client
         const rows = this.rows.get(c.name);
         for (const row of rows ?? []) {
           const p = c.params.find((q) => q.name === row.name);
@@ -131,14 +131,14 @@ export class Tune implements Page {
     if (now === this.summary) return;
     this.summary = now;
     this.save.offer([...new Set(changed.map((r) => r.component))]);
-    if (changed.length === 0) return fill(this.changed, el("p", { class: "faint" }, "Nothing."));
+    if (changed.length === 0) return fill(this.changed, el("p", { class: "faint" }, "None."));
     fill(
       this.changed,
       el("ul", {}, ...changed.map((r) => el("li", {}, r.summary))),
       el(
         "div",
         { class: "row" },
-        el("button", { onclick: () => changed.forEach((r) => r.restore()) }, "All back to what they were"),
+        el("button", { onclick: () => changed.forEach((r) => r.restore()) }, "Restore all"),
       ),
     );
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Components, their ports and wires, as they are at work: as a drawing, and in figures: rates, ages, step times, guards. A component
-// is swapped from here, if the host lets it.
+// Components, ports and connections as a drawing and in figures: rates, ages, step times, guards. Components can be swapped here if
+// the host allows it.
 import { el, fill, mark, say } from "../dom";
 import { Rates } from "../flight/rates";
 import type { Component, Flight, Port, View } from "../protocol/flight";
@@ -44,11 +44,11 @@ export class Wires implements Page {
   constructor(private readonly flight: Flight) {
     const head = [
       "component",
-      "fills",
+      "role",
       "plugin",
       "state",
       "runs as",
-      "steps a second",
+      "steps per second",
       "step, mean",
       "step, longest",
       "budget",
@@ -86,13 +86,13 @@ export class Wires implements Page {
   private async reset_guards(): Promise<void> {
     this.tell(
       await this.flight.ask("/fulmar/reset_guards", {}),
-      "Guards are reset: who was stopped may fly again.",
+      "Guards reset: a stopped component can become active again.",
     );
   }
   private tell(answer: { accepted: boolean; reason: string }, good: string): void {
     this.said.hidden = false;
     this.said.className = answer.accepted ? "taken" : "refusal";
-    say(this.said, answer.accepted ? good : "Refused: " + answer.reason);
+    say(this.said, answer.accepted ? good : "Rejected: " + answer.reason);
   }
 
   private list(view: View): void {
@@ -163,7 +163,7 @@ export class Wires implements Page {
           ? "imported, from " + p.topic
           : p.source
             ? "← " + p.source
-            : "not wired";
+            : "not connected";
       return this.port_row(p, words, topic);
     });
     return this.table("Inputs", rows);
@@ -175,11 +175,13 @@ export class Wires implements Page {
       for (const other of this.flight.view?.components ?? [])
         for (const p of other.inputs)
           if (p.source && owners.includes(p.source)) names.push(`${other.name}.${p.name}`);
-      return names.length > 0 ? "→ " + names.join(", ") : "nobody reads it";
+      return names.length > 0 ? "→ " + names.join(", ") : "not connected";
     };
     return this.table(
       "Outputs",
-      c.outputs.map((p) => this.port_row(p, p.type ? readers(p.name) : "to look at", p.topic ?? "")),
+      c.outputs.map((p) =>
+        this.port_row(p, p.type ? readers(p.name) : "log and live view only", p.topic ?? ""),
+      ),
     );
   }
   private table(name: string, rows: HTMLElement[]): HTMLElement {
@@ -192,7 +194,7 @@ export class Wires implements Page {
         el(
           "tr",
           {},
-          ...[name, "message", "wire", "rate", "age"].map((h, i) =>
+          ...[name, "message", "connection", "rate", "age"].map((h, i) =>
             el("th", { class: i > 2 ? "right" : "" }, h),
           ),
         ),
@@ -200,7 +202,7 @@ export class Wires implements Page {
       el("tbody", {}, ...rows),
     );
   }
-  /** "nav.state" -> "/nav/state": of a role, or of the component that has its own. */
+  /** "nav.state" -> "/nav/state": topic of a role or of a component. */
   private topic_of(source: string): string {
     const [owner = "", port = ""] = source.split(/\.(.*)/);
     for (const c of this.flight.view?.components ?? [])
@@ -218,13 +220,13 @@ export class Wires implements Page {
     });
     const swap = async () => {
       const answer = await this.flight.ask("/fulmar/swap", { component: c.name, file: input.value.trim() });
-      this.tell(answer, `${c.name} is swapped.`);
+      this.tell(answer, `${c.name} swapped.`);
       this.listed = "";
     };
     const form = el(
       "form",
       { class: "row swap" },
-      el("label", {}, "swap for ", input),
+      el("label", {}, "replace by ", input),
       el("button", { type: "submit" }, "Swap"),
     );
     form.addEventListener("submit", (e) => {
@@ -245,7 +247,7 @@ export class Wires implements Page {
     for (const c of view.components) {
       const r = this.rows.get(c.name);
       if (!r) continue;
-      say(r.state, c.stopped ? "✕ stopped by a guard" : c.active ? "✓ flies" : "waits");
+      say(r.state, c.stopped ? "✕ stopped by a guard" : c.active ? "✓ active" : "inactive");
       r.state.className = c.stopped ? "bad" : c.active ? "good" : "faint";
       say(r.mean, c.steps > 0 ? fixed(c.step_us, 1, "µs") : none);
       say(r.most, c.steps > 0 ? fixed(c.step_max_us, 0, "µs") : none);
@@ -278,7 +280,7 @@ export class Wires implements Page {
     },
   };
 
-  /** Of a topic that has not been listened to long enough nothing is known: no rate, and no "never". */
+  /** Whether the subscription is old enough for a rate, or for "never". */
   private get listened(): boolean {
     return this.since_ms > 0 && performance.now() - this.since_ms > listened_ms;
   }
@@ -290,7 +292,7 @@ export class Wires implements Page {
 
   private count(view: View, now_ms: number): void {
     this.counted_ms = now_ms;
-    this.flight.want_all(true); // also those that were told of after it was shown
+    this.flight.want_all(true); // also topics advertised after the view was opened
     const topics = this.flight.topics();
     if (topics.length > 0)
       this.rates.count(
@@ -298,23 +300,23 @@ export class Wires implements Page {
         topics.map((t) => [t.name, this.flight.count(t.name)]),
       );
     if (topics.length > 0 && this.since_ms === 0) this.since_ms = performance.now();
-    // The host notes its steps now and then: over a longer time.
+    // The host updates the step counts at intervals: rate over a longer time.
     const since = view.now_ns * 1e-9 - this.steps_s,
-      anew = since < 0 || since > steps_over_s;
+      again = since < 0 || since > steps_over_s;
     for (const c of view.components) {
       const before = this.steps.get(c.name);
       if (before !== undefined && since > 1) {
         this.step_rates.set(c.name, rate_of((c.steps - before) / since));
         say(this.rows.get(c.name)?.rate as HTMLElement, this.step_rates.get(c.name) ?? none);
       }
-      if (anew || before === undefined) this.steps.set(c.name, c.steps);
+      if (again || before === undefined) this.steps.set(c.name, c.steps);
     }
-    if (anew) this.steps_s = view.now_ns * 1e-9;
+    if (again) this.steps_s = view.now_ns * 1e-9;
     this.show_rates();
   }
   private steps = new Map<string, number>();
   private step_rates = new Map<string, string>();
-  private steps_s = 0; // flight time of these
+  private steps_s = 0; // flight time of the counts
 
   private show_rates(): void {
     for (const p of this.ports) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The components and their wires as a drawing: layers from left to right, what flies dark, the wires of the chosen component lit.
+// Drawing of the components and their connections: layers from left to right, active components dark, connections of the selected one highlighted.
 import { fill, mark, say, svg } from "../dom";
 import { type Box, type Drawing, type Part, type Wire, draw_wiring, small_letter } from "../flight/wiring";
 import type { Component, View } from "../protocol/flight";
 
-/** What is told of a component's steps, and of what is on a wire. */
+/** Figures of a component's steps and of a connection. */
 export interface Figures {
   steps(c: Component): string;
   wire(source: string): { rate: string; age: string; silent: boolean };
@@ -19,15 +19,15 @@ interface Node {
 }
 
 const plugin = (c: Component) => c.use.slice(c.use.lastIndexOf("/") + 1);
-const state = (c: Component) => (c.stopped ? "stopped by a guard" : c.active ? "flies" : "waits");
+const state = (c: Component) => (c.stopped ? "stopped by a guard" : c.active ? "active" : "inactive");
 const sign = (c: Component) => (c.stopped ? "✕ " : c.active ? "✓ " : "");
-const least_letters = 16; // below the name, for figures
+const least_letters = 16; // width of the lines below the name
 
 export class Wiring {
   readonly element = svg("svg", {
     class: "wiring",
     role: "group",
-    "aria-label": "Components and wires; arrow keys choose a component",
+    "aria-label": "Components and connections; arrow keys select a component",
   });
   private drawing: Drawing = { width: 0, height: 0, boxes: [], wires: [] };
   private nodes = new Map<string, Node>();
@@ -38,7 +38,7 @@ export class Wiring {
     this.element.addEventListener("keydown", (e) => this.key(e));
   }
 
-  /** Anew, when the components are others. */
+  /** Called when the components change. */
   draw(view: View): void {
     const below = (p: Part) => Math.max(least_letters, (p.role || plugin(p as Component)).length);
     this.drawing = draw_wiring(view.components, below);
@@ -55,7 +55,7 @@ export class Wiring {
       : undefined;
     this.nodes = new Map(boxes.map((box) => [box.name, this.node(box)]));
     fill(this.element, ...this.lines.map((l) => l.path), ...[...this.nodes.values()].map((n) => n.group));
-    if (held) this.nodes.get(held)?.group.focus(); // the keyboard stays where it is
+    if (held) this.nodes.get(held)?.group.focus(); // keeps the keyboard focus
   }
   private node(box: Box): Node {
     const line = (at: number, name: string) => svg("text", { class: name, x: box.x + 7, y: box.y + at });
@@ -98,7 +98,7 @@ export class Wiring {
   update(view: View, chosen: string, figures: Figures): void {
     this.chosen = chosen;
     const flies = new Map(view.components.map((c) => [c.name, c.active && !c.stopped]));
-    const ports = new Map<string, Set<string>>(); // of the chosen one's neighbours: what connects them
+    const ports = new Map<string, Set<string>>(); // by neighbour of the selected component: connected ports
     for (const { wire, path, title } of this.lines) {
       const lit = wire.from === chosen || wire.to === chosen,
         other = wire.from === chosen ? wire.to : wire.from;
@@ -121,7 +121,7 @@ export class Wiring {
         this.wires_text([...(ports.get(c.name) ?? [])], n.box, figures) ?? (c.stopped ? "stopped" : steps),
       );
       mark(n.last, "bad", over || c.stopped);
-      const words = `${c.name}${c.role ? ", fills " + c.role : ""}: ${state(c)}, ${steps}${over ? ", over its budget" : ""}`;
+      const words = `${c.name}${c.role ? ", role " + c.role : ""}: ${state(c)}, ${steps}${over ? ", over budget" : ""}`;
       say(n.title, words);
       n.group.setAttribute("aria-label", words);
       n.group.setAttribute("aria-pressed", String(c.name === chosen));
@@ -133,7 +133,7 @@ export class Wiring {
     }
   }
 
-  /** What connects a box with the chosen one, in as many words as there is room for. */
+  /** Connections of a box with the selected one, shortened to fit. */
   private wires_text(sources: string[], box: Box, figures: Figures): string | null {
     if (sources.length === 0 || box.name === this.chosen) return null;
     const names = sources.map((s) => s.replace(/^[^.]*\./, "")),

@@ -107,8 +107,9 @@ TEST_CASE("the Allan deviation of a shipped set is that of its data sheet") {
 
 TEST_CASE("what is wrong in a file of sensors is told with its line") {
   CHECK(reported_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n").find("sensor_files_test.yaml:2: ") == 0);
-  CHECK(reported_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n")
-            .find("graph.key_unknown(nois_per_root_hz, [noise_per_root_hz] ") != std::string::npos);
+  const std::string misspelt = reported_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n");
+  CHECK(misspelt.find("graph.field_unknown(imu.gyro: , nois_per_root_hz, ") != std::string::npos);
+  CHECK(misspelt.find("Did you mean 'noise_per_root_hz'?") != std::string::npos);
   CHECK(reported_of("mag:\n  timing: {rate: -5 Hz}\n")
             .find(":2: mag.timing.rate: graph.value_out_of_range(-5 Hz, ") != std::string::npos);
   CHECK(reported_of("gnss: {timing: {dropouts: 1.5}}\n").find("graph.value_out_of_range(1.5, 0, 0.99, ") !=

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "core/graph/messages.hpp"
 
 namespace fulmar::core {

@@ -58,6 +58,8 @@ inline constexpr MessageText message_channel_missing{"log.message_channel_missin
                                                      "a message belongs to no channel"};
 inline constexpr MessageText metadata_index_wrong{"log.metadata_index_wrong",
                                                   "a metadata index does not point at metadata"};
+inline constexpr MessageText operation_failed{
+    "log.operation_failed", {"operation", "file", "reason"}, "cannot {operation} '{file}': {reason}"};
 inline constexpr MessageText partial_log_exists{
     "log.partial_log_exists", {"file", "state"}, "'{file}' exists: {state}"};
 inline constexpr MessageText record_memory_exhausted{"log.record_memory_exhausted",

@@ -66,7 +66,7 @@ OutFile::~OutFile() {
 }
 
 bool OutFile::failed(const char* what) {
-  fail(std::string("cannot ") + what + " '" + name_.string() + "': " + std::strerror(errno));
+  fail(log_messages::operation_failed(what, name_.string(), std::strerror(errno)));
   return false;
 }
 

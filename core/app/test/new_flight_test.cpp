@@ -63,9 +63,9 @@ TEST_CASE("a flight that is one of several refuses, and so does one whose seed i
                    "\"$F\" restart 2>&1; echo $?; \"$F\" restart --seed -1 2>&1; echo $?\n"
                    "kill -INT $(cat pid); landed"));
   CAPTURE(r.out);
-  CHECK(
-      r.out.starts_with("restart: refused: run.restart_not_possible(this is one of the flights of "
-                        "--repeat)\n1\ntap.seed_invalid(-1)\n2\n"));
+  CHECK(r.out.starts_with(
+      "remote.request_rejected(restart, run.restart_not_possible(this is one of the flights of "
+      "--repeat))\n1\ntap.seed_invalid(-1)\n2\n"));
   CHECK(r.out.ends_with("\n2\n130\n"));
 }
 

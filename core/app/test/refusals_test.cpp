@@ -103,17 +103,16 @@ TEST_CASE("an aircraft that cannot fly is refused with the line that says so, be
       CHECK_MESSAGE(r.err.find(why) != std::string::npos, r.err);
     }
   };
-  refused("xz_kgm2: 0.06", "xz_kgm2: 0.5", "airframe.inertia.xz",
-          "sim_aero.inertia_not_definite(");
+  refused("xz_kgm2: 0.06", "xz_kgm2: 0.5", "airframe.inertia.xz", "sim_aero.inertia_not_definite(");
   refused("airspeed_cruise: 17 m/s", "airspeed_cruise: 8 m/s", "airframe.limits.airspeed_cruise",
           "sim_aero.wing_stalls(");
   const fs::path m = folder() / "aircraft.yaml";
   std::ofstream(m) << "mission: trial\nextends: " << hourglass
                    << "\ncomponents:\n  sim:\n    params:\n      start_height: 70 m\n"
                       "      start_airspeed: 6 m/s\n";
-  CHECK(
-      fulmar("check " + m.string()).err.find("aircraft.yaml:7: sim: start_airspeed: sim_aero.level_flight_impossible(6, ") !=
-      std::string::npos);
+  CHECK(fulmar("check " + m.string())
+            .err.find("aircraft.yaml:7: sim: start_airspeed: sim_aero.level_flight_impossible(6, ") !=
+        std::string::npos);
   const Result set = fulmar("check " + hourglass + " --set \"sim.airframe.mass=45 kg\"");
   CHECK(set.code == 4);
   CHECK_MESSAGE(set.err.find(": sim: airframe.limits.airspeed_cruise: ") != std::string::npos, set.err);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/graph/condition.hpp"
+#include "core/log/events.hpp"
 #include "core/log/reader.hpp"
 #include "core/run/messages.hpp"
 #include "core/run/state/published.hpp"

@@ -144,8 +144,8 @@ TEST_CASE("a log that fails is told of while the flight lasts") {
       if (i == 10'000) return 2;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    return log.log.error() ==
-                   "log.log_not_writable(" + (folder.path / "a.mcap.part").string() + ", File too large)"
+    return log.log.error() == "log.operation_failed(write, " + (folder.path / "a.mcap.part").string() +
+                                  ", File too large)"
                ? 0
                : 3;
   });

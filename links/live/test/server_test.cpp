@@ -189,7 +189,7 @@ TEST_CASE_FIXTURE(Fixture, "a client that does not read loses samples and takes 
   CHECK(got == static_cast<std::uint64_t>(tick));
   const json reported = stuck.next("status");  // it reads at last
   CHECK(reported["level"] == 1);
-  CHECK(reported["message"].get<std::string>().find("too slow") != std::string::npos);
+  CHECK(reported["message"].get<std::string>().find("live.client_too_slow(") != std::string::npos);
 }
 
 TEST_CASE_FIXTURE(Fixture, "messages against the protocol close the connection with the code for it") {

@@ -132,7 +132,7 @@ TEST_CASE("a controller: it is flown for as long as was asked, armed by its pilo
   const Result r = fly(device.name(), "--duration 7");
   CAPTURE(r.said);
   CHECK(r.code == 0);
-  CHECK(r.says("hourglass: flown: never left the ground (duration reached)"));
+  CHECK(r.says("hourglass: flown: score.never_airborne (duration reached)"));
   CHECK(back);
   CHECK(fcu.commands() >
         100);  // 20 Hz and more in the 6 s with a cable; how many come in a tick's time is shown elsewhere

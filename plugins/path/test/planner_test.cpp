@@ -216,8 +216,8 @@ TEST_CASE("a plan holds 1024 waypoints and refuses one more") {
   bench.step(0.01);
   CHECK(ask(bench, edit(PlanEditKind::append, 0, -400, 0)) == "accepted");
   CHECK(bench.out.plan.value.waypoints.count == 1024);
-  CHECK(ask(bench, edit(PlanEditKind::append, 0, -800, 0)).find("full") != std::string::npos);
-  CHECK(ask(bench, edit(PlanEditKind::insert, 0, -800, 0)).find("full") != std::string::npos);
+  CHECK(ask(bench, edit(PlanEditKind::append, 0, -800, 0)).find("path.plan_full") != std::string::npos);
+  CHECK(ask(bench, edit(PlanEditKind::insert, 0, -800, 0)).find("path.plan_full") != std::string::npos);
   CHECK(ask(bench, edit(PlanEditKind::remove, 0)) == "accepted");
   CHECK(bench.out.plan.value.waypoints.count == 1023);
 }

@@ -65,7 +65,7 @@ TEST_CASE("a fence or places that cannot be are refused with file and line") {
           "safety.home_outside_fence(0, 0)");
   refused(fence("{north: 500 m}, {north: 500 m, east: 500 m}, {north: -500 m, east: 300 m}"),
           "fence.corners[0]: flight.place_missing");
-  refused("  back: {params: {places: {places: []}}}", "the first is home");
+  refused("  back: {params: {places: {places: []}}}", "places.places: safety.places_missing");
   const std::string twice =
       "{places: [{north: 0 m, east: 0 m}, {north: 9 m, east: 0 m}, {north: 9.5 m, east: 0.5 m}]}";
   for (const char* who : {"back", "watch"})

@@ -78,8 +78,8 @@ std::vector<double> labelled(const Lines& lines, const char* label, std::size_t 
   if (!line) refuse({lines.file, int(lines.all.size())}, aero_messages::labelled_line_missing(label));
   const std::vector<double> values = numbers_among(lines, *line);
   if (values.size() != count)
-    refuse(lines.where(*line), std::string(label) + ": expected " + std::to_string(count) +
-                                   " numbers; found " + std::to_string(values.size()));
+    refuse(lines.where(*line),
+           fulmar::located(label, aero_messages::result_count_mismatch(count, values.size())));
   return values;
 }
 

@@ -17,11 +17,7 @@ namespace fulmar::aero::test {
 struct Answer {
   int code = -1;
   std::string out;  // what was printed, faults too
-  bool says(const std::string& text) const {
-    if (out.find(text) == std::string::npos)
-      std::fprintf(stderr, "DBG [%s] <- [%s]\n", text.c_str(), out.c_str());
-    return out.find(text) != std::string::npos;
-  }
+  bool says(const std::string& text) const { return out.find(text) != std::string::npos; }
   nlohmann::json json() const { return nlohmann::json::parse(out); }
 };
 

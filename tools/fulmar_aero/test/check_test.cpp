@@ -102,7 +102,7 @@ TEST_CASE("a derivative of the wrong sign is found, with what it would do" * doc
         {"elevator: 0.13}", "elevator: -0.47351}", "warnings", "aero.lift.elevator",
          "aero.derivative_sign_wrong(CL_de, -0.474, positive, "},
         {"beta: -0.13,", "beta: -0.00195,", "warnings", "aero.roll.beta",
-         "aero.derivative_unusual(Cl_beta, -0.00195, -0.28, -0.005, )"},
+         "aero.derivative_unusual(Cl_beta, -0.00195, -0.28, -0.005, "},
         {"aileron: -0.011", "aileron: 0.011", "warnings", "aero.yaw.aileron", "aero.proverse_yaw(0.011, "},
         {"aileron: -0.011", "aileron: -0.06", "warnings", "aero.yaw.aileron",
          "aero.adverse_yaw_high(-0.06, "}})
@@ -291,9 +291,9 @@ TEST_CASE("tables that cannot be read are refused with their line") {
   refused("{coefficient: pitch, over: alpha, at: [0, 0.1, 0.1], values: [1, 2, 3]}",
           "aero.tables[0].at[2]: graph.list_not_rising(0.1,  is there twice)");
   refused("{coefficient: pitch, over: alpha, at: [0, 0.1], values: [1, 2, 3]}",
-          "aero.table_invalid(0, values: there are 3, and 2 points have 2)");
+          "aero.table_invalid(0, values: flight.table_values_mismatched(3, 2))");
   refused("{coefficient: pitch, over: alpha, at: [-5, 5], values: [1, 2]}",
-          "aero.table_invalid(0, at: angles are in radians, and these go beyond half a turn)");
+          "aero.table_invalid(0, at: flight.table_angle_large)");
   refused("{over: alpha, at: [0, 1]}",
           "aero.tables[0]: graph.item_incomplete(CoefficientTable, coefficient, values)");
   refused("{coefficient: pitch, over: aleph, at: [0, 1], values: [1, 2]}", "aero.tables[0].over: ");

@@ -86,8 +86,6 @@ inline bool says(const std::vector<std::string>& list, const std::string& words)
   return false;
 }
 inline bool says(const std::string& text, const std::string& words) {
-  if (text.find(words) == std::string::npos)
-    std::fprintf(stderr, "DBG [%s] <- [%s]\n", words.c_str(), text.c_str());  // DBG
   return text.find(words) != std::string::npos;
 }
 

@@ -304,7 +304,7 @@ TEST_CASE("ROSflight's hand-copied files: what is wrong in each is found" * doct
   const Folder folder;
   const Answer openvsp = call("import " + shared("ros_params/openvsp_anaconda_dynamics.yaml") + " -o " +
                               (folder.path / "a.yaml").string());
-  CHECK_MESSAGE(openvsp.says("aero.roll.beta: Cl_beta is -0.00195"), openvsp.out);
+  CHECK_MESSAGE(openvsp.says("aero.roll.beta: aero.derivative_unusual(Cl_beta, -0.00195, "), openvsp.out);
   CHECK(!openvsp.says("FAULT"));
   CHECK(openvsp.code == 0);
   CHECK(openvsp.says("DOUBTFUL C_L_O 0.623 is CL at the 3 deg"));

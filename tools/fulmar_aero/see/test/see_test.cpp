@@ -42,7 +42,7 @@ TEST_CASE("the page keeps what pages keep, and has both sets in every chart of f
     CHECK(std::count(chart.legend.begin(), chart.legend.end(), "petrel") == 1);
   }
   CHECK(both().find("aero.surfaces_not_in_file(anaconda)") != std::string::npos);
-  CHECK(both().find("petrel: surfaces and lattice, from above") != std::string::npos);
+  CHECK(both().find("petrel: surfaces and lattice") != std::string::npos);
 }
 
 TEST_CASE("trim curves lie where `trim --json` says") {
@@ -203,7 +203,7 @@ TEST_CASE("a drawing whose surfaces are in another program's file is seen as if 
   REQUIRE_MESSAGE(answer.code == 0, answer.out);
   const std::string page = text_of(out);
   check_page(page);
-  const ReadChart above = chart_named(read_charts(page), "surfaces and lattice, from above");
+  const ReadChart above = chart_named(read_charts(page), "surfaces and lattice");
   double right = -10, left = 10, wing_tip_x = 10;  // y to the right along the page's x
   for (const ReadCurve& curve : above.all("line s0"))
     for (const ChartPoint& point : curve.points()) {

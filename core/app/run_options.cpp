@@ -35,6 +35,7 @@ void RunArguments::add(CLI::App* command) {
   command->add_option("--duration", run_.duration_s, "end the flight after SECONDS of flight time")
       ->check(CLI::Validator(not_seconds, "SECONDS"));
   command->add_option("--log", run_.log_file, "write the log to FILE; default logs/<mission>-<UTC>.mcap")
+      ->type_name("FILE")
       ->check(a_file("the log gets a name of its own in logs/"));
   command->add_flag("--no-log", run_.no_log, "write no log");
   command
@@ -54,14 +55,17 @@ void RunArguments::add(CLI::App* command) {
       ->add_flag("--realtime{" + std::to_string(usual_priority) + "}", run_.realtime,
                  "run the loop with locked memory and real-time priority, 1 to 99 as in --realtime=70")
       ->check(CLI::Range(1, 99));
-  command->add_option("--drivers-from", run_.drivers_from,
-                      "read the samples of drivers from log FILE instead of their devices");
+  command
+      ->add_option("--drivers-from", run_.drivers_from,
+                   "read the samples of drivers from log FILE instead of their devices")
+      ->type_name("FILE");
   add_resume(command);
 }
 
 void RunArguments::add_many(CLI::App* command) {
   CLI::Option* repeat =
       command->add_option("--repeat", many.repeat, "run NUMBER flights in one host, all with the same seed")
+          ->type_name("NUMBER")
           ->check(CLI::Range(1, 1000000));
   CLI::Option* watch = command->add_flag(
       "--watch", many.watch,
@@ -74,8 +78,10 @@ void RunArguments::add_many(CLI::App* command) {
       ->excludes(repeat)
       ->excludes(watch)
       ->excludes(command->get_option("--seed"));
-  command->add_option("--build", many.build,
-                      "with --watch: run COMMAND after a change of a source file beside the mission");
+  command
+      ->add_option("--build", many.build,
+                   "with --watch: run COMMAND after a change of a source file beside the mission")
+      ->type_name("COMMAND");
 }
 
 void RunArguments::add_resume(CLI::App* command) {

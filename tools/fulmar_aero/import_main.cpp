@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   rosplane->add_option("DIR", folder, "folder with parameter, gain and mission files of one aircraft")
       ->required();
   rosplane->add_option("-o,--out", out, "write to FOLDER; existing files of the same names are replaced")
+      ->type_name("FOLDER")
       ->required();
   return core::run_program(
       app,

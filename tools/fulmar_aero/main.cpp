@@ -44,7 +44,8 @@ struct CommandLine {
         "modes", "compute short period, phugoid, Dutch roll, roll and spiral modes over airspeed");
     flight.add(modes, true);
     modes->add_option("--step", step, "set the step of the airspeed range; default 1 m/s");
-    modes->add_option("--svg", svg, "draw the modes in the complex plane to FILE; replaces the file");
+    modes->add_option("--svg", svg, "draw the modes in the complex plane to FILE; replaces the file")
+        ->type_name("FILE");
     modes->footer(
         "Example: fulmar aero modes fulmar:airframes/anaconda.yaml --airspeed \"12..27 m/s\" --svg "
         "modes.svg");
@@ -66,7 +67,8 @@ struct CommandLine {
     fly->add_option("--altitude", flight.altitude,
                     "set the altitude above mean sea level in the standard atmosphere; default 0 m");
     fly->add_flag("--write", tuning.write, "write the gains to the airframe file; the rest is kept");
-    fly->add_option("-o,--output", report, "write a page with all results to FILE; replaces the file");
+    fly->add_option("-o,--output", report, "write a page with all results to FILE; replaces the file")
+        ->type_name("FILE");
     fly->footer("Example: fulmar aero fly mine.yaml --write -o mine.html");
   }
 
@@ -74,7 +76,8 @@ struct CommandLine {
     vlm = app.add_subcommand(
         "vlm", "compute coefficients, mass and inertia from geometry by the vortex lattice method");
     vlm->add_option("GEOMETRY", drawing.geometry, "surfaces, bodies and masses (YAML)")->required();
-    vlm->add_option("-o,--output", drawing.out, "write the airframe to FILE; replaces the file");
+    vlm->add_option("-o,--output", drawing.out, "write the airframe to FILE; replaces the file")
+        ->type_name("FILE");
     vlm->add_flag("--convergence", drawing.convergence, "repeat the computation with fewer and more panels");
     vlm->add_flag("--json", drawing.json, "print one JSON object");
     vlm->footer("Example: fulmar aero vlm fulmar:drawings/petrel.yaml -o petrel.yaml");
@@ -84,7 +87,8 @@ struct CommandLine {
     see = app.add_subcommand("see",
                              "compare aircraft on a page: planform, lift, polars, trim, envelope, modes");
     see->add_option("FILE", seen, "airframe or geometry files, up to six")->required()->expected(1, 6);
-    see->add_option("-o,--output", page, "write the page to FILE; replaces the file; default aircraft.html");
+    see->add_option("-o,--output", page, "write the page to FILE; replaces the file; default aircraft.html")
+        ->type_name("FILE");
     see->add_option("--altitude", flight.altitude,
                     "set the altitude above mean sea level in the standard atmosphere; default 0 m");
     see->footer(
@@ -114,8 +118,9 @@ struct CommandLine {
     importer
         ->add_option("FILE", w.files, "files of one aircraft; the first file with a value takes precedence")
         ->required();
-    importer->add_option("-o,--out", w.out,
-                         "write the airframe to FILE; replaces the file; default: print it");
+    importer
+        ->add_option("-o,--out", w.out, "write the airframe to FILE; replaces the file; default: print it")
+        ->type_name("FILE");
     importer->add_option("--mass", w.mass, "set the mass, as in \"4.5 kg\"; default: from the files");
     importer
         ->add_option("--inertia", w.inertia,
@@ -129,8 +134,9 @@ struct CommandLine {
                          "use the analysis of a sweep nearest to this angle of attack, as in \"3 deg\"");
     importer->add_option("--length-unit", w.length_unit,
                          "set the length unit of files without one, as in ft; default m");
-    importer->add_option("--drag-from", w.drag_from, "take the drag from FILE");
-    importer->add_option("--controls-from", w.controls_from, "take the control derivatives from FILE");
+    importer->add_option("--drag-from", w.drag_from, "take the drag from FILE")->type_name("FILE");
+    importer->add_option("--controls-from", w.controls_from, "take the control derivatives from FILE")
+        ->type_name("FILE");
     importer->add_option("--name", w.name, "set the name of the aircraft; default: from the files");
     importer->add_flag("--json", w.json, "print one JSON object");
     importer->footer("Example: fulmar aero import plane.st plane.mass -o plane.yaml");

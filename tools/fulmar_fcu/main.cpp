@@ -147,8 +147,11 @@ struct CommandLine {
     one("airspeed", "calibrate the airspeed sensor: cover the pitot, 8 s");
     CLI::App* mag = one("mag", "calibrate the magnetometer: rotate the aircraft on each of its six sides");
     CLI::Option* from = mag->add_option("--from", hardware.file,
-                                        "use raw samples from FILE instead of rotating: x,y,z in tesla");
-    mag->add_option("--record", hardware.record, "write the samples to FILE")->excludes(from);
+                                        "use raw samples from FILE instead of rotating: x,y,z in tesla")
+                            ->type_name("FILE");
+    mag->add_option("--record", hardware.record, "write the samples to FILE")
+        ->type_name("FILE")
+        ->excludes(from);
     mag->add_flag("--dry-run", hardware.dry_run, "print the result and set nothing");
     mag->add_flag("--yes", options.yes, "skip the confirmation");
   }
@@ -156,12 +159,13 @@ struct CommandLine {
   void add_hardware() {
     CLI::App* check = command(&app, "check", "run the preflight checks; exit code 1 on a FAIL",
                               [this](Client& c) { return check_command(c, options, hardware); });
-    check->add_option("--airframe", hardware.airframe, "compare with airframe FILE");
+    check->add_option("--airframe", hardware.airframe, "compare with airframe FILE")->type_name("FILE");
     CLI::App* measure =
         command(&app, "bench", "measure latency, rates, losses and noise of the board at rest",
                 [this](Client& c) { return bench_command(c, options, bench); });
     measure->add_option("FILE", bench.file, "report file: .json, else Markdown")->required();
     measure->add_option("--seconds", bench.seconds, "set the time of the measurement")
+        ->type_name("SECONDS")
         ->check(CLI::Range(1, 3600))
         ->capture_default_str();
     measure->add_flag("--replace", bench.replace, "overwrite an existing file");

@@ -137,7 +137,8 @@ struct RemoteCommands::Impl {
                      "PORT.FIELD or COMPONENT.PROBE; to plot logs, give their files first")
         ->required()
         ->type_name("");
-    live_seconds = draw->add_option("--seconds", curves.seconds, "show the last SECONDS of a running flight");
+    live_seconds = draw->add_option("--seconds", curves.seconds, "show the last SECONDS of a running flight")
+                       ->type_name("SECONDS");
     live_seconds->check(CLI::Range(0.1, 36000.0));
     const auto of_logs = [&](CLI::Option* option) {
       log_options.push_back(option->group("Options for logs"));
@@ -156,8 +157,11 @@ struct RemoteCommands::Impl {
         ->allow_extra_args(false)
         ->type_name("FIELD,FIELD");
     const auto seconds = CLI::Range(-1e7, 1e7);
-    of_logs(draw->add_option("--from", figure.from_s, "start at SECONDS of flight time"))->check(seconds);
-    of_logs(draw->add_option("--to", figure.to_s, "end at SECONDS of flight time"))->check(seconds);
+    of_logs(
+        draw->add_option("--from", figure.from_s, "start at SECONDS of flight time")->type_name("SECONDS"))
+        ->check(seconds);
+    of_logs(draw->add_option("--to", figure.to_s, "end at SECONDS of flight time")->type_name("SECONDS"))
+        ->check(seconds);
     of_logs(
         draw->add_option("--size", figure.size, "set width and height, as in 160x90mm; default: 160 mm wide"))
         ->type_name("SIZE");
@@ -216,7 +220,8 @@ struct RemoteCommands::Impl {
             "param save slc --dry-run", [this] { return param_save_command(target(), save); });
     keep->add_option("COMPONENT", save.component, "save only the parameters of COMPONENT")->type_name("");
     keep->add_option("--mission", save.mission,
-                     "write to mission FILE, if the flight runs on another computer");
+                     "write to mission FILE, if the flight runs on another computer")
+        ->type_name("FILE");
     keep->add_flag("--dry-run", save.dry_run, "print the changes and write nothing");
     keep->add_flag("--yes", save.yes, "skip the confirmation");
   }

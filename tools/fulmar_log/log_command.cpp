@@ -246,7 +246,8 @@ struct LogCommand::Impl {
     info->footer("Example: fulmar log info logs/hourglass.mcap");
     recover = log->add_subcommand("recover", "recover a truncated or damaged log");
     recover->add_option("FILE", file, "truncated or damaged log")->required();
-    recover->add_option("--out", out, "write the log to FILE; default: the name without .part");
+    recover->add_option("--out", out, "write the log to FILE; default: the name without .part")
+        ->type_name("FILE");
     recover->footer("Example: fulmar log recover logs/hourglass.mcap.part");
     to_files = log->add_subcommand("export", "export a log as CSV, NPZ or MAT");
     to_files->add_option("FILE", file, "log")->required();
@@ -255,10 +256,12 @@ struct LogCommand::Impl {
                      "set the format: csv, one file per topic; npz for NumPy; mat for MATLAB and Octave")
         ->required()
         ->check(CLI::IsMember({"csv", "npz", "mat"}));
-    to_files->add_option(
-        "--out", out,
-        "write to FILE, or to FOLDER for CSV; default: the log's name in the current directory");
+    to_files
+        ->add_option("--out", out,
+                     "write to FILE, or to FOLDER for CSV; default: the log's name in the current directory")
+        ->type_name("FILE");
     to_files->add_option("--topic", topics, "export only TOPIC, as in /nav/state; repeatable")
+        ->type_name("TOPIC")
         ->allow_extra_args(false);
     to_files->footer("Example: fulmar log export logs/hourglass.mcap --to npz --topic /nav/state");
     diff = log->add_subcommand("diff",
@@ -287,11 +290,16 @@ struct LogCommand::Impl {
                      "use a GNSS receiver as reference; default without a true state: the vehicle's, or "
                      "another one in the log")
         ->excludes("--truth");
-    compare->add_option("--names", comparison.names,
-                        "set the names of the two estimates, as in --names old,new");
+    compare
+        ->add_option("--names", comparison.names, "set the names of the two estimates, as in --names old,new")
+        ->type_name("NAMES");
     const auto seconds = CLI::Range(-1e7, 1e7);
-    compare->add_option("--from", comparison.from_s, "start at SECONDS of flight time")->check(seconds);
-    compare->add_option("--to", comparison.to_s, "end at SECONDS of flight time")->check(seconds);
+    compare->add_option("--from", comparison.from_s, "start at SECONDS of flight time")
+        ->type_name("SECONDS")
+        ->check(seconds);
+    compare->add_option("--to", comparison.to_s, "end at SECONDS of flight time")
+        ->type_name("SECONDS")
+        ->check(seconds);
     compare->add_flag("--changed", comparison.changed, "omit estimates that are equal in both logs");
     compare->add_flag("--json", comparison.json, "print one JSON object");
     compare->footer("Example: fulmar log compare flight.mcap nav.state second.state");

@@ -140,9 +140,14 @@ struct ResponseCommand::Impl {
         ->type_name("FIELD");
     command->add_option("--output", output, "response signal")->required()->type_name("FIELD");
     const auto seconds = CLI::Range(-1e7, 1e7);
-    command->add_option("--from", window.from_s, "start at SECONDS of flight time")->check(seconds);
-    command->add_option("--to", window.to_s, "end at SECONDS of flight time")->check(seconds);
-    command->add_option("--phase", window.phase, "use only the first time in phase PHASE");
+    command->add_option("--from", window.from_s, "start at SECONDS of flight time")
+        ->type_name("SECONDS")
+        ->check(seconds);
+    command->add_option("--to", window.to_s, "end at SECONDS of flight time")
+        ->type_name("SECONDS")
+        ->check(seconds);
+    command->add_option("--phase", window.phase, "use only the first time in phase PHASE")
+        ->type_name("PHASE");
     CLI::Option* const only_step = command->add_flag("--step", step, "print only the step response");
     command->add_flag("--frequency", frequency, "print only the frequency response")->excludes(only_step);
     command->add_option("--band", band_percent, "set the band of the settling time in percent; default 5")

@@ -22,9 +22,12 @@ int main(int argc, char** argv) {
   each("--in", options.in,
        "without a role: add an input, as in state=nav.state; gnss=vehicle.gnss[] is a queue");
   each("--out", options.out, "without a role: add an output, as in range=Range; edits=PlanEdit[] is a queue");
-  command->add_option("--mission", options.mission,
-                      "take the role from mission FILE; default: the shipped hourglass");
-  command->add_option("--dir", options.folder, "write the project to FOLDER; default ./NAME");
+  command
+      ->add_option("--mission", options.mission,
+                   "take the role from mission FILE; default: the shipped hourglass")
+      ->type_name("FILE");
+  command->add_option("--dir", options.folder, "write the project to FOLDER; default ./NAME")
+      ->type_name("FOLDER");
   command->footer("Example: fulmar new my_law --role outer");
   return run_program(app, [&] {
     if (asked_for_rows(argc, argv)) {

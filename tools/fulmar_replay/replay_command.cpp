@@ -239,6 +239,7 @@ ReplayCommand::ReplayCommand(CLI::App& app) {
       ->type_name("PORTS[@RATE]")
       ->allow_extra_args(false);
   command->add_option("--log", words_.out, "write the log of the replay to FILE; default: no log")
+      ->type_name("FILE")
       ->check(a_file("none is written"));
   command->add_flag("--json", words_.json, "print one JSON object");
   command->footer("Example: fulmar replay flight.mcap --set attitude.roll_kp=0.6");

@@ -116,15 +116,19 @@ int main(int argc, char** argv) {
   Words words;
   app.add_option("logs", words.logs, "one log, or up to six side by side")->required()->type_name("LOG");
   app.add_option("-o,--out", words.out,
-                 "write the report to FILE; default: the log's name in this folder, with .html");
+                 "write the report to FILE; default: the log's name in this folder, with .html")
+      ->type_name("FILE");
   app.add_option("--rate", words.rate_hz,
                  "limit each topic to RATE messages per second; default 10, fewer if the file would "
                  "exceed 5 MB")
+      ->type_name("RATE")
       ->check(CLI::Range(0.1, 1000.0));
   app.add_option("--names", words.names, "set the names of the logs, as in --names before,after")
+      ->type_name("NAMES")
       ->delimiter(',');
   app.add_option("--result", words.result,
-                 "add step times from FILE, the output of fulmar run --json, or - for standard input");
+                 "add step times from FILE, the output of fulmar run --json, or - for standard input")
+      ->type_name("FILE");
   app.footer("Example: fulmar report logs/hourglass.mcap --out hourglass.html");
   return core::run_program(app, [&] {
     if (core::asked_for_rows(argc, argv)) {

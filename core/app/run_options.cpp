@@ -47,9 +47,7 @@ void RunArguments::add(CLI::App* command) {
   command->add_flag("--strict", run_.strict,
                     "exit with code 3 after a completed flight in which a guard fired");
   add_many(command);
-  command
-      ->add_option("--live", run_.live,
-                   "accept clients at ADDRESS:PORT, or off; default: live of the mission")
+  command->add_option("--live", run_.live, "accept clients at ADDRESS:PORT, or off; default from the mission")
       ->type_name("ADDRESS:PORT");
   command
       ->add_flag("--realtime{" + std::to_string(usual_priority) + "}", run_.realtime,

@@ -98,10 +98,10 @@ struct CommandLine {
   void add_tune() {
     tune = app.add_subcommand("tune", "compute gains and margins of the shipped control laws");
     flight.add(tune);
-    tune->add_option(
-        "--bandwidth", tuning.bandwidths,
-        "set the bandwidth of a loop, as in \"roll=8 rad/s\"; loops: roll, pitch, course, height, airspeed");
-    tune->add_option("--step", tuning.step, "set the period of the laws; default \"10 ms\"");
+    tune->add_option("--bandwidth", tuning.bandwidths,
+                     "set the bandwidth of roll, pitch, course, height or airspeed, as in \"roll=8 rad/s\"; "
+                     "default: from margins");
+    tune->add_option("--step", tuning.step, "set the period of the laws; default 10 ms");
     tune->add_option("--delay", tuning.delay,
                      "set the total delay of estimator, computer and link; default 0 ms");
     tune->add_flag("--write", tuning.write, "write the gains to the airframe file; the rest is kept");

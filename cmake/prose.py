@@ -7,11 +7,14 @@
   cmake/prose.py FILE...      checks these files alone
   cmake/prose.py --reference FOLDER
                               checks the descriptions in the pages of cmake/reference.sh alone
+  cmake/prose.py --help-of PROGRAM
+                              checks the help of this program and of its subcommands alone
 
-Without files, the catalogues of messages are checked too, and the descriptions in build/docs/reference if they exist. A page whose second paragraph says "Written by `command`" is
+Without files, the catalogues of messages are checked too, and the descriptions in build/docs/reference and the help of build/bin/fulmar if they exist. A page whose second paragraph says "Written by `command`" is
 generated; its words are counted apart. Code blocks and code spans are left out of the rules, not of the count.
 """
 import argparse
+import os
 import pathlib
 import re
 import subprocess
@@ -40,6 +43,14 @@ description_terms = {
     **terms,
     r"(?<!standard )(?<!Allan )\bdeviations?\b": "standard deviation, error",
     r"\bby hand\b|\bas far as\b": "plain noun",
+}
+help_terms = {
+    **description_terms,
+    r"\bwords? of\b": "subcommand",
+    r"\bso (many|much)\b": "the name of the value, as in SECONDS",
+    r"\brefused?\b": "rejected",
+    r"\b(is|are) called\b": "name",
+    r"\bdo not ask\b": "skip the confirmation",
 }
 first_words = r"(until|while|whether|what|who|how|if|when|and|or|to|not|else|its|their)\b"
 described = {"component": 2, "parameter": 2, "field": 1}  # the first column of a table, and the fewest words of a text
@@ -177,14 +188,53 @@ def check_reference(folder):
     return len(found)
 
 
+def helps(program, path=()):
+    """(path, help) of a program, of its subcommands and of the programs beside it. One that is not built is left out."""
+    run = subprocess.run([program, *path, "--help"], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    if run.returncode:
+        return
+    yield path, run.stdout
+    listed = run.stdout.partition("\nSubcommands:\n")[2].partition("\n\n")[0]
+    beside = re.search(r"^Programs beside this one: ([^(]*)", run.stdout, re.MULTILINE) if not path else None
+    for name in re.findall(r"^  (\S+)", listed, re.MULTILINE) + (beside[1].replace(",", " ").split() if beside else []):
+        yield from helps(program, (*path, name))
+
+
+def help_faults(path, text):
+    where = " ".join(("fulmar", *path, "--help"))
+    examples = [line.split() for line in text.splitlines() if line.startswith("Example: ")]
+    if examples and not any(set(path) <= set(example) for example in examples):
+        yield f"{where}: the example is of another command: {' '.join(examples[-1][1:])}"
+    for line in text.splitlines():
+        column = re.match(r"\s+\S.*?\s{2,}(\S.*)|\s{12,}(\S.*)", line)
+        description = (column[1] or column[2]) if column else line
+        if column and re.match(first_words, description, re.IGNORECASE):
+            yield f"{where}: neither a verb nor a noun phrase: {description[:70]}"
+        for term, standard in () if line.startswith("Example: ") else help_terms.items():
+            for match in re.finditer(term, description, re.IGNORECASE):
+                yield f"{where}: '{match[0]}'; use: {standard}"
+
+
+def check_help(program):
+    """The number of faults, printed, in the help of a program."""
+    if not os.access(program, os.X_OK):
+        return 0
+    found = [fault for path, text in helps(str(program.resolve())) for fault in help_faults(path, text)]
+    print(*found, sep="\n", end="\n" if found else "")
+    return len(found)
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("files", nargs="*")
     arguments.add_argument("--count", action="store_true", help="print the words of each page")
     arguments.add_argument("--reference", type=pathlib.Path, metavar="FOLDER", help="check the descriptions in these pages alone")
+    arguments.add_argument("--help-of", type=pathlib.Path, metavar="PROGRAM", help="check the help of this program alone")
     options = arguments.parse_args()
     if options.reference:
         return 1 if check_reference(options.reference) else 0
+    if options.help_of:
+        return 1 if check_help(options.help_of) else 0
     written = generated = bad = 0
     for path in pages(options.files):
         text = path.read_text()
@@ -201,6 +251,7 @@ def main():
             print(*of_page, sep="\n", end="\n" if of_page else "")
     if not options.files:
         bad += check_messages() + check_reference(pathlib.Path("build/docs/reference"))
+        bad += check_help(pathlib.Path("build/bin/fulmar"))
     print(f"{written} words, {generated} more in generated pages, {bad} faults")
     if not options.files and written > most_words:
         print(f"more than {most_words} words in pages that are not generated")

@@ -43,7 +43,7 @@ struct Commands {
 
   /// Several flights, and what `--watch` flies, are the errand of another program.
   void add_run(char** words) {
-    CLI::App* command = app.add_subcommand("run", "fly a mission and tell how it went");
+    CLI::App* command = app.add_subcommand("run", "fly a mission and print its results");
     run.add(command);
     command->callback([this, command, words] {
       action = [this, command, words] {

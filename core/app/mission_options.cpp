@@ -42,18 +42,18 @@ CLI::Validator a_file(const std::string& otherwise) {
 
 void MissionOptions::add(CLI::App* command) {
   command->add_option("MISSION", mission, "mission file (YAML)")->required();
-  command->add_option("--io", io, "sim or fcu: simulated aircraft or flight controller")
+  command->add_option("--io", io, "select the simulated aircraft (sim) or the flight controller (fcu)")
       ->check(CLI::IsMember({"sim", "fcu"}));
-  add_pairs(command, "--role", roles, "ROLE=COMPONENT", "ROLE=COMPONENT: who fills a role in every phase");
+  add_pairs(command, "--role", roles, "ROLE=COMPONENT", "assign COMPONENT to ROLE in every phase");
   add_pairs(command, "--with", with, "COMPONENT=FILE",
-            "COMPONENT=PLUGIN.so: another file for a component, or for the one that fills a role");
-  command->add_option("--seed", seed, "seed of all noise")->check(whole_number);
+            "load COMPONENT, or the component of a role, from plugin FILE");
+  command->add_option("--seed", seed, "set the seed of all noise")->check(whole_number);
   add_pairs(command, "--set", set, "COMP.PARAM=VALUE",
-            "COMPONENT.PARAMETER=VALUE, or a field of a record: sim.airframe.mass=\"5 kg\"");
-  command->add_option("--arm", arm, "simulation: auto, or off until somebody arms")
+            "set a parameter, or a field of a record as in sim.airframe.mass=\"5 kg\"");
+  command->add_option("--arm", arm, "simulation: arm automatically (auto), or wait for an arm request (off)")
       ->check(CLI::IsMember({"auto", "off"}));
   add_pairs(command, "--record", record, "PORTS[@RATE]",
-            "log more: all, nav.*, or nav.*,outer.attitude@100Hz; without a rate every sample");
+            "log additional PORTS: all, nav.*, or nav.*,outer.attitude@100Hz; without RATE every sample");
 }
 
 Overrides MissionOptions::overrides(const CLI::App* command) const {

@@ -28,63 +28,71 @@ double parse_speed(const std::string& text) {
 }  // namespace
 
 void RunArguments::add(CLI::App* command) {
+  command->footer(
+      "Example: fulmar run configs/missions/hourglass.yaml --seed 3 --set slc.roll_limit=\"30 deg\"");
   mission_.add(command);
-  command->add_option("--speed", speed_, "real, max, or a multiple of real time");
-  command->add_option("--duration", run_.duration_s, "end after so many seconds of flight")
+  command->add_option("--speed", speed_, "set the pace: real, max, or a multiple of real time; default max");
+  command->add_option("--duration", run_.duration_s, "end the flight after SECONDS of flight time")
       ->check(CLI::Validator(not_seconds, "SECONDS"));
-  command->add_option("--log", run_.log_file, "where to write the log; default logs/<mission>-<UTC>.mcap")
+  command->add_option("--log", run_.log_file, "write the log to FILE; default logs/<mission>-<UTC>.mcap")
+      ->type_name("FILE")
       ->check(a_file("the log gets a name of its own in logs/"));
   command->add_flag("--no-log", run_.no_log, "write no log");
   command
       ->add_option("--report", report_file_,
-                   "make an HTML page of the log when the flight is over: beside the log, or FILE.html")
+                   "write an HTML report after the flight, beside the log or to FILE.html")
       ->expected(0, 1)
       ->type_name("[FILE.html]");
   command->add_flag("--json", run_.json, "print one JSON object instead of a table");
-  command->add_flag("--strict", run_.strict, "exit code 3 when a guard has fired in a flight that was flown");
+  command->add_flag("--strict", run_.strict,
+                    "exit with code 3 after a completed flight in which a guard fired");
   add_many(command);
-  command
-      ->add_option("--live", run_.live,
-                   "ADDRESS:PORT where onlookers connect, or off; default: what the mission says")
+  command->add_option("--live", run_.live, "accept clients at ADDRESS:PORT, or off; default from the mission")
       ->type_name("ADDRESS:PORT");
   command
       ->add_flag("--realtime{" + std::to_string(usual_priority) + "}", run_.realtime,
-                 "real-time priority, 1 to 99 as in --realtime=70, and locked memory for the loop")
+                 "run the loop with locked memory and real-time priority, 1 to 99 as in --realtime=70")
       ->check(CLI::Range(1, 99));
-  command->add_option("--drivers-from", run_.drivers_from,
-                      "take the samples of drivers from this log, in place of their devices");
+  command
+      ->add_option("--drivers-from", run_.drivers_from,
+                   "read the samples of drivers from log FILE instead of their devices")
+      ->type_name("FILE");
   add_resume(command);
 }
 
 void RunArguments::add_many(CLI::App* command) {
   CLI::Option* repeat =
-      command->add_option("--repeat", many.repeat, "so many flights in one host, all with the same seed")
+      command->add_option("--repeat", many.repeat, "run NUMBER flights in one host, all with the same seed")
+          ->type_name("NUMBER")
           ->check(CLI::Range(1, 1000000));
   CLI::Option* watch = command->add_flag(
       "--watch", many.watch,
-      "after a flight wait until a plugin or file of the mission changes, fly again, and compare");
+      "after each flight wait for a change of a plugin or mission file, fly again and compare");
   command
       ->add_option("--seeds", many.seeds,
-                   "a flight with each seed, as in 1..20 or 3,5,8..10; ends with their figures' mean and "
+                   "run one flight per seed, as in 1..20 or 3,5,8..10, and print mean and standard "
                    "deviation")
       ->type_name("SEEDS")
       ->excludes(repeat)
       ->excludes(watch)
       ->excludes(command->get_option("--seed"));
-  command->add_option("--build", many.build,
-                      "with --watch: command to run when a source file beside the mission has changed");
+  command
+      ->add_option("--build", many.build,
+                   "with --watch: run COMMAND after a change of a source file beside the mission")
+      ->type_name("COMMAND");
 }
 
 void RunArguments::add_resume(CLI::App* command) {
   CLI::Option* resume =
       command
           ->add_option("--resume", resume_log_,
-                       "go on where this log ended, or without a file the newest of the mission")
+                       "continue where LOG ended; without LOG, the newest log of the mission")
           ->expected(0, 1)
           ->type_name("[LOG]");
   command
-      ->add_flag("--no-resume", run_.no_resume,
-                 "with --io fcu: begin at the beginning, also when the newest log ended in the air")
+      ->add_flag(
+          "--no-resume", run_.no_resume,
+          "with --io fcu: start the mission from its beginning, even if the newest log ended in flight")
       ->excludes(resume);
 }
 

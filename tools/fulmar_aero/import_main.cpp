@@ -10,17 +10,18 @@
 
 int main(int argc, char** argv) {
   namespace core = fulmar::core;
-  CLI::App app{"Brings an aircraft over from another autopilot.", "fulmar import"};
+  CLI::App app{"Import an aircraft from another autopilot.", "fulmar import"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "fulmar import " FULMAR_VERSION);
   app.footer("Example: fulmar import rosplane rosplane_ws/params -o mine");
   std::string folder, out;
   CLI::App* const rosplane = app.add_subcommand(
       "rosplane",
-      "airframe, gains and missions from ROSplane's and ROSflight's files; exit code 1 on a fault");
-  rosplane->add_option("DIR", folder, "with the parameter, gain and mission files of one aircraft")
+      "import airframe, gains and missions from ROSplane and ROSflight files; exit code 1 on an error");
+  rosplane->add_option("DIR", folder, "folder with parameter, gain and mission files of one aircraft")
       ->required();
-  rosplane->add_option("-o,--out", out, "folder to write to; files of the same names are replaced")
+  rosplane->add_option("-o,--out", out, "write to FOLDER; existing files of the same names are replaced")
+      ->type_name("FOLDER")
       ->required();
   return core::run_program(
       app,

@@ -18,7 +18,7 @@ using namespace fulmar::aero;
 namespace core = fulmar::core;
 
 struct CommandLine {
-  CLI::App app{"Looks at an airframe before it flies.", "fulmar aero"};
+  CLI::App app{"Analyse, tune and import airframes.", "fulmar aero"};
   FlightOptions flight;
   std::string step, svg, page = "aircraft.html", report;
   std::vector<std::string> seen;
@@ -32,91 +32,112 @@ struct CommandLine {
     app.require_subcommand(1);
     app.set_version_flag("--version", "fulmar aero " FULMAR_VERSION);
     app.footer("Example: fulmar aero check configs/airframes/anaconda.yaml");
-    trim = app.add_subcommand("trim", "angles, deflections, throttle and forces of a steady flight");
+    trim = app.add_subcommand("trim", "compute angles, deflections, throttle and forces of a steady flight");
     flight.add(trim);
     trim->footer(
         "Example: fulmar aero trim fulmar:airframes/anaconda.yaml --airspeed \"17 m/s\" --turn \"30 deg\"");
-    linearize = app.add_subcommand("linearize", "the linear model about a steady flight: A and B");
+    linearize = app.add_subcommand("linearize", "compute the linear model (A, B) about a steady flight");
     flight.add(linearize);
-    linearize->add_flag("--csv", csv, "A and B of all twelve states as CSV");
+    linearize->add_flag("--csv", csv, "print A and B of all twelve states as CSV");
     linearize->footer("Example: fulmar aero linearize fulmar:airframes/anaconda.yaml --json");
-    modes = app.add_subcommand("modes", "short period, phugoid, Dutch roll, roll and spiral, over speeds");
+    modes = app.add_subcommand(
+        "modes", "compute short period, phugoid, Dutch roll, roll and spiral modes over airspeed");
     flight.add(modes, true);
-    modes->add_option("--step", step, "between the speeds of a range; else 1 m/s");
-    modes->add_option("--svg", svg, "write a picture of them in the complex plane; replaces the file");
+    modes->add_option("--step", step, "set the step of the airspeed range; default 1 m/s");
+    modes->add_option("--svg", svg, "draw the modes in the complex plane to FILE; replaces the file")
+        ->type_name("FILE");
     modes->footer(
         "Example: fulmar aero modes fulmar:airframes/anaconda.yaml --airspeed \"12..27 m/s\" --svg "
         "modes.svg");
-    check = app.add_subcommand("check", "signs, sizes, units, trim and modes; exit code 1 on a fault");
+    check = app.add_subcommand("check", "check signs, sizes, units, trim and modes; exit code 1 on an error");
     check->add_option("AIRFRAME", flight.airframe, "airframe file, or fulmar:airframes/anaconda.yaml")
         ->required();
-    check->add_option("--altitude", flight.altitude, "above mean sea level, of the standard air; else 0 m");
+    check->add_option("--altitude", flight.altitude,
+                      "set the altitude above mean sea level in the standard atmosphere; default 0 m");
     check->add_flag("--json", flight.json, "print one JSON object");
     check->footer("Example: fulmar aero check fulmar:airframes/anaconda.yaml");
     add_tune();
     add_vlm();
     add_see();
     add_import();
-    fly = app.add_subcommand("fly", "check, trim, modes, gains and a flight with them, in one");
+    fly =
+        app.add_subcommand("fly", "check an airframe, compute trim, modes and gains, and fly with the gains");
     fly->add_option("AIRFRAME", flight.airframe, "airframe file, or fulmar:airframes/anaconda.yaml")
         ->required();
-    fly->add_option("--altitude", flight.altitude, "above mean sea level, of the standard air; else 0 m");
-    fly->add_flag("--write", tuning.write, "put the gains into the file; all else of it stays");
-    fly->add_option("-o,--output", report, "a page of all that; replaces the file");
+    fly->add_option("--altitude", flight.altitude,
+                    "set the altitude above mean sea level in the standard atmosphere; default 0 m");
+    fly->add_flag("--write", tuning.write, "write the gains to the airframe file; the rest is kept");
+    fly->add_option("-o,--output", report, "write a page with all results to FILE; replaces the file")
+        ->type_name("FILE");
     fly->footer("Example: fulmar aero fly mine.yaml --write -o mine.html");
   }
 
   void add_vlm() {
-    vlm = app.add_subcommand("vlm", "coefficients, mass and inertia of a drawing, by a vortex lattice");
-    vlm->add_option("GEOMETRY", drawing.geometry, "surfaces, bodies and masses, as YAML")->required();
-    vlm->add_option("-o,--output", drawing.out, "write the airframe there; replaces the file");
-    vlm->add_flag("--convergence", drawing.convergence, "the same with fewer and more panels");
+    vlm = app.add_subcommand(
+        "vlm", "compute coefficients, mass and inertia from geometry by the vortex lattice method");
+    vlm->add_option("GEOMETRY", drawing.geometry, "surfaces, bodies and masses (YAML)")->required();
+    vlm->add_option("-o,--output", drawing.out, "write the airframe to FILE; replaces the file")
+        ->type_name("FILE");
+    vlm->add_flag("--convergence", drawing.convergence, "repeat the computation with fewer and more panels");
     vlm->add_flag("--json", drawing.json, "print one JSON object");
     vlm->footer("Example: fulmar aero vlm fulmar:drawings/petrel.yaml -o petrel.yaml");
   }
 
   void add_see() {
-    see = app.add_subcommand(
-        "see", "aircraft side by side on a page: planform, lift, polars, trim, envelope, modes");
-    see->add_option("FILE", seen, "airframe files or drawings, up to six")->required()->expected(1, 6);
-    see->add_option("-o,--output", page, "the page; replaces the file; else aircraft.html");
-    see->add_option("--altitude", flight.altitude, "above mean sea level, of the standard air; else 0 m");
+    see = app.add_subcommand("see",
+                             "compare aircraft on a page: planform, lift, polars, trim, envelope, modes");
+    see->add_option("FILE", seen, "airframe or geometry files, up to six")->required()->expected(1, 6);
+    see->add_option("-o,--output", page, "write the page to FILE; replaces the file; default aircraft.html")
+        ->type_name("FILE");
+    see->add_option("--altitude", flight.altitude,
+                    "set the altitude above mean sea level in the standard atmosphere; default 0 m");
     see->footer(
         "Example: fulmar aero see fulmar:drawings/petrel.yaml fulmar:airframes/anaconda.yaml -o both.html");
   }
 
   void add_tune() {
-    tune = app.add_subcommand("tune", "gains of the shipped laws, their margins, and a flight with them");
+    tune = app.add_subcommand("tune", "compute gains and margins of the shipped control laws");
     flight.add(tune);
-    tune->add_option(
-        "--bandwidth", tuning.bandwidths,
-        "of roll, pitch, course, height or airspeed, as in \"roll=8 rad/s\"; else what margins allow");
-    tune->add_option("--step", tuning.step, "of the laws, as in \"10 ms\"; else that");
-    tune->add_option("--delay", tuning.delay, "of estimator, computer and link together; else 0 ms");
-    tune->add_flag("--write", tuning.write, "put the gains into the file; all else of it stays");
-    tune->add_flag("--verify", tuning.verify, "fly the hourglass with them");
+    tune->add_option("--bandwidth", tuning.bandwidths,
+                     "set the bandwidth of roll, pitch, course, height or airspeed, as in \"roll=8 rad/s\"; "
+                     "default: from margins");
+    tune->add_option("--step", tuning.step, "set the period of the laws; default 10 ms");
+    tune->add_option("--delay", tuning.delay,
+                     "set the total delay of estimator, computer and link; default 0 ms");
+    tune->add_flag("--write", tuning.write, "write the gains to the airframe file; the rest is kept");
+    tune->add_flag("--verify", tuning.verify, "fly the hourglass mission with the gains");
     tune->footer("Example: fulmar aero tune fulmar:airframes/anaconda.yaml --bandwidth \"roll=8 rad/s\"");
   }
 
   void add_import() {
     ImportArguments& w = importing;
-    importer = app.add_subcommand("import",
-                                  "an airframe file from files of AVL, XFLR5, VSPAERO, ROSflight, JSBSim or "
-                                  "pyfly; exit code 1 on a fault");
-    importer->add_option("FILE", w.files, "of one aircraft; where two say the same, the first one counts")
+    importer =
+        app.add_subcommand("import",
+                           "write an airframe file from files of AVL, XFLR5, VSPAERO, ROSflight, JSBSim "
+                           "or pyfly; exit code 1 on an error");
+    importer
+        ->add_option("FILE", w.files, "files of one aircraft; the first file with a value takes precedence")
         ->required();
-    importer->add_option("-o,--out", w.out, "write the airframe file; replaces it. Else it is printed");
-    importer->add_option("--mass", w.mass, "as in \"4.5 kg\"; else that of the files");
-    importer->add_option("--inertia", w.inertia, "xx yy zz [xz] in kg m^2; else that of the files")
+    importer
+        ->add_option("-o,--out", w.out, "write the airframe to FILE; replaces the file; default: print it")
+        ->type_name("FILE");
+    importer->add_option("--mass", w.mass, "set the mass, as in \"4.5 kg\"; default: from the files");
+    importer
+        ->add_option("--inertia", w.inertia,
+                     "set the inertia xx yy zz [xz] in kg m^2; default: from the files")
         ->expected(3, 4);
     importer->add_option("--cruise", w.cruise,
-                         "airspeed, as in \"17 m/s\"; else that of the files, or of CL 0.5");
-    importer->add_option("--parasite-drag", w.parasite_drag, "CD_p; else that of the files");
-    importer->add_option("--alpha", w.alpha, "of a sweep the analysis nearest to it, as in \"3 deg\"");
-    importer->add_option("--length-unit", w.length_unit, "of files that do not say theirs, as in ft; else m");
-    importer->add_option("--drag-from", w.drag_from, "the file whose drag counts");
-    importer->add_option("--controls-from", w.controls_from, "the file whose control derivatives count");
-    importer->add_option("--name", w.name, "of the aircraft; else that in the files");
+                         "set cruise airspeed, as in \"17 m/s\"; default: from the files, or at CL 0.5");
+    importer->add_option("--parasite-drag", w.parasite_drag,
+                         "set the parasite drag CD_p; default: from the files");
+    importer->add_option("--alpha", w.alpha,
+                         "use the analysis of a sweep nearest to this angle of attack, as in \"3 deg\"");
+    importer->add_option("--length-unit", w.length_unit,
+                         "set the length unit of files without one, as in ft; default m");
+    importer->add_option("--drag-from", w.drag_from, "take the drag from FILE")->type_name("FILE");
+    importer->add_option("--controls-from", w.controls_from, "take the control derivatives from FILE")
+        ->type_name("FILE");
+    importer->add_option("--name", w.name, "set the name of the aircraft; default: from the files");
     importer->add_flag("--json", w.json, "print one JSON object");
     importer->footer("Example: fulmar aero import plane.st plane.mass -o plane.yaml");
   }

@@ -43,12 +43,15 @@ void FlightOptions::add(CLI::App* command, bool range_of_speeds) {
   command->add_option("AIRFRAME", airframe, "airframe file, or fulmar:airframes/anaconda.yaml")->required();
   command->add_option("--airspeed", airspeed,
                       range_of_speeds
-                          ? "true airspeed, or a range of it as in \"12..27 m/s\"; else the airframe's cruise"
-                          : "true airspeed, as in \"17 m/s\"; else the airframe's cruise");
-  command->add_option("--climb", climb, "angle or rate, as in \"5 deg\" or \"2 m/s\"; else level");
-  command->add_option("--turn", turn,
-                      "bank or radius, as in \"30 deg\" or \"80 m\", to the right; else straight");
-  command->add_option("--altitude", altitude, "above mean sea level, of the standard air; else 0 m");
+                          ? "set true airspeed, or a range as in \"12..27 m/s\"; default: cruise airspeed"
+                          : "set true airspeed, as in \"17 m/s\"; default: cruise airspeed");
+  command->add_option("--climb", climb,
+                      "set climb angle or rate, as in \"5 deg\" or \"2 m/s\"; default: level flight");
+  command->add_option(
+      "--turn", turn,
+      "set bank angle or radius of a right turn, as in \"30 deg\" or \"80 m\"; default: straight");
+  command->add_option("--altitude", altitude,
+                      "set the altitude above mean sea level in the standard atmosphere; default 0 m");
   command->add_flag("--json", json, "print one JSON object");
 }
 

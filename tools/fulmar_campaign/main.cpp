@@ -10,7 +10,7 @@
 
 int main(int argc, char** argv) {
   using namespace fulmar::core;
-  CLI::App app{"Several flights of a mission.", "fulmar"};
+  CLI::App app{"Run several flights of a mission.", "fulmar"};
   app.require_subcommand(1);
   RunArguments run;
   CLI::App* command = app.add_subcommand("run", "fly a mission several times");

@@ -21,8 +21,8 @@ using Deed = std::function<int(Client&)>;
 
 struct CommandLine {
   CLI::App app{
-      "Looks after a flight controller with ROSflight firmware 2, on the ground: no flight may hold its "
-      "port.",
+      "Configure, calibrate and check a flight controller with ROSflight firmware 2, on the ground. No "
+      "flight may hold its port.",
       "fulmar fcu"};
   Options options;
   ParamsOptions params;
@@ -34,13 +34,14 @@ struct CommandLine {
   CommandLine() {
     app.require_subcommand(1);
     app.set_version_flag("--version", "fulmar fcu " FULMAR_VERSION);
-    app.add_option("--port", options.port, "serial device, or udp:ADDRESS:PORT for firmware in simulation")
+    app.add_option("--port", options.port,
+                   "connect to a serial device, or to udp:ADDRESS:PORT for firmware in simulation")
         ->envname("FULMAR_FCU_PORT")
         ->capture_default_str();
-    app.add_option("--baud", options.baud, "of a serial line; USB does not care")
+    app.add_option("--baud", options.baud, "set the baud rate of a serial line; USB ignores it")
         ->check(CLI::Range(1200, 12000000))
         ->capture_default_str();
-    app.add_flag("--json", options.json, "print JSON, where there is something to print");
+    app.add_flag("--json", options.json, "print results as JSON");
     app.footer("Example: fulmar fcu --port /dev/ttyACM0 check");
     app.fallthrough();
     add_status();
@@ -84,91 +85,98 @@ struct CommandLine {
   }
 
   void add_status() {
-    CLI::App* status = command(&app, "status", "what the controller says of itself, live", [this](Client& c) {
+    CLI::App* status = command(&app, "status", "show the state of the controller", [this](Client& c) {
       return status_command(c, options, once || (!watch && !on_terminal()));
     });
     CLI::Option* one =
-        status->add_flag("--once", once, "one block of text; so it is when the output is no terminal");
-    status->add_flag("--watch", watch, "twice a second, until interrupted; so it is on a terminal")
+        status->add_flag("--once", once, "print the state once; default if the output is not a terminal");
+    status
+        ->add_flag("--watch", watch,
+                   "print the state twice a second until interrupted; default on a terminal")
         ->excludes(one);
-    command(&app, "version", "the firmware's version",
+    command(&app, "version", "print the firmware version",
             [this](Client& c) { return version_command(c, options); });
   }
 
   void add_params() {
-    CLI::App* all = command(&app, "params", "the controller's parameters", {});
+    CLI::App* all = command(&app, "params", "list, read, set and save parameters of the controller", {});
     all->require_subcommand(1);
-    CLI::App* list = command(all, "list", "all of them, or those that match",
+    CLI::App* list = command(all, "list", "list all parameters, or those that match PATTERN",
                              [this](Client& c) { return params_list(c, options, params); });
     list->add_option("PATTERN", params.pattern, "part of a name, or with * and ?, as in 'RC_*_CHN'");
-    CLI::App* get =
-        command(all, "get", "one of them", [this](Client& c) { return params_get(c, options, params); });
-    get->add_option("NAME", params.name, "of the parameter; case does not matter")->required();
-    CLI::App* set = command(all, "set", "sets one and reads it back",
+    CLI::App* get = command(all, "get", "print one parameter",
+                            [this](Client& c) { return params_get(c, options, params); });
+    get->add_option("NAME", params.name, "name of the parameter; case is ignored")->required();
+    CLI::App* set = command(all, "set", "set one parameter and read it back",
                             [this](Client& c) { return params_set(c, options, params); });
-    set->add_option("NAME", params.name, "of the parameter; case does not matter")->required();
-    set->add_option("VALUE", params.value, "whole or not, as the parameter is: 'params get' shows it")
+    set->add_option("NAME", params.name, "name of the parameter; case is ignored")->required();
+    set->add_option("VALUE", params.value, "value of the parameter's type, as 'params get' shows it")
         ->required();
-    command(all, "write", "keeps them over a power cycle",
+    command(all, "write", "write parameters to non-volatile memory",
             [this](Client& c) { return params_write(c, options); });
-    CLI::App* save = command(all, "save", "writes them to a YAML file",
+    CLI::App* save = command(all, "save", "save parameters to a YAML file",
                              [this](Client& c) { return params_save(c, options, params); });
     CLI::App* load =
-        command(all, "load", "sets those of a YAML file, ours or ROSflight's, after showing what changes",
+        command(all, "load", "show changes and set the parameters of a YAML file of Fulmar or ROSflight",
                 [this](Client& c) { return params_load(c, options, params); });
-    CLI::App* diff = command(all, "diff", "shows how they differ from a YAML file; exit code 1 when they do",
+    CLI::App* diff = command(all, "diff", "compare parameters with a YAML file; exit code 1 on differences",
                              [this](Client& c) { return params_diff(c, options, params); });
     for (CLI::App* sub : {save, load, diff})
       sub->add_option("FILE", params.file, "YAML: lines NAME: value")->required();
     for (CLI::App* sub : {set, load})
-      sub->add_flag("--write", params.write, "then keep them over a power cycle");
-    save->add_flag("--replace", params.replace, "overwrite a file that is there");
-    load->add_flag("--yes", options.yes, "do not ask");
+      sub->add_flag("--write", params.write, "write the parameters to non-volatile memory afterwards");
+    save->add_flag("--replace", params.replace, "overwrite an existing file");
+    load->add_flag("--yes", options.yes, "skip the confirmation");
   }
 
   void add_calibrate() {
-    CLI::App* all = command(&app, "calibrate", "calibrates a sensor; refused while armed", {});
+    CLI::App* all = command(&app, "calibrate", "calibrate a sensor; rejected while armed", {});
     all->require_subcommand(1);
     const auto one = [&](const std::string& name, const std::string& what) {
       CLI::App* sub = command(all, name, what, [this, name](Client& c) {
         hardware.what = name;
         return calibrate_command(c, options, hardware);
       });
-      sub->add_flag("--write", hardware.write, "then keep it over a power cycle");
+      sub->add_flag("--write", hardware.write, "write the result to non-volatile memory afterwards");
       return sub;
     };
-    one("imu", "gyroscope and accelerometer: lay it level, 3 s");
-    one("gyro", "gyroscope: keep it still, 3 s");
-    one("rc", "takes the transmitter's trims over as the controller's own");
-    one("baro", "barometer, to the ground's height: 8 s");
-    one("airspeed", "pitot: cover the tube, 8 s");
-    CLI::App* mag = one("mag", "magnetometer: turn the aircraft by hand on each of six sides");
-    CLI::Option* from =
-        mag->add_option("--from", hardware.file,
-                        "samples of a file in place of turning: x,y,z in tesla, as the sensor read them");
-    mag->add_option("--record", hardware.record, "write the samples to a file")->excludes(from);
-    mag->add_flag("--dry-run", hardware.dry_run, "tell the result, and set nothing");
-    mag->add_flag("--yes", options.yes, "do not ask");
+    one("imu", "calibrate gyroscope and accelerometer: keep the aircraft level and still, 3 s");
+    one("gyro", "calibrate the gyroscope: keep the aircraft still, 3 s");
+    one("rc", "set the controller's trims to those of the transmitter");
+    one("baro", "set the barometer's reference to the ground, 8 s");
+    one("airspeed", "calibrate the airspeed sensor: cover the pitot, 8 s");
+    CLI::App* mag = one("mag", "calibrate the magnetometer: rotate the aircraft on each of its six sides");
+    CLI::Option* from = mag->add_option("--from", hardware.file,
+                                        "use raw samples from FILE instead of rotating: x,y,z in tesla")
+                            ->type_name("FILE");
+    mag->add_option("--record", hardware.record, "write the samples to FILE")
+        ->type_name("FILE")
+        ->excludes(from);
+    mag->add_flag("--dry-run", hardware.dry_run, "print the result and set nothing");
+    mag->add_flag("--yes", options.yes, "skip the confirmation");
   }
 
   void add_hardware() {
-    CLI::App* check = command(&app, "check", "the list before a flight; exit code 1 on a FAIL",
+    CLI::App* check = command(&app, "check", "run the preflight checks; exit code 1 on a FAIL",
                               [this](Client& c) { return check_command(c, options, hardware); });
-    check->add_option("--airframe", hardware.airframe, "the airframe file of this aircraft, to compare with");
-    CLI::App* measure = command(&app, "bench", "a report of the board at rest: latency, rates, losses, noise",
-                                [this](Client& c) { return bench_command(c, options, bench); });
-    measure->add_option("FILE", bench.file, "to keep it: .json, else Markdown")->required();
-    measure->add_option("--seconds", bench.seconds, "how long it listens")
+    check->add_option("--airframe", hardware.airframe, "compare with airframe FILE")->type_name("FILE");
+    CLI::App* measure =
+        command(&app, "bench", "measure latency, rates, losses and noise of the board at rest",
+                [this](Client& c) { return bench_command(c, options, bench); });
+    measure->add_option("FILE", bench.file, "report file: .json, else Markdown")->required();
+    measure->add_option("--seconds", bench.seconds, "set the time of the measurement")
+        ->type_name("SECONDS")
         ->check(CLI::Range(1, 3600))
         ->capture_default_str();
-    measure->add_flag("--replace", bench.replace, "overwrite a file that is there");
-    command(&app, "mixer", "which output follows which command",
+    measure->add_flag("--replace", bench.replace, "overwrite an existing file");
+    command(&app, "mixer", "print the command of each output",
             [this](Client& c) { return mixer_command(c, options); });
     CLI::App* outputs =
-        command(&app, "test-outputs", "moves aileron, elevator and rudder; propeller off, disarmed",
+        command(&app, "test-outputs", "move aileron, elevator and rudder; propeller off, disarmed",
                 [this](Client& c) { return outputs_command(c, options, hardware); });
-    outputs->add_flag("--propeller-off", hardware.propeller_off, "it is off: do not ask");
-    command(&app, "reboot", "restarts the controller; what was not written is gone",
+    outputs->add_flag("--propeller-off", hardware.propeller_off,
+                      "confirm that the propeller is off and skip the question");
+    command(&app, "reboot", "restart the controller; unwritten parameters are lost",
             [this](Client& c) { return reboot_command(c, options); });
   }
 };

@@ -13,23 +13,25 @@
 
 int main(int argc, char** argv) {
   using namespace fulmar::core;
-  CLI::App app{"What missions and plugins are made of.", "fulmar"};
+  CLI::App app{"Check missions and inspect plugins.", "fulmar"};
   app.require_subcommand(1);
   MissionOptions mission, checked;
   std::string format = "text", plugin;
   bool fields = false, markdown = false;
-  CLI::App* check = app.add_subcommand("check", "check a mission file: every fault in one go");
+  CLI::App* check = app.add_subcommand("check", "check a mission file and report all errors");
   checked.add(check);
-  CLI::App* graph = app.add_subcommand("graph", "print components, wires, order and phases of a mission");
+  check->footer("Example: fulmar check configs/missions/hourglass.yaml");
+  CLI::App* graph =
+      app.add_subcommand("graph", "print components, connections, order and phases of a mission");
   mission.add(graph);
-  graph->add_option("--format", format, "text, dot or mermaid")
+  graph->add_option("--format", format, "set the output format: text, dot or mermaid")
       ->check(CLI::IsMember({"text", "dot", "mermaid"}));
   graph->footer("Example: fulmar graph configs/missions/hourglass.yaml --format mermaid");
-  CLI::App* inspect = app.add_subcommand("inspect", "print what a plugin file offers");
-  inspect->add_option("PLUGIN", plugin, "shared object")->required();
-  inspect->add_flag("--fields", fields, "also the fields of every message");
+  CLI::App* inspect = app.add_subcommand("inspect", "print components, parameters and ports of a plugin");
+  inspect->add_option("PLUGIN", plugin, "plugin file (shared object or script)")->required();
+  inspect->add_flag("--fields", fields, "print the fields of every message too");
   inspect->add_flag("--markdown", markdown,
-                    "as a page of reference: Markdown with every parameter, port and field");
+                    "print a Markdown reference page with every parameter, port and field");
   inspect->footer("Example: fulmar inspect build/lib/fulmar/control_slc.so");
   return run_program(
       app,

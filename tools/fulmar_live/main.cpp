@@ -10,7 +10,7 @@
 
 int main(int argc, char** argv) {
   using namespace fulmar::core;
-  CLI::App app{"The words of a running flight.", "fulmar"};
+  CLI::App app{"Observe and control a running flight.", "fulmar"};
   app.require_subcommand(1);
   const RemoteCommands commands(app, extern_commands());
   return run_program(app, [&] {

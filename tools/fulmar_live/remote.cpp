@@ -84,40 +84,44 @@ struct RemoteCommands::Impl {
   }
 
   void add_target(CLI::App* command) {
-    command->add_option("--at", at, "where the flight listens; default $FULMAR_LIVE, else 127.0.0.1:8765")
+    command
+        ->add_option("--at", at,
+                     "connect to the flight at HOST:PORT; default $FULMAR_LIVE, else 127.0.0.1:8765")
         ->type_name("HOST:PORT");
-    command->add_option("--token", token, "what the flight asks for; default $FULMAR_TOKEN");
+    command->add_option("--token", token, "send the access token of the flight; default $FULMAR_TOKEN");
   }
 
   void look() {
-    CLI::App* list = add(app, "list", "components of a running flight, their ports, requests and phases",
+    CLI::App* list = add(app, "list", "list components, ports, requests and phases of a running flight",
                          "list --rates", [this] { return list_command(target(), rates, json); });
-    list->add_flag("--rates", rates, "count the samples of every port for a second");
+    list->add_flag("--rates", rates, "measure the rate of every port for one second");
     list->add_flag("--json", json, "print one JSON object");
 
-    add(app, "watch", "a running flight on one screen of the terminal", "watch",
+    add(app, "watch", "show a running flight on one terminal screen", "watch",
         [this] { return watch_command(target()); });
 
-    CLI::App* show = add(app, "echo", "print messages of a running flight; angles in degrees",
+    CLI::App* show = add(app, "echo", "print messages of a running flight, angles in degrees",
                          "echo nav.state.height_m --rate 2", [this] { return echo_command(target(), echo); });
     show->add_option("PORT", echo.ports, "PORT, PORT.FIELD, or a component's probe")
         ->required()
         ->type_name("");
-    show->add_option("--rate", echo.rate_hz, "at most so many per second of flight")
+    show->add_option("--rate", echo.rate_hz, "limit the output to NUMBER messages per second of flight time")
         ->check(above_zero)
         ->type_name("NUMBER");
-    show->add_option("--count", echo.count, "end after so many")->check(from_one)->type_name("NUMBER");
-    CLI::Option* as_json = show->add_flag("--json", echo.json, "one JSON object per line");
-    show->add_flag("--csv", echo.csv, "a table; of one port")->excludes(as_json);
+    show->add_option("--count", echo.count, "end after NUMBER messages")
+        ->check(from_one)
+        ->type_name("NUMBER");
+    CLI::Option* as_json = show->add_flag("--json", echo.json, "print one JSON object per line");
+    show->add_flag("--csv", echo.csv, "print one port as CSV")->excludes(as_json);
 
     CLI::App* open =
-        add(app, "view", "open a log, or the flight that runs, in a viewer",
+        add(app, "view", "open a log or the running flight in a viewer",
             "view logs/hourglass.mcap --in lichtblick", [this] { return view_command(target(), view); });
-    open->add_option("LOG", view.what, "a log's file; or running, which is meant when nothing is said")
+    open->add_option("LOG", view.what, "log file, or running for the running flight; default running")
         ->type_name("");
-    open->add_option("--in", view.in, "page, lichtblick, foxglove, rerun or plotjuggler")
+    open->add_option("--in", view.in, "select the viewer: page, lichtblick, foxglove, rerun or plotjuggler")
         ->type_name("VIEWER");
-    open->add_flag("--print", view.print, "print the link or the command line, and open nothing");
+    open->add_flag("--print", view.print, "print the link or the command line without opening it");
 
     add_plot();
   }
@@ -125,44 +129,49 @@ struct RemoteCommands::Impl {
   /// Of a running flight, or of logs when the first word is one.
   void add_plot() {
     CLI::App* draw =
-        add(app, "plot", "plot fields of a running flight in the terminal; of logs as a figure",
+        add(app, "plot", "plot fields of a running flight or of logs",
             "plot nav.state.roll_deg slc.attitude.roll_deg\n"
             "Example: fulmar plot flight.mcap nav.state.height_m nav.state.roll_deg -o flight.svg",
             [this] { return draws_logs() ? plot_logs() : plot_live(); });
     draw->add_option("FIELD", curves.fields,
-                     "PORT.FIELD, or a component's probe; logs that stand before them are drawn")
+                     "PORT.FIELD or COMPONENT.PROBE; to plot logs, give their files first")
         ->required()
         ->type_name("");
-    live_seconds = draw->add_option("--seconds", curves.seconds, "so much of a running flight");
+    live_seconds = draw->add_option("--seconds", curves.seconds, "show the last SECONDS of a running flight")
+                       ->type_name("SECONDS");
     live_seconds->check(CLI::Range(0.1, 36000.0));
     const auto of_logs = [&](CLI::Option* option) {
-      log_options.push_back(option->group("Of logs"));
+      log_options.push_back(option->group("Options for logs"));
       return option;
     };
     of_logs(draw->add_option("-o,--out", figure.out,
-                             "the figure: .svg, .png or .pdf; without one it is drawn in the terminal"))
+                             "write the figure to FILE: .svg, .png or .pdf; default: draw in the terminal"))
         ->type_name("FILE");
-    of_logs(draw->add_option("--over", figure.over,
-                             "a field in place of time, as for a track; .FIELD: of each curve's own port"))
+    of_logs(
+        draw->add_option("--over", figure.over,
+                         "plot over FIELD instead of time, as for a track; .FIELD: of each curve's own port"))
         ->type_name("FIELD");
-    of_logs(draw->add_option("--panel", figure.panels,
-                             "a panel of these fields, commas between them; may be given again. Other fields "
-                             "have a panel per unit"))
+    of_logs(
+        draw->add_option("--panel", figure.panels,
+                         "draw these fields in one panel; repeatable. Other fields have one panel per unit"))
         ->allow_extra_args(false)
         ->type_name("FIELD,FIELD");
     const auto seconds = CLI::Range(-1e7, 1e7);
-    of_logs(draw->add_option("--from", figure.from_s, "only from so many seconds of flight on"))
+    of_logs(
+        draw->add_option("--from", figure.from_s, "start at SECONDS of flight time")->type_name("SECONDS"))
         ->check(seconds);
-    of_logs(draw->add_option("--to", figure.to_s, "only up to so many seconds of flight"))->check(seconds);
-    of_logs(draw->add_option("--size", figure.size, "width and height, as in 160x90mm; default 160 mm wide"))
+    of_logs(draw->add_option("--to", figure.to_s, "end at SECONDS of flight time")->type_name("SECONDS"))
+        ->check(seconds);
+    of_logs(
+        draw->add_option("--size", figure.size, "set width and height, as in 160x90mm; default: 160 mm wide"))
         ->type_name("SIZE");
-    of_logs(draw->add_option("--names", figure.names, "what the logs are called, as in --names old,new"))
+    of_logs(draw->add_option("--names", figure.names, "set the names of the logs, as in --names old,new"))
         ->type_name("NAMES");
     of_logs(draw->add_option("--labels", figure.labels,
-                             "what each field is called in the legend, as in --labels estimated,true"))
+                             "set the name of each field in the legend, as in --labels estimated,true"))
         ->type_name("NAMES");
-    of_logs(draw->add_flag("--no-phases", figure.no_phases, "no bands of the flight's phases"));
-    of_logs(draw->add_flag("--no-plan", figure.no_plan, "no plan behind a track of north over east"));
+    of_logs(draw->add_flag("--no-phases", figure.no_phases, "omit the bands of the flight's phases"));
+    of_logs(draw->add_flag("--no-plan", figure.no_plan, "omit the plan behind a track of north over east"));
   }
 
   bool draws_logs() {
@@ -184,35 +193,37 @@ struct RemoteCommands::Impl {
   }
 
   void parameters() {
-    CLI::App* param = app.add_subcommand("param", "parameters of a running flight");
+    CLI::App* param = app.add_subcommand("param", "list, read, set and save parameters of a running flight");
     param->require_subcommand(1);
     param->footer("Example: fulmar param set attitude.roll_kp 0.6 slc.roll_limit \"35 deg\"");
     CLI::App* list =
-        add(*param, "list", "values, ranges, and which can change in flight", "param list 'slc.roll*'",
-            [this] { return param_list_command(target(), pattern, json); });
-    list->add_option("NAME", pattern, "COMPONENT, COMPONENT.PARAMETER, or with a *")->type_name("");
+        add(*param, "list", "list values, ranges and whether a parameter can change in flight",
+            "param list 'slc.roll*'", [this] { return param_list_command(target(), pattern, json); });
+    list->add_option("NAME", pattern, "COMPONENT or COMPONENT.PARAMETER; * matches any text")->type_name("");
     list->add_flag("--json", json, "print a JSON list");
-    CLI::App* get = add(*param, "get", "values of parameters", "param get attitude.roll_kp",
+    CLI::App* get = add(*param, "get", "print values of parameters", "param get attitude.roll_kp",
                         [this] { return param_get_command(target(), words, json); });
     get->add_option("NAME", words, "COMPONENT.PARAMETER")->required()->type_name("");
-    get->add_flag("--json", json, "one JSON object per line");
-    CLI::App* set = add(
-        *param, "set",
-        "change parameters in flight, between ticks. A name is COMPONENT.PARAMETER, a value is written as in "
-        "a mission file.\n"
-        "Several are set one after another; the first that is refused ends it, and those before it stay set.",
-        "param set slc.roll_limit \"35 deg\" attitude.roll_kp 0.6", [] { return 0; });
+    get->add_flag("--json", json, "print one JSON object per line");
+    CLI::App* set = add(*param, "set", "change parameters of a running flight between two ticks",
+                        "param set slc.roll_limit \"35 deg\" attitude.roll_kp 0.6\n\n"
+                        "NAME is COMPONENT.PARAMETER; VALUE is written as in a mission file. The parameters "
+                        "are set in order. "
+                        "The first rejected one ends the command; earlier ones stay set.",
+                        [] { return 0; });
     take_rest(set, "NAME VALUE [NAME VALUE ...]", [this] {
       if (words.empty()) throw WrongUsage(remote_messages::parameters_missing());
       return param_set_command(target(), words);
     });
     CLI::App* keep =
-        add(*param, "save", "write what flies back into the mission's and airframe's files, comments kept",
+        add(*param, "save", "write current parameters to the mission and airframe files; comments are kept",
             "param save slc --dry-run", [this] { return param_save_command(target(), save); });
-    keep->add_option("COMPONENT", save.component, "its parameters alone")->type_name("");
-    keep->add_option("--mission", save.mission, "the mission's file, when the flight runs elsewhere");
-    keep->add_flag("--dry-run", save.dry_run, "show what would change");
-    keep->add_flag("--yes", save.yes, "do not ask");
+    keep->add_option("COMPONENT", save.component, "save only the parameters of COMPONENT")->type_name("");
+    keep->add_option("--mission", save.mission,
+                     "write to mission FILE, if the flight runs on another computer")
+        ->type_name("FILE");
+    keep->add_flag("--dry-run", save.dry_run, "print the changes and write nothing");
+    keep->add_flag("--yes", save.yes, "skip the confirmation");
   }
 
   /// The words after the options are the command's own: CLI11 would take [1, 2, 3] apart, and -0.5 for an
@@ -228,7 +239,7 @@ struct RemoteCommands::Impl {
 
   void orders() {
     CLI::App* call =
-        add(app, "call", "ask a component for something: {field: value, ...} or field=value ...",
+        add(app, "call", "call a component's request port: {field: value, ...} or field=value ...",
             "call plan.edit '{kind: append, waypoint: {position_m: {north: 100, east: 50, down: -80}}}'",
             [] { return 0; });
     call->add_option("REQUEST", name, "COMPONENT.REQUEST")->required()->type_name("");
@@ -236,36 +247,36 @@ struct RemoteCommands::Impl {
               [this] { return call_command(target(), name, words); });
     CLI::App* phase = add(app, "phase", "enter a phase of the mission", "phase cruise",
                           [this] { return phase_command(target(), name); });
-    phase->add_option("NAME", name, "of the phase")->required()->type_name("");
-    CLI::App* swap = add(app, "swap", "another plugin file for a component, on the ground",
+    phase->add_option("NAME", name, "name of the phase")->required()->type_name("");
+    CLI::App* swap = add(app, "swap", "replace the plugin file of a component, on the ground",
                          "swap my_law build/lib/fulmar/my_law.so",
                          [this] { return swap_command(target(), component, file); });
-    swap->add_option("COMPONENT", component, "of the mission")->required()->type_name("");
-    swap->add_option("FILE", file, "plugin")->required()->type_name("");
-    add(app, "reset", "let components fly again that a guard has stopped", "reset",
-        [this] { return reset_command(target()); });
+    swap->add_option("COMPONENT", component, "component of the mission")->required()->type_name("");
+    swap->add_option("FILE", file, "plugin file")->required()->type_name("");
+    add(app, "reset", "clear latched guards", "reset", [this] { return reset_command(target()); });
   }
 
   void clock() {
-    add(app, "pause", "let a simulation stand still", "pause", [this] { return pause_command(target()); });
-    add(app, "resume", "let a paused simulation go on", "resume",
-        [this] { return resume_command(target()); });
-    CLI::App* step = add(app, "step", "fly some ticks of a paused simulation", "step 400",
+    add(app, "pause", "pause a simulation", "pause", [this] { return pause_command(target()); });
+    add(app, "resume", "resume a paused simulation", "resume", [this] { return resume_command(target()); });
+    CLI::App* step = add(app, "step", "advance a paused simulation by TICKS", "step 400",
                          [this] { return step_command(target(), name.empty() ? "1" : name); });
-    step->add_option("TICKS", name, "a whole number")->type_name("");
-    CLI::App* speed = add(app, "speed", "how fast a simulation flies", "speed 10",
+    step->add_option("TICKS", name, "number of ticks; default 1")->type_name("");
+    CLI::App* speed = add(app, "speed", "set the speed of a simulation", "speed 10",
                           [this] { return speed_command(target(), name); });
-    speed->add_option("SPEED", name, "of 0.01 to 1e6; a paused simulation goes on")
+    speed
+        ->add_option("SPEED", name, "multiple of real time, 0.01 to 1e6, or max; a paused simulation resumes")
         ->required()
         ->type_name("");
-    CLI::App* restart = add(app, "restart", "end a simulation, and begin its mission anew in the same host",
+    CLI::App* restart = add(app, "restart", "restart the mission of a simulation in the same host",
                             "restart --seed 3", [this] { return restart_command(target(), name); });
-    restart->add_option("--seed", name, "of the new flight; default that of the one that ends")
+    restart
+        ->add_option("--seed", name, "set the seed of the new flight; default: the seed of the current one")
         ->type_name("NUMBER");
   }
 
   void completion() {
-    CLI::App* script = app.add_subcommand("completion", "print what completes words in a shell");
+    CLI::App* script = app.add_subcommand("completion", "print a shell completion script");
     script->add_option("SHELL", shell, "bash or zsh")
         ->required()
         ->check(CLI::IsMember({"bash", "zsh"}))
@@ -275,7 +286,7 @@ struct RemoteCommands::Impl {
       std::fputs(completion_script(shell).c_str(), stdout);
       return 0;
     });
-    CLI::App* complete = app.add_subcommand("complete", "words of a running flight, for shells")->group("");
+    CLI::App* complete = app.add_subcommand("complete", "print completions for a shell")->group("");
     complete->add_option("KIND", kind)->required();
     complete->add_option("PREFIX", prefix);
     complete->add_option("--log", typed_logs)->allow_extra_args(false);

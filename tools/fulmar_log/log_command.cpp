@@ -237,60 +237,72 @@ struct LogCommand::Impl {
   states::CompareArguments comparison;
 
   explicit Impl(CLI::App& app) {
-    log = app.add_subcommand("log", "look at a log, repair it, export it, compare it");
+    log = app.add_subcommand("log", "inspect, repair, export and compare logs");
     log->require_subcommand(1);
     log->footer("Example: fulmar log export logs/hourglass.mcap --to npz --topic /nav/state");
-    info = log->add_subcommand("info", "what a log holds, and what of it costs how much");
+    info = log->add_subcommand("info", "print contents and size per topic");
     info->add_option("FILE", file, "log")->required();
     info->add_flag("--json", as_json, "print one JSON object");
-    recover = log->add_subcommand("recover", "make a whole log of one that was cut off or damaged");
-    recover->add_option("FILE", file, "what is left: logs/hourglass.mcap.part")->required();
-    recover->add_option("--out", out, "new file; default the name without .part");
-    to_files = log->add_subcommand("export", "write a log as CSV, NPZ or MAT");
+    info->footer("Example: fulmar log info logs/hourglass.mcap");
+    recover = log->add_subcommand("recover", "recover a truncated or damaged log");
+    recover->add_option("FILE", file, "truncated or damaged log")->required();
+    recover->add_option("--out", out, "write the log to FILE; default: the name without .part")
+        ->type_name("FILE");
+    recover->footer("Example: fulmar log recover logs/hourglass.mcap.part");
+    to_files = log->add_subcommand("export", "export a log as CSV, NPZ or MAT");
     to_files->add_option("FILE", file, "log")->required();
     to_files
         ->add_option("--to", form,
-                     "csv: a file per topic; npz: arrays for NumPy; mat: structs for MATLAB and Octave")
+                     "set the format: csv, one file per topic; npz for NumPy; mat for MATLAB and Octave")
         ->required()
         ->check(CLI::IsMember({"csv", "npz", "mat"}));
-    to_files->add_option(
-        "--out", out,
-        "new file, or folder of the CSV files; default the log's name in the current directory");
-    to_files->add_option("--topic", topics, "only this one, as in /nav/state; may be given again")
+    to_files
+        ->add_option("--out", out,
+                     "write to FILE, or to FOLDER for CSV; default: the log's name in the current directory")
+        ->type_name("FILE");
+    to_files->add_option("--topic", topics, "export only TOPIC, as in /nav/state; repeatable")
+        ->type_name("TOPIC")
         ->allow_extra_args(false);
+    to_files->footer("Example: fulmar log export logs/hourglass.mcap --to npz --topic /nav/state");
     diff = log->add_subcommand("diff",
-                               "how two flights differ: their figures, and the first tick and field; exit "
-                               "code 0 if they are equal, else 1");
+                               "compare two logs: results, first different tick and field; exit code 1 on "
+                               "differences");
     diff->add_option("A", file, "log, or result of fulmar run --json")->required();
-    diff->add_option("B", other, "the same of another flight")->required();
+    diff->add_option("B", other, "log or result of the other flight")->required();
     diff->add_flag("--json", as_json, "print one JSON object");
-    diff->add_flag("--messages", messages_only,
-                   "metadata and attachments are told, but do not decide the exit code");
+    diff->add_flag("--messages", messages_only, "ignore metadata and attachments in the exit code");
+    diff->footer("Example: fulmar log diff before.mcap after.mcap");
     add_compare();
   }
 
   void add_compare() {
-    compare = log->add_subcommand(
-        "compare", "two estimates side by side: differences, errors against the truth or fixes, consistency");
-    compare->add_option("LOG", file, "log that holds both, or the first")->required();
+    compare =
+        log->add_subcommand("compare", "compare two state estimates: differences, errors and consistency");
+    compare->add_option("LOG", file, "log with both estimates, or with the first")->required();
     compare
         ->add_option("STATES", comparison.rest,
-                     "the two that are compared, as in nav.state second.state; or another log, and the state "
-                     "that both have")
+                     "two estimates, as in nav.state second.state; or a second log and the estimate in "
+                     "both")
         ->type_name("[LOG2] [STATE [STATE]]");
-    compare->add_option("--truth", comparison.truth, "the truth; default that of the vehicle");
+    compare->add_option("--truth", comparison.truth, "set the true state; default: truth of the vehicle");
     compare
         ->add_option("--fixes", comparison.fixes,
-                     "a receiver that is the reference; default, where there is no truth, the vehicle's, or "
-                     "another one that the log has")
+                     "use a GNSS receiver as reference; default without a true state: the vehicle's, or "
+                     "another one in the log")
         ->excludes("--truth");
-    compare->add_option("--names", comparison.names, "what the two are called, as in --names old,new");
+    compare
+        ->add_option("--names", comparison.names, "set the names of the two estimates, as in --names old,new")
+        ->type_name("NAMES");
     const auto seconds = CLI::Range(-1e7, 1e7);
-    compare->add_option("--from", comparison.from_s, "only from so many seconds of flight on")
+    compare->add_option("--from", comparison.from_s, "start at SECONDS of flight time")
+        ->type_name("SECONDS")
         ->check(seconds);
-    compare->add_option("--to", comparison.to_s, "only up to so many seconds of flight")->check(seconds);
-    compare->add_flag("--changed", comparison.changed, "nothing of states that are the same in both logs");
+    compare->add_option("--to", comparison.to_s, "end at SECONDS of flight time")
+        ->type_name("SECONDS")
+        ->check(seconds);
+    compare->add_flag("--changed", comparison.changed, "omit estimates that are equal in both logs");
     compare->add_flag("--json", comparison.json, "print one JSON object");
+    compare->footer("Example: fulmar log compare flight.mcap nav.state second.state");
   }
 };
 

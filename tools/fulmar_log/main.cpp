@@ -10,7 +10,7 @@
 
 int main(int argc, char** argv) {
   using namespace fulmar::core;
-  CLI::App app{"The words of logs.", "fulmar"};
+  CLI::App app{"Inspect, repair, export and compare logs.", "fulmar"};
   app.require_subcommand(1);
   const LogCommand log(app);
   const fulmar::response::ResponseCommand response(app);

@@ -124,33 +124,37 @@ struct ResponseCommand::Impl {
   bool step = false, frequency = false, as_json = false;
 
   explicit Impl(CLI::App& app) {
-    command =
-        app.add_subcommand("response", "how a field of a log answers another: step, frequency response");
+    command = app.add_subcommand("response", "compute step and frequency response between two log fields");
     command->footer(
-        "Step: rise time from 10 to 90 % of the output's change, overshoot beyond it, time until it stays in "
-        "the "
-        "band, and what of the input's change is missing at the end; the end is the mean of the last fifth.\n"
-        "Frequency: gain, phase and coherence by Welch's method, Hann windows that overlap by half, where "
-        "the "
-        "input has a thousandth of its largest power density.\n"
+        "Step: rise time (10 to 90 % of the output's change), overshoot, settling time and steady-state "
+        "error; "
+        "the end value is the mean of the last fifth.\n"
+        "Frequency: gain, phase and coherence by Welch's method, Hann windows with 50 % overlap, at "
+        "frequencies "
+        "where the input has at least 0.1 % of its largest power density.\n"
         "Example: fulmar response x.mcap --phase height_step --input command_signal.height_excitation_m "
         "--output nav.state.height_m");
     command->add_option("LOG", log, "log of a flight (MCAP)")->required();
-    command->add_option("--input", input, "what is excited: PORT.FIELD, or COMPONENT.PROBE")
+    command->add_option("--input", input, "excitation signal: PORT.FIELD or COMPONENT.PROBE")
         ->required()
         ->type_name("FIELD");
-    command->add_option("--output", output, "what answers")->required()->type_name("FIELD");
+    command->add_option("--output", output, "response signal")->required()->type_name("FIELD");
     const auto seconds = CLI::Range(-1e7, 1e7);
-    command->add_option("--from", window.from_s, "only from so many seconds of flight on")->check(seconds);
-    command->add_option("--to", window.to_s, "only up to so many seconds of flight")->check(seconds);
-    command->add_option("--phase", window.phase, "only while the flight was in this phase, the first time");
-    CLI::Option* const only_step = command->add_flag("--step", step, "only the figures of a step");
-    command->add_flag("--frequency", frequency, "only the frequency response")->excludes(only_step);
-    command->add_option("--band", band_percent, "percent: of the settling time; default 5")
+    command->add_option("--from", window.from_s, "start at SECONDS of flight time")
+        ->type_name("SECONDS")
+        ->check(seconds);
+    command->add_option("--to", window.to_s, "end at SECONDS of flight time")
+        ->type_name("SECONDS")
+        ->check(seconds);
+    command->add_option("--phase", window.phase, "use only the first time in phase PHASE")
+        ->type_name("PHASE");
+    CLI::Option* const only_step = command->add_flag("--step", step, "print only the step response");
+    command->add_flag("--frequency", frequency, "print only the frequency response")->excludes(only_step);
+    command->add_option("--band", band_percent, "set the band of the settling time in percent; default 5")
         ->check(CLI::Range(0.1, 50.0));
     command
         ->add_option("--segment", segment_s,
-                     "seconds: of the spectra's segments; default a quarter of the time")
+                     "set the segment length of the spectra in seconds; default: a quarter of the time")
         ->check(CLI::Range(1e-3, 1e6));
     command->add_flag("--json", as_json, "print one JSON object");
   }

@@ -8,21 +8,26 @@
 
 int main(int argc, char** argv) {
   using namespace fulmar::core;
-  CLI::App app{"The words of new projects.", "fulmar"};
+  CLI::App app{"Create plugin projects.", "fulmar"};
   app.require_subcommand(1);
   NewOptions options;
-  CLI::App* command = app.add_subcommand("new", "write the project of a plugin for a mission");
-  command->add_option("NAME", options.name, "of the plugin: letters, digits and _")->required();
+  CLI::App* command = app.add_subcommand("new", "create a plugin project for a mission");
+  command->add_option("NAME", options.name, "name of the plugin: letters, digits and _")->required();
   const auto each = [&](const char* name, std::vector<std::string>& to, const char* words) {
     command->add_option(name, to, words)->allow_extra_args(false);
   };
-  each("--role", options.roles, "that it fills, as in outer; several: it fills all of them at once");
+  each("--role", options.roles, "fill ROLE, as in outer; repeat it to fill several roles at once");
   command->add_option("--template", options.from_template,
-                      "without a role: sensor or planner; --role vehicle: point_mass");
-  each("--in", options.in, "without a role: an input, as in state=nav.state; gnss=vehicle.gnss[] is a queue");
-  each("--out", options.out, "without a role: an output, as in range=Range; edits=PlanEdit[] is a queue");
-  command->add_option("--mission", options.mission, "whose role it fills; default the shipped hourglass");
-  command->add_option("--dir", options.folder, "folder to write; default ./NAME");
+                      "select a template: sensor or planner without a role, point_mass with --role vehicle");
+  each("--in", options.in,
+       "without a role: add an input, as in state=nav.state; gnss=vehicle.gnss[] is a queue");
+  each("--out", options.out, "without a role: add an output, as in range=Range; edits=PlanEdit[] is a queue");
+  command
+      ->add_option("--mission", options.mission,
+                   "take the role from mission FILE; default: the shipped hourglass")
+      ->type_name("FILE");
+  command->add_option("--dir", options.folder, "write the project to FOLDER; default ./NAME")
+      ->type_name("FOLDER");
   command->footer("Example: fulmar new my_law --role outer");
   return run_program(app, [&] {
     if (asked_for_rows(argc, argv)) {

@@ -8,7 +8,7 @@
 
 int main(int argc, char** argv) {
   using namespace fulmar::core;
-  CLI::App app{"A log, flown again.", "fulmar"};
+  CLI::App app{"Replay logs.", "fulmar"};
   app.require_subcommand(1);
   ReplayCommand replay(app);
   return run_program(

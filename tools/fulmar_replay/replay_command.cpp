@@ -226,22 +226,20 @@ int carry_out(const ReplayArguments& words) {
 }  // namespace
 
 ReplayCommand::ReplayCommand(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "replay",
-      "fly a log again: what entered the flight is fed to its mission, and what comes out is compared");
+  CLI::App* command =
+      app.add_subcommand("replay", "replay a recorded flight through its mission and compare the outputs");
   command->add_option("LOG", words_.log, "log of a flight (MCAP)")->required();
   add_pairs(
       command, "--with", with_, "COMPONENT=FILE",
-      "COMPONENT=PLUGIN.so: an experiment with another file for a component, or for the one that fills a "
-      "role, as in nav=my_filter.so");
-  add_pairs(command, "--set", set_, "COMP.PARAM=VALUE",
-            "COMPONENT.PARAMETER=VALUE: an experiment with another parameter");
+      "experiment: load COMPONENT, or the component of a role, from plugin FILE, as in nav=my_filter.so");
+  add_pairs(command, "--set", set_, "COMP.PARAM=VALUE", "experiment: set a parameter");
   command
       ->add_option("--record", words_.changes.record,
-                   "all, or PORTS[@RATE] as in nav.*@100Hz: with --log, its log holds this, too")
+                   "with --log: log additional PORTS, all or as in nav.*@100Hz")
       ->type_name("PORTS[@RATE]")
       ->allow_extra_args(false);
-  command->add_option("--log", words_.out, "where to write the log of the replay; default nowhere")
+  command->add_option("--log", words_.out, "write the log of the replay to FILE; default: no log")
+      ->type_name("FILE")
       ->check(a_file("none is written"));
   command->add_flag("--json", words_.json, "print one JSON object");
   command->footer("Example: fulmar replay flight.mcap --set attitude.roll_kp=0.6");

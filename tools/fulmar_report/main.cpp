@@ -111,19 +111,25 @@ int write_report(const Words& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Logs as one HTML file: figures, curves, and the flight at any moment of it.",
+  CLI::App app{"Write logs as one HTML report with figures, curves and a replay of the flight.",
                "fulmar report"};
   Words words;
-  app.add_option("logs", words.logs, "the log, or up to six side by side")->required()->type_name("LOG");
-  app.add_option("-o,--out", words.out, "the file; default: the log's name in this folder, with .html");
+  app.add_option("logs", words.logs, "one log, or up to six side by side")->required()->type_name("LOG");
+  app.add_option("-o,--out", words.out,
+                 "write the report to FILE; default: the log's name in this folder, with .html")
+      ->type_name("FILE");
   app.add_option("--rate", words.rate_hz,
-                 "at most so many messages of a topic per second; default 10, and fewer where the file would "
-                 "have more than 5 MB")
+                 "limit each topic to RATE messages per second; default 10, fewer if the file would "
+                 "exceed 5 MB")
+      ->type_name("RATE")
       ->check(CLI::Range(0.1, 1000.0));
-  app.add_option("--names", words.names, "what the logs are called, as in --names before,after")
+  app.add_option("--names", words.names, "set the names of the logs, as in --names before,after")
+      ->type_name("NAMES")
       ->delimiter(',');
   app.add_option("--result", words.result,
-                 "what fulmar run --json has printed of this flight, or - for standard input: step times");
+                 "add step times from FILE, the output of fulmar run --json, or - for standard input")
+      ->type_name("FILE");
+  app.footer("Example: fulmar report logs/hourglass.mcap --out hourglass.html");
   return core::run_program(app, [&] {
     if (core::asked_for_rows(argc, argv)) {
       std::fputs(core::command_rows(app).c_str(), stdout);

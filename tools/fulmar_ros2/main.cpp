@@ -57,16 +57,18 @@ int write_interfaces(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"What ROS 2 needs to know of Fulmar.", "fulmar ros2"};
+  CLI::App app{"Generate ROS 2 interface packages.", "fulmar ros2"};
   app.set_version_flag("--version", "fulmar ros2 " FULMAR_VERSION);
   app.require_subcommand(1);
   app.footer("Example: fulmar ros2 interface-package ~/ros2_ws/src/fulmar_msgs");
   Options options;
   CLI::App* package = app.add_subcommand("interface-package",
-                                         "writes the package fulmar_msgs: messages and services, for colcon");
-  package->add_option("DIR", options.folder, "new, empty, or written by this command before")->required();
-  package->add_option("PLUGIN", options.plugins, "names or files of plugins; none: all that are installed");
-  package->add_option("--mission", options.mission, "the plugins of this mission")->check(CLI::ExistingFile);
+                                         "write the colcon package fulmar_msgs with messages and services");
+  package->add_option("DIR", options.folder, "folder of the package: new, empty, or written by this command")
+      ->required();
+  package->add_option("PLUGIN", options.plugins, "names or files of plugins; default: all installed plugins");
+  package->add_option("--mission", options.mission, "use the plugins of mission FILE")
+      ->check(CLI::ExistingFile);
   return core::run_program(app, [&] {
     if (core::asked_for_rows(argc, argv)) {
       std::fputs(core::command_rows(app).c_str(), stdout);

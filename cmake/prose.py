@@ -5,12 +5,10 @@
   cmake/prose.py              exits 1 and lists each fault as file:line
   cmake/prose.py --count      prints words and the longest sentences of each page as well
   cmake/prose.py FILE...      checks these files alone
-  cmake/prose.py --reference FOLDER
-                              checks the descriptions in the pages of cmake/reference.sh alone
-  cmake/prose.py --help-of PROGRAM
-                              checks the help of this program and of its subcommands alone
+  cmake/prose.py --built BUILD
+                              checks the help of the programs of a build and the descriptions in its reference alone
 
-Without files, the catalogues of messages are checked too, and the descriptions in build/docs/reference and the help of build/bin/fulmar if they exist. A page whose second paragraph says "Written by `command`" is
+Without files, the catalogues of messages are checked too. A page whose second paragraph says "Written by `command`" is
 generated; its words are counted apart. Code blocks and code spans are left out of the rules, not of the count.
 """
 import argparse
@@ -166,7 +164,7 @@ def message_faults(path, text):
         if folder is None or found[2] != f"{folder[1]}.{found[1].removesuffix('_')}":
             yield f"{where}: the code '{found[2]}' is not the name of its entry"
         sentence = "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', found[3]))
-        plain = re.sub(r"\{\w+\}", "VALUE", sentence)
+        plain = re.sub(r"\{\w+\}|'\w+'", "VALUE", sentence)
         for term, standard in terms.items():
             for match in re.finditer(term, plain, re.IGNORECASE):
                 yield f"{where}: '{match[0]}'; use: {standard}"
@@ -228,13 +226,10 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("files", nargs="*")
     arguments.add_argument("--count", action="store_true", help="print the words of each page")
-    arguments.add_argument("--reference", type=pathlib.Path, metavar="FOLDER", help="check the descriptions in these pages alone")
-    arguments.add_argument("--help-of", type=pathlib.Path, metavar="PROGRAM", help="check the help of this program alone")
+    arguments.add_argument("--built", type=pathlib.Path, metavar="BUILD", help="check the texts of a build: help and descriptions")
     options = arguments.parse_args()
-    if options.reference:
-        return 1 if check_reference(options.reference) else 0
-    if options.help_of:
-        return 1 if check_help(options.help_of) else 0
+    if options.built:
+        return 1 if check_reference(options.built / "docs/reference") + check_help(options.built / "bin/fulmar") else 0
     written = generated = bad = 0
     for path in pages(options.files):
         text = path.read_text()
@@ -250,8 +245,7 @@ def main():
         else:
             print(*of_page, sep="\n", end="\n" if of_page else "")
     if not options.files:
-        bad += check_messages() + check_reference(pathlib.Path("build/docs/reference"))
-        bad += check_help(pathlib.Path("build/bin/fulmar"))
+        bad += check_messages()
     print(f"{written} words, {generated} more in generated pages, {bad} faults")
     if not options.files and written > most_words:
         print(f"more than {most_words} words in pages that are not generated")

@@ -41,6 +41,7 @@ for folder in $(git ls-files 'core/*.cpp' 'links/*.cpp' 'tools/*.cpp' 'plugins/*
       sort -u | sed "s|\$| $file|"
   done | sort | awk '$1 == "main" { next } $1 == last { print $1 ": " file ", " $2 } { last = $1; file = $2 }'
 done | refuse "A name is given once in a folder:"
+python3 cmake/prose.py >/dev/null || python3 cmake/prose.py | refuse "Texts break docs/style.md:"
 python3 cmake/mutate.py --only-list 2>&1 | refuse "Each listed fault has a place of its own:"
 # Subjects of commits since the first one that this rule is asked of: `area: verb what`. A clone without it, a shallow one, has nothing to ask.
 first=d2c08a6718df44440e1e08a9b19a3b70e239fb27

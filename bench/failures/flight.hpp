@@ -85,7 +85,9 @@ class FailingFlight {
     core::FlightOptions o;
     o.log = false;
     o.say = [this](const std::string& line, bool) {
-      if (failed_s_ >= 0 && line.find("phase ") == std::string::npos) flown_.lines.push_back(line);
+      if (failed_s_ >= 0 && line.find("phase ") == std::string::npos &&
+          line.find("phase_entered") == std::string::npos)
+        flown_.lines.push_back(line);
     };
     return o;
   }

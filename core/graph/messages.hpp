@@ -514,7 +514,9 @@ inline constexpr MessageText save_not_enabled{
     "graph.save_not_enabled",
     {"host"},
     "{host} is reachable from other computers, and the mission does not set live: {{save: on}"};
-inline constexpr MessageText save_off{"graph.save_off", "the mission sets live: {{save: off}"};
+inline constexpr MessageText save_off{
+    "graph.save_off",
+    "the mission forbids to save values (live: {{save: off}}); remove that key, or edit the file"};
 inline constexpr MessageText seed_invalid{
     "graph.seed_invalid", {"found"}, "seed: expected a whole number from 0, found {found}"};
 inline constexpr MessageText setting_hidden{

@@ -132,7 +132,9 @@ inline constexpr MessageText port_is_input{
 inline constexpr MessageText port_is_output{
     "loader.port_is_output", {"port"}, "{port} is an output among the inputs"};
 inline constexpr MessageText port_kind_unknown{
-    "loader.port_kind_unknown", {"port", "kind"}, "{port} has kind {kind}, which this host does not support"};
+    "loader.port_kind_unknown",
+    {"port", "kind"},
+    "{port} has the unknown kind {kind}: build the plugin again with the SDK of this host"};
 inline constexpr MessageText port_repeated{
     "loader.port_repeated", {"owner", "kind", "port"}, "{owner} has two {kind}{port}'"};
 inline constexpr MessageText probe_not_started{
@@ -144,7 +146,8 @@ inline constexpr MessageText probe_program_missing{"loader.probe_program_missing
 inline constexpr MessageText probe_timed_out{
     "loader.probe_timed_out", {"plugin", "stage", "limit"}, "{plugin} did not finish {stage} within {limit}"};
 inline constexpr MessageText program_headers_damaged{
-    "loader.program_headers_damaged", "is not a plugin: its ELF program headers are damaged or truncated"};
+    "loader.program_headers_damaged",
+    "is damaged or incomplete (its ELF program headers are wrong); build or copy it again"};
 inline constexpr MessageText program_not_started{
     "loader.program_not_started", {"program", "reason"}, "cannot start {program}: {reason}."};
 inline constexpr MessageText queue_size_invalid{

@@ -18,7 +18,7 @@ inline constexpr MessageText pilot_lost{
 inline constexpr MessageText pilot_present{
     "joystick.pilot_present", {"device"}, "{device}: the pilot is there"};
 inline constexpr MessageText records_foreign{"joystick.records_foreign", "what it sends is no joystick's"};
-inline constexpr MessageText sender_missing{"joystick.sender_missing", "nobody sends"};
+inline constexpr MessageText sender_missing{"joystick.sender_missing", "no sender"};
 inline constexpr MessageText terminal_in_use{"joystick.terminal_in_use",
                                              "the terminal belongs to another program"};
 inline constexpr MessageText terminal_setup_failed{"joystick.terminal_setup_failed",

@@ -465,8 +465,8 @@ inline constexpr MessageText hourglass_result{
     "aero.hourglass_result", {"result"}, "hourglass in light turbulence: {result}"};
 inline constexpr MessageText induced_drag_doubled{
     "aero.induced_drag_doubled",
-    "the term adds to the induced drag CL^2/(pi e AR), which always counts: C_D_alpha belongs to a linear "
-    "polar. Leave the term 0"};
+    "this term must be 0: drag always includes CL^2/(pi e AR), and C_D_alpha counts it twice. Set it to 0 "
+    "and fit C_D_0 and e"};
 inline constexpr MessageText inertia_moments_impossible{
     "aero.inertia_moments_impossible",
     {"smallest", "middle", "largest", "xz", "xx", "yy"},
@@ -914,7 +914,8 @@ inline constexpr MessageText table_axis_unsupported{
     "a table over '{property}' is not supported; valid: {choices}"};
 inline constexpr MessageText table_element_unsupported{
     "aero.table_element_unsupported", {"element"}, "<{element}> in a table is not supported"};
-inline constexpr MessageText table_empty{"aero.table_empty", "the table is empty"};
+inline constexpr MessageText table_empty{
+    "aero.table_empty", "the table has no values; write one row for each point, or remove the table"};
 inline constexpr MessageText table_invalid{
     "aero.table_invalid", {"index", "reason"}, "aero.tables[{index}].{reason}"};
 inline constexpr MessageText table_points_not_increasing{
@@ -931,8 +932,9 @@ inline constexpr MessageText table_too_large{
     "aero.table_too_large",
     {"rows", "columns"},
     "the table has {rows} by {columns} points; valid: at most 32 by 16 points and 256 values"};
-inline constexpr MessageText table_variable_missing{"aero.table_variable_missing",
-                                                    "expected <independentVar> in the table"};
+inline constexpr MessageText table_variable_missing{
+    "aero.table_variable_missing",
+    "the table does not name its variable; add <independentVar>PROPERTY</independentVar> before its values"};
 inline constexpr MessageText tag_not_closed{"aero.tag_not_closed",
                                             "a tag does not end; the file may be incomplete"};
 inline constexpr MessageText text_expected{

@@ -110,10 +110,11 @@ inline constexpr MessageText firmware_too_old{
     "fcu.firmware_too_old",
     {"port", "version"},
     "{port} runs firmware {version}: Fulmar requires ROSflight 2.0 or later; flash it."};
-inline constexpr MessageText firmware_untested{"fcu.firmware_untested",
-                                               {"found", "tested"},
-                                               "{found} is not tested with Fulmar, {tested} is: messages, "
-                                               "mixers and signs may differ; repeat every step"};
+inline constexpr MessageText firmware_untested{
+    "fcu.firmware_untested",
+    {"found", "tested"},
+    "Fulmar is tested with firmware {tested}, this controller has {found}: messages, mixers and signs may "
+    "differ. Repeat every check on the ground"};
 inline constexpr MessageText fit_failed{
     "fcu.fit_failed",
     {"reason"},
@@ -310,8 +311,9 @@ inline constexpr MessageText restored_values_unknown{
 inline constexpr MessageText reversal_in_file{
     "fcu.reversal_in_file",
     {"surface", "parameter"},
-    "the airframe file reverses the {surface} for the computer alone, not for the pilot: set {parameter} to "
-    "1, and remove the entry in the file"};
+    "the airframe file reverses the {surface} for the computer only, not for the pilot: set {parameter} to 1 "
+    "in the controller and remove the entry 'reversed' in the file. Then check both directions on the "
+    "ground"};
 inline constexpr MessageText rosflight_status_missing{
     "fcu.rosflight_status_missing",
     {"port", "frames"},

@@ -120,7 +120,8 @@ void add_unreported(const MissionText& text, Advice& advice) {
       const bool there = text.role(owner) || (component && exists(*component, text.io));
       if (!still && there)
         advice.push_back(
-            located(text.report[0].where, inspect_messages::tell_incomplete(word.text, word.where.text())));
+            located(text.report[0].where,
+                    located("tell", inspect_messages::report_list_incomplete(word.text, word.where.text()))));
     }
 }
 

@@ -22,9 +22,9 @@ inline constexpr MessageText replaced_component_read{
     "inspect.replaced_component_read",
     {"reader", "component", "mission", "successors"},
     "{reader} reads {component}, which steers in {mission} and not here: {successors} steers"};
-inline constexpr MessageText tell_incomplete{
-    "inspect.tell_incomplete",
+inline constexpr MessageText report_list_incomplete{
+    "inspect.report_list_incomplete",
     {"port", "place"},
-    "tell: {port} is missing, which {place} lists; a list replaces the other list"};
+    "{port} is missing, which {place} lists; a list replaces the other list"};
 
 }  // namespace fulmar::inspect_messages

@@ -24,7 +24,7 @@ inline constexpr MessageText export_exists{
 inline constexpr MessageText exportable_message_missing{
     "log_tool.exportable_message_missing",
     {"log", "reason"},
-    "'{log}' has no message that can be exported{reason}"};
+    "'{log}' is empty or damaged: no message can be exported{reason}"};
 inline constexpr MessageText field_unknown{"log_tool.field_unknown",
                                            {"field", "choices"},
                                            "'{field}' is not a field of a port in the log.{choices}"};
@@ -53,7 +53,8 @@ inline constexpr MessageText frequency_figures_missing{
 inline constexpr MessageText input_step_missing{
     "log_tool.input_step_missing",
     {"span", "largest"},
-    "the input has no step: the largest change between two samples is {largest} of a range of {span}"};
+    "the input has no step: it changes by at most {largest} from one sample to the next, and by {span} in "
+    "total; choose a time or a signal with a step"};
 inline constexpr MessageText interval_without_numbers{
     "log_tool.interval_without_numbers",
     {"begin", "end"},
@@ -168,8 +169,9 @@ inline constexpr MessageText states_missing{"log_tool.states_missing",
                                             "the log has no state of an aircraft (VehicleState)"};
 inline constexpr MessageText step_figures_missing{
     "log_tool.step_figures_missing", {"reason"}, "no figures of a step: {reason}"};
-inline constexpr MessageText step_samples_missing{"log_tool.step_samples_missing",
-                                                  "a step response requires samples of input and output"};
+inline constexpr MessageText step_samples_missing{
+    "log_tool.step_samples_missing",
+    "a step response requires samples of input and output in this time; record both, or choose another time"};
 inline constexpr MessageText step_samples_too_few{
     "log_tool.step_samples_too_few",
     {"before", "after"},

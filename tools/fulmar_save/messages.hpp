@@ -48,8 +48,10 @@ inline constexpr MessageText text_of_other_plugin{
     "{parameter} is the same text for {plugin}, which does not fly"};
 inline constexpr MessageText text_shared{
     "save.text_shared", {"parameters"}, "the same text also sets {parameters}"};
-inline constexpr MessageText value_form_unsupported{"save.value_form_unsupported",
-                                                    "this command cannot change the form of the value"};
+inline constexpr MessageText value_form_unsupported{
+    "save.value_form_unsupported",
+    "the file has a value of another form here (list, map or alias), which this command does not replace; "
+    "edit the file"};
 inline constexpr MessageText yaml_invalid{
     "save.yaml_invalid", {"line", "reason"}, "line {line}: not valid YAML: {reason}"};
 

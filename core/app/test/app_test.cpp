@@ -191,7 +191,7 @@ TEST_CASE("on a full disk the flight goes on and the loss is told") {
 TEST_CASE("a log that is not whole is a failure, however the flight ended") {
   const std::string log = (folder() / "cut.mcap").string(), words = (folder() / "cut.txt").string();
   const Result r = shell("ulimit -f 64; " + program + "run " + hourglass + " --speed real --log " + log +
-                         " >/dev/null 2>" + words + " & until grep -q 'goes on without its log' " + words +
+                         " >/dev/null 2>" + words + " & until grep -q 'run.log_failed(' " + words +
                          "; do sleep 0.1; done; kill -INT $!; wait $!; echo $?");
   CHECK(r.out == "1\n");
 }

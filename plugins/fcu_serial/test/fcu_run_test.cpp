@@ -176,7 +176,7 @@ TEST_CASE(
   std::array<char, 512> line{};
   while (std::fgets(line.data(), line.size(), pipe)) {
     r.said += line.data();
-    if (r.says("killed") && r.said.find("resumed: ") != std::string::npos) landed = true;
+    if (r.says("killed") && r.said.find("run.resumed(") != std::string::npos) landed = true;
   }
   pclose(pipe);
   std::filesystem::remove_all(folder);
@@ -236,7 +236,7 @@ TEST_CASE("a crash of the thread that reads the port is told, and the controller
     bool hit = false;
     while (std::fgets(line.data(), line.size(), pipe)) {
       said += line.data();
-      if (hit || said.find("phase hold") == std::string::npos) continue;
+      if (hit || said.find("run.phase_entered(hold)") == std::string::npos) continue;
       while (commands < 20) pause_us(10'000);
       const pid_t thread = thread_of(host, "fulmar-fcu");
       hit = thread > 0 && syscall(SYS_tgkill, host, thread, SIGSEGV) == 0;

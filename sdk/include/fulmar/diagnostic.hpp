@@ -19,15 +19,20 @@
 
 namespace fulmar {
 
+namespace detail {
+
+// Read when the library is loaded, not in a tick. Hidden: two plugin files do not share it, so that each can
+// be unloaded.
+[[gnu::visibility("hidden")]] inline const bool codes_wanted = [] {
+  const char* const set = std::getenv("FULMAR_MESSAGES");
+  return set != nullptr && std::string_view(set) == "codes";
+}();
+
+}  // namespace detail
+
 /// Whether a message is written as `code(argument, ...)` in place of its sentence: FULMAR_MESSAGES=codes in
 /// the environment. Scripts and tests that read messages set it; a sentence may change, a code does not.
-inline bool writes_codes() {
-  static const bool codes = [] {
-    const char* set = std::getenv("FULMAR_MESSAGES");
-    return set != nullptr && std::string_view(set) == "codes";
-  }();
-  return codes;
-}
+inline bool writes_codes() noexcept { return detail::codes_wanted; }
 
 /// The name of an argument in the catalogue, and its value.
 struct Argument {
@@ -119,15 +124,16 @@ struct Written {
 /// in which `{name}` stands for an argument and `{{` for a brace. A call makes the message:
 ///   inline constexpr MessageText key_unknown{"graph.key_unknown", {"key"}, "there is no key '{key}'"};
 ///   throw Error(key_unknown(name));
+/// Hidden, as two plugin files with one entry of a catalogue must not share it.
 template <std::size_t N>
-class MessageText {
+class [[gnu::visibility("hidden")]] MessageText {
  public:
   // A name between braces that is not an argument ends the compilation.
   constexpr MessageText(const char* code, const char* text) requires(N == 0) : code_(code), text_(text) {
     check();
   }
   template <std::size_t M>
-  requires(M == N) constexpr MessageText(const char* code, const char* const (&names)[M], const char* text)
+  requires(M == N) constexpr MessageText(const char* code, const char* const(&names)[M], const char* text)
       : code_(code), text_(text) {
     for (std::size_t i = 0; i < N; ++i) names_[i] = names[i];
     check();
@@ -175,7 +181,7 @@ class MessageText {
 
  private:
   template <class Out, class TextOf>
-  void put(Out& out, const TextOf& argument) const {
+  void put(Out & out, const TextOf& argument) const {
     if (writes_codes())
       put_key(out, argument);
     else
@@ -203,7 +209,7 @@ class MessageText {
   }
 
   /// How many characters of `at`, behind its '{', name an argument; its index in `index`.
-  constexpr std::size_t name_length(std::string_view at, std::size_t& index) const {
+  constexpr std::size_t name_length(std::string_view at, std::size_t & index) const {
     const std::size_t end = at.find('}');
     for (index = 0; index < N; ++index)
       if (end != std::string_view::npos && at.substr(0, end) == names_[index]) return end;
@@ -226,7 +232,7 @@ class MessageText {
   }
 
   template <class Out, class TextOf>
-  void put_sentence(Out& out, const TextOf& argument) const {
+  void put_sentence(Out & out, const TextOf& argument) const {
     const std::string_view text = text_;
     for (std::size_t i = 0; i < text.size(); ++i) {
       const std::size_t brace = std::min(text.find('{', i), text.size());
@@ -244,7 +250,7 @@ class MessageText {
   }
 
   template <class Out, class TextOf>
-  void put_key(Out& out, const TextOf& argument) const {
+  void put_key(Out & out, const TextOf& argument) const {
     out.put(code_);
     for (std::size_t i = 0; i < N; ++i) {
       out.put(i == 0 ? "(" : ", ");

@@ -89,4 +89,22 @@ inline bool says(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
 }
 
+/// The codes of files that are cut off, or have a decimal comma.
+inline const std::string incomplete =
+    " cell_count_mismatch column_missing control_derivatives_missing control_groups_missing "
+    "count_missing decimal_comma derivative_count_mismatch derivative_row_missing "
+    "derivative_table_missing document_end_missing drag_table_missing eigenvalue_row_invalid "
+    "element_not_closed entries_missing format_unknown gain_count_mismatch labelled_line_missing "
+    "labelled_number_missing log_control_missing longitudinal_derivatives_missing pair_missing "
+    "polar_heading_missing result_count_mismatch result_name_missing result_row_missing "
+    "row_incomplete rows_missing run_unit_unknown tag_not_closed derivatives_missing "
+    "result_number_expected three_numbers_expected number_expected ";
+
+inline bool is_incomplete(const std::string& refused) {
+  const std::size_t at = refused.find("aero.");
+  if (at == std::string::npos) return false;
+  const std::string code = refused.substr(at + 5, refused.find_first_of("(\n", at) - at - 5);
+  return says(incomplete, " " + code + " ");
+}
+
 }  // namespace fulmar::aero::test

@@ -74,7 +74,8 @@ TEST_CASE("a list under tell that replaces another one is reported with the port
   for (ComponentInfo& c : mission.shelf.plugins["path"]->components)
     c.outputs.push_back(out<Notice>("notices", FULMAR_OUT_QUEUE));
   CHECK(advised(mission) ==
-        std::vector<std::string>{"hourglass.yaml:2: inspect.tell_incomplete(manage.notices, middle.yaml:2)"});
+        std::vector<std::string>{
+            "hourglass.yaml:2: tell: inspect.report_list_incomplete(manage.notices, middle.yaml:2)"});
   mission.text = "extends: middle.yaml\ntell: null\n";
   CHECK(advised(mission).empty());
 }

@@ -330,9 +330,6 @@ struct OldEvent {
 const std::vector<std::string> old_kinds = {"phase", "guard",  "request", "parameter", "failsafe",
                                             "swap",  "notice", "end",     "resume"};
 
-/// A phase had its name behind a word.
-const std::string old_phase = "phase ";
-
 Type old_event_type() {
   Type t;
   t.name = "Event";
@@ -359,7 +356,7 @@ fs::path old_log(const fs::path& log) {
     old.kind = static_cast<std::uint8_t>(std::find(old_kinds.begin(), old_kinds.end(), kind_words(e.code)) -
                                          old_kinds.begin());
     old.component = e.component;
-    put(old.text, e.code == Code::phase_entered ? old_phase + e.name.data() : e.words.data());
+    put(old.text, e.code == Code::phase_entered ? "phase " + std::string(e.name.data()) : e.words.data());
     return bytes_of(old);
   });
   return to;
@@ -380,7 +377,7 @@ TEST_CASE(
     CHECK(was.events[i].time_ns == is.events[i].time_ns);
     CHECK(was.events[i].kind == is.events[i].kind);
     CHECK(was.events[i].component == is.events[i].component);
-    CHECK(was.events[i].text == (is.events[i].kind == "phase" ? old_phase + "fly" : is.events[i].text));
+    CHECK(was.events[i].text == (is.events[i].kind == "phase" ? "phase fly" : is.events[i].text));
   }
   REQUIRE(was.phases.size() == 1);
   CHECK(was.phases[0].name == "fly");

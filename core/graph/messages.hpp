@@ -213,8 +213,8 @@ inline constexpr MessageText integer_invalid{
 inline constexpr MessageText integer_out_of_range{
     "graph.integer_out_of_range", {"found", "min", "max"}, "{found} is outside {min} .. {max}"};
 inline constexpr MessageText integer_too_large{"graph.integer_too_large", {"found"}, "{found} is too large"};
-inline constexpr MessageText io_unknown{
-    "graph.io_unknown", {"found", "choices"}, "unknown value '{found}'.{choices}"};
+inline constexpr MessageText choice_unknown{
+    "graph.choice_unknown", {"found", "choices"}, "unknown value '{found}'.{choices}"};
 inline constexpr MessageText item_count_invalid{
     "graph.item_count_invalid", {"count", "noun", "limit"}, "{count}{noun}, but this is a list of {limit}"};
 inline constexpr MessageText item_incomplete{

@@ -438,7 +438,7 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
       mission.io = *io;
     else
       report.add({"--io " + *overrides.io, 0},
-                 graph_messages::io_unknown(*overrides.io, choices_text(*overrides.io, io_words)));
+                 graph_messages::choice_unknown(*overrides.io, choices_text(*overrides.io, io_words)));
   }
   if (overrides.seed) mission.seed = *overrides.seed;
   if (overrides.arm) mission.arm = *overrides.arm == "auto";

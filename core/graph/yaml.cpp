@@ -248,7 +248,7 @@ std::optional<std::size_t> scalar_word(const Node& node, const std::string& path
   if (!text) return std::nullopt;
   const auto it = std::find(words.begin(), words.end(), *text);
   if (it != words.end()) return static_cast<std::size_t>(it - words.begin());
-  report.add(node.where(), located(path, graph_messages::io_unknown(*text, choices_text(*text, words))));
+  report.add(node.where(), located(path, graph_messages::choice_unknown(*text, choices_text(*text, words))));
   return std::nullopt;
 }
 

@@ -61,7 +61,7 @@ struct SensorWatch {
   }
 
  private:
-  struct Sensor {
+  struct [[gnu::visibility("hidden")]] Sensor {
     const char* name;
     SensorHealth NavigationHealth::*health;
     Cause cause;

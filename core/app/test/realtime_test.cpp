@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -51,9 +52,8 @@ std::string in_child(Work&& work) {
 }
 
 /// What somebody without rights and limits is told.
-std::string as_nobody(rlim_t priorities, rlim_t memory, const char* messages = "codes") {
+std::string as_nobody(rlim_t priorities, rlim_t memory) {
   return in_child([&]() -> std::string {
-    setenv("FULMAR_MESSAGES", messages, 1);  // read by the first message: this process writes none itself
     if (getuid() == 0 && (setgroups(0, nullptr) != 0 || setgid(65534) != 0 || setuid(65534) != 0))
       return "cannot become nobody";
     const rlimit priority{priorities, priorities}, locked{memory, memory};
@@ -126,11 +126,24 @@ bool permitted() {
 
 TEST_CASE("without permission one sentence says what is missing and how to allow it") {
   const std::string nothing = as_nobody(0, 64 * 1024);
+  // The sentence itself, by this program started again.
+  if (getenv("FULMAR_TEST_SENTENCE") != nullptr) {
+    std::printf("<%s>", nothing.c_str());
+    return;
+  }
   CHECK(nothing.find("run.realtime_not_permitted(to lock its memory (limit 64 kB), ") == 0);
   const std::string memory_alone = as_nobody(0, RLIM_INFINITY);
   if (memory_alone != "cannot lower a limit")  // a hard limit that this machine sets for everybody
     CHECK(memory_alone.find("run.realtime_not_permitted(to run with priority 70 (limit 0), ") == 0);
-  const std::string sentence = as_nobody(0, 64 * 1024, "sentences");
+  std::FILE* const again = popen(
+      "FULMAR_TEST_SENTENCE=1 FULMAR_MESSAGES=sentences /proc/$PPID/exe -tc='without permission*'", "r");
+  REQUIRE(again != nullptr);
+  std::string out(1u << 16, '\0');
+  out.resize(std::fread(out.data(), 1, out.size(), again));
+  pclose(again);
+  const std::size_t begin = out.find('<');
+  REQUIRE(begin != std::string::npos);
+  const std::string sentence = out.substr(begin, out.find('>', begin) - begin);
   for (const char* way :
        {"/etc/security/limits.d/fulmar.conf", "'@dialout - rtprio 70'", "'@dialout - memlock unlimited'",
         "setcap cap_sys_nice,cap_ipc_lock+ep ", "fulmar@.service"})

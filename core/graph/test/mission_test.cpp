@@ -46,8 +46,8 @@ TEST_CASE("keys of the file are known, given once and of the right type") {
   CHECK(changed("seed: 7", "timeout: -3 s") == "6: timeout: graph.quantity_negative(-3 s)");
   // rounded to 0 it would mean never
   CHECK(changed("seed: 7", "timeout: 1e-300 s") == "6: timeout: graph.duration_too_short('1e-300 s')");
-  CHECK(changed("io: sim", "io: simulator") == "2: io: graph.io_unknown(simulator,  [] sim, fcu)");
-  CHECK(changed("arm: auto", "arm: atuo") == "7: arm: graph.io_unknown(atuo,  [auto] auto, off)");
+  CHECK(changed("io: sim", "io: simulator") == "2: io: graph.choice_unknown(simulator,  [] sim, fcu)");
+  CHECK(changed("arm: auto", "arm: atuo") == "7: arm: graph.choice_unknown(atuo,  [auto] auto, off)");
   CHECK(changed("mission: hourglass", "mission: a/b") == "1: graph.mission_name_invalid(a/b)");
   CHECK(changed("progress: [", "progress: x #[") ==
         "9: progress: graph.value_not_valid(a list of fields such as [nav.state.height_m], 'x')");
@@ -194,7 +194,7 @@ TEST_CASE("rates, budgets and run modes are those that this build has") {
   CHECK(changed("rate: 100 Hz}\n  tecs", "memory: 5 m}\n  tecs") ==
         "28: components.slc.memory: graph.memory_size_invalid(5 m)");
   CHECK(changed("rate: 100 Hz}\n  tecs", "run: fast, latency: 20 ms}\n  tecs") ==
-        "28: components.slc.run: graph.io_unknown(fast,  [] tick, process, async, driver)\n28: "
+        "28: components.slc.run: graph.choice_unknown(fast,  [] tick, process, async, driver)\n28: "
         "graph.latency_misplaced(components.slc)");
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("phases name phases, roles and fillers that exist, and all can be reac
   CHECK(changed("outer: slc, next", "vehicle: {set: {rate: 50 Hz}}, outer: slc, next") ==
         "36: graph.phase_parameter_fixed(phases.hold.vehicle.set, rate, wind_ned, turbulence)");
   CHECK(changed("law: takeoff", "law: takeof") ==
-        "37: phases.takeoff.outer.set.law: graph.io_unknown(takeof,  [takeoff] normal, takeoff)");
+        "37: phases.takeoff.outer.set.law: graph.choice_unknown(takeof,  [takeoff] normal, takeoff)");
   CHECK(changed("law: takeoff", "span: 3") ==
         "37: graph.phase_parameter_fixed(phases.takeoff.outer.set, span, course_kp, law)");
   for (const char* record : {"airframe.mass: 5 kg", "airframe: anaconda.yaml"})
@@ -282,7 +282,7 @@ TEST_CASE("ten faults give ten sentences in the order of the file") {
       .replace("law: takeoff", "law: 3")
       .replace("fallback: tecs", "fallback: tec");
   CHECK(mission.faults() ==
-        "hourglass.yaml:2: io: graph.io_unknown(sum,  [sim] sim, fcu)\nhourglass.yaml:5: rate: "
+        "hourglass.yaml:2: io: graph.choice_unknown(sum,  [sim] sim, fcu)\nhourglass.yaml:5: rate: "
         "graph.dimension_differs(400 m, a length, , a frequency)\nhourglass.yaml:6: "
         "graph.seed_invalid('x')\nhourglass.yaml:8: done: "
         "graph.number_compared_to_label(manage.progress.circuits, two)\nhourglass.yaml:10: "
@@ -290,9 +290,9 @@ TEST_CASE("ten faults give ten sentences in the order of the file") {
         "outer, inner, sim, ekf, truth, plan, manage, follow, slc, tecs, attitude, mine, "
         "score)\nhourglass.yaml:11: graph.failsafe_input_unknown(throtle_frac,  [throttle_frac] for, "
         "throttle_frac, aileron_rad, elevator_rad, rudder_rad)\nhourglass.yaml:21: "
-        "components.sim.params.turbulence: graph.io_unknown(lite,  [] none, light, "
+        "components.sim.params.turbulence: graph.choice_unknown(lite,  [] none, light, "
         "moderate)\nhourglass.yaml:27: components.follow.rate: graph.dimension_differs(100 m, a length, , a "
-        "frequency)\nhourglass.yaml:37: phases.takeoff.outer.set.law: graph.io_unknown(3,  [] normal, "
+        "frequency)\nhourglass.yaml:37: phases.takeoff.outer.set.law: graph.choice_unknown(3,  [] normal, "
         "takeoff)\nhourglass.yaml:39: phases.research.outer.fallback: graph.filler_unknown(tec, outer,  "
         "[tecs] slc, tecs, mine)");
 }
@@ -315,7 +315,7 @@ TEST_CASE("the command line is checked like the file") {
         "parameter, course_kpp,  [course_kp] course_kp, law, span, airframe)\n--set sim.wind_ned=[1,2: "
         "graph.yaml_invalid(a '[' is not closed, or a ',' is missing)\n--set sim.turbulence=: "
         "sim.turbulence: graph.value_not_valid(one of none, light, moderate, nothing)\n--set fcu.port=x: "
-        "graph.component_of_other_io(fcu, fcu)\n--io boat: graph.io_unknown(boat,  [] sim, fcu)");
+        "graph.component_of_other_io(fcu, fcu)\n--io boat: graph.choice_unknown(boat,  [] sim, fcu)");
 }
 
 // Days from 1970-01-01 by `date -u -d ... +%s`.

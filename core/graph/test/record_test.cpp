@@ -165,7 +165,7 @@ TEST_CASE("every fault of a record is told at once, with the line of its own fil
         "graph.integer_invalid(1.5)\nfile.yaml:4: narrow: graph.unit_missing(0.5, graph.unit_examples(a "
         "length, m, cm, mm, km, ft, in, nmi))\nfile.yaml:5: gains: graph.item_count_invalid(2,  items, "
         "exactly 3)\nfile.yaml:6: few: graph.item_count_invalid(3,  items, at most 2)\nfile.yaml:7: text: "
-        "graph.text_too_long(8, 7)\nfile.yaml:8: colour: graph.io_unknown(gren,  [green] red, "
+        "graph.text_too_long(8, 7)\nfile.yaml:8: colour: graph.choice_unknown(gren,  [green] red, "
         "green)\nfile.yaml:9: graph.field_ambiguous(, range, range_m, range_s)\nfile.yaml:10: "
         "graph.field_unknown(, bigg, Sample,  Did you mean 'big'? [] time_ns, big, small, byte, narrow_m, "
         "gains_ratio, few_m, text, colour, range_m, range_s)\nfile.yaml:11: gains_ratio: "

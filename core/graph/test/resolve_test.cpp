@@ -201,7 +201,7 @@ TEST_CASE(
         "hourglass.yaml:3: graph.key_unknown(, sed,  [seed] mission, extends, io, airframe, origin, rate, "
         "seed, arm, done, failed, flown, verdict, timeout, epoch, progress, summary, failsafe, roles, "
         "components, phases, record, control, tell, resume, live, dds, hardware)\nhourglass.yaml:6: "
-        "components.sim.params.turbulence: graph.io_unknown(nne,  [none] none, light, "
+        "components.sim.params.turbulence: graph.choice_unknown(nne,  [none] none, light, "
         "moderate)\nbase/common.yaml:21: components.sim.params.wind_ned.down: graph.number_invalid(m)");
 }
 

@@ -44,7 +44,7 @@ TEST_CASE("an origin at a pole, where north turns within a flight, is refused by
 
 TEST_CASE("parameters exist, fit and lie in their range") {
   CHECK(changed("turbulence: light", "turbulence: lihgt") ==
-        "21: components.sim.params.turbulence: graph.io_unknown(lihgt,  [light] none, light, moderate)");
+        "21: components.sim.params.turbulence: graph.choice_unknown(lihgt,  [light] none, light, moderate)");
   CHECK(changed("turbulence: light", "turbulnce: light") ==
         "21: components.sim.params: types.name_unknown_in(sim_aero/Aircraft, parameter, turbulnce,  "
         "[turbulence] rate, epoch, wind_ned, turbulence, airframe, origin)");

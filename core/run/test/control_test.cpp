@@ -98,30 +98,27 @@ TEST_CASE("what cannot be is refused in the asker's thread, with what would be r
   Control& control = *flight.control();
   REQUIRE(flight.step());
   const auto none = [](const std::string&) { FAIL("nobody may be answered"); };
-  CHECK(holds(refusal([&] { control.set_parameter("one", "u", "1.5", none); }),
-              "graph.value_out_of_range(1.5, -1, 1, , )"));
-  CHECK(holds(refusal([&] { control.set_parameter("one", "u", "nan", none); }), "u"));
-  CHECK(holds(refusal([&] { control.set_parameter("one", "u", "fast", none); }), "fast"));
-  CHECK(holds(refusal([&] { control.set_parameter("one", "uu", "0", none); }),
-              "types.name_unknown_in('one', parameter, uu,  [u] u, id, fault, fault_at, refuse, fixed)"));
-  CHECK(holds(refusal([&] { control.set_parameter("ome", "u", "0", none); }),
-              "types.name_unknown(component, ome,  [one] sim, filter, one, watch)"));
-  CHECK(holds(refusal([&] { control.set_parameter("one", "fixed", "0", none); }),
-              "run.parameter_not_live(one, fixed)"));
-  CHECK(holds(refusal([&] { control.set_parameter("one", "fault", "nothing", none); }), "none"));
+  const auto set = [&](const char* component, const char* param, const char* value) {
+    return refusal([&] { control.set_parameter(component, param, value, none); });
+  };
+  CHECK(holds(set("one", "u", "1.5"), "graph.value_out_of_range(1.5, -1, 1, , )"));
+  CHECK(holds(set("one", "u", "nan"), "u"));
+  CHECK(holds(set("one", "u", "fast"), "fast"));
+  CHECK(holds(set("one", "uu", "0"), "types.name_unknown_in('one', parameter, uu,  [u] u, id, fault, fault"));
+  CHECK(holds(set("ome", "u", "0"), "types.name_unknown(component, ome,  [one] sim, filter, one, watch)"));
+  CHECK(holds(set("one", "fixed", "0"), "run.parameter_not_live(one, fixed)"));
+  CHECK(holds(set("one", "fault", "nothing"), "none"));
   CHECK(holds(refusal([&] { control.enter_phase("fli", none); }), "run.phase_unknown(fli,  [fly] fly)"));
-  CHECK(holds(refusal([&] { control.request("watch", "asks", ask(0), none); }),
-              "run.entrance_unknown(watch, request, asks,  [ask] ask)"));
+  const auto asks = [&] { control.request("watch", "asks", ask(0), none); };
+  CHECK(holds(refusal(asks), "run.entrance_unknown(watch, request, asks,  [ask] ask)"));
   CHECK(holds(refusal([&] { control.publish("watch", "burst", {}); }), "imported"));
-  CHECK(holds(refusal([&] { control.swap("nobody", "x.so", none); }),
-              "types.name_unknown(component, nobody, "));
+  const auto swap = [&] { control.swap("nobody", "x.so", none); };
+  CHECK(holds(refusal(swap), "types.name_unknown(component, nobody, "));
   REQUIRE(flight.step());
   CHECK(commanded(g, flight) == 0.1);
 }
 
-TEST_CASE(
-    "a request is answered by its component in its next step, and one that nobody can answer when the flight "
-    "ends") {
+TEST_CASE("a component answers a request in its next step; the end of the flight answers the rest") {
   const Graph g = mission(watched + one_phase);
   std::string last;
   Reply late;
@@ -141,9 +138,7 @@ TEST_CASE(
   CHECK(late.wait() == "run.flight_ended");
 }
 
-TEST_CASE(
-    "thousands of parameters per second neither block nor starve the loop, and the last that was taken "
-    "stands") {
+TEST_CASE("thousands of parameters per second do not block the loop, and the last one stays") {
   Graph g = mission(watched + one_phase);
   g.timeout_ns = 0;  // as long as the flood lasts
   Flight flight(g, quick(1e6));
@@ -430,8 +425,7 @@ TEST_CASE("a sample from outside is the input's at the next tick; a damaged one 
   CHECK(control.lost_samples() == 0);
 }
 
-TEST_CASE(
-    "as fast as the machine allows nobody is let in, and a token is asked for where others could come") {
+TEST_CASE("an unpaced flight admits no client, and a reachable one requires a token") {
   Flight flight(mission(watched + one_phase), options(0.1));
   CHECK(flight.control() == nullptr);
   CHECK(flight.live_port() == 0);

@@ -30,9 +30,7 @@ TEST_CASE("as long as the vehicle does not obey, its controllers begin anew in e
   }
 }
 
-TEST_CASE(
-    "in simulation the time before arming is the controllers' own, and so is a flight whose vehicle says "
-    "nothing of control") {
+TEST_CASE("in simulation the controllers own the time before arming, also without in_control") {
   const Graph g = craft("control: [law]\n", {{"craft.arm_at", "1"}, {"craft.pilot_from", "2"}}, "sim");
   Said said;
   Flight flight(g, listening(said));
@@ -110,9 +108,7 @@ TEST_CASE("a mission that is done while armed flies on until the aircraft is dis
   CHECK(r.reason == "vehicle.status.tick_s > 1 s");
 }
 
-TEST_CASE(
-    "a mission that has failed while armed flies on until the aircraft is disarmed; disarmed it ends at "
-    "once") {
+TEST_CASE("a mission that fails while armed continues until disarmed; disarmed it ends at once") {
   for (const double disarm_at : {2.0, 0.5}) {
     const Graph g =
         craft("failed: \"vehicle.status.tick_s > 1 s\"\n", {{"craft.disarm_at", std::to_string(disarm_at)}});

@@ -35,9 +35,9 @@ TEST_CASE_FIXTURE(Fixture,
     legs += std::string(i > 0 ? "," : "") + R"({"course_rad": 0.5, "limits": []})";
   const json many = call_json("/plan/add_leg", R"({"legs": [)" + legs + "]}"),
              brackets = call_json("/plan/add_leg", R"({"name": ")" + std::string(300, '[') + R"("})");
-  CHECK(many["reason"].get<std::string>().find("graph.key_unknown(") != std::string::npos);
+  CHECK(many["reason"].get<std::string>().find("graph.field_unknown(") != std::string::npos);
   CHECK(many["reason"].get<std::string>().find(", legs, ") != std::string::npos);
-  CHECK(brackets["reason"].get<std::string>().find("graph.key_unknown(") != std::string::npos);
+  CHECK(brackets["reason"].get<std::string>().find("graph.field_unknown(") != std::string::npos);
   CHECK(brackets["reason"].get<std::string>().find(", name, ") != std::string::npos);
   const std::string deep = R"({"legs": )" + std::string(100, '[') + std::string(100, ']') + "}";
   CHECK(call_json("/plan/add_leg", deep)["reason"] == "live.request_too_deep");

@@ -89,7 +89,7 @@ TEST_CASE("a word that is no choice of an axis is refused before the flight, wit
   const Said r = typed("check " FULMAR_SOURCE_DIR "/configs/missions/manual.yaml --set moved.course=stick");
   CHECK(r.code == 4);
   for (const char* word :
-       {"moved.course: ", "graph.io_unknown(stick,  [sticks] sticks, automatic, hold, flown)"})
+       {"moved.course: ", "graph.choice_unknown(stick,  [sticks] sticks, automatic, hold, flown)"})
     CHECK_MESSAGE(holds(r.out, word), r.out);
   const Folder folder;
   const fs::path file = folder.path / "wrong.yaml";
@@ -98,7 +98,7 @@ TEST_CASE("a word that is no choice of an axis is refused before the flight, wit
   const Said phase = typed("check " + file.string());
   CHECK(phase.code == 4);
   CHECK_MESSAGE(holds(phase.out, "wrong.yaml:3"), phase.out);
-  CHECK_MESSAGE(holds(phase.out, "graph.io_unknown(rudder,  [] surface, rate, attitude)"), phase.out);
+  CHECK_MESSAGE(holds(phase.out, "graph.choice_unknown(rudder,  [] surface, rate, attitude)"), phase.out);
 }
 
 TEST_CASE(

@@ -65,7 +65,7 @@ TEST_CASE("the mission is in order in simulation and on a flight controller; a w
   CHECK(r.code == 4);
   for (const char* word :
        {"attitude_signal.shape",
-        "graph.io_unknown(triangle,  [] none, step, doublet, square, sine, chirp, d3211, multisine)"})
+        "graph.choice_unknown(triangle,  [] none, step, doublet, square, sine, chirp, d3211, multisine)"})
     CHECK_MESSAGE(holds(r.out, word), r.out);
   const Said large = typed(std::string("check ") + mission + " --set \"surface_signal.size=40 deg\"");
   CHECK(large.code == 4);

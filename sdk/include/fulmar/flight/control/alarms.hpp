@@ -11,7 +11,7 @@
 namespace fulmar {
 
 /// One alarm: its flag in SafetyState, the cause in notices, and the text for the pilot.
-struct NamedAlarm {
+struct [[gnu::visibility("hidden")]] NamedAlarm {
   bool SafetyState::*flag;
   Cause cause;
   const MessageText<0>* message;

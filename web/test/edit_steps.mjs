@@ -185,7 +185,7 @@ export const edit_steps = ({
     writeFileSync(join(folder, "mine.yaml"), old + "# another's\n"); // another editor writes in between
     await page.click("text=Write these lines");
     await seen("why not", ".side [role=alert]", (t) =>
-      t.includes("Rejected: what would be written is not what was shown any more: look again"),
+      t.includes("Rejected: the change differs from the preview"),
     );
     assert.equal(airframe(), old + "# another's\n");
     await page.click("text=Save slc…");

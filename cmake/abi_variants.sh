@@ -63,10 +63,10 @@ fly() {
 # layout NAME: what the host reads of ports, messages and parameters, without what is said of the file itself
 layout() { "$fulmar" inspect "$scratch/$1.so" --fields | sed '1,/^$/d'; }
 
-# refused NAME PATTERN: `check` refuses it with these words
+# refused NAME PATTERN: `check` rejects it with this code
 refused() {
-  if "$fulmar" check "$scratch/$1.yaml" >"$scratch/$1.txt" 2>&1; then echo "$1: accepted"; exit 1; fi
-  grep -q -- "$2" "$scratch/$1.txt" || { cat "$scratch/$1.txt"; echo "$1: refused in other words than: $2"; exit 1; }
+  if FULMAR_MESSAGES=codes "$fulmar" check "$scratch/$1.yaml" >"$scratch/$1.txt" 2>&1; then echo "$1: accepted"; exit 1; fi
+  grep -q -- "$2" "$scratch/$1.txt" || { cat "$scratch/$1.txt"; echo "$1: rejected with another code than: $2"; exit 1; }
   grep -- "$2" "$scratch/$1.txt" | sed "s|^$scratch/||"
 }
 
@@ -123,7 +123,7 @@ for name in newer_writer older_reader; do
   fly "$name"
   echo "$name: another layout, flies"
 done
-refused newer_reader "reader knows a field 'added_m' that the writer lacks"
+refused newer_reader "types.writer_field_missing(, added_m)"
 
 # fast-math: refused by the compiler where the SDK is used, and by the host where it is not
 for flag in -ffast-math -Ofast; do
@@ -135,7 +135,7 @@ start_file=$(${CC:-gcc} -print-file-name=crtfastmath.o)
 if [ -f "$start_file" ]; then
   ${CC:-gcc} -std=c11 -O2 -shared -fPIC -fvisibility=hidden -Isdk/include examples/c_law/c_law.c "$start_file" -o "$scratch/fast_c.so" -lm
   mission fast_c "rate: 100 Hz" outer
-  refused fast_c 'fast_c.so changes the floating-point mode when it is loaded (built with -ffast-math?)'
+  refused fast_c "loader.plugin_changes_float_mode(fast_c.so)"
 else
   echo "fast_c: this compiler has no crtfastmath.o, not tried"
 fi

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Core and links know no message: of the SDK they read abi.h and quiet_thread.hpp alone, as the compiler's own lists of what it read tell.
+# Core and links know no message: of the SDK they read abi.h, diagnostic.hpp and quiet_thread.hpp alone, as the compiler's own lists of what it read tell.
 set -euo pipefail
 cd "$(dirname "$0")/../build"
 mapfile -t sources < <(cd .. && find core links -name '*.cpp' ! -path '*/test/*')
@@ -14,11 +14,11 @@ read_files=$(ninja -t deps | awk -v sources="${sources[*]}" '
   /^[^ ].*: #deps/ { end_of_object(); next }
   NF == 0 { next }
   /\/(core|links)\/.*\.cpp$/ { source = $1; if (!sub(/^.*\/core\//, "core/", source)) sub(/^.*\/links\//, "links/", source); if (source in wanted) { of_core = source; seen[source] = 1 } }
-  /\/sdk\/include\// && !/\/sdk\/include\/fulmar\/(abi\.h|quiet_thread\.hpp)$/ { sdk[++n_sdk] = $1 }
+  /\/sdk\/include\// && !/\/sdk\/include\/fulmar\/(abi\.h|diagnostic\.hpp|quiet_thread\.hpp)$/ { sdk[++n_sdk] = $1 }
   END { end_of_object(); for (s in seen) print "source: " s }')
 messages=$(sed -n 's/^message: //p' <<<"$read_files")
 for source in "${sources[@]}"; do
   grep -qxF "source: $source" <<<"$read_files" || { echo "$source has not been compiled"; exit 1; }
 done
 [ -z "$messages" ] || { echo "$messages"; exit 1; }
-echo "${#sources[@]} files of core and links read nothing of the SDK but abi.h and quiet_thread.hpp"
+echo "${#sources[@]} files of core and links read nothing of the SDK but abi.h, diagnostic.hpp and quiet_thread.hpp"

@@ -59,11 +59,11 @@ std::int64_t usual_age_ns(const Graph& graph, const Component& reader, const Wir
 
 std::string warning(const Component& reader, const Port& input, const Wire& wire) {
   return located(wire.where.text(),
-                 graph_messages::age_unlimited(reader.name, input.name,
-                                               wire.import >= 0
-                                                   ? ": it comes from outside, and nobody here knows whether "
-                                                     "it still does; a max_age would tell"
-                                                   : ", even when its writer was stopped: max_age is off"))
+                 graph_messages::age_unlimited(
+                     reader.name, input.name,
+                     wire.import >= 0 ? ": it comes from outside, and its writer is not monitored; "
+                                        "set a max_age"
+                                      : ", even when its writer was stopped: max_age is off"))
       .line();
 }
 

@@ -6,7 +6,7 @@ import os
 _TEXTS = {
     "component_missing": "it has no component: a class with Outputs and a method step(self, tick, inp, p, out)",
     "declaration_invalid": "{} is no {}",
-    "enum_values_invalid": "the words of {} count from 0, without gaps",
+    "enum_values_invalid": "the values of {} count from 0, without gaps",
     "field_type_invalid": "{} is no type of a field. Valid: float, f32, bool, int, u8, i32, u32, i64, u64, an IntEnum, Text(n), "
                           "Array(type, n), List(type, n), Ned, Body, Quat and messages",
     "fields_missing": "a message has at least one field: airspeed_mps: float",

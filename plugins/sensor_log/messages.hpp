@@ -11,7 +11,7 @@ inline constexpr MessageText chunk_damaged{"sensor_log.chunk_damaged", "a chunk 
 inline constexpr MessageText chunk_packing_unsupported{
     "sensor_log.chunk_packing_unsupported",
     {"packing"},
-    "a chunk is packed with '{packing}'; what can be read is zstd, or none"};
+    "a chunk is packed with '{packing}'. Valid: zstd, or none"};
 inline constexpr MessageText chunk_too_large{"sensor_log.chunk_too_large", "a chunk of more than 1 GB"};
 inline constexpr MessageText column_not_named{
     "sensor_log.column_not_named", {"file"}, "names no column of {file}; valid is one of its first line"};
@@ -30,7 +30,7 @@ inline constexpr MessageText data_without_end{"sensor_log.data_without_end",
 inline constexpr MessageText encoding_unsupported{
     "sensor_log.encoding_unsupported",
     {"topic", "encoding", "schema"},
-    "'{topic}' is encoded as '{encoding}' with a schema '{schema}'; what can be read is cdr with ros2msg"};
+    "'{topic}' is encoded as '{encoding}' with a schema '{schema}'. Valid: cdr with ros2msg"};
 inline constexpr MessageText file_cut{"sensor_log.file_cut",
                                       {"file", "byte", "time"},
                                       "{file}: cut off: byte {byte}, at {time}; read up to there"};

@@ -17,6 +17,11 @@ TEST_CASE("what cannot be is refused before anything flies") {
   const Result no_plugin = fulmar("check " + hourglass + " --with slc=control_slk");
   CHECK(no_plugin.err.find("graph.plugin_unknown(control_slk, ") != std::string::npos);
   CHECK(no_plugin.err.find("control_manual, control_slc,") != std::string::npos);
+  const Result as_json = fulmar("run " + hourglass + " --set slc.roll_kq=1 --json");
+  CHECK(as_json.code == 4);
+  for (const char* part :
+       {"\"code\": \"types.name_unknown_in\"", "\"name\": \"roll_kq\"", "\"place\": \"--set slc.roll_kq=1\""})
+    CHECK_MESSAGE(as_json.out.find(part) != std::string::npos, as_json.out);
   const Result full = shell(program + "run " + hourglass + " --json --no-log --duration 1 > /dev/full");
   CHECK(full.code == 1);
   CHECK(full.err.find("app.result_not_writable(No space left on device)") != std::string::npos);

@@ -6,7 +6,7 @@
   cmake/phrases.py --list   prints each as file:line
 
 An assertion is a call of CHECK..., REQUIRE..., WARN... (doctest), assert... (Python, JavaScript). A phrase is five words or more in one text. The code of a
-message with its arguments, `graph.key_unknown(rate, Hz)`, is none.
+message with its arguments, `graph.key_unknown(rate, Hz)`, and the name of a port, `nav.state.height_m`, are none.
 """
 import re
 import subprocess
@@ -16,7 +16,7 @@ limit = 60
 words_of_phrase = 5
 call = re.compile(r"\b(?:(?:CHECK|REQUIRE|WARN)\w*|(?:self\.)?assert\w*(?:\.\w+)?)\(")
 text = re.compile(r'"((?:[^"\\\n]|\\.)*)"(?:\s*"((?:[^"\\\n]|\\.)*)")*')
-message = re.compile(r"\b[a-z]\w*\.[a-z]\w*(\([^\n]*\)?)?")
+message = re.compile(r"\b[a-z]\w*(?:\.[a-z]\w*)+(?:\([^\n]*\)?)?")
 
 
 def end_of(source, begin):

@@ -52,9 +52,10 @@ class Commas(unittest.TestCase):
             self.assertEqual(self.in_body(plain), [], plain)
 
     def test_constructors_members_and_functions(self):
-        self.assertEqual(self.lines("struct A : B, C {\n  A(int a, int b) : a_(a), b_{b} { f(); }\n  int a_ = 1, b_ = 2;\n};\n"), [])
-        self.assertEqual(self.lines("struct A {\n  A() : a_{1}, b_{2} {\n    a_ = 1, b_ = 2;\n  }\n};\n"), [3])
-        self.assertEqual(self.lines("namespace n {\nauto f() -> std::pair<int, int> {\n  a = 1, b = 2;\n}\n}\n"), [3])
+        for source, lines in (("struct A : B, C {\n  A(int a, int b) : a_(a), b_{b} { f(); }\n  int a_ = 1, b_ = 2;\n};\n", []),
+                              ("struct A {\n  A() : a_{1}, b_{2} {\n    a_ = 1, b_ = 2;\n  }\n};\n", [3]),
+                              ("namespace n {\nauto f() -> std::pair<int, int> {\n  a = 1, b = 2;\n}\n}\n", [3])):
+            self.assertEqual(self.lines(source), lines, source)
 
     def test_the_body_of_a_lambda_is_code_wherever_it_stands(self):
         for chain in ("const auto f = [&] { a = 1, b = 2; };", "g(1, [&](int x) { a = x, b = 2; });", "g({[=]() mutable { a = 1, b = 2; }});",
@@ -62,7 +63,8 @@ class Commas(unittest.TestCase):
             self.assertEqual(self.in_body(chain), [2], chain)
 
     def test_the_line_is_that_of_the_statement(self):
-        self.assertEqual(self.lines('void f() {\n  /* 1,\n 2 */\n  g("x\\"", 1);\n  a = 1,\n  b = 2;\n  c(), d();\n}\n'), [5, 7])
+        source = 'void f() {\n  /* 1,\n 2 */\n  g("x\\"", 1);\n  a = 1,\n  b = 2;\n  c(), d();\n}\n'
+        self.assertEqual(self.lines(source), [5, 7])
 
     def test_splitting(self):
         for chain, wanted in (("a = 1, b = f(2, 3), c();", "a = 1; b = f(2, 3); c();"),

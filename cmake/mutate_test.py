@@ -66,7 +66,8 @@ class Drawn(unittest.TestCase):
     def test_a_constant_of_the_compiler_becomes_one_of_the_program(self):
         fault = next(f for f in drawn_faults.faults_in(SOURCE) if f.line == 8)
         line = drawn_faults.with_faults(SOURCE, {7: fault}).split("\n")[7]
-        self.assertTrue(line.startswith("const double share = (::fulmar_mutant(7) ? "), line)
+        begin = "const double share = (::fulmar_mutant(7) ? "
+        self.assertTrue(line.startswith(begin), line)
 
     def test_a_constant_is_another_one(self):
         for number, other in (("0", "1"), ("0.0", "1.0"), ("3", "2 * 3"), ("0.3", "0.3 / 2.0"), ("1'000", "2 * 1'000")):

@@ -26,6 +26,12 @@ class Quotes(unittest.TestCase):
         self.page.write_text("\n".join(["# A page", "", f"<!-- source: {source} -->", "```cpp", *lines, "```", ""]))
         return [fault.removeprefix(f"{self.page}:") for fault in quotes.faults(self.page, self.root)]
 
+    def reported(self, *lines):
+        """(line of the page, source, line of the quote) of the one fault."""
+        (fault,) = self.faults(*lines)
+        number, sentence = fault.split(": ", 1)
+        return int(number), sentence.split(" ")[0], sentence.split(": ")[-1]
+
     def test_a_quote_without_indentation_and_empty_lines(self):
         self.assertEqual(self.faults("one();", "two();"), [])
         self.assertEqual(self.faults("int f() {", "", "    one();"), [])
@@ -36,17 +42,17 @@ class Quotes(unittest.TestCase):
         self.assertEqual(self.faults("one();", "...", "one();"), [])
 
     def test_lines_left_out_without_a_mark(self):
-        self.assertEqual(self.faults("two();", "four();"), ["6: a.cpp does not hold this line here: four();"])
+        self.assertEqual(self.reported("two();", "four();"), (6, "a.cpp", "four();"))
 
     def test_another_order(self):
-        self.assertEqual(self.faults("four();", "...", "two();"), ["7: a.cpp does not hold this line here: two();"])
+        self.assertEqual(self.reported("four();", "...", "two();"), (7, "a.cpp", "two();"))
 
     def test_a_changed_line(self):
-        self.assertEqual(self.faults("one();", "two(2);"), ["6: a.cpp does not hold this line here: two(2);"])
-        self.assertEqual(self.faults("one(); // first"), ["5: a.cpp does not hold this line here: one(); // first"])
+        self.assertEqual(self.reported("one();", "two(2);"), (6, "a.cpp", "two(2);"))
+        self.assertEqual(self.reported("one(); // first"), (5, "a.cpp", "one(); // first"))
 
     def test_the_longest_match_names_the_line(self):
-        self.assertEqual(self.faults("one();", "four();", "five();"), ["7: a.cpp does not hold this line here: five();"])
+        self.assertEqual(self.reported("one();", "four();", "five();"), (7, "a.cpp", "five();"))
 
     def test_an_unknown_source(self):
         self.assertEqual(self.faults("one();", source="b.cpp"), ["3: there is no file b.cpp"])

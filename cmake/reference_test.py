@@ -78,15 +78,19 @@ class Reference(unittest.TestCase):
 
     def test_index_and_messages(self):
         code, said, index, messages = self.make(PAGE)
-        self.assertEqual((code, said), (0, "1 plugins, 1 components: all say what they are\n"))
-        self.assertIn("| [own/Law](own.md#law) | outer | Holds something. |", index)
-        self.assertIn("Read by [own/Law](own.md#law)", messages)
-        self.assertIn("| `height_m` | f64 | m |  |  | above \\| the origin |", messages)
-        self.assertIn("| `parts[].width_m` | f64 | m |  |  | across the way |", messages)
+        self.assertEqual(code, 0)
+        self.assertTrue(said.startswith("1 plugins, 1 components: "), said)
+        component = "[own/Law](own.md#law)"
+        row = "| outer | Holds something. |"
+        self.assertIn(f"| {component} {row}", index)
+        self.assertIn(f"Read by {component}", messages)
+        for field in ("| `height_m` | f64 | m |  |  | above \\| the origin |", "| `parts[].width_m` | f64 | m |  |  | across the way |"):
+            self.assertIn(field, messages)
 
     def test_silence_is_told(self):
         code, said, _, _ = self.make(PAGE.replace("roll \\| per error", ""))
-        self.assertEqual((code, said), (1, "own/Law: the parameter `gain` has no text\n"))
+        self.assertEqual(code, 1)
+        self.assertRegex(said, r"^own/Law: [^\n]*`gain`[^\n]*\n$")
         code, said, _, _ = self.make(PAGE.replace("\nHolds something.\n\n```", "\n```"))
         self.assertEqual(code, 1)
         self.assertIn("own/Law: no doc", said)

@@ -68,12 +68,8 @@ export const edit_steps = ({
       ".waypoints .refusal",
       (t) => t === "Rejected: lower than the planner allows: its parameter 'lowest'",
     );
-    assert.equal(
-      await page
-        .locator(".waypoints tbody tr:has(.refusal)")
-        .evaluate((row) => row.previousElementSibling.dataset.at),
-      "2",
-    );
+    const refused = page.locator(".waypoints tbody tr:has(.refusal)");
+    assert.equal(await refused.evaluate((row) => row.previousElementSibling.dataset.at), "2");
     await shoot("plan_refused");
     await page.click("text=Discard draft");
     await until("the old height", async () => (await field.inputValue()) === "70");
@@ -130,7 +126,7 @@ export const edit_steps = ({
     await until("it flies", async () =>
       near((await plan()).waypoints[0].position_m.north, 432.1, 0.01, false),
     );
-    assert.equal((await plan()).waypoints[1].id, before.waypoints[1].id, "the others are as they were");
+    assert.equal((await plan()).waypoints[1].id, before.waypoints[1].id, "unchanged waypoint");
     const runway = "runway: {north: 0 m, east: 0 m, up: 0 m, heading: 135 deg, length: 300 m}",
       place = "{lat: 40.2499724, lon: -111.6501138, alt_msl: 1457 m";
     await load(words.replace(/\{north: \S+ m, east: \S+ m, up: \S+ m/, place) + runway + "\n");
@@ -254,7 +250,7 @@ export const edit_steps = ({
           .map((t) => t.textContent);
       }),
     );
-    assert.deepEqual(cut, [], "words wider than their box");
+    assert.deepEqual(cut, [], "too wide");
     await shoot("wires");
   },
 });

@@ -187,8 +187,9 @@ const steps = () => ({
   },
   async "New flight: two clicks, another seed, same page"() {
     await tab("Simulation");
-    assert.equal(await page.getByLabel("Seed of the new flight").inputValue(), "7");
-    await page.getByLabel("Seed of the new flight").fill("eleven");
+    const seed = page.getByLabel("Seed of the new flight");
+    assert.equal(await seed.inputValue(), "7");
+    await seed.fill("eleven");
     const button = page.locator("button.chip", { hasText: /New flight|end this flight/ });
     await button.click();
     await seen("the question", "button.chip.asked", (t) => t === "end this flight?");
@@ -198,7 +199,7 @@ const steps = () => ({
     await seen("an invalid seed", ".sim [role=alert]", (t) =>
       t.includes("Rejected: seed 'eleven': give a whole number from 0"),
     );
-    await page.getByLabel("Seed of the new flight").fill("11");
+    await seed.fill("11");
     const before = await value_of("nav.state.height_m");
     assert.ok(before > 20, "in the air");
     const loaded = page.waitForEvent("load");
@@ -299,7 +300,7 @@ const steps = () => ({
     );
     assert.ok(
       tiles.asked.every((t) => t.referer === `http://127.0.0.1:${port}/`),
-      "the address of the page, which may contain a token, is not sent",
+      "no token is sent", // the address of the page may contain one
     );
     assert.ok(tiles.asked.length < 300);
     await page.goto("about:blank"); // ends the open requests first

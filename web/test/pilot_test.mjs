@@ -108,7 +108,7 @@ const steps = {
     await ask("speed", "5");
     await set("sim.gnss_works", "false");
     await is("not ready", ".prearm", "ready", "false");
-    assert.equal(await page.locator(".alert").count(), 0, "what is wrong on the ground is no alert");
+    assert.equal(await page.locator(".alert").count(), 0, "no alert");
     await set("sim.gnss_works", "true");
     await is("ready again", ".prearm", "ready", "true");
   },

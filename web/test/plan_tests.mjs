@@ -134,35 +134,41 @@ export const plan_tests = ({ as_group, edits_between }, { read_plan_file, write_
     assert.deepEqual(
       moved.waypoints.map((w) => w.geodetic !== null),
       [false, false, true],
-      "a moved waypoint has its new position",
+      "moved waypoint",
     );
     assert.doesNotMatch(write_plan_file(flown, "x"), /runway|lat:/);
   },
   "all faults of a plan file are reported"() {
-    const faults = (text, origin = null) => {
+    const fault_of = (text) => {
       try {
-        read_plan_file(text, plan_of([]), origin);
+        read_plan_file(text, plan_of([]), null);
       } catch (fault) {
-        return fault.message;
+        return fault;
       }
-      return "";
+      return null;
     };
-    assert.equal(
-      faults(
-        "end: never\nturn_radius: 5 rad\nwaypoints: [{north: x, east: 1 m}, 7, {lat: 40, lon: 7, alt_msl: 3 m}]\nspeed: 3",
-      ),
-      [
-        "unknown key 'speed'. Valid: name, end, airspeed, turn_radius, waypoints, runway",
-        "end: 'never' is not valid. Valid: circuit, orbit",
-        "turn_radius: '5 rad' is not a valid length. Valid units: m, km, ft",
-        "waypoint 0: north: 'x' is not a valid length. Valid units: m, km, ft",
-        "waypoint 0: 'up' is missing",
-        "waypoint 1: must be a map, such as {north: 400 m, east: -250 m, up: 70 m}",
-        "waypoint 2: is geodetic, but the flight has no origin yet",
-      ].join("\n"),
+    const faults = (text) =>
+      fault_of(text).faults.map(({ code, place, found, valid }) => [code, place, found, valid]);
+    const text =
+      "end: never\nturn_radius: 5 rad\nwaypoints: [{north: x, east: 1 m}, 7, {lat: 40, lon: y, alt_msl: 3 m}]\nspeed: 3";
+    const expected = [
+      ["key_unknown", "", "speed", "name, end, airspeed, turn_radius, waypoints, runway"],
+      ["value_invalid", "end", "never", "circuit, orbit"],
+      ["quantity_invalid", "turn_radius", "5 rad", "length. Valid units: m, km, ft"],
+      ["quantity_invalid", "waypoint 0: north", "x", "length. Valid units: m, km, ft"],
+      ["key_missing", "waypoint 0", "up", ""],
+      ["map_expected", "waypoint 1", "", ""],
+      ["degrees_expected", "waypoint 2: lon", "y", ""],
+      ["origin_missing", "waypoint 2", "", ""],
+    ];
+    assert.deepEqual(faults(text), expected);
+    const lines = fault_of(text).message.split("\n");
+    assert.equal(lines.length, expected.length);
+    expected.forEach(([, place, found], i) =>
+      assert.ok(lines[i].startsWith(place) && lines[i].includes(found)),
     );
-    assert.match(faults("waypoints: [{north: 1"), /line|expected|end of the stream/);
-    assert.match(faults("3"), /not a plan/);
-    assert.match(faults("name: x"), /'waypoints' must be a list/);
+    assert.match(fault_of("waypoints: [{north: 1").message, /line|expected|end of the stream/);
+    assert.match(fault_of("3").message, /not a plan/);
+    assert.deepEqual(faults("name: x"), [["list_expected", "waypoints", "", ""]]);
   },
 });

@@ -27,8 +27,45 @@ export interface Origin {
   altitude: number; // degrees, m above mean sea level
 }
 
+/** One fault of a plan file. */
+export interface PlanFault {
+  code:
+    | "key_unknown"
+    | "quantity_invalid"
+    | "value_invalid"
+    | "map_expected"
+    | "list_expected"
+    | "key_missing"
+    | "degrees_expected"
+    | "origin_missing";
+  place: string; // "waypoint 0: north", "" of the file
+  found: string; // in the file
+  valid: string; // "m, km, ft"
+}
+
+const sentences: Record<PlanFault["code"], (f: PlanFault) => string> = {
+  key_unknown: (f) => `unknown key '${f.found}'. Valid: ${f.valid}`,
+  quantity_invalid: (f) => `'${f.found}' is not a valid ${f.valid}`,
+  value_invalid: (f) => `'${f.found}' is not valid. Valid: ${f.valid}`,
+  map_expected: () => "must be a map, such as {north: 400 m, east: -250 m, up: 70 m}",
+  list_expected: () => "must be a list",
+  key_missing: (f) => `'${f.found}' is missing`,
+  degrees_expected: (f) => `'${f.found}' is not a latitude or longitude in degrees`,
+  origin_missing: () => "is geodetic, but the flight has no origin yet",
+};
+
+/** All faults of a plan file, one per line. */
+export class PlanFileError extends Error {
+  constructor(readonly faults: PlanFault[]) {
+    super(faults.map((f) => (f.place ? f.place + ": " : "") + sentences[f.code](f)).join("\n"));
+  }
+}
+
 class Faults {
-  readonly list: string[] = [];
+  readonly list: PlanFault[] = [];
+  add(code: PlanFault["code"], place: string, found: unknown = "", valid = ""): void {
+    this.list.push({ code, place, found: String(found), valid });
+  }
   number(value: unknown, kind: string, where: string): number {
     const table = units[kind] ?? {};
     if (typeof value === "number" && Number.isFinite(value)) return value;
@@ -38,14 +75,12 @@ class Faults {
     const factor = match && match[2] ? table[match[2]] : match ? 1 : undefined;
     const result = match && factor !== undefined ? Number(match[1]) * factor : NaN;
     if (Number.isFinite(result)) return result;
-    this.list.push(
-      `${where}: '${String(value)}' is not a valid ${kind}${Object.keys(table).length ? ". Valid units: " + Object.keys(table).join(", ") : ""}`,
-    );
+    this.add("quantity_invalid", where, value, `${kind}. Valid units: ${Object.keys(table).join(", ")}`);
     return 0;
   }
   known(object: Record<string, unknown>, valid: string[], where: string): void {
     for (const key of Object.keys(object))
-      if (!valid.includes(key)) this.list.push(`${where}unknown key '${key}'. Valid: ${valid.join(", ")}`);
+      if (!valid.includes(key)) this.add("key_unknown", where, key, valid.join(", "));
   }
 }
 
@@ -61,40 +96,40 @@ function local(at: Origin, origin: Origin): { north: number; east: number; up: n
 }
 
 function read_waypoint(entry: unknown, i: number, origin: Origin | null, faults: Faults): Waypoint {
-  const where = `waypoint ${i}: `;
+  const where = `waypoint ${i}`;
   const w: Waypoint = { north: 0, east: 0, up: 0, course: null, airspeed: 0, id: 0, geodetic: null };
   if (typeof entry !== "object" || entry === null || Array.isArray(entry)) {
-    faults.list.push(where + "must be a map, such as {north: 400 m, east: -250 m, up: 70 m}");
+    faults.add("map_expected", where);
     return w;
   }
   const map = entry as Record<string, unknown>;
   faults.known(map, waypoint_keys, where);
   const at = (key: string, kind: string) => {
-    if (map[key] === undefined) faults.list.push(where + `'${key}' is missing`);
-    return map[key] === undefined ? 0 : faults.number(map[key], kind, where + key);
+    if (map[key] === undefined) faults.add("key_missing", where, key);
+    return map[key] === undefined ? 0 : faults.number(map[key], kind, `${where}: ${key}`);
   };
   if (map.lat !== undefined || map.lon !== undefined) {
     const degrees = (key: string) => {
       const text = String(map[key] ?? "").replace(/\s*deg\s*$/, "");
       const value = Number(text);
       if (text === "" || !Number.isFinite(value))
-        faults.list.push(where + `${key}: '${String(map[key])}' is not a latitude or longitude in degrees`);
+        faults.add("degrees_expected", `${where}: ${key}`, map[key]);
       return value;
     };
     w.geodetic = { latitude: degrees("lat"), longitude: degrees("lon"), altitude: at("alt_msl", "length") };
     if (origin) Object.assign(w, local(w.geodetic, origin));
-    else faults.list.push(where + "is geodetic, but the flight has no origin yet");
+    else faults.add("origin_missing", where);
   } else {
     w.north = at("north", "length");
     w.east = at("east", "length");
     w.up = at("up", "length");
   }
-  if (map.course !== undefined) w.course = faults.number(map.course, "angle", where + "course");
-  if (map.airspeed !== undefined) w.airspeed = faults.number(map.airspeed, "speed", where + "airspeed");
+  if (map.course !== undefined) w.course = faults.number(map.course, "angle", `${where}: course`);
+  if (map.airspeed !== undefined) w.airspeed = faults.number(map.airspeed, "speed", `${where}: airspeed`);
   return w;
 }
 
-/** Missing settings are those of `now`. Throws Error with all faults, one per line. */
+/** Missing settings are those of `now`. Throws PlanFileError, or the error of the YAML. */
 export function read_plan_file(text: string, now: Plan, origin: Origin | null): Plan & { runway?: unknown } {
   const faults = new Faults();
   const file = load(text) as unknown;
@@ -110,14 +145,14 @@ export function read_plan_file(text: string, now: Plan, origin: Origin | null): 
   };
   if (map.end !== undefined) {
     if (map.end === "circuit" || map.end === "orbit") plan.end = map.end;
-    else faults.list.push(`end: '${String(map.end)}' is not valid. Valid: circuit, orbit`);
+    else faults.add("value_invalid", "end", map.end, "circuit, orbit");
   }
   if (map.turn_radius !== undefined) plan.radius = faults.number(map.turn_radius, "length", "turn_radius");
   if (map.airspeed !== undefined) plan.airspeed = faults.number(map.airspeed, "speed", "airspeed");
-  if (!Array.isArray(map.waypoints)) faults.list.push("'waypoints' must be a list");
+  if (!Array.isArray(map.waypoints)) faults.add("list_expected", "waypoints");
   else plan.waypoints = map.waypoints.map((w, i) => read_waypoint(w, i, origin, faults));
   if (map.runway !== undefined) plan.runway = map.runway;
-  if (faults.list.length > 0) throw new Error(faults.list.join("\n"));
+  if (faults.list.length > 0) throw new PlanFileError(faults.list);
   return plan;
 }
 

@@ -10,11 +10,12 @@
 #include "six_dof/family.hpp"
 
 using namespace fulmar::six_dof;
+namespace six_dof_messages = fulmar::six_dof_messages;
 
 namespace {
 
 int usage() {
-  std::fprintf(stderr, "usage: bench_six_dof DIR [--json]\n");
+  std::fprintf(stderr, "%s\n", six_dof_messages::usage.c_str());
   return 2;
 }
 

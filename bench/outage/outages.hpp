@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/outage/messages.hpp"
 #include "core/graph/record.hpp"
 #include "core/graph/yaml.hpp"
 #include "core/loader/table.hpp"
@@ -168,12 +169,11 @@ class Outages {
     const Fix* last = nullptr;
     for (const Fix& fix : fixes_)
       if (fix.arrived_s >= from_s && fix.arrived_s < to_s) last = &fix;
-    if (fixes_.empty()) throw std::runtime_error(recipe_.log + " has no fixes");
+    if (fixes_.empty()) throw std::runtime_error(outage_messages::fixes_missing(recipe_.log));
     if (!last || fixes_.back().arrived_s < to_s)
-      throw std::runtime_error("no fixes to withhold from " + sensor_log::seconds(from_s) + " to " +
-                               sensor_log::seconds(to_s) + "; those of " + recipe_.log + " arrive from " +
-                               sensor_log::seconds(fixes_.front().arrived_s) + " to " +
-                               sensor_log::seconds(fixes_.back().arrived_s));
+      throw std::runtime_error(outage_messages::fixes_outside(
+          sensor_log::seconds(from_s), sensor_log::seconds(to_s), recipe_.log,
+          sensor_log::seconds(fixes_.front().arrived_s), sensor_log::seconds(fixes_.back().arrived_s)));
     return *last;
   }
 

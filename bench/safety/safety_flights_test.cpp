@@ -65,11 +65,11 @@ TEST_CASE(
   const Folder folder;
   for (const char* mission : {"runway_to_runway", "two_schemes", "orbit"}) {
     CAPTURE(mission);
-    CHECK(
-        raised(folder.path, std::string("extends: " FULMAR_SOURCE_DIR "/configs/missions/") + mission +
+    const std::string watched = std::string("extends: " FULMAR_SOURCE_DIR "/configs/missions/") + mission +
                                 ".yaml\ncomponents:\n  sim: {params: {turbulence: moderate}}\n  watch: {use: "
                                 "safety/Monitor, rate: 100 Hz, " +
-                                wires + "}\n") == "");
+                                wires + "}\n";
+    CHECK(raised(folder.path, watched) == "");
     if (!fulmar::core::counts_allocations()) return;
   }
 }

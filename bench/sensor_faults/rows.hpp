@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/sensor_faults/messages.hpp"
 #include "fulmar/msg/fault_request.hpp"
 #include "fulmar/msg/navigation_health.hpp"
 
@@ -132,7 +133,7 @@ inline Row row(const std::string& name) {
     if (r.name == name) return r;
     valid += (valid.empty() ? "" : ", ") + r.name;
   }
-  throw std::runtime_error("no fault '" + name + "'; valid: " + valid);
+  throw std::runtime_error(sensor_faults_messages::fault_unknown(name, valid));
 }
 
 }  // namespace fulmar::sensor_faults

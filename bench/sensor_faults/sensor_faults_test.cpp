@@ -59,7 +59,7 @@ TEST_CASE("a fault that is not there is refused with those that are") {
   } catch (const std::exception& e) {
     words = e.what();
   }
-  CHECK(words.find("no fault 'gnss'; valid: nothing, gnss_jump, ") == 0);
+  CHECK(words.find("sensor_faults.fault_unknown(gnss, nothing, gnss_jump, ") == 0);
 }
 
 }  // namespace sensor_faults_test

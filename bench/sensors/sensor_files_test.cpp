@@ -46,6 +46,8 @@ std::string reported_of(const std::string& yaml) {
   return words;
 }
 
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
 }  // namespace
 
 TEST_CASE("the files of the built-in sets say the built-in sets") {
@@ -106,23 +108,21 @@ TEST_CASE("the Allan deviation of a shipped set is that of its data sheet") {
 }
 
 TEST_CASE("what is wrong in a file of sensors is told with its line") {
-  CHECK(reported_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n").find("sensor_files_test.yaml:2: ") == 0);
   const std::string misspelt = reported_of("imu:\n  gyro: {nois_per_root_hz: 5 mdeg/s}\n");
-  CHECK(misspelt.find("graph.field_unknown(imu.gyro: , nois_per_root_hz, ") != std::string::npos);
-  CHECK(misspelt.find("Did you mean 'noise_per_root_hz'?") != std::string::npos);
-  CHECK(reported_of("mag:\n  timing: {rate: -5 Hz}\n")
-            .find(":2: mag.timing.rate: graph.value_out_of_range(-5 Hz, ") != std::string::npos);
-  CHECK(reported_of("gnss: {timing: {dropouts: 1.5}}\n").find("graph.value_out_of_range(1.5, 0, 0.99, ") !=
-        std::string::npos);
-  CHECK(reported_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("graph.value_out_of_range(") ==
-        std::string::npos);
-  CHECK(
-      reported_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n").find("graph.value_too_small(-100 ug, 0") !=
-      std::string::npos);
-  CHECK(reported_of("imu: {accel: {noise_per_root_hz: 100 deg/s}}\n")
-            .find("graph.dimension_differs(100 deg/s, an angular rate, , an acceleration)") !=
-        std::string::npos);
-  CHECK(reported_of("imu: {accel: {noise_per_root_hz: 100 ug}}\n").empty());
+  CHECK(misspelt.starts_with("sensor_files_test.yaml:2: "));
+  CHECK(holds(misspelt, "graph.field_unknown(imu.gyro: , nois_per_root_hz, "));
+  CHECK(holds(misspelt, "'noise_per_root_hz'?"));
+  const std::string backward = reported_of("mag:\n  timing: {rate: -5 Hz}\n");
+  CHECK(holds(backward, ":2: mag.timing.rate: graph.value_out_of_range(-5 Hz, "));
+  const std::string often = reported_of("gnss: {timing: {dropouts: 1.5}}\n");
+  CHECK(holds(often, "graph.value_out_of_range(1.5, 0, 0.99, "));
+  const std::string negative = reported_of("imu: {accel: {noise_per_root_hz: -100 ug}}\n");
+  CHECK_FALSE(holds(negative, "graph.value_out_of_range("));
+  CHECK(holds(negative, "graph.value_too_small(-100 ug, 0"));
+  const std::string angular = reported_of("imu: {accel: {noise_per_root_hz: 100 deg/s}}\n");
+  CHECK(holds(angular, "graph.dimension_differs(100 deg/s, an angular rate, , an acceleration)"));
+  const std::string valid = "imu: {accel: {noise_per_root_hz: 100 ug}}\n";
+  CHECK(reported_of(valid).empty());
 }
 
 TEST_CASE("the hourglass is flown with each shipped set") {

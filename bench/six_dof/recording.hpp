@@ -14,6 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include "messages.hpp"
+
 namespace fulmar::six_dof {
 
 /// Of the files: a sentence, with file and line where there is one.
@@ -85,7 +87,7 @@ inline double number(std::string_view cell, const std::string& where) {
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-    throw Fault(where + "'" + std::string(cell) + "' is no number");
+    throw Fault(where + six_dof_messages::number_expected(cell).text);
   return value;
 }
 
@@ -94,16 +96,15 @@ inline double number(std::string_view cell, const std::string& where) {
 class RecordingFile {
  public:
   explicit RecordingFile(const std::filesystem::path& file) : name_(file.string()), in_(file) {
-    if (!in_) throw Fault(name_ + ": cannot be read");
+    if (!in_) throw Fault(six_dof_messages::file_not_readable(name_));
   }
 
   Recording read() {
     std::string line;
-    if (!next(line)) throw Fault(where() + "the file is empty");
+    if (!next(line)) throw fault(six_dof_messages::file_empty());
     read_header(line);
     while (next(line)) add(line);
-    if (static_cast<int>(taken_) != samples)
-      throw Fault(where() + "the recording ends at " + std::to_string(time_) + " s, before 30 s");
+    if (static_cast<int>(taken_) != samples) throw fault(six_dof_messages::recording_short(time_));
     return std::move(recording_);
   }
 
@@ -113,35 +114,33 @@ class RecordingFile {
     return static_cast<bool>(std::getline(in_, line));
   }
   std::string where() const { return name_ + ":" + std::to_string(line_) + ": "; }
+  Fault fault(const Diagnostic& message) const { return Fault(where() + message.text); }
 
   void read_header(const std::string& line) {
     const auto names = detail::cells(line);
     width_ = names.size();
-    if (names.front() != "time") throw Fault(where() + "the first column is not 'time'");
+    if (names.front() != "time") throw fault(six_dof_messages::first_column_not_time());
     for (std::size_t c = 0; c < columns; ++c) {
       const auto found = std::find(names.begin(), names.end(), column_specs[c].name);
       if (found != names.end())
         place_[c] = static_cast<std::size_t>(found - names.begin());
       else if (column_specs[c].must_be)
-        throw Fault(where() + "no column '" + column_specs[c].name + "'");
+        throw fault(six_dof_messages::column_missing(column_specs[c].name));
     }
   }
 
   /// Keeps the rows at tenths of a second: some simulators wrote more.
   void add(const std::string& line) {
     const auto row = detail::cells(line);
-    if (row.size() != width_)
-      throw Fault(where() + std::to_string(row.size()) + " cells, where the header has " +
-                  std::to_string(width_));
+    if (row.size() != width_) throw fault(six_dof_messages::cell_count_mismatch(row.size(), width_));
     const double time = detail::number(row.front(), where());
-    if (time < time_) throw Fault(where() + "the time runs backwards");
+    if (time < time_) throw fault(six_dof_messages::time_backwards());
     time_ = time;
     std::array<double, columns> values{};
     for (std::size_t c = 0; c < columns; ++c)
       if (place_[c]) values[c] = column_specs[c].unit * detail::number(row[*place_[c]], where());
     const double due = static_cast<double>(taken_) * sample_s;
-    if (time > due + 1e-4 && taken_ < samples)
-      throw Fault(where() + "no row at " + std::to_string(due) + " s");
+    if (time > due + 1e-4 && taken_ < samples) throw fault(six_dof_messages::row_missing(due));
     if (std::abs(time - due) > 1e-4 || taken_ == samples) return;
     ++taken_;
     for (std::size_t c = 0; c < columns; ++c)
@@ -160,16 +159,14 @@ class RecordingFile {
 inline std::vector<Recording> recordings(const std::filesystem::path& folder, const std::string& number) {
   namespace fs = std::filesystem;
   std::error_code none;
-  if (!fs::is_directory(folder, none))
-    throw Fault("there are no check cases of NASA/TM-2015-218675 in '" + folder.string() + "'");
+  if (!fs::is_directory(folder, none)) throw Fault(six_dof_messages::check_cases_missing(folder.string()));
   std::vector<fs::path> files;
   const std::string begin = "Atmos_" + number + "_";
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().filename().string().starts_with(begin))
       for (const auto& file : fs::directory_iterator(entry.path()))
         if (file.path().extension() == ".csv") files.push_back(file.path());
-  if (files.size() < 3)
-    throw Fault("'" + folder.string() + "' has no three recordings of check case " + number);
+  if (files.size() < 3) throw Fault(six_dof_messages::recordings_missing(folder.string(), number));
   std::sort(files.begin(), files.end());
   std::vector<Recording> all;
   for (const fs::path& file : files) {

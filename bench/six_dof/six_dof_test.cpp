@@ -186,29 +186,29 @@ TEST_CASE("a recording is read in metres and degrees, whatever the order of its 
 TEST_CASE("damaged files are refused with file and line") {
   const std::string good = file_of(header);
   CHECK(fault(good) == "");
-  CHECK(fault("") == ":1: the file is empty");
-  CHECK(fault(replaced(good, "altitudeMsl_ft", "altitude")) == ":1: no column 'altitudeMsl_ft'");
-  CHECK(fault(replaced(good, "time,", "t,")) == ":1: the first column is not 'time'");
-  CHECK(fault(replaced(good, "\n0.2,1,2,", "\n0.2,1,x,")) == ":4: 'x' is no number");
-  CHECK(fault(replaced(good, "\n0.2,1,2,", "\n0.2,1,,")) == ":4: '' is no number");
-  CHECK(fault(replaced(good, "\n0.2,1,2,", "\n0.2,1,nan,")) == ":4: 'nan' is no number");
-  CHECK(fault(replaced(good, "\n0.2,1,2,", "\n0.2,1,")) == ":4: 13 cells, where the header has 14");
-  CHECK(fault(replaced(good, "\n0.2,", "\n0.1,")).find(":5: no row at 0.2") == 0);
-  CHECK(fault(replaced(good, "\n0.2,", "\n0.05,")) == ":4: the time runs backwards");
-  CHECK(fault(file_of(header, 12)).find(":123: the recording ends at 12") == 0);
-  CHECK(fault(good.substr(0, good.size() - 9)) == ":302: 11 cells, where the header has 14");
+  CHECK(fault("") == ":1: six_dof.file_empty");
+  CHECK(fault(replaced(good, "altitudeMsl_ft", "altitude")) == ":1: six_dof.column_missing(altitudeMsl_ft)");
+  CHECK(fault(replaced(good, "time,", "t,")) == ":1: six_dof.first_column_not_time");
+  CHECK(fault(replaced(good, "\n0.2,1,2,", "\n0.2,1,x,")) == ":4: six_dof.number_expected(x)");
+  CHECK(fault(replaced(good, "\n0.2,1,2,", "\n0.2,1,,")) == ":4: six_dof.number_expected()");
+  CHECK(fault(replaced(good, "\n0.2,1,2,", "\n0.2,1,nan,")) == ":4: six_dof.number_expected(nan)");
+  CHECK(fault(replaced(good, "\n0.2,1,2,", "\n0.2,1,")) == ":4: six_dof.cell_count_mismatch(13, 14)");
+  CHECK(fault(replaced(good, "\n0.2,", "\n0.1,")).find(":5: six_dof.row_missing(0.2") == 0);
+  CHECK(fault(replaced(good, "\n0.2,", "\n0.05,")) == ":4: six_dof.time_backwards");
+  CHECK(fault(file_of(header, 12)).find(":123: six_dof.recording_short(12") == 0);
+  CHECK(fault(good.substr(0, good.size() - 9)) == ":302: six_dof.cell_count_mismatch(11, 14)");
 }
 
 TEST_CASE("without the files the program says so in one sentence, and 2") {
   const Output none = run("no/such/folder");
   CHECK(none.code == 2);
-  CHECK(none.text == "there are no check cases of NASA/TM-2015-218675 in 'no/such/folder'\n");
+  CHECK(none.text == "six_dof.check_cases_missing(no/such/folder)\n");
   const Folder empty;
-  CHECK(run(empty.path.string()).text.find("no three recordings of check case 01") != std::string::npos);
+  CHECK(run(empty.path.string()).text == "six_dof.recordings_missing(" + empty.path.string() + ", 01)\n");
   CHECK(run(empty.path.string()).code == 2);
   for (const char* wrong : {"", "--jsn", "a b"}) {
     CHECK(run(wrong).code == 2);
-    CHECK(run(wrong).text == "usage: bench_six_dof DIR [--json]\n");
+    CHECK(run(wrong).text == "six_dof.usage\n");
   }
 }
 

@@ -11,6 +11,7 @@
 #include "findings.hpp"
 #include "gain_search.hpp"
 #include "inner.hpp"
+#include "messages.hpp"
 #include "rate_fit.hpp"
 #include "tuned_gains.hpp"
 
@@ -62,7 +63,7 @@ struct Autotune {
   void retune(const Params& p) {
     law_ = p.law;
     for (std::size_t i = 0; i < axes; ++i) {
-      if (gains_.give(i, TunedGains::gains_of(p.law, i))) set_by_somebody(i);
+      if (gains_.give(i, TunedGains::gains_of(p.law, i))) set_from_outside(i);
       gains_.put_into(law_, i);
     }
     if (running()) law_.quieten.value = false;
@@ -70,7 +71,7 @@ struct Autotune {
   }
 
   Status activate(const Tick& tick, const Inputs& in, const Params&, const Applied<Outputs>& last) {
-    if (running()) end("somebody else has flown");
+    if (running()) end(slc_messages::other_component_active.c_str());
     for (std::size_t i = 0; i < axes; ++i) {
       gains_.finish_change(i);
       gains_.put_into(law_, i);
@@ -82,7 +83,7 @@ struct Autotune {
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
     if (p.tune && !asked_) begin(in, p);
-    if (!p.tune && asked_ && running()) end("it was switched off");
+    if (!p.tune && asked_ && running()) end(slc_messages::tune_switched_off.c_str());
     asked_ = p.tune;
     if (running()) {
       time_s_ += dt;
@@ -132,8 +133,8 @@ struct Autotune {
     next_axis(roll, p);
   }
   /// They count, whatever was measured with others.
-  void set_by_somebody(std::size_t axis) {
-    if (running()) end("gains were set");
+  void set_from_outside(std::size_t axis) {
+    if (running()) end(slc_messages::gains_set.c_str());
     results_[axis].forget();
   }
   void begin_axis(std::size_t axis) {
@@ -180,16 +181,16 @@ struct Autotune {
   std::string_view trouble(const Inputs& in, const Params& p) const {
     const VehicleState& s = *in.law.state;
     const FlightLimits& limits = p.law.airframe->limits;
-    if (in.status && !in.status->in_control) return "commands do not move the aircraft";
+    if (in.status && !in.status->in_control) return slc_messages::commands_ignored.c_str();
     if (in.law.state.stale() || !s.attitude_valid || !s.height_valid || !s.airspeed_valid)
-      return "attitude, height or airspeed is not known";
+      return slc_messages::estimate_unknown.c_str();
     // Each the other way round: what is no number is out of its bound.
-    if (!(std::abs(s.roll_rad) <= p.roll_bound)) return "roll is beyond roll_bound";
-    if (!(std::abs(s.pitch_rad) <= p.pitch_bound)) return "pitch is beyond pitch_bound";
-    if (!(std::abs(s.height_m - begun_m_) <= p.height_bound)) return "height has moved by height_bound";
-    if (!(s.airspeed_mps >= 1.1 * limits.airspeed_min_mps / 1.2)) return "airspeed is near the stall";
-    if (!(s.airspeed_mps <= limits.airspeed_max_mps)) return "airspeed is above the maximum";
-    if (!(time_s_ <= p.time_limit)) return "time_limit is over";
+    if (!(std::abs(s.roll_rad) <= p.roll_bound)) return slc_messages::roll_beyond_bound.c_str();
+    if (!(std::abs(s.pitch_rad) <= p.pitch_bound)) return slc_messages::pitch_beyond_bound.c_str();
+    if (!(std::abs(s.height_m - begun_m_) <= p.height_bound)) return slc_messages::height_moved.c_str();
+    if (!(s.airspeed_mps >= 1.1 * limits.airspeed_min_mps / 1.2)) return slc_messages::airspeed_low.c_str();
+    if (!(s.airspeed_mps <= limits.airspeed_max_mps)) return slc_messages::airspeed_high.c_str();
+    if (!(time_s_ <= p.time_limit)) return slc_messages::time_limit_over.c_str();
     return "";
   }
 

@@ -8,20 +8,21 @@
 #include <optional>
 
 #include "loop_lines.hpp"
+#include "messages.hpp"
 
 namespace fulmar::slc {
 
 inline const char* words(AutotuneReason why) {
   using Reason = AutotuneReason;
   switch (why) {
-    case Reason::margins_do_not_hold: return "the margins do not hold";
-    case Reason::no_gains_found: return "no gains have the margins";
-    case Reason::surface_at_limit: return "the surface was at its limit";
-    case Reason::turbulence: return "turbulence hides the answer to the excitation";
-    case Reason::no_answer: return "the surface does not act as it should";
-    case Reason::no_surface: return "the aircraft has no such surface";
-    case Reason::gain_is_zero: return "its gain is 0, and multiples of it are all that is tried";
-    case Reason::no_time: return "time_limit leaves no time";
+    case Reason::margins_do_not_hold: return slc_messages::margins_not_held.c_str();
+    case Reason::no_gains_found: return slc_messages::gains_missing.c_str();
+    case Reason::surface_at_limit: return slc_messages::surface_at_limit.c_str();
+    case Reason::turbulence: return slc_messages::turbulence_high.c_str();
+    case Reason::no_answer: return slc_messages::surface_without_answer.c_str();
+    case Reason::no_surface: return slc_messages::surface_missing.c_str();
+    case Reason::gain_is_zero: return slc_messages::gain_zero.c_str();
+    case Reason::no_time: return slc_messages::time_missing.c_str();
     default: return "";
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an autotune says to people.
+// The notices of an autotune.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -11,6 +11,7 @@
 
 #include "axis_result.hpp"
 #include "gain_search.hpp"
+#include "messages.hpp"
 
 namespace fulmar::slc {
 
@@ -20,40 +21,42 @@ class Findings {
   static constexpr std::array<const char*, 3> names{"roll", "pitch", "yaw"};
 
   void left_out(std::size_t axis, AutotuneReason why) {
-    say(Severity::info, "%s: not tuned: %s", names[axis], words(why));
+    report(Severity::info, slc_messages::axis_not_tuned, names[axis], words(why));
   }
   void reverted(std::size_t axis, std::string_view why) {
-    say(Severity::warning, "%s: old gains: %.*s", names[axis], static_cast<int>(why.size()), why.data());
+    report(Severity::warning, slc_messages::axis_reverted, names[axis], why);
   }
   /// As they stand in a file.
   void kept(std::size_t axis, const AxisGains& g, const Margins& m) {
     constexpr double degree = std::numbers::pi / 180;
     const double phase_deg = std::min(m.phase_rad / degree, 180.0);
     const char* const name = names[axis];
+    std::array<char, 96> gains{};
     if (g.damper())
-      say(Severity::info, "%s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name, g.kd, m.min_gain_db(),
-          phase_deg);
+      std::snprintf(gains.data(), gains.size(), "%s_kd: %.3g", name, g.kd);
     else
-      say(Severity::info, "%s_kp: %.3g, %s_ki: %.3g, %s_kd: %.3g  # kept: %.1f dB, %.0f deg measured", name,
-          g.kp, name, g.ki, name, g.kd, m.min_gain_db(), phase_deg);
+      std::snprintf(gains.data(), gains.size(), "%s_kp: %.3g, %s_ki: %.3g, %s_kd: %.3g", name, g.kp, name,
+                    g.ki, name, g.kd);
+    report(Severity::info, slc_messages::axis_kept, gains.data(), Fixed{m.min_gain_db(), 1},
+           Fixed{phase_deg, 0});
   }
   template <class Notices>
   void publish(const Tick& tick, Notices& notices) {
-    for (std::size_t i = 0; i < said_; ++i) notices.push(notices_[i], tick.now_ns);
-    said_ = 0;
+    for (std::size_t i = 0; i < reported_; ++i) notices.push(notices_[i], tick.now_ns);
+    reported_ = 0;
   }
 
  private:
-  template <class... Values>
-  void say(Severity severity, const char* format, Values... values) {
-    if (said_ >= notices_.size()) return;
-    Notice& n = notices_[said_++];
+  template <class Message, class... Values>
+  void report(Severity severity, const Message& message, const Values&... values) {
+    if (reported_ >= notices_.size()) return;
+    Notice& n = notices_[reported_++];
     n.severity = severity;
-    std::snprintf(n.text.bytes.data(), n.text.bytes.size(), format, values...);
+    message.write(n.text.bytes.data(), n.text.bytes.size(), values...);
   }
 
   std::array<Notice, 4> notices_{};
-  std::size_t said_ = 0;
+  std::size_t reported_ = 0;
 };
 
 }  // namespace fulmar::slc

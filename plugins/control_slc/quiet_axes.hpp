@@ -3,10 +3,11 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <fulmar/flight/control/oscillation.hpp>
 #include <fulmar/msg/notice.hpp>
 #include <fulmar/plugin.hpp>
+
+#include "messages.hpp"
 
 namespace fulmar::slc {
 
@@ -50,9 +51,8 @@ class QuietAxes {
     static constexpr std::array<const char*, axes> names{"roll", "pitch", "yaw"};
     Notice notice;
     notice.severity = Severity::warning;
-    std::snprintf(notice.text.bytes.data(), notice.text.bytes.size(),
-                  "%s oscillates: its gains are multiplied by %g until they are changed", names[axis],
-                  quiet_[axis].gain());
+    slc_messages::axis_oscillates.write(notice.text.bytes.data(), notice.text.bytes.size(), names[axis],
+                                        Fixed{quiet_[axis].gain(), 2});
     notices.push(notice, tick.now_ns);
   }
 

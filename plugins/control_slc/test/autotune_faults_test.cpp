@@ -100,7 +100,7 @@ TEST_CASE("a surface at its limit: half the gains first, and the axis goes back 
   trimmed.fly(0.6);
   CHECK(trimmed.report().roll == Verdict::reverted);
   CHECK(trimmed.report().roll_reason == Reason::surface_at_limit);
-  CHECK(trimmed.heard("roll: old gains: the surface was at its limit"));
+  CHECK(trimmed.has_reported("slc.axis_reverted(roll, slc.surface_at_limit)"));
   CHECK(as_before(trimmed.report(), 0));
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("gains of 0 are not tuned, and a sentence says so") {
     CHECK(reason(r, i) == Reason::gain_is_zero);
   }
   REQUIRE(f.reported.size() == 3);
-  CHECK(f.reported[0].starts_with("roll: not tuned: its gain is 0"));
+  CHECK(f.reported[0] == "slc.axis_not_tuned(roll, slc.gain_zero)");
 
   Flight no_kd;  // multiples of nothing in one term are no reason
   no_kd.tuner.params.law.roll_kd.value = no_kd.tuner.params.law.roll_ki.value = 0;
@@ -137,7 +137,7 @@ TEST_CASE("gains of 0 are not tuned, and a sentence says so") {
   REQUIRE(no_rudder.fly_until([&] { return no_rudder.done(); }));
   CHECK(no_rudder.report().yaw == Verdict::left_out);
   CHECK(no_rudder.report().yaw_reason == Reason::no_surface);
-  CHECK(no_rudder.heard("yaw: not tuned: the aircraft has no such surface"));
+  CHECK(no_rudder.has_reported("slc.axis_not_tuned(yaw, slc.surface_missing)"));
 }
 
 TEST_CASE("a record that leaves no gains is taken again, larger, as long as there is time") {
@@ -169,30 +169,30 @@ TEST_CASE("too little time for one axis tunes none") {
   f.step();
   CHECK(f.report().stage == Stage::finished);
   CHECK(f.report().roll_reason == Reason::no_time);
-  CHECK(f.heard("roll: not tuned: time_limit leaves no time"));
+  CHECK(f.has_reported("slc.axis_not_tuned(roll, slc.time_missing)"));
 }
 
 TEST_CASE("ended in the middle, what was verified stays with its margins, what was under test goes back") {
   struct End {
-    const char* words;
+    const char* code;
     std::function<void(Flight&)> make;
   };
   const std::vector<End> ends{
-      {"commands do not move", [](Flight& f) { f.status.in_control = false; }},
-      {"switched off",
+      {"slc.commands_ignored", [](Flight& f) { f.status.in_control = false; }},
+      {"slc.tune_switched_off",
        [](Flight& f) {
          f.tuner.params.tune.value = false;
          f.tuner.retune();
        }},
-      {"somebody else", [](Flight& f) { f.tuner.activate(); }},
-      {"gains were set",
+      {"slc.other_component_active", [](Flight& f) { f.tuner.activate(); }},
+      {"slc.gains_set",
        [](Flight& f) {
          f.tuner.params.law.yaw_kd.value = 0.4;
          f.tuner.retune();
        }},
-      {"roll is beyond", [](Flight& f) { f.seen = [](VehicleState& s) { s.roll_rad = 0.8; }; }}};
+      {"slc.roll_beyond_bound", [](Flight& f) { f.seen = [](VehicleState& s) { s.roll_rad = 0.8; }; }}};
   for (const End& end : ends) {
-    CAPTURE(end.words);
+    CAPTURE(end.code);
     Flight f;
     f.fly(3);
     f.tune();
@@ -216,7 +216,7 @@ TEST_CASE("ended in the middle, what was verified stays with its margins, what w
     CHECK(r.pitch_reason == Reason::ended);
     CHECK(as_before(r, 1));
     CHECK(r.yaw == Verdict::open);
-    CHECK(f.heard(end.words));
+    CHECK(f.has_reported(end.code));
   }
 }
 
@@ -236,7 +236,7 @@ TEST_CASE("activated twice it ends once, and the old gains count at once") {
   CHECK(f.report().stage == Stage::aborted);  // `tune` is still true
 }
 
-TEST_CASE("gains that somebody sets count, and nothing that was measured is said of them") {
+TEST_CASE("gains that are set count, and nothing that was measured is said of them") {
   Flight f;
   f.fly(3);
   f.tune();
@@ -246,7 +246,7 @@ TEST_CASE("gains that somebody sets count, and nothing that was measured is said
   f.tuner.retune();
   f.fly(0.6);
   CHECK(f.report().stage == Stage::aborted);
-  CHECK(f.heard("pitch: old gains: gains were set"));
+  CHECK(f.has_reported("slc.axis_reverted(pitch, slc.gains_set)"));
   CHECK(f.report().kp_ratio[0] == 0.9);
   CHECK(f.report().roll == Verdict::open);
   CHECK(f.report().gain_margin_ratio[0] == 0);
@@ -277,7 +277,7 @@ TEST_CASE("the input status need not be wired, and a mission that begins with tu
   ground.seen = [](VehicleState& s) { s.airspeed_mps = 0; };
   ground.fly(0.1);
   CHECK(ground.report().stage == Stage::aborted);
-  CHECK(ground.heard("airspeed is near the stall"));
+  CHECK(ground.has_reported("slc.airspeed_low"));
 }
 
 }  // namespace autotune_test

@@ -84,9 +84,9 @@ struct Flight {
     tuner.retune();
   }
   bool done() const { return report().done; }
-  bool heard(const std::string& words) const {
+  bool has_reported(const std::string& code) const {
     return std::any_of(reported.begin(), reported.end(),
-                       [&](const std::string& s) { return s.find(words) != std::string::npos; });
+                       [&](const std::string& s) { return s.find(code) != std::string::npos; });
   }
 };
 

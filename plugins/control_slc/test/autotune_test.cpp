@@ -31,9 +31,9 @@ TEST_CASE("from wrong gains all three axes end with measured margins, within 90 
     CHECK(r.kp_ratio[0] > 1.5);  // of the 0.6 and of the 2.4: both end at about the same
     CHECK(r.kp_ratio[0] < 4.5);
     CHECK(f.reported.size() == 3);
-    CHECK(f.heard("roll_kp: "));
-    CHECK(f.heard("yaw_kd: "));
-    CHECK(f.heard("deg measured"));
+    CHECK(f.has_reported("roll_kp: "));
+    CHECK(f.has_reported("yaw_kd: "));
+    CHECK(f.has_reported("slc.axis_kept(roll_kp: "));
     f.fly(2);
     CHECK(f.report().time_s == r.time_s);  // once
     CHECK(f.report().kp_ratio[0] == r.kp_ratio[0]);
@@ -95,7 +95,7 @@ TEST_CASE("margins that do not hold in the second excitation send the axis back 
   CHECK(f.report().roll == Verdict::reverted);
   CHECK(f.report().pitch == Verdict::left_out);
   CHECK(as_before(f.report(), 0));
-  CHECK(f.heard("roll: old gains: "));
+  CHECK(f.has_reported("slc.axis_reverted(roll, "));
 }
 
 TEST_CASE("with time left it searches again from the second record, and measures once more") {
@@ -115,34 +115,34 @@ TEST_CASE("with time left it searches again from the second record, and measures
 
 TEST_CASE("what is out of its bounds ends it, with the old gains, no excitation, and a sentence") {
   struct End {
-    const char* words;
+    const char* code;
     std::function<void(Flight&)> make;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<End> ends{
-      {"commands do not move", [](Flight& f) { f.status.in_control = false; }},
-      {"is not known", [](Flight& f) { f.seen = [](VehicleState& s) { s.attitude_valid = false; }; }},
-      {"is not known", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_valid = false; }; }},
-      {"is not known", [](Flight& f) { f.seen = [](VehicleState& s) { s.height_valid = false; }; }},
-      {"roll is beyond", [](Flight& f) { f.seen = [](VehicleState& s) { s.roll_rad = -0.8; }; }},
-      {"roll is beyond", [nan](Flight& f) { f.seen = [nan](VehicleState& s) { s.roll_rad = nan; }; }},
-      {"pitch is beyond", [](Flight& f) { f.seen = [](VehicleState& s) { s.pitch_rad = -0.5; }; }},
-      {"height has moved", [](Flight& f) { f.seen = [](VehicleState& s) { s.height_m -= 21; }; }},
-      {"near the stall", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_mps = 10.9; }; }},
-      {"above the maximum", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_mps = 25.1; }; }},
-      {"switched off",
+      {"slc.commands_ignored", [](Flight& f) { f.status.in_control = false; }},
+      {"slc.estimate_unknown", [](Flight& f) { f.seen = [](VehicleState& s) { s.attitude_valid = false; }; }},
+      {"slc.estimate_unknown", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_valid = false; }; }},
+      {"slc.estimate_unknown", [](Flight& f) { f.seen = [](VehicleState& s) { s.height_valid = false; }; }},
+      {"slc.roll_beyond_bound", [](Flight& f) { f.seen = [](VehicleState& s) { s.roll_rad = -0.8; }; }},
+      {"slc.roll_beyond_bound", [nan](Flight& f) { f.seen = [nan](VehicleState& s) { s.roll_rad = nan; }; }},
+      {"slc.pitch_beyond_bound", [](Flight& f) { f.seen = [](VehicleState& s) { s.pitch_rad = -0.5; }; }},
+      {"slc.height_moved", [](Flight& f) { f.seen = [](VehicleState& s) { s.height_m -= 21; }; }},
+      {"slc.airspeed_low", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_mps = 10.9; }; }},
+      {"slc.airspeed_high", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_mps = 25.1; }; }},
+      {"slc.tune_switched_off",
        [](Flight& f) {
          f.tuner.params.tune.value = false;
          f.tuner.retune();
        }},
-      {"somebody else", [](Flight& f) { f.tuner.activate(); }},
-      {"time_limit", [](Flight& f) {
+      {"slc.other_component_active", [](Flight& f) { f.tuner.activate(); }},
+      {"slc.time_limit_over", [](Flight& f) {
          f.tuner.params.time_limit.value = 20;
          f.tuner.retune();
          f.fly(9);
        }}};
   for (const End& end : ends) {
-    CAPTURE(end.words);
+    CAPTURE(end.code);
     Flight f;
     f.fly(3);
     f.tune();
@@ -154,7 +154,7 @@ TEST_CASE("what is out of its bounds ends it, with the old gains, no excitation,
     CHECK(f.report().stage == Stage::aborted);
     CHECK(f.report().done);
     CHECK(f.report().roll == Verdict::reverted);
-    CHECK(f.heard(end.words));
+    CHECK(f.has_reported(end.code));
     if (!(std::abs(f.tuner.out.law.actuators.aileron_rad) < 2)) continue;  // the host stops it here
     f.seen = [](VehicleState&) {};
     f.status.in_control = true;
@@ -192,7 +192,7 @@ TEST_CASE("just within the bounds it goes on, and asked again it tunes again") {
   CHECK(f.report().roll == Verdict::open);
 }
 
-TEST_CASE("a pilot who has flown, and gains that somebody sets, count") {
+TEST_CASE("a pilot who has flown, and gains that are set, count") {
   Flight f;
   f.fly(3);
   f.tune();
@@ -226,7 +226,7 @@ TEST_CASE("a surface that answers the wrong way is not tuned") {
   REQUIRE(f.fly_until([&] { return f.report().roll != Verdict::open; }));
   CHECK(f.report().roll == Verdict::reverted);
   CAPTURE(f.reported[0]);
-  CHECK(f.heard("does not act as it should"));
+  CHECK(f.has_reported("slc.surface_without_answer"));
 }
 
 TEST_CASE("a gyro that is stuck is no answer") {
@@ -236,7 +236,7 @@ TEST_CASE("a gyro that is stuck is no answer") {
   f.seen = [](VehicleState& s) { s.rate_radps.x = 0; };
   REQUIRE(f.fly_until([&] { return f.report().roll != Verdict::open; }));
   CHECK(f.report().roll == Verdict::reverted);
-  CHECK(f.heard("does not act as it should"));
+  CHECK(f.has_reported("slc.surface_without_answer"));
   CHECK(f.tuner.validation_error().empty());
 }
 
@@ -312,7 +312,7 @@ TEST_CASE("turbulence that hides the answer sends it back after larger excitatio
   f.tune();
   REQUIRE(f.fly_until([&] { return f.report().roll != Verdict::open; }));
   CHECK(f.report().roll == Verdict::reverted);
-  CHECK(f.heard("turbulence hides"));
+  CHECK(f.has_reported("slc.turbulence_high"));
   CHECK(f.report().time_s > 20);  // more than one
 }
 

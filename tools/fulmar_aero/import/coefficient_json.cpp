@@ -3,8 +3,8 @@
 // Skywalker X8.
 #include <nlohmann/json.hpp>
 
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/rosflight.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {

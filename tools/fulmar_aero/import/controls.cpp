@@ -6,7 +6,7 @@
 
 #include "tools/fulmar_aero/import/aircraft.hpp"
 #include "tools/fulmar_aero/import/lines.hpp"
-#include "tools/fulmar_aero/messages.hpp"
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -74,11 +74,10 @@ void set_sign(Column& column, Role role, const std::string& who, std::vector<std
     value.from += ", sign turned";
   }
   const char* const positive = role == Role::aileron    ? "rolls right"
-                               : role == Role::elevator ? "is trailing edge down, nose down"
-                               : role == Role::rudder   ? "is trailing edge left, nose left"
+                               : role == Role::elevator ? "moves trailing edge and nose down"
+                               : role == Role::rudder   ? "moves trailing edge and nose left"
                                                         : "lifts";
-  notes.push_back(std::string(role_name(role)) + ": sign of " + who + " turned as a whole; positive now " +
-                  positive);
+  notes.push_back(aero_messages::control_sign_turned(role_name(role), who, positive));
 }
 
 struct Sorted {

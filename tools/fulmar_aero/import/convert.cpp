@@ -8,7 +8,7 @@
 
 #include "tools/fulmar_aero/import/aircraft.hpp"
 #include "tools/fulmar_aero/import/lines.hpp"
-#include "tools/fulmar_aero/messages.hpp"
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -398,10 +398,7 @@ Aircraft aircraft_of(const std::vector<Input>& inputs, const ImportOptions& opti
   set_modes(inputs, out);
   if (first.analysis.density_kgm3 > 0) out.density_kgm3 = first.analysis.density_kgm3;
   if (out.cruise_mps == 0) out.cruise_mps = first.analysis.airspeed_mps;
-  if (first.analysis.weak_lateral)
-    out.notes.push_back(
-        "XFLR5 knows Cl_beta, Cn_p, Cn_da and CY_p badly (half as much or twice): take them from another "
-        "tool, if you have one");
+  if (first.analysis.weak_lateral) out.notes.push_back(aero_messages::lateral_derivatives_uncertain());
   return out;
 }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/rosflight.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {

@@ -8,6 +8,7 @@
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/import/compare_modes.hpp"
 #include "tools/fulmar_aero/import/import.hpp"
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/rosplane.hpp"
 #include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <optional>
 
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/rosflight.hpp"
 #include "tools/fulmar_aero/import/xml_elements.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "core/graph/yaml.hpp"
-#include "tools/fulmar_aero/messages.hpp"
+#include "tools/fulmar_aero/import/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {

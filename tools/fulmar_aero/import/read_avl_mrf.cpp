@@ -2,8 +2,8 @@
 // AVL's machine-readable form (MRF, since 3.40): "numbers | words : names". It is written anew as the form
 // for people, line by line, so that one reader reads both and lines are those of the file. Source: aoutmrf.f,
 // aoutput.f.
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/readers.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/readers.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {

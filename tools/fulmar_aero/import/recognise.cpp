@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a file is, by what stands in it.
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/readers.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 
 namespace fulmar::aero::imports {
 namespace {

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "core/graph/yaml.hpp"
-#include "tools/fulmar_aero/messages.hpp"
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {
@@ -175,9 +175,8 @@ void report_doubts(const Lines& lines, const Parameters& all, Aircraft& a) {
         "C_ell_beta is positive: it rolls into the sideslip, as with negative dihedral; left as it is");
   const double zero = a.c[lift][t_zero].x, slope = a.c[lift][t_alpha].x;
   if (const auto start = in_words(lines, "start alpha is"); start && slope > 0 && zero / slope > 6 * degree)
-    a.warnings.push_back("C_L_O " + figures(zero) + " is CL at the " + figures(*start) +
-                         " deg that the heading says, not at 0: there it would be " +
-                         figures(zero - slope * *start * degree) + "; left as it is");
+    a.warnings.push_back(aero_messages::lift_at_start_alpha(figures(zero), figures(*start),
+                                                            figures(zero - slope * *start * degree)));
   for (const auto& [key, parameter] : all) {
     if (!begins(key, "C_L_alpha")) continue;
     if (parameter.node != "/fixedwing_forces_and_moments" && parameter.node != "/**")

@@ -9,8 +9,8 @@
 #include <map>
 
 #include "tools/fulmar_aero/import/lines.hpp"
+#include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/rosflight.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero::imports {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tools/fulmar_aero/import/lines.hpp"
-#include "tools/fulmar_aero/messages.hpp"
+#include "tools/fulmar_aero/import/messages.hpp"
 
 namespace fulmar::aero::imports {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "tools/fulmar_aero/flight_model.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/mode_words.hpp"
+#include "tools/fulmar_aero/see/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {

@@ -8,6 +8,7 @@
 #include "core/graph/shipped.hpp"
 #include "tools/chart/chart.hpp"
 #include "tools/fulmar_aero/messages.hpp"
+#include "tools/fulmar_aero/see/messages.hpp"
 
 namespace fulmar::aero {
 

@@ -267,10 +267,12 @@ TEST_CASE("the static margin counts the tables, by their slope at cruise") {
     return answer.json()["figures"]["static_margin_ratio"].get<double>();
   };
   // cruise takes 0.03 rad of angle of attack: the first segment
-  CHECK(with("  tables:\n    - {coefficient: pitch, over: alpha, at: [-0.2, 0.1, 0.3], values: [0.03, 0, "
-             "1]}\n") == Approx((0.2524 + 0.1) / 4.0203282));
-  CHECK(with("  tables:\n    - {coefficient: lift, over: alpha, at: [-0.2, 0.1, 0.3], values: [-0.3, 0, "
-             "1]}\n") == Approx(0.2524 / (4.0203282 + 1)));
+  const std::string pitching =
+      "  tables:\n    - {coefficient: pitch, over: alpha, at: [-0.2, 0.1, 0.3], values: [0.03, 0, 1]}\n";
+  const std::string lifting =
+      "  tables:\n    - {coefficient: lift, over: alpha, at: [-0.2, 0.1, 0.3], values: [-0.3, 0, 1]}\n";
+  CHECK(with(pitching) == Approx((0.2524 + 0.1) / 4.0203282));
+  CHECK(with(lifting) == Approx(0.2524 / (4.0203282 + 1)));
 }
 
 TEST_CASE("tables that cannot be read are refused with their line") {

@@ -98,9 +98,9 @@ TEST_CASE("8: AVL's geometric axes turn signs, and a file without the line is re
 TEST_CASE("9: the sign of a control is what it does, turned as a whole, and told") {
   const Aircraft a = aircraft({tern_text("tern.stab")});
   is_tern(a, 1e-6);
-  CHECK(says(a.notes, "rudder: sign of 'RUDDER' turned"));
-  CHECK(says(a.notes, "aileron: sign of 'AILERON' turned"));
-  CHECK(!says(a.notes, "elevator: sign"));
+  CHECK(says(a.notes, "aero.control_sign_turned(rudder, 'RUDDER', "));
+  CHECK(says(a.notes, "aero.control_sign_turned(aileron, 'AILERON', "));
+  CHECK(!says(a.notes, "aero.control_sign_turned(elevator"));
   // gains of a set-up: per radian of the surfaces, not of the group
   const std::string set_up =
       "Sref = 0.4\nNumberOfControlGroups = 1\nELEVATOR GROUP\nA_Surf0,A_Surf1\n2, -2\n0\nWakeIters = 3\n";
@@ -374,7 +374,7 @@ TEST_CASE("22: ROSflight's letter O, its C_D_p, and inertia that stands in anoth
   CHECK(says(raw.c[lift][t_zero].from, "bird_dynamics.yaml:14 C_L_O"));
   CHECK(says(raw.notes, "aero.sign_doubted(# check the sign on this)"));
   CHECK(says(raw.notes, "aero.parameter_node_unknown("));
-  CHECK(says(raw.warnings, "C_L_O 0.6 is CL at the 3 deg"));
+  CHECK(says(raw.warnings, "aero.lift_at_start_alpha(0.6, 3, "));
   CHECK(raw.c[lift][t_elevator].x == -0.47);
   CHECK(raw.c[roll][t_aileron].x == -0.34);
   CHECK(mended.c[lift][t_elevator].x == 0.47);
@@ -414,8 +414,8 @@ TEST_CASE("two versions in one file are refused, and other tables of version 4.1
 }
 
 TEST_CASE("23: what XFLR5 knows badly is told") {
-  CHECK(says(aircraft({tern_text("tern_e.log")}).notes, "XFLR5 knows Cl_beta, Cn_p, Cn_da and CY_p badly"));
-  CHECK(!says(aircraft({tern_text("tern.st")}).notes, "badly"));
+  CHECK(says(aircraft({tern_text("tern_e.log")}).notes, "aero.lateral_derivatives_uncertain"));
+  CHECK(!says(aircraft({tern_text("tern.st")}).notes, "aero.lateral_derivatives_uncertain"));
 }
 
 TEST_CASE("what is broken or foreign is refused with the line and what was expected") {
@@ -439,14 +439,13 @@ TEST_CASE("what is broken or foreign is refused with the line and what was expec
              }),
              "aero.log_unit_unknown(stone)"));
   // one group more than columns: the file is of no one version
-  CHECK(says(refusal([&] {
-               aircraft({with(tern_text("tern.stab"), "RUDDER                 +1.000 deg",
-                              "RUDDER                 +1.000 deg        0 0 0 0 0 0 0 0 0 0 0 0\nFLAP        "
-                              "           +1.000 deg")});
-             }),
-             "aero.derivative_count_mismatch(12, 4, 11)"));
-  CHECK(says(refusal([] { read_text("# mass table: mass x y z Ixx Iyy Izz\n1.0 0.1\n"); }),
-             "tern:2: aero.mass_row_incomplete(2)"));
+  const std::string mixed =
+      with(tern_text("tern.stab"), "RUDDER                 +1.000 deg",
+           "RUDDER                 +1.000 deg        0 0 0 0 0 0 0 0 0 0 0 0\nFLAP        "
+           "           +1.000 deg");
+  CHECK(says(refusal([&] { aircraft({mixed}); }), "aero.derivative_count_mismatch(12, 4, 11)"));
+  const std::string short_row = "# mass table: mass x y z Ixx Iyy Izz\n1.0 0.1\n";
+  CHECK(says(refusal([&] { read_text(short_row); }), "tern:2: aero.mass_row_incomplete(2)"));
   CHECK(read_text(" Calculated polar for: NACA 2412\n").unused == "aero.polar_of_airfoil");
 }
 

@@ -28,11 +28,11 @@ TEST_CASE("suspicious servos are found" * doctest::test_suite("amounts")) {
   CHECK(servo("natural_frequency_radps: 10")
             .says("elevator.natural_frequency: aero.servo_frequency_unusual(10, "
                   "aero.servo_frequency_in_hertz(62.8))"));
-  CHECK(servo("natural_frequency: 100 rad/s, damping: 17")
-            .says("elevator.damping: aero.servo_damping_unusual(17)"));
+  const std::string fast = "natural_frequency: 100 rad/s, damping: ";
+  CHECK(servo(fast + "17").says("elevator.damping: aero.servo_damping_unusual(17)"));
   CHECK(servo("dead_band_rad: 0.5").says("elevator.dead_band: aero.dead_band_unusual(28.6 deg)"));
   CHECK(servo("max: 30 deg").says("elevator.max: aero.servo_range_small(-40.0 deg, 30.0 deg, 40.0 deg)"));
-  CHECK_FALSE(servo("natural_frequency: 100 rad/s, damping: 1.71").says("elevator."));
+  CHECK_FALSE(servo(fast + "1.71").says("elevator."));
 }
 
 TEST_CASE("elevons that are not alike are found") {
@@ -46,9 +46,10 @@ TEST_CASE("propellers that turn the aircraft, and a battery in milliohm, are fou
   const auto places = [](const std::string& list) {
     return checked("  battery: 24 V", "  battery: 24 V\n  propellers: " + list);
   };
-  CHECK(places("[{at_m: [0, 0.5, 0]}, {at_m: [0, 0.5, 0]}]")
-            .says("propulsion.propellers: aero.thrust_off_centre(left, 0.5)"));
-  CHECK_FALSE(places("[{at_m: [0, -0.5, 0]}, {at_m: [0, 0.5, 0], turns: left}]").says("propellers"));
+  const std::string one_side = "[{at_m: [0, 0.5, 0]}, {at_m: [0, 0.5, 0]}]",
+                    both_sides = "[{at_m: [0, -0.5, 0]}, {at_m: [0, 0.5, 0], turns: left}]";
+  CHECK(places(one_side).says("propulsion.propellers: aero.thrust_off_centre(left, 0.5)"));
+  CHECK_FALSE(places(both_sides).says("propellers"));
   CHECK(places("[{at_m: [0, 0, 0], tilt: 180 deg}]").says("aero.forward_thrust_missing"));
   CHECK(checked("  battery: 24 V", "  battery: 24 V\n  pack: {resistance_ohm: 20}")
             .says("aero.pack_resistance_unusual(476)"));

@@ -187,8 +187,8 @@ TEST_CASE("--write changes the gains and nothing else, and says the same when it
   const std::string now = text_of(file);
   CHECK(now != old);
   CHECK(without_params(now) == without_params(old));
-  CHECK(now.find("# 12.6 rad/s, damping 0.9: aileron 113 rad/s2 per rad") !=
-        std::string::npos);                                       // comments stay
+  const std::string comment = "# 12.6 rad/s, damping 0.9: aileron 113 rad/s2 per rad";
+  CHECK(now.find(comment) != std::string::npos);                  // comments stay
   CHECK(now.find("takeoff_pitch: 12 deg") != std::string::npos);  // what is not computed
   CHECK(std::count(now.begin(), now.end(), '\n') ==
         std::count(old.begin(), old.end(), '\n'));  // each is there

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "fulmar/flight/earth/atmosphere.hpp"
-#include "tools/fulmar_aero/messages.hpp"
+#include "tools/fulmar_aero/vlm/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/types/text.hpp"
-#include "tools/fulmar_aero/messages.hpp"
+#include "tools/fulmar_aero/vlm/messages.hpp"
 #include "tools/fulmar_aero/vlm/planform.hpp"
 #include "tools/fulmar_aero/words.hpp"
 

@@ -8,8 +8,8 @@
 #include "core/loader/table.hpp"
 #include "core/types/text.hpp"
 #include "fulmar/schema.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/vlm/geometry.hpp"
+#include "tools/fulmar_aero/vlm/messages.hpp"
 #include "tools/fulmar_aero/vlm/planform.hpp"
 #include "tools/fulmar_aero/words.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "tools/fulmar_aero/messages.hpp"
+#include "tools/fulmar_aero/vlm/messages.hpp"
 
 namespace fulmar::aero {
 namespace {

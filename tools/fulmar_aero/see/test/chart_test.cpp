@@ -106,8 +106,9 @@ TEST_CASE("six sets differ by colour and by dashes, in light and in dark") {
 
 TEST_CASE("text is text") {
   const std::string evil = "</style></title><script>alert('\"&\x01')</script>";
-  CHECK(in_html(evil) ==
-        "&lt;/style&gt;&lt;/title&gt;&lt;script&gt;alert(&#39;&quot;&amp; &#39;)&lt;/script&gt;");
+  const std::string escaped =
+      "&lt;/style&gt;&lt;/title&gt;&lt;script&gt;alert(&#39;&quot;&amp; &#39;)&lt;/script&gt;";
+  CHECK(in_html(evil) == escaped);
   Chart chart = with_line({{0, 0}, {1, 1}});
   chart.title = chart.x.words = chart.y.unit = chart.lines[0].name = chart.empty = evil;
   chart.keys.push_back({.name = evil, .points = {}});

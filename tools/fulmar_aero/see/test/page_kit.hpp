@@ -101,14 +101,16 @@ inline double value_at(const std::vector<ChartPoint>& points, double x) {
   return std::nan("");
 }
 
+inline const std::string policy_start =
+    "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';";
+
 /// What every page of ours keeps.
 inline void check_page(const std::string& page) {
   CHECK(page.size() < 2'000'000);
   CHECK(page.starts_with("<!DOCTYPE html>\n<html lang=\"en\">"));
   CHECK(page.ends_with("</html>\n"));
   CHECK(unbalanced(page) == "");
-  CHECK(page.find("http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';") !=
-        std::string::npos);
+  CHECK(page.find(policy_start) != std::string::npos);
   CHECK(page.find("prefers-color-scheme:dark") != std::string::npos);
   CHECK(page.find("@media print") != std::string::npos);
   // nothing is loaded, nothing runs

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "tools/fulmar_aero/check/messages.hpp"
 #include "tools/fulmar_aero/findings.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {
@@ -54,9 +54,10 @@ void report_class(Findings& f) {
       ++inside;
       continue;
     }
-    outside += (outside.empty() ? "" : "; ") + std::string(range.symbol) + " " + figures(value) + " (" +
-               figures(range.low) + " to " + figures(range.high) + ", off by " + figures(distance, 2) +
-               " of that range)";
+    outside += (outside.empty() ? "" : "; ") +
+               aero_messages::derivative_outside_class(range.symbol, figures(value), figures(range.low),
+                                                       figures(range.high), figures(distance, 2))
+                   .line();
   }
   f.figure("", 0, "small aircraft",
            std::to_string(inside) + " derivatives as found in others" +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/fulmar_aero/check/messages.hpp"
 #include "tools/fulmar_aero/envelope.hpp"
 #include "tools/fulmar_aero/findings.hpp"
 #include "tools/fulmar_aero/flight_model.hpp"

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "fulmar/flight/model/trim.hpp"
+#include "tools/fulmar_aero/check/messages.hpp"
 #include "tools/fulmar_aero/findings.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {

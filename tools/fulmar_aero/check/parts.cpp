@@ -5,8 +5,8 @@
 #include "fulmar/flight/model/mixer.hpp"
 #include "fulmar/flight/model/propellers.hpp"
 #include "fulmar/sim/gear_legs.hpp"
+#include "tools/fulmar_aero/check/messages.hpp"
 #include "tools/fulmar_aero/findings.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fulmar/flight/model/steady_flight.hpp"
+#include "tools/fulmar_aero/check/messages.hpp"
 #include "tools/fulmar_aero/findings.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {

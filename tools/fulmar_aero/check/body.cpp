@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "tools/fulmar_aero/check/messages.hpp"
 #include "tools/fulmar_aero/findings.hpp"
-#include "tools/fulmar_aero/messages.hpp"
 #include "tools/fulmar_aero/words.hpp"
 
 namespace fulmar::aero {

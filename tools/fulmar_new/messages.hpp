@@ -7,6 +7,14 @@ namespace fulmar::new_messages {
 
 inline constexpr MessageText component_always_stepped{
     "new.component_always_stepped", "The host steps it from the start, and logs its outputs."};
+inline constexpr MessageText component_beside_roles{
+    "new.component_beside_roles",
+    {"component", "mission", "folder"},
+    "{component}: a component beside the roles of the mission {mission}, written to {folder}"};
+inline constexpr MessageText component_for_roles{
+    "new.component_for_roles",
+    {"component", "plural", "roles", "mission", "folder"},
+    "{component}: a component for the role{plural}{roles} of the mission {mission}, written to {folder}"};
 inline constexpr MessageText component_unspecified{
     "new.component_unspecified",
     "the new component is not specified. Give --role ROLE, --template sensor, --template planner, or its "

@@ -236,11 +236,13 @@ void write_project(const Project& project) {
 }
 
 void report(const Project& project, const Contract& contract, const std::string& name) {
-  std::string what = "beside the roles";
-  if (!contract.roles.empty())
-    what = std::string("for the role") + (contract.roles.size() > 1 ? "s " : " ") + contract.role_words();
-  std::printf("%s: a component %s of the mission %s, written to %s\n", name.c_str(), what.c_str(),
-              contract.mission.c_str(), project.folder.string().c_str());
+  const std::string folder = project.folder.string();
+  const Diagnostic made =
+      contract.roles.empty()
+          ? new_messages::component_beside_roles(name, contract.mission, folder)
+          : new_messages::component_for_roles(name, contract.roles.size() > 1 ? "s " : " ",
+                                              contract.role_words(), contract.mission, folder);
+  std::printf("%s\n", made.text.c_str());
   for (const ContractInput& input : contract.inputs)
     std::printf("  in   %-12s %-18s %s\n", input.name.c_str(), input.type->name.c_str(),
                 input.from.owner.empty() ? "from the host" : ("from " + input.from.text()).c_str());

@@ -136,10 +136,11 @@ TEST_CASE(
   CHECK(holds(header, "fulmar/msg/guidance_command.hpp>\n"));
   CHECK(holds(header, "struct Figures {"));
   CHECK(holds(header, "Out<messages::Figures> figures;"));
-  CHECK(holds(written,
-              "reference: {use: score/Score, rate: 50 Hz, in: {state: nav.state, command: guide.command}, "
-              "params: {start_height: 30 m}}"));
-  CHECK(holds(written, "in: {reference_figures: reference.figures}"));
+  for (const char* line :
+       {"reference: {use: score/Score, rate: 50 Hz, in: {state: nav.state, command: guide.command}, "
+        "params: {start_height: 30 m}}",
+        "in: {reference_figures: reference.figures}"})
+    CHECK_MESSAGE(holds(written, line), line);
 }
 
 TEST_CASE("an input that the mission's role brings beside those of the template is in what is written") {
@@ -162,7 +163,8 @@ TEST_CASE("file names of the given mission are still found from the new one") {
       << "extends: common.yaml\nairframe: air.yaml\ncomponents:\n  plan: {params: {plan: \"plan "
          "one.yaml\"}}\n"
          "  slc: {use: home.so/Outer}\nphases:\n  takeoff: {outer: tecs}\n";
-  REQUIRE(call("new far --role inner --mission beside/m.yaml --dir 'a b'").code == 0);
+  const Result made = call("new far --role inner --mission beside/m.yaml --dir 'a b'");
+  REQUIRE_MESSAGE(made.code == 0, made.words);
   const Graph graph = loaded(folder() / "a b/mission.yaml", "far", "control_slc/Inner");
   CHECK(graph.airframe == (folder() / "beside/air.yaml").string());
   for (const Component& component : graph.components)
@@ -182,10 +184,11 @@ TEST_CASE("the C++ struct of a message says what its field table says") {
   Field name{.name = "title", .unit = "", .type = nullptr, .labels = {}, .kind = FULMAR_TEXT};
   name.stride = 24;
   type.fields = {mode, points, name};
-  CHECK(message_source(type) ==
-        "struct Point {\n  float at_m{};\n};\n\nenum class TrackMode : std::uint8_t { off, on };\nstruct "
-        "Track {\n  TrackMode mode{};\n"
-        "  List<Point, 8> points;\n  Text<24> title;\n};\n\n");
+  const std::string source =
+      "struct Point {\n  float at_m{};\n};\n\nenum class TrackMode : std::uint8_t { off, on };\nstruct "
+      "Track {\n  TrackMode mode{};\n"
+      "  List<Point, 8> points;\n  Text<24> title;\n};\n\n";
+  CHECK(message_source(type) == source);
 }
 
 TEST_CASE("a component without a role has the ports that are asked for, wired, and its own message") {
@@ -193,7 +196,7 @@ TEST_CASE("a component without a role has the ports that are asked for, wired, a
       "new ranger --in state=nav.state --in truth?=vehicle.truth --in \"notices=vehicle.notices[]\" --out "
       "range=Distance --out edits=PlanEdit[] --out score=Figures");
   REQUIRE_MESSAGE(made.code == 0, made.words);
-  CHECK(holds(made.words, "a component beside the roles of the mission hourglass"));
+  CHECK(holds(made.words, "new.component_beside_roles(ranger, hourglass, ranger)"));
   const std::string header = text_of(folder() / "ranger/ranger.hpp"),
                     written = text_of(folder() / "ranger/mission.yaml");
   for (const char* line :
@@ -201,9 +204,10 @@ TEST_CASE("a component without a role has the ports that are asked for, wired, a
         "Out<messages::Distance> range;", "OutQueue<PlanEdit, 16> edits;", "Out<messages::Figures> score;",
         "fulmar/msg/plan_edit.hpp>", "struct Distance {"})
     CHECK_MESSAGE(holds(header, line), line);
-  CHECK(holds(written,
-              "ranger: {use: build/lib/fulmar/ranger.so, rate: 100 Hz, in: {state: nav.state, truth: "
-              "vehicle.truth, notices: vehicle.notices}}"));
+  const std::string component =
+      "ranger: {use: build/lib/fulmar/ranger.so, rate: 100 Hz, in: {state: nav.state, truth: "
+      "vehicle.truth, notices: vehicle.notices}}";
+  CHECK(holds(written, component));
   CHECK_FALSE(holds(written, "fills"));
   CHECK_FALSE(holds(text_of(folder() / "ranger/README.md"), "@"));
 }
@@ -213,27 +217,31 @@ TEST_CASE("a vehicle is a frame to be filled in, or a point mass that flies") {
   const std::string header = text_of(folder() / "frame/frame.hpp");
   CHECK(holds(header, "  // 4. The surfaces go out."));
   CHECK_FALSE(holds(header, "point mass"));
-  REQUIRE(call("new toy --role vehicle --template point_mass").code == 0);
-  CHECK(holds(text_of(folder() / "toy/toy.hpp"), "// A point mass that turns as it banks"));
-  CHECK(holds(call("new toy2 --role vehicle --template mass").words,
+  const std::string from_template = " --role vehicle --template ";
+  REQUIRE(call("new toy" + from_template + "point_mass").code == 0);
+  CHECK(holds(text_of(folder() / "toy/toy.hpp"), "// A point mass"));
+  CHECK(holds(call("new toy2" + from_template + "mass").words,
               "new.role_template_unknown(mass, vehicle,  Valid: point_mass.)"));
 }
 
 TEST_CASE("templates for a sensor and a planner are wired to what the mission has") {
   REQUIRE(call("new altimeter --template sensor").code == 0);
-  CHECK(holds(text_of(folder() / "altimeter/mission.yaml"),
-              "altimeter: {use: build/lib/fulmar/altimeter.so, rate: 20 Hz, in: {state: vehicle.truth}}"));
+  const std::string component =
+      "altimeter: {use: build/lib/fulmar/altimeter.so, rate: 20 Hz, in: {state: vehicle.truth}}";
+  CHECK(holds(text_of(folder() / "altimeter/mission.yaml"), component));
   CHECK(holds(text_of(folder() / "altimeter/altimeter.hpp"), "OutQueue<AltimeterRange, 4> range;"));
   CHECK_FALSE(holds(text_of(folder() / "altimeter/altimeter.hpp"), "// wired"));
-  REQUIRE(call("new blind --template sensor --in state=nav.state").code == 0);
+  const Result blind = call("new blind --template sensor --in state=nav.state");
+  REQUIRE_MESSAGE(blind.code == 0, blind.words);
   CHECK(holds(text_of(folder() / "blind/mission.yaml"), "in: {state: nav.state}"));
   const Result made = call("new search --template planner");
   REQUIRE_MESSAGE(made.code == 0, made.words);
   CHECK(holds(made.words, "to plan.edits"));
   const std::string written = text_of(folder() / "search/mission.yaml");
-  CHECK(holds(written, "edits: {from: search.edits, delayed: true}"));
-  CHECK(holds(written,
-              "rate: 10 Hz, in: {progress: manage.progress, state: nav.state, results: plan.results}"));
+  for (const char* line :
+       {"edits: {from: search.edits, delayed: true}",
+        "rate: 10 Hz, in: {progress: manage.progress, state: nav.state, results: plan.results}"})
+    CHECK_MESSAGE(holds(written, line), line);
 }
 
 TEST_CASE(
@@ -242,11 +250,13 @@ TEST_CASE(
   REQUIRE_MESSAGE(made.code == 0, made.words);
   const std::string header = text_of(folder() / "lqr/lqr.hpp"),
                     written = text_of(folder() / "lqr/mission.yaml");
-  CHECK(holds(written, "lqr: {fills: [outer, inner], use: build/lib/fulmar/lqr.so, rate: 100 Hz"));
-  CHECK(holds(written, "cruise: {outer: {use: lqr, fallback: slc}, inner: {use: lqr, fallback: attitude}}"));
-  CHECK(holds(written, "attitude: reference_outer.attitude"));
+  for (const char* line :
+       {"lqr: {fills: [outer, inner], use: build/lib/fulmar/lqr.so, rate: 100 Hz",
+        "cruise: {outer: {use: lqr, fallback: slc}, inner: {use: lqr, fallback: attitude}}",
+        "attitude: reference_outer.attitude"})
+    CHECK_MESSAGE(holds(written, line), line);
   CHECK(holds(header, "In<GuidanceCommand> command;"));
-  CHECK(holds(header, "// fills the roles `outer` and `inner`"));
+  CHECK(holds(header, "roles `outer` and `inner`\n"));
   CHECK_FALSE(holds(header, "AttitudeCommand> attitude;"));  // its own output is no input
   CHECK(holds(header, "    AttitudeCommand attitude;\n    Actuators actuators;\n"));
 }
@@ -281,13 +291,14 @@ TEST_CASE("what cannot be written is refused with a sentence, and nothing is ove
   CHECK(call("new 9lives --role outer").words == "new.plugin_name_invalid(9lives)\n");
   CHECK(call("new test --role outer").words == "new.plugin_name_reserved(test, test)\n");
   CHECK(call("new ekf --role nav").words == "new.name_in_use(hourglass, component, ekf, ekf)\n");
-  CHECK(holds(call("new a_law --role outer --mission hourglas").words,
+  const std::string a_law = "new a_law --role outer ";
+  CHECK(holds(call(a_law + "--mission hourglas").words,
               "new.mission_unknown(hourglas,  [hourglass] autotune, by_hand, calm, "));
   file_with("taken", "mine");
-  CHECK(call("new a_law --role outer --dir taken").words == "new.folder_is_file(taken)\n");
+  CHECK(call(a_law + "--dir taken").words == "new.folder_is_file(taken)\n");
   fs::create_directories(folder() / "full");
   file_with("full/file", "mine");
-  const Result refused = call("new a_law --role outer --dir full");
+  const Result refused = call(a_law + "--dir full");
   CHECK(refused.code == 1);
   CHECK(refused.words == "new.folder_not_empty(full)\n");
   CHECK(text_of(folder() / "full/file") == "mine");

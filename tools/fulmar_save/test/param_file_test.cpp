@@ -79,6 +79,15 @@ std::string saved(const std::string& mission, const std::vector<SavedParam>& par
   now << std::ifstream(file, std::ios::binary).rdbuf();
   return now.str();
 }
+/// Before and after the values are saved.
+struct Edit {
+  std::string before;
+  std::vector<SavedParam> params;
+  std::string after;
+};
+void check_edits(const std::vector<Edit>& edits) {
+  for (const Edit& edit : edits) CHECK(saved(edit.before, edit.params) == edit.after);
+}
 std::string refused(const std::string& mission, const std::vector<SavedParam>& params) {
   const Folder folder;
   const SavePlan plan = plan_save(folder.file("m.yaml", mission), params, {});
@@ -89,13 +98,13 @@ std::string refused(const std::string& mission, const std::vector<SavedParam>& p
 }  // namespace
 
 TEST_CASE("a value is replaced where it stands: unit, comment and layout stay") {
-  CHECK(
-      saved("components:\n  slc:\n    params:\n      roll_limit: 40 deg   # not more\n      roll_kp:   0.5\n",
-            {number("roll_limit", 0.7330382858376184, "rad"), number("roll_kp", 0.625, "rad/rad")}) ==
-      "components:\n  slc:\n    params:\n      roll_limit: 42 deg   # not more\n      roll_kp:   0.625\n");
-  CHECK(saved("components:\r\n  slc: {use: x, params: {speed: 60 km/h, roll_kp: 1}, rate: 100 Hz}\r\n",
-              {number("speed", 25, "m/s")}) ==
-        "components:\r\n  slc: {use: x, params: {speed: 90 km/h, roll_kp: 1}, rate: 100 Hz}\r\n");
+  check_edits(
+      {{"components:\n  slc:\n    params:\n      roll_limit: 40 deg   # not more\n      roll_kp:   0.5\n",
+        {number("roll_limit", 0.7330382858376184, "rad"), number("roll_kp", 0.625, "rad/rad")},
+        "components:\n  slc:\n    params:\n      roll_limit: 42 deg   # not more\n      roll_kp:   0.625\n"},
+       {"components:\r\n  slc: {use: x, params: {speed: 60 km/h, roll_kp: 1}, rate: 100 Hz}\r\n",
+        {number("speed", 25, "m/s")},
+        "components:\r\n  slc: {use: x, params: {speed: 90 km/h, roll_kp: 1}, rate: 100 Hz}\r\n"}});
 }
 
 TEST_CASE("what the file says already is left alone, to the last digit of its writer") {
@@ -108,51 +117,57 @@ TEST_CASE("what the file says already is left alone, to the last digit of its wr
 }
 
 TEST_CASE("quotes stay quotes, and text that YAML would misread gets some") {
-  CHECK(saved("components: {slc: {params: {a: \"40 deg\", b: 'x', c: plain, d: word}}}",
-              {number("a", 0.7330382858376184, "rad"), text("b", "it's"), text("c", "on"),
-               text("d", "a: b # c")}) ==
-        "components: {slc: {params: {a: \"42 deg\", b: 'it''s', c: \"on\", d: \"a: b # c\"}}}");
-  CHECK(saved("components: {slc: {params: {law: none}}}", {choice("law", 2)}) ==
-        "components: {slc: {params: {law: severe}}}");
+  check_edits(
+      {{"components: {slc: {params: {a: \"40 deg\", b: 'x', c: plain, d: word}}}",
+        {number("a", 0.7330382858376184, "rad"), text("b", "it's"), text("c", "on"), text("d", "a: b # c")},
+        "components: {slc: {params: {a: \"42 deg\", b: 'it''s', c: \"on\", d: \"a: b # c\"}}}"},
+       {"components: {slc: {params: {law: none}}}",
+        {choice("law", 2)},
+        "components: {slc: {params: {law: severe}}}"}});
 }
 
 TEST_CASE("of a vector only the elements that differ are written, each in its unit") {
-  CHECK(saved("components: {slc: {params: {wind: [3.0, -4 m/s, 36 km/h]  # n e d\n}}}",
-              {vector("wind", 3, -5.5, 5, "m/s")}) ==
-        "components: {slc: {params: {wind: [3.0, -5.5 m/s, 18 km/h]  # n e d\n}}}");
-  CHECK(saved("components:\n  slc:\n    params:\n      wind: {north: 3, east: 4}  # calm\n",
-              {vector("wind", 3, 2, 1, "m/s")}) ==
-        "components:\n  slc:\n    params:\n      wind: {north: 3, east: 2, down: 1 m/s}  # calm\n");
+  check_edits({{"components: {slc: {params: {wind: [3.0, -4 m/s, 36 km/h]  # n e d\n}}}",
+                {vector("wind", 3, -5.5, 5, "m/s")},
+                "components: {slc: {params: {wind: [3.0, -5.5 m/s, 18 km/h]  # n e d\n}}}"},
+               {"components:\n  slc:\n    params:\n      wind: {north: 3, east: 4}  # calm\n",
+                {vector("wind", 3, 2, 1, "m/s")},
+                "components:\n  slc:\n    params:\n      wind: {north: 3, east: 2, down: 1 m/s}  # calm\n"}});
 }
 
 TEST_CASE("a value that stands nowhere is added to the mission where it belongs") {
   const SavedParam p = number("roll_limit", 0.7330382858376184, "rad");
-  CHECK(saved("mission: m\ncomponents:\n  slc:\n    params:\n      roll_kp: 1    # fine\n      # the end\n  "
-              "tecs: {}\n",
-              {p}) ==
+  check_edits(
+      {{"mission: m\ncomponents:\n  slc:\n    params:\n      roll_kp: 1    # fine\n      # the end\n  "
+        "tecs: {}\n",
+        {p},
         "mission: m\ncomponents:\n  slc:\n    params:\n      roll_kp: 1    # fine\n      roll_limit: 42 "
-        "deg\n      # the end\n  tecs: {}\n");
-  CHECK(saved("components:\n  slc: {use: x, params: {a: 1}}  # here\n", {p}) ==
-        "components:\n  slc: {use: x, params: {a: 1, roll_limit: 42 deg}}  # here\n");
-  CHECK(saved("components:\n  slc: {use: x}\n", {p}) ==
-        "components:\n  slc: {use: x, params: {roll_limit: 42 deg}}\n");
-  CHECK(saved("components:\n  slc: {params: {}}\n", {p}) ==
-        "components:\n  slc: {params: {roll_limit: 42 deg}}\n");
-  CHECK(saved("components:\n  slc:\n    params:\n    rate: 1 Hz\n", {p}) ==
-        "components:\n  slc:\n    params: {roll_limit: 42 deg}\n    rate: 1 Hz\n");
-  CHECK(saved("components:\n  tecs: {}\ndone: a\n", {p}) ==
-        "components:\n  tecs: {}\n  slc: {params: {roll_limit: 42 deg}}\ndone: a\n");
-  CHECK(saved("mission: m", {p}) == "mission: m\ncomponents: {slc: {params: {roll_limit: 42 deg}}}\n");
-  CHECK(saved("components:\n  slc: {\n    params: {a: 1,  # one\n             b: 2  # two, {\n    }}\n",
-              {p, number("gain", 0.3, "rad/rad")}) ==
+        "deg\n      # the end\n  tecs: {}\n"},
+       {"components:\n  slc: {use: x, params: {a: 1}}  # here\n",
+        {p},
+        "components:\n  slc: {use: x, params: {a: 1, roll_limit: 42 deg}}  # here\n"},
+       {"components:\n  slc: {use: x}\n",
+        {p},
+        "components:\n  slc: {use: x, params: {roll_limit: 42 deg}}\n"},
+       {"components:\n  slc: {params: {}}\n", {p}, "components:\n  slc: {params: {roll_limit: 42 deg}}\n"},
+       {"components:\n  slc:\n    params:\n    rate: 1 Hz\n",
+        {p},
+        "components:\n  slc:\n    params: {roll_limit: 42 deg}\n    rate: 1 Hz\n"},
+       {"components:\n  tecs: {}\ndone: a\n",
+        {p},
+        "components:\n  tecs: {}\n  slc: {params: {roll_limit: 42 deg}}\ndone: a\n"},
+       {"mission: m", {p}, "mission: m\ncomponents: {slc: {params: {roll_limit: 42 deg}}}\n"},
+       {"components:\n  slc: {\n    params: {a: 1,  # one\n             b: 2  # two, {\n    }}\n",
+        {p, number("gain", 0.3, "rad/rad")},
         "components:\n  slc: {\n    params: {a: 1,  # one\n             b: 2, roll_limit: 42 deg, gain: 0.3  "
-        "# two, {\n    }}\n");
+        "# two, {\n    }}\n"}});
 }
 
 TEST_CASE("an alias is replaced by the value; an anchor whose aliases others use is left alone") {
   const std::string mission = "components:\n  slc: {params: {roll_kp: &k 0.5, pitch_kp: *k}}\n";
-  CHECK(saved(mission, {number("pitch_kp", 0.75, "rad/rad"), number("roll_kp", 0.5, "rad/rad")}) ==
-        "components:\n  slc: {params: {roll_kp: &k 0.5, pitch_kp: 0.75}}\n");
+  check_edits({{mission,
+                {number("pitch_kp", 0.75, "rad/rad"), number("roll_kp", 0.5, "rad/rad")},
+                "components:\n  slc: {params: {roll_kp: &k 0.5, pitch_kp: 0.75}}\n"}});
   CHECK(refused(mission, {number("roll_kp", 0.75, "rad/rad")}) ==
         "m.yaml: save.edit_by_hand(slc.roll_kp, 0.75, save.text_shared(components.slc.params.pitch_kp))");
   CHECK(refused("x: &g {roll_kp: 1}\ncomponents: {slc: {params: *g}}\n", {number("yaw_kp", 2)}) ==
@@ -319,9 +334,10 @@ TEST_CASE(
       plan_save(mission, {number("course_kp", 2.25, "rad/rad"), number("course_ki", 0, "rad/(rad s)")}, {});
   CHECK(plan.refused.empty());
   REQUIRE(plan.files.size() == 1);
-  CHECK(plan.files[0].after ==
-        "mission: mine\nextends: fulmar:missions/hourglass.yaml\n"
-        "components: {slc: {params: {course_kp: 2.25}}}\n");
+  const std::string after =
+      "mission: mine\nextends: fulmar:missions/hourglass.yaml\n"
+      "components: {slc: {params: {course_kp: 2.25}}}\n";
+  CHECK(plan.files[0].after == after);
   write_edit(plan.files[0]);
   const SavePlan again = plan_save(mission, {number("course_kp", 2.5, "rad/rad")}, {});
   REQUIRE(again.files.size() == 1);

@@ -431,7 +431,7 @@ TEST_CASE("what cannot be flown is refused in one sentence that begins with the 
   folder.write("imu.csv", level(5));
   folder.write("mag.csv", "t,x,y,z\n1000,1,2,3\n");
   folder.write("empty.csv", "t,p,q,r,x,y,z\nnan,0,0,0,0,0,0\n");
-  const std::string at = folder.path.string() + "/";
+  const std::string at = folder.path.string() + "/", heading = at + "imu.csv:1, t, p, q, r, x, y, z";
   const auto refusal = [&](auto change) {
     Description d = imu_alone();
     change(d);
@@ -447,7 +447,7 @@ TEST_CASE("what cannot be flown is refused in one sentence that begins with the 
   CHECK(refusal([](Description& d) { d.imu.rate.columns[1] = ""; }) ==
         "log.imu.rate.columns[1]: sensor_log.column_not_named(" + at + "imu.csv)");
   CHECK(refusal([](Description& d) { d.imu.rate.columns[1] = "gy"; }) ==
-        "log.imu.rate.columns[1]: sensor_log.column_unknown(gy, " + at + "imu.csv:1, t, p, q, r, x, y, z)");
+        "log.imu.rate.columns[1]: sensor_log.column_unknown(gy, " + heading + ")");
   CHECK(refusal([](Description& d) {
           d.mag.field.columns = {"x", "y", "z"};
         }) == "log.mag.from.file: sensor_log.file_not_named");

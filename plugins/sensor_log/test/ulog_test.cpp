@@ -98,15 +98,15 @@ TEST_CASE("a description may name any field, nested ones and elements included")
 }
 
 TEST_CASE("what cannot be read of a ULog is refused in one sentence") {
-  CHECK(refusal(imu_topic(), "no log at all, but as long as the head of one") ==
-        "log.imu.from.file: sensor_log.file_not_ulog(flight.ulg)");
+  const std::string no_log = "no log at all, but as long as the head of one";
+  CHECK(refusal(imu_topic(), no_log) == "log.imu.from.file: sensor_log.file_not_ulog(flight.ulg)");
   Description none = imu_topic();
+  const std::string topics =
+      "sensor_combined, vehicle_air_data, differential_pressure, sensor_mag, sensor_mag#1, sensor_gps, own";
   for (const char* const topic : {"sensor_mag#2", "sensor_mag#x", "sensor_mag#", "sensor_mag#1a"}) {
     none.imu.from.topic = topic;
     CHECK(refusal(none, ulog()) == "log.imu.from.topic: sensor_log.topic_unknown(" + std::string(topic) +
-                                       ", flight.ulg, sensor_combined, vehicle_air_data, "
-                                       "differential_pressure, sensor_mag, "
-                                       "sensor_mag#1, sensor_gps, own)");
+                                       ", flight.ulg, " + topics + ")");
   }
   Description column = imu_topic();
   column.imu.rate.columns = {"gyro_rad[0]", "gyro_rad[3]", "gyro_rad[2]"};

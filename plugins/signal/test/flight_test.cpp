@@ -148,9 +148,8 @@ TEST_CASE("the pilot takes over in the midst of a sweep: aborted, and not begun 
   const std::string log = (folder.path / "pilot.mcap").string();
   const Said r = typed("run " + file.string() + " --duration 60 --log " + log);
   CHECK_MESSAGE(holds(r.out, "signal.aborted_by_pilot"), r.out);
-  REQUIRE(typed("log export " + log + " --to csv --topic /attitude_signal/probes --out " +
-                folder.path.string() + "/csv")
-              .code == 0);
+  const std::string to_csv = " --to csv --topic /attitude_signal/probes --out ";
+  REQUIRE(typed("log export " + log + to_csv + folder.path.string() + "/csv").code == 0);
   std::ifstream csv(folder.path / "csv" / "attitude_signal.probes.csv");
   std::string line, cell;
   std::getline(csv, line);

@@ -90,7 +90,7 @@ struct ExpandingSquare {
   }
 
   void hear(const Tick& tick, const PlanEditResult& result, Outputs& out) {
-    if (result.id < first_id || result.id > first_id + max_corners) return;  // somebody else's
+    if (result.id < first_id || result.id > first_id + max_corners) return;  // of another component
     if (!result.accepted && (phase_ == Phase::asked || phase_ == Phase::tidying)) {
       report(tick, phase_ == Phase::asked ? "search refused" : "the search stays in the plan", result.reason,
              out);

@@ -175,12 +175,13 @@ TEST_CASE("a refusal is told with its reason, and the plan is left alone; answer
   CHECK(flight.step({others}) == Status::ok);
   PlanEditResult refused;
   refused.id = 1001;
-  refused.reason = "less than 1 m from the waypoint before it";
+  const char* const reason = "less than 1 m from the waypoint before it";
+  refused.reason = reason;
   CHECK(flight.step({refused}) == Status::degraded);
   std::string reported;
   const auto& notices = flight.bench.out.notices;
   for (std::uint32_t i = 0; i < notices.count; ++i) reported += notices.items[i].text.view();
-  CHECK(reported == "search refused: less than 1 m from the waypoint before it");
+  CHECK(reported == std::string("search refused: ") + reason);
   flight.progress.item = 3;
   CHECK(flight.step() == Status::degraded);
   CHECK(flight.edits.empty());

@@ -60,11 +60,14 @@ struct Indi {  // fills the role `inner`
     return inertia_matrix(a.inertia).inverse() * (a.wing.area_m2 * moment);
   }
 
+  static constexpr const char* airframe_missing = "the inversion requires an airframe";
+  static constexpr const char* surfaces_insufficient =
+      "the surfaces of this airframe do not turn it about three axes";
+
   void configure(const Params& params) {
-    if (!params.airframe.given()) throw std::runtime_error("the inversion needs an airframe");
+    if (!params.airframe.given()) throw std::runtime_error(airframe_missing);
     const Eigen::FullPivLU<Eigen::Matrix3d> lu(effect(*params.airframe));
-    if (!lu.isInvertible())
-      throw std::runtime_error("the surfaces of this airframe do not turn it about three axes");
+    if (!lu.isInvertible()) throw std::runtime_error(surfaces_insufficient);
     inverse_ = lu.inverse();
   }
 

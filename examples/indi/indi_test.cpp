@@ -226,10 +226,10 @@ TEST_CASE("at a limit nothing winds up, and without an attitude it damps the rat
 TEST_CASE("an airframe that its surfaces cannot turn is refused, and so is none") {
   Bench<Indi> bench;
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() == "the inversion needs an airframe");
+  CHECK(bench.error() == Indi::airframe_missing);
   bench.params.airframe.value = anaconda();
   bench.params.airframe.is_given = true;
   bench.params.airframe.value.aero.yaw.rudder_ratio = bench.params.airframe.value.aero.roll.rudder_ratio = 0;
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() == "the surfaces of this airframe do not turn it about three axes");
+  CHECK(bench.error() == Indi::surfaces_insufficient);
 }

@@ -58,8 +58,10 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
   const Plant& plant() const { return plant_; }
   const Gain& gain() const { return K_; }
 
+  static constexpr const char* airframe_missing = "the regulator requires an airframe";
+
   void configure(const Params& params) {
-    if (!params.airframe.given()) throw std::runtime_error("the regulator needs an airframe");
+    if (!params.airframe.given()) throw std::runtime_error(airframe_missing);
     plant_ = Plant::linearised(*params.airframe, standard_air(params.origin->alt_msl_m).density_kgm3);
     if (!weigh(params)) throw std::runtime_error("no gain was found for these weights");
     x_ = plant_.x0;

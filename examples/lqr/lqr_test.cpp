@@ -231,12 +231,12 @@ TEST_CASE("the model has the derivatives of Beard & McLain, tables 5.1 and 5.2")
 TEST_CASE("an aircraft that cannot fly level at its cruise speed is refused, and so is none") {
   Bench<Lqr> bench;
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() == "the regulator needs an airframe");
+  CHECK(bench.error() == Lqr::airframe_missing);
   bench.params.airframe.value = anaconda();
   bench.params.airframe.is_given = true;
   bench.params.airframe.value.mass_kg = 40;
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() == "this airframe has no level flight at its cruise speed");
+  CHECK(bench.error() == Plant::level_flight_missing);
 }
 
 TEST_CASE("it goes on from what was applied last: either way, off the cruise speed, heading north") {

@@ -57,10 +57,12 @@ struct Plant {
     return dot;
   }
 
+  static constexpr const char* level_flight_missing = "this airframe has no level flight at its cruise speed";
+
   /// About level flight at the cruise speed, in air of density `rho`.
   static Plant linearised(const fulmar::Airframe& airframe, double rho) {
     const fulmar::Trim trim = fulmar::trimmed_flight(airframe, airframe.limits.airspeed_cruise_mps, rho);
-    if (!trim.found) throw std::runtime_error("this airframe has no level flight at its cruise speed");
+    if (!trim.found) throw std::runtime_error(level_flight_missing);
     Plant plant;
     plant.rho_kgm3 = rho;
     plant.x0(V) = airframe.limits.airspeed_cruise_mps;

@@ -40,6 +40,9 @@ struct Detour {
   };
 
   explicit Detour(std::uint64_t seed) : seed_(seed) {}
+  static std::string radius_missing(std::size_t zone) {
+    return "no-fly zone " + std::to_string(zone) + " requires a radius above 0";
+  }
   void configure(const Params& p);
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out);
 
@@ -76,8 +79,7 @@ struct Detour {
 inline void Detour::configure(const Params& p) {
   zones_ = *p.zones;
   for (std::size_t i = 0; i < zones_.zones.size(); ++i) {
-    if (!(zones_.zones[i].radius_m > 0))
-      throw std::runtime_error("no-fly zone " + std::to_string(i + 1) + " needs a radius above 0");
+    if (!(zones_.zones[i].radius_m > 0)) throw std::runtime_error(radius_missing(i + 1));
   }
   original_.reset();
   legs_.clear();

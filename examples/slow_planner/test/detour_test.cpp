@@ -252,7 +252,7 @@ TEST_CASE("a zone without a radius is refused at set-up") {
   Planning planning;
   planning.params.zones.value.zones.push_back({0, 0, 0});
   CHECK(planning.configure() == Status::failed);
-  CHECK(planning.error() == "no-fly zone 2 needs a radius above 0");
+  CHECK(planning.error() == Detour::radius_missing(2));
 }
 
 TEST_CASE("the watch keeps the least distance from the rim") {

@@ -71,7 +71,7 @@ struct Autotune {
   }
 
   Status activate(const Tick& tick, const Inputs& in, const Params&, const Applied<Outputs>& last) {
-    if (running()) end(slc_messages::other_component_active.c_str());
+    if (running()) end(control_slc_messages::other_component_active.c_str());
     for (std::size_t i = 0; i < axes; ++i) {
       gains_.finish_change(i);
       gains_.put_into(law_, i);
@@ -83,7 +83,7 @@ struct Autotune {
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);
     if (p.tune && !asked_) begin(in, p);
-    if (!p.tune && asked_ && running()) end(slc_messages::tune_switched_off.c_str());
+    if (!p.tune && asked_ && running()) end(control_slc_messages::tune_switched_off.c_str());
     asked_ = p.tune;
     if (running()) {
       time_s_ += dt;
@@ -134,7 +134,7 @@ struct Autotune {
   }
   /// They count, whatever was measured with others.
   void set_from_outside(std::size_t axis) {
-    if (running()) end(slc_messages::gains_set.c_str());
+    if (running()) end(control_slc_messages::gains_set.c_str());
     results_[axis].forget();
   }
   void begin_axis(std::size_t axis) {
@@ -181,16 +181,18 @@ struct Autotune {
   std::string_view trouble(const Inputs& in, const Params& p) const {
     const VehicleState& s = *in.law.state;
     const FlightLimits& limits = p.law.airframe->limits;
-    if (in.status && !in.status->in_control) return slc_messages::commands_ignored.c_str();
+    if (in.status && !in.status->in_control) return control_slc_messages::commands_ignored.c_str();
     if (in.law.state.stale() || !s.attitude_valid || !s.height_valid || !s.airspeed_valid)
-      return slc_messages::estimate_unknown.c_str();
+      return control_slc_messages::estimate_unknown.c_str();
     // Each the other way round: what is no number is out of its bound.
-    if (!(std::abs(s.roll_rad) <= p.roll_bound)) return slc_messages::roll_beyond_bound.c_str();
-    if (!(std::abs(s.pitch_rad) <= p.pitch_bound)) return slc_messages::pitch_beyond_bound.c_str();
-    if (!(std::abs(s.height_m - begun_m_) <= p.height_bound)) return slc_messages::height_moved.c_str();
-    if (!(s.airspeed_mps >= 1.1 * limits.airspeed_min_mps / 1.2)) return slc_messages::airspeed_low.c_str();
-    if (!(s.airspeed_mps <= limits.airspeed_max_mps)) return slc_messages::airspeed_high.c_str();
-    if (!(time_s_ <= p.time_limit)) return slc_messages::time_limit_over.c_str();
+    if (!(std::abs(s.roll_rad) <= p.roll_bound)) return control_slc_messages::roll_beyond_bound.c_str();
+    if (!(std::abs(s.pitch_rad) <= p.pitch_bound)) return control_slc_messages::pitch_beyond_bound.c_str();
+    if (!(std::abs(s.height_m - begun_m_) <= p.height_bound))
+      return control_slc_messages::height_moved.c_str();
+    if (!(s.airspeed_mps >= 1.1 * limits.airspeed_min_mps / 1.2))
+      return control_slc_messages::airspeed_low.c_str();
+    if (!(s.airspeed_mps <= limits.airspeed_max_mps)) return control_slc_messages::airspeed_high.c_str();
+    if (!(time_s_ <= p.time_limit)) return control_slc_messages::time_limit_over.c_str();
     return "";
   }
 

@@ -15,14 +15,14 @@ namespace fulmar::slc {
 inline const char* words(AutotuneReason why) {
   using Reason = AutotuneReason;
   switch (why) {
-    case Reason::margins_do_not_hold: return slc_messages::margins_not_held.c_str();
-    case Reason::no_gains_found: return slc_messages::gains_missing.c_str();
-    case Reason::surface_at_limit: return slc_messages::surface_at_limit.c_str();
-    case Reason::turbulence: return slc_messages::turbulence_high.c_str();
-    case Reason::no_answer: return slc_messages::surface_without_answer.c_str();
-    case Reason::no_surface: return slc_messages::surface_missing.c_str();
-    case Reason::gain_is_zero: return slc_messages::gain_zero.c_str();
-    case Reason::no_time: return slc_messages::time_missing.c_str();
+    case Reason::margins_do_not_hold: return control_slc_messages::margins_not_held.c_str();
+    case Reason::no_gains_found: return control_slc_messages::gains_missing.c_str();
+    case Reason::surface_at_limit: return control_slc_messages::surface_at_limit.c_str();
+    case Reason::turbulence: return control_slc_messages::turbulence_high.c_str();
+    case Reason::no_answer: return control_slc_messages::surface_without_answer.c_str();
+    case Reason::no_surface: return control_slc_messages::surface_missing.c_str();
+    case Reason::gain_is_zero: return control_slc_messages::gain_zero.c_str();
+    case Reason::no_time: return control_slc_messages::time_missing.c_str();
     default: return "";
   }
 }

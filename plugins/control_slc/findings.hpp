@@ -21,10 +21,10 @@ class Findings {
   static constexpr std::array<const char*, 3> names{"roll", "pitch", "yaw"};
 
   void left_out(std::size_t axis, AutotuneReason why) {
-    report(Severity::info, slc_messages::axis_not_tuned, names[axis], words(why));
+    report(Severity::info, control_slc_messages::axis_not_tuned, names[axis], words(why));
   }
   void reverted(std::size_t axis, std::string_view why) {
-    report(Severity::warning, slc_messages::axis_reverted, names[axis], why);
+    report(Severity::warning, control_slc_messages::axis_reverted, names[axis], why);
   }
   /// As they stand in a file.
   void kept(std::size_t axis, const AxisGains& g, const Margins& m) {
@@ -37,7 +37,7 @@ class Findings {
     else
       std::snprintf(gains.data(), gains.size(), "%s_kp: %.3g, %s_ki: %.3g, %s_kd: %.3g", name, g.kp, name,
                     g.ki, name, g.kd);
-    report(Severity::info, slc_messages::axis_kept, gains.data(), Fixed{m.min_gain_db(), 1},
+    report(Severity::info, control_slc_messages::axis_kept, gains.data(), Fixed{m.min_gain_db(), 1},
            Fixed{phase_deg, 0});
   }
   template <class Notices>

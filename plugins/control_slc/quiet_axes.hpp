@@ -51,8 +51,8 @@ class QuietAxes {
     static constexpr std::array<const char*, axes> names{"roll", "pitch", "yaw"};
     Notice notice;
     notice.severity = Severity::warning;
-    slc_messages::axis_oscillates.write(notice.text.bytes.data(), notice.text.bytes.size(), names[axis],
-                                        Fixed{quiet_[axis].gain(), 2});
+    control_slc_messages::axis_oscillates.write(notice.text.bytes.data(), notice.text.bytes.size(),
+                                                names[axis], Fixed{quiet_[axis].gain(), 2});
     notices.push(notice, tick.now_ns);
   }
 

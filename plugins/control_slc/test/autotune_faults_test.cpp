@@ -100,7 +100,7 @@ TEST_CASE("a surface at its limit: half the gains first, and the axis goes back 
   trimmed.fly(0.6);
   CHECK(trimmed.report().roll == Verdict::reverted);
   CHECK(trimmed.report().roll_reason == Reason::surface_at_limit);
-  CHECK(trimmed.has_reported("slc.axis_reverted(roll, slc.surface_at_limit)"));
+  CHECK(trimmed.has_reported("control_slc.axis_reverted(roll, control_slc.surface_at_limit)"));
   CHECK(as_before(trimmed.report(), 0));
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("gains of 0 are not tuned, and a sentence says so") {
     CHECK(reason(r, i) == Reason::gain_is_zero);
   }
   REQUIRE(f.reported.size() == 3);
-  CHECK(f.reported[0] == "slc.axis_not_tuned(roll, slc.gain_zero)");
+  CHECK(f.reported[0] == "control_slc.axis_not_tuned(roll, control_slc.gain_zero)");
 
   Flight no_kd;  // multiples of nothing in one term are no reason
   no_kd.tuner.params.law.roll_kd.value = no_kd.tuner.params.law.roll_ki.value = 0;
@@ -137,7 +137,7 @@ TEST_CASE("gains of 0 are not tuned, and a sentence says so") {
   REQUIRE(no_rudder.fly_until([&] { return no_rudder.done(); }));
   CHECK(no_rudder.report().yaw == Verdict::left_out);
   CHECK(no_rudder.report().yaw_reason == Reason::no_surface);
-  CHECK(no_rudder.has_reported("slc.axis_not_tuned(yaw, slc.surface_missing)"));
+  CHECK(no_rudder.has_reported("control_slc.axis_not_tuned(yaw, control_slc.surface_missing)"));
 }
 
 TEST_CASE("a record that leaves no gains is taken again, larger, as long as there is time") {
@@ -169,7 +169,7 @@ TEST_CASE("too little time for one axis tunes none") {
   f.step();
   CHECK(f.report().stage == Stage::finished);
   CHECK(f.report().roll_reason == Reason::no_time);
-  CHECK(f.has_reported("slc.axis_not_tuned(roll, slc.time_missing)"));
+  CHECK(f.has_reported("control_slc.axis_not_tuned(roll, control_slc.time_missing)"));
 }
 
 TEST_CASE("ended in the middle, what was verified stays with its margins, what was under test goes back") {
@@ -178,19 +178,20 @@ TEST_CASE("ended in the middle, what was verified stays with its margins, what w
     std::function<void(Flight&)> make;
   };
   const std::vector<End> ends{
-      {"slc.commands_ignored", [](Flight& f) { f.status.in_control = false; }},
-      {"slc.tune_switched_off",
+      {"control_slc.commands_ignored", [](Flight& f) { f.status.in_control = false; }},
+      {"control_slc.tune_switched_off",
        [](Flight& f) {
          f.tuner.params.tune.value = false;
          f.tuner.retune();
        }},
-      {"slc.other_component_active", [](Flight& f) { f.tuner.activate(); }},
-      {"slc.gains_set",
+      {"control_slc.other_component_active", [](Flight& f) { f.tuner.activate(); }},
+      {"control_slc.gains_set",
        [](Flight& f) {
          f.tuner.params.law.yaw_kd.value = 0.4;
          f.tuner.retune();
        }},
-      {"slc.roll_beyond_bound", [](Flight& f) { f.seen = [](VehicleState& s) { s.roll_rad = 0.8; }; }}};
+      {"control_slc.roll_beyond_bound",
+       [](Flight& f) { f.seen = [](VehicleState& s) { s.roll_rad = 0.8; }; }}};
   for (const End& end : ends) {
     CAPTURE(end.code);
     Flight f;
@@ -246,7 +247,7 @@ TEST_CASE("gains that are set count, and nothing that was measured is said of th
   f.tuner.retune();
   f.fly(0.6);
   CHECK(f.report().stage == Stage::aborted);
-  CHECK(f.has_reported("slc.axis_reverted(pitch, slc.gains_set)"));
+  CHECK(f.has_reported("control_slc.axis_reverted(pitch, control_slc.gains_set)"));
   CHECK(f.report().kp_ratio[0] == 0.9);
   CHECK(f.report().roll == Verdict::open);
   CHECK(f.report().gain_margin_ratio[0] == 0);
@@ -277,7 +278,7 @@ TEST_CASE("the input status need not be wired, and a mission that begins with tu
   ground.seen = [](VehicleState& s) { s.airspeed_mps = 0; };
   ground.fly(0.1);
   CHECK(ground.report().stage == Stage::aborted);
-  CHECK(ground.has_reported("slc.airspeed_low"));
+  CHECK(ground.has_reported("control_slc.airspeed_low"));
 }
 
 }  // namespace autotune_test

@@ -33,7 +33,7 @@ TEST_CASE("from wrong gains all three axes end with measured margins, within 90 
     CHECK(f.reported.size() == 3);
     CHECK(f.has_reported("roll_kp: "));
     CHECK(f.has_reported("yaw_kd: "));
-    CHECK(f.has_reported("slc.axis_kept(roll_kp: "));
+    CHECK(f.has_reported("control_slc.axis_kept(roll_kp: "));
     f.fly(2);
     CHECK(f.report().time_s == r.time_s);  // once
     CHECK(f.report().kp_ratio[0] == r.kp_ratio[0]);
@@ -95,7 +95,7 @@ TEST_CASE("margins that do not hold in the second excitation send the axis back 
   CHECK(f.report().roll == Verdict::reverted);
   CHECK(f.report().pitch == Verdict::left_out);
   CHECK(as_before(f.report(), 0));
-  CHECK(f.has_reported("slc.axis_reverted(roll, "));
+  CHECK(f.has_reported("control_slc.axis_reverted(roll, "));
 }
 
 TEST_CASE("with time left it searches again from the second record, and measures once more") {
@@ -120,23 +120,31 @@ TEST_CASE("what is out of its bounds ends it, with the old gains, no excitation,
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<End> ends{
-      {"slc.commands_ignored", [](Flight& f) { f.status.in_control = false; }},
-      {"slc.estimate_unknown", [](Flight& f) { f.seen = [](VehicleState& s) { s.attitude_valid = false; }; }},
-      {"slc.estimate_unknown", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_valid = false; }; }},
-      {"slc.estimate_unknown", [](Flight& f) { f.seen = [](VehicleState& s) { s.height_valid = false; }; }},
-      {"slc.roll_beyond_bound", [](Flight& f) { f.seen = [](VehicleState& s) { s.roll_rad = -0.8; }; }},
-      {"slc.roll_beyond_bound", [nan](Flight& f) { f.seen = [nan](VehicleState& s) { s.roll_rad = nan; }; }},
-      {"slc.pitch_beyond_bound", [](Flight& f) { f.seen = [](VehicleState& s) { s.pitch_rad = -0.5; }; }},
-      {"slc.height_moved", [](Flight& f) { f.seen = [](VehicleState& s) { s.height_m -= 21; }; }},
-      {"slc.airspeed_low", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_mps = 10.9; }; }},
-      {"slc.airspeed_high", [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_mps = 25.1; }; }},
-      {"slc.tune_switched_off",
+      {"control_slc.commands_ignored", [](Flight& f) { f.status.in_control = false; }},
+      {"control_slc.estimate_unknown",
+       [](Flight& f) { f.seen = [](VehicleState& s) { s.attitude_valid = false; }; }},
+      {"control_slc.estimate_unknown",
+       [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_valid = false; }; }},
+      {"control_slc.estimate_unknown",
+       [](Flight& f) { f.seen = [](VehicleState& s) { s.height_valid = false; }; }},
+      {"control_slc.roll_beyond_bound",
+       [](Flight& f) { f.seen = [](VehicleState& s) { s.roll_rad = -0.8; }; }},
+      {"control_slc.roll_beyond_bound",
+       [nan](Flight& f) { f.seen = [nan](VehicleState& s) { s.roll_rad = nan; }; }},
+      {"control_slc.pitch_beyond_bound",
+       [](Flight& f) { f.seen = [](VehicleState& s) { s.pitch_rad = -0.5; }; }},
+      {"control_slc.height_moved", [](Flight& f) { f.seen = [](VehicleState& s) { s.height_m -= 21; }; }},
+      {"control_slc.airspeed_low",
+       [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_mps = 10.9; }; }},
+      {"control_slc.airspeed_high",
+       [](Flight& f) { f.seen = [](VehicleState& s) { s.airspeed_mps = 25.1; }; }},
+      {"control_slc.tune_switched_off",
        [](Flight& f) {
          f.tuner.params.tune.value = false;
          f.tuner.retune();
        }},
-      {"slc.other_component_active", [](Flight& f) { f.tuner.activate(); }},
-      {"slc.time_limit_over", [](Flight& f) {
+      {"control_slc.other_component_active", [](Flight& f) { f.tuner.activate(); }},
+      {"control_slc.time_limit_over", [](Flight& f) {
          f.tuner.params.time_limit.value = 20;
          f.tuner.retune();
          f.fly(9);
@@ -226,7 +234,7 @@ TEST_CASE("a surface that answers the wrong way is not tuned") {
   REQUIRE(f.fly_until([&] { return f.report().roll != Verdict::open; }));
   CHECK(f.report().roll == Verdict::reverted);
   CAPTURE(f.reported[0]);
-  CHECK(f.has_reported("slc.surface_without_answer"));
+  CHECK(f.has_reported("control_slc.surface_without_answer"));
 }
 
 TEST_CASE("a gyro that is stuck is no answer") {
@@ -236,7 +244,7 @@ TEST_CASE("a gyro that is stuck is no answer") {
   f.seen = [](VehicleState& s) { s.rate_radps.x = 0; };
   REQUIRE(f.fly_until([&] { return f.report().roll != Verdict::open; }));
   CHECK(f.report().roll == Verdict::reverted);
-  CHECK(f.has_reported("slc.surface_without_answer"));
+  CHECK(f.has_reported("control_slc.surface_without_answer"));
   CHECK(f.tuner.validation_error().empty());
 }
 
@@ -312,7 +320,7 @@ TEST_CASE("turbulence that hides the answer sends it back after larger excitatio
   f.tune();
   REQUIRE(f.fly_until([&] { return f.report().roll != Verdict::open; }));
   CHECK(f.report().roll == Verdict::reverted);
-  CHECK(f.has_reported("slc.turbulence_high"));
+  CHECK(f.has_reported("control_slc.turbulence_high"));
   CHECK(f.report().time_s > 20);  // more than one
 }
 

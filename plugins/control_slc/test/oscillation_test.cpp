@@ -142,7 +142,7 @@ TEST_CASE("an axis that oscillates loses gain, the others do not, and it is told
     Shaken f;
     f.fly(1.3, axis.shake);
     CHECK(f.notices == 1);
-    CHECK(f.reported == "slc.axis_oscillates(" + std::string(axis.name) + ", 0.40)");
+    CHECK(f.reported == "control_slc.axis_oscillates(" + std::string(axis.name) + ", 0.40)");
     CHECK(f.status == Status::degraded);
     const Actuators now = f.answer();
     CHECK(now.aileron_rad / whole.aileron_rad == doctest::Approx(axis.roll).epsilon(1e-3));

@@ -161,8 +161,8 @@ int outputs_command(Client& client, const Options&, const HardwareOptions& what)
     std::printf("%-9s first %s\n", surface.name, surface.positive);
     std::fflush(stdout);
     for (const Moved& m : move_surface(client, mixer, surface.command, 0.5, 4 * second))
-      std::printf("          output %d went to %s, then to %s\n", m.output, fixed(m.first, 2).c_str(),
-                  fixed(m.then, 2).c_str());
+      std::printf("          %s\n",
+                  fcu_messages::output_moved(m.output, fixed(m.first, 2), fixed(m.then, 2)).text.c_str());
   }
   std::printf(
       "The pilot has the surfaces again. One that went the other way first: set its REV_ parameter, or "

@@ -51,6 +51,7 @@ inline constexpr MessageText battery_low{
     "{found} V, and the battery of the airframe has {nominal} V: charge it"};
 inline constexpr MessageText battery_not_measured{
     "fcu.battery_not_measured", "not measured: check BATT_VOLT_MULT; the sensor may be missing"};
+inline constexpr MessageText biases_zero{"fcu.biases_zero", {"names"}, "{names} are 0"};
 inline constexpr MessageText calibration_end_missing{
     "fcu.calibration_end_missing",
     {"calibration", "limit"},
@@ -106,6 +107,7 @@ inline constexpr MessageText file_write_failed{
 inline constexpr MessageText finite_number_expected{"fcu.finite_number_expected",
                                                     {"parameter", "found"},
                                                     "{parameter} must be a finite number, not '{found}'."};
+inline constexpr MessageText firmware_tested{"fcu.firmware_tested", {"version"}, "{version}, as tried"};
 inline constexpr MessageText firmware_too_old{
     "fcu.firmware_too_old",
     {"port", "version"},
@@ -141,6 +143,8 @@ inline constexpr MessageText gravity_implausible{
     "gravity is {found} m/s2 at rest, not 9.81: 'fulmar fcu calibrate imu'"};
 inline constexpr MessageText heading_sensor_silent{"fcu.heading_sensor_silent",
                                                    "silent: the heading comes from GNSS alone"};
+inline constexpr MessageText imu_calibrated{
+    "fcu.imu_calibrated", {"gravity", "rotation"}, "calibrated; {gravity} m/s2, {rotation} deg/s"};
 inline constexpr MessageText imu_not_calibrated{
     "fcu.imu_not_calibrated",
     "not calibrated: lay it level, 'fulmar fcu calibrate imu', then 'params write'"};
@@ -195,6 +199,8 @@ inline constexpr MessageText output_kind_wrong{"fcu.output_kind_wrong",
                                                {"output", "command", "kind", "wanted"},
                                                "Output {output} follows the {command} but is set up as a "
                                                "{kind}: set PRI_MIXER_OUT_{output} to {wanted}."};
+inline constexpr MessageText output_moved{
+    "fcu.output_moved", {"output", "first", "then"}, "output {output} went to {first}, then to {then}"};
 inline constexpr MessageText output_not_moved{
     "fcu.output_not_moved",
     {"output", "position"},
@@ -210,6 +216,17 @@ inline constexpr MessageText override_switch_missing{
 inline constexpr MessageText override_switch_off{
     "fcu.override_switch_off",
     "off: the computer controls the aircraft as soon as it sends; begin with the pilot"};
+inline constexpr MessageText param_file_columns{"fcu.param_file_columns",
+                                                "Behind each value: its index and type."};
+inline constexpr MessageText param_file_title{
+    "fcu.param_file_title",
+    {"firmware"},
+    "Parameters of a ROSflight flight controller, firmware {firmware}. Load: fulmar fcu params load FILE."};
+inline constexpr MessageText param_file_unversioned{
+    "fcu.param_file_unversioned",
+    "Parameters of a ROSflight flight controller. Load: fulmar fcu params load FILE."};
+inline constexpr MessageText param_set{
+    "fcu.param_set", {"name", "from", "to"}, "{name}: {from} -> {to}, read back."};
 inline constexpr MessageText parameter_duplicate{"fcu.parameter_duplicate",
                                                  {"parameter", "line"},
                                                  "{parameter} is in this file twice, first in line {line}"};

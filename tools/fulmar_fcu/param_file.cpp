@@ -73,9 +73,9 @@ std::vector<FileParam> read_param_file(const std::string& path) {
 }
 
 std::string param_file_text(const std::vector<Param>& params, const std::string& version) {
-  std::string out = "# Parameters of a ROSflight flight controller" +
-                    (version.empty() ? "" : ", firmware " + version) +
-                    ". Load: fulmar fcu params load FILE.\n# Behind each value: its index and type.\n";
+  const std::string title = version.empty() ? fcu_messages::param_file_unversioned().text
+                                            : fcu_messages::param_file_title(version).text;
+  std::string out = "# " + title + "\n# " + fcu_messages::param_file_columns.c_str() + "\n";
   for (const Param& param : params)
     out += left_aligned(param.name + ": " + param.text(), 34) + " # " + std::to_string(param.index) +
            (param.whole ? " int\n" : " float\n");

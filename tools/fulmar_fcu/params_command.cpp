@@ -82,8 +82,8 @@ int params_set(Client& client, const Options&, const ParamsOptions& what) {
   const std::uint32_t bits = parse_value(before, what.value);
   client.refuse_armed("changing its parameters");
   if (set_param(client, before, bits)) {
-    std::printf("%s: %s -> %s, read back.\n", before.name.c_str(), before.text().c_str(),
-                client.params().at(before.name).text().c_str());
+    const std::string after = client.params().at(before.name).text();
+    std::printf("%s\n", fcu_messages::param_set(before.name, before.text(), after).text.c_str());
     if (!what.write) std::printf("%s", unsaved);
   } else {
     std::printf("%s is %s already: nothing was sent.\n", before.name.c_str(), before.text().c_str());

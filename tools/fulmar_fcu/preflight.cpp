@@ -48,7 +48,7 @@ void firmware(Judge& j) {
   else if (j.f.version.empty())
     j.add(Verdict::note, "firmware", "it refuses to tell its version, as it does while armed");
   else if (tried(j.f.version))
-    j.ok("firmware", j.f.version + ", as tried");
+    j.ok("firmware", fcu_messages::firmware_tested(j.f.version));
   else
     j.warn("firmware", fcu_messages::firmware_untested(j.f.version, tried_firmware));
   if (j.f.status.armed != 0)
@@ -65,8 +65,6 @@ void firmware(Judge& j) {
 /// At rest the means are gravity and no rotation: the biases belong to this unit, and to no other moment.
 void rest(Judge& j, const Rest& r) {
   constexpr double deg = 180 / std::numbers::pi, gravity = 9.80665;
-  const std::string gravity_text = fixed(r.gravity_mps2, 2) + " m/s2",
-                    turn_text = fixed(r.turn_rps * deg, 2) + " deg/s";
   const double off = std::fabs(r.gravity_mps2 - gravity);
   if (r.accel_rms_mps2 > 1 || r.gyro_rms_rps * deg > 5)
     return j.warn(
@@ -77,7 +75,8 @@ void rest(Judge& j, const Rest& r) {
   if (r.turn_rps * deg > 0.5)
     j.add(r.turn_rps * deg > 3 ? Verdict::fail : Verdict::warn, "IMU",
           fcu_messages::rotation_at_rest(fixed(r.turn_rps * deg, 2)));
-  if (off <= 0.15 && r.turn_rps * deg <= 0.5) j.ok("IMU", "calibrated; " + gravity_text + ", " + turn_text);
+  if (off <= 0.15 && r.turn_rps * deg <= 0.5)
+    j.ok("IMU", fcu_messages::imu_calibrated(fixed(r.gravity_mps2, 2), fixed(r.turn_rps * deg, 2)));
 }
 
 void inertial(Judge& j) {
@@ -87,9 +86,11 @@ void inertial(Judge& j) {
   if ((no_accel && no_gyro) || (j.f.status.error_code & error_uncalibrated_imu) != 0)
     j.fail("IMU", redo);
   else if (no_accel)  // as a calibration that failed leaves it
-    j.fail("IMU", fulmar::located("ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS are 0", redo));
+    j.fail("IMU",
+           fulmar::located(fcu_messages::biases_zero("ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS").text, redo));
   else if (no_gyro && j.whole("ARM_CAL_GYRO") == 0)
-    j.fail("IMU", fulmar::located("GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS are 0", redo));
+    j.fail("IMU",
+           fulmar::located(fcu_messages::biases_zero("GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS").text, redo));
   else if (j.f.rest)
     rest(j, *j.f.rest);
 }

@@ -46,12 +46,13 @@ TEST_CASE("status, parameters and the check over a terminal line, as a user type
   CHECK(status.says("ROSflight v2.0.1"));
   CHECK(status.says("disarmed"));
   CHECK(controller.run("version").out == "v2.0.1-0-ge8cf6a0f\n");
-  CHECK(controller.run("params get rc_arm_chn").out == "4\n");
+  const std::string name = "RC_ARM_CHN", lower = "rc_arm_chn";
+  CHECK(controller.run("params get " + lower).out == "4\n");
   const Run list = controller.run("params list --json");
   CHECK(nlohmann::json::parse(list.out).size() == 333);
-  CHECK(controller.run("params set RC_ARM_CHN 6").says("RC_ARM_CHN: 4 -> 6, read back."));
-  CHECK(nlohmann::json::parse(controller.run("--json params get RC_ARM_CHN").out)["value"] == 6);
-  CHECK(controller.run("params set RC_ARM_CHN 1.5").code == 1);
+  CHECK(controller.run("params set " + name + " 6").says("fcu.param_set(RC_ARM_CHN, 4, 6)"));
+  CHECK(nlohmann::json::parse(controller.run("--json params get " + name).out)["value"] == 6);
+  CHECK(controller.run("params set " + name + " 1.5").code == 1);
   CHECK(controller.run("mixer").says("elevator"));
   CHECK(controller.run("check").says("FAIL"));
   CHECK(controller.run("test-outputs").says("fcu.confirmation_required(--propeller-off, once it is)"));

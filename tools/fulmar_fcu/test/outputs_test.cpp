@@ -58,11 +58,11 @@ TEST_CASE("aileron, elevator and rudder move one after the other to both sides, 
     CHECK(high[i] == doctest::Approx(0.75).epsilon(0.01));
     CHECK(low[i] == doctest::Approx(0.25).epsilon(0.02));
   }
-  CHECK(result.says("output 1 went to 0.75, then to 0.25"));
+  CHECK(result.says("fcu.output_moved(1, 0.75, 0.25)"));
   bench.firmware.params().set(param("REV_ELEVATOR"), 1);
   const Captured reversed = bench.test_outputs();
-  CHECK(reversed.says("output 0 went to 0.75, then to 0.25"));
-  CHECK(reversed.says("output 1 went to 0.25, then to 0.75"));
+  CHECK(reversed.says("fcu.output_moved(0, 0.75, 0.25)"));
+  CHECK(reversed.says("fcu.output_moved(1, 0.25, 0.75)"));
 }
 
 TEST_CASE("without a yes nothing moves") {

@@ -137,7 +137,7 @@ TEST_CASE("each thing that is wrong is told, with its parameter") {
 
 TEST_CASE("gravity and rest are measured for 2 s, and what a failed calibration leaves is seen") {
   Ready bench;
-  CHECK(verdicts(bench.facts(), Verdict::ok).find("IMU: calibrated; 9.81 m/s2, 0.00 deg/s") !=
+  CHECK(verdicts(bench.facts(), Verdict::ok).find("IMU: fcu.imu_calibrated(9.81, 0.00)") !=
         std::string::npos);
   bench.firmware.inputs.gyro = {0.0161, 0, 0};  // the mean of shaken seconds was taken for its bias
   CHECK(warns(bench.facts(), "IMU: fcu.rotation_at_rest(0.92)"));
@@ -149,7 +149,7 @@ TEST_CASE("gravity and rest are measured for 2 s, and what a failed calibration 
   bench.firmware.inputs.accel = {3, 0, -11};
   CHECK(fails(bench.facts(), "IMU: fcu.gravity_implausible(11.40)"));
   bench.firmware.inputs.accel = {4.9033, 0, -8.4928};  // at rest, though not level
-  CHECK(verdicts(bench.facts(), Verdict::ok).find("IMU: calibrated; 9.81 m/s2") != std::string::npos);
+  CHECK(verdicts(bench.facts(), Verdict::ok).find("IMU: fcu.imu_calibrated(9.81, ") != std::string::npos);
 }
 
 TEST_CASE("an aircraft that is moved is told so, and not that it is uncalibrated") {
@@ -167,17 +167,18 @@ TEST_CASE("an aircraft that is moved is told so, and not that it is uncalibrated
 TEST_CASE("three biases of exactly zero are a failed calibration, though the other three stand") {
   Facts f = ready();
   set(f, "ACC_X_BIAS", 0);
-  CHECK(fails(f, "IMU: ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS are 0: fcu.imu_not_calibrated"));
+  CHECK(fails(f, "IMU: fcu.biases_zero(ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS): fcu.imu_not_calibrated"));
   f = ready();
   set(f, "GYRO_X_BIAS", 0);
-  CHECK(fails(f, "IMU: GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS are 0: fcu.imu_not_calibrated"));
+  CHECK(fails(f, "IMU: fcu.biases_zero(GYRO_X_BIAS, GYRO_Y_BIAS and GYRO_Z_BIAS): fcu.imu_not_calibrated"));
   set(f, "ARM_CAL_GYRO", 1);  // it does that by itself, whenever it is armed
   CHECK_FALSE(fails(f, "IMU"));
 }
 
 TEST_CASE("a firmware that was not tried is a WARN that names the one that was") {
   Facts f = ready();
-  CHECK(verdicts(f, Verdict::ok).find("firmware: v2.0.1-0-ge8cf6a0f, as tried") != std::string::npos);
+  CHECK(verdicts(f, Verdict::ok).find("firmware: fcu.firmware_tested(v2.0.1-0-ge8cf6a0f)") !=
+        std::string::npos);
   for (const char* version : {"v2.0.1", "2.0.1-12-gabcdef0", "v2.0.1-dirty"}) {
     f.version = version;
     CHECK_MESSAGE(verdicts(f, Verdict::warn) == "", version);

@@ -149,6 +149,7 @@ void fixes(Campaign& c) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  ::setenv("FULMAR_MESSAGES", "codes", 1);  // reported_s() of virtual_controller.hpp compares codes
   Campaign c;
   c.options.log = false;
   std::string only;

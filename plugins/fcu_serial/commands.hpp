@@ -15,6 +15,7 @@
 #include "fulmar/msg/airframe.hpp"
 #include "fulmar/msg/aux_outputs.hpp"
 #include "link/messages.hpp"
+#include "messages.hpp"
 
 namespace fulmar::fcu {
 
@@ -29,8 +30,7 @@ struct Throws {
  private:
   static double one(const Surface& s, const char* name) {
     if (!(s.limit_rad > 0.01) || !std::isfinite(s.limit_rad))
-      throw std::runtime_error(std::string("the airframe's ") + name +
-                               ".limit is its throw; it must be more than 0.01 rad");
+      throw std::runtime_error(fcu_serial_messages::throw_too_small(name));
     return s.reversed ? -s.limit_rad : s.limit_rad;
   }
 };

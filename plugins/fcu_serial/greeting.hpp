@@ -10,6 +10,7 @@
 
 #include "firmware_version.hpp"
 #include "link/link.hpp"
+#include "messages.hpp"
 #include "pitot_zero.hpp"
 #include "radio.hpp"
 
@@ -77,38 +78,19 @@ struct Greeting {
 inline std::string objection(const Greeting& g, const LinkState& link, const std::string& port,
                              std::int64_t baud) {
   const bool serial = port.rfind("udp:", 0) != 0;
-  if (link.frames == 0 && link.bytes == 0)
-    return "nothing comes from " + port + ": is the flight controller powered, and is this its port?";
+  if (link.frames == 0 && link.bytes == 0) return fcu_serial_messages::device_silent(port);
   if (link.frames == 0 && link.text_bytes * 20 >= link.bytes * 19)
-    return port +
-           " sends text, not MAVLink: it is no flight controller, a satellite receiver perhaps; name another "
-           "port";
+    return fcu_serial_messages::text_received(port);
   if (link.frames == 0 && talks_mavlink_2(link.modern, link.bytes))
-    return port +
-           " talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with ROSflight "
-           "firmware 2";
-  if (link.frames == 0)
-    return "of " + std::to_string(link.bytes) + " bytes from " + port +
-           (serial ? " at " + std::to_string(baud) + " baud" : "") + " none is a MAVLink 1 frame: " +
-           (serial ? "set the baud rate of the flight controller (ROSflight: 921600), or name another port"
-                   : "name another port");
-  if (g.autopilot > 0)
-    return "the autopilot at " + port + " is of another make (MAV_AUTOPILOT " + std::to_string(g.autopilot) +
-           "): ROSflight 2 is needed";
+    return fcu_serial_messages::mavlink_2(port);
+  if (link.frames == 0 && serial) return fcu_serial_messages::frames_missing_at_baud(link.bytes, port, baud);
+  if (link.frames == 0) return fcu_serial_messages::frames_missing(link.bytes, port);
+  if (g.autopilot > 0) return fcu_serial_messages::other_autopilot(port, g.autopilot);
   if (const auto major = major_version(g.version); g.versioned && major && *major < oldest_firmware)
-    return "the flight controller at " + port + " runs ROSflight " + g.version +
-           ": flash version 2.0 or later";
-  if (!g.imu)
-    return port +
-           " speaks MAVLink, but sends no inertial samples: no ROSflight 2, or its inertial unit is dead; "
-           "power-cycle it, or flash it";
-  if (!g.versioned && !g.armed)
-    return "the flight controller at " + port +
-           " does not say its version: it is older than ROSflight 2.0; flash version 2.0 or later";
-  if (g.parameter("FIXED_WING") == 0)
-    return "the flight controller at " + port +
-           " is set up for a multirotor: set FIXED_WING to 1, PRIMARY_MIXER to the aircraft's, write, and "
-           "power-cycle it";
+    return fcu_serial_messages::firmware_too_old(port, g.version);
+  if (!g.imu) return fcu_serial_messages::imu_missing(port);
+  if (!g.versioned && !g.armed) return fcu_serial_messages::version_missing(port);
+  if (g.parameter("FIXED_WING") == 0) return fcu_serial_messages::not_fixed_wing(port);
   return "";
 }
 

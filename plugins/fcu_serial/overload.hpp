@@ -23,14 +23,12 @@ class Overload {
     const bool slow = percent >= worth_saying_percent;
     seconds_ = slow ? seconds_ + 1 : 0;
     if (reported_ && !slow) {
-      out.say(fulmar::Severity::warning, "this computer keeps up again");
+      out.add(fulmar::Severity::warning, fcu_serial_messages::computer_fast_again);
       reported_ = false;
     }
     if (seconds_ % 10 != 2) return;
     reported_ = true;
-    out.say(fulmar::Severity::critical,
-            Line() << "this computer is too slow: " << percent
-                   << " % of the inertial samples are too old when it comes to them");
+    out.add(fulmar::Severity::critical, fcu_serial_messages::computer_slow, percent);
   }
 
  private:

@@ -60,7 +60,7 @@ class AttitudePace {
   /// There is no state to send.
   void report_unwired(Notices& out) {
     if (std::exchange(reported_unwired_, true)) return;
-    out.say(fulmar::Severity::warning, "send_attitude: nothing comes to the input 'state'; is it wired?");
+    out.add(fulmar::Severity::warning, fcu_serial_messages::state_unwired);
   }
 
  private:

@@ -71,17 +71,14 @@ class ParameterBook {
     reported_ = true;
     const auto all = static_cast<std::int64_t>(count_),
                lacking = all - static_cast<std::int64_t>(heard_.count());
-    if (!complete)
-      out.say(fulmar::Severity::warning,
-              Line() << lacking << " of its " << all << " parameters do not come: the log lacks them");
+    if (!complete) out.add(fulmar::Severity::warning, fcu_serial_messages::params_missing, lacking, all);
     if (begun_ && changes_ > 0)
-      out.say(fulmar::Severity::warning, Line() << changes_ << " of its parameters "
-                                                << (changes_ == 1 ? "is" : "are")
-                                                << " other than before: see the log");
+      out.add(fulmar::Severity::warning, fcu_serial_messages::params_changed, changes_);
     if (begun_) return;
     begun_ = true;
-    if (complete) out.say(fulmar::Severity::info, Line() << "its " << all << " parameters are in the log");
-    out.say(fulmar::Severity::info, calibration());
+    if (complete) out.add(fulmar::Severity::info, fcu_serial_messages::params_logged, all);
+    out.add(fulmar::Severity::info, fcu_serial_messages::calibration, figures(0, 3, 3).view(),
+            figures(3, 6, 4).view(), figures(6, 7, 1).view());
   }
 
  private:
@@ -102,13 +99,10 @@ class ParameterBook {
     for (std::size_t i = 0; i < biases.size(); ++i)
       if (name == biases[i]) bias_[i] = value;
   }
-  Line calibration() const {
+  Line figures(std::size_t first, std::size_t end, int digits) const {
     Line line;
-    line << "calibration: accel";
-    for (std::size_t i = 0; i < 3; ++i) (line << " ").fixed(bias_[i], 3);
-    line << ", gyro";
-    for (std::size_t i = 3; i < 6; ++i) (line << " ").fixed(bias_[i], 4);
-    return (line << ", pitot ").fixed(bias_[6], 1) << " Pa";
+    for (std::size_t i = first; i < end; ++i) (line << (i > first ? " " : "")).fixed(bias_[i], digits);
+    return line;
   }
 
   std::bitset<most> heard_, known_;  ///< since the last restart; ever

@@ -27,8 +27,7 @@ class PitotUse {
   /// By a boot of the controller, now or before this host began.
   void zeroed_in_the_air(Notices& out) {
     if (std::exchange(zeroed_, true)) return;
-    out.say(fulmar::Severity::critical,
-            "it has zeroed its airspeed in the air: pitot not used any more, restart on the ground");
+    out.add(fulmar::Severity::critical, fcu_serial_messages::pitot_zeroed_in_flight);
   }
   /// In still air it is the offset of the sensor; beyond the limit it is the pressure of an airspeed, and the
   /// tube would say 0 at that. `bits`: of a float.
@@ -36,14 +35,12 @@ class PitotUse {
     const double pascal = static_cast<double>(std::bit_cast<float>(bits));
     const bool off = !(std::fabs(pascal) <= limit_pa_);
     if (off == std::exchange(off_, off)) return;
-    if (!off) return out.say(fulmar::Severity::info, "the pitot tube is zeroed anew: it is used again");
-    Line line;
+    if (!off) return out.add(fulmar::Severity::info, fcu_serial_messages::pitot_used_again);
+    const fulmar::Severity severity = armed ? fulmar::Severity::critical : fulmar::Severity::warning;
     if (std::isfinite(pascal) && std::fabs(pascal) < 1e6)
-      line << "pitot zeroed at " << std::llround(pascal) << " Pa";
+      out.add(severity, fcu_serial_messages::pitot_zero_off, std::llround(pascal));
     else
-      line << "pitot zeroed wrong";
-    out.say(armed ? fulmar::Severity::critical : fulmar::Severity::warning,
-            line << ", in wind or in the air: it is not used; zero it on the ground");
+      out.add(severity, fcu_serial_messages::pitot_zero_wrong);
   }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "fulmar/msg/gnss.hpp"
 #include "fulmar/msg/vehicle_state.hpp"
+#include "missing_messages.hpp"
 #include "state.hpp"
 
 namespace fulmar::fcu {
@@ -54,7 +55,7 @@ class FixWatch {
       if (last_ns_ != never_ns && !lost_)
         period_ns_ = std::min(fix_ns - last_ns_, std::int64_t{2'000'000'000});
       if (lost_ && reported_)
-        out.say(Severity::warning, (Line() << "GNSS is back after ").seconds(fix_ns - last_ns_));
+        out.add(Severity::warning, fcu_serial_messages::gnss_back, tenths_s(fix_ns - last_ns_));
       last_ns_ = fix_ns;
       lost_ = false;
     }
@@ -64,8 +65,7 @@ class FixWatch {
     reported_ = hold_.open(now_ns);
     if (!reported_) return;
     hold_.reported(now_ns);
-    out.say(armed ? Severity::critical : Severity::warning,
-            "GNSS lost: no fix; the position is reckoned on from air data");
+    out.add(armed ? Severity::critical : Severity::warning, fcu_serial_messages::gnss_lost);
   }
   bool lost() const { return lost_; }
 
@@ -89,9 +89,8 @@ class AttitudeWatch {
     else if (lost_ns_ == never_ns)
       lost_ns_ = now_ns;
     const bool lost = lost_ns_ != never_ns && now_ns - lost_ns_ >= patience_ns;
-    if (lost && !reported_)
-      out.say(Severity::critical, "pilot: take over. The attitude is lost, the surfaces are only held");
-    if (reported_ && attitude) out.say(Severity::warning, "the attitude is valid again");
+    if (lost && !reported_) out.add(Severity::critical, fcu_serial_messages::attitude_lost);
+    if (reported_ && attitude) out.add(Severity::warning, fcu_serial_messages::attitude_valid);
     reported_ = lost || (reported_ && !attitude);
   }
 
@@ -156,21 +155,19 @@ class Readiness {
     zero_pending = 2048,
     zero_wrong = 4096
   };
-  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 8> needed_words{
-      {{no_link, "nothing is heard of the flight controller"},
-       {no_inertial, "no inertial samples"},
-       {no_attitude, "no attitude with heading"},
-       {no_fix, "no GNSS fix"},
-       {no_position, "no position"},
-       {no_height, "no height"},
-       {no_velocity, "no velocity"},
-       {no_path, "no path to fly"}}};
-  static constexpr std::array<std::pair<std::uint32_t, std::string_view>, 5> other_words{
-      {{no_mag, "no magnetometer"},
-       {no_baro, "no barometer"},
-       {no_pitot, "no pitot tube"},
-       {zero_pending, "airspeed not zeroed yet"},
-       {zero_wrong, "airspeed zeroed wrong"}}};
+  static constexpr BitMessages<8> needed_messages{{{no_link, missing_messages::link},
+                                                   {no_inertial, missing_messages::inertial_samples},
+                                                   {no_attitude, missing_messages::attitude},
+                                                   {no_fix, missing_messages::gnss_fix},
+                                                   {no_position, missing_messages::position},
+                                                   {no_height, missing_messages::height},
+                                                   {no_velocity, missing_messages::velocity},
+                                                   {no_path, missing_messages::path}}};
+  static constexpr BitMessages<5> other_messages{{{no_mag, missing_messages::magnetometer},
+                                                  {no_baro, missing_messages::barometer},
+                                                  {no_pitot, missing_messages::pitot},
+                                                  {zero_pending, missing_messages::airspeed_zero},
+                                                  {zero_wrong, missing_messages::right_airspeed_zero}}};
   static constexpr std::int64_t first_reported_ns = 3'000'000'000;  ///< until then it aligns
   static constexpr std::int64_t sensor_patience_ns = 2'000'000'000;
   static constexpr double flies_mps = 7;
@@ -231,9 +228,9 @@ class Readiness {
     if (attitude) met_attitude_ = true;
     if (before == blind_ || !met_attitude_ || !f.status.armed) return;
     if (blind_)
-      out.say(Level::critical, "the attitude is not known: no command is sent, the pilot has the aircraft");
+      out.add(Level::critical, fcu_serial_messages::attitude_unknown);
     else if (!first_)
-      out.say(Level::warning, "the attitude is known again: commands are sent");
+      out.add(Level::warning, fcu_serial_messages::attitude_known);
     first_ = false;
   }
 
@@ -245,29 +242,36 @@ class Readiness {
     if ((missing & needed) == 0) {
       if (refused_ ? !due && reported_ready_ : reported_ready_ && missing == reported_) return;
       if (!due && !may_change) return;
-      return say(ready_line(missing), missing, true, now_ns, out);
+      report_ready(missing, out);
+      return reported(missing, true, now_ns);
     }
-    if (due || (reported_ready_ && may_change)) say(missing_line(missing), missing, false, now_ns, out);
+    if (!due && !(reported_ready_ && may_change)) return;
+    report_not_ready(missing, out);
+    reported(missing, false, now_ns);
   }
-  void say(const Line& line, std::uint32_t missing, bool ready, std::int64_t now_ns, Notices& out) {
-    out.say(ready && (missing == 0) ? Level::info : Level::warning, line);
+  void reported(std::uint32_t missing, bool ready, std::int64_t now_ns) {
     if (ready != reported_ready_) hold_.reported(now_ns);
     reported_ns_ = now_ns;
     reported_ready_ = ready;
     reported_ = missing;
   }
-  Line ready_line(std::uint32_t missing) const {
-    Line line;
-    line << (refused_ ? "ready: switch to the pilot and back to hand over" : "ready");
-    if ((missing & ~std::uint32_t{needed}) != 0) list_bits(line << ", but ", missing, other_words);
-    return line;
+  void report_ready(std::uint32_t missing, Notices& out) const {
+    if (missing == 0)
+      return out.add(Level::info,
+                     refused_ ? fcu_serial_messages::ready_switch_back : fcu_serial_messages::ready);
+    Line list;
+    list_bits(list, missing, other_messages);
+    out.add(Level::warning,
+            refused_ ? fcu_serial_messages::ready_switch_back_but : fcu_serial_messages::ready_but,
+            list.view());
   }
-  Line missing_line(std::uint32_t missing) const {
-    Line line;
-    list_bits(line << "not ready: ", missing, needed_words);
-    if (!met_disarmed_ && !met_attitude_) return line << "; armed before: on the ground disarm";
-    if ((missing & ~std::uint32_t{needed}) != 0) list_bits(line << ", ", missing, other_words);
-    return line;
+  void report_not_ready(std::uint32_t missing, Notices& out) const {
+    Line list;
+    list_bits(list, missing, needed_messages);
+    if (!met_disarmed_ && !met_attitude_)
+      return out.add(Level::warning, fcu_serial_messages::not_ready_armed_before, list.view());
+    list_bits(list, missing, other_messages);
+    out.add(Level::warning, fcu_serial_messages::not_ready, list.view());
   }
 
   bool blind_ = true, refused_ = false, handed_ = false, flown_ = false;

@@ -139,33 +139,29 @@ class Reporter {
   void report_link(const VehicleStatus& s, const Heard& h, std::int64_t now_ns, Notices& out) {
     const bool down = (s.errors & own_error_link_down) != 0;
     if (down && !down_ && h.frame_ns != never_ns)
-      out.say(s.armed ? Level::critical : Level::warning,
-              h.open ? "nothing comes from the flight controller; commands reach nobody"
-                     : "the flight controller's device is gone; looking for it");
+      out.add(s.armed ? Level::critical : Level::warning,
+              h.open ? fcu_serial_messages::controller_silent : fcu_serial_messages::device_gone);
     if (!down && down_)
-      out.say(Level::info,
-              (Line() << "the flight controller is back after ").seconds(now_ns - down_since_ns_));
+      out.add(Level::info, fcu_serial_messages::controller_back, tenths_s(now_ns - down_since_ns_));
     if (down != down_) down_since_ns_ = h.frame_ns;
     down_ = down && h.frame_ns != never_ns;
   }
 
   void report_arming(const VehicleStatus& s, Notices& out) {
-    if (s.armed != reported_.armed) out.say(Level::info, s.armed ? "armed" : "disarmed");
-    if (s.failsafe && !reported_.failsafe)
-      out.say(Level::critical,
-              "failsafe: the flight controller has lost the radio; motor off, surfaces centred");
-    if (!s.failsafe && reported_.failsafe) out.say(Level::warning, "failsafe is over");
+    if (s.armed != reported_.armed)
+      out.add(Level::info, s.armed ? fcu_serial_messages::armed : fcu_serial_messages::disarmed);
+    if (s.failsafe && !reported_.failsafe) out.add(Level::critical, fcu_serial_messages::failsafe_entered);
+    if (!s.failsafe && reported_.failsafe) out.add(Level::warning, fcu_serial_messages::failsafe_over);
   }
 
   void report_pilot(const VehicleStatus& s, Notices& out) {
     const bool flies = s.armed && s.override, flew = reported_.armed && reported_.override;
     if (flies && !flew) {
-      Line line;
-      line << "the pilot flies: ";
-      list_bits(line, s.override_reasons, override_words);
-      out.say(Level::info, line);
+      Line reasons;
+      list_bits(reasons, s.override_reasons, override_messages);
+      out.add(Level::info, fcu_serial_messages::pilot_flies, reasons.view());
     }
-    if (s.armed && !flies && flew) out.say(Level::info, "the pilot hands over");
+    if (s.armed && !flies && flew) out.add(Level::info, fcu_serial_messages::pilot_hands_over);
   }
 
   /// Each change, but for a line so bad that it comes and goes: then once that, and how it ends.
@@ -175,37 +171,33 @@ class Reporter {
       flickers_ = flickers_ || now_ns - changes_ns_[2] < steady_ns;
       std::rotate(changes_ns_.begin(), changes_ns_.end() - 1, changes_ns_.end());
       changes_ns_[0] = now_ns;
-      if (flickers_ && !reported_flicker_)
-        out.say(Level::warning, "control comes and goes: the line loses too much");
+      if (flickers_ && !reported_flicker_) out.add(Level::warning, fcu_serial_messages::control_unsteady);
       reported_flicker_ = flickers_;
     }
     const bool steady = flickers_ && now_ns - changes_ns_[0] >= steady_ns;
     if (steady) flickers_ = reported_flicker_ = false;
     if (flickers_ || (!changes && !steady)) return;
     if (s.in_control)
-      out.say(Level::info, "in control");
+      out.add(Level::info, fcu_serial_messages::in_control);
     else
-      out.say(s.armed && !s.override ? Level::warning : Level::info, "not in control");
+      out.add(s.armed && !s.override ? Level::warning : Level::info, fcu_serial_messages::not_in_control);
   }
 
   void report_errors(const VehicleStatus& s, const Heard& h, Notices& out) {
     const std::uint32_t added = s.errors & ~reported_.errors, gone = reported_.errors & ~s.errors;
-    for (const auto& [bit, words] : error_words) {
-      if ((added & bit) != 0) out.say(Level::warning, Line() << "flight controller: " << words);
-      if ((gone & bit) != 0) out.say(Level::info, Line() << "no longer: " << words);
+    for (const auto& [bit, error] : error_messages) {
+      if ((added & bit) != 0) out.add(Level::warning, fcu_serial_messages::error_reported, error.c_str());
+      if ((gone & bit) != 0) out.add(Level::info, fcu_serial_messages::error_gone, error.c_str());
     }
     if ((added & own_error_sensors_dead) != 0)
-      out.say(Level::warning, Line() << std::int64_t{h.status.num_errors}
-                                     << " sensors of the flight controller did not start");
+      out.add(Level::warning, fcu_serial_messages::sensors_dead, h.status.num_errors);
     if ((added & own_error_imu_silent) != 0)
-      out.say(s.armed ? Level::critical : Level::error,
-              "no inertial samples: the flight controller controls nothing any more");
-    if ((gone & own_error_imu_silent) != 0) out.say(Level::info, "inertial samples come again");
+      out.add(s.armed ? Level::critical : Level::error, fcu_serial_messages::imu_silent);
+    if ((gone & own_error_imu_silent) != 0) out.add(Level::info, fcu_serial_messages::imu_back);
     if ((added & own_error_rc_silent) != 0)
-      out.say(s.armed ? Level::critical : Level::warning,
-              s.armed ? "no frames of the radio: the outputs are frozen, commands move nothing"
-                      : "no frames of the radio: is the receiver connected, and RC_TYPE right?");
-    if ((gone & own_error_rc_silent) != 0 && begun_) out.say(Level::info, "frames of the radio come again");
+      out.add(s.armed ? Level::critical : Level::warning,
+              s.armed ? fcu_serial_messages::radio_frozen : fcu_serial_messages::radio_missing);
+    if ((gone & own_error_rc_silent) != 0 && begun_) out.add(Level::info, fcu_serial_messages::radio_back);
   }
 
   static constexpr std::int64_t steady_ns = 2'000'000'000;

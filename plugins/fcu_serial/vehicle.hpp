@@ -78,9 +78,7 @@ class Vehicle {
 
   void configure(const Params& p) {
     const std::string port(p.port.view());
-    if (port.empty())
-      throw std::runtime_error(
-          "the parameter 'port' is not set; it names the flight controller's port, such as /dev/ttyACM0");
+    if (port.empty()) throw std::runtime_error(fcu_serial_messages::port_unset());
     run_ = Run();
     run_.throws = Throws::of(*p.airframe);
     run_.pace = Pace(p.command_rate);
@@ -102,9 +100,7 @@ class Vehicle {
     const std::int64_t arrived_ns = wait(out), host_ns = link_->now_ns();
     const std::int64_t since_ns = run_.clock.tick(arrived_ns, host_ns);
     if (since_ns > stood_still_ns)
-      run_.notices.say(fulmar::Severity::critical,
-                       (Line() << "this computer stood still for ").seconds(since_ns)
-                           << ": no command went out meanwhile");
+      run_.notices.add(fulmar::Severity::critical, fcu_serial_messages::stood_still, tenths_s(since_ns));
     if (since_ns > missed_ns) run_.heard.resumed_ns = flight_ns(host_ns);
     tick.now_ns = run_.clock.now_ns();
     last_frame_.fd = link_->descriptor();
@@ -259,8 +255,7 @@ class Vehicle {
     if (good) return true;
     ++run_.report.unusable;
     if (run_.reported.first(kind))
-      run_.notices.say(fulmar::Severity::warning,
-                       Line() << "the " << name << " gives values that cannot be; they are not used");
+      run_.notices.add(fulmar::Severity::warning, fcu_serial_messages::values_implausible, name);
     return false;
   }
 
@@ -279,10 +274,8 @@ class Vehicle {
     const std::int64_t now_ns = run_.clock.now_ns();
     const bool flying = run_.heard.status.armed != 0 || now_ns - run_.disarmed_ns < reboot_memory_ns;
     run_.samples.rebooted(now_ns);
-    if (!flying) return run_.notices.say(fulmar::Severity::warning, "the flight controller has rebooted");
-    run_.notices.say(
-        fulmar::Severity::critical,
-        "the flight controller has rebooted while armed: its motor is off until it is armed again");
+    if (!flying) return run_.notices.add(fulmar::Severity::warning, fcu_serial_messages::rebooted);
+    run_.notices.add(fulmar::Severity::critical, fcu_serial_messages::rebooted_armed);
     run_.pitot.zeroed_in_the_air(run_.notices);
   }
 
@@ -338,7 +331,7 @@ class Vehicle {
     if (!command || !link_->send(*command)) {
       ++run_.report.unsent;
       if (!command && run_.reported.first(kind_command))
-        run_.notices.say(fulmar::Severity::error, "a command is not finite; such commands are not sent");
+        run_.notices.add(fulmar::Severity::error, fcu_serial_messages::command_not_finite);
       return;
     }
     run_.pace.sent(now_ns);
@@ -353,8 +346,7 @@ class Vehicle {
     auto command = to_aux(*aux);
     if (!command) {
       if (run_.reported.first(kind_aux))
-        run_.notices.say(fulmar::Severity::error,
-                         "an auxiliary output is not finite; such outputs are not sent");
+        run_.notices.add(fulmar::Severity::error, fcu_serial_messages::aux_not_finite);
       return;
     }
     stop_motors(*command, run_.aux.motors);

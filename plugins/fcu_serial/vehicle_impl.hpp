@@ -16,11 +16,10 @@ void Vehicle<AnyLink>::greet(const std::string& port, std::int64_t baud, const A
   }
   run_.controller.meet(g);
   run_.book.expect(g.parameter_count);
-  Line line;
-  line << "connected: "
-       << (g.versioned ? "ROSflight " + g.version
-                       : "an armed flight controller, which does not tell its version");
-  run_.notices.say(fulmar::Severity::info, line);
+  if (g.versioned)
+    run_.notices.add(fulmar::Severity::info, fcu_serial_messages::connected, std::string_view(g.version));
+  else
+    run_.notices.add(fulmar::Severity::info, fcu_serial_messages::connected_armed);
   if (g.versioned) report_untried(g.version);
   run_.pitot.take_zero(g.parameter(pitot_zero, 0), run_.heard.status.armed != 0, run_.notices);
   report_reversals(g, airframe);
@@ -56,8 +55,8 @@ void Vehicle<AnyLink>::listen(Greeting& g) {
 template <class AnyLink>
 void Vehicle<AnyLink>::report_untried(std::string_view version) {
   if (!tried(version))
-    run_.notices.say(fulmar::Severity::warning,
-                     Line() << "firmware not tried with Fulmar (" << tried_firmware << " was): " << version);
+    run_.notices.add(fulmar::Severity::warning, fcu_serial_messages::firmware_untried, tried_firmware,
+                     version);
 }
 
 /// REV_* turns a surface round for pilot and host, the airframe file for the host alone. Both at once is
@@ -69,8 +68,7 @@ void Vehicle<AnyLink>::report_reversals(const Greeting& g, const Airframe& a) {
                                                               {"REV_RUDDER", a.rudder.reversed}}};
   for (const auto& [name, reversed] : surfaces) {
     if (!reversed || g.parameter(name) <= 0) continue;
-    run_.notices.say(fulmar::Severity::warning,
-                     Line() << name << " is set, and the airframe file reverses it again: take one away");
+    run_.notices.add(fulmar::Severity::warning, fcu_serial_messages::reversed_twice, name);
   }
 }
 
@@ -138,16 +136,14 @@ void Vehicle<AnyLink>::take_state(const Received& r, Outputs& out) {
       return run_.texts.forward(r.packet.template as<Statustext>(), r.arrived_ns, run_.notices);
     case RosflightHardError::id: {
       const auto error = r.packet.template as<RosflightHardError>();
-      return run_.notices.say(fulmar::Severity::critical,
-                              Line() << "the flight controller crashed " << std::int64_t{error.reset_count}
-                                     << " times; error " << std::int64_t{error.error_code} << " at "
-                                     << std::int64_t{error.pc});
+      return run_.notices.add(fulmar::Severity::critical, fcu_serial_messages::controller_crashed,
+                              error.reset_count, error.error_code, error.pc);
     }
     default: return;
   }
 }
 
-/// They come again after each reboot and connection, and whenever somebody sets one.
+/// They come again after each reboot and connection, and whenever one is set.
 template <class AnyLink>
 void Vehicle<AnyLink>::take_parameter(const ParamValue& p, Outputs& out) {
   const auto& full = out.parameters;
@@ -160,8 +156,8 @@ void Vehicle<AnyLink>::take_parameter(const ParamValue& p, Outputs& out) {
   if (change->name == pitot_zero)
     return run_.pitot.take_zero(change->value, run_.heard.status.armed != 0, run_.notices);
   if (change->known)
-    run_.notices.say(fulmar::Severity::warning, Line() << "the flight controller's " << change->name
-                                                       << " is now " << std::int64_t{change->value});
+    run_.notices.add(fulmar::Severity::warning, fcu_serial_messages::param_changed, change->name,
+                     change->value);
 }
 
 template <class AnyLink>
@@ -170,8 +166,7 @@ void Vehicle<AnyLink>::take_version(const RosflightVersion& m) {
       m.version.data(),
       static_cast<std::size_t>(std::find(m.version.begin(), m.version.end(), '\0') - m.version.begin())));
   if (!run_.controller.other_version(version)) return;
-  run_.notices.say(fulmar::Severity::warning,
-                   Line() << "this is another firmware: ROSflight " << version.view());
+  run_.notices.add(fulmar::Severity::warning, fcu_serial_messages::firmware_changed, version.view());
   report_untried(version.view());
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the controller says in bits, in words; and notices that wait until the loop takes them. Nothing here
-// allocates.
+// Messages of the controller's bits; and notices that wait until the loop takes them. Nothing here allocates.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -11,13 +10,20 @@
 #include "fulmar/msg/notice.hpp"
 #include "fulmar/plugin.hpp"
 #include "link/messages.hpp"
+#include "messages.hpp"
 
 namespace fulmar::fcu {
 
 /// A line that grows at its end, cut when it is full.
 class Line {
  public:
-  /// What does not fit is left out, and dots tell so.
+  template <std::size_t N, class... Values>
+  static Line of(const MessageText<N>& message, const Values&... values) {
+    std::array<char, 200> room{};
+    const std::size_t size = message.write(room.data(), room.size(), values...);
+    return Line() << std::string_view(room.data(), std::min(size, room.size() - 1));
+  }
+  /// What does not fit is left out, and dots show that.
   Line& operator<<(std::string_view text) {
     for (const char c : text) {
       if (size_ + 1 >= text_.bytes.size()) {
@@ -28,19 +34,6 @@ class Line {
     }
     return *this;
   }
-  Line& operator<<(std::int64_t number) {
-    std::array<char, 20> digits{};
-    std::size_t n = 0;
-    std::uint64_t rest =
-        number < 0 ? 0 - static_cast<std::uint64_t>(number) : static_cast<std::uint64_t>(number);
-    do digits[n++] = static_cast<char>('0' + rest % 10);
-    while ((rest /= 10) != 0);
-    if (number < 0) *this << "-";
-    while (n > 0) *this << std::string_view(&digits[--n], 1);
-    return *this;
-  }
-  /// Tenths of a second.
-  Line& seconds(std::int64_t ns) { return *this << ns / 1000000000 << "." << ns / 100000000 % 10 << " s"; }
   /// So many digits behind the point.
   Line& fixed(double value, int digits) {
     std::array<char, 24> room{};  // cut: a value that long is no figure
@@ -58,44 +51,48 @@ class Line {
   std::size_t size_ = 0;
 };
 
-/// Words of the bits that are set, with commas between them.
+/// Seconds, cut to tenths.
+inline Fixed tenths_s(std::int64_t ns) { return {static_cast<double>(ns / 100'000'000) / 10, 1}; }
+
+/// Messages of bits.
 template <std::size_t N>
-void list_bits(Line& line, std::uint32_t bits,
-               const std::array<std::pair<std::uint32_t, std::string_view>, N>& words) {
-  bool first = true;
-  for (const auto& [bit, word] : words) {
+using BitMessages = std::array<std::pair<std::uint32_t, MessageText<0>>, N>;
+
+/// Messages of the bits that are set, with commas between them.
+template <std::size_t N>
+void list_bits(Line& line, std::uint32_t bits, const BitMessages<N>& messages) {
+  for (const auto& [bit, message] : messages) {
     if ((bits & bit) == 0) continue;
-    if (!first) line << ", ";
-    line << word;
-    first = false;
+    if (!line.view().empty()) line << ", ";
+    line << message.c_str();
   }
 }
 
-inline constexpr std::array<std::pair<std::uint32_t, std::string_view>, 6> override_words{
-    {{override_attitude_switch, "attitude switch"},
-     {override_throttle_switch, "throttle switch"},
-     {override_stick_x, "roll stick"},
-     {override_stick_y, "pitch stick"},
-     {override_stick_z, "yaw stick"},
-     {override_min_throttle, "lower throttle"}}};
+inline constexpr BitMessages<6> override_messages{
+    {{override_attitude_switch, fcu_serial_messages::attitude_switch},
+     {override_throttle_switch, fcu_serial_messages::throttle_switch},
+     {override_stick_x, fcu_serial_messages::roll_stick},
+     {override_stick_y, fcu_serial_messages::pitch_stick},
+     {override_stick_z, fcu_serial_messages::yaw_stick},
+     {override_min_throttle, fcu_serial_messages::lower_throttle}}};
 
-/// What the error bits mean, and what to do.
-inline constexpr std::array<std::pair<std::uint32_t, std::string_view>, 8> error_words{
-    {{error_invalid_mixer, "invalid mixer: set PRIMARY_MIXER"},
-     {error_imu_not_responding, "its inertial unit does not answer"},
-     {error_rc_lost, "no radio: switch the transmitter on"},
-     {error_unhealthy_estimator, "its attitude estimate is unhealthy"},
-     {error_time_backwards, "its time went backwards: power-cycle it"},
-     {error_uncalibrated_imu, "uncalibrated: fulmar fcu calibrate imu"},
-     {error_buffer_overrun, "a buffer ran over"},
-     {error_invalid_failsafe, "FAILSAFE_THR is not within 0 to 1"}}};
+/// The meaning of the error bits, and what to do.
+inline constexpr BitMessages<8> error_messages{
+    {{error_invalid_mixer, fcu_serial_messages::mixer_invalid},
+     {error_imu_not_responding, fcu_serial_messages::imu_unresponsive},
+     {error_rc_lost, fcu_serial_messages::radio_lost},
+     {error_unhealthy_estimator, fcu_serial_messages::estimator_unhealthy},
+     {error_time_backwards, fcu_serial_messages::time_backwards},
+     {error_uncalibrated_imu, fcu_serial_messages::imu_uncalibrated},
+     {error_buffer_overrun, fcu_serial_messages::buffer_overrun},
+     {error_invalid_failsafe, fcu_serial_messages::failsafe_invalid}}};
 
 /// Notices that wait for the loop. When there are more, the last ones are lost; what counts comes rarely.
 class Notices {
  public:
-  void say(fulmar::Severity severity, std::string_view text) { say(severity, Line() << text); }
-  void say(fulmar::Severity severity, const Line& line) {
-    if (count_ < notices_.size()) notices_[count_++] = {line.text(), severity};
+  template <std::size_t N, class... Values>
+  void add(fulmar::Severity severity, const MessageText<N>& message, const Values&... values) {
+    if (count_ < notices_.size()) notices_[count_++] = {Line::of(message, values...).text(), severity};
   }
   template <std::size_t N>
   void flush(OutQueue<Notice, N>& out, std::int64_t now_ns) {
@@ -111,7 +108,7 @@ class Notices {
   std::size_t count_ = 0;
 };
 
-/// Passes on the controller's own texts. What it repeats, such as why it does not arm, is told every ten
+/// Passes on the controller's own texts. A repeated one, such as why it does not arm, is reported every ten
 /// seconds.
 class Forwarder {
  public:
@@ -127,9 +124,8 @@ class Forwarder {
                                       : m.severity == 4 ? fulmar::Severity::warning
                                                         : fulmar::Severity::info;
     if (text.view() == no_secondary)  // SECONDARY_MIXER 255, as is recommended: nothing is invalid about it
-      return notices.say(fulmar::Severity::info,
-                         "flight controller: no secondary mixer, the primary one serves for both");
-    notices.say(severity, Line() << "flight controller: " << text.view());
+      return notices.add(fulmar::Severity::info, fcu_serial_messages::secondary_mixer_unset);
+    notices.add(severity, fcu_serial_messages::controller_text, text.view());
   }
 
  private:

@@ -96,8 +96,8 @@ TEST_CASE("a sensor that is not there is told before arming; without a heading n
     bool commands;
   };
   for (const Missing& m :
-       {Missing{"sim.mag", "no magnetometer", false}, Missing{"sim.baro", "no barometer", true},
-        Missing{"sim.pitot", "no pitot tube", true}}) {
+       {Missing{"sim.mag", "missing.magnetometer", false}, Missing{"sim.baro", "missing.barometer", true},
+        Missing{"sim.pitot", "missing.pitot", true}}) {
     CAPTURE(std::string(m.param));
     const Graph graph = mission(folder.path, 70, 1, {{m.param, "no"}, {"sim.arm_at", "1000 s"}});
     Flown f(graph, test::unlogged());

@@ -100,10 +100,11 @@ TEST_CASE("sensors that are not there are said before arming, by name") {
     std::vector<std::string> words;
     const char* reported;
   };
-  const Lack lacks[] = {{{"--no-fix-at", "-1", "--no-mag"},
-                         "not ready: no attitude with heading, no GNSS fix, no magnetometer\n"},
-                        {{"--gnss-silent-at", "-1", "--no-baro", "--no-pitot"},
-                         "not ready: no GNSS fix, no height, no barometer, no pitot tube\n"}};
+  const Lack lacks[] = {
+      {{"--no-fix-at", "-1", "--no-mag"},
+       "fcu_serial.not_ready(missing.attitude, missing.gnss_fix, missing.magnetometer)\n"},
+      {{"--gnss-silent-at", "-1", "--no-baro", "--no-pitot"},
+       "fcu_serial.not_ready(missing.gnss_fix, missing.height, missing.barometer, missing.pitot)\n"}};
   for (const Lack& lack : lacks) {
     const Scratch s("lack");
     std::vector<std::string> words = lack.words;
@@ -172,11 +173,10 @@ TEST_CASE(
   REQUIRE_MESSAGE(plain.truth.size() > 1000, plain.said);
   const Flown& f = disturbed().flown;
   if (!flown(f)) return;
-  for (const char* words :
-       {"the flight controller is back after 5", "the pilot flies: attitude switch, throttle switch",
-        "the pilot hands over", "no frames of the radio: the outputs are frozen",
-        "frames of the radio come again"})
-    CHECK_MESSAGE(f.said.find(words) != std::string::npos, f.said);
+  for (const char* code : {"fcu_serial.controller_back(5",
+                           "fcu_serial.pilot_flies(fcu_serial.attitude_switch, fcu_serial.throttle_switch)",
+                           "fcu_serial.pilot_hands_over", "fcu_serial.radio_frozen", "fcu_serial.radio_back"})
+    CHECK_MESSAGE(f.said.find(code) != std::string::npos, f.said);
 
   const Deviation d{plain.truth, f};
   double back = 0;

@@ -107,10 +107,10 @@ class Flown {
   double sticks() const { return probe(sticks_); }  ///< how far the outputs were off them
   const std::string& phase() const { return flight_.phase(); }
   FlightResult finish() { return flight_.finish(); }
-  /// When these words were said for the first time since `from_s`; -1: never.
-  double reported_s(const std::string& words, double from_s) const {
+  /// Time of the first message with this code since `from_s`; -1: none. Needs FULMAR_MESSAGES=codes.
+  double reported_s(const std::string& code, double from_s) const {
     for (const auto& [t_s, line] : said)
-      if (t_s >= from_s && line.find(words) != std::string::npos) return t_s;
+      if (t_s >= from_s && line.find(code) != std::string::npos) return t_s;
     return -1;
   }
 
@@ -199,9 +199,8 @@ inline AfterGap fly(const Gap& gap, const std::filesystem::path& folder, const F
   a.crashed = a.crashed || a.lowest_m < 1;
   a.blind = f.blind();
   a.sticks = f.sticks();
-  a.reported_blind =
-      f.reported_s("the attitude is not known: no command is sent, the pilot has the aircraft", begin_s) >= 0;
-  a.reported_known = f.reported_s("the attitude is known again: commands are sent", begin_s) >= 0;
+  a.reported_blind = f.reported_s("fcu_serial.attitude_unknown", begin_s) >= 0;
+  a.reported_known = f.reported_s("fcu_serial.attitude_known", begin_s) >= 0;
   f.finish();
   return a;
 }
@@ -275,8 +274,8 @@ inline AfterOutage fly(const Outage& outage, const std::filesystem::path& folder
   const auto since = [](double reported_s, double from_s) {
     return reported_s < 0 ? -1 : reported_s - from_s;
   };
-  a.reported_lost_s = since(f.reported_s("GNSS lost", begin_s), begin_s);
-  a.reported_back_s = since(f.reported_s("GNSS is back", end_s), end_s);
+  a.reported_lost_s = since(f.reported_s("fcu_serial.gnss_lost", begin_s), begin_s);
+  a.reported_back_s = since(f.reported_s("fcu_serial.gnss_back(", end_s), end_s);
   f.finish();
   return a;
 }

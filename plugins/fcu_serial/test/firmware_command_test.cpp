@@ -158,7 +158,8 @@ TEST_CASE("an IMU calibration on a moving aircraft is rejected") {
   c.fcu.before_imu = [&] { c.fcu.inputs.accel = {++k % 2 ? 1.0 : -1.0, 0, -9.8}; };
   c.send(order(Command::accel_calibration));
   c.wait(2.6);
-  CHECK(c.said("Too much movement for IMU cal"));
+  const char* const firmware_text = "Too much movement for IMU cal";
+  CHECK(c.said(firmware_text));
   CHECK((c.fcu.errors() & error_uncalibrated_imu) != 0);
 }
 

@@ -253,7 +253,8 @@ TEST_CASE("arming wants no error, low throttle and the override switch") {
   c.wait(0.5);
   c.fcu.inputs.rc_us[4] = 2000;
   c.wait(0.1);
-  CHECK(c.said("RC throttle override must be active to arm"));
+  const char* const firmware_text = "RC throttle override must be active to arm";
+  CHECK(c.said(firmware_text));
   c.fcu.inputs.rc_us[5] = 2000;
   c.fcu.inputs.rc_us[2] = 1300;
   c.wait(1.1);

@@ -42,15 +42,15 @@ TEST_CASE("volts are volts and amperes are amperes") {
 TEST_CASE("a reboot just after the controller was disarmed may be one in the air, a later one is not") {
   Flying soon;
   disarm_and_reboot(soon, 0.5);
-  CHECK(soon.heard("its motor is off until it is armed again"));
-  CHECK(soon.heard("pitot not used any more"));
+  CHECK(soon.heard("fcu_serial.rebooted_armed"));
+  CHECK(soon.heard("fcu_serial.pitot_zeroed_in_flight"));
   const int before = soon.published["pitot"];
   soon.fly(1);
   CHECK(soon.published["pitot"] == before);
   Flying late;
   disarm_and_reboot(late, 1.5);
-  CHECK_FALSE(late.heard("its motor is off until it is armed again"));
-  CHECK(late.heard("the flight controller has rebooted"));
+  CHECK_FALSE(late.heard("fcu_serial.rebooted_armed"));
+  CHECK(late.heard("fcu_serial.rebooted\n"));
 }
 
 }  // namespace vehicle_off_nominal_test

@@ -67,7 +67,7 @@ TEST_CASE(
     if (loss == 0) CHECK(r.messages == all);
     CHECK(r.values["RC_ARM_CHN"] == "-1");
     CHECK(r.values["ACC_X_BIAS"] == "-0.037");
-    CHECK(r.f.heard("its 333 parameters are in the log"));
+    CHECK(r.f.heard("fcu_serial.params_logged(333)"));
   }
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("after a reboot they are asked for anew, and what is other than before
   r.fly(6);
   CHECK(r.messages == before + 1);
   CHECK(r.as_in_the_controller());
-  CHECK(r.f.heard("1 of its parameters is other than before: see the log"));
+  CHECK(r.f.heard("fcu_serial.params_changed(1)"));
 }
 
 TEST_CASE("the calibration is told in figures") {
@@ -132,7 +132,7 @@ TEST_CASE("the calibration is told in figures") {
                                                                 {"DIFF_PRESS_BIAS", -12.3f}})
     r.f.world.fcu.params().set(r.f.world.fcu.params().find(name), value);
   r.fly(6);
-  CHECK(r.f.heard("calibration: accel -0.037 -0.089 0.074, gyro 0.0080 -0.0021 1.0000, pitot -12.3 Pa\n"));
+  CHECK(r.f.heard("fcu_serial.calibration(-0.037 -0.089 0.074, 0.0080 -0.0021 1.0000, -12.3)\n"));
 }
 
 TEST_CASE("what does not come in five rounds is given up and told") {
@@ -141,7 +141,7 @@ TEST_CASE("what does not come in five rounds is given up and told") {
     return p.is<ParamValue>() && p.as<ParamValue>().param_index % 100 == 99;
   };
   r.fly(20);
-  CHECK(r.f.heard("3 of its 333 parameters do not come: the log lacks them"));
+  CHECK(r.f.heard("fcu_serial.params_missing(3, 333)"));
   const std::size_t asked = r.f.world.count<ParamRequestRead>();
   r.fly(5);
   CHECK(r.f.world.count<ParamRequestRead>() == asked);

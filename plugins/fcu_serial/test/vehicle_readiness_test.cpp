@@ -70,11 +70,11 @@ TEST_CASE("after a gap of the link no command goes out before the attitude is kn
     f.world.cut = false;
     CHECK(sent_in(f, 20) == 0);  // the pilot has it for as long as it takes
     CHECK_FALSE(f.status.in_control);
-    CHECK(times(f, "the attitude is not known: no command is sent, the pilot has the aircraft") == 1);
+    CHECK(times(f, "fcu_serial.attitude_unknown") == 1);
     f.state = known(17);
     CHECK(sent_in(f, 1) > 50);
     CHECK(f.status.in_control);
-    CHECK(times(f, "the attitude is known again: commands are sent") == 1);
+    CHECK(times(f, "fcu_serial.attitude_known") == 1);
   }
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("a gap over which the attitude is carried takes the commands from nobo
   f.world.cut = false;
   CHECK(sent_in(f, 1) > 50);
   CHECK(f.status.in_control);
-  CHECK(times(f, "the attitude") == 0);
+  CHECK(times(f, "fcu_serial.attitude_") == 0);
 }
 
 TEST_CASE("an attitude that gets lost while the host flies is flown on: nobody else has the sticks") {
@@ -110,13 +110,13 @@ TEST_CASE("handed over without a fix: told at once and every 10 s; the fix alone
   armed_by_pilot(f);
   hand_over(f);
   f.fly(0.5);
-  CHECK(times(f, "not ready: no GNSS fix") == 1);
+  CHECK(times(f, "fcu_serial.not_ready(missing.gnss_fix") == 1);
   CHECK(sent_in(f, 25) == 0);
-  CHECK(times(f, "not ready: no GNSS fix") == 3);
+  CHECK(times(f, "fcu_serial.not_ready(missing.gnss_fix") == 3);
   f.world.fcu.inputs.gnss.fix_type = 3;
   f.state = known();
   CHECK(sent_in(f, 15) == 0);
-  CHECK(f.heard("ready: switch to the pilot and back to hand over"));
+  CHECK(f.heard("fcu_serial.ready_switch_back"));
   take_back(f);
   f.fly(0.5);
   hand_over(f);
@@ -130,7 +130,7 @@ TEST_CASE("without any estimate, as an estimator is silent until it is aligned, 
   armed_by_pilot(f);
   hand_over(f);
   CHECK(sent_in(f, 5) == 0);
-  CHECK(f.heard("not ready: no attitude with heading"));
+  CHECK(f.heard("fcu_serial.not_ready(missing.attitude"));
   f.state = known();
   CHECK(sent_in(f, 5) == 0);
 }
@@ -145,9 +145,9 @@ TEST_CASE(
   for (const fulmar_input* input : {f.bench.in.state.input, f.bench.in.actuators.input})
     const_cast<fulmar_input*>(input)->data = nullptr;  // what a silent host gives
   CHECK(sent_in(f, 15) == 0);
-  CHECK(f.heard("not in control"));
+  CHECK(f.heard("fcu_serial.not_in_control"));
   CHECK_FALSE(f.heard("attitude"));
-  CHECK_FALSE(f.heard("not ready"));
+  CHECK_FALSE(f.heard("fcu_serial.not_ready"));
 }
 
 TEST_CASE("armed before the host was started and no attitude: it says why it does not begin") {
@@ -161,8 +161,7 @@ TEST_CASE("armed before the host was started and no attitude: it says why it doe
   hand_over(f);
   f.fly(4);
   REQUIRE(f.status.armed);
-  CHECK(f.heard("not ready: no attitude with heading"));
-  CHECK(f.heard("armed before: on the ground disarm"));
+  CHECK(f.heard("fcu_serial.not_ready_armed_before(missing.attitude"));
   SUBCASE("in the air the estimate comes from two fixes, and the flight goes on") {
     f.state = known(17);
     CHECK(sent_in(f, 1) > 50);
@@ -185,13 +184,13 @@ TEST_CASE("before arming one line says what is missing, every 10 s, and once tha
   f.world.fcu.inputs.mag_works = false;
   f.state = placeless();
   f.fly(15);
-  CHECK(times(f, "not ready: no GNSS fix, no magnetometer") == 2);
+  CHECK(times(f, "fcu_serial.not_ready(missing.gnss_fix, missing.magnetometer") == 2);
   f.world.fcu.inputs.gnss.fix_type = 3;
   f.world.fcu.inputs.mag_works = true;
   f.state = known();
   f.fly(30);
-  CHECK(times(f, "not ready") == 2);
-  CHECK(times(f, "ready\n") == 1);
+  CHECK(times(f, "fcu_serial.not_ready") == 2);
+  CHECK(times(f, "fcu_serial.ready\n") == 1);
 }
 
 TEST_CASE("no magnetometer is said before arming, ready or not") {
@@ -199,7 +198,7 @@ TEST_CASE("no magnetometer is said before arming, ready or not") {
   f.world.fcu.inputs.mag_works = false;
   f.state = known();
   f.fly(15);
-  CHECK(times(f, "ready, but no magnetometer") == 1);
+  CHECK(times(f, "fcu_serial.ready_but(missing.magnetometer") == 1);
 }
 
 TEST_CASE("a mission that flies along a path is not ready without one, and does not begin") {
@@ -207,17 +206,17 @@ TEST_CASE("a mission that flies along a path is not ready without one, and does 
   f.bench.params.needs_path.value = true;
   f.state = placeless();
   f.fly(5);
-  CHECK(times(f, "no path") == 0);  // which the manager gives once there is a position
+  CHECK(times(f, "missing.path") == 0);  // which the manager gives once there is a position
   f.state = known();
   f.fly(12);
-  CHECK(times(f, "not ready: no path to fly\n") == 1);
+  CHECK(times(f, "fcu_serial.not_ready(missing.path)\n") == 1);
   armed_by_pilot(f);
   hand_over(f);
   f.fly(0.1);
   CHECK(sent_in(f, 2) == 0);
   f.path = Path();
   f.fly(1);
-  CHECK(f.heard("ready: switch to the pilot and back to hand over"));
+  CHECK(f.heard("fcu_serial.ready_switch_back"));
   take_back(f);
   f.fly(0.5);
   hand_over(f);
@@ -228,29 +227,29 @@ TEST_CASE("the airspeed's zero belongs to the line: not done yet, wrong, and goo
   Flying booted{peer::Options{}};  // it zeroes in the first 12 s
   booted.state = known();
   booted.fly(9);
-  CHECK(times(booted, "ready, but airspeed not zeroed yet") == 1);
-  CHECK(times(booted, "ready\n") == 0);
+  CHECK(times(booted, "fcu_serial.ready_but(missing.airspeed_zero)") == 1);
+  CHECK(times(booted, "fcu_serial.ready\n") == 0);
   booted.fly(21);
-  CHECK(times(booted, "ready, but airspeed not zeroed yet") == 1);
-  CHECK(times(booted, "ready\n") == 1);
+  CHECK(times(booted, "fcu_serial.ready_but(missing.airspeed_zero)") == 1);
+  CHECK(times(booted, "fcu_serial.ready\n") == 1);
 
   Flying wrong;
   wrong.world.fcu.inputs.pitot_pa = 177;
   wrong.state = known();
   wrong.fly(7);
-  CHECK(times(wrong, "ready\n") == 1);
+  CHECK(times(wrong, "fcu_serial.ready\n") == 1);
   wrong.fly(8);
-  CHECK(times(wrong, "ready, but airspeed zeroed wrong\n") == 1);
-  CHECK(times(wrong, "no pitot tube") == 0);  // it is there
+  CHECK(times(wrong, "fcu_serial.ready_but(missing.right_airspeed_zero)\n") == 1);
+  CHECK(times(wrong, "missing.pitot") == 0);  // it is there
   wrong.world.fcu.params().set(peer::param("DIFF_PRESS_BIAS"), 0.f);
   wrong.fly(5);
-  CHECK(times(wrong, "ready\n") == 2);
+  CHECK(times(wrong, "fcu_serial.ready\n") == 2);
 
   Flying none;
   none.world.fcu.inputs.pitot_works = false;
   none.state = known();
   none.fly(5);
-  CHECK(times(none, "ready, but no pitot tube\n") == 1);
+  CHECK(times(none, "fcu_serial.ready_but(missing.pitot)\n") == 1);
 }
 
 TEST_CASE("the loss of GNSS is told within 1 s, and its return") {
@@ -262,12 +261,12 @@ TEST_CASE("the loss of GNSS is told within 1 s, and its return") {
     cruising(f);
     f.world.fcu.inputs.gnss_works = false;
     f.fly(1);
-    CHECK(times(f, "GNSS lost") == 1);
+    CHECK(times(f, "fcu_serial.gnss_lost") == 1);
     f.fly(9.5);
     f.world.fcu.inputs.gnss_works = true;
     f.fly(1);
-    CHECK(times(f, "GNSS is back after 10.") == 1);
-    CHECK(times(f, "GNSS") == 2);
+    CHECK(times(f, "fcu_serial.gnss_back(10.") == 1);
+    CHECK(times(f, "gnss") == 2);
   }
 }
 
@@ -275,7 +274,7 @@ TEST_CASE("send_attitude without an estimate is told once") {
   Flying f;
   f.bench.params.send_attitude.value = true;
   f.fly(25);
-  CHECK(times(f, "nothing comes to the input 'state'") == 1);
+  CHECK(times(f, "fcu_serial.state_unwired") == 1);
 }
 
 TEST_CASE("after a landing it has not flown: handed over without a position it waits again") {
@@ -319,10 +318,10 @@ TEST_CASE("a receiver with one fix in a second is not lost between two of them")
   Flying f(options);
   cruising(f);
   f.fly(10);
-  CHECK(times(f, "GNSS") == 0);
+  CHECK(times(f, "gnss") == 0);
   f.world.fcu.inputs.gnss_works = false;
   f.fly(3);
-  CHECK(times(f, "GNSS lost") == 1);
+  CHECK(times(f, "fcu_serial.gnss_lost") == 1);
 }
 
 TEST_CASE("the attitude goes to the controller at 50 Hz, however often it comes") {
@@ -346,13 +345,13 @@ TEST_CASE("without a link the line says that alone; with one, each sensor, and d
   f.reported.clear();
   f.fly(12);
   CHECK(f.heard(
-      "not ready: no inertial samples, no attitude with heading, no GNSS fix, no magnetometer, no b...\n"));
+      "fcu_serial.not_ready(missing.inertial_samples, missing.attitude, missing.gnss_fix, missing.m...\n"));
   f.world.cut = true;
   f.fly(1);
   f.reported.clear();
   f.fly(20);
-  CHECK(times(f, "not ready: nothing is heard of the flight controller\n") == 2);
-  CHECK(times(f, "not ready") == 2);
+  CHECK(times(f, "fcu_serial.not_ready(missing.link)\n") == 2);
+  CHECK(times(f, "fcu_serial.not_ready") == 2);
 }
 
 TEST_CASE("a computer that stood still says so, and for how long") {
@@ -360,9 +359,9 @@ TEST_CASE("a computer that stood still says so, and for how long") {
   cruising(f);
   f.world.run(f.world.now_ns + 1'200'000'000, false);
   f.fly(1);
-  CHECK(times(f, "this computer stood still for 1.2 s: no command went out meanwhile") == 1);
+  CHECK(times(f, "fcu_serial.stood_still(1.2)") == 1);
   f.fly(5);
-  CHECK(times(f, "stood still") == 1);
+  CHECK(times(f, "fcu_serial.stood_still") == 1);
 }
 
 TEST_CASE("a computer that is too slow for its laws says so, again, and when it keeps up") {
@@ -376,21 +375,16 @@ TEST_CASE("a computer that is too slow for its laws says so, again, and when it 
     }
   };
   slow_for(5, 2'000'000);
-  CHECK(f.reported.find("too slow") == std::string::npos);
+  CHECK(f.reported.find("fcu_serial.computer_slow") == std::string::npos);
   slow_for(3.5, 5'000'000);
-  CHECK(
-      times(f, "this computer is too slow: 50 % of the inertial samples are too old when it comes to them") +
-          times(
-              f,
-              "this computer is too slow: 49 % of the inertial samples are too old when it comes to them") ==
-      1);
+  CHECK(times(f, "fcu_serial.computer_slow(50)") + times(f, "fcu_serial.computer_slow(49)") == 1);
   slow_for(20, 30'000'000);
-  CHECK(times(f, "too slow") == 3);
+  CHECK(times(f, "fcu_serial.computer_slow") == 3);
   f.fly(3);
-  CHECK(times(f, "this computer keeps up again") == 1);
-  CHECK(times(f, "stood still") == 0);
+  CHECK(times(f, "fcu_serial.computer_fast_again") == 1);
+  CHECK(times(f, "fcu_serial.stood_still") == 0);
   f.fly(10);
-  CHECK(times(f, "too slow") == 3);
+  CHECK(times(f, "fcu_serial.computer_slow") == 3);
 }
 
 TEST_CASE(
@@ -398,15 +392,15 @@ TEST_CASE(
   Flying f;
   f.state = known();
   f.fly(4);
-  CHECK(times(f, "ready\n") == 1);
+  CHECK(times(f, "fcu_serial.ready\n") == 1);
   f.world.fcu.inputs.gnss_works = false;
   f.fly(1.5);
-  CHECK(times(f, "not ready: no GNSS fix\n") == 1);  // it is withdrawn
+  CHECK(times(f, "fcu_serial.not_ready(missing.gnss_fix)\n") == 1);  // it is withdrawn
   armed_by_pilot(f);
   hand_over(f);
   f.fly(0.1);
   CHECK(sent_in(f, 2) == 0);
-  CHECK(f.heard("not ready: no GNSS fix"));
+  CHECK(f.heard("fcu_serial.not_ready(missing.gnss_fix"));
 
   Flying air;
   cruising(air);

@@ -134,20 +134,22 @@ TEST_CASE("each change is told once, in words") {
   h.status.armed = 0;
   CHECK(reported(reporter, h) == "");
   h.status.armed = 1;
-  CHECK(reported(reporter, h) == "armed\nin control\n");
+  CHECK(reported(reporter, h) == "fcu_serial.armed\nfcu_serial.in_control\n");
   CHECK(reported(reporter, h) == "");
   h.status.rc_override = 0x001 | 0x010;
-  CHECK(reported(reporter, h) == "the pilot flies: attitude switch, yaw stick\nnot in control\n");
+  CHECK(reported(reporter, h) ==
+        "fcu_serial.pilot_flies(fcu_serial.attitude_switch, "
+        "fcu_serial.yaw_stick)\nfcu_serial.not_in_control\n");
   h.status.rc_override = 0x010;
   CHECK(reported(reporter, h) == "");
   h.status.rc_override = 0;
-  CHECK(reported(reporter, h) == "the pilot hands over\nin control\n");
+  CHECK(reported(reporter, h) == "fcu_serial.pilot_hands_over\nfcu_serial.in_control\n");
   h.status.failsafe = 1;
-  CHECK(reported(reporter, h).find("failsafe: the flight controller has lost the radio") == 0);
+  CHECK(reported(reporter, h).find("fcu_serial.failsafe_entered\n") == 0);
   h.status.failsafe = 0;
-  CHECK(reported(reporter, h).find("failsafe is over") == 0);
+  CHECK(reported(reporter, h).find("fcu_serial.failsafe_over\n") == 0);
   h.status.armed = 0;
-  CHECK(reported(reporter, h).find("disarmed") == 0);
+  CHECK(reported(reporter, h).find("fcu_serial.disarmed\n") == 0);
 }
 
 TEST_CASE("control that comes and goes on a bad line is told as that, not change by change") {
@@ -163,20 +165,20 @@ TEST_CASE("control that comes and goes on a bad line is told as that, not change
       all += reported(reporter, h, at);
     }
   };
-  CHECK(reported(reporter, h, at) == "armed\nin control\n");
+  CHECK(reported(reporter, h, at) == "fcu_serial.armed\nfcu_serial.in_control\n");
   pass(100, 60);  // 6 s of it, and it ends in control
   CHECK(std::count(all.begin(), all.end(), '\n') <= 4);
-  CHECK(all.find("control comes and goes: the line loses too much") != std::string::npos);
+  CHECK(all.find("fcu_serial.control_unsteady\n") != std::string::npos);
   all.clear();
   for (int i = 0; i < 50; ++i) {
     at += 60 * ms;
     h.frame_ns = h.imu_ns = h.status_ns = h.rc_ns = h.command_ns = at;
     all += reported(reporter, h, at);
   }
-  CHECK(all == "in control\n");  // as it has stayed for 2 s
+  CHECK(all == "fcu_serial.in_control\n");  // as it has stayed for 2 s
   all.clear();
   h.command_ns = at - 150 * ms;
-  CHECK(reported(reporter, h, at) == "not in control\n");
+  CHECK(reported(reporter, h, at) == "fcu_serial.not_in_control\n");
 }
 
 TEST_CASE("error bits are told in words that say what to do, and when they go") {
@@ -184,10 +186,10 @@ TEST_CASE("error bits are told in words that say what to do, and when they go") 
   Heard h = flying();
   h.status.error_code = error_uncalibrated_imu | error_invalid_mixer;
   const std::string text = reported(reporter, h);
-  CHECK(text.find("invalid mixer: set PRIMARY_MIXER") != std::string::npos);
-  CHECK(text.find("uncalibrated: fulmar fcu calibrate imu") != std::string::npos);
+  CHECK(text.find("fcu_serial.error_reported(fcu_serial.mixer_invalid)\n") != std::string::npos);
+  CHECK(text.find("fcu_serial.error_reported(fcu_serial.imu_uncalibrated)\n") != std::string::npos);
   h.status.error_code = error_invalid_mixer;
-  CHECK(reported(reporter, h) == "no longer: uncalibrated: fulmar fcu calibrate imu\n");
+  CHECK(reported(reporter, h) == "fcu_serial.error_gone(fcu_serial.imu_uncalibrated)\n");
 }
 
 TEST_CASE("a radio that stops is told: the outputs are frozen") {
@@ -195,11 +197,10 @@ TEST_CASE("a radio that stops is told: the outputs are frozen") {
   Heard h = flying();
   reported(reporter, h);
   h.rc_ns = now - 600 * ms;
-  CHECK(reported(reporter, h).find("no frames of the radio: the outputs are frozen, commands move nothing") !=
-        std::string::npos);
+  CHECK(reported(reporter, h).find("fcu_serial.radio_frozen\n") != std::string::npos);
   CHECK(reported(reporter, h) == "");
   h.rc_ns = now;
-  CHECK(reported(reporter, h).find("frames of the radio come again") != std::string::npos);
+  CHECK(reported(reporter, h).find("fcu_serial.radio_back\n") != std::string::npos);
 }
 
 TEST_CASE("a dead inertial unit is told, though nothing else says so") {
@@ -209,10 +210,9 @@ TEST_CASE("a dead inertial unit is told, though nothing else says so") {
   h.imu_ns = now - 300 * ms;
   CHECK(evaluate(h, now).errors == own_error_imu_silent);
   CHECK(evaluate(h, now).health == Health::failed);
-  CHECK(reported(reporter, h).find("no inertial samples: the flight controller controls nothing any more") !=
-        std::string::npos);
+  CHECK(reported(reporter, h).find("fcu_serial.imu_silent\n") != std::string::npos);
   h.imu_ns = now;
-  CHECK(reported(reporter, h).find("inertial samples come again") != std::string::npos);
+  CHECK(reported(reporter, h).find("fcu_serial.imu_back\n") != std::string::npos);
 }
 
 TEST_CASE("a controller that is lost is told once, and how long it was gone") {
@@ -220,12 +220,12 @@ TEST_CASE("a controller that is lost is told once, and how long it was gone") {
   Heard h = flying();
   reported(reporter, h);
   h.open = false;
-  CHECK(reported(reporter, h, now + 250 * ms) == "the flight controller's device is gone; looking for it\n");
+  CHECK(reported(reporter, h, now + 250 * ms) == "fcu_serial.device_gone\n");
   CHECK(reported(reporter, h, now + 350 * ms) == "");
   h.open = true;
   h.frame(now + 5000 * ms);
   h.imu_ns = h.status_ns = h.rc_ns = h.command_ns = now + 5000 * ms;
-  CHECK(reported(reporter, h, now + 5000 * ms).find("the flight controller is back after 5.0 s\n") == 0);
+  CHECK(reported(reporter, h, now + 5000 * ms).find("fcu_serial.controller_back(5.0)\n") == 0);
   CHECK(reported(reporter, h, now + 5000 * ms) == "");
 }
 
@@ -247,9 +247,9 @@ TEST_CASE("texts of the controller are forwarded up to their end, with their sev
   m.severity = 6;
   texts.forward(m, now, notices);
   REQUIRE(notices.size() == 2);
-  CHECK(notices[0].text.view() == "flight controller: IMU offsets captured");
+  CHECK(notices[0].text.view() == "fcu_serial.controller_text(IMU offsets captured)");
   CHECK(notices[0].severity == fulmar::Severity::critical);
-  CHECK(notices[1].text.view() == "flight controller: " + std::string(50, 'y'));
+  CHECK(notices[1].text.view() == "fcu_serial.controller_text(" + std::string(50, 'y') + ")");
   CHECK(notices[1].severity == fulmar::Severity::info);
 }
 
@@ -261,7 +261,7 @@ TEST_CASE("that there is no secondary mixer, as is recommended, is told without 
   std::copy_n("Invalid mixer selected for secondary mixer!", 44, m.text.begin());
   texts.forward(m, now, notices);
   REQUIRE(notices.size() == 1);
-  CHECK(notices[0].text.view() == "flight controller: no secondary mixer, the primary one serves for both");
+  CHECK(notices[0].text.view() == "fcu_serial.secondary_mixer_unset");
   CHECK(notices[0].severity == fulmar::Severity::info);
 }
 
@@ -281,8 +281,14 @@ TEST_CASE("a line is cut, never overrun, and stays printable") {
   Line line;
   for (int i = 0; i < 30; ++i) line << "0123456789";
   CHECK(line.view().size() == 95);
-  CHECK((Line() << "a\x01z" << std::int64_t{-42}).view() == "a?z-42");
-  CHECK(Line().seconds(12'345'000'000).view() == "12.3 s");
+  CHECK((Line() << "a\x01z").view() == "a?z");
+  CHECK(Line::of(fcu_serial_messages::param_changed, "a\x01z", -42).view() ==
+        "fcu_serial.param_changed(a?z, -42)");
+  CHECK(Line::of(fcu_serial_messages::gnss_back, tenths_s(12'389'000'000)).view() ==
+        "fcu_serial.gnss_back(12.3)");
+  const std::string long_text(300, 'x');
+  CHECK(Line::of(fcu_serial_messages::controller_text, long_text).view() ==
+        "fcu_serial.controller_text(" + std::string(65, 'x') + "...");
 }
 
 TEST_CASE("versions are read as git describes them") {
@@ -299,34 +305,31 @@ TEST_CASE("what is wrong with a device is one sentence that says what to do") {
   LinkState link;
   Greeting g;
   const auto why = [&] { return objection(g, link, "/dev/ttyACM0", 115200); };
-  CHECK(why() == "nothing comes from /dev/ttyACM0: is the flight controller powered, and is this its port?");
+  CHECK(why() == "fcu_serial.device_silent(/dev/ttyACM0)");
   link.bytes = 1000;
   link.text_bytes = 999;
-  CHECK(why().find("/dev/ttyACM0 sends text, not MAVLink") == 0);
+  CHECK(why() == "fcu_serial.text_received(/dev/ttyACM0)");
   link.text_bytes = 400;
-  CHECK(why().find("of 1000 bytes from /dev/ttyACM0 at 115200 baud none is a MAVLink 1 frame") == 0);
+  CHECK(why() == "fcu_serial.frames_missing_at_baud(1000, /dev/ttyACM0, 115200)");
   link.modern = 5;
-  CHECK(why().find("none is a MAVLink 1 frame") != std::string::npos);  // so many are there by chance
-  link.modern = 20;
   CHECK(why() ==
-        "/dev/ttyACM0 talks MAVLink 2, as PX4 and ArduPilot do: Fulmar needs a flight controller with "
-        "ROSflight "
-        "firmware 2");
+        "fcu_serial.frames_missing_at_baud(1000, /dev/ttyACM0, 115200)");  // so many are there by chance
+  link.modern = 20;
+  CHECK(why() == "fcu_serial.mavlink_2(/dev/ttyACM0)");
   link.frames = 10;
-  CHECK(why().find("sends no inertial samples") != std::string::npos);
+  CHECK(why() == "fcu_serial.imu_missing(/dev/ttyACM0)");
   g.autopilot = 3;
-  CHECK(why().find("is of another make (MAV_AUTOPILOT 3): ROSflight 2 is needed") != std::string::npos);
+  CHECK(why() == "fcu_serial.other_autopilot(/dev/ttyACM0, 3)");
   g.autopilot = 0;
   g.imu = true;
-  CHECK(why().find("does not say its version: it is older than ROSflight 2.0; flash") != std::string::npos);
+  CHECK(why() == "fcu_serial.version_missing(/dev/ttyACM0)");
   g.versioned = true;
   g.version = "v1.3.1";
-  CHECK(why() == "the flight controller at /dev/ttyACM0 runs ROSflight v1.3.1: flash version 2.0 or later");
+  CHECK(why() == "fcu_serial.firmware_too_old(/dev/ttyACM0, v1.3.1)");
   g.version = "v2.0.1";
   CHECK(why() == "");
   g.parameters[0] = 0;
-  CHECK(why().find("set FIXED_WING to 1") != std::string::npos);
-  CHECK(why().find("write, and power-cycle it") != std::string::npos);  // an H7 board cannot reboot itself
+  CHECK(why() == "fcu_serial.not_fixed_wing(/dev/ttyACM0)");
   g.parameters[0] = 1;
   CHECK(why() == "");
   g.versioned = false;

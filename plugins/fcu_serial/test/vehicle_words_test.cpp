@@ -48,13 +48,13 @@ TEST_CASE("a gap of the link is no loss of GNSS, however long it lasts; a fix th
     f.fly(gap_s);
     f.world.cut = false;
     f.fly(2);
-    CHECK(times(f, "GNSS") == 0);
+    CHECK(times(f, "gnss") == 0);
     f.world.cut = true;
     f.fly(gap_s);
     f.world.fcu.inputs.gnss_works = false;
     f.world.cut = false;
     f.fly(2);
-    CHECK(times(f, "GNSS lost") == 1);
+    CHECK(times(f, "fcu_serial.gnss_lost") == 1);
   }
 }
 
@@ -66,15 +66,16 @@ TEST_CASE("a computer that stood still blames nobody else") {
     cruising(f);
     f.world.stands_ns = stop_ns;
     f.fly(static_cast<double>(stop_ns) * 1e-9 + 2);
-    CHECK(times(f, "stood still") == (stop_ns > 300'000'000 ? 1 : 0));
-    for (const char* words : {"nothing comes", "device is gone", "GNSS", "radio", "no inertial samples"}) {
-      CAPTURE(words);
-      CHECK(times(f, words) == 0);
+    CHECK(times(f, "fcu_serial.stood_still") == (stop_ns > 300'000'000 ? 1 : 0));
+    for (const char* part : {"controller_silent", "device_gone", "missing.link", "gnss", "radio", "failsafe",
+                             "imu_silent", "missing.inertial_samples"}) {
+      CAPTURE(part);
+      CHECK(times(f, part) == 0);
     }
     CHECK(f.status.in_control);
     f.world.cut = true;  // what is silent from then on is told as ever
     f.fly(0.5);
-    CHECK(times(f, "nothing comes from the flight controller") == 1);
+    CHECK(times(f, "fcu_serial.controller_silent") == 1);
   }
 }
 
@@ -84,14 +85,14 @@ TEST_CASE("a line that loses nearly everything says nothing of the radio; a radi
   std::uint32_t dice = 1;
   f.world.lost = [&dice](const Packet&) { return (dice = dice * 1664525 + 1013904223) >> 24 >= 8; };  // 97 %
   f.fly(20);
-  CHECK(times(f, "outputs are frozen") == 0);
+  CHECK(times(f, "fcu_serial.radio_frozen") == 0);
   f.world.fcu.inputs.rc_frames = false;
   f.fly(10);
-  CHECK(times(f, "outputs are frozen") == 1);
+  CHECK(times(f, "fcu_serial.radio_frozen") == 1);
   f.world.lost = [](const Packet&) { return false; };
   f.world.fcu.inputs.rc_frames = true;
   f.fly(2);
-  CHECK(times(f, "frames of the radio come again") == 1);
+  CHECK(times(f, "fcu_serial.radio_back") == 1);
 }
 
 TEST_CASE("a hand-over that is refused is never called control") {
@@ -114,8 +115,8 @@ TEST_CASE("a hand-over that is refused is never called control") {
     switch_to(f, true);
     f.fly(1);
   }
-  CHECK(times(f, "in control") == 0);
-  CHECK(times(f, "not ready") >= 5);  // each hand-over is answered
+  CHECK(times(f, "in_control") == 0);
+  CHECK(times(f, "fcu_serial.not_ready") >= 5);  // each hand-over is answered
 }
 
 TEST_CASE("what makes it ready and comes and goes is told less and less often") {
@@ -131,14 +132,14 @@ TEST_CASE("what makes it ready and comes and goes is told less and less often") 
   const int lines = times(f, "ready");
   CHECK(lines >= 4);   // each of them is 10 s old at most
   CHECK(lines <= 12);  // of 60 changes
-  CHECK(times(f, "GNSS lost") >= 4);
-  CHECK(times(f, "GNSS lost") <= 12);
-  CHECK(times(f, "GNSS is back") == times(f, "GNSS lost"));
+  CHECK(times(f, "fcu_serial.gnss_lost") >= 4);
+  CHECK(times(f, "fcu_serial.gnss_lost") <= 12);
+  CHECK(times(f, "fcu_serial.gnss_back") == times(f, "fcu_serial.gnss_lost"));
   f.reported.clear();
   f.state->position_valid = true;
   f.world.fcu.inputs.gnss.fix_type = 3;
   f.fly(11);
-  CHECK(times(f, "not ready") == 0);
+  CHECK(times(f, "fcu_serial.not_ready") == 0);
 }
 
 TEST_CASE("an attitude that is lost while the computer flies calls the pilot, once") {
@@ -146,24 +147,24 @@ TEST_CASE("an attitude that is lost while the computer flies calls the pilot, on
   cruising(f);
   f.state->attitude_valid = false;
   f.fly(0.25);
-  CHECK(times(f, "pilot: take over") == 0);
+  CHECK(times(f, "fcu_serial.attitude_lost") == 0);
   f.fly(3);
-  CHECK(times(f, "pilot: take over") == 1);
+  CHECK(times(f, "fcu_serial.attitude_lost") == 1);
   f.state->attitude_valid = true;
   f.fly(1);
-  CHECK(times(f, "the attitude is valid again") == 1);
+  CHECK(times(f, "fcu_serial.attitude_valid") == 1);
   // while the pilot flies he is not called
   switch_to(f, true);
   f.fly(1);
   f.state->attitude_valid = false;
   f.fly(3);
-  CHECK(times(f, "pilot: take over") == 1);
+  CHECK(times(f, "fcu_serial.attitude_lost") == 1);
   // an estimate that nobody renews is lost too
   Flying silent;
   cruising(silent);
   silent.state.reset();
   silent.fly(3);
-  CHECK(times(silent, "pilot: take over") == 1);
+  CHECK(times(silent, "fcu_serial.attitude_lost") == 1);
 }
 
 }  // namespace vehicle_words_test

@@ -3,6 +3,7 @@
 // publishes. A node that falls silent fails, so that the phase's fallback takes over.
 #pragma once
 #include "fulmar/msg/plan_edit.hpp"
+#include "messages.hpp"
 #include "rosplane_out.hpp"
 
 namespace fulmar::ros_bridge {
@@ -165,7 +166,7 @@ struct RosplaneWaypoints {
         request.accept();
       } else {
         ++refused_;
-        request.refuse("a number is not finite");
+        request.refuse(ros_bridge_messages::waypoint_not_finite.c_str());
       }
     }
     out.refused_ratio = refused_;

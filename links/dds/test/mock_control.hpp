@@ -57,7 +57,7 @@ class MockControl : public Control {
     for (ComponentView& c : flight.components) {
       for (ParameterView& p : c.params) {
         if (c.name != component || p.info.name != param) continue;
-        if (!p.info.live) throw Error(component + "." + param + " is set before the flight");
+        if (!p.info.live) throw Error("mock.parameter_fixed(" + component + "." + param + ")");
         if (p.info.kind == FULMAR_NUMBER) p.base.number[0] = std::stod(text);
         set_.push_back(component + "." + param + "=" + text);
         work_.emplace_back([this, component, param, answer] {

@@ -99,17 +99,18 @@ TEST_CASE("parameters are those of one ROS 2 node: listed, read, described, set,
   CHECK(param("list") == "slc.law\nslc.roll_kp\nslc.span_m\n");
   CHECK(param("get slc.roll_kp slc.law nobody.x") ==
         "type 3 0 0 0.55000000000000004 '' []\ntype 4 0 0 0 'level' []\ntype 0 0 0 0 '' []\n");
-  CHECK(param("describe slc.roll_kp slc.span_m slc.law") ==
-        "slc.roll_kp type 3 'aileron per roll error [rad/rad]' '' read_only 0 0 to 2 step 0\n"
-        "slc.span_m type 3 'aileron per roll error [rad/rad]' '' read_only 1 0 to 2 step 0\n"
-        "slc.law type 4 '' 'one of takeoff, level' read_only 0\n");
+  const std::string described =
+      "slc.roll_kp type 3 'aileron per roll error [rad/rad]' '' read_only 0 0 to 2 step 0\n"
+      "slc.span_m type 3 'aileron per roll error [rad/rad]' '' read_only 1 0 to 2 step 0\n"
+      "slc.law type 4 '' 'one of takeoff, level' read_only 0\n";
+  CHECK(param("describe slc.roll_kp slc.span_m slc.law") == described);
   CHECK(param("set slc.roll_kp 0.6") == "set\n");
   CHECK(param("get slc.roll_kp") == "type 3 0 0 0.59999999999999998 '' []\n");
   CHECK(param("set_text slc.law takeoff") == "set\n");
   CHECK(join(scene.control.parameters_set()) == "slc.roll_kp=0.6, slc.law=\"takeoff\"");
   CHECK(param("set slc.roll_k 1 slc.span_m 3") ==
         "refused: dds.parameter_unknown(slc.roll_k,  [slc.roll_kp] slc.law, slc.roll_kp, "
-        "slc.span_m)\nrefused: slc.span_m is set before the flight\n");
+        "slc.span_m)\nrefused: mock.parameter_fixed(slc.span_m)\n");
   CHECK(param("set_many slc.roll_kp 1 slc.law 0") == "refused: dds.several_parameters\n");
 }
 

@@ -312,7 +312,7 @@ TEST_CASE("the service add_waypoint appends, and refuses what is no number") {
   bench.push(bench.in.add_waypoint, bad);
   bench.step(0.01);
   CHECK(bench.answer(bench.in.add_waypoint, 0) == "accepted");
-  CHECK(bench.answer(bench.in.add_waypoint, 1) == "a number is not finite");
+  CHECK(bench.answer(bench.in.add_waypoint, 1) == "ros_bridge.waypoint_not_finite");
   REQUIRE(bench.out.edits.count == 1);
   CHECK(bench.out.edits.items[0].kind == PlanEditKind::append);
   CHECK(bench.out.edits.items[0].waypoint.position_m.down == -60);

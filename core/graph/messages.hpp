@@ -443,6 +443,8 @@ inline constexpr MessageText quantity_not_positive{
     "graph.quantity_not_positive", {"value"}, "{value} is not above 0"};
 inline constexpr MessageText rate_out_of_range{
     "graph.rate_out_of_range", {"rate"}, "rate: {rate} Hz is outside 0.1 .. 100000 Hz"};
+inline constexpr MessageText record_field_hint{
+    "graph.record_field_hint", {"example"}, "; to change one thing in a record, name it, as in {example}"};
 inline constexpr MessageText record_incomplete{
     "graph.record_incomplete",
     {"place", "type", "missing", "hint"},

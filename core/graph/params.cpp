@@ -187,11 +187,11 @@ void read_record(const ParamInfo& param, const Node& map, const std::string& pat
   const std::vector<std::string> missing = missing_in_record(*param.type, map);
   if (!missing.empty() && map.is(Node::Kind::map)) {
     const bool of_component = path.find('.') != std::string::npos;  // else nobody else's record is meant
-    report.add(map.where(), graph_messages::record_incomplete(
-                                path.empty() ? "" : path + ": ", param.type->name, join(missing),
-                                of_component ? "; to change one thing in a record, name it, as in " +
-                                                   param.name + "." + missing[0]
-                                             : ""));
+    report.add(
+        map.where(),
+        graph_messages::record_incomplete(
+            path.empty() ? "" : path + ": ", param.type->name, join(missing),
+            of_component ? graph_messages::record_field_hint(param.name + "." + missing[0]).text : ""));
   }
   mark_given(*param.type, value.data.data());
   value.text = name;

@@ -83,6 +83,8 @@ inline constexpr MessageText heap_too_large{
     "run.heap_too_large",
     {"growth_mb", "limit_mb"},
     "its heap grew by {growth_mb} MB in flight; the limit is {limit_mb} MB"};
+inline constexpr MessageText host_forked{
+    "run.host_forked", {"component"}, "{component} has forked the host; the copy ends"};
 inline constexpr MessageText input_empty{"run.input_empty", {"input"}, "input '{input}' has no sample"};
 inline constexpr MessageText input_of_stopped{"run.input_of_stopped",
                                               {"input", "component"},
@@ -156,13 +158,20 @@ inline constexpr MessageText outputs_differ{"run.outputs_differ",
                                             {"difference"},
                                             "{difference}; the outputs of a flight are fixed when it begins. "
                                             "Start the flight again, or run it with --watch"};
+inline constexpr MessageText parameter_default_changed{"run.parameter_default_changed",
+                                                       {"parameter", "value", "initial"},
+                                                       "{parameter} = {value} (new default {initial})"};
 inline constexpr MessageText parameter_not_live{
     "run.parameter_not_live",
     {"component", "parameter"},
     "{component}.{parameter} is a set-up parameter: it cannot change in flight"};
 inline constexpr MessageText parameter_set{"run.parameter_set", {"name", "value"}, "{name} = {value}"};
+inline constexpr MessageText parameters_added{"run.parameters_added", {"parameters"}, "new: {parameters}"};
+inline constexpr MessageText parameters_kept{"run.parameters_kept", {"parameters"}, "keeps {parameters}"};
 inline constexpr MessageText parameters_refused{"run.parameters_refused",
                                                 "rejects its parameters and gives no reason"};
+inline constexpr MessageText parameters_removed{
+    "run.parameters_removed", {"parameters"}, "gone: {parameters}"};
 inline constexpr MessageText phase_entered{"run.phase_entered", {"phase"}, "phase {phase}"};
 inline constexpr MessageText phase_parameters_refused{
     "run.phase_parameters_refused",

@@ -186,6 +186,12 @@ bool Guard::check(const std::byte* data) const noexcept {
 
 namespace {
 
+/// A number with so many digits at most.
+struct Short {
+  std::array<char, 32> text;
+  Short(double value, int digits) noexcept { std::snprintf(text.data(), text.size(), "%.*g", digits, value); }
+};
+
 // Walks a message as its table says and stops at the first bad value; its path and what is wrong with it
 // stand in `text` then.
 class Explainer {
@@ -224,12 +230,14 @@ class Explainer {
     if (field.kind == FULMAR_TEXT)
       return std::memchr(at, '\0', field.stride) == nullptr && fault(types_messages::field_not_terminated);
     const double x = number_at(field, at);
-    if (std::isnan(x)) return append(" is nan");
-    if (std::isinf(x)) return append(x > 0 ? " is inf" : " is -inf");
+    if (!std::isfinite(x))
+      return fault(types_messages::value_not_finite, std::isnan(x) ? "nan" : x > 0 ? "inf" : "-inf");
     if (field.kind == FULMAR_BOOL && x > 1) return fault(types_messages::flag_value_invalid, x);
     if (field.kind == FULMAR_ENUM && x > byte_limit(field))
       return fault(types_messages::label_value_invalid, x);
-    if (x < field.min || x > field.max) return append(" is %.9g, outside [%g, %g]", x, field.min, field.max);
+    if (x < field.min || x > field.max)
+      return fault(types_messages::value_out_of_range, Short(x, 9).text.data(),
+                   Short(field.min, 6).text.data(), Short(field.max, 6).text.data());
     return false;
   }
 

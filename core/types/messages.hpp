@@ -56,6 +56,11 @@ inline constexpr MessageText text_not_terminated{"types.text_not_terminated", "a
 inline constexpr MessageText too_many_items{"types.too_many_items",
                                             {"field", "count", "capacity"},
                                             "{field} has {count} items; its capacity is {capacity}"};
+inline constexpr MessageText value_not_finite{
+    "types.value_not_finite", {"field", "value"}, "{field} is {value}"};
+inline constexpr MessageText value_out_of_range{"types.value_out_of_range",
+                                                {"field", "value", "min", "max"},
+                                                "{field} is {value}, outside [{min}, {max}]"};
 inline constexpr MessageText writer_field_missing{"types.writer_field_missing",
                                                   {"path", "field"},
                                                   "reader has a field '{path}{field}' that the writer lacks"};

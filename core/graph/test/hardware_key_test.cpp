@@ -141,9 +141,10 @@ TEST_CASE("a component that steers by the true state is told, one that only meas
   const auto list = warned(manage, "use: path/Manager, in: {state: vehicle.truth,");
   REQUIRE(list.size() == 1);
   CHECK(list[0] == "hourglass.yaml:26: graph.simulated_input(manage, state, truth)");
-  CHECK(warned(manage, "use: path/Manager, in: {state: sim.truth,").size() == 1);
-  CHECK(warned("only: sim}", "only: sim}\n  second: {use: sim_aero/TruthState, in: {truth: vehicle.truth}}")
-            .empty());
+  const std::string simulated = "use: path/Manager, in: {state: sim.truth,";
+  CHECK(warned(manage, simulated).size() == 1);
+  const std::string measures = "only: sim}\n  second: {use: sim_aero/TruthState, in: {truth: vehicle.truth}}";
+  CHECK(warned("only: sim}", measures).empty());
   // a component that only measures decides as soon as a phase looks at it
   const auto decided = warned("\"nav.state.height_m > 30 m\"", "\"score.tracking.circuits > 1\"");
   REQUIRE(decided.size() == 1);

@@ -49,15 +49,18 @@ TEST_CASE("parameters exist, fit and lie in their range") {
         "21: components.sim.params: types.name_unknown_in(sim_aero/Aircraft, parameter, turbulnce,  "
         "[turbulence] rate, epoch, wind_ned, turbulence, airframe, origin)");
   CHECK(changed("[3, -4, 0]", "[3, -4]") ==
-        "21: components.sim.params.wind_ned: graph.three_numbers_expected(north, east, down, 2)");
+        "21: components.sim.params.wind_ned: graph.three_numbers_expected(north, east, down, 2 items)");
   CHECK(changed("[3, -4, 0]", "[3 kt, -40 m/s, .inf]") ==
         "21: components.sim.params.wind_ned.east: graph.value_out_of_range(-40 m/s, -30, 30,  m/s, )\n21: "
         "components.sim.params.wind_ned.down: graph.number_not_finite(.inf)");
-  CHECK(
-      changed("use: control_slc/Inner", "params: {roll_kp: 9, roll_limit: 80 deg}, use: control_slc/Inner") ==
-      "30: components.attitude.params.roll_kp: graph.value_out_of_range(9, 0, 2,  rad/rad, )\n30: "
-      "components.attitude.params.roll_limit: graph.value_out_of_range(80 deg, 0, 60,  deg, )");
-  CHECK(changed("use: estimator_ekf", "params: {use_mag: 3, skip: 1.5, gate: {}}, use: estimator_ekf") ==
+  const auto with_params = [](const std::string& use, const std::string& params) {
+    return changed(use, "params: {" + params + "}, " + use);
+  };
+  const std::string too_large = "roll_kp: 9, roll_limit: 80 deg";
+  CHECK(with_params("use: control_slc/Inner", too_large) ==
+        "30: components.attitude.params.roll_kp: graph.value_out_of_range(9, 0, 2,  rad/rad, )\n30: "
+        "components.attitude.params.roll_limit: graph.value_out_of_range(80 deg, 0, 60,  deg, )");
+  CHECK(with_params("use: estimator_ekf", "use_mag: 3, skip: 1.5, gate: {}") ==
         "23: components.ekf.params.use_mag: graph.flag_expected('3')\n23: components.ekf.params.skip: "
         "graph.integer_invalid(1.5)\n23: components.ekf.params.gate: graph.value_not_valid(a number in rad, "
         "a map)");
@@ -78,11 +81,12 @@ TEST_CASE("parameters exist, fit and lie in their range") {
   CHECK(changed("alt_msl: 1387 m", "alt: 1387 m")
             .find("graph.field_unknown(origin: , alt, Origin,  Did you mean 'alt_msl'? [] lat_deg, lon_deg, "
                   "alt_msl_m)") != std::string::npos);
-  CHECK(changed("alt_msl: 1387 m", "alt_msl: 1387 m, given: true")
+  const std::string altitude = "alt_msl: 1387 m";
+  CHECK(changed(altitude, altitude + ", given: true")
             .find("graph.field_unknown(origin: , given, Origin,  [] lat_deg, lon_deg, alt_msl_m)") !=
         std::string::npos);
   CHECK(changed("rate: 400 Hz", "rate: 4000 Hz") ==
-        "21: graph.mission_rate_invalid(sim, 4000, 50, 2000, sim_aero/Aircraft)");
+        "X: graph.mission_rate_invalid(sim, 4000, 50, 2000, sim_aero/Aircraft)");
 }
 
 TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes no vehicle") {
@@ -103,10 +107,10 @@ TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes
     CHECK(lost.set[0].value.number[0] == 3);  // the mission's base: what an overlay leaves out stays
     CHECK(lost.set[0].value.number[1] == 7);
   }
-  CHECK(with("{use: spare, set: {wind_ned: [0, 0, 0]}}").first.find("graph.phase_vehicle_fixed") !=
-        std::string::npos);
-  CHECK(with("{set: {turbulence: light}, fallback: spare}").first.find("graph.phase_vehicle_fixed") !=
-        std::string::npos);
+  const std::string wind = "set: {wind_ned: [0, 0, 0]}}";
+  const std::string fallback = "{set: {turbulence: light}, fallback: spare}";
+  for (const std::string& changes : {"{use: spare, " + wind, fallback})
+    CHECK(with(changes).first.find("graph.phase_vehicle_fixed") != std::string::npos);
   CHECK(with("{set: {rate: 200 Hz}}")
             .first.find("graph.phase_parameter_fixed(phases.cruise.vehicle.set, rate, ") !=
         std::string::npos);
@@ -115,13 +119,12 @@ TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes
         std::string::npos);
   Overrides hardware;
   hardware.io = "fcu";
-  CHECK(with("{use: sim, set: {wind_ned: [0, 0, 0]}}", hardware).first.find("graph.phase_vehicle_fixed") !=
+  CHECK(with("{use: sim, " + wind, hardware).first.find("graph.phase_vehicle_fixed") != std::string::npos);
+  CHECK(with("{" + wind, hardware).first.find("graph.phase_parameter_unknown(fcu, wind_ned,  [] none)") !=
         std::string::npos);
-  CHECK(with("{set: {wind_ned: [0, 0, 0]}}", hardware)
-            .first.find("graph.phase_parameter_unknown(fcu, wind_ned,  [] none)") != std::string::npos);
   Overrides spare;  // as with any role: it takes what it has
   spare.roles = {{"vehicle", "spare"}};
-  CHECK(with("{use: sim, set: {wind_ned: [0, 0, 0]}}", spare).second.phases[2].roles[0].set.size() == 1);
+  CHECK(with("{use: sim, " + wind, spare).second.phases[2].roles[0].set.size() == 1);
 }
 
 TEST_CASE("an overlay belongs to the phase and the component that it is written at") {

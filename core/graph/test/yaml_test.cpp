@@ -98,7 +98,8 @@ TEST_CASE("too deep is told as that") {
 
 TEST_CASE("control characters are refused, those of eight bits as well") {
   CHECK(read("mission: \"a\\e[2J\"\n").said == "file.yaml:1: graph.control_character_found(27)");
-  CHECK(read("mission: \"a\\u009b2J\"\n").said == "file.yaml:1: graph.control_character_found(155)");
+  const std::string of_eight_bits = "mission: \"a\\u009b2J\"\n";
+  CHECK(read(of_eight_bits).said == "file.yaml:1: graph.control_character_found(155)");
   CHECK(read("mission: \"a\\0b\"\n").said == "file.yaml:1: graph.control_character_found(0)");
   CHECK(read("mission: \"caf\\u00e9\"\n").said == "");
 }

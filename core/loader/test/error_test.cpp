@@ -32,8 +32,9 @@ TEST_CASE("choices read as a sentence") {
   CHECK(join({}) == "none");
   CHECK(join({"a"}) == "a");
   CHECK(join({"a", "b", "c"}) == "a, b, c");
-  CHECK(choices_text("heigh_m", {"height_m", "course_rad"}) == " [height_m] height_m, course_rad");
-  CHECK(choices_text("zzzzzz", {"height_m", "course_rad"}) == " [] height_m, course_rad");
+  const std::vector<std::string> fields = {"height_m", "course_rad"};
+  CHECK(choices_text("heigh_m", fields) == " [height_m] " + join(fields));
+  CHECK(choices_text("zzzzzz", fields) == " [] height_m, course_rad");
   CHECK(choices_text("x", {}) == " [] none");
 }
 

@@ -49,26 +49,32 @@ TEST_CASE("a good message passes, extreme but finite numbers too") {
 }
 
 TEST_CASE("each bad value is named") {
-  CHECK(words([](Route& r) { r.airspeed_mps = not_a_number; }) == "airspeed_mps is nan");
-  CHECK(words([](Route& r) { r.airspeed_mps = -not_a_number; }) == "airspeed_mps is nan");
-  CHECK(words([](Route& r) { r.airspeed_mps = inf; }) == "airspeed_mps is inf");
-  CHECK(words([](Route& r) { r.position_m.east = -inf; }) == "position_m.east is -inf");
-  CHECK(words([](Route& r) { r.throttle_frac = 1.25; }) == "throttle_frac is 1.25, outside [0, 1]");
-  CHECK(words([](Route& r) { r.throttle_frac = not_a_number; }) == "throttle_frac is nan");
+  CHECK(words([](Route& r) { r.airspeed_mps = not_a_number; }) ==
+        "types.value_not_finite(airspeed_mps, nan)");
+  CHECK(words([](Route& r) { r.airspeed_mps = -not_a_number; }) ==
+        "types.value_not_finite(airspeed_mps, nan)");
+  CHECK(words([](Route& r) { r.airspeed_mps = inf; }) == "types.value_not_finite(airspeed_mps, inf)");
+  CHECK(words([](Route& r) { r.position_m.east = -inf; }) == "types.value_not_finite(position_m.east, -inf)");
+  CHECK(words([](Route& r) { r.throttle_frac = 1.25; }) ==
+        "types.value_out_of_range(throttle_frac, 1.25, 0, 1)");
+  CHECK(words([](Route& r) { r.throttle_frac = not_a_number; }) ==
+        "types.value_not_finite(throttle_frac, nan)");
   CHECK(words([](Route& r) { r.heading_rad = std::numeric_limits<float>::infinity(); }) ==
-        "heading_rad is inf");
-  CHECK(words([](Route& r) { r.lap = 10; }) == "lap is 10, outside [-2, 9]");
-  CHECK(words([](Route& r) { r.gains_ratio[2] = not_a_number; }) == "gains_ratio[2] is nan");
+        "types.value_not_finite(heading_rad, inf)");
+  CHECK(words([](Route& r) { r.lap = 10; }) == "types.value_out_of_range(lap, 10, -2, 9)");
+  CHECK(words([](Route& r) { r.gains_ratio[2] = not_a_number; }) ==
+        "types.value_not_finite(gains_ratio[2], nan)");
   CHECK(words([](Route& r) { r.mode = 3; }) == "types.label_value_invalid(mode, 3)");
   CHECK(words([](Route& r) { r.valid = 2; }) == "types.flag_value_invalid(valid, 2)");
   CHECK(words([](Route& r) { std::memset(r.label, 'x', sizeof r.label); }) ==
         "types.field_not_terminated(label)");
   CHECK(words([](Route& r) { r.waypoints.count = 6; }) == "types.too_many_items(waypoints, 6, 5)");
   CHECK(words([](Route& r) { r.waypoints.items[2].position_m.down = not_a_number; }) ==
-        "waypoints[2].position_m.down is nan");
+        "types.value_not_finite(waypoints[2].position_m.down, nan)");
   CHECK(words([](Route& r) { r.waypoints.items[2].hold = 7; }) ==
         "types.flag_value_invalid(waypoints[2].hold, 7)");
-  CHECK(words([](Route& r) { r.corners_m[1].north = not_a_number; }) == "corners_m[1].north is nan");
+  CHECK(words([](Route& r) { r.corners_m[1].north = not_a_number; }) ==
+        "types.value_not_finite(corners_m[1].north, nan)");
 }
 
 TEST_CASE("list items beyond the count do not matter") {

@@ -329,9 +329,10 @@ Scaler  Multiplies an airspeed.
 
 TEST_CASE("the field tables tell kind, unit, frame and place") {
   const std::string text = describe_plugin(Library::open(plugin("good"))->info(), true);
-  CHECK(text.find("  position_m        Vec3  m     ned    8\n") != std::string::npos);
-  CHECK(text.find("  position_m.north  f64   m            8\n") != std::string::npos);
-  CHECK(text.find("  mode              enum               32    idle, glide\n") != std::string::npos);
+  for (const char* row :
+       {"  position_m        Vec3  m     ned    8\n", "  position_m.north  f64   m            8\n",
+        "  mode              enum               32    idle, glide\n"})
+    CHECK_MESSAGE(text.find(row) != std::string::npos, row);
 }
 
 TEST_CASE("notes are read with their padding, and bent ones give nothing") {

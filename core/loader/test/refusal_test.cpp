@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "core/loader/shared_object.hpp"
@@ -90,14 +91,16 @@ TEST_CASE("a plugin whose needs are not met is refused") {
 
 TEST_CASE("what the system's loader says becomes a sentence") {
   using fulmar::core::load_fault;
-  CHECK(load_fault("x.so", "libfoo.so.1: cannot open shared object file: No such file or directory") ==
-        "loader.required_library_missing(x.so, libfoo.so.1)");
-  CHECK(load_fault("x.so", "/lib/libm.so.6: version `GLIBC_2.99' not found (required by /store/ab.so)") ==
-        "loader.required_version_missing(x.so, GLIBC_2.99)");
-  CHECK(load_fault("x.so", "/store/ab.so: undefined symbol: exp10, version LIB_1") ==
-        "loader.required_symbol_missing(x.so, exp10)");
-  CHECK(load_fault("x.so", "/store/ab.so: ELF load command alignment not page-aligned") ==
-        "loader.plugin_not_loadable(x.so, ELF load command alignment not page-aligned)");
+  const std::pair<const char*, const char*> cases[] = {
+      {"libfoo.so.1: cannot open shared object file: No such file or directory",
+       "loader.required_library_missing(x.so, libfoo.so.1)"},
+      {"/lib/libm.so.6: version `GLIBC_2.99' not found (required by /store/ab.so)",
+       "loader.required_version_missing(x.so, GLIBC_2.99)"},
+      {"/store/ab.so: undefined symbol: exp10, version LIB_1", "loader.required_symbol_missing(x.so, exp10)"},
+      {"/store/ab.so: ELF load command alignment not page-aligned",
+       "loader.plugin_not_loadable(x.so, ELF load command alignment not page-aligned)"},
+  };
+  for (const auto& [text, reported] : cases) CHECK(load_fault("x.so", text) == reported);
   CHECK(load_fault("x.so", nullptr) == "loader.plugin_not_loadable(x.so, no reason given)");
 }
 

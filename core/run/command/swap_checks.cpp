@@ -23,8 +23,8 @@ bool can_carry(const ParamInfo& old, const ParamInfo& now) {
   return (now.kind != FULMAR_RECORD && now.kind != FULMAR_VECTOR) || now.type->hash == old.type->hash;
 }
 
-std::string listed(const char* what, const std::vector<std::string>& items) {
-  return items.empty() ? "" : std::string("; ") + what + join(items);
+std::string listed(const MessageText<1>& message, const std::vector<std::string>& items) {
+  return items.empty() ? "" : "; " + message(join(items)).text;
 }
 
 }  // namespace
@@ -42,11 +42,13 @@ std::string parameter_words(const ComponentInfo& from, const std::vector<ParamVa
     const ParamInfo& old = nth(from.params, i);
     const std::string is = value_text(old, nth(values, i)), usual = value_text(now, initial_value(now));
     if (usual != value_text(old, initial_value(old)) && is != usual && is != value_text(now, into[k]))
-      kept.push_back(now.name + " = " + is + " (new default " + usual + ")");
+      kept.push_back(run_messages::parameter_default_changed(now.name, is, usual));
   }
   for (const ParamInfo& old : from.params)
     if (const int k = to.param(old.name); k < 0) gone.push_back(old.name);
-  const std::string all = listed("keeps ", kept) + listed("new: ", fresh) + listed("gone: ", gone);
+  const std::string all = listed(run_messages::parameters_kept, kept) +
+                          listed(run_messages::parameters_added, fresh) +
+                          listed(run_messages::parameters_removed, gone);
   return all.empty() ? all : all.substr(2);
 }
 

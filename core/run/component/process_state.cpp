@@ -7,6 +7,7 @@
 #include <spawn.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -31,8 +32,9 @@ thread_local const char* refused_since = shared;
 
 void end_forked_copy() noexcept {
   const char* const component = in_step.load(std::memory_order_relaxed);
-  for (const char* const word :
-       {"fulmar: ", component ? component : "a component", " has forked the host; the copy ends\n"})
+  std::array<char, 256> text;
+  run_messages::host_forked.write(text.data(), text.size(), component ? component : "a component");
+  for (const char* const word : {"fulmar: ", static_cast<const char*>(text.data()), "\n"})
     if (write(STDERR_FILENO, word, std::strlen(word)) < 0) break;
   end_copy();
 }

@@ -263,6 +263,7 @@ TEST_CASE("who speaks in every third step has a habit; who pauses has longer sil
 
 TEST_CASE("a watch that only a condition reads is told of when it falls silent, and when it is stopped") {
   const std::string fence = "  fence: {use: lab/Filter, in: {signal: vehicle.signal}}\n";
+  const std::string filter_broken = "the filter is broken";  // of the laboratory's filter
   for (const std::string key : {"failed", "done"}) {
     const std::string watched =
         fence + one_phase + key + ": {when: \"fence.signal.x_m > 1e6 m\", for: 2 s}\n";
@@ -274,7 +275,7 @@ TEST_CASE("a watch that only a condition reads is told of when it falls silent, 
     CHECK(silent.result.guards.size() == 1);
     const Said stopped = said_of(watched, {{"fence.stop_at", "0.1"}});
     REQUIRE(stopped.lines.size() == 2);
-    CHECK(stopped.lines[0].find("fence: the filter is broken") != std::string::npos);
+    CHECK(stopped.lines[0].find("fence: " + filter_broken) != std::string::npos);
     CHECK(stopped.lines[1] == "    0.10 s  fence: run.condition_dead(" + key + ", fence.signal.x_m > 1e6 m)");
   }
   const std::string phases =

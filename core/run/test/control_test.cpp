@@ -60,10 +60,6 @@ const ParameterView& parameter(const FlightView& view, const std::string& compon
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::string variant(const std::string& name) {
-  return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + name + ".so";
-}
-
 double commanded(const Graph& g, const Flight& flight) {
   return value(g, flight, "one", "command", "u_frac");
 }
@@ -199,7 +195,10 @@ TEST_CASE("a swap is refused in whole sentences, and tells what it did to the pa
   control.swap("one", variant("_wider"), done.take());
   CHECK(done.wait(flight) == "");
   for (const ComponentView& c : control.view().components)
-    CHECK(c.swapped == (c.name == "one" ? "keeps fixed = 1 (new default 1.5); new: reserve = 0" : ""));
+    CHECK(c.swapped == (c.name == "one"
+                            ? "run.parameters_kept(run.parameter_default_changed(fixed, 1, 1.5)); "
+                              "run.parameters_added(reserve = 0)"
+                            : ""));
 }
 
 TEST_CASE("a sentence without room ends in dots, behind a whole word and a whole letter") {
@@ -209,7 +208,8 @@ TEST_CASE("a sentence without room ends in dots, behind a whole word and a whole
     end_in_dots(text.data(), text.size());
     return std::string(text.data());
   };
-  CHECK(cut("there is no output of type GuidanceCommand") == "there is no output...");
+  const std::string sentence = "there is no output of type GuidanceCommand";
+  CHECK(cut(sentence) == "there is no output...");
   CHECK(cut("supercalifragilisticexpialidocious") == "supercalifragilistic...");
   CHECK(cut("supercalifragilisti\u00e4\u00e4\u00e4\u00e4") == "supercalifragilisti...");
   Event e = event_of(Code::notice);
@@ -254,7 +254,7 @@ TEST_CASE("a request to a component that does not fly is refused, not kept for t
   control.request("watch", "ask", ask(1), before.take());
   CHECK(before.wait(flight) == "was not answered");  // that step threw
   control.request("watch", "ask", ask(1), after.take());
-  CHECK(after.wait(flight) == "run.target_not_active");
+  CHECK(after.wait(flight) == "run.component_not_active(watch)");
   CHECK(refusal([&] { request(flight, "watch", "ask", 0.0); }) == "run.component_not_active(watch)");
 }
 
@@ -409,7 +409,7 @@ TEST_CASE("a sample from outside is the input's at the next tick; a damaged one 
   CHECK(holds(refusal([&] {
                 control.publish("ear", "signal", {message.begin(), message.end() - 1});
               }),
-              "run.message_size_invalid(ear, signal, 7, Signal)"));
+              "run.message_size_invalid(ear, signal, 7, Signal, 8)"));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::memcpy(message.data() + type->fields[0].offset, &nan, sizeof nan);
   CHECK(holds(refusal([&] { control.publish("ear", "signal", message); }), "nan"));

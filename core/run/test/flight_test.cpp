@@ -161,8 +161,8 @@ TEST_CASE("every fault of a law is caught in its tick, the fallback flies in the
     const char *fault, *what;
   };
   for (const Case& c :
-       {Case{"nan", "output 'command': u_frac is nan"},
-        Case{"range", "output 'command': u_frac is 1.5, outside [-1, 1]"},
+       {Case{"nan", "output 'command': types.value_not_finite(u_frac, nan)"},
+        Case{"range", "output 'command': types.value_out_of_range(u_frac, 1.5, -1, 1)"},
         Case{"throws", "the law is broken  ?\xc3\xa9  2J"}, Case{"fails", "says that it failed"},
         Case{"probe_nan", "run.probe_not_finite(error_m)"}}) {
     CAPTURE(c.fault);
@@ -187,7 +187,7 @@ TEST_CASE("when nobody is left the failsafe values are sent for their time, then
   Flight in_time(g, options(0.3));
   const FlightResult r = in_time.run();
   CHECK(r.outcome == Outcome::failed);
-  CHECK(r.reason == "run.failsafe(one, output 'command': u_frac is nan)");
+  CHECK(r.reason == "run.failsafe(one, output 'command': types.value_not_finite(u_frac, nan))");
   CHECK(r.guards[0].action == "failsafe");
   CHECK(value(g, in_time, "sim", "applied", "u_frac") == -0.25);
   CHECK(value(g, in_time, "sim", "applied", "present") == 1);

@@ -134,9 +134,10 @@ TEST_CASE("what a phase sets holds in all its roles, and is said once") {
   Flight flight(g, options(0.1));
   flight.run();
   CHECK(value(g, flight, "sim", "applied", "u_frac") == doctest::Approx(-0.4));
-  CHECK(refusal(std::string(both) +
-                "phases:\n  fly: {sense: {use: both, set: {u: 0}}, law: {use: both, set: {u: -0.4}}}\n")
-            .find("phases.fly: graph.phase_set_repeated(both)") != std::string::npos);
+  const std::string twice =
+      "phases:\n  fly: {sense: {use: both, set: {u: 0}}, law: {use: both, set: {u: -0.4}}}\n";
+  CHECK(refusal(std::string(both) + twice).find("phases.fly: graph.phase_set_repeated(both)") !=
+        std::string::npos);
 }
 
 TEST_CASE("--role puts the group, or a single one, in its place in every phase") {
@@ -155,18 +156,25 @@ TEST_CASE("--role puts the group, or a single one, in its place in every phase")
 
 TEST_CASE("groups that cannot be are refused, with a sentence") {
   const std::string flies = one_phase;
-  CHECK(refusal("  both: {fills: [sense, sense], use: lab/Both, in: {signal: vehicle.signal}}\n" + flies)
-            .find("components.both.fills: graph.entry_repeated(sense)") != std::string::npos);
-  CHECK(refusal("  both: {fills: [sense, lw], use: lab/Both, in: {signal: vehicle.signal}}\n" + flies)
-            .find("components.both: types.name_unknown(role, lw,  [law] vehicle, sense, law)") !=
-        std::string::npos);
-  CHECK(refusal("  both: {fills: [sense, law], use: lab/Both}\n" + flies)
-            .find("graph.role_inputs_conflict(both, signal)") != std::string::npos);
-  CHECK(refusal("  both: {fills: [vehicle, law], use: lab/Both}\n" + flies)
-            .find("graph.vehicle_roles_shared(components.both.fills: )") != std::string::npos);
-  CHECK(refusal(std::string(both) + "phases:\n  fly: {sense: filter, law: both}\n")
-            .find("phases.fly.law: graph.components_share_roles(both, sense and law, filter, sense)") !=
-        std::string::npos);
+  struct Case {
+    std::string mission;
+    const char* reported;
+  };
+  const Case cases[] = {
+      {"  both: {fills: [sense, sense], use: lab/Both, in: {signal: vehicle.signal}}\n" + flies,
+       "components.both.fills: graph.entry_repeated(sense)"},
+      {"  both: {fills: [sense, lw], use: lab/Both, in: {signal: vehicle.signal}}\n" + flies,
+       "components.both: types.name_unknown(role, lw,  [law] vehicle, sense, law)"},
+      {"  both: {fills: [sense, law], use: lab/Both}\n" + flies, "graph.role_inputs_conflict(both, signal)"},
+      {"  both: {fills: [vehicle, law], use: lab/Both}\n" + flies,
+       "graph.vehicle_roles_shared(components.both.fills: )"},
+      {std::string(both) + "phases:\n  fly: {sense: filter, law: both}\n",
+       "phases.fly.law: graph.components_share_roles(both, sense and law, filter, sense)"},
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.mission);
+    CHECK(refusal(c.mission).find(c.reported) != std::string::npos);
+  }
 }
 
 }  // namespace groups_test

@@ -117,7 +117,7 @@ TEST_CASE("each item of a queue is looked at, not the first alone") {
   Flight flight(g, options(0.1));
   const FlightResult r = flight.run();
   CHECK(r.outcome == Outcome::failed);
-  CHECK(r.reason == "run.vehicle_failed(output 'burst': x_m is nan)");
+  CHECK(r.reason == "run.vehicle_failed(output 'burst': types.value_not_finite(x_m, nan))");
 }
 
 TEST_CASE("a component that goes on with its group was never put down") {

@@ -35,6 +35,11 @@ inline Folder& folder() {
   return f;
 }
 
+/// The laboratory's plugin, built otherwise.
+inline std::string variant(const std::string& name) {
+  return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + name + ".so";
+}
+
 inline const char* const base = R"(
 mission: lab
 rate: 400 Hz

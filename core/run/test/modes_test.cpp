@@ -206,19 +206,18 @@ TEST_CASE("run modes that do not fit are refused") {
     }
     return std::string();
   };
-  CHECK(refused("  think: {use: lab/Thinker, run: async, in: {signal: sense.signal}}\n")
-            .find("graph.latency_missing") != std::string::npos);
-  CHECK(
-      refused("  gauge: {use: lab/Ticker, latency: 20 ms, run: driver}\n").find("graph.latency_misplaced(") !=
-      std::string::npos);
-  CHECK(refused("  gauge: {use: lab/Thinker, run: driver, in: {signal: sense.signal}}\n")
-            .find("graph.driver_output_invalid(components.gauge, thought, lab/Thinker)") !=
-        std::string::npos);
-  CHECK(refused("  sim: {fills: vehicle, use: lab/Cart, run: process}\n")
-            .find("graph.vehicle_run_invalid(components.sim)") != std::string::npos);
-  CHECK(
-      refused("  one: {fills: law, use: lab/Law, memory: 64 parsecs}\n").find("graph.memory_size_invalid(") !=
-      std::string::npos);
+  const std::pair<const char*, const char*> cases[] = {
+      {"  think: {use: lab/Thinker, run: async, in: {signal: sense.signal}}\n", "graph.latency_missing"},
+      {"  gauge: {use: lab/Ticker, latency: 20 ms, run: driver}\n", "graph.latency_misplaced("},
+      {"  gauge: {use: lab/Thinker, run: driver, in: {signal: sense.signal}}\n",
+       "graph.driver_output_invalid(components.gauge, thought, lab/Thinker)"},
+      {"  sim: {fills: vehicle, use: lab/Cart, run: process}\n", "graph.vehicle_run_invalid(components.sim)"},
+      {"  one: {fills: law, use: lab/Law, memory: 64 parsecs}\n", "graph.memory_size_invalid("},
+  };
+  for (const auto& [components, reported] : cases) {
+    CAPTURE(components);
+    CHECK(refused(components).find(reported) != std::string::npos);
+  }
 }
 
 TEST_CASE(

@@ -23,8 +23,8 @@ struct Row {
 };
 
 const Row rows[] = {
-    {"nan", "u_frac is nan", true},
-    {"range", "u_frac is 1.5", true},
+    {"nan", "types.value_not_finite(u_frac, nan)", true},
+    {"range", "types.value_out_of_range(u_frac, 1.5, ", true},
     {"probe_nan", "run.probe_not_finite(error_m)", true},
     {"throws", "the law is broken  ?\xc3\xa9  2J", true},
     {"fails", "says that it failed", true},

@@ -11,10 +11,6 @@ namespace swap_test {
 
 namespace {
 
-std::string variant(const std::string& variant) {
-  return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + variant + ".so";
-}
-
 // The cart arms itself at its first tick and says so from time 0 on: before that it stands on the ground.
 struct Ground {
   Graph graph;
@@ -75,7 +71,7 @@ TEST_CASE("a swapped law flies with the parameters, overlays and live changes of
 
 TEST_CASE("a swap that cannot be is refused in a sentence, and the old law flies on") {
   Ground ground(mission(one_phase));
-  CHECK(has(ground.refused(variant("_wild")), "output 'command': u_frac is nan"));
+  CHECK(has(ground.refused(variant("_wild")), "output 'command': types.value_not_finite(u_frac, nan)"));
   CHECK(has(ground.refused(variant("_throwing")), "no law today"));
   CHECK(has(ground.refused(variant("_renamed")),
             "types.name_unknown_in(the plugin " + variant("_renamed") + ", component, Law,  [] Statute)"));
@@ -90,7 +86,7 @@ TEST_CASE("a swap that cannot be is refused in a sentence, and the old law flies
     v.number[0] = u;
     set_parameter(*ground.flight, "one", "u", v);
     CHECK(ground.flight->step());
-    if (u < 0) CHECK(has(ground.refused(variant("_better")), "run.value_not_carried(u, -0.75)"));
+    if (u < 0) CHECK(has(ground.refused(variant("_better")), "run.value_not_carried(u, -0.75, 0, 1)"));
   }
   for (int i = 0; i < 10; ++i) CHECK(ground.flight->step());
   CHECK(ground.u() == 0.1);
@@ -105,7 +101,8 @@ TEST_CASE("a swap tells which values it keeps, which parameters are new, and whi
   Ground ground(mission(one_phase), true);
   swap(*ground.flight, "one", variant("_wider"));
   ground.flight->step();
-  const std::string words = "keeps fixed = 1 (new default 1.5); new: reserve = 0";
+  const std::string words =
+      "run.parameters_kept(run.parameter_default_changed(fixed, 1, 1.5)); run.parameters_added(reserve = 0)";
   ground.flight->finish();
   const WholeLog file = read_mcap(ground.o.log_file);
   const HostTopic<Event> events(file);
@@ -134,9 +131,11 @@ TEST_CASE("what a swap did to the parameters: values that both have by default a
   for (std::size_t i = 0; i < 4; ++i) into[i].number[0] = fresh.params[i].initial[0];
   values[3].number[0] = 9;  // live: its default has not changed
   CHECK(parameter_words(old, values, fresh, into) ==
-        "keeps law_gain = 7 s (new default 5 s); new: bank = 4 s; gone: lead");
+        "run.parameters_kept(run.parameter_default_changed(law_gain, 7 s, 5 s)); "
+        "run.parameters_added(bank = 4 s); run.parameters_removed(lead)");
   into[0].number[0] = 7;  // the mission says 7: nothing is kept that it would not have
-  CHECK(parameter_words(old, values, fresh, into) == "new: bank = 4 s; gone: lead");
+  CHECK(parameter_words(old, values, fresh, into) ==
+        "run.parameters_added(bank = 4 s); run.parameters_removed(lead)");
   CHECK(parameter_words(old, values, old, values) == "");
 }
 
@@ -209,7 +208,7 @@ TEST_CASE("a choice is carried over while its words are the same, a number while
   for (const auto& [min, max] : {std::pair{1.6, 2.0}, std::pair{0.0, 1.4}}) {
     fresh.params[1].min = min;
     fresh.params[1].max = max;
-    CHECK_THROWS_WITH(carry_parameters(old, values, fresh, into), "run.value_not_carried(gain, 1.5)");
+    CHECK_THROWS_WITH(carry_parameters(old, values, fresh, into), "run.value_not_carried(gain, 1.5, 0, 1)");
   }
 }
 

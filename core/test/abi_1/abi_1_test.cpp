@@ -186,7 +186,8 @@ TEST_CASE(
     CHECK(std::abs(rig.get("throttle_integral_frac") - 0.125 - first) < 1e-9);
     const fulmar_answer refused = rig.ask("restart", 0.75);
     CHECK(refused.verdict == FULMAR_REFUSED);
-    CHECK(std::string(refused.reason) == "an integral is at most 0.5");
+    const std::string reason = "an integral is at most 0.5";  // of the plugin, which stays as it was built
+    CHECK(std::string(refused.reason) == reason);
 
     rig.value("feedforward").integer = 0, rig.value("height").integer = 1,
     rig.value("roll_max").number[0] = 0.0625;

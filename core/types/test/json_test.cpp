@@ -4,6 +4,8 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "core/types/test/types.hpp"
 #include "core/types/wire.hpp"
@@ -47,9 +49,9 @@ TEST_CASE("people see fields in the message's order, and rates in degrees as wel
   const nlohmann::ordered_json shown = shown_json(*type, bytes_of(value));
   CHECK(shown_name("p_radps") == "p_degps");
   CHECK(shown_name("p_degps") == "p_degps");
-  std::string keys;
-  for (const auto& item : shown.items()) keys += item.key() + " ";
-  CHECK(keys == "z_m rates_degps bank_deg a_degps2 load_ratio ");
+  std::vector<std::string> keys;
+  for (const auto& item : shown.items()) keys.push_back(item.key());
+  CHECK(keys == std::vector<std::string>{"z_m", "rates_degps", "bank_deg", "a_degps2", "load_ratio"});
   CHECK(shown["rates_degps"][0].get<double>() == doctest::Approx(28.64788975654116).epsilon(1e-15));
   CHECK(shown["bank_deg"].get<double>() == doctest::Approx(114.59155902616465).epsilon(1e-15));
   CHECK(shown["a_degps2"].get<double>() == doctest::Approx(171.88733853924697).epsilon(1e-15));

@@ -18,27 +18,28 @@ TEST_CASE("a type of ours is in the package fulmar_msgs, a foreign one keeps its
 
 TEST_CASE("the message text names every field with its unit and frame, and nested types follow once each") {
   const std::string rule(80, '=');
-  CHECK(ros_definition(*mixed_type()) ==
-        "bool armed\n"
-        "float64 speed_mps  # m/s\n"
-        "uint32 count\n"
-        "float64[3] gains_ratio\n"
-        "string name\n"
-        "float64[<=4] samples_volt  # V\n"
-        "uint8 MODE_IDLE=0\n"
-        "uint8 MODE_HOLD=1\n"
-        "uint8 MODE_2D_FIX=2\n"
-        "uint8 mode\n"
-        "int64 stamp_ns  # ns\n"
-        "float32 load_ratio\n"
-        "int32 offset\n"
-        "fulmar_msgs/Vec3Ned attitude_std_rad  # rad, ned\n"
-        "string[2] tags\n"
-        "fulmar_msgs/Leg[<=3] legs\n" +
-            rule + "\nMSG: fulmar_msgs/Vec3Ned\nfloat64 north\nfloat64 east\nfloat64 down\n" + rule +
-            "\nMSG: fulmar_msgs/Leg\nuint8 LINE=0\nuint8 ORBIT=1\nuint8 kind\nbool has_course\nfloat64 "
-            "course_rad  # rad\n"
-            "fulmar_msgs/Vec3Ned position_m  # m, ned\n");
+  const std::string definition =
+      "bool armed\n"
+      "float64 speed_mps  # m/s\n"
+      "uint32 count\n"
+      "float64[3] gains_ratio\n"
+      "string name\n"
+      "float64[<=4] samples_volt  # V\n"
+      "uint8 MODE_IDLE=0\n"
+      "uint8 MODE_HOLD=1\n"
+      "uint8 MODE_2D_FIX=2\n"
+      "uint8 mode\n"
+      "int64 stamp_ns  # ns\n"
+      "float32 load_ratio\n"
+      "int32 offset\n"
+      "fulmar_msgs/Vec3Ned attitude_std_rad  # rad, ned\n"
+      "string[2] tags\n"
+      "fulmar_msgs/Leg[<=3] legs\n" +
+      rule + "\nMSG: fulmar_msgs/Vec3Ned\nfloat64 north\nfloat64 east\nfloat64 down\n" + rule +
+      "\nMSG: fulmar_msgs/Leg\nuint8 LINE=0\nuint8 ORBIT=1\nuint8 kind\nbool has_course\nfloat64 "
+      "course_rad  # rad\n"
+      "fulmar_msgs/Vec3Ned position_m  # m, ned\n";
+  CHECK(ros_definition(*mixed_type()) == definition);
 }
 
 TEST_CASE("constants of several enums in one message carry the name of their field") {

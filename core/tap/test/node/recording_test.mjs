@@ -32,7 +32,7 @@ async function bag(file) {
       assert.equal(decoder.lastReadByteLength(), record.data.byteLength, topic);
     }
   }
-  assert.ok(reader.done(), "the bag does not end with a footer");
+  assert.ok(reader.done(), "bag without footer");
   return found;
 }
 

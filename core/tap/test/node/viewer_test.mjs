@@ -65,14 +65,14 @@ try {
   assert.ok(tf_topic, "no transforms");
   const transforms = values(tf_topic).flatMap((m) => m.transforms);
   const in_tree = reached(transforms);
-  assert.ok(in_tree("base_link"), "no frame leads to the aircraft");
+  assert.ok(in_tree("base_link"), "frame of the aircraft");
   const places = transforms.filter((t) => t.child_frame_id === "base_link");
   for (let i = 1; i < places.length; ++i) {
     const dt = seconds(places[i].header.stamp) - seconds(places[i - 1].header.stamp);
     assert.ok(dt > 0.05 && dt < 0.15, `transforms are ${dt} s apart`);
   }
   for (const m of found[tf_topic]) // a viewer looks up frames at the time of its cursor, which is that of the log
-    assert.ok(Math.abs(seconds(m.value.transforms[0].header.stamp) - Number(m.log_ns) * 1e-9) < 0.02, "stamps are not those of the log");
+    assert.ok(Math.abs(seconds(m.value.transforms[0].header.stamp) - Number(m.log_ns) * 1e-9) < 0.02, "stamps of the log");
   for (const { transform: { rotation: q } } of places) assert.ok(Math.abs(Math.hypot(q.x, q.y, q.z, q.w) - 1) < 1e-9);
 
   // 3-D: whatever can be drawn has a frame of the tree
@@ -81,7 +81,7 @@ try {
   for (const topic of scene)
     for (const m of values(topic)) for (const { header } of m.markers ?? [m]) assert.ok(in_tree(header.frame_id), `${topic}: the frame '${header.frame_id}' leads nowhere`);
   const [marker_topic] = of_type("visualization_msgs/msg/MarkerArray");
-  for (const { markers } of values(marker_topic)) assert.equal(markers[0].action, 3, "what was drawn before stays");
+  for (const { markers } of values(marker_topic)) assert.equal(markers[0].action, 3, "earlier markers deleted");
   const markers = values(marker_topic).at(-1).markers;
   const aircraft = markers.find((m) => m.header.frame_id === "base_link" && m.action === 0);
   assert.ok(aircraft.frame_locked && aircraft.points.length >= 3 && aircraft.points.length % 3 === 0 && aircraft.color.a > 0, "no aircraft");
@@ -102,7 +102,7 @@ try {
   // the map: on the ellipsoid where the transform is in the plane that touches it
   const [fix_topic] = of_type("sensor_msgs/msg/NavSatFix");
   const fixes = values(fix_topic).filter((m) => m.status.status >= 0);
-  assert.ok(fixes.length > 0.9 * places.length, "the map has few places");
+  assert.ok(fixes.length > 0.9 * places.length, "places on the map");
   const state = values("/nav/state").at(-1), rad = Math.PI / 180, lat0 = state.origin_latitude_deg * rad;
   const w2 = 1 - 0.00669437999014 * Math.sin(lat0) ** 2, N = 6378137 / Math.sqrt(w2), M = (N * (1 - 0.00669437999014)) / w2;
   const at = new Map(places.map((t) => [seconds(t.header.stamp), t.transform.translation]));

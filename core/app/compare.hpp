@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/app/messages.hpp"
+
 namespace fulmar::core {
 
 /// The figures that two results both have. Results as result_json makes them.
@@ -20,7 +22,7 @@ FigureChanges figure_changes(const nlohmann::json& before, const nlohmann::json&
 
 /// How the two are called.
 struct Sides {
-  const char* heading = "compared with the flight before";
+  const char* heading = app_messages::flights_compared.c_str();
   const char* before = "before";
   const char* after = "now";
 };

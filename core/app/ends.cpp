@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "core/app/last_act.hpp"
+#include "core/app/messages.hpp"
 #include "core/loader/in_hand.hpp"
 #include "core/run/component/running_code.hpp"
 
@@ -22,9 +23,12 @@ std::atomic<int> exit_code{-1};  // of a program that has nothing more to do
 /// An exit handler or a destructor of a plugin hangs.
 void end_hanging_exit() {
   const char* const file = file_in_hand.load(std::memory_order_relaxed);
-  report({"fulmar: ended: ", file ? file : "code of a plugin",
-          file ? " hangs while being " : " hangs at its exit",
-          file ? file_is_being.load(std::memory_order_relaxed) : "", "\n"});
+  report({"fulmar: "});
+  if (file)
+    report(app_messages::file_hangs, file, file_is_being.load(std::memory_order_relaxed));
+  else
+    report(app_messages::exit_hangs);
+  report({"\n"});
   leave(exit_code);
 }
 
@@ -51,9 +55,13 @@ void note_signal(int signal) {
   }
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
-  report(
-      {patience_over ? "\nfulmar: ended, since the flight did not" : "\nfulmar: ended by the second signal"});
-  if (component) report({" in the ", in_call.load(std::memory_order_relaxed), " of ", component});
+  const char* call = in_call.load(std::memory_order_relaxed);
+  report({"\nfulmar: "});
+  if (component)
+    report(patience_over ? app_messages::end_timed_out_in : app_messages::ended_by_second_signal_in, call,
+           component);
+  else
+    report(patience_over ? app_messages::end_timed_out : app_messages::ended_by_second_signal);
   report_end();
   leave(130);
 }
@@ -66,13 +74,17 @@ constexpr Name endings[] = {{SIGQUIT, "SIGQUIT"}, {SIGUSR1, "SIGUSR1"},     {SIG
                             {SIGXCPU, "SIGXCPU"}, {SIGVTALRM, "SIGVTALRM"}, {SIGPROF, "SIGPROF"},
                             {SIGIO, "SIGIO"},     {SIGPWR, "SIGPWR"},       {SIGSTKFLT, "SIGSTKFLT"}};
 
-/// Tells which signal it is. Those of real time have numbers: SIGRTMIN+5.
+/// Those of real time have numbers: SIGRTMIN+5.
 void report_ending(int signal) {
   for (const Name& end : endings)
-    if (end.signal == signal) return report({end.text});
+    if (end.signal == signal) return report(app_messages::ended_by_signal, end.text);
   const int n = signal - SIGRTMIN;
-  const char digits[] = {static_cast<char>('0' + n / 10), static_cast<char>('0' + n % 10), 0};
-  report({"SIGRTMIN", n > 0 ? "+" : "", n > 0 ? digits + (n < 10) : ""});
+  char name[] = "SIGRTMIN\0\0\0";
+  char* end = name + sizeof "SIGRTMIN" - 1;
+  if (n > 0) *end++ = '+';
+  if (n >= 10) *end++ = static_cast<char>('0' + n / 10);
+  if (n > 0) *end = static_cast<char>('0' + n % 10);
+  report(app_messages::ended_by_signal, name);
 }
 
 /// Somebody wants an end at once. Another one, which comes before the words are said, does not cut them
@@ -82,7 +94,7 @@ void on_end(int signal) {
   static std::atomic<bool> ending{false};
   if (ending.exchange(true)) return;
   send_last_frame();
-  report({"\nfulmar: ended by "});
+  report({"\nfulmar: "});
   report_ending(signal);
   report_end();
   end_by_default(signal);
@@ -113,7 +125,7 @@ void expect_exit(int code) {
 }
 
 UnderWay::UnderWay(const Graph& graph, const std::string& log) {
-  prepare_end(log, ".\n");
+  prepare_end(log);
   forget_code();
   for (const Component& c : graph.components)
     if (c.library)
@@ -124,7 +136,7 @@ UnderWay::UnderWay(const Graph& graph, const std::string& log) {
 
 UnderWay::~UnderWay() {
   in_flight = false;
-  prepare_end("", " after the flight, whose log is closed.\n");
+  prepare_end("", true);
 }
 
 }  // namespace fulmar::core

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/app/messages.hpp"
 #include "core/app/words.hpp"
 #include "core/loader/in_hand.hpp"
 #include "core/run/component/last_frame.hpp"
@@ -28,7 +29,7 @@ namespace {
 std::atomic<pid_t> at_work{0};   // the process: a fork of it is none
 std::atomic<pid_t> the_host{0};  // its handlers are set, for ever
 std::atomic<pid_t> ends_it{0};   // the thread that does
-const char* no_log = ".\n";
+std::atomic<bool> after_flight{false};
 char log_name[4200], log_part[4200];  // of a flight's log, when it will be whole and until then
 
 struct PluginCode {
@@ -67,9 +68,9 @@ void note_code(const std::string& file, const void* function) {
 
 void forget_code() { code_count = 0; }
 
-void prepare_end(const std::string& log, const char* text) {
+void prepare_end(const std::string& log, bool flight_over) {
   log_name[0] = log_part[0] = 0;
-  no_log = text;
+  after_flight = flight_over;
   if (log.empty()) return;
   std::snprintf(log_part, sizeof log_part, "%s.part", log.c_str());
   std::snprintf(log_name, sizeof log_name, "%s", log.c_str());
@@ -83,10 +84,17 @@ void report(std::initializer_list<const char*> words) {
 
 /// The log may have been moved or removed, or it is not begun.
 void report_end() {
-  if (log_name[0] == 0) return report({no_log});
-  for (const char* file : {log_part, log_name})
-    if (access(file, F_OK) == 0) return report({". What was logged until then is in ", file, "\n"});
-  report({". There is no log in ", log_part, "\n"});
+  if (log_name[0] == 0 && !after_flight) return report({".\n"});
+  report({". "});
+  if (log_name[0] == 0)
+    report(app_messages::flight_over);
+  else if (access(log_part, F_OK) == 0)
+    report(app_messages::log_until_end, log_part);
+  else if (access(log_name, F_OK) == 0)
+    report(app_messages::log_until_end, log_name);
+  else
+    report(app_messages::log_not_found, log_part);
+  report({"\n"});
 }
 
 void leave(int code) {
@@ -106,8 +114,9 @@ void end_by_default(int signal) {
 void send_last_frame() {
   if (!is_the_host()) return;
   const fulmar_last_frame* frame = last_frame.exchange(nullptr, std::memory_order_acq_rel);
-  if (frame && frame->fd >= 0 && write(frame->fd, frame->data, frame->size) < 0)
-    report({"\nfulmar: the last frame could not be sent"});
+  if (!frame || frame->fd < 0 || write(frame->fd, frame->data, frame->size) >= 0) return;
+  report({"\nfulmar: "});
+  report(app_messages::last_frame_not_sent);
 }
 
 namespace {
@@ -120,14 +129,14 @@ const char* whose_code(std::uintptr_t address) {
 
 const char* crash_name(int signal) {
   switch (signal) {
-    case SIGSEGV: return " (segmentation fault)";
-    case SIGABRT: return " (abort)";
-    case SIGFPE: return " (arithmetic fault)";
-    case SIGBUS: return " (bus error)";
-    case SIGILL: return " (illegal instruction)";
-    case SIGTRAP: return " (trap)";
-    case SIGSYS: return " (bad system call)";
-    default: return "";
+    case SIGSEGV: return "segmentation fault";
+    case SIGABRT: return "abort";
+    case SIGFPE: return "arithmetic fault";
+    case SIGBUS: return "bus error";
+    case SIGILL: return "illegal instruction";
+    case SIGTRAP: return "trap";
+    case SIGSYS: return "bad system call";
+    default: return "signal";
   }
 }
 
@@ -161,14 +170,16 @@ void on_crash(int signal, siginfo_t*, void* context) {
   const char* component = in_step.load(std::memory_order_relaxed);
   const char* loading = file_in_hand.load(std::memory_order_relaxed);
   const char* code = whose_code(program_counter(context));
-  report({beginning(), component ? component : loading ? loading : "the host", " crashed"});
+  const char* cause = crash_name(signal);
+  report({beginning()});
   if (component)
-    report({" in its ", in_call.load(std::memory_order_relaxed)});
+    report(app_messages::component_crashed, component, in_call.load(std::memory_order_relaxed), cause);
   else if (loading)
-    report({" while being ", file_is_being.load(std::memory_order_relaxed)});
+    report(app_messages::file_crashed, loading, file_is_being.load(std::memory_order_relaxed), cause);
   else if (code)
-    report({" in code of ", code});
-  report({crash_name(signal)});
+    report(app_messages::host_crashed_in, code, cause);
+  else
+    report(app_messages::host_crashed, cause);
   report_end();
   end_by_default(signal);
 }
@@ -181,12 +192,13 @@ void on_exit() {
   send_last_frame();
   const char* component = in_step.load(std::memory_order_relaxed);
   const char* loading = file_in_hand.load(std::memory_order_relaxed);
-  const char* thread = in_flight ? "a thread of a component" : "code of a plugin";
-  report({beginning(), component ? component : loading ? loading : thread, " ended the program"});
+  report({beginning()});
   if (component)
-    report({" in its ", in_call.load(std::memory_order_relaxed)});
+    report(app_messages::component_ended_program, component, in_call.load(std::memory_order_relaxed));
   else if (loading)
-    report({" while being ", file_is_being.load(std::memory_order_relaxed)});
+    report(app_messages::file_ended_program, loading, file_is_being.load(std::memory_order_relaxed));
+  else
+    report(in_flight ? app_messages::thread_ended_program : app_messages::plugin_ended_program);
   report_end();
   leave(in_flight ? ExitCode::failed : ExitCode::refused);  // whatever code it asked for
 }
@@ -209,7 +221,7 @@ void handle_crashes() {
 
 AtWork::AtWork() {
   static const int registered = std::atexit(on_exit) | std::at_quick_exit(on_exit);
-  if (registered != 0) report({"fulmar: no room for an exit handler\n"});
+  if (registered != 0) report({"fulmar: ", app_messages::exit_handler_not_set.c_str(), "\n"});
   handle_crashes();
   at_work = getpid();
 }

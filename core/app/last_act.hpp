@@ -3,9 +3,12 @@
 // its last frame, and somebody is told who it was. So in every program that loads plugins: a file that
 // behaves where it is tried may do otherwise here.
 #pragma once
+#include <array>
 #include <atomic>
 #include <initializer_list>
 #include <string>
+
+#include "fulmar/diagnostic.hpp"
 
 namespace fulmar::core {
 
@@ -22,9 +25,9 @@ class AtWork {
 /// Takes the signals of a crash, once or again.
 void handle_crashes();
 
-/// Prepares how a sentence about an end ends: with where the log lies, or with `text` when there is none.
-/// `log`: its name when it will be whole.
-void prepare_end(const std::string& log, const char* text);
+/// Prepares the report of an end: the place of the log, of which `log` is the name when it is whole ("": no
+/// log), or that the flight is over.
+void prepare_end(const std::string& log, bool flight_over = false);
 /// A flight is under way.
 extern std::atomic<bool> in_flight;
 
@@ -40,6 +43,12 @@ void end_by_default(int signal);
 /// What the vehicle's device is to hear when the host goes. This and what follows is async-signal-safe.
 void send_last_frame();
 void report(std::initializer_list<const char*> words);
+template <std::size_t N, class... Values>
+void report(const MessageText<N>& message, const Values*... values) {
+  std::array<char, 4400> text{};  // holds the name of a log
+  message.write(text.data(), text.size(), values...);
+  report({text.data()});
+}
 void report_end();
 [[noreturn]] void leave(int code);
 

@@ -32,7 +32,7 @@ struct Commands {
         "Example: fulmar run configs/missions/hourglass.yaml --seed 3 --set slc.roll_limit=\"30 deg\"" +
         (programs.empty()
              ? ""
-             : "\n\nPrograms beside this one: " + join(programs) + " (fulmar " + programs[0] + " --help)"));
+             : "\n\n" + fulmar::app_messages::programs_beside(join(programs), programs[0]).text));
     add_run(words);
     for (const OwnCommand& command : own_commands()) {
       // what another program carries out stands here for the help alone

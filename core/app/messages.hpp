@@ -18,20 +18,51 @@ inline constexpr MessageText command_program_missing{
     "fulmar {command}: the program {program} is missing beside this one"};
 inline constexpr MessageText command_unknown{
     "app.command_unknown", {"found", "choices"}, "there is no command '{found}'.{choices}"};
+inline constexpr MessageText component_crashed{
+    "app.component_crashed", {"component", "call", "cause"}, "{component} crashed in its {call} ({cause})"};
+inline constexpr MessageText component_ended_program{
+    "app.component_ended_program", {"component", "call"}, "{component} ended the program in its {call}"};
 inline constexpr MessageText condition_violated{"app.condition_violated",
                                                 "a required condition does not hold"};
 inline constexpr MessageText dds_without_pace{
     "app.dds_without_pace",
     "dds: nothing is exported or imported at the full speed of the machine; fly with --speed real"};
 inline constexpr MessageText element_missing{"app.element_missing", "an index or a key does not exist"};
+inline constexpr MessageText end_timed_out{"app.end_timed_out", "ended: the flight did not end in time"};
+inline constexpr MessageText end_timed_out_in{
+    "app.end_timed_out_in",
+    {"call", "component"},
+    "ended in the {call} of {component}: the flight did not end in time"};
+inline constexpr MessageText ended_by_second_signal{"app.ended_by_second_signal",
+                                                    "ended by the second signal"};
+inline constexpr MessageText ended_by_second_signal_in{
+    "app.ended_by_second_signal_in",
+    {"call", "component"},
+    "ended by the second signal in the {call} of {component}"};
+inline constexpr MessageText ended_by_signal{"app.ended_by_signal", {"signal"}, "ended by {signal}"};
+inline constexpr MessageText exit_handler_not_set{"app.exit_handler_not_set", "no room for an exit handler"};
+inline constexpr MessageText exit_hangs{"app.exit_hangs", "ended: code of a plugin hangs at its exit"};
+inline constexpr MessageText file_crashed{
+    "app.file_crashed", {"file", "action", "cause"}, "{file} crashed while being {action} ({cause})"};
+inline constexpr MessageText file_ended_program{
+    "app.file_ended_program", {"file", "action"}, "{file} ended the program while being {action}"};
+inline constexpr MessageText file_hangs{
+    "app.file_hangs", {"file", "action"}, "ended: {file} hangs while being {action}"};
 inline constexpr MessageText file_name_empty{
     "app.file_name_empty", {"default_action"}, "'' names no file; without the option {default_action}"};
+inline constexpr MessageText flight_over{"app.flight_over",
+                                         "The flight has ended, and any log of it is closed."};
+inline constexpr MessageText flights_compared{"app.flights_compared", "compared with the flight before"};
 inline constexpr MessageText folder_not_created{
     "app.folder_not_created", {"folder", "reason"}, "the folder '{folder}' cannot be created: {reason}"};
 inline constexpr MessageText former_mission_kept{"app.former_mission_kept",
                                                  "the former version stays in use"};
+inline constexpr MessageText host_crashed{"app.host_crashed", {"cause"}, "the host crashed ({cause})"};
+inline constexpr MessageText host_crashed_in{
+    "app.host_crashed_in", {"file", "cause"}, "the host crashed in code of {file} ({cause})"};
 inline constexpr MessageText internal_error{
     "app.internal_error", {"type", "reason"}, "an error inside Fulmar ({type}): {reason}"};
+inline constexpr MessageText last_frame_not_sent{"app.last_frame_not_sent", "the last frame cannot be sent"};
 inline constexpr MessageText length_excessive{"app.length_excessive", "a length exceeds its maximum"};
 inline constexpr MessageText live_without_pace{
     "app.live_without_pace",
@@ -42,9 +73,11 @@ inline constexpr MessageText log_incomplete{
     "the log is incomplete: {reason}; {count} messages are lost, {file} holds the rest"};
 inline constexpr MessageText log_lost{
     "app.log_lost", {"reason", "count"}, "the log is incomplete: {reason}; {count} messages are lost"};
+inline constexpr MessageText log_not_found{"app.log_not_found", {"file"}, "There is no log {file}"};
 inline constexpr MessageText log_not_recorded{
     "app.log_not_recorded", {"log"}, "--log {log}: the mission sets record: off, so the host writes no log"};
 inline constexpr MessageText log_off{"app.log_off", "the flight writes no log"};
+inline constexpr MessageText log_until_end{"app.log_until_end", {"file"}, "The log until then is {file}"};
 inline constexpr MessageText log_with_gaps{
     "app.log_with_gaps", {"count"}, "the log has gaps: the disk was too slow for {count} messages"};
 inline constexpr MessageText memory_exhausted{"app.memory_exhausted",
@@ -53,10 +86,16 @@ inline constexpr MessageText message_form_invalid{"app.message_form_invalid",
                                                   "the received message does not have the required form"};
 inline constexpr MessageText output_not_writable{"app.output_not_writable",
                                                  "the output cannot be written; is the disk full?"};
+inline constexpr MessageText plugin_ended_program{"app.plugin_ended_program",
+                                                  "code of a plugin ended the program"};
 inline constexpr MessageText program_not_built{
     "app.program_not_built",
     {"program"},
     "the program {program} is missing. Build it: cmake --build build --target tools"};
+inline constexpr MessageText programs_beside{
+    "app.programs_beside",
+    {"programs", "example"},
+    "Programs beside this one: {programs} (fulmar {example} --help)"};
 inline constexpr MessageText realtime_priority_missing{
     "app.realtime_priority_missing", "the loop runs without real-time priority; --realtime sets it"};
 inline constexpr MessageText realtime_without_pace{"app.realtime_without_pace",
@@ -104,6 +143,8 @@ inline constexpr MessageText speed_invalid{
     "app.speed_invalid",
     {"found"},
     "--speed '{found}' is invalid. Valid: real, max, or a multiple of real time, for example 10"};
+inline constexpr MessageText thread_ended_program{"app.thread_ended_program",
+                                                  "a thread of a component ended the program"};
 inline constexpr MessageText value_type_differs{"app.value_type_differs",
                                                 "a value has another type than expected"};
 inline constexpr MessageText whole_number_invalid{

@@ -148,15 +148,15 @@ TEST_CASE("a crash names the component, a second signal ends a hanging one") {
   const std::string run = "FULMAR_PLUGIN_PATH=" FULMAR_TEST_PLUGIN_DIR " " + program + "run " + lab +
                           " --log " + (folder() / "crash.mcap").string();
   const Result crash = shell("ulimit -c 0; " + run);
-  CHECK(crash.err.find(
-            "fulmar: one crashed in its step (segmentation fault). What was logged until then is in ") !=
-        std::string::npos);
-  CHECK(fs::exists(folder() / "crash.mcap.part"));
+  const fs::path part = folder() / "crash.mcap.part";
+  CHECK(crash.err.find("fulmar: app.component_crashed(one, step, segmentation fault). app.log_until_end(" +
+                       part.string()) != std::string::npos);
+  CHECK(fs::exists(part));
   const Result hang = shell(
       "export FULMAR_PLUGIN_PATH=" FULMAR_TEST_PLUGIN_DIR "; " + program + "run " + lab +
       " --no-log --set one.fault=hangs & sleep 2; kill -INT $!; sleep 0.7; kill -INT $!; wait $!; echo $?");
   CHECK(hang.out == "130\n");
-  CHECK(hang.err.find("fulmar: ended by the second signal in the step of one") != std::string::npos);
+  CHECK(hang.err.find("fulmar: app.ended_by_second_signal_in(step, one)") != std::string::npos);
 }
 
 TEST_CASE("a real-time flight takes its time") {
@@ -185,7 +185,7 @@ TEST_CASE("on a full disk the flight goes on and the loss is told") {
   CHECK(r.err.find(", " + log + ".part)\n", summed_up) != std::string::npos);
   CHECK_FALSE(fs::exists(log));
   CHECK(fulmar("log info " + log + ".part").out.find("complete") == std::string::npos);
-  CHECK(fulmar("replay " + log + ".part").out.find("the log was cut off") != std::string::npos);
+  CHECK(fulmar("replay " + log + ".part").out.find("replay.log_cut_off(") != std::string::npos);
 }
 
 TEST_CASE("a log that is not whole is a failure, however the flight ended") {
@@ -273,7 +273,7 @@ TEST_CASE(
   put(lib / "control_tecs.so", mine);
   REQUIRE(watch.says("waiting for a change", 2));
   CHECK(watch.said().find("rehearsed on 256 steps") != std::string::npos);
-  CHECK(watch.said().find("compared with the flight before") != std::string::npos);
+  CHECK(watch.said().find("app.flights_compared") != std::string::npos);
   CHECK(watch.said().find("flight_time_s") != std::string::npos);
   put(lib / "score.so", mine);
   REQUIRE(watch.says("types.name_unknown_in(the plugin mine.so, component, Outer,  [] Score)"));
@@ -300,7 +300,7 @@ TEST_CASE("--watch --build builds when a source has changed, and tells when that
   std::ofstream(place / "law.cpp") << "nonsense\n";
   REQUIRE(watch.says("campaign.build_failed"));
   std::ofstream(place / "law.cpp") << "1 \n";
-  REQUIRE(watch.says("compared with the flight before"));
+  REQUIRE(watch.says("app.flights_compared"));
   CHECK(fulmar("run " + hourglass + " --build true").code == 2);
 }
 

@@ -120,7 +120,7 @@ TEST_CASE(
   program.send(SIGINT);
   CHECK(program.code() == 130);
   CHECK(program.text().find("run.control_given_up") != std::string::npos);
-  CHECK(program.text().find("ended by") == std::string::npos);
+  CHECK(program.text().find("app.ended_by_") == std::string::npos);
   CHECK(program.text().find("run.ended_by_signal") == std::string::npos);
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("a third signal ends an armed flight at once") {
   pause_s(0.6);
   program.send(SIGINT);
   CHECK(program.code() == 130);
-  CHECK(program.text().find("fulmar: ended by the second signal") != std::string::npos);
+  CHECK(program.text().find("fulmar: app.ended_by_second_signal") != std::string::npos);
 }
 
 TEST_CASE("a signal ends the flight of a disarmed aircraft at once") {
@@ -158,7 +158,7 @@ TEST_CASE(
   CHECK(program.runs());
   program.send(SIGINT);
   CHECK(program.code() == 130);
-  CHECK(program.text().find("fulmar: ended by the second signal in the step of law_a") != std::string::npos);
+  CHECK(program.text().find("fulmar: app.ended_by_second_signal_in(step, law_a)") != std::string::npos);
 }
 
 TEST_CASE(

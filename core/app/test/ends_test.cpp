@@ -142,19 +142,19 @@ TEST_CASE("a component that takes the host with it is named, and the device gets
   };
   const std::string async = "run: async, latency: 10 ms, ";
   for (const End& end :
-       {End{"crashes", "", "one crashed in its step (segmentation fault)", 128 + SIGSEGV},
-        End{"aborts", "", "one crashed in its step (abort)", 128 + SIGABRT},
-        End{"divides", "", "one crashed in its step (arithmetic fault)", 128 + SIGFPE},
-        End{"overflows", "", "one crashed in its step", 128 + SIGSEGV},
-        End{"exits", "", "one ended the program in its step", 1},
-        End{"quits", "", "one ended the program in its step", 1},
-        End{"thread_crashes", "", "the host crashed in code of lab.so (segmentation fault)", 128 + SIGSEGV},
-        End{"thread_quits", "", "a thread of a component ended the program", 1},
-        End{"crashes", async.c_str(), "one crashed in its step (segmentation fault)", 128 + SIGSEGV},
-        End{"aborts", async.c_str(), "one crashed in its step (abort)", 128 + SIGABRT},
-        End{"divides", async.c_str(), "one crashed in its step (arithmetic fault)", 128 + SIGFPE},
-        End{"overflows", async.c_str(), "one crashed in its step", 128 + SIGSEGV},
-        End{"quits", async.c_str(), "one ended the program in its step", 1}}) {
+       {End{"crashes", "", "app.component_crashed(one, step, segmentation fault)", 128 + SIGSEGV},
+        End{"aborts", "", "app.component_crashed(one, step, abort)", 128 + SIGABRT},
+        End{"divides", "", "app.component_crashed(one, step, arithmetic fault)", 128 + SIGFPE},
+        End{"overflows", "", "app.component_crashed(one, step, ", 128 + SIGSEGV},
+        End{"exits", "", "app.component_ended_program(one, step)", 1},
+        End{"quits", "", "app.component_ended_program(one, step)", 1},
+        End{"thread_crashes", "", "app.host_crashed_in(lab.so, segmentation fault)", 128 + SIGSEGV},
+        End{"thread_quits", "", "app.thread_ended_program", 1},
+        End{"crashes", async.c_str(), "app.component_crashed(one, step, segmentation fault)", 128 + SIGSEGV},
+        End{"aborts", async.c_str(), "app.component_crashed(one, step, abort)", 128 + SIGABRT},
+        End{"divides", async.c_str(), "app.component_crashed(one, step, arithmetic fault)", 128 + SIGFPE},
+        End{"overflows", async.c_str(), "app.component_crashed(one, step, ", 128 + SIGSEGV},
+        End{"quits", async.c_str(), "app.component_ended_program(one, step)", 1}}) {
     if (!FULMAR_CRASH_TESTS && end.code != 1) continue;  // a sanitized build handles crashes by itself
     CAPTURE(end.fault);
     CAPTURE(end.mode);
@@ -162,8 +162,7 @@ TEST_CASE("a component that takes the host with it is named, and the device gets
     CHECK(program.wait() == end.code);
     const std::string said = program.said();
     CHECK_MESSAGE(said.find(end.reported) != std::string::npos, said);
-    CHECK(said.find("What was logged until then is in " + log_file().string() + ".part") !=
-          std::string::npos);
+    CHECK(said.find("app.log_until_end(" + log_file().string() + ".part)") != std::string::npos);
     CHECK(fs::exists(log_file().string() + ".part"));
     CHECK(last_frame() == failsafe);
   }
@@ -174,12 +173,11 @@ TEST_CASE("of threads that end the program at one time one says why, whole and o
   for (int i = 0; i < 3; ++i) {
     Program program(law("threads_terminate", ""));
     CHECK(program.wait() == 128 + SIGABRT);
-    const std::string said = program.said(), crashed = " crashed";
+    const std::string said = program.said(), crashed = "_crashed(";
     const auto at = said.find(crashed);
     REQUIRE(at != std::string::npos);
     CHECK(said.find(crashed, at + 1) == std::string::npos);
-    CHECK(said.find("What was logged until then is in " + log_file().string() + ".part\n", at) !=
-          std::string::npos);
+    CHECK(said.find("app.log_until_end(" + log_file().string() + ".part)\n", at) != std::string::npos);
     CHECK(last_frame() == failsafe);
   }
 }
@@ -190,7 +188,7 @@ TEST_CASE("a signal that a component raises is heard, beside the loop as in it")
     CAPTURE(mode);
     Program usr1(law("raises_usr1", mode));
     CHECK(usr1.wait() == 128 + SIGUSR1);
-    CHECK_MESSAGE(usr1.said().find("ended by SIGUSR1") != std::string::npos, usr1.said());
+    CHECK_MESSAGE(usr1.said().find("app.ended_by_signal(SIGUSR1)") != std::string::npos, usr1.said());
     CHECK(last_frame() == failsafe);
     Program term(law("raises_term", mode));
     CHECK(term.wait() == 130);
@@ -204,7 +202,7 @@ TEST_CASE("a log is said to lie where it lies: by its whole name, and not where 
     Program program(law("crashes"), {}, "end.mcap");
     CHECK(program.wait() == 128 + SIGSEGV);
     CHECK_MESSAGE(
-        program.said().find("until then is in " + log_file().string() + ".part") != std::string::npos,
+        program.said().find("app.log_until_end(" + log_file().string() + ".part)") != std::string::npos,
         program.said());
   }
   Program program(one_phase, {"--speed", "real"}, "end.mcap");
@@ -214,15 +212,16 @@ TEST_CASE("a log is said to lie where it lies: by its whole name, and not where 
   kill(program.pid(), SIGQUIT);
   CHECK(program.wait() == 128 + SIGQUIT);
   const std::string said = program.said();
-  CHECK_MESSAGE(said.find("ended by SIGQUIT. There is no log in " + part.string()) != std::string::npos,
-                said);
-  CHECK(said.find("What was logged") == std::string::npos);
+  CHECK_MESSAGE(
+      said.find("app.ended_by_signal(SIGQUIT). app.log_not_found(" + part.string()) != std::string::npos,
+      said);
+  CHECK(said.find("app.log_until_end") == std::string::npos);
 }
 
 TEST_CASE("a fork of the host that exits is not the host") {
   Program program(law("forks"), {"--duration", "0.3"});
   CHECK(program.wait() == 0);
-  CHECK_MESSAGE(program.said().find("ended the program") == std::string::npos, program.said());
+  CHECK_MESSAGE(program.said().find("ended_program") == std::string::npos, program.said());
   CHECK(last_frame() == 0);
 }
 
@@ -233,7 +232,7 @@ TEST_CASE("a copy of the host that comes back from a step ends, and the host fli
     CHECK(program.wait() == 0);
     const std::string said = program.said();
     CHECK_MESSAGE(occurrences(said, "flown") == 1, said);
-    CHECK(occurrences(said, "one has forked the host") == 1);
+    CHECK(occurrences(said, "run.host_forked(one)") == 1);
     CHECK(last_frame() == 0);
   }
 }
@@ -244,7 +243,7 @@ TEST_CASE("a copy of the host that a signal ends acts as no host: no last frame,
   CHECK(program.wait() == 0);
   const std::string said = program.said();
   CHECK_MESSAGE(said.find("crashed") == std::string::npos, said);
-  CHECK(said.find("ended by") == std::string::npos);
+  CHECK(said.find("ended_by") == std::string::npos);
   CHECK(said.find("guard") == std::string::npos);  // each copy ended by its signal
   CHECK(last_frame() == 0);
 }
@@ -283,7 +282,8 @@ TEST_CASE("a crash of any thread of the host is told, and its device gets the la
     REQUIRE(program.logs());
     REQUIRE(syscall(SYS_tgkill, program.pid(), thread, SIGSEGV) == 0);
     CHECK(program.wait() == 128 + SIGSEGV);
-    CHECK(program.said().find("the host crashed (segmentation fault). What was logged") != std::string::npos);
+    CHECK(program.said().find("app.host_crashed(segmentation fault). app.log_until_end(") !=
+          std::string::npos);
     CHECK(last_frame() == failsafe);
   }
 }
@@ -303,7 +303,7 @@ TEST_CASE(
     REQUIRE(program.logs());
     kill(program.pid(), end.signal);
     CHECK(program.wait() == 128 + end.signal);
-    CHECK_MESSAGE(program.said().find("ended by "s + end.name + ". What was logged until then is in ") !=
+    CHECK_MESSAGE(program.said().find("app.ended_by_signal("s + end.name + "). app.log_until_end(") !=
                       std::string::npos,
                   program.said());
     CHECK(last_frame() == failsafe);
@@ -329,11 +329,9 @@ TEST_CASE("a crash after the flight names the plugin and does not point to a log
   Program program(law("parts"), {"--duration", "0.3"});
   CHECK(program.wait() == 128 + SIGSEGV);
   const std::string said = program.said();
-  CHECK_MESSAGE(
-      said.find(
-          "lab.so crashed while being unloaded (segmentation fault) after the flight, whose log is closed") !=
-          std::string::npos,
-      said);
+  CHECK_MESSAGE(said.find("app.file_crashed(lab.so, unloaded, segmentation fault). app.flight_over\n") !=
+                    std::string::npos,
+                said);
   CHECK(said.find(".part") == std::string::npos);
   CHECK(fs::exists(log_file()));
 }

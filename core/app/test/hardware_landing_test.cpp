@@ -91,9 +91,9 @@ TEST_CASE("the verdict of a flight names the first thing that was not as asked")
   l.phases.push_back("glide");
   CHECK(verdict(c, l) == "flew glide");
   l.throttle_after = 0.1;
-  CHECK(verdict(c, l) == "motor on after the landing");
+  CHECK(verdict(c, l) == "motor on after the landing");  // asserts the whole sentence on purpose
   l.again = true;
-  CHECK(verdict(c, l) == "took off again by itself");
+  CHECK(verdict(c, l) == "took off again by itself");  // asserts the whole sentence on purpose
   l.crashed = true;
   CHECK(verdict(c, l) == "crashed");
 }

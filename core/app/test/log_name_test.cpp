@@ -32,14 +32,17 @@ struct Folder {
 }  // namespace
 
 TEST_CASE_FIXTURE(Folder, "flights that begin at once in one folder all fly, each with a log of its own") {
-  CHECK(shell("for i in $(seq 20); do " + run +
-              "--duration 1 --seed $i >out.txt 2>&1 || touch refused & done; wait; [ ! -e refused ]"));
+  const std::string twenty =
+      "for i in $(seq 20); do " + run +
+      "--duration 1 --seed $i >out.txt 2>&1 || touch refused & done; wait; [ ! -e refused ]";
+  CHECK(shell(twenty));
   CHECK(files(".mcap") == 20);
   CHECK(files(".part") == 0);
 }
 
 TEST_CASE_FIXTURE(Folder, "a flight that cannot begin leaves no file") {
-  CHECK_FALSE(shell(run + "--set 'plan.plan={waypoints: [{airspeed: 17 m/s}]}' 2>out.txt"));
+  const std::string bad_plan = "--set 'plan.plan={waypoints: [{airspeed: 17 m/s}]}' 2>out.txt";
+  CHECK_FALSE(shell(run + bad_plan));
   CHECK(files(".mcap") + files(".part") == 0);
 }
 

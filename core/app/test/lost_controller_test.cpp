@@ -97,10 +97,10 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
     bool crash;
   };
   const Row rows[] = {
-      {"nan", "", "is nan", 0, false},
+      {"nan", "", "types.value_not_finite(", 0, false},
       {"throws", "", "lost", 0, false},
       {"overrun", "budget: 2 ms, ", "run.time_budget_exceeded", 50, false},
-      {"nan", "run: process, ", "is nan", 0, false},
+      {"nan", "run: process, ", "types.value_not_finite(", 0, false},
       {"segfault", "run: process, ", "isolate.segmentation_fault", 0, true},
       {"abort", "run: process, ", "isolate.aborted", 0, true},
       {"hang", "run: process, hang: 500 ms, ", "isolate.child_hung(500)", 200, true},

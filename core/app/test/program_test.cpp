@@ -79,9 +79,9 @@ TEST_CASE("what has words for people keeps them") {
   CHECK(reported([] { throw Error("mission.yaml:3: no"); }) == "mission.yaml:3: no");
   CHECK(reported([] {
           throw std::system_error(std::make_error_code(std::errc::no_space_on_device), "basic_filebuf");
-        }) == "No space left on device");
+        }) == std::make_error_code(std::errc::no_space_on_device).message());
   CHECK(reported([] { std::ignore = std::filesystem::file_size("/nowhere"); }) ==
-        "'/nowhere': No such file or directory");
+        "'/nowhere': " + std::make_error_code(std::errc::no_such_file_or_directory).message());
   CHECK(reported([] { throw std::bad_alloc(); }) == "app.memory_exhausted");
   CHECK(reported([] { throw std::runtime_error("the ellipsoid is flat"); }) ==
         "app.internal_error(std::runtime_error, the ellipsoid is flat)");
@@ -95,7 +95,8 @@ TEST_CASE("what the host says aloud holds nothing that a terminal obeys, and no 
         "2J b\xc3\xa9");
     warn("c\x7f");
   });
-  CHECK(text == "a?[2J?2J b\xc3\xa9\nc?\n");
+  const std::string harmless = "a?[2J?2J b\xc3\xa9\nc?\n";
+  CHECK(text == harmless);
 }
 
 }  // namespace program_test

@@ -171,9 +171,9 @@ TEST_CASE("the thread that takes it has it, and what it starts afterwards has no
     take_real_time(62);
     std::string inherited;
     std::thread([&] { inherited = policy_of(0); }).join();
-    return policy_of(0) + ", " + inherited + (locked_kb(getpid()) > 0 ? ", locked" : ", not locked");
+    return policy_of(0) + "\n" + inherited + (locked_kb(getpid()) > 0 ? "\nlocked" : "\nnot locked");
   });
-  CHECK(words == "fifo 62 not inherited, ordinary, locked");
+  CHECK(words == "fifo 62 not inherited\nordinary\nlocked");
 }
 
 TEST_CASE("in flight the loop has it, its isolated component has one less, the log's thread has none") {

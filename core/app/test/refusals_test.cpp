@@ -12,9 +12,10 @@ TEST_CASE("what cannot be is refused before anything flies") {
   CHECK(driver.code == 4);
   CHECK(driver.err.find("run.driver_missing(nowhere.mcap, hourglass)") != std::string::npos);
   CHECK(fulmar("run " + hourglass + " --with slc=").code == 2);
-  CHECK(fulmar("check " + hourglass + " --with slc=control_slc").code == 0);
-  CHECK(fulmar("check " + hourglass + " --with slc=control_slc/Outer").code == 0);
-  const Result no_plugin = fulmar("check " + hourglass + " --with slc=control_slk");
+  const std::string with_slc = "check " + hourglass + " --with slc=";
+  CHECK(fulmar(with_slc + "control_slc").code == 0);
+  CHECK(fulmar(with_slc + "control_slc/Outer").code == 0);
+  const Result no_plugin = fulmar(with_slc + "control_slk");
   CHECK(no_plugin.err.find("graph.plugin_unknown(control_slk, ") != std::string::npos);
   CHECK(no_plugin.err.find("control_manual, control_slc,") != std::string::npos);
   const Result as_json = fulmar("run " + hourglass + " --set slc.roll_kq=1 --json");

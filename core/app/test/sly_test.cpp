@@ -51,10 +51,10 @@ struct Sly {
   int code;
 };
 const Sly all[] = {
-    {"sly_exit", "sly_exit.so ended the program while being loaded.", 4},
-    {"sly_quit", "sly_quit.so ended the program while being loaded.", 4},
-    {"sly_last", "sly_last.so ended the program while being unloaded", 4},
-    {"sly_crash", "sly_crash.so crashed while being loaded (segmentation fault).", 128 + SIGSEGV}};
+    {"sly_exit", "app.file_ended_program(sly_exit.so, loaded).", 4},
+    {"sly_quit", "app.file_ended_program(sly_quit.so, loaded).", 4},
+    {"sly_last", "app.file_ended_program(sly_last.so, unloaded)", 4},
+    {"sly_crash", "app.file_crashed(sly_crash.so, loaded, segmentation fault).", 128 + SIGSEGV}};
 
 bool tried(const Sly& sly) {  // a sanitized build handles crashes by itself
   return FULMAR_CRASH_TESTS || sly.code == 4;
@@ -88,7 +88,7 @@ TEST_CASE("a destructor that hangs at the exit ends with the program, and the fl
   if (!FULMAR_CRASH_TESTS) return;
   const Result r = fulmar("run " + sly_mission("sly_stay") + " --no-log --duration 0.2");
   CHECK(r.code == 0);
-  CHECK(r.err.find("sly_stay.so hangs while being unloaded") != std::string::npos);
+  CHECK(r.err.find("fulmar: app.file_hangs(sly_stay.so, unloaded)\n") != std::string::npos);
   CHECK(r.out.find("flown (duration reached)") != std::string::npos);
 }
 
@@ -121,9 +121,7 @@ TEST_CASE("a plugin that ends a running host in a swap is named, with the place 
     pclose(pipe);
     // in a flight: it was begun, and failed
     CHECK(code == (sly.code == 4 ? 1 : sly.code));
-    std::string reported = sly.reported;
-    reported.pop_back();
-    CHECK_MESSAGE(text(said).find(reported + ". What was logged until then is in " + log + ".part") !=
+    CHECK_MESSAGE(text(said).find(std::string(sly.reported) + " app.log_until_end(" + log + ".part)") !=
                       std::string::npos,
                   text(said));
   }

@@ -32,7 +32,7 @@ inline const std::string long_word = [] {
 }();
 
 struct Everything {
-  static constexpr const char* doc = "Uses every kind of port and parameter.";
+  static constexpr const char* doc = "every kind of port";
   struct Inputs {
     In<VehicleState> state;
     Optional<AttitudeCommand> attitude;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tools/fulmar_log/messages.hpp"
 #include "tools/fulmar_log/quantities.hpp"
 #include "tools/fulmar_log/terminal.hpp"
 
@@ -81,7 +82,8 @@ std::string errors(const Pair& p) {
                     second = truth ? p.second.truth : p.second.fixes;
   const std::string& topic = first.empty() ? second : first;
   const bool claims = has_claims(a) || has_claims(b);
-  const std::string title = "error against " + printable(topic), name = name_of(p.first_name);
+  const std::string title = log_tool_messages::error_against(printable(topic)).text,
+                    name = name_of(p.first_name);
   std::string out;
   if (claims)
     out = fmt::format(

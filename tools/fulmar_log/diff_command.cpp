@@ -77,10 +77,12 @@ void print_first(const Compared& c) {
     const std::string a = c.a.owner(f.topic, f.time_ns), b = c.b.owner(f.topic, f.time_ns);
     std::string who = a.empty() ? "" : ", of " + a;
     if (a != b && !b.empty()) who += (a.empty() ? ", of " : ", in the second log of ") + b;
-    const std::string what = f.field.empty() ? " has " : " " + f.field + " is ";
-    std::printf("First difference at %s s%s: %s%s%s in the first log, %s in the second.\n",
-                seconds_text(f.time_ns).c_str(), printable(who).c_str(), printable(f.topic).c_str(),
-                printable(what).c_str(), printable(f.a).c_str(), printable(f.b).c_str());
+    const std::string what = f.field.empty() ? "has" : f.field + " is";
+    const std::string text =
+        log_tool_messages::first_difference(seconds_text(f.time_ns), printable(who), printable(f.topic),
+                                            printable(what), printable(f.a), printable(f.b))
+            .text;
+    std::printf("%s\n", text.c_str());
   }
   if (!d.first_tick) return;
   std::printf("The components' outputs differ from tick %llu on, at %s s.\n",

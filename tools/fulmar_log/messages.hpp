@@ -19,6 +19,7 @@ inline constexpr MessageText element_index_missing{
     "log_tool.element_index_missing",
     {"path", "first_path", "last_path", "last"},
     "{path} is a list: give one of its elements, {first_path}[0] to {last_path}[{last}]"};
+inline constexpr MessageText error_against{"log_tool.error_against", {"topic"}, "error against {topic}"};
 inline constexpr MessageText export_exists{
     "log_tool.export_exists", {"file"}, "'{file}' exists; an export overwrites no file"};
 inline constexpr MessageText exportable_message_missing{
@@ -45,6 +46,10 @@ inline constexpr MessageText figure_not_writable{
 inline constexpr MessageText file_not_readable{"log_tool.file_not_readable", "the file is not readable"};
 inline constexpr MessageText file_not_writable{
     "log_tool.file_not_writable", {"file"}, "cannot write '{file}'"};
+inline constexpr MessageText first_difference{"log_tool.first_difference",
+                                              {"time_s", "owner", "topic", "field", "first", "second"},
+                                              "First difference at {time_s} s{owner}: {topic} {field} "
+                                              "{first} in the first log, {second} in the second."};
 inline constexpr MessageText folder_not_creatable{
     "log_tool.folder_not_creatable", {"folder", "reason"}, "cannot make the folder '{folder}': {reason}"};
 inline constexpr MessageText footer_missing{"log_tool.footer_missing", "the footer is missing"};

@@ -25,6 +25,10 @@ inline constexpr MessageText input_not_repeatable{"replay.input_not_repeatable",
                                                   {"tick", "reason"},
                                                   "the input before tick {tick} is not repeatable: {reason}"};
 inline constexpr MessageText log_changed{"replay.log_changed", "the log has changed since the replay began"};
+inline constexpr MessageText log_cut_off{
+    "replay.log_cut_off",
+    {"time_s"},
+    "the log is cut off: the comparison ends with its last whole tick, at {time_s} s"};
 inline constexpr MessageText log_program_missing{"replay.log_program_missing",
                                                  "the program fulmar-log is missing beside this one"};
 inline constexpr MessageText mission_missing{

@@ -114,9 +114,7 @@ void print(const Replayed& again) {
   out += fmt::format("{}: {} ticks, {:.1f} s of flight in {:.2f} s: {:.0f} times real time\n",
                      again.graph.mission, r.ticks, flown_s, r.flight.wall.took_s,
                      r.flight.wall.took_s > 0 ? flown_s / r.flight.wall.took_s : 0);
-  if (r.cut_off)
-    out += fmt::format("the log was cut off: compared up to its last whole tick, at {:.4f} s\n",
-                       flight_seconds(r.last_ns));
+  if (r.cut_off) out += replay_messages::log_cut_off(Fixed{flight_seconds(r.last_ns), 4}).text + "\n";
   for (const std::string& note : r.notes) out += note + "\n";
   if (r.equal())
     out += fmt::format("equal: {} messages, 0 differing bytes{}\n", r.messages,

@@ -164,7 +164,8 @@ TEST_CASE("NPZ: one array per field, of its own type; labels and texts beside") 
   const auto files = unzip(contents(folder.path / "a.npz"));
   const Npy time(files.at("mixed.time_s.npy")), speed(files.at("mixed.speed_mps.npy")),
       armed(files.at("mixed.armed.npy"));
-  CHECK(time.header.find("'descr': '<f8', 'fortran_order': False, 'shape': (1000,)") != std::string::npos);
+  const std::string numbers = "'descr': '<f8', 'fortran_order': False, 'shape': (1000,)";
+  CHECK(time.header.find(numbers) != std::string::npos);
   REQUIRE(time.data.size() == 8000);
   CHECK(at<double>(time.data, 8) == -0.9975);
   CHECK(at<double>(speed.data, 8 * 999) == 0.1 * 999);
@@ -180,7 +181,8 @@ TEST_CASE("NPZ: one array per field, of its own type; labels and texts beside") 
   const Npy name(files.at("mixed.name.npy")), labels(files.at("mixed.mode.labels.npy"));
   CHECK(name.header.find("'<U2'") != std::string::npos);
   CHECK(at<char32_t>(name.data, 4) == U'b');
-  CHECK(labels.header.find("'<U6', 'fortran_order': False, 'shape': (3,)") != std::string::npos);
+  const std::string texts = "'<U6', 'fortran_order': False, 'shape': (3,)";
+  CHECK(labels.header.find(texts) != std::string::npos);
   CHECK(at<char32_t>(labels.data, 24) == U'h');
   CHECK(files.at("number.value_ratio.npy").size() == 128 + 250 * 8);
 }

@@ -174,7 +174,8 @@ TEST_CASE("export writes what is asked for, and refuses what it cannot") {
   const Folder folder;
   const std::string log = (folder.path / "a.mcap").string(), out = (folder.path / "out").string();
   write_sample({.file = log}, 100);
-  CHECK(call("log export " + log + " --to csv --topic /number --out " + out).code == 0);
+  const std::string one_topic = " --to csv --topic /number --out ";
+  CHECK(call("log export " + log + one_topic + out).code == 0);
   CHECK(std::filesystem::exists(out + "/number.csv"));
   CHECK_FALSE(std::filesystem::exists(out + "/mixed.csv"));
   CHECK(call("log export " + log + " --to xls").code == 2);

@@ -158,7 +158,8 @@ TEST_CASE("phases are bands of all panels, with their names; texts of a log are 
   CHECK(svg.find('\xff') == std::string::npos);
   const ReadFigure f = read_figure(svg);
   CHECK(f.title == "a&lt;&amp;&gt;");
-  CHECK(f.phase_words == std::vector<std::string>{"climb", "&lt;b&gt;&quot;&amp; ?", "land"});
+  const std::string escaped = "&lt;b&gt;&quot;&amp; ?";
+  CHECK(f.phase_words == std::vector<std::string>{"climb", escaped, "land"});
   for (const ReadPanel& panel : f.panels) {
     REQUIRE(panel.bands.size() == 3);
     CHECK(panel.bands[0].name == "climb");

@@ -69,8 +69,8 @@ TEST_CASE("with the second filter's parameters the first one says the same as th
 TEST_CASE("the table stands behind the figures; a controller's experiment has none") {
   const Result r = fulmar("replay " + flown().string() + " --set \"ekf.gnss_position_time=1 s\"");
   CHECK(r.code == 0);
-  CHECK(r.out.find("compared with the flight before") < r.out.find("now - before"));
-  CHECK(r.out.find("\nerror against /vehicle/truth   before") != std::string::npos);
+  CHECK(r.out.find("app.flights_compared") < r.out.find("now - before"));
+  CHECK(r.out.find("\nlog_tool.error_against(/vehicle/truth) before") != std::string::npos);
   CHECK(r.out.find("second") == std::string::npos);
   CHECK(replayed("--set attitude.roll_kp=0.1").at("estimates") == json::array());
   CHECK(fulmar("replay " + flown().string() + " --set attitude.roll_kp=0.1").out.find("now - before") ==

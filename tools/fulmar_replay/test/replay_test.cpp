@@ -50,11 +50,10 @@ TEST_CASE("a flight is flown again from its log alone, to the same file") {
       "/configs/airframes/anaconda.yaml\norigin: {lat: 40.2463724, lon: -111.6474138, alt_msl: 1387 m}\n"
       << "components: {sim: {params: {sensors: rosflight, turbulence: light}}, plan: {params: {plan: "
       << FULMAR_SOURCE_DIR "/configs/plans/hourglass.yaml}}}\n";
-  CHECK(run_fulmar("run " + mission.string() +
-                   " --duration 10 --seed 3 --set \"slc.roll_limit=30 deg\" --set \"sim.airframe.mass=5 kg\""
-                   " --record nav.state@200Hz --record outer.* --log " +
-                   log.string())
-            .code == 0);
+  const std::string options =
+      " --duration 10 --seed 3 --set \"slc.roll_limit=30 deg\" --set \"sim.airframe.mass=5 kg\""
+      " --record nav.state@200Hz --record outer.* --log ";
+  CHECK(run_fulmar("run " + mission.string() + options + log.string()).code == 0);
   fs::remove(mission);
   const auto [code, out] = run_fulmar("replay " + log.string() + " --json --log " + again.string());
   CHECK(code == 0);

@@ -46,10 +46,6 @@ inline ReplayResult replay_of(const fs::path& log, const Overrides& changes = {}
   return replay(recording, graph, o).second;
 }
 
-inline std::string variant(const std::string& name) {
-  return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + name + ".so";
-}
-
 /// Both from end to end.
 inline void check_equal(const ReplayResult& r, const fs::path& log, const fs::path& again) {
   CHECK(r.notes == std::vector<std::string>{});

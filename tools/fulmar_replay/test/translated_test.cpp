@@ -250,8 +250,8 @@ TEST_CASE("a name as long as the log has room for is found again: a guard, a lat
   CHECK(count(log, Code::over_budget) == 1);
   check_words_mean_nothing(log);
   const std::string too_long = "graph.name_too_long(n" + name + ", 48, 47)";
-  CHECK_THROWS_WITH_AS(mission("  n" + name + ": {fills: law, use: lab/Law}\n" + one_phase),
-                       doctest::Contains(too_long.c_str()), Error);
+  const std::string law = "  n" + name + ": {fills: law, use: lab/Law}\n";
+  CHECK_THROWS_WITH_AS(mission(law + one_phase), doctest::Contains(too_long.c_str()), Error);
 }
 
 TEST_CASE(

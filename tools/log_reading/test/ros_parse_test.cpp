@@ -51,19 +51,38 @@ TEST_CASE(
   std::vector<std::byte> bytes;
   CdrEncoder(*mixed_type()).encode(bytes_of(mixed_value()), bytes);
   const TypePtr type = parse_ros_schema("fulmar_msgs/msg/Mixed", ros_definition(*mixed_type()));
-  std::string text;
-  for (const CdrValue& v : cdr_values(*type, bytes, 100)) text += v.name + "=" + v.text + " ";
-  CHECK(text ==
-        "armed=1 speed_mps=1.5 count=7 gains_ratio[0]=1 gains_ratio[1]=2 gains_ratio[2]=-2 name=ab "
-        "samples_volt[0]=0.5 "
-        "samples_volt[1]=1 mode=hold stamp_ns=-2 load_ratio=0.25 offset=-3 attitude_std_rad.north=0.5 "
-        "attitude_std_rad.east=1 "
-        "attitude_std_rad.down=2 tags[0]=x tags[1]=yzw legs[0].kind=orbit legs[0].has_course=1 "
-        "legs[0].course_rad=0.5 "
-        "legs[0].position_m.north=3 legs[0].position_m.east=4 legs[0].position_m.down=5 legs[1].kind=line "
-        "legs[1].has_course=0 "
-        "legs[1].course_rad=-0.5 legs[1].position_m.north=6 legs[1].position_m.east=7 "
-        "legs[1].position_m.down=8 ");
+  std::vector<std::string> listed;
+  for (const CdrValue& v : cdr_values(*type, bytes, 100)) listed.push_back(v.name + "=" + v.text);
+  CHECK(listed == std::vector<std::string>{"armed=1",
+                                           "speed_mps=1.5",
+                                           "count=7",
+                                           "gains_ratio[0]=1",
+                                           "gains_ratio[1]=2",
+                                           "gains_ratio[2]=-2",
+                                           "name=ab",
+                                           "samples_volt[0]=0.5",
+                                           "samples_volt[1]=1",
+                                           "mode=hold",
+                                           "stamp_ns=-2",
+                                           "load_ratio=0.25",
+                                           "offset=-3",
+                                           "attitude_std_rad.north=0.5",
+                                           "attitude_std_rad.east=1",
+                                           "attitude_std_rad.down=2",
+                                           "tags[0]=x",
+                                           "tags[1]=yzw",
+                                           "legs[0].kind=orbit",
+                                           "legs[0].has_course=1",
+                                           "legs[0].course_rad=0.5",
+                                           "legs[0].position_m.north=3",
+                                           "legs[0].position_m.east=4",
+                                           "legs[0].position_m.down=5",
+                                           "legs[1].kind=line",
+                                           "legs[1].has_course=0",
+                                           "legs[1].course_rad=-0.5",
+                                           "legs[1].position_m.north=6",
+                                           "legs[1].position_m.east=7",
+                                           "legs[1].position_m.down=8"});
   CHECK_THROWS_AS(cdr_values(*type, bytes, 10), Error);
   for (std::size_t n = 0; n < bytes.size(); ++n)
     CHECK_THROWS_AS(cdr_values(*type, std::span(bytes).first(n), 100), Error);

@@ -28,9 +28,10 @@ inline constexpr MessageText listen_address_invalid{
     {"address"},
     "live.listen: '{address}' is not a valid address. Valid: 127.0.0.1 (this computer alone), 0.0.0.0 (all), "
     "or an address of this computer."};
-inline constexpr MessageText listen_failed{"live.listen_failed",
-                                           {"host", "port", "reason", "remedy"},
-                                           "live: cannot listen on {host}:{port}: {reason}{remedy}"};
+inline constexpr MessageText listen_failed{
+    "live.listen_failed",
+    {"host", "port", "reason"},
+    "live: cannot listen on {host}:{port}: {reason}. Give an address of this computer with live.listen."};
 inline constexpr MessageText mission_file_missing{"live.mission_file_missing",
                                                   "this flight has no mission file to write to"};
 inline constexpr MessageText more_refused{"live.more_refused",
@@ -53,6 +54,11 @@ inline constexpr MessageText parameter_path_unknown{
     "live.parameter_path_unknown", {"parameter", "choices"}, "there is no parameter '{parameter}'.{choices}"};
 inline constexpr MessageText parameter_unknown{
     "live.parameter_unknown", {"component", "parameter"}, "there is no parameter '{component}.{parameter}'"};
+inline constexpr MessageText port_in_use{
+    "live.port_in_use",
+    {"host", "port"},
+    "live: cannot listen on {host}:{port}: another program has the port. End that program, or choose another "
+    "port with live.listen (port 0: any that is free)."};
 inline constexpr MessageText request_invalid{"live.request_invalid", {"reason"}, "the request: {reason}"};
 inline constexpr MessageText request_not_object{"live.request_not_object",
                                                 "the request is not a JSON object"};

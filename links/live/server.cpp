@@ -75,13 +75,9 @@ struct LiveServer::Impl {
     if (!fault) acceptor.set_option(net::socket_base::reuse_address(true), fault);
     if (!fault) acceptor.bind(at, fault);
     if (!fault) acceptor.listen(net::socket_base::max_listen_connections, fault);
-    if (fault)
-      throw Error(live_messages::listen_failed(
-          options.host, options.port, fault.message(),
-          fault == net::error::address_in_use
-              ? ". Another flight may have the port: stop it, or give this one another with "
-                "live.listen (port 0: any that is free)."
-              : ". Give an address of this computer with live.listen."));
+    if (fault == net::error::address_in_use)
+      throw Error(live_messages::port_in_use(options.host, options.port));
+    if (fault) throw Error(live_messages::listen_failed(options.host, options.port, fault.message()));
     port = acceptor.local_endpoint().port();
   }
 

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "tools/fulmar_live/messages.hpp"
+
 namespace fulmar::core {
 namespace {
 
@@ -119,7 +121,7 @@ std::string legend(const std::vector<Series>& series, const PlotSize& size) {
   for (std::size_t i = 0; i < series.size(); ++i) {
     const Series& s = series[i];
     const std::string value = s.points.empty()
-                                  ? "no sample yet"
+                                  ? remote_messages::sample_absent.c_str()
                                   : number(s.points.back().second, 6) + (s.unit.empty() ? "" : " " + s.unit);
     std::string line = "\u2501\u2501 " + s.label + "  " + value;
     if (!size.colours && series.size() > 1) line = std::to_string(i + 1) + " " + s.label + "  " + value;

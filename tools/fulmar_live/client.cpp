@@ -184,8 +184,8 @@ struct Client::Impl {
   [[noreturn]] void gone(error_code fault) const {
     const std::string farewell = fault == websocket::error::closed ? stream.reason().reason.c_str() : "";
     if (!farewell.empty())
-      throw FlightEnded("the flight on " + target.text() + " has closed the connection: " + farewell);
-    throw FlightEnded("the flight on " + target.text() + " has ended");
+      throw FlightEnded(remote_messages::flight_closed_connection(target.text(), farewell));
+    throw FlightEnded(remote_messages::flight_ended(target.text()));
   }
 };
 

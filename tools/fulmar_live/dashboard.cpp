@@ -8,6 +8,7 @@
 
 #include "core/tap/pace.hpp"
 #include "core/types/text.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/fulmar_live/table.hpp"
 
 namespace fulmar::core {
@@ -156,8 +157,7 @@ bool Dashboard::whole() const {
 const ordered_json& Dashboard::message(const std::string& type) const {
   static const ordered_json nothing = ordered_json::object();
   const auto found = newest_.find(type);
-  const bool there = found != newest_.end() && now_s_ - found->second.time_s <= stale_s;
-  return there ? found->second.message : nothing;
+  return found != newest_.end() && now_s_ - found->second.time_s <= stale_s ? found->second.message : nothing;
 }
 
 double Dashboard::number(const std::string& type, const std::string& path) const {
@@ -232,10 +232,10 @@ std::vector<Dashboard::Cell> Dashboard::cells() const {
 
 Dashboard::Cell Dashboard::control() const {
   const auto is = [&](const char* field) { return flag("VehicleStatus", field); };
-  if (message("VehicleStatus").empty()) return {"control", "the vehicle is silent", Look::bad};
+  if (message("VehicleStatus").empty()) return {"control", remote_messages::vehicle_silent(), Look::bad};
   const bool bad = is("crashed") || is("failsafe");
   std::string who = is("crashed")      ? "crashed"
-                    : is("failsafe")   ? "the vehicle's own failsafe"
+                    : is("failsafe")   ? remote_messages::vehicle_failsafe.c_str()
                     : is("override")   ? "pilot"
                     : is("in_control") ? "autopilot"
                                        : "nobody";
@@ -260,7 +260,7 @@ Dashboard::Cell Dashboard::control() const {
 }
 
 Dashboard::Cell Dashboard::estimator() const {
-  if (message("VehicleState").empty()) return {"estimator", "no estimate", Look::bad};
+  if (message("VehicleState").empty()) return {"estimator", remote_messages::estimate_absent(), Look::bad};
   std::string lacks;
   for (const char* what : {"attitude", "position", "height", "velocity", "airspeed", "wind"})
     if (!flag("VehicleState", std::string(what) + "_valid"))
@@ -304,7 +304,8 @@ Dashboard::Cell Dashboard::safety() const {
   const std::string answer = word("SafetyState", "answer");
   if (answer != "none" && !answer.empty())
     wrong += (wrong.empty() ? "" : "; ") + std::string("answer: ") + answer;
-  return {"safety", wrong.empty() ? "nothing is wrong" : wrong, wrong.empty() ? Look::good : Look::bad};
+  if (wrong.empty()) return {"safety", remote_messages::nothing_wrong(), Look::good};
+  return {"safety", wrong, Look::bad};
 }
 
 Dashboard::Cell Dashboard::roles() const {
@@ -383,8 +384,7 @@ std::string Dashboard::text(const PlotSize& size, const std::string& lost) const
   const std::size_t across = std::max<std::size_t>(1, width / cell_width), room = width / across;
   const auto painted = [&](const std::string& text, Look look) {
     static constexpr const char* codes[] = {"", "\x1b[2m", "\x1b[32m", "\x1b[1;31m", "\x1b[1m"};
-    const bool old = !lost.empty() && look != Look::head;
-    if (old) look = Look::faint;
+    if (!lost.empty() && look != Look::head) look = Look::faint;
     const char* code = codes[static_cast<std::size_t>(look)];
     return size.colours && *code ? code + text + "\x1b[0m" : text;
   };

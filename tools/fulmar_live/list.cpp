@@ -85,11 +85,12 @@ int list_command(const LiveAddress& target, bool rates, bool as_json) {
     std::printf("%s\n", view.dump().c_str());
     return 0;
   }
-  std::printf("%s (io: %s), phase %s, %.1f s, %s%s%s\n", view.value("mission", "").c_str(),
-              view.value("io", "").c_str(), view.value("phase", "").c_str(),
-              static_cast<double>(view.value("now_ns", std::int64_t{0})) * 1e-9,
-              view.value("armed", false) ? "armed" : "not armed", view.value("over", false) ? ", over" : "",
-              pace_of(view).c_str());
+  const Fixed time_s{static_cast<double>(view.value("now_ns", std::int64_t{0})) * 1e-9, 1};
+  const std::string state = std::string(view.value("armed", false) ? "armed" : "not armed") +
+                            (view.value("over", false) ? ", over" : "") + pace_of(view);
+  std::printf("%s\n", remote_messages::flight_state(view.value("mission", ""), view.value("io", ""),
+                                                    view.value("phase", ""), time_s, state)
+                          .text.c_str());
   std::vector<std::string> phases = view.value("phases", std::vector<std::string>());
   std::printf("phases: %s\n", join(phases).c_str());
   for (const json& c : view.value("components", json::array())) print_component(c, measured, rates);

@@ -11,6 +11,7 @@ inline constexpr MessageText component_unknown{"remote.component_unknown",
 inline constexpr MessageText confirmation_required{
     "remote.confirmation_required",
     "the confirmation requires a terminal; without one give --yes. Nothing was written"};
+inline constexpr MessageText connection_lost{"remote.connection_lost", "connection lost"};
 inline constexpr MessageText connection_rejected{
     "remote.connection_rejected",
     {"address", "status", "reason"},
@@ -23,6 +24,7 @@ inline constexpr MessageText encoding_unsupported{
     "remote.encoding_unsupported",
     {"topic", "encoding"},
     "{topic} has the encoding '{encoding}', which is not supported"};
+inline constexpr MessageText estimate_absent{"remote.estimate_absent", "no estimate"};
 inline constexpr MessageText field_duplicate{
     "remote.field_duplicate", {"field"}, "the field '{field}' is given twice"};
 inline constexpr MessageText field_form_invalid{
@@ -39,6 +41,12 @@ inline constexpr MessageText field_unknown{
     "remote.field_unknown", {"path", "field", "choices"}, "{path} has no field '{field}'.{choices}"};
 inline constexpr MessageText first_sample_awaited{
     "remote.first_sample_awaited", {"port"}, "waiting for the first sample of {port}"};
+inline constexpr MessageText flight_closed_connection{
+    "remote.flight_closed_connection",
+    {"address", "reason"},
+    "the flight on {address} has closed the connection: {reason}"};
+inline constexpr MessageText flight_ended{
+    "remote.flight_ended", {"address"}, "the flight on {address} has ended"};
 inline constexpr MessageText flight_expected{
     "remote.flight_expected",
     {"address", "reason"},
@@ -47,6 +55,9 @@ inline constexpr MessageText flight_not_found{"remote.flight_not_found",
                                               {"address"},
                                               "no flight listens on {address}: start one with fulmar run "
                                               "MISSION --speed real --live 8765, or name it with --at"};
+inline constexpr MessageText flight_state{"remote.flight_state",
+                                          {"mission", "io", "phase", "time", "state"},
+                                          "{mission} (io: {io}), phase {phase}, {time} s, {state}"};
 inline constexpr MessageText host_unknown{
     "remote.host_unknown",
     {"host"},
@@ -90,10 +101,13 @@ inline constexpr MessageText mission_file_missing{
 inline constexpr MessageText mission_file_unknown{
     "remote.mission_file_unknown",
     "the flight does not report its mission file: give the file with --mission"};
+inline constexpr MessageText nothing_wrong{"remote.nothing_wrong", "nothing is wrong"};
 inline constexpr MessageText number_invalid{
     "remote.number_invalid", {"kind", "found"}, "give {kind}, not '{found}'"};
 inline constexpr MessageText numeric_field_expected{
     "remote.numeric_field_expected", {"field"}, "{field} is not a number"};
+inline constexpr MessageText order_accepted{
+    "remote.order_accepted", {"order", "time"}, "{order}: accepted, at {time} s of flight"};
 inline constexpr MessageText owner_unknown{
     "remote.owner_unknown", {"owner", "choices"}, "this flight has nothing called '{owner}'.{choices}"};
 inline constexpr MessageText owner_without_parameters{
@@ -152,10 +166,13 @@ inline constexpr MessageText request_rejected{
     "remote.request_rejected", {"request", "reason"}, "{request}: refused: {reason}"};
 inline constexpr MessageText request_unknown{
     "remote.request_unknown", {"request", "choices"}, "this flight has no request '{request}'.{choices}"};
+inline constexpr MessageText restart_accepted{"remote.restart_accepted",
+                                              "restart: accepted, a new flight has begun"};
 inline constexpr MessageText restarted_flight_missing{
     "remote.restarted_flight_missing",
     {"address"},
     "restart: accepted, but no new flight listens on {address}; the terminal of the flight shows the reason"};
+inline constexpr MessageText sample_absent{"remote.sample_absent", "no sample yet"};
 inline constexpr MessageText service_unknown{"remote.service_unknown",
                                              {"address", "service", "choices"},
                                              "the flight on {address} has no service '{service}'.{choices}"};
@@ -166,6 +183,10 @@ inline constexpr MessageText token_rejected{
     "remote.token_rejected",
     {"address", "token_state"},
     "the flight on {address}{token_state}: give it with --token or in FULMAR_TOKEN"};
+inline constexpr MessageText trying_again{
+    "remote.trying_again", {"reason", "silence"}, "{reason}, {silence} s ago: trying again"};
+inline constexpr MessageText vehicle_failsafe{"remote.vehicle_failsafe", "the vehicle's own failsafe"};
+inline constexpr MessageText vehicle_silent{"remote.vehicle_silent", "the vehicle is silent"};
 inline constexpr MessageText verdict_missing{
     "remote.verdict_missing",
     {"address"},

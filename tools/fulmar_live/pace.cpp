@@ -23,7 +23,7 @@ int order(Session& session, const std::string& service, const nlohmann::json& re
     return 1;
   }
   const double now_s = 1e-9 * static_cast<double>(session.view().value("now_ns", std::int64_t{0}));
-  std::printf("%s: accepted, at %.4f s of flight\n", what.c_str(), now_s);
+  std::printf("%s\n", remote_messages::order_accepted(what, Fixed{now_s, 4}).text.c_str());
   return 0;
 }
 
@@ -84,7 +84,7 @@ int restart_command(const LiveAddress& target, const std::string& seed) {
     return 1;
   }
   if (!another_comes(target, old)) throw Error(remote_messages::restarted_flight_missing(target.text()));
-  std::printf("restart: accepted, a new flight has begun\n");
+  std::printf("%s\n", remote_messages::restart_accepted.c_str());
   return 0;
 }
 

@@ -11,6 +11,7 @@
 #include "core/types/wire.hpp"
 #include "tools/fulmar_live/commands.hpp"
 #include "tools/fulmar_live/dashboard.hpp"
+#include "tools/fulmar_live/messages.hpp"
 #include "tools/fulmar_live/screen.hpp"
 #include "tools/fulmar_live/session.hpp"
 
@@ -105,7 +106,7 @@ int watch_command(const LiveAddress& target) {
     } catch (const Error& fault) {
       const auto* ended = dynamic_cast<const FlightEnded*>(&fault);
       if (flight) {
-        why = ended != nullptr ? ended->what() : "connection lost";
+        why = ended != nullptr ? ended->what() : remote_messages::connection_lost.c_str();
         shown = flight->board();
         heard = flight->heard();
         tried = Clock::now();
@@ -113,9 +114,8 @@ int watch_command(const LiveAddress& target) {
       }
     }
     const auto silent_s = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - heard).count();
-    screen.show(
-        flight ? flight->board().text(terminal_size())
-               : shown.text(terminal_size(), why + ", " + std::to_string(silent_s) + " s ago: trying again"));
+    screen.show(flight ? flight->board().text(terminal_size())
+                       : shown.text(terminal_size(), remote_messages::trying_again(why, silent_s)));
   }
   return 130;
 }

@@ -65,11 +65,11 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
                   R"({"component": "slc", "name": "roll_kp", "text": "0.8"})")["accepted"] == true);
   CHECK(call_json("/fulmar/set_parameter",
                   R"({"component": "slc", "name": "roll_kp", "text": "20 kg"})")["reason"] ==
-        "'20 kg' is not a number");
+        "mock.number_invalid(20 kg)");
   CHECK(call_json("/fulmar/phase", R"({"phase": "hold"})")["accepted"] == true);
   CHECK(call_json("/fulmar/phase", R"({"phase": 5})")["reason"] == "live.request_text_missing(phase)");
   CHECK(call_json("/fulmar/swap", R"({"component": "slc", "file": "x.so"})")["reason"] ==
-        "the vehicle is armed");
+        "mock.vehicle_armed");
   CHECK(call_json("/fulmar/reset_guards", "")["accepted"] == true);
   CHECK(call_json("/fulmar/record", R"({"component": "slc", "name": "roll_kp"})")["reason"] ==
         "live.parameter_not_record(slc, roll_kp)");
@@ -77,7 +77,7 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
         "live.parameter_unknown(slc, fence)");
   CHECK(call_json("/fulmar/view", "{}")["paused"] == false);
   CHECK(call_json("/fulmar/pause", "{}")["accepted"] == true);
-  CHECK(call_json("/fulmar/pause", "{}")["reason"] == "the flight is paused already");
+  CHECK(call_json("/fulmar/pause", "{}")["reason"] == "mock.paused_already");
   CHECK(call_json("/fulmar/view", "{}")["paused"] == true);
   CHECK(call_json("/fulmar/step", R"({"ticks": "40"})")["accepted"] == true);
   CHECK(call_json("/fulmar/step", R"({"ticks": "0"})")["reason"] == "tap.step_count_invalid(0, 1000000)");
@@ -122,8 +122,8 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services are called in CDR, too") {
   call("/fulmar/swap", "cdr", header + text("slc") + text("law.so"));
   REQUIRE(until([&] { return !peer.binaries.empty(); }));
   CHECK(control.heard().back() == "swap slc law.so");
-  const std::string reason = std::string("the vehicle is armed") + '\0';
-  CHECK(peer.binaries.back().substr(16) == header + std::string(4, '\0') + le(21) + reason);
+  const std::string reason = std::string("mock.vehicle_armed") + '\0';
+  CHECK(peer.binaries.back().substr(16) == header + std::string(4, '\0') + le(19) + reason);
   for (const std::string& payload :
        {header, header + text("slc"), header + text("slc") + le(0xffffffff) + "law",
         text("slc") + text("x")}) {

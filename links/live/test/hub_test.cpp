@@ -346,7 +346,7 @@ TEST_CASE_FIXTURE(Fixture, "a parameter that cannot be set says why, and what it
   CHECK(std::find(said.begin(), said.end(), "roll_kp: live.parameter_name_invalid") != said.end());
   CHECK(std::find(said.begin(), said.end(), "slc.roll_kp: live.parameter_not_removable") != said.end());
   CHECK(std::any_of(said.begin(), said.end(), [](const std::string& t) {
-    return t.find("scl.roll_kp: there is no component 'scl'. [slc] slc, plan") == 0;
+    return t.find("scl.roll_kp: mock.component_unknown(scl,  [slc] slc, plan)") == 0;
   }));
   CHECK(counters.refused == 0);  // the rules of the protocol were kept
 }

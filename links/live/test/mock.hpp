@@ -55,9 +55,10 @@ class MockControl : public Control {
   void set_parameter(const std::string& component, const std::string& param, const std::string& text,
                      Answer answer) override {
     if (component != "slc")
-      throw Error("there is no component '" + component + "'." + choices_text(component, {"slc", "plan"}));
+      throw Error("mock.component_unknown(" + component + ", " + choices_text(component, {"slc", "plan"}) +
+                  ")");
     if (param == "roll_kp" && (text.find_first_not_of("0123456789.e-") != std::string::npos))
-      throw Error("'" + text + "' is not a number");
+      throw Error("mock.number_invalid(" + text + ")");
     note("set " + component + "." + param + " " + text);
     work([this, param, text, answer = std::move(answer)] {
       ++sets;
@@ -90,7 +91,7 @@ class MockControl : public Control {
   }
   void swap(const std::string& component, const std::string& file, Answer answer) override {
     note("swap " + component + " " + file);
-    work([answer = std::move(answer)] { answer("the vehicle is armed"); });
+    work([answer = std::move(answer)] { answer("mock.vehicle_armed"); });
   }
   void reset_guards(Answer answer) override {
     note("reset");
@@ -107,7 +108,7 @@ class MockControl : public Control {
     work([this, what = order.what, answer = std::move(answer)] {
       const bool twice = what == What::pause && paused.exchange(true);
       if (what == What::resume || what == What::speed) paused = false;
-      answer(twice ? "the flight is paused already" : "");
+      answer(twice ? "mock.paused_already" : "");
     });
   }
   void on_parameter(std::function<void(const std::string&, const std::string&)> changed) override {

@@ -31,6 +31,9 @@ namespace websocket = beast::websocket;
 
 using Headers = std::map<std::string, std::string>;
 
+/// Of the page with the topics of the mission "mock <1>".
+inline constexpr const char* mock_heading = "<h1>mock &lt;1&gt;</h1>";
+
 struct Answer {
   unsigned status = 0;
   std::string body, content_type;

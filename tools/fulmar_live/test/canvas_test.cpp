@@ -62,7 +62,8 @@ TEST_CASE("what is not finite leaves a gap, a constant is a line, and no sample 
   for (const std::string& line : picture) CHECK(width_of(line) <= 80);
   CHECK(dots > 30);
   CHECK(dots < 60);  // of 76 columns, 60 % of which hold the line
-  CHECK(lines(draw_plot({{"b", "m", {}}}, 0, 10, {80, 12, false})).at(0) == "\u2501\u2501 b  no sample yet");
+  CHECK(lines(draw_plot({{"b", "m", {}}}, 0, 10, {80, 12, false})).at(0) ==
+        "\u2501\u2501 b  remote.sample_absent");
 }
 
 TEST_CASE("several series are told apart by number without colours and by colour with them") {

@@ -58,26 +58,30 @@ TEST_CASE("bash completes commands, options, and names of the running flight") {
   CHECK(completed(flight, "fulmar plot " + real + " n") == Words{"nav.number."});
   CHECK(completed(flight, "fulmar plot " + real + " --from 3 nav.number.") ==
         Words{"nav.number.value_ratio"});
-  CHECK(completed(flight, "fulmar param set slc.r") == Words{"slc.roll_kp"});
-  CHECK(completed(flight, "fulmar param set slc.roll_kp ") == Words{});
-  CHECK(completed(flight, "fulmar param set slc.roll_kp 0.5 slc.l") == Words{"slc.law"});
-  CHECK(completed(flight, "fulmar param save ") == Words{"plan", "slc"});
-  CHECK(completed(flight, "fulmar call p") == Words{"plan.add_leg"});
-  CHECK(completed(flight, "fulmar phase ") == Words{"cruise", "hold"});
-  CHECK(completed(flight, "fulmar run --io ") == Words{"sim", "fcu"});
-  CHECK(completed(flight, "fulmar speed ") == Words{"real", "max"});
-  CHECK(completed(flight, "fulmar paus") == Words{"pause"});
-  CHECK(completed(flight, "fulmar aero m") == Words{"modes"});
-  CHECK(completed(flight, "fulmar aero modes --s") == Words{"--step", "--svg"});
-  CHECK(completed(flight, "fulmar aero trim configs/airframes/an") ==
-        Words{"configs/airframes/anaconda.yaml"});
-  CHECK(completed(flight, "fulmar aero import README.md --mas") == Words{"--mass"});
-  CHECK(completed(flight, "fulmar aero import README.md configs/airframes/an") ==
-        Words{"configs/airframes/anaconda.yaml"});
-  CHECK(completed(flight, "fulmar import ") == Words{"rosplane"});
-  CHECK(completed(flight, "fulmar run configs/missions/hourg") == Words{"configs/missions/hourglass.yaml"});
-  CHECK(completed(flight, "fulmar echo s --at 127.0.0.1:1 sl") == Words{});
-  CHECK(completed(flight, "fulmar fcu ") == Words{});
+  const std::pair<const char*, Words> offers[] = {
+      {"fulmar param set slc.r", {"slc.roll_kp"}},
+      {"fulmar param set slc.roll_kp ", {}},
+      {"fulmar param set slc.roll_kp 0.5 slc.l", {"slc.law"}},
+      {"fulmar param save ", {"plan", "slc"}},
+      {"fulmar call p", {"plan.add_leg"}},
+      {"fulmar phase ", {"cruise", "hold"}},
+      {"fulmar run --io ", {"sim", "fcu"}},
+      {"fulmar speed ", {"real", "max"}},
+      {"fulmar paus", {"pause"}},
+      {"fulmar aero m", {"modes"}},
+      {"fulmar aero modes --s", {"--step", "--svg"}},
+      {"fulmar aero trim configs/airframes/an", {"configs/airframes/anaconda.yaml"}},
+      {"fulmar aero import README.md --mas", {"--mass"}},
+      {"fulmar aero import README.md configs/airframes/an", {"configs/airframes/anaconda.yaml"}},
+      {"fulmar import ", {"rosplane"}},
+      {"fulmar run configs/missions/hourg", {"configs/missions/hourglass.yaml"}},
+      {"fulmar echo s --at 127.0.0.1:1 sl", {}},
+      {"fulmar fcu ", {}},
+  };
+  for (const auto& [line, offered] : offers) {
+    CAPTURE(std::string(line));
+    CHECK(completed(flight, line) == offered);
+  }
   const Words all = completed(flight, "fulmar ");
   CHECK(std::find(all.begin(), all.end(), "fcu") != all.end());
   CHECK(std::find(all.begin(), all.end(), "aero") != all.end());

@@ -9,19 +9,22 @@ inline constexpr MessageText airspeed_beyond_airframe{
     "path.airspeed_beyond_airframe",
     {"airspeed", "lowest", "highest"},
     "{airspeed} m/s is beyond the airframe's {lowest} to {highest} m/s, flown at the limit"};
-inline constexpr MessageText airspeed_not_valid{"path.airspeed_not_valid",
-                                                "the airspeed is negative or not finite"};
-inline constexpr MessageText airspeed_out_of_range{"path.airspeed_out_of_range", "airspeed is 3 to 300 m/s"};
+inline constexpr MessageText airspeed_not_valid{
+    "path.airspeed_not_valid", {"found"}, "the airspeed is {found} m/s; expected 0 to below 1000 m/s"};
+inline constexpr MessageText airspeed_out_of_range{
+    "path.airspeed_out_of_range", {"found"}, "the airspeed is {found} m/s; expected 3 to 300 m/s"};
 inline constexpr MessageText circuit_of_one{
-    "path.circuit_of_one", "the plan has one waypoint, which makes no circuit: give more, or end: orbit"};
+    "path.circuit_of_one", "a circuit needs two or more waypoints. Add one, or set end: orbit."};
 inline constexpr MessageText coordinate_not_finite{"path.coordinate_not_finite",
-                                                   "a coordinate is not finite"};
-inline constexpr MessageText course_not_finite{"path.course_not_finite", "the course is not finite"};
+                                                   "a coordinate of the waypoint is not a finite number"};
+inline constexpr MessageText course_not_finite{"path.course_not_finite",
+                                               "the course of the waypoint is not a finite number"};
 inline constexpr MessageText crosswind_landing{
     "path.crosswind_landing", {"wind"}, "crosswind of {wind} m/s is beyond the limit: landing all the same"};
 inline constexpr MessageText crosswind_waiting{
     "path.crosswind_waiting", {"wind"}, "crosswind of {wind} m/s is beyond the limit: circling, take over"};
-inline constexpr MessageText edit_kind_unknown{"path.edit_kind_unknown", "no such kind of edit"};
+inline constexpr MessageText edit_kind_unknown{
+    "path.edit_kind_unknown", "kind must be append, insert, replace, remove, clear or set_current"};
 inline constexpr MessageText edit_refused{
     "path.edit_refused", {"id", "reason"}, "plan edit {id} refused: {reason}"};
 inline constexpr MessageText edit_refused_again{"path.edit_refused_again",
@@ -33,14 +36,16 @@ inline constexpr MessageText edit_without_id_refused_again{
     "path.edit_without_id_refused_again",
     {"reason", "count"},
     "plan edit refused: {reason} (and {count} before)"};
-inline constexpr MessageText edits_lost{"path.edits_lost", "edits were lost on the way"};
-inline constexpr MessageText end_unknown{"path.end_unknown", "no such end of a plan"};
+inline constexpr MessageText edits_lost{"path.edits_lost",
+                                        "edits of its group were lost; send the whole group again"};
+inline constexpr MessageText end_unknown{"path.end_unknown",
+                                         "the end of the plan is unknown; valid: circuit, orbit"};
 inline constexpr MessageText final_approach{"path.final_approach", "the final approach"};
 inline constexpr MessageText glide_slope_steep{
     "path.glide_slope_steep",
     {"slope", "airspeed", "sink", "limit", "most"},
-    "{slope} rad at the {airspeed} m/s of the approach sinks by {sink} m/s in still air, and the airframe's "
-    "limits.sink_rate_max is {limit} m/s; at most {most} rad"};
+    "{slope} rad is too steep: at {airspeed} m/s it sinks {sink} m/s, above limits.sink_rate_max of {limit} "
+    "m/s. At most {most} rad is valid."};
 inline constexpr MessageText go_around_commanded{
     "path.go_around_commanded", {"height"}, "go-around at {height} m, as commanded"};
 inline constexpr MessageText go_around_cross_track{
@@ -52,44 +57,42 @@ inline constexpr MessageText go_around_position{
 inline constexpr MessageText go_around_slope{
     "path.go_around_slope", {"height"}, "go-around: off the glide slope at {height} m"};
 inline constexpr MessageText group_incomplete{"path.group_incomplete",
-                                              "its group was not complete when another began"};
+                                              "its group was incomplete when another began; send it again"};
 inline constexpr MessageText group_outdated{"path.group_outdated",
-                                            "the plan was changed while its group came"};
+                                            "the plan changed before the group was complete; send it again"};
 inline constexpr MessageText group_refused{"path.group_refused", "another edit of its group was refused"};
-inline constexpr MessageText group_size_missing{"path.group_size_missing",
-                                                "an edit of a group says of how many: group_size"};
+inline constexpr MessageText group_size_missing{
+    "path.group_size_missing", "an edit of a group needs its group_size, the number of edits"};
 inline constexpr MessageText group_sizes_differ{"path.group_sizes_differ",
-                                                "the edits of its group differ in group_size"};
-inline constexpr MessageText index_beyond_end{"path.index_beyond_end",
-                                              "the index is beyond the end of the plan"};
+                                                "all edits of a group must have the same group_size"};
+inline constexpr MessageText index_beyond_end{
+    "path.index_beyond_end", {"index", "count"}, "the index is {index}; valid: 0 to {count}"};
 inline constexpr MessageText landing_above_ceiling{
     "path.landing_above_ceiling",
-    {"height", "ceiling"},
-    "the circle onto the final approach is {height} m high, the ceiling {ceiling} m"};
+    {"height", "ceiling", "margin"},
+    "the circle onto the final approach is at {height} m; the ceiling of {ceiling} m must be fence_margin, "
+    "{margin} m, higher"};
 inline constexpr MessageText landing_circle{"path.landing_circle", "the circle onto the final approach"};
 inline constexpr MessageText landing_near_fence{
     "path.landing_near_fence",
     {"part", "north", "east", "distance", "margin"},
-    "{part}, {north} m north, {east} m east, leaves {distance} m to the fence, of {margin} m; move the "
-    "fence, or set final_length, circle_radius, circle"};
+    "{part} passes {distance} m from the fence at {north} m north, {east} m east; fence_margin requires "
+    "{margin} m. Move the fence, or change final_length, circle_radius or circle."};
 inline constexpr MessageText landing_outside_fence{
     "path.landing_outside_fence",
     {"part", "north", "east", "distance"},
-    "{part}, {north} m north, {east} m east, lies {distance} m outside of the fence; move the fence, or set "
-    "final_length, circle_radius, circle"};
-inline constexpr MessageText latitude_out_of_range{"path.latitude_out_of_range",
-                                                   "the latitude is beyond 90 degrees"};
-inline constexpr MessageText longitude_out_of_range{"path.longitude_out_of_range",
-                                                    "the longitude is beyond 360 degrees"};
-inline constexpr MessageText origin_too_far{"path.origin_too_far", "more than 100 km from the origin"};
-inline constexpr MessageText plan_airspeed_not_positive{"path.plan_airspeed_not_positive",
-                                                        "the plan's airspeed must be positive"};
+    "{part} is {distance} m outside the fence at {north} m north, {east} m east. Move the fence, or change "
+    "final_length, circle_radius or circle."};
+inline constexpr MessageText latitude_out_of_range{
+    "path.latitude_out_of_range", {"found"}, "the latitude is {found} deg; expected -90 to 90 deg"};
+inline constexpr MessageText longitude_out_of_range{
+    "path.longitude_out_of_range", {"found"}, "the longitude is {found} deg; expected -360 to 360 deg"};
+inline constexpr MessageText origin_too_far{"path.origin_too_far",
+                                            "the waypoint is more than 100 km from the origin"};
 inline constexpr MessageText plan_empty{
     "path.plan_empty",
-    "the plan has no waypoints; to change one thing in a plan, name it, as in plan.turn_radius"};
+    "the plan has no waypoints. To change one value of a plan, write a key such as plan.turn_radius."};
 inline constexpr MessageText plan_full{"path.plan_full", "the plan is full: 1024 waypoints"};
-inline constexpr MessageText plan_turn_radius_small{"path.plan_turn_radius_small",
-                                                    "the plan's turn_radius must be at least 1 m"};
 inline constexpr MessageText plan_without_waypoints{"path.plan_without_waypoints",
                                                     "the plan has no waypoints"};
 inline constexpr MessageText position_back{"path.position_back",
@@ -99,13 +102,15 @@ inline constexpr MessageText position_lost{
 inline constexpr MessageText roll_long{
     "path.roll_long", {"time"}, "still rolling {time} s after the touch-down: brake by hand"};
 inline constexpr MessageText runway{"path.runway", "the runway"};
-inline constexpr MessageText runway_length_missing{"path.runway_length_missing", "needs a length"};
+inline constexpr MessageText runway_length_missing{"path.runway_length_missing",
+                                                   "the runway has no length; set a length above 0"};
 inline constexpr MessageText runway_missing{
     "path.runway_missing",
-    "there is no runway to land on; give one here or in the plan, as {{north, east, up, heading, length} or "
-    "{{lat, lon, alt_msl, heading, length}"};
-inline constexpr MessageText runway_place_ambiguous{"path.runway_place_ambiguous",
-                                                    "needs either north, east, up or lat, lon, alt_msl"};
+    "no runway is given. Set runway of this component or of its plan, to {{north, east, up, heading, length} "
+    "or {{lat, lon, alt_msl, heading, length}."};
+inline constexpr MessageText runway_place_ambiguous{
+    "path.runway_place_ambiguous",
+    "the runway needs all of north, east and up, or all of lat, lon and alt_msl, not both"};
 inline constexpr MessageText runway_short_landing{
     "path.runway_short_landing",
     {"needed"},
@@ -118,45 +123,53 @@ inline constexpr MessageText runway_too_short{
     "path.runway_too_short",
     {"length", "needed"},
     "{length} m is too short; aim, flare and roll take {needed} m in still air"};
-inline constexpr MessageText setting_unknown{"path.setting_unknown", "no such setting of a plan"};
-inline constexpr MessageText turn_radius_out_of_range{"path.turn_radius_out_of_range",
-                                                      "turn_radius is 1 m to 100 km"};
+inline constexpr MessageText setting_unknown{"path.setting_unknown",
+                                             "the setting is unknown; valid: end, turn_radius, airspeed"};
+inline constexpr MessageText turn_radius_out_of_range{
+    "path.turn_radius_out_of_range", {"found"}, "the turn_radius is {found} m; expected 1 to 100000 m"};
 inline constexpr MessageText turn_radius_tight{
     "path.turn_radius_tight",
     {"radius", "bank", "limit", "least"},
     "turn_radius {radius} m takes {bank} deg of bank; roll_max {limit} deg gives {least} m"};
 inline constexpr MessageText waypoint_above_ceiling{
     "path.waypoint_above_ceiling",
-    {"number", "height"},
-    "waypoint {number} of the plan is at {height} m, above the ceiling of the fence"};
+    {"height", "ceiling"},
+    "the waypoint is at {height} m, above the fence's ceiling of {ceiling} m"};
 inline constexpr MessageText waypoint_after_close{"path.waypoint_after_close",
-                                                  "less than 1 m from the waypoint after it"};
+                                                  "less than 1 m horizontally from the waypoint after it"};
 inline constexpr MessageText waypoint_before_close{"path.waypoint_before_close",
-                                                   "less than 1 m from the waypoint before it"};
+                                                   "less than 1 m horizontally from the waypoint before it"};
 inline constexpr MessageText waypoint_below_floor{
     "path.waypoint_below_floor",
-    {"number", "height"},
-    "waypoint {number} of the plan is at {height} m, below the floor of the fence"};
-inline constexpr MessageText waypoint_id_unknown{"path.waypoint_id_unknown",
-                                                 "there is no waypoint of this id"};
-inline constexpr MessageText waypoint_index_unknown{"path.waypoint_index_unknown",
-                                                    "there is no waypoint of this index; the first is 0"};
-inline constexpr MessageText waypoint_kind_unknown{"path.waypoint_kind_unknown", "no such kind of waypoint"};
-inline constexpr MessageText waypoint_low{"path.waypoint_low",
-                                          "lower than the planner allows: its parameter 'lowest'"};
+    {"height", "floor"},
+    "the waypoint is at {height} m, below the fence's floor of {floor} m"};
+inline constexpr MessageText waypoint_id_unknown{
+    "path.waypoint_id_unknown", {"id"}, "the plan has no waypoint with the id {id}"};
+inline constexpr MessageText waypoint_index_unknown{
+    "path.waypoint_index_unknown", {"index", "last"}, "the plan has no waypoint {index}; valid: 0 to {last}"};
+inline constexpr MessageText waypoint_frame_unknown{
+    "path.waypoint_frame_unknown", "the frame of the waypoint is unknown; valid: local, geodetic"};
+inline constexpr MessageText waypoint_low{
+    "path.waypoint_low",
+    {"height", "lowest"},
+    "the waypoint is at {height} m; the parameter 'lowest' requires {lowest} m"};
 inline constexpr MessageText waypoint_not_valid{
     "path.waypoint_not_valid", {"number", "reason"}, "waypoint {number} of the plan: {reason}"};
 inline constexpr MessageText waypoint_outside_fence{
     "path.waypoint_outside_fence",
-    {"number", "distance"},
-    "waypoint {number} of the plan is {distance} m outside the fence"};
-inline constexpr MessageText waypoint_place_ambiguous{
-    "path.waypoint_place_ambiguous",
-    {"number"},
-    "waypoint {number} of the plan needs either north, east, up or lat, lon, alt_msl"};
+    {"distance"},
+    "the waypoint is {distance} m outside the fence; move the waypoint or the fence"};
+inline constexpr MessageText waypoint_placed_twice{
+    "path.waypoint_placed_twice",
+    "the waypoint has a local and a geodetic position; give north, east and up, or lat, lon and alt_msl"};
 inline constexpr MessageText waypoint_place_missing{
-    "path.waypoint_place_missing", {"number", "keys"}, "waypoint {number} of the plan needs {keys}"};
-inline constexpr MessageText waypoints_close{"path.waypoints_close",
-                                             "two waypoints would be less than 1 m apart"};
+    "path.waypoint_place_missing", {"keys"}, "the waypoint needs {keys}"};
+inline constexpr MessageText waypoint_without_place{
+    "path.waypoint_without_place",
+    "the waypoint has no position; give north, east and up, or lat, lon and alt_msl"};
+inline constexpr MessageText waypoints_close{
+    "path.waypoints_close",
+    {"first", "second"},
+    "waypoints {first} and {second} are less than 1 m apart horizontally"};
 
 }  // namespace fulmar::path_messages

@@ -15,6 +15,12 @@
 
 namespace fulmar::path {
 
+/// Ends the set-up with a message at a part of a parameter.
+[[noreturn]] inline void refuse(const std::string& path, const Diagnostic& fault) {
+  throw std::runtime_error(located(path, fault).line());
+}
+inline std::string path_of_waypoint(std::size_t i) { return "plan.waypoints[" + std::to_string(i) + "]"; }
+
 /// Refuses a waypoint outside the fence. One that waits for the origin is not looked at.
 inline void check_fence(const Plan& plan, const safety::Fence& fence, const Origin& origin) {
   safety::Polygon polygon;
@@ -24,13 +30,11 @@ inline void check_fence(const Plan& plan, const safety::Fence& fence, const Orig
     if (w.frame == WaypointFrame::geodetic && !origin.given) continue;
     const double up_m = -w.position_m.down;
     const double room_m = polygon.room_m(w.position_m.north, w.position_m.east);
-    if (room_m < 0)
-      throw std::runtime_error(path_messages::waypoint_outside_fence(i + 1, std::lround(-room_m)).line());
-    if (up_m > fence.ceiling_m || up_m < fence.floor_m)
-      throw std::runtime_error((up_m > fence.ceiling_m
-                                    ? path_messages::waypoint_above_ceiling
-                                    : path_messages::waypoint_below_floor)(i + 1, std::lround(up_m))
-                                   .line());
+    const std::string path = path_of_waypoint(i);
+    if (room_m < 0) refuse(path, path_messages::waypoint_outside_fence(std::lround(-room_m)));
+    const Fixed height{up_m, 1};
+    if (up_m > fence.ceiling_m) refuse(path, path_messages::waypoint_above_ceiling(height, fence.ceiling_m));
+    if (up_m < fence.floor_m) refuse(path, path_messages::waypoint_below_floor(height, fence.floor_m));
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -59,20 +60,22 @@ struct Planner {
     Plan plan;
   };
 
-  const char* take(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out);
-  const char* take_into_group(const PlanEdit& edit, PlanEditResult& result);
-  const char* commit();
+  using Reason = std::optional<Text<80>>;  // why an edit or a waypoint is refused; empty: it is not
+
+  Reason take(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out);
+  Reason take_into_group(const PlanEdit& edit, PlanEditResult& result);
+  Reason commit();
   void begin_group(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out);
   void drop_group(const Tick& tick, const char* reason, Outputs& out);
   void report(const Tick& tick, const PlanEditResult& result, Outputs& out);
   Text<96> words_of(const PlanEditResult& result) const;  // of a refusal
-  const char* apply(Plan& plan, PlanEdit edit, bool alone, std::uint32_t& waypoint_id);
-  const char* set(Plan& plan, const PlanEdit& edit) const;
+  Reason apply(Plan& plan, PlanEdit edit, bool alone, std::uint32_t& waypoint_id);
+  Reason set(Plan& plan, const PlanEdit& edit) const;
   void put(Plan& plan, const PlanEdit& edit, const Waypoint& w) const;
-  const char* fault_of(const Waypoint& w) const;
-  const char* fault_of_neighbours(const Waypoint& w, const Waypoint* before, const Waypoint* after) const;
+  Reason fault_of(const Waypoint& w) const;
+  Reason fault_of_neighbours(const Waypoint& w, const Waypoint* before, const Waypoint* after) const;
   bool close(const Waypoint& a, const Waypoint& b) const;
-  const char* fault_of_spacing(const Plan& plan) const;
+  Reason fault_of_spacing(const Plan& plan) const;
   void resolve(Waypoint& w) const;
   bool resolved() const;
   void know_origin(double lat_deg, double lon_deg, double alt_m);
@@ -98,15 +101,19 @@ namespace detail {
 
 inline bool given(double x) { return x != not_given; }
 
-/// Throws a sentence that names the waypoint, counted from 1 as a reader counts.
-inline Waypoint waypoint_of(const PlanFileWaypoint& f, std::size_t number) {
+inline bool radius_in_range(double radius_m) { return radius_m >= 1 && radius_m <= 1e5; }
+inline bool airspeed_in_range(double airspeed_mps) { return airspeed_mps >= 3 && airspeed_mps <= 300; }
+
+/// Throws a message located at `path`, the waypoint in the file.
+inline Waypoint waypoint_of(const PlanFileWaypoint& f, const std::string& path) {
   const bool local = given(f.north_m) || given(f.east_m) || given(f.up_m);
   const bool geodetic = given(f.lat_deg) || given(f.lon_deg) || given(f.alt_msl_m);
-  if (local == geodetic) throw std::runtime_error(path_messages::waypoint_place_ambiguous(number).line());
+  if (local && geodetic) refuse(path, path_messages::waypoint_placed_twice());
+  if (!local && !geodetic) refuse(path, path_messages::waypoint_without_place());
   if (local && !(given(f.north_m) && given(f.east_m) && given(f.up_m)))
-    throw std::runtime_error(path_messages::waypoint_place_missing(number, "north, east and up").line());
+    refuse(path, path_messages::waypoint_place_missing("north, east and up"));
   if (geodetic && !(given(f.lat_deg) && given(f.lon_deg) && given(f.alt_msl_m)))
-    throw std::runtime_error(path_messages::waypoint_place_missing(number, "lat, lon and alt_msl").line());
+    refuse(path, path_messages::waypoint_place_missing("lat, lon and alt_msl"));
   Waypoint w;
   if (local) {
     w.position_m = {f.north_m, f.east_m, -f.up_m};
@@ -125,8 +132,7 @@ inline Waypoint waypoint_of(const PlanFileWaypoint& f, std::size_t number) {
 }  // namespace detail
 
 inline void Planner::configure(const Params& p) {
-  if (p.plan->given && p.plan->waypoints.size() == 0)
-    throw std::runtime_error(path_messages::plan_empty().line());
+  if (p.plan->given && p.plan->waypoints.size() == 0) refuse("plan", path_messages::plan_empty());
   lowest_m_ = p.lowest;
   auto plan = std::make_unique<Plan>();
   plan->revision = plan_.revision;
@@ -134,22 +140,22 @@ inline void Planner::configure(const Params& p) {
   plan->end = p.plan->end;
   plan->airspeed_mps = p.plan->airspeed_mps;
   plan->turn_radius_m = p.plan->turn_radius_m;
-  if (!(plan->airspeed_mps > 0 && plan->airspeed_mps < 1000))
-    throw std::runtime_error(path_messages::plan_airspeed_not_positive().line());
-  if (!(plan->turn_radius_m >= 1 && plan->turn_radius_m < 1e5))
-    throw std::runtime_error(path_messages::plan_turn_radius_small().line());
+  if (!detail::airspeed_in_range(plan->airspeed_mps))
+    refuse("plan.airspeed", path_messages::airspeed_out_of_range(plan->airspeed_mps));
+  if (!detail::radius_in_range(plan->turn_radius_m))
+    refuse("plan.turn_radius", path_messages::turn_radius_out_of_range(plan->turn_radius_m));
   if (p.origin->given) know_origin(p.origin->lat_deg, p.origin->lon_deg, p.origin->alt_msl_m);
   for (std::size_t i = 0; i < p.plan->waypoints.size(); ++i) {
-    Waypoint w = detail::waypoint_of(p.plan->waypoints[i], i + 1);
+    Waypoint w = detail::waypoint_of(p.plan->waypoints[i], path_of_waypoint(i));
     resolve(w);
-    const char* fault = fault_of(w);
+    Reason fault = fault_of(w);
     if (!fault) fault = fault_of_neighbours(w, i > 0 ? &plan->waypoints[i - 1] : nullptr, nullptr);
-    if (fault) throw std::runtime_error(path_messages::waypoint_not_valid(i + 1, fault).line());
+    if (fault) refuse(path_of_waypoint(i), Diagnostic(std::string(fault->view())));
     w.id = next_id_++;
     plan->waypoints.push_back(w);
   }
   if (plan->waypoints.size() == 1 && plan->end == PlanEnd::circuit)
-    throw std::runtime_error(path_messages::circuit_of_one().line());
+    refuse("plan.waypoints", path_messages::circuit_of_one());
   if (p.fence.given()) check_fence(*plan, *p.fence, *p.origin);
   plan_ = *plan;
   changed_ = doubtful_ = true;
@@ -178,8 +184,8 @@ inline Status Planner::step(const Tick& tick, const Inputs& in, const Params& p,
   if (in.edits.lost() > 0 && !group_.by_request) drop_group(tick, path_messages::edits_lost.c_str(), out);
   for (const auto& sample : in.edits) take(tick, sample.value, false, out);
   for (const auto request : in.edit) {
-    if (const char* reason = take(tick, request.value(), true, out)) {
-      request.refuse(reason);
+    if (const Reason reason = take(tick, request.value(), true, out)) {
+      request.refuse(reason->view());
     } else {
       request.accept();
     }

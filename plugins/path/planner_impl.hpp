@@ -9,13 +9,13 @@
 
 namespace fulmar::path {
 
-/// Nullptr when taken, else why not; then nothing has changed.
-inline const char* Planner::take(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out) {
+/// Empty when taken, else why not; then nothing has changed.
+inline Planner::Reason Planner::take(const Tick& tick, const PlanEdit& edit, bool by_request, Outputs& out) {
   PlanEditResult result;
   result.id = edit.id;
   result.group = edit.group;
   result.by_request = by_request;
-  const char* reason = nullptr;
+  Reason reason;
   if (edit.group == 0) {
     reason = apply(plan_, edit, true, result.waypoint_id);
     result.in_force = !reason;
@@ -30,7 +30,7 @@ inline const char* Planner::take(const Tick& tick, const PlanEdit& edit, bool by
     result.revision = plan_.revision + 1;
   }
   result.accepted = !reason;
-  if (reason) result.reason = reason;
+  if (reason) result.reason = *reason;
   report(tick, result, out);
   return reason;
 }
@@ -58,8 +58,8 @@ inline void Planner::drop_group(const Tick& tick, const char* reason, Outputs& o
   report(tick, result, out);
 }
 
-inline const char* Planner::take_into_group(const PlanEdit& edit, PlanEditResult& result) {
-  const char* reason = nullptr;
+inline Planner::Reason Planner::take_into_group(const PlanEdit& edit, PlanEditResult& result) {
+  Reason reason;
   group_.last_id = edit.id;
   ++group_.taken;
   if (group_.refused) {
@@ -74,18 +74,18 @@ inline const char* Planner::take_into_group(const PlanEdit& edit, PlanEditResult
   const bool last = group_.taken >= group_.size;
   if (!reason && last) reason = commit();
   result.in_force = !reason && last;
-  group_.refused = reason != nullptr;
+  group_.refused = reason.has_value();
   if (last) group_.number = 0;
   return reason;
 }
 
-inline const char* Planner::commit() {
+inline Planner::Reason Planner::commit() {
   if (group_.changes != changes_) return path_messages::group_outdated.c_str();
-  if (const char* fault = fault_of_spacing(group_.plan)) return fault;
+  if (const Reason fault = fault_of_spacing(group_.plan)) return fault;
   const std::uint32_t revision = plan_.revision;
   plan_ = group_.plan;
   plan_.revision = revision;
-  return nullptr;
+  return {};
 }
 
 inline Text<96> Planner::words_of(const PlanEditResult& result) const {
@@ -116,9 +116,9 @@ inline void Planner::report(const Tick& tick, const PlanEditResult& result, Outp
   unreported_ = 0;
 }
 
-/// Nullptr when done, else why not; then nothing has changed. `alone`: the plan that it makes is in force at
+/// Empty when done, else why not; then nothing has changed. `alone`: the plan that it makes is in force at
 /// once, else its group is looked at as a whole.
-inline const char* Planner::apply(Plan& plan, PlanEdit edit, bool alone, std::uint32_t& waypoint_id) {
+inline Planner::Reason Planner::apply(Plan& plan, PlanEdit edit, bool alone, std::uint32_t& waypoint_id) {
   if (edit.setting != PlanSetting::none) return set(plan, edit);
   auto& list = plan.waypoints;
   const std::uint32_t n = list.count;
@@ -128,49 +128,48 @@ inline const char* Planner::apply(Plan& plan, PlanEdit edit, bool alone, std::ui
   if (edit.kind > PlanEditKind::set_current) return path_messages::edit_kind_unknown.c_str();
   if (edit.waypoint_id != 0 && (at_existing || edit.kind == PlanEditKind::insert)) {
     for (edit.index = 0; edit.index < n && list[edit.index].id != edit.waypoint_id;) ++edit.index;
-    if (edit.index == n) return path_messages::waypoint_id_unknown.c_str();
+    if (edit.index == n) return path_messages::waypoint_id_unknown.to<Text<80>>(edit.waypoint_id);
   }
   const std::uint32_t i = edit.index;
   if (adds && list.full()) return path_messages::plan_full.c_str();
-  if (at_existing && i >= n)
-    return n == 0 ? path_messages::plan_without_waypoints.c_str()
-                  : path_messages::waypoint_index_unknown.c_str();
-  if (edit.kind == PlanEditKind::insert && i > n) return path_messages::index_beyond_end.c_str();
+  if (at_existing && n == 0) return path_messages::plan_without_waypoints.c_str();
+  if (at_existing && i >= n) return path_messages::waypoint_index_unknown.to<Text<80>>(i, n - 1);
+  if (edit.kind == PlanEditKind::insert && i > n) return path_messages::index_beyond_end.to<Text<80>>(i, n);
 
   Waypoint w = edit.waypoint;
   if (edit.kind == PlanEditKind::append) edit.index = n;
   if (adds || edit.kind == PlanEditKind::replace) {
     if (w.frame == WaypointFrame::geodetic) w.position_m = {};
     resolve(w);
-    if (const char* fault = fault_of(w)) return fault;
+    if (const Reason fault = fault_of(w)) return fault;
     const std::uint32_t at = edit.index, next = adds ? at : at + 1;
-    const char* const fault =
+    const Reason fault =
         fault_of_neighbours(w, at > 0 ? &list[at - 1] : nullptr, next < n ? &list[next] : nullptr);
     if (alone && fault) return fault;
   }
   w.id = adds ? next_id_++ : at_existing ? list[i].id : 0;
   waypoint_id = w.id;
   put(plan, edit, w);
-  return nullptr;
+  return {};
 }
 
 /// Of the plan as a whole.
-inline const char* Planner::set(Plan& plan, const PlanEdit& edit) const {
+inline Planner::Reason Planner::set(Plan& plan, const PlanEdit& edit) const {
   switch (edit.setting) {
     case PlanSetting::end:
       if (edit.end > PlanEnd::orbit) return path_messages::end_unknown.c_str();
       plan.end = edit.end;
-      return nullptr;
+      return {};
     case PlanSetting::turn_radius:
-      if (!(edit.turn_radius_m >= 1 && edit.turn_radius_m <= 1e5))
-        return path_messages::turn_radius_out_of_range.c_str();
+      if (!detail::radius_in_range(edit.turn_radius_m))
+        return path_messages::turn_radius_out_of_range.to<Text<80>>(edit.turn_radius_m);
       plan.turn_radius_m = edit.turn_radius_m;
-      return nullptr;
+      return {};
     case PlanSetting::airspeed:
-      if (!(edit.airspeed_mps >= 3 && edit.airspeed_mps <= 300))
-        return path_messages::airspeed_out_of_range.c_str();
+      if (!detail::airspeed_in_range(edit.airspeed_mps))
+        return path_messages::airspeed_out_of_range.to<Text<80>>(edit.airspeed_mps);
       plan.airspeed_mps = edit.airspeed_mps;
-      return nullptr;
+      return {};
     default: return path_messages::setting_unknown.c_str();
   }
 }
@@ -205,14 +204,16 @@ inline void Planner::put(Plan& plan, const PlanEdit& edit, const Waypoint& w) co
   }
 }
 
-inline const char* Planner::fault_of(const Waypoint& w) const {
-  if (w.frame > WaypointFrame::geodetic) return path_messages::waypoint_kind_unknown.c_str();
+inline Planner::Reason Planner::fault_of(const Waypoint& w) const {
+  if (w.frame > WaypointFrame::geodetic) return path_messages::waypoint_frame_unknown.c_str();
   const bool geodetic = w.frame == WaypointFrame::geodetic;
   if (geodetic) {
     if (!std::isfinite(w.latitude_deg) || !std::isfinite(w.longitude_deg) || !std::isfinite(w.altitude_m))
       return path_messages::coordinate_not_finite.c_str();
-    if (std::abs(w.latitude_deg) > 90) return path_messages::latitude_out_of_range.c_str();
-    if (std::abs(w.longitude_deg) > 360) return path_messages::longitude_out_of_range.c_str();
+    if (std::abs(w.latitude_deg) > 90)
+      return path_messages::latitude_out_of_range.to<Text<80>>(w.latitude_deg);
+    if (std::abs(w.longitude_deg) > 360)
+      return path_messages::longitude_out_of_range.to<Text<80>>(w.longitude_deg);
   }
   const Vec3<Ned>& p = w.position_m;
   if (!std::isfinite(p.north) || !std::isfinite(p.east) || !std::isfinite(p.down))
@@ -220,10 +221,12 @@ inline const char* Planner::fault_of(const Waypoint& w) const {
   if (std::hypot(p.north, p.east) > farthest_m || std::abs(p.down) > farthest_m)
     return path_messages::origin_too_far.c_str();
   const bool placed = !geodetic || origin_known_;
-  if (placed && -p.down < lowest_m_) return path_messages::waypoint_low.c_str();
+  if (placed && -p.down < lowest_m_)
+    return path_messages::waypoint_low.to<Text<80>>(Fixed{0 - p.down, 1}, lowest_m_);
   if (!std::isfinite(w.course_rad)) return path_messages::course_not_finite.c_str();
-  if (!(w.airspeed_mps >= 0 && w.airspeed_mps < 1000)) return path_messages::airspeed_not_valid.c_str();
-  return nullptr;
+  if (!(w.airspeed_mps >= 0 && w.airspeed_mps < 1000))
+    return path_messages::airspeed_not_valid.to<Text<80>>(w.airspeed_mps);
+  return {};
 }
 
 inline bool Planner::close(const Waypoint& a, const Waypoint& b) const {
@@ -232,18 +235,19 @@ inline bool Planner::close(const Waypoint& a, const Waypoint& b) const {
          closest_m;
 }
 
-inline const char* Planner::fault_of_neighbours(const Waypoint& w, const Waypoint* before,
-                                                const Waypoint* after) const {
+inline Planner::Reason Planner::fault_of_neighbours(const Waypoint& w, const Waypoint* before,
+                                                    const Waypoint* after) const {
   if (before && close(w, *before)) return path_messages::waypoint_before_close.c_str();
   if (after && close(w, *after)) return path_messages::waypoint_after_close.c_str();
-  return nullptr;
+  return {};
 }
 
 /// Of the plan that a group makes: on the way there waypoints may have been anywhere.
-inline const char* Planner::fault_of_spacing(const Plan& plan) const {
+inline Planner::Reason Planner::fault_of_spacing(const Plan& plan) const {
   for (std::uint32_t i = 1; i < plan.waypoints.count; ++i)
-    if (close(plan.waypoints[i - 1], plan.waypoints[i])) return path_messages::waypoints_close.c_str();
-  return nullptr;
+    if (close(plan.waypoints[i - 1], plan.waypoints[i]))
+      return path_messages::waypoints_close.to<Text<80>>(i - 1, i);
+  return {};
 }
 
 inline void Planner::resolve(Waypoint& w) const {
@@ -256,12 +260,12 @@ inline void Planner::resolve(Waypoint& w) const {
 /// Geodetic waypoints had no height above the origin until now. A plan with one too low is not published.
 inline void Planner::report_unflyable(const Tick& tick, Outputs& out) {
   for (std::uint32_t i = 0; i < plan_.waypoints.count; ++i) {
-    const char* const fault = fault_of(plan_.waypoints[i]);
+    const Reason fault = fault_of(plan_.waypoints[i]);
     if (!fault) continue;
     Notice notice;
     notice.severity = Severity::error;
     std::array<char, 96> words{};
-    path_messages::waypoint_not_valid.write(words.data(), words.size(), i + 1, fault);
+    path_messages::waypoint_not_valid.write(words.data(), words.size(), i + 1, fault->view());
     fit_words(words.data(), notice.text.bytes.data(), notice.text.bytes.size());
     out.notices.push(notice, tick.now_ns);
     return;

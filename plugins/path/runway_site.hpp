@@ -103,7 +103,8 @@ class RunwaySite {
     if (fix_height(p) + margin_m > record.ceiling_m)
       throw std::runtime_error(
           fulmar::located("fence.ceiling_m", path_messages::landing_above_ceiling(
-                                                 std::lround(fix_height(p)), std::lround(record.ceiling_m)))
+                                                 std::lround(fix_height(p)), std::lround(record.ceiling_m),
+                                                 std::lround(margin_m)))
               .line());
   }
 

@@ -58,8 +58,8 @@ TEST_CASE("a value that no aircraft has is refused, with its range" * doctest::t
           "north: graph.value_out_of_range(1e9 m, -100000, 100000,  m, )");
   const std::string same = "{north: 1 m, east: 2 m, up: 70 m}";
   refused(with_plan + "{waypoints: [" + same + ", " + same + "]}}}\n",
-          "path.waypoint_not_valid(2, path.waypoint_before_close)");
-  refused(with_plan + "{waypoints: [" + same + "]}}}\n", "path.circuit_of_one");
+          "plan.waypoints[1]: path.waypoint_before_close");
+  refused(with_plan + "{waypoints: [" + same + "]}}}\n", "plan.waypoints: path.circuit_of_one");
   CHECK(fulmar("run --no-log --duration 1 " +
                mission(with_plan + "{end: orbit, waypoints: [" + same + "]}}}\n").string())
             .code == 0);
@@ -75,6 +75,23 @@ TEST_CASE("a value that no aircraft has is refused, with its range" * doctest::t
                       std::string::npos,
                   r.err);
   }
+}
+
+TEST_CASE("a refused waypoint, and a refused value of a plan, have their line in the plan file") {
+  const fs::path file = folder() / "refused_plan.yaml";
+  const fs::path m = mission("components:\n  plan: {params: {plan: " + file.string() + "}}\n");
+  const auto refused = [&](const std::string& text, const std::string& reported) {
+    std::ofstream(file) << text;
+    const Result r = fulmar("check " + m.string());
+    CHECK(r.code == 4);
+    CHECK_MESSAGE(r.err.find(file.string() + reported) != std::string::npos, r.err);
+  };
+  const std::string waypoint = "  - {north: 300 m, east: 0 m, up: 70 m}\n";
+  refused("waypoints:\n" + waypoint + "  - {north: 0 m, east: 0 m, up: -70 m}\n",
+          ":3: plan: plan.waypoints[1]: path.waypoint_low(-70.0, 1)");
+  refused("waypoints:\n" + waypoint + waypoint, ":3: plan: plan.waypoints[1]: path.waypoint_before_close");
+  refused("end: circuit\nwaypoints:\n" + waypoint, ":2: plan: plan.waypoints: path.circuit_of_one");
+  refused("turn_radius: 80 m\n", ":1: plan: plan: path.plan_empty");
 }
 
 namespace {

@@ -55,10 +55,10 @@ TEST_CASE("who edits the plan learns in its next step what became of it, whereve
     CHECK(result["guards"].empty());
     CHECK(result["tally"]["in_force"] == 2);  // the group, and the removal
     CHECK(result["tally"]["refused"] == 1);
-    CHECK(result["tally"]["reason"] == "path.waypoint_id_unknown");
+    CHECK(result["tally"]["reason"] == "path.waypoint_id_unknown(99)");
     CHECK(result["tally"]["taken_away"] == 5);  // the plan came with four
     CHECK(result["allocations"]["plan"] == 0);
-    CHECK(said.find("path.edit_refused(4, path.waypoint_id_unknown)") != std::string::npos);
+    CHECK(said.find("path.edit_refused(4, path.waypoint_id_unknown(99))") != std::string::npos);
     CHECK(shell(program + " replay " + log).find("equal: ") != std::string::npos);
     fs::remove(log);
   }

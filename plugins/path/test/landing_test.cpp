@@ -300,7 +300,7 @@ TEST_CASE("a fence that the pattern leaves, or comes too near to, is refused wit
                (near("final_approach") + "100, -3").c_str()));
   // tan(0.07) (400 + 50) m + 20 m = 51.6 m
   CHECK(refused(box(256, 84, -686, 216), 67) == "");
-  CHECK(refused(box(256, 84, -686, 216), 66) == "fence.ceiling_m: path.landing_above_ceiling(52, 66)");
+  CHECK(refused(box(256, 84, -686, 216), 66) == "fence.ceiling_m: path.landing_above_ceiling(52, 66, 15)");
 }
 
 TEST_CASE("a runway that is too short is refused with what it takes") {

@@ -100,7 +100,7 @@ TEST_CASE(
   bad.index = 9;
   desk.push(bad);
   REQUIRE(desk.bench.out.notices.count == 1);
-  CHECK(desk.bench.out.notices.items[0].text == "path.edit_refused(7, path.waypoint_index_unknown)");
+  CHECK(desk.bench.out.notices.items[0].text == "path.edit_refused(7, path.waypoint_index_unknown(9, 2))");
   CHECK(desk.bench.out.notices.items[0].severity == Severity::warning);
   int reported = 0;
   for (int i = 0; i < 49; ++i) {
@@ -111,7 +111,7 @@ TEST_CASE(
   desk.push(bad);
   REQUIRE(desk.bench.out.notices.count == 1);
   CHECK(desk.bench.out.notices.items[0].text ==
-        "path.edit_refused_again(7, path.waypoint_index_unknown, 49)");
+        "path.edit_refused_again(7, path.waypoint_index_unknown(9, 2), 49)");
   CHECK(desk.bench.out.refused_ratio.value == 51);
   desk.push(of_group(edit(PlanEditKind::append, 0, 900), 3, 0));
   REQUIRE(desk.bench.out.notices.count == 1);  // another reason is told at once
@@ -141,7 +141,7 @@ TEST_CASE("a waypoint keeps its id whatever is edited around it, and an id is gi
   desk.push(away);
   CHECK(desk.norths() == Norths{0, 350, 600});
   desk.push(away);
-  CHECK(desk.result().reason == "path.waypoint_id_unknown");
+  CHECK(desk.result().reason == "path.waypoint_id_unknown(4)");
   desk.push(edit(PlanEditKind::clear, 5));
   desk.push(edit(PlanEditKind::append, 6, 10));
   CHECK(desk.result().waypoint_id == 5);
@@ -175,7 +175,7 @@ TEST_CASE("of a group with one fault nothing takes effect, and each of its edits
   desk.step();
   REQUIRE(desk.bench.out.results.count == 3);
   CHECK(desk.result(0).accepted);
-  CHECK(desk.result(1).reason == "path.waypoint_id_unknown");
+  CHECK(desk.result(1).reason == "path.waypoint_id_unknown(77)");
   CHECK(desk.result(2).reason == "path.group_refused");
   for (std::uint32_t i = 0; i < 3; ++i) CHECK_FALSE(desk.result(i).in_force);
   CHECK(desk.norths() == as_it_was);
@@ -196,7 +196,7 @@ TEST_CASE("waypoints of a group may be anywhere on the way, but are apart at its
   CHECK(desk.norths() == Norths{300, 0, 600});
   second.waypoint.position_m.north = 600;
   desk.push(of_group(second, 9, 1));
-  CHECK(desk.result().reason == "path.waypoints_close");
+  CHECK(desk.result().reason == "path.waypoints_close(1, 2)");
   CHECK(desk.norths() == Norths{300, 0, 600});
 }
 
@@ -248,10 +248,10 @@ TEST_CASE("end, radius and airspeed of the plan are edited, within their ranges"
   CHECK(desk.plan.waypoints.count == 3);
   radius.turn_radius_m = 0.5;
   desk.push(radius);
-  CHECK(desk.result().reason == "path.turn_radius_out_of_range");
+  CHECK(desk.result().reason == "path.turn_radius_out_of_range(0.5)");
   speed.airspeed_mps = 1;
   desk.push(speed);
-  CHECK(desk.result().reason == "path.airspeed_out_of_range");
+  CHECK(desk.result().reason == "path.airspeed_out_of_range(1)");
   CHECK(desk.plan.turn_radius_m == 80);
 }
 

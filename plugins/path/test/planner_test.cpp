@@ -93,9 +93,9 @@ TEST_CASE("a waypoint outside the fence, above its ceiling or below its floor is
     return bench.configure() == Status::failed ? std::string(bench.error()) : std::string();
   };
   CHECK(refusal(900, 119) == "");
-  CHECK(refusal(3700, 70) == "path.waypoint_outside_fence(4, 2700)");
-  CHECK(refusal(900, 121) == "path.waypoint_above_ceiling(4, 121)");
-  CHECK(refusal(900, 29) == "path.waypoint_below_floor(4, 29)");
+  CHECK(refusal(3700, 70) == "plan.waypoints[3]: path.waypoint_outside_fence(2700)");
+  CHECK(refusal(900, 121) == "plan.waypoints[3]: path.waypoint_above_ceiling(121.0, 120)");
+  CHECK(refusal(900, 29) == "plan.waypoints[3]: path.waypoint_below_floor(29.0, 30)");
 }
 
 TEST_CASE("airspeed and bank beyond the airframe are reported once, within it never") {
@@ -184,10 +184,10 @@ TEST_CASE("a bad edit is refused with its reason and changes nothing") {
     CHECK_FALSE(bench.out.plan.written);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  refused(edit(PlanEditKind::remove, 3), "path.waypoint_index_unknown");
-  refused(edit(PlanEditKind::replace, 7, 0, 0), "path.waypoint_index_unknown");
-  refused(edit(PlanEditKind::set_current, 3), "path.waypoint_index_unknown");
-  refused(edit(PlanEditKind::insert, 4, 0, 0), "path.index_beyond_end");
+  refused(edit(PlanEditKind::remove, 3), "path.waypoint_index_unknown(3, 2)");
+  refused(edit(PlanEditKind::replace, 7, 0, 0), "path.waypoint_index_unknown(7, 2)");
+  refused(edit(PlanEditKind::set_current, 3), "path.waypoint_index_unknown(3, 2)");
+  refused(edit(PlanEditKind::insert, 4, 0, 0), "path.index_beyond_end(4, 3)");
   refused(edit(PlanEditKind::append, 0, nan, 0), "path.coordinate_not_finite");
   refused(edit(PlanEditKind::append, 0, 0, 0, nan), "path.coordinate_not_finite");
   refused(edit(PlanEditKind::append, 0, 2e5, 0), "path.origin_too_far");
@@ -199,14 +199,22 @@ TEST_CASE("a bad edit is refused with its reason and changes nothing") {
   refused(course, "path.course_not_finite");
   PlanEdit speed = edit(PlanEditKind::append, 0, 900, 0);
   speed.waypoint.airspeed_mps = -1;
-  refused(speed, "path.airspeed_not_valid");
+  refused(speed, "path.airspeed_not_valid(-1)");
+  speed.waypoint.airspeed_mps = 1000;
+  refused(speed, "path.airspeed_not_valid(1000)");
   PlanEdit kind = edit(PlanEditKind::append, 0, 900, 0);
   kind.kind = static_cast<PlanEditKind>(77);
   refused(kind, "path.edit_kind_unknown");
   PlanEdit pole = edit(PlanEditKind::append, 0);
   pole.waypoint.frame = WaypointFrame::geodetic;
   pole.waypoint.latitude_deg = 91;
-  refused(pole, "path.latitude_out_of_range");
+  refused(pole, "path.latitude_out_of_range(91)");
+  pole.waypoint.latitude_deg = 40;
+  pole.waypoint.longitude_deg = -361;
+  refused(pole, "path.longitude_out_of_range(-361)");
+  PlanEdit frame = edit(PlanEditKind::append, 0, 900, 0);
+  frame.waypoint.frame = static_cast<WaypointFrame>(77);
+  refused(frame, "path.waypoint_frame_unknown");
   CHECK(ask(bench, edit(PlanEditKind::replace, 1, 300, 101)) == "accepted");  // near itself is no fault
 }
 
@@ -268,28 +276,35 @@ TEST_CASE("a file that is wrong is refused with a sentence that names the waypoi
     CHECK(bench.configure() == Status::failed);
     return bench.error();
   };
-  CHECK(fault([](PlanFile& f) { f.waypoints[1].lat_deg = 40; }).find("path.waypoint_place_ambiguous(2)") !=
-        std::string::npos);
-  CHECK(fault([](PlanFile& f) {
-          f.waypoints[2].up_m = not_given;
-        }).find("path.waypoint_place_missing(3, north, east and up)") != std::string::npos);
-  CHECK(fault([](PlanFile& f) {
-          f.waypoints[2] = f.waypoints[1];
-        }).find("path.waypoint_not_valid(3, path.waypoint_before_close)") != std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.waypoints.count = 1; }).find("path.circuit_of_one") != std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.waypoints[0] = {}; }).find("path.waypoint_place_ambiguous(1)") !=
-        std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.airspeed_mps = 0; }).find("path.plan_airspeed_not_positive") !=
-        std::string::npos);
-  CHECK(fault([](PlanFile& f) { f.turn_radius_m = 0; }).find("path.plan_turn_radius_small") !=
-        std::string::npos);
+  CHECK(fault([](PlanFile& f) { f.waypoints[1].lat_deg = 40; }) ==
+        "plan.waypoints[1]: path.waypoint_placed_twice");
+  CHECK(fault([](PlanFile& f) { f.waypoints[2].up_m = not_given; }) ==
+        "plan.waypoints[2]: path.waypoint_place_missing(north, east and up)");
+  CHECK(fault([](PlanFile& f) { f.waypoints[2] = f.waypoints[1]; }) ==
+        "plan.waypoints[2]: path.waypoint_before_close");
+  CHECK(fault([](PlanFile& f) { f.waypoints.count = 1; }) == "plan.waypoints: path.circuit_of_one");
+  CHECK(fault([](PlanFile& f) { f.waypoints[0] = {}; }) == "plan.waypoints[0]: path.waypoint_without_place");
+  CHECK(fault([](PlanFile& f) { f.airspeed_mps = 0; }) == "plan.airspeed: path.airspeed_out_of_range(0)");
+  for (const double radius_m : {0.0, 100'001.0})
+    CHECK(fault([&](PlanFile& f) { f.turn_radius_m = radius_m; }) ==
+          (radius_m > 1 ? "plan.turn_radius: path.turn_radius_out_of_range(100001)"
+                        : "plan.turn_radius: path.turn_radius_out_of_range(0)"));
   CHECK(fault([](PlanFile& f) {
           f.waypoints.count = 0;
           f.given = true;
-        }).find("path.plan_empty") != std::string::npos);  // {turn_radius: 80 m} alone
-  CHECK(fault([](PlanFile& f) {
-          f.waypoints[0].airspeed_mps = -3;
-        }).find("path.waypoint_not_valid(1, path.airspeed_not_valid)") != std::string::npos);
+        }) == "plan: path.plan_empty");  // {turn_radius: 80 m} alone
+  CHECK(fault([](PlanFile& f) { f.waypoints[0].airspeed_mps = -3; }) ==
+        "plan.waypoints[0]: path.airspeed_not_valid(-3)");
+}
+
+TEST_CASE("the ends of the ranges of turn_radius and airspeed are valid in a file") {
+  for (const auto& [radius_m, airspeed_mps] : {std::pair{1.0, 3.0}, {1e5, 300.0}}) {
+    Bench<Planner> bench;
+    three_waypoints(bench);
+    bench.params.plan.value.turn_radius_m = radius_m;
+    bench.params.plan.value.airspeed_mps = airspeed_mps;
+    CHECK(bench.configure() == Status::ok);
+  }
 }
 
 TEST_CASE("edits of the queue are applied in order, and what is refused is counted") {
@@ -320,7 +335,7 @@ TEST_CASE("a waypoint in the ground is refused, in a file, in an edit, and when 
   three_waypoints(bench);
   bench.params.plan.value.waypoints[1].up_m = -70;
   CHECK(bench.configure() == Status::failed);
-  CHECK(bench.error() == "path.waypoint_not_valid(2, path.waypoint_low)");
+  CHECK(bench.error() == "plan.waypoints[1]: path.waypoint_low(-70.0, 1)");
   bench.params.lowest.value = -100;  // beside a cliff
   CHECK(bench.configure() == Status::ok);
 
@@ -329,7 +344,7 @@ TEST_CASE("a waypoint in the ground is refused, in a file, in an edit, and when 
   REQUIRE(air.configure() == Status::ok);
   air.push(air.in.edit, PlanEdit{});  // an append that says no place
   air.step(0.01);
-  CHECK(air.answer(air.in.edit, 0) == "path.waypoint_low");
+  CHECK(air.answer(air.in.edit, 0) == "path.waypoint_low(0.0, 1)");
   CHECK(air.out.plan.value.waypoints.count == 3);
 
   Bench<Planner> map;
@@ -345,7 +360,7 @@ TEST_CASE("a waypoint in the ground is refused, in a file, in an edit, and when 
   CHECK(map.step(0.01) == Status::degraded);
   CHECK_FALSE(map.out.plan.written);
   REQUIRE(map.out.notices.count == 1);
-  CHECK(map.out.notices.items[0].text.view() == "path.waypoint_not_valid(2, path.waypoint_low)");
+  CHECK(map.out.notices.items[0].text.view() == "path.waypoint_not_valid(2, path.waypoint_low(-30.2, 1))");
   map.step(0.01);
   CHECK(map.out.notices.count == 0);
 }

@@ -340,10 +340,10 @@ TEST_CASE("a waypoint outside the fence, above its ceiling or below its floor is
   };
   CHECK(refused(299, 199, 99).empty());
   CHECK(refused(-49, -99, 21).empty());
-  CHECK(refused(330, 0, 50).find("path.waypoint_outside_fence(2, 30)") == 0);
-  CHECK(refused(0, -117, 50).find("path.waypoint_outside_fence(2, 17)") == 0);
-  CHECK(refused(0, 0, 101).find("path.waypoint_above_ceiling(2, 101)") != std::string::npos);
-  CHECK(refused(0, 0, 19).find("path.waypoint_below_floor(2, 19)") != std::string::npos);
+  CHECK(refused(330, 0, 50) == "plan.waypoints[1]: path.waypoint_outside_fence(30)");
+  CHECK(refused(0, -117, 50) == "plan.waypoints[1]: path.waypoint_outside_fence(17)");
+  CHECK(refused(0, 0, 101) == "plan.waypoints[1]: path.waypoint_above_ceiling(101.0, 100)");
+  CHECK(refused(0, 0, 19) == "plan.waypoints[1]: path.waypoint_below_floor(19.0, 20)");
 }
 
 TEST_CASE(

@@ -295,7 +295,7 @@ TEST_CASE("tables that cannot be read are refused with their line") {
   refused("{coefficient: pitch, over: alpha, at: [0, 0.1], values: [1, 2, 3]}",
           "aero.table_invalid(0, values: flight.table_values_mismatched(3, 2))");
   refused("{coefficient: pitch, over: alpha, at: [-5, 5], values: [1, 2]}",
-          "aero.table_invalid(0, at: flight.table_angle_large)");
+          "aero.table_invalid(0, at: flight.table_angle_large(-5))");
   refused("{over: alpha, at: [0, 1]}",
           "aero.tables[0]: graph.item_incomplete(CoefficientTable, coefficient, values)");
   refused("{coefficient: pitch, over: aleph, at: [0, 1], values: [1, 2]}", "aero.tables[0].over: ");

@@ -197,13 +197,13 @@ TEST_CASE("a table that cannot be read says what is wrong") {
   CHECK(table_fault(t) == "values: flight.table_grid_mismatched(5, 3, 2, 6)");
   t = grid();
   t.at_ratio[2] = -0.05;
-  CHECK(table_fault(t) == "at: flight.table_points_not_rising");
+  CHECK(table_fault(t) == "at: flight.table_points_not_rising(-0.05, 0)");
   t = grid();
   t.and_at_ratio[1] = -0.2;
-  CHECK(table_fault(t) == "and_at: flight.table_points_not_rising");
+  CHECK(table_fault(t) == "and_at: flight.table_points_not_rising(-0.2, -0.2)");
   t = grid();
   t.at_ratio[2] = 30;
-  CHECK(table_fault(t) == "at: flight.table_angle_large");
+  CHECK(table_fault(t) == "at: flight.table_angle_large(30)");
   t = grid();
   t.and_over = TableVariable::alpha;
   CHECK(table_fault(t) == "and_over: flight.table_variables_equal");

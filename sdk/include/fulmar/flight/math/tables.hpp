@@ -84,29 +84,30 @@ inline TableRange table_range(const Aerodynamics& aero, TableVariable of) {
   return range;
 }
 
+/// Error of the points of a table, in the parameter `path`; "" when they are valid.
+template <class Points>
+std::string table_points_fault(const std::string& path, TableVariable over, const Points& at) {
+  for (std::size_t i = 1; i < at.size(); ++i)
+    if (!(at[i] > at[i - 1]))
+      return located(path, flight_messages::table_points_not_rising(at[i], at[i - 1]));
+  if (over == TableVariable::mach || at.empty()) return "";
+  for (const double angle : {at[0], at[at.size() - 1]})
+    if (std::abs(angle) > 3.2) return located(path, flight_messages::table_angle_large(angle));
+  return "";
+}
+
 /// Error of a table that is read: "values: ...", or "" when it is valid.
 inline std::string table_fault(const CoefficientTable& t) {
-  const auto beyond = [](TableVariable over, const auto& at) {
-    return over != TableVariable::mach && !at.empty() &&
-           std::max(std::abs(at[0]), std::abs(at[at.size() - 1])) > 3.2;
-  };
-  const auto rises = [](const auto& at) {
-    for (std::size_t i = 1; i < at.size(); ++i)
-      if (!(at[i] > at[i - 1])) return false;
-    return true;
-  };
   if (t.over == TableVariable::none) return located("over", flight_messages::table_variable_missing());
   if (t.at_ratio.empty()) return located("at", flight_messages::table_points_missing());
-  if (!rises(t.at_ratio)) return located("at", flight_messages::table_points_not_rising());
-  if (beyond(t.over, t.at_ratio)) return located("at", flight_messages::table_angle_large());
+  if (std::string fault = table_points_fault("at", t.over, t.at_ratio); !fault.empty()) return fault;
   const bool two = t.and_over != TableVariable::none;
   if (two && t.and_over == t.over) return located("and_over", flight_messages::table_variables_equal());
   if (two && t.and_at_ratio.empty()) return located("and_at", flight_messages::table_second_points_missing());
   if (!two && !t.and_at_ratio.empty())
     return located("and_over", flight_messages::table_second_variable_missing());
-  if (!rises(t.and_at_ratio)) return located("and_at", flight_messages::table_points_not_rising());
-  if (two && beyond(t.and_over, t.and_at_ratio))
-    return located("and_at", flight_messages::table_angle_large());
+  if (std::string fault = table_points_fault("and_at", t.and_over, t.and_at_ratio); !fault.empty())
+    return fault;
   const std::size_t rows = t.at_ratio.size(), columns = two ? t.and_at_ratio.size() : 1;
   if (t.values_ratio.size() == rows * columns) return "";
   const std::size_t found = t.values_ratio.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The wall clock that only runs forward. No flight depends on it: it paces, measures and waits.
+// The monotonic clock. No result of a flight depends on it: it serves for pace, measurement and time limits.
 #pragma once
 #include <time.h>
 

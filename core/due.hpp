@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes every so often, without drift: due times are whole nanoseconds, and the next one is a period
-// after the last due time, however late that was served. After a gap the schedule starts anew instead of
-// catching up.
+// A periodic schedule without drift: due times are whole nanoseconds, and the next one is a period after the
+// last due time, however late that was served. After a gap the schedule begins again instead of catching up.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -11,18 +10,17 @@ namespace fulmar::core {
 class Due {
  public:
   bool is(std::int64_t now_ns) const noexcept { return now_ns >= next_ns_; }
-  /// Due now, whatever the schedule.
+  /// Due now, independent of the schedule.
   void call(std::int64_t now_ns) noexcept { next_ns_ = now_ns; }
-  /// The schedule counts from here, if it has not begun.
+  /// Starts the schedule here, if it has not begun.
   void begin(std::int64_t now_ns) noexcept {
     if (next_ns_ == never) next_ns_ = now_ns;
   }
-  /// Served.
   void done(std::int64_t now_ns, std::int64_t period_ns) noexcept {
     const bool late = next_ns_ == never || next_ns_ + period_ns <= now_ns;
     next_ns_ = (late ? now_ns : next_ns_) + period_ns;
   }
-  /// Whether it is due, and then served. A period below 0 is never due.
+  /// Whether it is due; a true result counts as served. A period below 0 is never due.
   bool take(std::int64_t now_ns, std::int64_t period_ns) noexcept {
     if (period_ns < 0 || !is(now_ns)) return false;
     done(now_ns, period_ns);

@@ -17,7 +17,7 @@ struct Error : std::runtime_error {
   /// Several faults of one file or mission: one per line.
   explicit Error(std::vector<Diagnostic> faults);
   Diagnostic diagnostic;
-  std::vector<Diagnostic> several;  // empty for one alone
+  std::vector<Diagnostic> several;  // empty for a single fault
 };
 
 /// A place in a file: "hourglass.yaml:12". Line 0: the file as a whole.
@@ -28,7 +28,7 @@ struct Where {
 };
 
 using fulmar::located;
-/// The message with the file and line that it is about.
+/// Adds the file and line to a message.
 inline Diagnostic located(const Where& where, Diagnostic message) {
   message.place = where.text();
   return message;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in front of the C library's functions that fork, for plugins and whatever they link: for the one
-// file of a program that says which of them are refused. That file defines `refuse_fork(call)` before it
-// includes this.
+// Replaces the fork functions of the C library for plugins and their libraries. Exactly one file of a program
+// includes this header. That file defines `refuse_fork(call)` before the include.
 #pragma once
 #include <dlfcn.h>
 #include <pty.h>
@@ -20,8 +19,7 @@ pid_t fork() noexcept {
   return next();
 }
 
-/// A caller of vfork may not tell it from fork (POSIX), and a function that returns twice cannot stand in
-/// front of it.
+/// POSIX allows vfork to behave as fork. A wrapper of the real vfork would return twice.
 pid_t vfork() noexcept {
   if (refuse_fork("vfork")) {
     errno = EPERM;

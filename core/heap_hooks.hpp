@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in front of glibc's allocator, whose own functions do the work: for the one file of a program that
-// counts what is taken from the heap. That file defines `note_heap(calls, bytes)` before it includes this.
+// Replaces glibc's allocation functions by wrappers that count, then call the originals. Exactly one file of
+// a program includes this header. That file defines `note_heap(calls, bytes)` before the include.
 #pragma once
 #include <malloc.h>
 

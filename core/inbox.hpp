@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What other threads leave for one thread.
+// Queue from other threads to one thread.
 #pragma once
 #include <functional>
 #include <mutex>
@@ -11,7 +11,7 @@ namespace fulmar::core {
 template <class Item>
 class Inbox {
  public:
-  /// `wake` is called from the thread that puts, for the first item of a batch.
+  /// The thread that adds the first item of a batch calls `wake`.
   explicit Inbox(std::function<void()> wake) : wake_(std::move(wake)) {}
   void put(Item item) {
     const std::lock_guard lock(mutex_);
@@ -23,7 +23,7 @@ class Inbox {
     const std::lock_guard lock(mutex_);
     return std::exchange(items_, {});
   }
-  /// No `wake` from here on.
+  /// `wake` is not called after this.
   void close() {
     const std::lock_guard lock(mutex_);
     open_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distinguishes a process from a copy of it that a component has forked. A copy has the log, ports and
-// devices of the host, and must not act as the host.
+// Distinguishes a process from a copy that a component has forked. A copy has the log, ports and devices of
+// the host, and must not act as the host.
 #pragma once
 #include <pthread.h>
 #include <sys/mman.h>
@@ -11,8 +11,8 @@
 
 namespace fulmar::core {
 
-/// A byte that the kernel clears in a process that was forked from this one, whichever call has forked it:
-/// looking at it costs no system call.
+/// A byte that the kernel clears in every forked copy of this process, for each kind of fork. Reading it
+/// costs no system call.
 class OriginalMark {
  public:
   OriginalMark() noexcept {
@@ -36,10 +36,10 @@ inline const OriginalMark original_mark;
 
 inline void OriginalMark::clear() noexcept { original_mark.mark_->store(0, std::memory_order_relaxed); }
 
-/// Why a component that flies may not fork.
+/// Reason why a component may not fork in flight.
 inline constexpr const char* copy_would_fly = "the copy of the process would fly, too";
 
-/// Ends a copy, which has no use: without exit handlers, since they are the host's.
+/// Ends a copy, without the exit handlers, which belong to the host.
 [[noreturn]] inline void end_copy() noexcept {
   for (;;) syscall(SYS_exit_group, 0);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which sanitizer this is built with; gcc and clang say it in ways of their own. A sanitizer has an allocator
-// and signal handlers of its own.
+// Sanitizer of this build; gcc and clang define different macros. A sanitizer has its own allocator and
+// signal handlers.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -13,7 +13,7 @@
 
 namespace fulmar::core {
 
-/// How much more time of the CPU a test is given where every access is looked at.
+/// Factor on the CPU time limit of a test when a sanitizer checks every access.
 #ifdef FULMAR_SANITIZED
 inline constexpr double sanitizer_slowdown = 10;
 #else

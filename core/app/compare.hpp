@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two flights side by side.
+// Compares the results of two flights.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace fulmar::core {
 
-/// The figures that two results both have. Results as result_json makes them.
+/// Figures that exist in both results. The results have the form of result_json.
 struct FigureChanges {
   struct Change {
     std::string name;  // "tracking_rmse.north_m"
@@ -20,14 +20,14 @@ struct FigureChanges {
 };
 FigureChanges figure_changes(const nlohmann::json& before, const nlohmann::json& after);
 
-/// How the two are called.
+/// Heading and column names of the comparison.
 struct Sides {
   const char* heading = app_messages::flights_compared.c_str();
   const char* before = "before";
   const char* after = "now";
 };
 
-/// A table of the figures that both results have and that differ: before, after, change.
+/// Table of the figures that both results have and that differ: before, after, change.
 std::string comparison(const FigureChanges& changes, const Sides& sides = {});
 std::string comparison(const nlohmann::json& before, const nlohmann::json& after);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the program ends when a flight does not end by itself: by a signal, a crash, or a component that ends
-// the process. Whatever it is, the vehicle's device gets its last frame, and somebody is told who, and where
-// the log lies.
+// End of the program when a flight does not end by itself: by a signal, a crash, or a component that ends the
+// process. In each case the vehicle's device gets its last frame, and a report names the cause and the place
+// of the log.
 #pragma once
 #include <atomic>
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace fulmar::core {
 
-/// A signal that the flight has not refused; 0: none.
+/// A signal that the flight has not rejected; 0: none.
 extern std::atomic<int> signal_seen;
 
-/// Takes the signals, once or again. With hardware the terminal may go without an end of the flight. A second
-/// signal, or none answered within `patience_s`, ends the program.
+/// Installs the signal handlers; may be called again. With hardware, a flight continues when its terminal
+/// closes. A second signal, or one that is not answered within `patience_s`, ends the program.
 void handle_signals(bool hardware, unsigned patience_s);
 
-/// All is done but what plugins do at their exit. Where that does not come to an end, the program does.
+/// Only the exit handlers of plugins are left to run. The program ends by force when they do not return.
 void expect_exit(int code);
 
-/// While it lives a flight is under way: whoever ends the process is told of, and its exit code is 1 at
-/// least.
+/// Marks a flight as under way for its lifetime. When code ends the process meanwhile, the program reports it
+/// and exits with a code of at least 1.
 class UnderWay {
  public:
-  /// `log`: its name when it will be whole; "": none.
+  /// `log`: name of the complete log; "": no log.
   UnderWay(const Graph& graph, const std::string& log);
   ~UnderWay();
   UnderWay(const UnderWay&) = delete;

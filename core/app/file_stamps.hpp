@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether files have changed: plugins and files of a mission, and the sources that a build makes plugins of.
+// Detects changed files: plugins and files of a mission, and the sources of a plugin's build.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -9,18 +9,18 @@
 
 namespace fulmar::core {
 
-/// The state of some files. A file that is written again with the same bytes counts as changed; what comes of
-/// it is the same.
+/// Times and sizes of some files. A file that is rewritten with the same bytes counts as changed, without
+/// harm.
 class FileStamps {
  public:
   explicit FileStamps(std::vector<std::filesystem::path> files) : files_(std::move(files)), stamps_(read()) {}
-  /// Files that differ from the last call, or from the beginning. A file that is being written is waited for.
+  /// Files that differ from the last call, or from construction. Waits until a file is completely written.
   std::vector<std::filesystem::path> changed();
-  /// A file that was there and is not any more, or "".
+  /// A file that existed at construction and is missing now, or "".
   std::filesystem::path missing() const;
 
  private:
-  using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // its time and its bytes
+  using Stamp = std::pair<std::filesystem::file_time_type, std::uintmax_t>;  // modification time, bytes
   std::map<std::filesystem::path, Stamp> read() const;
   std::vector<std::filesystem::path> files_;
   std::map<std::filesystem::path, Stamp> stamps_;

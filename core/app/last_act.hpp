@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program does last when code of a plugin ends it, by a crash or an exit: the vehicle's device gets
-// its last frame, and somebody is told who it was. So in every program that loads plugins: a file that
-// behaves where it is tried may do otherwise here.
+// Last actions of the program when a plugin's code ends it by a crash or an exit: it sends the vehicle's
+// device the last frame and reports the component. Every program that loads plugins uses this: a file that
+// passed its probe may still crash here.
 #pragma once
 #include <array>
 #include <atomic>
@@ -12,8 +12,8 @@
 
 namespace fulmar::core {
 
-/// While it lives the program is at work: whoever ends the process meanwhile is told of, and its exit code is
-/// not 0. A crash is told for ever.
+/// Marks the program as at work for its lifetime. When code ends the process meanwhile, the program reports
+/// it and exits with a code other than 0. A crash is reported at any time.
 class AtWork {
  public:
   AtWork();
@@ -22,25 +22,26 @@ class AtWork {
   AtWork& operator=(const AtWork&) = delete;
 };
 
-/// Takes the signals of a crash, once or again.
+/// Installs the handlers of crash signals; may be called again.
 void handle_crashes();
 
-/// Prepares the report of an end: the place of the log, of which `log` is the name when it is whole ("": no
-/// log), or that the flight is over.
+/// Prepares the report of an end: the place of the log, or that the flight is over. `log`: name of the
+/// complete log; "": no log.
 void prepare_end(const std::string& log, bool flight_over = false);
 /// A flight is under way.
 extern std::atomic<bool> in_flight;
 
-/// Where a plugin's code lies, for a crash in a thread that is nobody's. `function`: one of the file's.
+/// Notes the address range of a plugin's code, for a crash in a thread that no component owns. `function`:
+/// any function of the file.
 void note_code(const std::string& file, const void* function);
 void forget_code();
 
-/// Whether this process is the one whose ends are handled, and no copy of it that a component has forked.
+/// Whether this process is the host itself, not a copy that a component has forked.
 bool is_the_host();
 /// Ends this process by a signal as if the host had never handled it.
 void end_by_default(int signal);
 
-/// What the vehicle's device is to hear when the host goes. This and what follows is async-signal-safe.
+/// Sends the last frame to the vehicle's device. This function and those below are async-signal-safe.
 void send_last_frame();
 void report(std::initializer_list<const char*> words);
 template <std::size_t N, class... Values>

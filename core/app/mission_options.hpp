@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words that name a mission and what is different in it this time: of every command that loads one.
+// Options that name a mission and override parts of it, for every subcommand that loads one.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
@@ -13,12 +13,12 @@ namespace fulmar::core {
 /// "a=b" -> {a, b}. Throws CLI::ValidationError.
 std::vector<std::pair<std::string, std::string>> pairs(const std::vector<std::string>& words);
 
-/// An option that may be given several times, with one word each time.
+/// Option that may be given several times, with one value each time.
 void add_pairs(CLI::App* command, const char* option, std::vector<std::string>& words, const char* type,
                const char* says);
 
-/// Of an option that names a file. An empty word, as of a variable that is not set, is not taken for the
-/// default.
+/// Validator of an option that names a file. An empty value, as of a shell variable that is not set, is
+/// rejected and does not mean the default.
 CLI::Validator a_file(const std::string& otherwise);
 
 struct MissionOptions {

@@ -11,7 +11,7 @@
 
 namespace fulmar::core {
 
-/// One line that is rewritten on a terminal; whole lines, now and then, when piped.
+/// One line that is rewritten on a terminal; every tenth line as a whole when piped.
 class Progress {
  public:
   explicit Progress(const Graph& graph) : graph_(graph), terminal_(words_on_terminal()) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What people and scripts see of a flight: the progress line, the table, the JSON object.
+// Output of a flight for users and scripts: the progress line, the table, the JSON object.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>

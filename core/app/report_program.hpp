@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program that makes a page of a log, `fulmar report`, for those who need the page at once.
+// Runs `fulmar report`, the program that makes a page of a log, and waits for it.
 #pragma once
 #include <filesystem>
 #include <string>
 
 namespace fulmar::core {
 
-/// Throws Error where none can be made: the program is missing, or the page that it fills.
+/// Throws Error when no report can be made: the program or its page template is missing.
 void check_report_program();
 
-/// Makes `out`, which must not exist. `result`: what `fulmar run --json` prints of the flight; "" for
-/// nothing. Waits for its end. Throws Error; why it failed the program has said on standard error.
+/// Writes `out`, which must not exist. `result`: output of `fulmar run --json` for the flight; "" for none.
+/// Waits for the program's end. Throws Error; the program prints the reason on standard error.
 void make_report(const std::filesystem::path& log, const std::filesystem::path& out,
                  const std::string& result);
 

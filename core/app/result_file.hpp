@@ -17,7 +17,7 @@
 
 namespace fulmar::core {
 
-/// With --json standard output belongs to the result alone: what components print goes to standard error.
+/// With --json standard output carries the result alone: output of components goes to standard error.
 class ResultFile {
  public:
   explicit ResultFile(bool as_json) {
@@ -34,7 +34,7 @@ class ResultFile {
     std::fflush(stdout);
     dup2(fileno(file_.get()), STDOUT_FILENO);
   }
-  /// One result alone, or {"flights": [...]}. False: it cannot be written, which is reported.
+  /// One result alone, or {"flights": [...]}. Returns false when it cannot be written, which is reported.
   bool write(const std::vector<nlohmann::json>& results) {
     return results.empty() || write(results.size() == 1 ? results[0] : nlohmann::json{{"flights", results}});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar run`: one flight, and those that it is restarted as.
+// `fulmar run`: one flight and its restarts.
 #pragma once
 #include "core/app/run_options.hpp"
 

@@ -11,7 +11,7 @@
 
 namespace fulmar::core {
 
-/// Of one flight.
+/// Options of one flight.
 struct RunOptions {
   std::string mission;
   Overrides overrides;
@@ -19,23 +19,24 @@ struct RunOptions {
   std::optional<double> duration_s;
   std::string log_file;
   bool no_log = false, json = false;
-  std::optional<std::string> report;  // HTML file that is made of the log; "": beside the log
-  bool strict = false;                // a flight in which a guard fired ends with an exit code of its own
+  std::optional<std::string> report;  // HTML file that is made from the log; "": beside the log
+  bool strict = false;                // a flight in which a guard stopped a component has its own exit code
   std::string drivers_from;           // log whose driver samples are fed in place of the drivers
-  std::optional<std::string> resume;  // log where to go on; "": the newest of the mission
-  bool no_resume = false;             // on hardware: begin at the beginning, whatever the newest log says
-  std::string live;  // where onlookers connect, in place of the mission's `live:`; "off": nowhere
-  int realtime = 0;  // priority of the loop's thread; 0: an ordinary one
-  struct Part {      // of several flights
-    const char* no_restart = "";  // why a client cannot restart it
-    bool keep_inputs = false;     // for the rehearsal of a plugin that changes
-    bool brief = false;           // one line for the flight, and its warnings
+  std::optional<std::string> resume;  // log from which the flight resumes; "": the newest of the mission
+  bool no_resume = false;             // on hardware: begin at the first phase even when the newest log would
+                                      // resume
+  std::string live;                   // address for clients, in place of the mission's `live:`; "off": none
+  int realtime = 0;                   // priority of the loop's thread; 0: ordinary scheduling
+  struct Part {                       // for one of several flights
+    const char* no_restart = "";      // why a client cannot restart it
+    bool keep_inputs = false;         // keep inputs for the rehearsal of a changed plugin
+    bool brief = false;               // one line for the flight, and its warnings
   } part;
 };
 
-/// Several flights.
+/// Options of several flights.
 struct ManyOptions {
-  std::string seeds;   // a flight with each of them; "": none
+  std::string seeds;   // one flight for each seed; "": none
   int repeat = 0;      // flights in one host; 0: one, or with `watch` until interrupted
   bool watch = false;  // a plugin or file that changes is used by the next flight
   std::string build;   // command that watch runs when a source file beside the mission has changed

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flights of one mission in one host: the graph that flies now, and the results of the flights before.
+// Flights of one mission in one host: the current graph and the results of the previous flights.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -21,23 +21,23 @@ class Progress;
 
 class Session {
  public:
-  /// Loads the mission. Throws Error. `options` outlive it.
+  /// Loads the mission. Throws Error. `options` must outlive the object.
   explicit Session(const RunOptions& options);
 
-  /// A flight; the exit code. With changed files that cannot fly, the mission of before stays, and the result
-  /// is empty. Throws Error.
+  /// Runs a flight and returns its exit code. Keeps the previous mission and returns nothing when the changed
+  /// files cannot fly. Throws Error.
   std::optional<int> try_fly();
-  /// Whether the last flight has ended so that another one begins.
+  /// Whether the last flight ended with a request for another one.
   bool restarts() const { return restart_.has_value(); }
-  /// That other one, with the mission as its files are now, on the same port.
+  /// Runs the requested flight, with the mission as its files are now, on the same port.
   std::optional<int> fly_again();
 
   void set_seed(std::uint64_t seed);
   /// Files of the mission and its plugins, from the first flight on.
   FileStamps& stamps() { return *stamps_; }
-  /// Loads the mission again. False: it is refused, and the mission of before stays.
+  /// Loads the mission again. Returns false when it is rejected; the previous mission stays.
   bool reload(const std::vector<std::filesystem::path>& changed);
-  /// Uses what has changed since the last flight, if anything has.
+  /// Applies the changes since the last flight, if any.
   void take_changes();
 
   const Graph& graph() const { return graph_; }
@@ -65,17 +65,18 @@ class Session {
 
   const RunOptions& options_;
   const std::filesystem::path start_;  // the working directory in which the program was started
-  std::uint16_t port_ = 0;             // where a flight listened that has made room for another; 0: none has
+  std::uint16_t port_ = 0;             // port of the previous flight for its restart; 0: none
   Graph graph_;
-  std::unique_ptr<Graph> before_;  // until a flight with the newcomers has begun
-  std::unique_ptr<Flight> last_;   // what its components saw is what a newcomer is rehearsed on
+  std::unique_ptr<Graph> before_;  // until a flight with the changed files has begun
+  std::unique_ptr<Flight> last_;   // its recorded inputs are the rehearsal of a changed plugin
   std::vector<nlohmann::json> results_;
-  std::optional<Restart> restart_;     // asked of the last flight
-  std::optional<std::uint64_t> seed_;  // asked for with one
+  std::optional<Restart> restart_;     // requested by the last flight
+  std::optional<std::uint64_t> seed_;  // seed of a flight, if requested
   std::unique_ptr<FileStamps> stamps_;
 };
 
-/// Of the exit codes of several flights: one that failed outweighs one whose guards fired.
+/// The worse of two exit codes of several flights: a failed flight outweighs one whose guards stopped a
+/// component.
 int worse(int a, int b);
 
 }  // namespace fulmar::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component in a child process, behind the same function table as one in this process: what it does wrong
-// costs one step, not the host. Arguments go through shared memory to fulmar-child, which loads the same file
-// and calls the same functions: same ABI, same bytes.
+// A component in a child process, behind the same function table as one in this process: a fault costs one
+// step, not the host. Arguments go through shared memory to fulmar-child, which loads the same file and calls
+// the same functions: same ABI, same bytes.
 #pragma once
 #include <sys/types.h>
 
@@ -20,32 +20,32 @@ struct IsolatedOptions {
   std::string name;          // of the component in the mission, for messages
   std::string copy, script;  // PluginInfo::copy, PluginInfo::script
   std::string file;          // PluginInfo::file, for messages
-  // PluginInfo::path, for a script that loads what lies beside it; a shared object needs none
+  // PluginInfo::path, for a script that loads files beside it; unused for a shared object
   std::string path;
   std::size_t index = 0;  // of the component in the plugin
   std::uint64_t seed = 0;
   std::int64_t hang_ns = 2'000'000'000;    // longest wait for a step, activate, deactivate or retune
   std::int64_t setup_ns = 10'000'000'000;  // longest wait for loading and creating, and for configure
-  // both sides look so long before they sleep; 0, or a single CPU: they sleep at once
+  // time of busy waiting before a side sleeps; 0, or a single CPU: sleep at once
   std::int64_t spin_ns = 20'000;
 };
 
 class Isolated {
  public:
-  /// [setup] Spawns the child; it loads the plugin and creates the component. Throws Error with a sentence.
-  /// The child ends with the thread that called this, at the latest.
+  /// [setup] Spawns the child; it loads the plugin and creates the component. Throws Error. The child ends
+  /// with the thread that called this, at the latest.
   Isolated(const ComponentInfo& info, const IsolatedOptions& options);
   ~Isolated();
 
-  /// Calls of a component whose instance is an Isolated*. `create` is NULL; `destroy` does nothing: the
-  /// owner's destructor ends the child.
+  /// Function table of a component whose instance is an Isolated*. `create` is NULL; `destroy` does nothing:
+  /// the owner's destructor ends the child.
   static const fulmar_component& functions();
 
-  /// As of the last call.
+  /// State at the last call.
   bool alive() const noexcept { return alive_; }
-  /// [setup] Whether it lives now: between flights no call would tell.
+  /// [setup] Whether the child lives now: between flights no call detects its end.
   bool check() noexcept;
-  /// It ends here and now, and `death` says what is given: of a child that died when this was flown before.
+  /// Marks the child as dead with the given reason: for the replay of a flight in which it died.
   void die(const char* death, bool hung) noexcept;
   /// How the child died: "crashed (segmentation fault)", "ended itself (exit code 3)", "hung: no answer
   /// within 20 ms". "" while it lives.
@@ -54,16 +54,16 @@ class Isolated {
   bool hung() const noexcept { return hung_; }
   /// Heap calls of all steps so far. 0 where the child cannot count.
   std::uint64_t allocations() const noexcept { return control().allocations; }
-  /// Bytes that its heap has grown by since configure.
+  /// Growth of its heap since configure, bytes.
   std::int64_t heap_growth() const noexcept { return control().heap_growth; }
   pid_t pid() const noexcept { return process_.pid(); }
 
-  /// [setup] Destroys the component and ends the child; what the destructor does when nobody has. What went
-  /// wrong in it, or "".
+  /// [setup] Destroys the component and ends the child, if `end` has not run before. Returns the fault, or
+  /// "".
   std::string end();
 
  private:
-  struct Sample {  // what a value input held when it was copied last
+  struct Sample {  // content of a value input at its last copy
     const void* data = nullptr;
     std::uint64_t sequence = 0;
     std::int64_t valid_at_ns = 0;
@@ -105,7 +105,7 @@ class Isolated {
   std::uint32_t number_ = 1;  // of the call under way
   bool alive_ = true, finished_ = false, hung_ = false;
   char death_[96] = "";
-  Process process_;  // last: it needs the memory prepared, and ends first
+  Process process_;  // last member: needs the prepared memory, and ends first
 };
 
 }  // namespace fulmar::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory that a host and the child of an isolated component share, and how they wait for each other in
-// it. Host and child compute the same layout from the component's tables; no pointer crosses, and the host
-// believes no number of the child.
+// Shared memory of the host and the child of an isolated component, and the wait of one side for the other.
+// Both compute the same layout from the component's tables. No pointer crosses, and the host checks every
+// number from the child.
 #pragma once
 #include <linux/futex.h>
 #include <sys/syscall.h>
@@ -27,22 +27,24 @@ inline constexpr std::size_t cache_line = 64;
 enum class Call : std::uint32_t { create = 1, configure, retune, activate, deactivate, step, quit };
 enum class Stage : std::uint32_t { loaded, created, running };
 
-/// At the start of the memory. Each side writes lines of its own, so that a call moves two lines and no more.
+/// Start of the memory. Each side writes its own cache lines, so that a call moves only two lines.
 struct ControlBlock {
-  // the host's
-  alignas(cache_line) std::atomic<std::uint32_t> request;  // counts calls; what the child sleeps on
+  // written by the host
+  alignas(cache_line) std::atomic<std::uint32_t> request;  // counts calls; the child sleeps on it
   std::atomic<std::uint32_t> host_sleeps;
   Call call;
   std::uint32_t reserved;
   fulmar_tick tick;
-  // the child's
-  alignas(cache_line) std::atomic<std::uint32_t> answer;  // the call answered last; what the host sleeps on
+  // written by the child
+  alignas(cache_line) std::atomic<std::uint32_t> answer;  // number of the last answered call; the host sleeps
+                                                          // on it
   std::atomic<std::uint32_t> child_sleeps;
   std::uint32_t status, has_error;
   std::uint64_t allocations;  // of all steps
   std::int64_t heap_growth;   // bytes since configure
-  // seldom
-  alignas(cache_line) std::atomic<std::uint32_t> signal;  // that ends the child, written in its handler
+  // rarely written
+  alignas(cache_line) std::atomic<std::uint32_t> signal;  // signal that ends the child, written in its
+                                                          // handler
   std::atomic<std::uint32_t> stack_overflow;
   std::atomic<Stage> stage;
   struct {
@@ -51,7 +53,7 @@ struct ControlBlock {
     std::int64_t host_pid;
     std::uint64_t signature, layout_size, values_size;
     char component[256];
-  } set_up;  // by the host
+  } set_up;  // written by the host
   fulmar_error error;
 };
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
@@ -79,9 +81,9 @@ struct SharedValue {
   std::uint32_t has, reserved;
 };
 
-/// Where the samples of one port lie: bytes from the start of the memory.
+/// Offsets of the samples of one port, bytes from the start of the memory.
 struct Place {
-  std::size_t data = 0, stamps = 0, answers = 0, message = 0;  // message: bytes of one
+  std::size_t data = 0, stamps = 0, answers = 0, message = 0;  // message: bytes of one message
   std::uint32_t capacity = 1;
   fulmar_port_kind kind = FULMAR_IN_VALUE;
 };
@@ -97,12 +99,12 @@ struct Layout {
   std::vector<TextPlace> texts;                                           // one per parameter
   std::size_t inputs_at = 0, outputs_at = 0, last_at = 0, values_at = 0;  // the heads, one after the other
   std::size_t size = 0;                                                   // whole pages
-  std::uint64_t signature = 0;                                            // of all that decides it
+  std::uint64_t signature = 0;                                            // hash of the inputs of the layout
 };
 
 // ---- waiting
 
-/// Sleeps while `word` is `seen`, at most `limit_ns`. May wake for nothing.
+/// Sleeps while `word` equals `seen`, at most `limit_ns`. May return early.
 inline void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t limit_ns) noexcept {
   const timespec limit{static_cast<time_t>(limit_ns / 1'000'000'000),
                        static_cast<long>(limit_ns % 1'000'000'000)};
@@ -113,7 +115,7 @@ inline void futex_wake(std::atomic<std::uint32_t>& word) noexcept {
   syscall(SYS_futex, &word, FUTEX_WAKE, 1, nullptr, nullptr, 0);
 }
 
-/// Tells the core that this is a loop that waits.
+/// Hints to the CPU that this is a busy-wait loop.
 inline void spin_hint() noexcept {
 #if defined(__x86_64__) || defined(__i386__)
   __builtin_ia32_pause();
@@ -122,7 +124,7 @@ inline void spin_hint() noexcept {
 #endif
 }
 
-/// Asks `done` again and again for `limit_ns`; whether it said so.
+/// Polls `done` for at most `limit_ns`; returns whether it became true.
 template <class Done>
 bool spin_until(std::int64_t limit_ns, Done&& done) noexcept {
   if (done()) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory that the child of an isolated component shares with the host.
+// Memory that the host shares with the child of an isolated component.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -12,8 +12,8 @@ struct Unmap {
 };
 using Mapping = std::unique_ptr<std::byte, Unmap>;
 
-/// Anonymous memory with a descriptor that a child inherits. It grows and never shrinks: a child cannot take
-/// pages from under the host.
+/// Anonymous memory with a descriptor that a child inherits. It grows and never shrinks: a child cannot
+/// remove pages that the host uses.
 class SharedMemory {
  public:
   explicit SharedMemory(std::size_t size);  // throws Error
@@ -21,7 +21,7 @@ class SharedMemory {
 
   std::byte* data() const noexcept { return data_.get(); }
   int descriptor() const noexcept { return descriptor_; }
-  /// More of it, from `at` on (whole pages). Throws Error.
+  /// Maps more of it, from `at` on (whole pages). Throws Error.
   Mapping window(std::size_t at, std::size_t size);
 
  private:

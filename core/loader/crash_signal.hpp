@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For the one file of a program in which plugins may crash: with a sanitizer, too, a crash ends the process
-// by its signal, which the host names.
+// For one file of a program in which plugins may crash: with a sanitizer, too, a crash then ends the process
+// by its signal, which the host reports.
 #pragma once
 
 #include "core/sanitized.hpp"

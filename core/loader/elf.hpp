@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A look at an ELF file's header, for a sentence that people understand before the system's loader sees the
-// file. Nothing is executed.
+// Checks the header of an ELF file, for a clear message before the system's loader reads the file. Executes
+// nothing.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace fulmar::core {
 
-/// Why `bytes` cannot be a plugin of this host: "is not a plugin: not an ELF shared object". "" when nothing
-/// speaks against it.
+/// Reason why `bytes` cannot be a plugin of this host: "is not a plugin: not an ELF shared object". "" when
+/// there is none.
 std::string elf_fault(std::span<const std::byte> bytes);
 
 /// "x86_64", "aarch64", ... of an ELF machine number (System V ABI, e_machine).
 std::string machine_name(unsigned machine);
 
-/// Copies a header out of a file. False when the file ends before it does.
+/// Copies a header out of a file. Returns false when the file is too short.
 template <class T>
 bool read_header(std::span<const std::byte> file, std::uint64_t offset, T& out) {
   if (offset > file.size() || file.size() - offset < sizeof out) return false;

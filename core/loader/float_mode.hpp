@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The floating-point mode of the calling thread. A library linked with -ffast-math switches denormals off
-// when it is loaded; the host restores the mode around every load, and the probing child refuses such a
-// library.
+// Floating-point mode of the calling thread. A library linked with -ffast-math switches denormals off when it
+// is loaded. The host restores the mode around every load, and the probing child rejects such a library.
 #pragma once
 #include <cfenv>
 #include <cstdint>
@@ -9,7 +8,7 @@
 
 namespace fulmar::core {
 
-/// Saves the mode and restores it at the end of the scope, the control word of SSE or NEON included.
+/// Saves the mode and restores it at the end of the scope, including the control word of SSE or NEON.
 class FloatModeGuard {
  public:
   FloatModeGuard() { std::fegetenv(&saved_); }
@@ -21,12 +20,12 @@ class FloatModeGuard {
   std::fenv_t saved_{};
 };
 
-/// Whether the calling thread computes as every thread begins: rounds to nearest, keeps denormals, traps
-/// nothing. In a step or two of the processor, for use in flight.
+/// Whether the calling thread has the initial mode of a thread: rounds to nearest, keeps denormals, traps
+/// nothing. Takes one or two instructions, for use in flight.
 #if defined(__x86_64__)
 inline bool plain_arithmetic() noexcept {
   constexpr unsigned control = 0xffc0, initial = 0x1f80;  // MXCSR; System V ABI for AMD64, 3.2.3
-  // of long double, 8.1.5 in Intel's manual of the architecture: precision, rounding, traps
+  // control word of long double, section 8.1.5 in Intel's architecture manual: precision, rounding, traps
   constexpr unsigned x87_control = 0x0f3f, x87_initial = 0x033f;
   std::uint16_t x87 = 0;
   asm volatile("fnstcw %0" : "=m"(x87));
@@ -44,16 +43,16 @@ inline bool plain_arithmetic() noexcept { return true; }
 inline void make_arithmetic_plain() noexcept {
   std::fesetenv(FE_DFL_ENV);
 #if defined(__x86_64__)
-  __builtin_ia32_ldmxcsr(0x1f80);  // of denormals that knows nothing
+  __builtin_ia32_ldmxcsr(0x1f80);  // the sanitizer assumes nothing about the register
 #elif defined(__aarch64__)
   asm volatile("msr fpcr, %0" ::"r"(std::uint64_t{0}));
 #endif
 }
 
-/// What arithmetic does, found by doing it: portable where control words are not.
+/// Measures the behaviour of arithmetic: portable to machines without these control words.
 struct FloatMode {
   bool denormal_operands, denormal_results, extended;
-  int rounding, traps;  // traps: which exceptions raise a signal
+  int rounding, traps;  // traps: exceptions that raise a signal
   friend bool operator==(const FloatMode&, const FloatMode&) = default;
 
   static FloatMode now() {

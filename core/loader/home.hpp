@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where Fulmar's own files lie: the folders whose bin/ and lib/fulmar hold its programs and plugins.
+// Folders of Fulmar's own files: their bin/ and lib/fulmar hold its programs and plugins.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -7,19 +7,19 @@
 
 namespace fulmar::core {
 
-/// That of the running program first; then, when the host is a library inside another program, that of the
-/// library.
+/// The folder of the running program first. When the host is a library inside another program, the folder of
+/// the library follows.
 std::vector<std::filesystem::path> home_folders();
 
-/// Whether it is a file that may be executed.
+/// Whether the file is executable.
 bool can_run(const std::filesystem::path& file);
 
-/// A program that belongs to the host, "fulmar-probe": what the environment's `variable` says, else beside
-/// the running program, or in bin/ of a home folder. Empty when it is missing.
+/// A program of the host, such as "fulmar-probe": the path in the environment's `variable`, else beside the
+/// running program, or in bin/ of a home folder. Empty when it is missing.
 std::filesystem::path own_program(const std::string& name, const char* variable = "");
 
-/// The folder of the page that a browser gets from a flight, share/fulmar/web of a home folder. Empty when
-/// Fulmar was built without it.
+/// Folder of the page that a flight serves to a browser, share/fulmar/web of a home folder. Empty when Fulmar
+/// was built without it.
 std::filesystem::path page_folder();
 
 /// The folders of FULMAR_PLUGIN_PATH (separated by ':'), then lib/fulmar of each home folder.

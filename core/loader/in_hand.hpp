@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The file that a thread is loading or unloading, for whoever has to tell of a crash or an exit: its code
-// runs then, before anybody has asked it for anything. A file may have behaved where it was tried.
+// The file that a thread loads or unloads, for the report of a crash or an exit: its code runs at that time,
+// before the host calls it. A file that passed its probe may still crash.
 #pragma once
 #include <atomic>
 #include <string>
 
 namespace fulmar::core {
 
-/// Name of the file that this thread has in hand, or nullptr.
+/// Name of the file that this thread loads or unloads, or nullptr.
 inline constinit thread_local std::atomic<const char*> file_in_hand{nullptr};
 inline constinit thread_local std::atomic<const char*> file_is_being{"loaded"};  // or "unloaded"
 
-/// As long as it lives, the file is being loaded, or unloaded, in this thread. The name has to live as long.
+/// Marks the file as loaded or unloaded in this thread for the lifetime of the object. The name must live as
+/// long.
 class InHand {
  public:
   InHand(const std::string& file, const char* being) noexcept
@@ -28,7 +29,8 @@ class InHand {
     file_is_being.store(being, std::memory_order_relaxed);
     file_in_hand.store(file, std::memory_order_relaxed);
   }
-  const char *file_, *being_;  // of before: a script that is closed closes its host
+  const char *file_, *being_;  // previous values, restored at the end: closing a script closes its host
+                               // plugin
 };
 
 }  // namespace fulmar::core

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What this process can read and execute, from /proc/self/maps: a damaged plugin's tables are refused, not
-// followed into a crash.
+// Readable and executable memory of this process, from /proc/self/maps: the host rejects the tables of a
+// damaged plugin before a pointer can crash it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace fulmar::core {
 
 class Memory {
  public:
-  /// The mappings as they are now. On a system without /proc everything but null counts as readable.
+  /// Reads the current mappings. On a system without /proc every pointer but null counts as readable.
   Memory();
   bool readable(const void* at, std::size_t size) const { return covered(readable_, at, size); }
   bool executable(const void* at) const { return covered(executable_, at, 1); }

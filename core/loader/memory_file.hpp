@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file in memory, by which this process and a child that it starts hand a text to each other.
+// A file in memory through which this process and its child exchange a text.
 #pragma once
 #include <string>
 
 namespace fulmar::core {
 
-/// Gone with this object. The child's end is `descriptor`; `contents` is the text that the child has written.
+/// Removed with this object. `descriptor` is the child's end; `contents` is the text that the child has
+/// written.
 class MemoryFile {
  public:
   /// Throws Error when there is no memory for the text.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Child processes: spawned, never forked, as the host has threads. posix_spawn runs nothing of the host's
+// Child processes: spawned, not forked, because the host has threads. posix_spawn runs no code of the host
 // between the two processes.
 #pragma once
 #include <sys/types.h>
@@ -10,16 +10,15 @@
 
 namespace fulmar::core {
 
-/// What a child finds open: descriptors of this process, or -1 for /dev/null.
+/// Open files of a child: descriptors of this process, or -1 for /dev/null.
 struct ChildFiles {
   int in = -1, out = -1, error = -1;
   int third = -1;       // its descriptor 3; -1: none
-  bool others = false;  // it also gets what is not closed on exec
+  bool others = false;  // pass on all descriptors that are not closed on exec
 };
 
-/// Starts `program`; `words` are its arguments. Its signals are as they are by default, and it leads a group
-/// of its own: the terminal's interrupt is the host's alone, and who is left of it can be stopped with it.
-/// Throws Error.
+/// Starts `program`; `words` are its arguments. It gets default signal handlers and its own process group.
+/// Then the terminal's interrupt reaches only the host, and the whole group can be killed. Throws Error.
 pid_t spawn(const std::string& program, std::vector<std::string> words, const ChildFiles& files);
 
 /// A child process. Ended and reaped with this object at the latest.
@@ -32,14 +31,14 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   pid_t pid() const noexcept { return pid_; }
-  /// Whether it has ended; it is reaped then, and whoever is left of its group is killed.
+  /// Whether the child has ended. When it has, reaps it and kills the rest of its group.
   bool ended() noexcept;
-  /// How it ended: a signal, or 0 and an exit code. After `ended` said so.
+  /// End of the child: a signal, or 0 and an exit code. Valid after `ended` returned true.
   int signal() const noexcept { return signal_; }
   int exit_code() const noexcept { return exit_code_; }
   /// Kills its whole group; does not wait.
   void kill() noexcept;
-  /// Waits at most so long for its end.
+  /// Waits at most `limit` for its end.
   bool wait(std::chrono::nanoseconds limit) noexcept;
 
  private:

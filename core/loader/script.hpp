@@ -12,17 +12,17 @@ namespace fulmar::core {
 /// Name of the plugin that hosts the language of a file: "python" for "my_law.py". "" for anything else.
 std::string script_host(const std::filesystem::path& file);
 
-/// A script that is open. Closed with the object, which the hosting plugin outlives.
+/// An open script. The hosting plugin must outlive it.
 class Script {
  public:
-  /// `host` is the entry of the hosting plugin. `text` is what is run; `file`, where the author keeps it, is
-  /// for messages and for what the script itself loads from beside it. Throws Error with a sentence.
+  /// `host` is the entry of the hosting plugin. `text` is executed; `file`, the original path, is for
+  /// messages and for files that the script loads from its folder. Throws Error.
   Script(const fulmar_plugin& host, const std::string& file, const std::string& text);
   ~Script();
   Script(const Script&) = delete;
   Script& operator=(const Script&) = delete;
 
-  /// Checked by nobody yet: see read_entry.
+  /// Unchecked: see read_entry.
   const fulmar_plugin& entry() const { return *entry_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one way in which the host, its probing child and its isolated children open a plugin's file: Boost.DLL.
+// Opens a plugin's file, for the host, its probing child and its isolated children: Boost.DLL.
 #pragma once
 #include <filesystem>
 #include <memory>
@@ -9,17 +9,17 @@
 
 namespace fulmar::core {
 
-/// A shared object that is open in this process, its symbols its own.
+/// A shared object that is open in this process, with local symbols.
 class SharedObject {
  public:
   SharedObject();
   ~SharedObject();
 
-  /// Throws Error with a sentence about `name`: what the file needs and does not find.
+  /// Throws Error about `name`: the missing dependency of the file.
   void load(const std::filesystem::path& file, const std::string& name);
-  /// Of a file that has been loaded: the address of what it exports under that name, nullptr without it.
+  /// Address of an exported symbol of the loaded file, nullptr without it.
   const void* find(const char* symbol) const;
-  /// Of a file that has been loaded. Throws Error when it is no plugin.
+  /// Entry of the loaded file. Throws Error when it is no plugin.
   const fulmar_plugin& entry(const std::string& name) const;
   void unload();
 
@@ -28,11 +28,11 @@ class SharedObject {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A sentence made of what the system's loader says (glibc's wording, dlerror(3)): "my_law.so needs
+/// Message made from the text of the system's loader (glibc's wording, dlerror(3)): "my_law.so needs
 /// libfoo.so.1, which is not there".
 std::string load_fault(const std::string& name, const char* dlerror_text);
 
-/// Whether the file is still mapped into this process, by whomever: what it holds would not be loaded anew.
+/// Whether the file is still mapped into this process. Then a second load would return the old code.
 bool is_mapped(const std::filesystem::path& file);
 
 }  // namespace fulmar::core

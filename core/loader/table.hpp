@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads type tables that somebody else wrote: every pointer is checked before it is followed, every number
-// before it is believed.
+// Reads the type tables of a plugin: it checks every pointer before it follows it, and every number before it
+// uses it.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -15,10 +15,9 @@
 
 namespace fulmar::core {
 
-/// Bytes of an element as ABI 1.0 had it, which every plugin of ABI 1 has at least: up to the member that was
-/// its last one then. A member that is added later goes to the end of its struct, the line here stays as it
-/// is, and 0 has to mean for it "as before". The struct's first version that has it decides whether it is
-/// there (abi_minor), or its value other than 0 does.
+/// Bytes of an element in ABI 1.0, the minimum of every plugin of ABI 1: up to the last member of that
+/// version. A later member goes to the end of its struct, this line stays, and 0 means "as before" for it. A
+/// member is present from its first minor version on (abi_minor), or when its value is not 0.
 template <class T>
 inline constexpr std::uint32_t size_in_1_0 = 0;
 #define FULMAR_SIZE_IN_1_0(type, last)               \
@@ -40,8 +39,8 @@ class TableReader {
   const Memory& memory() const { return memory_; }
 
   /// Element `i` of an array whose elements lie `stride` bytes apart. Longer elements come from a newer minor
-  /// version: what this host does not know is left out. Shorter ones come from an older one: what they lack
-  /// is zero.
+  /// version: their unknown members are dropped. Shorter ones come from an older version: the missing members
+  /// are zero.
   template <class T>
   T element(const T* base, std::uint32_t stride, std::uint32_t i, const std::string& what) const {
     constexpr std::uint32_t smallest = size_in_1_0<T>;

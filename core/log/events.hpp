@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the host itself logs: plain structs, whose tables stand in events.cpp and nowhere else. Programs read
-// codes and fields; `words` are for people and may be worded anew, or translated, without anybody else taking
-// notice.
+// Messages that the host itself logs: plain structs; their tables are in events.cpp alone. Programs read
+// codes and fields. `words` is a sentence for users and may change or be translated.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -16,40 +15,41 @@
 
 namespace fulmar::core {
 
-/// What an event tells, and which of its fields count. The label, kind and severity of each stand in
-/// events.cpp, in this order.
+/// Meaning of an event and its valid fields. The label, kind and severity of each are in events.cpp, in this
+/// order.
 enum class Code : std::uint8_t {
   phase_entered,     // name: the phase
   guard,             // component: it was stopped; cause
-  hung,              // the same, of one whose process did not answer in time; name: the call
-  over_budget,       // the same, by the wall clock
-  cannot_take_over,  // component: it was to fly; cause
+  hung,              // as guard, for a process that did not answer in time; name: the call
+  over_budget,       // as guard, by wall-clock time
+  cannot_take_over,  // component: it cannot take over; cause
   took_over,         // component: it was stopped; name: its fallback
-  nobody_else,       // component: the role; name: who goes on in it, as nobody that the phase names can
+  nobody_else,       // component: the role; name: the component that stays active, as the phase names no
+                     // usable one
   vehicle_failed,    // component: the vehicle, with which the flight ends; cause
-  late_result,       // component; value_ns: when the result was due that is taken now
+  late_result,       // component; value_ns: due time of the result that is taken now
   request_taken,     // component; name: the request
   request_refused,   // component; name: the request; cause
   parameter_set,     // component; name: the parameter; value
   guard_reset,       // component
   guard_not_reset,   // component; cause
-  failsafe,          // name: the component whose fault it is; cause
-  gave_up,           // the failsafe, asked for by a signal
+  failsafe,          // name: the component that caused it; cause
+  gave_up,           // the failsafe, requested by a signal
   swapped,           // component: its plugin has been changed
-  notice,            // component: what it has to tell people
+  notice,            // component: its message to the user
   log_failed,        // cause
-  concluded,         // `done` or `failed` has decided how the flight of an aircraft ends that is still armed
-  duration_reached,  // the same, decided by whoever set the flight's duration
-  signal_refused,    // a signal that has to be repeated
-  silent,            // the failsafe is over: the pilot's
+  concluded,         // `done` or `failed` has decided the end of the flight; the aircraft is still armed
+  duration_reached,  // as concluded, decided by the duration of the flight
+  signal_refused,    // a signal that must be repeated
+  silent,            // the failsafe is over; the pilot has control
   resumed,           // name: the phase; one more for each parameter, with component, name, value
   not_resumed,       // the vehicle is not in the air, armed
-  died,              // component: it was stopped, since its process has ended; name: the call; cause
+  died,              // component: it was stopped because its process has ended; name: the call; cause
 };
 
 enum class Severity : std::uint8_t { info, warning, error, critical };
 
-/// What happened: topic /fulmar/event.
+/// Topic /fulmar/event.
 struct Event {
   static constexpr const char* topic = "/fulmar/event";
   Code code = Code::phase_entered;
@@ -58,9 +58,9 @@ struct Event {
   std::array<char, name_room> name{};
   std::int64_t value_ns = 0;  // flight time
   double value = 0;
-  // What a component said of itself, byte for byte: in a replay its stand-in says it again.
+  // Text of a component about itself, byte for byte: a replay repeats it.
   std::array<char, 256> cause{};
-  std::array<char, 512> words{};  // one line of UTF-8, for people
+  std::array<char, 512> words{};  // one line of UTF-8, for users
 };
 
 /// The same for the log panels of viewers: rcl_interfaces/msg/Log, topic /rosout.
@@ -72,25 +72,24 @@ struct LogLine {
   std::array<char, component_room> name{};  // the component, or "fulmar"
   std::array<char, 512> msg{};
   std::array<char, 4> file{};
-  std::array<char, 16> function{};  // the kind of event, as kind_words has it
+  std::array<char, 16> function{};  // kind of the event, from kind_words
   std::uint32_t line = 0;
 };
 
-/// When the ticks were, and what came of them, for a replay: topic /fulmar/ticks, one message for some ticks
-/// in a row.
+/// Times and hashes of ticks, for a replay: topic /fulmar/ticks, one message for several consecutive ticks.
 struct Ticks {
   static constexpr const char* topic = "/fulmar/ticks";
   static constexpr std::uint32_t most = 40;
   std::uint64_t first = 0;
-  std::int64_t time_ns = 0;  // of the first
+  std::int64_t time_ns = 0;  // of the first tick
   std::uint32_t periods = 0;
-  std::array<std::uint32_t, most> period_ns{};  // since the tick before; 0 for the first of the flight
+  std::array<std::uint32_t, most> period_ns{};  // since the previous tick; 0 for the first of the flight
   std::uint32_t hashes = 0;
-  std::array<std::uint32_t, most> hash{};  // of what components published in it, but for the vehicle and
-                                           // drivers, whose samples are stored
+  std::array<std::uint32_t, most> hash{};  // of the outputs of all components in the tick, without the
+                                           // vehicle and drivers, whose samples are stored
 };
 
-/// `take` gets the place of each tick in the message, and its flight time.
+/// Calls `take` with the index of each tick in the message and its flight time.
 template <class Take>
 void each_tick(const Ticks& ticks, const Take& take) {
   std::int64_t time_ns = ticks.time_ns;
@@ -102,22 +101,22 @@ void each_tick(const Ticks& ticks, const Take& take) {
 
 enum class CommandKind : std::uint8_t { parameter, phase, swap, reset, request, import };
 
-/// What was asked of a flight from outside, and taken: topic /fulmar/parameter, and /fulmar/command for all
-/// but parameters. The message of a request or import stands in the topic of its port, and is all that the
-/// log holds of it.
+/// Accepted input from outside the flight: topic /fulmar/parameter, and /fulmar/command for all but
+/// parameters. The message of a request or import is in the topic of its port; the log holds no other copy.
 struct CommandNote {
   static constexpr const char *topic = "/fulmar/command", *parameter_topic = "/fulmar/parameter";
   CommandKind kind = CommandKind::parameter;
   std::array<char, component_room> component{};
-  std::array<char, name_room> name{};  // of the parameter, of the phase
-  std::array<double, 3> number{};      // a parameter's value: a number or vector
+  std::array<char, name_room> name{};  // of the parameter or phase
+  std::array<double, 3> number{};      // value of a parameter: a number or vector
   std::int64_t integer = 0;            // of a count, choice or flag
-  std::array<char, 256> text{};  // a text; any other value as in a mission file; of a swap the plugin's file
+  std::array<char, 256> text{};    // a text; any other value in the form of a mission file; for a swap the
+                                   // plugin's file
   std::array<char, 64> version{};  // of the plugin
   std::array<char, 65> sha256{};
 };
 
-/// The table of a struct above.
+/// Type table of a struct above.
 template <class Message>
 const TypePtr& host_type();
 template <>
@@ -129,18 +128,18 @@ const TypePtr& host_type<CommandNote>();
 template <>
 const TypePtr& host_type<LogLine>();
 
-/// What kind of event it is, for people: "phase", "guard", "request", ...
+/// Kind of the event, for users: "phase", "guard", "request", ...
 const char* kind_words(Code code) noexcept;
 
 /// An event of this code, with the code's severity. [tick]
 Event event_of(Code code, std::string_view component = {}, std::string_view name = {}) noexcept;
-/// [tick] An event as viewers list it. `utc_ns`: since 1970.
+/// [tick] Log line of an event for viewers. `utc_ns`: since 1970.
 LogLine log_line_of(const Event& event, std::int64_t utc_ns) noexcept;
-/// [tick] A sentence that was cut at the end of its room ends in dots instead, behind a whole word.
+/// [tick] Replaces the end of a truncated sentence by dots, after a whole word.
 void end_in_dots(char* text, std::size_t room) noexcept;
-/// What a component says of itself goes to terminals, logs and JSON: one line of UTF-8. [tick]
+/// [tick] Makes a component's text safe for terminals, logs and JSON: one line of UTF-8.
 void make_printable(char* text) noexcept;
-/// The event's sentence: one line of UTF-8; a text that is too long ends in dots. [tick]
+/// [tick] Sets the event's sentence: one line of UTF-8; a text that is too long ends in dots.
 void say(Event& event, std::string_view text) noexcept;
 template <std::size_t N, class... Values>
 void say(Event& event, const MessageText<N>& text, const Values&... values) noexcept {
@@ -149,7 +148,7 @@ void say(Event& event, const MessageText<N>& text, const Values&... values) noex
   make_printable(event.words.data());
 }
 
-/// [tick] A text and the zero at its end; what does not fit is left out.
+/// [tick] Copies a text and its terminating zero; text beyond the room is dropped.
 template <std::size_t N>
 void put(std::array<char, N>& to, std::string_view text) noexcept {
   const std::size_t size = text.size() < N ? text.size() : N - 1;
@@ -157,8 +156,7 @@ void put(std::array<char, N>& to, std::string_view text) noexcept {
   to[size] = '\0';
 }
 
-/// The one way from a log to the structs above: the messages of one topic, where the log's table of them is
-/// ours.
+/// Reads the structs above from a log: the messages of one topic, when the log's table equals ours.
 class HostMessages {
  public:
   HostMessages(const McapFile& file, const char* topic, TypePtr type);
@@ -166,7 +164,7 @@ class HostMessages {
   bool same() const { return same_; }
   bool holds(const McapFile::Message& m) const { return same_ && m.channel == channel_; }
   std::uint16_t channel() const { return channel_; }
-  /// Throws Error when the topic is there with other fields.
+  /// Throws Error when the topic exists with other fields.
   void check() const;
 
  protected:
@@ -183,7 +181,7 @@ template <class Message>
 struct HostTopic : HostMessages {
   explicit HostTopic(const McapFile& file, const char* topic = Message::topic)
       : HostMessages(file, topic, host_type<Message>()) {}
-  /// Of a message that it holds. Throws Error when the bytes do not fit.
+  /// Decodes one message. Throws Error when the bytes do not fit.
   Message read(std::span<const std::byte> bytes) const {
     Message message;
     decode(bytes, reinterpret_cast<std::byte*>(&message));

@@ -44,12 +44,12 @@ enum Code : std::uint8_t {
 inline constexpr std::size_t record_head = 1 + 8;           // code, length
 inline constexpr std::size_t message_head = 2 + 4 + 8 + 8;  // channel, sequence, log time, publish time
 inline constexpr std::size_t footer_record = record_head + 20;
-inline constexpr std::uint64_t largest_record = 1u
-                                                << 28;  // read into memory; a larger one is not of a flight
+inline constexpr std::uint64_t largest_record = 1u << 28;  // read into memory; a larger record is not from a
+                                                           // flight
 
 using Data = std::span<const std::byte>;
 
-/// Bytes that grow; what is new is not cleared before it is written.
+/// Growing buffer; new bytes are not cleared before they are written.
 class Bytes {
  public:
   template <class T>
@@ -72,13 +72,13 @@ class Bytes {
   }
   Bytes& append(const Bytes& other) { return raw(other.data(), other.size()); }
 
-  /// A record's code and a length to be set by `end`, which wants what `begin` returned.
+  /// Writes a record's code and a length that `end` sets from the returned place.
   std::size_t begin(Code code) {
     number(code).number(std::uint64_t{0});
     return size_;
   }
   void end(std::size_t start) { patch(start - 8, std::uint64_t{size_ - start}); }
-  /// A whole record: `write` appends what is in it.
+  /// A whole record: `write` appends its content.
   template <class Write>
   void record(Code code, Write write) {
     const std::size_t start = begin(code);
@@ -90,13 +90,13 @@ class Bytes {
     std::memcpy(data_.get() + at, &value, sizeof value);
   }
 
-  /// `size` more bytes, for the caller to fill in.
+  /// Appends `size` bytes for the caller to fill.
   std::byte* grow(std::size_t size) {
     reserve(size);
     size_ += size;
     return data_.get() + size_ - size;
   }
-  /// Room for `more`: the next `grow` up to it does not allocate.
+  /// Reserves room for `more`: the next `grow` up to it does not allocate.
   void reserve(std::size_t more) {
     if (size_ + more <= room_) return;
     const std::size_t room = size_ + more + room_ / 2;
@@ -121,7 +121,7 @@ inline std::uint32_t crc_of(std::uint32_t before, Data data) {
       ::crc32_z(before, reinterpret_cast<const Bytef*>(data.data()), data.size()));
 }
 
-/// Reads values one after the other; throws Error at the end of the data.
+/// Reads consecutive values; throws Error at the end of the data.
 struct Cursor {
   Data data;
   std::size_t at = 0;

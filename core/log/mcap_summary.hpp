@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the writer of a log knows of its schemas, channels and files, and the summary that is made of it.
-// Internal to core/log.
+// The log writer's state of schemas, channels and files, and the summary made from it. Internal to core/log.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -15,7 +14,8 @@ namespace fulmar::core::mcap {
 
 struct Schema {
   std::string name, encoding, text;
-  bool begun = false, stored = false;  // in this or an earlier chunk; in a chunk that is in the file
+  bool begun = false, stored = false;  // begun: in this or an earlier chunk; stored: in a chunk that is in
+                                       // the file
 
   void write(Bytes& out, std::uint16_t id) const {
     out.record(schema, [&] { out.number(id).text(name).text(encoding).text(text); });
@@ -47,7 +47,7 @@ struct Span {
   }
 };
 
-/// What one file holds, and the records of its indexes.
+/// Totals of one file and the records of its indexes.
 struct Totals {
   Bytes chunk_indexes, attachment_indexes, metadata_indexes;
   std::uint32_t chunks = 0, attachments = 0, metadata_records = 0;
@@ -55,7 +55,7 @@ struct Totals {
   Span span;
 };
 
-/// Data end, summary, its offsets and footer, at the end of `block`, which is to come next in the file.
+/// Appends data end, summary, its offsets and footer to `block`, which must be the next block of the file.
 void write_summary(Bytes& block, const OutFile& out, const std::vector<Schema>& schemas,
                    const std::vector<Channel>& channels, const Totals& file);
 

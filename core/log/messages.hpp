@@ -9,8 +9,8 @@ inline constexpr MessageText attachment_checksum_invalid{"log.attachment_checksu
                                                          "the checksum of an attachment is wrong"};
 inline constexpr MessageText attachment_index_wrong{"log.attachment_index_wrong",
                                                     "an attachment index does not point at an attachment"};
-inline constexpr MessageText chunk_checksum_invalid{"log.chunk_checksum_invalid",
-                                                    "the checksum of a chunk is wrong"};
+inline constexpr MessageText chunk_checksum_invalid{
+    "log.chunk_checksum_invalid", "the checksum of a chunk is wrong; the file is damaged here"};
 inline constexpr MessageText chunk_content_invalid{
     "log.chunk_content_invalid", "a chunk holds a record that is not a schema, channel or message"};
 inline constexpr MessageText chunk_index_wrong{"log.chunk_index_wrong",
@@ -66,8 +66,9 @@ inline constexpr MessageText record_memory_exhausted{"log.record_memory_exhauste
                                                      "there is not enough memory for a record"};
 inline constexpr MessageText record_too_large{"log.record_too_large", "a record is longer than 256 MB"};
 inline constexpr MessageText record_truncated{"log.record_truncated", "a record ends too early"};
-inline constexpr MessageText schemas_too_large{"log.schemas_too_large",
-                                               "the schemas and channels take more than 32 MB"};
+inline constexpr MessageText schemas_too_large{
+    "log.schemas_too_large",
+    "the schemas and channels of the log have more than 32 MB, the limit for reading a log"};
 inline constexpr MessageText statistics_differ{"log.statistics_differ",
                                                "the statistics differ from the file"};
 inline constexpr MessageText summary_checksum_invalid{"log.summary_checksum_invalid",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file that grows by whole blocks under the name FILE.part and is FILE when it is finished. Counts, CRC-32
-// and SHA-256 run along.
+// A file that grows by whole blocks under the name FILE.part and is renamed to FILE when it is complete.
+// Counts, CRC-32 and SHA-256 are updated with each block.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,15 +14,15 @@ namespace fulmar::core {
 
 class OutFile {
  public:
-  /// Throws Error when FILE or FILE.part is there already, or cannot be made. `held`: this process holds the
+  /// Throws Error when FILE or FILE.part exists, or cannot be made. `held`: this process has reserved the
   /// name.
   explicit OutFile(const std::filesystem::path& file, bool held = false);
-  /// Makes FILE.part, empty, so that nobody else takes the name; false when it is taken. Throws Error when it
-  /// cannot be made.
+  /// Makes an empty FILE.part to reserve the name; returns false when the name is taken. Throws Error when
+  /// the file cannot be made.
   static bool hold(const std::filesystem::path& file);
-  /// Gives a name back that was held and into which nothing has been written.
+  /// Releases a reserved name whose file is still empty.
   static void let_go(const std::filesystem::path& file);
-  /// Throws Error when FILE or FILE.part is there already.
+  /// Throws Error when FILE or FILE.part exists.
   static void refuse(const std::filesystem::path& file);
   /// Whether a program is writing this file.
   static bool grows(const std::filesystem::path& file);
@@ -30,18 +30,17 @@ class OutFile {
   OutFile(const OutFile&) = delete;
   OutFile& operator=(const OutFile&) = delete;
 
-  /// All of the block is in the file, or none of it: then false, and `error` says why.
+  /// Writes the whole block. On a fault it writes nothing of it, returns false and sets `error`.
   bool append(const void* block, std::size_t size);
   bool sync();
-  /// Closes and gives the file its name, unless another has come to bear it.
+  /// Closes the file and renames it to FILE, unless another file has taken that name.
   bool finish();
 
   std::uint64_t size() const { return size_; }
   std::uint32_t crc() const { return crc_; }
   std::string sha256() { return sha_.hex(); }
   const std::string& error() const { return error_; }
-  /// As it is called now: FILE.part, FILE, or what somebody was seen to have made of it; empty: it is
-  /// removed.
+  /// Current name: FILE.part, FILE, or the name after an observed rename; empty: it is removed.
   const std::filesystem::path& name() const { return name_; }
   void fail(const Diagnostic& why);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads MCAP files from the front, for tools and tests: every record, checksums verified. Of a file that was
-// cut off, all that is whole. Source: the MCAP file format specification, version 0.
+// Reads MCAP files from the front, for tools and tests: every record, with verified checksums. Of a truncated
+// file, it reads every whole record. Source: the MCAP file format specification, version 0.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace fulmar::core {
 
-/// What a file holds beside its messages.
+/// Content of a file without its messages.
 struct McapFile {
   struct Schema {
     std::string name, encoding, text;
@@ -45,48 +45,48 @@ struct McapFile {
   std::vector<Attachment> attachments;
   std::vector<Metadata> metadata;
   std::uint32_t chunks = 0;
-  bool complete = false;  // ends with a footer, and its summary says the same as the file
-  std::string fault;      // "" or why reading ended before the end: "byte 4711: chunk ends after the file"
+  bool complete = false;  // ends with a footer, and its summary agrees with the file
+  std::string fault;      // "" or the reason for the end before the end of the file: "byte 4711: chunk ends
+                          // after the file"
 
-  /// The channel of a topic. Throws Error naming the topics there are.
+  /// The channel of a topic. Throws Error naming the existing topics.
   std::uint16_t channel(const std::string& topic) const;
   const Attachment* attachment(const std::string& name) const;
 };
 
-/// What lets a reading go on behind damage, where a stream by itself ends: `fulmar log recover` has one.
+/// Hooks that continue reading after damage, where a stream without them ends; `fulmar log recover` has one.
 struct McapSalvage {
-  /// Throws Error where no record of this kind and length can begin.
+  /// Throws Error when no record of this kind and length can begin here.
   virtual void check_head(std::uint64_t place, std::uint8_t code, std::uint64_t length) = 0;
-  /// The same of a record that is there as a whole, and does not hold what its length claims.
+  /// The same for a complete record whose content does not fit its length.
   virtual void check_whole(std::uint64_t place, std::uint8_t code, std::uint64_t length) = 0;
-  /// Where the reading goes on after the damaged record at `place`; 0: nowhere. `behind`: the end that it
-  /// claims, 0 when that is not in the file.
+  /// Place where reading continues after the damaged record at `place`; 0: nowhere. `behind`: end of the
+  /// record by its length field; 0 when that is outside the file.
   virtual std::uint64_t go_on(std::uint64_t place, std::uint8_t code, std::uint64_t behind) = 0;
-  /// A message is left out whose channel stood in what is damaged.
+  /// Called for a dropped message whose channel was in the damaged part.
   virtual void lost_message() = 0;
-  /// Of a file that was closed: it repeats the schemas and channels, for when those in the chunks are
-  /// damaged.
+  /// Summary of a closed file: it repeats the schemas and channels, in case those in the chunks are damaged.
   std::vector<std::byte> summary;
 
  protected:
   ~McapSalvage() = default;
 };
 
-/// The messages of a file one after the other; no more than one chunk of them is in memory.
+/// The messages of a file in order; at most one chunk of them is in memory.
 class McapStream {
  public:
-  /// Throws Error when the file cannot be read at all or is no MCAP file. Without `salvage` the reading ends
-  /// at the first byte that is not as the format says.
+  /// Throws Error when the file cannot be read or is no MCAP file. Without `salvage`, reading ends at the
+  /// first invalid byte.
   explicit McapStream(const std::filesystem::path& file, McapSalvage* salvage = nullptr);
   ~McapStream();
   McapStream(const McapStream&) = delete;
   McapStream& operator=(const McapStream&) = delete;
 
-  /// Valid until the next call. nullptr at the end: then log().complete or log().fault tells which one.
+  /// Valid until the next call. nullptr at the end: log().complete or log().fault gives the reason.
   const McapFile::Message* next();
-  /// What has been read so far, without the messages.
+  /// The content read so far, without the messages.
   const McapFile& log() const;
-  /// The same, at the end, to keep.
+  /// Moves the same out, at the end.
   McapFile take_log();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What enters a flight from other threads: parameters, requests, phases, swaps, samples of foreign origin.
-// The live view, the command line and DDS speak to a flight through this and nothing else.
+// Input of a flight from other threads: parameters, requests, phases, swaps, imported samples. The live view,
+// the command line and DDS use only this interface.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -15,11 +15,11 @@
 
 namespace fulmar::core {
 
-/// What somebody outside may know of a flight's parts. A copy.
+/// Copies of the state of a flight's parts, for clients.
 struct ParameterView {
   ParamInfo info;
   ParamValue base;        // mission, --set, live changes
-  bool overlaid = false;  // a phase sets something else while it lasts
+  bool overlaid = false;  // a phase sets another value while it lasts
 };
 struct PortView {
   std::string name;
@@ -30,12 +30,12 @@ struct PortView {
 };
 struct ComponentView {
   std::string name, use, doc, run;
-  std::string role;     // "outer, inner": all that it fills
-  std::string swapped;  // what its last swap did to its parameters; "": nothing that a user would not expect
-  bool active = false, stopped = false;  // flies now; stopped by a guard
+  std::string role;                      // "outer, inner": all roles that it fills
+  std::string swapped;                   // unexpected changes of its parameters by its last swap; "": none
+  bool active = false, stopped = false;  // active: flies now; stopped: by a guard
   std::uint64_t steps = 0;
   double step_us = 0, step_max_us = 0,
-         budget_us = 0;  // by the clock on the wall: mean, largest; 0: no budget
+         budget_us = 0;  // wall-clock time: mean, largest; 0: no budget
   std::vector<ParameterView> params;
   std::vector<PortView> inputs, outputs;
 };
@@ -57,11 +57,11 @@ struct FlightView {
   std::vector<ComponentView> components;
   std::string file;  // of the mission
   std::uint64_t seed = 0;
-  std::optional<Geodetic> origin;  // of the local frame, where the mission says it
+  std::optional<Geodetic> origin;  // of the local frame, if the mission sets it
   struct {
     std::string tiles, attribution;
   } map;                         // LiveOptions
-  std::string no_save;           // why no client may write files; "": each may
+  std::string no_save;           // reason why no client may write files; "": every client may
   std::vector<std::string> set;  // parameters that the command line has set, "slc.roll_kp"
 };
 
@@ -82,10 +82,9 @@ inline std::vector<std::string> parameter_names(const FlightView& view) {
   return names;
 }
 
-/// Any thread may call any of these. What can be checked without the loop is checked in the caller's thread:
-/// those throw Error with the valid choices. What the loop then says comes through `answer`, once, from a
-/// thread of the control's: "" accepted, else the reason; a flight that ends before answers "the flight has
-/// ended".
+/// Thread-safe. Checks that do not need the loop run in the caller's thread and throw Error with the valid
+/// choices. The loop's result comes once through `answer`, from a thread of the control: "" accepted, else
+/// the reason. A flight that ends before that answers "the flight has ended".
 class Control {
  public:
   using Answer = std::function<void(const std::string& refusal)>;
@@ -98,20 +97,20 @@ class Control {
   /// `message`: a struct of the request port's type.
   virtual void request(const std::string& component, const std::string& port, std::vector<std::byte> message,
                        Answer answer) = 0;
-  /// A sample for an input that `dds.import` names; a struct of its type. False: thrown away, counted, as
-  /// more of them come than the loop takes.
+  /// A sample for an input that `dds.import` names; a struct of its type. Returns false for a sample that is
+  /// dropped and counted because the loop's queue is full.
   virtual bool publish(const std::string& component, const std::string& port,
                        std::vector<std::byte> message) = 0;
   virtual void enter_phase(const std::string& phase, Answer answer) = 0;
   virtual void swap(const std::string& component, const std::string& file, Answer answer) = 0;
   virtual void reset_guards(Answer answer) = 0;
-  /// Steps are answered when the last one has been flown. Throws Error on hardware, and of a restart where
-  /// nobody would begin another flight.
+  /// Steps are answered after the last one. Throws Error on hardware, and for a restart when the host cannot
+  /// begin another flight.
   virtual void pace(const PaceOrder& order, Answer answer) = 0;
 
-  /// Called from a thread of the control's after each change that the loop has made: (component, parameter).
+  /// A thread of the control calls it after each change by the loop: (component, parameter).
   virtual void on_parameter(std::function<void(const std::string&, const std::string&)> changed) = 0;
-  /// Imported samples that found no room.
+  /// Imported samples that were dropped because the queue was full.
   virtual std::uint64_t lost_samples() const = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Everything that leaves the loop: one ring, into which the loop copies each message once, and a cursor per
-// sink (log, live view, DDS), each read by the sink's own thread. A sink that is slow loses samples, counted,
-// and delays nobody; the log alone may hold back an unpaced simulation.
+// All output of the loop: one ring, into which the loop copies each message once, and a cursor per sink (log,
+// live view, DDS). Each sink reads its cursor in its own thread. A slow sink loses samples, counted, and
+// delays nothing else; only the log may hold back an unpaced simulation.
 #pragma once
 #include <array>
 #include <atomic>
@@ -18,20 +18,20 @@ namespace fulmar::core {
 struct TapChannel {
   std::string topic;  // "/nav/state"
   TypePtr type;
-  bool may_stay_silent = false;  // of a port that need not publish in every step: its last sample is for
-                                 // those who come later, too
-  std::size_t past = 0;          // so many last samples are for those who come later, too, however fast
+  bool may_stay_silent = false;  // port that need not publish in every step: its last sample is kept for
+                                 // later clients
+  std::size_t past = 0;          // number of last samples that are kept for later clients, at any rate
 };
 
 class Tap {
  public:
-  /// One message as it lies in the ring. Flight times.
+  /// One message in the ring. Times are flight times.
   struct Sample {
     std::uint32_t size = 0;     // of the record
     std::uint32_t channel = 0;  // into channels()
     std::uint64_t number = 0;   // of all records, from 0
     std::uint64_t sequence =
-        0;  // of the channel's samples for the log, from 0: counts those that the log lost, too
+        0;  // of the channel's samples for the log, from 0: also counts those that the log lost
     std::int64_t now_ns = 0, valid_ns = 0;
     bool for_log = false;
     const std::byte* data() const {
@@ -46,39 +46,38 @@ class Tap {
 
   const std::vector<TapChannel>& channels() const { return channels_; }
 
-  /// [tick] Whether a sink other than the log wants a sample of the channel at this flight time. Counts it as
-  /// given when it says so.
+  /// [tick] Whether a sink other than the log wants a sample of the channel at this flight time. A true
+  /// result counts as a delivered sample.
   bool wanted(std::size_t channel, std::int64_t now_ns) noexcept;
   /// [tick] No allocation, no lock. Waits only for a cursor that `holds_back`.
   void write(std::size_t channel, std::int64_t now_ns, std::int64_t valid_ns, const std::byte* data,
              bool for_log) noexcept;
-  /// [tick] Whether `write` waits from now on for the cursor that may hold back. There has to be one.
+  /// [tick] Whether `write` waits from now on for the cursor that may hold back. There must be one.
   void hold_back(bool on) noexcept { held_.store(on, std::memory_order_seq_cst); }
-  /// [tick] How long `write` has waited for room since this was last asked.
+  /// [tick] Time that `write` has waited for room since the last call.
   std::int64_t take_wait_ns() noexcept;
   std::size_t ring_bytes() const { return capacity_; }
   /// Bytes that have gone through the ring.
   std::uint64_t written() const noexcept { return head_.load(std::memory_order_acquire); }
 
-  /// A sink's place in the ring. One thread. It begins at what is written after its creation.
+  /// A sink's place in the ring. One thread. It starts at the first sample after its creation.
   class Cursor {
    public:
-    /// `may_hold_back`: the loop waits for it rather than write over what it has not read, at once or when
-    /// `hold_back` says so; one cursor at most.
+    /// `may_hold_back`: the loop waits instead of overwriting samples that this cursor has not read, at once
+    /// or after `hold_back`; one cursor at most.
     explicit Cursor(Tap& tap, bool may_hold_back = false, bool at_once = true);
     ~Cursor();
     Cursor(const Cursor&) = delete;
     Cursor& operator=(const Cursor&) = delete;
 
-    /// The next sample, a copy of its own that is valid until the next call; nullptr when there is nothing
-    /// new.
+    /// The next sample, a copy that is valid until the next call; nullptr when there is none.
     const Sample* next() noexcept;
-    /// Bytes of `written` that are behind it.
+    /// Bytes of `written` before the cursor.
     std::uint64_t read() const noexcept { return read_; }
-    /// Samples written over before they were read, of all channels.
+    /// Samples of all channels that were overwritten before they were read.
     std::uint64_t lost() const noexcept { return lost_; }
-    /// From now on at least one sample of the channel each so many ns of flight time; 0: every one; below 0:
-    /// none. Others may want more. What the log stores comes in any case: look at the times.
+    /// Requests at least one sample of the channel per period of flight time, ns; 0: every one; below 0:
+    /// none. Other sinks may request more. Samples for the log are always delivered: check the times.
     void want(std::size_t channel, std::int64_t period_ns);
 
    private:
@@ -98,7 +97,7 @@ class Tap {
   struct Channel;
   static constexpr std::uint32_t skipped = ~0u;
   static constexpr std::size_t line = 64;   // bytes of a cache line; each thread writes lines of its own
-  static constexpr std::size_t slices = 8;  // of the ring: each remembers where its first record begins
+  static constexpr std::size_t slices = 8;  // of the ring: each stores the start of its first record
 
   std::uint64_t* words_at(std::size_t byte) noexcept { return memory_.data() + byte / sizeof(std::uint64_t); }
   void put(const Sample& sample, const std::byte* data, std::size_t size) noexcept;
@@ -106,17 +105,17 @@ class Tap {
   void combine_wants(std::size_t channel);
 
   const std::vector<TapChannel> channels_;
-  std::vector<Channel> state_;  // the loop's
+  std::vector<Channel> state_;  // loop only
   std::size_t max_record_ = 0, capacity_ = 0;
   std::vector<std::uint64_t> memory_;
-  std::uint64_t pushed_ = 0, number_ = 0, seen_tail_ = 0, slice_ = ~std::uint64_t{0};  // the loop's
+  std::uint64_t pushed_ = 0, number_ = 0, seen_tail_ = 0, slice_ = ~std::uint64_t{0};  // loop only
   std::int64_t waited_ns_ = 0;
   std::array<std::atomic<std::uint64_t>, slices> begins_{};
   alignas(line) std::atomic<std::uint64_t> reserved_{0};  // the loop may be writing up to here
   std::atomic<std::uint64_t> head_{0};                    // whole records up to here
   alignas(line) std::atomic<std::uint64_t> tail_{0};      // of the cursor that holds back
   std::atomic<bool> held_{false}, waiting_{false};
-  alignas(line) std::mutex mutex_;  // of the sinks among themselves
+  alignas(line) std::mutex mutex_;  // shared by the sinks
   std::vector<Cursor*> cursors_;
 };
 

@@ -13,7 +13,7 @@
 
 namespace fulmar::core {
 
-/// All functions throw Error on bytes that do not hold what is asked for.
+/// All functions throw Error when the bytes end early or are invalid.
 class CdrReader {
  public:
   explicit CdrReader(std::span<const std::byte> message) : data_(message) {
@@ -22,7 +22,7 @@ class CdrReader {
     if (form != 1) throw Error(types_messages::encapsulation_invalid(form));
   }
 
-  /// `count` elements of `size` bytes each, one after the other; the size is a power of two.
+  /// `count` consecutive elements of `size` bytes each; the size is a power of two.
   const std::byte* take(std::size_t size, std::uint32_t count = 1) {
     if (count > 0) at_ = ((at_ - cdr_header_bytes + size - 1) & ~(size - 1)) + cdr_header_bytes;
     const std::size_t bytes = size * count;
@@ -34,24 +34,24 @@ class CdrReader {
   T number() {
     return load<T>(take(sizeof(T)));
   }
-  /// Of elements that take at least so many bytes each: a count that the bytes cannot hold is refused before
-  /// room is made for it.
+  /// Count of elements of at least `least` bytes each: a count that the bytes cannot hold is rejected before
+  /// any allocation.
   std::size_t count(std::size_t least) {
     const std::size_t n = number<std::uint32_t>();
     if (n * least > data_.size() - at_) throw Error(types_messages::list_truncated());
     return n;
   }
-  /// How many elements follow: one, those of an array, or as many as a list says.
+  /// Number of the following elements: one, those of an array, or the count of a list.
   std::uint32_t elements(const Field& field) {
     if (field.shape == FULMAR_LIST) return number<std::uint32_t>();
     return field.shape == FULMAR_ARRAY ? field.count : 1;
   }
-  /// The NUL at its end included, if it has one.
+  /// Includes the NUL at its end, if it has one.
   std::string_view text() {
     const auto size = number<std::uint32_t>();
     return {reinterpret_cast<const char*>(take(1, size)), size};
   }
-  /// Without the NUL, which has to be there.
+  /// Without the NUL, which must be there.
   std::string_view ended_text() {
     const std::string_view all = text();
     if (all.empty() || all.back() != '\0') throw Error(types_messages::text_not_terminated());
@@ -69,7 +69,7 @@ class CdrReader {
     for (T& x : list) x = number<T>();
     return list;
   }
-  /// Nothing but padding of the whole may be left: 3 bytes of our own messages, up to 7 of others.
+  /// Throws Error unless only padding is left: up to 3 bytes in own messages, up to 7 in foreign ones.
   void finish(std::size_t padding = 7) const {
     if (data_.size() - at_ > padding) throw Error(types_messages::message_too_long());
   }

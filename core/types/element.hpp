@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the wire forms ask of a field of a message struct.
+// Access to a field of a message struct, for the wire forms.
 #pragma once
 #include <algorithm>
 #include <bit>
@@ -12,8 +12,7 @@ namespace fulmar::core {
 
 static_assert(std::endian::native == std::endian::little, "message bytes are copied to the wire as they are");
 
-/// The elements that are there: 1, all of an array, or what a list counts. A count beyond the capacity is
-/// cut.
+/// Existing elements: 1, all of an array, or the count of a list. A count beyond the capacity is clamped.
 struct Elements {
   const std::byte* first;
   std::uint32_t count;

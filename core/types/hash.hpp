@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hash of what a message says: padding, what stands behind the end of a text, and items beyond a list's count
-// do not count. Four lanes of multiply and xor, finished as splitmix64; no cryptography: it finds differences
-// that nobody made on purpose.
+// Hash of a message's values. Padding, bytes behind the end of a text and items beyond a list's count have no
+// effect. Four lanes of multiply and xor, finished as splitmix64; not cryptographic: it finds accidental
+// differences.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -49,14 +49,16 @@ class MessageHash {
     enum class Kind : std::uint8_t { bytes, text, list } kind = Kind::bytes;
     std::uint32_t offset = 0, size = 0;
     std::uint32_t count = 1, stride = 0, items = 0;  // list: capacity; bytes from offset to the first item
-    std::uint32_t body = 0;                          // list: so many steps after this one are of one item
-    bool counted = false;                            // by the number at the offset, else always `count`
+    std::uint32_t body = 0;                          // list: number of the following steps that belong to one
+                                                     // item
+    bool counted = false;                            // counted by the number at the offset, else always
+                                                     // `count`
   };
 
   struct Compiler {
     static constexpr std::uint32_t unrolled = 0;
     std::vector<Step> steps;
-    bool closed = false;  // the last step belongs to a loop that has ended, or has just begun
+    bool closed = false;  // the last step belongs to a loop that has ended, or that has only begun
 
     void bytes(std::uint32_t offset, std::uint32_t size) {
       const bool run = !steps.empty() && steps.back().kind == Step::Kind::bytes && !closed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of a message's elements, each in one row: all that names or measures a kind reads it here.
+// Table of element kinds, one row each: names and sizes of a kind are read here alone.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -50,7 +50,7 @@ constexpr const char* kind_word(fulmar_kind kind) { return kind_row(kind).word; 
 constexpr std::uint32_t primitive_size(fulmar_kind kind) { return kind_row(kind).bytes; }
 
 constexpr bool is_real(fulmar_kind kind) { return kind == FULMAR_F32 || kind == FULMAR_F64; }
-/// A whole number of more than one value, bool and enum not counted.
+/// A whole number of more than one value; bool and enum do not count.
 constexpr bool is_integer(fulmar_kind kind) {
   return primitive_size(kind) > 0 && !is_real(kind) && kind != FULMAR_BOOL && kind != FULMAR_ENUM;
 }
@@ -62,8 +62,8 @@ T load(const std::byte* at) noexcept {
   return value;
 }
 
-/// Calls `take` with the element at `at` in its own C++ type, bool and enum as the byte that they are; with
-/// nan for text and structs.
+/// Calls `take` with the element at `at` in its own C++ type, bool and enum as their byte; with nan for text
+/// and structs.
 template <class Take>
 decltype(auto) with_number(fulmar_kind kind, const std::byte* at, Take&& take) {
   switch (kind) {

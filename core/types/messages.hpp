@@ -7,7 +7,7 @@ namespace fulmar::types_messages {
 
 inline constexpr MessageText array_shape{"types.array_shape", {"count"}, "an array of {count}"};
 inline constexpr MessageText bytes_invalid{
-    "types.bytes_invalid", {"type", "reason"}, "bytes do not hold a {type}: {reason}"};
+    "types.bytes_invalid", {"type", "reason"}, "a message is not a valid {type}: {reason}"};
 inline constexpr MessageText encapsulation_invalid{
     "types.encapsulation_invalid",
     {"found"},
@@ -41,7 +41,7 @@ inline constexpr MessageText list_truncated{"types.list_truncated",
                                             "a list has a larger count than its bytes hold"};
 inline constexpr MessageText message_too_long{"types.message_too_long",
                                               "a message is longer than its definition"};
-inline constexpr MessageText message_too_short{"types.message_too_short", "a message is too short"};
+inline constexpr MessageText message_too_short{"types.message_too_short", "it is too short"};
 inline constexpr MessageText message_truncated{"types.message_truncated",
                                                "a message is too short for its definition"};
 inline constexpr MessageText name_unknown{

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists of things, found by name or by an index that is an int.
+// Search in lists by name or by a signed index.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -18,7 +18,7 @@ std::vector<std::string> names_of(const List& list) {
   return names;
 }
 
-/// The place of the first that bears the name, or -1.
+/// Index of the first element of that name, or -1.
 template <class List>
 int index_named(const List& list, std::string_view name) {
   for (std::size_t i = 0; i < list.size(); ++i)
@@ -26,26 +26,26 @@ int index_named(const List& list, std::string_view name) {
   return -1;
 }
 
-/// The first that bears the name, or nullptr.
+/// The first element of that name, or nullptr.
 template <class List>
 auto find_named(const List& list, std::string_view name) -> decltype(list.data()) {
   const int i = index_named(list, name);
   return i < 0 ? nullptr : list.data() + i;
 }
 
-/// There is no role 'x'. `kind`: "role".
+/// The error "there is no role 'x'". `kind`: "role".
 template <class List>
 Diagnostic no_such(const char* kind, std::string_view name, const List& list) {
   return types_messages::name_unknown(kind, name, choices_text(name, names_of(list)));
 }
 
-/// The plugin y has no component 'x'. `owner`: "the plugin y", `kind`: "component".
+/// The error "the plugin y has no component 'x'". `owner`: "the plugin y", `kind`: "component".
 template <class List>
 Diagnostic has_no(const std::string& owner, const char* kind, std::string_view name, const List& list) {
   return types_messages::name_unknown_in(owner, kind, name, choices_text(name, names_of(list)));
 }
 
-/// The place of the one that bears the name. Throws Error: `owner` has no such one.
+/// Index of the element of that name. Throws Error when `owner` has none.
 template <class List>
 int require_named(const List& list, std::string_view name, const std::string& owner, const char* kind) {
   const int i = index_named(list, name);
@@ -53,7 +53,7 @@ int require_named(const List& list, std::string_view name, const std::string& ow
   return i;
 }
 
-/// By an index that may be -1 for none, and is not.
+/// Element at an index that may be -1 in general, but not here.
 template <class List>
 decltype(auto) nth(List& list, int i) {
   return list[static_cast<std::size_t>(i)];

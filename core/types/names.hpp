@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long the names may be that the host's own messages tell: their fields have this room, the zero at the
-// end included. What would not fit is refused before the flight, so that a log never holds part of a name.
+// Maximum lengths of names in the host's own messages, including the terminating zero. A longer name is
+// rejected before the flight, so that a log never holds part of a name.
 #pragma once
 #include <cstddef>
 

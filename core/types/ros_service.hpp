@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A request port as a ROS 2 service: the request's fields go in, {accepted, reason} comes back.
+// A request port as a ROS 2 service: the request's fields are the input, {accepted, reason} is the response.
 #pragma once
 #include <string>
 
@@ -10,11 +10,11 @@ namespace fulmar::core {
 /// "fulmar_msgs/srv/AddWaypoints". A foreign request names its own service: "rosplane_msgs/srv/AddWaypoint".
 std::string srv_name(const Type& request);
 
-/// The service's two halves as messages: "fulmar_msgs/srv/AddWaypoints_Request", "..._Response".
+/// Request and response of the service as messages: "fulmar_msgs/srv/AddWaypoints_Request", "..._Response".
 TypePtr srv_request(const Type& request);
 TypePtr srv_response(const Type& request);
 
-/// What the response looks like in memory.
+/// Memory layout of the response.
 struct ServiceResponse {
   bool accepted = false;
   char reason[255] = {};

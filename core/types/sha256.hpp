@@ -16,7 +16,7 @@ class Sha256 {
  public:
   Sha256() : context_(EVP_MD_CTX_new()) { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
   void add(const void* bytes, std::size_t size) noexcept { EVP_DigestUpdate(context_.get(), bytes, size); }
-  /// Lower-case hex of all that was added. Call once.
+  /// Lower-case hex digest of all added bytes. Call once.
   std::string hex() {
     unsigned char digest[EVP_MAX_MD_SIZE];
     unsigned int size = 0;

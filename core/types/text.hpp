@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small things that are done to texts.
+// Small text functions.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace fulmar::core {
 
-/// Without the white space at both ends.
+/// Without leading and trailing white space.
 inline std::string_view trimmed(std::string_view text) {
   constexpr std::string_view white = " \t\r\n";
   const std::size_t first = text.find_first_not_of(white);
@@ -21,23 +21,23 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(white) - first + 1);
 }
 
-/// Of ASCII alone; _ is a letter here.
+/// ASCII alone; _ counts as a letter.
 constexpr bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
-/// Letters, digits and _, no digit first.
+/// Letters, digits and _; the first character is no digit.
 constexpr bool is_name(std::string_view text) {
   return !text.empty() && !is_digit(text[0]) &&
          std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
 }
 
-/// In small letters, of ASCII alone.
+/// Lower case, ASCII alone.
 inline std::string lower(std::string_view text) {
   std::string small(text);
   for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return small;
 }
 
-/// "0.1", "7": the shortest that reads back the same.
+/// "0.1", "7": the shortest text that reads back to the same value.
 template <class Number>
 std::string number_text(Number x) {
   std::array<char, 40> text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's own copy of what a plugin says of its messages, ports and parameters. Outlives the plugin's
+// The host's own copy of a plugin's description of its messages, ports and parameters. Outlives the plugin's
 // file.
 #pragma once
 #include <cstddef>
@@ -27,22 +27,22 @@ struct Field {
   fulmar_shape shape = FULMAR_SCALAR;
   std::uint32_t offset = 0, count = 1, stride = 0, items = 0;
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
-  bool appended = false;  // a writer may lack it: its reader then sees zeros
+  bool appended = false;  // a writer may lack it: its reader then gets zeros
   struct {
-    bool required = false;  // the writer has to name it
-    bool instead = false;   // named, it stands in for the required fields beside it
-    bool rising = false;    // a list whose numbers are written in rising order
+    bool required = false;  // the writer must provide it
+    bool instead = false;   // alternative to the required fields of the same struct
+    bool rising = false;    // a list whose numbers are in ascending order
   } in_record{};
 };
 
-/// Of a struct of the host's own. `room`: of a text.
+/// Field of a struct of the host. `room`: of a text.
 Field host_field(const char* name, fulmar_kind kind, std::size_t offset, std::size_t room = 0);
 
 struct Type {
   std::string name{}, frame{}, ros{};
   std::vector<Field> fields{};
   std::uint32_t size = 0, align = 1;
-  std::uint64_t hash = 0;  // of all of the above but ranges, nested types included; offsets too
+  std::uint64_t hash = 0;  // of all of the above but ranges, including nested types and offsets
 
   const Field* find(std::string_view field) const;
 };
@@ -74,7 +74,7 @@ struct ComponentInfo {
   std::vector<Port> inputs, outputs;
   std::vector<ParamInfo> params;
   bool vehicle = false, resident = false;
-  bool retunes = false, activates = false;  // the optional calls it has
+  bool retunes = false, activates = false;  // optional calls that the component has
 
   int input(std::string_view port) const;   // index, or -1
   int output(std::string_view port) const;  // index, or -1
@@ -83,18 +83,18 @@ struct ComponentInfo {
 
 struct PluginInfo {
   std::string file;      // name without folders: "control_slc.so"
-  std::string path;      // where it was found; not for logs
+  std::string path;      // original path; not for logs
   std::string copy;      // the private copy that is loaded
   std::string script;    // of a file in another language: its private copy; `copy` is then the plugin that
                          // hosts the language
   std::string sha256;    // of the file, hex
-  std::string build_id;  // that the linker gave it, hex; "" when it gave none
+  std::string build_id;  // from the linker, hex; "" without one
   std::string version, toolchain, flags;
   std::uint32_t abi_major = 0, abi_minor = 0;
   std::vector<ComponentInfo> components;
 };
 
-/// A name that people can write in a mission file: letters, digits and underscores, no digit first.
+/// A valid name in a mission file: letters, digits and underscores, the first character no digit.
 bool is_identifier(std::string_view name);
 
 /// Bytes of one element.
@@ -104,8 +104,8 @@ std::uint32_t element_size(const Field& field);
 std::uint64_t field_span(const Field& field);
 
 /// A struct's field addressed by a dotted name: "position_m.north", "waypoints[3].airspeed_mps",
-/// "waypoints.count" (of a list). Throws Error naming the valid choices. A whole array or list is no answer;
-/// a struct or a text is: look at field->kind.
+/// "waypoints.count" (of a list). Throws Error naming the valid choices. A whole array or list is invalid; a
+/// struct or a text is valid: check field->kind.
 struct FieldRef {
   const Field* field = nullptr;  // the last one; lives as long as the type
   std::uint32_t offset = 0;      // from the start of the message to the element
@@ -113,8 +113,8 @@ struct FieldRef {
   struct Item {
     std::uint32_t count_offset = 0, index = 0;
   };
-  std::vector<Item> items;  // the list items passed on the way
-  /// False when the message has fewer list items than the name asks for.
+  std::vector<Item> items;  // the list items on the path
+  /// False when the message has fewer list items than the name needs.
   bool present(const std::byte* message) const noexcept;
 };
 FieldRef resolve_field(const Type& type, std::string_view dotted);
@@ -128,12 +128,12 @@ inline double number_at(const Field& field, const std::byte* at) noexcept {
   return number_at(field.kind, at);
 }
 
-/// Why a reader of type `to` cannot be fed by a writer of type `from`: names the first field that differs. ""
-/// when it can.
+/// Reason why a writer of type `from` cannot feed a reader of type `to`: names the first field that differs.
+/// "" when it can.
 std::string incompatibility(const Type& from, const Type& to);
 
-/// Moves the fields that a reader knows, and empties those that the writer lacks. Equal tables are one copy
-/// of everything.
+/// Copies the fields that the reader has, and clears those that the writer lacks. Equal tables are copied at
+/// once.
 struct CopyPlan {
   struct Move {
     std::uint32_t from = 0, to = 0, bytes = 0;
@@ -143,15 +143,15 @@ struct CopyPlan {
   };
   bool whole = true;  // equal tables
   std::vector<Move> moves;
-  std::vector<Gap> gaps;   // after the moves, which may carry padding along
+  std::vector<Gap> gaps;   // applied after the moves, which may copy padding
   std::uint32_t size = 0;  // of the reader's struct
   void run(const std::byte* from, std::byte* to) const;
 };
 CopyPlan copy_plan(const Type& from, const Type& to);
 
-/// Finds the first value in a message that is not finite, out of its range, or a label, flag, text end or
-/// list item that does not exist. `check` allocates nothing and returns false on a bad value; `explain` then
-/// says which: "airspeed_mps is nan".
+/// Finds the first invalid value in a message: not finite, out of its range, or an invalid label, flag, text
+/// end or list count. `check` allocates nothing and returns false on an invalid value; `explain` then names
+/// it: "airspeed_mps is nan".
 class Guard {
  public:
   explicit Guard(const Type& type);
@@ -167,7 +167,7 @@ class Guard {
     fulmar_kind element = FULMAR_F64;
     std::uint32_t offset = 0, count = 1, stride = 0;
     double min = 0, max = 0;
-    // repeat: the steps up to `end` apply to each item; a count at `count_offset` says how many when
+    // repeat: the steps up to `end` apply to each item; the number at `count_offset` is their count when
     // `counted`
     std::uint32_t count_offset = 0, end = 0;
     bool counted = false;
@@ -176,7 +176,7 @@ class Guard {
   static bool run(const Step* step, const Step* end, const std::byte* data) noexcept;
 
   std::vector<Step> steps_;
-  TypePtr type_;  // a copy, for the words
+  TypePtr type_;  // a copy, for messages
 };
 
 }  // namespace fulmar::core

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way through a message's bytes, once for all that is compiled from a type: nested structs are entered,
-// arrays unrolled or looped over, lists looped over.
+// Traversal of a message's bytes, shared by all that is compiled from a type: it enters nested structs,
+// unrolls or loops over arrays, and loops over lists.
 #pragma once
 #include "core/types/type.hpp"
 

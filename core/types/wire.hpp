@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one wire form, derived from a type table: XCDR1 bytes, ROS 2 message text and hash, JSON. No code per
+// The wire forms, derived from a type table: XCDR1 bytes, ROS 2 message text and hash, JSON. No code per
 // message.
 #pragma once
 #include <cstddef>
@@ -35,11 +35,11 @@ class CdrEncoder {
     std::uint8_t align = 1;    // copy: of its first element; list with body 0: of the elements
     std::uint32_t offset = 0;  // in the struct or element that the op belongs to
     std::uint32_t bytes =
-        0;  // copy: all; text: room; list with body 0: of one element, its items are copied in one go
+        0;  // copy: all; text: room; list with body 0: of one element, its items are copied at once
     std::uint32_t count = 0;   // list: capacity; loop: elements
     std::uint32_t stride = 0;  // list, loop: bytes from one element to the next
     std::uint32_t items = 0;   // list: bytes from offset to the first element
-    std::uint32_t body = 0;    // list, loop: so many ops after this one encode one element
+    std::uint32_t body = 0;    // list, loop: number of the following ops that encode one element
   };
 
  private:
@@ -53,10 +53,10 @@ void cdr_decode(const Type& type, const std::byte* bytes, std::size_t size, std:
 /// "fulmar_msgs/msg/VehicleState", or the foreign message's own ROS name.
 std::string ros_name(const Type& type);
 
-/// Text of the .msg definition with nested definitions appended as `ros2msg` schemas want them.
+/// Text of the .msg definition with nested definitions appended, as `ros2msg` schemas require.
 std::string ros_definition(const Type& type);
 
-/// The same without what is nested: the content of VehicleState.msg in an interface package.
+/// The same without nested definitions: the content of VehicleState.msg in an interface package.
 std::string ros_message_text(const Type& type);
 
 /// ROS 2 type hash (REP 2016): "RIHS01_" and the SHA-256 of the canonical description, in hex.
@@ -65,16 +65,16 @@ std::string ros_type_hash(const Type& type);
 /// JSON of a message. Keys are field names; `_rad` fields are shown as `_deg` in degrees when `degrees` is
 /// set. Text is a string, an enum its label; a number that is not finite is null.
 nlohmann::json to_json(const Type& type, const std::byte* data, bool degrees);
-/// The fields of a message of figures, angles in degrees; null where there is no figure (1e9).
+/// Fields of a message of figures, angles in degrees; null where a figure does not exist (1e9).
 nlohmann::json figures_json(const Type& type, const std::byte* data);
 
-/// The same for people: in the order of the fields; angles, angular rates and accelerations in degrees, under
+/// The same for users: in the order of the fields; angles, angular rates and accelerations in degrees, under
 /// their shown names.
 nlohmann::ordered_json shown_json(const Type& type, const std::byte* data);
 /// "roll_rad" -> "roll_deg", "p_radps" -> "p_degps"; all others stay.
 std::string shown_name(const std::string& field);
 
-/// Whether JSON is nested so deep that a parser that recurses must not be asked to read it.
+/// Whether JSON is nested too deep for a recursive parser.
 bool json_too_deep(std::string_view text);
 
 }  // namespace fulmar::core

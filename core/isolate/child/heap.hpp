@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the child's heap is asked for: the host learns which component allocates in flight, and which leaks.
+// Counts the child's heap use: the host reports components that allocate in flight, and those that leak.
 #pragma once
 #include <cstdint>
 
 namespace fulmar::core {
 
-/// [setup] Begins to count where that takes a beginning.
+/// [setup] Starts to count, where the platform needs a start.
 void count_heap() noexcept;
 
 /// Calls of malloc and its relatives in this thread so far.

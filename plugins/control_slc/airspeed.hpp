@@ -19,8 +19,8 @@ struct Airspeed {
   static constexpr const char* doc = "Airspeed hold by throttle for a commanded attitude.";
   struct Inputs {
     In<VehicleState> state;
-    In<AttitudeCommand> wanted;   ///< its roll and pitch; the throttle is not looked at
-    In<GuidanceCommand> command;  ///< its airspeed alone
+    In<AttitudeCommand> wanted;   ///< roll and pitch; its throttle is not used
+    In<GuidanceCommand> command;  ///< only the airspeed is used
   };
   struct Outputs {
     AttitudeCommand attitude;
@@ -35,8 +35,9 @@ struct Airspeed {
     Param command_filter{0.2, "s", 0.005, 5, "time constant of the differentiated airspeed command"};
     Param thrust{50.0, "N", 1, 10000, "thrust per throttle near cruise"};
     Param throttle_rate_limit{2.0, "1/s", 0.1, 100, "rate limit of the throttle"};
-    // A rate, where Inner fades: an exponential would begin as fast as the difference is large, and no inner
-    // loop follows an attitude that turns so fast. The outer laws have these rates for every command.
+    // Inner fades exponentially. Here a fixed rate is used: an exponential begins with a rate proportional to
+    // the difference, and no inner loop follows so fast an attitude. The outer laws limit every command to
+    // these rates.
     Param take_over_rate{0.5, "rad/s", 0.05, 6,
                          "rate limit of the roll and pitch commands in the bumpless transfer"};
     Param pitch_trade{0, "rad", 0, 0.2,
@@ -52,7 +53,8 @@ struct Airspeed {
     traded_.reset_to(0);
     take_up_ = last.has(last->attitude);
     throttle_.reset_to(take_up_ ? last->attitude.throttle_frac : p.airframe->limits.throttle_cruise_frac);
-    // Whose attitude it is did not fly until now, and may ask for another one by much.
+    // The component that supplies `wanted` was not active until now and may ask for a very different
+    // attitude.
     const AttitudeCommand &from = last->attitude, &to = *in.wanted;
     roll_left_.reset_to(take_up_ ? wrap_pi(from.roll_rad - to.roll_rad) : 0);
     pitch_left_.reset_to(take_up_ ? from.pitch_rad - to.pitch_rad : 0);
@@ -61,7 +63,7 @@ struct Airspeed {
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     const VehicleState& state = *in.state;
-    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);  // a gap must not throw the integrator
+    const double dt = std::clamp(tick.dt_s(), 0.0, 0.1);  // bound of the integration step after a gap
     out.attitude = *in.wanted;
     out.airspeed_error_mps = 0.0;
     if (standing(state)) return rest(out);
@@ -91,7 +93,7 @@ struct Airspeed {
   }
 
  private:
-  /// Pitch, rad, that is given up for airspeed where thrust has no more to give.
+  /// Pitch, rad, reduced in favour of airspeed while the thrust is at its limit.
   double trade(double error_mps, double throttle_frac, const Params& p, double dt) {
     constexpr double bearable_mps = 0.5, rad_per_mps = 0.05, smoothed_s = 0.3;
     const double beyond_mps = error_mps - std::clamp(error_mps, -bearable_mps, bearable_mps);
@@ -106,7 +108,7 @@ struct Airspeed {
     return std::clamp(command.airspeed_mps, limits.airspeed_min_mps, limits.airspeed_max_mps);
   }
 
-  /// Standing: engine off, nothing is remembered.
+  /// Standing on the ground: engine off, state cleared.
   Status rest(Outputs& out) {
     loop_.reset();
     airspeed_.reset();
@@ -120,8 +122,8 @@ struct Airspeed {
     return Status::ok;
   }
 
-  /// Acceleration, m/s2, that the thrust has to give beyond level flight at cruise: for the climb, and for
-  /// the drag at the airspeed and bank wanted. Both of the command, so that gusts do not come into it.
+  /// Acceleration, m/s2, that the thrust must give beyond level flight at cruise: for the climb, and for the
+  /// drag at the commanded airspeed and bank. Both come from the command, so that gusts have no effect.
   static double needed(const VehicleState& state, const AttitudeCommand& wanted, const Airframe& a,
                        double Va_c) {
     const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
@@ -136,7 +138,7 @@ struct Airspeed {
   LowPass traded_;    ///< rad
   Differentiator command_rate_;
   RateLimiter throttle_;
-  RateLimiter roll_left_, pitch_left_;  ///< rad, of what was flown before
+  RateLimiter roll_left_, pitch_left_;  ///< rad, left of the attitude before the hand-over
   Pid loop_;
   bool take_up_ = false;
 };

@@ -8,13 +8,13 @@
 
 namespace fulmar::slc {
 
-/// Is the attitude known? After a time without it, only once the command answers to it: then no surface
-/// steps.
+/// Detects the loss and the return of the attitude. After a loss the attitude counts again only once the
+/// command answers to it, so that no surface steps.
 class AttitudeLoss {
  public:
   void begin() { blind_ = false; }
   bool blind() const { return blind_; }
-  /// True when the attitude is taken up again.
+  /// True when the law begins to use the attitude again.
   bool look(const In<VehicleState>& state, const In<AttitudeCommand>& attitude) {
     if (!state->attitude_valid) {
       blind_ = true;
@@ -30,11 +30,11 @@ class AttitudeLoss {
 
  private:
   bool blind_ = false;
-  std::int64_t known_ns_ = 0;  ///< the first state after a time without attitude
+  std::int64_t known_ns_ = 0;  ///< time of the first state after a loss of attitude
 };
 
-/// Without an attitude nothing can be held. The aircraft is taken to follow its command: what is left are
-/// feed-forward, trim and the integrals, which roll it level as the command goes there.
+/// State that replaces an unknown attitude: the aircraft is assumed to follow its command. Feed-forward, trim
+/// and the integrals remain; they level the aircraft as the command goes to level.
 inline VehicleState as_commanded(const VehicleState& last, const AttitudeCommand& command, double Va) {
   VehicleState state = last;
   const TurnRates turn = turn_rates(command.roll_rad, command.pitch_rad, Va);

@@ -23,7 +23,7 @@ struct Autotune {
       "old gains if a margin is too small.";
   struct Inputs {
     Inner::Inputs law;
-    Optional<VehicleStatus> status;  // wired: ends while commands do not move the aircraft
+    Optional<VehicleStatus> status;  // if connected, tuning ends while commands do not move the aircraft
   };
   struct Outputs {
     Inner::Outputs law;
@@ -113,14 +113,16 @@ struct Autotune {
   using Stage = AutotuneStage;
   using Verdict = AutotuneVerdict;
   using Reason = AutotuneReason;
-  /// Of `LoopRecord::answer`: without an answer it is 1 +- 0.3, with one 3.5 and more in moderate turbulence.
+  /// Threshold of `LoopRecord::answer`: 1 +- 0.3 without a response, 3.5 and more with one in moderate
+  /// turbulence.
   static constexpr double min_answer = 2.5;
 
   bool running() const {
     return stage_ == Stage::exciting || stage_ == Stage::searching || stage_ == Stage::verifying;
   }
   void begin(const Inputs& in, const Params& p) {
-    // What quietening has left of the gains is what they are; from here on excitation is no oscillation.
+    // The reduced gains of quietening are the initial gains. During excitation the oscillation detector is
+    // off.
     for (std::size_t i = 0; i < axes; ++i) {
       gains_.begin(i, inner_.gain_left(static_cast<Inner::Axis>(i)));
       gains_.put_into(law_, i);
@@ -132,7 +134,7 @@ struct Autotune {
     results_ = {};
     next_axis(roll, p);
   }
-  /// They count, whatever was measured with others.
+  /// Gains that are set from outside replace those of a measurement.
   void set_from_outside(std::size_t axis) {
     if (running()) end(control_slc_messages::gains_set.c_str());
     results_[axis].forget();
@@ -156,7 +158,7 @@ struct Autotune {
     if (surface_of(*law_.airframe, axis).limit_rad <= 0 ||
         (axis == yaw && law_.airframe->aero.yaw.rudder_ratio == 0))
       return Reason::no_surface;
-    // Found are multiples of what there is; an attitude loop without kp is none.
+    // The search returns multiples of the present gains, so an attitude loop without kp cannot be tuned.
     const AxisGains& used = gains_.used(axis);
     if ((axis == yaw ? used.kd : used.kp) <= 0) return Reason::gain_is_zero;
     return time_for(2 * excite_s + search_s, p) ? Reason::none : Reason::no_time;
@@ -167,7 +169,7 @@ struct Autotune {
   }
   bool time_for(double seconds, const Params& p) const { return time_s_ + seconds < p.time_limit; }
 
-  /// Ends it all: the axis under test goes back, those that were verified stay.
+  /// Ends the tuning: the axis under test gets its old gains back, verified axes keep their new ones.
   void end(std::string_view why) {
     revert(Reason::ended, why);
     go_to(Stage::aborted);
@@ -184,7 +186,7 @@ struct Autotune {
     if (in.status && !in.status->in_control) return control_slc_messages::commands_ignored.c_str();
     if (in.law.state.stale() || !s.attitude_valid || !s.height_valid || !s.airspeed_valid)
       return control_slc_messages::estimate_unknown.c_str();
-    // Each the other way round: what is no number is out of its bound.
+    // The negated comparisons also catch NaN.
     if (!(std::abs(s.roll_rad) <= p.roll_bound)) return control_slc_messages::roll_beyond_bound.c_str();
     if (!(std::abs(s.pitch_rad) <= p.pitch_bound)) return control_slc_messages::pitch_beyond_bound.c_str();
     if (!(std::abs(s.height_m - begun_m_) <= p.height_bound))
@@ -205,7 +207,7 @@ struct Autotune {
     }
   }
 
-  /// A record is complete: is it to be believed, and do the margins hold?
+  /// A record is complete: checks its quality and the margins.
   void judge(const LoopRecord& r, const Params& p) {
     const Margins m = margins_of(r.loop);
     AxisResult& result = results_[axis_];
@@ -213,7 +215,7 @@ struct Autotune {
     const bool verifying = stage_ == Stage::verifying;
     if (r.limited > 0.02) {
       if (verifying || !time_for(2 * excite_s + search_s, p)) return done_with(Reason::surface_at_limit, p);
-      gains_.change_to(axis_, TunedGains::times(gains_.used(axis_), 0.5));  // too much gain to measure by
+      gains_.change_to(axis_, TunedGains::times(gains_.used(axis_), 0.5));  // gain too high to measure with
       return go_to(Stage::exciting);
     }
     if (!(result.noise <= p.noise_limit)) {
@@ -225,7 +227,7 @@ struct Autotune {
     if (!answers(r)) return done_with(Reason::no_answer, p);
     (first_ ? result.before : result.after) = m;
     first_ = false;
-    // A standard error more than is asked for: of 1 + L, which is near 1 where margins are read.
+    // The required margins include one standard error of 1 + L, which is near 1 where margins are read.
     const MarginsWanted least{p.least_gain_margin + 20 * std::log10(1 + result.noise),
                               p.least_phase_margin + result.noise};
     if (verifying && least.kept(m)) {
@@ -248,7 +250,7 @@ struct Autotune {
       gains_.change_to(axis_, search_.best());
       return go_to(Stage::verifying);
     }
-    // A record near noise_limit may leave none: once more, from the gains of before.
+    // A record near noise_limit may leave no candidate: the search starts once more, from the old gains.
     if (excitation_.at_largest() || !time_for(2 * excite_s + search_s, p))
       return done_with(Reason::no_gains_found, p);
     excitation_.enlarge(false);
@@ -256,7 +258,7 @@ struct Autotune {
     gains_.go_back(axis_);
     go_to(Stage::exciting);
   }
-  /// The rate follows the surface, and not the turbulence alone.
+  /// True when the rate responds to the surface and not to the turbulence alone.
   static bool answers(const LoopRecord& r) {
     Complex sum = 0;
     for (std::size_t i = 2; i < 8; ++i) sum += r.rate[i];
@@ -299,9 +301,9 @@ struct Autotune {
   Findings findings_;
   Stage stage_ = Stage::idle;
   std::size_t axis_ = roll;
-  double time_s_ = 0, begun_m_ = 0;  ///< since the beginning; height there
+  double time_s_ = 0, begun_m_ = 0;  ///< since the beginning; height at the beginning
   bool asked_ = false;
-  bool first_ = true;  ///< the next record is of the gains of before
+  bool first_ = true;  ///< the next record measures the old gains
 };
 
 }  // namespace fulmar::slc

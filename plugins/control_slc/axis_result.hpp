@@ -27,18 +27,18 @@ inline const char* words(AutotuneReason why) {
   }
 }
 
-/// Verdict, margins measured, and how well.
+/// Result of one axis: verdict, measured margins and their error.
 struct AxisResult {
   AutotuneVerdict verdict = AutotuneVerdict::open;
   AutotuneReason reason = AutotuneReason::none;
-  std::optional<Margins> before, after;  ///< with the gains that it began with, and those tried last
+  std::optional<Margins> before, after;  ///< with the initial gains; with the gains tried last
   double noise = 0;                      ///< relative standard error of 1 + L
 
   void decide(AutotuneVerdict what, AutotuneReason why) {
     verdict = what;
     reason = why;
   }
-  /// Other gains count now.
+  /// Drops the result because the gains were replaced.
   void forget() {
     decide(AutotuneVerdict::open, AutotuneReason::none);
     before.reset();

@@ -14,7 +14,7 @@ inline const Surface& surface_of(const Airframe& a, std::size_t axis) {
   return axis == TunedAxis::roll ? a.aileron : axis == TunedAxis::pitch ? a.elevator : a.rudder;
 }
 
-/// Adds a multisine to the deflection that the law asks for, and takes the record while it does.
+/// Adds a multisine to the deflection of the law and records the response.
 class Excitation {
   using enum TunedAxis::Index;
 
@@ -22,37 +22,37 @@ class Excitation {
   static constexpr double settle_s = 1, fade_s = 1;
   static constexpr double whole_s = settle_s + fade_s + Lines::record_s;
 
-  /// Of another axis: at first with the size that the parameters say.
+  /// Begins an axis with the size that the parameters give.
   void begin_axis() { larger_ = 1; }
-  /// The error of a record falls as the excitation grows.
+  /// Enlarges the excitation, which reduces the error of a record.
   void enlarge(bool much) { larger_ = much ? 2.25 : 1.5 * larger_; }
   bool at_largest() const { return larger_ > 2; }
 
-  /// A new record.
+  /// Begins a new record.
   void begin() {
     stage_s_ = 0;
     complete_ = false;
     lines_.begin();
   }
   void advance(double dt) { stage_s_ += dt; }
-  /// At once, where another law has flown.
+  /// Stops without a fade, after another law was active.
   void stop() { strength_ = 0; }
   bool complete() const { return complete_; }
   LoopRecord record() const { return lines_.record(); }
 
-  /// `on`: the stage excites `axis`. `sizes`: rad, of each surface. True when the record became complete.
+  /// `on`: the stage excites `axis`. `sizes`: rad, of each surface. Returns true when the record is complete.
   bool step(std::size_t axis, bool on, const VehicleState& x, const Airframe& airframe,
             const std::array<double, axes>& sizes, double dt, Inner::Outputs& out) {
     const bool wanted = on && stage_s_ >= settle_s && !complete_;
     if (strength_ == 0) {
       excited_ = axis;
-      phase_s_ = 0;  // what is left of one stays on its surface
+      phase_s_ = 0;  // the remainder of an excitation stays on its surface
     }
     strength_ = std::clamp(strength_ + (wanted ? dt / fade_s : -5 * dt), 0.0, 1.0);
     if (strength_ == 0) return false;
     phase_s_ += dt;
     const Surface& s = surface_of(airframe, excited_);
-    // Positive in the record turns to the right or up.
+    // Sign convention of the record: positive turns to the right or up.
     const double sign = excited_ == roll ? 1 : -1;
     double& deflection = deflection_of(out.actuators);
     const double feedback = deflection;
@@ -68,7 +68,7 @@ class Excitation {
     return excited_ == roll ? u.aileron_rad : excited_ == pitch ? u.elevator_rad : u.rudder_rad;
   }
 
-  /// True when the record became complete.
+  /// Returns true when the record is complete.
   bool take(double feedback, double total, bool limited, const VehicleState& x, double scale, double dt) {
     const double recorded_s = stage_s_ - settle_s - fade_s;
     if (recorded_s < -0.5 * dt) return false;
@@ -88,7 +88,7 @@ class Excitation {
   std::size_t excited_ = roll;
   double stage_s_ = 0, phase_s_ = 0;
   double strength_ = 0, larger_ = 1;
-  bool complete_ = false;  ///< a record, and not yet judged
+  bool complete_ = false;  ///< a record waits for its judgement
 };
 
 }  // namespace fulmar::slc

@@ -26,7 +26,7 @@ class Findings {
   void reverted(std::size_t axis, std::string_view why) {
     report(Severity::warning, control_slc_messages::axis_reverted, names[axis], why);
   }
-  /// As they stand in a file.
+  /// Reports the gains in the form of a parameter file.
   void kept(std::size_t axis, const AxisGains& g, const Margins& m) {
     constexpr double degree = std::numbers::pi / 180;
     const double phase_deg = std::min(m.phase_rad / degree, 180.0);

@@ -19,8 +19,8 @@ struct MarginsWanted {
   }
 };
 
-/// The loop with gains `to`, of a record that was taken with `from`. A damper (kp 0) acts on a rate that the
-/// record does not have washed out: its loop grows with its gain.
+/// The loop with gains `to`, computed from a record with gains `from`. A damper (kp 0) acts on a washed-out
+/// rate that the record does not hold, so its loop is scaled by its gain.
 inline std::array<Complex, Lines::count> loop_with(const LoopRecord& r, const AxisGains& from,
                                                    const AxisGains& to) {
   std::array<Complex, Lines::count> out;
@@ -37,9 +37,9 @@ inline std::array<Complex, Lines::count> loop_with(const LoopRecord& r, const Ax
 }
 
 /// Attitude loop: the highest kp that leaves the margins, ki in its ratio to it, kd within twice and half of
-/// its own.
-/// Damper: of the gains that leave the margins the one whose loop is nearest to damper_loop at its peak, the
-/// dutch roll, and so leaves 1 / (1 + damper_loop) of the resonance.
+/// its old ratio.
+/// Damper: of the gains that leave the margins, the one whose loop is nearest to damper_loop at its peak, the
+/// dutch roll. The resonance is then reduced to 1 / (1 + damper_loop).
 class GainSearch {
  public:
   void begin(const LoopRecord& record, const AxisGains& from, const MarginsWanted& wanted) {
@@ -50,7 +50,7 @@ class GainSearch {
     found_ = false;
     best_off_ = 1e300;
   }
-  /// One candidate. True when there are no more.
+  /// Tries one candidate. Returns true when all have been tried.
   bool step() {
     const bool damper = from_.damper();
     if (next_ >= (damper ? factors : factors * dampings)) return true;
@@ -69,7 +69,7 @@ class GainSearch {
   static constexpr double damper_loop = 1.25;
   static constexpr int factors = 33, dampings = 7;
   static double factor(int i) { return std::pow(10, (i - 16) * 0.05); }  // 1 dB apart, 0.16 to 6.3
-  /// Of kd / kp as it was: 1 first, then 2 dB more, less, ... to 6 dB.
+  /// Ratio to the old kd / kp: 1 first, then 2 dB more, less, ... to 6 dB.
   static double damping(int i) { return std::pow(10, 0.1 * ((i + 1) / 2) * (i % 2 == 1 ? 1 : -1)); }
 
   void try_attitude(const AxisGains& g) {

@@ -8,13 +8,13 @@
 
 namespace fulmar::slc {
 
-/// What the integrals do not take up of a hand-over fades: the rudder, the throttle, and what is beyond
-/// their bounds. As an exponential, not at a rate as in Airspeed and the outer laws: what is left is known
-/// only once this law has stepped, most of it is gone at once, and no surface is too fast for its servo.
+/// Fades the part of a hand-over that the integrals cannot take up: the rudder, the throttle, and what
+/// exceeds the bounds of the integrals. The fade is exponential, not at a fixed rate as in Airspeed and the
+/// outer laws. The remainder is known only after the first step, and the servos follow the fast beginning.
 class HandOverFade {
  public:
   void stop() { fading_ = false; }
-  /// `last`: the actuators that this law takes over from now, or null.
+  /// `last`: the actuators of the law before, or null without a hand-over in this step.
   void step(const Actuators* last, const Airframe& a, bool flying, double dt, Actuators& u) {
     constexpr double within_s = 0.5, forgotten = 1e-6;
     if (last) fading_ = true;
@@ -34,7 +34,7 @@ class HandOverFade {
   }
 
  private:
-  Actuators left_;  ///< of a hand-over, to be forgotten
+  Actuators left_;  ///< remainder of a hand-over
   bool fading_ = false;
 };
 

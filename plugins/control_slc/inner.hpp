@@ -27,14 +27,14 @@ struct Inner {
   struct Inputs {
     In<VehicleState> state;
     In<AttitudeCommand> attitude;
-    Optional<SideslipCommand> sideslip;  // of a landing in cross wind; without it none
+    Optional<SideslipCommand> sideslip;  // in a landing with cross wind; else without a value
   };
   struct Outputs {
     Actuators actuators;
     Probe roll_error_rad;
     Probe pitch_error_rad;
     Probe surface_scale_ratio;
-    OutQueue<Notice, 3> notices;  // an axis oscillated, and its gains were cut
+    OutQueue<Notice, 3> notices;  // an axis oscillated, and its gains were reduced
   };
   struct Params {
     Param roll_kp{1.2, "rad/rad", 0, 20, "aileron per roll error"};
@@ -64,8 +64,8 @@ struct Inner {
 
   Status activate(const Tick&, const Inputs& in, const Params& params, const Applied<Outputs>& last) {
     last_ = last->actuators;
-    // Nobody's when the pilot flies, or a host begins in the air: then trim and feed-forward are all there is
-    // to begin with.
+    // Without actuators of a law before, after a pilot or at a start in the air, trim and feed-forward are
+    // the initial values.
     take_up_ = last.has(last->actuators);
     fade_.stop();
     if (!take_up_) {
@@ -84,7 +84,7 @@ struct Inner {
   void retune(const Params& p) { quiet_.retune(gains_of(p)); }
 
   using Axis = QuietAxes::Axis;
-  /// What quietening has left of an axis' gains.
+  /// Share of the gains that quietening has left to an axis.
   double gain_left(Axis axis) const { return quiet_.gain(axis); }
 
   Status step(const Tick& tick, const Inputs& in, const Params& params, Outputs& out) {
@@ -108,7 +108,8 @@ struct Inner {
       roll_.reset();
       pitch_.reset();
     }
-    const double integrate = integrating ? dt : 0;  // the ground holds the attitude: its error means nothing
+    // the ground holds the attitude, so its error is not integrated
+    const double integrate = integrating ? dt : 0;
 
     out.actuators.throttle_frac = std::clamp(command.throttle_frac, 0.0, 1.0);
     out.actuators.aileron_rad = roll_to_aileron(state, command, params, slip, scale, integrate, dt);
@@ -130,7 +131,7 @@ struct Inner {
             p.pitch_ki, p.pitch_kd, p.yaw_kd,  p.quieten ? 1.0 : 0.0};
   }
 
-  /// An aileron that swings yaws the aircraft: as long as it does, the rudder is not to blame.
+  /// A swinging aileron also yaws the aircraft. The rudder is not judged meanwhile.
   void quieten(const Tick& tick, const AttitudeCommand& command, const Params& p, double scale, bool watching,
                double dt, Outputs& out) {
     if (!watching) return quiet_.begin();
@@ -145,7 +146,7 @@ struct Inner {
     quiet_.step(tick, surfaces, dt, out.notices);
   }
 
-  /// The attitude is known again.
+  /// Resumes control when the attitude is known again.
   void take_up(const Inputs& in, double Va) {
     take_up_ = true;
     roll_command_rate_.reset_to(in.attitude->roll_rad);
@@ -159,8 +160,8 @@ struct Inner {
     const double p_c = std::clamp(roll_command_rate_.step(command.roll_rad, p.command_filter, dt), -3.0, 3.0);
     p_c_ = p_c;
     const double beta = state.airspeed_valid ? state.beta_rad : 0;
-    // Damping by the air falls with the speed, the aileron's power with its square: the feed-forward scales
-    // by their quotient.
+    // Damping by the air is proportional to the speed, the power of the aileron to its square: the
+    // feed-forward scales by the quotient.
     const PidInput in{.error = command.roll_rad - state.roll_rad,
                       .rate = state.rate_radps.x - p_c,
                       .feedforward = aileron.trim_rad + aileron_for(slip_rad, p.airframe->aero) +
@@ -214,8 +215,8 @@ struct Inner {
   QuietAxes quiet_;
   NearbyDensity density_;
   LowPass airspeed_;      ///< m/s, for gains, trim and turn rates
-  Actuators last_;        ///< of another law, or before the attitude was lost
-  bool take_up_ = false;  ///< from `last_`, in this step
+  Actuators last_;        ///< of the law before, or before the loss of attitude
+  bool take_up_ = false;  ///< start from `last_` in this step
   HandOverFade fade_;
   AttitudeLoss loss_;
 };

@@ -23,29 +23,31 @@ struct Lines {
   static constexpr double record_s = 10;
 
   static constexpr double radps(std::size_t i) { return 2 * std::numbers::pi * 2 * harmonics[i] / record_s; }
-  /// More where turbulence is more.
+  /// The amplitude follows the spectrum of turbulence.
   static double amplitude(std::size_t i) { return std::pow(harmonics[i], -0.6); }
-  /// A low peak, 1.9 times the root mean square: quadratic as those of Schroeder (1970) for equal lines, the
-  /// two figures found by trying all.
+  /// Quadratic phases as those of Schroeder (1970) for equal lines. They give a low peak, 1.9 times the root
+  /// mean square. Both constants were found by a search.
   static double phase(std::size_t i) {
     const double k = static_cast<double>(i);
     return -(0.465 * k + 0.8) * k;
   }
 };
 
-/// What was measured at the lines.
+/// Frequency responses at the lines.
 struct LoopRecord {
   std::array<Complex, Lines::count> loop{};      ///< L
   std::array<Complex, Lines::count> attitude{};  ///< rad/rad
   std::array<Complex, Lines::count> rate{};      ///< (rad/s)/rad
   std::array<double, Lines::count> noise{};      ///< relative standard error of 1 + L
-  double scale = 1;                              ///< what the law multiplied its gains by, mean
+  double scale = 1;                              ///< mean scale of the gains in the law
   double step_s = 0.01;                          ///< mean
   double limited = 0;                            ///< share of the record with the surface at its limit
-  double answer = 0;  ///< power of the feedback at the lines over that between, mean: 1 if nothing answers
+  // mean power of the feedback at the lines over that between them; 1 without a response
+  double answer = 0;
 };
 
-/// Geometric mean of a line and two on either side: the two bins next to a line say little of a deviation.
+/// Geometric mean of a line and two on either side: two neighbour bins alone give a poor estimate of a
+/// standard deviation.
 inline double smoothed(const std::array<double, Lines::count>& deviation, std::size_t i) {
   const std::size_t first = i < 2 ? 0 : i - 2, last = std::min(i + 2, Lines::count - 1);
   double sum = 0;
@@ -53,7 +55,7 @@ inline double smoothed(const std::array<double, Lines::count>& deviation, std::s
   return std::exp(sum / static_cast<double>(last - first + 1));
 }
 
-/// Excites, and takes the record while it does.
+/// Excites and records.
 class LoopLines {
  public:
   LoopLines() {
@@ -76,7 +78,8 @@ class LoopLines {
     samples_ = limited_ = 0;
     scale_ = step_s_ = 0;
   }
-  /// At the time of the last `at`. Recorded are whole periods: `close` is told what would be the next sample.
+  /// Adds a sample at the time of the last `at`. A record is whole periods; `close` takes the sample that
+  /// would be next.
   void add(double feedback, double total, double attitude, double rate, double scale, bool limited,
            double step_s) {
     const std::array<double, signals> now{feedback, total, attitude, rate};
@@ -109,8 +112,8 @@ class LoopLines {
       r.loop[i] = -feedback / total;
       r.attitude[i] = (s.line[2] - ramp(2, bin)) / total;
       r.rate[i] = (s.line[3] - ramp(3, bin)) / total;
-      // U_fb = -T e + S n and U = S (e + n): to first order 1 + L is wrong by n / e, and what lies between
-      // the lines is S n.
+      // U_fb = -T e + S n and U = S (e + n). To first order the error of 1 + L is n / e, and the bins between
+      // the lines hold S n.
       const double between =
           std::sqrt(0.5 * (std::norm(s.below - ramp(0, bin - 1)) + std::norm(s.above - ramp(0, bin + 1))));
       r.noise[i] = between * std::abs(1.0 + r.loop[i]) / std::abs(total - feedback);
@@ -134,7 +137,8 @@ class LoopLines {
     Complex below, above;  // of the feedback
   };
 
-  /// What a signal that drifts over the record adds to a bin: a periodic one is where it began.
+  /// Part of a bin that comes from a drift of the signal over the record: a periodic signal ends where it
+  /// began.
   Complex ramp(std::size_t signal, int bin) const {
     return drift_[signal] / (std::polar(1.0, -2 * std::numbers::pi * bin / std::max(samples_, 2)) - 1.0);
   }
@@ -174,7 +178,8 @@ class LoopLines {
   int samples_ = 0, limited_ = 0;
 };
 
-/// Of a loop at the lines. Beyond the last one it is taken to fall: the gain margin is at most 1 / |L| there.
+/// Margins of a loop at the lines. The loop is assumed to fall beyond the last line: the gain margin is at
+/// most 1 / |L| there.
 inline Margins margins_of(const std::array<Complex, Lines::count>& loop) {
   std::array<LoopSample, Lines::count> samples;
   for (std::size_t i = 0; i < Lines::count; ++i) samples[i] = {Lines::radps(i), loop[i]};

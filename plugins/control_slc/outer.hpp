@@ -21,7 +21,7 @@ struct Outer {
   struct Outputs {
     AttitudeCommand attitude;
     ControllerInternals internals;
-    OutQueue<Notice, 3> notices;  // a stall and its end, a height that is lost
+    OutQueue<Notice, 3> notices;  // stall, end of a stall, loss of height
     Probe climb_rate_demand_mps;
     Probe pitch_integral_rad;
     Probe throttle_integral_frac;
@@ -82,8 +82,8 @@ struct Outer {
     const double error = command.height_m - state.height_m;
     const double wanted = command.climb_rate_mps + p.altitude_kp * turn.Va_mps * error;
     const double climb_rate = std::clamp(wanted, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
-    // Far from the height wanted the climb limit governs and there is nothing to learn from the error. What
-    // is missing of a demand counts as the height error that would demand it, in a second at the fastest.
+    // Far from the commanded height the climb limit governs, and the error is not integrated. The shortfall
+    // of a demand counts as the height error that would demand it, within a second at the fastest.
     const double gain = turn.Va_mps * std::max<double>({p.altitude_kp, p.altitude_ki, 1e-6});
     const double missing = late_.missing(climb_rate != wanted, climb_rate, state.climb_rate_mps,
                                          altitude_.integral(), -max_bias, dt);

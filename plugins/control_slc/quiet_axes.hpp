@@ -11,25 +11,25 @@
 
 namespace fulmar::slc {
 
-/// What is left of the gains of each axis, until they are changed.
+/// Reduced share of the gains of each axis, valid until the gains are changed.
 class QuietAxes {
  public:
   enum Axis : std::uint8_t { roll, pitch, yaw, axes };
   using Each = std::array<double, axes>;
   using Gains = std::array<double, 8>;
-  /// rad, of the surface of each axis: its deflection, what the command alone makes of it, and its throw.
+  /// Of the surface of each axis, rad: deflection, part of it that the command alone causes, and throw.
   struct Surfaces {
     Each deflection{}, commanded{}, limit{};
   };
 
   void configure(const Gains& gains) { gains_ = gains; }
-  /// Other gains restart all of them.
+  /// New gains restart all axes.
   void retune(const Gains& gains) {
     if (gains != gains_)
       for (Quietening& axis : quiet_) axis.restore();
     gains_ = gains;
   }
-  /// Nothing has swung yet: after a hand-over, on the ground.
+  /// Clears the history of swings: after a hand-over, on the ground.
   void begin() {
     for (Quietening& axis : quiet_) axis.begin();
   }
@@ -37,7 +37,7 @@ class QuietAxes {
   bool quietened() const {
     return std::any_of(quiet_.begin(), quiet_.end(), [](const Quietening& axis) { return axis.gain() < 1; });
   }
-  /// Cuts the gains of an axis whose surface swings by more than an eighth of its throw, again and again.
+  /// Reduces the gains of an axis whose surface swings repeatedly by more than an eighth of its throw.
   template <class Notices>
   void step(const Tick& tick, const Surfaces& surfaces, double dt, Notices& notices) {
     for (std::size_t i = 0; i < axes; ++i)
@@ -57,7 +57,7 @@ class QuietAxes {
   }
 
   std::array<Quietening, axes> quiet_;
-  Gains gains_{};  ///< for which the axes are as quiet as they are
+  Gains gains_{};  ///< the gains that the shares belong to
 };
 
 }  // namespace fulmar::slc

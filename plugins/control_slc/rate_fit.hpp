@@ -10,10 +10,10 @@ namespace fulmar::slc {
 class RateFit {
  public:
   static constexpr int unknown = 5;             ///< tau with them
-  static constexpr double model_error = 0.015;  ///< of 1 + L, which any low order leaves
-  static constexpr double max_misfit = 2.5;     ///< beyond: the aircraft is none of these
+  static constexpr double model_error = 0.015;  ///< of 1 + L, the residual of any low-order model
+  static constexpr double max_misfit = 2.5;     ///< beyond it the aircraft fits no model
 
-  /// `gains`: with which the record was taken. `more`: the law feeds back more than attitude and rate.
+  /// `gains`: those of the record. `more`: the law feeds back more than attitude and rate.
   void begin(const LoopRecord& record, const AxisGains& gains, bool more) {
     record_ = record;
     gains_ = gains;
@@ -26,7 +26,7 @@ class RateFit {
       weight_[i] = std::abs(L) / (noise * std::abs(1.0 + L) * std::abs(record.rate[i]));
     }
   }
-  /// One delay. True when there are no more.
+  /// Tries one delay. Returns true when all have been tried.
   bool step() {
     if (next_ > delays) return true;
     Each fitted{};
@@ -37,17 +37,18 @@ class RateFit {
     }
     return false;
   }
-  /// Mean square of what is left, in variances of the noise: 1 when the aircraft is one of these.
+  /// Mean square of the residual, in variances of the noise: 1 when the model fits.
   double misfit() const { return misfit_; }
 
-  /// The record without most of the noise, or as it was when the aircraft is none of these.
+  /// The record with most of the noise removed; unchanged when no model fits.
   LoopRecord record() const {
     LoopRecord r = record_;
     if (!(misfit_ < max_misfit)) return r;
     for (std::size_t i = 0; i < Lines::count; ++i) {
       r.rate[i] = best_[i];
       if (gains_.damper()) {
-        r.loop[i] *= best_[i] / record_.rate[i];  // what the law makes of the rate is exact
+        // the factor from rate to loop is exact: it belongs to the law
+        r.loop[i] *= best_[i] / record_.rate[i];
       } else {
         const Complex back = std::polar(1.0, -Lines::radps(i) * r.step_s), integral = r.step_s / (1.0 - back);
         r.attitude[i] = best_[i] * integral * 0.5 * (1.0 + back);
@@ -99,7 +100,7 @@ class RateFit {
     const Complex s = s_of(i), late = std::polar(1.0, -Lines::radps(i) * tau);
     return {late, s * late, -record_.rate[i] * s, -record_.rate[i] * s * s};
   }
-  /// Gauss; the matrix is positive definite.
+  /// Gauss elimination; the matrix is positive definite.
   static bool solve(std::array<std::array<double, n + 1>, n>& A, std::array<double, n>& x) {
     for (std::size_t c = 0; c < n; ++c) {
       if (!(A[c][c] > 0)) return false;

@@ -7,7 +7,7 @@
 
 namespace fulmar::slc {
 
-/// rad. A request ends when it is not repeated: a guide that has stopped steers nothing.
+/// Requested sideslip, rad. A request ends when it is not repeated, so a stopped guide has no effect.
 inline double slip_asked(const Tick& tick, const Optional<SideslipCommand>& sideslip) {
   constexpr std::int64_t patience_ns = 200'000'000;
   const bool fresh = sideslip && tick.now_ns - sideslip.valid_at_ns() <= patience_ns;
@@ -15,7 +15,7 @@ inline double slip_asked(const Tick& tick, const Optional<SideslipCommand>& side
 }
 
 /// Rudder and aileron that hold a steady sideslip: the moments of yaw and roll vanish, B&M (4.19), (4.20).
-/// The rudder's own rolling moment and the aileron's of yaw are small beside them and left to the loops.
+/// The roll moment of the rudder and the yaw moment of the aileron are small; the loops take them up.
 inline double rudder_for(double slip_rad, const Aerodynamics& a) {
   return a.yaw.rudder_ratio != 0 ? -a.yaw.beta_ratio / a.yaw.rudder_ratio * slip_rad : 0;
 }

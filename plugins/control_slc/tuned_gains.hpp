@@ -10,12 +10,12 @@
 
 namespace fulmar::slc {
 
-/// Indices of the axes that are tuned, in their order.
+/// Indices of the tuned axes, in their order.
 struct TunedAxis {
   enum Index : std::size_t { roll, pitch, yaw, axes };
 };
 
-/// The gains of each axis, which move within change_s: no surface steps.
+/// The gains of each axis. They move within change_s, so that no surface steps.
 class TunedGains {
   using enum TunedAxis::Index;
 
@@ -31,13 +31,13 @@ class TunedGains {
     for (std::size_t i = 0; i < axes; ++i)
       given_[i] = old_[i] = kept_[i] = used_[i] = goal_[i] = gains_of(p, i);
   }
-  /// Gains that are given in flight count at once. Are they others than before?
+  /// Takes gains from a change of parameters at once. Returns true when they differ from those before.
   bool give(std::size_t axis, const AxisGains& now) {
     if (now == given_[axis]) return false;
     given_[axis] = kept_[axis] = used_[axis] = goal_[axis] = now;
     return true;
   }
-  /// Tuning begins: what quietening has left of the gains is what they are.
+  /// Begins the tuning: the gains as reduced by quietening are the initial ones.
   void begin(std::size_t axis, double left) {
     kept_[axis] = old_[axis] = goal_[axis] = used_[axis] = times(used_[axis], left);
   }
@@ -48,12 +48,12 @@ class TunedGains {
   }
   void go_back(std::size_t axis) { change_to(axis, kept_[axis]); }
   void keep(std::size_t axis) { kept_[axis] = used_[axis]; }
-  /// No surface is bound to the gains: the change is complete.
+  /// Completes the change at once: no surface depends on the gains now.
   void finish_change(std::size_t axis) {
     used_[axis] = goal_[axis];
     left_s_[axis] = 0;
   }
-  /// True when the gains in use have moved.
+  /// Returns true when the gains in use have moved.
   bool change_over(std::size_t axis, double dt) {
     if (left_s_[axis] <= 0) return false;
     const double part = std::min(1.0, dt / left_s_[axis]);
@@ -66,7 +66,7 @@ class TunedGains {
   }
 
   const AxisGains& used(std::size_t axis) const { return used_[axis]; }
-  /// Into the parameters of the law.
+  /// Writes the gains into the parameters of the law.
   void put_into(Inner::Params& law, std::size_t axis) const {
     const AxisGains& g = used_[axis];
     if (axis == roll) {
@@ -94,7 +94,7 @@ class TunedGains {
   static constexpr double change_s = 0.5;
 
   std::array<AxisGains, axes> given_{}, old_{}, kept_{}, used_{}, goal_{};
-  std::array<double, axes> left_s_{};  ///< of a change of gains
+  std::array<double, axes> left_s_{};  ///< rest of the time of a change of gains
 };
 
 }  // namespace fulmar::slc

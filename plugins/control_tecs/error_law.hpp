@@ -25,7 +25,7 @@ struct ErrorLaw {
   struct Outputs {
     AttitudeCommand attitude;
     ControllerInternals internals;
-    OutQueue<Notice, 3> notices;  // a stall and its end, a height that is lost
+    OutQueue<Notice, 3> notices;  // stall, end of a stall, loss of height
     Probe total_error_ratio;      // m2/s2, within its limits
     Probe balance_error_ratio;    // m2/s2, within its limits
     Probe pitch_integral_rad;
@@ -84,17 +84,17 @@ struct ErrorLaw {
   }
 
  private:
-  /// Of the energies per mass, wanted minus present, m2/s2.
+  /// Errors of the energies per mass, wanted minus present, m2/s2.
   struct Errors {
     double potential = 0, kinetic = 0;
-    double steady_kinetic = 0;   ///< of the airspeed without gusts
+    double steady_kinetic = 0;   ///< by the airspeed without gusts
     double climb_rate_mps = 0;   ///< of the path
-    double underspeed = 0;       ///< 0: none, 1: speed before everything
+    double underspeed = 0;       ///< 0: none; 1: speed has full priority
     double Va_c = 0;             ///< m/s
-    double most = 0, least = 0;  ///< rates of the energy, m2/s3, that there is engine and drag for
+    double most = 0, least = 0;  ///< limits of the energy rate, m2/s3, by engine and drag
 
-    /// Held to what a gain turns into the climb and sink that are left beside the path's, the kinetic one to
-    /// half of the limits. Where that governs there is nothing to learn.
+    /// Limits the errors to those whose gain gives the climb and sink that the path leaves. The kinetic error
+    /// is limited to half of that. At a limit the error is not integrated.
     EnergyRates held(double kinetic_m2ps2, double gain) const {
       if (gain <= 0) return {potential, kinetic_m2ps2};
       const double ahead = isa::g0 * climb_rate_mps;
@@ -130,7 +130,8 @@ struct ErrorLaw {
     return e;
   }
 
-  /// Of the error that would demand a rate; with a small gain the integral moves in a second at the fastest.
+  /// Gain that turns an error into a rate. With a small gain the integral moves within a second at the
+  /// fastest.
   static double gain_of(double gain, double integral) { return std::max({gain, integral, 1e-6}); }
 
   /// theta = theta_trim + hdot_path / Va + 1/(g Va) [ k B + k_i int B ],  B = w_h e_U - w_V e_K.
@@ -175,7 +176,7 @@ struct ErrorLaw {
     const bool limited = held.potential != e.potential || held.kinetic != e.kinetic;
     const double E = held.total();
     out.total_error_ratio = E;
-    if (!state.airspeed_valid)  // the climb that pitch asks for, and trim
+    if (!state.airspeed_valid)  // without airspeed: trim and the climb that pitch asks for
       return std::clamp(feedforward + per_rate * p.balance_gain * e.held(0, p.balance_gain).potential, 0.0,
                         1.0);
     const double rate = isa::g0 * e.climb_rate_mps + p.total_gain * E;

@@ -24,7 +24,7 @@ struct Outer {
   struct Outputs {
     AttitudeCommand attitude;
     ControllerInternals internals;
-    OutQueue<Notice, 3> notices;  // a stall and its end, a height that is lost
+    OutQueue<Notice, 3> notices;  // stall, end of a stall, loss of height
     Probe climb_rate_demand_mps;
     Probe acceleration_demand_mps2;
     Probe total_rate_error_ratio;    // m2/s3
@@ -83,16 +83,16 @@ struct Outer {
   }
 
  private:
-  /// What the energies are to do, and what they do, m2/s3.
+  /// Demanded and present energy rates, m2/s3.
   struct Energy {
     EnergyRates wanted, present;
-    double steady_kinetic = 0;  ///< wanted by the airspeed without gusts: what pitch is to answer
-    double total_wanted = 0;    ///< of the total, within what the engine can give
+    double steady_kinetic = 0;  ///< demand by the airspeed without gusts, which pitch follows
+    double total_wanted = 0;    ///< total demand, within the limits of the engine
     double turn_drag = 0;       ///< energy rate that the turn takes from the engine
-    double underspeed = 0;      ///< 0: none, 1: speed before everything
+    double underspeed = 0;      ///< 0: none; 1: speed has full priority
     double Va = 0, Va_c = 0;
     Envelope within;
-    bool limited = false;  ///< the climb that is wanted
+    bool limited = false;  ///< the demanded climb is at a limit
   };
 
   void rest(const VehicleState& state, Outputs& out) {
@@ -119,16 +119,16 @@ struct Outer {
     return {theta, total_to_throttle(state, p, e, dt, out)};
   }
 
-  /// Gain times error near the goal; further away the rate from which the goal can be reached at that
-  /// acceleration: half of what the demand's rate limit allows, so that there is something left to correct
-  /// with.
+  /// Gain times error near the goal. Further away, the rate from which the goal can be reached at that
+  /// acceleration. The acceleration is half of the rate limit of the demand, which leaves a reserve for
+  /// corrections.
   static double approach_rate(double error, double gain, double acceleration) {
     const double linear = gain > 0 ? acceleration / (gain * gain) : 0;
     if (std::abs(error) <= linear || gain <= 0) return gain * error;
     return std::copysign(std::sqrt(2 * acceleration * (std::abs(error) - 0.5 * linear)), error);
   }
 
-  /// Rates wanted of height and speed, within what the engine can give and the drag can take.
+  /// Demanded rates of height and speed, within the limits of engine and drag.
   void demand(const VehicleState& state, const GuidanceCommand& command, const Params& p, double dt,
               Energy& e, Outputs& out) {
     const FlightLimits& limits = p.common.airframe->limits;
@@ -176,8 +176,8 @@ struct Outer {
     const double w_h = std::clamp(2 - weight, 0.0, 1.0), w_V = std::clamp(weight, 0.0, 1.0);
     const double B_c = EnergyRates{e.wanted.potential, e.steady_kinetic}.balance(w_h, w_V),
                  error = B_c - e.present.balance(w_h, w_V);
-    // The weights say which error pitch is to answer. The climb wanted needs its flight path angle whatever
-    // they are, as long as the engine gives what was asked of it.
+    // The weights select the error that pitch corrects. The demanded climb needs its flight path angle with
+    // any weights, as long as the engine follows its command.
     const double missing = throttle_.saturated() ? e.total_wanted - e.present.total() : 0;
     const double climb = e.wanted.potential * (1 - e.underspeed) - (1 - w_h) * missing;
     const double B_ff = climb - w_V * e.steady_kinetic;

@@ -33,11 +33,12 @@ inline double ramp(double x, double from, double to) {
 inline Envelope envelope(const VehicleState& state, const FlightLimits& limits, const EnvelopeParams& p) {
   if (!p.protection) return {};
   Envelope e{limits.roll_max_rad, limits.pitch_min_rad, limits.pitch_max_rad, 0, 1};
-  // Without airspeed nobody knows of a stall; on the ground it does not matter.
+  // Without airspeed a stall cannot be detected; on the ground it does not matter.
   if (!state.airspeed_valid || !flying(state, limits)) return e;
   const double Vs = p.stall_airspeed > 0 ? p.stall_airspeed.value : limits.airspeed_min_mps / 1.2;
   const double over = state.airspeed_mps / Vs, fast = state.airspeed_mps / limits.airspeed_max_mps;
-  // A turn stalls at Vs sqrt(n), n = 1/cos(roll): so much bank as leaves a tenth over that, and 10 degrees.
+  // A turn stalls at Vs sqrt(n), n = 1/cos(roll): the bank is limited to a speed reserve of a tenth, plus 10
+  // degrees.
   const double cosine = std::min(1.0, 1.1 * 1.1 / (over * over));
   e.roll_max = std::min(e.roll_max, std::max(std::acos(cosine), 0.175));
   const double dive = std::max(limits.pitch_min_rad, -0.175), flare = limits.pitch_max_rad / 2;

@@ -17,18 +17,19 @@ namespace fulmar::manual {
 struct Guide {
   static constexpr const char* doc =
       "Course, height and airspeed commands: each axis from the sticks, held, or from the path.";
-  /// Where a command comes from: the pilot moves it; another guide; it stays; or what is flown now, so that
-  /// what holds it has nothing to do while the pilot flies that axis further in, and holds it without him.
+  /// Source of a command: the pilot's stick; another guide; the last command; or the present motion. With the
+  /// present motion as the command there is no error to control, and the command holds it when the pilot lets
+  /// go.
   enum class Axis : std::uint8_t { sticks, automatic, hold, flown };
 
   struct Inputs {
     In<VehicleState> state;
     Optional<Rc> rc;
-    Optional<GuidanceCommand> automatic;  // of a guide that follows the path
+    Optional<GuidanceCommand> automatic;  // from a guide that follows the path
   };
   struct Outputs {
     GuidanceCommand command;
-    Probe course_lead_rad;  // of the command before what is flown
+    Probe course_lead_rad;  // command minus present course
     Probe height_lead_m;
   };
   struct Params {
@@ -89,12 +90,12 @@ struct Guide {
     return c;
   }
 
-  /// Of an axis whose command is not another guide's: is its source there?
+  /// True when the source of an axis that no other guide commands is present.
   static bool held(Axis axis, const Sticks& hand) {
     return axis == Axis::hold || (axis != Axis::automatic && hand.there);
   }
 
-  /// Each axis: false when its source is not there, and the command stays.
+  /// Updates each axis; false when its source is missing and the command stays.
   bool course(const Sticks& hand, const VehicleState& state, const Params& p,
               const GuidanceCommand* automatic, const GuidanceCommand& now, double dt) {
     const Axis axis = p.course;
@@ -136,7 +137,7 @@ struct Guide {
     const FlightLimits& limits = p.airframe->limits;
     const double rate =
         std::clamp(hand.pitch * p.climb_rate, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
-    // From outside of floor and ceiling, after a take-off say, the way leads back alone.
+    // Outside of floor and ceiling, after a take-off for example, only the way back is allowed.
     const double floor = std::min<double>(p.height_min, command_.height_m),
                  ceiling = std::max({floor, p.height_max.value, command_.height_m});
     const double before = command_.height_m;
@@ -160,7 +161,7 @@ struct Guide {
     if (axis == Axis::sticks && hand.there) {
       const double lever =
           shaped(std::clamp(2 * hand.throttle - 1, -1.0, 1.0), p.throttle_dead_zone, p.sticks.expo);
-      // Left where it was for the motor, it would change the speed from the first moment on.
+      // A lever left in its position for the motor would change the speed at once.
       if (lever == 0) lever_counts_ = true;
       if (lever_counts_) command_.airspeed_mps += lever * p.airspeed_rate * dt;
     }
@@ -171,7 +172,7 @@ struct Guide {
 
   GuidanceCommand command_;
   bool begun_ = false;
-  bool lever_counts_ = false;  ///< the throttle stick has been in its middle since it was handed over
+  bool lever_counts_ = false;  ///< the throttle stick has been in its middle since the hand-over
 };
 
 }  // namespace fulmar::manual

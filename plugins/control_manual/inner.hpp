@@ -21,11 +21,11 @@ struct Inner {
   struct Inputs {
     In<VehicleState> state;
     Optional<Rc> rc;
-    Optional<AttitudeCommand> attitude;  // of an outer law
+    Optional<AttitudeCommand> attitude;  // from an outer law
   };
   struct Outputs {
     Actuators actuators;
-    Probe roll_rate_demand_radps;  // 0 while a surface is flown
+    Probe roll_rate_demand_radps;  // 0 while the stick commands the surface directly
     Probe pitch_rate_demand_radps;
   };
   struct Params {
@@ -84,22 +84,22 @@ struct Inner {
   }
 
  private:
-  /// What all axes share in a step.
+  /// Values that all axes share in a step.
   struct Now {
     double dt = 0, Va = 1, rho = 1;  ///< s, m/s, kg/m3
     double decay = 1;                ///< of the blends
     Sticks hand;
     Envelope envelope;
-    AttitudeCommand to;          ///< of the outer law; without one, wings level at cruise
+    AttitudeCommand to;          ///< command of the outer law; without one, wings level at cruise
     TurnRates turn;              ///< of a coordinated turn at the present bank
     double cruise_elevator = 0;  ///< rad, of level flight at cruise, by the airframe's model
-    bool lawful = false;         ///< there is an outer law
-    bool known = false;          ///< the attitude is, and the rates
+    bool lawful = false;         ///< an outer law is present
+    bool known = false;          ///< attitude and rates are valid
     bool flying = false;
   };
-  /// Of one axis: the rate that is wanted and the limits that the envelope sets it.
+  /// Demand of one axis: the wanted rate and the limits of the envelope.
   struct Demand {
-    Law law;                         ///< in force
+    Law law;                         ///< active law
     double stick;                    ///< -1 to 1, with the sign of the surface
     double rate, rate_c, low, high;  ///< rad/s
     RateLoop loop;
@@ -126,13 +126,13 @@ struct Inner {
     return now;
   }
 
-  /// Without a pilot an axis holds the attitude. Without an attitude a stick moves its surface.
+  /// Law in force: without a pilot an axis holds the attitude; without an attitude a stick moves its surface.
   static Law in_force(Law said, const Now& now) {
     if (!now.hand.there) return Law::attitude;
     return now.known || said == Law::attitude ? said : Law::surface;
   }
 
-  /// The rates that lead to the ends of the envelope, as an attitude does: rate = gain (limit - attitude).
+  /// Rates that lead to the limits of the envelope, as for an attitude: rate = gain (limit - attitude).
   static void limit(Demand& d, const Params& p, double turn, double gain, double attitude, double min,
                     double max, double most) {
     d.low = -no_limit;
@@ -165,7 +165,7 @@ struct Inner {
         turn_trim(*p.airframe, state.roll_rad, std::max(now.Va, p.airframe->limits.airspeed_min_mps), now.rho)
             .elevator_rad;
     const Authority authority = elevator_authority(*p.airframe, now.Va, now.rho);
-    // The trim of the turn holds its pitch rate already: the steady rate is that beyond it.
+    // The trim of the turn includes its pitch rate: only the rate beyond it needs steady deflection.
     const double trim =
         p.airframe->elevator.trim_rad + turn - now.cruise_elevator - authority.steady * now.turn.q_radps;
     Demand d{in_force(p.elevator, now),
@@ -183,7 +183,7 @@ struct Inner {
     return d;
   }
 
-  /// A surface by its stick, kept where the rate loop would have it at the limits; or by the rate loop.
+  /// Deflection by the stick, limited to that of the rate loop at the limits; or by the rate loop.
   static double move(Pid& pid, Blend& blend, const Demand& d, const Surface& surface, const Params& p,
                      const Now& now) {
     double u = 0;

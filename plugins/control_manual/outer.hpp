@@ -13,18 +13,18 @@ namespace fulmar::manual {
 struct Outer {
   static constexpr const char* doc =
       "Roll, pitch and throttle commands: each axis from the sticks or from an outer law.";
-  /// Where an axis comes from: its stick; an outer law; or the attitude that the aircraft has, while the
-  /// pilot flies it further in, so that whoever takes over goes on from there.
+  /// Source of an axis: its stick; an outer law; or the present attitude. With the present attitude a law
+  /// that takes over later continues from it.
   enum class Source : std::uint8_t { stick, automatic, flown };
 
   struct Inputs {
     In<VehicleState> state;
     Optional<Rc> rc;
-    Optional<AttitudeCommand> automatic;  // of an outer law
+    Optional<AttitudeCommand> automatic;  // from an outer law
   };
   struct Outputs {
     AttitudeCommand attitude;
-    Probe protecting_ratio;  // 1: the envelope alters what is asked for
+    Probe protecting_ratio;  // 1: the envelope changes the command
   };
   struct Params {
     StickParams sticks;
@@ -51,7 +51,8 @@ struct Outer {
       begin_attitude(last->attitude.roll_rad, last->attitude.pitch_rad);
       throttle_.begin(last->attitude.throttle_frac);
     } else if (in.state->attitude_valid && flying(*in.state, p.airframe->limits)) {
-      // Nobody's command is in force: from the attitude that it has. The throttle that it has is not known.
+      // No command is in force: the command starts from the present attitude. The present throttle is not
+      // known.
       begin_attitude(in.state->roll_rad, in.state->pitch_rad);
     }
     return Status::ok;
@@ -84,7 +85,7 @@ struct Outer {
                                  axis(throttle_, p.throttle, &AttitudeCommand::throttle_frac)};
     const Envelope e = envelope(state, limits, p.envelope);
     const AttitudeCommand kept = within(e, wanted);
-    // Slewed from where it was kept, not from where the stick would have had it; and kept at once.
+    // Slewed from the limited command, not from that of the stick, and limited at once.
     out.attitude = within(e, {roll_slew_.step(kept.roll_rad, p.roll_rate_limit, dt),
                               pitch_slew_.step(kept.pitch_rad, p.pitch_rate_limit, dt), kept.throttle_frac});
     out.protecting_ratio = kept.roll_rad != wanted.roll_rad || kept.pitch_rad != wanted.pitch_rad ||
@@ -104,7 +105,7 @@ struct Outer {
     roll_slew_.reset_to(roll_rad);
     pitch_slew_.reset_to(pitch_rad);
   }
-  /// Of level flight at cruise speed, rad: where the pitch stick has its middle.
+  /// Pitch of level flight at cruise speed, rad: the middle of the pitch stick.
   static double level_pitch(const VehicleState& state, const Params& p) {
     const double rho = standard_air(state.origin_altitude_m + state.height_m).density_kgm3;
     return turn_trim(*p.airframe, 0, p.airframe->limits.airspeed_cruise_mps, rho).alpha_rad;

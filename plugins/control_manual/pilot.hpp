@@ -17,17 +17,17 @@ struct StickParams {
 };
 
 struct Sticks {
-  bool there = false;                   ///< else all others are 0
+  bool there = false;                   ///< a pilot is connected; else all others are 0
   double roll = 0, pitch = 0, yaw = 0;  ///< -1 to 1: right, nose up, nose right
-  double throttle = 0;                  ///< 0 to 1, neither dead zone nor expo: a lever has no middle
+  double throttle = 0;                  ///< 0 to 1, without dead zone and expo: a lever has no middle
 };
 
-/// Age of the last frame, s; `never_s` when there was none, the link is lost or the frame means nothing.
+/// Age of the last frame, s; `never_s` without a frame, without a link, or with an invalid frame.
 inline constexpr double never_s = 1e9;
 inline double stick_age_s(const Optional<Rc>& rc, const Tick& tick) {
   if (!rc || rc.stale() || !rc->link) return never_s;
   if (!std::isfinite(rc->roll_frac + rc->pitch_frac + rc->yaw_frac + rc->throttle_frac)) return never_s;
-  // Not the input's age, which counts from the writer's last step: a receiver may stay silent.
+  // Not the age of the input, which counts from the last step of its writer: a receiver may stay silent.
   return std::max(0.0, 1e-9 * static_cast<double>(tick.now_ns - rc.valid_at_ns()));
 }
 
@@ -38,18 +38,18 @@ inline Sticks sticks(const Optional<Rc>& rc, const Tick& tick, const StickParams
           std::clamp(rc->throttle_frac, 0.0, 1.0)};
 }
 
-/// From what was applied to what is wanted, without a step and without a sudden rate: whenever the source of
-/// a value changes, the difference is kept and forgotten as (1 + t/T) exp(-t/T), critically damped.
+/// Moves from the applied to the wanted value without a step and without a sudden rate. When the source
+/// changes, the difference is kept and decays as (1 + t/T) exp(-t/T), critically damped.
 class Blend {
  public:
-  /// Somebody else's value was applied last.
+  /// Starts from a value that another component applied last.
   void begin(double applied) {
     value_ = applied;
     known_ = true;
     source_ = -1;
   }
   void reset() { *this = {}; }
-  /// What a limit has left of the last value: the next source begins there.
+  /// Limits the last value: the next source begins there.
   double kept(double applied) { return value_ = applied; }
   /// `decay`: exp(-dt / time constant), one for all blends of a step.
   double step(double wanted, int source, double decay) {
@@ -73,7 +73,7 @@ class Blend {
   bool known_ = false;
 };
 
-/// For the conditions of phases, which cannot see that nothing comes.
+/// Reports the pilot to the conditions of phases, which cannot detect missing frames.
 struct Pilot {
   static constexpr const char* doc =
       "Presence of the pilot for the conditions of phases, and the frames of the transmitter.";
@@ -81,7 +81,7 @@ struct Pilot {
     Optional<Rc> rc;
   };
   struct Outputs {
-    Rc rc;              // as it came; without a pilot no link, and all else 0
+    Rc rc;              // as received; without a pilot link 0 and all else 0
     Probe there_ratio;  // 1: a frame came within the time-out, with its link
     Probe stick_age_s;  // of the last frame; 1e9: none, no link, or not finite
   };

@@ -11,7 +11,7 @@
 
 namespace fulmar::manual {
 
-/// Angular acceleration per surface, 1/s2 per rad, and the surface that a steady rate takes, rad s/rad.
+/// Angular acceleration per surface, 1/s2 per rad, and surface per steady rate, rad s/rad.
 struct Authority {
   double power = 0;
   double steady = 0;
@@ -25,8 +25,8 @@ inline Authority aileron_authority(const Airframe& a, double Va, double rho) {
   return {qSb * l.aileron_ratio / a.inertia.xx_kgm2, -a.wing.span_m / (2 * Va) * l.p_ratio / l.aileron_ratio};
 }
 
-/// A steady pitch rate q needs the lift of m Va q beyond that of level flight, CL = m Va q / (q_bar S), and
-/// no moment: the same two equations as turn_trim().
+/// A steady pitch rate q needs a lift of m Va q beyond level flight, CL = m Va q / (q_bar S), and no moment:
+/// the equations of turn_trim().
 inline Authority elevator_authority(const Airframe& a, double Va, double rho) {
   const Derivatives &L = a.aero.lift, &M = a.aero.pitch;
   const double qS = 0.5 * rho * Va * Va * a.wing.area_m2, hat = a.wing.chord_m / (2 * Va);
@@ -37,17 +37,17 @@ inline Authority elevator_authority(const Airframe& a, double Va, double rho) {
           (L.alpha_ratio * moment - M.alpha_ratio * lift) / determinant};
 }
 
-/// A rate loop: surface = trim + steady rate_c + kp (rate_c - rate) + integral, with kp so that it adds
-/// `damping`, rad/s, to that of the airframe.
+/// A rate loop: surface = trim + steady rate_c + kp (rate_c - rate) + integral. kp adds `damping`, rad/s, to
+/// that of the airframe.
 struct RateLoop {
   Authority authority;
-  double trim = 0;  ///< rad, of the surface at the rate 0
+  double trim = 0;  ///< rad, of the surface at zero rate
   double kp = 0;    ///< rad s/rad
 
   RateLoop(const Authority& of, double trim_rad, double damping)
       : authority(of), trim(trim_rad), kp(of.power != 0 ? damping / of.power : 0) {}
   double feedforward(double rate_c) const { return trim + authority.steady * rate_c; }
-  /// Without integral: where a limit of the rate begins to govern a surface that the pilot moves.
+  /// Without integral: the point where a limit of the rate begins to govern a surface under the stick.
   double proportional(double rate_c, double rate) const { return feedforward(rate_c) + kp * (rate_c - rate); }
 };
 

@@ -17,7 +17,7 @@ struct Attitude {
   };
   struct Outputs {
     AttitudeCommand attitude;
-    Probe roll_excitation_rad;  // what was added, within the limits
+    Probe roll_excitation_rad;  // signal added, within the limits
     Probe pitch_excitation_rad;
     Probe throttle_excitation_frac;
     Reported reported;

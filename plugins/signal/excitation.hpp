@@ -26,19 +26,20 @@ struct BoundParams {
   Record<Airframe> airframe{"airframe with the limits and throws of every signal", required};
 };
 
-/// Outputs of each component, beside what is added to each of its channels.
+/// Outputs common to all components, in addition to the signal of each channel.
 struct Reported {
-  Probe active_ratio;   // 1: from when it is asked for, its delay included, until its end
-  Probe aborted_ratio;  // 1: it was aborted, until another one is asked for
+  Probe active_ratio;   // 1: from the request, its delay included, until the end
+  Probe aborted_ratio;  // 1: after an abort, until the next request
   OutQueue<Notice, 4> notices;
 };
 
 struct SignalInputs {
   In<VehicleState> state;
-  Optional<VehicleStatus> status;  // wired: aborted while commands do not move the aircraft
+  // if connected, the signal is aborted while commands do not move the aircraft
+  Optional<VehicleStatus> status;
 };
 
-/// Why nothing may be added now; "" when it may. `begun_m`: the height at which it was asked for.
+/// Reason that forbids a signal now; "" for none. `begun_m`: the height at the request.
 inline std::string_view trouble(const SignalInputs& in, const BoundParams& p, double begun_m) {
   const VehicleState& s = *in.state;
   const FlightLimits& limits = p.airframe->limits;
@@ -46,7 +47,7 @@ inline std::string_view trouble(const SignalInputs& in, const BoundParams& p, do
   if (in.status && !in.status->in_control) return signal_messages::aborted_by_pilot.c_str();
   if (in.state.stale() || !s.attitude_valid || !s.height_valid || !s.airspeed_valid)
     return signal_messages::aborted_by_estimate.c_str();
-  // Each the other way round: what is no number is out of its bound.
+  // The negated comparisons also catch NaN.
   if (!(std::abs(s.roll_rad) <= p.roll_bound)) return signal_messages::aborted_by_roll.c_str();
   if (!(std::abs(s.pitch_rad) <= p.pitch_bound)) return signal_messages::aborted_by_pitch.c_str();
   if (!(std::abs(s.height_m - begun_m) <= p.height_bound)) return signal_messages::aborted_by_height.c_str();
@@ -55,27 +56,29 @@ inline std::string_view trouble(const SignalInputs& in, const BoundParams& p, do
   return "";
 }
 
-/// The sum within the limits; outside of them only what was there before. Without a signal the same bits.
+/// The sum within the limits. A value outside of them is passed on unchanged. Without a signal the result has
+/// the same bits.
 inline double added(double value, double by, double low, double high) {
   if (by == 0) return value;
   return std::clamp(value + by, std::min(low, value), std::max(high, value));
 }
 
-/// One signal after the other, each on one of N channels.
+/// Generates one signal after the other, each on one of N channels.
 template <std::size_t N>
 class Excitation {
  public:
-  /// What is asked for: when any of it changes, the signal before is let go and this one begins.
+  /// A request. A change of any field fades out the present signal and begins a new one.
   struct Request {
     Shape shape = Shape::none;
     std::size_t channel = 0;
-    double size = 0, delay = 0, duration = 0, frequency = 0, frequency_end = 0;  // SI, as the parameters
+    // SI units, as the parameters
+    double size = 0, delay = 0, duration = 0, frequency = 0, frequency_end = 0;
     std::int64_t every = 1, run = 0;
     bool operator==(const Request&) const = default;
   };
 
-  /// Its component was asked to take over. After another's commands the phase's signal begins from its start;
-  /// while the pilot flies nothing is left of one, and none begins for that it is over.
+  /// Takes over the role. After another component the signal of the phase begins at its start. While the
+  /// pilot flies, a signal ends and none begins.
   void take_over(bool somebody_flew) {
     if (somebody_flew) {
       request_ = {};
@@ -86,7 +89,7 @@ class Excitation {
     last_ = left_ = {};
   }
 
-  /// To be added to each channel. `extra`: a reason of the component's own.
+  /// Computes the value for each channel. `extra`: a further reason of the component to abort.
   Status step(const Tick& tick, const SignalInputs& in, const SignalParams& p, const BoundParams& bounds,
               std::size_t channel, double size, std::string_view extra, Reported& reported) {
     const Request now{p.shape,     channel,         size,    p.delay, p.duration,
@@ -110,11 +113,11 @@ class Excitation {
     return aborted_ ? Status::degraded : Status::ok;
   }
   double operator[](std::size_t channel) const { return last_[channel]; }
-  /// In the last step another signal was asked for.
+  /// True when the last step had a new request.
   bool began() const { return began_; }
 
  private:
-  static constexpr double let_go_s = 0.2;  // what is left of a signal that is taken away goes within it
+  static constexpr double let_go_s = 0.2;  // fade-out time of an ended signal
 
   void begin(const Request& now, const SignalParams& p, const Tick& tick, double height_m) {
     let_go();
@@ -139,7 +142,7 @@ class Excitation {
     for (std::size_t i = 0; i < N; ++i) {
       const double by = std::abs(from_[i]) * dt_s / let_go_s;
       left_[i] -= std::clamp(left_[i], -by, by);
-      // Not a rest of rounding: from here on the bits of the command are its own.
+      // Below rounding the rest is set to 0: from here on the command keeps its bits.
       if (std::abs(left_[i]) < 1e-9 * std::abs(from_[i])) left_[i] = 0;
     }
   }
@@ -149,8 +152,9 @@ class Excitation {
   std::int64_t begun_ns_ = 0;
   double begun_m_ = 0;
   bool running_ = false, aborted_ = false, began_ = false;
-  std::string_view unreported_;                     // why it was aborted, until that is reported
-  std::array<double, N> last_{}, left_{}, from_{};  // added last; of signals before, now and when let go
+  std::string_view unreported_;  // reason of an abort, until it is reported
+  // last added; rest of former signals now, and at the begin of their fade-out
+  std::array<double, N> last_{}, left_{}, from_{};
 };
 
 }  // namespace fulmar::signal

@@ -18,7 +18,7 @@ struct Guidance {
   };
   struct Outputs {
     GuidanceCommand command;
-    Probe course_excitation_rad;  // what was added, within the limits
+    Probe course_excitation_rad;  // signal added, within the limits
     Probe height_excitation_m;
     Probe airspeed_excitation_mps;
     Reported reported;

@@ -22,13 +22,13 @@ inline constexpr std::array<std::array<std::string_view, 2>, 3> servo_limited{
 inline constexpr std::string_view signal_beyond_throw = "the signal is larger than the throw of its servo";
 inline constexpr std::string_view signal_beyond_rate = "the signal is faster than the rate of its servo";
 
-/// What is wrong with a signal of this size on this servo, before it begins; "" when the servo can follow.
+/// Reason why the servo cannot follow a signal of this size, before it begins; "" when it can.
 inline std::string_view servo_trouble(const Surface& s, const SignalParams& p, double size) {
   const double low = std::max(-s.limit_rad, s.min_rad), high = std::min(s.limit_rad, s.max_rad);
   if (s.trim_rad - std::abs(size) < low || s.trim_rad + std::abs(size) > high) return signal_beyond_throw;
   const double top_hz = std::max<double>(p.frequency, p.shape == Shape::sine ? 0.0 : p.frequency_end.value);
   const double fastest = 2 * std::numbers::pi * top_hz * std::abs(size);
-  // An edge takes the servo time: a fifth of its shortest level at most.
+  // An edge takes servo time: a fifth of the shortest level at most is accepted.
   const double edge_s = 2 * std::abs(size) / s.rate_limit_radps;
   const auto slow = [&](double level_s) { return edge_s > 0.2 * level_s; };
   bool beyond = false;
@@ -47,8 +47,8 @@ inline std::string_view servo_trouble(const Surface& s, const SignalParams& p, d
 
 class ServoWatch {
  public:
-  /// The commands as they were asked for, before anything bounds them. Returns what is to be reported, once
-  /// until all servos have followed for a while.
+  /// `asked`: commands before any limit is applied. Returns a report, once until all servos have followed for a
+  /// while.
   std::string_view step(const Airframe& a, const Actuators& asked, double dt_s) {
     const std::array<const Surface*, 3> surfaces{&a.aileron, &a.elevator, &a.rudder};
     const std::array<double, 3> commands{asked.aileron_rad, asked.elevator_rad, asked.rudder_rad};
@@ -74,7 +74,7 @@ class ServoWatch {
   bool limited() const { return limited_; }
 
  private:
-  static constexpr double report_s = 0.15, memory_s = 1;  // of time at a limit; how long it is remembered
+  static constexpr double report_s = 0.15, memory_s = 1;  // time at a limit; time that it is remembered
 
   void begin(const std::array<const Surface*, 3>& surfaces, const std::array<double, 3>& commands) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -18,11 +18,11 @@ struct Surfaces {
   };
   struct Outputs {
     Actuators actuators;
-    Probe aileron_excitation_rad;  // what was added, within the throws
+    Probe aileron_excitation_rad;  // signal added, within the throws
     Probe elevator_excitation_rad;
     Probe rudder_excitation_rad;
     Probe throttle_excitation_frac;
-    Probe limited_ratio;  // 1: a servo is at its stop or its rate limit, of whatever is commanded
+    Probe limited_ratio;  // 1: a servo is saturated or at its rate limit, for any command
     Reported reported;
   };
   struct Params {
@@ -58,7 +58,7 @@ struct Surfaces {
   }
 
  private:
-  /// What the servos cannot follow: of the signal before it begins, and of every command.
+  /// Checks the limits of the servos: for the signal before it begins, and for every command.
   void watch(const Tick& tick, const Params& p, double size, const Actuators& asked, Outputs& out) {
     const Airframe& a = *p.bounds.airframe;
     const std::array<const Surface*, 3> surfaces{&a.aileron, &a.elevator, &a.rudder};

@@ -46,7 +46,7 @@ class Waveform {
   Shape shape() const { return shape_; }
   double end_s() const { return end_s_; }
   int harmonics() const { return count_; }
-  /// Hz, of the i-th.
+  /// Frequency of the i-th harmonic, Hz.
   double harmonic(int i) const { return (first_ + i * stride_) / end_s_; }
 
   double at(double t) const {
@@ -60,7 +60,7 @@ class Waveform {
       case Shape::sine: return std::sin(turn * f0_ * t);
       case Shape::chirp: return fade(t) * std::sin(chirp_phase(t));
       case Shape::d3211: {
-        const int unit = part(t, end_s_ / 7);  // three, two, one, one
+        const int unit = part(t, end_s_ / 7);  // durations of the four levels: three, two, one, one units
         return unit < 3 || unit == 5 ? 1 : -1;
       }
       case Shape::multisine: return std::clamp(sum(t + zero_s_) / peak_, -1.0, 1.0);
@@ -68,7 +68,7 @@ class Waveform {
     return 0;
   }
 
-  /// Of a chirp, rad: its derivative is 2 pi f0 (f1 / f0)^(t / T), the logarithmic sweep.
+  /// Phase of a chirp, rad: its derivative is 2 pi f0 (f1 / f0)^(t / T), the logarithmic sweep.
   double chirp_phase(double t) const {
     constexpr double turn = 2 * std::numbers::pi;
     const double octaves = std::log(f1_ / f0_);
@@ -77,9 +77,9 @@ class Waveform {
   }
 
  private:
-  static constexpr double rounding = 1e-7;  // s: a tick that falls on an edge lies behind it
+  static constexpr double rounding = 1e-7;  // s: a tick on an edge counts as behind it
   static constexpr int max_points = 2048;
-  static constexpr double faded = 0.05;  // share of a chirp, at either end
+  static constexpr double faded = 0.05;  // faded share of a chirp, at either end
 
   static int part(double t, double length) { return static_cast<int>((t + rounding) / length); }
   double fade(double t) const {
@@ -94,8 +94,8 @@ class Waveform {
     return s;
   }
 
-  /// Harmonics k / T, with the phases of Schroeder (1970) for equal amplitudes, which keep the peak low;
-  /// begun where the sum passes 0, as Morelli (2003) does it, so that it ends there as well.
+  /// Harmonics k / T, with the phases of Schroeder (1970) for equal amplitudes, which keep the peak low. The
+  /// signal begins at a zero of the sum, as in Morelli (2003), so that it also ends at one.
   void set_harmonics(std::int64_t every) {
     const double T = end_s_, low = std::min(f0_, f1_), high = std::max(f0_, f1_);
     first_ = std::max(1, static_cast<int>(std::ceil(low * T - rounding)));
@@ -108,7 +108,7 @@ class Waveform {
     find_peak_and_zero(std::clamp(24 * last, 128, max_points));
   }
 
-  /// By the recursion cos(a + b) = 2 cos(a) cos(b) - cos(a - b): a step of the flight waits for it.
+  /// The recursion cos(a + b) = 2 cos(a) cos(b) - cos(a - b) keeps the time of a step short.
   void find_peak_and_zero(int points) {
     std::array<double, max_points + 1> s{};
     const double dt = end_s_ / points;
@@ -127,7 +127,7 @@ class Waveform {
       peak_ = std::max(peak_, std::abs(s[at]));
       if (s[at - 1] < 0 && s[at] >= 0) rising = m;
     }
-    peak_ *= 1.01;  // between the points it is at most 1 - cos(pi / 24) higher
+    peak_ *= 1.01;  // between the points the sum is at most 1 - cos(pi / 24) higher
     zero_s_ = rising_zero((rising - 1) * dt, rising * dt);
   }
   double rising_zero(double low, double high) const {

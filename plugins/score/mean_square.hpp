@@ -6,7 +6,7 @@
 
 namespace fulmar::score {
 
-/// Running mean of squares: no sum that grows, so no digits lost over a long flight.
+/// Running mean of squares. Unlike a growing sum it loses no digits in a long flight.
 struct MeanSquare {
   double mean = 0;
   double count = 0;

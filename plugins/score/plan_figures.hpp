@@ -9,10 +9,10 @@
 
 namespace fulmar::score {
 
-/// `progress` is null where none is wired.
+/// `progress` is null without a connection.
 class PlanFigures {
  public:
-  /// The flight is scored from now on.
+  /// Begins the scored part of the flight.
   void begin(const Progress* progress, std::int64_t now_ns) {
     lap_began_ns_ = now_ns;
     published_ns_ = now_ns;
@@ -28,8 +28,8 @@ class PlanFigures {
     figures_.lap_time_s = 1e-9 * static_cast<double>(now_ns - lap_began_ns_);
     lap_began_ns_ = now_ns;
   }
-  /// Once a second, and whenever the progress changes: a flight that ends with a waypoint ends with the
-  /// figures of that moment.
+  /// True once a second and at each change of the progress: a flight that ends at a waypoint then has the
+  /// figures of that time.
   bool due(const Progress* progress, std::int64_t now_ns) {
     bool news = now_ns - published_ns_ >= 1'000'000'000;
     if (progress && (progress->reached != reached_ || progress->circuits != circuits_)) {
@@ -53,7 +53,7 @@ class PlanFigures {
   std::uint32_t first_reached_ = 0, reached_ = 0, circuits_ = 0;
 };
 
-/// Under way: a waypoint was reached since the aircraft stood on the ground.
+/// Detects that the aircraft is under way: a waypoint was reached since it stood on the ground.
 class UnderWay {
  public:
   bool step(bool stands, const Progress* progress) {

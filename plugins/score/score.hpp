@@ -35,10 +35,11 @@
 
 namespace fulmar::score {
 
-/// The legs around the waypoint that is flown to, kept until it changes; the whole plan is never searched.
+/// The legs around the active waypoint. They are kept until it changes, so that the whole plan is never
+/// searched.
 class NearRoute {
  public:
-  /// False where the route is not defined: no plan, or on the way to it.
+  /// False without a defined route: no plan, or on the way to the first leg.
   bool nearest_to(const Plan& plan, const Progress& progress, double north_m, double east_m,
                   RoutePoint& best);
 
@@ -48,7 +49,7 @@ class NearRoute {
   std::array<RouteLeg, 3> legs_{};
   std::uint32_t count_ = 0;
   RouteOrbit orbit_;
-  bool point_ = false;  // all waypoints in one place
+  bool point_ = false;  // all waypoints are in one place
   std::uint32_t revision_ = 0, item_ = 0;
 };
 
@@ -64,24 +65,24 @@ struct Score {
     Optional<AttitudeCommand> attitude;
     Optional<Actuators> actuators;
     Optional<Gnss> gnss;
-    Optional<VehicleStatus> status;  // who flies
+    Optional<VehicleStatus> status;  // source of the commands
     Optional<GroundState> ground;
     Optional<ContactTruth> contact;
     Optional<SafetyState> safety;
-    // As long as one of these comes, another guide flies than the one that follows the plan.
+    // While one of these arrives, another guide than that of the plan is active.
     Optional<LandingProgress> landing;
     Optional<HomeProgress> home;
     Optional<LoiterProgress> loiter;
     Optional<GuidanceCommand> by_hand;
   };
   struct Outputs {
-    Out<TrackingError> tracking;       // against the estimate
-    Out<TrackingError> tracking_true;  // against the truth
+    Out<TrackingError> tracking;       // relative to the estimate
+    Out<TrackingError> tracking_true;  // relative to the truth
     Out<EstimationError> estimation;
     Out<GnssError> gnss_error;
     Out<Figures> figures;
-    Out<TouchDown> touch_down;       // by the estimate
-    Out<TouchDown> touch_down_true;  // by the simulator's contact
+    Out<TouchDown> touch_down;       // from the estimate
+    Out<TouchDown> touch_down_true;  // from the simulator's contact
     Out<Crash> crash;
     Out<Verdict> verdict;
   };

@@ -67,7 +67,7 @@ inline Status Score::step(const Tick& tick, const Inputs& in, const Params& p, O
   return Status::ok;
 }
 
-/// Touch-downs, crash and verdict: from the first step on.
+/// Detects touch-downs and crash and gives the verdict, from the first step on.
 inline void Score::watch(const Tick& tick, const Inputs& in, Outputs& out) {
   const auto seen = [](const auto& port) { return port ? &*port : nullptr; };
   const bool down = touch_.step(
@@ -91,7 +91,7 @@ inline void Score::watch(const Tick& tick, const Inputs& in, Outputs& out) {
   out.verdict.publish(story_.verdict(crash));
 }
 
-/// Whether what flies now is to be on the plan: no take-off, landing or return, no pilot, no failsafe.
+/// True when the flight should follow the plan: no take-off, landing or return, no pilot, no failsafe.
 inline bool Score::follows_plan(const Tick& tick, const Inputs& in) {
   constexpr std::int64_t recent_ns = 100'000'000;
   const auto flies = [&](const auto& port) { return port && tick.now_ns - port.valid_at_ns() < recent_ns; };
@@ -120,7 +120,7 @@ inline void Score::track(const Inputs& in, const VehicleState& state, Tracking& 
   }
 }
 
-/// On the plan's route, or, where none is wired, on the piece of path that is followed.
+/// Nearest point on the route of the plan or, without a plan, on the present path.
 inline bool Score::nearest_point(const Inputs& in, const VehicleState& state, RoutePoint& point) {
   const double north = state.position_m.north, east = state.position_m.east;
   if (in.plan && in.progress) return route_.nearest_to(*in.plan, *in.progress, north, east, point);
@@ -174,7 +174,7 @@ inline void Score::estimate(const Inputs& in) {
     return;
   Compared estimate = compared(state);
   if (!frame_.same_origin(state) && state.origin_valid && frame_.known()) {
-    // Another origin: the two local frames are parallel but for the metre.
+    // Conversion to another origin: the two local frames are parallel within a metre.
     const Vec3<Ned> o =
         frame_.at(state.origin_latitude_deg, state.origin_longitude_deg, state.origin_altitude_m);
     estimate.north += o.north;

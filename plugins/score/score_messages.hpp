@@ -15,7 +15,7 @@ struct TrackingError {
   double time_counted_s = 0;                           ///< flight time of these figures
 };
 
-/// Estimate minus truth, both at one time.
+/// Estimate minus truth at the same time.
 struct EstimationError {
   double north_m = 0, east_m = 0, altitude_m = 0;                       ///< position error
   double vel_x_mps = 0, vel_y_mps = 0, vel_z_mps = 0;                   ///< error of the velocity over

@@ -30,7 +30,7 @@ inline const MessageText<0>& answer_text(SafetyAnswer answer) {
   return score_messages::go_on;
 }
 
-/// A line that grows until its room is full.
+/// A text that grows up to its capacity.
 template <std::size_t N>
 class Line {
  public:
@@ -53,7 +53,7 @@ class Line {
   std::size_t size_ = 0;
 };
 
-/// All that is wrong: "no thrust from the motor and battery low".
+/// All active alarms: "no thrust from the motor and battery low".
 inline Line<128> alarm_words(const SafetyState& s) {
   Line<128> line;
   for (const NamedAlarm& a : alarms)
@@ -66,14 +66,14 @@ inline Line<128> alarm_words(const SafetyState& s) {
 
 class Story {
  public:
-  /// Whether it has left the ground, as far as that is observed. True: there is something new to say.
+  /// Updates the observed lift-off. Returns true when there is a new text.
   bool lift(bool observed, bool flies) {
     const bool before = std::exchange(grounded_, observed && (grounded_ || !begun_) && !flies);
     begun_ = true;
     return before != grounded_;
   }
 
-  /// Whether there is something new to say.
+  /// Returns true when there is a new text.
   bool answer(const SafetyState& s, bool flies, double now_s) {
     const SafetyAnswer before = std::exchange(answer_, s.answer);
     if (s.answer == before || s.answer == SafetyAnswer::none || !flies) return false;

@@ -10,7 +10,7 @@ namespace fulmar::score {
 
 class SurfaceRate {
  public:
-  /// A new command. `counts`: the flight is scored.
+  /// Adds a command. `counts`: the flight is scored.
   void command(const Actuators& now, std::int64_t now_ns, bool counts) {
     const double dt_s = 1e-9 * static_cast<double>(now_ns - last_ns_);
     if (counts && seen_ > 0 && dt_s > 0) {

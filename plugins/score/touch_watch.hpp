@@ -17,7 +17,7 @@
 
 namespace fulmar::score {
 
-/// A runway seen from the aircraft: along and across it from one place to another.
+/// Along-track and cross-track coordinates of a runway, relative to the aircraft.
 struct RunwayAxes {
   bool given = false;
   double heading_rad = 0, along_m = 0, cross_m = 0;  // of the point `north_m`, `east_m`
@@ -31,7 +31,7 @@ struct RunwayAxes {
   }
 };
 
-/// One touch-down and its roll.
+/// Data of one touch-down and its roll.
 struct Landed {
   TouchDown figures;
   bool any = false, stopped = false;
@@ -58,7 +58,7 @@ struct Landed {
 
 class TouchWatch {
  public:
-  /// Null where a port has no sample.
+  /// Samples of the inputs; null for a port without one.
   struct Seen {
     const VehicleState *state = nullptr, *truth = nullptr;
     const ContactTruth* contact = nullptr;
@@ -66,7 +66,7 @@ class TouchWatch {
     const LandingProgress* landing = nullptr;
   };
 
-  /// Whether a touch-down has just come.
+  /// Returns true at a touch-down.
   bool step(const Seen& in, std::int64_t now_ns) {
     const VehicleState& s = *in.state;
     if (in.landing) place(*in.landing, s);
@@ -118,8 +118,8 @@ class TouchWatch {
     return stage_ == LandingStage::roll_out && before != stage_;
   }
 
-  /// By the ground state, the simulator's contact, or 3 m above where it stood. What has touched down flies
-  /// again from there on.
+  /// Detects the lift-off by the ground state, the simulator's contact, or a height 3 m above the place of
+  /// rest. After a touch-down it detects the next flight.
   void lift(const Seen& in, const VehicleState& s) {
     if (!begun_) height_m_ = s.height_m;
     begun_ = true;

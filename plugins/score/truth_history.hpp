@@ -11,7 +11,7 @@
 
 namespace fulmar::score {
 
-/// What is compared, out of a VehicleState: 13 numbers.
+/// The 13 numbers of a VehicleState that are compared.
 struct Compared {
   double north = 0, east = 0, height = 0, vel_x = 0, vel_y = 0, vel_z = 0, airspeed = 0, wind_n = 0,
          wind_e = 0;
@@ -25,14 +25,14 @@ inline Compared compared(const VehicleState& s) {
           s.course_rad};
 }
 
-/// A sample whose truth is not there yet.
+/// A sample that waits for the truth of its time.
 struct Pending {
   bool waits = false;
   std::int64_t time_ns = 0;
   Compared sample;
 };
 
-/// Between two samples; angles go the short way.
+/// Interpolates between two samples; angles take the short way.
 inline Compared between(const Compared& a, const Compared& b, double t) {
   const auto mix = [t](double x, double y) { return x + t * (y - x); };
   const auto turn = [t](double x, double y) { return wrap_pi(x + t * wrap_pi(y - x)); };

@@ -26,10 +26,10 @@ struct AircraftWatch {
       "that does not decrease.";
   struct Inputs {
     In<VehicleState> state;
-    Optional<Actuators> actuators;       // without it nothing is reported of the motor
-    Optional<AttitudeCommand> attitude;  // without it nothing is reported of bank and pitch
-    Optional<VehicleStatus> status;      // who flies; without it nothing is reported of the battery
-    Optional<GroundState> ground;        // without it the aircraft flies when it is faster than `flying`
+    Optional<Actuators> actuators;       // without it the motor is not checked
+    Optional<AttitudeCommand> attitude;  // without it bank and pitch are not checked
+    Optional<VehicleStatus> status;      // source of the commands; without it the battery is not checked
+    Optional<GroundState> ground;  // without it the aircraft counts as flying when it is faster than `flying`
   };
   struct Outputs {
     OutQueue<Notice, 12> notices;
@@ -66,20 +66,20 @@ struct AircraftWatch {
   }
 
  private:
-  /// What is reported, each line for itself.
+  /// One report each.
   static constexpr std::array lines{Cause::bank,          Cause::pitch,         Cause::engine_failed,
                                     Cause::engine_weak,   Cause::battery_empty, Cause::battery_low,
                                     Cause::wind_excessive};
 
-  /// An angle off its command that nothing turns back, or that swings past it and past it again. A turn that
-  /// has begun closes the error; a gust is over within a second.
+  /// Detects an angle that stays away from its command or oscillates around it. A turn that has begun reduces
+  /// the error; a gust ends within a second.
   class Follows {
    public:
     bool lost() const { return lost_.raised(); }
     double error_rad() const { return error_rad_; }
     void reset() { *this = {}; }
     void step(double error_rad, double rate_radps, double most_rad, const Params& p, double dt) {
-      constexpr double closing_radps = 0.1, spun_rad = 1.75;  // no command is that far from the one before
+      constexpr double closing_radps = 0.1, spun_rad = 1.75;  // spun_rad: no command changes by that much in a step
       error_rad_ = std::abs(error_rad);
       const bool off = error_rad_ > most_rad;
       const bool closes = error_rad * rate_radps > error_rad_ * closing_radps && error_rad_ < spun_rad;
@@ -90,7 +90,7 @@ struct AircraftWatch {
     }
 
    private:
-    static constexpr double swing_s = 2;  ///< longer off the command than on it, by so much
+    static constexpr double swing_s = 2;  ///< time off the command minus time on it
     Alarm lost_;
     double error_rad_ = 0, stays_s_ = 0, swings_s_ = 0;
   };

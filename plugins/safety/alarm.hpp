@@ -4,8 +4,8 @@
 
 namespace fulmar::safety {
 
-/// A flag that rises when `bad` has held for `raise_s` and falls when `good` has for `clear_s`; what is
-/// neither changes nothing.
+/// A flag that rises when `bad` has held for `raise_s` and falls when `good` has held for `clear_s`. In
+/// between it stays.
 class Alarm {
  public:
   bool step(bool bad, bool good, double raise_s, double clear_s, double dt_s) {

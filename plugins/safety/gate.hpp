@@ -17,8 +17,8 @@ struct GateLimits {
       "time with open throttle and without motion, before a take-off, that counts as a motor failure"};
 };
 
-/// What only a take-off run shows, kept until a hand-over or a disarming: a motor that does not move the
-/// aircraft, and a tail wind.
+/// Faults that only a take-off run shows, kept until a hand-over or a disarming: a motor that does not move
+/// the aircraft, and a tail wind.
 class RunUp {
  public:
   bool failed() const { return failed_; }
@@ -40,13 +40,13 @@ class RunUp {
   bool failed_ = false, tail_wind_ = false;
 };
 
-/// Ground speed where the nose points; a wind rolls a standing aircraft backwards.
+/// Ground speed along the nose; negative when a wind rolls a standing aircraft backwards.
 inline double forward_speed(const VehicleState& s) {
   return s.velocity_mps.north * std::cos(s.yaw_rad) + s.velocity_mps.east * std::sin(s.yaw_rad);
 }
 
-/// Wind before the filter has one, along the aircraft. What the tube measures beyond the ground speed is head
-/// wind, what it measures less is tail wind, which only a take-off run shows.
+/// Wind along the aircraft before the filter has an estimate. A pitot airspeed above the ground speed is head
+/// wind, below it tail wind. Tail wind shows in a take-off run only.
 class GroundWind {
  public:
   double mps() const { return mps_; }
@@ -58,7 +58,7 @@ class GroundWind {
     const double filter = stands && s.wind_valid ? std::hypot(s.wind_mps.north, s.wind_mps.east) : 0.0;
     since_s_ += dt;
     const double share = 1 - std::exp(-dt / (stands ? smoothing_s : run_smoothing_s));
-    mps_ += std::max(share, dt / since_s_) * (std::max(filter, along) - mps_);  // the mean, at first
+    mps_ += std::max(share, dt / since_s_) * (std::max(filter, along) - mps_);  // at first the mean
   }
 
  private:

@@ -19,14 +19,14 @@ struct Glide {
       "ground.";
   struct Inputs {
     In<VehicleState> state;
-    In<GuidanceCommand> command;      // course and airspeed
-    Optional<HomeProgress> progress;  // how high the ground is; without it `ground`
+    In<GuidanceCommand> command;      // its course and airspeed are used
+    Optional<HomeProgress> progress;  // height of the ground; without it `ground`
   };
   struct Outputs {
     AttitudeCommand attitude;
     ControllerInternals internals;
-    Probe sink_expected_mps;  // of the steady glide, by the model
-    Probe flare_ratio;        // 1: it flares
+    Probe sink_expected_mps;  // sink of the steady glide by the model
+    Probe flare_ratio;        // 1: in the flare
   };
   struct Params {
     OuterParams common;
@@ -66,7 +66,7 @@ struct Glide {
     };
     loop_.flares = flares_;
     const Status status = loop_.step(tick, s, c, p.common, out, rest, hold);
-    out.attitude.throttle_frac = 0;  // level flight's, where the state is not known, is not to be had
+    out.attitude.throttle_frac = 0;  // that of level flight is unknown while the state is invalid
     return status;
   }
 
@@ -78,7 +78,7 @@ struct Glide {
     const double sink = sink_rate(a, turn.Va_mps, s.roll_rad, air_density(s));
     out.sink_expected_mps = sink;
     const double sinks = std::max(-s.climb_rate_mps, sink);
-    if (flares_ && height > 2 * from_m_ + 5) flares_ = false;  // the ground has fallen away
+    if (flares_ && height > 2 * from_m_ + 5) flares_ = false;  // the ground is lower than expected
     if (!flares_ && height < p.flare_time * sinks) {
       flares_ = true;
       from_m_ = height;
@@ -88,12 +88,12 @@ struct Glide {
       out.flare_ratio = 1.0;
       const double left = from_m_ > 0 ? std::clamp(height / from_m_, 0.0, 1.0) : 0;
       const double wanted = -(p.touch_sink + left * std::max(sink_mps_ - p.touch_sink, 0.0));
-      // An airspeed that is reckoned may be too low. What holds it at the stalling speed is enough.
+      // A dead-reckoned airspeed may be too low. A limit at the pitch of the stalling speed is sufficient.
       const double stall_mps = limits.airspeed_min_mps / 1.2;
       const double level =
           turn.Va_mps < stall_mps ? level_turn(s.roll_rad, stall_mps, s, p.common).pitch_rad : turn.pitch_rad;
       const double theta = level + wanted / turn.Va_mps + p.flare_kd * (wanted - s.climb_rate_mps);
-      // No ceiling near the stall: the speed is to go.
+      // Near the stall pitch has no upper limit, because the speed must decrease.
       return std::clamp(theta, limits.pitch_min_rad, limits.pitch_max_rad);
     }
     const PitchLimits within(turn.within, limits, p.common.pitch_limit);
@@ -111,7 +111,7 @@ struct Glide {
   OuterLoop loop_;
   Pid airspeed_;
   bool flares_ = false;
-  double from_m_ = 0, sink_mps_ = 0;  ///< height and sink where the flare began
+  double from_m_ = 0, sink_mps_ = 0;  ///< height and sink at the begin of the flare
 };
 
 }  // namespace fulmar::safety

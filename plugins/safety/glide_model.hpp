@@ -10,7 +10,7 @@
 
 namespace fulmar::safety {
 
-/// Thrust of all propellers at a throttle, N; their tilt is left out.
+/// Thrust of all propellers at a throttle, N; their tilt is neglected.
 inline double thrust_of(const Airframe& a, double throttle_frac, double Va, double rho) {
   const Propeller propeller(a.propulsion);
   const double Omega = propeller.steady_speed(throttle_frac, Va, rho);
@@ -31,8 +31,8 @@ struct BestGlide {
   double sink_mps = 0;
 };
 
-/// Flattest glide over the ground with `head_wind_mps`, within the airframe's speeds: most (Va - w) / sink,
-/// from `margin_ratio` times the least speed on.
+/// Flattest glide over the ground with `head_wind_mps`, within the airspeed limits: maximum of (Va - w) /
+/// sink, from `margin_ratio` times the least speed on.
 inline BestGlide best_glide(const Airframe& a, double rho, double head_wind_mps, double margin_ratio) {
   const FlightLimits& limits = a.limits;
   BestGlide best;

@@ -31,8 +31,8 @@ struct Ground {
       "Lift-off and touch-down by acceleration, climb rate, height and speed; throttle lock after a landing.";
   struct Inputs {
     In<VehicleState> state;
-    Optional<VehicleStatus> status;     // armed, and who flies; without it armed and no pilot
-    Optional<Actuators> actuators;      // the throttle; without it an open one
+    Optional<VehicleStatus> status;     // armed, and the source of commands; without it armed and no pilot
+    Optional<Actuators> actuators;      // its throttle; without it an open one
     Optional<LandingProgress> landing;  // height above a runway; without it the height of the take-off
     Request<TakeoffRequest> takeoff;    // opens the throttle after a landing
   };
@@ -72,20 +72,20 @@ struct Ground {
   }
 
  private:
-  /// Whether it moves fast enough to fly, as far as that is measured.
+  /// Evaluates whether it moves fast enough to fly, as far as that is measured.
   void read(const Tick& tick, const Inputs& in, const Params& p) {
     const VehicleState& s = *in.state;
     const double least = p.airframe->limits.airspeed_min_mps;
     armed_ = !in.status || in.status->armed;
     if (s.reset_count != resets_) height_m_ -= s.reset_position_m.down;
     resets_ = s.reset_count;
-    // In a wind an aircraft that stands has airspeed, and one that flies may have no ground speed.
+    // In wind an aircraft on the ground has airspeed, and one in the air may have no ground speed.
     speed_ratio_ = (s.airspeed_valid ? s.airspeed_mps : s.ground_speed_mps) / least;
     moves_ = !s.velocity_valid || s.ground_speed_mps > moving_mps || std::abs(s.climb_rate_mps) > moving_mps;
     slow_ = speed_ratio_ < p.slow && (!s.velocity_valid || s.ground_speed_mps < p.slow * least);
-    // In a strong wind the tube of an aircraft that stands reads the wind.
+    // In a strong wind the pitot of a standing aircraft measures the wind.
     still_ = s.velocity_valid && s.ground_speed_mps < still_mps && std::abs(s.climb_rate_mps) < still_mps;
-    // A landing that is not flown leaves its last progress behind.
+    // The last progress of a landing that is no longer active stays on its port.
     approaches_ = in.landing && tick.now_ns - in.landing.valid_at_ns() < current_ns;
   }
 
@@ -108,7 +108,7 @@ struct Ground {
     if (handed_over || arms || asked) now_.landed = now_.throttle_locked = false;
   }
 
-  /// From the ground, or at the start from an unknown place, into the air.
+  /// Transition into the air, from the ground or from an unknown contact at the start.
   void stand(const VehicleState& s, const Params& p, double dt) {
     now_.touch_evidence_ratio = 0;
     const bool rests = (slow_ && std::abs(s.climb_rate_mps) < 1) || still_;
@@ -116,7 +116,7 @@ struct Ground {
     if (now_.contact == Contact::ground) follow_ground(s, dt);
     const bool high = placed_ && s.height_m - height_m_ > p.lift_height;
     const bool rises = high && speed_ratio_ > p.slow && moves_;
-    // Once it has stood, speed alone is a roll; at the start of a host it may be in the air already.
+    // Once it has stood, speed alone means a roll. At the start of a host it may already fly.
     const bool fast = now_.contact == Contact::unknown && speed_ratio_ > 0.85 && moves_;
     const bool climbs = s.velocity_valid && s.climb_rate_mps > steep_mps(s) && speed_ratio_ > 0.8;
     const bool risen = rises_.step(rises, 0.2, dt), climbed = climbs_.step(climbs, 0.5, dt);
@@ -135,8 +135,8 @@ struct Ground {
     touch_.reset();
   }
 
-  /// The height of the ground under a rolling aircraft changes by its slope, that under a standing one with
-  /// the estimate.
+  /// Under a rolling aircraft the height of the ground changes by its slope, under a standing one by the
+  /// drift of the estimate.
   void follow_ground(const VehicleState& s, double dt) {
     const double off = s.height_m - height_m_, most = steepest_ground * s.ground_speed_mps * dt;
     if (!placed_)
@@ -145,7 +145,7 @@ struct Ground {
       height_m_ += slow_ ? std::min(dt / 0.5, 1.0) * off : std::clamp(off, -most, most);
     placed_ = true;
   }
-  /// Faster than a slope of the ground lets it roll up or down.
+  /// Climb rate beyond that of a roll along a slope of the ground.
   static double steep_mps(const VehicleState& s) { return 0.4 + steepest_ground * s.ground_speed_mps; }
 
   void fly(const VehicleState& s, const Inputs& in, const Params& p, double dt) {
@@ -156,10 +156,10 @@ struct Ground {
                                        (in.landing->stage == LandingStage::approach && off < short_final_m));
     const bool closed = closed_.step(in.actuators && in.actuators->throttle_frac < 0.03, 1.0, dt);
     now_.touch_evidence_ratio = touch_.step(s, {off, speed_ratio_ < 1.1, sinks, closed}, p.touch, dt);
-    // Far from any known ground a touch-down is possible for an aircraft that glides.
+    // Far from any known ground a gliding aircraft may still touch down.
     const bool touches = now_.touch_evidence_ratio >= 1 && (closed || off < p.touch_height);
-    // Whatever happened: an aircraft that neither moves nor climbs for a second is on the ground.
-    // Without an airspeed a slow ground speed may be a flight against the wind.
+    // An aircraft that neither moves nor climbs for a second is on the ground in any case. Without airspeed a
+    // slow ground speed may be a flight against the wind.
     const bool slow = slow_ && (s.airspeed_valid || still_) && std::abs(s.climb_rate_mps) < 0.5;
     const bool rests = stands_.step(slow, s.airspeed_valid ? 1.0 : 3.0, dt);
     if (!touches && !rests) return;
@@ -170,7 +170,7 @@ struct Ground {
     height_m_ = s.height_m;
     placed_ = true;
   }
-  /// After a touch-down that was none, or a bounce: it falls faster than a slope of the ground lets it roll.
+  /// After a false touch-down or a bounce it sinks faster than a roll along a slope of the ground.
   bool falls(const VehicleState& s, double dt) {
     constexpr double soon_s = 4;
     const bool soon = now_.since_s < soon_s;
@@ -213,10 +213,10 @@ struct Ground {
   GroundState now_, reported_;
   TouchDown touch_;
   HeldFor rises_, climbs_, fast_, falls_, stands_, closed_, locks_;
-  std::uint32_t resets_ = 0;       ///< of the state, seen so far
-  std::uint32_t released_at_ = 0;  ///< the touch-down whose lock has been set
-  double height_m_ = 0;            ///< where it stood last
-  double last_m_ = 0;              ///< and before the last touch-down
+  std::uint32_t resets_ = 0;       ///< last counter of resets of the state
+  std::uint32_t released_at_ = 0;  ///< the touch-down that has already locked
+  double height_m_ = 0;            ///< last height on the ground
+  double last_m_ = 0;              ///< the same before the last touch-down
   double speed_ratio_ = 0;         ///< speed over least airspeed
   bool placed_ = false, armed_ = false, was_armed_ = false, had_pilot_ = false, moves_ = false, slow_ = false;
   bool still_ = false, approaches_ = false;

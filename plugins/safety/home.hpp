@@ -27,7 +27,7 @@ struct Home {
   struct Inputs {
     In<VehicleState> state;
     Optional<SafetyState>
-        safety;  // which way round the fence leaves room, floor and ceiling; without it, the short way
+        safety;  // side of the turn within the fence, floor and ceiling; without it the short way
   };
   struct Outputs {
     GuidanceCommand command;
@@ -125,14 +125,14 @@ struct Home {
     if (mode_ == HomeMode::glide) choose(s, p);
   }
 
-  /// A height that floor and ceiling leave, the ceiling first.
+  /// Limits a height to floor and ceiling; the ceiling has priority.
   static double within_fence(double height_m, const Inputs& in, const Params& p) {
     if (!in.safety) return height_m;
     return std::min(std::max(height_m, in.safety->floor_m + p.fence_height),
                     in.safety->ceiling_m - p.fence_height);
   }
 
-  /// The nearest place that the height will do for; else the nearest of all.
+  /// Chooses the nearest place within reach at this height; else the nearest of all.
   void choose(const VehicleState& s, const Params& p) {
     double best = 1e18;
     for (const Spot& spot : spots_) {
@@ -144,7 +144,7 @@ struct Home {
       }
     }
   }
-  /// Over the ground, until the ground; the first turn's height is not counted.
+  /// Range over the ground, down to the ground. The height of the first turn is not included.
   double reach(const VehicleState& s, const Spot& to, const Params& p) const {
     const double course = course_to(s, to),
                  w = std::cos(course) * wind(s).north + std::sin(course) * wind(s).east;
@@ -153,8 +153,8 @@ struct Home {
     return way.feasible ? std::max(s.height_m - to.up_m, 0.0) / best.sink_mps * way.ground_speed_mps : 0;
   }
 
-  /// Beard & McLain (10.13): towards the centre from afar, a tangent on the circle. With the bank of the
-  /// circle near it, (9.14).
+  /// Beard & McLain (10.13): towards the centre from afar, a tangent near the circle. Bank feed-forward on
+  /// the circle by (9.14).
   void orbit(const VehicleState& s, const Spot& centre, double R, const Params& p, GuidanceCommand& c) const {
     const double d = level_distance(s, centre);
     const double azimuth = d > 1e-3 ? course_to(s, centre) + std::numbers::pi : s.course_rad;
@@ -184,7 +184,7 @@ struct Home {
         std::abs(out.progress.distance_m - R) < 0.5 * R && std::abs(s.height_m - c.height_m) < 10;
   }
 
-  /// A weak motor climbs as far as it leaves an airspeed that flies well; slower than that, height makes
+  /// With a weak motor the climb is limited so that a safe airspeed remains. Below it height is exchanged for
   /// speed.
   static void within_thrust(const VehicleState& s, const Params& p, GuidanceCommand& c) {
     constexpr double height_per_speed_s = 3;
@@ -193,7 +193,8 @@ struct Home {
     c.height_m = std::min(c.height_m, s.height_m + height_per_speed_s * spare);
   }
 
-  /// Where the largest airspeed leaves no way over the ground, the nose points into the wind, at that speed.
+  /// When the largest airspeed gives no progress over the ground, the nose points into the wind at that
+  /// speed.
   void into_the_wind(const VehicleState& s, const Params& p, GuidanceCommand& c) {
     const double most = p.airframe->limits.airspeed_max_mps, speed = std::hypot(wind(s).north, wind(s).east);
     into_wind_ = s.attitude_valid && speed > (into_wind_ ? 0.9 : 0.95) * most;
@@ -209,14 +210,14 @@ struct Home {
     c.lateral_acceleration_mps2 = isa::g0 * std::tan(bank);
   }
 
-  /// What can be flown with the wind behind, too, at 0.7 of the largest bank.
+  /// Radius that can be flown also with tail wind, at 0.7 of the largest bank.
   static double radius(const VehicleState& s, const Params& p) {
     const FlightLimits& limits = p.airframe->limits;
     const double fastest = limits.airspeed_cruise_mps + std::hypot(wind(s).north, wind(s).east);
     return std::max<double>(p.radius, fastest * fastest / (isa::g0 * std::tan(0.7 * limits.roll_max_rad)));
   }
 
-  /// The long way round, until the course wanted lies ahead on that side.
+  /// Commands the long way round until the course wanted lies ahead on that side.
   void turn_round(const VehicleState& s, GuidanceCommand& c) {
     if (round_ == SafetyTurn::either) return;
     constexpr double ahead_rad = 1.8;
@@ -230,8 +231,8 @@ struct Home {
     c.roll_feedforward_rad = 0;
   }
 
-  /// Home and a circle there as long as the reckoned position is good enough; beyond, through the air, by
-  /// bank alone: a course would need a velocity.
+  /// Flies home and circles there while the dead-reckoned position is good enough. Beyond that it circles
+  /// through the air by bank alone: a course needs a velocity.
   void wait(const VehicleState& s, const Params& p, Outputs& out) {
     if (s.reset_count != resets_) {
       height_m_ -= s.reset_position_m.down;
@@ -245,13 +246,13 @@ struct Home {
     out.command.lateral_acceleration_mps2 = isa::g0 * std::tan(p.wait_bank);
   }
 
-  /// The bank of the waiting circle with the wind behind; where home is by reckoning is not known better.
+  /// Bank of the waiting circle with tail wind; a dead-reckoned home needs no tighter one.
   static double gentle_radius(const VehicleState& s, const Params& p) {
     const double fastest = p.airframe->limits.airspeed_cruise_mps + std::hypot(wind(s).north, wind(s).east);
     return std::max(radius(s, p), 0.7 * fastest * fastest / (isa::g0 * std::tan(p.wait_bank)));
   }
 
-  /// The ground is taken for as high as at home. Near it the wings are level.
+  /// The ground is assumed to be as high as at home. Near it the wings are level.
   void descend(const VehicleState& s, const Params& p, Outputs& out) {
     wait(s, p, out);
     GuidanceCommand& c = out.command;
@@ -269,7 +270,8 @@ struct Home {
     c.airspeed_mps = p.airframe->limits.airspeed_cruise_mps;
   }
 
-  /// The command's height is that of the ground, for a law that holds it: pitch belongs to the airspeed.
+  /// The height of the command is that of the ground, for a law that holds height: pitch controls the
+  /// airspeed.
   void glide(const VehicleState& s, const Params& p, Outputs& out) {
     const Vec3<Ned> w = wind(s);
     const double speed = std::hypot(w.north, w.east);
@@ -281,7 +283,7 @@ struct Home {
     const BestGlide best = best_glide(*p.airframe, rho(s), 0, p.glide_margin);
     c.airspeed_mps = best.airspeed_mps;
 
-    // The turn into the wind, and what it costs.
+    // Turn into the wind and its loss of height.
     const double turn = std::abs(angle_difference(upwind, s.course_rad));
     const double radius = best.airspeed_mps * best.airspeed_mps / (isa::g0 * std::tan(p.glide_bank));
     const double cost =
@@ -295,14 +297,14 @@ struct Home {
       c.course_rad = course_rad_;
       return;
     }
-    // The circle stands down wind of the place by the way of the last piece.
+    // The circle is downwind of the place by the length of the last leg.
     const double way = std::max(best.airspeed_mps - speed, 0.0) * p.final_height / best.sink_mps;
     const Spot key{target_.north_m - way * std::cos(upwind), target_.east_m - way * std::sin(upwind), 0};
     if (speed > 1)
       orbit(s, key, p.glide_radius, p, c);
     else
       orbit(s, target_, p.glide_radius, p, c);
-    // Against the wind a little faster goes farther.
+    // Against the wind a slightly higher airspeed gives more range.
     const double head = -(std::cos(c.course_rad) * w.north + std::sin(c.course_rad) * w.east);
     c.airspeed_mps = best_glide(*p.airframe, rho(s), head, p.glide_margin).airspeed_mps;
   }

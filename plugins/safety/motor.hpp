@@ -25,15 +25,15 @@ struct EngineLimits {
   Param weak_raise{8, "s", 0, 600, "time with a weak motor before the report"};
 };
 
-inline constexpr double there_volt = 1;  ///< below it there is no battery, or none that is measured
+inline constexpr double there_volt = 1;  ///< below it there is no battery, or it is not measured
 
-/// The throttle is a share of what the battery has.
+/// Throttle as a share of the full voltage, at the present voltage of the battery.
 inline double volt_share(double volt, const Airframe& a) {
   const double full = a.propulsion.battery_volt;
   return volt > there_volt && full > 0 ? std::min(volt / full, 1.0) : 1;
 }
 
-/// Share of the throttle that a motor still obeys: the one at which the model gives the thrust that is found.
+/// Share of the throttle that a motor still follows: the throttle for which the model gives the found thrust.
 inline double effectiveness(const Airframe& a, double throttle_frac, double thrust_newton, double Va,
                             double rho) {
   double low = 0, high = 1;
@@ -44,10 +44,10 @@ inline double effectiveness(const Airframe& a, double throttle_frac, double thru
   return low;
 }
 
-/// A loss of that share of the drag counts as level flight: model and weather are not better than that.
+/// A shortfall of that share of the drag counts as level flight, within the accuracy of model and weather.
 inline constexpr double level_ratio = 0.25;
 
-/// Whether a throttle holds level flight at some speed from just above the least to cruise.
+/// True when a throttle holds level flight at some speed from just above the least to cruise.
 inline bool holds_level(const Airframe& a, double throttle_frac, double rho) {
   constexpr int steps = 6;
   const double from = 1.1 * a.limits.airspeed_min_mps;
@@ -66,13 +66,14 @@ class Motor {
   double ratio() const { return ratio_; }
   void reset() { *this = {}; }
 
-  /// Force along the flight path from the rate of energy, m (g hdot / Va + Vdot), plus drag, over the thrust
-  /// that the model has for this throttle. Lambregts (1983) has the rate, Beard & McLain, chapter 4, thrust
-  /// and drag. `throttle_frac` is a share of the full battery's voltage, `full_frac` the most there is.
+  /// Force along the flight path from the energy rate, m (g hdot / Va + Vdot), plus drag, over the thrust of
+  /// the model for this throttle. The energy rate is from Lambregts (1983), thrust and drag from Beard &
+  /// McLain, chapter 4. `throttle_frac` is a share of the voltage of a full battery, `full_frac` the largest
+  /// possible one.
   void step(const VehicleState& s, const Airframe& a, double throttle_frac, double full_frac,
             const EngineLimits& e, double dt) {
     const double Va = airspeed(s, a);
-    if (Va < 0.7 * a.limits.airspeed_min_mps) return;  // stalled, or rolling: the polar says nothing
+    if (Va < 0.7 * a.limits.airspeed_min_mps) return;  // stalled or rolling: the polar does not hold
     const double rho = standard_air(s.origin_altitude_m + s.height_m).density_kgm3, mg = a.mass_kg * isa::g0;
     const double gain = mg * s.climb_rate_mps / Va + a.mass_kg * airspeed_rate(s),
                  drag = turn_trim(a, s.roll_rad, Va, rho).drag_newton, found = gain + drag;
@@ -84,8 +85,8 @@ class Motor {
     throttle_ += share * (throttle_frac - throttle_);
     const bool demanded = std::min(expected_, expected) > e.engine_thrust * mg;
     ratio_ = demanded ? found_ / expected_ : 1;
-    // Brakes as a stopped propeller does: counts whole. No thrust: by half. Sinking air does that for a
-    // while.
+    // Braking as by a stopped propeller counts fully, zero thrust by half: sinking air has the same effect
+    // for a while.
     constexpr double sure_ratio = 0.5;
     const double weight = failed_.raised() ? 1 : std::clamp((e.engine_share - ratio_) / sure_ratio, 0.0, 1.0);
     const bool missing = demanded && expected_ - found_ > e.engine_missing * mg;
@@ -109,8 +110,8 @@ class Motor {
 
   Alarm failed_, weak_;
   double expected_ = 0, found_ = 0;  ///< smoothed, N
-  double gain_ = 0;                  ///< of energy, as a force; smoothed as they are
-  double throttle_ = 0;              ///< smoothed as they are
+  double gain_ = 0;                  ///< gain of energy, as a force; smoothed likewise
+  double throttle_ = 0;              ///< smoothed likewise
   double ratio_ = 1;
 };
 

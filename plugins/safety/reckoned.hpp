@@ -8,7 +8,7 @@
 
 namespace fulmar::safety {
 
-/// Whether the position is good enough to fly by: valid, or one that was and is reckoned on.
+/// True when the position is good enough for guidance: valid, or dead-reckoned from a valid one.
 inline bool located(const VehicleState& s, double max_std_m) {
   return s.velocity_valid && s.attitude_valid &&
          (s.position_valid || std::max(s.position_std_m.north, s.position_std_m.east) < max_std_m);
@@ -20,7 +20,7 @@ class Reckoned {
   double north_m() const { return at_.north; }
   double east_m() const { return at_.east; }
   double std_m() const { return std_m_; }
-  /// It is no longer flown by: the circle drifts with the wind.
+  /// The position is no longer used: the circle drifts with the wind.
   bool drifts() const { return drifts_; }
 
   void step(const VehicleState& s, const Vec3<Ned>& wind_mps, double max_std_m, double dt) {

@@ -4,7 +4,8 @@
 
 namespace fulmar::safety {
 
-/// One fault on its way from there to reported and back. What comes and goes is reported once per `pause_s`.
+/// State of one fault from its begin over its report to its end. An intermittent fault is reported once per
+/// `pause_s`.
 class Reported {
  public:
   enum class News { none, raised, cleared };

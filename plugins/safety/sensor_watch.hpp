@@ -21,8 +21,8 @@ struct SensorWatch {
       "and of their return.";
   struct Inputs {
     In<VehicleState> state;
-    Optional<NavigationHealth> health;  // without it the position alone is watched
-    Optional<GroundState> ground;       // without it the aircraft flies when it is faster than `flying`
+    Optional<NavigationHealth> health;  // without it only the position is monitored
+    Optional<GroundState> ground;  // without it the aircraft counts as flying when it is faster than `flying`
   };
   struct Outputs {
     OutQueue<Notice, 12> notices;
@@ -43,7 +43,7 @@ struct SensorWatch {
     const bool flies =
         in.ground ? in.ground->contact == Contact::air : s.velocity_valid && s.ground_speed_mps > p.flying;
     for (std::size_t i = 0; i < sensors.size() && in.health && !in.health.stale(); ++i) {
-      // One receiver gives both: when it is silent, the line of the position says so.
+      // One receiver gives both: its silence is reported with the position alone.
       const bool said = sensors[i].health == &NavigationHealth::gnss_velocity &&
                         in.health->gnss_position.state == SensorState::silent;
       watch(sensors[i], (*in.health).*sensors[i].health, reported_[i], flies && !said, p, now_s, dt, tick,
@@ -66,7 +66,7 @@ struct SensorWatch {
     SensorHealth NavigationHealth::*health;
     Cause cause;
     Severity severity;
-    const MessageText<0>* answer;  // what the aircraft does now, and the pilot
+    const MessageText<0>* answer;  // present action of the aircraft, and the pilot
   };
   static constexpr std::array<Sensor, 7> sensors{{
       {"gyro", &NavigationHealth::gyro, Cause::gyro, Severity::critical,
@@ -120,8 +120,8 @@ struct SensorWatch {
     }
   }
 
-  /// Receiver, magnetometer, barometer and pitot tube have nothing in common but the inertial unit, which
-  /// they are compared with: two of them that are rejected at once point to it.
+  /// Receiver, magnetometer, barometer and pitot are independent, but all are compared with the inertial
+  /// unit. Two of them rejected at once indicate a fault of the inertial unit.
   void inertial(const NavigationHealth& h, bool flies, const Params& p, double now_s, double dt,
                 const Tick& tick, Outputs& out) {
     const auto rejected = [](const SensorHealth& s) { return s.state == SensorState::refused; };

@@ -21,8 +21,7 @@ struct TouchParams {
 
 inline constexpr double steepest_ground = 0.035;  ///< slope of a runway
 
-/// A part of a signal that is new, over its standard deviation in the last seconds: its fast mean less its
-/// slow one.
+/// New part of a signal over its standard deviation in the last seconds: its fast mean minus its slow one.
 class Sudden {
  public:
   Sudden(double fast_s, double slow_s, double least) : fast_s_(fast_s), slow_s_(slow_s), least_(least) {}
@@ -30,18 +29,19 @@ class Sudden {
     const double fast = fast_.step(u, fast_s_, dt);
     const double sudden = fast - slow_.step(fast, slow_s_, dt);
     const double before = usual();
-    // What a touch-down adds to the usual is small: it is short.
+    // A touch-down is short, so it adds little to the usual level.
     usual_.step(std::min(sudden * sudden, 9.0), 3.0, dt);
     return sudden / before;
   }
   double usual() const { return std::max(std::sqrt(std::max(usual_.value(), 0.0)), least_); }
 
  private:
-  double fast_s_, slow_s_, least_;  ///< the latter as the signal: what a touch-down is judged by in calm air
+  // least: lower bound of the standard deviation, in the unit of the signal, for calm air
+  double fast_s_, slow_s_, least_;
   LowPass fast_, slow_, usual_;
 };
 
-/// Evidence of a touch-down of an aircraft in the air, 1: enough. Fed at each tick.
+/// Evidence of a touch-down of an aircraft in the air, 1: enough. Updated at each tick.
 ///
 /// | feature                | density in the air           | density on the ground         | new each |
 /// |------------------------|------------------------------|-------------------------------|----------|
@@ -51,25 +51,25 @@ class Sudden {
 /// |                        | as wide as gusts make it     | slope                         |          |
 /// | height over the ground | any                          | normal, `touch_off`           | once     |
 ///
-/// The logarithms of the ratios are added. A sum below 0 starts at 0 again: the past in the air is no
-/// evidence against a touch-down now.
+/// The logarithms of the ratios are added. A negative sum is reset to 0: earlier flight is no evidence
+/// against a touch-down now.
 class TouchDown {
  public:
   void reset() { *this = {}; }
 
-  /// What is expected of the aircraft now.
+  /// Expected state of the aircraft.
   struct Expected {
-    double off_m;  ///< from the height of the ground; a large one where that is not known
+    double off_m;  ///< height above the ground; a large one where the ground is unknown
     bool slow;     ///< at the least airspeed or below it
-    bool sinks;    ///< a sink is asked for until it touches: short final and flare
-    bool closed;   ///< the throttle, for a second: the motor brakes no more
+    bool sinks;    ///< a sink is commanded until the touch-down: short final and flare
+    bool closed;   ///< the throttle has been closed for a second: the motor brakes no more
   };
   double step(const VehicleState& s, const Expected& e, const TouchParams& p, double dt) {
     const double sink = sink_.step(-s.climb_rate_mps, 0.8, dt);
     const double pushed = pushes(s, e, dt), ended = sink_ends(s, e, p, dt);
-    // Level flight is asked for at times: there an end of the sink is no evidence.
+    // With a temporary command of level flight the end of a sink is no evidence.
     const bool sinks = e.sinks || (e.slow && usual_sink_.value() > min_sink_mps);
-    // Who climbs touches nothing.
+    // An aircraft that climbs does not touch the ground.
     log_ratio_ += (sink > min_sink_mps ? pushed : std::min(pushed, 0.0)) * dt / new_push_s;
     log_ratio_ += (sinks ? ended : std::min(ended, 0.0)) * dt / new_rate_s;
     if (log_ratio_ <= 0) {
@@ -80,7 +80,7 @@ class TouchDown {
     return std::min(log_ratio_ / (std::log(p.touch_odds) + std::min(0.5 * off * off, unknown_ground)), 1.0);
   }
 
-  /// Mean sink rate before the touch-down, m/s: when the evidence began.
+  /// Mean sink rate before the touch-down, m/s, at the begin of the evidence.
   double sink_mps() const { return sink_mps_; }
 
  private:
@@ -93,12 +93,12 @@ class TouchDown {
     const double back = std::max({kick, e.closed ? brake : 0, 0.0});
     const double side = side_.step(f_b.y(), dt);
     const double square = std::min(up * up + back * back + side * side, 200.0);
-    // The wide normal density over the narrow one.
+    // Ratio of the wide normal density to the narrow one.
     const double ratio = std::exp(0.5 * square * (1 - 1 / (wider * wider))) / (wider * wider * wider);
     return std::log((1 - hit_share + hit_share * ratio) / (1 - gust_share + gust_share * ratio));
   }
 
-  /// The same of the climb rate.
+  /// Logarithm of the same ratio for the climb rate.
   double sink_ends(const VehicleState& s, const Expected& e, const TouchParams& p, double dt) {
     const double rate = s.climb_rate_mps, sloped = p.touch_still + steepest_ground * s.ground_speed_mps;
     const double ground = 0.5 * normal(rate, p.touch_still) + 0.5 * normal(rate, sloped);
@@ -112,11 +112,12 @@ class TouchDown {
   }
 
   static constexpr double wider = 4, hit_share = 0.02, gust_share = 1e-5, new_push_s = 0.01;
-  static constexpr double asked_mps = 0.4;     ///< least sink of a flare
-  static constexpr double min_sink_mps = 0.1;  ///< of the last second, or seconds
-  static constexpr double gust_s = 0.8;        ///< for which a gust accelerates
+  static constexpr double asked_mps = 0.4;     ///< least commanded sink of a flare
+  static constexpr double min_sink_mps = 0.1;  ///< mean of the last second or seconds
+  static constexpr double gust_s = 0.8;        ///< duration of the acceleration by a gust
   static constexpr double max_rate = 3, new_rate_s = 0.4;
-  static constexpr double unknown_ground = 20;  ///< no height is less likely than this
+  // logarithm of the ratio: unknown ground makes a touch-down less likely
+  static constexpr double unknown_ground = 20;
   Sudden up_{0.005, 0.025, 0.36}, back_{0.005, 0.025, 0.2}, brake_{0.02, 0.1, 0.2}, side_{0.01, 0.06, 0.1},
       gust_{0.1, 0.5, 0.2};
   LowPass sink_, usual_sink_;

@@ -24,9 +24,9 @@ class Reports {
     double battery_ratio = 1, wind_mps = 0, ground_wind_mps = 0, roll_rad = 0, pitch_rad = 0;
     double room_m = 0;                              ///< to the nearest side of the fence, now
     double below_ceiling_m = 0, above_floor_m = 0;  ///< now
-    bool tail_wind = false;                         ///< found in a take-off run
-    bool aloft = false;                             ///< off the ground, for however short a time
-    bool by_side = false;                           ///< it is a side that the turn back comes too near to
+    bool tail_wind = false;                         ///< detected in a take-off run
+    bool aloft = false;                             ///< off the ground, for any duration
+    bool by_side = false;  ///< the turn back comes too near to a side, not to floor or ceiling
     bool landing = false, drift_ends_wait = false, kept_fence = false;
   };
 
@@ -139,7 +139,7 @@ class Reports {
     say(&SafetyState::fence, where(f), right, "keep inside");
   }
 
-  /// Answers that change with time alone.
+  /// Reports answers that change with time alone.
   void changes(const Facts& f) {
     if (said_ || !now_->airborne || !reported_.airborne || now_->answer == reported_.answer) return;
     if (now_->answer == SafetyAnswer::descend)
@@ -152,7 +152,7 @@ class Reports {
       push(line(safety_messages::lands_after_return, Fixed{now_->returning_s, 0}).data(), Severity::warning);
   }
 
-  /// The list of what is missing, when it has been the same for a while; once before a flight that is enough.
+  /// The list of missing items, when it has been the same for a while; before a flight it is reported once.
   void before_take_off(const Facts& f, double dt) {
     constexpr double settled_s = 2, apart_s = 5;
     flew_ = flew_ || now_->airborne;

@@ -27,8 +27,8 @@ struct ActuationParams {
 };
 
 struct ActuationSpec {
-  double mux_hz = 0;              ///< 0: at once
-  double pulse_resolution_s = 0;  ///< of a pulse of 1..2 ms; 0: none
+  double mux_hz = 0;              ///< 0: no delay by the multiplexer
+  double pulse_resolution_s = 0;  ///< resolution of a pulse of 1..2 ms; 0: none
   double latency_s = 0;
 };
 
@@ -48,12 +48,12 @@ class Actuation {
         elevator_(a.elevator.limit_rad),
         rudder_(a.rudder.limit_rad) {}
 
-  /// A command that is given now.
+  /// Accepts a command at its time.
   void put(const Actuators& command, std::int64_t now_ns) {
-    if (count_ == way_.size()) drop();  // full: the oldest arrives
+    if (count_ == way_.size()) drop();  // full: the oldest command takes effect
     way_[(first_ + count_++) % way_.size()] = {now_ns + latency_ns_, command};
   }
-  /// What the servos and the motor get at this time. Times go forward.
+  /// Commands that reach the servos and the motor at this time. Times must not decrease.
   const Actuators& at(std::int64_t now_ns) {
     while (count_ > 0 && way_[first_].at_ns <= now_ns) drop();
     if (!muxed_ || mux_(now_ns)) applied_ = pulses(arrived_);

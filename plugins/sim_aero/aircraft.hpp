@@ -70,7 +70,7 @@ class Aircraft {
     Out<VehicleState> truth;
     Out<ContactTruth> contact;
     Out<MotionTruth> motion;
-    OutQueue<Notice, 4> notices;  // who flies
+    OutQueue<Notice, 4> notices;  // source of the commands in force
   };
   struct Params {
     Record<Airframe> airframe{"airframe of the aircraft", required};
@@ -103,7 +103,7 @@ class Aircraft {
 
   explicit Aircraft(std::uint64_t seed) : seed_(seed) {}
 
-  /// A table that cannot be read is told with its place in the record.
+  /// A table that cannot be read is reported with its place in the record.
   static void check_tables(const Airframe& a) {
     for (std::size_t i = 0; i < a.aero.tables.size(); ++i)
       if (const std::string fault = table_fault(a.aero.tables[i]); !fault.empty())
@@ -199,10 +199,10 @@ class Aircraft {
   }
 
   const Plant& plant() const { return *plant_; }
-  double ice() const { return airframe_.ice(); }  ///< share of all the ice that the parameters describe
+  double ice() const { return airframe_.ice(); }  ///< share of the full ice that the parameters describe
 
  private:
-  /// Flaps stay where they were told to go: who sets them speaks when he wants another place.
+  /// Flaps keep their last command: a flap command is sent only for a change.
   static double flap_command(const Inputs& in) {
     return in.flaps && std::isfinite(in.flaps->flap_rad) ? in.flaps->flap_rad : 0;
   }
@@ -211,7 +211,7 @@ class Aircraft {
     return launch_.given() && (!arming_.released() || launch_.holds(arming_.age_s(now_ns_)));
   }
 
-  /// Whether the radio works, as far as parameters and faults go.
+  /// True when the radio works, according to parameters and faults.
   bool carries(const Params& p) const {
     return p.rc_link && faults_[FaultTarget::radio].kind != FaultKind::off;
   }
@@ -233,7 +233,7 @@ class Aircraft {
     request.accept();
   }
 
-  /// The faults that are in force now reach what they concern. Nothing to do as long as there is none.
+  /// Applies the faults in force to the parts that they concern.
   void suffer(const Params& p, double dt) {
     const bool other = faults_.advance(now_ns_);
     if (other) {
@@ -267,7 +267,7 @@ class Aircraft {
     s.armed = arming_.armed();
     s.override = flies;
     s.failsafe = command_.failsafe();
-    s.on_ground = !s.armed;  // as a controller without a contact switch publishes it
+    s.on_ground = !s.armed;  // as published by a controller without a contact switch
     s.crashed = plant_->crashed();
     s.in_control = s.armed && !flies && !command_.silent() && !s.failsafe && !s.crashed;
     s.health = s.crashed ? Health::failed : Health::ok;

@@ -5,7 +5,7 @@
 
 namespace fulmar::sim {
 
-/// Asked for by requests and the pilot's switch, granted from flight time 0 on.
+/// Armed state: requests and the pilot's switch ask for it; it is granted from flight time 0 on.
 class Arming {
  public:
   void ask(bool armed) {
@@ -18,14 +18,14 @@ class Arming {
     armed_ = released_ = true;
   }
   bool armed() const { return armed_; }
-  /// Has been armed once: from then on the aircraft is free to move.
+  /// True after the first arming: from then on the aircraft is free to move.
   bool released() const { return released_; }
-  /// Since it was armed for the first time.
+  /// Time since the first arming.
   double age_s(std::int64_t now_ns) const { return 1e-9 * static_cast<double>(now_ns - at_ns_); }
 
  private:
   bool wanted_ = false, armed_ = false, released_ = false;
-  std::int64_t at_ns_ = 0;  ///< for the first time
+  std::int64_t at_ns_ = 0;  ///< time of the first arming
 };
 
 }  // namespace fulmar::sim

@@ -13,9 +13,9 @@ class ChangedAirframe {
   explicit ChangedAirframe(const Airframe& file) : file_(file), changed_(file) {}
 
   const Airframe& file() const { return file_; }
-  /// True when the parameters add something else than before.
+  /// Returns true when the additions differ from those before.
   bool add(const ModelParams& p) { return add_to(file_, p, changed_); }
-  /// True when there is another amount of ice than before.
+  /// Returns true when the amount of ice differs from that before.
   bool freeze(double rate, double dt) { return icing_.advance(rate, dt); }
   double ice() const { return icing_.ice(); }
   Airframe now(const BodyFaultParams& p) const { return iced(changed_, icing_.ice(), p); }

@@ -11,8 +11,8 @@
 
 namespace fulmar::sim {
 
-/// The computer's command, as long as it arrives and is valid. An older command counts as silence, as on
-/// ROSflight.
+/// The computer's command, while it arrives and is valid. As on ROSflight, a command that is too old counts
+/// as missing.
 inline std::optional<Actuators> heard_command(const Optional<Actuators>& actuators,
                                               const Optional<GroundState>& ground, std::int64_t now_ns) {
   constexpr std::int64_t patience_ns = 100'000'000;
@@ -29,7 +29,7 @@ inline std::optional<Actuators> heard_command(const Optional<Actuators>& actuato
 
 class CommandSwitch {
  public:
-  /// What is known of the pilot: whether the sticks override, and the radio link of one that is wired.
+  /// State of the pilot: override by the sticks, and the radio link of a connected transmitter.
   struct Pilot {
     bool flies = false, wired = false, link = false;
     Actuators sticks;
@@ -41,7 +41,7 @@ class CommandSwitch {
     silent_ = !heard && pilot.link;
     failsafe_ = armed && (lost || (!heard && !flies && !silent_));
     if (lost && released)
-      command_ = {};  // the firmware's failsafe: whatever the computer says
+      command_ = {};  // the firmware's failsafe, without regard to the computer
     else if (flies || silent_)
       command_ = pilot.sticks;
     else if (heard)
@@ -51,7 +51,7 @@ class CommandSwitch {
     return command_;
   }
   bool failsafe() const { return failsafe_; }
-  /// The computer is: the firmware then gives the sticks the aircraft.
+  /// True when the computer is silent: the firmware then gives the sticks control.
   bool silent() const { return silent_; }
 
  private:

@@ -14,7 +14,7 @@ namespace fulmar::sim {
 
 class ContactReport {
  public:
-  /// `held`: in somebody's hand, or on a catapult.
+  /// `held`: in a hand or on a catapult.
   void publish(const Plant& plant, bool held, std::int64_t now_ns, Out<ContactTruth>& out) {
     const bool touching = plant.on_ground() || held, crashed = plant.crashed(),
                touched = plant.touch().count != count_;

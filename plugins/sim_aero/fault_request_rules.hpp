@@ -6,7 +6,7 @@
 
 namespace fulmar::sim {
 
-/// The sizes that a fault may have: those that its parameter may have.
+/// The range of a fault's size: that of its parameter.
 struct SizeRange {
   double min = 0, max = 0;
   const char* unit = "";
@@ -45,7 +45,7 @@ inline SizeRange size_range(FaultTarget target, FaultKind kind) {
   }
 }
 
-/// Why a request is none; empty when it is one.
+/// Reason to reject a request; empty for a valid one.
 inline std::string Faults::refusal(const FaultRequest& r) {
   const auto name = [](auto value) {
     return std::string(detail::Labels<decltype(value)>::found.words[static_cast<std::size_t>(value)]);
@@ -72,8 +72,8 @@ inline std::string Faults::refusal(const FaultRequest& r) {
   return "";
 }
 
-/// The parameters' fault of this target, in the kind and with the size that are requested. A size of a vector
-/// is its length, in the direction of the parameter.
+/// The parameters' fault of this target with the requested kind and size. A size of a vector is its length,
+/// in the direction of the parameter.
 inline Fault Faults::sized(const Fault& of_parameters, const FaultRequest& r) {
   Fault f = of_parameters;
   f.kind = r.kind;

@@ -22,7 +22,7 @@ namespace fulmar::sim {
 constexpr std::size_t fault_targets = 14;
 constexpr std::size_t at(FaultTarget target) { return static_cast<std::size_t>(target); }
 
-/// The kinds of a target, those of its parameter in the parameter's order.
+/// The kinds of a target, in the order of its parameter.
 inline std::span<const FaultKind> kinds_of(FaultTarget target) {
   using enum FaultKind;
   static constexpr std::array sensor{none, off, stuck, wrong, slow, noisy, jumping};
@@ -49,7 +49,7 @@ FaultKind kind_of(FaultTarget target, E choice) {
 
 class Faults {
  public:
-  /// The parameters at `now_ns`: when the flight begins, and after each change.
+  /// Sets the parameters at `now_ns`: at the begin of the flight and after each change.
   void set(const FaultParams& p, std::int64_t now_ns) {
     std::array<Fault, fault_targets> next = of_parameters(p);
     for (std::size_t i = 0; i < fault_targets; ++i) {
@@ -72,7 +72,7 @@ class Faults {
     request.accept();
   }
 
-  /// True when another fault is in force than before, or the same one has grown.
+  /// Returns true when the fault in force has changed or has grown.
   bool advance(std::int64_t now_ns) {
     if (!changed_ && !moving_) return false;
     changed_ = moving_ = false;

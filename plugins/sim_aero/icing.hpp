@@ -10,7 +10,7 @@
 
 namespace fulmar::sim {
 
-/// The aircraft with a share `ice` of all the ice.
+/// The aircraft with a share `ice` of the full ice.
 inline Airframe iced(const Airframe& clean, double ice, const BodyFaultParams& p) {
   const auto factor = [&](double of_all) { return 1 + ice * (of_all - 1); };
   const double lift = factor(p.icing_lift), control = factor(p.icing_control);
@@ -29,7 +29,7 @@ inline Airframe iced(const Airframe& clean, double ice, const BodyFaultParams& p
 
 class Icing {
  public:
-  /// True when there is another amount of ice than before.
+  /// Returns true when the amount of ice has changed.
   bool advance(double rate, double dt) {
     if (rate == 0) return false;
     const double before = ice_;

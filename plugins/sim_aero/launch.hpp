@@ -34,9 +34,9 @@ class Launch {
   }
   bool given() const { return given_; }
   double height_m() const { return by_hand_ ? 1.5 : 1; }
-  /// Of a time since it was armed: not let go yet.
+  /// `armed_s`: time since arming. True until the release.
   bool holds(double armed_s) const { return given_ && armed_s < after_s_ + push_s_; }
-  /// m/s2 along the nose, as long as it holds.
+  /// m/s2 along the nose, during the launch.
   double push_mps2(double armed_s) const { return armed_s < after_s_ ? 0 : push_mps2_; }
 
  private:

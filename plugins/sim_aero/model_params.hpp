@@ -121,7 +121,7 @@ struct ModelParams {
   YawAdditions yaw;
 };
 
-/// What a group of ten of them is added to.
+/// Airframe and derivatives that a group of ten additions belongs to.
 struct ModelAddition {
   Derivatives Aerodynamics::*to;
   std::array<double, 10> add;
@@ -136,8 +136,8 @@ inline std::array<ModelAddition, 6> additions(const ModelParams& p) {
            {&A::yaw, p.yaw.values()}}};
 }
 
-/// Puts the airframe's derivatives with what is added into `a`, a copy of `file` that may hold other
-/// additions. True when it changes.
+/// Writes the derivatives of `file` plus the additions into `a`, a copy of `file` that may hold other
+/// additions. Returns true for a change.
 inline bool add_to(const Airframe& file, const ModelParams& p, Airframe& a) {
   using D = Derivatives;
   constexpr std::array<double D::*, 10> names{

@@ -12,12 +12,12 @@
 namespace fulmar::sim {
 
 struct NoiseSpec {
-  double white = 0;           ///< deviation of each sample
+  double white = 0;           ///< standard deviation of each sample
   double bias = 0;            ///< constant, drawn from [-bias, bias]
-  double walk = 0;            ///< deviation of the random walk after one second
-  double drift = 0;           ///< stationary deviation of the Gauss-Markov process
+  double walk = 0;            ///< standard deviation of the random walk after one second
+  double drift = 0;           ///< stationary standard deviation of the Gauss-Markov process
   double drift_tau_s = 1;     ///< its time constant
-  bool drift_settled = true;  ///< starts at its stationary deviation; false: at zero
+  bool drift_settled = true;  ///< true: starts at its stationary standard deviation; false: at zero
   double offset = 0;          ///< decays with offset_tau_s
   double offset_tau_s = 1;
 };
@@ -35,16 +35,16 @@ class Noise {
     walk_step_ = spec.walk * std::sqrt(dt);
   }
 
-  /// The error of the next sample.
+  /// Error of the next sample.
   double next(Random& random) {
     if (walk_step_ > 0) bias_ += walk_step_ * random.normal();
     if (drift_step_ > 0) drift_ = drift_decay_ * drift_ + drift_step_ * random.normal();
     offset_ *= offset_decay_;
     return bias() + (spec_.white > 0 ? spec_.white * random.normal() : 0);
   }
-  /// What of it is not white.
+  /// The part that is not white.
   double bias() const { return bias_ + drift_ + offset_; }
-  /// A calibration now takes off all that is not white.
+  /// A calibration at this time removes the part that is not white.
   void calibrate() { bias_ = -(drift_ + offset_); }
 
  private:

@@ -29,7 +29,7 @@ inline Rc rc_of(const StickParams& p) {
   return {p.stick_roll, p.stick_pitch, p.stick_yaw, p.stick_throttle, p.aux1, p.aux2, p.aux3, p.aux4, true};
 }
 
-/// The firmware's, when the sticks have the aircraft.
+/// Commands of the firmware while the sticks are in control.
 inline Actuators by_hand(const Rc& rc, const Airframe& a) {
   return {rc.throttle_frac, rc.roll_frac * a.aileron.limit_rad, -rc.pitch_frac * a.elevator.limit_rad,
           -rc.yaw_frac * a.rudder.limit_rad};
@@ -42,7 +42,7 @@ struct PilotParams {
                    setup};
 };
 
-/// What the aircraft's receiver knows of a pilot whose transmitter is wired to the input `pilot`.
+/// Reception of a transmitter that is connected to the input `pilot`.
 class PilotRadio {
  public:
   /// A transmitter sends 50 frames a second.
@@ -51,7 +51,7 @@ class PilotRadio {
 
   /// [write] `carries`: no fault of the radio is in force.
   void hear(const Optional<Rc>& pilot, bool carries, std::int64_t now_ns) {
-    if (!pilot) {  // never wired, or the host passes nothing on any more: then there are no frames either
+    if (!pilot) {  // without a sample, or when the host no longer passes one, there are no frames
       if (now_ns - heard_ns_ > patience_ns) link_ = false;
       return;
     }
@@ -63,15 +63,15 @@ class PilotRadio {
     heard_ns_ = now_ns;
   }
 
-  /// A transmitter is wired: it counts in place of the parameters.
+  /// True with a connected transmitter: it replaces the parameters.
   bool wired() const { return wired_; }
   bool link() const { return link_; }
-  /// The sticks and switches that were heard last.
+  /// Sticks and switches last received.
   const Rc& rc() const { return rc_; }
   bool overrides(const PilotParams& p) const { return link_ && lever(p.override_switch) > on_above; }
 
   enum class Arming : std::uint8_t { stays, arm, disarm };
-  /// A switch that is on when it is heard of first has to be turned off before it arms.
+  /// A switch that is on at its first reception must be turned off before it arms.
   Arming arming(const PilotParams& p) {
     if (!link_ || p.arm_switch == 0) return Arming::stays;
     const bool on = lever(p.arm_switch) > on_above, was = was_armed_;
@@ -97,7 +97,7 @@ class PilotRadio {
   Rc rc_;
   std::int64_t heard_ns_ = 0;
   bool wired_ = false, link_ = false;
-  bool was_armed_ = true;  ///< the switch, as far as is known
+  bool was_armed_ = true;  ///< last known state of the switch
 };
 
 }  // namespace fulmar::sim

@@ -19,13 +19,13 @@ struct SensorSpec {
   std::array<NoiseSpec, 3> gyro{}, accel{};  ///< rad/s, m/s2
   std::array<NoiseSpec, 3> mag{};            ///< T
   NoiseSpec baro{}, pitot{};                 ///< Pa
-  double pitot_scale = 0;                    ///< error of the pressure's scale, drawn from [-this, this]
+  double pitot_scale = 0;                    ///< scale error of the pressure, drawn from [-this, this]
   std::array<NoiseSpec, 3> gnss_position{}, gnss_velocity{};  ///< NED; m, m/s
   double gnss_latency_s = 0;
-  double horizontal_std_m = 0.01, vertical_std_m = 0.01, speed_std_mps = 0.01;  ///< what the receiver claims
+  double horizontal_std_m = 0.01, vertical_std_m = 0.01, speed_std_mps = 0.01;  ///< reported by the receiver
   double temperature_kelvin = 300.15;                                           ///< of the sensors
-  bool single_precision = false;  ///< of all but the receiver, as a flight controller sends
-  // Of no use to the built-in sets, all of it off:
+  bool single_precision = false;  ///< for all sensors but the receiver, as sent by a flight controller
+  // Not used by the built-in sets: all off.
   SheetSpec gyro_sheet{}, accel_sheet{}, mag_sheet{}, baro_sheet{}, pitot_sheet{};
   bool calibrated = false;
   Eigen::Vector3d imu_at = Eigen::Vector3d::Zero(), pitot_at = Eigen::Vector3d::Zero(),
@@ -39,9 +39,9 @@ struct SensorSpec {
   Timing imu_timing{400}, gnss_timing{10}, mag_timing{50}, baro_timing{50}, pitot_timing{100};
 };
 
-/// rosflight_sim's `standalone_sensors` with the defaults of its code. Its walks are per sample; here they
-/// are turned into rates at the rate that it runs at, which gives the same process there and a sensible one
-/// elsewhere. What differs is said in the README.
+/// rosflight_sim's `standalone_sensors` with the defaults of its code. Its random walks are per sample. Here
+/// they are rates at its sample rate, which gives the same process at that rate. The README lists the
+/// differences.
 inline SensorSpec rosflight_sensors() {
   SensorSpec s;
   s.baro_hz = 100;
@@ -68,9 +68,9 @@ inline SensorSpec rosflight_sensors() {
   return s;
 }
 
-/// A MEMS inertial unit of the ICM-20602 class (4 mdeg/s and 100 ug per root Hz, 200 Hz bandwidth, after a
-/// calibration on the ground), a u-blox M8 class receiver (2.5 m CEP, 0.05 m/s), an MS5611 class barometer
-/// and a pitot tube that sees the wing's pressure field.
+/// A MEMS inertial unit of the ICM-20602 class: 4 mdeg/s and 100 ug per root Hz, 200 Hz bandwidth, after a
+/// calibration on the ground. A u-blox M8 class receiver (2.5 m CEP, 0.05 m/s), an MS5611 class barometer,
+/// and a pitot in the pressure field of the wing.
 inline SensorSpec ublox_sensors() {
   SensorSpec s;
   s.mag_hz = 100;

@@ -20,7 +20,7 @@ inline std::string figures(double value, int digits = 3) {
 }
 inline std::string degrees(double rad) { return figures(rad * 57.29577951308232) + " deg"; }
 
-/// Why this is no aircraft that flies: a map of some fields leaves the rest at nothing. Empty when it is one.
+/// Reason why the airframe cannot fly: in a map of some fields the others are zero. Empty for a complete one.
 inline std::string missing_part(const Airframe& a) {
   if (!(a.aero.lift.alpha_ratio > 0)) return sim_aero_messages::lift_missing();
   if (!has_thrust(a.propulsion)) return sim_aero_messages::thrust_missing();
@@ -31,7 +31,7 @@ inline std::string missing_part(const Airframe& a) {
   return "";
 }
 
-/// What stands against a steady flight, and the parameter that says so.
+/// Cause that prevents a steady flight, and its parameter.
 inline std::string trim_words(const Airframe& a, const SteadyFlight& f, const std::string& airspeed_from) {
   const auto surface = [&](const char* name, double value, double limit) {
     return located("airframe." + std::string(name) + ".limit",
@@ -65,7 +65,7 @@ inline std::string trim_words(const Airframe& a, const SteadyFlight& f, const st
   return at(airspeed_from, sim_aero_messages::balance_impossible());
 }
 
-/// Why the flight cannot go on. [ends the flight]
+/// Reason why the flight ends.
 inline std::string departure_words(const Plant& p) {
   const Departure d = p.departure();
   if (d == Departure::beyond_alpha || d == Departure::beyond_beta) {

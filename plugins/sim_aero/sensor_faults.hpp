@@ -13,14 +13,14 @@
 
 namespace fulmar::sim {
 
-/// What is measured by one sensor; a scalar stands in x.
+/// A quantity that one sensor measures; a scalar is in x.
 class Channel {
  public:
   Channel(double dt, const Eigen::Vector3d& deviation, const Eigen::Vector3d& own, bool zero_when_off,
           std::uint64_t seed)
       : dt_(dt), deviation_(deviation), own_(own), zero_when_off_(zero_when_off), random_(seed) {}
 
-  /// From what the sensor would say in order: what it says.
+  /// Turns the output of a working sensor into that of the faulty one.
   Eigen::Vector3d operator()(const Eigen::Vector3d& right) {
     if (fault_.kind != FaultKind::none) return said_ = faulted(right);
     return said_ = right;
@@ -34,7 +34,7 @@ class Channel {
   bool off() const { return fault_.kind == FaultKind::off; }
 
  private:
-  /// Apart, so that a sensor in order costs what it did without faults.
+  /// A separate function, so that a sensor without fault costs no more time than before.
   [[gnu::noinline]] Eigen::Vector3d faulted(const Eigen::Vector3d& right) {
     const double g = fault_.growth;
     switch (fault_.kind) {
@@ -48,7 +48,7 @@ class Channel {
     }
   }
 
-  /// With the sensor's own errors it makes `times` the deviation that they have alone.
+  /// Together with the sensor's own errors the standard deviation becomes `times` theirs.
   Eigen::Vector3d noise(double times) {
     Eigen::Vector3d out;
     for (int i = 0; i < 3; ++i) {
@@ -58,7 +58,7 @@ class Channel {
     return out;
   }
 
-  /// An offset within +-`bound`, drawn anew at the events of a Poisson process.
+  /// An offset within +-`bound`, drawn again at the events of a Poisson process.
   Eigen::Vector3d jump(const Eigen::Vector3d& bound) {
     if (random_.uniform() < -std::expm1(-dt_ / fault_.time_s))
       for (int i = 0; i < 3; ++i) jump_[i] = random_.uniform(-1, 1) * bound[i];
@@ -66,7 +66,7 @@ class Channel {
   }
 
   double dt_;
-  Eigen::Vector3d deviation_, own_;  ///< own: of its errors as they are, which may be none
+  Eigen::Vector3d deviation_, own_;  ///< own: of the sensor's own errors, which may be 0
   bool zero_when_off_;
   Random random_;
   Fault fault_;
@@ -106,7 +106,7 @@ class SensorFaults {
   static Eigen::Vector3d vector(const Eigen::Vector3d& v) { return v; }
   static Eigen::Vector3d vector(double x) { return {x, 0, 0}; }
 
-  /// A sensor without errors gets noisy as one of the data sheets.
+  /// A noise fault of a sensor without errors uses the noise of one of the data sheets.
   template <auto member>
   static Channel channel(const SensorSpec& spec, double dt, bool zero_when_off, std::uint64_t seed) {
     const Eigen::Vector3d own = vector(random_part(spec.*member));

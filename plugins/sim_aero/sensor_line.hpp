@@ -14,7 +14,7 @@
 
 namespace fulmar::sim {
 
-/// True once per period: integer nanoseconds, so no remainder builds up.
+/// True once per period. Integer nanoseconds prevent an accumulated rounding error.
 class Due {
  public:
   Due() = default;
@@ -30,7 +30,7 @@ class Due {
   std::int64_t period_ns_ = 1, next_ns_ = 0;
 };
 
-/// Samples that were taken and are not yet delivered.
+/// Samples that wait for their delivery.
 template <class T>
 class Delay {
  public:
@@ -46,7 +46,7 @@ class Delay {
     T value;
     std::int64_t valid_at_ns = 0;
   };
-  /// The oldest sample, once `delay_ns` have passed since it was valid; else nullptr.
+  /// The oldest sample, once `delay_ns` have passed since its time stamp; else nullptr.
   const Item* pop(std::int64_t now_ns, std::int64_t delay_ns) {
     if (count_ == 0 || now_ns < items_[first_].valid_at_ns + delay_ns) return nullptr;
     const Item* item = &items_[first_];
@@ -60,12 +60,12 @@ class Delay {
   std::size_t first_ = 0, count_ = 0;
 };
 
-/// The way of one sensor's samples into the loop: due, perhaps early or late, perhaps lost, perhaps delayed.
+/// Timing of one sensor's samples: period, jitter, loss and latency.
 template <class T>
 class SensorLine {
  public:
   SensorLine() : random_(0) {}
-  /// `name` is for the sentence that refuses a timing.
+  /// `name` is for the message that rejects a timing.
   SensorLine(const Timing& t, double tick_hz, std::int64_t first_ns, const char* name, std::uint64_t seed)
       : due_(t.rate_hz, first_ns),
         delay_ns_(std::llround(t.latency_s * 1e9)),
@@ -80,11 +80,11 @@ class SensorLine {
     if (t.dropouts_frac > 0) lose(t);
   }
 
-  /// Is a sample to be taken now?
+  /// True when a sample is due.
   bool due(std::int64_t now_ns) {
     if (jitter_ns_ <= 0) return due_(now_ns);
-    // Each nominal time is early by the jitter, and the sample waits from 0 to twice of it: less than a
-    // period, but perhaps until the tick at which the next one begins to wait.
+    // Each nominal time is early by the jitter, and the sample waits from 0 to twice of it. That is less than
+    // a period, but may last until the next sample begins to wait.
     bool taken = false;
     if (waiting_ && now_ns >= shift_to_ns_) {
       taken = true;
@@ -98,8 +98,8 @@ class SensorLine {
     return taken;
   }
 
-  /// The sample that was taken now gets lost, or is delivered now or later: what the port is to say now, if
-  /// it says anything. `spoken`: the sensor itself said something.
+  /// Loses, delays or delivers the present sample, and publishes what is due. `spoken`: the sensor has
+  /// produced a sample.
   template <class Port>
   void take(const T& sample, std::int64_t now_ns, bool spoken, Port& port) {
     if (!spoken || lost()) return;
@@ -115,7 +115,7 @@ class SensorLine {
   bool delayed() const { return delay_ns_ > 0; }
 
  private:
-  /// Gilbert's channel: in a gap with the probability `dropouts`, gaps of the mean length `length`.
+  /// Gilbert's channel: `dropouts` is the probability of a gap, `length` the mean length of one.
   void lose(const Timing& t) {
     const double samples = std::max(1.0, t.dropout_length_s / period_s_);
     const bool bursts = t.dropout_length_s > period_s_;
@@ -136,7 +136,7 @@ class SensorLine {
   std::int64_t shift_to_ns_ = 0;
   double period_s_ = 1;
   Random random_;
-  double begin_ = 0, end_ = 1;  ///< of a gap, at each sample
+  double begin_ = 0, end_ = 1;  ///< limits of a gap, at each sample
   bool in_gap_ = false, waiting_ = false;
 };
 

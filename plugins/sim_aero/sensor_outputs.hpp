@@ -17,7 +17,7 @@ struct SensorSwitches {
   Flag pitot_works{true, "operation of the pitot; false: silent"};
 };
 
-/// The time at which the sensors were switched on, and what flight time 0 is in UTC.
+/// Power-on time of the sensors, and the UTC of flight time 0.
 struct SensorClock {
   std::int64_t epoch_ns = 0, power_on_ns = 0, period_ns = 0;
 };
@@ -50,7 +50,7 @@ class SensorOutputs {
     publish_one(mag_, p.mag_works, faults.mag, now_ns, out.mag, [&] { return s.mag(plant); });
     publish_one(baro_, p.baro_works, faults.baro, now_ns, out.baro, [&] { return s.baro(plant); });
     publish_one(pitot_, p.pitot_works, faults.pitot, now_ns, out.pitot, [&] { return s.pitot(plant); });
-    if (gnss_.due(now_ns)) {  // what is under way when the receiver is switched off is lost
+    if (gnss_.due(now_ns)) {  // a sample under way when the receiver is switched on again is lost
       const Gnss gnss = s.gnss(plant, clock_.epoch_ns + now_ns, now_ns - clock_.power_on_ns);
       gnss_.take(gnss, now_ns, p.gnss_works || gnss_.delayed(), out.gnss);
     }
@@ -58,7 +58,7 @@ class SensorOutputs {
   }
 
  private:
-  /// `works` is asked when a sample is taken.
+  /// `works` is called when a sample is taken.
   template <class T, class Measure>
   static void publish_one(SensorLine<T>& line, bool works, const Channel& fault, std::int64_t now_ns,
                           Out<T>& port, Measure measure) {

@@ -35,18 +35,19 @@ class SensorPlaces {
   bool reach_pitot() const { return pitot_; }
   bool reach_antenna() const { return antenna_; }
 
-  /// Body rate and specific force at the centre of gravity become those where the unit is.
+  /// Transforms body rate and specific force from the centre of gravity to the place of the unit.
   void imu(const Plant& plant, Eigen::Vector3d& omega_b, Eigen::Vector3d& f_b) {
     const Eigen::Vector3d& r = spec_.imu_at;
     if (lever_) f_b += plant.angular_acceleration().cross(r) + omega_b.cross(omega_b.cross(r));
     if (shaken_) shake(plant.propeller_radps(), omega_b, f_b);
     omega_b += rate_by(f_b);
   }
-  /// What gyroscopes make of a specific force.
+  /// Rate error of gyroscopes by a specific force.
   Eigen::Vector3d rate_by(const Eigen::Vector3d& f_b) const { return per_g_.cwiseProduct(f_b) / isa::g0; }
 
-  /// An unbalance turns with the propeller, in its plane, and grows with the square of its speed; the second
-  /// harmonic is that of two blades and pulls along the shaft. Sampled as it is, so with aliases.
+  /// An unbalance turns with the propeller, in its plane, and grows with the square of its speed. The second
+  /// harmonic comes from two blades and acts along the shaft. It is sampled without a filter, so with
+  /// aliases.
   void shake(double Omega, Eigen::Vector3d& omega_b, Eigen::Vector3d& f_b) {
     phase_ = std::fmod(phase_ + Omega * imu_dt_, 2 * std::numbers::pi);
     const double share = Omega / spec_.vibration_speed * (Omega / spec_.vibration_speed);
@@ -56,7 +57,7 @@ class SensorPlaces {
     omega_b += spec_.gyro_vibration * wave;
   }
 
-  /// `taken`: the share of the flow that the tube takes.
+  /// `taken`: the share of the flow that enters the pitot.
   double pitot(const Plant& plant, const Eigen::Vector3d& v_r, double taken, double pressure_pa) const {
     const double alpha = std::atan2(v_r.z(), v_r.x()), Va = v_r.norm();
     const double beta = Va > 0 ? std::asin(std::clamp(v_r.y() / Va, -1.0, 1.0)) : 0;

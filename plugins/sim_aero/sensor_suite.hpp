@@ -171,7 +171,7 @@ inline constexpr std::array<FieldRange, 5> field_ranges<sim::Timing>{{{"rate_hz"
                                                                       {"dropouts_frac", 0, 0.99},
                                                                       {"dropout_length_s", 0, 3600}}};
 
-/// Deviations, densities and ranges are not below 0; times are more than that.
+/// Standard deviations, densities and ranges are at least 0; times are above 0.
 template <>
 inline constexpr std::array<FieldRange, 17> field_ranges<sim::GyroErrors>{
     {{"noise_per_root_hz_radps", 0, sim::any},

@@ -79,7 +79,7 @@ class Sensors {
     return {sent(baro_sheet_.used() ? baro_sheet_.digits(said) : said), spec_.temperature_kelvin};
   }
 
-  /// (7.10); the tube takes all of the flow up to 20 degrees off its axis, less beyond, and nothing from 60
+  /// (7.10). The pitot takes the whole flow up to 20 degrees off its axis, less beyond, and none from 60
   /// degrees on.
   Pitot pitot(const Plant& plant) {
     Eigen::Vector3d v_r = plant.air_velocity_b();
@@ -96,7 +96,7 @@ class Sensors {
     return out;
   }
 
-  /// `on_ns`: since power-on.
+  /// `on_ns`: time since power-on.
   Gnss gnss(const Plant& plant, std::int64_t utc_ns, std::int64_t on_ns = INT64_MAX) {
     Eigen::Vector3d p_n = plant.state().p_n, v_n = plant.seen().v_n;
     if (places_.reach_antenna()) places_.antenna(plant, p_n, v_n);
@@ -114,7 +114,7 @@ class Sensors {
     out.satellites = 15;
     const bool searching = static_cast<double>(on_ns) < 1e9 * spec_.gnss_start_up_s;
     if (searching || faults_.velocity.off()) out.speed_std_mps = unknown_std;
-    if (searching || faults_.position.off()) {  // no solution, as a receiver without sky says it
+    if (searching || faults_.position.off()) {  // no solution, as reported by a receiver without satellites
       out.fix = FixType::none;
       out.satellites = 0;
       out.horizontal_std_m = out.vertical_std_m = unknown_std;
@@ -130,7 +130,7 @@ class Sensors {
   const SensorSpec& spec() const { return spec_; }
 
  private:
-  /// From what there is at the sensor to what it says.
+  /// Turns the quantity at the sensor into its output.
   static Eigen::Vector3d measured(const Eigen::Vector3d& there, Noise3& noise, Random& random, Sheet& sheet,
                                   Channel& fault) {
     if (!sheet.used()) return fault(there + noise.next(random));
@@ -139,8 +139,8 @@ class Sensors {
   static Eigen::Vector3d of_both(const Noise3& noise, const Sheet& sheet) {
     return sheet.used() ? Eigen::Vector3d(noise.bias() + sheet.bias()) : noise.bias();
   }
-  /// What a flight controller's own calibration takes off, standing level: of gyroscopes, accelerometers,
-  /// barometer and pitot tube all that is constant and not white, gravity's share by scale and axes included.
+  /// A calibration by the flight controller, standing level. It removes the constant errors of gyroscopes,
+  /// accelerometers, barometer and pitot, with the effect of gravity by scale and axis errors.
   void calibrate() {
     const Eigen::Vector3d rest(0, 0, -isa::g0);
     gyro_.calibrate();
@@ -161,7 +161,7 @@ class Sensors {
   LocalFrame frame_;
   Eigen::Vector3d field_n_;
   Random imu_random_, gnss_random_, mag_random_, baro_random_,
-      pitot_random_;  // one each: dropping a sensor leaves the others as they are
+      pitot_random_;  // separate generators: without a sensor the others produce the same errors
   Noise3 gyro_, accel_, mag_, gnss_position_, gnss_velocity_;
   Noise baro_, pitot_;
   double pitot_scale_ = 1;

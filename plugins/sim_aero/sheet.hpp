@@ -19,10 +19,10 @@ namespace fulmar::sim {
 
 struct SheetSpec {
   double bias_std = 0;             ///< at turn-on, normal
-  double instability = 0;          ///< lowest point of the Allan deviation
-  double instability_time_s = 30;  ///< averaging time of that point
-  double noise_after_1s = 0;  ///< what white noise leaves in a mean over one second: in the Allan deviation
-  double walk = 0;            ///< deviation of the rate random walk after one second: also in it
+  double instability = 0;          ///< minimum of the Allan deviation
+  double instability_time_s = 30;  ///< averaging time of that minimum
+  double noise_after_1s = 0;       ///< part of white noise in a mean over one second, for the Allan deviation
+  double walk = 0;                 ///< standard deviation of the rate random walk after one second, likewise
   double scale = 0, cross_axis = 0;                         ///< each drawn evenly from +-this
   Eigen::Matrix3d mount = Eigen::Matrix3d::Identity();      ///< body to sensor
   Eigen::Matrix3d soft_iron = Eigen::Matrix3d::Identity();  ///< of the sensor's axes
@@ -35,22 +35,22 @@ struct SheetSpec {
   }
 };
 
-/// A bias that wanders as 1/f noise does: three Gauss-Markov processes of one deviation, whose time constants
-/// are eight times one another. The Allan deviation of one peaks at 1.89 time constants; the three make it
-/// flat around `time_s`.
+/// A bias that wanders as 1/f noise: three Gauss-Markov processes of one standard deviation, with time
+/// constants in ratios of eight. The Allan deviation of one process has its maximum at 1.89 time constants;
+/// three make it flat around `time_s`.
 struct Wander {
   static constexpr double apart = 8, peak = 1.89;
   static constexpr std::array<double, 3> time_constants(double time_s) {
     return {time_s / peak / apart, time_s / peak, time_s / peak * apart};
   }
-  /// Allan variance of a Gauss-Markov process of deviation 1, time constant T, averaged over tau. IEEE Std
-  /// 952-1997, C.1.1.7 (with q^2 = 2/T).
+  /// Allan variance of a Gauss-Markov process of standard deviation 1, time constant T, averaged over tau.
+  /// IEEE Std 952-1997, C.1.1.7 (with q^2 = 2/T).
   static double variance(double tau, double T) {
     const double x = tau / T;
     if (x < 1e-3) return 2 * x / 3;
     return 2 / x * (1 - (3 - 4 * std::exp(-x) + std::exp(-2 * x)) / (2 * x));
   }
-  /// Allan variance that noise, walk and three processes of the deviation s have together at its lowest.
+  /// Minimum of the Allan variance of noise, walk and three processes of standard deviation s together.
   static double lowest(const SheetSpec& sheet, double s) {
     double least = std::numeric_limits<double>::infinity();
     for (int i = -40; i <= 40; ++i) {
@@ -61,7 +61,8 @@ struct Wander {
     }
     return least;
   }
-  /// The deviation of each process with which the Allan deviation has its lowest point at the data sheet's.
+  /// Standard deviation of each process for which the minimum of the Allan deviation equals that of the data
+  /// sheet.
   static double deviation(const SheetSpec& sheet) {
     const double wanted = sheet.instability * sheet.instability;
     if (lowest(sheet, 0) > wanted)
@@ -75,7 +76,7 @@ struct Wander {
   }
 };
 
-/// Three axes; a scalar stands in x.
+/// Errors of three axes; a scalar is in x.
 class Sheet {
  public:
   Sheet() : random_(0) {}
@@ -94,19 +95,19 @@ class Sheet {
   }
   bool used() const { return used_; }
 
-  /// From what there is, in body axes, to what the sensor's axes see.
+  /// Transforms a vector from body axes to the axes of the sensor, with their errors.
   Eigen::Vector3d bent(const Eigen::Vector3d& v) {
     if (wanders_ && --rest_ <= 0) wander();
     return matrix_ * v + bias();
   }
-  /// What its bandwidth lets through.
+  /// Low-pass of the bandwidth.
   Eigen::Vector3d smooth(const Eigen::Vector3d& v) {
     if (smoothing_ == 1) return v;
     last_ = fresh_ ? v : Eigen::Vector3d(last_ + smoothing_ * (v - last_));
     fresh_ = false;
     return last_;
   }
-  /// Within its range, in its digits.
+  /// Applies the range and the resolution.
   Eigen::Vector3d digits(Eigen::Vector3d v) const {
     for (int i = 0; i < 3; ++i) v[i] = digits(v[i]);
     return v;
@@ -115,7 +116,7 @@ class Sheet {
     if (spec_.step > 0) x = spec_.step * std::round(x / spec_.step);
     return spec_.range > 0 ? std::clamp(x, -spec_.range, spec_.range) : x;
   }
-  /// A calibration at rest: the bias is what makes it say `wanted` where there is `there`.
+  /// A calibration at rest: the bias is chosen so that the output is `wanted` for the input `there`.
   void calibrate(const Eigen::Vector3d& there, const Eigen::Vector3d& wanted) {
     if (used_) bias_ = wanted - matrix_ * there - wander_.rowwise().sum();
   }
@@ -126,7 +127,7 @@ class Sheet {
     wanders_ = true;
     const double s = Wander::deviation(spec_);
     const auto T = Wander::time_constants(spec_.instability_time_s);
-    // what is slow is not computed anew for each sample
+    // slow errors are not computed for each sample
     rest_ = every_ = std::max(1, static_cast<int>(std::min(T[0] / 20 / dt, 1000.0)));
     for (int k = 0; k < 3; ++k) {
       const double x = every_ * dt / T[static_cast<std::size_t>(k)];

@@ -25,7 +25,7 @@ struct StartParams {
       0, "m/s", 0, 100, "airspeed of a start in the air; 0: cruise airspeed of the airframe", setup};
 };
 
-/// From where it stands into the hand, or onto the catapult.
+/// Lifts a standing aircraft into the hand or onto the catapult.
 inline void lift(Plant& plant, double height_m, double pitch_rad) {
   RigidBody x = plant.state();
   x.p_n.z() -= height_m;
@@ -33,7 +33,7 @@ inline void lift(Plant& plant, double height_m, double pitch_rad) {
   plant.set_state(x);
 }
 
-/// `now_ns`: the beginning, before flight time 0, at which the position holds.
+/// `now_ns`: time of the position, before flight time 0.
 inline void place(Plant& plant, const Airframe& a, double origin_alt_m, const StartParams& p,
                   const LaunchParams& launching, std::int64_t now_ns) {
   const Launch launch(launching);

@@ -11,7 +11,7 @@
 
 namespace fulmar::sim {
 
-/// Ten times a second, and at once when it changes.
+/// Publishes the status ten times a second, and at once for a change.
 class StatusReport {
  public:
   StatusReport() = default;
@@ -31,7 +31,7 @@ class StatusReport {
   }
 
  private:
-  /// The texts that fcu_serial has for a flight controller.
+  /// Notices with the texts that fcu_serial has for a flight controller.
   template <class Notices>
   void report_pilot(const VehicleStatus& s, std::int64_t now_ns, Notices& notices) const {
     if (!s.armed || !last_.armed || s.override == last_.override) return;

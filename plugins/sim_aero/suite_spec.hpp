@@ -19,7 +19,7 @@ inline Eigen::Matrix3d body_to_sensor(const Mount& m) {
       .transpose();
 }
 
-/// Deviation of samples at `hz` of white noise with a one-sided density, from 0 to half of `hz`.
+/// Standard deviation of samples at `hz` of white noise with a one-sided density, from 0 to half of `hz`.
 inline double sampled(double per_root_hz, double noise, double hz) {
   return per_root_hz > 0 ? std::hypot(per_root_hz * std::sqrt(0.5 * hz), noise) : noise;
 }
@@ -109,7 +109,7 @@ inline void set_gnss(const GnssErrors& g, SensorSpec& s) {
   s.fix = g.fix;
 }
 
-/// `tick_hz` is the loop's rate: of what a faster sensor measures, one sample per tick is seen.
+/// `tick_hz`: rate of the loop. Of a faster sensor one sample per tick is used.
 inline SensorSpec spec_of(const SensorSuite& suite, double tick_hz) {
   SensorSpec s;
   s.imu_hz = suite.imu.timing.rate_hz;
@@ -148,7 +148,7 @@ inline SensorSpec spec_of(const SensorSuite& suite, double tick_hz) {
   return s;
 }
 
-/// A built-in set sends at its rates and with its receiver's latency.
+/// Sets rates and receiver latency of a built-in set.
 inline SensorSpec with_timing(SensorSpec s) {
   s.imu_timing.rate_hz = s.imu_hz;
   s.gnss_timing.rate_hz = s.gnss_hz;

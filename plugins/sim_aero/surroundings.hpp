@@ -42,7 +42,7 @@ struct Surroundings {
   GroundParams ground;
 };
 
-/// When gusts begin.
+/// Start times of gusts.
 class GustClock {
  public:
   void set(const AirParams& p, std::int64_t now_ns) {
@@ -56,7 +56,7 @@ class GustClock {
     now_ = p.gust_now;
   }
 
-  /// A gust begins at `now_ns`. One that was asked for before the flight begins with it.
+  /// True when a gust begins at `now_ns`. A gust that is requested before the flight begins with it.
   bool due(std::int64_t now_ns) {
     if (now_ns < next_ns_ && !asked_) return false;
     if (now_ns < 0) return false;
@@ -68,7 +68,7 @@ class GustClock {
  private:
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
-  /// The first at `now_ns` or later; a single one that is over comes no more.
+  /// Time of the first gust at `now_ns` or later; a single gust does not repeat.
   std::int64_t following(std::int64_t now_ns) const {
     if (every_s_ <= 0) return never;
     const double n = std::ceil((1e-9 * static_cast<double>(now_ns) - at_s_) / every_s_);

@@ -30,7 +30,7 @@ inline VehicleState truth_of(const Plant& plant, const Sensors& sensors, const O
   s.ground_speed_mps = std::hypot(x.v_n.x(), x.v_n.y());
   s.course_rad = s.ground_speed_mps > 0.1 ? std::atan2(x.v_n.y(), x.v_n.x()) : s.yaw_rad;
   s.airspeed_mps = air.Va;
-  if (air.Va > 0.5) {  // the angles of hardly any wind mean nothing
+  if (air.Va > 0.5) {  // at almost no airspeed the angles have no meaning
     s.alpha_rad = air.alpha;
     s.beta_rad = air.beta;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of set-up errors: lists of choices and the nearest name.
+// Texts of set-up errors: lists of choices and the nearest name.
 #include "core/error.hpp"
 
 #include <algorithm>
@@ -43,14 +43,14 @@ Error::Error(std::vector<Diagnostic> faults)
       several(std::move(faults)) {}
 
 std::string nearest(std::string_view name, const std::vector<std::string>& choices) {
-  constexpr std::size_t longest = 200;  // a longer name is not a slip of the pen
+  constexpr std::size_t longest = 200;  // a longer name is not a typing error
   if (name.empty() || name.size() > longest) return "";
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(1, (name.size() + 2) / 3) + 1;
   for (const std::string& choice : choices) {
     if (choice.empty() || choice.size() > longest) continue;
     const std::size_t distance = edit_distance(name, choice);
-    // every letter replaced is not "near", however short the word
+    // a word with every letter replaced is not near, however short
     if (distance >= std::max(name.size(), choice.size())) continue;
     if (distance < best_distance) {
       best = choice;

@@ -10,7 +10,7 @@
 namespace fulmar::core {
 namespace {
 
-/// What says nothing of how it flew, or differs between equal flights.
+/// Keys without a figure of the flight, or that differ between equal flights.
 bool passed_over(const std::string& key) {
   static const std::set<std::string> keys{"wall_time_s", "speedup",      "step_time_us", "not_reproducible",
                                           "log_bytes",   "log_messages", "log_sha256",   "log",
@@ -24,7 +24,7 @@ std::string words(const nlohmann::json& value) {
   return (value.is_string() ? value.get<std::string>() : value.dump()).substr(0, 40);
 }
 
-/// A figure that one of the two does not have: there it is none.
+/// Adds null for a figure that one of the two does not have.
 void add_missing(const nlohmann::json& has, const nlohmann::json& lacks, const std::string& path, bool before,
                  FigureChanges& found) {
   for (const auto& [key, value] : has.items()) {
@@ -49,7 +49,7 @@ void walk(const nlohmann::json& before, const nlohmann::json& after, const std::
         found.changed.push_back({name, was, now});
     }
   }
-  if (path.empty()) return;  // what a log and a result say of themselves
+  if (path.empty()) return;  // metadata of the log and the result
   add_missing(before, after, path, true, found);
   add_missing(after, before, path, false, found);
 }

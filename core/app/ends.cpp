@@ -18,7 +18,7 @@ std::atomic<int> signal_seen{0};
 namespace {
 
 constexpr unsigned exit_patience_s = 3;
-std::atomic<int> exit_code{-1};  // of a program that has nothing more to do
+std::atomic<int> exit_code{-1};  // of a program that has only its exit handlers left
 
 /// An exit handler or a destructor of a plugin hangs.
 void end_hanging_exit() {
@@ -34,9 +34,9 @@ void end_hanging_exit() {
 
 std::atomic<unsigned> patience_s{10};  // between a signal and the end of the flight
 
-/// The first signal ends the flight between two ticks; when the flight refuses it, the next one is the first
-/// again. One that follows an unanswered one, half a second later or more (timeout(1) sends two at once), or
-/// ten seconds without an end, ends the program: a component may be hanging.
+/// The first signal ends the flight between two ticks. When the flight rejects it, the next one counts as the
+/// first again. The program ends when ten seconds pass without an end of the flight, because a component may
+/// hang. A second signal ends it too, if it comes at least half a second later: timeout(1) sends two at once.
 void note_signal(int signal) {
   static timespec latest{};
   timespec now{};
@@ -74,7 +74,7 @@ constexpr Name endings[] = {{SIGQUIT, "SIGQUIT"}, {SIGUSR1, "SIGUSR1"},     {SIG
                             {SIGXCPU, "SIGXCPU"}, {SIGVTALRM, "SIGVTALRM"}, {SIGPROF, "SIGPROF"},
                             {SIGIO, "SIGIO"},     {SIGPWR, "SIGPWR"},       {SIGSTKFLT, "SIGSTKFLT"}};
 
-/// Those of real time have numbers: SIGRTMIN+5.
+/// Real-time signals have numbers: SIGRTMIN+5.
 void report_ending(int signal) {
   for (const Name& end : endings)
     if (end.signal == signal) return report(app_messages::ended_by_signal, end.text);
@@ -87,8 +87,7 @@ void report_ending(int signal) {
   report(app_messages::ended_by_signal, name);
 }
 
-/// Somebody wants an end at once. Another one, which comes before the words are said, does not cut them
-/// short.
+/// Handles a signal that ends the program at once. A further signal does not cut the report short.
 void on_end(int signal) {
   if (!is_the_host()) return end_by_default(signal);
   static std::atomic<bool> ending{false};
@@ -109,9 +108,9 @@ void handle_signals(bool hardware, unsigned patience) {
   for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaction(signal, &action, nullptr);
   if (!hardware) sigaction(SIGHUP, &action, nullptr);
   action.sa_handler = SIG_IGN;
-  if (hardware) sigaction(SIGHUP, &action, nullptr);  // the terminal is gone, the aircraft is not
-  sigaction(SIGPIPE, &action, nullptr);               // nobody reads what is printed
-  sigaction(SIGXFSZ, &action, nullptr);               // comes back as an error of write
+  if (hardware) sigaction(SIGHUP, &action, nullptr);  // the aircraft flies on without the terminal
+  sigaction(SIGPIPE, &action, nullptr);               // no reader of the output
+  sigaction(SIGXFSZ, &action, nullptr);               // write returns an error instead
   action.sa_handler = on_end;
   action.sa_flags = SA_NODEFER;
   for (const Name& end : endings) sigaction(end.signal, &action, nullptr);

@@ -21,12 +21,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* program_prefix = "fulmar-";
 
-/// A word that can be a command: no path, and no helper that only the host itself starts.
+/// Whether a word can be a subcommand: no path, and no helper that only the host itself starts.
 bool is_command(const std::string& word) {
   constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   static const std::vector<std::string> parts{
       "campaign", "child", "inspect", "live", "log",
-      "new",      "probe", "replay",  "save"};  // of Fulmar, no commands
+      "new",      "probe", "replay",  "save"};  // of Fulmar, not subcommands
   return !word.empty() && word[0] != '-' && word.find_first_not_of(letters) == std::string::npos &&
          std::find(parts.begin(), parts.end(), word) == parts.end();
 }
@@ -37,7 +37,9 @@ fs::path find_program(const std::string& name) {
   std::istringstream folders(list ? list : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
     const fs::path file = fs::path(folder) / name;
-    if (file.is_absolute() && can_run(file)) return file;  // what runs does not depend on where one stands
+    if (file.is_absolute() && can_run(file))
+      return file;  // the result must not depend on the working
+                    // directory
   }
   return {};
 }
@@ -76,7 +78,7 @@ const std::vector<OwnCommand>& own_commands() {
       {"speed", "fulmar-live", "set the speed of a simulation"},
       {"restart", "fulmar-live", "restart the mission of a simulation in the same host"},
       {"completion", "fulmar-live", "print a shell completion script"},
-      {"complete", "fulmar-live", ""}};  // asked by shells, in no help
+      {"complete", "fulmar-live", ""}};  // used by shells, not in the help
   return list;
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See file_names.hpp.
 #include "core/app/file_names.hpp"
 
 #include <spdlog/fmt/chrono.h>
@@ -32,7 +31,7 @@ void make_folder_of(const fs::path& file) {
 LogName free_name(const fs::path& wanted) {
   make_folder_of(wanted);
   fs::path file = wanted;
-  std::error_code none;  // a name that cannot be is nobody's; whoever makes the file says so
+  std::error_code none;  // an invalid name is free; the error comes when the file is made
   for (std::size_t n = 2; fs::exists(file, none) || !OutFile::hold(file); ++n) file = numbered(wanted, n);
   return {file, true};
 }

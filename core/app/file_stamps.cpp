@@ -13,7 +13,9 @@ std::map<fs::path, FileStamps::Stamp> FileStamps::read() const {
     std::error_code fault;
     const fs::file_time_type time = fs::last_write_time(file, fault);
     const std::uintmax_t size = fault ? 0 : fs::file_size(file, fault);
-    if (!fault) stamps[file] = {time, size};  // else it is being replaced: it will be there again
+    if (!fault)
+      stamps[file] = {time, size};  // without size or time it is being replaced and will exist
+                                    // again
   }
   return stamps;
 }
@@ -21,7 +23,7 @@ std::map<fs::path, FileStamps::Stamp> FileStamps::read() const {
 std::vector<fs::path> FileStamps::changed() {
   std::map<fs::path, Stamp> now = read();
   if (now == stamps_ || now.size() < stamps_.size()) return {};
-  for (std::map<fs::path, Stamp> before; before != now;) {  // until the files are at rest
+  for (std::map<fs::path, Stamp> before; before != now;) {  // until the files stop changing
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     before = std::exchange(now, read());
   }

@@ -26,11 +26,11 @@ std::atomic<bool> in_flight{false};
 
 namespace {
 
-std::atomic<pid_t> at_work{0};   // the process: a fork of it is none
-std::atomic<pid_t> the_host{0};  // its handlers are set, for ever
-std::atomic<pid_t> ends_it{0};   // the thread that does
+std::atomic<pid_t> at_work{0};   // process at work; a fork of it does not count
+std::atomic<pid_t> the_host{0};  // process with installed handlers, permanently
+std::atomic<pid_t> ends_it{0};   // thread that ends the host
 std::atomic<bool> after_flight{false};
-char log_name[4200], log_part[4200];  // of a flight's log, when it will be whole and until then
+char log_name[4200], log_part[4200];  // names of a flight's log: complete, and until then
 
 struct PluginCode {
   std::uintptr_t begin = 0, end = 0;
@@ -82,7 +82,7 @@ void report(std::initializer_list<const char*> words) {
   for (const char* word : words) write_last_words(word);
 }
 
-/// The log may have been moved or removed, or it is not begun.
+/// The log may have been moved or removed, or may not have begun.
 void report_end() {
   if (log_name[0] == 0 && !after_flight) return report({".\n"});
   report({". "});
@@ -104,7 +104,7 @@ void leave(int code) {
 bool is_the_host() { return getpid() == the_host; }
 
 void end_by_default(int signal) {
-  refuses_calls = false;  // it may have come in a component's step
+  refuses_calls = false;  // the signal may have interrupted a component's step
   struct sigaction usual {};
   usual.sa_handler = SIG_DFL;
   sigaction(signal, &usual, nullptr);
@@ -150,11 +150,11 @@ std::uintptr_t program_counter([[maybe_unused]] const void* context) {
 #endif
 }
 
-/// A flight may have left half a line on the terminal.
+/// A flight may have left an incomplete line on the terminal.
 const char* beginning() { return in_flight ? "\nfulmar: " : "fulmar: "; }
 
-/// Of the threads that end the host at one time the first says why, and the others wait for its end. False:
-/// it is that thread once more.
+/// When several threads end the host at the same time, the first reports the reason and the others wait for
+/// its end. Returns false when the same thread comes again.
 bool is_first_to_end() {
   const pid_t me = static_cast<pid_t>(syscall(SYS_gettid));
   pid_t first = 0;
@@ -163,7 +163,7 @@ bool is_first_to_end() {
   for (;;) pause();
 }
 
-/// A component that crashes takes the host with it; at least it is named.
+/// A component that crashes ends the host; the handler at least reports its name.
 void on_crash(int signal, siginfo_t*, void* context) {
   if (!is_the_host() || !is_first_to_end()) return end_by_default(signal);
   send_last_frame();
@@ -184,7 +184,7 @@ void on_crash(int signal, siginfo_t*, void* context) {
   end_by_default(signal);
 }
 
-/// Code of a plugin, or a thread that it has started, ends the program as a crash does.
+/// Handles an exit by a plugin's code or by a thread that it has started, in the same way as a crash.
 void on_exit() {
   if (at_work != getpid() && ends_it == 0) return;
   if (!is_the_host() || !is_first_to_end()) return;
@@ -200,7 +200,7 @@ void on_exit() {
   else
     report(in_flight ? app_messages::thread_ended_program : app_messages::plugin_ended_program);
   report_end();
-  leave(in_flight ? ExitCode::failed : ExitCode::refused);  // whatever code it asked for
+  leave(in_flight ? ExitCode::failed : ExitCode::refused);  // independent of the exit code of the plugin
 }
 
 }  // namespace
@@ -208,7 +208,7 @@ void on_exit() {
 void handle_crashes() {
   the_host = getpid();
 #ifndef FULMAR_SANITIZED                            // such a build reports crashes by itself
-  static const auto* const stack = new CrashStack;  // a plugin's last destructor may crash, too
+  static const auto* const stack = new CrashStack;  // the last destructor of a plugin may crash, too
   struct sigaction action {};
   action.sa_sigaction = on_crash;
   action.sa_flags = static_cast<int>(SA_SIGINFO | SA_ONSTACK | SA_NODEFER);
@@ -230,8 +230,8 @@ AtWork::~AtWork() { at_work = 0; }
 
 }  // namespace fulmar::core
 
-// Stand in front of the C library's, for plugins: they run no exit handler. A fork of the host ends as it
-// likes.
+// Replace the functions of the C library for plugins: these run no exit handler. A fork of the host may end
+// with them.
 extern "C" {
 void _exit(int code) {  // NOLINT(bugprone-reserved-identifier): POSIX's name
   fulmar::core::on_exit();

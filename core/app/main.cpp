@@ -17,12 +17,12 @@ namespace {
 
 using namespace fulmar::core;
 
-/// The commands of this program, in the order of the help, which names those of other programs too.
+/// Subcommands of this program, in the order of the help, which also lists those of other programs.
 struct Commands {
   CLI::App app{
       "Fulmar: a fixed-wing autopilot for research. A mission is a YAML file; its components are plugins."};
   RunArguments run;
-  std::function<int()> action;  // of the command that was given
+  std::function<int()> action;  // of the given subcommand
 
   explicit Commands(char** words) {
     app.set_version_flag("--version", "fulmar " FULMAR_VERSION);
@@ -35,13 +35,13 @@ struct Commands {
              : "\n\n" + fulmar::app_messages::programs_beside(join(programs), programs[0]).text));
     add_run(words);
     for (const OwnCommand& command : own_commands()) {
-      // what another program carries out stands here for the help alone
+      // entry in the help alone: another program executes it
       CLI::App* named = app.add_subcommand(command.word, command.says)->prefix_command();
       if (*command.says == '\0') named->group("");
     }
   }
 
-  /// Several flights, and what `--watch` flies, are the errand of another program.
+  /// Another program runs several flights and `--watch`.
   void add_run(char** words) {
     CLI::App* command = app.add_subcommand("run", "fly a mission and print its results");
     run.add(command);
@@ -60,7 +60,7 @@ struct Commands {
     return list;
   }
 
-  /// A word that is no command: the program of that name, or a sentence.
+  /// Runs the program named by a word that is no subcommand, or prints an error.
   int other_program(char** words) {
     become_extern_command(words);
     std::vector<std::string> valid = names();

@@ -39,7 +39,7 @@ void add_rows(const CLI::App& app, const std::string& path, std::string& rows) {
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->get_group().empty()) continue;
     subcommands += (subcommands.empty() ? "" : " ") + command->get_name();
-    // what another program does is told by that program
+    // another program lists its own subcommands
     if (!command->get_prefix_command())
       add_rows(*command, path + (path.empty() ? "" : " ") + command->get_name(), rows);
   }
@@ -59,7 +59,7 @@ bool is(const std::exception& fault) {
   return dynamic_cast<const Fault*>(&fault) != nullptr;
 }
 
-/// What an exception of the language means, for people; "": another library's, which has words of its own.
+/// Meaning of a C++ exception for users; "": an exception of another library, which has its own text.
 std::string meaning_of(const std::exception& fault) {
   if (is<std::length_error>(fault)) return app_messages::length_excessive().line();
   if (is<std::out_of_range>(fault)) return app_messages::element_missing().line();
@@ -113,7 +113,7 @@ nlohmann::json json_of(const Diagnostic& fault) {
           {"message", fault.line()}};
 }
 
-/// On standard output, beside the sentences on standard error.
+/// On standard output; the sentences go to standard error.
 void print_json(const Error& error) {
   nlohmann::json errors = nlohmann::json::array();
   for (const Diagnostic& fault : error.several) errors.push_back(json_of(fault));

@@ -19,7 +19,7 @@ using nlohmann::json;
 double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 json or_null(const std::string& text) { return text.empty() ? json(nullptr) : json(text); }
 
-/// Roles that more than one component has filled: the figures are of all of them.
+/// Roles that several components have filled: the figures cover all of them.
 std::vector<std::string> shared_roles(const FlightResult& result) {
   std::vector<std::string> roles;
   for (std::size_t i = 0; i < result.tenures.size(); ++i)
@@ -130,7 +130,7 @@ json tenures_json(const FlightResult& result) {
   return all;
 }
 
-/// A figure that its message calls not valid now, as `height_valid` does `height_m`, is none.
+/// False for a figure that its message marks as invalid, as `height_valid` does for `height_m`.
 bool present(const Shown& shown, const std::byte* message) {
   if (!shown.field.present(message)) return false;
   if (!shown.type) return true;

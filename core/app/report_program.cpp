@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See report_program.hpp.
 #include "core/app/report_program.hpp"
 
 #include <unistd.h>

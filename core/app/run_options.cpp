@@ -10,7 +10,7 @@
 namespace fulmar::core {
 namespace {
 
-/// What is wrong with a duration; empty: nothing.
+/// Fault of a duration; empty: none.
 std::string not_seconds(const std::string& text) {
   double x = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), x);

@@ -46,10 +46,10 @@ Session::Session(const RunOptions& options) : options_(options), start_(working_
     throw Error(app_messages::log_not_recorded(options.log_file));
   if (options.report) check_report(*options.report, graph_);
   for (const std::string& warning : graph_.source.warnings)
-    if (warning.starts_with("--")) warn(warning);  // asked on the command line, and without effect
+    if (warning.starts_with("--")) warn(warning);  // an option of the command line without effect
 }
 
-/// A flight with what has changed; when that cannot even begin, the mission of before stays.
+/// Flies with the changed files; when that cannot begin, the previous mission stays.
 std::optional<int> Session::try_fly() {
   if (!before_) return fly();
   try {
@@ -64,24 +64,21 @@ std::optional<int> Session::try_fly() {
   }
 }
 
-/// Uses whatever has changed since the last flight, if anything has.
 void Session::take_changes() {
   if (const auto changed = stamps_->changed(); !changed.empty()) reload(changed);
 }
 
-/// The next flight's.
 void Session::set_seed(std::uint64_t seed) {
   graph_.seed = seed;
   graph_.source.overrides.seed = seed;
 }
 
-/// That other one: the mission as its files are now, on the same port.
 std::optional<int> Session::fly_again() {
   if (restart_->seed) seed_ = restart_->seed;
   graph_.live.port = port_ = last_->live_port();
   take_changes();
   std::optional<int> code;
-  for (int attempt = 0; attempt < 2 && !code; ++attempt) {  // the second with what flew before
+  for (int attempt = 0; attempt < 2 && !code; ++attempt) {  // the second with the previous files
     if (seed_) set_seed(*seed_);
     code = try_fly();
   }
@@ -102,7 +99,7 @@ Graph Session::load() const {
   return graph;
 }
 
-/// A name that stays what it is, whatever folder a plugin goes to.
+/// The name must not change when a plugin changes the working directory.
 LogName Session::log_name() const {
   if (options_.no_log || !graph_.record) return {};
   if (options_.log_file.empty()) return default_log(graph_, start_, restarts());
@@ -112,8 +109,8 @@ LogName Session::log_name() const {
   return {numbered(file, results_.size() + 1)};
 }
 
-/// Where to go on: as asked; on hardware also after a host that ended in the air a short time ago, when the
-/// vehicle confirms it.
+/// Place to resume from: as requested. On hardware the flight also resumes after a host that ended in the air
+/// a short time ago, when the vehicle confirms it.
 std::optional<Resume> Session::resume() const {
   constexpr double short_time_s = 600;
   const bool asked = options_.resume.has_value();
@@ -146,7 +143,7 @@ void Session::take_priority() const {
   if (graph_.io == Io::fcu) warn(app_messages::realtime_priority_missing());
 }
 
-/// Beside what the vehicle says of itself before it is armed.
+/// Printed before the vehicle is armed, with the vehicle's own messages.
 void Session::report_log(const fs::path& log) const {
   if (graph_.io != Io::fcu) return;
   if (log.empty()) return warn(app_messages::log_off());
@@ -179,7 +176,7 @@ fs::path Session::report_file(const fs::path& log) const {
   return report_name(*options_.report, start_, log, results_.size() + 1, graph_.io == Io::fcu || restarts());
 }
 
-/// Of a flight among many only what is worth a warning.
+/// For one of many flights, only warnings are printed.
 void Session::add_output(FlightOptions& o, Progress& progress) const {
   const bool brief = options_.part.brief;
   if (!brief) o.progress = [&](const Flight& flight) { progress.show(flight); };
@@ -188,7 +185,7 @@ void Session::add_output(FlightOptions& o, Progress& progress) const {
     if (warning) progress.say("seed " + std::to_string(graph_.seed) + ": " + text, true);
   };
   if (graph_.io == Io::fcu || options_.speed > 0) print_without_waiting();
-  if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // what components print
+  if (options_.json) dup2(STDERR_FILENO, STDOUT_FILENO);  // output of components
   handle_signals(graph_.io != Io::sim, 10);
   if (!options_.json && !brief)
     say_aloud(graph_.mission + (graph_.io == Io::sim ? ": simulation" : ": flight controller") + ", seed " +
@@ -222,7 +219,7 @@ int Session::fly() {
   add_output(o, progress);
   take_priority();
   const FlightResult result = fly_with(o);
-  const bool alone = restarts() || last_->restart();  // a flight cut short compares with none
+  const bool alone = restarts() || last_->restart();  // an interrupted flight is not compared
   restart_ = last_->restart();
   alarm(0);
   progress.clear();
@@ -235,7 +232,7 @@ int Session::fly() {
              : code;
 }
 
-/// The last flight, in a line when there are many.
+/// Prints the last flight, in one line when there are many.
 void Session::print(const FlightResult& result, bool alone) const {
   std::string text =
       !options_.part.brief ? result_table(graph_, *last_, result) : short_result(results_.back()) + "\n";
@@ -253,7 +250,7 @@ int Session::code_of(const FlightResult& result) const {
              : app_messages::log_incomplete(result.log.error, result.log.dropped, result.log.file.string()));
   else if (result.log.dropped > 0)
     warn(app_messages::log_with_gaps(result.log.dropped));
-  if (!whole) return ExitCode::failed;  // however the flight ended
+  if (!whole) return ExitCode::failed;  // for every outcome of the flight
   if (restarts()) return guarded(result) ? ExitCode::guarded : ExitCode::done;
   if (result.outcome == Outcome::interrupted) return ExitCode::interrupted;
   if (result.outcome == Outcome::failed || result.outcome == Outcome::aborted || !has_begun(result))
@@ -268,7 +265,7 @@ std::vector<fs::path> Session::files() const {
   return all;
 }
 
-/// The newcomers among the components are tried in a child on what their predecessors saw last.
+/// Tests the changed components in a child, with the recorded inputs of their predecessors.
 void Session::rehearse_changes(const Graph& next) const {
   for (const Component& c : next.components) {
     const auto was = std::find_if(graph_.components.begin(), graph_.components.end(),
@@ -303,7 +300,7 @@ bool Session::reload(const std::vector<fs::path>& changed) {
   }
 }
 
-/// The newcomers fly. The plugins that they replace are unloaded.
+/// The changed components fly. Unloads the plugins that they replace.
 void Session::forget_before() {
   if (!before_) return;
   std::vector<std::shared_ptr<Library>> libraries;

@@ -19,17 +19,17 @@ namespace {
 constexpr int room_bytes = 256 * 1024;
 constexpr int patience_ms = 1000;
 
-// The thread outlives everything; so what it works on has no destructor.
-std::atomic<int> reader{STDERR_FILENO};  // who read standard error before
-std::atomic<int> left{-1};               // the end of the pipe that the words come out of
-std::atomic<bool> passing{false};        // the thread has words in its hands
+// The thread lives until the process ends; so its data has no destructor.
+std::atomic<int> reader{STDERR_FILENO};  // previous target of standard error
+std::atomic<int> left{-1};               // the read end of the pipe
+std::atomic<bool> passing{false};        // the thread is forwarding text
 
 bool wait_for(int descriptor, short event, int limit_ms) noexcept {
   pollfd p{descriptor, event, 0};
   return poll(&p, 1, limit_ms) > 0 && (p.revents & event) != 0;
 }
 
-/// As much as there is room for, and all of it: false when there is none for so long, or nobody any more.
+/// Writes all of the data. Returns false when there is no room for the given time, or no reader.
 bool write_all(int descriptor, const char* data, std::size_t size, int limit_ms) noexcept {
   while (size > 0) {
     if (!wait_for(descriptor, POLLOUT, limit_ms)) return false;
@@ -46,7 +46,7 @@ bool write_all(int descriptor, const char* data, std::size_t size, int limit_ms)
 void pass_on() noexcept {
   static char buffer[4096];
   while (true) {
-    if (!wait_for(left, POLLIN, -1)) return;  // somebody has closed standard error
+    if (!wait_for(left, POLLIN, -1)) return;  // standard error has been closed
     passing = true;
     const ssize_t n = read(left, buffer, sizeof buffer);
     if (n > 0) write_all(reader, buffer, static_cast<std::size_t>(n), -1);
@@ -65,7 +65,7 @@ void print_without_waiting() {
   if (left >= 0) return;
   int ends[2];
   const int own = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-  if (own < 0) return;  // there is no standard error, and so nobody to wait for
+  if (own < 0) return;  // there is no standard error, and so no reader
   if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) {
     close(own);
     return;

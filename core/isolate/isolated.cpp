@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's side of an isolated component: copies in, rings, waits with an eye on the child's life, copies
+// The host's side of an isolated component: copies in, rings, waits while it checks the child's life, copies
 // out.
 #include "core/isolate/isolated.hpp"
 
@@ -22,7 +22,7 @@
 namespace fulmar::core {
 namespace {
 
-// One CPU: whoever spins keeps the other from running.
+// On a single CPU a busy wait would keep the other process from running.
 std::int64_t useful_spin(std::int64_t wanted_ns) {
   cpu_set_t cpus;
   CPU_ZERO(&cpus);
@@ -48,14 +48,14 @@ std::vector<std::string> words(const IsolatedOptions& options) {
           std::to_string(options.seed)};
 }
 
-// The host's own; when that is a test or a tool elsewhere, FULMAR_CHILD says where.
+// The host's own program, or the path in FULMAR_CHILD when a test or a tool in another folder runs.
 std::string child_program() {
   const std::string program = own_program("fulmar-child", "FULMAR_CHILD").string();
   if (program.empty()) throw Error(isolate_messages::child_program_missing());
   return program;
 }
 
-// What a component prints goes to the host's standard error, so that the host's output stays its own.
+// A component's standard output goes to the host's standard error, apart from the host's output.
 ChildFiles child_files(const SharedMemory& memory) {
   const int error = ::fcntl(STDERR_FILENO, F_GETFD) < 0 ? -1 : STDERR_FILENO;
   return {-1, error, error, memory.descriptor(), false};
@@ -103,7 +103,7 @@ Isolated::Isolated(const ComponentInfo& info, const IsolatedOptions& options)
   refuse_setup();
 }
 
-// The child answers call 1, its own set-up, without being asked.
+// The child answers call 1, its own set-up, without a request.
 void Isolated::prepare() {
   options_.spin_ns = useful_spin(options_.spin_ns);
   ControlBlock& c = *new (memory_.data()) ControlBlock{};
@@ -150,7 +150,7 @@ std::string Isolated::end() {
 
 // ---- copies in and out
 
-// What the child holds already is not copied again: a plan of a thousand items comes once.
+// Skips a sample that the child already has: a plan of a thousand items is copied once.
 void Isolated::put_input(const Place& place, SharedInput& to, const fulmar_input& from,
                          Sample& copied) noexcept {
   to = head_of(from);
@@ -294,7 +294,7 @@ std::uint32_t Isolated::call(Call what, std::int64_t limit_ns, fulmar_error* err
   if (!alive_) return dead(error);
   ControlBlock& c = control();
   c.call = what;
-  c.request.store(++number_);  // ordered before the look at child_sleeps, as the child's two are
+  c.request.store(++number_);  // sequentially consistent, before the read of child_sleeps, as in the child
   if (c.child_sleeps.load() != 0) futex_wake(c.request);
   if (!wait(limit_ns)) return dead(error);
   if (error && c.has_error != 0) {
@@ -304,7 +304,7 @@ std::uint32_t Isolated::call(Call what, std::int64_t limit_ns, fulmar_error* err
   return c.status;
 }
 
-// The child's crash handler wakes the host; of an exit or a kill the host learns by asking between naps.
+// The child's crash handler wakes the host. The host detects an exit or a kill by polling between sleeps.
 bool Isolated::wait(std::int64_t limit_ns) noexcept {
   constexpr std::int64_t first_nap_ns = 200'000, max_nap_ns = 1'000'000;
   ControlBlock& c = control();
@@ -315,7 +315,7 @@ bool Isolated::wait(std::int64_t limit_ns) noexcept {
     const std::uint32_t seen = c.answer.load();
     if (seen != number_) futex_wait(c.answer, seen, nap_ns);
     c.host_sleeps.store(0, std::memory_order_relaxed);
-    // before the look at the answer: the last act of a child may be to answer
+    // before the read of the answer: a child may answer just before its end
     const bool ended = has_ended();
     if (answered()) return true;
     if (ended) {
@@ -347,7 +347,7 @@ void Isolated::die(const char* death, bool hung) noexcept {
 
 bool Isolated::has_ended() noexcept { return control().signal.load() != 0 || process_.ended(); }
 
-// Read only after the end is certain: a crashing child writes its signal last.
+// Call it only after the child has ended: a crashing child writes its signal last.
 void Isolated::note_death() noexcept {
   int signal = static_cast<int>(control().signal.load());
   if (signal == 0) signal = process_.signal();

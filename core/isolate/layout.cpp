@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the ports and parameters of an isolated component lie in the memory that host and child share.
+// Layout of the ports and parameters of an isolated component in the shared memory.
 #include "core/isolate/shared.hpp"
 #include "core/loader/fnv.hpp"
 
@@ -30,7 +30,7 @@ Place place(Room& room, const Port& port, bool single) {
   return p;
 }
 
-// What host and child have to agree on, of ports and of parameters.
+// Hashes the tables of ports and parameters, on which host and child must agree.
 template <class Item>
 void sign(Fnv& signature, const std::vector<Item>& items) {
   signature.number(items.size());

@@ -19,7 +19,7 @@ namespace {
   throw Error(isolate_messages::memory_not_shared(size, std::strerror(errno)));
 }
 
-// All pages at once, so that none is missing in flight.
+// Populates all pages at once, so that no page fault occurs in flight.
 Mapping map(int descriptor, std::size_t at, std::size_t size) {
   void* data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, descriptor,
                       static_cast<off_t>(at));
@@ -31,7 +31,7 @@ Mapping map(int descriptor, std::size_t at, std::size_t size) {
 
 void Unmap::operator()(std::byte* data) const noexcept { ::munmap(data, size); }
 
-// Through the other constructor, so that a fault here closes what is open.
+// Delegates, so that the destructor closes the descriptor after a fault here.
 SharedMemory::SharedMemory(std::size_t size) : SharedMemory() {
   descriptor_ = ::memfd_create("fulmar-child", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (descriptor_ < 0 || ::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) no_memory(size);

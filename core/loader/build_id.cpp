@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view note_owner("GNU\0", 4);
 
-// Notes are padded to 4 bytes, whatever the word size: so do gcc and clang write the build id.
+// Notes are padded to 4 bytes, whatever the word size: gcc and clang write the build id so.
 std::uint64_t padded(std::uint32_t size) { return (std::uint64_t{size} + 3) & ~std::uint64_t{3}; }
 
 }  // namespace

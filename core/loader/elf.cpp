@@ -9,19 +9,19 @@
 
 #include "core/loader/messages.hpp"
 
-// What this program is itself built for: its own header in memory, where the linker says.
+// Target of this program: its own ELF header in memory, at the linker's symbol.
 extern "C" const ElfW(Ehdr) __ehdr_start __attribute__((visibility("hidden")));  // NOLINT
 
 namespace fulmar::core {
 namespace {
 
-// Bytes that the headers promise, or 0 when the program headers do not fit into the file themselves.
+// File length that the headers need, or 0 when the program headers are outside the file.
 std::uint64_t promised_bytes(std::span<const std::byte> bytes) {
   ElfW(Ehdr) header{};
   if (!read_header(bytes, 0, header) || header.e_phentsize != sizeof(ElfW(Phdr)) || header.e_phnum == 0)
     return 0;
   if (header.e_shoff > UINT64_MAX / 2) return 0;
-  // the section headers usually come last: a copy that is still being written lacks them
+  // the section headers usually come last: an incomplete copy lacks them
   std::uint64_t end = header.e_shoff + std::uint64_t{header.e_shnum} * header.e_shentsize;
   for (std::uint64_t i = 0; i < header.e_phnum; ++i) {
     ElfW(Phdr) segment{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a plugin's entry symbol: the ABI version first, then every component, port and parameter, none
-// believed unchecked.
+// Reads a plugin's entry symbol: the ABI version first, then every component, port and parameter, each
+// checked.
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -63,7 +63,7 @@ std::vector<Port> read_ports(TableReader& tables, const fulmar_port* from, std::
   return ports;
 }
 
-// Numbers have a range; their default lies in it.
+// The default of a number must lie in its range.
 void check_numbers(const ParamInfo& param, const std::string& what) {
   const int count = param.kind == FULMAR_VECTOR ? 3 : 1;
   if (!(param.min <= param.max)) throw Error(loader_messages::range_empty(what));
@@ -206,7 +206,7 @@ PluginInfo read_entry(const fulmar_plugin& entry, const std::string& file_name) 
   const std::size_t size = info.abi_minor >= 1 ? sizeof entry : offsetof(fulmar_plugin, open_script);
   if (!tables.memory().readable(&entry, size))
     throw Error(located(file_name, loader_messages::entry_outside_memory()));
-  fulmar_plugin copy{};  // a compiler may read all of what a reference refers to: an older entry ends earlier
+  fulmar_plugin copy{};  // a compiler may read the whole referenced object, but an older entry is shorter
   std::memcpy(&copy, &entry, size);
   try {
     read_plugin(tables, copy, info);

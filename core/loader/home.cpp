@@ -23,7 +23,7 @@ fs::path running_program() {
   return fs::read_symlink("/proc/self/exe", fault);
 }
 
-// The file that holds this function: the program, or a module of another program.
+// The file that contains this function: the program, or a module of another program.
 fs::path own_file() {
   Dl_info info{};
   if (::dladdr(reinterpret_cast<const void*>(&home_folders), &info) == 0 || info.dli_fname == nullptr)

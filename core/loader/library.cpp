@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens a plugin: file -> ELF header -> private copy -> probing child -> this process. What can go wrong is
-// refused at the earliest of these.
+// Opens a plugin: file -> ELF header -> private copy -> probing child -> this process. Each fault is rejected
+// in the earliest possible stage.
 #include "core/loader/library.hpp"
 
 #include <cxxabi.h>
@@ -32,7 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What this process has loaded, and what a child of this process has found good. Both by SHA-256.
+// Libraries loaded in this process, and files that a child of this process has accepted. Keys are SHA-256.
 struct Registry {
   std::mutex mutex;
   std::map<std::string, std::weak_ptr<Library>> loaded;
@@ -40,7 +40,7 @@ struct Registry {
   struct Owner {
     std::string key, name;
   };
-  std::map<std::string, Owner> unique;  // of each unique symbol; it is never unloaded
+  std::map<std::string, Owner> unique;  // owner of each unique symbol; its library is never unloaded
 };
 
 Registry& registry() {
@@ -48,7 +48,7 @@ Registry& registry() {
   return one;
 }
 
-// Once read, the bytes are hashed, checked and copied: a file that changes meanwhile changes nothing.
+// The bytes are read once, then hashed, checked and copied: a later change of the file has no effect.
 std::vector<std::byte> read_file(const fs::path& file, const std::string& name) {
   constexpr std::uintmax_t largest = std::uintmax_t{1} << 30;
   std::error_code fault;
@@ -65,8 +65,8 @@ std::vector<std::byte> read_file(const fs::path& file, const std::string& name) 
   return bytes;
 }
 
-// Throws unless a child has loaded it. `host`: of a script, the copy of the plugin that opens it, else empty;
-// `file`: where the author keeps it.
+// Throws unless a child has loaded it. `host`: copy of the plugin that opens a script, else empty; `file`:
+// original path of the script.
 void try_in_child(const fs::path& copy, const std::string& key, const std::string& name, const fs::path& host,
                   const fs::path& file) {
   if (registry().probed.count(key) > 0) return;
@@ -86,7 +86,7 @@ std::string plain_name(const std::string& symbol) {
   return plain ? plain.get() : symbol;
 }
 
-/// Throws when another file that was loaded has one of the unique symbols: this one would get its data.
+/// Throws when another loaded file has one of the unique symbols: this one would share its data.
 void refuse_shared(const std::vector<std::string>& symbols, const std::string& key, const std::string& name) {
   for (const std::string& symbol : symbols)
     if (const auto owner = registry().unique.find(symbol);
@@ -99,7 +99,7 @@ void refuse_shared(const std::vector<std::string>& symbols, const std::string& k
 struct Library::Handle {
   SharedObject file;
   const fulmar_plugin* plugin = nullptr;  // of the file
-  std::shared_ptr<Library> host;          // of a script, which is closed before its host
+  std::shared_ptr<Library> host;          // plugin that hosts a script; closed after the script
   std::unique_ptr<Script> script;
   std::vector<fulmar_component> functions;
 
@@ -146,7 +146,7 @@ std::shared_ptr<Library> Library::open(const fs::path& file) {
     throw Error(loader_messages::file_fault(name, fault));
   std::error_code ignored;
   const fs::path place = fs::absolute(file, ignored);
-  // of a script the place too: it may load what lies beside it
+  // a script's folder is part of the key: the script may load files beside it
   const std::string key = script ? sha256 + " " + place.string() : sha256;
   const std::lock_guard lock(registry().mutex);
   if (auto known = registry().loaded[key].lock()) return known;
@@ -202,9 +202,11 @@ void Library::unload(std::shared_ptr<Library>&& library) {
   const bool script = last->handle_->script != nullptr, hosts = !script && last->handle_->hosts_scripts();
   last->handle_->close(name);
   if (script || hosts)
-    return;  // an interpreter cannot be unloaded; what a script has given back, it frees itself
+    return;  // an interpreter cannot be unloaded; a closed script is freed by its host plugin
   for (const ComponentInfo& component : last->info_.components)
-    if (component.resident) return;  // it says so itself, and is swapped by its own means
+    if (component.resident)
+      return;  // the component declares that it is resident; its swap does not unload
+               // the file
   if (is_mapped(last->copy_)) throw Error(loader_messages::plugin_still_resident(name));
 }
 

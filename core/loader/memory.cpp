@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What this process can read and execute. Format of /proc/self/maps: proc(5), "begin-end perms ...",
+// Readable and executable memory of this process. Format of /proc/self/maps: proc(5), "begin-end perms ...",
 // ascending.
 #include "core/loader/memory.hpp"
 

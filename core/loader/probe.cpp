@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// Beside this program; when that is a test or a tool elsewhere, FULMAR_PROBE says where.
+// Beside this program, or the path in FULMAR_PROBE when a test or a tool in another folder runs.
 fs::path probe_program() {
   if (const fs::path program = own_program("fulmar-probe", "FULMAR_PROBE"); !program.empty()) return program;
   std::error_code fault;
@@ -41,7 +41,7 @@ double time_limit_s() {
   return chosen > 0 && chosen <= 600 ? chosen : 5;
 }
 
-/// That a process has used, with all its threads; 0 when it has ended, or has not begun.
+/// CPU time of all threads of a process; 0 when it has ended or has not begun.
 double cpu_s(pid_t pid) {
   clockid_t clock{};
   timespec used{};
@@ -49,12 +49,12 @@ double cpu_s(pid_t pid) {
   return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-/// On a machine that is busy with other things a good plugin gets little of its time: what counts is the time
-/// of the CPU, and the clock on the wall only for a plugin that waits for something that never comes.
+/// On a busy machine a good plugin gets little CPU time. So CPU time is the limit, and the wall clock only
+/// stops a plugin that waits forever.
 constexpr double wall_per_cpu = 4;
 
 struct Pipe {
-  int ends[2];  // reading, writing
+  int ends[2];  // read end, write end
   Pipe() {
     if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(loader_messages::pipe_not_created(std::strerror(errno)));
   }
@@ -67,13 +67,13 @@ struct Pipe {
 };
 
 struct Outcome {
-  std::string report, words;  // of the probe, and the last that anything wrote to its standard error
+  std::string report, words;  // output of the probe, and the tail of its standard error
   int signal = 0, exit_code = 0;
   bool in_time = false;
-  std::string limit;  // that it did not keep
+  std::string limit;  // the limit that it exceeded
 };
 
-/// What comes out of a pipe: the beginning of it, or its end.
+/// Text from a pipe: its beginning or its end.
 class Stream {
  public:
   enum class Keeps : unsigned char { beginning, end };
@@ -81,12 +81,12 @@ class Stream {
     ::fcntl(pipe_.ends[0], F_SETFL, O_NONBLOCK);
   }
   int writing() const { return pipe_.ends[1]; }
-  /// -1 when it has ended.
+  /// -1 after the end.
   int reading() const { return open_ ? pipe_.ends[0] : -1; }
   void leave_writing() { ::close(std::exchange(pipe_.ends[1], -1)); }
-  /// False when there was nothing.
+  /// Returns false when there was no data.
   bool read_some() {
-    constexpr std::size_t longest = 16384;  // a plugin may have found the pipe and write to it
+    constexpr std::size_t longest = 16384;  // a plugin may have found the pipe and may write to it
     char piece[1024];
     const ssize_t n = ::read(pipe_.ends[0], piece, sizeof piece);
     if (n > 0 && (keeps_ == Keeps::end || text_.size() < longest))
@@ -95,7 +95,7 @@ class Stream {
     open_ = n > 0 || (n < 0 && (errno == EAGAIN || errno == EINTR));
     return n > 0;
   }
-  /// What is in it now, however much a process that still writes adds.
+  /// Reads the present content, without the output that a running process adds later.
   void read_rest() {
     for (int i = 0; i < 1000 && read_some(); ++i) continue;
   }
@@ -107,13 +107,13 @@ class Stream {
   bool open_ = true;
 };
 
-/// The one that loads the plugin, a child of the probe; 0: it has not said so yet.
+/// Process that loads the plugin, a child of the probe; 0: not yet reported.
 pid_t loading_process(const std::string& report) {
   const std::size_t at = report.find(report_process);
   return at == std::string::npos ? 0 : std::atoi(report.c_str() + at + report_process.size());
 }
 
-/// The probe ends what the plugin has started, if it is given the time.
+/// Gives the probe time to end the processes that the plugin has started.
 void end_probe(Process& child) {
   ::kill(child.pid(), SIGTERM);
   child.wait(std::chrono::seconds(1));
@@ -134,7 +134,7 @@ Outcome run_probe(const std::vector<std::string>& words, double limit_s) {
     if (cpu_s(loading_process(outcome.report)) > limit_s)
       outcome.limit = number_text(limit_s) + " s of the CPU";
     if (Clock::now() > deadline) outcome.limit = number_text(wall_per_cpu * limit_s) + " s";
-    // the pipe closes when the child ends: no need to wait long after that, and none to sleep before
+    // the pipe closes at the child's end: then a short wait is enough
     pollfd waiting[] = {{report.reading(), POLLIN, 0}, {error.reading(), POLLIN, 0}};
     if (::poll(waiting, 2, report.reading() >= 0 ? 10 : 1) <= 0) continue;
     if (waiting[0].revents != 0) report.read_some();
@@ -152,15 +152,16 @@ Outcome run_probe(const std::vector<std::string>& words, double limit_s) {
 
 namespace {
 
-/// ": what(): no licence": the last line that says something, of what the plugin and the system wrote while
-/// they failed.
+/// ": what(): no licence": the last line with content from the plugin and the system after the failure.
 std::string last_line(std::string_view words) {
   constexpr std::size_t longest = 200;
   while (!words.empty()) {
     const std::size_t end = words.find_last_of("\r\n");
     const std::string_view line = trimmed(words.substr(end == std::string_view::npos ? 0 : end + 1));
     words = words.substr(0, end == std::string_view::npos ? 0 : end);
-    if (line.empty() || line.ends_with("==ABORTING")) continue;  // a sanitizer's summary is before it
+    if (line.empty() || line.ends_with("==ABORTING"))
+      continue;  // the sanitizer's summary is the previous
+                 // line
     return ": " + for_terminal(std::string(line.substr(0, longest)));
   }
   return "";

@@ -24,15 +24,16 @@ pid_t spawn(const std::string& program, std::vector<std::string> words, const Ch
     if (from < 0)
       posix_spawn_file_actions_addopen(&actions, to, "/dev/null", to == STDIN_FILENO ? O_RDONLY : O_WRONLY,
                                        0);
-    else if (from != to || ::fcntl(from, F_GETFD) >= 0)  // of the same number: keeps it over the exec
+    else if (from != to || ::fcntl(from, F_GETFD) >= 0)  // same number: keeps the descriptor open over the
+                                                         // exec
       posix_spawn_file_actions_adddup2(&actions, from, to);
   };
-  if (files.third >= 0) place(files.third, 3);  // first: it may be one of the standard three
+  if (files.third >= 0) place(files.third, 3);  // first: it may be one of 0, 1 and 2
   place(files.out, STDOUT_FILENO);
   place(files.error, STDERR_FILENO);
   place(files.in, STDIN_FILENO);
 #if __GLIBC_PREREQ(2, 34)
-  // serial ports and sockets are none of its business
+  // the child must not inherit serial ports and sockets
   if (!files.others) posix_spawn_file_actions_addclosefrom_np(&actions, files.third >= 0 ? 4 : 3);
 #endif
   posix_spawnattr_t attributes;
@@ -69,7 +70,7 @@ bool Process::ended() noexcept {
   siginfo_t how{};
   if (::waitid(P_PID, static_cast<id_t>(pid_), &how, WEXITED | WNOHANG | WNOWAIT) == 0) {
     if (how.si_pid == 0) return false;
-    ::kill(-pid_, SIGKILL);  // while the zombie still keeps the number of the group
+    ::kill(-pid_, SIGKILL);  // while the zombie still reserves the number of the group
     ::waitid(P_PID, static_cast<id_t>(pid_), &how, WEXITED | WNOHANG);
     (how.si_code == CLD_EXITED ? exit_code_ : signal_) = how.si_status;
   } else if (errno == EINTR) {
@@ -82,7 +83,7 @@ bool Process::ended() noexcept {
 void Process::kill() noexcept {
   if (reaped_) return;
   ::kill(-pid_, SIGKILL);
-  ::kill(pid_, SIGKILL);  // it may have left its group
+  ::kill(pid_, SIGKILL);  // the child may have left its group
 }
 
 bool Process::wait(std::chrono::nanoseconds limit) noexcept {

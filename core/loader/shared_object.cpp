@@ -81,7 +81,7 @@ bool is_mapped(const std::filesystem::path& file) {
   boost::dll::shared_library open;
   boost::dll::fs::error_code fault;
   open.load(file, static_cast<boost::dll::load_mode::type>(RTLD_LAZY | RTLD_NOLOAD),
-            fault);  // Boost.DLL passes on a mode that it does not name
+            fault);  // Boost.DLL passes on a mode that it has no name for
   return !fault;
 }
 

@@ -23,16 +23,16 @@ namespace fulmar::core {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t max_copies = 128;             // the least recently used go
+constexpr std::size_t max_copies = 128;             // the least recently used copies are removed
 constexpr const char* suffixes[] = {".so", ".py"};  // of what is kept
 
-// Throws with what the system says.
+// Throws with the system's reason.
 [[noreturn]] void fail(const Diagnostic& what) {
   throw Error(located(what, loader_messages::store_fault(std::strerror(errno))));
 }
 
-// Throws when the folder belongs to somebody else or others may put files there: they could swap the code
-// between check and load.
+// Throws when another user owns the folder or may write to it: that user could swap the code between check
+// and load.
 void check_private(const fs::path& folder) {
   struct stat info {};
   if (::lstat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode))
@@ -42,7 +42,7 @@ void check_private(const fs::path& folder) {
     throw Error(loader_messages::store_not_private(folder.string()));
 }
 
-// Makes the folder with mode 0700 unless it is there. False when that is impossible.
+// Makes the folder with mode 0700 unless it exists. Returns false when that is impossible.
 bool make_private(const fs::path& folder) {
   std::error_code fault;
   if (fs::exists(folder, fault)) return true;
@@ -88,7 +88,7 @@ fs::path store_folder() {
   return temporary.path;
 }
 
-// Under a temporary name first: nobody ever sees half a file.
+// Writes a temporary file and renames it, so that no process reads an incomplete copy.
 void write_copy(const fs::path& path, std::span<const std::byte> bytes) {
   std::string name = path.string() + ".XXXXXX";
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
@@ -120,7 +120,7 @@ bool holds(const fs::path& copy, const std::string& sha256) {
 
 void mark_used(const fs::path& copy) { ::utimensat(AT_FDCWD, copy.c_str(), nullptr, 0); }
 
-// A library that is mapped keeps its file alive; what is removed here is only the name.
+// Removes only the name: a mapped library keeps its file.
 void prune(const fs::path& folder) {
   std::error_code fault;
   std::vector<std::pair<fs::file_time_type, fs::path>> copies;

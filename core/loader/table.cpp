@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's own copy of a type table, and the checks that make everything built on it safe: fields inside
-// the struct, aligned, no overlap.
+// Copies a type table and checks it: fields inside the struct, aligned, no overlap. All later code relies on
+// these checks.
 #include "core/loader/table.hpp"
 
 #include <bit>
@@ -145,7 +145,7 @@ TypePtr TableReader::type(const fulmar_type* from, const std::string& what) {
     throw Error(located(what, loader_messages::type_outside_memory()));
   if (const auto known = done_.find(from); known != done_.end()) return known->second;
   if (depth_ >= deepest) throw Error(loader_messages::type_too_deep(what, deepest));
-  ++depth_;  // not undone by an exception: a reader that has thrown is not used again
+  ++depth_;  // an exception does not restore it: a reader is not used after a throw
   TypePtr result = read_type(*from, what);
   --depth_;
   done_.emplace(from, result);

@@ -14,7 +14,7 @@
 namespace fulmar::core {
 namespace {
 
-/// In the mangled form: of std and __gnu_cxx, or a static in one of their functions.
+/// Whether a mangled name is in std or __gnu_cxx, or is a static in one of their functions.
 bool of_standard_library(std::string_view name) {
   if (!name.starts_with("_Z")) return false;
   name.remove_prefix(2);
@@ -28,7 +28,7 @@ std::string text_at(std::span<const std::byte> file, std::uint64_t at) {
   return {text, strnlen(text, file.size() - at)};
 }
 
-/// Section `i`; false when it is not there.
+/// Section `i`; false when it does not exist.
 bool section(std::span<const std::byte> file, const ElfW(Ehdr) & header, std::uint64_t i, ElfW(Shdr) & out) {
   return i < header.e_shnum && read_header(file, header.e_shoff + i * sizeof out, out);
 }

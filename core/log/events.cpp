@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See events.hpp.
 #include "core/log/events.hpp"
 
 #include <cstdio>
@@ -77,7 +76,7 @@ Field array_field(const char* name, fulmar_kind kind, std::size_t offset, std::s
   return field;
 }
 
-/// `offset` is that of its count.
+/// `offset`: of the list's count.
 Field list_field(const char* name, fulmar_kind kind, std::size_t offset, std::size_t items,
                  std::size_t count) {
   Field field = array_field(name, kind, offset, count);
@@ -132,7 +131,7 @@ const TypePtr& host_type<CommandNote>() {
   return type;
 }
 
-/// Names, kinds and order are those of ROS 2: viewers know the type by its name.
+/// Names, kinds and order are those of ROS 2: viewers identify the type by its name.
 template <>
 const TypePtr& host_type<LogLine>() {
   using L = LogLine;
@@ -212,15 +211,14 @@ void make_printable(char* text) noexcept {
                                                          : -1;
     int there = 0;
     while (there < more && (p[there + 1] & 0xc0) == 0x80) ++there;
-    const bool too_long =
-        (*p == 0xe0 && p[1] < 0xa0) || (*p == 0xf0 && p[1] < 0x90);  // a shorter form exists
+    const bool too_long = (*p == 0xe0 && p[1] < 0xa0) || (*p == 0xf0 && p[1] < 0x90);  // overlong encoding
     const bool no_character = (*p == 0xed && p[1] >= 0xa0) || *p > 0xf4 || (*p == 0xf4 && p[1] >= 0x90);
     if (more < 0 || there < more || too_long || no_character) {
       *p++ = '?';
       continue;
     }
     if (*p < 0x20 || *p == 0x7f) *p = ' ';
-    if (*p == 0xc2 && p[1] < 0xa0) p[0] = p[1] = ' ';  // U+0080 to U+009F: a terminal obeys them, too
+    if (*p == 0xc2 && p[1] < 0xa0) p[0] = p[1] = ' ';  // U+0080 to U+009F: control characters for a terminal
     p += more + 1;
   }
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See mcap.hpp. A schema and a channel stand in the chunk of the channel's first message, and again in the
-// summary.
+// A schema and a channel are written to the chunk of the channel's first message, and again to the summary.
 #include "core/log/mcap.hpp"
 
 #include <zstd.h>
@@ -32,13 +31,13 @@ struct McapWriter::Impl {
   std::vector<Channel> channels;  // id = index
   std::unique_ptr<ZSTD_CCtx, ZstdFree> zstd{ZSTD_createCCtx()};
 
-  Bytes chunk;                    // the open one
-  std::size_t message_start = 0;  // in the chunk, of the message that was begun last
+  Bytes chunk;                    // the open chunk
+  std::size_t message_start = 0;  // in the chunk, of the current message
   std::uint64_t chunk_messages = 0;
   Span chunk_span;
 
-  Bytes block;                // what goes to the file in one piece
-  mcap::Totals file;          // what is in it
+  Bytes block;                // next bytes for the file, in one write
+  mcap::Totals file;          // content of the file
   std::uint64_t offered = 0;  // messages begun
 
   explicit Impl(const Options& o) : options(o) {
@@ -60,7 +59,7 @@ struct McapWriter::Impl {
     throw Error(why);
   }
 
-  /// What could not be written whole is left as if it had been cut off: no summary, no name.
+  /// Leaves a file with a failed write in the state of an interrupted one: no summary, no final name.
   Result end_file() {
     if (!broken()) {
       block.clear();
@@ -70,7 +69,8 @@ struct McapWriter::Impl {
     Result result;
     result.file = out->name();
     result.error = out->error();
-    if (std::error_code none; broken() && !std::filesystem::exists(result.file, none)) {  // it was removed
+    if (std::error_code none;
+        broken() && !std::filesystem::exists(result.file, none)) {  // the file was removed
       file.messages = 0;
       result.file.clear();
     }
@@ -81,7 +81,7 @@ struct McapWriter::Impl {
     return result;
   }
 
-  /// A message that comes next in the chunk.
+  /// Adds the next message of the chunk to the index.
   void note_message(std::uint16_t channel, std::uint64_t log_ns) {
     if (!channels[channel].begun) introduce(channel);
     channels[channel].index.push_back({log_ns, chunk.size()});
@@ -89,7 +89,7 @@ struct McapWriter::Impl {
     ++chunk_messages;
   }
 
-  /// The block is an attachment or metadata, whole.
+  /// Stores `block`, a complete attachment or metadata record.
   void store_extra() {
     const std::uint64_t place = out->size();
     if (!out->append(block.data(), block.size())) return;
@@ -110,14 +110,14 @@ struct McapWriter::Impl {
     index.end(start);
   }
 
-  /// Before a message: ends the chunk that it does not belong to any more.
+  /// Ends the chunk if the message does not belong to it.
   void make_place(std::uint64_t log_ns) {
     const bool long_enough =
         chunk_messages > 0 && log_ns >= chunk_span.first + static_cast<std::uint64_t>(options.chunk_ns);
     if (long_enough || chunk.size() >= options.chunk_bytes) flush();
   }
 
-  /// The schema and channel records that a channel's first message needs before it.
+  /// Writes the schema and channel records before a channel's first message.
   void introduce(std::uint16_t id) {
     Channel& channel = channels[id];
     if (channel.schema > 0) {
@@ -129,7 +129,7 @@ struct McapWriter::Impl {
     channel.begun = true;
   }
 
-  /// Compresses the open chunk to the end of `block`. False when that cannot be.
+  /// Compresses the open chunk to the end of `block`. Returns false on failure.
   bool compress() {
     if (options.zstd_level == 0) {
       block.append(chunk);

@@ -61,7 +61,8 @@ void write_summary(Bytes& block, const OutFile& out, const std::vector<Schema>& 
 
   const std::size_t start = block.begin(footer);
   block.number(std::uint64_t{out.size() + summary_start}).number(std::uint64_t{out.size() + offset_start});
-  block.patch(start - 8, std::uint64_t{20});  // the sum covers the footer up to itself, its length too
+  block.patch(start - 8, std::uint64_t{20});  // the checksum covers the footer up to itself, including its
+                                              // length
   block.number(crc_of(0, {block.data() + summary_start, block.size() - summary_start}));
   block.raw(magic.data(), magic.size());
 }

@@ -21,7 +21,8 @@ OutFile::OutFile(const std::filesystem::path& file, bool held) : file_(file), na
   if (!held) refuse(file_);
   fd_ = ::open(name_.c_str(), O_WRONLY | O_CLOEXEC | (held ? 0 : O_CREAT | O_EXCL), 0644);
   if (fd_ < 0) throw Error(log_messages::log_not_writable(name_.string(), std::strerror(errno)));
-  ::flock(fd_, LOCK_EX | LOCK_NB);  // gone with this process; a file system without locks is none to fail for
+  ::flock(fd_, LOCK_EX | LOCK_NB);  // the lock ends with this process; a file system without locks is no
+                                    // error
 }
 
 bool OutFile::hold(const std::filesystem::path& file) {
@@ -32,7 +33,7 @@ bool OutFile::hold(const std::filesystem::path& file) {
   ::close(fd);
   std::error_code none;
   if (!std::filesystem::exists(std::filesystem::symlink_status(file, none))) return true;
-  ::unlink(part.c_str());  // whoever had the name has finished meanwhile
+  ::unlink(part.c_str());  // the previous owner of the name has finished meanwhile
   return false;
 }
 
@@ -53,7 +54,7 @@ bool OutFile::grows(const std::filesystem::path& file) {
 void OutFile::refuse(const std::filesystem::path& file) {
   const std::string part = file.string() + ".part";
   std::error_code none;
-  if (std::filesystem::exists(std::filesystem::symlink_status(file, none)))  // a link to nowhere, too
+  if (std::filesystem::exists(std::filesystem::symlink_status(file, none)))  // a broken link counts, too
     throw Error(log_messages::log_exists(file.string()));
   if (std::filesystem::exists(std::filesystem::symlink_status(part, none)))
     throw Error(log_messages::partial_log_exists(
@@ -94,7 +95,7 @@ bool OutFile::still_there() {
   return false;
 }
 
-/// Where it is now, the kernel knows.
+/// Asks the kernel for the current path.
 void OutFile::note_move() {
   std::error_code none;
   const std::filesystem::path now =
@@ -111,7 +112,7 @@ bool OutFile::append(const void* block, std::size_t size) {
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       failed("write");
-      // Take back what was written of the block: a reader finds whole records up to the end.
+      // Truncate the partial block: a reader finds whole records up to the end.
       if (::ftruncate(fd_, static_cast<off_t>(size_)) == 0) ::lseek(fd_, static_cast<off_t>(size_), SEEK_SET);
       return false;
     }

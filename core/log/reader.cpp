@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See reader.hpp. The reading ends at the first byte that is not as the format says; what came before stays.
+// Reading ends at the first invalid byte; the content before it stays valid.
 #include "core/log/reader.hpp"
 
 #include <zstd.h>
@@ -21,11 +21,11 @@ namespace {
 using mcap::crc_of, mcap::Cursor, mcap::Data, mcap::largest_record, mcap::require;
 
 constexpr std::uint64_t largest_chunk =
-    1u << 25;  // decompressed; one of a flight has 768 kB and a message, others' a few MB
+    1u << 25;  // decompressed; a chunk of a flight has 768 kB and a message, chunks of other writers a few MB
 constexpr std::uint64_t largest_schemas =
-    1u << 25;  // the same of all schemas and channels, which chunks can hold by the thousand
+    1u << 25;  // limit on all schemas and channels, of which chunks can hold thousands
 
-/// The content of a chunk, decompressed into `room`.
+/// Decompresses the content of a chunk into `room`.
 Data open_chunk(const std::string& compression, Data stored, std::uint64_t size,
                 std::vector<std::byte>& room) {
   if (compression.empty()) {
@@ -35,7 +35,7 @@ Data open_chunk(const std::string& compression, Data stored, std::uint64_t size,
   }
   if (compression != "zstd") throw Error(log_messages::compression_unknown(compression.substr(0, 32)));
   require(size <= largest_chunk, log_messages::chunk_too_large);
-  // A wrong size is found before memory is taken for it.
+  // Check the size before the allocation.
   const unsigned long long says = ZSTD_getFrameContentSize(stored.data(), stored.size());
   require(says == ZSTD_CONTENTSIZE_UNKNOWN || says == size, log_messages::chunk_not_decompressible);
   room.resize(size);
@@ -50,26 +50,26 @@ struct McapStream::Impl {
   std::ifstream in;
   McapSalvage* salvage;
   McapFile file;
-  std::uint64_t size = 0, place = 0;  // of the file; of the next record
+  std::uint64_t size = 0, place = 0;  // size of the file; offset of the next record
   struct {
     std::uint64_t place = 0;
     std::uint8_t code = 0;
-    bool whole = false;   // it was there up to the end that it claims
-  } now;                  // the record that is read
+    bool whole = false;   // the record is complete by its length field
+  } now;                  // the current record
   std::uint32_t crc = 0;  // of the section up to there: the data, then the summary
   std::vector<std::byte> record;
-  Data chunk;  // the last one, decompressed
+  Data chunk;  // the last chunk, decompressed
   struct {
     std::vector<std::byte> chunk;       // room for the messages of a chunk
-    bool in_chunk = false;              // they lie there, else in `record`
-    std::vector<std::uint32_t> starts;  // of the content of each: a chunk can hold a million
+    bool in_chunk = false;              // the pending messages are in `chunk`, else in `record`
+    std::vector<std::uint32_t> starts;  // offset of each message's content: a chunk can hold a million
     std::size_t given = 0;
   } pending;                  // messages
-  McapFile::Message present;  // the one given last
+  McapFile::Message present;  // the message returned last
   std::uint64_t messages = 0, defined_bytes = 0;
-  bool damaged = false;                                    // something was left out, if only an index
+  bool damaged = false;                                    // any record was skipped, even an index
   std::map<std::uint8_t, std::set<std::uint64_t>> places;  // of the chunks, attachments and metadata so far
-  std::uint64_t summary_start = 0;                         // 0: not there yet
+  std::uint64_t summary_start = 0;                         // 0: not reached yet
   bool ended = false;
 
   Impl(const std::filesystem::path& path, McapSalvage* s) : salvage(s) {
@@ -121,7 +121,7 @@ struct McapStream::Impl {
     file.fault = "byte " + std::to_string(now.place) + ": " + why;
   }
 
-  /// Damage in the data costs the record in which it is, when damage is to be skipped.
+  /// With salvage, damage costs only the record that contains it.
   void next_record_or_later() {
     try {
       next_record();
@@ -203,7 +203,7 @@ struct McapStream::Impl {
       case mcap::metadata_index:
         check_place(cursor, mcap::metadata, log_messages::metadata_index_wrong);
         break;
-      default: break;  // the format may grow
+      default: break;  // other records: the format may grow
     }
   }
 
@@ -211,7 +211,7 @@ struct McapStream::Impl {
     require(damaged || places[code].contains(cursor.number<std::uint64_t>()), otherwise);
   }
 
-  /// Those of a summary, as far as it is as it should be.
+  /// Reads the definitions of a summary up to the first fault.
   void definitions(Data summary) try {
     for (Cursor records{summary}; records.more();) {
       const auto code = records.number<std::uint8_t>();
@@ -242,7 +242,7 @@ struct McapStream::Impl {
   void note_message(Cursor& cursor) {
     const auto channel = cursor.number<std::uint16_t>();
     cursor.take(mcap::message_head - sizeof channel);
-    if (salvage && !file.channels.contains(channel)) {  // it stood in a damaged chunk
+    if (salvage && !file.channels.contains(channel)) {  // its channel was in a damaged chunk
       damaged = true;
       salvage->lost_message();
       return;
@@ -252,7 +252,7 @@ struct McapStream::Impl {
     pending.starts.push_back(static_cast<std::uint32_t>(cursor.data.data() - room));
   }
 
-  /// Its length stands in front of it, but of a record's own.
+  /// The length precedes the content, except for a message record outside a chunk.
   McapFile::Message message(std::uint32_t at) const {
     Data content = record;
     if (pending.in_chunk) {
@@ -324,7 +324,7 @@ struct McapStream::Impl {
     file.attachments.push_back(std::move(a));
   }
 
-  /// Counts of schemas and channels are left aside: writers differ in whether those without a message count.
+  /// Ignores the counts of schemas and channels: writers differ on those without a message.
   void check_statistics(Cursor& cursor) const {
     const bool right_messages = cursor.number<std::uint64_t>() == messages;
     cursor.take(2 + 4);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See log.hpp. One thread beside the loop's takes samples from the tap, encodes them straight into the open
-// chunk and writes chunks.
+// The log's thread takes samples from the tap, encodes them straight into the open chunk and writes chunks.
 #include "core/tap/log.hpp"
 
 #include <pthread.h>
@@ -24,8 +23,8 @@
 namespace fulmar::core {
 namespace {
 
-/// Numeric form: the only one that Humble reads, and later distributions do too. Reliable, volatile, keep
-/// last 10.
+/// Numeric form: the only one that Humble reads, and later distributions also accept. Reliable, volatile,
+/// keep last 10.
 constexpr const char* qos_profiles =
     "- history: 1\n  depth: 10\n  reliability: 1\n  durability: 2\n"
     "  deadline:\n    sec: 9223372036\n    nsec: 854775807\n"
@@ -34,7 +33,7 @@ constexpr const char* qos_profiles =
     "  avoid_ros_namespace_conventions: false\n";
 
 constexpr std::chrono::milliseconds nap{
-    2};  // of the log's thread when the ring is empty; the loop never pays for waking it
+    2};  // sleep of the log's thread when the ring is empty; the loop never has the cost of a wake-up
 
 struct Extra {  // an attachment, or metadata when there is no media type
   std::string name, media_type, content;
@@ -48,26 +47,26 @@ struct Log::Impl {
     CdrEncoder encoder;
     std::uint16_t id = 0;
     bool stored = true;
-    std::uint64_t expected = 0;  // the sequence of its next sample: a gap tells what was lost
+    std::uint64_t expected = 0;  // the sequence of its next sample: a gap counts lost samples
   };
 
   Options options;
   const Tap& tap;
-  const std::uint64_t begin;  // where the tap was
+  const std::uint64_t begin;  // bytes written to the tap before this log began
   Tap::Cursor cursor;
   std::vector<Channel> channels;
   std::size_t max_message = 0;
   std::unique_ptr<McapWriter> writer;
-  bool head_stored = false;  // the log thread has written what comes first
+  bool head_stored = false;  // the log thread has written `head`
   struct {
     std::mutex mutex;
-    std::vector<Extra> head, tail;  // guarded
+    std::vector<Extra> head, tail;  // guarded by the mutex
   } extras;
   std::atomic<bool> stop{false}, broken{false};
-  std::string trouble;  // written before `broken` is set, and never again
+  std::string trouble;  // written once, before `broken` is set
   struct {
-    std::uint64_t unstored = 0;  // the writer was not given them
-    std::uint64_t missed = 0;    // written over before they were read
+    std::uint64_t unstored = 0;  // not passed to the writer
+    std::uint64_t missed = 0;    // overwritten before they were read
   } lost;                        // messages
   McapWriter::Result result;
   std::thread thread;
@@ -134,7 +133,7 @@ struct Log::Impl {
     writer->end_message(channel.encoder.encode(sample.data(), room));
   }
 
-  /// Takes all that there is. Whatever happens here goes on taking: an unpaced flight waits for that.
+  /// Takes all available samples. Continues after every fault: an unpaced flight waits for it.
   void drain() noexcept {
     while (const Tap::Sample* sample = cursor.next()) {
       Channel& channel = channels[sample->channel];

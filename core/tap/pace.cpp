@@ -11,7 +11,7 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::uint64_t max_ticks = 1'000'000;
-// One tick may take so much longer than in reality: in between nobody is heard.
+// a tick may take at most 100 times as long as in reality: orders are only read between ticks
 constexpr double slowest = 0.01, fastest = 1e6;
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See tap.hpp. The loop never looks at the cursors: it announces how far it is going to write, writes, and
-// says that it has. A cursor copies a record and then looks whether the announced end has come round to it
-// meanwhile: the copy is then worth nothing (a sequence lock on positions that count for ever). The cursor
-// that holds back is the one whose position the loop does look at.
+// The loop does not read the cursors: it announces the end of its next write, writes, and publishes the new
+// end. A cursor copies a record and then checks whether the announced end has come round to it; the copy is
+// then invalid. This is a sequence lock on positions that never wrap. Only the position of the cursor that
+// holds back is read by the loop.
 #include "core/tap/tap.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr std::size_t record_size(std::size_t data) {
   return (sizeof(Tap::Sample) + data + 7) & ~std::size_t{7};
 }
 
-/// The bytes of a message that carry something: all, or up to the last item of a list at its end.
+/// The bytes of a message with content: all, or up to the last item of a list at its end.
 struct Extent {
   std::uint32_t size = 0, count_at = 0, first_item = 0, stride = 0,
                 capacity = 0;  // stride 0: no list at the end
@@ -49,8 +49,7 @@ struct Mark {
 constexpr std::size_t word = sizeof(std::uint64_t);
 static_assert(sizeof(Mark) == word && sizeof(Tap::Sample) % word == 0);
 
-/// The loop may write a word while a sink reads it: each is atomic, and a copy that was overtaken is worth
-/// nothing.
+/// The loop may write a word while a sink reads it: each word is atomic, and an overtaken copy is invalid.
 void store_words(std::uint64_t* to, const void* from, std::size_t bytes) noexcept {
   const auto* next = static_cast<const std::byte*>(from);
   for (; bytes >= word; bytes -= word, next += word, ++to)
@@ -89,7 +88,7 @@ Tap::~Tap() = default;
 bool Tap::wanted(std::size_t channel, std::int64_t now_ns) noexcept {
   Channel& c = state_[channel];
   const std::int64_t period_ns = c.wanted_ns.load(std::memory_order_relaxed);
-  // every one, also when until now one of many was enough
+  // every sample, also when a lower rate was enough until now
   return period_ns == 0 || c.due.take(now_ns, period_ns);
 }
 
@@ -98,7 +97,8 @@ void Tap::put(const Sample& sample, const std::byte* data, std::size_t size) noe
   const std::size_t skip = capacity_ - at < sample.size ? capacity_ - at : 0;
   const std::uint64_t begin = pushed_ + skip, end = begin + sample.size;
   reserved_.store(end, std::memory_order_relaxed);
-  std::atomic_thread_fence(std::memory_order_release);  // who sees a byte of the following sees this as well
+  std::atomic_thread_fence(std::memory_order_release);  // a reader that sees a byte of the record also sees
+                                                        // `reserved_`
   if (skip > 0) {
     const Mark mark{static_cast<std::uint32_t>(skip), skipped};
     store_words(words_at(at), &mark, sizeof mark);
@@ -180,7 +180,7 @@ bool Tap::Cursor::take(std::uint64_t at, std::size_t bytes, std::byte* to) const
   return tap_.reserved_.load(std::memory_order_relaxed) - at <= tap_.capacity_;
 }
 
-/// To the first record of a slice that is half a ring behind the loop.
+/// Moves to the first record of a slice that is half a ring behind the loop.
 void Tap::Cursor::skip_ahead() noexcept {
   const std::uint64_t head = tap_.head_.load(std::memory_order_acquire), slice = tap_.capacity_ / slices;
   const std::uint64_t wanted = head / slice - slices / 2;

@@ -21,8 +21,8 @@ struct Compiler {
   std::vector<Op> ops;
   std::size_t mergeable_from = 0;  // ops before this one belong to another level
 
-  /// `bytes` of elements of `size` each, one after the other. Joins the previous copy where neither the
-  /// struct nor the wire has padding between.
+  /// `bytes` of consecutive elements of `size` each. Joins the previous copy where neither the struct nor the
+  /// wire has padding between.
   void copy(std::uint32_t offset, std::uint32_t size, std::uint32_t bytes) {
     if (ops.size() > mergeable_from) {
       Op& last = ops.back();
@@ -65,7 +65,7 @@ struct Compiler {
     const Op item = ops.back();
     const bool whole = loop.what == Op::list && loop.body == 1 && item.what == Op::copy && item.offset == 0 &&
                        item.bytes == loop.stride && loop.stride % item.align == 0;
-    if (whole) {  // the items are copied in one go
+    if (whole) {  // the items are copied at once
       loop.align = item.align;
       loop.bytes = loop.stride;
       loop.body = 0;

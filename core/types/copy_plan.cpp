@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a reader's table fits a writer's, and the moves that carry a message from one to the other.
+// Compatibility of a reader's table with a writer's, and the moves that copy a message from one to the other.
 #include <algorithm>
 #include <cstring>
 
@@ -35,7 +35,7 @@ std::string field_differs(const Field& from, const Field& to, const std::string&
   if (from.unit != to.unit) return differ(path, "unit ", or_none(to.unit), or_none(from.unit));
   if (to.kind == FULMAR_TEXT && from.stride > to.stride)
     return differ(path, "room for ", std::to_string(to.stride) + " bytes", std::to_string(from.stride));
-  if (to.kind == FULMAR_ENUM) {  // every label that the writer may send has the same meaning to the reader
+  if (to.kind == FULMAR_ENUM) {  // each label that the writer may send has the same meaning for the reader
     const bool known = from.labels.size() <= to.labels.size() &&
                        std::equal(from.labels.begin(), from.labels.end(), to.labels.begin());
     if (!known) return differ(path, "labels ", join(to.labels), join(from.labels));
@@ -101,7 +101,7 @@ class Mover {
     }
   }
 
-  // Padding between two fields that lie equally far apart on both sides may be copied along.
+  // Padding between two fields may be copied when both sides have equal gaps.
   static bool joins(const CopyPlan::Move& a, const CopyPlan::Move& b) {
     const std::uint32_t gap = b.to - (a.to + a.bytes);
     return b.from - (a.from + a.bytes) == gap && gap < 8;
@@ -110,7 +110,7 @@ class Mover {
   std::vector<CopyPlan::Move> moves_;
 };
 
-// Nothing but the labels of an enum, a range or a name differs: the bytes lie where the reader wants them.
+// Whether at most the labels of an enum, a range or a name differ: all bytes have the same offsets.
 bool same_layout(const Type& from, const Type& to) {
   if (from.size != to.size || from.fields.size() != to.fields.size()) return false;
   for (std::size_t i = 0; i < to.fields.size(); ++i) {

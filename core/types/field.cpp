@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fields by name.
+// Access to fields by name.
 #include <charconv>
 #include <cstring>
 

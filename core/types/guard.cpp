@@ -45,13 +45,13 @@ bool bytes_at_most(const std::byte* at, std::uint32_t count, double max) noexcep
 
 bool whole_byte(fulmar_kind kind) { return primitive_size(kind) == 1 && kind != FULMAR_I8; }
 
-// The largest value of a one-byte kind that the guard lets pass.
+// The largest valid value of a one-byte kind.
 double byte_limit(const Field& field) {
   if (field.kind == FULMAR_BOOL) return 1;
   return field.kind == FULMAR_ENUM ? static_cast<double>(field.labels.size() - 1) : 255;
 }
 
-// Every finite double passes an infinite bound; nothing else does.
+// An infinite bound accepts every finite double and nothing else.
 double low(const Field& field) { return std::max(field.min, -std::numeric_limits<double>::max()); }
 double high(const Field& field) { return std::min(field.max, std::numeric_limits<double>::max()); }
 
@@ -78,12 +78,12 @@ struct Guard::Compiler {
     joinable = run;
   }
 
-  // Elements `count` of `field` from `offset` on.
+  // `count` elements of `field` from `offset` on.
   void elements(const Field& field, std::uint32_t offset, std::uint32_t count) {
     Step step{.element = field.kind, .offset = offset, .count = count, .stride = field.stride};
     const bool ranged = std::isfinite(field.min) || std::isfinite(field.max);
     const bool dense = field.stride == element_size(field) || count == 1;
-    if (is_integer(field.kind) && !ranged) return;  // any will do
+    if (is_integer(field.kind) && !ranged) return;  // every value is valid
     if (field.kind == FULMAR_TEXT) {
       step.kind = Step::Kind::text;
     } else if (whole_byte(field.kind) && !ranged && dense) {
@@ -186,14 +186,14 @@ bool Guard::check(const std::byte* data) const noexcept {
 
 namespace {
 
-/// A number with so many digits at most.
+/// A number with at most so many digits.
 struct Short {
   std::array<char, 32> text;
   Short(double value, int digits) noexcept { std::snprintf(text.data(), text.size(), "%.*g", digits, value); }
 };
 
-// Walks a message as its table says and stops at the first bad value; its path and what is wrong with it
-// stand in `text` then.
+// Walks a message by its table and stops at the first invalid value; `text` then holds its path and the
+// fault.
 class Explainer {
  public:
   Explainer(char* text, std::size_t size) : text_(text), size_(size) { text_[0] = '\0'; }
@@ -251,7 +251,7 @@ class Explainer {
     if (n > 0) length_ = std::min(length_ + static_cast<std::size_t>(n), size_ - 1);
     return true;
   }
-  /// A message about the path so far, in its place.
+  /// Writes a message about the current path into `text`.
   template <std::size_t N, class... Values>
   bool fault(const MessageText<N>& message, const Values&... values) noexcept {
     std::array<char, 512> path{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A message as JSON, for people: command line, pages, results.
+// A message as JSON, for users: command line, pages, results.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// What of radians becomes degrees.
+/// Quantities in radians that become degrees.
 enum class Turned : std::uint8_t { none, angles, all };
 
 std::string key_of(const std::string& field, Turned turned) {

@@ -12,7 +12,7 @@
 namespace fulmar::core {
 namespace {
 
-/// "fulmar_msgs/VehicleState": how a field and a `MSG:` line name a type.
+/// "fulmar_msgs/VehicleState": name of a type in a field and a `MSG:` line.
 std::string short_name(const Type& type) {
   std::string name = ros_name(type);
   const std::size_t middle = name.find("/msg/");
@@ -34,7 +34,7 @@ std::vector<const Type*> nested_types(const Type& type) {
   return list;
 }
 
-/// A ROS constant: upper-case letters, digits, single underscores, beginning with a letter.
+/// A ROS constant: upper-case letters, digits, single underscores; the first character is a letter.
 std::string constant_name(std::string_view text) {
   std::string name;
   for (const char c : text) {
@@ -49,8 +49,8 @@ std::string constant_name(std::string_view text) {
   return name;
 }
 
-/// Labels of a message's enum fields carry the field's name where there are several such fields, or where a
-/// label does not begin with a letter.
+/// Labels of a message's enum fields get the field's name as a prefix when there are several such fields, or
+/// when a label does not begin with a letter.
 std::string constants(const Field& field, bool prefixed) {
   for (const std::string& label : field.labels)
     prefixed = prefixed || !std::isalpha(static_cast<unsigned char>(label.empty() ? '0' : label[0]));
@@ -62,7 +62,7 @@ std::string constants(const Field& field, bool prefixed) {
   return text;
 }
 
-/// Lists of foreign messages have no bound: theirs are sequences, and the capacity is ours alone.
+/// Lists of foreign messages are unbounded sequences in ROS; only Fulmar limits their capacity.
 bool unbounded(const Type& type, const Field& f) {
   return f.shape == FULMAR_LIST && !type.ros.empty() && !type.ros.starts_with("fulmar_msgs/");
 }

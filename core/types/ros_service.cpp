@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See ros_service.hpp. Names as rosidl gives them to the halves of a service.
+// Names of request and response as in rosidl.
 #include "core/types/ros_service.hpp"
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looking up in descriptions, and the sizes of what they describe.
+// Look-up in type descriptions, and sizes of elements.
 #include "core/types/type.hpp"
 
 #include "core/types/named.hpp"

@@ -27,8 +27,7 @@ ControlBlock* shared = nullptr;
 std::uintptr_t stack_top = 0;
 pid_t own_process = 0;
 
-// A fault where the main stack would have grown to, had its limit allowed it. A large frame may step over its
-// end by far.
+// Whether the fault is just below the main stack, beyond its limit. A large frame may skip far past the end.
 bool below_stack(std::uintptr_t address) {
   constexpr std::uintptr_t step = 1u << 20;
   rlimit limit{};
@@ -36,8 +35,8 @@ bool below_stack(std::uintptr_t address) {
   return address < stack_top && address >= stack_top - limit.rlim_cur - step;
 }
 
-// Async-signal-safe: atomics and system calls alone. The signal, default again, strikes a second time and
-// ends the process.
+// Async-signal-safe: atomics and system calls alone. The signal has its default action again, is raised a
+// second time and ends the process.
 void last_act(int signal, siginfo_t* about, void*) {
   if (::getpid() != own_process) {  // forked by the component
     ::raise(signal);
@@ -51,7 +50,7 @@ void last_act(int signal, siginfo_t* about, void*) {
   ::raise(signal);
 }
 
-// Handles the signals of a crash on a stack of their own, for the calling thread.
+// Handles crash signals on a separate stack, for the calling thread.
 void report_crashes(ControlBlock& control) {
   shared = &control;
   own_process = ::getpid();
@@ -78,8 +77,8 @@ void close_others() {
   for (int descriptor = shared_descriptor + 1; descriptor < 1024; ++descriptor) ::close(descriptor);
 }
 
-// No life after the host, no core file unless somebody wants one, nothing of the host's but the shared
-// memory.
+// The child ends with the host, writes no core file unless the user requests one, and inherits only the
+// shared memory.
 void prepare() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   close_others();
@@ -89,7 +88,7 @@ void prepare() {
     ::setrlimit(RLIMIT_CORE, &no_core);
   }
   rlimit stack{};
-  // without a limit a runaway recursion would take all memory before it is found out
+  // without a limit a runaway recursion would take all memory before it is detected
   constexpr rlim_t enough = 64u << 20;
   if (::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur == RLIM_INFINITY) {
     stack.rlim_cur = enough;
@@ -112,9 +111,9 @@ int main(int argc, char** argv) {
   void* memory =
       ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, shared_descriptor, 0);
   if (memory == MAP_FAILED) return 2;
-  ::madvise(memory, size, MADV_DONTFORK);  // a copy of this process writes no answer into it
+  ::madvise(memory, size, MADV_DONTFORK);  // a forked copy must not write an answer into it
   auto& control = *static_cast<ControlBlock*>(memory);
-  if (::getppid() != control.set_up.host_pid) return 1;  // it died before this process asked to die with it
+  if (::getppid() != control.set_up.host_pid) return 1;  // the host died before PR_SET_PDEATHSIG took effect
   report_crashes(control);
   count_heap();
   const Order order{argv[2],
@@ -124,5 +123,5 @@ int main(int argc, char** argv) {
                     std::strtoull(argv[6], nullptr, 10),
                     std::strtoull(argv[7], nullptr, 10)};
   const int code = serve(static_cast<std::byte*>(memory), size, order);
-  ::_exit(code);  // the plugin's exit handlers are not run: nobody waits for them
+  ::_exit(code);  // without the plugin's exit handlers, which could delay the end
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Under a sanitizer its own counters serve.
+// Under a sanitizer, the sanitizer's counters are used.
 #include "core/isolate/child/heap.hpp"
 
 #include <atomic>
@@ -12,7 +12,7 @@ std::uint64_t fulmar::core::heap_calls() noexcept { return calls; }
 
 #ifdef FULMAR_SANITIZED
 
-extern "C" {  // of sanitizer/allocator_interface.h, which not every gcc brings
+extern "C" {  // from sanitizer/allocator_interface.h, which some releases of gcc lack
 std::size_t __sanitizer_get_current_allocated_bytes();  // NOLINT
 int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
                                               void (*)(const volatile void*));  // NOLINT

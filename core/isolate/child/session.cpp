@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The child's side of an isolated component: its own instance, its own arrays of inputs and outputs over the
+// The child's side of an isolated component: its own instance, and arrays of inputs and outputs over the
 // shared memory.
 #include "core/isolate/child/session.hpp"
 
@@ -59,11 +59,11 @@ class Session {
     c.status = status;
     c.has_error = error.text[0] != '\0' ? 1 : 0;
     if (c.has_error) std::memcpy(c.error.text, error.text, sizeof error.text);
-    c.answer.store(number);  // ordered before the look at host_sleeps, as the host's two are
+    c.answer.store(number);  // sequentially consistent, before the read of host_sleeps, as in the host
     if (c.host_sleeps.load() != 0) futex_wake(c.answer);
   }
 
-  /// Does what the host asks until it asks for the end.
+  /// Serves the host's calls until the call to end.
   void serve() {
     fulmar_error error{};
     for (std::uint32_t number = 1;;) {
@@ -89,8 +89,8 @@ class Session {
     return reinterpret_cast<T*>(memory_ + offset);
   }
 
-  // Wakes once a second to see that the host is still there: the kernel's word on its death is bound to one
-  // of its threads.
+  // Wakes once a second to check that the host exists: the kernel's signal of its death depends on one of its
+  // threads.
   std::uint32_t wait(std::uint32_t done) noexcept {
     ControlBlock& c = control();
     const auto asked = [&] { return c.request.load(std::memory_order_acquire) != done; };
@@ -118,7 +118,7 @@ class Session {
     plugin_ = &script_->entry();
   }
 
-  // The tables once more: the copy may have changed since the host read it.
+  // Checks the tables again: the copy may have changed since the host read it.
   void check(const std::vector<ComponentInfo>& components, const Order& order) {
     const std::string wanted = control().set_up.component;
     if (order.index >= components.size() || components[order.index].name != wanted)
@@ -206,7 +206,7 @@ class Session {
     return functions_.retune(instance_, values_.data(), &error);
   }
 
-  // What was given before stays until the component has taken the new.
+  // The previous values stay until the component has taken the new ones.
   std::uint32_t configure(fulmar_error& error) {
     const SharedValue* heads = at<SharedValue>(layout_[0].values_at);
     const std::size_t size = control().set_up.values_size;
@@ -222,7 +222,7 @@ class Session {
       const SharedValue& v = heads[i];
       texts[i] = reinterpret_cast<const char*>(from + v.text_at);
       if (v.has & has_data) data[i].assign(from + v.data_at, from + v.data_at + v.size);
-      if ((v.has & has_data) && v.size == 0) data[i].reserve(1);  // empty, and given
+      if ((v.has & has_data) && v.size == 0) data[i].reserve(1);  // an empty value must still have a pointer
       values_[i] = {{v.number[0], v.number[1], v.number[2]},
                     v.integer,
                     texts[i].c_str(),
@@ -242,7 +242,7 @@ class Session {
     script_.reset();
   }
 
-  /// A copy of this process, forked in the call, does not come back from it.
+  /// A forked copy of this process must not return from the call.
   std::uint32_t judged(Call call, fulmar_error& error) {
     original_mark.set();
     refuses_forks = call != Call::configure && call != Call::quit;
@@ -282,7 +282,7 @@ class Session {
   fulmar_component functions_{};
   void* instance_ = nullptr;
   ComponentInfo info_;
-  std::vector<Layout> layout_;  // one, once the tables are known
+  std::vector<Layout> layout_;  // one element, once the tables are read
   std::vector<fulmar_input> inputs_, last_;
   std::vector<fulmar_output> outputs_;
   std::vector<fulmar_value> values_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fulmar-probe COPY NAME [SCRIPT FILE]: loads, reads and unloads one plugin, or one script by the plugin at
-// COPY, and reports on standard output. Run by the host with a time limit. A child loads the file; this
-// process stays behind, and ends whatever the file has started, wherever that went.
+// COPY, and reports on standard output. The host runs it with a time limit. A child loads the file. This
+// process only waits, and ends every process that the file has started.
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/prctl.h>
@@ -47,11 +47,12 @@ int refuse(std::string sentence) {
   return 1;
 }
 
-// The report goes through a descriptor that the plugin does not know; what it prints goes nowhere. No core
-// dump.
+// The report uses a descriptor that the plugin does not have; the plugin's output is discarded. No core dump.
 void prepare() {
   report_pipe = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 100);
-  if (report_pipe < 0) report_pipe = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);  // so many may not be open
+  if (report_pipe < 0)
+    report_pipe = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);  // the descriptor may exceed the
+                                                               // limit of open files
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   ::dup2(nowhere, STDOUT_FILENO);
   ::close(nowhere);
@@ -59,9 +60,9 @@ void prepare() {
   ::setrlimit(RLIMIT_CORE, &no_core);
 }
 
-// The host has tried the plugin at `host` by itself; here it runs a script.
+// The host has tested the plugin at `host` separately; this child opens a script with it.
 int try_script(const char* host, const char* copy, const char* file, const std::string& name) {
-  static SharedObject library;  // an interpreter is not closed again
+  static SharedObject library;  // an interpreter is not closed
   library.load(host, script_host(file));
   const FloatMode before = FloatMode::now();
   const Script script(library.entry(script_host(file)), file, read_script(copy));
@@ -75,7 +76,7 @@ int try_script(const char* host, const char* copy, const char* file, const std::
 
 int try_plugin(const char* copy, const std::string& name) {
   const FloatMode before = FloatMode::now();
-  static SharedObject library;  // a plugin that is refused is not closed
+  static SharedObject library;  // a rejected plugin is not closed
   library.load(copy, name);
   const bool same_mode = FloatMode::now() == before;
   say(report_loaded);
@@ -98,7 +99,7 @@ int try_it(int argc, char** argv) try {
 int try_it_here(int argc, char** argv, pid_t guard) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::prctl(PR_SET_DUMPABLE, 0);
-  if (::getppid() != guard) return 1;  // which ended before this process asked to end with it
+  if (::getppid() != guard) return 1;  // the parent died before PR_SET_PDEATHSIG took effect
   say(std::string(report_process) + std::to_string(::getpid()) + "\n");
   return try_it(argc, argv);
 }
@@ -108,7 +109,7 @@ int try_it_here(int argc, char** argv, pid_t guard) {
 std::atomic<pid_t> trying{0};
 std::atomic<bool> over{false};
 
-// The host's patience is over, or the host itself.
+// Handles the time-out or the end of the host.
 void end_it(int) {
   over = true;
   if (const pid_t child = trying; child > 0) ::kill(child, SIGKILL);
@@ -121,7 +122,7 @@ pid_t parent_of(const char* process) {
   const std::size_t n = std::fread(text, 1, sizeof text - 1, about);
   std::fclose(about);
   text[n] = 0;
-  const char* after_name = std::strrchr(text, ')');  // a name may hold anything, ") " too
+  const char* after_name = std::strrchr(text, ')');  // a name may contain any text, including ") "
   int parent = 0;
   return after_name && std::sscanf(after_name + 1, " %*c %d", &parent) == 1 ? parent : 0;
 }
@@ -135,7 +136,7 @@ void kill_children() {
   ::closedir(all);
 }
 
-// Whoever has lost its parent has become a child of this process: with each round all of them are.
+// Orphans become children of this process (subreaper): repeated rounds reach all of them.
 void end_the_others() {
   int status = 0;
   for (pid_t ended = 0; (ended = ::waitpid(-1, &status, WNOHANG)) >= 0 || errno == EINTR;) {
@@ -145,7 +146,7 @@ void end_the_others() {
   }
 }
 
-// Ends as the child has ended.
+// Ends with the child's exit status.
 int end_as(int status) {
   if (!WIFSIGNALED(status)) return WEXITSTATUS(status);
   ::prctl(PR_SET_DUMPABLE, 0);
@@ -180,5 +181,5 @@ int main(int argc, char** argv) {
   if (child > 0) return watch_over(child);
   std::signal(SIGTERM, SIG_DFL);
   const int code = try_it_here(argc, argv, guard);
-  ::_exit(code);  // without the plugin's exit handlers: one that stays resident has shown nothing wrong yet
+  ::_exit(code);  // without the plugin's exit handlers: a resident plugin runs them later in the host
 }

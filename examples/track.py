@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws flights as an SVG of a few kilobytes: the track from above, or numbers over time.
 
-  track.py LOG... -o track.svg [--from 20] [--to 200]        where the aircraft was, with the plan's waypoints as crosses
+  track.py LOG... -o track.svg [--from 20] [--to 200]        the track, with the plan's waypoints as crosses
   track.py LOG... -o height.svg --plot nav.state.height_m score.tracking.altitude_m
-  track.py LOG... -o new.svg --like track.svg                also: code 1 when the two pictures differ by more than 2 % of their size
+  track.py LOG... -o new.svg --like track.svg                also: exit code 1 if the two pictures differ by more than 2 % of their size
 
 A LOG may have a name for the legend: --names shipped mine. The program `fulmar` must be on the PATH; only the standard library is needed.
 """
@@ -22,7 +22,7 @@ COLOURS = ["#1f5fa8", "#c4581a", "#2b8a4b", "#8a3b8f", "#6b6b6b"]
 
 
 def columns(log, port, wanted):
-    """Rows of [time_s, the wanted columns] of a port. Empty when the log does not have it."""
+    """Rows of [time_s, requested columns] of a port; empty if the log does not have it."""
     with tempfile.TemporaryDirectory() as folder:
         topic = "/" + port.replace(".", "/")
         command = ["fulmar", "log", "export", log, "--to", "csv", "--topic", topic, "--out", folder + "/csv"]
@@ -41,7 +41,7 @@ def columns(log, port, wanted):
 
 
 def track(log):
-    """Where the aircraft was, in truth where the log knows it: rows of time, east, north."""
+    """Position of the aircraft, the truth if the log has it: rows of time, east, north."""
     for port in ("vehicle.truth", "nav.state"):
         rows = columns(log, port, ["position_m.east", "position_m.north"])
         if rows:
@@ -69,7 +69,7 @@ def waypoints(log):
 
 
 def thinned(points, tolerance):
-    """Ramer, Douglas and Peucker: the corners that matter."""
+    """Polyline simplified by the algorithm of Ramer, Douglas and Peucker."""
     keep, stack = {0, len(points) - 1}, [(0, len(points) - 1)]
     while stack:
         a, b = stack.pop()
@@ -87,13 +87,13 @@ def thinned(points, tolerance):
 
 
 def step_of(span):
-    """A round number, of which four to nine make the span."""
+    """A round step, of which four to nine make the span."""
     power = 10 ** math.floor(math.log10(max(span, 1e-9) / 4))
     return max(s * power for s in (1, 2, 5) if s * power <= span / 4 + 1e-12)
 
 
 class Picture:
-    """Lines in units of the flight, brought onto paper."""
+    """Scales lines from units of the flight to units of paper."""
 
     def __init__(self, lines, equal):
         xs, ys = [x for line in lines for x, _ in line], [y for line in lines for _, y in line]
@@ -199,7 +199,7 @@ def corners_of(svg):
 
 
 def distance(point, line):
-    """From a point to a polyline."""
+    """Distance from a point to a polyline."""
     best = math.inf
     for (xa, ya), (xb, yb) in zip(line, line[1:]):
         square = (xb - xa) ** 2 + (yb - ya) ** 2

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The core of a model-predictive controller: of some ailerons, held for half a second, which one comes
-// nearest to 30 deg of bank? Each is flown by a copy of the aircraft, which itself stays where it is.
+// The core of a model-predictive controller: of several aileron deflections, held for half a second, it
+// selects the one whose bank is closest to 30 deg. A copy of the simulation flies each of them; the original
+// stays unchanged.
 #include <cmath>
 #include <cstdio>
 #include <exception>

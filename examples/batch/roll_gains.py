@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Roll gains of the Anaconda: a step to 30 deg of bank with 256 pairs of gains, all of them in the air at once."""
+"""Roll gains of the Anaconda: a step to 30 deg of bank with 256 pairs of gains, simulated at once."""
 import fulmar_sim
 import numpy
 

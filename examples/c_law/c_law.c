@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Outer loops in C11, against fulmar/abi.h and nothing else: course to roll, height to pitch, airspeed to
+/* Outer loops in C11, with fulmar/abi.h alone: course to roll, height to pitch, airspeed to
  * throttle, all proportional. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6. */
 #include <fulmar/abi.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 
-/* ---- messages: only the fields that this law reads; the host copies those, wherever they lie in the
+/* ---- messages: only the fields that this law reads; the host copies them by name, at any offset in the
  * writer's struct -------- */
 
 struct state {
@@ -15,7 +15,7 @@ struct state {
 struct command {
   double course_rad, height_m, airspeed_mps, roll_feedforward_rad;
 };
-struct attitude { /* an output is written whole: every field that its readers know */
+struct attitude { /* an output needs every field of the message */
   double roll_rad, pitch_rad, throttle_frac;
 };
 
@@ -112,8 +112,7 @@ static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in
   const double* p = ((const struct law*)self)->param;
   const struct state* x = in[IN_STATE].data;
   const struct command* c = in[IN_COMMAND].data;
-  const double chi_error =
-      remainder(c->course_rad - x->course_rad, 6.283185307179586); /* the short way round */
+  const double chi_error = remainder(c->course_rad - x->course_rad, 6.283185307179586); /* the shorter way */
   const double h_error = c->height_m - x->height_m, Va_error = c->airspeed_mps - x->airspeed_mps;
   struct attitude* attitude = out[OUT_ATTITUDE].data;
   attitude->roll_rad = within(c->roll_feedforward_rad + p[COURSE_KP] * chi_error, -p[ROLL_MAX], p[ROLL_MAX]);
@@ -124,7 +123,7 @@ static uint32_t step(void* self, const fulmar_tick* tick, const fulmar_input* in
   return FULMAR_OK;
 }
 
-/* ---- what the host reads
+/* ---- tables for the host
  * --------------------------------------------------------------------------------------------------- */
 
 static const fulmar_component component = {

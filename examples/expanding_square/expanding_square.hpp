@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Searches round a place in a square that grows, then gives the plan back as it was. The pattern SS of the
-// International Aeronautical and Maritime Search and Rescue Manual, volume II, 5.3: legs of 1, 1, 2, 2, 3, 3
-// ... track spacings, each turned by 90 deg from the one before.
+// Searches around a place in a growing square, then restores the plan. Pattern SS of the International
+// Aeronautical and Maritime Search and Rescue Manual, volume II, 5.3: legs of 1, 1, 2, 2, 3, 3 ... track
+// spacings, each turned by 90 deg from the one before.
 #pragma once
 #include <array>
 #include <cmath>
@@ -22,12 +22,12 @@ struct ExpandingSquare {
     In<VehicleState> state;
     In<Progress> progress;
     In<Plan> plan;
-    Queue<PlanEditResult> results;  // what the planner says of our edits, and of others'
+    Queue<PlanEditResult> results;  // results of all edits, also of other components
   };
   struct Outputs {
     OutQueue<PlanEdit, max_corners + 1> edits;
     OutQueue<Notice, 2> notices;
-    Probe corners_ratio;  // of the search that were reached
+    Probe corners_ratio;  // number of corners reached in the search
   };
   struct Params {
     Count after{2, 1, 1000, "number of waypoints before the search"};
@@ -37,7 +37,7 @@ struct ExpandingSquare {
     Flag left{false, "switch for turns to the left at the corners"};
   };
 
-  /// Corner `k`, from 0, as seen from where the search begins.
+  /// Corner `k`, from 0, relative to the start of the search.
   static Vec3<Ned> corner(std::int64_t k, const Params& p) {
     Vec3<Ned> at;
     for (std::int64_t leg = 0; leg <= k; ++leg) {
@@ -62,9 +62,10 @@ struct ExpandingSquare {
  private:
   enum class Phase : std::uint8_t { waiting, asked, searching, tidying, done, refused };
   static constexpr std::uint32_t begin_group = 1, end_group = 2;
-  static constexpr std::uint32_t first_id = 1000;  // of our edits; others count from 1
+  static constexpr std::uint32_t first_id = 1000;  // range of our edit ids; other components count from 1
 
-  /// All corners before the waypoint that is flown to, and the order to go there: together or not at all.
+  /// Inserts all corners before the active waypoint, and makes the first one active: all edits are applied,
+  /// or none.
   void begin(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     count_ = static_cast<std::uint32_t>(p.corners.value);
     const Waypoint& next = in.plan->waypoints[in.progress->item];
@@ -72,7 +73,7 @@ struct ExpandingSquare {
     edit.group = begin_group;
     edit.group_size = count_ + 1;
     edit.kind = PlanEditKind::insert;
-    edit.waypoint_id = next.id;  // an index may have moved until this arrives
+    edit.waypoint_id = next.id;  // an index may change before this edit arrives
     edit.waypoint.position_m = in.state->position_m;
     edit.waypoint.position_m.down = next.position_m.down;
     const Vec3<Ned> datum = edit.waypoint.position_m;
@@ -84,7 +85,7 @@ struct ExpandingSquare {
     edit.id = first_id + count_;
     edit.kind = PlanEditKind::set_current;
     edit.waypoint_id = 0;
-    edit.index = in.progress->item;  // where the first corner is by then
+    edit.index = in.progress->item;  // index of the first corner after the insertion
     out.edits.push(edit, tick.now_ns);
     phase_ = Phase::asked;
   }
@@ -105,7 +106,7 @@ struct ExpandingSquare {
     if (phase_ == Phase::tidying) phase_ = Phase::done;
   }
 
-  /// How many corners lie behind: all before the one that is flown to. At the end they are taken out.
+  /// Counts the corners passed: all before the active waypoint. At the end, removes them.
   void search(const Tick& tick, const Inputs& in, Outputs& out) {
     const Plan& plan = *in.plan;
     if (in.progress->item >= plan.waypoints.count) return;
@@ -137,5 +138,5 @@ struct ExpandingSquare {
 
   Phase phase_ = Phase::waiting;
   std::uint32_t count_ = 0, corners_ = 0, revision_ = 0;
-  std::array<std::uint32_t, max_corners> ids_{};  // of the corners in the plan
+  std::array<std::uint32_t, max_corners> ids_{};  // ids of the corners in the plan
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pattern against IAMSAR volume II, 5.3; what is asked of the planner, and what is made of its answers.
+// The pattern against IAMSAR volume II, 5.3; the edits to the planner, and the reactions to its results.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
@@ -51,7 +51,7 @@ struct Flight {
     return status;
   }
 
-  /// As the planner does it: the corners before waypoint 3, with the ids 11 to 14.
+  /// Emulates the planner: the corners are inserted before waypoint 3, with the ids 11 to 14.
   std::vector<PlanEditResult> put_in() {
     plan.waypoints.clear();
     plan.waypoints.push_back(waypoint(0, 0, 1));
@@ -128,7 +128,7 @@ TEST_CASE("the whole search is asked for at once, as a group, from where the air
     CHECK(edit.group_size == 5);
   }
   CHECK(flight.edits[0].kind == PlanEditKind::insert);
-  CHECK(flight.edits[0].waypoint_id == 3);  // before what is flown to, wherever that is by then
+  CHECK(flight.edits[0].waypoint_id == 3);  // before the active waypoint, whatever its index is then
   CHECK(flight.edits[0].waypoint.position_m == Vec3<Ned>{1120, 2000, -70});
   CHECK(flight.edits[4].kind == PlanEditKind::set_current);
   CHECK(flight.edits[4].index == 2);
@@ -147,7 +147,7 @@ TEST_CASE("corners are counted by their ids; after the last one all are taken ou
     CHECK(flight.bench.out.corners_ratio.value == k);
     CHECK(flight.edits.empty());
   }
-  flight.progress.item = 6;  // the plan goes on
+  flight.progress.item = 6;  // the plan continues
   flight.step();
   CHECK(flight.bench.out.corners_ratio.value == 4);
   REQUIRE(flight.edits.size() == 4);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps a slot beside a leader. Source: Beard & McLain, Small Unmanned Aircraft (2012), (10.8) for the course
-// onto the line that the slot flies along, (9.14) for turns; the rest is the kinematics of a point that is
-// fixed to the leader's course.
+// Keeps a slot relative to a leader. Source: Beard & McLain, Small Unmanned Aircraft (2012), (10.8) for the
+// course onto the line of the slot, (9.14) for turns. The rest is the kinematics of a point that is fixed to
+// the leader's course.
 #pragma once
 #include <numbers>
 #include <stdexcept>
@@ -16,7 +16,7 @@
 
 namespace fulmar::formation {
 
-/// Where the aircraft is, as seen from its slot.
+/// Position of the aircraft relative to its slot.
 struct SlotError {
   double ahead_m = 0;            ///< position error along the track of the slot, ahead positive
   double right_m = 0;            ///< position error to the right of the track of the slot
@@ -31,8 +31,8 @@ struct Follower {
   static constexpr const char* doc = "Guidance that keeps a slot beside a leader.";
   struct Inputs {
     In<VehicleState> state;
-    Optional<VehicleState> leader;     // imported, or Neighbour's
-    Optional<VehicleState> neighbour;  // to keep clear of
+    Optional<VehicleState> leader;     // imported, or from Neighbour
+    Optional<VehicleState> neighbour;  // aircraft to avoid
   };
   struct Outputs {
     Out<GuidanceCommand> command;
@@ -71,7 +71,8 @@ struct Follower {
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out);
 
  private:
-  /// Of the last second: an estimator's wind is steadier, and gusts shift an aircraft by metres.
+  /// Wind, averaged over the last second: the wind of an estimator is smoother, and gusts displace an
+  /// aircraft by metres.
   const Eigen::Vector2d& feel_wind(const Tick& tick, const VehicleState& own) {
     constexpr double second = 1;
     const Eigen::Vector2d now =
@@ -89,12 +90,12 @@ struct Follower {
   double square_sum_m2_s_ = 0, time_s_ = 0;  // since the slot was reached
 };
 
-/// The slot by now: a point that is fixed to the leader's course. Horizontal vectors: north, east.
+/// Present state of the slot: a point that is fixed to the leader's course. Horizontal vectors: north, east.
 struct Slot {
   Eigen::Vector3d p;   // NED
-  Eigen::Vector2d v;   // over ground
-  double chi = 0;      // of v
-  double chi_dot = 0;  // of the leader's turn, and so of the slot's
+  Eigen::Vector2d v;   // velocity over ground
+  double chi = 0;      // course of v
+  double chi_dot = 0;  // turn rate of leader and slot
   double climb_mps = 0;
 
   Slot(const Motion& leader, const Vec3<Body>& offset)
@@ -108,8 +109,8 @@ struct Slot {
   }
 };
 
-/// Course, airspeed, height and bank that lead into the slot and along with it. `e`: where the aircraft is,
-/// as seen from the slot; `wind`: velocity of the air, north, east.
+/// Course, airspeed, height and bank that lead into the slot and along its path. `e`: position relative to
+/// the slot; `wind`: velocity of the air, north, east.
 inline GuidanceCommand into_slot(const VehicleState& own, const Slot& slot, const SlotError& e,
                                  const Eigen::Vector2d& wind, const Follower::Params& p) {
   constexpr double pi = std::numbers::pi, g = 9.80665;
@@ -125,7 +126,7 @@ inline GuidanceCommand into_slot(const VehicleState& own, const Slot& slot, cons
   c.height_m = -slot.p.z();
   c.climb_rate_mps = std::clamp(slot.climb_mps, -limits.sink_rate_max_mps, limits.climb_rate_max_mps);
   c.airspeed_mps = std::clamp(Va_c, limits.airspeed_min_mps, limits.airspeed_max_mps);
-  // The slot's turn is flown along only by who is near its line and goes its way.
+  // The turn of the slot is fed forward only near its line and along its course.
   const double along = std::abs(angle_difference(slot.chi, own.course_rad));
   const double share = smoothly(std::abs(e.right_m), 40, 20) * smoothly(along, pi / 2, pi / 4);
   const double crab = std::max(std::cos(own.course_rad - own.yaw_rad), 0.5);
@@ -134,14 +135,14 @@ inline GuidanceCommand into_slot(const VehicleState& own, const Slot& slot, cons
   return c;
 }
 
-/// Keeps clear of an aircraft that is near, or soon will be. The higher of the two climbs away; the lower one
-/// does not climb, and does not descend for it either, as the ground may be near. Who is behind slows down.
-/// True when that was needed.
+/// Evasion of an aircraft that is close, or will be. The higher of the two climbs. The lower one does not
+/// climb, and does not descend either, as the ground may be near. The aircraft behind slows down. Returns
+/// true during an evasion.
 inline bool keep_clear(const VehicleState& own, const Motion& other, const Follower::Params& p,
                        GuidanceCommand& c) {
   const Relative to(own, other);
   if (to.nearest(p.look_ahead) >= p.separation) return false;
-  if (to.p.z() >= 0) {  // it is below, or level
+  if (to.p.z() >= 0) {  // the other aircraft is below, or level
     c.height_m = std::max(c.height_m, -other.p.z() + p.separation);
     c.climb_rate_mps = std::max(c.climb_rate_mps, 0.0);
   } else {
@@ -157,8 +158,8 @@ inline bool usable(const VehicleState& own, const Optional<VehicleState>& other,
   return other && other.age_s() <= timeout_s && located(*other) && same_origin(own, *other);
 }
 
-/// Nobody hands over to it without a leader. At the very beginning there is nobody who could stay, and the
-/// leader is waited for.
+/// A switch needs a valid leader. At the start there is no previous component, and the follower waits for the
+/// leader.
 inline Status Follower::activate(const Tick&, const Inputs& in, const Params& p,
                                  const Applied<Outputs>& last) {
   slot_.reached = felt_ = false;
@@ -169,7 +170,7 @@ inline Status Follower::activate(const Tick&, const Inputs& in, const Params& p,
 
 inline Status Follower::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
   const VehicleState& own = *in.state;
-  if (!located(own)) {  // nobody knows where the slot is from here: straight on, as last asked for
+  if (!located(own)) {  // slot unknown: straight on, with the last command
     last_.climb_rate_mps = last_.roll_feedforward_rad = 0;
     if (commanded_) out.command.publish(last_);
     return Status::degraded;

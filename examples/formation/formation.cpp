@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several aircraft: what is known of another one, and a slot beside it.
+// Several aircraft: the state of another one, and a slot relative to it.
 #include "follower.hpp"
 #include "neighbour.hpp"
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Another aircraft, as far as it is heard: for conditions of phases, for figures, and for those who fly by
-// it.
+// State of another aircraft from received messages: for conditions of phases, for results, and for laws that
+// fly relative to it.
 #pragma once
 #include "other_aircraft.hpp"
 
 namespace fulmar::formation {
 
 enum class Hearing : std::uint8_t {
-  never,         ///< nothing yet
-  heard,         ///< and all that it says is usable
-  silent,        ///< heard before
-  lost,          ///< speaks, but does not know where it is
-  other_origin,  ///< counts its position from another point, or does not know from where
+  never,         ///< no message yet
+  heard,         ///< all messages usable
+  silent,        ///< no recent message
+  lost,          ///< messages without a valid position
+  other_origin,  ///< position from another origin, or without an origin
 };
 
-/// What is known of another aircraft.
+/// Link and distance to another aircraft.
 struct Sight {
   Hearing hearing = Hearing::never;       ///< state of the link
   double age_s = unknown_std;             ///< age of the last state of the other aircraft
@@ -29,7 +29,7 @@ struct Neighbour {
     Optional<VehicleState> heard;  // imported
   };
   struct Outputs {
-    Out<VehicleState> other;  // as it came, while all of it is usable; valid when it was sent
+    Out<VehicleState> other;  // as received, while it is usable; valid at the time of sending
     Sight sight;
   };
   struct Params {

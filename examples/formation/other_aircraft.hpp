@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What makes another aircraft's state usable here, and where that aircraft is by now.
+// Checks and prediction of the state of another aircraft.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace fulmar::formation {
 
-/// Both count from one point: within 0.1 m on the ground and 0.5 m in height. An origin that is not known yet
-/// is none of the same.
+/// True if both positions have the same origin: within 0.1 m on the ground and 0.5 m in height. False if an
+/// origin is not known.
 inline bool same_origin(const VehicleState& a, const VehicleState& b) {
   constexpr double close_deg = 1e-6, close_m = 0.5;
   return a.origin_valid && b.origin_valid &&
@@ -22,8 +22,8 @@ inline bool same_origin(const VehicleState& a, const VehicleState& b) {
 
 inline bool located(const VehicleState& s) { return s.position_valid && s.height_valid && s.velocity_valid; }
 
-/// An aircraft by now, from a state that is some seconds old: on along its turn, as a radio that is silent
-/// for a second or two is no news.
+/// Present motion of an aircraft, predicted along its turn from a state some seconds old. A radio gap of a
+/// second or two is normal.
 struct Motion {
   Eigen::Vector3d p, v;  // NED
   double chi = 0, chi_dot = 0;
@@ -48,7 +48,7 @@ struct Motion {
   }
 };
 
-/// Where `other` is as seen from `own`, and how that changes: NED.
+/// Position and velocity of `other` relative to `own`, NED.
 struct Relative {
   Eigen::Vector3d p, v;
 
@@ -56,7 +56,7 @@ struct Relative {
       : p(other.p - eigen(own.position_m)), v(other.v - eigen(own.velocity_mps)) {}
 
   double distance() const { return p.norm(); }
-  /// Least distance within the next `ahead_s` if neither turns.
+  /// Least distance within the next `ahead_s` if both fly straight.
   double nearest(double ahead_s) const {
     const double v2 = v.squaredNorm();
     const double t = v2 > 1e-9 ? std::clamp(-p.dot(v) / v2, 0.0, ahead_s) : 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Roll, pitch and yaw rate by incremental nonlinear dynamic inversion: u = u_f + G^-1 (nu - omega_dot_f),
-// where u_f and omega_dot_f have passed the same filter, under proportional attitude loops. Sieberling, Chu &
-// Mulder, J. Guidance, Control, and Dynamics 33 (2010), (18)-(22); Smeur, Chu & de Croon, ibid. 39 (2016),
-// section III for the filter on both. G is the airframe's: Beard & McLain, Small Unmanned Aircraft (2012),
-// (5.3).
+// Inner loop by incremental nonlinear dynamic inversion of the body rates: u = u_f + G^-1 (nu - omega_dot_f).
+// The same filter acts on u_f and omega_dot_f. Proportional attitude loops command the rates. Sources:
+// Sieberling, Chu & Mulder, J. Guidance, Control, and Dynamics 33 (2010), (18)-(22); Smeur, Chu & de Croon,
+// ibid. 39 (2016), section III for the filter on both. G is that of the airframe: Beard & McLain, Small
+// Unmanned Aircraft (2012), (5.3).
 #pragma once
 #include <Eigen/LU>
 #include <algorithm>
@@ -86,7 +86,7 @@ struct Indi {  // fills the role `inner`
     if (!begun_ || !flying(s, a.limits)) begin(a, s, command, nullptr);
 
     const Eigen::Vector3d omega = eigen(s.rate_radps);
-    Eigen::Vector3d omega_dot, u_f;  // both as old as the filter makes them
+    Eigen::Vector3d omega_dot, u_f;  // both with the same delay of the filter
     for (int i = 0; i < 3; ++i) {
       rate_[i].step(omega(i), p.filter, 0.7, dt);
       surface_[i].step(servo(i, a, dt), p.filter, 0.7, dt);
@@ -100,7 +100,7 @@ struct Indi {  // fills the role `inner`
       throttle_left_ = throttle_ - command.throttle_frac;
     }
     fresh_ = false;
-    nu -= left_;  // what is asked for at once comes gradually: no surface steps
+    nu -= left_;  // the initial difference fades out, so that no surface steps
     left_ *= std::exp(-dt / p.fade);
     const double pressure = 0.5 * standard_air(s.origin_altitude_m + s.height_m).density_kgm3 * Va * Va;
     u_ = u_f + inverse_ * (nu - omega_dot) / (pressure * p.effectiveness);
@@ -119,7 +119,7 @@ struct Indi {  // fills the role `inner`
     return i == 0 ? a.aileron : i == 1 ? a.elevator : a.rudder;
   }
 
-  /// From the surfaces as they were left, or from trim.
+  /// Starts from the last surface commands, or from trim without them.
   void begin(const Airframe& a, const VehicleState& s, const AttitudeCommand& command,
              const Actuators* last) {
     u_ = last ? Eigen::Vector3d(last->aileron_rad, last->elevator_rad, last->rudder_rad)
@@ -138,7 +138,7 @@ struct Indi {  // fills the role `inner`
     fresh_ = last != nullptr;
   }
 
-  /// Where surface `i` is by now: its lag and its rate limit.
+  /// Modelled position of surface `i`, with lag and rate limit of its servo.
   double servo(int i, const Airframe& a, double dt) {
     const Surface& of = surface(a, i);
     const double lag = of.time_constant_s > 0 ? 1 - std::exp(-dt / of.time_constant_s) : 1;
@@ -146,8 +146,8 @@ struct Indi {  // fills the role `inner`
     return servo_(i) += std::clamp(lag * (u_(i) - servo_(i)), -most, most);
   }
 
-  /// Body rates that turn the attitude to its command and about the turn of its bank, B&M (3.3) inverted.
-  /// Without an attitude: none.
+  /// Body rates that turn the attitude to its command, plus the rates of a coordinated turn; B&M (3.3)
+  /// inverted. Zero without a valid attitude.
   Eigen::Vector3d wanted_rates(const VehicleState& s, const AttitudeCommand& command, const Params& p,
                                double Va, double dt) {
     const double ahead =
@@ -165,7 +165,7 @@ struct Indi {  // fills the role `inner`
   SecondOrder rate_[3], surface_[3];
   Differentiator roll_command_rate_;
   LowPass airspeed_;
-  Eigen::Vector3d left_ = Eigen::Vector3d::Zero();  ///< rad/s2, of a hand-over, to be forgotten
+  Eigen::Vector3d left_ = Eigen::Vector3d::Zero();  ///< initial difference at a switch, rad/s2; fades out
   double throttle_ = 0, throttle_left_ = 0;
   bool begun_ = false, fresh_ = false;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inversion against the finite differences of the flight model, and on the nonlinear aircraft with a
-// servo of its own, moments that nobody told it of, and surfaces that do more and less than it believes.
+// The inversion against finite differences of the flight model. The law on the nonlinear aircraft with a
+// servo, with external moments, and with surfaces that have more or less effect than modelled.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double deg = std::numbers::pi / 180, field_m = 1387;
 
-/// The Anaconda of the shipped airframes.
+/// The shipped Anaconda.
 Airframe anaconda() {
   Airframe a;
   a.mass_kg = 4.5;
@@ -33,14 +33,14 @@ Airframe anaconda() {
   return a;
 }
 
-/// The attitude of the nonlinear aircraft at constant velocity, 200 Hz: what the inversion turns.
+/// Attitude of the nonlinear aircraft at constant speed, under the law, 200 Hz.
 struct Flight {
   Bench<Indi> indi;
   Airframe real = anaconda();
   RigidBody x;
   Deflections d{0, 0.1212, 0};
   AttitudeCommand command{0, 0.0054, 0.5};
-  double roll_wanted = 0;  // taken up at 1 rad/s, as the outer laws do
+  double roll_wanted = 0;  // changes at 1 rad/s, as outer laws command it
   VehicleState s;
   Eigen::Vector3d more_moment = Eigen::Vector3d::Zero();  // N m
 
@@ -89,7 +89,8 @@ struct Flight {
         return load;
       };
       x = runge_kutta(x, load_at(x, 0), dt, mass, {0, 0, isa::g0}, load_at);
-      // Its flight path follows its bank, without sideslip, at that airspeed: who holds height is not here.
+      // The flight path turns with the bank, without sideslip, at constant airspeed: the test has no height
+      // hold.
       const Euler e = euler_from(x.q_nb);
       x.v_n = Va * Eigen::Vector3d(std::cos(e.yaw_rad), std::sin(e.yaw_rad), 0);
       observe();
@@ -150,7 +151,7 @@ TEST_CASE("a moment that nobody told it of is found without an integral") {
     flight.more_moment = side * Eigen::Vector3d(3, 3, 0.5);
     flight.run(3);
     const double pressure = 0.5 * standard_air(field_m + 70).density_kgm3 * 17 * 17;
-    const double without = 3 / (pressure * 0.52 * 0.235 * 0.99);  // what the elevator has to make up for, rad
+    const double without = 3 / (pressure * 0.52 * 0.235 * 0.99);  // elevator that balances the moment, rad
     CHECK(without > 0.15);
     CHECK(std::abs(flight.s.pitch_rad - flight.command.pitch_rad) < 0.5 * deg);
     CHECK(std::abs(flight.s.roll_rad) < 0.5 * deg);
@@ -177,7 +178,7 @@ TEST_CASE("it goes on from the surfaces as they were; after nobody from trim") {
     Indi::Outputs last;
     last.actuators = {0.5, 0.1 * side, 0.12 - 0.1 * side, 0.05 * side};
     flight.indi.set(flight.indi.in.attitude,
-                    AttitudeCommand{0.3 * side, 0.1 * side, 0.9});  // much is asked for
+                    AttitudeCommand{0.3 * side, 0.1 * side, 0.9});  // a large command at the switch
     REQUIRE(flight.indi.activate(last) == Status::ok);
     flight.indi.step(0.005);
     const Actuators& u = flight.indi.out.actuators;
@@ -197,7 +198,7 @@ TEST_CASE("it goes on from the surfaces as they were; after nobody from trim") {
 
 TEST_CASE("at a limit nothing winds up, and without an attitude it damps the rates and says so") {
   Flight flight;
-  flight.more_moment.y() = 60;  // more than the elevator has
+  flight.more_moment.y() = 60;  // beyond the authority of the elevator
   flight.run(1);
   CHECK(flight.indi.out.actuators.elevator_rad == doctest::Approx(40 * deg));
   flight.more_moment.y() = 0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looks ahead: steers for a point of the path, L1 ahead, round the corner as well. Source: Park, Deyst & How,
-// A New Nonlinear Guidance Logic for Trajectory Tracking (AIAA 2004-4900), equation (1); L1 grows with the
-// speed, as a period and a damping say (section IV: omega = sqrt(2) Vg / L1 at a damping of 1/sqrt(2)).
+// Look-ahead guidance: steers to the point of the path at distance L1, also beyond a corner. Source: Park,
+// Deyst & How, A New Nonlinear Guidance Logic for Trajectory Tracking (AIAA 2004-4900), equation (1). L1
+// grows with the speed for a constant period and damping (section IV: omega = sqrt(2) Vg / L1 at a damping of
+// 1/sqrt(2)).
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,8 @@ struct L1Guide {  // fills the role `guide`
   struct Outputs {
     GuidanceCommand command;
     Probe cross_track_m;  // right of the path is positive
-    Probe eta_rad;        // from the ground track to the point that is steered for
-    Probe corner_ratio;   // 1: that point lies on the next piece
+    Probe eta_rad;        // from the ground track to the target point
+    Probe corner_ratio;   // 1: the target point lies on the next piece
   };
   struct Params {
     Param period{7, "s", 2, 60, "period of the oscillation about the path: smaller is tighter"};
@@ -37,10 +38,10 @@ struct L1Guide {  // fills the role `guide`
     double north = 0, east = 0;
   };
 
-  /// The piece that is flown, from the foot of the aircraft on: where it is `s` metres further.
+  /// Projection of the aircraft onto the active piece.
   struct Foot {
-    PathPiece piece;  // begins at the foot
-    double u = 0;     // on a curve
+    PathPiece piece;  // starts at the foot
+    double u = 0;     // curve parameter
     double course_rad = 0, height_m = 0, climb_ratio = 0, cross_m = 0;
   };
 
@@ -87,7 +88,7 @@ struct L1Guide {  // fills the role `guide`
     return foot;
   }
 
-  /// Where a piece is `s` metres after its beginning (a curve: after `u`).
+  /// Point of a piece `s` metres after its start (on a curve: after `u`).
   static Point ahead(const PathPiece& piece, double s, double u = 0) {
     if (piece.is_curve) {
       const Curve curve{piece.control_m};
@@ -113,17 +114,17 @@ struct L1Guide {  // fills the role `guide`
     const double Vg = std::max(state.ground_speed_mps, 1.0), chi = state.course_rad;
     const double L1 = p.damping * p.period * Vg / std::numbers::pi;
     const Foot foot = foot_of(path, state);
-    // The point is L1 away when the path is straight.
+    // On a straight path the target point is at distance L1.
     const double s = std::sqrt(std::max(L1 * L1 - foot.cross_m * foot.cross_m, 0.0));
     const bool corner = p.corners && path.has_next && s > path.remaining_m;
     const Point to = corner ? ahead(path.next, s - path.remaining_m) : ahead(foot.piece, s, foot.u);
     const double n = to.north - state.position_m.north, e = to.east - state.position_m.east;
     const double distance = std::hypot(n, e);
-    // On the point itself there is no direction to it: it is then straight ahead.
+    // At the target point its direction is undefined: straight ahead.
     const double eta = distance > 0.1 ? wrap_pi(std::atan2(e, n) - chi) : 0;
     const double across = std::sin(std::clamp(eta, -std::numbers::pi / 2, std::numbers::pi / 2));
     const double a_chi = 2 * Vg * Vg / std::clamp(distance, 0.3 * L1, L1) * across;  // (1)
-    // Square to the ground track; the wing pulls square to the heading.
+    // The commanded acceleration is normal to the ground track; lift acts normal to the heading.
     const double a = a_chi / std::max(std::cos(angle_difference(chi, state.yaw_rad)), 0.5);
 
     out.command = {};

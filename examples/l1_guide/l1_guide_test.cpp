@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Against Park, Deyst & How, AIAA 2004-4900: its command on a line near the path, on a circle, and the period
+// Guidance against Park, Deyst & How, AIAA 2004-4900: its command near a line and on a circle, and the period
 // and damping of its oscillation.
 #include <doctest/doctest.h>
 
@@ -11,9 +11,9 @@
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double L1 = 0.75 * 7 * 17 / pi;  // of the damping and period that it begins with, at 17 m/s
+constexpr double L1 = 0.75 * 7 * 17 / pi;  // of the default damping and period, at 17 m/s
 
-/// In calm air, over (north, east), at 17 m/s along `course_rad`.
+/// In calm air, over (north, east), at 17 m/s, course `course_rad`.
 VehicleState flying(double north_m, double east_m, double course_rad = 0) {
   VehicleState state;
   state.position_m = {north_m, east_m, -70};
@@ -39,7 +39,7 @@ Path circle(Turn turn, double radius_m) {
   return path;
 }
 
-GuidanceCommand said(const VehicleState& state, const Path& path) {
+GuidanceCommand command_of(const VehicleState& state, const Path& path) {
   Bench<L1Guide> bench;
   bench.set(bench.in.state, state);
   bench.set(bench.in.path, path);
@@ -48,7 +48,7 @@ GuidanceCommand said(const VehicleState& state, const Path& path) {
   return bench.out.command;
 }
 double acceleration(const VehicleState& state, const Path& path) {
-  const GuidanceCommand command = said(state, path);
+  const GuidanceCommand command = command_of(state, path);
   CHECK(command.lateral == LateralMode::acceleration);
   CHECK(std::tan(command.roll_feedforward_rad) ==
         doctest::Approx(command.lateral_acceleration_mps2 / 9.80665));
@@ -70,8 +70,8 @@ TEST_CASE("on a circle it pulls Vg^2/R, whichever way round and whatever the rad
 }
 
 TEST_CASE("near a line it is a spring and a damper of the period and damping asked for") {
-  // Small angles, section IV: a = -2 Vg/L1 d' - 2 Vg^2/L1^2 d. With L1 = zeta P Vg / pi that damps by
-  // 1/sqrt(2); its frequency is sqrt(2) Vg / L1.
+  // Small angles, section IV: a = -2 Vg/L1 d' - 2 Vg^2/L1^2 d. With L1 = zeta P Vg / pi the damping is
+  // 1/sqrt(2), and the frequency sqrt(2) Vg / L1.
   const double stiff = acceleration(flying(0, 0.1), north()) / 0.1;
   const double damp = acceleration(flying(0, 0, 0.01), north()) / (17 * 0.01);
   CHECK(stiff == doctest::Approx(-2 * 17 * 17 / (L1 * L1)).epsilon(1e-3));
@@ -91,7 +91,7 @@ TEST_CASE("it turns early into the next leg, and only where that is known and wa
         doctest::Approx(2 * 17 * 17 / distance * e / distance).epsilon(1e-6));
   path.next.direction_ratio = {0, -1, 0};
   CHECK(acceleration(flying(-10, 0), path) < -1);
-  path.remaining_m = 50;  // further than the point
+  path.remaining_m = 50;  // beyond the point
   CHECK(acceleration(flying(-50, 0), path) == doctest::Approx(0));
   Bench<L1Guide> bench;
   bench.params.corners.value = false;
@@ -103,11 +103,11 @@ TEST_CASE("it turns early into the next leg, and only where that is known and wa
 }
 
 TEST_CASE("a curve is followed as the circle that it is") {
-  // A quarter of a circle of 100 m as a cubic curve, good to 0.03 %.
+  // A quarter of a circle of 100 m as a cubic curve, accurate to 0.03 %.
   const double R = 100, k = 4.0 / 3 * (std::sqrt(2.0) - 1) * R;
   Path path = north();
   set_curve(path, {{{{0, 0, -70}, {k, 0, -70}, {R, R - k, -70}, {R, R, -70}}}}, 0.4);
-  const double a = 0.25 * pi;  // at the azimuth of 45 deg seen from its centre, (0, 100)
+  const double a = 0.25 * pi;  // at the azimuth of 45 deg from its centre, (0, 100)
   const VehicleState state = flying(R * std::sin(a), R - R * std::cos(a), a);
   CHECK(acceleration(state, path) == doctest::Approx(17 * 17 / R).epsilon(0.01));
 }
@@ -121,10 +121,10 @@ TEST_CASE("the wing pulls square to the heading: more of it in a crosswind") {
 
 TEST_CASE("wherever it is, it is finite, and turns hard when it flies away") {
   for (int i = 0; i < 1000; ++i)
-    said(flying(900 * std::sin(0.03 * i), 900 * std::sin(0.05 * i), wrap_pi(0.1 * i)),
-         i % 2 == 0 ? north() : circle(i % 4 == 1 ? Turn::right : Turn::left, 60));
-  said(flying(0, 0), circle(Turn::right, 60));                // over the centre
-  CHECK(acceleration(flying(0, 30, pi - 0.1), north()) > 5);  // the shorter way round: to the right
+    command_of(flying(900 * std::sin(0.03 * i), 900 * std::sin(0.05 * i), wrap_pi(0.1 * i)),
+               i % 2 == 0 ? north() : circle(i % 4 == 1 ? Turn::right : Turn::left, 60));
+  command_of(flying(0, 0), circle(Turn::right, 60));          // over the centre
+  CHECK(acceleration(flying(0, 30, pi - 0.1), north()) > 5);  // the shorter direction: to the right
   CHECK(acceleration(flying(0, -30, 0.1 - pi), north()) < -5);
   VehicleState lost = flying(0, 0);
   lost.position_valid = false;
@@ -137,14 +137,14 @@ TEST_CASE("wherever it is, it is finite, and turns hard when it flies away") {
 TEST_CASE("the height is that of the path below the aircraft, uphill and round") {
   Path path = north();
   path.direction_ratio = {std::cos(0.1), 0, -std::sin(0.1)};
-  const GuidanceCommand up = said(flying(200, 8), path);
+  const GuidanceCommand up = command_of(flying(200, 8), path);
   CHECK(up.height_m == doctest::Approx(70 + 200 * std::tan(0.1)));
   CHECK(up.climb_rate_mps == doctest::Approx(17 * std::tan(0.1)));
   Path round = circle(Turn::left, 100);
   round.climb_ratio = 0.05;
   round.start_rad = 0.5;
   const GuidanceCommand turn =
-      said(flying(100 * std::cos(0.2), 100 * std::sin(0.2), wrap_pi(0.2 - pi / 2)), round);
+      command_of(flying(100 * std::cos(0.2), 100 * std::sin(0.2), wrap_pi(0.2 - pi / 2)), round);
   CHECK(turn.height_m == doctest::Approx(70 + 0.05 * 100 * 0.3));
   CHECK(turn.climb_rate_mps == doctest::Approx(0.05 * 17));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A linear-quadratic regulator from course, height and airspeed to surfaces and throttle, with integrals of
 // these three errors: u = u_ref - K (x - x_ref), K = R^-1 B' X. Stevens, Lewis & Johnson, Aircraft Control
-// and Simulation (2016), chapter 5; weights by the rule of Bryson & Ho, Applied Optimal Control (1975): one
-// over the square of what is acceptable.
+// and Simulation (2016), chapter 5. Weights by the rule of Bryson & Ho, Applied Optimal Control (1975): one
+// over the square of the acceptable value.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ using namespace fulmar;
 struct Lqr {  // fills the roles `outer` and `inner` at once
   static constexpr const char* doc =
       "Course, height and airspeed hold by a linear-quadratic regulator on the surfaces.";
-  using X = Plant;  // its names of states and inputs
+  using X = Plant;  // indices of states and inputs
   using State = Plant::State;
   using Input = Plant::Input;
   using Gain = Eigen::Matrix<double, X::m, X::n>;
@@ -30,10 +30,10 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     In<GuidanceCommand> command;
   };
   struct Outputs {
-    AttitudeCommand attitude;  // what the errors of course and height ask for
+    AttitudeCommand attitude;  // commands from the errors of course and height
     Actuators actuators;
-    Probe bump_ratio;       // what is left of a hand-over, of the actuator that has most
-    Probe saturated_ratio;  // actuators at their limits
+    Probe bump_ratio;       // largest remaining difference of a switch, over the actuators
+    Probe saturated_ratio;  // number of actuators at their limits
   };
   struct Params {
     Param airspeed{1, "m/s", 0.05, 20, "acceptable airspeed error; its weight is the inverse square"};
@@ -67,7 +67,7 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     x_ = plant_.x0;
   }
 
-  void retune(const Params& params) {  // without a solution the gain stays what it was
+  void retune(const Params& params) {  // without a solution the gain stays unchanged
     if (weigh(params) && take_up_ == TakeUp::nothing) take_up_ = TakeUp::bump;
   }
 
@@ -91,7 +91,7 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     if (standing(s)) return wait(params, out);
     const unsigned known = knowledge(s, command);
     if (known != known_ && known_ != 0 && take_up_ == TakeUp::nothing) take_up_ = TakeUp::bump;
-    known_ = known;  // what is lost, or found again, steps no surface
+    known_ = known;  // a change of validity steps no surface
     refer(s, command, params, dt);
     if (s.attitude_valid)
       deviate(s, command);
@@ -154,8 +154,7 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     return Status::ok;
   }
 
-  /// The steady flight that is asked for: a coordinated turn, B&M (9.14), and a climb. Without an
-  /// attitude: wings level.
+  /// Reference: the commanded coordinated turn, B&M (9.14), and climb. Without an attitude: wings level.
   void refer(const VehicleState& s, const GuidanceCommand& c, const Params& params, double dt) {
     const Airframe& a = *params.airframe;
     const FlightLimits& limits = a.limits;
@@ -182,14 +181,14 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     x_ref_(X::r) = rates.r_radps;
     u_ref_ = plant_.u0;
     u_ref_(X::elevator) += turn.elevator_rad - level.elevator_rad;
-    // What holds the roll rate without sideslip: the rows of roll and yaw of A x + B u = 0.
+    // Inputs for zero sideslip at this roll rate: the rows of roll and yaw of A x + B u = 0.
     u_ref_.tail<2>() -=
         plant_.B.block<2, 2>(X::p, X::aileron).inverse() * plant_.A.block<2, 1>(X::p, X::p) * bank_.rate();
     u_ref_(X::throttle) +=
         ((turn.drag_newton - level.drag_newton) / a.mass_kg + isa::g0 * gamma) / plant_.B(X::V, X::throttle);
   }
 
-  /// x - x_ref, as far as it is known: what is not is taken to be as it should.
+  /// x - x_ref. The deviation of an unknown state is 0.
   void deviate(const VehicleState& s, const GuidanceCommand& c) {
     dx_.setZero();
     e_.setZero();
@@ -204,14 +203,15 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     x_ = x_ref_ + dx_;
     if (s.height_valid) e_(0) = s.height_m - c.height_m;
     if (!on_course(s, c)) integrals_(2) = 0;
-    // A bank turns the course by g tan(phi) / Vg: more error for the same bank where the ground is fast.
+    // A bank turns the course by g tan(phi) / Vg: at a high ground speed the same bank stands for more course
+    // error.
     if (on_course(s, c))
       e_(2) = angle_difference(s.course_rad, c.course_rad) *
               std::clamp(s.ground_speed_mps / plant_.x0(X::V), 0.5, 2.0);
   }
 
-  /// Without an attitude the aircraft is taken to do what the model does with the surfaces as they are, so
-  /// that it comes level with the reference.
+  /// Without an attitude, the model predicts the state from the present surfaces, so that the aircraft levels
+  /// with the reference.
   void predict(const Airframe& airframe, double dt) {
     constexpr int parts = 10;  // Euler's method: the fastest mode takes 30 ms
     for (int i = 0; i < parts; ++i) x_ += dt / parts * Plant::derivative(airframe, x_, u_, plant_.rho_kgm3);
@@ -220,11 +220,11 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     dx_(X::h) = dx_(X::chi) = 0;
     if (!(dx_.norm() < 10)) {
       x_ = x_ref_;
-      dx_.setZero();  // so far from it, no model knows
+      dx_.setZero();  // the model does not hold so far from the reference
     }
   }
 
-  /// Errors of height and course count as far as the pitch and the bank lie within limits that they ask for.
+  /// Errors of height and course count as far as the resulting pitch and bank are within limits.
   void ask(const FlightLimits& limits, AttitudeCommand& attitude) {
     dx_.tail<3>() = integrals_;
     const double level = x_ref_(X::theta), Va = x_ref_(X::V);
@@ -243,7 +243,7 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     return given;
   }
 
-  /// Surfaces work with the dynamic pressure.
+  /// The effect of surfaces grows with dynamic pressure.
   Input surface_scale(const VehicleState& s, const FlightLimits& limits) const {
     const double Va = scheduling_airspeed(s, limits), V0 = plant_.x0(X::V);
     const double scale = std::clamp(plant_.rho_kgm3 * V0 * V0 / (air_density(s) * Va * Va), 0.4, 2.5);
@@ -252,12 +252,12 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
 
   Input law(const Input& scale) const { return u_ref_ - scale.cwiseProduct(K_ * dx_) + bump_; }
 
-  /// Three integrals for what throttle, elevator and aileron were beyond this law. The rest fades.
+  /// Three integrals take up the previous commands of throttle, elevator and aileron. The rest fades.
   void take_up_integrals(const Input& scale) {
     const Input missing = (u_ - law(scale)).cwiseQuotient(scale);
     const Eigen::Vector3d i = K_.topRightCorner<3, 3>().inverse() * -missing.head<3>();
     integrals_ = i.cwiseMin(integral_limits_).cwiseMax(-integral_limits_);
-    if ((known_ & 32u) == 0) integrals_(2) = 0;  // no course: nothing would hold it
+    if ((known_ & 32u) == 0) integrals_(2) = 0;  // no course: the integral would drift
   }
 
   void apply(const Input& u, const Airframe& a, Outputs& out) {
@@ -271,8 +271,7 @@ struct Lqr {  // fills the roles `outer` and `inner` at once
     out.saturated_ratio = static_cast<double>((u.array() != u_.array()).count());
   }
 
-  /// An integral grows unless it pushes an actuator, or the pitch and bank that are asked for, further into a
-  /// limit.
+  /// An integral grows unless it drives an actuator, or the commanded pitch or bank, further into a limit.
   void integrate(const Input& u, const Input& scale, double dt) {
     for (int i = 0; i < 3; ++i) {
       const Input push = -e_(i) * scale.cwiseProduct(K_.col(X::int_h + i));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The solution of the Riccati equation against closed forms and itself; the model against Beard & McLain's
-// formulas; the regulator at its hand-overs and limits, and on the nonlinear aircraft.
+// The solution of the Riccati equation against closed forms and its own residual; the model against the
+// formulas of Beard & McLain; the regulator at switches and limits, and on the nonlinear aircraft.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
@@ -14,7 +14,7 @@ using X = Plant;
 constexpr double deg = std::numbers::pi / 180, rho = 1.06;
 constexpr double field_m = 1387;
 
-/// The Anaconda of the shipped airframes.
+/// The shipped Anaconda.
 Airframe anaconda() {
   Airframe a;
   a.mass_kg = 4.5;
@@ -65,7 +65,7 @@ GuidanceCommand cruise(double course_rad = 0) {
   return command;
 }
 
-/// In calm air.
+/// State in calm air.
 VehicleState flying(double Va = 17, double course_rad = 0, double roll_rad = 0) {
   VehicleState s;
   s.height_m = 70;
@@ -79,7 +79,7 @@ VehicleState flying(double Va = 17, double course_rad = 0, double roll_rad = 0) 
   return s;
 }
 
-/// The nonlinear aircraft, at 100 Hz, in calm air.
+/// The nonlinear aircraft in calm air, 100 Hz.
 struct Flight {
   Flown lqr;
   Airframe a = anaconda();
@@ -151,7 +151,7 @@ struct Flight {
 };
 
 using Square = Eigen::Matrix<double, X::n, X::n>;
-/// Whether all eigenvalues of `A` lie left of -`rate`: Cayley's transform maps that half plane into the unit
+/// True if all eigenvalues of `A` lie left of -`rate`: Cayley's transform maps that half plane into the unit
 /// circle.
 bool decays(Square A, double rate) {
   const Square I = Square::Identity();
@@ -195,7 +195,7 @@ TEST_CASE("the solution leaves no residual, and what it closes is stable, with a
   CHECK_FALSE(decays(model.A, 0));
   CHECK_FALSE(decays(model.A - model.B * K, 0.13));  // an integral of 8 s is no faster
   K.col(X::chi).setZero();
-  K.col(X::int_chi).setZero();  // an acceleration is commanded: all but these two
+  K.col(X::int_chi).setZero();  // an acceleration is commanded: course is not fed back
   Square closed = model.A - model.B * K;
   closed(X::chi, X::chi) = closed(X::int_chi, X::int_chi) = -1;
   CHECK(decays(closed, 0.1));
@@ -271,19 +271,19 @@ TEST_CASE("when nobody flew it begins at trim, without a bump or an integral") {
 }
 
 TEST_CASE("the course wraps through north, and it turns the shorter way") {
-  const auto said = [](double course, double wanted) {
+  const auto response = [](double course, double wanted) {
     Flown lqr;
     lqr.see(flying(17, course), cruise(wanted));
     lqr.activate();
     lqr.fly();
     return lqr.u();
   };
-  const Eigen::Vector4d east = said(90 * deg, 100 * deg);
+  const Eigen::Vector4d east = response(90 * deg, 100 * deg);
   CHECK(east(X::aileron) > 0.02);
-  CHECK((said(-5 * deg, 5 * deg) - east).norm() < 1e-9);
-  CHECK((said(355 * deg, 5 * deg) - east).norm() < 1e-9);
-  CHECK((said(175 * deg, -175 * deg) - east).norm() < 1e-9);
-  CHECK(said(-175 * deg, 175 * deg)(X::aileron) < -0.02);
+  CHECK((response(-5 * deg, 5 * deg) - east).norm() < 1e-9);
+  CHECK((response(355 * deg, 5 * deg) - east).norm() < 1e-9);
+  CHECK((response(175 * deg, -175 * deg) - east).norm() < 1e-9);
+  CHECK(response(-175 * deg, 175 * deg)(X::aileron) < -0.02);
 }
 
 TEST_CASE("new weights are a new gain and no step of a surface, without memory") {
@@ -373,7 +373,7 @@ TEST_CASE("what a limit held back is not wound up") {
   CHECK(highest < 271);
   CHECK(flight.state.height_m == doctest::Approx(270).epsilon(0.001));
 
-  Flown lqr;  // a throttle that cannot do what is asked for a minute is free in the second that it can
+  Flown lqr;  // after a minute of saturation the throttle responds within a second
   GuidanceCommand command = cruise();
   command.airspeed_mps = 27;
   lqr.see(flying(15), command);

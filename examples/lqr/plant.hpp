@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a fixed-wing aircraft does near level flight: x' = A x + B u, by central differences of the flight
-// model of the SDK. Beard & McLain, Small Unmanned Aircraft (2012): (3.14)-(3.17) and chapter 4, linearised
+// Linear model of a fixed-wing aircraft near level flight: x' = A x + B u, by central differences of the
+// SDK's flight model. Beard & McLain, Small Unmanned Aircraft (2012): (3.14)-(3.17) and chapter 4, linearised
 // as in section 5.5.
 #pragma once
 #include <Eigen/Core>
@@ -10,8 +10,23 @@
 #include <stdexcept>
 
 struct Plant {
-  enum : int { V, alpha, theta, q, h, beta, phi, p, r, chi, int_h, int_V, int_chi, n };  // of the state
-  enum : int { throttle, elevator, aileron, rudder, m };                                 // of the input
+  enum : int {
+    V,
+    alpha,
+    theta,
+    q,
+    h,
+    beta,
+    phi,
+    p,
+    r,
+    chi,
+    int_h,
+    int_V,
+    int_chi,
+    n
+  };                                                      // indices of the state
+  enum : int { throttle, elevator, aileron, rudder, m };  // indices of the input
   using State = Eigen::Matrix<double, n, 1>;
   using Input = Eigen::Matrix<double, m, 1>;
 
@@ -21,8 +36,8 @@ struct Plant {
   Input u0 = Input::Zero();
   double rho_kgm3 = 0;
 
-  /// What the equations of motion say of `x` under `u`. Course and height are as good as any other; the
-  /// propeller has its steady speed, the surfaces are where they are told to be.
+  /// x' from the equations of motion. They do not depend on course and height. The propeller has its steady
+  /// speed, the surfaces are at their commands.
   static State derivative(const fulmar::Airframe& a, const State& x, const Input& u, double rho) {
     Eigen::Matrix3d J = Eigen::Vector3d(a.inertia.xx_kgm2, a.inertia.yy_kgm2, a.inertia.zz_kgm2).asDiagonal();
     J(0, 2) = J(2, 0) = -a.inertia.xz_kgm2;
@@ -59,7 +74,7 @@ struct Plant {
 
   static constexpr const char* level_flight_missing = "this airframe has no level flight at its cruise speed";
 
-  /// About level flight at the cruise speed, in air of density `rho`.
+  /// Linearised at level flight, cruise speed, and air density `rho`.
   static Plant linearised(const fulmar::Airframe& airframe, double rho) {
     const fulmar::Trim trim = fulmar::trimmed_flight(airframe, airframe.limits.airspeed_cruise_mps, rho);
     if (!trim.found) throw std::runtime_error(level_flight_missing);

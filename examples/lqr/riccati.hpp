@@ -8,13 +8,14 @@
 #include <algorithm>
 #include <cmath>
 
-/// The product, coefficient by coefficient: Eigen's kernels for large matrices take half a minute to compile.
+/// Product, coefficient by coefficient: Eigen's kernels for large matrices take half a minute to compile.
 template <class L, class R>
 Eigen::Matrix<double, L::RowsAtCompileTime, R::ColsAtCompileTime> times(const L& a, const R& b) {
   return a.lazyProduct(b);
 }
 
-/// Whether it was found. `A` and `B` must be stabilisable, `Q` and `R` symmetric and positive definite.
+/// Returns true if the solution was found. `A`, `B` must be stabilisable, `Q` and `R` symmetric and positive
+/// definite.
 template <int n, int m>
 bool riccati(const Eigen::Matrix<double, n, n>& A, const Eigen::Matrix<double, n, m>& B,
              const Eigen::Matrix<double, n, n>& Q, const Eigen::Matrix<double, m, m>& R,

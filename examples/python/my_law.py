@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Outer loops in Python: the law of the five-minute template. Equations: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6."""
+"""Outer loops in Python, with the law of the template. Equations: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6."""
 import math
 
 import fulmar_plugin as f

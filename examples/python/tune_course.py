@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the course gain shapes a turn: one simulated step of the course per gain, and a table of what it did.
+"""Effect of the course gain on a turn: one simulated course step per gain, and a table of the results.
 
     PYTHONPATH=build/lib/python /usr/bin/python3 examples/python/tune_course.py
 """
@@ -16,7 +16,7 @@ def wrap(angle_rad):
 
 
 def first_turn(gain, seed):
-    """Flies to the first corner and through it. -> (largest course error, settling time, largest bank)"""
+    """Flight to the first corner and through it. -> (largest course error, settling time, largest bank)"""
     sim = fulmar.Sim(mission, seed=seed, set={"slc.course_kp": gain, "sim.turbulence": "none"})
     while sim["manage.progress.reached"] is None or sim["manage.progress.reached"] < 1:
         if not sim.step(4):

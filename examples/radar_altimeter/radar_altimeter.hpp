@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulated radar altimeter with a narrow beam, fixed to the aircraft: over flat ground at the origin's
-// height it measures the slant range r = h / (cos phi cos theta) along the body's z axis. The divisor is the
-// last element of the rotation from body to NED: Beard & McLain, Small Unmanned Aircraft (2012), chapter 2.
+// A simulated radar altimeter with a narrow beam, fixed to the aircraft. Over flat ground at the height of
+// the origin it measures the slant range r = h / (cos phi cos theta) along the body's z axis. The divisor is
+// the last element of the rotation from body to NED: Beard & McLain, Small Unmanned Aircraft (2012), chapter
+// 2.
 #pragma once
 #include <cmath>
 #include <fulmar/msg/vehicle_state.hpp>
@@ -14,7 +15,7 @@ using namespace fulmar;
 struct RadarRange {
   double range_m = 0;
   double range_std_m = unknown_std;
-  bool valid = false;  ///< false: no echo, `range_m` means nothing
+  bool valid = false;  ///< false: no echo, `range_m` is not valid
 };
 
 struct RadarAltimeter {
@@ -36,7 +37,8 @@ struct RadarAltimeter {
   explicit RadarAltimeter(std::uint64_t seed) : random_(seed) {}
 
   RadarRange measure(const VehicleState& truth, const Params& p) {
-    const double noise_m = p.noise_std * random_.normal();  // drawn in any case: the rest stays the same
+    const double noise_m =
+        p.noise_std * random_.normal();  // drawn even if unused: later random numbers stay the same
     const bool lost = random_.uniform() < p.dropout;
     const double c = std::cos(truth.roll_rad) * std::cos(truth.pitch_rad);
     const double r = truth.height_m / c;
@@ -44,7 +46,7 @@ struct RadarAltimeter {
     return {std::max(r + noise_m, 0.0), p.noise_std, true};
   }
 
-  /// It takes the radar one period to tell; the range comes with the time at which it was measured.
+  /// The radar has a delay of one period; the range has the time of its measurement.
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
     if (!in.truth.fresh()) return Status::ok;
     if (measured_) out.range.push(last_, last_ns_);

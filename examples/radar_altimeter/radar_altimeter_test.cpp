@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The range against a ray that meets the ground, its row against finite differences, and the navigator on a
-// flight that is known in closed form: a turn of constant radius that rises and falls.
+// flight in closed form: a turn of constant radius with changing height.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
@@ -25,7 +25,7 @@ VehicleState over_ground(double height_m, double roll_rad, double pitch_rad, dou
 RadarRange seen(Bench<RadarAltimeter>& bench, const VehicleState& truth) {
   bench.set(bench.in.truth, truth);
   bench.step(0.05);
-  bench.step(0.05);  // it takes a step to tell, and measures nothing new without a new truth
+  bench.step(0.05);  // the output is one step late, and a new measurement needs a new truth
   bench.set(bench.in.truth, truth);
   REQUIRE(allocations([&] { bench.step(0.05); }) == 0);
   REQUIRE(bench.validation_error() == "");
@@ -33,15 +33,15 @@ RadarRange seen(Bench<RadarAltimeter>& bench, const VehicleState& truth) {
   return bench.out.range.items[0];
 }
 
-/// Sensors of a turn at 17 m/s with 0.4 rad of bank, 70 m above the ground, rising and falling by 3 m in
-/// 12.6 s. The receiver reads 2 m too high, the barometer 30 m.
+/// Sensors of a turn at 17 m/s with 0.4 rad of bank, 70 m above the ground, rising and falling by 3 m in 12.6
+/// s. The receiver reads 2 m too high, the barometer 30 m.
 struct Flight {
   Bench<RadarNavigator> bench;
   LocalFrame frame{40, -111, alt0};
   Vector3d field_n = magnetic_field_ned(40, -111, alt0, 2026);
   Random random{3};
-  double height_error_m = 0, bias_m = 0;  // of the estimate now; of the radar
-  double fix_north_m = 0;                 // the receiver is off by that
+  double height_error_m = 0, bias_m = 0;  // of the estimate; of the radar
+  double fix_north_m = 0;                 // error of the receiver
   bool radar = true, gnss = true, imu = true;
   Status status = Status::ok;
   std::function<void(RadarRange&)> alter = [](RadarRange&) {};
@@ -62,7 +62,7 @@ struct Flight {
     return x;
   }
 
-  /// What the filter before us believes: 2 m too high, as its receiver.
+  /// Last outputs of the previous filter: 2 m too high, as its receiver.
   static RadarNavigator::Outputs applied() {
     const Truth x = at(0);
     RadarNavigator::Outputs last;
@@ -86,14 +86,14 @@ struct Flight {
     bench.set(bench.in.sensors.imu, Imu{from_eigen<Body>(x.f_b), from_eigen<Body>(x.omega_b)}, late_s);
   }
   void take_over() {
-    // A turn of one radius hides what the accelerometers read too much: in this flight it is nothing.
+    // A turn of constant radius does not excite the accelerometer bias, which is 0 in this flight.
     bench.params.nav.accel_bias_std.value = 0.02;
     set_imu(at(0));
     REQUIRE(bench.activate(applied()) == Status::ok);
   }
 
   void step() {
-    constexpr double dt = 0.005;  // the step's own time is dt after the one before: an age of -dt
+    constexpr double dt = 0.005;  // the time of the step is dt after the previous one: an age of -dt
     const auto tick = static_cast<int>(bench.tick.index) + 1;
     const double t = tick * dt;
     const Truth x = at(t);
@@ -129,7 +129,7 @@ struct Flight {
     fix.fix = FixType::fix_3d;
     return fix;
   }
-  /// Root mean square of the height's error over that time.
+  /// Root mean square of the height error over this time.
   double fly(double seconds) {
     double squares = 0;
     const int n = static_cast<int>(seconds * 200);
@@ -153,7 +153,7 @@ TEST_CASE("the range is that of a ray along the body's z axis that meets the gro
       const VehicleState truth = over_ground(83, roll, pitch);
       const Vec3<Ned> ray = to_ned(truth.attitude, Vec3<Body>{0, 0, 1});
       const RadarRange range = seen(bench, truth);
-      CHECK(83 - range.range_m * ray.down == doctest::Approx(0));  // height of where it meets
+      CHECK(83 - range.range_m * ray.down == doctest::Approx(0));  // height of the point of impact
       CHECK(range.valid);
       CHECK(bench.tick.now_ns - bench.out.range.stamps_ns[0] == 150'000'000);  // `seen` waits for three steps
     }
@@ -189,13 +189,15 @@ TEST_CASE(
     squares += (range.range_m - 70) * (range.range_m - 70);
   }
   CHECK(std::abs(sum / valid) < 4 * 0.25 / std::sqrt(valid));
-  CHECK(std::sqrt(squares / valid) == doctest::Approx(0.25).epsilon(0.02));  // four deviations of a deviation
+  CHECK(std::sqrt(squares / valid) ==
+        doctest::Approx(0.25).epsilon(0.02));  // four standard deviations of a standard deviation
   CHECK(std::abs(1 - valid / static_cast<double>(n) - 0.02) < 4 * std::sqrt(0.02 * 0.98 / n));
   CHECK(other.measure(over_ground(70, 0, 0), p).range_m != radar.measure(over_ground(70, 0, 0), p).range_m);
 }
 
 TEST_CASE("a range is that of when it was measured, and its row the derivative, now and 50 ms late") {
-  const auto flown = [](const ekf::Vector& error, int samples) {  // a banked climb, from a state so far off
+  const auto flown = [](const ekf::Vector& error,
+                        int samples) {  // a banked climb, from a state with this error
     ekf::Nominal x;
     x.q_nb = quaternion_from({0.5, 0.2, 1.1});
     x.v_n = {9, 14, -3};
@@ -220,7 +222,7 @@ TEST_CASE("a range is that of when it was measured, and its row the derivative, 
       const ErrorStateEkf moved = flown(error, 40);
       const ekf::Scalar z_moved = RadarMeasurement::slant_range(moved, then.time_s(), 80);
       const double change = (z.innovation - z_moved.innovation) / 1e-5;
-      const ekf::Vector dx = moved.state().minus(f.state()) / 1e-5;  // what the error has become
+      const ekf::Vector dx = moved.state().minus(f.state()) / 1e-5;  // present error
       CHECK(z.H.dot(dx) == doctest::Approx(change).epsilon(late > 0 ? 0.02 : 1e-4).scale(0.3));
     }
   }
@@ -234,7 +236,7 @@ TEST_CASE("it takes over without a step, from the state that was applied last") 
   const VehicleState& s = flight.bench.out.nav.state.value;
   const Flight::Truth x = Flight::at(0.005);
   CHECK(s.height_m == doctest::Approx(2 - x.p_n.z()).epsilon(1e-6));
-  CHECK((eigen(s.velocity_mps) - x.v_n).norm() < 0.1);  // corrected once by the air that comes from ahead
+  CHECK((eigen(s.velocity_mps) - x.v_n).norm() < 0.1);  // one correction, by the airspeed from ahead
   CHECK(eigen(s.attitude).angularDistance(x.q_nb) < 1e-5);
   CHECK(flight.bench.out.nav.state.written);
 }
@@ -262,7 +264,7 @@ TEST_CASE("the receiver is 2 m too high: with the radar the height is right, wit
   CHECK(without.fly(10) == doctest::Approx(2).epsilon(0.05));
   CHECK(off.fly(10) == doctest::Approx(2).epsilon(0.05));
   CHECK(with.refused() == 0);
-  // At one speed what the static port takes is not told from what the barometer is off.
+  // At constant speed the error of the static port and the bias of the barometer are not separable.
   CHECK(with.bench.out.nav.baro_bias_m.value == doctest::Approx(30).epsilon(0.04));
   CHECK(with.status == Status::ok);
 }
@@ -296,9 +298,9 @@ TEST_CASE("the gate opens again: who was drawn away by a radar 5 m off follows i
   flight.take_over();
   flight.fly(8);
   flight.bias_m = 5;
-  CHECK(flight.fly(4.5) < 0.3);  // refused
+  CHECK(flight.fly(4.5) < 0.3);  // rejected
   flight.fly(15);
-  CHECK(std::abs(flight.height_error_m) > 3);  // nobody else knows better
+  CHECK(std::abs(flight.height_error_m) > 3);  // without another source of height
   flight.bias_m = 0;
   flight.fly(6);
   CHECK(flight.fly(5) < 0.2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a radar range says of the state, and when it is believed. Sources: Sola, Quaternion kinematics for the
+// Measurement model of a radar range, and its checks. Sources: Sola, Quaternion kinematics for the
 // error-state Kalman filter (2017), section 7; Groves, Principles of GNSS, Inertial and Multisensor
 // Integrated Navigation Systems (2013), chapters 6 (radar altimeter) and 17 (gates).
 #pragma once
@@ -22,9 +22,9 @@ struct RadarMeasurement {
     Param doubt{3, "m", 0.1, 100, "standard deviation that is then added to height and barometer bias"};
   };
 
-  /// Range r = h / c along r_z, the body's z axis in NED, with c = r_z.down = cos phi cos theta. Height and
-  /// its row are those of the time at which it was measured (ekf::position); so is the tilt, turned back with
-  /// the rate of now. A rotation theta of the estimate changes r by r/c (e_down x r_z) . theta.
+  /// Range r = h / c along r_z, the body's z axis in NED, with c = r_z.down = cos phi cos theta. Height, its
+  /// row and the tilt are those at the time of the measurement: the height from ekf::position, the tilt by
+  /// the present body rate. A rotation theta of the estimate changes r by r/c (e_down x r_z) . theta.
   static ekf::Scalar slant_range(const ErrorStateEkf& f, double time_s, double measured_m) {
     const ErrorStateEkf::Past past = f.at(time_s);
     const Vector3d r_z = f.R_nb() * (exp_map(-past.age_s * f.rate_b()) * Vector3d::UnitZ());
@@ -38,7 +38,7 @@ struct RadarMeasurement {
     return z;
   }
 
-  /// Left out: what has no echo, is no number, comes too late, or repeats itself.
+  /// Drops ranges without an echo, ranges that are not finite, late ranges, and repeated ones.
   void fuse(Navigator& navigator, const RadarRange& seen, double time_s, const Params& p) {
     const ErrorStateEkf& f = navigator.filter();
     const double age_s = f.time_s() - time_s, c = f.R_nb()(2, 2);
@@ -47,7 +47,7 @@ struct RadarMeasurement {
     const bool whole = seen.valid && seen.range_m >= 0 && seen.range_m < 1e4 && seen.range_std_m < 100;
     const bool timely = age_s > -0.01 && age_s < p.max_age && f.at(time_s).known;
     if (!p.use_radar || stuck || !whole || !timely || c < 0.3) return;
-    // The tilt of then is known to a few milliradians, which slant makes a length.
+    // The past tilt is uncertain by a few milliradians, which changes the slant range.
     const double slant_std = 0.004 * seen.range_m * std::tan(std::acos(std::min(c, 1.0)));
     const double std = std::hypot(seen.range_std_m, slant_std, 0.02);
     if (navigator.refused_for_s(aid) >= p.reopen_after)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped estimator with a radar altimeter: alignment, gaps, origin and publication are the SDK's.
+// The shipped estimator with a radar altimeter. The SDK provides alignment, gaps, origin and outputs.
 #pragma once
 #include "radar_measurement.hpp"
 
@@ -11,7 +11,8 @@ struct RadarNavigator {  // fills the role `nav`
   };
   struct Outputs {
     navigation::Outputs nav;
-    Probe radar_ratio, radar_refused_ratio;  // last innovation in deviations; ranges refused so far
+    Probe radar_ratio,
+        radar_refused_ratio;  // last innovation in standard deviations; number of ranges rejected
   };
   struct Params {
     navigation::Params nav;

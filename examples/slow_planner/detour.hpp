@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Leads a plan round no-fly zones. Stands between the planner and the manager. A step takes a tenth of a
-// second and a lot of memory: it is made for `run: async`. See README.md.
+// Reroutes a plan around no-fly zones, between planner and manager. A step takes a tenth of a second and much
+// memory, and needs `run: async`. See README.md.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -23,14 +23,14 @@ struct Detour {
   static constexpr const char* doc =
       "Detours of a plan around no-fly zones, fastest in the present wind. Needs `run: async`.";
   struct Inputs {
-    In<VehicleState> state;  // for its wind
+    In<VehicleState> state;  // its wind is used
     In<Plan> plan;
-    Optional<Progress> progress;  // of the plan that comes out: the leg that is flown is left alone
+    Optional<Progress> progress;  // of the published plan: the active leg keeps its shape
   };
   struct Outputs {
-    Out<Plan> plan;     // silent until the whole plan keeps clear
-    Probe clearance_m;  // of the plan that came out last
-    Probe flight_s;     // one round of it, in the wind of then
+    Out<Plan> plan;     // silent until the whole plan is clear of the zones
+    Probe clearance_m;  // of the plan published last
+    Probe flight_s;     // one round of that plan, in the wind at that time
   };
   struct Params {
     Record<Zones> zones{"no-fly zones", required};
@@ -52,8 +52,7 @@ struct Detour {
     double airspeed_mps = 15;
     bool blocked = false, solved = true;
     std::int64_t searches = 0;
-    double extra_m =
-        0;  // kept off more than the margin: grows while the fillets of what is found cut into the margin
+    double extra_m = 0;  // additional clearance: grows while fillets cut into the margin
     std::vector<Point> between;
   };
 
@@ -70,8 +69,8 @@ struct Detour {
   Zones zones_;
   std::unique_ptr<Plan> original_, result_;
   std::vector<Leg> legs_;
-  std::vector<std::size_t> leg_of_;  // of each waypoint of the plan published last
-  std::uint32_t revision_ = 0;       // published last
+  std::vector<std::size_t> leg_of_;  // leg of each waypoint of the published plan
+  std::uint32_t revision_ = 0;       // of the published plan
   double wind_north_ = 0, wind_east_ = 0;
   bool changed_ = false;
 };
@@ -98,7 +97,7 @@ inline Status Detour::step(const Tick&, const Inputs& in, const Params& p, Outpu
   changed_ = false;
   Plan& plan = assemble();
   const double clear_m = clearance_of(plan);
-  if (clear_m < p.margin - 0.1) return Status::degraded;  // the last orbit, or a leg that no detour helps
+  if (clear_m < p.margin - 0.1) return Status::degraded;  // the last orbit, or a leg without a detour
   plan.revision = ++revision_;
   out.plan.publish(plan);
   out.clearance_m = clear_m;
@@ -106,7 +105,7 @@ inline Status Detour::step(const Tick&, const Inputs& in, const Params& p, Outpu
   return Status::ok;
 }
 
-/// Cuts a new plan into legs, and sees which of them come too near to a zone.
+/// Cuts a new plan into legs, and finds those too close to a zone.
 inline void Detour::adopt(const Plan& plan, const Params& p) {
   original_ = std::make_unique<Plan>(plan);
   result_ = std::make_unique<Plan>();
@@ -127,8 +126,7 @@ inline void Detour::adopt(const Plan& plan, const Params& p) {
   changed_ = true;
 }
 
-/// The leg to search for now: first one that has no way yet, then the one searched least, unless it is being
-/// flown.
+/// The leg to search for now: first a leg without a route, then the leg searched least, unless it is active.
 inline std::size_t Detour::choose(const Inputs& in, const Params& p) const {
   std::size_t best = no_leg;
   for (std::size_t i = 0; i < legs_.size(); ++i) {
@@ -140,10 +138,9 @@ inline std::size_t Detour::choose(const Inputs& in, const Params& p) const {
   return best;
 }
 
-/// The leg that is flown and the one after it keep their shape, since the corner between them is already
-/// being flown to.
+/// The active leg and the next one keep their shape, since the corner between them is already active.
 inline bool Detour::flown(std::size_t leg, const Progress& progress) const {
-  if (progress.plan_revision != revision_ || leg_of_.empty()) return true;  // not known
+  if (progress.plan_revision != revision_ || leg_of_.empty()) return true;  // unknown
   const std::size_t now = leg_of_[std::min<std::size_t>(progress.item, leg_of_.size() - 1)];
   return leg == now || leg == (now + 1) % legs_.size();
 }
@@ -169,7 +166,7 @@ inline void Detour::search(std::size_t i, const Params& p) {
   }
   const bool clear = clear_m >= p.margin - 0.1;
   if (!clear) leg.extra_m += 5;
-  constexpr double worth_s = 0.05;  // less is not worth a change of the plan
+  constexpr double worth_s = 0.05;  // a smaller gain is not worth a change of the plan
   if (clear && (!leg.solved || time_of(plan, i) < before_s - worth_s)) {
     leg.solved = changed_ = true;
   } else {
@@ -177,12 +174,12 @@ inline void Detour::search(std::size_t i, const Params& p) {
   }
 }
 
-/// The legs that change with the detour of an original one: its own, and those that share a corner with it.
+/// Legs that change with the detour of an original leg: this leg, and those that share a corner with it.
 inline bool Detour::touches(std::uint32_t k, std::size_t leg, const Route& route) const {
   return leg_of_[k] == leg || leg_of_[route.before(k)] == leg || leg_of_[route.after(k)] == leg;
 }
 
-/// Of the assembled plan as it is flown in the present wind; of one original leg and its corners, or of all.
+/// Flight time of the assembled plan in the present wind; of one original leg with its corners, or of all.
 inline double Detour::time_of(const Plan& plan, std::size_t leg) const {
   const Route route(plan);
   Search s;
@@ -197,8 +194,8 @@ inline double Detour::time_of(const Plan& plan, std::size_t leg) const {
   return sum;
 }
 
-/// The original plan with the detours in it. A jump to a waypoint becomes one to the beginning of its leg's
-/// detour.
+/// The original plan with its detours. A jump to a waypoint becomes a jump to the first point of the detour
+/// of its leg.
 inline Plan& Detour::assemble() {
   Plan& plan = *result_;
   plan = *original_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The quickest way between two points round the zones, in wind. Takes its time and its memory; a given number
-// of samples and a given random generator give one result. Sources: Karaman & Frazzoli, "Sampling-based
-// algorithms for optimal motion planning" (2011), RRT*; Gammell, Srinivasa & Barfoot, "Informed RRT*" (2014),
-// for leaving out what cannot be better.
+// The fastest route between two points around the zones, in wind. It needs much time and memory. The same
+// number of samples and the same random generator give the same result. Sources: Karaman & Frazzoli,
+// "Sampling-based algorithms for optimal motion planning" (2011), RRT*; Gammell, Srinivasa & Barfoot,
+// "Informed RRT*" (2014), for the rejection of samples that cannot improve the result.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -19,15 +19,15 @@ namespace fulmar::slow_planner {
 
 struct Search {
   Zones zones;
-  double keep_off_m = 0;  ///< from the rims
-  double spare_m = 0;     ///< kept off more while the tree grows; pulling it tight uses that up: few corners,
-                          ///< far from each other
+  double keep_off_m = 0;  ///< clearance from the rims of the zones
+  double spare_m = 0;  ///< additional clearance while the tree grows; the shortcuts use it up and so have few
+                       ///< corners, far from each other
   double airspeed_mps = 15;
   double wind_north_mps = 0, wind_east_mps = 0;
   std::int64_t samples = 1000;
 };
 
-/// Seconds along a straight line; infinite where the wind leaves no way.
+/// Flight time along a straight line, s; infinite if the wind permits no such flight.
 inline double flight_time(const Search& s, const Point& a, const Point& b) {
   const double d = distance(a, b);
   if (d == 0) return 0;
@@ -45,7 +45,7 @@ inline double flight_time(const Search& s, const std::vector<Point>& way) {
   return sum;
 }
 
-/// The same along a leg of a route, with its fillets and turns: arcs in chords of about 5 m.
+/// Flight time along a leg of a route, with its fillets and turns: arcs in chords of about 5 m.
 inline double flight_time(const Search& s, const RouteLeg& leg) {
   double sum = 0;
   for (std::size_t i = 0; i < leg.count; ++i) {
@@ -66,12 +66,11 @@ class RrtStar {
       : s_(search), to_(to), random_(random), scale_(distance(from, to)) {
     const auto room = [&](const Point& p) { return clearance(s_.zones, p, p) - s_.keep_off_m; };
     grown_off_m_ = s_.keep_off_m + std::clamp(std::min(room(from), room(to)), 0.0,
-                                              s_.spare_m);  // the ends have to be free, too
+                                              s_.spare_m);  // also at the ends
     nodes_.push_back({from, 0, 0, {}});
     low_ = {std::min(from.north_m, to.north_m), std::min(from.east_m, to.east_m)};
     high_ = {std::max(from.north_m, to.north_m), std::max(from.east_m, to.east_m)};
-    for (const Zone& z :
-         s_.zones.zones) {  // there must be room to go round each zone that stands near the way
+    for (const Zone& z : s_.zones.zones) {  // room for a route around each zone near the straight line
       const double r = z.radius_m + 2 * grown_off_m_ + 100;
       if (line_distance(from, to, {z.north_m, z.east_m}) > r) continue;
       low_ = {std::min(low_.north_m, z.north_m - r), std::min(low_.east_m, z.east_m - r)};
@@ -80,7 +79,7 @@ class RrtStar {
     step_m_ = std::clamp(scale_ / 8, 20.0, 100.0);
   }
 
-  /// The way with its ends; empty when none was found.
+  /// Points of the route with its ends; empty if none was found.
   std::vector<Point> run() {
     for (std::int64_t i = 0; i < s_.samples; ++i) grow();
     if (goal_parent_ == none) return {};
@@ -135,7 +134,8 @@ class RrtStar {
     return best;
   }
 
-  /// A new node goes where it is reached soonest; its neighbours are led over it where that is sooner.
+  /// Connects a new node to the parent with the least time; then rewires its neighbours if it is faster for
+  /// them.
   void add(const Point& x, std::size_t next) {
     const double n = static_cast<double>(nodes_.size() + 1);
     const double radius = std::min(2 * scale_ * std::sqrt(std::log(n) / n), 3 * step_m_);
@@ -178,7 +178,8 @@ class RrtStar {
     }
   }
 
-  /// From each point straight to the farthest one that can be reached: the kinks of the tree go.
+  /// Shortcuts: from each point straight to the farthest reachable point, which removes the kinks of the
+  /// tree.
   std::vector<Point> pulled_tight(const std::vector<Point>& way) const {
     std::vector<Point> tight{way.front()};
     for (std::size_t i = 0; i + 1 < way.size();) {

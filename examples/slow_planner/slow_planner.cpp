@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Leads a plan round no-fly zones by a search that takes its time, and watches that the flight keeps out of
-// them.
+// Reroutes a plan around no-fly zones by a slow search, and monitors the clearance of the flight.
 #include "detour.hpp"
 #include "watch.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How near a flight has come to the no-fly zones.
+// Clearance of a flight from the no-fly zones.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Upright cylinders that nobody may fly into, and how far a path keeps away from them.
+// Upright cylinders as no-fly zones, and the clearance of a path from them.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ struct Zone {
   double radius_m = 0;             ///< radius of the zone
 };
 
-/// A file of zones. They reach from the ground to any height.
+/// A file of zones. A zone has no height limit.
 struct Zones {
   List<Zone, 16> zones;
 };
@@ -27,7 +27,7 @@ inline double distance(const Point& a, const Point& b) {
   return std::hypot(b.north_m - a.north_m, b.east_m - a.east_m);
 }
 
-/// From a straight line to a point.
+/// Distance from a straight line to a point.
 inline double line_distance(const Point& a, const Point& b, const Point& p) {
   const double n = b.north_m - a.north_m, e = b.east_m - a.east_m, square = n * n + e * e;
   const double dot = (p.north_m - a.north_m) * n + (p.east_m - a.east_m) * e;
@@ -35,7 +35,7 @@ inline double line_distance(const Point& a, const Point& b, const Point& p) {
   return std::hypot(a.north_m + t * n - p.north_m, a.east_m + t * e - p.east_m);
 }
 
-/// To the rim of the nearest zone; negative inside. `unknown_std` when there are no zones.
+/// Distance to the rim of the nearest zone; negative inside. `unknown_std` without zones.
 inline double clearance(const Zones& zones, const Point& a, const Point& b) {
   double least = unknown_std;
   for (const Zone& z : zones.zones)
@@ -43,7 +43,7 @@ inline double clearance(const Zones& zones, const Point& a, const Point& b) {
   return least;
 }
 
-/// The same for a leg of a route as it is flown, with its fillets and turns.
+/// The same along a leg of a route, with its fillets and turns.
 inline double clearance(const Zones& zones, const RouteLeg& leg) {
   double least = unknown_std;
   for (const Zone& z : zones.zones)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Follows whatever path there is as a curve: Samson's law in the distance and the angle to it. Source:
-// Micaelli & Samson, Trajectory tracking for unicycle-type and two-steering-wheels mobile robots (INRIA 2097,
-// 1993).
+// Follows any path as a curve: Samson's law in cross-track distance and angle. Source: Micaelli & Samson,
+// Trajectory tracking for unicycle-type and two-steering-wheels mobile robots (INRIA 2097, 1993).
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -34,7 +33,7 @@ struct SplineFollower {  // fills the role `guide`
     Param approach_max{1.05, "rad", 0.2, 1.5, "approach angle to the path at large distance"};
   };
 
-  /// The path where the aircraft is closest to it, and its curvature where it will be when it has rolled.
+  /// Closest point of the path, and the curvature at the place that the aircraft reaches after the roll-in.
   struct Foot {
     double course_rad = 0, cross_m = 0, curvature = 0, curvature_ahead = 0, height_m = 0, climb_ratio = 0;
   };
@@ -87,8 +86,8 @@ struct SplineFollower {  // fills the role `guide`
     const double Vg = std::max(state.ground_speed_mps, 1.0), chi = state.course_rad;
     const Foot foot = foot_of(*in.path, state, Vg * p.lead_time);
     const double theta = angle_difference(chi, foot.course_rad);
-    // Linear: d'' + 2 zeta a d' + a^2 d = 0 over the length flown, with a = 1 / length. Far away the angle of
-    // approach is bounded.
+    // Linear: d'' + 2 zeta a d' + a^2 d = 0 over the distance flown, with a = 1 / length. Far away the angle
+    // of approach is limited.
     const double a = 1 / p.length, k_theta = 2 * p.damping * a, k_d = a * a;
     const double reach_m = k_theta / k_d * p.approach_max, d = std::clamp(foot.cross_m, -reach_m, reach_m);
     const double near =
@@ -96,7 +95,7 @@ struct SplineFollower {  // fills the role `guide`
     const double along = std::max(std::cos(theta), 0.0);
     const double turn = foot.curvature_ahead * along / near - k_theta * theta - k_d * d;  // rad per metre
     const double a_chi = Vg * Vg * turn;
-    // Square to the ground track; the wing pulls square to the heading.
+    // The commanded acceleration is normal to the ground track; lift acts normal to the heading.
     const double lateral = a_chi / std::max(std::cos(angle_difference(chi, state.yaw_rad)), 0.5);
 
     out.command = {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A smooth curve through the waypoints of the plan, leg by leg. Centripetal Catmull-Rom: Yuksel, Schaefer &
-// Keyser, Parameterization and Applications of Catmull-Rom Curves (2011), section 3: no loop and no cusp in a
-// leg, however long or short its neighbours are.
+// A smooth curve through the waypoints of the plan, one leg after the other. Centripetal Catmull-Rom: Yuksel,
+// Schaefer & Keyser, Parameterization and Applications of Catmull-Rom Curves (2011), section 3: a leg has no
+// loop and no cusp, for any length of the adjacent legs.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ struct SplineManager {
   struct Outputs {
     Out<Path> path;  // silent until the position is known
     Progress progress;
-    Probe along_ratio;  // of the leg
+    Probe along_ratio;  // position along the leg
   };
   struct Params {
     Param tension{0, "ratio", 0, 1,
@@ -34,8 +34,8 @@ struct SplineManager {
     Count first_item{0, 0, 65535, "index of the first waypoint"};
   };
 
-  /// Of the leg that ends at waypoint `i`. A circuit of two is a circle; the ends of an open plan are
-  /// mirrored.
+  /// Curve of the leg that ends at waypoint `i`. A circuit of two waypoints is a circle; the ends of an open
+  /// plan are mirrored.
   static Curve leg(const Plan& plan, std::uint32_t i, double tension) {
     const std::uint32_t n = plan.waypoints.count;
     const bool closed = plan.end == PlanEnd::circuit;
@@ -72,10 +72,10 @@ struct SplineManager {
  private:
   enum class Mode : std::uint8_t { idle, join, leg, orbit };
 
-  static double knots(const Vec3<Ned>& a, const Vec3<Ned>& b) {  // centripetal: the root of the length
+  static double knots(const Vec3<Ned>& a, const Vec3<Ned>& b) {  // centripetal: root of the length
     return std::sqrt(std::max(std::hypot(b.north - a.north, b.east - a.east), 1.0));
   }
-  /// dp/du at `b`, for a leg beside it that is `t` knots long. Barry & Goldman (1988), differentiated.
+  /// dp/du at `b`, for an adjacent leg of `t` knots. Barry & Goldman (1988), differentiated.
   static Vec3<Ned> slope(const Vec3<Ned>& a, const Vec3<Ned>& b, const Vec3<Ned>& c, double t) {
     const double t1 = knots(a, b), t2 = knots(b, c);
     return t * ((1 / t1) * (b - a) - (1 / (t1 + t2)) * (c - a) + (1 / t2) * (c - b));
@@ -105,7 +105,7 @@ struct SplineManager {
   }
   bool is_leg(const Plan& plan) const { return progress_.item > 0 || plan.end == PlanEnd::circuit; }
 
-  /// From where the aircraft is, in its course, to the waypoint and into the leg behind it.
+  /// Curve from the position and course of the aircraft to the waypoint, and on into the next leg.
   void join(const Plan& plan, const VehicleState& state, const Params& p) {
     mode_ = Mode::join;
     const std::uint32_t i = progress_.item;
@@ -200,5 +200,5 @@ struct SplineManager {
   Vec3<Ned> centre_;
   Progress progress_;
   std::uint32_t jumps_ = 0, target_id_ = 0, first_id_ = 0;
-  bool begun_ = false;  // a circuit
+  bool begun_ = false;  // for a circuit: true after its start
 };

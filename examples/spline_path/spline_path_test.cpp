@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The curve against what makes it smooth; the follower's law against the closed form of its oscillator; both
-// against plans of every size, and plans that change.
+// The curve against its conditions of smoothness; the follower against the closed form of its oscillator;
+// both with plans of every size, and with plans that change.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
@@ -29,7 +29,7 @@ Plan plan_of(std::initializer_list<Vec3<Ned>> points, PlanEnd end = PlanEnd::cir
 }
 Plan hourglass() { return plan_of({{400, -250, -70}, {-400, -50, -70}, {-400, -250, -90}, {400, -50, -70}}); }
 
-/// A point that flies where the acceleration takes it, in calm air, under the manager and the follower.
+/// A point that moves by its commanded acceleration in calm air, with manager and follower.
 struct Flight {
   Bench<SplineManager> manager;
   Bench<SplineFollower> follower;

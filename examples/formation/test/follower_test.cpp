@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The slot by hand, the command into it sign by sign and bound by bound, who keeps clear of whom, and a
-// formation that closes.
+// The slot by hand, the command into it sign by sign and limit by limit, the evasion, and a formation that
+// closes.
 #define FULMAR_COUNT_ALLOCATIONS
 #include "follower.hpp"
 
@@ -19,8 +19,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A leader that flies east at 17 m/s, 70 m up; the slot is 20 m behind and 30 m to the right of it, in the
-/// south, 5 m below.
+/// A leader flies east at 17 m/s, 70 m up. The slot is 20 m behind, 30 m to the right (south), and 5 m below.
 struct Scene {
   Bench<Follower> bench;
   VehicleState leader;
@@ -73,8 +72,8 @@ TEST_CASE("a leader's state that is half a second old is half a second's way fur
 TEST_CASE("a leader that turns is taken to turn on: it is on its circle, as far on as time has passed") {
   VehicleState leader = flying({0, 0, -70}, pi / 2);
   leader.roll_rad =
-      std::atan(17 * 17 / (100 * 9.80665));  // a circle of 100 m, to the right: its centre is in the south
-  const double angle = 0.8;                  // of the circle, flown in 100 m * angle / 17 m/s
+      std::atan(17 * 17 / (100 * 9.80665));  // a circle of 100 m to the right, with its centre in the south
+  const double angle = 0.8;                  // of the circle: 100 m * angle / 17 m/s of flight
   const Motion now(leader, 100 * angle / 17);
   CHECK(now.p.x() == doctest::Approx(-100 + 100 * std::cos(angle)));
   CHECK(now.p.y() == doctest::Approx(100 * std::sin(angle)));
@@ -95,7 +94,7 @@ TEST_CASE(
     CHECK(turn > 0.85);
     CHECK(turn < 0.9);
   }
-  // Twice as fast, half as sharp: 0.9 (2/pi) atan(0.6)
+  // Twice the speed, half the gain: 0.9 (2/pi) atan(0.6)
   VehicleState fast = at_slot(-40);
   fast.ground_speed_mps = 34;
   CHECK(s.command(fast).course_rad == doctest::Approx(pi / 2 - 0.30963).epsilon(1e-4));
@@ -119,10 +118,10 @@ TEST_CASE("the speed over ground is what counts: what the air adds is taken off"
   VehicleState own = at_slot();
   own.airspeed_mps = 13;  // 4 m/s from behind
   CHECK(Scene().command(own).airspeed_mps == doctest::Approx(13));
-  own.airspeed_mps = std::hypot(13, 3);  // and 3 m/s from the right, the south: the nose is south of east
+  own.airspeed_mps = std::hypot(13, 3);  // and 3 m/s from the south (right): the nose points south of east
   own.yaw_rad = pi / 2 + std::atan2(3, 13);
   CHECK(Scene().command(own).airspeed_mps == doctest::Approx(std::hypot(13, 3)));
-  own = flying(Scene::slot(), pi / 2, 16);  // 1 m/s too slow over ground
+  own = flying(Scene::slot(), pi / 2, 16);  // 1 m/s too slow over the ground
   own.airspeed_mps = 13;
   CHECK(Scene().command(own).airspeed_mps == doctest::Approx(14));
 }
@@ -163,7 +162,7 @@ TEST_CASE(
   CHECK(c.airspeed_mps == doctest::Approx(std::hypot(v_east, v_north)));
   CHECK(c.roll_feedforward_rad ==
         doctest::Approx(std::atan(std::hypot(v_east, v_north) * chi_dot / 9.80665)));
-  CHECK(s.command(at_slot(-200)).roll_feedforward_rad == 0);  // far from the slot there is no such turn
+  CHECK(s.command(at_slot(-200)).roll_feedforward_rad == 0);  // far from the slot its turn does not count
 }
 
 TEST_CASE("a leader that stands is not turned about: its course is what it says") {
@@ -201,7 +200,7 @@ TEST_CASE("nobody hands over to it without a leader") {
   Scene s;
   Follower::Outputs before;
   s.bench.set(s.bench.in.state, at_slot());
-  CHECK(s.bench.activate() == Status::ok);  // nobody has flown yet
+  CHECK(s.bench.activate() == Status::ok);  // no previous component
   CHECK(s.bench.activate(before) == Status::failed);
   s.bench.set(s.bench.in.leader, s.leader);
   CHECK(s.bench.activate(before) == Status::ok);
@@ -223,7 +222,7 @@ TEST_CASE("without a position of its own it flies straight on, as last commanded
 
 TEST_CASE("a slot nearer to the leader than the separation is refused, before and during the flight") {
   Scene s;
-  s.bench.params.separation.value = 36;  // the slot is 36.4 m off
+  s.bench.params.separation.value = 36;  // the slot is 36.4 m away
   CHECK(s.bench.configure() == Status::ok);
   s.bench.params.separation.value = 37;
   CHECK(s.bench.configure() == Status::failed);
@@ -244,11 +243,11 @@ TEST_CASE(
   CHECK(c.height_m == doctest::Approx(72));  // 62 + 10
   CHECK(c.airspeed_mps == 12);
   s.bench.set(s.bench.in.neighbour, flying({70, 175, -68}, pi / 2));  // 5 m behind, 3 m above
-  own = at_slot(0, 0, -2);                                            // below the slot: it would climb
+  own = at_slot(0, 0, -2);  // below the slot: the command would climb
   c = s.command(own, Status::degraded);
   CHECK(c.height_m == doctest::Approx(63));
   CHECK(c.airspeed_mps == doctest::Approx(17));
-  own = at_slot(0, 0, 2);  // above the slot: down it may
+  own = at_slot(0, 0, 2);  // above the slot: the descent is permitted
   s.bench.set(s.bench.in.neighbour, flying({70, 175, -70}, pi / 2));
   CHECK(s.command(own, Status::degraded).height_m == doctest::Approx(65));
 }
@@ -270,7 +269,7 @@ TEST_CASE("what comes nearer is kept clear of before it is near; what flies alon
   CHECK_FALSE(evades(flying({70, 180 - 11, -65}, -pi / 2)));   // has passed
   CHECK(evades(flying({70 - 34, 180 + 5, -65}, pi / 4, 24)));  // crosses from the right: 5 m off in 2 s
   VehicleState lost = flying({70 + 5, 180, -65}, pi / 2);
-  lost.position_valid = false;  // its place means nothing
+  lost.position_valid = false;  // an invalid position does not count
   CHECK_FALSE(evades(lost));
 }
 
@@ -316,7 +315,7 @@ TEST_CASE(
     leader.step(lead, dt);
     if (s.bench.out.command.written) own.step(s.bench.out.command.value, dt);
     if (t < 40) continue;
-    // where the slot is, from the leader's own course
+    // slot from the course of the leader
     const VehicleState now = leader.state(), me = own.state();
     const double c = std::cos(now.course_rad), si = std::sin(now.course_rad);
     const double dn = me.position_m.north - (now.position_m.north - 20 * c - 20 * si);
@@ -327,7 +326,7 @@ TEST_CASE(
     ++n;
   }
   MESSAGE("rms " << std::sqrt(square / n) << " m, worst " << worst << " m");
-  CHECK(std::sqrt(square / n) < 2.6);  // twice what it is
+  CHECK(std::sqrt(square / n) < 2.6);  // twice the present value
   CHECK(worst < 6.5);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of another aircraft, and when.
+// State of the link to another aircraft, and the conditions of each value.
 #include "neighbour.hpp"
 
 #include <doctest/doctest.h>
@@ -68,13 +68,13 @@ TEST_CASE("the distance is that of now, and the least one counts in the air alon
   bench.set(bench.in.heard, flying({3, 4, 0}, 0));
   bench.step(0.1);
   CHECK(bench.out.sight.least_distance_m == 1e9);
-  bench.set(bench.in.heard, flying({3, 4, -70}, 0));  // one of the two still stands
+  bench.set(bench.in.heard, flying({3, 4, -70}, 0));  // one of the two is still on the ground
   bench.step(0.1);
   CHECK(bench.out.sight.least_distance_m == 1e9);
   VehicleState here = flying({0, 0, -70}, 0);
   bench.set(bench.in.state, here);
   bench.set(bench.in.heard, flying({0, 30, -70}, 0, 20));  // northwards with 20 m/s
-  bench.step(2.5);                                         // 50 m on
+  bench.step(2.5);                                         // travels 50 m
   CHECK(bench.out.sight.hearing == Hearing::silent);
   bench.params.timeout.value = 5;
   bench.retune();

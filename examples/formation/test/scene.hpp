@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Aircraft for the tests of this folder: one at a place, and one that flies as it is told.
+// Aircraft for the tests of this folder: one at a fixed place, and one that follows commands.
 #pragma once
 #include <algorithm>
 #include <cmath>

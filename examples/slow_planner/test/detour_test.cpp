@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes out keeps clear of the zones, found by walking along it in steps of a metre; and it is the same
-// for the same seed.
+// The resulting plan keeps clear of the zones, measured in steps of a metre along it. It is the same for the
+// same seed.
 #define FULMAR_COUNT_ALLOCATIONS
 #include "detour.hpp"
 
@@ -40,7 +40,7 @@ Zones crossing() {
   return zones;
 }
 
-/// Distance of the whole route from a zone's rim, a metre at a time.
+/// Distance of the whole route from the rim of a zone, measured in steps of a metre.
 double walked_clearance(const Plan& plan, const Zones& zones) {
   const Route route(plan);
   double least = 1e9;
@@ -64,7 +64,7 @@ struct Planning : Bench<Detour> {
     set(in.state, VehicleState{});
     set(in.plan, plan);
   }
-  /// Steps until a plan comes out, at most `steps` times.
+  /// Steps until a plan is published, at most `steps` times.
   bool plans(int steps = 20) {
     for (int i = 0; i < steps; ++i) {
       REQUIRE(step(0.5) != Status::failed);
@@ -85,8 +85,8 @@ bool same_position(const Waypoint& a, const Waypoint& b) {
 TEST_CASE(
     "the plan that comes out keeps the margin from the zone and still leads over every waypoint, in order") {
   Planning planning;
-  REQUIRE(walked_clearance(hourglass(), crossing()) < 0);  // as it is, it leads through
-  CHECK(planning.step(0.5) == Status::degraded);           // one search is one leg; two lead through the zone
+  REQUIRE(walked_clearance(hourglass(), crossing()) < 0);  // the original plan crosses the zone
+  CHECK(planning.step(0.5) == Status::degraded);           // one search is one leg; two legs cross the zone
   CHECK_FALSE(planning.out.plan.written);
   REQUIRE(planning.plans());
   const Plan& plan = planning.plan();
@@ -125,7 +125,7 @@ TEST_CASE("one seed gives one plan, to the bit, and another seed another") {
     for (int i = 0; i < 12; ++i) planning->step(0.5);
   }
   const auto same = [](const Plan& x,
-                       const Plan& y) {  // field by field: between them a struct holds whatever was there
+                       const Plan& y) {  // field by field: padding bytes are undefined
     const auto as_one = [](const Waypoint& v, const Waypoint& w) {
       return same_position(v, w) && v.frame == w.frame && v.has_course == w.has_course &&
              v.course_rad == w.course_rad && v.airspeed_mps == w.airspeed_mps;
@@ -168,12 +168,11 @@ TEST_CASE("further searches make the plan quicker, never slower") {
 TEST_CASE("the leg that is flown and the next one are left as they are") {
   Planning planning;
   planning.params.improvements.value = 1000;
-  planning.params.iterations.value = 300;  // so that there is much to improve
+  planning.params.iterations.value = 300;  // few, so that there is much to improve
   REQUIRE(planning.plans());
   Progress progress;
   progress.plan_revision = planning.plan().revision;
-  progress.item =
-      0;  // on the way to the first waypoint; the next leg leads through the zone, as does the last
+  progress.item = 0;  // on the way to the first waypoint; the next leg and the last one cross the zone
   const Plan first = planning.plan();
   Plan last = first;
   for (int i = 0; i < 40; ++i) {
@@ -182,7 +181,7 @@ TEST_CASE("the leg that is flown and the next one are left as they are") {
     planning.step(0.5);
     if (planning.out.plan.written) last = planning.plan();
   }
-  CHECK(last.revision > first.revision);  // the last leg was worked on
+  CHECK(last.revision > first.revision);  // the last leg was improved
   for (std::size_t i = 0; !same_position(first.waypoints[i], hourglass().waypoints[1]); ++i)
     CHECK(same_position(first.waypoints[i], last.waypoints[i]));
 }
@@ -195,9 +194,9 @@ TEST_CASE(
   for (const Waypoint& w : {point(-400, 0), point(0, 0), point(0, 400), point(-400, 400)})
     square.waypoints.push_back(w);
   Zones zones;
-  zones.zones.push_back({20, 200, 40});       // on the second leg; the way south of it is the shorter one
+  zones.zones.push_back({20, 200, 40});       // on the second leg; the route south of it is shorter
   zones.zones.push_back({-52.2, 26.6, 5.5});  // inside the corner before: clear of a turn of 90 degrees alone
-  zones.zones.push_back({-122, 200, 40});     // leaves no more room in the south than one search keeps off
+  zones.zones.push_back({-122, 200, 40});  // leaves no room in the south beyond the clearance of one search
   REQUIRE(clearance(zones, Route(square).leg(1)) > 20);
   Planning planning(square);
   planning.params.zones.value = zones;
@@ -239,7 +238,7 @@ TEST_CASE("a plan far from the zones passes through at once, unchanged") {
   for (std::size_t i = 0; i < 4; ++i) CHECK(same_position(planning.plan().waypoints[i], plan.waypoints[i]));
 }
 
-#ifndef FULMAR_COUNTS_NOTHING  // The thread sanitizer's allocation functions stand before those that count.
+#ifndef FULMAR_COUNTS_NOTHING  // The thread sanitizer replaces the allocation functions that count.
 #define FULMAR_COUNTS_NOTHING false
 #endif
 TEST_CASE("it takes memory while it thinks: what it is made to show" * doctest::skip(FULMAR_COUNTS_NOTHING)) {

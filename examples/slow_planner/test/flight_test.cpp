@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped mission, twice, by the program: it keeps out of the zone that its plan leads through, and both
-// logs are equal.
+// The shipped mission, flown twice by the program: it keeps out of the zone on its plan, and both logs are
+// equal.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -41,9 +41,8 @@ TEST_CASE("the mission is flown round the zone to its end, and two flights leave
     REQUIRE(flights[i].is_object());
     CHECK(flights[i]["result"] == "flown");
     CHECK(flights[i]["guards"].empty());
-    CHECK(flights[i]["zone_clearance"]["least_m"].get<double>() >
-          15);  // of the true position; the plan keeps 20 m
-    CHECK(flights[i]["zone_clearance"]["least_m"].get<double>() < 60);  // it did fly past the zone
+    CHECK(flights[i]["zone_clearance"]["least_m"].get<double>() > 15);  // true position; the plan keeps 20 m
+    CHECK(flights[i]["zone_clearance"]["least_m"].get<double>() < 60);  // the flight passed the zone
   }
   REQUIRE(flights[0]["log_sha256"].is_string());
   CHECK(flights[0]["log_sha256"] == flights[1]["log_sha256"]);

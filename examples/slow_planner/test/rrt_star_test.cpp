@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search against what geometry and the wind triangle say.
+// The search against geometry and the wind triangle.
 #include "rrt_star.hpp"
 
 #include <doctest/doctest.h>
@@ -51,7 +51,7 @@ TEST_CASE("time of flight follows the wind triangle") {
 }
 
 TEST_CASE("the way round one zone is within two percent of tangent, arc, tangent") {
-  const Search s = search_of({{0, 0, 90}}, 2000);  // kept off by 10: a circle of 100 m
+  const Search s = search_of({{0, 0, 90}}, 2000);  // clearance 10 m: a circle of 100 m
   Random random(1);
   const std::vector<Point> way = RrtStar(s, {-300, 0}, {300, 0}, random).run();
   REQUIRE(way.size() > 2);
@@ -71,7 +71,7 @@ TEST_CASE("of two gaps the nearer one is taken, and a way between many zones kee
   CHECK(min_clearance(s, way) >= 10);
   double sideways = 0;
   for (const Point& p : way) sideways = std::max(sideways, std::abs(p.east_m));
-  CHECK(sideways < 150);  // not round the outside
+  CHECK(sideways < 150);  // not around the outside
 }
 
 TEST_CASE("where there is no way none is found") {

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The contract between host and plugin, whole. C11 and C++20. Nothing C++ crosses it: no exception,
- * allocator, vtable or std type.
+/* The whole binary contract between host and plugin, for C11 and C++20. It has no C++ exception, allocator,
+ * vtable or std type.
  *
  * A plugin is a shared object that exports one const symbol, `fulmar_plugin_entry` of type fulmar_plugin, and
- * nothing else. The host copies every string and table of the entry when it loads the file; it keeps only the
- * function pointers.
+ * nothing else. At load time the host copies all strings and tables of the entry; it keeps only the function
+ * pointers.
  *
- * Thread tags say who may call a function and when:
- *   [setup]  the main thread, before flight or between flights; may allocate, may take its time
+ * Thread tags state the calling thread and its limits:
+ *   [setup]  the main thread, before flight or between flights; may allocate and block
  *   [tick]   the thread that runs the loop; no allocation, lock, exception or system call
- * A component is never entered by two threads at once.
+ * Two threads never call a component at once.
  *
  * Text is UTF-8, NUL-terminated and never NULL. All arrays carry the stride of their elements, so that an
  * element may grow at its end within one ABI major number. Times are nanoseconds of flight time, 0 at the
@@ -28,7 +28,8 @@
 extern "C" {
 #endif
 
-/* ---- what a message looks like ------------------------------------------------------------------------- */
+/* ---- layout of a message --------------------------------------------------------------------------------
+ */
 
 /* clang-format off */
 enum fulmar_kind {    /* kind of one element */
@@ -40,18 +41,18 @@ enum fulmar_kind {    /* kind of one element */
   FULMAR_U64 = 6,
   FULMAR_F32 = 7,
   FULMAR_F64 = 8,
-  FULMAR_ENUM = 9,    /* one byte; `labels` names its values 0, 1, ... */
+  FULMAR_ENUM = 9,    /* one byte; `labels` has the names of its values 0, 1, ... */
   FULMAR_TEXT = 10,   /* char[stride], NUL-terminated */
   FULMAR_STRUCT = 11, /* described by `type` */
-  FULMAR_I8 = 12,     /* from ABI 1.2 on, for foreign messages; so the next two */
+  FULMAR_I8 = 12,     /* from ABI 1.2 on, for foreign messages; as the next two */
   FULMAR_I16 = 13,
   FULMAR_U16 = 14
 };
 
 enum fulmar_shape {
   FULMAR_SCALAR = 0,
-  FULMAR_ARRAY = 1, /* `count` elements, always all of them */
-  FULMAR_LIST = 2   /* a uint32_t at `offset` says how many of at most `count` elements are there; they begin
+  FULMAR_ARRAY = 1, /* `count` elements, all valid */
+  FULMAR_LIST = 2   /* a uint32_t at `offset` holds the number of valid elements, at most `count`; they begin
                        at `offset` + `items` */
 };
 
@@ -70,23 +71,24 @@ typedef struct fulmar_field {
   uint32_t count;  /* 1, the length of an array, or the capacity of a list */
   uint32_t stride; /* bytes from one element to the next */
   uint32_t items;  /* FULMAR_LIST: bytes from the field to its first element */
-  double min, max; /* range that the host enforces in flight; -inf and inf when there is none */
-  uint32_t flags;  /* fulmar_field_flags; 0 in tables from before it was here */
+  double min, max; /* range that the host enforces in flight; -inf and inf without one */
+  uint32_t flags;  /* fulmar_field_flags; 0 in older tables */
 } fulmar_field;
 /* clang-format on */
 
 enum fulmar_field_flags {
-  FULMAR_FIELD_APPENDED = 1, /* a writer from before this field may feed its reader, who then sees zeros */
-  FULMAR_FIELD_REQUIRED = 2, /* of a record: whoever writes one as a whole has to name it; of a field that is
-                                a struct, its own required fields, too */
-  FULMAR_FIELD_INSTEAD = 4,  /* named in a record, it stands in for its struct's required fields */
-  FULMAR_FIELD_RISING = 8    /* a list of numbers that a record has to write in rising order */
+  FULMAR_FIELD_APPENDED =
+      1, /* an older writer without this field may feed a reader, which then reads zeros */
+  FULMAR_FIELD_REQUIRED = 2, /* a record that is given as a whole must have this field; if it is a struct,
+                                also its own required fields */
+  FULMAR_FIELD_INSTEAD = 4,  /* if a record has it, it replaces the required fields of its struct */
+  FULMAR_FIELD_RISING = 8    /* a list of numbers that must rise in a record */
 };
 
 struct fulmar_type {
   const char* name;  /* "VehicleState" */
   const char* frame; /* "ned", "body", "body to ned", or "" */
-  const char* ros;   /* ROS type of a foreign message, "" for ours */
+  const char* ros;   /* ROS type of a foreign message, else "" */
   const fulmar_field* fields;
   uint32_t field_count;
   uint32_t field_stride;
@@ -99,35 +101,35 @@ struct fulmar_type {
 enum fulmar_port_kind {
   FULMAR_IN_VALUE = 1,   /* the latest sample */
   FULMAR_IN_QUEUE = 2,   /* every sample since the last step */
-  FULMAR_IN_REQUEST = 3, /* as a queue; each is answered in the step that sees it */
+  FULMAR_IN_REQUEST = 3, /* as a queue; the component answers each in the same step */
   FULMAR_OUT_VALUE = 17, /* written in each step */
-  FULMAR_OUT_EVENT = 18, /* a value that may stay silent */
-  FULMAR_OUT_QUEUE = 19, /* none, one or several samples per step */
-  FULMAR_OUT_PROBE = 20  /* one number to look at: data points to a double */
+  FULMAR_OUT_EVENT = 18, /* a value that a step may leave unpublished */
+  FULMAR_OUT_QUEUE = 19, /* zero or more samples per step */
+  FULMAR_OUT_PROBE = 20  /* one number for observation: data points to a double */
 };
 
 enum { FULMAR_PORT_OPTIONAL = 1 };
 
-/* Time of validity of a driver's sample that becomes valid when the loop takes it over. */
+/* Time of validity of a driver's sample: the time at which the loop takes it. */
 #define FULMAR_ON_ARRIVAL INT64_MIN
 
 typedef struct fulmar_port {
   const char* name;
   const fulmar_type* type; /* NULL for a probe */
-  uint32_t kind;           /* fulmar_port_kind; a host refuses a kind that it does not know */
+  uint32_t kind;           /* fulmar_port_kind; a host rejects an unknown kind */
   uint32_t flags;
   uint32_t capacity; /* queues and requests: items per step; else 1 */
 } fulmar_port;
 
 typedef struct fulmar_tick {
   int64_t now_ns;
-  int64_t dt_ns;  /* since this component's previous step; its nominal period in the first one */
-  uint64_t index; /* of the loop's pass, from 0 */
+  int64_t dt_ns;  /* since the previous step of this component; in its first step the nominal period */
+  uint64_t index; /* number of the pass of the loop, from 0 */
 } fulmar_tick;
 
 enum {
-  FULMAR_FRESH = 1, /* there is a sample that the previous step did not see */
-  FULMAR_STALE = 2  /* older than the wire's max_age: the values are the last ones known */
+  FULMAR_FRESH = 1, /* the previous step did not read this sample */
+  FULMAR_STALE = 2  /* older than the wire's max_age: last values held */
 };
 
 enum { FULMAR_UNANSWERED = 0, FULMAR_ACCEPTED = 1, FULMAR_REFUSED = 2 };
@@ -138,24 +140,24 @@ typedef struct fulmar_answer {
 } fulmar_answer;
 
 typedef struct fulmar_input {
-  const void* data;         /* the sample, or `count` items one type size apart; NULL when there is none */
+  const void* data; /* the sample, or `count` items at a distance of the type size; NULL without one */
   const int64_t* stamps_ns; /* queue, request: time of validity of each item */
-  fulmar_answer* answers;   /* request: one to fill in for each item */
+  fulmar_answer* answers;   /* request: the answer to each item */
   int64_t valid_at_ns;      /* value: time of validity */
   int64_t age_ns;           /* value: now - valid_at */
-  uint64_t sequence;        /* value: counts samples from 1; 0 when there is none */
+  uint64_t sequence;        /* value: number of samples, from 1; 0 without one */
   uint32_t count;           /* value: 0 or 1; queue, request: items */
-  uint32_t lost;            /* queue, request: items that found no room since the last step */
+  uint32_t lost;            /* queue, request: items beyond the capacity since the last step */
   uint32_t flags;
   uint32_t reserved;
 } fulmar_input;
 
 typedef struct fulmar_output {
-  void* data;          /* the host's room for one value, for `capacity` items, or for a double */
-  int64_t* stamps_ns;  /* queue: room for the times of validity */
-  int64_t valid_at_ns; /* set to now by the host; the component may set the time that its value belongs to */
+  void* data;          /* memory of the host for one value, for `capacity` items, or for a double */
+  int64_t* stamps_ns;  /* queue: memory for the times of validity */
+  int64_t valid_at_ns; /* set to now by the host; the component may set its own time of validity */
   uint32_t count;      /* 0 when called; event, probe: 1 when written; queue: items written; value: ignored */
-  uint32_t lost;       /* queue: items that found no room */
+  uint32_t lost;       /* queue: items beyond the capacity */
 } fulmar_output;
 
 /* ---- parameters ---------------------------------------------------------------------------------------- */
@@ -167,13 +169,13 @@ enum fulmar_param_kind {
   FULMAR_CHOICE = 4, /* integer: index into `choices` */
   FULMAR_STRING = 5, /* text */
   FULMAR_VECTOR = 6, /* number[0..2] in the frame of `type` */
-  FULMAR_RECORD = 7, /* data: a struct of `type` that the host has read from a YAML file */
+  FULMAR_RECORD = 7, /* data: a struct of `type`, read by the host from a YAML file */
   FULMAR_BLOB = 8    /* data, size: the bytes of a file; text: its name */
 };
 
 enum {
   FULMAR_LIVE = 1,    /* may change between ticks */
-  FULMAR_REQUIRED = 2 /* a record or blob without which the component cannot work */
+  FULMAR_REQUIRED = 2 /* a record or blob that the component needs */
 };
 
 typedef struct fulmar_param {
@@ -183,7 +185,7 @@ typedef struct fulmar_param {
   const char* initial_text;   /* FULMAR_STRING */
   const char* const* choices; /* FULMAR_CHOICE */
   const fulmar_type* type;    /* FULMAR_RECORD, FULMAR_VECTOR */
-  const void* initial_data;   /* FULMAR_RECORD: the struct as it is where the file says nothing */
+  const void* initial_data;   /* FULMAR_RECORD: defaults of the struct */
   uint32_t choice_count;
   uint32_t kind;
   uint32_t flags;
@@ -205,17 +207,16 @@ typedef struct fulmar_value { /* valid until configure or retune returns; data o
 
 enum fulmar_status { FULMAR_OK = 0, FULMAR_DEGRADED = 1, FULMAR_FAILED = 2 };
 
-typedef struct fulmar_error { /* filled in on FULMAR_FAILED and when create returns NULL; "" when there is
-                                 nothing to say */
+typedef struct fulmar_error { /* set on FULMAR_FAILED, and when create returns NULL; may be "" */
   char text[248];
 } fulmar_error;
 
 enum {
   FULMAR_VEHICLE = 1, /* has read and write in place of step */
-  FULMAR_RESIDENT = 2 /* its library cannot be unloaded; swapped by its own means */
+  FULMAR_RESIDENT = 2 /* its library cannot be unloaded; it has its own way of a swap */
 };
 
-/* Inputs, outputs, parameters and values come in the order of the tables. */
+/* Inputs, outputs, parameters and values are in the order of the tables. */
 typedef struct fulmar_component {
   const char* name; /* "Outer"; a plugin's only component may be addressed by the file alone */
   const char* doc;
@@ -248,28 +249,28 @@ typedef struct fulmar_component {
 } fulmar_component;
 
 /* Extension "fulmar.last_frame" of a vehicle: const fulmar_last_frame* (*)(void* instance, const
- * fulmar_input* inputs, fulmar_error*).  [setup] Encodes what its device is to receive when the host dies,
- * from inputs that hold the mission's failsafe. The host's last act, in a signal handler, is one write of
- * `data` to `fd`. The struct stays where it is as long as the instance; the vehicle keeps `fd` true. */
+ * fulmar_input* inputs, fulmar_error*).  [setup] Encodes the data for its device in case of a crash of the
+ * host, from inputs that hold the mission's failsafe. The signal handler of the host writes `data` to `fd`
+ * once. The struct keeps its address for the life of the instance; the vehicle updates `fd`. */
 #define FULMAR_LAST_FRAME "fulmar.last_frame"
 typedef struct fulmar_last_frame {
-  volatile int32_t fd; /* -1: there is no device now */
+  volatile int32_t fd; /* -1: no device at present */
   uint32_t size;
   uint8_t data[504];
 } fulmar_last_frame;
 typedef const fulmar_last_frame* (*fulmar_last_frame_function)(void*, const fulmar_input*, fulmar_error*);
 
 typedef struct fulmar_plugin {
-  uint32_t abi_major, abi_minor; /* first, for ever: read before anything else */
+  uint32_t abi_major, abi_minor; /* always first: read before anything else */
   uint32_t component_count;
   uint32_t component_stride;
   const char* version;   /* of the plugin */
   const char* toolchain; /* compiler and its version */
-  const char* flags;     /* what matters of the build: "NDEBUG", "sanitized", "" */
+  const char* flags;     /* relevant build flags: "NDEBUG", "sanitized", "" */
   const fulmar_component* components;
-  /* From ABI 1.1 on. A plugin that hosts another language makes the components of a file of that language;
-   * NULL for all others.  [setup] What open_script returns stays until close_script; NULL and a text on
-   * failure. Its own components may then be none. */
+  /* From ABI 1.1 on. A plugin for another language creates the components of a file of that language; NULL
+   * for other plugins.  [setup] The result of open_script is valid until close_script; NULL and a text on
+   * failure. Such a plugin may have no components of its own. */
   const struct fulmar_plugin* (*open_script)(const char* file, const char* text, uint64_t size,
                                              fulmar_error*);
   void (*close_script)(const struct fulmar_plugin*);

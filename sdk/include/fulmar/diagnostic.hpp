@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors, warnings and notices: each has a code, arguments and a place; its sentence stands in the catalogue
-// of its folder (messages.hpp) and nowhere else. A call of an entry allocates and belongs to set-up;
-// `write` does not and may be used in a tick.
+// Errors, warnings and notices: each has a code, arguments and a place. Its sentence is in the catalogue of
+// its folder (messages.hpp) alone. A call of an entry allocates, and is for set-up; `write` does not
+// allocate, and may be used in a tick.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -21,8 +21,7 @@ namespace fulmar {
 
 namespace detail {
 
-// Read when the library is loaded, not in a tick. Hidden: two plugin files do not share it, so that each can
-// be unloaded.
+// Read at load time, not in a tick. Hidden: two plugin files must not share it, so that each can be unloaded.
 [[gnu::visibility("hidden")]] inline const bool codes_wanted = [] {
   const char* const set = std::getenv("FULMAR_MESSAGES");
   return set != nullptr && std::string_view(set) == "codes";
@@ -30,11 +29,11 @@ namespace detail {
 
 }  // namespace detail
 
-/// Whether a message is written as `code(argument, ...)` in place of its sentence: FULMAR_MESSAGES=codes in
-/// the environment. Scripts and tests that read messages set it; a sentence may change, a code does not.
+/// True if messages are written as `code(argument, ...)` instead of their sentences: FULMAR_MESSAGES=codes in
+/// the environment. For scripts and tests that read messages: a sentence may change, a code does not.
 inline bool writes_codes() noexcept { return detail::codes_wanted; }
 
-/// The name of an argument in the catalogue, and its value.
+/// Name of an argument in the catalogue, and its value.
 struct Argument {
   std::string name;
   std::variant<std::string, std::int64_t, std::uint64_t, double> value;
@@ -51,9 +50,9 @@ struct Argument {
 
 /// A message with its arguments. `text` is the sentence, without the place and the path.
 struct Diagnostic {
-  std::string code;  // "graph.key_unknown"; "" of a text that another program or plugin wrote
+  std::string code;  // "graph.key_unknown"; "" for a text of another program or plugin
   std::vector<Argument> arguments;
-  std::string place;  // "hourglass.yaml:12", or "" without a file
+  std::string place;  // "hourglass.yaml:12"; "" without a file
   std::string path;   // "components.slc.rate", an option, or ""
   std::string text;
 
@@ -79,10 +78,10 @@ struct Fixed {
 
 namespace detail {
 
-/// Text of limited size: what does not fit is counted and left out.
+/// Text of limited size: characters beyond it are counted and left out.
 struct Room {
   char* data;
-  std::size_t size;  // with the zero at the end
+  std::size_t size;  // including the final zero
   std::size_t used = 0;
 
   void put(std::string_view text) noexcept {
@@ -120,15 +119,15 @@ struct Written {
 
 }  // namespace detail
 
-/// An entry of a catalogue: the code, the names of the arguments in the order of the call, and the sentence,
-/// in which `{name}` stands for an argument and `{{` for a brace. A call makes the message:
+/// An entry of a catalogue: the code, the names of the arguments in the order of the call, and the sentence.
+/// In the sentence `{name}` stands for an argument and `{{` for a brace. A call makes the message:
 ///   inline constexpr MessageText key_unknown{"graph.key_unknown", {"key"}, "there is no key '{key}'"};
 ///   throw Error(key_unknown(name));
-/// Hidden, as two plugin files with one entry of a catalogue must not share it.
+/// Hidden, because two plugin files must not share an entry.
 template <std::size_t N>
 class [[gnu::visibility("hidden")]] MessageText {
  public:
-  // A name between braces that is not an argument ends the compilation.
+  // An unknown name between braces is a compile error.
   constexpr MessageText(const char* code, const char* text) requires(N == 0) : code_(code), text_(text) {
     check();
   }
@@ -140,7 +139,7 @@ class [[gnu::visibility("hidden")]] MessageText {
   }
 
   constexpr std::string_view code() const { return code_; }
-  /// Of a message without arguments. [tick]
+  /// For a message without arguments. [tick]
   const char* c_str() const noexcept requires(N == 0) { return writes_codes() ? code_ : text_; }
 
   template <class... Values>
@@ -154,8 +153,8 @@ class [[gnu::visibility("hidden")]] MessageText {
     return made;
   }
 
-  /// Into a room of `size` characters, of which a zero is the last. Returns the length of the whole text, as
-  /// snprintf does. [tick]
+  /// Writes into `size` characters, including a final zero. Returns the length of the whole text, as snprintf
+  /// does. [tick]
   template <class... Values>
   requires(sizeof...(Values) == N) std::size_t write(char* room, std::size_t size, const Values&... values)
   const noexcept {
@@ -208,7 +207,7 @@ class [[gnu::visibility("hidden")]] MessageText {
     }
   }
 
-  /// How many characters of `at`, behind its '{', name an argument; its index in `index`.
+  /// Length of the argument's name in `at` after its '{'; sets `index` to its index.
   constexpr std::size_t name_length(std::string_view at, std::size_t & index) const {
     const std::size_t end = at.find('}');
     for (index = 0; index < N; ++index)
@@ -277,7 +276,7 @@ MessageText(const char*, const char*)->MessageText<0>;
 template <std::size_t M>
 MessageText(const char*, const char* const (&)[M], const char*) -> MessageText<M>;
 
-/// The message with the path before it: "components.slc.rate: ...". Nothing changes for an empty path.
+/// The message with `path` before it: "components.slc.rate: ...". No change for an empty path.
 inline Diagnostic located(const std::string& path, Diagnostic message) {
   if (path.empty()) return message;
   message.path = message.path.empty() ? path : path + ": " + message.path;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bridge between frames and Eigen: `eigen(v)` inside an algorithm, `from_eigen<Ned>(v)` and
-// `from_eigen(q)` at its door (frames.hpp).
+// Conversion between frames and Eigen: `eigen(v)` for inputs of an algorithm, `from_eigen<Ned>(v)` and
+// `from_eigen(q)` for its results (frames.hpp).
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -8,7 +8,7 @@
 
 namespace fulmar {
 
-/// `notice.text = fitted<96>(path_messages::go_around_slope, height)`. What does not fit is left out. [tick]
+/// `notice.text = fitted<96>(path_messages::go_around_slope, height)`. A longer text is cut. [tick]
 template <std::size_t Size, std::size_t N, class... Values>
 Text<Size> fitted(const MessageText<N>& message, const Values&... values) noexcept {
   Text<Size> made;

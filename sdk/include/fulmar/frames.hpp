@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frames in the type: a vector knows whether it is north-east-down or body, and the two do not mix.
+// Vectors with their frame in the type: north-east-down or body; the compiler rejects a mixture.
 //
-// Plain numbers, without Eigen, which takes longer to read than the rest of the SDK together. An algorithm
-// that wants matrices includes fulmar/eigen.hpp: `eigen()` inside it, `from_eigen` at its door.
+// Plain numbers without Eigen, because Eigen takes longer to compile than the rest of the SDK. An algorithm
+// with matrices includes fulmar/eigen.hpp: `eigen()` converts its inputs, `from_eigen` its results.
 #pragma once
 #include <type_traits>
 
@@ -33,7 +33,7 @@ struct Vec3<Body> {
   friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-/// Attitude: turns body components into NED components. Unit quaternion, scalar first.
+/// Attitude: rotates body components into NED components. Unit quaternion, scalar first.
 struct Quat {
   double w = 1, x = 0, y = 0, z = 0;
   friend constexpr bool operator==(const Quat&, const Quat&) = default;
@@ -75,8 +75,8 @@ constexpr Vec3<Frame> operator*(double k, const Vec3<Frame>& v) {
 }
 
 namespace detail {
-/// q v q* by two cross products: v + 2 w (u x v) + 2 u x (u x v) with u the vector part; `sign` -1 turns the
-/// other way.
+/// q v q* by two cross products: v + 2 w (u x v) + 2 u x (u x v) with u the vector part; `sign` -1 is the
+/// inverse rotation.
 template <class To, class From>
 constexpr Vec3<To> rotated(const Quat& q, double sign, const Vec3<From>& v) {
   const auto& [v0, v1, v2] = v;
@@ -92,8 +92,8 @@ constexpr Vec3<To> rotated(const Quat& q, double sign, const Vec3<From>& v) {
 constexpr Vec3<Ned> to_ned(const Quat& q, const Vec3<Body>& v) { return detail::rotated<Ned>(q, 1, v); }
 constexpr Vec3<Body> to_body(const Quat& q, const Vec3<Ned>& v) { return detail::rotated<Body>(q, -1, v); }
 
-// ---- the door to Eigen
-// Templates, so that Eigen is needed where they are used and nowhere else.
+// ---- conversion to Eigen
+// Templates, so that only their users need Eigen.
 
 namespace detail {
 using EigenVector3 = Eigen::Matrix<double, 3, 1, 0, 3, 1>;
@@ -118,7 +118,7 @@ template <class Quaterniond = detail::EigenQuaternion>
 auto eigen(const Quat& q) {
   if constexpr (detail::eigen_is_there<Quaterniond>()) return Quaterniond(q.w, q.x, q.y, q.z);
 }
-/// `from_eigen<Ned>(v)`: the author states the frame, once, where the algorithm ends.
+/// `from_eigen<Ned>(v)`: the author states the frame once, at the end of the algorithm.
 template <class Frame, class Vector3d = detail::EigenVector3>
 Vec3<Frame> from_eigen(const std::type_identity_t<Vector3d>& v) {
   return {v.x(), v.y(), v.z()};

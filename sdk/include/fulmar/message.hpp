@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a message may be made of, beside numbers, enums, frames and std::array: fixed text and fixed-capacity
-// lists.
+// Types of message fields besides numbers, enums, frames and std::array: fixed text and fixed-capacity lists.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -33,15 +32,15 @@ struct Text {
   friend constexpr bool operator==(const Text& a, const Text& b) { return a.view() == b.view(); }
 };
 
-/// Copies words that people read into `room` bytes, with a zero at the end. What does not fit ends in dots
-/// behind a whole word, or a whole character of UTF-8.
+/// Copies a text for people into `room` bytes, with a final zero. A longer text is cut after a whole word or
+/// UTF-8 character, and ends in dots.
 inline void fit_words(std::string_view words, char* text, std::size_t room) {
   const bool fits = words.size() < room;
   std::size_t end = fits ? words.size() : room - 4;  // three dots and the zero
   if (!fits) {
     std::size_t word = end;
     while (word > room / 2 && words[word] != ' ') --word;
-    if (words[word] == ' ') end = word;  // else one long word
+    if (words[word] == ' ') end = word;  // otherwise one long word
     while (end > 0 && (static_cast<unsigned char>(words[end]) & 0xc0) == 0x80) --end;
   }
   std::copy_n(words.begin(), end, text);
@@ -49,7 +48,7 @@ inline void fit_words(std::string_view words, char* text, std::size_t room) {
   text[end] = '\0';
 }
 
-/// At most N items; only the first `count` are there, logged and sent.
+/// At most N items; only the first `count` are valid, logged and sent.
 template <class T, std::size_t N>
 struct List {
   std::uint32_t count = 0;
@@ -65,7 +64,7 @@ struct List {
   constexpr const T* end() const { return items.data() + count; }
   constexpr T* begin() { return items.data(); }
   constexpr T* end() { return items.data() + count; }
-  /// False, and nothing added, when the list is full.
+  /// Returns false, and adds nothing, if the list is full.
   constexpr bool push_back(const T& item) {
     if (full()) return false;
     items[count++] = item;
@@ -74,40 +73,38 @@ struct List {
   constexpr void clear() { count = 0; }
 };
 
-/// What a field may be, where its unit alone says less: the host refuses what a component publishes beyond
-/// it, and what a mission says.
+/// Range of a field. The host rejects published values and values of a mission beyond it.
 struct FieldRange {
   std::string_view field;
   double min = 0, max = 0;
 };
 
-/// Of the fields of a message: a specialization beside it, as of Actuators, lists them.
+/// Ranges of the fields of a message, as a specialization next to the struct (as for Actuators).
 template <class T>
 inline constexpr std::array<FieldRange, 0> field_ranges{};
 
-/// The first field that was appended to a message after plugins were built with it, in a specialization
-/// beside the message. A reader is fed by such an older plugin as well, and then sees zeros from there on: so
-/// zero means "not said" in every field that is appended.
+/// First field appended to a message after a release, as a specialization next to the struct. A writer from
+/// before the field still feeds a reader, which then reads zeros from this field on. Therefore zero means
+/// "not given" in every appended field.
 template <class T>
 inline constexpr std::string_view appended_from{};
 
-/// What a file or map of a record `Record<T>` has to say, as a specialization beside the struct lists it, the
-/// fields of Airframe for one: without it the host refuses the record, for every reader, where it would else
-/// fly on a default that is of no aircraft. A field that is a struct brings its own ones with it.
+/// Fields that a file or map of a `Record<T>` must give, as a specialization next to the struct, for example
+/// of Airframe. Without them the host rejects the record, since a default would belong to another aircraft. A
+/// struct field adds its own required fields.
 template <class T>
 inline constexpr std::array<std::string_view, 0> required_fields{};
 
-/// A field that, when a record names it, stands in for the required fields of its struct: another way to say
-/// the same, which then needs its own required fields.
+/// An alternative field: if a record gives it, its own required fields replace those of its struct.
 template <class T>
 inline constexpr std::string_view instead_field{};
 
-/// Lists of numbers that have to rise from item to item, such as the points of a table: the host refuses
-/// others with the place of the item.
+/// Lists of numbers that must rise from item to item, such as the points of a table. The host rejects others
+/// with the place of the item.
 template <class T>
 inline constexpr std::array<std::string_view, 0> rising_fields{};
 
-/// Deviation of a quantity that nobody knows: large, finite, and so honest to every weighted sum.
+/// Standard deviation of an unknown quantity: large, and finite so that weighted sums stay valid.
 inline constexpr double unknown_std = 1e9;
 
 }  // namespace fulmar

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a plugin author includes: ports, parameters, tick, status, and FULMAR_PLUGIN, which makes the entry of
-// the binary contract.
+// The header for plugin authors: ports, parameters, tick, status, and FULMAR_PLUGIN, which generates the
+// entry of the binary contract.
 //
 //   struct AttitudeHold {
 //     struct Inputs  { In<VehicleState> state;  In<AttitudeCommand> attitude; };
@@ -10,15 +10,16 @@
 //   };
 //   FULMAR_PLUGIN("1.0.0", AttitudeHold)
 //
-// Ports may be grouped, as parameters may: a struct of ports inside Inputs or Outputs, shared by several
-// components (flight/estimator.hpp). Their names are those of the members, in a group as well.
+// A struct of ports inside Inputs or Outputs is a group of ports, for several components
+// (flight/estimator.hpp). A group of parameters works alike. The name of a port is that of its member, also
+// in a group.
 //
 // Optional members: a constructor from a 64-bit seed, `configure`, `retune`, `deactivate`,
 // `static constexpr const char* doc`, and
 //   Status activate(const Tick&, const Inputs&, const Params&, const Applied<Outputs>& last);
-// where `last` may be a `const Outputs&` too. A vehicle has `read(Tick&, const Params&, Outputs&)` and
-// `write(const Tick&, const Inputs&, const Params&)` in place of `step`, and may have
-// `const fulmar_last_frame* last_frame(const Inputs& failsafe)`: what its device gets when the host dies
+// `last` may also be a `const Outputs&`. A vehicle has `read(Tick&, const Params&, Outputs&)` and
+// `write(const Tick&, const Inputs&, const Params&)` in place of `step`. It may have `const
+// fulmar_last_frame* last_frame(const Inputs& failsafe)`: the data for its device when the host crashes
 // (abi.h).
 #pragma once
 #include <cstdint>
@@ -30,10 +31,11 @@
 
 namespace fulmar {
 
-/// One pass of the loop, as a component sees it. Time is flight time, 0 at the first armed tick.
+/// One pass of the loop. Time is flight time, 0 at the first armed tick.
 struct Tick {
   std::int64_t now_ns = 0;
-  std::int64_t dt_ns = 0;  ///< since this component's previous step; its nominal period in the first one
+  std::int64_t dt_ns =
+      0;  ///< since the previous step of this component; in its first step the nominal period
   std::uint64_t index = 0;
   double now_s() const { return 1e-9 * static_cast<double>(now_ns); }
   double dt_s() const { return 1e-9 * static_cast<double>(dt_ns); }
@@ -41,28 +43,28 @@ struct Tick {
 
 enum class Status : std::uint32_t { ok = FULMAR_OK, degraded = FULMAR_DEGRADED, failed = FULMAR_FAILED };
 
-// ---- inputs: views of what the host holds; valid during the call
+// ---- inputs: views of data of the host; valid during the call
 
-/// The latest sample of a wire. There is one whenever `step` is called.
+/// The latest sample of a wire. The host calls `step` only when there is one.
 template <class T>
 struct In {
-  const fulmar_input* input = nullptr;  ///< set by the glue
+  const fulmar_input* input = nullptr;  ///< set by the host's adapter
 
   const T& operator*() const { return *static_cast<const T*>(input->data); }
   const T* operator->() const { return static_cast<const T*>(input->data); }
   bool fresh() const {
     return input && (input->flags & FULMAR_FRESH) != 0;
-  }  ///< not seen by the previous step
+  }  ///< true if the previous step did not read this sample
   bool stale() const {
     return input && (input->flags & FULMAR_STALE) != 0;
-  }  ///< older than the wire's max_age
+  }  ///< true if the sample is older than the wire's max_age
   std::int64_t valid_at_ns() const { return input->valid_at_ns; }
   double valid_at_s() const { return 1e-9 * static_cast<double>(input->valid_at_ns); }
   double age_s() const { return 1e-9 * static_cast<double>(input->age_ns); }
-  std::uint64_t sequence() const { return input ? input->sequence : 0; }  ///< counts samples from 1
+  std::uint64_t sequence() const { return input ? input->sequence : 0; }  ///< number of samples, from 1
 };
 
-/// As In, but the component also steps without it: `if (in.gnss && in.gnss.fresh()) ...`.
+/// As In, but the component also steps without a sample: `if (in.gnss && in.gnss.fresh()) ...`.
 template <class T>
 struct Optional : In<T> {
   explicit operator bool() const { return this->input && this->input->data; }
@@ -71,11 +73,11 @@ struct Optional : In<T> {
 template <class T>
 struct Sample {
   const T& value;
-  std::int64_t valid_at_ns;  ///< flight time at which it was true, as its writer says
+  std::int64_t valid_at_ns;  ///< flight time of validity, set by the writer
   double valid_at_s() const { return 1e-9 * static_cast<double>(valid_at_ns); }
 };
 
-/// Every sample since the last step, oldest first: `for (const auto& sample : in.edits)`.
+/// All samples since the last step, oldest first: `for (const auto& sample : in.edits)`.
 template <class T>
 struct Queue {
   const fulmar_input* input = nullptr;
@@ -96,12 +98,12 @@ struct Queue {
   bool empty() const { return size() == 0; }
   std::uint32_t lost() const {
     return input ? input->lost : 0;
-  }  ///< samples that found no room since the last step
+  }  ///< number of samples since the last step that exceeded the capacity
 };
 
-/// Questions, each to be answered in the step that sees it: `for (auto request : in.edit)`. What is not
-/// answered counts as refused. Who asks from outside hears the answer; a component that feeds a request hears
-/// none: what it has to know, a port of the answering component says, as `plan.results` does.
+/// Requests. The component answers each in the same step: `for (auto request : in.edit)`. A request without
+/// an answer counts as rejected. An external client receives the answer. A component that feeds a request
+/// receives none: the answering component publishes a port of results, as `plan.results`.
 template <class T>
 struct Request {
   const fulmar_input* input = nullptr;
@@ -111,7 +113,7 @@ struct Request {
     fulmar_answer& answer;
     const T& value() const { return asked; }
     void accept() const { answer.verdict = FULMAR_ACCEPTED; }
-    /// The reason is told in some 120 bytes; a longer one ends in dots.
+    /// A reason longer than about 120 bytes is cut, and ends in dots.
     void refuse(std::string_view reason) const {
       answer.verdict = FULMAR_REFUSED;
       fit_words(reason, answer.reason, sizeof answer.reason);
@@ -135,7 +137,7 @@ struct Request {
 
 // ---- outputs. A plain message is published in every step.
 
-/// A message that may stay silent.
+/// A message that a step may leave unpublished.
 template <class T>
 struct Out {
   T value{};
@@ -154,18 +156,18 @@ struct Out {
   }
 };
 
-/// Time of validity of a sample of a driver: the time at which the loop takes it over. A driver has no flight
-/// time of its own.
+/// Time of validity for samples of a driver, which has no flight time: the time at which the loop takes the
+/// sample.
 inline constexpr std::int64_t on_arrival = FULMAR_ON_ARRIVAL;
 
-/// None, one or several messages per step; at most N.
+/// Zero to N messages per step.
 template <class T, std::size_t N = 16>
 struct OutQueue {
   std::array<T, N> items{};
   std::array<std::int64_t, N> stamps_ns{};
   std::uint32_t count = 0, lost = 0;
 
-  /// False when there is no room; the loss is counted and told to the reader.
+  /// Returns false if the queue is full; the host counts the loss for the reader.
   bool push(const T& message, std::int64_t valid_at_ns) {
     if (count == N) {
       ++lost;
@@ -177,7 +179,7 @@ struct OutQueue {
   }
 };
 
-/// One number to look at: logged and plottable, without a message. Its name ends in its unit.
+/// One number for observation: logged and plotted without a message type. Its name ends in its unit.
 struct Probe {
   double value = 0;
   bool written = false;
@@ -188,19 +190,20 @@ struct Probe {
   }
 };
 
-/// What was last applied in the component's role, whoever made it: `activate` goes on from there.
+/// Outputs applied last in the role of the component, by any component. `activate` continues from them.
 ///   if (last.has(last->attitude)) throttle_ = last->attitude.throttle_frac;
 template <class Outputs>
 struct Applied {
-  Outputs outputs{};            ///< what nobody made is zeros, which may be a command too
-  std::uint64_t made_bits = 0;  ///< one per output, in their order: the host has one to go on from
+  Outputs outputs{};  ///< outputs that were never applied are zero, which may also be a valid command
+  std::uint64_t made_bits = 0;  ///< one bit per output, in their order: 1 if the output was applied
 
   const Outputs* operator->() const { return &outputs; }
   operator const Outputs&() const { return outputs; }  // NOLINT(google-explicit-constructor)
 
-  /// Somebody flew: at least one output was applied. Not so when the flight begins and while the pilot flies.
+  /// True if at least one output was applied. False at the start of the flight and while the pilot flies.
   bool given() const { return made_bits != 0; }
-  /// This output was applied: `last.has(last->attitude)`. A predecessor need not have all of its successor's.
+  /// True if this output was applied: `last.has(last->attitude)`. The previous component may have fewer
+  /// outputs.
   template <class M>
   bool has(const M& output) const {
     static_assert(detail::has_port<Outputs, M>(),
@@ -212,8 +215,7 @@ struct Applied {
     });
     return made;
   }
-  /// What was applied of a group of outputs: `estimator_.activate(tick, in.nav, p.nav,
-  /// last.part(last->nav))`.
+  /// Applied outputs of a group: `estimator_.activate(tick, in.nav, p.nav, last.part(last->nav))`.
   template <class G>
   Applied<G> part(const G& group) const {
     static_assert(detail::is_port_group<G>(), "part() asks for a group of the outputs: last.part(last->nav)");
@@ -226,7 +228,7 @@ struct Applied {
     });
     return out;
   }
-  /// All of these were applied.
+  /// Marks all of these outputs as applied.
   static Applied all(const Outputs& applied) {
     constexpr std::size_t n = detail::port_count<Outputs>();
     return {applied, n < 64 ? (std::uint64_t{1} << n % 64) - 1 : ~std::uint64_t{0}};
@@ -237,7 +239,7 @@ struct Applied {
 
 enum class Access : std::uint8_t { live, setup };
 inline constexpr Access live = Access::live;    ///< may change between ticks
-inline constexpr Access setup = Access::setup;  ///< fixed when the flight begins
+inline constexpr Access setup = Access::setup;  ///< fixed at the start of the flight
 
 struct Param {
   double value = 0;
@@ -263,7 +265,7 @@ struct Count {
   constexpr operator std::int64_t() const { return value; }  // NOLINT(google-explicit-constructor)
 };
 
-/// One of the names of an enum.
+/// One value of an enum.
 template <class E>
 struct Choice {
   E value{};
@@ -284,7 +286,7 @@ struct Vector {
   Vec3<Frame> value{};
   const char* unit = "";
   double min = -std::numeric_limits<double>::infinity(),
-         max = std::numeric_limits<double>::infinity();  ///< of each element
+         max = std::numeric_limits<double>::infinity();  ///< limits of each element
   const char* doc = "";
   Access access = live;
 };
@@ -296,7 +298,7 @@ struct Matrix {
   double value[R][C]{};
   const char* unit = "";
   double min = -std::numeric_limits<double>::infinity(),
-         max = std::numeric_limits<double>::infinity();  ///< of each element
+         max = std::numeric_limits<double>::infinity();  ///< limits of each element
   const char* doc = "";
   Access access = live;
   constexpr double operator()(std::size_t row, std::size_t column) const { return value[row][column]; }
@@ -305,19 +307,19 @@ struct Matrix {
 enum class Need : std::uint8_t { optional, required };
 inline constexpr Need required = Need::required;
 
-/// A YAML file that the host has read into a described struct.
+/// A YAML file, read by the host into a described struct.
 template <class T>
 struct Record {
   const char* doc = "";
   Need need = Need::optional;
   T value{};
   bool is_given = false;
-  bool given() const { return is_given; }  ///< the mission names one
+  bool given() const { return is_given; }  ///< true if the mission names one
   const T& operator*() const { return value; }
   const T* operator->() const { return &value; }
 };
 
-/// The bytes of a file. They belong to the host and stay until the next `configure`.
+/// The bytes of a file. The host owns them; they are valid until the next `configure`.
 struct Blob {
   const char* doc = "";
   Need need = Need::optional;

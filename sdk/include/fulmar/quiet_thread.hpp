@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads beside the loop's, of the host or of a component. Signals are for the main thread, and one for a
-// file at its size limit comes back as an error of write; but what crashes a thread is its own, and is told
-// from it.
+// Threads besides the loop's, of the host or of a component. The main thread handles signals, and a write
+// beyond the size limit of a file returns an error. A crash signal stays with the thread that caused it, and
+// is reported.
 #pragma once
 #include <pthread.h>
 #include <sys/mman.h>
@@ -12,11 +12,11 @@
 
 namespace fulmar {
 
-/// Those with which code crashes its own thread: blocked, they would end the process without a word.
+/// Crash signals of a thread. If they were blocked, they would end the process without a report.
 inline constexpr int crash_signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS};
 
-/// While it lives this thread takes no other signal, and neither do those that it creates meanwhile, in all
-/// their life.
+/// While it exists, this thread receives no other signal. The same holds for the whole life of threads
+/// created meanwhile.
 class NoSignals {
  public:
   NoSignals() {
@@ -33,7 +33,8 @@ class NoSignals {
   sigset_t before_{};
 };
 
-/// While it lives, a crash of this thread is handled on a stack of its own: the thread's may be at its end.
+/// While it exists, a crash of this thread is handled on a separate stack, since the thread's stack may be
+/// full.
 class CrashStack {
  public:
   CrashStack() {
@@ -45,7 +46,7 @@ class CrashStack {
   }
   ~CrashStack() {
     if (!stack_.ss_sp) return;
-    sigaltstack(&before_, nullptr);  // a sanitizer has one of its own
+    sigaltstack(&before_, nullptr);  // a sanitizer has its own
     munmap(stack_.ss_sp, size);
   }
   CrashStack(const CrashStack&) = delete;
@@ -56,8 +57,8 @@ class CrashStack {
   stack_t stack_{}, before_{};
 };
 
-/// A thread that takes no signal but those of a crash, which is told.
-/// `name` has at most 15 characters: that is what Linux shows of it.
+/// A thread that receives only crash signals, which are reported. `name` has at most 15 characters, the limit
+/// of Linux.
 template <class Work>
 std::thread quiet_thread(const char* name, Work work) {
   const NoSignals none;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random numbers that are the same for the same seed: the standard library's normal distribution differs
-// between libraries. Sources: Blackman & Vigna, xoshiro256++ 1.0 and splitmix64 (public domain); Doornik, "An
-// improved ziggurat method" (2005).
+// Random numbers that are equal for equal seeds on every system: std::normal_distribution differs between
+// standard libraries. Sources: Blackman & Vigna, xoshiro256++ 1.0 and splitmix64 (public domain); Doornik,
+// "An improved ziggurat method" (2005).
 #pragma once
 #include <array>
 #include <bit>
@@ -20,8 +20,7 @@ constexpr std::uint64_t splitmix64(std::uint64_t& state) {
   return z ^ (z >> 31);
 }
 
-/// A seed for stream `stream` of a component: streams do not disturb each other when one draws more than
-/// before.
+/// Seed for stream `stream` of a component: the number of draws of one stream does not change another.
 constexpr std::uint64_t mix_seed(std::uint64_t seed, std::uint64_t stream) {
   std::uint64_t state = splitmix64(seed) ^ stream;
   return splitmix64(state);
@@ -32,10 +31,10 @@ namespace detail {
 /// Layers of equal area under exp(-x^2/2).
 struct Ziggurat {
   static constexpr std::size_t layers = 128;
-  static constexpr double tail = 3.442619855899;       ///< where the tail begins
-  static constexpr double area = 9.91256303526217e-3;  ///< of each layer
+  static constexpr double tail = 3.442619855899;       ///< start of the tail
+  static constexpr double area = 9.91256303526217e-3;  ///< area of each layer
   std::array<double, layers + 1> edge{};
-  std::array<double, layers> ratio{};  ///< part of a layer that lies under the curve over its whole height
+  std::array<double, layers> ratio{};  ///< part of a layer below the curve over its whole height
 
   Ziggurat() {
     double f = std::exp(-0.5 * tail * tail);
@@ -78,14 +77,14 @@ class Random {
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-  /// Mean 0, deviation 1.
+  /// Mean 0, standard deviation 1.
   double normal() {
     const auto& z = *ziggurat_;
     for (;;) {
       const std::uint64_t word = bits();
       const std::size_t i = word & (detail::Ziggurat::layers - 1);
       const double u = static_cast<double>(static_cast<std::int64_t>(word) >> 11) *
-                       0x1p-52;  // [-1, 1), from other bits than i
+                       0x1p-52;  // [-1, 1), from bits other than those of i
       const double x = u * z.edge[i];
       if (std::abs(u) < z.ratio[i]) return x;
       if (i == 0) return normal_tail(u < 0);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plain struct describes itself: names, kinds, counts, offsets, units and frames of its fields, at compile
-// time, without a macro.
+// Self-description of plain structs: names, kinds, counts, offsets, units and frames of the fields, at
+// compile time, without a macro.
 //
-// How: count the members by brace initialisation and bind them (detail/members.hpp); pointers to the members
-// of an object that is declared and never defined, used as template arguments, appear with the members' names
-// in the signature of a function; offsets follow from the layout rule of standard-layout aggregates and are
-// checked against sizeof. Everything is worked out once per type, not once per field: this is what most of
-// the time to compile a plugin went into.
+// Brace initialisation counts the members, and structured bindings access them (detail/members.hpp). Pointers
+// to the members of a declared, undefined object are template arguments: the signature of a function then
+// contains the member names. Offsets follow from the layout rule of standard-layout aggregates, and are
+// checked against sizeof. All is computed once per type, not once per field, since this dominates the compile
+// time of a plugin.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -51,7 +51,7 @@ consteval const char* type_signature() {
   return __PRETTY_FUNCTION__;
 }
 
-/// Address of a member as a template argument of class type: clang 14 accepts it so, and not bare.
+/// Address of a member as a template argument of class type: clang 14 does not accept a bare address.
 struct At {
   const void* address;
 };
@@ -62,8 +62,7 @@ struct ToAddresses {
   }
 };
 
-/// Names of the members of T. All of them stand in one signature: "... {At{(... ::position_m)}, At{(...
-/// ::speed_mps)}}".
+/// Names of the members of T, from one signature: "... {At{(... ::position_m)}, At{(... ::speed_mps)}}".
 template <class T>
 struct FieldNames {
   static constexpr std::size_t count = member_count<T>();
@@ -71,17 +70,16 @@ struct FieldNames {
   template <std::size_t... I>
   static constexpr std::string_view signature(std::index_sequence<I...>) {
     constexpr auto addresses =
-        with_members(fake<T>.value, ToAddresses{});  // no member: nothing may ask the linker for `fake`
+        with_members(fake<T>.value, ToAddresses{});  // no member: the linker must not need `fake`
     return value_signature<addresses[I]...>();
   }
-  /// From the last to the first: the word before a closing brace; then on to the brace that opens it.
+  /// From the last to the first: the word before a closing brace; then back to its opening brace.
   static constexpr Found<count> find() {
     Found<count> out;
     if constexpr (count > 0) {
       std::string_view rest = signature(std::make_index_sequence<count>{});
       rest = rest.substr(
-          0, rest.rfind('}') +
-                 (rest.ends_with("}}]") ? 0 : 1));  // gcc closes the list itself with a brace as well
+          0, rest.rfind('}') + (rest.ends_with("}}]") ? 0 : 1));  // gcc also closes the list with a brace
       for (std::size_t i = count; i-- > 0;) {
         rest = rest.substr(0, rest.rfind('}'));
         out.words[i] = last_word(rest);
@@ -101,7 +99,7 @@ struct FieldNames {
 #pragma clang diagnostic pop
 #endif
 
-/// A name as text that lives as long as the plugin.
+/// A name as text with the lifetime of the plugin.
 template <class T>
 struct TypeName {
   static constexpr Found<1> find() {
@@ -121,15 +119,15 @@ struct TypeName<Vec3<Body>> {
   static constexpr const char* c_str = "Vec3Body";
 };
 
-/// Names of the first `tried` values of an enum, as one signature prints them: "... {Kind::line, Kind::orbit,
-/// (Kind)2}" or with <>.
+/// Names of the first `tried` values of an enum from one signature: "... {Kind::line, Kind::orbit, (Kind)2}"
+/// or with <>.
 template <class E, std::size_t tried>
 struct Enumerators {
   template <std::size_t... I>
   static constexpr std::string_view signature(std::index_sequence<I...>) {
     return value_signature<static_cast<E>(I)...>();
   }
-  /// How many values have a name, up to the first that has none, and these names.
+  /// Number of values before the first without a name, and their names.
   static constexpr std::pair<std::size_t, std::array<std::string_view, tried>> find() {
     std::pair<std::size_t, std::array<std::string_view, tried>> out{};
     std::string_view rest = signature(std::make_index_sequence<tried>{});
@@ -138,7 +136,7 @@ struct Enumerators {
       const char c = rest[i];
       if ((c == ',' && depth == 0) || i + 2 == rest.size()) {  // i + 2: before the closing "}]" or ">]"
         const std::string_view name = last_word(rest.substr(n, i - n));
-        if (name[0] >= '0' && name[0] <= '9') break;  // a number: names nothing
+        if (name[0] >= '0' && name[0] <= '9') break;  // a number: a value without a name
         out.second[out.first++] = name;
         n = i + 1;
       } else if (c == '(' || c == '{' || c == '<') {
@@ -290,7 +288,7 @@ consteval const char* ros_of() {
     return "";
 }
 
-/// What the type of a member tells of its field: all but name, unit and offset.
+/// Properties of a field from the type of its member: all but name, unit and offset.
 template <class Member>
 consteval fulmar_field field_of() {
   using Element = typename Shape<Member>::Element;
@@ -313,12 +311,12 @@ consteval fulmar_field field_of() {
 template <class Member>
 inline constexpr fulmar_field field_table = field_of<Member>();
 
-/// A number whose name has to end in its unit.
+/// A number, whose name must end in its unit.
 template <class Member>
 inline constexpr bool is_measured = std::is_floating_point_v<typename Shape<Member>::Element> ||
                                     is_frame_vector<typename Shape<Member>::Element>;
 
-/// Of each member: where it begins, by the layout rule; last, where the struct ends.
+/// Offset of each member by the layout rule; last, the end of the struct.
 template <class... M>
 consteval std::array<std::size_t, sizeof...(M) + 1> offsets_of(std::size_t align) {
   const std::array<std::size_t, sizeof...(M) + 1> sizes{sizeof(M)..., 0}, aligns{alignof(M)..., align};
@@ -333,7 +331,7 @@ consteval std::array<std::size_t, sizeof...(M) + 1> offsets_of(std::size_t align
 template <class T, std::size_t count>
 struct Rows {
   std::array<fulmar_field, count> fields{};
-  std::size_t nameless = count;  ///< the first number whose name does not end in a unit
+  std::size_t nameless = count;  ///< first number whose name does not end in a unit
 };
 template <class T>
 consteval std::size_t appended_index() {
@@ -398,7 +396,7 @@ consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
       if (is_required<T>(name)) f.flags |= FULMAR_FIELD_REQUIRED;
       if (is_rising<T>(name)) f.flags |= FULMAR_FIELD_RISING;
       if (!name.empty() && name == instead_field<T>) f.flags |= FULMAR_FIELD_INSTEAD;
-      take_range<T>(f, name);  // of a count, which needs no unit
+      take_range<T>(f, name);  // for a count, which needs no unit
       const bool stamp = (f.kind == FULMAR_I64 || f.kind == FULMAR_U64) && name.ends_with("_ns");
       if (exempt || !(measured[i] || stamp)) continue;
       const int unit = find_unit(name);
@@ -416,7 +414,7 @@ consteval Rows<T, sizeof...(M)> rows_of(Types<M...>) {
   return out;
 }
 
-/// Refuses a number without a unit; the compiler names the struct and the place of the field in it.
+/// Rejects a number without a unit; the compiler message names the struct and the index of the field.
 template <class T, std::size_t field, std::size_t count>
 struct EveryNumberHasAUnit {
   static_assert(field == count,
@@ -458,8 +456,8 @@ constexpr const fulmar_type* type_table() {
 
 namespace fulmar {
 
-/// The field table of a message, as it crosses to the host. Fails to compile, with a sentence, for a struct
-/// that cannot be a message.
+/// The field table of a message for the host. A struct that cannot be a message is a compile error with a
+/// sentence.
 template <class T>
 constexpr const fulmar_type& describe() {
   return *detail::type_table<T>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives one component without a host, through the same C functions that the host calls, and counts
+// Drives one component without a host, through the C functions of the binary contract, and counts
 // allocations.
 //
 //   Bench<AttitudeHold> bench;
@@ -8,11 +8,11 @@
 //   CHECK(bench.step(0.01) == Status::ok);        // advances time by 10 ms, then steps
 //   CHECK(bench.out.actuators.aileron_rad == doctest::Approx(...));
 //
-// `bench.out` holds what the step published, and `bench.validation_error()` what is not finite or not in
-// range in it. An Out<T> has `written` set when it spoke; an OutQueue has its `count`. To count allocations,
-// one source file of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this header
-// (without it the program does not link); `allocations([&] { bench.step(0.01); })` is then the number of
-// calls of operator new, malloc and its relatives in between; with a sanitizer of operator new alone.
+// `bench.out` holds the outputs of the step. `bench.validation_error()` names an output that is not finite or
+// out of range. An Out<T> has `written` set if it was published; an OutQueue has its `count`. To count
+// allocations, one source file of the test program defines FULMAR_COUNT_ALLOCATIONS before it includes this
+// header; without it the program does not link. `allocations([&] { bench.step(0.01); })` is then the number
+// of calls of operator new, malloc and its relatives; with a sanitizer of operator new alone.
 #ifndef FULMAR_TESTING_HPP
 #define FULMAR_TESTING_HPP
 #include <algorithm>
@@ -33,12 +33,13 @@ namespace fulmar {
 inline thread_local std::uint64_t allocation_count = 0;
 void one_source_file_defines_FULMAR_COUNT_ALLOCATIONS() noexcept;
 
-/// Allocations that `work` makes in this thread.
+/// Number of allocations by `work` in this thread.
 template <class F>
 std::uint64_t allocations(F&& work) {
-  one_source_file_defines_FULMAR_COUNT_ALLOCATIONS();  // who counts nothing would always find none
+  one_source_file_defines_FULMAR_COUNT_ALLOCATIONS();  // link error: a test without counting would always
+                                                       // pass
   const std::uint64_t before = allocation_count;
-  asm volatile("" ::: "memory");  // clang takes it that operator new changes nothing that anybody can see
+  asm volatile("" ::: "memory");  // without it clang assumes that operator new has no visible effect
   work();
   asm volatile("" ::: "memory");
   return allocation_count - before;
@@ -54,7 +55,7 @@ inline std::string number_words(double x) {
 
 inline std::string fault_in(const fulmar_type& type, const void* message, const std::string& name);
 
-/// Of the items of one field.
+/// Fault in the items of one field; "" without a fault.
 inline std::string fault_in(const fulmar_field& field, const std::byte* at, const std::string& name) {
   std::uint32_t count = field.count;
   if (field.shape == FULMAR_LIST) std::memcpy(&count, at, sizeof count);
@@ -116,10 +117,10 @@ class Bench {
   Tick tick{};
 
   C& component() { return self().component; }
-  std::string error() const { return error_.text; }  ///< what the last failed call said
+  std::string error() const { return error_.text; }  ///< message of the last failed call
 
-  /// The latest sample of a value input, valid `age_s` before now: the time of the step before. `-dt` is
-  /// valid in the step that follows.
+  /// Sets the latest sample of a value input, valid `age_s` before the time of the previous step. `-dt` is
+  /// valid at the next step.
   template <template <class> class P, class T>
   requires(detail::PortOf<P<T>>::kind == FULMAR_IN_VALUE) void set(const P<T>& port, const T& value,
                                                                    double age_s = 0) {
@@ -134,7 +135,7 @@ class Bench {
     input.count = 1;
     input.flags |= FULMAR_FRESH;
   }
-  /// One more sample of a queue or request, valid `age_s` ago; gone after the next step.
+  /// Adds a sample of a queue or request, valid `age_s` ago; it is removed after the next step.
   template <template <class> class P, class T>
   requires(detail::PortOf<P<T>>::kind == FULMAR_IN_QUEUE ||
            detail::PortOf<P<T>>::kind == FULMAR_IN_REQUEST) void push(const P<T>& port,
@@ -153,7 +154,7 @@ class Bench {
     input.answers = room.answers.data();
     input.count++;
   }
-  /// The answer to request `i` of the last step: "accepted", "unanswered", or the reason of the refusal.
+  /// Answer to request `i` of the last step: "accepted", "unanswered", or the reason of the rejection.
   template <class T>
   std::string answer(const Request<T>& port, std::size_t i = 0) const {
     const fulmar_answer& answer = rooms_[static_cast<std::size_t>(port.input - inputs_.data())].answers[i];
@@ -161,8 +162,8 @@ class Bench {
     return answer.verdict == FULMAR_REFUSED ? answer.reason : "unanswered";
   }
 
-  /// What the last step said that no flight may have: "attitude.roll_rad is nan", "actuators.throttle_frac is
-  /// 1.2, beyond [0, 1]"; "" when all of it is finite and in range.
+  /// First invalid output of the last step: "attitude.roll_rad is nan", "actuators.throttle_frac is 1.2,
+  /// beyond [0, 1]"; "" if all outputs are finite and in range.
   std::string validation_error() const {
     std::string words;
     detail::for_each_port(out, [&]<class M>(const M& member, std::size_t i) {
@@ -185,8 +186,8 @@ class Bench {
     return words;
   }
 
-  /// Hands `params` to the component. Called by the first step if not before; call it again after changing
-  /// `params` with `live` false.
+  /// Passes `params` to the component. The first step calls it if the test did not. Call it again after a
+  /// change of `params` with `live` false.
   Status configure() {
     configured_ = true;
     self().params = params;
@@ -205,13 +206,13 @@ class Bench {
       return Status::ok;
     });
   }
-  /// Nobody flew before: the flight begins, or the pilot flies.
+  /// Without a previous component: at the start of the flight, or after the pilot.
   Status activate() { return activate(Applied<typename C::Outputs>{}); }
-  /// Somebody did, and all of this was applied last.
+  /// After a previous component that applied all these outputs.
   Status activate(const typename C::Outputs& applied) {
     return activate(Applied<typename C::Outputs>::all(applied));
   }
-  /// As the host says it: some outputs were applied, others not. A template: `activate({})` means an Outputs.
+  /// With the outputs that were applied. A template, so that `activate({})` means an Outputs.
   template <std::same_as<Applied<typename C::Outputs>> A>
   Status activate(const A& last) {
     if (!configured_) configure();
@@ -231,7 +232,7 @@ class Bench {
     finish();
     return status;
   }
-  /// For vehicles: read sets the time.
+  /// For vehicles: `read` sets the time.
   Status read() {
     if (!configured_ && configure() == Status::failed) return Status::failed;
     const std::int64_t before = tick.now_ns;
@@ -271,7 +272,7 @@ class Bench {
     error_.text[0] = '\0';
     return static_cast<Status>(detail::guarded(&error_, f));
   }
-  /// Not inlined: g++ 12 takes the end of a name that it can look into for missing.
+  /// Not inlined: g++ 12 otherwise reports a missing end of the name.
   [[gnu::noinline]] static const char* output_name(std::size_t i) {
     return detail::Ports<typename C::Outputs, false>::table[i].name;
   }
@@ -301,12 +302,12 @@ class Bench {
 
 #endif  // FULMAR_TESTING_HPP
 
-// Beyond the guard: the file that counts need not be the first of those that are compiled together.
+// Outside the include guard: in a unity build, another file may include this header first.
 #if defined(FULMAR_COUNT_ALLOCATIONS) && !defined(FULMAR_COUNTS_ALLOCATIONS)
 #define FULMAR_COUNTS_ALLOCATIONS
 void fulmar::one_source_file_defines_FULMAR_COUNT_ALLOCATIONS() noexcept {}
-// Replaces the global allocation functions of this program: those of glibc, which do the work, or where a
-// sanitizer has taken their place, the operators.
+// Replaces the global allocation functions of this program: those of glibc, or, under a sanitizer that
+// replaces them, the operators.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
 #define FULMAR_HEAP_OF_A_SANITIZER
@@ -317,7 +318,7 @@ void fulmar::one_source_file_defines_FULMAR_COUNT_ALLOCATIONS() noexcept {}
 #endif
 #if defined(__GLIBC__) && !defined(FULMAR_HEAP_OF_A_SANITIZER)
 #if defined(__clang__) && __has_include(<mm_malloc.h>)
-#include <mm_malloc.h>  // declares posix_memalign as well, and clang wants that before its definition
+#include <mm_malloc.h>  // declares posix_memalign, which clang requires before its definition
 #endif
 extern "C" {
 void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier): glibc's names

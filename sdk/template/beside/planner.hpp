@@ -3,7 +3,7 @@
 // says: edits PlanEdit[]
 // rate: 10 Hz
 // feeds: edits plan.edits
-// A planner: it watches how far the plan was flown, and changes the plan.
+// A planner: it reads the progress of the flight, and edits the plan.
 #pragma once
 #include <fulmar/msg/plan_edit.hpp>
 #include <fulmar/msg/progress.hpp>
@@ -17,10 +17,10 @@ struct MyLaw {
   struct Inputs {
     In<Progress> progress;
     In<VehicleState> state;
-    Queue<PlanEditResult> results;  // what the plan's owner says of each edit, ours and others'
+    Queue<PlanEditResult> results;  // result of each edit, also of edits by other components
   };
   struct Outputs {
-    OutQueue<PlanEdit, 16> edits;  // all that one step pushes arrive together, in their order
+    OutQueue<PlanEdit, 16> edits;  // all edits of one step arrive together, in their order
   };
   struct Params {
     Count after{2, 1, 1000, "number of waypoints before the detour"};
@@ -29,16 +29,17 @@ struct MyLaw {
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     for (const auto& sample : in.results)
-      if (sample.value.id == our_id && !sample.value.accepted) refused_ = true;  // why: sample.value.reason
+      if (sample.value.id == our_id && !sample.value.accepted)
+        refused_ = true;  // the reason is in sample.value.reason
     if (refused_) return Status::degraded;
-    // Your plan goes here.
+    // Replace this condition by your own plan.
     if (sent_ || in.progress->items == 0 || in.progress->reached < p.after) return Status::ok;
     PlanEdit edit;
     edit.id = our_id;
-    edit.group = 1;  // together or not at all
+    edit.group = 1;  // both edits are applied, or none
     edit.group_size = 2;
     edit.kind = PlanEditKind::insert;
-    edit.index = in.progress->item;  // before what is flown to now
+    edit.index = in.progress->item;  // before the active waypoint
     edit.waypoint.position_m = p.detour.value;
     sent_ = out.edits.push(edit, tick.now_ns);
     edit.kind = PlanEditKind::set_current;  // and fly there at once

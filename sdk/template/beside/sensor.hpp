@@ -2,8 +2,8 @@
 // wired: state vehicle.truth nav.state
 // says: range MyLawRange[]
 // rate: 20 Hz
-// A sensor of the simulation: a range finder that looks down along the body over flat ground at the origin's
-// height. It measures the state that it is wired to, with noise and a bias from the component's seed.
+// A simulated range finder that points down along the body axis, over flat ground at the height of the
+// origin. It measures the connected state, with noise and bias from the seed of the component.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -13,20 +13,21 @@
 
 using namespace fulmar;
 
-/// What it measures. A number's name ends in its unit; absence is a flag, never a zero.
+/// Measurement. A field name ends in its unit. A flag marks a missing value; 0 is a measurement.
 struct MyLawRange {
-  double range_m = 0;  ///< to the ground, along the body's down axis
+  double range_m = 0;  ///< distance to the ground along the body's down axis
   double range_std_m = unknown_std;
-  bool valid = false;  ///< false: the ground was not seen
+  bool valid = false;  ///< false: ground not in range
 };
 
 struct MyLaw {
   static constexpr const char* doc = "A range finder with noise.";
   struct Inputs {
-    In<VehicleState> state;  // the truth in simulation
+    In<VehicleState> state;  // truth in a simulation
   };
   struct Outputs {
-    OutQueue<MyLawRange, 4> range;  // a queue: no reader misses a sample, each with its time of validity
+    OutQueue<MyLawRange, 4>
+        range;  // a queue: no reader misses a sample, and each sample has its time of validity
   };
   struct Params {
     Param noise_std{0.05, "m", 0, 10, "standard deviation of a measurement"};
@@ -43,12 +44,13 @@ struct MyLaw {
 
   Status step(const Tick&, const Inputs& in, const Params& p, Outputs& out) {
     if (!in.state.fresh()) return Status::ok;  // nothing new to measure
-    // Your measurement goes here.
+    // Replace this by your own measurement.
     const double down = std::cos(in.state->roll_rad) * std::cos(in.state->pitch_rad);
     const double distance = in.state->height_m / std::max(down, 1e-3);
     MyLawRange seen;
     seen.valid = down > 0.1 && distance >= 0 && distance < p.range_max;
-    const double noise = p.noise_std * noise_.normal();  // drawn in any case: what follows stays the same
+    const double noise =
+        p.noise_std * noise_.normal();  // drawn even if unused: later random numbers stay the same
     if (seen.valid) {
       seen.range_m = std::max(distance + bias_m_ + noise, 0.0);
       seen.range_std_m = std::hypot(p.noise_std, p.bias_std);

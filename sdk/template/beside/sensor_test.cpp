@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contract, whatever is measured: add the figures of yours.
+// The contract, for any sensor. Add cases for your own one.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: state VehicleState, path Path
 // ports out: command GuidanceCommand
-// Chases a carrot: flies towards the point of the line that lies `lookahead` before its own foot, or along
-// the orbit's tangent, bent towards the orbit. Source: Micaelli & Samson (1993) for the line; Beard & McLain,
-// Small Unmanned Aircraft (2012), (10.13), for the orbit.
+// Carrot chasing. On a line the law steers to the point `lookahead` ahead of the aircraft's projection. On an
+// orbit it follows the tangent, bent towards the orbit. Sources: line: Micaelli & Samson (1993); orbit: Beard
+// & McLain, Small Unmanned Aircraft (2012), (10.13).
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contract of the role, whatever the law: add the figures of yours.
+// The contract of the role, for any law. Add cases for your own law.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Over (north, east), flying north at 17 m/s.
+/// Level flight north over (north, east), at 17 m/s.
 VehicleState flying(double north_m, double east_m) {
   VehicleState state;
   state.position_m = {north_m, east_m, -70};
@@ -35,7 +35,7 @@ Path orbit(Turn turn) {
   return path;
 }
 
-/// How much it wants to turn to the right, by course or by bank.
+/// Commanded turn to the right, rad: course change plus bank.
 double turn(const VehicleState& state, const Path& path) {
   Bench<MyLaw> bench;
   for (int i = 0; i < 50; ++i) {
@@ -67,7 +67,7 @@ TEST_CASE("right of a line it turns left, left of it right") {
 }
 
 TEST_CASE("on an orbit it goes round the way that is asked for") {
-  CHECK(turn(flying(0, -60), orbit(Turn::right)) > 0.05);  // tangent already: the bank of the turn
+  CHECK(turn(flying(0, -60), orbit(Turn::right)) > 0.05);  // tangent already: the bank of the turn alone
   CHECK(turn(flying(0, 60), orbit(Turn::left)) < -0.05);
 }
 

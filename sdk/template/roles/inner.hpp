@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: state VehicleState, attitude AttitudeCommand
 // ports out: actuators Actuators
-// Attitude hold in its plainest form: proportional on the angle, damped by the body rate, throttle handed
-// through. Source: Beard & McLain, Small Unmanned Aircraft (2012), section 6.3, without integrators.
+// Attitude hold in its simplest form: proportional to the angle error, damped by the body rate; throttle
+// passed through. Source: Beard & McLain, Small Unmanned Aircraft (2012), section 6.3, without integrators.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,7 @@ struct MyLaw {  // fills the role `inner`
     const VehicleState& x = *in.state;
     const double roll_error = in.attitude->roll_rad - x.roll_rad;
     const double pitch_error = in.attitude->pitch_rad - x.pitch_rad;
-    // In a steady turn the body pitches and yaws by itself; only what is beyond that is damped. B&M (5.1),
-    // beta = 0
+    // A steady turn needs pitch and yaw rates: only the rate beyond them is damped. B&M (5.1), beta = 0.
     const double Va = std::max(x.airspeed_mps, p.airframe->limits.airspeed_min_mps);
     const double chi_dot = 9.80665 / Va * std::tan(std::clamp(x.roll_rad, -1.2, 1.2));
     const double q = x.rate_radps.y - chi_dot * std::sin(x.roll_rad),

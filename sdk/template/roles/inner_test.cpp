@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contract of the role, whatever the law: add the figures of yours.
+// The contract of the role, for any law. Add cases for your own law.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
@@ -28,7 +28,7 @@ AttitudeCommand commanded(double roll_rad = 0, double pitch_rad = 0) {
   return command;
 }
 
-/// What it says after this long.
+/// Actuator commands after `seconds` of this input.
 Actuators after(double seconds, Bench<MyLaw>& bench, const VehicleState& state,
                 const AttitudeCommand& command) {
   for (int i = 0; i < seconds * 100; ++i) {

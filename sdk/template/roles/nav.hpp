@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot
 // ports out: state VehicleState
-// Fixed-gain observer: the IMU integrated, pulled towards GNSS velocity, position, barometric height and
-// magnetic heading. Source: Hua, Attitude estimation for accelerated vehicles using GPS/INS measurements,
-// Control Engineering Practice 18 (2010), first observer. Takes over attitude, biases and origin from the
-// estimator that flew before. Begins by itself only when standing still.
+// Fixed-gain observer: the integrated IMU is corrected towards GNSS velocity and position, barometric height
+// and magnetic heading. Source: Hua, Attitude estimation for accelerated vehicles using GPS/INS measurements,
+// Control Engineering Practice 18 (2010), first observer. After a switch it continues from attitude, biases
+// and origin of the previous estimator. Without one it aligns only at rest.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ struct MyLaw {  // fills the role `nav`
   Status activate(const Tick&, const Inputs& in, const Params&, const Applied<Outputs>& last) {
     const VehicleState& s = last->state;
     const bool known = last.has(last->state) && s.attitude_valid && s.position_valid && s.origin_valid;
-    if (!known) return Status::ok;  // `step` begins
+    if (!known) return Status::ok;  // `step` aligns
     q_ = eigen(s.attitude);
     v_ = v_gnss_ = eigen(s.velocity_mps);
     p_ = p_gnss_ = eigen(s.position_m);
@@ -65,12 +65,12 @@ struct MyLaw {  // fills the role `nav`
 
   Status step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
     if (!begun_) begin(in, p);
-    if (in.gnss.fresh() && in.gnss->fix >= FixType::fix_3d) hear_gnss(*in.gnss);
+    if (in.gnss.fresh() && in.gnss->fix >= FixType::fix_3d) update_gnss(*in.gnss);
     const double dt = std::clamp(tick.dt_s(), 0.0, 0.05);
     const Eigen::Vector3d f_n = q_ * (eigen(in.imu->specific_force_mps2) - accel_bias_),
                           gravity(0, 0, 9.80665);
     const Eigen::Vector3d v_error = v_gnss_ - v_;
-    // A velocity error across the specific force means a tilt error; the heading comes from the compass.
+    // A velocity error normal to the specific force means a tilt error; the compass corrects the heading.
     Eigen::Vector3d correction_n = p.k_tilt / 9.80665 * f_n.cross(v_error) / 9.80665;
     correction_n.z() = p.k_heading * wrap_pi(compass(in) + heading_offset_ - yaw());
     const Eigen::Vector3d correction_b = q_.conjugate() * correction_n;
@@ -79,11 +79,11 @@ struct MyLaw {  // fills the role `nav`
                           turn = (omega_b + correction_b) * dt;
     q_ = (q_ * Eigen::Quaterniond(1, turn.x() / 2, turn.y() / 2, turn.z() / 2)).normalized();
     v_ += dt * (f_n + gravity + p.k_velocity * v_error);
-    p_gnss_ += dt * v_;  // carried along between two fixes
+    p_gnss_ += dt * v_;  // propagated between two fixes
     v_gnss_ += dt * (f_n + gravity);
     const double height_error = pressure_height(in) + baro_offset_ + p_.z();
     p_ += dt * (v_ + p.k_position * (Eigen::Vector3d(p_gnss_.x(), p_gnss_.y(), p_.z() - height_error) - p_));
-    hear_air(in, p, dt);
+    update_air(in, p, dt);
     publish(in, omega_b, out.state);
     return Status::ok;
   }
@@ -102,7 +102,8 @@ struct MyLaw {  // fills the role `nav`
     return std::atan2(-level.y(), level.x());
   }
 
-  /// Standing: the accelerometer is the plumb line, the gyros show their biases, the first fix is the origin.
+  /// Alignment at rest: the accelerometer gives the vertical, the gyros show their biases, the first fix is
+  /// the origin.
   void begin(const Inputs& in, const Params& p) {
     const Eigen::Vector3d up_b = eigen(in.imu->specific_force_mps2);
     const double roll = std::atan2(-up_b.y(), -up_b.z()),
@@ -119,7 +120,7 @@ struct MyLaw {  // fills the role `nav`
     begun_ = true;
   }
 
-  void hear_gnss(const Gnss& gnss) {
+  void update_gnss(const Gnss& gnss) {
     constexpr double a = 6378137, e2 = 6.69437999014e-3,
                      deg = std::numbers::pi / 180;  // WGS-84, flat around the origin
     const double s = std::sin(lat0_ * deg), root = std::sqrt(1 - e2 * s * s);
@@ -129,8 +130,8 @@ struct MyLaw {  // fills the role `nav`
     v_gnss_ = eigen(gnss.velocity_mps);
   }
 
-  /// Airspeed from the pitot tube; the wind is what is left of the ground velocity.
-  void hear_air(const Inputs& in, const Params& p, double dt) {
+  /// Airspeed from the pitot; the wind is ground velocity minus air velocity.
+  void update_air(const Inputs& in, const Params& p, double dt) {
     const double rho = standard_air(alt0_ - p_.z()).density_kgm3;
     Va_ += std::min(dt / 0.1, 1.0) * (std::sqrt(2 * std::max(in.pitot->pressure_pa, 0.0) / rho) - Va_);
     if (Va_ < 5) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contract of the role, whatever the law: add the figures of yours.
+// The contract of the role, for any estimator. Add cases for your own one.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
@@ -9,7 +9,7 @@
 
 namespace {
 
-/// What the sensors say on the ground at the equator, level, nose to magnetic north.
+/// Sensor samples at rest on the ground at the equator, level, nose to magnetic north.
 void stand(Bench<MyLaw>& bench) {
   Imu imu;
   imu.specific_force_mps2 = {0, 0, -9.80665};
@@ -55,7 +55,7 @@ TEST_CASE("it takes over without a bump from one that flew the same") {
     REQUIRE(next.activate(before.out) == Status::ok);
   REQUIRE(next.step(0.0025) == Status::ok);
   const VehicleState &last = before.out.state, &first = next.out.state;
-  if (!first.attitude_valid) return;  // it says that it does not know yet
+  if (!first.attitude_valid) return;  // not aligned yet
   CHECK(std::abs(first.roll_rad - last.roll_rad) < 0.02);
   CHECK(std::abs(first.pitch_rad - last.pitch_rad) < 0.02);
   CHECK(std::abs(first.position_m.north - last.position_m.north) < 1);

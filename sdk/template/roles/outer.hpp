@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: state VehicleState, command GuidanceCommand
 // ports out: attitude AttitudeCommand
-// Outer loops in their plainest form: course to roll, height to pitch, airspeed to throttle, all
+// Outer loops in their simplest form: course to roll, height to pitch, airspeed to throttle, all
 // proportional. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 6.
 #pragma once
 #include <algorithm>

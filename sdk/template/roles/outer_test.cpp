@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contract of the role, whatever the law: add the figures of yours.
+// The contract of the role, for any law. Add cases for your own law.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS
@@ -29,7 +29,7 @@ GuidanceCommand commanded(double course_rad = 0, double height_m = 100) {
   return command;
 }
 
-/// What it says after this long.
+/// Attitude command after `seconds` of this input.
 AttitudeCommand after(double seconds, Bench<MyLaw>& bench, const VehicleState& state,
                       const GuidanceCommand& command) {
   for (int i = 0; i < seconds * 100; ++i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: actuators Actuators, arm ArmRequest
 // ports out: imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot, rc Rc, status VehicleStatus
-// The frame of a vehicle: `read` brings in what its sensors say, `write` hands the surfaces out. As generated
-// it is an aircraft that stands at the origin and moves nothing; fill in the four places that say so.
+// A frame of a vehicle: `read` publishes the samples of the sensors, `write` sends the surface commands. As
+// generated, the aircraft stands at the origin and never moves. Replace the code at the comments 1 to 4.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -25,47 +25,47 @@ using namespace fulmar;
 struct MyLaw {  // fills the role `vehicle`
   static constexpr const char* doc = "MyLaw vehicle.";
   struct Inputs {
-    Optional<Actuators> actuators;  // nobody commands before the first phase
+    Optional<Actuators> actuators;  // no command before the first phase
     Request<ArmRequest> arm;
   };
   struct Outputs {
     Imu imu;         // in each tick
-    Out<Gnss> gnss;  // when there is one: an Out<T> stays silent otherwise
+    Out<Gnss> gnss;  // when there is a sample: an Out<T> may stay silent
     Out<Mag> mag;
     Out<Baro> baro;
     Out<Pitot> pitot;
     Out<Rc> rc;
     Out<VehicleStatus> status;
-    Out<VehicleState> truth;  // a simulator's; remove it where nobody knows the truth
+    Out<VehicleState> truth;  // of a simulator; remove it on hardware
   };
   struct Params {
     Record<Origin> origin{"origin of the local frame"};
     Param rate{400, "Hz", 50, 1000, "rate of the loop; the rate of the mission", setup};
   };
 
-  /// May allocate, open devices, and throw a sentence.
+  /// May allocate, open devices, and throw an exception with a message.
   void configure(const Params& p) {
     period_ns_ = std::llround(1e9 / p.rate);
-    now_ns_ = -static_cast<std::int64_t>(5 * p.rate) * period_ns_;  // stands for 5 s: the estimator aligns
+    now_ns_ =
+        -static_cast<std::int64_t>(5 * p.rate) * period_ns_;  // stands for 5 s, in which the estimator aligns
     origin_ = p.origin.given() ? *p.origin : Origin{40.2463724, -111.6474138, 1387, true};
     tick_ = 0;
     wanted_ = armed_ = false;
   }
 
   Status read(Tick& tick, const Params&, Outputs& out) {
-    // 1. Time, in ns, strictly increasing; 0 is the first armed tick. A device waits here for its next
-    // sample, 10 ms
-    //    at most, and takes its time; a simulation goes on by one period and moves its aircraft.
+    // 1. Time in ns, strictly increasing; 0 is the first armed tick. A device waits here for its next sample,
+    // at most 10 ms, and uses the time of that sample. A simulation advances by one period.
     tick.now_ns = now_ns_ += period_ns_;
     if (wanted_ && now_ns_ >= 0) armed_ = true;
-    // 2. What was measured since the last tick. What is late says when it was true: publish(gnss,
+    // 2. Samples since the last tick. A late sample has the time at which it was valid: publish(gnss,
     // valid_at_ns).
     out.imu.specific_force_mps2 = {0, 0, -9.80665};  // at rest and level
     out.imu.rate_radps = {0, 0, 0};
     if (tick_ % 4 == 0) publish_air(out);
     if (tick_ % 40 == 0) publish_gnss(out);
-    // 3. What the mission's phases look at. `in_control`: commands move the aircraft, no pilot has the
-    // sticks.
+    // 3. Status that the phases of the mission read. `in_control`: commands move the aircraft, the pilot does
+    // not override.
     if (tick_ % 8 == 0) {
       VehicleStatus status;
       status.armed = status.in_control = status.offboard = armed_;
@@ -80,14 +80,14 @@ struct MyLaw {  // fills the role `vehicle`
   }
 
   Status write(const Tick& tick, const Inputs& in, const Params&) {
-    for (auto request : in.arm) {  // refuse("why") what cannot be
+    for (auto request : in.arm) {  // reject with refuse("reason")
       wanted_ = request.value().armed;
       armed_ = armed_ && wanted_;
       request.accept();
     }
-    // 4. The surfaces go out. Commands that are old are not followed.
-    const bool heard = in.actuators && tick.now_ns - in.actuators.valid_at_ns() < 100'000'000;
-    command_ = heard ? *in.actuators : Actuators{};
+    // 4. Surface commands to the aircraft. Old commands are not used.
+    const bool recent = in.actuators && tick.now_ns - in.actuators.valid_at_ns() < 100'000'000;
+    command_ = recent ? *in.actuators : Actuators{};
     return Status::ok;
   }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ports in: actuators Actuators, arm ArmRequest
 // ports out: imu Imu, gnss Gnss, mag Mag, baro Baro, pitot Pitot, rc Rc, status VehicleStatus
-// A point mass that turns as it banks: first-order roll and pitch rates from the surfaces, coordinated turn,
-// perfect sensors, no wind. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 9, (9.14) with
-// chi = psi; sensors of chapter 7 without noise.
+// A point mass that turns by its bank: first-order roll and pitch rates from the surfaces, coordinated turn,
+// ideal sensors, no wind. Source: Beard & McLain, Small Unmanned Aircraft (2012), chapter 9, (9.14) with chi
+// = psi; sensors of chapter 7 without noise.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -61,8 +61,8 @@ struct MyLaw {  // fills the role `vehicle`
   void configure(const Params& p) {
     *this = {};
     period_ns_ = std::llround(1e9 / p.rate);
-    now_ns_ =
-        -static_cast<std::int64_t>(5 * p.rate) * period_ns_;  // stands still for 5 s: the estimator aligns
+    now_ns_ = -static_cast<std::int64_t>(5 * p.rate) *
+              period_ns_;  // stands still for 5 s, in which the estimator aligns
     origin_ = p.origin.given() ? *p.origin : Origin{40.2463724, -111.6474138, 1387, true};
     psi_ = p.start_heading;
     const double year = 1970 + p.epoch / (365.25 * 86400);
@@ -86,8 +86,8 @@ struct MyLaw {  // fills the role `vehicle`
       armed_ = armed_ && wanted_;
       request.accept();
     }
-    const bool heard = in.actuators && tick.now_ns - in.actuators.valid_at_ns() < 100'000'000;
-    command_ = heard ? *in.actuators : Actuators{};
+    const bool recent = in.actuators && tick.now_ns - in.actuators.valid_at_ns() < 100'000'000;
+    command_ = recent ? *in.actuators : Actuators{};
     return Status::ok;
   }
 
@@ -120,14 +120,14 @@ struct MyLaw {  // fills the role `vehicle`
     p_n_.z() = std::min(p_n_.z(), 0.0);
   }
 
-  /// Every sample belongs to this tick. Rates: IMU each tick, others each 4th, GNSS each 40th.
+  /// All samples are valid at this tick. Rates: IMU each tick, others each 4th, GNSS each 40th.
   void sense(const Params& p, const Eigen::Vector3d& a_n, Outputs& out) {
     const Eigen::Quaterniond q = Eigen::AngleAxisd(psi_, Eigen::Vector3d::UnitZ()) *
                                  Eigen::AngleAxisd(theta_, Eigen::Vector3d::UnitY()) *
                                  Eigen::AngleAxisd(phi_, Eigen::Vector3d::UnitX());
     const double height = -p_n_.z();
-    const Eigen::Vector3d rate_b =
-        (q_before_.conjugate() * q).vec() * 2 * p.rate.value;  // as the attitude really moved
+    const Eigen::Vector3d rate_b = (q_before_.conjugate() * q).vec() * 2 *
+                                   p.rate.value;  // rotation between two ticks, as a gyro measures it
     q_before_ = q;
     out.imu.rate_radps = from_eigen<Body>(tick_ > 0 ? rate_b : Eigen::Vector3d(0, 0, 0));
     out.imu.specific_force_mps2 = from_eigen<Body>(q.conjugate() * (a_n - Eigen::Vector3d(0, 0, g)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contract of a vehicle, whatever flies: add the figures of yours.
+// The contract of a vehicle, for any vehicle. Add cases for your own one.
 #include <doctest/doctest.h>
 
 #define FULMAR_COUNT_ALLOCATIONS

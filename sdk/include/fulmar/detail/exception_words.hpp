@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of an exception, also of one without words or whose `what` throws. A part of glue.hpp.
+// The message of an exception, also of one without a message or whose `what` throws. A part of glue.hpp.
 #pragma once
 #include <cxxabi.h>
 
@@ -23,7 +23,7 @@ inline void report(fulmar_error* error, const char* text) noexcept {
   error->text[n] = '\0';
 }
 
-/// Where std::terminate returns to in this thread; nullptr: it ends the program.
+/// Jump target of std::terminate in this thread; nullptr: std::terminate ends the program.
 inline thread_local std::jmp_buf* way_back = nullptr;
 inline std::terminate_handler usual_terminate = nullptr;
 inline std::atomic_flag handler_in_use = ATOMIC_FLAG_INIT;
@@ -34,8 +34,8 @@ inline std::atomic_flag handler_in_use = ATOMIC_FLAG_INIT;
   std::abort();
 }
 
-/// `what` is noexcept: one that throws calls std::terminate, from which the only way back is a jump. nullptr:
-/// no words.
+/// `what` is noexcept: one that throws calls std::terminate, which can only be left by a jump. Returns
+/// nullptr without a message.
 inline const char* words_of(const std::exception& e) noexcept {
   while (handler_in_use.test_and_set(std::memory_order_acquire)) continue;
   std::jmp_buf here;
@@ -45,7 +45,7 @@ inline const char* words_of(const std::exception& e) noexcept {
   if (setjmp(here) == 0)
     words = e.what();
   else
-    abi::__cxa_end_catch();  // of the exception that `what` has thrown
+    abi::__cxa_end_catch();  // of the exception thrown by `what`
   std::set_terminate(usual_terminate);
   way_back = nullptr;
   handler_in_use.clear(std::memory_order_release);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a plain struct to the C tables and functions of abi.h. Every thunk catches everything: no exception
-// crosses. A part of plugin.hpp, which includes it at its end.
+// From a plain struct to the C tables and functions of abi.h. Every thunk catches all exceptions: none
+// crosses the interface. plugin.hpp includes this file at its end.
 #pragma once
 #include <concepts>
 #include <exception>
@@ -15,7 +15,7 @@ namespace fulmar::detail {
 
 // ---- ports
 
-/// How a member of Inputs or Outputs crosses. The primary template is a plain message in Outputs.
+/// Mapping of a member of Inputs or Outputs to a port. The primary template is a plain message in Outputs.
 template <class M>
 struct PortOf {
   using Message = M;
@@ -109,7 +109,7 @@ template <class S, bool inputs>
 struct Ports {
   static constexpr std::size_t count = port_count<S>();
   using Table = std::array<fulmar_port, count>;
-  /// The name of a port is that of its member, in a group as well.
+  /// The name of a port is that of its member, also in a group.
   template <class G, std::size_t i, class M>
   static constexpr void add(Table& out, std::size_t& at) {
     if constexpr (is_port_group<M>()) {
@@ -189,7 +189,7 @@ struct Thunks {
   static void write_out(typename C::Outputs& out, fulmar_output* outputs) {
     for_each_port(out, [&]<class M>(M& member, std::size_t i) { PortOf<M>::write(member, outputs[i]); });
   }
-  /// What a step wrote before it threw is not published by the next one.
+  /// Outputs that a step wrote before an exception are not published by the next step.
   static void forget(typename C::Outputs& out) {
     for_each_port(out, []<class M>(M& member, std::size_t) {
       if constexpr (requires { member.written; }) member.written = false;
@@ -208,7 +208,7 @@ struct Thunks {
         PortOf<M>::read_last(member, last[k]);
         applied.made_bits |= std::uint64_t{1} << k;
       } else if constexpr (!requires { member.stamps_ns; }) {
-        member = M{};  // nobody's: not what was handed over once before
+        member = M{};  // no applied output: not the value of an earlier switch
       }
     });
   }
@@ -354,7 +354,7 @@ consteval fulmar_component component_entry() {
   if constexpr (is_component<C>())
     return described<C>();
   else
-    return {};  // nothing else is told of it
+    return {};  // nothing else to report
 }
 
 template <class... C>
@@ -389,7 +389,7 @@ consteval fulmar_plugin plugin_entry(const char* version) {
 
 }  // namespace fulmar::detail
 
-/// The plugin's one exported symbol: FULMAR_PLUGIN("1.0.0", Component, ...). Once per shared object, at
+/// The only exported symbol of the plugin: FULMAR_PLUGIN("1.0.0", Component, ...). Once per shared object, at
 /// namespace scope.
 #define FULMAR_PLUGIN(version, ...)                                                                         \
   extern "C" {                                                                                              \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The members of a plain aggregate: how many, their types, and a call with a reference to each. C++20 has no
-// other way than one structured binding per count.
+// The members of a plain aggregate: their number, their types, and a call with a reference to each. C++20
+// needs one structured binding per number of members.
 #pragma once
 #include <cstddef>
 #include <type_traits>
@@ -21,9 +21,9 @@ consteval bool takes(std::index_sequence<I...>) {
 
 inline constexpr std::size_t max_members = 64;
 
-/// Members of an aggregate without base classes and C arrays. An aggregate takes any number of initialisers
-/// up to that of its members, so the number is found by bisection: every trial costs the compiler as many
-/// conversions as it has initialisers.
+/// Number of members of an aggregate without base classes and C arrays. An aggregate accepts up to that
+/// number of initialisers, so bisection finds it: each trial costs the compiler one conversion per
+/// initialiser.
 template <class T, std::size_t least = 0,
           std::size_t above = (sizeof(T) < max_members ? sizeof(T) : max_members) + 2>
 consteval std::size_t member_count() {

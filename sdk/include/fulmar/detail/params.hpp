@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From a struct of parameters, with its groups, to the table of abi.h, and from the host's values back into
-// it. A part of plugin.hpp, which includes it at its end.
+// the struct. plugin.hpp includes this file at its end.
 #pragma once
 #include <array>
 #include <cstring>
@@ -102,7 +102,7 @@ constexpr fulmar_param param_entry(const Blob& p) {
   return e;
 }
 
-/// An element of a Matrix, which is a parameter of its own. M: may be const.
+/// An element of a Matrix, as a parameter. M may be const.
 template <class M>
 struct MatrixItem {
   M* matrix;
@@ -132,7 +132,7 @@ void assign(Vector<F>& p, const fulmar_value& v) {
 template <class T>
 void assign(Record<T>& p, const fulmar_value& v) {
   if (v.data && v.size == sizeof(T))
-    std::memcpy(&p.value, v.data, sizeof(T));  // retune leaves records as they are
+    std::memcpy(&p.value, v.data, sizeof(T));  // retune does not change records
   if (v.data) p.is_given = v.integer != 0;
 }
 inline void assign(Blob& p, const fulmar_value& v) {
@@ -152,7 +152,7 @@ concept Parameter = requires(const M& m) {
   param_entry(m);
 };
 
-/// Rows and columns of what stands for several parameters; nothing else has them.
+/// Rows and columns of a member that stands for several parameters. No other member has this specialization.
 template <class M>
 struct Several {
   static constexpr bool matrix = false, array = false;
@@ -162,7 +162,7 @@ template <std::size_t R, std::size_t C>
 struct Several<Matrix<R, C>> {
   static constexpr bool matrix = true, array = false;
   static constexpr std::size_t count = R * C, rows = R, columns = C;
-  static constexpr std::size_t inner = C;  ///< parameters that differ in the last index alone
+  static constexpr std::size_t inner = C;  ///< number of parameters that differ in the last index alone
 };
 template <class T, std::size_t N>
 struct Several<std::array<T, N>> {
@@ -175,8 +175,8 @@ struct Several<std::array<T, N>> {
 template <class M, class F>
 constexpr void visit_param(M& member, F& f);
 
-/// Calls f(parameter) for each parameter of a struct, those of its groups (structs of parameters) in their
-/// places.
+/// Calls f(parameter) for each parameter of a struct, in order, including those of its groups (structs of
+/// parameters).
 template <class S, class F>
 constexpr void for_each_param(S& params, F& f) {
   with_members(params, [&f](auto&... member) { (visit_param(member, f), ...); });
@@ -185,7 +185,7 @@ template <class M>
 concept Group = std::is_class_v<M> && std::is_aggregate_v<M> && !Parameter<M> && !Several<M>::matrix &&
                 !Several<M>::array;
 
-/// The sentence for what is no parameter, before anything else is compiled of it.
+/// Compile error for a member that is no parameter, before other errors.
 template <class M>
 consteval bool is_parameter() {
   if constexpr (Several<M>::array) {
@@ -237,7 +237,7 @@ constexpr void visit_param(M& member, F& f) {
   }
 }
 
-/// Names of the parameters that one member stands for: its own with the indices, "gains_0", "K_1_2".
+/// Names of the parameters of one member, with their indices: "gains_0", "K_1_2".
 template <class G, std::size_t i, class P>
 struct ItemNames {
   static constexpr std::size_t room = FieldNames<G>::view(i).size() + 24;
@@ -282,7 +282,7 @@ struct ParamTable {
     return n;
   }
   static constexpr std::size_t count = count_all();
-  /// The name of a parameter is that of its member, in a group as well.
+  /// The name of a parameter is that of its member, also in a group.
   template <class G, std::size_t i, class P>
   static constexpr void name_one(std::array<fulmar_param, count>& out, std::size_t& at) {
     if constexpr (Parameter<P>)
@@ -307,7 +307,7 @@ struct ParamTable {
     return out;
   }
   static constexpr std::array<fulmar_param, count> table = make();
-  /// By hand: clang 14 counts each step of a standard comparison, and gives up after a million.
+  /// Not a standard comparison: clang 14 counts each of its steps, and stops after a million.
   static constexpr bool same(const char* a, const char* b) {
     while (*a == *b && *a != 0) {
       ++a;

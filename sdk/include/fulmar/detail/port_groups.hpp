@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Groups of ports: a struct of ports inside Inputs or Outputs, whose ports are the component's beside all
-// others. A part of plugin.hpp, which includes it at its beginning.
+// Groups of ports: a struct of ports inside Inputs or Outputs, whose ports are ports of the component.
+// plugin.hpp includes this file at its beginning.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -26,7 +26,7 @@ struct Probe;
 
 namespace detail {
 
-/// What says by its type that it is a port. A plain message in Outputs does not.
+/// A type that is a port by itself. A plain message in Outputs is not.
 template <class M>
 inline constexpr bool is_port = false;
 template <class T>
@@ -75,7 +75,7 @@ template <class S, class F>
 constexpr void visit_ports(S& ports, F& f, std::size_t& i) {
   with_members(ports, [&](auto&... member) { (visit_port(member, f, i), ...); });
 }
-/// Calls f(port, i) for each port of Inputs or Outputs, those of its groups in their places.
+/// Calls f(port, i) for each port of Inputs or Outputs, in order, including those of groups.
 template <class S, class F>
 constexpr void for_each_port(S& ports, F&& f) {
   std::size_t i = 0;
@@ -113,7 +113,7 @@ template <class M, class... N>
 consteval bool any_is(Types<N...>) {
   return (holds_port<N, M>() || ...);
 }
-/// S has a port of type M, in a group or beside.
+/// True if S has a port of type M, also in a group.
 template <class S, class M>
 consteval bool has_port() {
   return any_is<M>(MemberTypes<S>{});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a component must have, said in one sentence each before anything else is compiled of it: a member
-// function of a wrong signature would else not be found, and never be called. A part of plugin.hpp.
+// Requirements of a component, each with one sentence, checked before anything else is compiled. Otherwise a
+// member function with a wrong signature would not be found, and never be called. A part of plugin.hpp.
 #pragma once
 #include <array>
 #include <concepts>
@@ -16,7 +16,7 @@ concept Vehicle = requires(C c, Tick& tick, const typename C::Params& p, typenam
   c.read(tick, p, out);
 };
 
-/// `activate` as it was written before there was Applied: `last` is the outputs alone.
+/// `activate` in its older form, without Applied: `last` is the outputs alone.
 template <class C>
 concept TakesOutputs = requires(C c, const Tick& t, const typename C::Inputs& in, const typename C::Params& p,
                                 const typename C::Outputs& last) {
@@ -48,7 +48,7 @@ concept Writes = requires(C c, const Tick& t, const typename C::Inputs& in, cons
   { c.write(t, in, p) } -> std::same_as<Status>;
 };
 
-/// A member of that name which cannot be called as the host would.
+/// A member with that name, but a signature that the host cannot call.
 template <class C>
 concept WrongStep = requires {
   &C::step;
@@ -85,7 +85,7 @@ concept WrongDeactivate = requires {
 }
 &&!requires(C c) { c.deactivate(); };
 
-/// True when the component can be compiled further.
+/// True if the component can be compiled further.
 template <class C>
 consteval bool is_component() {
   static_assert(HasPorts<C>, "a component has Inputs, Outputs and Params, be they empty: struct Params {};");

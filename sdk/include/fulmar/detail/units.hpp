@@ -24,7 +24,7 @@ inline constexpr std::array units{
     Unit{"_m2", "m2"},
     Unit{"_m", "m"},
     Unit{"_rad", "rad"},
-    Unit{"_deg", "deg"},  // latitude and longitude alone
+    Unit{"_deg", "deg"},  // for latitude and longitude only
     Unit{"_pa", "Pa"},
     Unit{"_kelvin", "K"},
     Unit{"_tesla", "T"},
@@ -41,7 +41,7 @@ inline constexpr std::array units{
     Unit{"_ratio", ""},
 };
 
-/// Which unit a name ends in: an index into `units`, or -1. An index and no pointer, for gcc's sanitizers.
+/// Index into `units` of the unit that ends a name, or -1. Not a pointer, for gcc's sanitizers.
 constexpr int find_unit(std::string_view name) {
   for (std::size_t i = 0; i < units.size(); ++i) {
     const std::string_view suffix = units[i].suffix;

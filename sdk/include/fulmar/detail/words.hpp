@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names that are cut out of a compiler's signature of a function, while it compiles.
+// Names taken from a compiler's signature of a function, at compile time.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@ constexpr bool word(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// The last identifier in a signature, before what the compiler closes it with.
+/// The last identifier in a signature, before the closing characters of the compiler.
 constexpr std::string_view last_word(std::string_view s) {
   while (!s.empty() && !word(s.back())) s.remove_suffix(1);
   std::size_t b = s.size();
@@ -19,13 +19,13 @@ constexpr std::string_view last_word(std::string_view s) {
   return s.substr(b);
 }
 
-/// Texts that are cut out of a signature, each closed with a NUL, one after the other.
+/// Texts taken from a signature, each with a final NUL, in sequence.
 template <std::size_t count, std::size_t room>
 struct Words {
   std::array<char, room> bytes{};
   std::array<std::size_t, count> begin{};
 };
-/// Where each of `count` words lies in a signature, and what all of them take with their NULs.
+/// Position of each of `count` words in a signature, and the total length with their NULs.
 template <std::size_t count>
 struct Found {
   std::array<std::string_view, count> words{};

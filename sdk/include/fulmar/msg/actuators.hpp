@@ -15,7 +15,7 @@ struct Actuators {
   double rudder_rad = 0;     ///< rudder deflection; positive is trailing edge left, nose left
 };
 
-/// No surface turns by more than a quarter: degrees that were meant as radians do.
+/// A surface turns by less than 90 deg: a larger value is an angle in degrees.
 template <>
 inline constexpr std::array<FieldRange, 3> field_ranges<Actuators>{
     {{"aileron_rad", -std::numbers::pi / 2, std::numbers::pi / 2},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an airframe may say of its aerodynamics beside the derivative set.
+// Aerodynamic data of an airframe besides the derivatives.
 #pragma once
 #include <cstddef>
 

@@ -122,7 +122,7 @@ struct Airframe {
   Surface flap;  ///< flaps; without effect if no coefficient has a derivative over them
 };
 
-/// What no aircraft is without: its defaults would fly as some other one.
+/// Fields without a valid default: the aircraft would fly as another one.
 template <>
 inline constexpr std::array<std::string_view, 8> required_fields<Airframe>{
     "mass_kg", "inertia", "wing", "aero", "propulsion", "aileron", "elevator", "rudder"};
@@ -144,7 +144,7 @@ inline constexpr std::array<std::string_view, 3> required_fields<DiscMotor>{"are
 template <>
 inline constexpr std::array<std::string_view, 1> required_fields<Surface>{"limit_rad"};
 
-/// From an insect to an airliner: what lies outside is a slip of sign or unit.
+/// From an insect to an airliner: a value outside is an error of sign or unit.
 template <>
 inline constexpr std::array<FieldRange, 1> field_ranges<Airframe>{{{"mass_kg", 1e-4, 1e6}}};
 template <>

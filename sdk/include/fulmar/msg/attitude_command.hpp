@@ -13,7 +13,7 @@ struct AttitudeCommand {
   double throttle_frac = 0;  ///< throttle command, 0 to 1
 };
 
-/// Beyond these no attitude differs from one within: degrees that were meant as radians do.
+/// Larger angles repeat the same attitudes: such a value is an angle in degrees.
 template <>
 inline constexpr std::array<FieldRange, 2> field_ranges<AttitudeCommand>{
     {{"roll_rad", -std::numbers::pi, std::numbers::pi},

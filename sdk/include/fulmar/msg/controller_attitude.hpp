@@ -4,7 +4,7 @@
 
 namespace fulmar {
 
-/// A flight controller's own attitude estimate. Its heading drifts: it is not corrected there.
+/// Attitude estimate of a flight controller. Its heading drifts, since the controller does not correct it.
 struct ControllerAttitude {
   Quat attitude;                                    ///< attitude, body to NED
   Vec3<Body> rate_radps;                            ///< filtered body rate

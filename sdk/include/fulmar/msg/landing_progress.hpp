@@ -33,7 +33,7 @@ struct LandingProgress {
   double cross_m = 0;                          ///< cross-track error; right of the centre line is positive
   double height_m = 0;                         ///< height above the runway
   std::uint32_t go_arounds = 0;                ///< number of go-arounds
-  LandingReason reason = LandingReason::none;  ///< reason of the last go-around, or of a refused approach
+  LandingReason reason = LandingReason::none;  ///< reason of the last go-around, or of a rejected approach
   double head_wind_mps = 0;                    ///< head wind along the runway; negative: tail wind
   double cross_wind_mps = 0;                   ///< crosswind; from the left is positive
   double needed_m = 0;                         ///< distance from the threshold to the stop, in this wind

@@ -12,7 +12,7 @@ struct Origin {
   bool given = false;    ///< true if the mission defines it; false: mean of the first good fixes
 };
 
-/// Where ground is, and where the models of air hold; not at a pole, where north turns within a flight.
+/// Range of the ground and of the atmosphere models; not at a pole, where north changes within a flight.
 template <>
 inline constexpr std::array<FieldRange, 3> field_ranges<Origin>{
     {{"lat_deg", -89.5, 89.5}, {"lon_deg", -180, 180}, {"alt_msl_m", -1000, 20000}}};

@@ -46,7 +46,7 @@ struct Path {
   PathPiece next;                      ///< piece after `remaining_m`, for laws with a look-ahead
 };
 
-/// A plugin that fills the fields before it alone says nothing of curves and of what comes next.
+/// An older plugin fills only the fields before it, and publishes neither curves nor the next piece.
 template <>
 inline constexpr std::string_view appended_from<Path> = "is_curve";
 

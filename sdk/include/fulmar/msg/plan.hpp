@@ -38,7 +38,7 @@ struct Plan {
   std::uint32_t revision = 0;      ///< number of the change
   PlanEnd end = PlanEnd::circuit;  ///< continuation after the last waypoint
   double turn_radius_m = 50;       ///< radius of turns
-  double airspeed_mps = 15;        ///< of legs that name none
+  double airspeed_mps = 15;        ///< true airspeed of legs that name none
   std::uint32_t jumps = 0;         ///< number of orders to fly to `jump_item` at once
   std::uint32_t jump_item = 0;     ///< index of a waypoint
   List<Waypoint, 1024> waypoints;  ///< waypoints in their order

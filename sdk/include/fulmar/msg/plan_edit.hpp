@@ -35,8 +35,8 @@ struct PlanEdit {
 template <>
 inline constexpr std::string_view appended_from<PlanEdit> = "id";
 
-/// An edit of the plan as a whole; its value is still to be set. To a planner that knows waypoints alone it
-/// names one that does not exist, and is refused.
+/// An edit of the plan as a whole, without its value. A planner that knows only waypoint edits rejects it:
+/// its index does not exist.
 inline PlanEdit edit_of(PlanSetting setting) {
   PlanEdit edit;
   edit.kind = PlanEditKind::remove;
@@ -45,18 +45,18 @@ inline PlanEdit edit_of(PlanSetting setting) {
   return edit;
 }
 
-/// Result of an edit. An edit of a group is accepted before it is in force: all are in force when the result
-/// of the last one says so, and none if one is rejected.
+/// Result of an edit. An edit of a group is accepted before it is in force. The result of the last edit
+/// states whether all are in force; if one is rejected, none is.
 struct PlanEditResult {
-  std::uint32_t id = 0;           ///< of the edit
-  std::uint32_t group = 0;        ///< of the edit
+  std::uint32_t id = 0;           ///< id of the edit
+  std::uint32_t group = 0;        ///< group of the edit
   bool accepted = false;          ///< true if the edit is accepted
   bool in_force = false;          ///< true if the edit, and the group that it ends, is in force
   bool by_request = false;        ///< source of the edit: true for the request `edit`, false for the queue
                                   ///< `edits`
-  std::uint32_t waypoint_id = 0;  ///< of the waypoint that was added or named; 0: none
-  std::uint32_t revision = 0;     ///< in force: of the first plan that has it
-  Text<80> reason;                ///< refused: why
+  std::uint32_t waypoint_id = 0;  ///< id of the waypoint that was added or named; 0: none
+  std::uint32_t revision = 0;     ///< revision of the first plan with the edit, if in force
+  Text<80> reason;                ///< reason of a rejection
 };
 
 }  // namespace fulmar

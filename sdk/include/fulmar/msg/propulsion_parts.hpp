@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where propellers stand, and the battery that drives them.
+// Places of propellers, and their battery.
 #pragma once
 #include "fulmar/message.hpp"
 

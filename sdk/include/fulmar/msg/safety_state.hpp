@@ -4,8 +4,8 @@
 
 namespace fulmar {
 
-/// Answer of the aircraft to the failures: one value, so that exactly one condition of a mission holds. The
-/// first of them that applies is active.
+/// Answer of the aircraft to the failures: the first value that applies. It is one value, so that exactly one
+/// condition of a mission holds.
 enum class SafetyAnswer : std::uint8_t {
   none,     ///< continue; on the ground always
   level,    ///< wings level: excessive attitude, or invalid estimate

@@ -4,7 +4,7 @@
 
 namespace fulmar {
 
-/// Request to unlock the throttle after a landing, for another take-off.
+/// Request to unlock the throttle after a landing, for the next take-off.
 struct TakeoffRequest {
   bool confirmed = true;  ///< confirmation of the request
 };

@@ -43,7 +43,8 @@ inline constexpr MessageText number_count_invalid{
     {"aircraft", "columns", "found"},
     "{aircraft} x {columns} numbers are expected, {found} were given"};
 inline constexpr MessageText propeller_in_middle{
-    "sim.propeller_in_middle", "it stands in the middle (y is 0), where more thrust does not yaw"};
+    "sim.propeller_in_middle",
+    "a propeller at y = 0 does not yaw the aircraft. Set its differential to 0, or move it to one side."};
 inline constexpr MessageText propeller_without_rudder{
     "sim.propeller_without_rudder", "it is a part of full throttle at full rudder, and rudder.limit is 0"};
 inline constexpr MessageText servo_fixed{

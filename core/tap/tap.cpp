@@ -97,8 +97,7 @@ void Tap::put(const Sample& sample, const std::byte* data, std::size_t size) noe
   const std::size_t skip = capacity_ - at < sample.size ? capacity_ - at : 0;
   const std::uint64_t begin = pushed_ + skip, end = begin + sample.size;
   reserved_.store(end, std::memory_order_relaxed);
-  std::atomic_thread_fence(std::memory_order_release);  // a reader that sees a byte of the record also sees
-                                                        // `reserved_`
+  std::atomic_thread_fence(std::memory_order_release);  // a reader of the record sees `reserved_`, too
   if (skip > 0) {
     const Mark mark{static_cast<std::uint32_t>(skip), skipped};
     store_words(words_at(at), &mark, sizeof mark);

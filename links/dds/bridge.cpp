@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See library.hpp. Two threads beside those of Fast DDS: one sends what the loop publishes, one takes what
-// comes in.
+// Two threads beside those of Fast DDS: one sends the samples of the loop, one takes the input.
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -15,18 +14,18 @@
 namespace fulmar::core {
 namespace {
 
-// of the thread that sends when the ring is empty; the loop never pays for waking it
+// of the sending thread when the ring is empty; the loop never has the cost of a wake-up
 constexpr std::chrono::milliseconds nap{2};
-// between two looks at what comes in: a flood does not take a processor
+// between two polls of the input: a flood must not use a whole processor
 constexpr std::chrono::milliseconds breath{2};
-constexpr std::chrono::milliseconds longest{50};  // sleep of the thread that takes
+constexpr std::chrono::milliseconds longest{50};  // sleep of the receiving thread
 
 struct Bridge final : DdsBridge {
   DdsOptions options;
   DdsHost::Say say;
   std::shared_ptr<dds::Waker> waker = std::make_shared<dds::Waker>();
   dds::Others others;
-  std::unique_ptr<dds::Participant> owner;  // made after the topics are known, ends after them
+  std::unique_ptr<dds::Participant> owner;  // made after the topics, destroyed after them
   dds::Exports exports;
   dds::Imports imports;
   dds::Servers servers;
@@ -74,7 +73,7 @@ struct Bridge final : DdsBridge {
     if (taker.joinable()) taker.join();
   }
 
-  /// Whatever happens there, the flight goes on.
+  /// A fault in the thread must not end the flight.
   std::thread start(const char* name, void (Bridge::*work)()) {
     return quiet_thread(name, [this, work] {
       try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ROS 2 without ROS 2: ports as topics, topics as inputs, requests and parameters as services, over Fast DDS,
-// in threads of its own. The code is in a library that the host opens for a mission with `dds:`; this header
-// is all that the two share.
+// ROS 2 interface without a ROS 2 installation: ports as topics, topics as inputs, requests and parameters as
+// services, over Fast DDS, in separate threads. The code is in a library that the host opens for a mission
+// with `dds:`. The host and the library share only this header.
 #pragma once
 #include <memory>
 #include <string>
@@ -21,7 +21,7 @@ class DdsBridge {
   virtual DdsStats stats() const = 0;
 };
 
-/// What a bridge needs of the host. The library holds no state of the host's own, such as its logger.
+/// Interface of the host for a bridge. The library must not use state of the host's code, such as its logger.
 struct DdsHost {
   using Say = void (*)(const std::string& text, Tone tone);
   Tap& tap;
@@ -34,7 +34,7 @@ struct DdsLibrary {
   static constexpr const char* section = "dds";
   static constexpr const char* needs =
       "Fast DDS: install libfastrtps-dev and libfastcdr-dev, or what they are called here";
-  const char* build;  // first: read before anything else, also of a library of another build
+  const char* build;  // first member: checked before any other, also for a library of another build
   /// Throws Error.
   std::unique_ptr<DdsBridge> (*open)(const DdsHost& host, const DdsOptions& options);
 };

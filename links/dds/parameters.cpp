@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parameter services of one ROS 2 node. Semantics as rclcpp and rclpy have them where ROS 2 says nothing.
+// The parameter services of one ROS 2 node. Where ROS 2 specifies nothing, the semantics are those of rclcpp
+// and rclpy.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -45,7 +46,7 @@ RclValue rcl_value(const ParameterView& parameter) {
 
 namespace {
 
-/// The text that a mission file would have for it. Throws Error when the parameter has no such values.
+/// The value in the form of a mission file. Throws Error when the parameter has no such values.
 std::string parameter_text(const ParamInfo& info, const RclValue& value) {
   const bool text_kind = info.kind == FULMAR_CHOICE || info.kind == FULMAR_STRING ||
                          info.kind == FULMAR_RECORD || info.kind == FULMAR_BLOB;
@@ -119,7 +120,7 @@ void write_descriptor(CdrOut& out, const std::string& name, const ParameterView*
 
 Bytes list_parameters(const Control& control, CdrReader in) {
   const std::vector<std::string> prefixes = in.texts();
-  const auto depth = in.number<std::uint64_t>();  // 0: any
+  const auto depth = in.number<std::uint64_t>();  // 0: any depth
   std::vector<std::string> names;
   std::set<std::string> components;
   for (const std::string& name : sorted_names(control.view())) {
@@ -138,7 +139,7 @@ Bytes list_parameters(const Control& control, CdrReader in) {
   return out.take();
 }
 
-/// Writes an answer for each name that was asked for.
+/// Writes an answer for each requested name.
 template <class Answer>
 Bytes each_name(const Control& control, CdrReader& in, Answer answer) {
   const std::vector<std::string> names = in.texts();
@@ -167,10 +168,10 @@ Bytes describe_parameters(const Control& control, CdrReader in) {
 
 // ---- answers that change something
 
-/// Collects what becomes of each parameter of one call; the last answer sends the reply.
+/// Collects the result of each parameter of one call; the last answer sends the reply.
 struct Results {
   Server::Reply reply;
-  bool one = false;  // one result for all, without a list
+  bool one = false;  // a single result for all, without a list
   std::mutex mutex;
   std::vector<std::string> refusals;
   std::size_t open = 0;
@@ -213,7 +214,7 @@ void set_parameters(Control& control, CdrReader in, const Server::Reply& reply, 
   results->refusals.resize(at_once ? 1 : list.size());
   results->open = results->refusals.size();
   if (list.empty()) return results->open == 0 ? results->send() : results->set(0, "");
-  // Each change takes effect between two ticks, and two need not share the pair.
+  // Each change takes effect between two ticks; two changes may take effect in different ticks.
   const bool several = at_once && list.size() > 1;
   if (several) return results->set(0, dds_messages::several_parameters());
   if (list.size() > max_at_once) throw Error(dds_messages::too_many_parameters(max_at_once));

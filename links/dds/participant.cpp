@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See participant.hpp. The only file that includes Fast DDS. Names and user data as rmw_fastrtps and
-// rmw_dds_common write them.
+// The only file that includes Fast DDS. Names and user data are those of rmw_fastrtps and rmw_dds_common.
 #include "links/dds/participant.hpp"
 
 #include <arpa/inet.h>
@@ -36,7 +35,7 @@ namespace {
 namespace fd = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
 
-// Of participants on one host that are looked for without multicast: the range that rmw_fastrtps uses, too.
+// Range of participants on one host that are searched without multicast; equal to that of rmw_fastrtps.
 constexpr std::uint32_t participants_per_host = 32;
 constexpr std::size_t writers_remembered = 256;
 
@@ -53,7 +52,7 @@ rtps::GUID_t guid_of(const Guid& from) {
   return guid;
 }
 
-/// Samples are CDR bytes, header included: what is written and read is copied as it is.
+/// Samples are CDR bytes, header included: they are copied unchanged.
 struct RawType : fd::TopicDataType {
   RawType(const std::string& name, std::size_t max_bytes) {
     setName(name.c_str());
@@ -85,7 +84,7 @@ struct RawType : fd::TopicDataType {
   bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
 };
 
-/// The endpoints of others that one of ours has found.
+/// Remote endpoints that match a local one.
 class Matched {
  public:
   template <class Status>
@@ -175,7 +174,7 @@ struct RawReader : Reader, fd::DataReaderListener {
     return most;
   }
 
-  /// What a reader of bounded depth has let go shows as a gap in the writer's numbers.
+  /// A sample that a reader of bounded depth has dropped leaves a gap in the writer's sequence numbers.
   void count(const Identity& from) {
     if (last.size() >= writers_remembered && !last.contains(from.guid)) last.clear();
     const auto [at, is_new] = last.try_emplace(from.guid, from.sequence);
@@ -205,11 +204,11 @@ rtps::Locator_t locator(const std::string& address) {
   rtps::Locator_t l;
   if (!rtps::IPLocator::setIPv4(l, address) || !rtps::IPLocator::isIPv4(address))
     throw Error(dds_messages::address_invalid(address));
-  l.port = 0;  // the ports of the domain
+  l.port = 0;  // the default ports of the domain
   return l;
 }
 
-/// Fast DDS passes over an address that is not there, and then hears nobody.
+/// Fast DDS ignores an address that this computer does not have, and then receives nothing.
 void check_own(const std::string& address, const Where& where) {
   ifaddrs* first = nullptr;
   if (::getifaddrs(&first) != 0) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Field by field as rcl_interfaces has them since ROS 2 Foxy.
+// The fields are those of rcl_interfaces since ROS 2 Foxy.
 #include "links/dds/rcl.hpp"
 
 #include "links/dds/messages.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The messages of a ROS 2 node that are not ours: parameters (rcl_interfaces) and the graph (rmw_dds_common).
-// They hold strings and lists of any length, so they have no type table; they are written and read by hand,
-// XCDR1 little endian.
+// Standard messages of a ROS 2 node: parameters (rcl_interfaces) and the graph (rmw_dds_common). They hold
+// strings and lists of any length and therefore have no type table; this code encodes and decodes them, XCDR1
+// little endian.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace fulmar::core::dds {
 
-/// rcl_interfaces/msg/ParameterType, but for two that no parameter has: bytes, 5, and booleans, 6.
+/// rcl_interfaces/msg/ParameterType, without the two that no parameter has: bytes, 5, and booleans, 6.
 enum class RclType : std::uint8_t { not_set, boolean, integer, number, text, integers = 7, numbers, texts };
 
 /// rcl_interfaces/msg/ParameterValue

@@ -9,10 +9,10 @@ namespace {
 
 constexpr std::size_t requests_per_wake = 16;
 constexpr int request_depth = 64;
-// for the client's reader to be found: discovery of two endpoints is not simultaneous
+// for the discovery of the client's reader: two endpoints are not discovered at the same time
 constexpr std::chrono::milliseconds patience{500};
 
-/// Kinds of entity as RTPS 2.3, table 9.1, numbers them.
+/// Kinds of entity by RTPS 2.3, table 9.1.
 bool is_reader(const Guid& guid) { return guid[15] == 0x04 || guid[15] == 0x07; }
 
 }  // namespace
@@ -47,7 +47,7 @@ bool Server::serve() {
 
 void Server::take(const Reader::Sample& sample) {
   ++taken_;
-  // A client says which of its readers wants the reply; one that does not is known by its writer.
+  // A request may name the reader for its reply; otherwise the client is identified by its writer.
   const Identity request{sample.answer_to == Guid{} ? sample.from.guid : sample.answer_to,
                          sample.from.sequence};
   try {

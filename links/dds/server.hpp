@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One ROS 2 service as rmw_fastrtps carries it: a topic for requests, one for replies, and the request's
-// identity beside each reply.
+// One ROS 2 service in the form of rmw_fastrtps: a topic for requests, one for replies, and the request's
+// identity with each reply.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -18,10 +18,10 @@ namespace fulmar::core::dds {
 
 class Server {
  public:
-  /// May be called from any thread, once, also when the server is no more.
+  /// May be called once, from any thread, also after the server's end.
   using Reply = std::function<void(Bytes)>;
-  /// Called in the thread that calls `serve`. Throws Error when the bytes are no such request: it is counted,
-  /// not answered.
+  /// Called in the thread of `serve`. Throws Error when the bytes are no such request: it is counted, but not
+  /// answered.
   using Handle = std::function<void(std::span<const std::byte> request, Reply reply)>;
 
   struct Names {
@@ -33,7 +33,7 @@ class Server {
 
   /// Takes some requests and sends the replies that are due. Returns false when requests are left.
   bool serve();
-  /// Replies wait for their client's reader to be found.
+  /// Whether replies wait for the discovery of their client's reader.
   bool waiting() const { return !due_.empty(); }
   std::uint64_t refused() const { return refused_; }
   std::uint64_t taken() const { return taken_; }
@@ -45,12 +45,12 @@ class Server {
   struct Answer {
     Identity request;
     Bytes bytes;
-    Clock::time_point latest{};  // then it is sent, or given up
+    Clock::time_point latest{};  // time at which it is sent or dropped
   };
   void take(const Reader::Sample& sample);
 
   Handle handle_;
-  std::shared_ptr<Inbox<Answer>> inbox_;  // lives as long as anybody may still answer
+  std::shared_ptr<Inbox<Answer>> inbox_;  // lives until the last possible answer
   std::unique_ptr<Writer> writer_;
   std::unique_ptr<Reader> reader_;
   std::vector<Answer> due_;

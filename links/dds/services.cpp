@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Request ports as services, events of parameters, and the node. Source of the graph's topic: rmw_dds_common.
+// Request ports as services, parameter events, and the node. Source of the graph's topic: rmw_dds_common.
 #include "links/dds/services.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace fulmar::core::dds {
 namespace {
 
-constexpr int max_unanswered = 64;  // of one service: more are refused at once
+constexpr int max_unanswered = 64;  // of one service: further requests are rejected at once
 
 Bytes response(const CdrEncoder& encoder, const std::string& refusal) {
   ServiceResponse r;
@@ -86,9 +86,9 @@ ParameterEvents::ParameterEvents(Participant& participant, const DdsOptions& opt
       node_(dds_topic("", options.name_space, node_name)),
       changed_(std::make_shared<Inbox<std::string>>([waker] { waker->wake(); })) {
   Endpoint e;
-  e.topic = "rt/parameter_events";  // one for all nodes
+  e.topic = "rt/parameter_events";  // one topic for all nodes
   e.type = "rcl_interfaces::msg::dds_::ParameterEvent_";
-  e.depth = 1000;  // as rclcpp has it
+  e.depth = 1000;  // as in rclcpp
   writer_ = participant.writer(e);
   control.on_parameter(
       [inbox = std::weak_ptr(changed_)](const std::string& component, const std::string& parameter) {

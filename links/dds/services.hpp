@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Requests as ROS 2 services, and the parameters of all components as those of one ROS 2 node, so that `ros2
-// service`, `ros2 param` and rqt reach a flight.
+// Requests as ROS 2 services, and the parameters of all components as parameters of one ROS 2 node, for `ros2
+// service`, `ros2 param` and rqt.
 #pragma once
 #include <memory>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace fulmar::core::dds {
 
-/// The node that parameters belong to: "/fulmar", or "/uav1/fulmar".
+/// Node of the parameters: "/fulmar", or "/uav1/fulmar".
 inline constexpr const char* node_name = "fulmar";
 
 using Servers = std::vector<std::unique_ptr<Server>>;
@@ -22,11 +22,11 @@ using Servers = std::vector<std::unique_ptr<Server>>;
 void add_request_services(Servers& servers, Participant& participant, const DdsOptions& options,
                           Control& control, const FlightView& view, const std::shared_ptr<Waker>& waker);
 
-/// The services of a node that has parameters: "slc.roll_kp" is the parameter roll_kp of the component slc.
+/// Parameter services of a node: "slc.roll_kp" is the parameter roll_kp of the component slc.
 void add_parameter_services(Servers& servers, Participant& participant, const DdsOptions& options,
                             Control& control, const std::shared_ptr<Waker>& waker);
 
-/// Topic /parameter_events: tells of each change, whoever made it.
+/// Topic /parameter_events: reports each change, from any source.
 class ParameterEvents {
  public:
   ParameterEvents(Participant& participant, const DdsOptions& options, Control& control,
@@ -41,12 +41,12 @@ class ParameterEvents {
   std::shared_ptr<Inbox<std::string>> changed_;
 };
 
-/// Topic ros_discovery_info: says which endpoints belong to the node, without which ROS 2 tools do not see
-/// one. It has said so as long as the writer lives.
+/// Topic ros_discovery_info: lists the endpoints of the node. ROS 2 tools need it to show the node. The list
+/// stays valid while the writer lives.
 std::unique_ptr<Writer> node_info(Participant& participant, const DdsOptions& options,
                                   const std::vector<Guid>& readers, const std::vector<Guid>& writers);
 
-/// A parameter as ROS 2 sees it.
+/// A parameter in the form of ROS 2.
 RclValue rcl_value(const ParameterView& parameter);
 
 }  // namespace fulmar::core::dds

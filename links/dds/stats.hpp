@@ -9,13 +9,13 @@ namespace fulmar::core {
 
 struct DdsStats {
   std::uint64_t sent = 0;      // samples of exports that have a reader
-  std::uint64_t received = 0;  // samples for inputs that were handed to the loop
-  // samples and requests whose layout is another one, or that the input's ranges do not allow
+  std::uint64_t received = 0;  // samples for inputs that were passed to the loop
+  // rejected samples and requests: another layout, or values outside the input's ranges
   std::uint64_t refused = 0;
-  std::uint64_t lost = 0;      // samples that this sink was too slow for, out of the flight and into it
-  std::uint64_t requests = 0;  // of services
-  /// What an imported topic adds to a sample's age before the loop sees it, which takes one tick more. From
-  /// the writer's clock to that of this computer: between two computers it is as good as their clocks agree.
+  std::uint64_t lost = 0;      // samples that this sink lost because it was too slow, exports and imports
+  std::uint64_t requests = 0;  // service requests
+  /// Delay of an imported topic until the loop gets the sample; one tick follows. It is measured from the
+  /// writer's clock to the clock of this computer, so between computers it includes their clock offset.
   struct Import {
     std::string port, topic;
     std::uint64_t received = 0, refused = 0, lost = 0;

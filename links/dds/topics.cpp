@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See topics.hpp.
 #include "links/dds/topics.hpp"
 
 #include <algorithm>
@@ -13,13 +12,14 @@
 namespace fulmar::core::dds {
 namespace {
 
-// A flood costs its sender samples, not the flight: so many are kept, and so many are taken at a time.
+// Bounds on stored samples and on samples per poll: a flood costs its sender samples and does not delay the
+// flight.
 constexpr int import_depth = 64;
 constexpr std::size_t samples_per_wake = 16;
 
-// A reader that joins late gets the last sample of a port that may stay silent ("latched" in ROS). The writer
-// has room for more than one, so that a quick series reaches the slow readers, too; what is older than this
-// has reached them and is let go for the new one.
+// A reader that joins late gets the last sample of a port that need not publish in every step ("latched" in
+// ROS). The writer has room for several samples, so that a quick series also reaches slow readers. An older
+// sample has reached them and is dropped for the new one.
 constexpr std::int64_t delivered_ns = 1'000'000'000;
 
 }  // namespace
@@ -53,7 +53,7 @@ bool Others::has_best_effort_writer(const std::string& topic) const {
   return at != topics_.end() && at->second.best_effort_writer;
 }
 
-/// As in ROS 2, a name that begins with '/' is somebody else's and stands as it is.
+/// As in ROS 2, a name that begins with '/' is absolute and stays unchanged.
 static Endpoint endpoint_of(const std::string& topic, const Type& type, const DdsOptions& options) {
   Endpoint endpoint;
   endpoint.topic = dds_topic("rt", topic.starts_with('/') ? "" : options.name_space, topic);
@@ -104,7 +104,7 @@ void Exports::pump() {
   lost_.store(cursor_.lost(), std::memory_order_relaxed);
 }
 
-/// The ring holds what any sink wants, at any rate.
+/// The ring holds the samples of all sinks, at any rate.
 void Exports::send(Topic& topic, const Tap::Sample& sample) {
   if (topic.period_ns > 0 && !topic.due.take(sample.now_ns, topic.period_ns)) return;
   const bool read = topic.writer->readers() > 0;
@@ -157,7 +157,7 @@ bool Imports::pump(Participant& participant, Waker& waker) {
       loose.best_effort = true;
       topic.loose = participant.reader(loose, waker);
     }
-    // A reader with best effort meets the reliable writers as well, whose samples the other reader takes.
+    // A best-effort reader also matches the reliable writers, whose samples the other reader takes.
     if (topic.loose)
       taken = std::max(taken, topic.loose->take(samples_per_wake, [&](const Reader::Sample& s) {
         if (!topic.reader->hears(s.from.guid)) use(topic, s);

@@ -18,15 +18,15 @@
 
 namespace fulmar::core::dds {
 
-/// What is known of the endpoints of others, by DDS topic; told from threads of Fast DDS. What does not match
-/// by the rules of DDS is said once, since nothing else would say why no sample comes.
+/// Remote endpoints by DDS topic; called from threads of Fast DDS. An endpoint that does not match by the
+/// rules of DDS is reported once, since nothing else would explain the missing samples.
 class Others {
  public:
   explicit Others(DdsHost::Say say) : say_(say) {}
-  /// A topic of this bridge. Before the participant is made.
+  /// Adds a topic of this bridge. Call it before the participant is made.
   void expect(const std::string& topic, const std::string& type, bool we_write, bool best_effort);
   void found(const std::string& topic, const std::string& type, bool writer, bool best_effort);
-  /// Somebody writes this topic with best effort, which a reliable reader does not match.
+  /// Whether a remote writer uses best effort, which a reliable reader does not match.
   bool has_best_effort_writer(const std::string& topic) const;
 
  private:
@@ -40,13 +40,13 @@ class Others {
   std::map<std::string, Topic> topics_;
 };
 
-/// The thread of the exports owns it.
+/// Used by the export thread alone.
 class Exports {
  public:
   /// Throws Error.
   Exports(Tap& tap, const DdsOptions& options, Others& others);
   void open(Participant& participant);
-  /// Sends all that is new.
+  /// Sends all new samples.
   void pump();
   std::uint64_t sent() const { return sent_.load(std::memory_order_relaxed); }
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
@@ -70,13 +70,13 @@ class Exports {
   std::atomic<std::uint64_t> sent_{0}, lost_{0};
 };
 
-/// The thread of what comes in owns it.
+/// Used by the import thread alone.
 class Imports {
  public:
-  /// Throws Error. `view`: of the flight; its components and inputs are numbered as the options number them.
+  /// Throws Error. `view`: of the flight; its components and inputs have the numbers of the options.
   Imports(const DdsHost& host, const FlightView& view, const DdsOptions& options, Others& others);
   void open(Participant& participant, Waker& waker);
-  /// Hands on a bounded number of samples per topic. False when more are there.
+  /// Passes a bounded number of samples per topic to the loop. Returns false when more are left.
   bool pump(Participant& participant, Waker& waker);
   std::vector<DdsStats::Import> stats() const;
   std::vector<Guid> readers() const;
@@ -88,9 +88,9 @@ class Imports {
     Endpoint endpoint;
     std::unique_ptr<Guard> guard;
     std::unique_ptr<Reader> reader;
-    std::unique_ptr<Reader> loose;  // for the writers that are not reliable, once there is one
+    std::unique_ptr<Reader> loose;  // for best-effort writers, once there is one
     DdsStats::Import stats;         // guarded by mutex_
-    std::uint64_t crowded = 0;      // guarded: the loop had no room for them
+    std::uint64_t crowded = 0;      // guarded: dropped because the loop's queue was full
     double latency_sum_s = 0;       // guarded
     bool reported = false;
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One connection: a plain HTTP request, or a client of the live protocol. Of Boost.Beast, whose templates
-// take long to compile, so that server.cpp alone includes this. What is called back has always the same type:
-// each of Beast's operations is compiled once.
+// One connection: a plain HTTP request, or a client of the live protocol. It uses Boost.Beast, whose
+// templates compile slowly, so only server.cpp includes this header. All handlers have the same type, so that
+// each operation of Beast is compiled once.
 #pragma once
 #include <array>
 #include <boost/asio/io_context.hpp>
@@ -47,12 +47,12 @@ using OnBytes = std::function<void(error_code, std::size_t)>;
 class Timer {
  public:
   explicit Timer(net::io_context& io) : timer_(io) {}
-  /// In place of what it was started for before. Each `then` is called once: whether its time has come, or
-  /// another start or `cancel` was quicker.
+  /// Replaces the previous start. Each `then` is called once: at its time, or when another start or `cancel`
+  /// comes earlier.
   void start(steady_clock::duration after, std::function<void(bool due)> then) {
     timer_.expires_after(after);
     timer_.async_wait([starts = starts_, mine = ++*starts_, then = std::move(then)](error_code ec) {
-      then(!ec && *starts == mine);  // one that is superseded may have been on its way already
+      then(!ec && *starts == mine);  // the handler of a replaced start may already be queued
     });
   }
   void cancel() {
@@ -62,25 +62,26 @@ class Timer {
 
  private:
   net::steady_timer timer_;
-  std::shared_ptr<std::uint64_t> starts_ = std::make_shared<std::uint64_t>(0);  // outlived by a wait
+  std::shared_ptr<std::uint64_t> starts_ = std::make_shared<std::uint64_t>(0);  // a pending wait may outlive
+                                                                                // the timer
 };
 
 class Connection;
 
-/// What all connections share. Outlives them.
+/// Shared by all connections. Outlives them.
 struct Context {
   const LiveOptions& options;
   Hub& hub;
   Counters& counters;
   Pages pages;                   // GET /
-  std::string policy;            // of the page's files
-  std::string table;             // GET /topics, and GET / where there is no page
-  std::function<void()> joined;  // a client has come
+  std::string policy;            // Content-Security-Policy of the page's files
+  std::string table;             // GET /topics, and GET / without a page
+  std::function<void()> joined;  // called when a client has joined
   std::set<Connection*> connections;
   Guesses guesses{};
 };
 
-/// Lives as long as it has something to wait for. One read and one write at a time.
+/// Lives while an operation is pending. One read and one write at a time.
 class Connection final : public Peer, public std::enable_shared_from_this<Connection> {
  public:
   Connection(tcp::socket socket, net::io_context& io, Context& context)
@@ -105,8 +106,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
                             }));
   }
 
-  /// Those that only hold a place, the oldest first, make room for the next: who connects and says nothing
-  /// keeps nobody out.
+  /// Closes the oldest idle connections to make room for the next: an idle peer must not block a client.
   static void make_room(Context& context) {
     Connection* oldest = nullptr;
     for (Connection* c : context.connections)
@@ -117,12 +117,12 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     oldest->cut();
   }
 
-  /// Sends what waits, then says good-bye.
+  /// Sends the queue, then closes the connection.
   void finish() { close(1001, "the flight has ended"); }
 
   bool offer(const Message& message) override {
     if (closing_ || queued_ + message.size() > max_queued_bytes)
-      return closing_;  // one that is going misses nothing
+      return closing_;  // a closing connection needs no data
     push(message);
     return true;
   }
@@ -151,10 +151,12 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   static constexpr std::size_t small_body_bytes = 64u << 10;
   static constexpr std::size_t most_message_bytes = 1u << 20;
   static constexpr std::size_t max_clients = 16;
-  static constexpr int kernel_bytes = 512 << 10;  // that the system holds for a client: it is late already
-  static constexpr std::size_t max_queued_bytes = 4u << 20;         // then data is left out
-  static constexpr std::size_t max_owed_bytes = 16u << 20;          // then the client is closed
-  static constexpr double messages_per_s = 10'000, burst = 20'000;  // one per KiB of a message, at least one
+  static constexpr int kernel_bytes = 512 << 10;  // send buffer of the system for a client; a full one means
+                                                  // that the client is slow
+  static constexpr std::size_t max_queued_bytes = 4u << 20;         // beyond this, data is dropped
+  static constexpr std::size_t max_owed_bytes = 16u << 20;          // beyond this, the client is closed
+  static constexpr double messages_per_s = 10'000, burst = 20'000;  // a message costs one per KiB, at least
+                                                                    // one
   static constexpr milliseconds busy_pause{5};
 
   static std::string text_of(beast::string_view text) { return {text.data(), text.size()}; }
@@ -188,7 +190,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     }
     const std::string_view path = path_of(target);
     const PageFile* const file = context_.pages.find(path);
-    // The page's parts hold nothing of the flight, and a browser that loads them shows no token.
+    // The page's files contain no data of the flight, and a browser loads them without a token.
     const bool open_to_all = file != nullptr && path != "/" && verdict.status == 401 && !verdict.wrong_token;
     if (verdict.status != 200 && !open_to_all) return respond(verdict.status, verdict.why);
     const bool topics = path == "/topics" || (path == "/" && file == nullptr);
@@ -203,7 +205,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
                 small ? "Content-Encoding: gzip\r\n" : "");
   }
 
-  /// The only answer to the request: the table of topics, or why there is none.
+  /// The only answer to a plain request: the table of topics, or the error.
   void respond(unsigned status, const std::string& text) {
     const bool good = status == 200;
     if (!good) ++context_.counters.refused;
@@ -212,7 +214,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
                 good ? text : text + "\n", status == 401 ? "WWW-Authenticate: Bearer\r\n" : "");
   }
 
-  /// The body of an answer to HEAD is not sent.
+  /// An answer to HEAD has no body.
   void send_answer(unsigned status, const std::string& type, std::string_view policy, const std::string& body,
                    const char* further) {
     answer_ = "HTTP/1.1 " + std::to_string(status) + " " +
@@ -225,7 +227,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
               further;
     answer_ += "Connection: close\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n";
     if (parser_.get().method() != http::verb::head) answer_ += body;
-    if (body.size() > small_body_bytes) cut_after(page_limit);  // a slow link takes its time
+    if (body.size() > small_body_bytes) cut_after(page_limit);  // a slow link needs more time
     net::async_write(corked().socket(), net::buffer(answer_),
                      OnBytes([self = shared_from_this()](error_code, std::size_t) {
                        error_code ignored;
@@ -234,8 +236,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   }
 
   // ---- the live protocol
-  /// The protocol to speak, of those that a client offers: "" when there is none. The two names mean the
-  /// same.
+  /// The subprotocol, from those that the client offers: "" for none. The two names have the same meaning.
   std::string chosen_protocol() const {
     for (const char* name : {"foxglove.sdk.v1", "foxglove.websocket.v1"})
       for (const auto& offered : http::token_list(parser_.get()[http::field::sec_websocket_protocol]))
@@ -252,7 +253,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
           400, "This flight speaks the WebSocket subprotocols foxglove.sdk.v1 and foxglove.websocket.v1.");
     if (context_.hub.clients() >= max_clients)
       return respond(503, "This flight has " + std::to_string(max_clients) + " clients already.");
-    timer_.cancel();  // the WebSocket has time-outs of its own
+    timer_.cancel();  // the WebSocket has its own time-outs
     corked().socket().set_option(tcp::no_delay(true));
     corked().socket().set_option(net::socket_base::send_buffer_size(kernel_bytes));
     stream_.set_option(websocket::stream_base::timeout{handshake_limit, idle_limit, true});
@@ -271,7 +272,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   }
 
   void join() {
-    if (context_.hub.clients() >= max_clients) {  // others were quicker
+    if (context_.hub.clients() >= max_clients) {  // other clients came first
       ++context_.counters.refused;
       return cut();
     }
@@ -292,7 +293,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
       if (ec.category() == of_protocol && ec != websocket::error::closed) ++context_.counters.refused;
       return leave();
     }
-    if (closing_) return read();  // until the other side has answered the good-bye
+    if (closing_) return read();  // until the peer has answered the close
     const net::const_buffer data = buffer_.cdata();
     const std::string_view message(static_cast<const char*>(data.data()), data.size());
     if (stream_.got_text()) {
@@ -356,14 +357,14 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   beast::flat_buffer buffer_;
   http::request_parser<http::empty_body> parser_;
   std::string answer_;  // to a plain request
-  Timer timer_;         // the handshake; pauses; the farewell
+  Timer timer_;         // for the handshake, pauses and the close
   Bucket bucket_;
   std::optional<Hub::ClientId> client_;
   std::deque<Message> queue_;
   std::size_t queued_ = 0;  // bytes
   steady_clock::time_point begun_ = steady_clock::now();
   bool writing_ = false, closing_ = false;
-  std::uint16_t code_ = 0;  // of the good-bye
+  std::uint16_t code_ = 0;  // of the close
   std::string why_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A TCP stream under a WebSocket that gathers frames: as long as it is corked, up to a bound, what is written
-// waits; then all goes in one system call. Hundreds of small messages in a few milliseconds would else be as
-// many calls. One thread; one write at a time.
+// TCP stream under a WebSocket that gathers frames. While it is corked, written data waits, up to a bound;
+// then one system call sends all of it. Otherwise hundreds of small messages in a few milliseconds would need
+// as many calls. One thread; one write at a time.
 #pragma once
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -30,8 +30,8 @@ class Corked {
     socket_.close(ignored);
   }
 
-  /// On: more will be written right after what is written next. The last write before a pause has to find it
-  /// off.
+  /// True: another write follows the next one immediately. It must be false for the last write before a
+  /// pause.
   void cork(bool on) { corked_ = on; }
 
   template <class Buffers, class Handler>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See describe.hpp. Source of the protocol's messages: the Foxglove WebSocket protocol, version 1.
+// Source of the protocol's messages: the Foxglove WebSocket protocol, version 1.
 #include "links/live/describe.hpp"
 
 #include <algorithm>
@@ -121,7 +121,7 @@ json component_json(const ComponentView& component, const FlightView& begun, con
           {"outputs", outputs}};
 }
 
-/// The topics behind "nav.state": of the component, or of all that fill the role.
+/// The topics of a source "nav.state": of the component, or of all components that fill the role.
 std::vector<std::string> topics_of_source(const FlightView& view, const Tap& tap, const std::string& source) {
   std::vector<std::string> topics;
   const std::size_t dot = source.find('.');
@@ -225,7 +225,7 @@ json advertise_services(const std::vector<Service>& services) {
                     {"type", form.type},
                     {"request", side(form.request_name, form.request)},
                     {"response", side(form.type + "_Response", form.response)},
-                    {"requestSchema", form.request},  // for clients from before `request`
+                    {"requestSchema", form.request},  // for clients of a version before `request`
                     {"responseSchema", form.response}});
   }
   return {{"op", "advertiseServices"}, {"services", list}};

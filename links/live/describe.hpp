@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight in the words of the live protocol: channels, services, parameters, connection graph, and the whole
+// A flight in the form of the live protocol: channels, services, parameters, connection graph, and the whole
 // view as JSON.
 //
 // The view, answer of the service /fulmar/view:
@@ -11,11 +11,10 @@
 //                overlaid}],
 //      inputs: [{name, type, source, request, imported, topic}],
 //      outputs: [{name, type, topic}]}]}
-// `value` is in the parameter's unit, `text` as people write it ("0.55 rad/rad"); `begun` is the value with
-// which the flight began; `type` is a ROS 2 name, ""
-// for a probe; `seed` is a text, as JavaScript's numbers have 53 bits; `topic` is that of the channel, of the
-// service for a request, or that an imported input is published on. `step_us` is the mean since the start, by
-// the clock on the wall; `budget_us` 0: none.
+// `value` is in the parameter's unit, `text` has the form of a mission file ("0.55 rad/rad"). `begun` is the
+// value at the start of the flight. `type` is a ROS 2 name, "" for a probe. `seed` is a text, because numbers
+// in JavaScript have 53 bits. `topic` is the channel of an output, the service of a request, or the topic of
+// an imported input. `step_us` is the mean wall-clock time since the start; `budget_us` 0: none.
 #pragma once
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -28,7 +27,7 @@
 
 namespace fulmar::core::live {
 
-/// A service of the protocol: a request of a component, or one of the host's own.
+/// A service of the protocol: a request of a component, or a service of the host.
 struct Service {
   enum class What : std::uint8_t {
     request,
@@ -47,10 +46,10 @@ struct Service {
   };
   What what = What::request;
   std::string name;                      // "/plan/add_waypoints"
-  const char* word = "";                 // of one of the host's own, in the name of its type
-  std::vector<std::string> arguments{};  // of one of the host's own: texts
-  std::string component{}, port{};       // of a request
-  TypePtr type{};                        // of a request
+  const char* word = "";                 // service of the host: part of its type's name
+  std::vector<std::string> arguments{};  // service of the host: texts
+  std::string component{}, port{};       // service of a request
+  TypePtr type{};                        // service of a request
 };
 std::vector<Service> services_of(const FlightView& view);
 
@@ -58,16 +57,16 @@ std::vector<Service> services_of(const FlightView& view);
 nlohmann::json advertise(const Tap& tap);
 nlohmann::json advertise_services(const std::vector<Service>& services);
 nlohmann::json connection_graph(const FlightView& view, const Tap& tap, const std::vector<Service>& services);
-/// `begun`: the view as the flight began; a parameter that it lacks began as it is.
+/// `begun`: the view at the start of the flight; a parameter that it lacks began with its present value.
 nlohmann::json view_json(const FlightView& view, const FlightView& begun, const Tap& tap);
-/// What the program fulmar-save reads: the parameters that fly, of all components, and where they come from.
+/// Input of the program fulmar-save: the current parameters of all components, and their sources.
 nlohmann::json save_request(const FlightView& view, const std::string& component, const std::string& mark);
 /// Fields of a parameter that is a record. Throws Error when there is no such parameter, or no record.
 nlohmann::json record_json(const FlightView& view, const std::string& component, const std::string& name);
 
-/// {name, value, type} as the protocol has it; no value when the parameter's is no finite number.
+/// {name, value, type} of the protocol; without a value when the parameter has no finite number.
 nlohmann::json parameter_json(const std::string& name, const ParameterView& parameter);
-/// A value as a mission file would have it. Texts stay as they are ("20 deg"), unless the parameter is one.
+/// A value in the form of a mission file. Texts stay as they are ("20 deg"), unless the parameter is a text.
 std::string mission_text(const nlohmann::json& value, bool text_parameter);
 
 /// For a browser: the topics, one HTML file that asks for nothing else.

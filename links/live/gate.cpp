@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See gate.hpp.
 #include "links/live/gate.hpp"
 
 #include <arpa/inet.h>
@@ -21,7 +20,7 @@ bool is_address(const std::string& host) {
 
 bool is_any(const std::string& host) { return host == "0.0.0.0" || host == "::"; }
 
-/// ":8765", or nothing: what may follow a host.
+/// ":8765" or an empty text, which may follow a host.
 bool is_port(std::string_view text) {
   return text.empty() ||
          (text[0] == ':' && text.size() <= 6 && std::all_of(text.begin() + 1, text.end(), is_digit));
@@ -43,7 +42,7 @@ std::string percent_decoded(std::string_view text) {
   return out;
 }
 
-/// The token that a request shows, "" when it shows none.
+/// The token of a request, "" without one.
 std::string shown_token(const Caller& caller) {
   constexpr std::string_view bearer = "bearer ";
   if (lower(caller.authorization).starts_with(bearer)) return caller.authorization.substr(bearer.size());
@@ -65,7 +64,7 @@ std::string authority_of_origin(const std::string& origin) {
   return "";
 }
 
-/// An address cannot be made to point elsewhere, a name can.
+/// A DNS name can be redirected by an attacker; an address cannot.
 bool host_is_ours(const LiveOptions& options, const std::string& host) {
   return is_loopback(host) || host == lower(options.host) || (is_any(options.host) && is_address(host));
 }

@@ -12,37 +12,37 @@
 
 namespace fulmar::core::live {
 
-/// What a request says of itself.
+/// Properties of a request.
 struct Caller {
   std::string target;         // "/?token=abc"
-  std::string host;           // "localhost:8765"; "" when there is none
-  std::string origin;         // "http://localhost:8765"; "" when there is none
+  std::string host;           // "localhost:8765"; "" without one
+  std::string origin;         // "http://localhost:8765"; "" without one
   std::string authorization;  // "Bearer abc"
 };
 
 struct Verdict {
-  unsigned status = 200;  // HTTP
+  unsigned status = 200;  // HTTP status
   std::string why;
-  bool wrong_token = false;  // one was shown
+  bool wrong_token = false;  // the request had a wrong token
 };
 
 Verdict admit(const LiveOptions& options, const Caller& caller);
 
 /// "/view?token=a" -> "/view".
 std::string_view path_of(std::string_view target);
-/// "localhost:8765" -> "localhost"; "[::1]:8765" -> "::1"; "" when it is none, or anything but a
+/// "localhost:8765" -> "localhost"; "[::1]:8765" -> "::1"; "" for an invalid text, or when anything but a
 /// port follows.
 std::string host_of_authority(std::string_view authority);
-/// Takes as long whatever the first difference is.
+/// Constant time: it does not depend on the place of the first difference.
 bool same_secret(std::string_view a, std::string_view b);
 
-/// So much may come in per second, more in a burst; whoever sends more is read later.
+/// Token bucket: input has a limit per second, and a higher one in a burst; beyond it, the reader waits.
 class Bucket {
  public:
   using Clock = std::chrono::steady_clock;
   Bucket(double per_second, double burst, Clock::time_point now)
       : rate_(per_second), burst_(burst), level_(burst), at_(now) {}
-  /// Takes `cost`; returns how long to wait before anything else is taken.
+  /// Takes `cost`; returns the wait before the next input.
   Clock::duration take(double cost, Clock::time_point now);
   bool full(Clock::time_point now) { return take(0, now) == Clock::duration{} && level_ >= burst_; }
 
@@ -51,8 +51,8 @@ class Bucket {
   Clock::time_point at_;
 };
 
-/// Who guesses tokens, by address: ten wrong ones at once, one per second after them. Of who has used them up
-/// no token is looked at, the right one neither: else the answers could be left unread.
+/// Limits wrong tokens by address: ten at once, one per second after them. Beyond the limit every token is
+/// rejected, even the right one; otherwise an attacker could ignore the answers and continue.
 class Guesses {
  public:
   using Clock = Bucket::Clock;
@@ -60,10 +60,10 @@ class Guesses {
   void wrong(const std::string& from, Clock::time_point now);
 
  private:
-  std::map<std::string, Bucket> buckets_;  // of those who guessed lately
+  std::map<std::string, Bucket> buckets_;  // addresses with recent wrong tokens
 };
 
-/// What counts as one guesser: an IPv4 address, or the /64 network of an IPv6 address.
+/// Key of one guesser: an IPv4 address, or the /64 network of an IPv6 address.
 std::string guesser(const std::string& address);
 
 }  // namespace fulmar::core::live

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See hub.hpp. Clients, samples, status.
+// Clients, samples, status.
 #include "links/live/hub.hpp"
 
 #include <algorithm>
@@ -15,18 +15,18 @@ using nlohmann::json;
 using std::chrono::steady_clock;
 
 constexpr std::size_t max_unanswered = 4096;
-constexpr std::size_t max_refusals = 10;        // of one message that are reported
-constexpr std::size_t samples_per_turn = 8192;  // then clients are heard again
+constexpr std::size_t max_refusals = 10;        // reported faults of one message
+constexpr std::size_t samples_per_turn = 8192;  // then the messages of clients are read
 constexpr std::chrono::milliseconds time_period{50};
 constexpr std::chrono::seconds drops_period{1};
-// A port that may stay silent and does not: so many samples in a row, each within this time of the one
-// before. Nobody waits for its next one, and the loop need not copy all of them while nobody looks.
+// A port that need not publish in every step but does: so many consecutive samples, each within this time
+// after the previous one. No client needs each of them, so without subscribers the loop need not copy all.
 constexpr std::size_t stream_samples = 400;
-constexpr std::size_t owed_samples = 20;  // in a row, of what comes seldom
+constexpr std::size_t owed_samples = 20;  // consecutive samples of a rare port
 constexpr std::int64_t stream_gap_ns = 100'000'000;
-// Of what is published all the time the loop copies a sample now and then while nobody looks: a simulation
-// that is paused publishes nothing, and who comes then is to see how it stands. What is older than `fresh_ns`
-// is not how it stands.
+// Without subscribers the loop copies a sample of a stream at a low rate: a paused simulation publishes
+// nothing, and a client that connects then needs the present state. A sample older than `fresh_ns` is not the
+// present state.
 constexpr std::int64_t unseen_period_ns = 100'000'000, fresh_ns = 1'000'000'000;
 constexpr char op_data = 1, op_time = 2;
 
@@ -39,7 +39,7 @@ void put(char* to, T value) {
   std::memcpy(to, &value, sizeof value);
 }
 
-/// Distinguishes two runs on one port, so that a client that comes back knows that it is another flight.
+/// Distinguishes two runs on one port, so that a client that reconnects detects another flight.
 std::string session_id() {
   std::random_device random;
   return std::to_string(random()) + std::to_string(random());
@@ -96,7 +96,7 @@ Hub::ClientId Hub::add(Peer& peer) {
   client.peer = &peer;
   counters_.clients = clients_.size();
   if (clients_.size() == 1)
-    for (std::size_t i = 0; i < channels_.size(); ++i) want_unseen(i);  // the time, from now on
+    for (std::size_t i = 0; i < channels_.size(); ++i) want_unseen(i);  // the clock, from now on
   for (const auto& message : {greeting_.info, greeting_.advertisement, greeting_.service_list})
     send_text(client, message);
   return id;
@@ -112,11 +112,11 @@ void Hub::remove(ClientId id) {
     for (std::size_t i = 0; i < channels_.size(); ++i) want_unseen(i);
 }
 
-/// So much of a channel as is wanted while nobody subscribes to it.
+/// Requests the rate of a channel without subscribers.
 void Hub::want_unseen(std::size_t index) {
   const Channel& channel = channels_[index];
   if (!channel.listeners.empty()) return;
-  const bool clock = tap_.channels()[index].topic == "/fulmar/ticks";  // the time is for all clients
+  const bool clock = tap_.channels()[index].topic == "/fulmar/ticks";  // every client needs the clock
   if (clock)
     feed_.cursor->want(index, clients_.empty() ? -1 : 0);
   else
@@ -261,7 +261,7 @@ bool Hub::drain() {
   return count == samples_per_turn;
 }
 
-/// To where the loop is now.
+/// Reads the ring up to the loop's position.
 void Hub::catch_up() {
   const std::uint64_t here = tap_.written();
   while (feed_.cursor->read() < here && drain()) {
@@ -270,7 +270,7 @@ void Hub::catch_up() {
 
 bool Hub::owed(const Channel& channel) { return channel.seldom && channel.in_a_row < owed_samples; }
 
-/// A slow client goes without samples of a stream. One that comes seldom is owed: a crash is published once.
+/// A slow client loses samples of a stream. A rare sample is always sent: a crash is published once.
 void Hub::give(Client& client, Message& message, std::uint32_t subscription, std::int64_t now_ns, bool owed) {
   message.binary = true;
   message.head_size = message.head.size();
@@ -309,7 +309,8 @@ void Hub::keep(const Tap::Sample& sample) {
   want_unseen(sample.channel);
 }
 
-/// To who has just subscribed. Of a stream the next sample comes soon enough, unless the flight is paused.
+/// Sends stored samples to a new subscriber. A stream needs none, because its next sample comes soon, unless
+/// the flight is paused.
 void Hub::give_past(Client& client, std::size_t index, std::uint32_t subscription, bool paused) {
   Channel& channel = channels_[index];
   for (const Kept& kept : channel.past) {
@@ -346,7 +347,7 @@ void Hub::warn_of_drops() {
   }
 }
 
-/// Values as they are now: to who has set them, and to who watches them.
+/// Sends current values to the clients that have set them, and to those that watch them.
 void Hub::flush_parameters() {
   if (parameters_.replies.empty() && parameters_.changed.empty()) return;
   const FlightView now = view();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The live protocol without sockets: what clients have subscribed to, what they ask, what they get. Source:
-// the Foxglove WebSocket protocol, version 1. One thread, but for the answers of the control, which come
-// through a mailbox.
+// The live protocol without sockets: subscriptions, requests and messages of clients. Source: the Foxglove
+// WebSocket protocol, version 1. One thread, except for the answers of the control, which come through a
+// mailbox.
 #pragma once
 #include <array>
 #include <atomic>
@@ -28,7 +28,7 @@
 
 namespace fulmar::core::live {
 
-/// One message to a client: a head of its own and bytes that all clients share.
+/// One message to a client: its own head, and bytes that all clients share.
 struct Message {
   std::array<char, 13> head{};
   std::size_t head_size = 0;
@@ -37,13 +37,13 @@ struct Message {
   std::size_t size() const { return head_size + body->size(); }
 };
 
-/// A client's connection. None of these calls comes back into the hub.
+/// A client's connection. None of these functions calls the hub.
 class Peer {
  public:
   virtual ~Peer() = default;
-  /// Data. False when the client has not taken what came before: then it goes without.
+  /// Data. Returns false when the client is behind; the message is then dropped.
   virtual bool offer(const Message& message) = 0;
-  /// Anything else, and data that comes seldom. A client that does not take these either is closed.
+  /// Any other message, and rare data. A client that is too far behind is closed.
   virtual void send(Message message) = 0;
   virtual void close(std::uint16_t code, const std::string& why) = 0;
 };
@@ -56,10 +56,10 @@ class Hub {
  public:
   Hub(Tap& tap, Control& control, Counters& counters);
   ~Hub();
-  /// Once, before the first client. `wake` is called from threads of the control's when there is something
-  /// for `answers`.
+  /// Call once, before the first client. Threads of the control call `wake` when there is something for
+  /// `answers`.
   void begin(std::function<void()> wake);
-  /// No `wake` from here on.
+  /// `wake` is not called after this.
   void close();
   Hub(const Hub&) = delete;
   Hub& operator=(const Hub&) = delete;
@@ -70,13 +70,13 @@ class Hub {
   std::size_t clients() const { return clients_.size(); }
   void text(ClientId id, std::string_view message);
   void binary(ClientId id, std::string_view message);
-  /// So much that it has asked for is unanswered that nothing more is to be read from it for now.
+  /// Whether the client has too many unanswered requests to read more from it.
   bool busy(ClientId id) const;
 
-  /// What waits in the mailbox.
+  /// Handles the content of the mailbox.
   void answers();
-  /// Every few ms while there are clients, else now and then: samples out, parameters that have changed. True
-  /// when there is more to send at once.
+  /// Sends samples and changed parameters. Call it every few ms while there are clients, else at a low rate.
+  /// Returns true when there is more to send.
   bool tick();
 
   const std::string& mission() const { return mission_; }
@@ -91,17 +91,18 @@ class Hub {
   };
   struct Channel {
     CdrEncoder encoder;
-    std::vector<std::pair<Client*, std::uint32_t>> listeners;  // and their subscription
-    bool seldom = false;       // published now and then: no sample may be missed, and the last one holds
-    std::size_t max_past = 1;  // so many of the last samples are for who subscribes later
-    std::size_t in_a_row = 0;  // samples that came soon after the one before
-    std::deque<Kept> past{};   // the oldest first
+    std::vector<std::pair<Client*, std::uint32_t>> listeners;  // clients and their subscriptions
+    bool seldom = false;       // rarely published: every sample must be delivered, and the last one stays
+                               // valid
+    std::size_t max_past = 1;  // number of last samples that are kept for later subscribers
+    std::size_t in_a_row = 0;  // samples that followed the previous one closely
+    std::deque<Kept> past{};   // oldest first
   };
   using json = nlohmann::json;
   using Op = void (Hub::*)(Client&, const json&);
   static const std::map<std::string, Op, std::less<>>& ops();
 
-  // ops of clients
+  // operations of clients
   void subscribe(Client& client, const json& message);
   void unsubscribe(Client& client, const json& message);
   void client_advertise(Client& client, const json& message);
@@ -144,12 +145,12 @@ class Hub {
   void send_text(Client& client, std::shared_ptr<const std::string> text);
   void send_json(Client& client, const json& message);
   void status(Client& client, int level, const std::string& message);
-  /// Tells why, with `hint()` behind it. Of one message the first ten refusals: more help nobody, and hints
-  /// take their time, of which the other clients have a part.
+  /// Reports a fault to the client, followed by `hint()`. At most ten faults of one message are reported:
+  /// further ones do not help, and hints cost time of the other clients.
   void complain(Client& client, const std::function<std::string()>& why);
-  /// The same, counted as against the rules.
+  /// The same; counts as a violation of the rules.
   void refuse(Client& client, const std::string& why);
-  /// `why` is made for those alone that are sent.
+  /// `why` is evaluated only for faults that are sent.
   void refuse(Client& client, const std::function<std::string()>& why);
   void refuse_parameter(Client& client, const std::string& name, const std::vector<std::string>& known);
   static bool reported_enough(const Client& client);
@@ -159,9 +160,9 @@ class Hub {
   Tap& tap_;
   Control& control_;
   Counters& counters_;
-  std::shared_ptr<Inbox<std::function<void()>>> mailbox_;  // from other threads into the hub's
+  std::shared_ptr<Inbox<std::function<void()>>> mailbox_;  // from other threads to the hub's thread
   std::string mission_;
-  FlightView begun_;  // the flight as it was when it began
+  FlightView begun_;  // the flight's state at its start
   struct {
     std::int64_t epoch_ns = 0, newest_ns = 0;
     bool known = false;
@@ -169,18 +170,18 @@ class Hub {
   } time_;
   std::vector<Service> services_;
   struct {
-    std::set<std::string> texts;  // whose value is a text: "40 deg" is no number there
+    std::set<std::string> texts;  // parameters whose value is a text: "40 deg" is no number for them
     std::set<std::string> changed;
-    std::vector<std::shared_ptr<Pending>> replies;  // sets whose every answer is there
+    std::vector<std::shared_ptr<Pending>> replies;  // completed setParameters operations
   } parameters_;
   std::vector<Channel> channels_;
   struct {
     std::shared_ptr<const std::string> info, advertisement, service_list;
-  } greeting_;  // of a new client
+  } greeting_;  // for a new client
   struct {
-    // from `begin` on: what is published seldom is kept before there is a client
+    // open from `begin` on: rare samples are kept before there is a client
     std::unique_ptr<Tap::Cursor> cursor;
-    std::uint64_t lost_before = 0;  // of the cursor, in the counters already
+    std::uint64_t lost_before = 0;  // losses of the cursor that the counters already include
     std::chrono::steady_clock::time_point loss_reported{};
     std::vector<std::byte> scratch;
   } feed_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See hub.hpp. What clients send in binary: samples for imported inputs, and calls of services.
+// Binary messages of clients: samples for imported inputs, and calls of services.
 #include "core/graph/record.hpp"
 #include "core/graph/yaml.hpp"
 #include "core/types/cdr_bytes.hpp"
@@ -23,7 +23,7 @@ std::string cdr_answer(std::optional<bool> accepted, std::initializer_list<std::
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// XCDR1 of so many strings.
+/// XCDR1 of `count` strings.
 std::vector<std::string> cdr_texts(std::string_view bytes, std::size_t count) try {
   CdrReader in(std::as_bytes(std::span(bytes)));
   std::vector<std::string> texts;
@@ -39,8 +39,8 @@ std::vector<std::byte> from_cdr(const Type& type, std::string_view payload) {
   return message;
 }
 
-/// JSON is YAML: names, units and faults are those of a mission file. Fields that are left out are zero.
-/// `name` is what faults call the payload.
+/// JSON is YAML: names, units and faults are those of a mission file. Omitted fields are zero. `name` is the
+/// payload's name in faults.
 std::vector<std::byte> from_json(const Type& type, const std::string& name, std::string_view payload) {
   std::vector<std::byte> message(type.size);
   Report report;
@@ -54,7 +54,7 @@ void check(const Guard& guard, const std::vector<std::byte>& message) {
   if (!guard.check(message.data())) throw Error(guard.explain(message.data()));
 }
 
-/// The arguments of one of the host's own services.
+/// The arguments of a service of the host.
 std::vector<std::string> arguments(const Service& service, bool as_json, std::string_view payload) {
   if (!as_json)
     return service.arguments.empty() ? std::vector<std::string>()
@@ -69,7 +69,7 @@ std::vector<std::string> arguments(const Service& service, bool as_json, std::st
   return texts;
 }
 
-/// Only an object, and none that a parser would have to dig for.
+/// Accepts only an object that is not nested too deep for the parser.
 void check_json(std::string_view payload) {
   if (json_too_deep(payload)) throw Error(live_messages::request_too_deep());
   if (!payload.empty() && !json::parse(payload, nullptr, false).is_object())

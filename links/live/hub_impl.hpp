@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the files of the hub share.
+// Shared by the sources of the hub.
 #pragma once
 #include <nlohmann/json.hpp>
 
@@ -9,12 +9,12 @@
 
 namespace fulmar::core::live {
 
-/// A message that does not keep to the protocol: its sender is told, and goes.
+/// A message that violates the protocol: its sender gets the reason and is closed.
 struct Malformed : Error {
   using Error::Error;
 };
 
-/// An input that a client publishes into.
+/// An input to which a client publishes.
 struct Hub::Import {
   std::string component, port, topic;
   TypePtr type;
@@ -29,12 +29,12 @@ struct Hub::Client {
   std::map<std::uint32_t, Import> imports;             // by the client's channel id
   std::set<std::string> watched;                       // parameters
   bool graph = false;
-  std::size_t unanswered = 0;               // calls and sets
-  std::size_t refusals = 0;                 // of the message that is looked at
-  std::uint64_t dropped = 0, reported = 0;  // data messages that it did not get
+  std::size_t unanswered = 0;               // calls and setParameters
+  std::size_t refusals = 0;                 // faults of the current message
+  std::uint64_t dropped = 0, reported = 0;  // data messages that were dropped for it
 };
 
-/// A setParameters on its way.
+/// A pending setParameters.
 struct Hub::Pending {
   ClientId client = 0;
   std::optional<std::string> id;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See hub.hpp. What clients may ask in JSON: subscriptions, parameters, channels of their own, the connection
-// graph.
+// JSON messages of clients: subscriptions, parameters, client channels, the connection graph.
 #include <algorithm>
 
 #include "core/graph/yaml.hpp"
@@ -13,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t max_imports = 64;   // of one client
-constexpr std::size_t max_sets = 10'000;  // of one message: others wait for its answer
+constexpr std::size_t max_sets = 10'000;  // of one message: its answer delays other clients
 
 std::uint32_t id_of(const json& value) {
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffu)
@@ -72,7 +71,7 @@ void Hub::subscribe(Client& client, const json& message) {
       continue;
     }
     feed_.cursor->want(index, 0);
-    catch_up();  // what is in the ring may be one sample of many: the stream of a client has no gap
+    catch_up();  // the ring may hold one sample of many; the client's stream must have no gap
     client.subscriptions[id] = index;
     channel.listeners.emplace_back(&client, id);
     give_past(client, index, id, paused);
@@ -141,7 +140,7 @@ void Hub::get_parameters(Client& client, const json& message) {
   const FlightView now = view();
   const std::vector<std::string> known = parameter_names(now);
   if (names.empty()) names = known;
-  std::set<std::string> done;  // a name that is asked for again is answered once
+  std::set<std::string> done;  // a repeated name is answered once
   json values = json::array();
   for (const std::string& name : names) {
     if (!done.insert(name).second) continue;
@@ -163,10 +162,11 @@ void Hub::set_parameters(Client& client, const json& message) {
   pending->id = request_id(message);
   std::set<std::string> names;
   for (const json& parameter : list) {
-    const auto name = parameter.at("name").get<std::string>();  // all or none has a name
+    const auto name = parameter.at("name").get<std::string>();  // either all names are valid or nothing is
+                                                                // set
     if (names.insert(name).second) pending->names.push_back(name);
   }
-  // one for this function, so that no answer is the last before all are asked for
+  // one more for this function, so that no answer is the last before all requests are made
   pending->open = list.size() + 1;
   client.unanswered += list.size();
   for (const json& parameter : list) set_one(client, pending, parameter);

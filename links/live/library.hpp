@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The live view, as the host opens it for a mission with `live:`, or for `--live`. The code is in a library;
-// this header is all that the two share.
+// The live view, which the host opens for a mission with `live:`, or for `--live`. The code is in a library.
+// The host and the library share only this header.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +17,7 @@ class Tap;
 class LiveView {
  public:
   virtual ~LiveView() = default;
-  /// That it listens on.
+  /// The listening port.
   virtual std::uint16_t port() const = 0;
   virtual LiveStats stats() const = 0;
 };
@@ -26,9 +26,9 @@ class LiveView {
 struct LiveLibrary {
   static constexpr const char* section = "live";
   static constexpr const char* needs = "";
-  const char* build;  // first: read before anything else, also of a library of another build
-  /// `page`: the folder of the page that a browser gets; where there is none it gets the table of topics.
-  /// Throws Error when it cannot listen there: says who to ask and what to do.
+  const char* build;  // first member: checked before any other, also for a library of another build
+  /// `page`: folder of the page for browsers; without one they get the table of topics. Throws Error with a
+  /// remedy when it cannot listen there.
   std::unique_ptr<LiveView> (*open)(Tap& tap, Control& control, const LiveOptions& options,
                                     const std::filesystem::path& page);
 };

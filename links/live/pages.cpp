@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See pages.hpp.
 #include "links/live/pages.hpp"
 
 #include <algorithm>

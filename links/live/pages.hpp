@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files of the page that a browser gets, as a folder has them: read once, since a flight in the air shall
-// not wait for a disk. The same for every flight, so they hold no secret.
+// Files of the page for browsers, from a folder. They are read once, because a flight must not wait for a
+// disk. They are equal for every flight and contain no secret.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -10,33 +10,32 @@
 namespace fulmar::core::live {
 
 struct PageFile {
-  std::string type;     // of its content: "text/html; charset=utf-8"
-  std::string body;     // as it is
-  std::string gzipped;  // the same; "": only as it is
+  std::string type;     // content type: "text/html; charset=utf-8"
+  std::string body;     // not compressed
+  std::string gzipped;  // "": only uncompressed
 };
 
 class Pages {
  public:
   Pages() = default;
-  /// The files of the folder itself that end in .html, .js or .css; of those beside which there is a FILE.gz
-  /// that as well. A folder that is not there, or has no index.html, is no page. What has more than 8 MiB is
-  /// left out.
+  /// Reads the files of the folder that end in .html, .js or .css, and their compressed form FILE.gz. A
+  /// folder that does not exist, or has no index.html, gives no page. Files of more than 8 MiB are skipped.
   explicit Pages(const std::filesystem::path& folder);
 
   bool empty() const { return files_.empty(); }
-  /// "/" is index.html, and that alone; nullptr when there is no such file.
+  /// "/" is index.html, and only "/" is; nullptr when there is no such file.
   const PageFile* find(std::string_view path) const;
 
  private:
   std::map<std::string, PageFile, std::less<>> files_;  // by path: "/page.js"
 };
 
-/// What a browser may do with a file of the page: load the others, speak to where it came from, show images
-/// of one other place where the mission names one ("https://tile.example.org"), and nothing else; no script
-/// but these files, and no text becomes HTML.
+/// Content security policy of the page: it may load the page's files, connect to their server, and show
+/// images of one other origin if the mission names one ("https://tile.example.org"). Everything else is
+/// forbidden: other scripts, and text as HTML.
 std::string page_policy(const std::string& images);
 
-/// Whether "gzip, deflate, br" takes gzip; "gzip;q=0" does not.
+/// Whether "gzip, deflate, br" accepts gzip; "gzip;q=0" does not.
 bool takes_gzip(std::string_view accept_encoding);
 
 }  // namespace fulmar::core::live

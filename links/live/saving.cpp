@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See saving.hpp.
 #include "links/live/saving.hpp"
 
 #include <unistd.h>
@@ -56,7 +55,8 @@ SaveAnswer save(const FlightView& view, const std::string& component, const std:
 void Saving::begin(FlightView view, std::string component, std::string mark,
                    std::function<void(const SaveAnswer&)> answer) {
   if (busy_->exchange(true)) throw Error(live_messages::save_in_progress());
-  // It holds nothing of ours but this: a disk that hangs does not keep the flight from its end.
+  // The thread holds only `busy_` of this object, so that a hanging disk does not delay the end of the
+  // flight.
   quiet_thread("fulmar-save", [busy = busy_, view = std::move(view), component = std::move(component),
                                mark = std::move(mark), answer = std::move(answer)] {
     const SaveAnswer said = save(view, component, mark);

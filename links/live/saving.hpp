@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters that fly, written back into the files that they came from, for a client: first the lines that
-// would change are shown, then those and no others are written. The program fulmar-save does it; a thread of
-// its own waits for that, since a disk takes its time.
+// Writes current parameters back into their source files, for a client: a first request shows the lines that
+// would change, a second one writes exactly these. The program fulmar-save does the work; a separate thread
+// waits for it, because a disk may be slow.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -15,19 +15,21 @@ namespace fulmar::core::live {
 
 struct SaveAnswer {
   bool accepted = false;
-  std::string reason;  // why not; of what is accepted: what is left out, and what should be known
-  std::string lines;   // as `fulmar param save --dry-run` prints them; of what was written the files' names
-  std::string mark;  // of these lines, to write them; "": there are none to write, or they have been written
+  std::string reason;  // reason of a rejection; if accepted: skipped parameters and warnings
+  std::string lines;   // as `fulmar param save --dry-run` prints them; after a write the names of the files
+  std::string mark;    // identifies these lines for the write; "": there are none to write, or they have been
+                       // written
 };
 
-/// In the caller's thread. `mark`: "" only shows. The program is stopped after `limit`. Never throws.
+/// Runs in the caller's thread. `mark`: "" only shows the lines. The program is stopped after `limit`. Never
+/// throws.
 SaveAnswer save(const FlightView& view, const std::string& component, const std::string& mark,
                 std::chrono::seconds limit = std::chrono::seconds(60)) noexcept;
 
 class Saving {
  public:
-  /// Answers from another thread, once. One at a time: others are refused. What is under way when this goes
-  /// answers later.
+  /// Answers once, from another thread. One save at a time: others are rejected. A pending save still answers
+  /// after the end of this object.
   void begin(FlightView view, std::string component, std::string mark,
              std::function<void(const SaveAnswer&)> answer);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See server.hpp. One thread listens, speaks to all clients and empties the tap; nobody waits for it.
+// One thread listens, serves all clients and empties the tap; no other thread waits for it.
 #include "links/live/server.hpp"
 
 #include <thread>
@@ -32,7 +32,7 @@ net::ip::address address_of(const std::string& host) {
 }  // namespace
 
 struct LiveServer::Impl {
-  // Connections die with `io`, and speak to `hub` and `context` when they do.
+  // Connections end with `io` and use `hub` and `context` at their end.
   LiveOptions options;
   live::Counters counters;
   live::Hub hub;
@@ -86,20 +86,19 @@ struct LiveServer::Impl {
       if (stopping) return;
       if (!fault && context.connections.size() >= max_connections) live::Connection::make_room(context);
       if (!fault &&
-          context.connections.size() < 2 * max_connections) {  // one that is cut goes a little later
+          context.connections.size() < 2 * max_connections) {  // a closed one is removed a little later
         std::make_shared<live::Connection>(std::move(socket), io, context)->begin();
       } else {
         ++counters.refused;
       }
       if (!fault) return accept();
-      accept_timer.start(accept_pause, [this](bool due) {  // out of file descriptors, most likely
+      accept_timer.start(accept_pause, [this](bool due) {  // probably out of file descriptors
         if (due) accept();
       });
     });
   }
 
-  /// What goes wrong with one connection (no memory, an option that the system refuses) ends that connection
-  /// alone.
+  /// A fault of one connection (no memory, an option that the system rejects) ends that connection alone.
   void run() {
     for (;;) {
       try {
@@ -111,12 +110,12 @@ struct LiveServer::Impl {
     }
   }
 
-  /// Slowly as long as there are no clients.
+  /// At a low rate while there are no clients.
   void pump() {
     if (!stopping) next_turn(milliseconds(0));
   }
 
-  /// In place of the one that was to be next.
+  /// Replaces the scheduled turn.
   void next_turn(milliseconds after) {
     timer.start(after, [this](bool due) {
       if (!due || stopping) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The live view: the Foxglove WebSocket protocol and plain HTTP on one port, in a thread of its own.
+// The live view: the Foxglove WebSocket protocol and plain HTTP on one port, in a separate thread.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -12,8 +12,8 @@ namespace fulmar::core {
 
 class LiveServer final : public LiveView {
  public:
-  /// `page`: the folder of the page that a browser gets; where there is none it gets the table of topics.
-  /// Throws Error when it cannot listen there: says who to ask and what to do.
+  /// `page`: folder of the page for browsers; without one they get the table of topics. Throws Error with a
+  /// remedy when it cannot listen there.
   LiveServer(Tap& tap, Control& control, const LiveOptions& options, const std::filesystem::path& page = {});
   ~LiveServer() override;
   std::uint16_t port() const override;

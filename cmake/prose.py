@@ -156,14 +156,26 @@ def description_faults(path, text):
 entry = re.compile(r'MessageText (\w+)\{\s*"([^"]*)",\s*(?:\{[^}]*\},\s*)?((?:"(?:[^"\\]|\\.)*"\s*)+)\}')
 
 
+def braces_pair(sentence):
+    """Whether each brace that is printed has its partner: `{{` is written for one that opens, `}` for one that closes."""
+    depth = 0
+    for part in re.findall(r"\{\{|\{\w+\}|\}", sentence):
+        depth += {"{{": 1, "}": -1}.get(part, 0)
+        if depth < 0:
+            return False
+    return depth == 0
+
+
 def message_faults(path, text):
-    """Of a catalogue of messages: codes that are not the name of the entry in its folder, and the terms of their sentences."""
+    """Of a catalogue of messages: codes that are not the name of the entry in its folder, and the terms and braces of their sentences."""
     folder = re.search(r"namespace fulmar::(\w+)_messages", text)
     for found in entry.finditer(text):
         where = f"{path}:{text.count(chr(10), 0, found.start()) + 1}"
         if folder is None or found[2] != f"{folder[1]}.{found[1].removesuffix('_')}":
             yield f"{where}: the code '{found[2]}' is not the name of its entry"
         sentence = "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', found[3]))
+        if not braces_pair(sentence):
+            yield f"{where}: a brace without its partner: {sentence[:70]}"
         plain = re.sub(r"\{\w+\}|'\w+'", "VALUE", sentence)
         for term, standard in terms.items():
             for match in re.finditer(term, plain, re.IGNORECASE):

@@ -74,8 +74,8 @@ class Lexer {
         at_ += symbol.size();
         return {Token::Kind::symbol, std::string(symbol)};
       }
-    for (const auto& [wrong, hint] : {std::pair{"&&", "write and"}, std::pair{"||", "write or"},
-                                      std::pair{"!", "write not"}, std::pair{"=", "write == to compare"}})
+    for (const auto& [wrong, hint] : {std::pair{"&&", "write 'and'"}, std::pair{"||", "write 'or'"},
+                                      std::pair{"!", "write 'not'"}, std::pair{"=", "write '==' to compare"}})
       if (rest.starts_with(wrong)) throw Error(graph_messages::operator_invalid(wrong, hint));
     throw Error(graph_messages::condition_text_invalid(text_.substr(at_, 12)));
   }
@@ -176,7 +176,7 @@ class Compiler {
     return true;
   }
   int add(CNode node) {
-    if (nodes_.size() >= 500) throw Error(graph_messages::condition_too_long());
+    if (nodes_.size() >= std::size_t{most_parts}) throw Error(graph_messages::condition_too_long(most_parts));
     nodes_.push_back(std::move(node));
     return static_cast<int>(nodes_.size()) - 1;
   }
@@ -193,7 +193,7 @@ class Compiler {
     return left;
   }
   int opposite() {
-    if (++depth_ > 50) throw Error(graph_messages::condition_too_deep());
+    if (++depth_ > deepest) throw Error(graph_messages::condition_too_deep(deepest));
     const int node = take("not") ? join_nodes(Op::opposite, opposite(), -1) : primary();
     --depth_;
     return node;
@@ -215,9 +215,7 @@ class Compiler {
     }
     if (a.kind == Operand::Kind::label) throw Error(graph_messages::operand_not_field(a.text));
     if (!a.is_bool()) throw Error(graph_messages::operand_not_boolean(a.text));
-    CNode node;
-    node.a = a.side;
-    return add(std::move(node));
+    return add({.a = a.side});
   }
 
   const Compare* compare_here() const {
@@ -331,6 +329,7 @@ class Compiler {
   std::vector<CNode>& nodes_;
   std::vector<Source>& ports_;
   Token token_;
+  static constexpr int most_parts = 500, deepest = 50;
   int depth_ = 0;
 };
 

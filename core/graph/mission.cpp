@@ -80,14 +80,14 @@ class MissionReader {
       report_.add(keys.where("mission"), graph_messages::mission_name_invalid(m_.mission));
     m_.io = io_of(keys.word("io", io_words).value_or("sim")).value_or(Io::sim);
     m_.rate_hz = keys.positive("rate", "Hz").value_or(400);
+    if (keys.has("rate")) m_.rate_where = keys.where("rate");
     if (m_.rate_hz > 100'000 || m_.rate_hz < 0.1)
-      report_.add(keys.where("rate"), graph_messages::rate_out_of_range(number_text(m_.rate_hz)));
+      report_.add(m_.rate_where, graph_messages::rate_out_of_range(trimmed(keys.get("rate")->text)));
     m_.timeout_ns = keys.duration_ns("timeout").value_or(3600'000'000'000);
     m_.arm = keys.word("arm", {"auto", "off"}).value_or("off") == "auto";
     if (const Node* node = keys.get("seed")) seed(*node);
-    const std::string epoch = keys.text("epoch").value_or(default_epoch);
     try {
-      m_.epoch_ns = parse_utc_ns(epoch);
+      m_.epoch_ns = parse_utc_ns(keys.text("epoch").value_or(default_epoch));
     } catch (const Error& fault) {
       report_.add(keys.where("epoch"), graph_messages::epoch_invalid(fault.what()));
     }

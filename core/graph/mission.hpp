@@ -97,6 +97,7 @@ struct HardwareText {
 struct MissionText : Settings {
   FilePtr file;
   double rate_hz = 400;
+  Where rate_where;  // empty: no file sets it
   struct {
     Node airframe;  // text, a map, or missing
     Node origin, failsafe;

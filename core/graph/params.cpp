@@ -123,7 +123,9 @@ struct ParamReader {
     } else {
       const bool list = node.is(Node::Kind::sequence);
       return fault(node, graph_messages::three_numbers_expected(
-                             join(names), list ? std::to_string(node.items.size()) : found_words(node)));
+                             join(names), list ? std::to_string(node.items.size()) +
+                                                     (node.items.size() == 1 ? " item" : " items")
+                                               : found_words(node)));
     }
     if (good) std::copy(numbers, numbers + 3, value.number);
   }

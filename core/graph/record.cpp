@@ -50,14 +50,15 @@ class Filler {
     if (node.is(Node::Kind::sequence) && is_tuple(type)) return fill_tuple(type, node, data, place);
     if (!node.is(Node::Kind::map))
       return fault(node, place.path, graph_messages::record_map_expected(type.name, found_words(node)));
-    std::map<const Field*, std::string> seen;
+    std::map<const Field*, const Node::Entry*> seen;
     for (const Node::Entry& entry : node.entries) {
       if (std::find(also.begin(), also.end(), entry.key) != also.end()) continue;
       const std::string path = place.path.empty() ? entry.key : place.path + "." + entry.key;
       const Field* field = field_for(type, entry, place, also);
       if (!field) continue;
-      if (const auto [first, is_new] = seen.try_emplace(field, entry.key); !is_new)
-        report_.add(entry.where(), located(path, graph_messages::field_repeated(first->second)));
+      if (const auto [first, is_new] = seen.try_emplace(field, &entry); !is_new)
+        report_.add(entry.where(), located(path, graph_messages::field_repeated(
+                                                     first->second->key, first->second->where().text())));
       fill_field(*field, entry.value, data + field->offset, place_of(*field, entry.key, path, place));
     }
   }
@@ -95,15 +96,19 @@ class Filler {
                    graph_messages::item_count_invalid(n, n == 1 ? " item" : " items", size_words(field)));
     if (list) put(at, static_cast<std::uint32_t>(n));
     std::byte* item = list ? at + field.items : at;
+    const bool rising = field.in_record.rising && field.kind == FULMAR_F64;
+    for (std::size_t i = 0; rising && i < n; ++i) put(item + i * field.stride, unread);
     for (std::size_t i = 0; i < n; ++i) {
       const std::string path = place.path + "[" + std::to_string(i) + "]";
       fill_element(field, node.items[i], item + i * field.stride, {path, place.unit, place.rule});
       if (field.kind == FULMAR_STRUCT) check_whole(*field.type, node.items[i], path);
     }
-    if (field.in_record.rising) check_rising(field, node, item, place.path);
+    if (rising) check_rising(field, node, item, place.path);
   }
 
  private:
+  static constexpr double unread = std::numeric_limits<double>::quiet_NaN();  // of an item with a fault
+
   /// An item of a list stands for itself: nothing around it says what it leaves out.
   void check_whole(const Type& type, const Node& item, const std::string& path) {
     if (!item.is(Node::Kind::map)) return;
@@ -112,11 +117,11 @@ class Filler {
   }
 
   void check_rising(const Field& field, const Node& node, const std::byte* item, const std::string& path) {
-    if (field.kind != FULMAR_F64) return;
     for (std::size_t i = 1; i < node.items.size(); ++i) {
       double before = 0, value = 0;
       std::memcpy(&before, item + (i - 1) * field.stride, sizeof before);
       std::memcpy(&value, item + i * field.stride, sizeof value);
+      if (std::isnan(before) || std::isnan(value)) return;  // an item has its own fault
       if (value > before) continue;
       return fault(node.items[i], path + "[" + std::to_string(i) + "]",
                    graph_messages::list_not_rising(

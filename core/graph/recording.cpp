@@ -13,13 +13,13 @@ namespace fulmar::core {
 namespace {
 
 /// "100 Hz" or "all"; throws Error.
-std::int64_t period_of(const std::string& rate, const std::string& option) try {
+std::int64_t period_of(const std::string& rate) try {
   if (rate == "all") return 0;
   const double hz = quantity_in(rate, "Hz", UnitRule::required);
   if (!(hz >= 1e-3 && hz <= 1e6)) throw Error(graph_messages::record_rate_invalid());
   return std::llround(1e9 / hz);
 } catch (const Error& fault) {
-  throw Error(located(option, graph_messages::record_pattern_invalid(fault.what())));
+  throw Error(graph_messages::record_pattern_invalid(fault.what()));
 }
 
 std::vector<std::string> keys_of(const Node& map) {
@@ -104,7 +104,7 @@ void add_record_options(MissionText& mission, const std::vector<std::string>& op
     const std::string option = "--record " + text;
     const std::size_t at = text.find('@');
     try {
-      const std::int64_t period = at == std::string::npos ? 0 : period_of(text.substr(at + 1), option);
+      const std::int64_t period = at == std::string::npos ? 0 : period_of(text.substr(at + 1));
       const std::string ports = text.substr(0, at);
       for (std::size_t from = 0; from <= ports.size();) {
         const std::size_t comma = std::min(ports.find(',', from), ports.size());

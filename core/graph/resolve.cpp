@@ -48,6 +48,7 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
   const ComponentText& text = *candidate.text;
   if (text.use.text.empty()) return;
   const std::string path = "components." + text.name;
+  Where where = text.use.where;
   try {
     auto [plugin, component] = split_use(text.use.text);
     std::string unnamed;  // the file of --with, when it names no component
@@ -57,6 +58,7 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
       plugin = is_file(named) ? fs::absolute(named).string() : named;
       unnamed = part.empty() && draft.overrides.swaps != text.name ? word : "";
       if (!part.empty()) component = part;
+      if (draft.overrides.swaps != text.name) where = {"--with " + name + "=" + word, 0};
     }
     const FoundPlugin found = catalogue.open(plugin);
     candidate.plugin = found.info;
@@ -77,7 +79,7 @@ void load_component(Draft& draft, Catalogue& catalogue, Candidate& candidate) {
     candidate.use = (stem.empty() ? plugin : stem) + "/" + candidate.info().name;
     candidate.loaded = true;
   } catch (const Error& fault) {
-    draft.report.add(text.use.where, located(path, fault.diagnostic));
+    draft.report.add(where, located(path, fault.diagnostic));
   }
 }
 

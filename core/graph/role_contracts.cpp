@@ -83,7 +83,7 @@ void resolve_roles(Draft& draft) {
     for (const RoleOutText& out : role.text->out) role.types.push_back(common_type(draft, role, out));
     if (!role.fillers.empty()) continue;
     role.unclear = true;
-    std::string why = "; write 'fills: " + role.name + "' at one";
+    std::string why = graph_messages::role_filler_hint(role.name).text;
     for (const ComponentText& text : draft.text.components)
       if (text.fills_role(role.name))
         why = " with io: " + io_word(draft.text.io) + "; " + not_there(draft, text.name).text;

@@ -93,7 +93,8 @@ class DdsReader {
     dds.where = node.where();
     if (const auto domain = keys.positive("domain", "", true)) {
       if (*domain > max_domain || std::floor(*domain) != *domain)
-        report_.add(keys.where("domain"), graph_messages::dds_domain_invalid(max_domain));
+        report_.add(keys.where("domain"),
+                    graph_messages::dds_domain_invalid(number_text(*domain), max_domain));
       else
         dds.domain = static_cast<int>(*domain);
     }
@@ -131,7 +132,7 @@ class DdsReader {
       e.topic = keys.text("topic").value_or("");
       if (const auto hz = keys.positive("rate", "Hz")) {
         if (*hz < slowest_hz)
-          report_.add(keys.where("rate"), graph_messages::dds_rate_too_low());
+          report_.add(keys.where("rate"), graph_messages::dds_rate_too_low(number_text(*hz)));
         else
           e.period_ns = std::llround(1e9 / *hz);
       }

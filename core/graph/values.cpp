@@ -113,9 +113,10 @@ void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& 
     if (param.name == "rate") {
       value.number[0] = draft.text.rate_hz;
       if (value.number[0] < param.min || value.number[0] > param.max)
-        draft.report.add(candidate.where, graph_messages::mission_rate_invalid(
-                                              candidate.name, number_text(draft.text.rate_hz),
-                                              number_text(param.min), number_text(param.max), candidate.use));
+        draft.report.add(draft.text.rate_where.file.empty() ? candidate.where : draft.text.rate_where,
+                         graph_messages::mission_rate_invalid(candidate.name, number_text(draft.text.rate_hz),
+                                                              number_text(param.min), number_text(param.max),
+                                                              candidate.use));
     }
     if (param.name == "epoch") value.number[0] = static_cast<double>(draft.text.epoch_ns) * 1e-9;
   }

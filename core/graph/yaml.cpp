@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "core/graph/messages.hpp"
@@ -138,8 +139,8 @@ std::string contents_of(int fd, const std::string& name) {
     const ssize_t n = ::read(fd, block.data(), block.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0)
-      throw Error(errno == EAGAIN ? graph_messages::not_a_file(name)
-                                  : graph_messages::file_not_readable(name));
+      throw Error(errno == EAGAIN ? graph_messages::file_not_regular(name)
+                                  : graph_messages::file_not_readable(name, std::strerror(errno)));
     if (n == 0) return text;
     text.append(block.data(), static_cast<std::size_t>(n));
   }
@@ -155,7 +156,8 @@ FilePtr read_source(const std::filesystem::path& path, const std::string& name, 
     throw Error(graph_messages::file_missing(name, file_hint(path, name)));
   struct stat status {};
   if (file.fd < 0 || ::fstat(file.fd, &status) != 0)
-    throw Error(errno == ENXIO ? graph_messages::not_a_file(name) : graph_messages::file_not_readable(name));
+    throw Error(errno == ENXIO ? graph_messages::file_not_regular(name)
+                               : graph_messages::file_not_readable(name, std::strerror(errno)));
   if (S_ISDIR(status.st_mode)) throw Error(graph_messages::file_is_folder(name));
   if (!S_ISREG(status.st_mode)) throw Error(graph_messages::file_not_regular(name));
   return std::make_shared<SourceFile>(SourceFile{path, name, contents_of(file.fd, name)});

@@ -14,6 +14,7 @@
 #include "core/run/flight_impl.hpp"
 #include "core/run/messages.hpp"
 #include "core/types/named.hpp"
+#include "fulmar/message.hpp"
 #include "fulmar/quiet_thread.hpp"
 
 namespace fulmar::core {
@@ -121,7 +122,8 @@ bool FlightControl::apply(Waiting& w) {
   if (c.kind == CommandKind::request) reply = [this, &w](const char* refusal) { refuse(w, refusal); };
   const Flight::Impl::Taken taken = flight_.take(c, std::move(reply));
   if (taken == Flight::Impl::Taken::full) return false;
-  if (taken == Flight::Impl::Taken::idle) return refuse(w, run_messages::target_not_active.c_str());
+  if (taken == Flight::Impl::Taken::idle)
+    return refuse(w, run_messages::component_not_active.to<Text<96>>(c.component).bytes.data());
   if (c.kind == CommandKind::request) return true;
   if (c.kind == CommandKind::swap) w.directory = std::make_shared<const Directory>(flight_);
   done(w);

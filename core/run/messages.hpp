@@ -10,7 +10,8 @@ inline constexpr MessageText aircraft_in_air{"run.aircraft_in_air", "the aircraf
 inline constexpr MessageText arm_request_missing{
     "run.arm_request_missing",
     {"vehicle"},
-    "arm: auto requires a vehicle with a request 'arm' that has a field 'armed'; {vehicle} has none"};
+    "arm: auto requires a request 'arm' with a field 'armed', which {vehicle} does not have. Set arm: off, "
+    "or choose another vehicle."};
 inline constexpr MessageText call_refused{
     "run.call_refused", {"function", "reason"}, "calls {function} in flight; {reason}"};
 inline constexpr MessageText cannot_take_over{
@@ -44,7 +45,7 @@ inline constexpr MessageText driver_missing{
     {"option", "mission"},
     "--drivers-from {option}: the mission {mission} has no component with 'run: driver'"};
 inline constexpr MessageText driver_parameters_fixed{"run.driver_parameters_fixed",
-                                                     "is a driver: its parameters are fixed in flight"};
+                                                     "a driver's parameters cannot change in flight"};
 inline constexpr MessageText end_deferred{
     "run.end_deferred", {"verdict", "reason"}, "{verdict}{reason}; the flight continues until disarmed"};
 inline constexpr MessageText ended_by_owner{"run.ended_by_owner", "ended by its owner"};
@@ -53,10 +54,11 @@ inline constexpr MessageText ended_for_restart{"run.ended_for_restart", "ended f
 inline constexpr MessageText entrance_unknown{"run.entrance_unknown",
                                               {"component", "kind", "port", "choices"},
                                               "'{component}' accepts no {kind} '{port}'.{choices}"};
-inline constexpr MessageText entrances_differ{"run.entrances_differ",
-                                              {"plugin"},
-                                              "its requests and imported inputs differ from those of "
-                                              "{plugin}; the log of this flight has room only for those"};
+inline constexpr MessageText entrances_differ{
+    "run.entrances_differ",
+    {"plugin"},
+    "the new file has other requests or imported inputs than {plugin}. They are fixed when the flight "
+    "begins; start the flight again."};
 inline constexpr MessageText failsafe{
     "run.failsafe", {"component", "problem"}, "failsafe: {component}: {problem}"};
 inline constexpr MessageText failsafe_active{"run.failsafe_active",
@@ -97,7 +99,7 @@ inline constexpr MessageText library_build_differs{
     {"file", "build", "program_build"},
     "{file} is from build {build}, this program from build {program_build}: build or install both together"};
 inline constexpr MessageText library_invalid{
-    "run.library_invalid", {"file"}, "{file} is not Fulmar's library for it"};
+    "run.library_invalid", {"file"}, "{file} is not the Fulmar library that is needed here"};
 inline constexpr MessageText library_missing{"run.library_missing",
                                              {"files", "target"},
                                              "its library is missing. Searched: {files}. Install the package "
@@ -106,9 +108,12 @@ inline constexpr MessageText library_needs{
     "run.library_needs", {"fault", "needs"}, "{fault}. It needs {needs}"};
 inline constexpr MessageText live_view_missing{
     "run.live_view_missing", {"reason"}, "the flight has no live view: {reason}"};
+inline constexpr MessageText log_ends_early{"run.log_ends_early", {"fault"}, " The log ends early: {fault}"};
 inline constexpr MessageText log_failed{
     "run.log_failed", {"reason"}, "the flight continues without a log: {reason}"};
-inline constexpr MessageText log_phase_missing{"run.log_phase_missing", "the log holds no phase"};
+inline constexpr MessageText log_incomplete{"run.log_incomplete", {"problem", "reason"}, "{problem}{reason}"};
+inline constexpr MessageText log_phase_missing{
+    "run.log_phase_missing", {"reason"}, "the log names no phase to resume from.{reason}"};
 inline constexpr MessageText log_phase_unknown{
     "run.log_phase_unknown",
     {"phase", "choices"},
@@ -116,8 +121,8 @@ inline constexpr MessageText log_phase_unknown{
 inline constexpr MessageText loop_would_wait{"run.loop_would_wait", "the loop would wait for it"};
 inline constexpr MessageText message_size_invalid{
     "run.message_size_invalid",
-    {"component", "port", "size", "type"},
-    "{component}.{port}: a message of {size} bytes does not hold a {type}"};
+    {"component", "port", "size", "type", "expected"},
+    "{component}.{port}: {size} bytes are not a {type}, which has {expected} bytes"};
 inline constexpr MessageText mission_changed{
     "run.mission_changed",
     {"file", "difference"},
@@ -164,12 +169,12 @@ inline constexpr MessageText parameter_default_changed{"run.parameter_default_ch
 inline constexpr MessageText parameter_not_live{
     "run.parameter_not_live",
     {"component", "parameter"},
-    "{component}.{parameter} is a set-up parameter: it cannot change in flight"};
+    "{component}.{parameter} cannot change in flight: it is a set-up parameter, a record or a file"};
 inline constexpr MessageText parameter_set{"run.parameter_set", {"name", "value"}, "{name} = {value}"};
 inline constexpr MessageText parameters_added{"run.parameters_added", {"parameters"}, "new: {parameters}"};
 inline constexpr MessageText parameters_kept{"run.parameters_kept", {"parameters"}, "keeps {parameters}"};
 inline constexpr MessageText parameters_refused{"run.parameters_refused",
-                                                "rejects its parameters and gives no reason"};
+                                                "its plugin rejects the parameters and gives no reason"};
 inline constexpr MessageText parameters_removed{
     "run.parameters_removed", {"parameters"}, "gone: {parameters}"};
 inline constexpr MessageText phase_entered{"run.phase_entered", {"phase"}, "phase {phase}"};
@@ -182,14 +187,14 @@ inline constexpr MessageText phase_unknown{
 inline constexpr MessageText plugin_not_unloaded{
     "run.plugin_not_unloaded",
     {"plugin"},
-    "{plugin} cannot be unloaded (a unique symbol or a thread-local destructor keeps it). The new file would "
-    "run its code. Restart the host"};
+    "{plugin} cannot be unloaded, so its old code would run on. End the flight and start fulmar again. A "
+    "unique symbol or a thread-local destructor keeps it loaded."};
 inline constexpr MessageText plugin_swapped{"run.plugin_swapped",
                                             {"old", "new", "separator", "changes"},
                                             "swapped: {old} -> {new}{separator}{changes}"};
 inline constexpr MessageText probe_not_finite{
     "run.probe_not_finite", {"probe"}, "probe '{probe}' is not finite"};
-inline constexpr MessageText rate_or_io_differs{"run.rate_or_io_differs", "another rate or io"};
+inline constexpr MessageText rate_or_io_differs{"run.rate_or_io_differs", "another rate or another io"};
 inline constexpr MessageText realtime_not_permitted{
     "run.realtime_not_permitted",
     {"operation", "reason", "priority", "program"},
@@ -198,7 +203,9 @@ inline constexpr MessageText realtime_not_permitted{
     "unlimited', and log in again. (2) Run 'sudo setcap cap_sys_nice,cap_ipc_lock+ep {program}'. (3) Use the "
     "systemd unit fulmar@.service, whose limits allow it"};
 inline constexpr MessageText recorded_probes_differ{
-    "run.recorded_probes_differ", {"component"}, "the log has other probes of {component}"};
+    "run.recorded_probes_differ",
+    {"component"},
+    "the log has fewer probes of {component} than its plugin. Use the plugin that recorded the log."};
 inline constexpr MessageText request_refused{
     "run.request_refused", {"request", "reason"}, "{request} refused: {reason}"};
 inline constexpr MessageText restart_not_possible{
@@ -207,25 +214,28 @@ inline constexpr MessageText result_late{
     "run.result_late", {"due_ns"}, "a result is late: due at {due_ns} ns"};
 inline constexpr MessageText resumed{"run.resumed", {"state"}, "resumed: {state}"};
 inline constexpr MessageText resumed_field_invalid{
-    "run.resumed_field_invalid", {"field"}, "{field} is a probe; a flight resumes from messages"};
+    "run.resumed_field_invalid",
+    {"field"},
+    "{field} is a probe; resume needs a field of a message such as manage.progress.item"};
 inline constexpr MessageText resumed_fields_differ{
     "run.resumed_fields_differ",
     {"topic", "type"},
-    "the log's {topic} and this mission's {type} have different fields"};
-inline constexpr MessageText resumed_value_invalid{"run.resumed_value_invalid",
-                                                   {"field", "found", "parameter"},
-                                                   "{field} was {found}, which {parameter} does not allow"};
+    "the log's {topic} and this mission's {type} have different fields: another version wrote the log"};
+inline constexpr MessageText resumed_value_invalid{
+    "run.resumed_value_invalid",
+    {"field", "found", "parameter", "min", "max"},
+    "{field} was {found} in the log; {parameter} must be from {min} to {max}"};
 inline constexpr MessageText role_output_absent{
     "run.role_output_absent", {"role", "reason"}, "the role {role} published nothing; {reason}"};
 inline constexpr MessageText sample_missing{
-    "run.sample_missing", {"topic"}, "the log holds no sample of {topic}"};
+    "run.sample_missing", {"topic", "reason"}, "the log holds no sample of {topic}.{reason}"};
 inline constexpr MessageText samples_unordered{
     "run.samples_unordered",
     {"log", "topic"},
     "'{log}' has samples of {topic} that are not in the order of time"};
 inline constexpr MessageText signal_refused{
     "run.signal_refused", "the aircraft is armed: a second Ctrl-C within 5 s returns control to the pilot"};
-inline constexpr MessageText step_order_differs{"run.step_order_differs", "another order of steps"};
+inline constexpr MessageText step_order_differs{"run.step_order_differs", "another order of components"};
 inline constexpr MessageText step_without_pause{"run.step_without_pause",
                                                 "the flight is not paused; a step requires a paused flight"};
 inline constexpr MessageText steps_in_progress{"run.steps_in_progress",
@@ -234,9 +244,9 @@ inline constexpr MessageText swap_not_possible{
     "run.swap_not_possible",
     {"component", "reason"},
     "{component} cannot be swapped: {reason}. A component is swapped on the ground, disarmed"};
-inline constexpr MessageText target_not_active{"run.target_not_active", "is not active"};
-inline constexpr MessageText text_too_long{
-    "run.text_too_long", {"kind", "text", "limit"}, "{kind} '{text}' is longer than {limit} characters"};
+inline constexpr MessageText text_too_long{"run.text_too_long",
+                                           {"kind", "text", "limit"},
+                                           "{kind} '{text}' is too long; the limit is {limit} characters"};
 inline constexpr MessageText time_budget_exceeded{"run.time_budget_exceeded",
                                                   "exceeded its time budget in 5 consecutive steps"};
 inline constexpr MessageText time_not_monotonic{
@@ -249,16 +259,18 @@ inline constexpr MessageText too_many_requests{
     {"component", "request", "count"},
     "{component}.{request} has {count} requests waiting; there is no room for more"};
 inline constexpr MessageText took_over{"run.took_over", {"component"}, "{component} takes over"};
-inline constexpr MessageText topic_fields_differ{"run.topic_fields_differ",
-                                                 {"topic", "component", "output"},
-                                                 "{topic} and {component}.{output} have different fields"};
+inline constexpr MessageText topic_fields_differ{
+    "run.topic_fields_differ",
+    {"topic", "component", "output"},
+    "the log's {topic} and {component}.{output} have different fields: another version wrote the log"};
 inline constexpr MessageText value_not_carried{
     "run.value_not_carried",
-    {"parameter", "found"},
-    "its parameter '{parameter}' does not allow the present value {found}"};
-inline constexpr MessageText value_out_of_range{"run.value_out_of_range",
-                                                {"component", "parameter", "found", "min", "max"},
-                                                "{component}.{parameter}: {found} is outside {min} .. {max}"};
+    {"parameter", "found", "min", "max"},
+    "its parameter '{parameter}' is {found} now, but the new file allows only {min} to {max}"};
+inline constexpr MessageText value_out_of_range{
+    "run.value_out_of_range",
+    {"component", "parameter", "found", "min", "max", "unit"},
+    "{component}.{parameter}: {found} is outside {min} .. {max}{unit}"};
 inline constexpr MessageText value_too_long{
     "run.value_too_long",
     {"component", "parameter", "length", "limit"},

@@ -192,10 +192,10 @@ TEST_CASE("a wrong condition is refused with a sentence") {
   CHECK(refused("vehicle.status.armed)") == "graph.parenthesis_unopened");
   CHECK(refused("vehicle.status.armed vehicle.status.override") ==
         "graph.conjunction_expected(vehicle.status.override)");
-  CHECK(refused("nav.state.height_m = 3") == "graph.operator_invalid(=, write == to compare)");
+  CHECK(refused("nav.state.height_m = 3") == "graph.operator_invalid(=, write '==' to compare)");
   CHECK(refused("vehicle.status.armed && vehicle.status.override") ==
-        "graph.operator_invalid(&&, write and)");
-  CHECK(refused("!vehicle.status.armed") == "graph.operator_invalid(!, write not)");
+        "graph.operator_invalid(&&, write 'and')");
+  CHECK(refused("!vehicle.status.armed") == "graph.operator_invalid(!, write 'not')");
   CHECK(refused("nav.state.height_m > 3 $") == "graph.condition_text_invalid($)");
   CHECK(refused("1 < nav.state.height_m < 3") == "graph.comparison_chained");
   CHECK(refused("3 < 4") == "graph.comparison_without_field(3, <, 4)");
@@ -234,7 +234,7 @@ TEST_CASE("a wrong condition is refused with a sentence") {
   CHECK(refused("plan.plan.waypoints.airspeed_mps > 3") ==
         "types.index_missing(waypoints, ' is a list of at most 1024, waypoints)");
   const std::string deep = std::string(200, '(') + "vehicle.status.armed";
-  CHECK(refused(deep) == "graph.condition_too_deep");
+  CHECK(refused(deep) == "graph.condition_too_deep(50)");
 }
 
 TEST_CASE("fields of two units are compared as what they are") {

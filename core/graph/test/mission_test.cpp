@@ -130,6 +130,10 @@ TEST_CASE("what never ends, or has nothing to give yet, is no file and is not wa
   // a regular file of no size, with 8 bytes for each page of memory that there could be
   CHECK(reported("/proc/self/pagemap").find("graph.file_too_large(/proc/self/pagemap)") == 0);
   CHECK(reported("/proc/kmsg") != "");
+  const std::filesystem::path loop = mission.folder.path / "loop.yaml";
+  std::filesystem::create_symlink(loop, loop);
+  CHECK(reported(loop) ==
+        "graph.file_not_readable(" + loop.string() + ", Too many levels of symbolic links)");
   mission.replace("airframe: anaconda.yaml", "airframe: pipe.yaml");
   CHECK(mission.faults() == "hourglass.yaml:3: airframe: graph.file_not_regular(pipe.yaml)");
 }
@@ -152,7 +156,7 @@ TEST_CASE("an output of a role is there once, with '?' or without") {
 
 TEST_CASE("roles are filled by components that keep the contract") {
   CHECK(changed("fills: guide,", "fills: giude,") ==
-        "16: graph.role_not_filled(guide, ; write 'fills: guide' at one)\n27: components.follow: "
+        "16: graph.role_not_filled(guide, graph.role_filler_hint(guide))\n27: components.follow: "
         "types.name_unknown(role, giude,  [guide] vehicle, nav, guide, outer, inner)");
   const std::string other_outputs = "out: {state: Gnss, extra: Imu}}";
   CHECK(
@@ -166,7 +170,7 @@ TEST_CASE("roles are filled by components that keep the contract") {
             .find("24: graph.vehicle_expected(components.truth: , sim_aero/TruthState)") !=
         std::string::npos);
   CHECK(changed("\n  nav:     {in", "\n  slc:     {out: {}}\n  nav:     {in") ==
-        "15: graph.role_name_taken(slc)\n15: graph.role_not_filled(slc, ; write 'fills: slc' at one)");
+        "15: graph.role_name_taken(slc)\n15: graph.role_not_filled(slc, graph.role_filler_hint(slc))");
 }
 
 TEST_CASE("faults of a named file tell that file and its line") {

@@ -297,8 +297,8 @@ TEST_CASE("a component at the mission's own rate steps in every tick, and has no
 TEST_CASE("a rate that the vehicle cannot go at is refused, too slow as well as too fast") {
   Mission mission;
   mission.replace("rate: 400 Hz", "rate: 40 Hz");
-  CHECK(mission.faults().find("graph.mission_rate_invalid(sim, 40, 50, 2000, sim_aero/Aircraft)") !=
-        std::string::npos);
+  CHECK(mission.faults().starts_with(
+      "hourglass.yaml:5: graph.mission_rate_invalid(sim, 40, 50, 2000, sim_aero/Aircraft)\n"));
 }
 
 }  // namespace resolve_test

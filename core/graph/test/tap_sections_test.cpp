@@ -173,10 +173,10 @@ TEST_CASE("an import takes the place of a wire in the file that is extended") {
 }
 
 TEST_CASE("a slip in dds: is told with its line and what is wanted") {
-  holds(faults("dds: {domain: 233}"), "6: graph.dds_domain_invalid(232)");
-  holds(faults("dds: {domain: 1.5}"), "6: graph.dds_domain_invalid(232)");
-  holds(faults("dds: {domain: 1e300}"), "6: graph.dds_domain_invalid(232)");
-  holds(faults("dds: {export: [{port: nav.state, rate: 1e-300 Hz}]}"), "6: graph.dds_rate_too_low");
+  holds(faults("dds: {domain: 233}"), "6: graph.dds_domain_invalid(233, 232)");
+  holds(faults("dds: {domain: 1.5}"), "6: graph.dds_domain_invalid(1.5, 232)");
+  holds(faults("dds: {domain: 1e300}"), "6: graph.dds_domain_invalid(1e+300, 232)");
+  holds(faults("dds: {export: [{port: nav.state, rate: 1e-300 Hz}]}"), "6: graph.dds_rate_too_low(1e-300)");
   holds(faults("dds: {namespace: /uav1}"), "6: graph.dds_namespace_invalid(/uav1)");
   holds(faults("dds: {interfaces: lo}"),
         "6: dds.interfaces: graph.value_not_valid(a list of addresses such as [192.168.1.7], 'lo')");

@@ -49,7 +49,7 @@ TEST_CASE("parameters exist, fit and lie in their range") {
         "21: components.sim.params: types.name_unknown_in(sim_aero/Aircraft, parameter, turbulnce,  "
         "[turbulence] rate, epoch, wind_ned, turbulence, airframe, origin)");
   CHECK(changed("[3, -4, 0]", "[3, -4]") ==
-        "21: components.sim.params.wind_ned: graph.three_numbers_expected(north, east, down, 2)");
+        "21: components.sim.params.wind_ned: graph.three_numbers_expected(north, east, down, 2 items)");
   CHECK(changed("[3, -4, 0]", "[3 kt, -40 m/s, .inf]") ==
         "21: components.sim.params.wind_ned.east: graph.value_out_of_range(-40 m/s, -30, 30,  m/s, )\n21: "
         "components.sim.params.wind_ned.down: graph.number_not_finite(.inf)");
@@ -86,7 +86,7 @@ TEST_CASE("parameters exist, fit and lie in their range") {
             .find("graph.field_unknown(origin: , given, Origin,  [] lat_deg, lon_deg, alt_msl_m)") !=
         std::string::npos);
   CHECK(changed("rate: 400 Hz", "rate: 4000 Hz") ==
-        "21: graph.mission_rate_invalid(sim, 4000, 50, 2000, sim_aero/Aircraft)");
+        "5: graph.mission_rate_invalid(sim, 4000, 50, 2000, sim_aero/Aircraft)");
 }
 
 TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes no vehicle") {

@@ -126,7 +126,8 @@ void CommandTable::prepare_parameter(Command& c) const {
   const bool ranged = info.kind == FULMAR_NUMBER || info.kind == FULMAR_COUNT;
   const double number = info.kind == FULMAR_NUMBER ? c.value.number[0] : static_cast<double>(c.value.integer);
   if (ranged && !(number >= info.min && number <= info.max))
-    throw Error(run_messages::value_out_of_range(c.component, c.name, number, info.min, info.max));
+    throw Error(run_messages::value_out_of_range(c.component, c.name, number, info.min, info.max,
+                                                 info.unit.empty() ? "" : " " + info.unit));
   if (is_whole(info)) c.value.number[0] = number;
   std::copy(std::begin(c.value.number), std::end(c.value.number), c.note.number.begin());
   c.note.integer = c.value.integer;
@@ -137,7 +138,8 @@ void CommandTable::prepare_message(Command& c) const {
   const Entrance& e = entrance(c.at, c.name, c.kind == CommandKind::import);
   c.part = e.import >= 0 ? static_cast<std::size_t>(e.import) : e.input;
   if (c.message.size() != e.type->size)
-    throw Error(run_messages::message_size_invalid(c.component, c.name, c.message.size(), e.type->name));
+    throw Error(run_messages::message_size_invalid(c.component, c.name, c.message.size(), e.type->name,
+                                                   e.type->size));
   if (!e.guard->check(c.message.data()))
     throw Error(located(c.component + "." + c.name, e.guard->explain(c.message.data())));
 }

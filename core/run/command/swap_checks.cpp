@@ -64,7 +64,7 @@ void carry_parameters(const ComponentInfo& from, const std::vector<ParamValue>& 
         now.kind == FULMAR_NUMBER ? values[i].number[0] : static_cast<double>(values[i].integer);
     const bool ranged = now.kind == FULMAR_NUMBER || now.kind == FULMAR_COUNT;
     if (ranged && !(number >= now.min && number <= now.max))
-      throw Error(run_messages::value_not_carried(now.name, value_text(old, values[i])));
+      throw Error(run_messages::value_not_carried(now.name, value_text(old, values[i]), now.min, now.max));
     nth(into, k) = values[i];
   }
 }

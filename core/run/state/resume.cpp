@@ -55,14 +55,26 @@ EndOfLog read_end(const fs::path& log, const std::set<std::string>& topics) {
   return end;
 }
 
+/// The reason for what a log lacks: " The log ends early: ...", or "" of one that was read to its end.
+std::string early_end(const EndOfLog& end) {
+  return end.log.fault.empty() ? "" : run_messages::log_ends_early(end.log.fault).text;
+}
+
+std::uint16_t channel_in(const EndOfLog& end, const std::string& topic) try {
+  return end.log.channel(topic);
+} catch (const Error& unknown) {
+  if (end.log.fault.empty()) throw;
+  throw Error(run_messages::log_incomplete(unknown.diagnostic, early_end(end)));
+}
+
 /// The last message of a topic, decoded. Throws Error when there is none or it has other fields.
 std::vector<std::byte> last_message(const EndOfLog& end, const std::string& topic, const Type& type) {
   const McapFile& log = end.log;
-  const std::uint16_t channel = log.channel(topic);
+  const std::uint16_t channel = channel_in(end, topic);
   if (log.schemas.at(log.channels.at(channel).schema).text != ros_definition(type))
     throw Error(run_messages::resumed_fields_differ(topic, type.name));
   const auto last = end.last.find(channel);
-  if (last == end.last.end()) throw Error(run_messages::sample_missing(topic));
+  if (last == end.last.end()) throw Error(run_messages::sample_missing(topic, early_end(end)));
   std::vector<std::byte> message(type.size);
   cdr_decode(type, last->second.data(), last->second.size(), message.data());
   return message;
@@ -101,7 +113,7 @@ Resume::Param read_rule(const Graph& graph, const EndOfLog& end, const ResumeRul
   const double x = number_at(*rule.field.field.field, message.data() + rule.field.field.offset);
   const ParamInfo& info = nth(component->info().params, component->info().param(p.param));
   if (!(x >= info.min && x <= info.max))
-    throw Error(run_messages::resumed_value_invalid(rule.field.text, x, rule.param));
+    throw Error(run_messages::resumed_value_invalid(rule.field.text, x, rule.param, info.min, info.max));
   p.value.number[0] = x;
   p.value.integer = std::llround(x);
   return p;
@@ -127,7 +139,7 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
         throw Error(run_messages::mission_differs(value, graph.mission));
   Resume resume;
   HostTopic<Event>(end.log).check();
-  if (end.phase.empty()) throw Error(run_messages::log_phase_missing());
+  if (end.phase.empty()) throw Error(run_messages::log_phase_missing(early_end(end)));
   resume.phase = end.phase;
   if (!find_named(graph.phases, resume.phase))
     throw Error(

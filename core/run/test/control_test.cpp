@@ -254,7 +254,7 @@ TEST_CASE("a request to a component that does not fly is refused, not kept for t
   control.request("watch", "ask", ask(1), before.take());
   CHECK(before.wait(flight) == "was not answered");  // that step threw
   control.request("watch", "ask", ask(1), after.take());
-  CHECK(after.wait(flight) == "run.target_not_active");
+  CHECK(after.wait(flight) == "run.component_not_active(watch)");
   CHECK(refusal([&] { request(flight, "watch", "ask", 0.0); }) == "run.component_not_active(watch)");
 }
 
@@ -409,7 +409,7 @@ TEST_CASE("a sample from outside is the input's at the next tick; a damaged one 
   CHECK(holds(refusal([&] {
                 control.publish("ear", "signal", {message.begin(), message.end() - 1});
               }),
-              "run.message_size_invalid(ear, signal, 7, Signal)"));
+              "run.message_size_invalid(ear, signal, 7, Signal, 8)"));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::memcpy(message.data() + type->fields[0].offset, &nan, sizeof nan);
   CHECK(holds(refusal([&] { control.publish("ear", "signal", message); }), "nan"));

@@ -66,9 +66,12 @@ TEST_CASE("a log that does not fit is refused with a sentence; a field that it d
   const Resume r = read_resume(more, cut_log(more, 3));
   CHECK(r.phase == "second");
   REQUIRE(r.missing.size() == 1);
-  CHECK(
-      r.missing[0].starts_with("resume.law_a.heirloom: log.topic_unknown(/law/command,  [] /fulmar/event, "
-                               "/fulmar/ticks, /vehicle/status, /vehicle/applied, /craft/remark, /rosout)"));
+  CHECK(r.missing[0].starts_with(
+      "resume.law_a.heirloom: run.log_incomplete(log.topic_unknown(/law/command,  [] "
+      "/fulmar/event, /fulmar/ticks, /vehicle/status, /vehicle/applied, "
+      "/craft/remark, /rosout), run.log_ends_early(byte "));
+  fs::resize_file(log, 3000);
+  CHECK(fault(g).starts_with(": run.log_phase_missing(run.log_ends_early(byte "));
 }
 
 TEST_CASE(

@@ -86,7 +86,7 @@ TEST_CASE("a swap that cannot be is refused in a sentence, and the old law flies
     v.number[0] = u;
     set_parameter(*ground.flight, "one", "u", v);
     CHECK(ground.flight->step());
-    if (u < 0) CHECK(has(ground.refused(variant("_better")), "run.value_not_carried(u, -0.75)"));
+    if (u < 0) CHECK(has(ground.refused(variant("_better")), "run.value_not_carried(u, -0.75, -0.5, 1)"));
   }
   for (int i = 0; i < 10; ++i) CHECK(ground.flight->step());
   CHECK(ground.u() == 0.1);
@@ -208,7 +208,9 @@ TEST_CASE("a choice is carried over while its words are the same, a number while
   for (const auto& [min, max] : {std::pair{1.6, 2.0}, std::pair{0.0, 1.4}}) {
     fresh.params[1].min = min;
     fresh.params[1].max = max;
-    CHECK_THROWS_WITH(carry_parameters(old, values, fresh, into), "run.value_not_carried(gain, 1.5)");
+    CHECK_THROWS_WITH(
+        carry_parameters(old, values, fresh, into),
+        min > 1 ? "run.value_not_carried(gain, 1.5, 1.6, 2)" : "run.value_not_carried(gain, 1.5, 0, 1.4)");
   }
 }
 

@@ -9,7 +9,7 @@
 namespace fulmar::python {
 namespace {
 
-// A probe that holds this was not written in this step. A NaN with a payload that no arithmetic makes.
+// Marks a probe that was not written in this step: a NaN with a payload that no arithmetic produces.
 constexpr std::uint64_t unwritten = 0x7ff8f01a52deadull << 8;
 
 std::byte* place(const py::handle& number) {
@@ -130,7 +130,7 @@ void Instance::answer(const fulmar_input* inputs) noexcept {
 
 // ---- results
 
-/// What a step wrote before it failed is not published by the next one.
+/// Clears the outputs of a failed step, so that the next step does not publish them.
 void Instance::forget() noexcept {
   for (Output& o : outputs_) {
     if (o.kind == FULMAR_OUT_PROBE) std::memcpy(o.at, &unwritten, sizeof unwritten);
@@ -139,7 +139,8 @@ void Instance::forget() noexcept {
   }
 }
 
-/// `out.attitude = message` is understood as filling it. False with a Python exception for anything else.
+/// An assignment `out.attitude = message` fills the output. For any other assignment it returns false with a
+/// Python exception.
 bool Instance::check_names() noexcept {
   for (Output& o : outputs_) {
     if (o.kind == FULMAR_OUT_PROBE) continue;
@@ -184,7 +185,7 @@ bool Instance::give(fulmar_output* outputs) noexcept {
 
 // ---- parameters
 
-/// One parameter. False with a Python exception.
+/// Reads one parameter. Returns false with a Python exception.
 bool Instance::take(Parameter& p, const fulmar_value& v) {
   py::object value;
   if (p.kind == FULMAR_NUMBER) {
@@ -202,7 +203,7 @@ bool Instance::take(Parameter& p, const fulmar_value& v) {
   } else if (p.kind == FULMAR_VECTOR) {
     std::memcpy(p.at, v.number, sizeof v.number);
   } else if (v.data != nullptr &&
-             p.kind == FULMAR_RECORD) {  // without data: a retune, which leaves records as they are
+             p.kind == FULMAR_RECORD) {  // without data for a retune, which leaves records unchanged
     if (v.size == p.size) std::memcpy(p.at, v.data, p.size);
     *reinterpret_cast<bool*>(p.at + p.meta) = v.integer != 0;
   } else if (v.data != nullptr) {
@@ -226,7 +227,7 @@ bool Instance::take(const fulmar_value* values) noexcept {
   return false;
 }
 
-/// False with a Python exception.
+/// Returns false with a Python exception.
 bool Instance::show_last(const fulmar_input* last) noexcept {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     Output& o = outputs_[i];
@@ -257,7 +258,7 @@ std::uint32_t Instance::fail(fulmar_error* error, bool print) noexcept {
   return FULMAR_FAILED;
 }
 
-/// The status that a method returns; None is ok, and so is the absence of the method.
+/// Status that a method returns; None and a missing method are ok.
 std::uint32_t Instance::call(const py::object& method, PyObject* const* arguments, std::size_t count,
                              fulmar_error* error) noexcept {
   if (method.is_none()) return FULMAR_OK;

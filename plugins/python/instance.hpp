@@ -11,7 +11,8 @@
 
 namespace fulmar::python {
 
-// What follows a message in the views of runtime.py: _META, _ITEM_META, _EVENT_META, _Head, Tick.
+// Layouts of the data behind a message in the views of runtime.py: _META, _ITEM_META, _EVENT_META, _Head,
+// Tick.
 struct ValueMeta {
   std::int64_t valid_at_ns;
   double age_s;
@@ -38,8 +39,7 @@ struct TickView {
 
 class Instance {
  public:
-  /// `described` is a _Described of runtime.py; `file` is named in faults. Throws
-  /// pybind11::error_already_set.
+  /// `described` is a _Described of runtime.py; messages name `file`. Throws pybind11::error_already_set.
   Instance(const pybind11::handle& described, const std::string& file, std::uint64_t seed);
 
   // As in abi.h. The caller holds the interpreter's lock. No exception.
@@ -63,9 +63,9 @@ class Instance {
   };
   struct Output {
     std::uint32_t kind = 0;
-    pybind11::object name, own, previous;  // the attribute, what the author fills, what was last applied
+    pybind11::object name, own, previous;  // attribute; value that the author sets; value applied last
     std::byte* at = nullptr;
-    std::size_t size = 0, meta = 0;  // of a queue, meta is where its stamps lie
+    std::size_t size = 0, meta = 0;  // in a queue, meta is the offset of the stamps
     std::uint32_t capacity = 1;
     QueueHead* head = nullptr;
     std::byte* previous_at = nullptr;
@@ -92,7 +92,7 @@ class Instance {
   std::uint32_t fail(fulmar_error* error, bool print = true) noexcept;
 
   std::string file_;
-  pybind11::object instance_;  // keeps all memory
+  pybind11::object instance_;  // owns all memory
   pybind11::object step_, read_, write_, configure_, retune_, activate_, deactivate_;
   pybind11::object tick_, inp_, out_, last_, p_;
   TickView* tick_view_ = nullptr;

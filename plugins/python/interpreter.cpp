@@ -17,8 +17,8 @@ namespace {
 
 PyObject* runtime_module = nullptr;  // lives as long as the process
 
-// Modules in C do not name libpython among what they need: they look for its functions in the process's
-// global scope. A host that has loaded this plugin with RTLD_LOCAL has libpython out of their sight.
+// Extension modules in C are not linked to libpython: they look for its functions in the global scope of the
+// process. After a host has loaded this plugin with RTLD_LOCAL, libpython is not in that scope.
 void show_library() {
   Dl_info info{};
   if (::dladdr(reinterpret_cast<const void*>(&Py_InitializeFromConfig), &info) == 0 ||
@@ -34,7 +34,7 @@ void check(const PyStatus& status, PyConfig& config) {
   throw std::runtime_error("Python cannot be started: " + why);
 }
 
-// A virtual environment that is active gives its packages, as it does to the program python3.
+// An active virtual environment provides its packages, as for the program python3.
 std::string executable() {
   const char* environment = std::getenv("VIRTUAL_ENV");
   return environment != nullptr && *environment != '\0' ? std::string(environment) + "/bin/python3"
@@ -45,20 +45,19 @@ void initialize() {
   show_library();
   PyConfig config;
   PyConfig_InitPythonConfig(&config);
-  config.install_signal_handlers = 0;  // signals are the host's
+  config.install_signal_handlers = 0;  // the host handles signals
   config.parse_argv = 0;
   config.use_hash_seed = 1;  // the order of a set of strings is the same in every flight
   config.hash_seed = 0;
-  config.write_bytecode =
-      0;  // no __pycache__ beside the author's files, and none that is older than its source
+  config.write_bytecode = 0;  // no __pycache__ in the author's folder, and none older than its source
   config.buffered_stdio = 0;
   check(PyConfig_SetBytesString(&config, &config.executable, executable().c_str()), config);
   check(PyConfig_SetBytesString(&config, &config.program_name, executable().c_str()), config);
   check(Py_InitializeFromConfig(&config), config);
   PyConfig_Clear(&config);
-  // what a script prints is for people; the host's standard output may be read by a program
+  // Output of a script goes to stderr: a program may read the host's standard output.
   PyRun_SimpleString("import sys\nsys.stdout = sys.stderr\n");
-  PyEval_SaveThread();  // from here on whoever calls takes the lock
+  PyEval_SaveThread();  // from here on each caller takes the lock
 }
 
 py::module_ make_module(const char* name, const char* file, const char* source) {

@@ -11,7 +11,7 @@ namespace fulmar::python {
 
 namespace py = pybind11;
 
-/// The right to use the interpreter. Taken by whatever thread the host calls from.
+/// Holds the interpreter's lock, on any thread that the host calls from.
 class Gil {
  public:
   Gil() {
@@ -23,7 +23,7 @@ class Gil {
   Gil& operator=(const Gil&) = delete;
 
  private:
-  /// What Python holds of a thread stays when the thread lets go: making it anew would cost each step a
+  /// Python's state of a thread is kept when the thread releases the lock: a new state costs each step a
   /// memory mapping.
   static void keep_thread() {
     if (PyGILState_GetThisThreadState() == nullptr) {
@@ -36,15 +36,15 @@ class Gil {
   PyGILState_STATE state_;
 };
 
-/// Starts the interpreter unless this process has one, and makes the module fulmar_plugin. Throws
+/// Starts the interpreter, unless the process has one, and makes the module fulmar_plugin. Throws
 /// std::runtime_error.
 void start();
 
 /// The module of runtime.py.
 const py::module_& runtime();
 
-/// Moves the pending Python exception into `error`: one sentence. All of its traceback goes to stderr when
-/// `print`.
+/// Moves the pending Python exception into `error` as one sentence. With `print` the whole traceback goes to
+/// stderr.
 void explain(const std::string& file, bool print, fulmar_error* error) noexcept;
 
 /// Text that does not fit ends in "...".

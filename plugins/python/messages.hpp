@@ -5,7 +5,7 @@
 
 namespace fulmar::python {
 
-/// One dict per type, a nested type before what holds it; see _share in fulmar_plugin.py.
+/// One dict per type, a nested type before the type that holds it; see _share in fulmar_plugin.py.
 pybind11::list message_tables();
 
 /// (suffix, printed, min, max) of every unit.

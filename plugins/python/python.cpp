@@ -18,14 +18,14 @@
 namespace fulmar::python {
 namespace {
 
-/// What `create` needs to know. The contract gives `create` no argument but the seed, so each open class has
-/// a function of its own.
+/// Data for `create`. The contract gives `create` no argument but the seed, so each open class has a function
+/// of its own.
 struct Prototype {
   py::object described;
   std::string file;
 };
 
-constexpr std::size_t max_classes = 256;  // that are open at once in one process
+constexpr std::size_t max_classes = 256;  // open at once in one process
 std::array<Prototype*, max_classes> prototypes{};
 
 Instance& self(void* instance) { return *static_cast<Instance*>(instance); }
@@ -90,7 +90,7 @@ std::uint32_t write(void* instance, const fulmar_tick* tick, const fulmar_input*
   return self(instance).write(*tick, inputs, error);
 }
 
-/// A script that is open: its module, the tables of its components, and their places in `prototypes`.
+/// An open script: its module, the tables of its components, and their places in `prototypes`.
 class OpenScript {
  public:
   OpenScript(const std::string& file, const py::bytes& text) {
@@ -160,7 +160,7 @@ class OpenScript {
   std::vector<std::size_t> slots_;
 };
 
-/// Never destroyed: the interpreter may be gone by then. The interpreter's lock guards it.
+/// Never destroyed: at exit the interpreter may end first. Guarded by the interpreter's lock.
 std::map<const fulmar_plugin*, std::unique_ptr<OpenScript>>& open_scripts() {
   static auto* const scripts = new std::map<const fulmar_plugin*, std::unique_ptr<OpenScript>>;
   return *scripts;

@@ -12,12 +12,12 @@
 
 namespace fulmar::python {
 
-/// Owns all that the tables point to. Addresses stay as long as the object.
+/// Owns all data that the tables point to. Addresses are valid during the life of the object.
 class Tables {
  public:
   const char* text(const pybind11::handle& text);
   const fulmar_type* type(const pybind11::handle& message);
-  /// All but the functions.
+  /// Fills all fields but the functions.
   fulmar_component component(const pybind11::handle& described);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace fulmar::sensor_log {
 
-/// Of IEEE 802.3, as MCAP has it.
+/// CRC of IEEE 802.3, as in MCAP.
 inline std::uint32_t crc32(std::string_view bytes) {
   static const std::array<std::uint32_t, 256> table = [] {
     std::array<std::uint32_t, 256> all{};
@@ -43,7 +43,8 @@ class Bag {
     return table;
   }
 
-  /// "sensor_msgs/msg/Imu", and its fields; refused when there is no such topic. Reads no further than to it.
+  /// Type and fields of the topic, such as "sensor_msgs/msg/Imu". Throws if there is no such topic. Reads no
+  /// further than to the topic.
   Topic look() {
     looking_ = true;
     scan([](const Stamps&, const Cursor&) {});
@@ -67,7 +68,7 @@ class Bag {
 
   std::string key_of_topic() const { return file_.key.substr(0, file_.key.rfind('.')) + ".topic"; }
 
-  /// True when there is nothing more to read.
+  /// Returns true at the end of the file.
   template <class Use>
   bool records(Cursor& from, const Use& use, bool packed) {
     while (from.more()) {

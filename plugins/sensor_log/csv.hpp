@@ -17,7 +17,7 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// "1384992000.25" in units of `unit_ns`, without the rounding of a double; no_stamp when it is no such text.
+/// "1384992000.25" in units of `unit_ns`, without the rounding of a double; no_stamp for any other text.
 inline std::int64_t stamp_of(std::string_view text, std::int64_t unit_ns) {
   const std::size_t dot = std::min(text.find('.'), text.size());
   const bool negative = !text.empty() && text.front() == '-';
@@ -57,7 +57,7 @@ class Csv {
         row(text);
     }
     if (names_.empty()) refuse(key_, sensor_log_messages::file_empty(path_));
-    // half a number is a number as well
+    // a number that is cut off is also a number
     if (cut) refuse(key_, sensor_log_messages::last_line_cut(place()));
     return std::move(table_);
   }
@@ -103,7 +103,7 @@ class Csv {
     if (wanted.unit_ns != 0)
       if (const std::int64_t stamp = stamp_of(text, wanted.unit_ns); stamp != no_stamp)
         return column.stamps_ns.push_back(stamp);
-    double number = std::numeric_limits<double>::quiet_NaN();  // of an empty cell
+    double number = std::numeric_limits<double>::quiet_NaN();  // value of an empty cell
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool whole = end == text.data() + text.size();

@@ -16,14 +16,14 @@ static_assert(std::endian::native == std::endian::little);
 struct Cursor {
   const File* file = nullptr;
   std::string_view data;
-  std::size_t at = 0, base = 0;  ///< base: where `data` begins in the file, for faults
+  std::size_t at = 0, base = 0;  ///< base: offset of `data` in the file, for messages
 
   bool more() const { return at < data.size(); }
   std::size_t left() const { return data.size() - at; }
   [[noreturn]] void fault(const Diagnostic& reason) const {
     refuse(file->key, sensor_log_messages::file_damaged(file->path, base + at, reason));
   }
-  /// The next `size` bytes, as a cursor of their own.
+  /// The next `size` bytes as a separate cursor.
   Cursor part(std::uint64_t size) {
     const std::size_t begin = base + at;
     return {file, take(size), 0, begin};

@@ -22,12 +22,12 @@ enum class LengthUnit : std::uint8_t { m, cm, mm };
 enum class SpeedUnit : std::uint8_t { mps, cmps, mmps, kmph, kt };
 enum class BodyAxes : std::uint8_t { frd, flu };
 enum class LocalAxes : std::uint8_t { ned, enu };
-/// What the numbers of a column of fixes mean. `fulmar` are those of FixType, which are u-blox's;
-/// `dimensions`: 2 and 3; `navsat`: of sensor_msgs/NavSatStatus, from 0 on a fix; `px4`: 2 and 3, from 4 on
-/// with corrections, 5 RTK float, 6 RTK fixed.
+/// Code of the fix type in a column. `fulmar`: values of FixType, as u-blox. `dimensions`: 2 and 3. `navsat`:
+/// sensor_msgs/NavSatStatus, a fix from 0 on. `px4`: 2 and 3, from 4 on with corrections, 5 RTK float, 6 RTK
+/// fixed.
 enum class FixCode : std::uint8_t { fulmar, dimensions, navsat, px4 };
 
-/// Interval of flight time; `to` is the first instant outside.
+/// Interval of flight time; `to` is exclusive.
 struct Window {
   double from_s = -1e9, to_s = 1e9;
 };
@@ -139,7 +139,7 @@ struct Description {
 
 namespace fulmar {
 
-// so that nanoseconds fit their integers
+// bounds that keep nanoseconds within their integers
 template <>
 inline constexpr std::array<FieldRange, 2> field_ranges<sensor_log::Window>{
     {{"from_s", -1e9, 1e9}, {"to_s", -1e9, 1e9}}};

@@ -24,7 +24,7 @@ class Files {
     return Ulog(file, from.topic.view()).read(wanted);
   }
 
-  /// Of a CSV file nothing is known.
+  /// A CSV file has no type information.
   Topic look(const Source& from, const std::string& key) {
     const File file = open(from, key);
     if (kind_of(file) == Kind::csv) {
@@ -47,7 +47,7 @@ class Files {
     refuse(file.key, sensor_log_messages::file_kind_unknown(file.path));
   }
 
-  /// Several sensors may be in one file, which is read once.
+  /// Several sensors may share a file, which is read once.
   File open(const Source& from, const std::string& key) {
     File file{path(from), key + ".from.file", {}};
     kind_of(file);

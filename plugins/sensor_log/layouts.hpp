@@ -17,7 +17,8 @@ inline std::array<Name, 3> axes_of(const std::string& stem, bool numbered) {
           Name(stem + (numbered ? "[2]" : ".z"))};
 }
 
-/// Bags are stamped in the message's header, or by their recorder; ULogs in microseconds since the start.
+/// Bags have stamps in the header of a message or from their recorder; ULogs have microseconds since the
+/// start.
 inline void assume_time(Source& from, const Topic& topic) {
   if (said(from.time)) return;
   if (topic.has("header.stamp")) {
@@ -87,7 +88,7 @@ inline void assume(PitotLog& log, const Topic& topic) {
   }
 }
 
-/// Where a receiver's message has what. "": it has none.
+/// Names of the fields in a receiver's message; "" for a missing one.
 struct GnssLayout {
   const char* type;
   std::array<const char*, 3> place, velocity;
@@ -169,7 +170,7 @@ inline void assume(GnssLog& log, const Topic& topic) {
   }
 }
 
-/// What the description says, and what goes without saying of the topic.
+/// The source as described, with the defaults of the topic.
 template <class Log>
 Log with_layout(Log log, Files& files, const std::string& key) {
   const Topic topic = files.look(log.from, key);

@@ -8,13 +8,13 @@
 
 namespace fulmar::sensor_log {
 
-/// The longest strictly increasing part of `stamps`, as indices: as few as possible are left out, so one
-/// stamp that lies years ahead costs itself and not all that follow. Of equal ones, and where two choices are
-/// as long, the earlier one stays. Source: Schensted, Canad. J. Math. 13 (1961), run from the end.
+/// The longest strictly increasing part of `stamps`, as indices. It leaves out as few stamps as possible: one
+/// stamp far ahead does not remove those that follow. Among equal stamps, and among parts of equal length,
+/// the earlier one stays.
+/// Source: Schensted, Canad. J. Math. 13 (1961), run from the end.
 inline std::vector<std::size_t> in_order(const std::vector<std::int64_t>& stamps) {
   constexpr std::size_t none = ~std::size_t{0};
-  std::vector<std::size_t>
-      heads;  // heads[k]: where the best part of k + 1 stamps begins that is known so far
+  std::vector<std::size_t> heads;  // heads[k]: begin of the best part of k + 1 stamps so far
   std::vector<std::size_t> next(stamps.size(), none);
   for (std::size_t i = stamps.size(); i-- > 0;) {
     const auto at = std::partition_point(heads.begin(), heads.end(),

@@ -10,23 +10,23 @@
 
 namespace fulmar::sensor_log {
 
-/// Rows that became no sample.
+/// Numbers of skipped rows.
 struct LeftOut {
   std::uint64_t not_finite = 0;    ///< a cell is empty, NaN or infinite
-  std::uint64_t out_of_range = 0;  ///< what they say is nowhere on Earth
-  std::uint64_t out_of_order = 0;  ///< stamps that are not after those before
+  std::uint64_t out_of_range = 0;  ///< values that are impossible on Earth
+  std::uint64_t out_of_order = 0;  ///< stamps not after the previous ones
   std::size_t first_line = 0;
   std::uint64_t all() const { return not_finite + out_of_range + out_of_order; }
 };
 
 template <class M>
 struct Series {
-  std::vector<std::int64_t> at_ns;  ///< arrival, by the file's clock, strictly increasing
+  std::vector<std::int64_t> at_ns;  ///< time of arrival by the clock of the file, strictly increasing
   std::vector<M> samples;
   std::int64_t delay_ns = 0;
   std::string key, path;
   std::size_t last_line = 0;
-  std::size_t cut_at = 0;  ///< byte of the file; 0: it is whole
+  std::size_t cut_at = 0;  ///< byte at which the file is cut off; 0: complete
   const char* line_word = "line";
   LeftOut left_out;
 };
@@ -46,7 +46,7 @@ class Reader {
     if (!from.changes.view().empty()) changes_ = want(from.changes, "from.changes");
   }
 
-  /// The number of the column in a row.
+  /// Index of the column in a row.
   std::size_t want(const Name& column, const std::string& use, std::int64_t unit = 0) {
     if (column.view().empty())
       refuse(key_ + "." + use,
@@ -61,7 +61,7 @@ class Reader {
     return at;
   }
 
-  /// `make` turns row `i` into a message, which `sane` is asked about.
+  /// `make` converts row `i` to a message, `sane` checks it.
   template <class M, class Make>
   Series<M> read(Make make) {
     table_ = files_.read(from_, key_, wanted_);
@@ -103,7 +103,7 @@ class Reader {
     ++why;
   }
 
-  /// Finite rows, of which `from.changes` takes those that repeat the one before.
+  /// Finite rows. With `from.changes`, without rows that repeat the one before.
   std::vector<std::size_t> candidates(LeftOut& left_out) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < table_.rows(); ++i) {
@@ -140,7 +140,7 @@ class Reader {
   Files& files_;
   std::string path_, key_;
   std::vector<Wanted> wanted_;
-  std::size_t changes_ = 0;  ///< 0 is the time's
+  std::size_t changes_ = 0;  ///< 0 is the column of the time
   Table table_;
 };
 

@@ -103,7 +103,7 @@ struct Recorded {
     use(pitot_);
   }
 
-  /// Flight time counts from the first sample of all.
+  /// Flight time starts at the first sample of all sensors.
   void begin_at_zero() {
     std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
     each([&](const auto& s) {
@@ -121,7 +121,7 @@ struct Recorded {
       gnss_.samples[i].utc_ns = ns_of(d_.utc_at_zero_s) + gnss_.at_ns[i] - gnss_.delay_ns;
   }
 
-  /// Each file that is cut off, with the last sample that is whole.
+  /// Reports each file that is cut off, with its last complete sample.
   void report_cuts() {
     std::map<std::string, std::pair<std::size_t, std::int64_t>> cuts;
     each([&](const auto& s) {

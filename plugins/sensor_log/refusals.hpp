@@ -59,7 +59,7 @@ inline void refuse_description(const Description& d) {
   refuse_window(d.airborne, "log.airborne");
 }
 
-/// Files whose times do not meet have clocks of their own.
+/// Checks that the times of the files overlap: without overlap their clocks differ.
 class Meeting {
  public:
   template <class M>
@@ -81,7 +81,7 @@ class Meeting {
   std::int64_t first_ns_ = 0, last_ns_ = 0;
 };
 
-/// A file that is cut between two rows looks like a whole one; who says until when a recording is used knows.
+/// A file that is cut between two rows looks complete. Its end is checked only against the end of `use`.
 template <class M>
 void refuse_early_end(const Series<M>& s, const Window& use) {
   if (use.to_s == Window{}.to_s || s.at_ns.back() >= ns_of(use.to_s)) return;

@@ -15,7 +15,7 @@ inline bool finite(const Vec3<Body>& v) {
 }
 inline bool sane(const Imu& imu) { return finite(imu.rate_radps) && finite(imu.specific_force_mps2); }
 inline bool sane(const Mag& mag) { return finite(mag.field_tesla); }
-/// Of air: the estimator takes the logarithm of it.
+/// Pressure of air is above 0: the estimator computes its logarithm.
 inline bool sane(const Baro& baro) { return baro.pressure_pa > 100 && baro.pressure_pa < 2e5; }
 inline bool sane(const Pitot& pitot) {
   return std::isfinite(pitot.pressure_pa) && std::isfinite(pitot.indicated_airspeed_mps);

@@ -7,7 +7,7 @@
 
 namespace fulmar::sensor_log {
 
-enum class Sensor : std::uint8_t { gnss, mag, baro, pitot, imu };  ///< imu last: it makes the tick
+enum class Sensor : std::uint8_t { gnss, mag, baro, pitot, imu };  ///< imu is last: it triggers the tick
 inline constexpr std::size_t sensor_count = 5;
 inline constexpr std::uint32_t nothing = ~std::uint32_t{0};
 
@@ -29,9 +29,9 @@ bool within(const Windows& windows, std::int64_t at_ns) {
                      [at_ns](const Window& w) { return at_ns >= ns_of(w.from_s) && at_ns < ns_of(w.to_s); });
 }
 
-/// Each inertial sample has a tick, also one that is withheld. The others arrive in the first tick that is
-/// not before them; where two of one sensor would, the earlier ones have a tick of their own. So no sample is
-/// lost. Two ticks are at least a nanosecond apart.
+/// Assigns samples to ticks. Each inertial sample has a tick, even a withheld one. Another sample arrives in
+/// the first tick at or after its time. If a tick would get two of one sensor, the earlier ones have ticks of
+/// their own, so that no sample is lost. Two ticks are at least a nanosecond apart.
 class Planner {
  public:
   std::vector<PlannedTick> plan(std::vector<Event> events) {

@@ -87,7 +87,7 @@ inline FixType fix_of(FixCode code, double number) {
   return n >= 3 ? FixType::fix_3d : n == 2 ? FixType::fix_2d : FixType::none;
 }
 
-/// The columns of fixes that need not be there.
+/// Optional columns of fixes.
 struct FixExtras {
   std::size_t fix = 0, satellites = 0, horizontal = 0, vertical = 0, speed = 0, velocity = 0;
   std::array<std::size_t, 3> velocities{};
@@ -114,7 +114,7 @@ inline Vec3<Ned> ned(const std::array<double, 3>& raw, const VelocityColumns& v)
   return {raw[0] * unit, raw[1] * unit, raw[2] * unit};
 }
 
-/// Fixes without a velocity have one of zero, of which the deviation says that nobody knows it.
+/// Fixes without a velocity have velocity zero with the standard deviation of an unknown value.
 inline Series<Gnss> read_gnss(const GnssLog& description, Files& files) {
   const GnssLog log = with_layout(description, files, "log.gnss");
   constexpr std::array<double, 3> angles = {1, 1e-7, 180 / std::numbers::pi}, lengths = {1, 1e-2, 1e-3};

@@ -14,12 +14,11 @@
 
 namespace fulmar::sensor_log {
 
-/// A column that is wanted. Stamps are whole nanoseconds: a double of the nanoseconds since 1970 has steps of
-/// 256.
+/// A requested column. Stamps are whole nanoseconds: a double has steps of 256 ns for times since 1970.
 struct Wanted {
   std::string name;
-  std::string use;           ///< the key of the description that names it, for faults
-  std::int64_t unit_ns = 0;  ///< of a stamp; 0: a number
+  std::string use;           ///< key of the description that names it, for messages
+  std::int64_t unit_ns = 0;  ///< unit of a stamp; 0: a number
 };
 
 struct Column {
@@ -28,13 +27,14 @@ struct Column {
 };
 
 struct Table {
-  std::vector<Column> columns;     ///< in the order in which they were wanted
-  std::vector<std::size_t> lines;  ///< where each row is, for people: a line, or the number of a message
-  std::size_t cut_at = 0;          ///< the byte at which the file is cut off in a record; 0: it is whole
+  std::vector<Column> columns;     ///< in the order of the request
+  std::vector<std::size_t> lines;  ///< position of each row for messages: a line, or the number of a message
+  std::size_t cut_at = 0;          ///< byte at which a record is cut off; 0: complete
   std::size_t rows() const { return lines.size(); }
 };
 
-/// `key`: of the description, beginning with the parameter's name: the host finds file and line of it.
+/// `key`: key of the description. It begins with the name of the parameter, so that the host finds file and
+/// line.
 [[noreturn]] inline void refuse(const std::string& key, const Diagnostic& message) {
   throw std::runtime_error(located(key, message).line());
 }
@@ -45,7 +45,7 @@ inline std::string all_of(const std::vector<std::string>& names) {
   return text;
 }
 
-/// `place`: where the names of columns are.
+/// `place`: place of the column names.
 [[noreturn]] inline void refuse_column(const Wanted& wanted, const std::string& place,
                                        const std::vector<std::string>& there) {
   refuse(wanted.use, sensor_log_messages::column_unknown(wanted.name, place, all_of(there)));
@@ -57,17 +57,16 @@ struct File {
   std::string_view bytes;
 };
 
-/// Of a stamp that is none.
+/// Value for an invalid stamp.
 inline constexpr std::int64_t no_stamp = std::numeric_limits<std::int64_t>::min();
-/// Stamps beyond are none, whatever their clock began with: 95 years, so that neither a shift nor a
-/// difference of two overflows.
+/// Limit of a valid stamp, 95 years: neither a shift nor a difference of two stamps overflows.
 inline constexpr std::int64_t last_stamp_ns = 3'000'000'000'000'000'000;
 
 inline std::int64_t stamp_or_none(std::int64_t ns) {
   return ns > last_stamp_ns || ns < -last_stamp_ns ? no_stamp : ns;
 }
 
-/// What a topic of a bag or a ULog is: its type, and its columns.
+/// Type and columns of a topic of a bag or a ULog.
 struct Topic {
   std::string type;
   std::vector<std::string> columns;
@@ -78,7 +77,7 @@ struct Topic {
   }
 };
 
-/// One number of a row, whatever its type in the file.
+/// Appends one number of a row, of any type in the file.
 inline void put(Column& column, const Wanted& wanted, std::int64_t whole) {
   if (wanted.unit_ns == 0) return column.numbers.push_back(static_cast<double>(whole));
   const std::int64_t most = last_stamp_ns / wanted.unit_ns;

@@ -13,7 +13,7 @@ namespace fulmar::sensor_log {
 
 class Ulog {
  public:
-  /// `topic`: "sensor_mag", or "sensor_mag#1" of the second instance.
+  /// `topic`: "sensor_mag", or "sensor_mag#1" for the second instance.
   Ulog(const File& file, std::string_view topic) : file_(file), topic_(topic) {
     if (!file.bytes.starts_with("ULog\x01\x12\x35"))
       refuse(file.key, sensor_log_messages::file_not_ulog(file.path));
@@ -35,7 +35,7 @@ class Ulog {
     return table;
   }
 
-  /// Refused when there is no such topic.
+  /// Throws if there is no such topic.
   Topic look() {
     scan([](const Cursor&) {});
     Topic topic{name_, {}};
@@ -78,13 +78,13 @@ class Ulog {
                          : sensor_log_messages::topic_unknown(topic_, file_.path, all_of(topics_)));
   }
 
-  /// PX4 writes until the power goes: the last record of a part need not be whole.
+  /// PX4 writes until the power fails: the last record of a part may be incomplete.
   static bool whole_record(Cursor at, std::size_t end) {
     constexpr std::size_t head = 3;
     return end - at.at >= head && end - at.at - head >= at.number<std::uint16_t>();
   }
 
-  /// Where the part of the file ends in which `at` is: data appended after a crash begin anew.
+  /// End of the part of the file that contains `at`: data appended after a crash are a new part.
   std::size_t end_of_part(std::size_t at) const {
     std::size_t end = file_.bytes.size();
     for (const std::uint64_t begin : appended_)
@@ -92,7 +92,7 @@ class Ulog {
     return end;
   }
 
-  /// What a reader has to understand: of these bits PX4 sets one, where it has appended data after a crash.
+  /// Incompatible flags. PX4 sets one of them, for data appended after a crash.
   void flags(Cursor& record) {
     record.take(8);
     const std::string_view bits = record.take(8);
@@ -167,7 +167,7 @@ class Ulog {
     std::size_t count = 1;
     if (bracket < type.size()) std::from_chars(type.data() + bracket + 1, type.data() + type.size(), count);
     for (std::size_t i = 0; i < count; ++i) {
-      if (all.size() > 65535)  // a message has 65535 bytes at most
+      if (all.size() > 65535)  // a message has at most 65535 bytes
         refuse(file_.key, sensor_log_messages::format_too_large(file_.path, type, name));
       const std::string each = bracket < type.size() ? name + "[" + std::to_string(i) + "]" : name;
       const Prim prim = prim_of(base);
@@ -201,8 +201,8 @@ class Ulog {
   const File& file_;
   std::string topic_, name_;
   bool logged_ = false;
-  std::array<std::uint64_t, 3> appended_{};  // where appended data begin; 0: none
-  std::size_t cut_at_ = 0;                   // the record that is not whole; 0: none
+  std::array<std::uint64_t, 3> appended_{};  // offsets of appended data; 0: none
+  std::size_t cut_at_ = 0;                   // the incomplete record; 0: none
   std::uint16_t id_ = 0;
   std::vector<std::string> topics_;
   std::map<std::string, std::string> formats_;

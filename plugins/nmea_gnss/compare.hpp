@@ -56,7 +56,7 @@ struct Compare {
     Vec3<Ned> position_m;
   };
 
-  /// The estimate at a time, interpolated; a little beyond the newest it is carried on. False when it is too
+  /// The estimate at a time, interpolated, or extrapolated for a short time. Returns false when it is too
   /// old.
   bool at(std::int64_t time_ns, Vec3<Ned>& result) const {
     const std::uint64_t kept = count_ < past_.size() ? count_ : past_.size();

@@ -23,16 +23,17 @@ inline FixType fix_type(int quality, int mode) {
     case 4: return FixType::rtk_fixed;
     case 5: return FixType::rtk_float;
     case 6: return FixType::dead_reckoning;
-    default:  // 0 none, 7 typed in by hand
+    default:  // 0 none, 7 manual input
       return FixType::none;
   }
 }
 
-/// Puts sentences together. Which ones a receiver sends, and in which order, is learnt from its last epochs:
-/// a sample is emitted as soon as all of them are there. `emit` is called with each finished Gnss.
+/// Combines sentences to fixes. The kinds of sentences are taken from the last epochs: a fix is emitted as
+/// soon as all of them are present. `emit` is called with each complete Gnss.
 class Epochs {
  public:
-  /// Deviation of one range: turns dilutions of precision into metres for a receiver that sends no GST.
+  /// `range_std_m`: standard deviation of one range. It converts dilutions of precision to metres for a
+  /// receiver without GST.
   explicit Epochs(double range_std_m = 3) : range_std_m_(range_std_m) {}
 
   template <class Emit>
@@ -54,7 +55,7 @@ class Epochs {
     if (wanted != 0 && (now_.have & wanted) == wanted) finish(emit);
   }
 
-  /// The line has fallen silent: what is there is all that comes.
+  /// The line is silent: emits the present epoch.
   template <class Emit>
   void flush(Emit&& emit) {
     finish(emit);
@@ -74,15 +75,14 @@ class Epochs {
     std::optional<Vtg> vtg;
   };
 
-  /// Kinds that one of the last epochs had: one that is garbled once is still waited for.
+  /// Kinds of the last epochs: a kind that is garbled once is still expected.
   unsigned expected() const {
     unsigned all = 0;
     for (const unsigned have : past_) all |= have;
-    return all & kind_rmc ? all & ~kind_vtg : all;  // VTG repeats what RMC says
+    return all & kind_rmc ? all & ~kind_vtg : all;  // VTG repeats values of RMC
   }
 
-  /// The epoch of a sentence. Another time begins another one; so does, without a time, a kind that was
-  /// already there.
+  /// Assigns a sentence to an epoch. A new time begins an epoch; so does a repeated kind without a time.
   template <class Emit>
   Epoch& join(unsigned kind, std::optional<std::int64_t> time_ns, Emit&& emit) {
     const bool another = now_.time_ns != time_ns || (!time_ns && (now_.have & kind));
@@ -121,7 +121,7 @@ class Epochs {
 
   void add_deviations(const Gga& g, Gnss& out) const {
     const bool reported = now_.gst && now_.gst->latitude_m && now_.gst->longitude_m;
-    if (reported) {  // of one axis, as everywhere
+    if (reported) {  // standard deviation of one axis, as in all messages
       const double n = *now_.gst->latitude_m, e = *now_.gst->longitude_m;
       out.horizontal_std_m = std::sqrt((n * n + e * e) / 2);
     } else if (g.hdop) {
@@ -134,7 +134,8 @@ class Epochs {
     }
   }
 
-  /// The standard has no vertical speed and no deviation of any: `down` stays 0 and `speed_std_mps` unknown.
+  /// NMEA has no vertical speed and no standard deviation of a velocity: `down` stays 0 and `speed_std_mps`
+  /// unknown.
   void add_velocity(Gnss& out) const {
     std::optional<double> v, chi;
     if (now_.rmc && now_.rmc->valid) {
@@ -149,7 +150,7 @@ class Epochs {
 
   double range_std_m_;
   Epoch now_;
-  std::optional<Gsa> gsa_;  // has no time: the last one counts
+  std::optional<Gsa> gsa_;  // without a time: the last one is used
   std::array<unsigned, 4> past_{};
   std::size_t past_count_ = 0;
 };

@@ -13,13 +13,13 @@
 
 namespace fulmar::nmea {
 
-/// The comma-separated parts of one sentence whose checksum is right; the first is talker and type, "GNGGA".
+/// The comma-separated parts of a sentence with a valid checksum; the first is talker and type, "GNGGA".
 struct Sentence {
   std::array<std::string_view, 32> parts{};
   std::size_t count = 0;
 
   std::string_view operator[](std::size_t i) const { return i < count ? parts[i] : std::string_view{}; }
-  /// "GGA" of any satellite system, "" of everything else (depth sounders, proprietary sentences).
+  /// "GGA" for any satellite system; "" for other sentences (depth sounders, proprietary ones).
   std::string_view type() const {
     const std::string_view head = (*this)[0];
     const bool satellites = head.size() == 5 && (head[0] == 'G' || head.substr(0, 2) == "BD");
@@ -34,8 +34,8 @@ inline int hex_digit(char c) {
   return -1;
 }
 
-/// Takes bytes one by one. A sentence begins with `$`, wherever that comes, and needs a checksum: the
-/// exclusive or of all between `$` and `*`. Whatever does not fit is dropped and counted.
+/// Takes single bytes. A sentence begins at any `$` and needs a checksum: the exclusive or of all bytes
+/// between `$` and `*`. Other lines are dropped and counted.
 class Lines {
  public:
   /// The sentence that this byte completes; valid until the next call.
@@ -90,13 +90,13 @@ class Lines {
     return true;
   }
 
-  std::array<char, 160> text_{};  // the standard has 82; receivers with more digits exceed it
-  std::size_t length_ = 0;        // bytes since and with the `$`; 0 outside a sentence
+  std::array<char, 160> text_{};  // the standard has 82; receivers with more digits send longer lines
+  std::size_t length_ = 0;        // bytes from the `$` on; 0 outside a sentence
   Sentence sentence_;
   std::uint64_t good_ = 0, bad_ = 0;
 };
 
-// ---- numbers. Nothing when the part is empty or is not exactly what it should be.
+// ---- numbers. No value when the part is empty or not exactly in its format.
 
 inline std::optional<double> number(std::string_view text) {
   if (text.empty() || text.find_first_not_of("0123456789.-") != std::string_view::npos) return {};
@@ -138,8 +138,7 @@ inline std::optional<std::int64_t> time_of_day(std::string_view text) {
   return ns;
 }
 
-/// ddmmyy -> nanoseconds from 1970 to that midnight. Two digits of a year: 80 to 99 are of the last century,
-/// as receivers have it.
+/// ddmmyy -> nanoseconds from 1970 to that midnight. Years 80 to 99 are 1980 to 1999.
 inline std::optional<std::int64_t> date(std::string_view text) {
   const auto d = digits(text, 0, 2), m = digits(text, 2, 2), yy = digits(text, 4, 2);
   if (!d || !m || !yy || text.size() != 6 || *m < 1 || *m > 12) return {};
@@ -235,7 +234,7 @@ inline std::optional<Gst> gst(const Sentence& s) {
   return Gst{time_of_day(s[1]), number(s[6], 1e-6, 1e6), number(s[7], 1e-6, 1e6), number(s[8], 1e-6, 1e6)};
 }
 
-/// Kind of the fix: 1 none, 2 flat, 3 spatial; and what the geometry of the satellites does to the height.
+/// Type of the fix: 1 none, 2 flat, 3 spatial; with the dilution of the vertical precision.
 struct Gsa {
   int mode = 1;
   std::optional<double> vdop;

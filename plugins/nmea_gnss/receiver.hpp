@@ -46,8 +46,7 @@ struct Receiver {
     port_.close();
   }
 
-  /// Waits for bytes, at most 50 ms. `degraded` while the device is not there; it is looked for ten times a
-  /// second.
+  /// Waits at most 50 ms for bytes. `degraded` without a device; it is tried ten times a second.
   Status step(const Tick&, const Inputs&, const Params&, Outputs& out) {
     const auto emit = [&](const Gnss& sample) { out.gnss.push(sample, on_arrival); };
     if (!port_.is_open()) {

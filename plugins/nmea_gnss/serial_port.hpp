@@ -46,8 +46,8 @@ class SerialPort {
     fd_ = -1;
   }
 
-  /// Eight bits, no parity, no flow control, every byte as it comes. False when the device is not there or is
-  /// no serial port.
+  /// Eight bits, no parity, no flow control, raw mode. Returns false for a missing device or one that is no
+  /// serial port.
   bool open(const std::string& path, speed_t baud) {
     close();
     fd_ = ::open(path.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -55,7 +55,7 @@ class SerialPort {
     return is_open();
   }
 
-  /// Bytes read within `wait_ms`; 0 when none came. Closed afterwards if the device has gone.
+  /// Reads bytes within `wait_ms`; 0 without any. Closes the port if the device is gone.
   std::size_t read(std::span<char> room, int wait_ms) {
     pollfd one{fd_, POLLIN, 0};
     const int ready = poll(&one, 1, wait_ms);
@@ -79,8 +79,8 @@ class SerialPort {
     cfsetispeed(&settings, baud);
     cfsetospeed(&settings, baud);
     if (tcsetattr(fd_, TCSANOW, &settings) != 0) return false;
-    ioctl(fd_, TIOCEXCL);    // two readers would each get half of the sentences
-    tcflush(fd_, TCIFLUSH);  // what has waited here is of no known time
+    ioctl(fd_, TIOCEXCL);    // two readers would each get a part of the sentences
+    tcflush(fd_, TCIFLUSH);  // waiting bytes have an unknown time
     return true;
   }
 

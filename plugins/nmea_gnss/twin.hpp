@@ -20,7 +20,7 @@ struct Twin {
   static constexpr const char* doc = "Simulated receiver: the truth with errors, in the same message.";
   struct Inputs {
     In<VehicleState> truth;
-    Optional<Gnss> clock;  // of the vehicle: to know the UTC
+    Optional<Gnss> clock;  // fix of the vehicle: source of the UTC
   };
   struct Outputs {
     OutQueue<Gnss, 16> gnss;
@@ -57,7 +57,7 @@ struct Twin {
       late_[(first_ + count_++) % late_.size()] = {solution(*in.truth, p, taken_ns), taken_ns + latency_ns_};
     }
     while (count_ > 0 && late_[first_].due_ns <= tick.now_ns) {
-      out.gnss.push(late_[first_].sample, tick.now_ns);  // stamped on arrival, as the receiver's
+      out.gnss.push(late_[first_].sample, tick.now_ns);  // stamped on arrival, as by the receiver
       first_ = (first_ + 1) % late_.size();
       --count_;
     }

@@ -9,10 +9,10 @@
 
 namespace fulmar::hand {
 
-/// One record, little endian: u32 time, ms; i16 value; u8 type; u8 number.
+/// One record of the kernel, little endian: u32 time, ms; i16 value; u8 type; u8 number.
 struct JsEvent {
   static constexpr std::size_t size = 8;
-  static constexpr std::uint8_t button = 1, axis = 2, init = 0x80;  ///< init: the state when it was opened
+  static constexpr std::uint8_t button = 1, axis = 2, init = 0x80;  ///< init: state at the opening
   std::int16_t value = 0;
   std::uint8_t type = 0, number = 0;
 
@@ -21,11 +21,11 @@ struct JsEvent {
   }
 };
 
-/// Takes bytes in any pieces. A record that no joystick sends is counted and changes nothing.
+/// Takes bytes in any pieces. An invalid record is counted and ignored.
 class JsState {
  public:
   static constexpr std::size_t max_axes = 32, max_buttons = 64;
-  static constexpr std::uint64_t patience = 8;  ///< so many foreign records in a row: no joystick
+  static constexpr std::uint64_t patience = 8;  ///< this many invalid records in a row: not a joystick
 
   void take(std::span<const char> bytes) {
     for (const char c : bytes) {
@@ -36,17 +36,17 @@ class JsState {
     }
   }
 
-  bool heard() const { return heard_; }                   ///< a record of a joystick has come
-  bool foreign() const { return in_a_row_ >= patience; }  ///< whatever sends is no joystick
+  bool heard() const { return heard_; }                   ///< a valid record has arrived
+  bool foreign() const { return in_a_row_ >= patience; }  ///< the device is not a joystick
   std::uint64_t unknown() const { return unknown_; }
-  /// The state when somebody was heard last is nobody's any more. The count goes on.
+  /// Clears the state after the loss of the device. The count continues.
   void forget() {
     const std::uint64_t unknown = unknown_;
     *this = {};
     unknown_ = unknown;
   }
 
-  /// -1 to 1, or what is said for an axis that has not been heard of.
+  /// -1 to 1; `otherwise` for an axis without a record.
   double axis(std::int64_t number, double otherwise) const {
     if (number < 0 || number >= static_cast<std::int64_t>(max_axes)) return otherwise;
     const Axis& a = axes_[static_cast<std::size_t>(number)];
@@ -54,7 +54,7 @@ class JsState {
   }
   bool has_axis(std::int64_t number) const { return axis(number, 2) != 2; }
   bool pressed(std::int64_t number) const { return of_button(number) && of_button(number)->down; }
-  /// Times that it was pressed, not counting that it was down when the device was opened.
+  /// Number of presses, without a button that was down at the opening.
   std::uint64_t presses(std::int64_t number) const {
     return of_button(number) ? of_button(number)->presses : 0;
   }

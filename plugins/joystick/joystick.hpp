@@ -43,7 +43,7 @@ struct Joystick {
   struct Outputs {
     OutQueue<Rc, 4> rc;
     OutQueue<Notice, 4> notices;
-    Probe unknown_records_ratio;  // since the start: what no joystick sends
+    Probe unknown_records_ratio;  // number of invalid records since the start
   };
   struct Params {
     TextParam<128> device{Text<128>("/dev/input/js0"),
@@ -62,8 +62,8 @@ struct Joystick {
     unknown_reported_ = 0;
   }
 
-  /// Waits for records, at most 20 ms, so that a flight faster than the clock gets its frames. `degraded`
-  /// while there is no joystick.
+  /// Waits at most 20 ms for records, so that a flight faster than real time gets its frames. `degraded`
+  /// without a joystick.
   Status step(const Tick& tick, const Inputs&, const Params& p, Outputs& out) {
     if (!source_.is_open() && source_.open(path_)) state_.forget();
     if (source_.is_open())
@@ -79,7 +79,7 @@ struct Joystick {
   }
 
  private:
-  /// A flood does not keep the frames waiting: the rest is for the next step.
+  /// Reads a limited number of records: the others wait for the next step, and the frames are not delayed.
   void listen() {
     std::array<char, 64 * JsEvent::size> bytes;
     int wait_ms = 2;

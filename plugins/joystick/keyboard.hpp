@@ -13,8 +13,8 @@
 
 namespace fulmar::hand {
 
-/// A terminal tells that a key is pressed, and again while it is held, but not that it is let go: so each
-/// press deflects a stick, which then returns.
+/// A terminal reports that a key is pressed, and repeats it, but does not report its release. So each press
+/// deflects a stick, which then returns.
 class Keys {
  public:
   struct Sizes {
@@ -26,7 +26,7 @@ class Keys {
     for (const char c : characters) press(key(c), sizes);
   }
 
-  /// The sticks return by as much flight time as has gone by.
+  /// The sticks return with flight time.
   void pass(double dt_s, const Sizes& sizes) {
     const double left = std::exp(-std::max(0.0, dt_s) / sizes.return_s);
     roll_ *= left;
@@ -41,7 +41,7 @@ class Keys {
   std::uint64_t unknown() const { return unknown_; }
 
  private:
-  /// The letter of an arrow, which comes as ESC [ A or ESC O A; 0: not yet a whole key.
+  /// Letter of an arrow key, which arrives as ESC [ A or ESC O A; 0: incomplete.
   char key(char c) {
     const char before = std::exchange(escape_, '\0');
     if (c == '\x1b') {
@@ -72,7 +72,7 @@ class Keys {
       case '\0': return;
       case 'd': return move(roll_, sizes.deflection);
       case 'a': return move(roll_, -sizes.deflection);
-      case 's': return move(pitch_, sizes.deflection);  // pulled: nose up
+      case 's': return move(pitch_, sizes.deflection);  // stick pulled: nose up
       case 'w': return move(pitch_, -sizes.deflection);
       case 'e': return move(yaw_, sizes.deflection);
       case 'q': return move(yaw_, -sizes.deflection);
@@ -94,7 +94,7 @@ class Keys {
 
   double roll_ = 0, pitch_ = 0, yaw_ = 0, throttle_ = 0;
   std::array<bool, 4> on_{};
-  char escape_ = '\0';  ///< ESC, or [ behind one: an arrow has begun
+  char escape_ = '\0';  ///< ESC, or [ after ESC: an arrow key has begun
   std::uint64_t unknown_ = 0;
 };
 
@@ -123,7 +123,7 @@ struct Keyboard {
     unknown_reported_ = 0;
   }
 
-  /// Waits for keys, at most 20 ms. `degraded` while there is no terminal.
+  /// Waits at most 20 ms for keys. `degraded` without a terminal.
   Status step(const Tick& tick, const Inputs&, const Params& p, Outputs& out) {
     const Keys::Sizes sizes{p.deflection, p.throttle_step, p.return_time};
     if (!source_.is_open() && source_.open(path_)) keys_ = {};

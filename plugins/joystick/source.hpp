@@ -26,7 +26,7 @@ class Source {
   Source& operator=(const Source&) = delete;
 
   bool is_open() const { return fd_ >= 0 && there_; }
-  /// Why it is not there, or went away.
+  /// Reason of a missing or lost device.
   const char* fault() const { return fault_; }
 
   void close() {
@@ -42,7 +42,7 @@ class Source {
     fault_ = why;
   }
 
-  /// A terminal gives its characters as they are typed, and shows none, until it is closed.
+  /// Until it is closed, a terminal delivers characters as they are typed, without echo.
   bool open(const std::string& path) {
     if (fd_ >= 0 && waits_for_sender(path)) return there_;
     close();
@@ -54,12 +54,11 @@ class Source {
     return is_open();
   }
 
-  /// Bytes read within `wait_ms`; 0 when none came. Closed afterwards if whoever sends has gone.
+  /// Reads bytes within `wait_ms`; 0 without any. Closes the device if its sender is gone.
   std::size_t read(std::span<char> room, int wait_ms) {
     pollfd one{fd_, POLLIN, 0};
     poll(&one, 1, wait_ms);
-    // Asked in any case: a pipe that nobody has opened for writing looks to `poll` as if somebody were
-    // silent.
+    // Called even without data: for `poll`, a pipe without a writer looks like one with a silent writer.
     const ssize_t n = ::read(fd_, room.data(), room.size());
     if (n > 0) return static_cast<std::size_t>(n);
     if (n < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
@@ -68,7 +67,8 @@ class Source {
   }
 
  private:
-  /// This end of a pipe stays open: somebody may just be opening the other one, who would find it broken.
+  /// This end of a pipe stays open: otherwise a writer that opens the other end at this time gets a broken
+  /// pipe.
   void close_or_wait(const char* why) {
     struct stat own {};
     if (fstat(fd_, &own) != 0 || !S_ISFIFO(own.st_mode)) return close(why);
@@ -76,7 +76,7 @@ class Source {
     fault_ = why;
   }
 
-  /// Whether the pipe that is open is still that of the path; then also whether somebody sends.
+  /// True when the open pipe is still that of the path. Also updates whether it has a writer.
   bool waits_for_sender(const std::string& path) {
     struct stat own {
     }, named{};
@@ -102,13 +102,13 @@ class Source {
   }
 
   int fd_ = -1;
-  bool there_ = false;  ///< of a pipe: somebody sends
+  bool there_ = false;  ///< a pipe has a writer
   const char* fault_ = "";
   termios settings_{};
   bool has_settings_ = false;
 };
 
-/// In `configure`. What is not there yet is waited for in flight.
+/// For `configure`. A path that does not exist yet is tried again in flight.
 inline std::string checked_path(std::string_view name) {
   std::string path(name);
   if (path.empty()) throw std::runtime_error(joystick_messages::device_missing().line());

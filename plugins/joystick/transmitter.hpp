@@ -13,13 +13,13 @@
 
 namespace fulmar::hand {
 
-/// Counts by flight time: a flight that is paused gets no frames, a fast one gets its 50 a second.
+/// Counts flight time: a paused flight gets no frames, a fast one gets 50 a second of flight time.
 class Transmitter {
  public:
   static constexpr std::int64_t period_ns = 20'000'000;
 
-  /// A frame is due. A driver is told the time of the loop's last tick, 0 before the first one, which may be
-  /// before 0: a time that jumps back counts anew.
+  /// True when a frame is due. `now_ns` is the time of the last tick, 0 before the first one, which may be
+  /// negative. A time that jumps back restarts the count.
   bool due(std::int64_t now_ns) {
     if (now_ns < due_ns_ && now_ns > due_ns_ - 2 * period_ns) return false;
     const bool steady = now_ns >= due_ns_ && now_ns - due_ns_ < period_ns;
@@ -27,7 +27,7 @@ class Transmitter {
     return true;
   }
 
-  /// Tells once that the link is there, or is not, and why.
+  /// Reports a link or its loss once, with the reason.
   template <class Notices>
   void report(bool link, const std::string& device, const char* why, Notices& notices) {
     if (reported_ && link == was_) return;

@@ -14,7 +14,7 @@ namespace fulmar::ros_bridge {
 
 enum class GoalMode : std::uint8_t { replace, append };
 
-/// rviz's "2D Goal Pose", or any node's.
+/// Goal of rviz's "2D Goal Pose" or of another node.
 struct Goal {
   static constexpr const char* doc = "Plan edits from a goal pose of ROS 2 (ENU).";
   struct Inputs {
@@ -23,7 +23,7 @@ struct Goal {
   };
   struct Outputs {
     OutQueue<PlanEdit> edits;
-    Probe refused_ratio;  // goals that could not be taken since the start
+    Probe refused_ratio;  // number of rejected goals since the start
   };
   struct Params {
     Choice<GoalMode> mode{GoalMode::replace,
@@ -56,7 +56,7 @@ struct Goal {
     if (p.mode.value == GoalMode::replace) {
       PlanEdit clear;
       clear.kind = PlanEditKind::clear;
-      clear.group = edit.group = ++group_;  // a goal that the planner refuses leaves the plan as it was
+      clear.group = edit.group = ++group_;  // a goal that the planner rejects leaves the plan unchanged
       clear.group_size = edit.group_size = 2;
       out.edits.push(clear, tick.now_ns);
     }
@@ -72,8 +72,8 @@ struct Goal {
   std::uint32_t refused_ = 0, group_ = 0;
 };
 
-/// Flies by twists: linear.x true airspeed, linear.z climb, angular.z turn to the left, in FLU. Fills the
-/// role `guide`.
+/// Follows twists: linear.x true airspeed, linear.z climb, angular.z turn to the left, in FLU. Fills the role
+/// `guide`.
 struct Velocity {
   static constexpr const char* doc =
       "Guidance from twists of ROS 2: forward speed, climb rate, turn rate to the left.";

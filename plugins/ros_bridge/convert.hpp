@@ -22,8 +22,8 @@ inline RosTime ros_time(std::int64_t utc_ns) {
   return {static_cast<std::int32_t>(sec), static_cast<std::uint32_t>(utc_ns - sec * second_ns)};
 }
 
-/// UTC of flight times: from the first fix that knows it, else from a parameter. Once known, it does not
-/// change: stamps never jump back.
+/// UTC of flight times: from the first fix with UTC, else from a parameter. It then stays, so that stamps
+/// never jump back.
 class Clock {
  public:
   void note(const Optional<Gnss>& gnss, std::int64_t epoch_s) {
@@ -64,7 +64,7 @@ inline RosQuaternion ros(Eigen::Quaterniond q) {
 inline const Eigen::Quaterniond ned_enu{0, std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0};
 inline const Eigen::Quaterniond frd_flu{0, 1, 0, 0};
 
-/// Attitude as ROS has it: turns FLU components into ENU components.
+/// Attitude in the ROS convention: rotates FLU components to ENU components.
 inline RosQuaternion enu_flu(const Quat& q_nb) { return ros(ned_enu * eigen(q_nb) * frd_flu); }
 
 /// Horizontal direction: yaw about up, from east, of a course from north, clockwise.
@@ -73,8 +73,8 @@ inline RosQuaternion enu_heading(double course_rad) {
   return ros(Eigen::Quaterniond(std::cos(yaw / 2), 0, 0, std::sin(yaw / 2)));
 }
 
-/// Course, from north, clockwise, of where the x axis of an orientation in ENU points; false when it points
-/// up or down.
+/// Course, from north, clockwise, of the x axis of an orientation in ENU. Returns false when it points up or
+/// down.
 inline bool course_of(const RosQuaternion& q, double& course_rad) {
   const double east = 1 - 2 * (q.y * q.y + q.z * q.z), north = 2 * (q.x * q.y + q.w * q.z);
   if (!(std::hypot(east, north) > 1e-3)) return false;
@@ -93,7 +93,7 @@ void put_block(std::array<double, Size>& matrix, std::size_t n, std::size_t at,
       matrix[(at + i) * n + at + k] = block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
 }
 
-/// Of deviations along north, east, down: the diagonal along east, north, up.
+/// Covariance of standard deviations along north, east, down: the diagonal along east, north, up.
 inline Eigen::Matrix3d enu_covariance(const Vec3<Ned>& std) {
   return Eigen::Vector3d(std.east * std.east, std.north * std.north, std.down * std.down).asDiagonal();
 }

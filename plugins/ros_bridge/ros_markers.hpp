@@ -35,7 +35,7 @@ struct RosMeshFile {
   List<std::uint8_t, 1> data;
 };
 
-/// Values of `type` and `action` that are used here, as the message's own comments list them.
+/// Values of `type` and `action` in use, from the comments of the message.
 namespace marker {
 inline constexpr std::int32_t sphere_list = 7, text_facing_viewer = 9, triangle_list = 11;
 inline constexpr std::int32_t add = 0, delete_all = 3;
@@ -45,14 +45,14 @@ struct RosMarker {
   static constexpr const char* ros_type = "visualization_msgs/msg/Marker";
   RosHeader header;
   Text<16> ns;
-  std::int32_t id = 0;  ///< with `ns` the marker's name: one of the same name takes its place
+  std::int32_t id = 0;  ///< with `ns` the identity of the marker: a new one replaces the old one
   std::int32_t type = 0;
   std::int32_t action = marker::add;
   RosPose pose;
   RosVector3 scale{1, 1, 1};  ///< m
   RosColor color;
   RosDuration lifetime;       ///< zero: until it is replaced
-  bool frame_locked = false;  ///< goes with its frame, not with where the frame was at the stamp
+  bool frame_locked = false;  ///< moves with its frame instead of the frame's pose at the stamp
   List<RosPoint, 128> points;
   List<RosColor, 1> colors;
   Text<4> texture_resource;

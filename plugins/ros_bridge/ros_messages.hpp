@@ -108,7 +108,7 @@ struct RosImu {
   static constexpr const char* ros_type = "sensor_msgs/msg/Imu";
   RosHeader header;
   RosQuaternion orientation;
-  std::array<double, 9> orientation_covariance{};  ///< the first element -1: there is no orientation
+  std::array<double, 9> orientation_covariance{};  ///< first element -1: no orientation
   RosVector3 angular_velocity;
   std::array<double, 9> angular_velocity_covariance{};
   RosVector3 linear_acceleration;
@@ -143,7 +143,7 @@ struct RosFluidPressure {
   static constexpr const char* ros_type = "sensor_msgs/msg/FluidPressure";
   RosHeader header;
   double fluid_pressure = 0;  ///< Pa
-  double variance = 0;        ///< 0: not known
+  double variance = 0;        ///< 0: unknown
 };
 
 }  // namespace fulmar::ros_bridge

@@ -8,20 +8,20 @@
 
 namespace fulmar::ros_bridge {
 
-/// The node has said nothing for too long, or not yet anything.
+/// The node has been silent for too long, or has not sent yet.
 template <class T>
 bool silent(const Optional<T>& port, const Param& timeout) {
   return !port || port.age_s() > timeout;
 }
 
-/// A node that has never spoken is waited for; one that falls silent has failed.
+/// The component waits for a node that has never sent; a node that falls silent has failed.
 template <class T>
 Status silence(const Optional<T>& port) {
   return port ? Status::failed : Status::degraded;
 }
 
-/// Nobody hands over to a node that is silent. At the very beginning there is nobody to stay, and it is
-/// waited for.
+/// A hand-over to a silent node is rejected. At the start there is no component to stay with, so it waits for
+/// the node.
 template <class T, class Outputs>
 Status take_over(const Optional<T>& port, const Param& timeout, const Applied<Outputs>& last) {
   return silent(port, timeout) && last.given() ? Status::failed : Status::ok;
@@ -149,7 +149,7 @@ struct RosplaneWaypoints {
   };
   struct Outputs {
     OutQueue<PlanEdit, 80> edits;
-    Probe refused_ratio;  // waypoints that could not be taken since the start
+    Probe refused_ratio;  // number of rejected waypoints since the start
   };
   struct Params {};
   Status step(const Tick& tick, const Inputs& in, const Params&, Outputs& out) {

@@ -59,8 +59,8 @@ struct RosplaneWaypoint {
   bool clear_wp_list = false;
 };
 
-/// The question of rosplane_msgs/srv/AddWaypoint; its answer, success and message, is what the host gives to
-/// every request.
+/// Request of rosplane_msgs/srv/AddWaypoint. Its response, success and message, is that of the host to every
+/// request.
 struct RosplaneAddWaypoint {
   static constexpr const char* ros_type = "rosplane_msgs/srv/AddWaypoint_Request";
   std::array<float, 3> w{};

@@ -26,8 +26,8 @@ namespace fulmar::ros_bridge {
 
 inline float f32(double x) { return static_cast<float>(x); }
 
-/// What a command of 1 moves, rad. ROSplane's anaconda: positive elevator raises the nose, as its gains and
-/// REV_ELEVATOR 1 have it.
+/// Deflection for a command of 1, rad. ROSplane's anaconda: positive elevator raises the nose, by its gains
+/// and REV_ELEVATOR 1.
 struct Throws {
   double aileron = 0.35, elevator = 0.35, rudder = 0.35;
 
@@ -99,7 +99,7 @@ struct Rosplane {
   Throws throws_;
   Clock clock_;
   std::uint32_t revision_ = 0, next_ = 0;
-  bool reporting_ = false;  // a plan that does not fit one step
+  bool reporting_ = false;  // a plan that needs several steps
 };
 
 inline Status Rosplane::step(const Tick& tick, const Inputs& in, const Params& p, Outputs& out) {
@@ -119,7 +119,7 @@ inline void Rosplane::state(const Inputs& in, Outputs& out) const {
   const std::int64_t at = in.state.valid_at_ns();
   const RosHeader header = clock_.header(at, {});
   out.attitude.publish({header, as_is(s.attitude), as_is(s.rate_radps)}, at);
-  if (!s.position_valid || !s.height_valid) return;  // ROSplane's message has no word for it
+  if (!s.position_valid || !s.height_valid) return;  // ROSplane's message has no flag for it
   RosplaneState m;
   m.header = header;
   m.p_n = f32(s.position_m.north);
@@ -208,7 +208,7 @@ inline void Rosplane::paths(const Tick& tick, const Inputs& in, Outputs& out) {
   if (in.plan) waypoints(tick, *in.plan, out);
 }
 
-/// A new plan: the list is cleared, then each waypoint; at most 64 messages per step.
+/// A new plan: clears the list, then sends each waypoint, at most 64 messages per step.
 inline void Rosplane::waypoints(const Tick& tick, const Plan& plan, Outputs& out) {
   auto& queue = out.waypoint_path;
   if (plan.revision != revision_) {
@@ -299,9 +299,8 @@ inline void Rosplane::vehicle(const Inputs& in, const Params& p, Outputs& out) c
     const Rc& rc = *in.rc;
     const std::int64_t at = in.rc.valid_at_ns();
     const auto stick = [](double frac) { return pulse_us(frac, 1500, 500); };
-    const double pitch =
-        p.elevator_up ? rc.pitch_frac
-                      : -rc.pitch_frac;  // a stick has the sign of its surface; rudder left is positive
+    // the sign of a stick is that of its surface; rudder left is positive
+    const double pitch = p.elevator_up ? rc.pitch_frac : -rc.pitch_frac;
     out.rc_raw.publish(
         {clock_.header(at, {}),
          {stick(rc.roll_frac), stick(pitch), pulse_us(rc.throttle_frac, 1000, 1000), stick(-rc.yaw_frac),

@@ -21,7 +21,7 @@ struct Scene {
       "markers of aircraft and waypoints.";
   struct Inputs {
     Optional<VehicleState> state;
-    Optional<Gnss> gnss;  // for the map, as long as the state has no place on the Earth
+    Optional<Gnss> gnss;  // for the map, while the state has no position on the Earth
     Optional<Plan> plan;
   };
   struct Outputs {
@@ -63,24 +63,23 @@ struct Scene {
   std::int64_t epoch_ns_ = 0;
   RosText world_, base_;
   LocalFrame frame_;
-  VehicleState origin_;  // that `frame_` was made of
+  VehicleState origin_;  // the state that `frame_` was made from
   RouteDrawing drawing_;
-  std::uint64_t drawn_ = 0;  // what the plan was when it was drawn
+  std::uint64_t drawn_ = 0;  // hash of the plan that was drawn
   std::int64_t reported_ns_ = 0;
   bool reported_ = false;
 };
 
 namespace detail {
 
-/// FNV-1a over what is drawn of a plan. Revisions would do for one planner, but not after another one took
-/// its place.
+/// FNV-1a of the drawn parts of a plan. Revisions are not unique after another planner has taken over.
 inline std::uint64_t content_of(const Plan& plan) {
   std::uint64_t h = 0xcbf29ce484222325U;
   const auto add = [&](double x) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &x, sizeof bits);
     h = (h ^ bits) * 0x100000001b3U;
-    h ^= h >> 32;  // whole words at a time: their high bits have to reach the low ones
+    h ^= h >> 32;  // whole words are hashed, so the high bits must reach the low ones
   };
   add(plan.end == PlanEnd::circuit ? 1 : 0);
   add(plan.turn_radius_m);
@@ -151,7 +150,7 @@ inline void Scene::publish_place(const VehicleState& s, std::int64_t at, const P
   out.fix.publish(m, at);
 }
 
-/// In the step in which it is whole: of a long plan some steps later.
+/// Publishes the route when it is complete: for a long plan some steps later.
 inline void Scene::publish_route(const Tick& tick, const Inputs& in, bool again, Outputs& out) {
   if (!in.plan) return;
   if (again) drawing_.begin(out.route.value, header(tick.now_ns, world_));

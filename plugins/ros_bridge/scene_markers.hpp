@@ -13,8 +13,8 @@ namespace fulmar::ros_bridge {
 
 inline constexpr std::size_t labelled_waypoints = 32;
 
-/// An aircraft of triangles, in its body frame, forward, left, up; the origin is the centre of gravity. Wing
-/// of the airframe's span and chord, the rest in proportion: one sees which way it flies and which way is up.
+/// An aircraft of triangles in its body frame, forward, left, up; the origin is the centre of gravity. The
+/// wing has the span and chord of the airframe, the rest is in proportion.
 inline void draw_aircraft(const Wing& wing, double times, List<RosPoint, 128>& to) {
   const double b = wing.span_m * times, c = wing.chord_m * times;
   const auto triangle = [&](const RosPoint& p, const RosPoint& q, const RosPoint& r) {
@@ -44,7 +44,7 @@ namespace detail {
 
 inline RosMarker& next_marker(RosMarkerArray& to, const RosHeader& header, std::string_view ns,
                               std::int32_t id, std::int32_t type) {
-  RosMarker& m = to.markers.items[to.markers.count++];  // the caller has seen that there is room
+  RosMarker& m = to.markers.items[to.markers.count++];  // the caller has checked the room
   m = {};
   m.header = header;
   m.ns = ns;
@@ -55,13 +55,13 @@ inline RosMarker& next_marker(RosMarkerArray& to, const RosHeader& header, std::
 
 }  // namespace detail
 
-/// Takes away what was drawn before, so that no waypoint stays that is no longer in the plan.
+/// Removes the markers of the plan before, so that no old waypoint stays.
 inline void clear_scene(const RosHeader& header, RosMarkerArray& to) {
   to.markers.clear();
   detail::next_marker(to, header, "", 0, 0).action = marker::delete_all;
 }
 
-/// In the frame of `body`, with which it moves.
+/// In the frame of `body`: the markers move with it.
 inline void add_aircraft(const RosHeader& body, const Wing& wing, double times, RosMarkerArray& to) {
   RosMarker& m = detail::next_marker(to, body, "aircraft", 0, marker::triangle_list);
   m.frame_locked = true;
@@ -69,7 +69,7 @@ inline void add_aircraft(const RosHeader& body, const Wing& wing, double times, 
   draw_aircraft(wing, times, m.points);
 }
 
-/// Balls, in lists as long as a marker has room for, and the index beside the first ones.
+/// Spheres, in lists of the marker's capacity, with the index next to the first ones.
 inline void add_waypoints(const RosHeader& world, const Plan& plan, double size_m, RosMarkerArray& to) {
   RosMarker* balls = nullptr;
   std::int32_t lists = 0;

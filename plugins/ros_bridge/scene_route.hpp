@@ -12,8 +12,8 @@
 
 namespace fulmar::ros_bridge {
 
-/// Draws a plan leg by leg, so that a step costs the same for a plan of four waypoints and one of a thousand.
-/// A fillet that the wind makes wider in flight is drawn as planned.
+/// Draws a plan leg by leg, so that the cost of a step does not depend on the size of the plan. A fillet that
+/// the wind makes wider in flight is drawn as planned.
 class RouteDrawing {
  public:
   static constexpr std::uint32_t legs_per_step = 32;
@@ -28,7 +28,7 @@ class RouteDrawing {
   }
   bool busy() const { return busy_; }
 
-  /// Some legs more. True when the drawing is whole.
+  /// Draws some more legs. Returns true when the drawing is complete.
   bool go_on(const Plan& plan, RosRoute& out) {
     const Route route(plan);
     const std::uint32_t n = route.size();
@@ -39,7 +39,7 @@ class RouteDrawing {
                 0, out);
       return !(busy_ = false);
     }
-    // of an open plan there is no way to its first waypoint
+    // an open plan has no leg to its first waypoint
     if (next_ == 0 && !route.closed()) next_ = 1;
     const auto room = static_cast<std::uint32_t>(out.poses.capacity()) - 1 - orbit_poses;
     const std::uint32_t last = std::min(n, next_ + legs_per_step);
@@ -64,8 +64,8 @@ class RouteDrawing {
         std::clamp(std::ceil(piece.length_m / (piece.radius_m * arc_step_rad) - 1e-9), 1.0, 100.0));
   }
 
-  /// `most` poses, 1 at least. Where more would be needed all arcs become coarser, then pieces are left out:
-  /// what is always there is where the leg ends.
+  /// `most` poses, at least 1. When more are needed, first all arcs become coarser, then pieces are left out.
+  /// The end of a leg is always drawn.
   void add_leg(const RouteLeg& leg, std::uint32_t most, RosRoute& out) const {
     if (out.poses.empty()) add(leg[0].pose_at(0), leg[0].height_m, out);
     std::uint32_t wanted = 0;
@@ -82,7 +82,7 @@ class RouteDrawing {
     }
   }
 
-  /// Once round, from an azimuth on.
+  /// One turn, from an azimuth on.
   static void add_orbit(const RouteOrbit& orbit, double start_rad, RosRoute& out) {
     const double side = sign_of(orbit.turn);
     for (std::uint32_t k = 0; k < orbit_poses; ++k) {

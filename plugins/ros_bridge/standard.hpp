@@ -36,7 +36,7 @@ struct Standard {
     Out<RosFluidPressure> pressure;
     Out<RosNavSatFix> fix;
     Out<RosPath> plan;   // the waypoints
-    Out<RosPath> piece;  // the line, orbit or curve that is followed now
+    Out<RosPath> piece;  // the active line, orbit or curve
   };
   struct Params {
     TextParam<48> world{"map", "name of the frame of positions, ENU"};
@@ -117,7 +117,7 @@ inline void Standard::publish_state(const Inputs& in, const Params& p, Outputs& 
   out.pose.publish({header, pose}, at);
   publish_tf(at, pose, p, out);
   if (!s.velocity_valid) return;
-  RosOdometry& o = out.odometry.value;  // in place: it is large
+  RosOdometry& o = out.odometry.value;  // filled in place: the message is large
   o = {};
   o.header = header;
   o.child_frame_id = base_;
@@ -195,7 +195,7 @@ inline RosPoseStamped Standard::pose_of(const RosHeader& header, const Vec3<Ned>
   return {header, {enu_point(at), enu_heading(course_rad)}};
 }
 
-/// Each waypoint, headed along the leg that ends there; the first one again at the end of a circuit.
+/// Each waypoint with the heading of the leg that ends there; a circuit repeats the first one at its end.
 inline void Standard::publish_plan(const Inputs& in, Outputs& out) const {
   const auto& list = in.plan->waypoints;
   RosPath& m = out.plan.value;
@@ -212,7 +212,7 @@ inline void Standard::publish_plan(const Inputs& in, Outputs& out) const {
   out.plan.written = out.plan.dated = true;
 }
 
-/// A line: a kilometre of it. An orbit: once round, every 5 degrees, at the heights of the climb, if there is
+/// A line: a kilometre of it. An orbit: one turn in steps of 5 degrees, at the heights of a climb if there is
 /// one. A curve: from end to end.
 inline void Standard::publish_piece(const Inputs& in, Outputs& out) const {
   const Path& path = *in.path;

@@ -19,7 +19,7 @@
 
 namespace fulmar::fcu {
 
-/// Surface travel in radians to -1..1, with its sign.
+/// Converts deflections in radians to -1..1, with their sign.
 struct Throws {
   double aileron = 1, elevator = 1, rudder = 1;  ///< rad at u = 1; negative when reversed
 
@@ -35,7 +35,7 @@ struct Throws {
   }
 };
 
-/// Nothing when a value is not finite: one NaN makes every output of the controller one, the motor's
+/// No value when a command is not finite: one NaN makes every output of the controller NaN, that of the motor
 /// included.
 inline std::optional<OffboardControl> to_offboard(const Actuators& a, const Throws& t) {
   if (!std::isfinite(a.throttle_frac) || !std::isfinite(a.aileron_rad) || !std::isfinite(a.elevator_rad) ||
@@ -61,8 +61,8 @@ inline std::optional<RosflightAuxCmd> to_aux(const AuxOutputs& a) {
   return c;
 }
 
-/// A motor that is switched off is stopped: the firmware leaves a disabled output as it was. `motors`: those
-/// that were commanded so far.
+/// Stops a motor that is switched off: the firmware keeps the value of a disabled output. `motors`: those
+/// commanded so far.
 inline void stop_motors(RosflightAuxCmd& c, std::array<bool, 14>& motors) {
   constexpr auto motor = static_cast<std::uint8_t>(AuxKind::motor);
   for (std::size_t i = 0; i < motors.size(); ++i) {
@@ -71,7 +71,7 @@ inline void stop_motors(RosflightAuxCmd& c, std::array<bool, 14>& motors) {
   }
 }
 
-/// Of length 1: the firmware does not see to that. Nothing when it is no attitude.
+/// Normalised to length 1, which the firmware does not do. No value for an invalid attitude.
 inline std::optional<ExternalAttitude> to_external_attitude(const Quat& q) {
   const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   if (!(std::abs(norm - 1) < 0.1)) return {};

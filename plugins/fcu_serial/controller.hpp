@@ -20,19 +20,19 @@ class Controller {
     for (std::size_t i = 0; i < watched_parameters.size(); ++i)
       if (g.parameters[i]) map_.take(watched_parameters[i], *g.parameters[i]);
   }
-  /// With each inertial sample: its SYS_ID, and its clock, which is 0 at its boot.
+  /// Called with each inertial sample: its SYS_ID and its clock, which is 0 at boot.
   void packet_from(std::uint8_t system, std::uint64_t clock_us) {
     system_ = system;
     clock_us_ = clock_us;
   }
-  /// Is this another firmware than the one that was known?
+  /// True when the firmware differs from the known one.
   bool other_version(const Text<50>& version) {
     if (version == version_) return false;
     const bool known = !version_.view().empty();
     version_ = version;
     return known;
   }
-  /// A watched parameter that has another value than before. `known`: there was one before.
+  /// A watched parameter whose value has changed. `known`: there was a value before.
   struct Change {
     std::string_view name;
     std::int32_t value = 0;
@@ -59,7 +59,7 @@ class Controller {
   std::array<std::optional<std::int32_t>, watched_parameters.size()> parameters_;
   RcMap map_;
   Text<50> version_;
-  std::uint8_t system_ = 1;  ///< it answers to no other
+  std::uint8_t system_ = 1;  ///< the controller accepts no other
   std::uint64_t clock_us_ = 0;
 };
 

@@ -10,8 +10,8 @@
 namespace fulmar::fcu {
 
 inline constexpr std::int32_t oldest_firmware = 2;
-/// The release with which all of this was tried; docs/hardware.md says the same. Others differ: before
-/// it the choice between primary and secondary mixer was the wrong way round.
+/// The tested release, as in docs/hardware.md. Releases before it swap the choice between primary and
+/// secondary mixer.
 inline constexpr std::string_view tried_firmware = "2.0.1";
 
 inline std::string_view without_v(std::string_view text) {
@@ -19,7 +19,7 @@ inline std::string_view without_v(std::string_view text) {
   return text;
 }
 
-/// The first number of "v2.0.1-3-gabc" or "2.0"; nothing when the text is no version.
+/// The first number of "v2.0.1-3-gabc" or "2.0"; no value for other texts.
 inline std::optional<std::int32_t> major_version(std::string_view version) {
   const std::string_view text = without_v(version);
   std::int32_t major = 0;
@@ -30,7 +30,7 @@ inline std::optional<std::int32_t> major_version(std::string_view version) {
   return major;
 }
 
-/// Whether this is the release that was tried, or a few commits on.
+/// True for the tested release or one a few commits later.
 inline bool tried(std::string_view version) {
   const std::string_view text = without_v(version);
   return text.substr(0, tried_firmware.size()) == tried_firmware &&

@@ -16,29 +16,29 @@
 
 namespace fulmar::fcu {
 
-inline constexpr std::int64_t silence_patience_ns = 3'500'000'000;  ///< for the first frame
-inline constexpr std::int64_t noise_patience_ns = 2'000'000'000;    ///< the same, when other bytes come
-inline constexpr std::uint64_t noise_bytes = 200;  ///< so many of them: more than two of the longest frames
+inline constexpr std::int64_t silence_patience_ns = 3'500'000'000;  ///< time-out of the first frame
+inline constexpr std::int64_t noise_patience_ns = 2'000'000'000;    ///< the same while other bytes arrive
+inline constexpr std::uint64_t noise_bytes = 200;                   ///< more than two of the longest frames
 inline constexpr std::int64_t answer_patience_ns =
-    2'000'000'000;  ///< for all answers, from the first frame on
-inline constexpr std::int64_t greeting_patience_ns = 4'500'000'000;  ///< for everything
+    2'000'000'000;  ///< time-out of all answers, from the first frame on
+inline constexpr std::int64_t greeting_patience_ns = 4'500'000'000;  ///< time-out of the whole greeting
 
-/// Parameters of the controller that this plugin must know.
+/// Parameters of the controller that this plugin needs.
 inline constexpr std::array<std::string_view, 9> watched_parameters{
     "FIXED_WING",  "RC_X_CHN",     "RC_Y_CHN",   "RC_Z_CHN", "RC_F_CHN",
     "REV_AILERON", "REV_ELEVATOR", "REV_RUDDER", pitot_zero};
 
-/// A watched parameter as 32 bits: whole numbers, and of the pitot's zero the float.
+/// A watched parameter as 32 bits: an integer, or the float of the pitot's zero.
 inline std::int32_t watched_bits(std::string_view name, const ParamValue& p) {
   return name == pitot_zero ? std::bit_cast<std::int32_t>(p.param_value) : integer_of(p);
 }
 
-/// What is known of the device so far.
+/// State of the greeting.
 struct Greeting {
   std::string version;
   bool imu = false, versioned = false, refused = false, armed = false;
   std::uint16_t parameter_count = 0;
-  std::int32_t autopilot = -1;  ///< as heartbeats say; ROSflight: 0
+  std::int32_t autopilot = -1;  ///< from heartbeats; ROSflight: 0
   std::array<std::optional<std::int32_t>, watched_parameters.size()> parameters;
 
   void take(const Packet& packet) {
@@ -65,7 +65,8 @@ struct Greeting {
   bool complete() const {
     const bool all =
         std::all_of(parameters.begin(), parameters.end(), [](const auto& p) { return p.has_value(); });
-    return imu && all && (versioned || (refused && armed));  // an armed controller refuses to say its version
+    // an armed controller does not answer the request for its version
+    return imu && all && (versioned || (refused && armed));
   }
   std::int32_t parameter(std::string_view name, std::int32_t unknown = -1) const {
     const auto at =
@@ -74,7 +75,7 @@ struct Greeting {
   }
 };
 
-/// Why this device cannot be flown, in one sentence with what to do; "" when it can.
+/// Reason why this device cannot be used, with the remedy, in one sentence; "" for none.
 inline std::string objection(const Greeting& g, const LinkState& link, const std::string& port,
                              std::int64_t baud) {
   const bool serial = port.rfind("udp:", 0) != 0;

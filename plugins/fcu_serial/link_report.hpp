@@ -54,7 +54,7 @@ class LinkReport {
   }
 
  private:
-  static constexpr std::int64_t gap_ns = 6'000'000;  ///< two samples of 400 Hz and a half
+  static constexpr std::int64_t gap_ns = 6'000'000;  ///< two and a half samples at 400 Hz
   static double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
   void count_rate(std::int64_t now_ns) {

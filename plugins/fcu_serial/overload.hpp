@@ -14,7 +14,7 @@ class Overload {
     ++samples_;
     if (too_old) ++too_old_;
   }
-  /// Told in the second such second, again every ten, and when it is over.
+  /// Reports in the second such second, then every ten, and at the end.
   void report(std::int64_t now_ns, Notices& out) {
     if (now_ns - since_ns_ < second_ns) return;
     const std::int64_t percent = samples_ > 0 ? 100 * too_old_ / samples_ : 0;
@@ -35,7 +35,7 @@ class Overload {
   static constexpr std::int64_t second_ns = 1'000'000'000;
   static constexpr std::int64_t worth_saying_percent = 10;
   std::int64_t since_ns_ = 0, samples_ = 0, too_old_ = 0;
-  std::int64_t seconds_ = 0;  ///< in a row
+  std::int64_t seconds_ = 0;  ///< number of such seconds in a row
   bool reported_ = false;
 };
 

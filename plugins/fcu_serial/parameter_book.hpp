@@ -21,9 +21,9 @@ namespace fulmar::fcu {
 
 class ParameterBook {
  public:
-  /// So many there are, as each answer says.
+  /// Number of parameters, as each answer reports it.
   void expect(std::size_t count) { count_ = std::min(count, most); }
-  /// The controller, or another one, may have other values.
+  /// The controller, perhaps another one, may have other values.
   void restart() {
     heard_.reset();
     at_ = 0;
@@ -31,10 +31,10 @@ class ParameterBook {
     changes_ = 0;
     reported_ = false;
   }
-  /// It did not get through to the reader: asked for again.
+  /// The answer did not reach the reader: it is requested again.
   void forget(std::size_t index) { heard_.reset(std::min(index, most - 1)); }
 
-  /// What to publish of an answer; nothing when it is known.
+  /// The parameter to publish for an answer; none when it is known.
   std::optional<ControllerParameter> take(const ParamValue& p) {
     const std::size_t i = p.param_index;
     if (i >= p.param_count || i >= most) return {};
@@ -50,7 +50,7 @@ class ParameterBook {
                                p.param_index, p.param_count};
   }
 
-  /// The one to ask for now.
+  /// The parameter to request now.
   std::optional<std::int16_t> next(std::int64_t now_ns) {
     if (now_ns < next_ns_ || rounds_ >= max_rounds || heard_.count() >= count_) return {};
     while (at_ < count_ && heard_[at_]) ++at_;
@@ -64,7 +64,7 @@ class ParameterBook {
     return static_cast<std::int16_t>(at_++);
   }
 
-  /// Once all are known, or given up.
+  /// Reports once, when all are known or the requests have ended.
   void report(Notices& out) {
     const bool complete = heard_.count() >= count_;
     if (reported_ || count_ == 0 || (!complete && rounds_ < max_rounds)) return;
@@ -105,7 +105,7 @@ class ParameterBook {
     return line;
   }
 
-  std::bitset<most> heard_, known_;  ///< since the last restart; ever
+  std::bitset<most> heard_, known_;  ///< since the last restart; since the start
   std::array<std::uint32_t, most> bits_{};
   std::array<double, biases.size()> bias_{};
   std::size_t count_ = 0, at_ = 0;

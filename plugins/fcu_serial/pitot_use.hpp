@@ -11,26 +11,27 @@
 
 namespace fulmar::fcu {
 
-/// Not when its zero was taken in wind or in the air, and not when a reboot in flight has taken one.
+/// Decides whether the pitot is used: not after its zero was taken in wind, in the air, or by a reboot in
+/// flight.
 class PitotUse {
  public:
   explicit PitotUse(double limit_pa = 0) : limit_pa_(limit_pa) {}
 
   bool used() const { return !zeroed_ && !off_; }
-  /// By a reboot in flight.
+  /// True after a reboot in flight.
   bool zeroed() const { return zeroed_; }
   PitotZero zero(std::uint64_t controller_us) const {
     if (!used()) return PitotZero::wrong;
     return controller_us < zeroing_us ? PitotZero::pending : PitotZero::good;
   }
 
-  /// By a boot of the controller, now or before this host began.
+  /// After a boot of the controller in the air, in this run or before it.
   void zeroed_in_the_air(Notices& out) {
     if (std::exchange(zeroed_, true)) return;
     out.add(fulmar::Severity::critical, fcu_serial_messages::pitot_zeroed_in_flight);
   }
-  /// In still air it is the offset of the sensor; beyond the limit it is the pressure of an airspeed, and the
-  /// tube would say 0 at that. `bits`: of a float.
+  /// In still air the zero is the offset of the sensor. Beyond the limit it is the pressure of an airspeed,
+  /// at which the pitot would then read 0. `bits`: of a float.
   void take_zero(std::int32_t bits, bool armed, Notices& out) {
     const double pascal = static_cast<double>(std::bit_cast<float>(bits));
     const bool off = !(std::fabs(pascal) <= limit_pa_);

@@ -6,6 +6,7 @@
 namespace fulmar::fcu {
 
 inline constexpr std::string_view pitot_zero = "DIFF_PRESS_BIAS";  ///< a parameter of the firmware, Pa
-inline constexpr double pitot_zero_limit_pa = 30;  ///< beyond it, 7 m/s, it was taken in wind or in the air
+// beyond it, 7 m/s, the zero was taken in wind or in the air
+inline constexpr double pitot_zero_limit_pa = 30;
 
 }  // namespace fulmar::fcu

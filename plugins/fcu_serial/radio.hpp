@@ -26,7 +26,7 @@ inline std::int32_t integer_of(const ParamValue& p) {
   return value > -1e6f && value < 1e6f ? static_cast<std::int32_t>(value) : 0;
 }
 
-/// Which channel, from 0, is what. The values are the firmware's own defaults.
+/// Channel of each stick and switch, from 0. The values are the firmware's defaults.
 struct RcMap {
   std::int32_t x = 0, y = 1, z = 3, f = 2;
 
@@ -43,10 +43,10 @@ inline std::array<std::uint16_t, 8> channels_of(const RcChannels& m) {
           m.chan5_raw, m.chan6_raw, m.chan7_raw, m.chan8_raw};
 }
 
-/// What the sticks mean to the aircraft. The firmware passes them on as it does a command, so that the sign
-/// of a stick is that of the command which moves the surface the same way: a positive elevator is nose down,
-/// a positive rudder nose left. The switches are the channels 5 to 8, lower end -1. A channel that is not
-/// there is in the middle; such a throttle is closed.
+/// Sticks and switches for the aircraft. The firmware passes sticks on like commands, so the sign of a stick
+/// is that of the surface command: a positive elevator is nose down, a positive rudder nose left. The
+/// switches are the channels 5 to 8, lower end -1. A missing channel is in the middle; a missing throttle is
+/// closed.
 inline Rc to_rc(const RcChannels& m, const RcMap& map, const Throws& throws, bool link) {
   const std::array<std::uint16_t, 8> us = channels_of(m);
   const auto there = [&](std::int32_t i) {

@@ -11,14 +11,14 @@
 
 namespace fulmar::fcu {
 
-inline constexpr std::int64_t repeat_ns = 10'000'000'000;          ///< what is missing is told again
-inline constexpr std::int64_t estimate_patience_ns = 500'000'000;  ///< an older estimate is none
+inline constexpr std::int64_t repeat_ns = 10'000'000'000;          ///< interval of repeated reports
+inline constexpr std::int64_t estimate_patience_ns = 500'000'000;  ///< an older estimate counts as missing
 
-/// The controller zeroes its airspeed by itself in the first seconds after a boot.
+/// The controller zeroes its airspeed in the first seconds after a boot.
 enum class PitotZero : std::uint8_t { good, pending, wrong };
 inline constexpr std::uint64_t zeroing_us = 12'000'000;
 
-/// When a sensor spoke last, in flight time; of the receiver: a three-dimensional fix.
+/// Flight time of the last sample of each sensor; of the receiver: the last three-dimensional fix.
 struct Spoken {
   std::int64_t fix_ns = never_ns, mag_ns = never_ns, baro_ns = never_ns, pitot_ns = never_ns;
 };
@@ -28,7 +28,7 @@ inline bool solved(FixType fix) {
          fix == FixType::rtk_fixed;
 }
 
-/// What comes and goes is told less and less often: 1 s after the last time, then 2 s, up to 10 s.
+/// An intermittent report is made less and less often: 1 s after the last time, then 2 s, up to 10 s.
 class Hold {
  public:
   bool open(std::int64_t now_ns) const { return now_ns - reported_ns_ >= hold_ns_; }
@@ -36,7 +36,7 @@ class Hold {
     hold_ns_ = now_ns - reported_ns_ < 2 * repeat_ns ? std::min(2 * hold_ns_, repeat_ns) : min_ns;
     reported_ns_ = now_ns;
   }
-  /// The next one is told at once.
+  /// The next report is made at once.
   void release() { reported_ns_ = never_ns; }
 
  private:
@@ -44,8 +44,8 @@ class Hold {
   std::int64_t reported_ns_ = never_ns, hold_ns_ = min_ns;
 };
 
-/// Tells the loss of the fix, and its return. A slow receiver gets the time of two and a half fixes; while
-/// the link was down none could come. `link_ns`: since when it is up.
+/// Reports the loss of the fix and its return. A slow receiver has a time-out of two and a half fixes. A link
+/// failure does not count. `link_ns`: time since which the link is up.
 class FixWatch {
  public:
   void report(std::int64_t fix_ns, std::int64_t link_ns, bool link, bool armed, std::int64_t now_ns,
@@ -73,13 +73,14 @@ class FixWatch {
   using Severity = fulmar::Severity;
   static constexpr std::int64_t min_ns = 700'000'000;
   std::int64_t last_ns_ = never_ns,
-               period_ns_ = 2'000'000'000;  ///< until two fixes have told it: the slowest receiver's
+               // until two fixes have shown the interval: that of the slowest receiver
+      period_ns_ = 2'000'000'000;
   bool lost_ = false, reported_ = false;
   Hold hold_;
 };
 
-/// Tells when the attitude is lost while the computer flies: its controllers can then only hold the surfaces,
-/// and the pilot has to take over. Nothing else says so, as samples go on coming.
+/// Reports the loss of attitude while the computer's commands are in force. The control laws can then only
+/// hold the surfaces, and the pilot must take over. No other report shows it, because samples continue.
 class AttitudeWatch {
  public:
   void report(bool attitude, bool in_control, std::int64_t now_ns, Notices& out) {
@@ -102,24 +103,25 @@ class AttitudeWatch {
 };
 
 /// The gate before the commands. It closes
-/// - while the attitude is not known and the commands did not move the aircraft anyway: after a gap of the
-/// link
-///   the controller has given it to its pilot, and he keeps it until the attitude is known again;
-/// - when the pilot hands over an aircraft that does not know where it is and has not flown: it opens when he
-///   hands over again, and not by a fix that comes while somebody stands beside the propeller.
+/// - while the attitude is unknown and the commands did not move the aircraft anyway: after a gap of the link
+/// the
+///   controller has given control to its pilot, who keeps it until the attitude is known again;
+/// - when the pilot hands over an aircraft on the ground without a position: it opens at the next hand-over,
+/// and
+///   not by a fix that arrives while a person may stand near the propeller.
 class Readiness {
  public:
   struct Facts {
-    const VehicleState* state;  ///< null: none, or an old one
+    const VehicleState* state;  ///< null: none, or one that is too old
     VehicleStatus status;
     Spoken spoken;
-    bool inertial;  ///< samples come
+    bool inertial;  ///< samples arrive
     PitotZero pitot_zero;
-    bool path;      ///< there is one to fly, or none is asked for
-    bool fix_lost;  ///< there was one
+    bool path;      ///< there is a path, or none is required
+    bool fix_lost;  ///< there was a fix before
   };
 
-  /// Whether a command may go out now.
+  /// Returns true when a command may be sent now.
   bool update(const Facts& f, std::int64_t now_ns, Notices& out) {
     const bool attitude = f.state && f.state->attitude_valid;
     const std::uint32_t missing = missing_of(f, now_ns);
@@ -132,7 +134,7 @@ class Readiness {
     report_missing(missing, f, now_ns, out);
     return !blind_ && !refused_;
   }
-  /// Whether it refuses the hand-over that this status may just begin.
+  /// True when it rejects the hand-over that this status may begin.
   bool refuses(const VehicleStatus& s) const {
     return refused_ || (met_ && handed(s) && !handed_ && met_disarmed_ && !flown_ && !complete_);
   }
@@ -168,7 +170,7 @@ class Readiness {
                                                   {no_pitot, missing_messages::pitot},
                                                   {zero_pending, missing_messages::airspeed_zero},
                                                   {zero_wrong, missing_messages::right_airspeed_zero}}};
-  static constexpr std::int64_t first_reported_ns = 3'000'000'000;  ///< until then it aligns
+  static constexpr std::int64_t first_reported_ns = 3'000'000'000;  ///< the estimator aligns until then
   static constexpr std::int64_t sensor_patience_ns = 2'000'000'000;
   static constexpr double flies_mps = 7;
 
@@ -178,14 +180,14 @@ class Readiness {
     if ((f.status.errors & own_error_link_down) != 0) return no_link;
     const VehicleState none, &s = f.state ? *f.state : none;
     std::uint32_t m = unless(f.inertial, no_inertial);
-    // The cause says it: without an attitude there is nothing else, without a fix no position, without a
+    // Only the cause is reported: without attitude there is no fix, without a fix no position, without a
     // position no path.
     if (s.attitude_valid && s.position_valid) m |= unless(f.path, no_path);
     if (s.attitude_valid)
       m |= unless(s.height_valid, no_height) | unless(s.velocity_valid, no_velocity);
     else
       m |= no_attitude;
-    // On the ground a fix that has just been lost is none, though the position is still known for seconds.
+    // On the ground a lost fix counts at once, though the position stays valid for seconds.
     if ((f.fix_lost && !flown_) || (!s.position_valid && silent(f.spoken.fix_ns)))
       m |= no_fix;
     else if (s.attitude_valid && !s.position_valid)
@@ -206,8 +208,8 @@ class Readiness {
     if (f.status.in_control && complete && f.state->ground_speed_mps > flies_mps) flown_ = true;
   }
 
-  /// An aircraft that was armed before anything was heard may be in the air: it is taken as soon as it can
-  /// be.
+  /// An aircraft that is already armed at the first status may be in the air: control is taken as soon as
+  /// possible.
   void take_hand_over(const Facts& f, bool complete) {
     const bool now = handed(f.status);
     if (now && !handed_ && met_disarmed_ && !flown_ && !complete) {

@@ -12,13 +12,13 @@ class SampleGate {
  public:
   bool newer_imu(std::int64_t valid_ns) const { return valid_ns > imu_ns_; }
   void imu(std::int64_t valid_ns) { imu_ns_ = valid_ns; }
-  /// A frame that comes twice is one fix. `stamp_us`: the controller's.
+  /// True for a repeated frame of the same fix. `stamp_us`: the controller's.
   bool same_fix(std::uint64_t stamp_us) {
     if (stamp_us != 0 && stamp_us == fix_us_) return true;
     fix_us_ = stamp_us;
     return false;
   }
-  /// The controller has rebooted at `now_ns`: its attitude estimate begins again.
+  /// The controller has rebooted at `now_ns`: its attitude estimate starts again.
   void rebooted(std::int64_t now_ns) {
     imu_ns_ = never_ns;
     attitude_from_ns_ = now_ns + attitude_boots_ns;
@@ -32,7 +32,7 @@ class SampleGate {
   std::uint64_t fix_us_ = 0;
 };
 
-/// Faults that are reported once: the first of each kind.
+/// Reports the first fault of each kind.
 class ReportedKinds {
  public:
   bool first(std::uint32_t kind) {

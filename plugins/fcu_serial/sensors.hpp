@@ -25,7 +25,7 @@ bool within(double limit, T... values) {
   return (... && (std::isfinite(values) && std::abs(static_cast<double>(values)) <= limit));
 }
 
-/// A thermometer that nobody needs does not silence its sensor.
+/// An invalid temperature does not invalidate the sample.
 inline double kelvin(float value) {
   return within(500, value) && value > 150 ? static_cast<double>(value) : standard_kelvin;
 }
@@ -35,7 +35,7 @@ inline std::optional<Imu> to_imu(const SmallImu& m) {
   return Imu{{m.xacc, m.yacc, m.zacc}, {m.xgyro, m.ygyro, m.zgyro}, kelvin(m.temperature)};
 }
 
-/// The Earth's field is 25 to 65 uT; more than 1 mT is a magnet, and none at all no magnetometer.
+/// The Earth's field is 25 to 65 uT. More than 1 mT is a magnet, and 0 a missing magnetometer.
 inline std::optional<Mag> to_mag(const SmallMag& m) {
   if (!within(1e-3, m.xmag, m.ymag, m.zmag) || (m.xmag == 0 && m.ymag == 0 && m.zmag == 0)) return {};
   return Mag{{m.xmag, m.ymag, m.zmag}};
@@ -68,7 +68,7 @@ inline std::optional<Gnss> to_gnss(const RosflightGnss& m) {
   g.horizontal_std_m = deviation(m.h_acc);
   g.vertical_std_m = deviation(m.v_acc);
   g.speed_std_mps = deviation(m.s_acc);
-  // A receiver without a date says 1970 or its own epoch.
+  // A receiver without a date reports 1970 or its own epoch.
   if (m.seconds > 1000000000 && m.seconds < last_s && std::abs(std::int64_t{m.nanos}) <= 1000000000)
     g.utc_ns = m.seconds * 1000000000 + m.nanos;
   g.fix = m.fix_type <= static_cast<std::uint8_t>(FixType::rtk_fixed) ? static_cast<FixType>(m.fix_type)

@@ -14,36 +14,35 @@ namespace fulmar::fcu {
 
 inline constexpr std::int64_t never_ns = std::numeric_limits<std::int64_t>::min() / 2;
 inline constexpr std::int64_t link_patience_ns =
-    200'000'000;  ///< without a frame: at least 400 come in each second
+    200'000'000;  ///< time-out of frames: at least 400 arrive each second
 inline constexpr std::int64_t gap_patience_ns =
-    50'000'000;  ///< without an inertial sample: flagged, nothing more
+    50'000'000;  ///< time-out of inertial samples: only sets a flag
 inline constexpr std::int64_t rc_patience_ns =
-    500'000'000;  ///< without a frame of the radio: 111 come in each second
-inline constexpr std::int64_t status_patience_ns = 500'000'000;  ///< without a status: 10 come in each second
+    500'000'000;  ///< time-out of frames of the radio: 111 arrive each second
+// time-out of the status: 10 arrive each second
+inline constexpr std::int64_t status_patience_ns = 500'000'000;
 inline constexpr std::int64_t command_patience_ns =
-    100'000'000;  ///< OFFBOARD_TIMEOUT: the controller forgets a command after this
+    100'000'000;  ///< OFFBOARD_TIMEOUT: time-out of a command in the controller
 
-/// Frames of other kinds without one of the radio: of those that come, one in twelve is the radio's. A bad
-/// line that loses nearly all of them takes longer to reach this, and says nothing about the radio until
-/// then.
+/// Time-out of the radio, in frames of other kinds: normally one frame in twelve is the radio's. A line that
+/// loses nearly all frames takes longer, and meanwhile gives no evidence about the radio.
 inline constexpr std::uint32_t frames_without_rc = 200;
 
-/// Bits of VehicleStatus::errors beside the controller's own eight.
+/// Bits of VehicleStatus::errors in addition to the controller's eight.
 enum OwnError : std::uint32_t {
   own_error_rc_silent = 0x100,     ///< the radio's frames stopped
-  own_error_link_down = 0x200,     ///< nothing comes from the controller
+  own_error_link_down = 0x200,     ///< no frames from the controller
   own_error_sensors_dead = 0x400,  ///< sensors of the controller did not start
-  own_error_imu_silent =
-      0x800  ///< frames come, but no inertial samples: the controller's own control has stopped
+  own_error_imu_silent = 0x800  ///< frames without inertial samples: the controller's own control has stopped
 };
 
-/// What was heard last, and when; times in ns of one clock.
+/// Times of the last frames, in ns of one clock.
 struct Heard {
   RosflightStatus status;
   double volt = 0, amp = 0;
-  bool open = true;                    ///< the device is there
-  std::int64_t since_ns = 0;           ///< frames come without a break
-  std::int64_t resumed_ns = never_ns;  ///< this computer stood still until then: what it missed is no silence
+  bool open = true;                    ///< the device is open
+  std::int64_t since_ns = 0;           ///< begin of the present series of frames
+  std::int64_t resumed_ns = never_ns;  ///< end of a pause of this computer, which does not count as silence
   std::uint32_t frames_since_rc = 0;
   std::int64_t frame_ns = never_ns, imu_ns = never_ns, status_ns = never_ns, rc_ns = never_ns,
                command_ns = never_ns;
@@ -57,7 +56,7 @@ struct Heard {
     rc_ns = now_ns;
     frames_since_rc = 0;
   }
-  /// For how long nothing of that kind came, as far as this computer could have received it.
+  /// Time without a frame of that kind, without pauses of this computer.
   std::int64_t silence_ns(std::int64_t last_ns, std::int64_t now_ns) const {
     return now_ns - std::max(last_ns, resumed_ns);
   }
@@ -94,14 +93,14 @@ inline VehicleStatus evaluate(const Heard& h, std::int64_t now_ns) {
   return s;
 }
 
-/// What differs between two states that a reader would want to know at once.
+/// True for a change that is published at once.
 inline bool changed(const VehicleStatus& a, const VehicleStatus& b) {
   return a.armed != b.armed || a.failsafe != b.failsafe || a.offboard != b.offboard ||
          a.override != b.override || a.override_reasons != b.override_reasons ||
          a.in_control != b.in_control || a.errors != b.errors || a.health != b.health;
 }
 
-/// When a state is published: ten times a second, and at once when it changes.
+/// Rate of the published state: ten times a second, and at once for a change.
 class StatusPace {
  public:
   bool due(const VehicleStatus& s, std::int64_t now_ns) {
@@ -118,13 +117,13 @@ class StatusPace {
   std::int64_t last_ns_ = never_ns;
 };
 
-/// Tells each change of the state once.
+/// Reports each change of the state once.
 class Reporter {
  public:
-  /// Only when a status of the controller has been heard.
+  /// Only after a status of the controller.
   void report(const VehicleStatus& s, const Heard& h, std::int64_t now_ns, Notices& out) {
     report_link(s, h, now_ns, out);
-    if (h.status_ns == never_ns || (s.errors & own_error_link_down) != 0) return;  // it says nothing new
+    if (h.status_ns == never_ns || (s.errors & own_error_link_down) != 0) return;  // no new information
     report_arming(s, out);
     report_pilot(s, out);
     report_control(s, now_ns, out);
@@ -164,7 +163,7 @@ class Reporter {
     if (s.armed && !flies && flew) out.add(Level::info, fcu_serial_messages::pilot_hands_over);
   }
 
-  /// Each change, but for a line so bad that it comes and goes: then once that, and how it ends.
+  /// Reports each change. An intermittent one is reported once as such, and then its end.
   void report_control(const VehicleStatus& s, std::int64_t now_ns, Notices& out) {
     const bool changes = s.in_control != reported_.in_control;
     if (changes) {
@@ -202,7 +201,7 @@ class Reporter {
 
   static constexpr std::int64_t steady_ns = 2'000'000'000;
   VehicleStatus reported_;
-  std::array<std::int64_t, 3> changes_ns_{never_ns, never_ns, never_ns};  ///< of in_control, the latest first
+  std::array<std::int64_t, 3> changes_ns_{never_ns, never_ns, never_ns};  ///< of in_control, newest first
   bool flickers_ = false, reported_flicker_ = false;
   std::int64_t down_since_ns_ = never_ns;
   bool down_ = false, begun_ = false;

@@ -5,7 +5,7 @@
 
 namespace fulmar::fcu {
 
-/// Waits for the controller, and asks what has to be known. Throws when it cannot be flown.
+/// Waits for the controller and requests its data. Throws when it cannot be used.
 template <class AnyLink>
 void Vehicle<AnyLink>::greet(const std::string& port, std::int64_t baud, const Airframe& airframe) {
   Greeting g;
@@ -59,8 +59,8 @@ void Vehicle<AnyLink>::report_untried(std::string_view version) {
                      version);
 }
 
-/// REV_* turns a surface round for pilot and host, the airframe file for the host alone. Both at once is
-/// hardly meant.
+/// REV_* reverses a surface for pilot and host, the airframe file for the host alone. Both together are
+/// probably an error.
 template <class AnyLink>
 void Vehicle<AnyLink>::report_reversals(const Greeting& g, const Airframe& a) {
   const std::array<std::pair<const char*, bool>, 3> surfaces{{{"REV_AILERON", a.aileron.reversed},
@@ -143,7 +143,7 @@ void Vehicle<AnyLink>::take_state(const Received& r, Outputs& out) {
   }
 }
 
-/// They come again after each reboot and connection, and whenever one is set.
+/// Parameters arrive after each reboot and connection, and whenever one is set.
 template <class AnyLink>
 void Vehicle<AnyLink>::take_parameter(const ParamValue& p, Outputs& out) {
   const auto& full = out.parameters;

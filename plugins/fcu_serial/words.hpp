@@ -14,7 +14,7 @@
 
 namespace fulmar::fcu {
 
-/// A line that grows at its end, cut when it is full.
+/// A line of text, cut when it is full.
 class Line {
  public:
   template <std::size_t N, class... Values>
@@ -23,7 +23,7 @@ class Line {
     const std::size_t size = message.write(room.data(), room.size(), values...);
     return Line() << std::string_view(room.data(), std::min(size, room.size() - 1));
   }
-  /// What does not fit is left out, and dots show that.
+  /// A text that does not fit is cut, and ends in dots.
   Line& operator<<(std::string_view text) {
     for (const char c : text) {
       if (size_ + 1 >= text_.bytes.size()) {
@@ -34,9 +34,9 @@ class Line {
     }
     return *this;
   }
-  /// So many digits behind the point.
+  /// `digits`: number of digits after the point.
   Line& fixed(double value, int digits) {
-    std::array<char, 24> room{};  // cut: a value that long is no figure
+    std::array<char, 24> room{};  // a value that does not fit is cut
     const auto end =
         std::to_chars(room.data(), room.data() + room.size(), value, std::chars_format::fixed, digits);
     return end.ec == std::errc()
@@ -51,7 +51,7 @@ class Line {
   std::size_t size_ = 0;
 };
 
-/// Seconds, cut to tenths.
+/// Seconds, rounded down to tenths.
 inline Fixed tenths_s(std::int64_t ns) { return {static_cast<double>(ns / 100'000'000) / 10, 1}; }
 
 /// Messages of bits.
@@ -76,7 +76,7 @@ inline constexpr BitMessages<6> override_messages{
      {override_stick_z, fcu_serial_messages::yaw_stick},
      {override_min_throttle, fcu_serial_messages::lower_throttle}}};
 
-/// The meaning of the error bits, and what to do.
+/// Messages of the error bits, with the remedy.
 inline constexpr BitMessages<8> error_messages{
     {{error_invalid_mixer, fcu_serial_messages::mixer_invalid},
      {error_imu_not_responding, fcu_serial_messages::imu_unresponsive},
@@ -87,7 +87,7 @@ inline constexpr BitMessages<8> error_messages{
      {error_buffer_overrun, fcu_serial_messages::buffer_overrun},
      {error_invalid_failsafe, fcu_serial_messages::failsafe_invalid}}};
 
-/// Notices that wait for the loop. When there are more, the last ones are lost; what counts comes rarely.
+/// Notices that wait for the loop. Above the capacity the last ones are lost; important ones are rare.
 class Notices {
  public:
   template <std::size_t N, class... Values>
@@ -108,12 +108,12 @@ class Notices {
   std::size_t count_ = 0;
 };
 
-/// Passes on the controller's own texts. A repeated one, such as why it does not arm, is reported every ten
-/// seconds.
+/// Passes on the texts of the controller. A repeated one, such as the reason for not arming, is reported
+/// every ten seconds.
 class Forwarder {
  public:
   void forward(const Statustext& m, std::int64_t now_ns, Notices& notices) {
-    // It ends at its first NUL; what stands behind is anything.
+    // The text ends at its first NUL; the bytes behind it are undefined.
     const auto end = std::find(m.text.begin(), m.text.end(), '\0');
     const Text<51> text(std::string_view(m.text.data(), static_cast<std::size_t>(end - m.text.begin())));
     if (text == last_ && now_ns - reported_ns_ < 10'000'000'000) return;
@@ -123,7 +123,7 @@ class Forwarder {
                                       : m.severity == 3 ? fulmar::Severity::error
                                       : m.severity == 4 ? fulmar::Severity::warning
                                                         : fulmar::Severity::info;
-    if (text.view() == no_secondary)  // SECONDARY_MIXER 255, as is recommended: nothing is invalid about it
+    if (text.view() == no_secondary)  // SECONDARY_MIXER 255 is the recommended value, not an error
       return notices.add(fulmar::Severity::info, fcu_serial_messages::secondary_mixer_unset);
     notices.add(severity, fcu_serial_messages::controller_text, text.view());
   }

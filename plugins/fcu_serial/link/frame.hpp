@@ -11,18 +11,18 @@
 
 namespace fulmar::fcu {
 
-inline constexpr std::uint8_t frame_magic = 0xfe, modern_magic = 0xfd;  ///< of MAVLink 1; of MAVLink 2
+inline constexpr std::uint8_t frame_magic = 0xfe, modern_magic = 0xfd;  ///< MAVLink 1; MAVLink 2
 inline constexpr std::size_t frame_header = 6, frame_overhead = 8, max_frame = max_payload + frame_overhead;
 inline constexpr std::uint8_t companion_system = 1, companion_component = 50;
 
-/// One frame, as bytes.
+/// One frame as bytes.
 struct Frame {
   std::array<std::uint8_t, max_frame> bytes{};
   std::size_t size = 0;
   std::span<const std::uint8_t> view() const { return {bytes.data(), size}; }
 };
 
-/// A payload that has arrived whole. Whose it is says little: the firmware's own ids are not to be relied on.
+/// A complete payload. The sender's ids are not reliable: the firmware sends varying ones.
 struct Packet {
   std::uint8_t id = 0, system = 0, component = 0, sequence = 0, length = 0;
   std::array<std::uint8_t, max_payload> payload{};
@@ -31,7 +31,7 @@ struct Packet {
   bool is() const {
     return id == M::id;
   }
-  /// The message. Only for a packet of this id.
+  /// The message; the packet must have its id.
   template <class M>
   M as() const {
     M message{};
@@ -67,24 +67,23 @@ Frame encode(const M& message, std::uint8_t sequence, std::uint8_t system = comp
   return f;
 }
 
-/// Whether a device of which no frame was understood talks MAVLink 2: of noise one byte in 256 looks like a
+/// True when a device without a valid frame probably sends MAVLink 2: one byte in 256 of noise looks like a
 /// start.
 inline bool talks_mavlink_2(std::uint64_t modern, std::uint64_t bytes) {
   return modern > 4 && modern * 100 > bytes;
 }
 
-/// Finds frames in a stream of bytes. After bytes that are no frame it goes on with the very next one, so
-/// that a false start costs no frame behind it.
+/// Finds frames in a stream of bytes. After invalid bytes it continues with the next byte, so that a false
+/// start costs no later frame.
 class Parser {
  public:
   struct Counts {
-    std::uint64_t frames = 0;  ///< whole and good
-    std::uint64_t bad = 0;     ///< began like a frame that we know, and its checksum was wrong
-    std::uint64_t unknown =
-        0;  ///< whole and well framed as far as can be told, of a message that we do not know
+    std::uint64_t frames = 0;   ///< complete, with a valid checksum
+    std::uint64_t bad = 0;      ///< start of a known frame with a wrong checksum
+    std::uint64_t unknown = 0;  ///< complete frames of an unknown message, as far as the framing shows
     std::uint64_t skipped = 0;  ///< bytes outside of frames
-    std::uint64_t modern = 0;   ///< of them: such as begin a frame of MAVLink 2
-    std::uint64_t missing = 0;  ///< frames that their sequence numbers say were lost
+    std::uint64_t modern = 0;   ///< of them: starts of frames of MAVLink 2
+    std::uint64_t missing = 0;  ///< lost frames, by the sequence numbers
   };
 
   /// Calls `take(const Packet&)` for each frame that these bytes complete.
@@ -99,7 +98,7 @@ class Parser {
     }
   }
   const Counts& counts() const { return counts_; }
-  /// Forgets a half-read frame and the sequence, as after a new connection.
+  /// Drops a partial frame and the sequence number, for a new connection.
   void restart() {
     size_ = 0;
     has_sequence_ = false;
@@ -118,7 +117,7 @@ class Parser {
     std::memmove(buffer_.data(), buffer_.data() + at, size_);
   }
 
-  /// Bytes to go on by; 0: more are needed.
+  /// Number of bytes to advance; 0: more are needed.
   template <class Take>
   std::size_t frame_at(std::size_t at, Take& take) {
     const std::uint8_t* p = buffer_.data() + at;
@@ -133,8 +132,8 @@ class Parser {
     if (info.known && info.length != n) return skip();
     if (have < n + frame_overhead) return 0;
     if (!info.known) {
-      // Its checksum cannot be told without its seed. Only what follows shows whether it was one: go on with
-      // the next byte.
+      // Without its seed the checksum cannot be verified. The bytes that follow show whether it was a frame:
+      // continue with the next byte.
       ++counts_.unknown;
       return skip();
     }
@@ -161,7 +160,7 @@ class Parser {
     take(static_cast<const Packet&>(packet));
   }
 
-  /// A frame that comes twice, or behind its successor, as over UDP, is not 255 that were lost.
+  /// A frame that arrives twice or after its successor, as over UDP, does not count as 255 lost ones.
   void count_missing(std::uint8_t sequence) {
     const auto between = static_cast<std::uint8_t>(sequence - sequence_ - 1);
     if (has_sequence_ && between >= 256 - max_late) return;

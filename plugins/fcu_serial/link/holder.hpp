@@ -7,11 +7,11 @@
 
 namespace fulmar::fcu {
 
-/// "minicom (pid 123)" of the program that has locked this file; empty when /proc does not tell.
+/// Program that has locked this file, "minicom (pid 123)"; empty when /proc does not show it.
 std::string lock_holder(const struct stat& file);
 
-/// The same of another program that has this character device open, locked or not; empty when there is none
-/// or /proc does not tell.
+/// The same of another program that has this character device open, locked or not; empty when /proc shows
+/// none.
 std::string other_user(const struct stat& device);
 
 }  // namespace fulmar::fcu

@@ -14,14 +14,14 @@ namespace fulmar::fcu {
 
 class ImuSignal {
  public:
-  /// The thread that feeds the queue, after so many samples were put in.
+  /// Called by the thread that feeds the queue, after it has put in `samples`.
   void raise(std::uint32_t samples) noexcept {
     count_.fetch_add(samples, std::memory_order_seq_cst);
     if (sleeping_.load(std::memory_order_seq_cst)) futex(FUTEX_WAKE_PRIVATE, 1, nullptr);
   }
 
-  /// The loop, which has taken `taken` samples from the queue so far. False: the monotonic clock has reached
-  /// `deadline_ns` without one.
+  /// Called by the loop, which has taken `taken` samples so far. Returns false when the monotonic clock
+  /// reaches `deadline_ns` without a sample.
   bool wait(std::uint32_t taken, std::int64_t deadline_ns) noexcept {
     const timespec deadline{deadline_ns / 1'000'000'000, deadline_ns % 1'000'000'000};
     while (!come(taken)) {

@@ -30,7 +30,7 @@ std::int64_t monotonic_ns() noexcept {
 }
 
 constexpr std::int64_t heartbeat_ns = 1'000'000'000, question_ns = 100'000'000;  // host time
-constexpr int read_ms = 5, reopen_ms = 100;                                      // on the wall
+constexpr int read_ms = 5, reopen_ms = 100;                                      // real time
 constexpr std::size_t kept_for_events = 64;
 
 }  // namespace
@@ -48,12 +48,12 @@ struct Link::Impl {
   SpscQueue<Received, 4096> queue;
   ImuSignal imu;
   Outbox outbox;
-  LinkFigures figures;  // written by the link's thread
+  LinkFigures figures;  // written by the thread of the link
 
-  // ---- the loop's thread
+  // ---- thread of the loop
   std::uint32_t imu_taken = 0;
 
-  // ---- the link's thread
+  // ---- thread of the link
   std::unique_ptr<Port> port;
   Parser parser;
   Dater dater;
@@ -61,8 +61,8 @@ struct Link::Impl {
   std::int64_t next_heartbeat_ns = 0, next_question_ns = 0, last_arrival_ns = 0;
   int own_policy = SCHED_OTHER, own_priority = 0;
   cpu_set_t own_cpus{};
-  std::uint32_t imu_put = 0;       ///< since the loop was told
-  std::uint8_t target_system = 1;  ///< parameter SYS_ID of the controller, which obeys no other
+  std::uint32_t imu_put = 0;       ///< since the last signal to the loop
+  std::uint8_t target_system = 1;  ///< parameter SYS_ID of the controller, which accepts no other
   std::thread thread;
 
   std::int64_t now_ns() const noexcept {
@@ -95,7 +95,7 @@ struct Link::Impl {
   }
 };
 
-// ---- the link's thread
+// ---- thread of the link
 
 void Link::Impl::begin() {
   thread = quiet_thread("fulmar-fcu", [this] { run(); });
@@ -156,7 +156,8 @@ void Link::Impl::take_bytes(std::span<const std::uint8_t> came) {
   parser.feed(came, [&](const Packet& packet) { take(packet, now); });
   figures.came(came);
   figures.counted(parser.counts(), dater.undated());
-  if (imu_put > 0) imu.raise(imu_put);  // once per read: the loop then finds all that came together
+  // once per read: the loop then finds all samples that arrived together
+  if (imu_put > 0) imu.raise(imu_put);
   imu_put = 0;
 }
 
@@ -164,7 +165,7 @@ void Link::Impl::take(const Packet& packet, std::int64_t arrived_ns) {
   arrived_ns = last_arrival_ns = std::max(arrived_ns, last_arrival_ns + 1);
   figures.heard(arrived_ns);
   if (packet.is<SmallImu>() || packet.is<Heartbeat>())
-    target_system = packet.system;  // other ids may be anything
+    target_system = packet.system;  // ids of other packets are not reliable
   if (packet.is<SmallImu>() && dater.started_anew(packet.as<SmallImu>().time_boot_us)) {
     dater.clock.restart();
     rebooted(arrived_ns);
@@ -178,7 +179,7 @@ void Link::Impl::take(const Packet& packet, std::int64_t arrived_ns) {
     ++imu_put;
 }
 
-/// ATTITUDE, OUTPUT_RAW and RC have stamps of 1 ms; what has none is dated by its arrival.
+/// ATTITUDE, OUTPUT_RAW and RC have stamps of 1 ms. A packet without a stamp gets its time of arrival.
 std::int64_t Link::Impl::date(const Packet& packet, std::int64_t arrived_ns) {
   switch (packet.id) {
     case SmallImu::id: return dater.date_imu(packet.as<SmallImu>().time_boot_us, arrived_ns);
@@ -199,7 +200,7 @@ void Link::Impl::time_answered(const Timesync& answer, std::int64_t arrived_ns) 
 void Link::Impl::rebooted(std::int64_t now) {
   figures.rebooted(dater.clock.synchronised());
   watched.restart();
-  next_heartbeat_ns = next_question_ns = now;  // it keeps its texts until it hears somebody
+  next_heartbeat_ns = next_question_ns = now;  // the controller keeps its texts until it receives a heartbeat
   put_event(LinkEvent::rebooted, now);
 }
 
@@ -230,10 +231,10 @@ void Link::Impl::do_duties(std::int64_t now) {
   }
 }
 
-/// The loop waits for this thread: it gets the loop's policy and priority, and, when the loop stays on one
-/// CPU, that one. To hand a sample over is then a switch of threads; on another CPU the loop would wait until
-/// it has woken up. Asked of the kernel now and then: a host decides when it likes. The thread library keeps
-/// what it was told first.
+/// The loop waits for this thread, so it gets the policy and priority of the loop. When the loop stays on one
+/// CPU, it gets that CPU too: to hand a sample over is then a switch of threads, and no other CPU must wake
+/// up. The policy is read from the kernel repeatedly, because a host may set it at any time and the thread
+/// library caches the first value.
 void Link::Impl::stay_with_loop() noexcept {
   const pid_t loop = loop_thread.load(std::memory_order_relaxed);
   sched_param priority{};
@@ -249,7 +250,7 @@ void Link::Impl::stay_with_loop() noexcept {
   if (sched_setaffinity(0, sizeof cpus, &cpus) == 0) own_cpus = cpus;
 }
 
-// ---- the loop's thread
+// ---- thread of the loop
 
 Link::Link(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {
   impl_->port = Port::open(options.port, options.baud);

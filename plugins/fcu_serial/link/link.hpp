@@ -16,10 +16,9 @@ namespace fulmar::fcu {
 struct LinkOptions {
   std::string port = "/dev/ttyACM0";
   std::int64_t baud = 921600;
-  std::vector<std::string> watched;  ///< parameters that are read after every connection and reboot; their
-                                     ///< PARAM_VALUEs come as packets
-  double time_scale = 1;  ///< host time runs so many times faster than the clock on the wall: hardware in the
-                          ///< loop, in a hurry
+  // parameters that are read after every connection and reboot; their PARAM_VALUEs arrive as packets
+  std::vector<std::string> watched;
+  double time_scale = 1;  ///< ratio of host time to real time, for hardware in the loop faster than real time
 };
 
 enum class LinkEvent : std::uint8_t { packet, connected, disconnected, rebooted };
@@ -40,9 +39,10 @@ class Link {
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
-  // From the loop's thread. None of these waits but wait_imu, none allocates.
-  /// Until an inertial sample is in the queue or `until_ns` of host time is over. True: there is one. At the
-  /// first call the link's thread gets the scheduling policy and priority of the caller, who waits for it.
+  // For the thread of the loop. Only wait_imu waits, and no function allocates.
+  /// Waits until an inertial sample is in the queue, which returns true, or until `until_ns` of host time. At
+  /// the first call the link's thread gets the scheduling policy and priority of the caller, who waits for
+  /// it.
   bool wait_imu(std::int64_t until_ns) noexcept;
   bool pop(Received& out) noexcept;
   template <class M>
@@ -51,9 +51,10 @@ class Link {
   }
   bool send_frame(const Frame& frame) noexcept;
   std::uint8_t next_sequence() noexcept;
-  std::int64_t now_ns() const noexcept;  ///< host time: monotonic, times time_scale, 0 when the link was made
+  // host time: monotonic, times time_scale, 0 at the construction of the link
+  std::int64_t now_ns() const noexcept;
   LinkState state() const noexcept;
-  int descriptor() const noexcept;  ///< -1 while there is no device
+  int descriptor() const noexcept;  ///< -1 without a device
 
  private:
   struct Impl;

@@ -13,10 +13,10 @@
 
 namespace fulmar::fcu {
 
-/// Each figure is whole; together they need not be of one moment.
+/// Each figure is consistent; the set may be of several moments.
 class LinkFigures {
  public:
-  // ---- the link's thread
+  // ---- thread of the link
   void connected() { add(connections_, 1); }
   void rebooted(bool synchronised) {
     add(reboots_, 1);

@@ -18,7 +18,7 @@ namespace fulmar::fcu {
 static_assert(std::endian::native == std::endian::little,
               "the wire is little endian, and so must be the machine");
 
-struct Heartbeat {  ///< either way, 1 Hz
+struct Heartbeat {  ///< both directions, 1 Hz
   static constexpr std::uint8_t id = 0;
   static constexpr std::string_view name = "HEARTBEAT";
   std::uint32_t custom_mode = 0;
@@ -42,12 +42,12 @@ struct ParamRequestList {  ///< to the controller
 };
 
 inline constexpr std::uint8_t param_int32 = 6,
-                              param_real32 = 9;  ///< param_type; an integer's bits stand in the float
+                              param_real32 = 9;  ///< param_type; the float field holds the bits of an integer
 
 struct ParamValue {  ///< from the controller
   static constexpr std::uint8_t id = 22;
   static constexpr std::string_view name = "PARAM_VALUE";
-  std::uint32_t param_value = 0;  ///< the bits: what goes through a float register may come out changed
+  std::uint32_t param_value = 0;  ///< the bits: a float register may change them
   std::uint16_t param_count = 0, param_index = 0;
   std::array<char, 16> param_id{};
   std::uint8_t param_type = param_real32;
@@ -62,7 +62,7 @@ struct ParamSet {  ///< to the controller. Echoed by PARAM_VALUE only when the v
   std::uint8_t param_type = param_real32;
 };
 
-struct AttitudeQuaternion {  ///< from the controller: its own estimate
+struct AttitudeQuaternion {  ///< from the controller: its estimate
   static constexpr std::uint8_t id = 31;
   static constexpr std::string_view name = "ATTITUDE_QUATERNION";
   std::uint32_t time_boot_ms = 0;
@@ -70,8 +70,8 @@ struct AttitudeQuaternion {  ///< from the controller: its own estimate
   float rollspeed = 0, pitchspeed = 0, yawspeed = 0;  ///< rad/s, filtered, bias removed
 };
 
-struct RcChannels {  ///< from the controller: one per frame of the radio. Channels 9 to 18, chancount and
-                     ///< rssi are not filled in
+// from the controller: one per frame of the radio. Channels 9 to 18, chancount and rssi are not set
+struct RcChannels {
   static constexpr std::uint8_t id = 65;
   static constexpr std::string_view name = "RC_CHANNELS";
   std::uint32_t time_boot_ms = 0;
@@ -84,8 +84,8 @@ struct RcChannels {  ///< from the controller: one per frame of the radio. Chann
   std::uint8_t chancount = 0, rssi = 0;
 };
 
-struct Timesync {  ///< either way, ns. A question has tc1 = 0; the answer has the controller's clock there
-                   ///< and ts1 as it came
+// both directions, ns. A request has tc1 = 0; the response has the controller's clock there and the same ts1
+struct Timesync {
   static constexpr std::uint8_t id = 111;
   static constexpr std::string_view name = "TIMESYNC";
   std::int64_t tc1 = 0, ts1 = 0;
@@ -96,8 +96,8 @@ struct OffboardControl {  ///< to the controller
   static constexpr std::string_view name = "OFFBOARD_CONTROL";
   std::array<float, 10>
       u{};  ///< mode 0, fixed wing: u[0] throttle 0..1; u[3] aileron, u[4] elevator, u[5] rudder -1..1
-  std::uint16_t ignore = 0;  ///< bit i: u[i] does not count
-  std::uint8_t mode = 0;     ///< 0: to the mixer as it is
+  std::uint16_t ignore = 0;  ///< bit i: u[i] is ignored
+  std::uint8_t mode = 0;     ///< 0: to the mixer, unchanged
 };
 
 struct SmallImu {  ///< from the controller, SI
@@ -147,19 +147,19 @@ enum class Command : std::uint8_t {
   send_version = 10
 };
 
-struct RosflightCmd {  ///< to the controller. Every command is refused while armed
+struct RosflightCmd {  ///< to the controller. An armed controller rejects every command
   static constexpr std::uint8_t id = 188;
   static constexpr std::string_view name = "ROSFLIGHT_CMD";
   std::uint8_t command = 0;
 };
 
-struct RosflightCmdAck {  ///< from the controller: accepted or refused, not yet done
+struct RosflightCmdAck {  ///< from the controller: accepted or rejected, not yet executed
   static constexpr std::uint8_t id = 189;
   static constexpr std::string_view name = "ROSFLIGHT_CMD_ACK";
   std::uint8_t command = 0, success = 0;
 };
 
-struct RosflightOutputRaw {  ///< from the controller: what its outputs get, servos and motors 0..1
+struct RosflightOutputRaw {  ///< from the controller: its outputs, servos and motors 0..1
   static constexpr std::uint8_t id = 190;
   static constexpr std::string_view name = "ROSFLIGHT_OUTPUT_RAW";
   std::uint64_t stamp = 0;  ///< ms
@@ -177,7 +177,7 @@ struct RosflightStatus {  ///< from the controller
   std::uint8_t control_mode = 0;
 };
 
-/// Bits of RosflightStatus::rc_override: who or what keeps a command from the outputs.
+/// Bits of RosflightStatus::rc_override: cause that keeps a command from the outputs.
 enum Override : std::uint16_t {
   override_attitude_switch = 0x001,
   override_throttle_switch = 0x002,
@@ -208,14 +208,14 @@ enum ErrorBit : std::uint8_t {
 struct RosflightVersion {  ///< from the controller
   static constexpr std::uint8_t id = 192;
   static constexpr std::string_view name = "ROSFLIGHT_VERSION";
-  std::array<char, 50> version{};  ///< up to the first NUL; what stands behind is anything
+  std::array<char, 50> version{};  ///< up to the first NUL; the bytes behind it are undefined
 };
 
-struct RosflightAuxCmd {  ///< to the controller: outputs that the mixer does not own
+struct RosflightAuxCmd {  ///< to the controller: outputs that the mixer does not use
   static constexpr std::uint8_t id = 193;
   static constexpr std::string_view name = "ROSFLIGHT_AUX_CMD";
   std::array<float, 14> aux_cmd_array{};
-  std::array<std::uint8_t, 14> type_array{};  ///< 0 disabled (keeps what it had), 1 servo -1..1, 2 motor 0..1
+  std::array<std::uint8_t, 14> type_array{};  ///< 0 disabled (last value), 1 servo -1..1, 2 motor 0..1
 };
 
 struct ExternalAttitude {  ///< to the controller: corrects its filter once
@@ -224,7 +224,7 @@ struct ExternalAttitude {  ///< to the controller: corrects its filter once
   float qw = 1, qx = 0, qy = 0, qz = 0;
 };
 
-struct RosflightHardError {  ///< from the controller, after it crashed
+struct RosflightHardError {  ///< from the controller after its crash
   static constexpr std::uint8_t id = 196;
   static constexpr std::string_view name = "ROSFLIGHT_HARD_ERROR";
   std::uint32_t error_code = 0, pc = 0, reset_count = 0, doRearm = 0;
@@ -240,7 +240,7 @@ struct RosflightGnss {  ///< from the controller
   float height = 0;                        ///< m above mean sea level
   float vel_n = 0, vel_e = 0, vel_d = 0;   ///< m/s
   float h_acc = 0, v_acc = 0, s_acc = 0;   ///< m, m, m/s
-  std::uint8_t fix_type = 0, num_sat = 0;  ///< as u-blox numbers them
+  std::uint8_t fix_type = 0, num_sat = 0;  ///< numbered as by u-blox
 };
 
 struct RosflightBatteryStatus {  ///< from the controller
@@ -263,11 +263,11 @@ struct Statustext {  ///< from the controller
   std::array<char, 50> text{};  ///< up to the first NUL
 };
 
-// ---- what follows from the structs
+// ---- derived from the structs
 
 inline constexpr std::size_t max_payload = 70;
 
-/// X.25 checksum, one byte more. MAVLink, "Packet Serialization": initial value 0xFFFF, no final xor.
+/// X.25 checksum of one more byte. MAVLink, "Packet Serialization": initial value 0xFFFF, no final xor.
 constexpr std::uint16_t crc_byte(std::uint16_t crc, std::uint8_t byte) {
   const auto low = static_cast<std::uint8_t>(byte ^ (crc & 0xff));
   const auto t = static_cast<std::uint8_t>(low ^ (low << 4));
@@ -321,7 +321,7 @@ struct Layout {
   std::uint8_t crc_extra = 0;
 };
 
-/// MAVLink, "CRC_EXTRA calculation": name and fields as text, in the order of the wire; the length of an
+/// MAVLink, "CRC_EXTRA calculation": name and fields as text, in the order of transmission; the length of an
 /// array as a byte.
 template <class M>
 consteval Layout layout() {
@@ -375,12 +375,12 @@ inline constexpr std::array<WireInfo, 256> wire = [] {
   return table;
 }();
 
-/// What stands in a fixed field, up to the first NUL.
+/// Text of a fixed field, up to the first NUL.
 template <std::size_t N>
 std::string_view text(const std::array<char, N>& field) {
   return {field.data(), ::strnlen(field.data(), N)};
 }
-/// Into a fixed field, cut where it is full.
+/// Writes a text into a fixed field, cut to its size.
 template <std::size_t N>
 constexpr std::array<char, N> field(std::string_view text) {
   std::array<char, N> out{};
@@ -388,7 +388,7 @@ constexpr std::array<char, N> field(std::string_view text) {
   return out;
 }
 
-// Length and CRC_EXTRA as the dialect's generator prints them.
+// Length and CRC_EXTRA as printed by the dialect's generator.
 template <class M>
 consteval bool is(std::uint8_t id, std::size_t bytes, std::uint8_t seed) {
   return M::id == id && length<M> == bytes && crc_extra<M> == seed && bytes <= max_payload &&

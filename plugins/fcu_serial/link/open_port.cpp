@@ -9,7 +9,8 @@
 namespace fulmar::fcu {
 namespace {
 
-/// Boost.Asio makes the whole process ignore SIGPIPE with its first io_context. That is the host's to decide.
+/// Boost.Asio makes the whole process ignore SIGPIPE with its first io_context. That decision belongs to the
+/// host.
 class KeepSigpipe {
  public:
   KeepSigpipe() { sigaction(SIGPIPE, nullptr, &before_); }
@@ -21,7 +22,7 @@ class KeepSigpipe {
   struct sigaction before_ {};
 };
 
-/// A port and the context that it lives in.
+/// A port and the context that it needs.
 template <class P>
 class Owned final : public Port {
  public:

@@ -14,7 +14,8 @@ namespace fulmar::fcu {
 
 class Outbox {
  public:
-  /// The loop's thread. Never waits. False when nothing goes out: no device, or one that takes no more.
+  /// Called by the thread of the loop. Never waits. Returns false when nothing is sent: no device, or a full
+  /// one.
   bool send(const Frame& frame) noexcept {
     if (try_hold()) {
       drain();
@@ -23,7 +24,7 @@ class Outbox {
       return sent;
     }
     if (!left_.push(frame)) return false;
-    // Who holds the port may have looked for frames just before this one.
+    // The holder of the port may have checked for frames just before this one.
     if (try_hold()) {
       drain();
       release();
@@ -31,7 +32,7 @@ class Outbox {
     return true;
   }
 
-  /// The link's thread.
+  /// Called by the thread of the link.
   bool send_own(const Frame& frame) noexcept {
     hold();
     drain();
@@ -41,21 +42,21 @@ class Outbox {
     return sent;
   }
 
-  /// The link's thread. When it returns, nobody writes to the port before any more.
+  /// Called by the thread of the link. After it returns, no thread writes to the old port.
   void attach(Port* port) noexcept {
     hold();
-    for (Frame old; left_.pop(old);) continue;  // meant for a moment that is over
+    for (Frame old; left_.pop(old);) continue;  // these frames are out of date
     port_ = port;
     release();
     drain_late();
   }
 
  private:
-  // Both sides exchange, so that whichever comes second sees what the first has left.
+  // Both sides exchange the flag, so that the second one sees the frames that the first one left.
   bool try_hold() noexcept { return !held_.exchange(true, std::memory_order_acq_rel); }
   void release() noexcept { held_.exchange(false, std::memory_order_acq_rel); }
   void hold() noexcept {
-    while (!try_hold()) sched_yield();  // the loop is within one write
+    while (!try_hold()) sched_yield();  // the loop finishes one write
   }
   bool write(const Frame& frame) noexcept { return port_ != nullptr && port_->write(frame.view()); }
   void drain() noexcept {
@@ -69,8 +70,8 @@ class Outbox {
   }
 
   std::atomic<bool> held_{false};
-  Port* port_ = nullptr;       ///< of who holds
-  SpscQueue<Frame, 16> left_;  ///< by the loop; taken by who holds
+  Port* port_ = nullptr;       ///< accessed by the holder
+  SpscQueue<Frame, 16> left_;  ///< pushed by the loop, popped by the holder
 };
 
 }  // namespace fulmar::fcu

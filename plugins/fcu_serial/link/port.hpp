@@ -14,7 +14,7 @@
 
 namespace fulmar::fcu {
 
-/// What is wrong with a device, and what to do about it: one sentence.
+/// Fault of a device with its remedy, in one sentence.
 struct PortError : std::runtime_error {
   explicit PortError(Diagnostic message)
       : std::runtime_error(message.line()), diagnostic(std::move(message)) {}
@@ -24,20 +24,20 @@ struct PortError : std::runtime_error {
 class Port {
  public:
   /// "/dev/ttyACM0", or "udp:REMOTE:PORT" and "udp:REMOTE:PORT:LOCAL_PORT" for firmware in simulation
-  /// ("udp:127.0.0.1:14525" binds 14520). Throws PortError: no such device, no permission, held by another
-  /// program, no serial port, an impossible rate, an address in use.
+  /// ("udp:127.0.0.1:14525" binds 14520).
+  /// Throws PortError: no such device, no permission, held by another program, no serial port, an impossible
+  /// rate, an address in use.
   static std::unique_ptr<Port> open(const std::string& where, std::int64_t baud = 921600);
   virtual ~Port() = default;
   Port(const Port&) = delete;
   Port& operator=(const Port&) = delete;
 
-  /// Bytes that came within `timeout_ms`, 0 when none did. Throws PortError when the device has gone.
+  /// Reads bytes within `timeout_ms`, 0 without any. Throws PortError when the device is gone.
   virtual std::size_t read(std::span<std::uint8_t> room, int timeout_ms) = 0;
-  /// All of it or nothing; never waits. False when there is no room, or no device any more.
-  /// Async-signal-safe.
+  /// Writes all bytes or none; never waits. Returns false without room or device. Async-signal-safe.
   virtual bool write(std::span<const std::uint8_t> bytes) noexcept = 0;
-  /// For the last act of a dying host: one write of one frame to it reaches the device. -1 when there is
-  /// none.
+  /// For the failsafe of a crashing host: one write of one frame to it reaches the device. -1 without a
+  /// device.
   virtual int descriptor() const noexcept = 0;
 
  protected:

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace asio = boost::asio;
 
-/// Serial devices that are there, for the sentence about one that is not.
+/// Serial devices present, for the message about a missing one.
 std::string candidates() {
   std::vector<std::string> found;
   std::error_code fault;
@@ -74,28 +74,26 @@ void refuse_kind(const std::string& path) {
   throw PortError(port_messages::path_not_port(path, S_ISDIR(info.st_mode) ? " is a folder" : " is a file"));
 }
 
-/// TIOCEXCL does not stop root, and flock stops only who asks.
+/// TIOCEXCL does not stop root, and flock stops only programs that use it.
 void hold_alone(int descriptor, const std::string& path) {
   struct stat info {};
   if (fstat(descriptor, &info) != 0) refuse_open(path, errno);
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) throw PortError(held(path, lock_holder(info)));
-  // Of a pseudo-terminal, who made it may keep this end open, too.
+  // The creator of a pseudo-terminal may keep this end open, too.
   const unsigned kind = major(info.st_rdev);
   const bool pseudo = kind >= 136 && kind <= 143;
   if (const std::string who = pseudo ? "" : other_user(info); !who.empty()) throw PortError(held(path, who));
   ioctl(descriptor, TIOCEXCL);
 }
 
-/// Every byte as it comes. Without HUPCL, closing leaves the modem lines alone: on some boards they are wired
-/// to reset.
+/// Raw mode. Without HUPCL, closing leaves the modem lines unchanged: on some boards they are wired to reset.
 void make_raw(int descriptor, const std::string& path) {
   termios settings{};
   if (tcgetattr(descriptor, &settings) != 0) throw PortError(port_messages::device_not_serial(path));
   cfmakeraw(&settings);
   settings.c_cflag |= CLOCAL | CREAD;
   settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL);
-  settings.c_cc[VMIN] =
-      1;  // with O_NONBLOCK an empty line is EAGAIN then, and 0 bytes mean that the device has gone
+  settings.c_cc[VMIN] = 1;  // with O_NONBLOCK, no data is EAGAIN, and 0 bytes mean that the device is gone
   settings.c_cc[VTIME] = 0;
   if (tcsetattr(descriptor, TCSANOW, &settings) != 0)
     throw PortError(port_messages::port_setup_failed(path, std::strerror(errno)));
@@ -117,8 +115,8 @@ void set_format(asio::serial_port& port, const std::string& path, std::int64_t b
   if (!near) throw PortError(port_messages::baud_unsupported(path, baud));
 }
 
-/// Some adapters (FTDI) keep bytes for 16 ms unless asked not to. Devices that know no such thing refuse,
-/// which is no harm.
+/// Some adapters (FTDI) keep bytes for 16 ms by default. Devices without the setting reject it, which has no
+/// effect.
 void deliver_at_once(int descriptor) {
   serial_struct settings{};
   if (ioctl(descriptor, TIOCGSERIAL, &settings) != 0) return;
@@ -137,7 +135,7 @@ SerialPort::SerialPort(asio::io_context& io, const std::string& path, std::int64
   const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) refuse_open(path, errno);
   boost::system::error_code fault;
-  port_.assign(fd, fault);  // closes it from now on
+  port_.assign(fd, fault);  // closes it from here on
   if (fault) {
     ::close(fd);
     throw PortError(port_messages::device_not_openable(path, fault.message()));
@@ -146,13 +144,13 @@ SerialPort::SerialPort(asio::io_context& io, const std::string& path, std::int64
   hold_alone(fd, path);
   set_format(port_, path, baud);
   deliver_at_once(fd);
-  tcflush(fd, TCIFLUSH);  // what has waited here is of no known time
+  tcflush(fd, TCIFLUSH);  // waiting bytes have an unknown time
   descriptor_ = fd;
 }
 
 SerialPort::~SerialPort() {
   if (port_.is_open())
-    ioctl(port_.native_handle(), TIOCNXCL);  // else it lasts as long as anybody has the device open
+    ioctl(port_.native_handle(), TIOCNXCL);  // otherwise it lasts as long as any program has the device open
 }
 
 std::size_t SerialPort::read(std::span<std::uint8_t> room, int timeout_ms) {
@@ -163,7 +161,7 @@ std::size_t SerialPort::read(std::span<std::uint8_t> room, int timeout_ms) {
   if (n > 0) return static_cast<std::size_t>(n);
   if (n < 0 && (errno == EAGAIN || errno == EINTR) && (one.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0)
     return 0;
-  tcflush(descriptor_, TCOFLUSH);  // else closing it may wait until nobody has taken what is left
+  tcflush(descriptor_, TCOFLUSH);  // otherwise closing may wait for a reader of the remaining bytes
   throw PortError(port_messages::device_lost(path_));
 }
 

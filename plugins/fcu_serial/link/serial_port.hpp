@@ -25,12 +25,12 @@ class SerialPort final : public Port {
   boost::asio::serial_port port_;
   int descriptor_ = -1;
   std::array<std::uint8_t, 512>
-      rest_{};  ///< of a write that the device took in part: it goes first, so that frames stay whole
+      rest_{};  ///< rest of a partial write: it is sent first, so that frames stay complete
   std::size_t rest_size_ = 0;
 };
 
-/// A rate that is no constant of termios, through termios2. The rate that the driver then has, 0 when it
-/// refuses.
+/// Sets a rate that is no constant of termios, through termios2. Returns the resulting rate, 0 when the
+/// driver rejects it.
 unsigned set_any_rate(int descriptor, unsigned baud);
 
 }  // namespace fulmar::fcu

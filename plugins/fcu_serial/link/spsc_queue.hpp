@@ -17,7 +17,8 @@ class SpscQueue {
  public:
   static constexpr std::size_t capacity = N;
 
-  /// Producer. False when fewer than `spare` + 1 places are free: some can be kept for what must not be lost.
+  /// Producer. Returns false when fewer than `spare` + 1 places are free: spare places are for items that
+  /// must not be lost.
   bool push(const T& value, std::size_t spare = 0) noexcept {
     const std::uint64_t head = head_.load(std::memory_order_relaxed);
     if (head - seen_tail_ + spare >= N) {
@@ -47,7 +48,7 @@ class SpscQueue {
   }
 
  private:
-  // Each thread writes cache lines of its own.
+  // Separate cache lines for the two threads.
   alignas(64) std::atomic<std::uint64_t> head_{0};
   std::uint64_t seen_tail_ = 0;
   alignas(64) std::atomic<std::uint64_t> tail_{0};

@@ -19,25 +19,24 @@ namespace fulmar::fcu {
 class ClockSync {
  public:
   static constexpr std::int64_t window_ns = 10'000'000'000;
-  static constexpr std::int64_t jump_ns = 10'000'000;         ///< more than that is another clock
-  static constexpr std::int64_t patience_ns = 1'000'000'000;  ///< an answer that takes longer is none
+  static constexpr std::int64_t jump_ns = 10'000'000;         ///< a larger jump is another clock
+  static constexpr std::int64_t patience_ns = 1'000'000'000;  ///< a later answer is ignored
   static constexpr double drift_limit = 500e-6;
-  static constexpr std::int64_t max_ns =
-      300'000'000'000'000'000;  ///< nothing runs for ten years: a stamp beyond is garbage
+  static constexpr std::int64_t max_ns = 300'000'000'000'000'000;  ///< stamps beyond ten years are invalid
 
   enum class Verdict : std::uint8_t { ignored, taken, jumped };
 
-  /// A question leaves now. Its time is its name.
+  /// Records the time of a request, which identifies it.
   void asked(std::int64_t now_ns) { questions_[question_count_++ % questions_.size()] = now_ns; }
 
-  /// TIMESYNC came. `jumped`: the clock is another one than before, and all is forgotten but this answer.
+  /// A TIMESYNC response. `jumped`: the clock has changed, and all samples before this one are dropped.
   Verdict answered(std::int64_t ts1, std::int64_t tc1, std::int64_t now_ns) {
     if (tc1 <= 0 || tc1 > max_ns || ts1 > now_ns || now_ns - ts1 > patience_ns || !was_asked(ts1))
       return Verdict::ignored;
     const Sample sample{now_ns, now_ns - ts1, ts1 + (now_ns - ts1) / 2 - tc1};
     const std::int64_t apart_ns = synchronised() ? beyond_bounds(sample) : 0;
     if (apart_ns > step_limit_ns) {
-      if (!confirms(sample)) {  // a single stamp may be garbage; two that agree with each other are a clock
+      if (!confirms(sample)) {  // a single stamp may be invalid; two that agree are a new clock
         suspect_ = sample;
         return Verdict::ignored;
       }
@@ -48,19 +47,19 @@ class ClockSync {
     return apart_ns > jump_ns ? Verdict::jumped : Verdict::taken;
   }
 
-  /// The controller has started anew: nothing that was known holds.
+  /// The controller has rebooted: drops all state.
   void restart() {
     restart_line();
     suspect_.reset();
     forget_questions();
   }
-  /// What was asked before the device went is not answered any more.
+  /// Requests from before the loss of the device get no answer.
   void forget_questions() { question_count_ = 0; }
 
   bool synchronised() const { return count_ > 0; }
   std::int64_t round_trip_ns() const { return min_ns_; }
   double drift_ppm() const { return slope_ * 1e6; }
-  /// Host time = controller's time + offset, for an event about now.
+  /// Host time = controller's time + offset, for a recent event.
   std::int64_t offset_ns(std::int64_t now_ns) const {
     const double t = static_cast<double>(now_ns - line_at_ns_);
     const double fading =
@@ -70,15 +69,15 @@ class ClockSync {
 
  private:
   static constexpr std::int64_t blend_ns =
-      1'000'000'000;  // a new line takes over gradually: stamps of neighbours keep their distance
-  static constexpr double snap_ns = 2e6;  // a worse error is not worth a smooth correction
+      1'000'000'000;  // a new line takes over gradually: intervals between stamps stay smooth
+  static constexpr double snap_ns = 2e6;  // a larger error is corrected at once
   static constexpr std::int64_t step_limit_ns =
-      2'000'000;  // bounds that are further apart than that are of two clocks
-  static constexpr double resolution_ns =
-      20e3;  // of the best message: what a scheduler does in a quiet moment
-  static constexpr double usual_drift = 100e-6;  // of two crystals; holds the line while its base is short
+      2'000'000;                                 // bounds that are further apart belong to two clocks
+  static constexpr double resolution_ns = 20e3;  // of the best message: scheduling delay on an idle system
+  // typical drift of two crystals; prior of the line while its base is short
+  static constexpr double usual_drift = 100e-6;
 
-  static constexpr std::size_t most = 128;  // a window's worth at 10 Hz
+  static constexpr std::size_t most = 128;  // length of the window at 10 Hz
 
   struct Sample {
     std::int64_t at_ns = 0, round_trip_ns = 0;
@@ -90,14 +89,13 @@ class ClockSync {
         static_cast<std::size_t>(std::min<std::uint64_t>(question_count_, questions_.size()));
     for (std::size_t i = 0; i < kept; ++i) {
       if (questions_[i] != ts1) continue;
-      questions_[i] = -1;  // an answer counts once
+      questions_[i] = -1;  // an answer counts only once
       return true;
     }
     return false;
   }
 
-  /// How far the bounds of this answer are from those of the line, more than the clocks can have drifted
-  /// apart since the last one.
+  /// Distance of this answer's bounds from those of the line, beyond the possible drift since the last one.
   std::int64_t beyond_bounds(const Sample& s) const {
     const std::int64_t distance =
         std::llabs(s.offset_ns - offset_ns(s.at_ns)) - s.round_trip_ns / 2 - min_ns_ / 2;
@@ -127,9 +125,9 @@ class ClockSync {
     bent_at_ns_ = sample.at_ns;
   }
 
-  /// One side of the bounds: y = a line of known slope through the tightest, x in ns before now.
+  /// One side of the bounds: a line of known slope through the tightest one, x in ns before now.
   struct Side {
-    double sign = 1;  // +1: the tightest is the least (answers), -1: the largest (questions)
+    double sign = 1;  // +1: the tightest is the smallest (answers), -1: the largest (requests)
     double w = 0, t = 0, y = 0, tightest = 0, resolution = 0;
   };
   double bound(const Sample& s, double sign) const {
@@ -150,7 +148,7 @@ class ClockSync {
     }
   }
 
-  /// The tightest bound, how sure that is, and the weighted mean, for the present slope.
+  /// The tightest bound, its confidence, and the weighted mean, for the present slope.
   Side look_at(double sign) const {
     Side side{sign};
     std::array<double, most> delays{};
@@ -162,7 +160,7 @@ class ClockSync {
     side.tightest = *std::min_element(begin, middle + 1);
     side.resolution =
         resolution_ns + 1.4 * (*middle - side.tightest) /
-                            static_cast<double>(n);  // what the least of n delays has above none
+                            static_cast<double>(n);  // expected excess of the smallest of n delays
     each([&](const Sample& s) {
       const double w = weight(s, side);
       side.w += w;
@@ -174,8 +172,8 @@ class ClockSync {
     return side;
   }
 
-  /// Least squares over both sides with a common slope and a prior on it. The weights depend on the slope:
-  /// twice.
+  /// Least squares over both sides with a common slope and a prior on it. The weights depend on the slope, so
+  /// there are two passes.
   void fit(std::int64_t now_ns) {
     min_ns_ = newest().round_trip_ns;
     each([&](const Sample& s) { min_ns_ = std::min(min_ns_, s.round_trip_ns); });
@@ -207,16 +205,16 @@ class ClockSync {
   double slope_ = 0, step_ns_ = 0;
 };
 
-/// Dates packets: their stamps, of several resolutions, in host time.
+/// Converts stamps of packets, of several resolutions, to host time.
 class Dater {
  public:
   ClockSync clock;
 
-  /// TIMESYNC came. `jumped`: the controller's clock was put back, as a reboot does. One that leaps forward
-  /// is followed.
+  /// A TIMESYNC response. `jumped`: the controller's clock was set back, as by a reboot. A forward jump is
+  /// followed.
   ClockSync::Verdict answered(std::int64_t ts1, std::int64_t tc1, std::int64_t now_ns) {
-    // An inertial sample was stamped before it came. A clock that is further behind was read too early: a
-    // controller in simulation that was held up has not rebooted.
+    // An inertial sample was stamped before its arrival. An older clock was read too early: a paused
+    // controller in simulation has not rebooted.
     if (imu_bound_.known(now_ns) && ts1 - tc1 > imu_bound_.ns() + ClockSync::jump_ns)
       return ClockSync::Verdict::ignored;
     const std::int64_t before_ns = clock.synchronised() ? clock.offset_ns(now_ns) : 0;
@@ -226,14 +224,14 @@ class Dater {
     return clock.offset_ns(now_ns) > before_ns ? verdict : ClockSync::Verdict::taken;
   }
 
-  /// Of a stamp in us on the controller's clock. Never after the arrival and never 1 s before it: then the
-  /// arrival counts, `undated` too.
+  /// Converts a stamp in us of the controller's clock. The result is not after the arrival and not 1 s before
+  /// it: else the arrival is used and `undated` is set.
   std::int64_t date_us(std::uint64_t stamp_us, std::int64_t arrived_ns) {
     return date(stamp_us, 1000, 0, arrived_ns);
   }
 
-  /// Of a stamp cut to whole ms, of which the lowest 32 bits may be all there is: they wrap after 49.7 days.
-  /// The middle of that ms.
+  /// Converts a stamp cut to whole ms, perhaps to its lowest 32 bits, which wrap after 49.7 days. The result
+  /// is the middle of that ms.
   std::int64_t date_ms32(std::uint32_t stamp_ms, std::int64_t arrived_ns) {
     if (!clock.synchronised()) return arrived_ns;
     const std::int64_t about_ms = (arrived_ns - clock.offset_ns(arrived_ns)) / 1'000'000;
@@ -244,7 +242,7 @@ class Dater {
     return date(stamp_ms, 1'000'000, 500'000, arrived_ns);
   }
 
-  /// Of an inertial sample: strictly increasing. Arrivals must be.
+  /// Converts the stamp of an inertial sample: strictly increasing, as arrivals must be.
   std::int64_t date_imu(std::uint64_t stamp_us, std::int64_t arrived_ns) {
     if (stamp_us < static_cast<std::uint64_t>(ClockSync::max_ns / 1000))
       imu_bound_.take(arrived_ns - static_cast<std::int64_t>(stamp_us) * 1000, arrived_ns);
@@ -252,8 +250,8 @@ class Dater {
     return last_imu_ns_;
   }
 
-  /// Looks at each stamp of an inertial sample. True when the controller's clock has begun anew: two in a row
-  /// that lie before the newest.
+  /// Checks each stamp of an inertial sample. Returns true when the controller's clock has restarted: two
+  /// stamps in a row are before the newest.
   bool started_anew(std::uint64_t stamp_us) {
     const bool back = stamp_us + static_cast<std::uint64_t>(ClockSync::jump_ns) / 1000 < newest_us_;
     const bool twice = back && earlier_us_ && stamp_us >= *earlier_us_;
@@ -267,7 +265,7 @@ class Dater {
     return twice;
   }
 
-  /// After a reboot that something else than these stamps has shown.
+  /// For a reboot that was not detected by these stamps.
   void forget_stamps() {
     newest_us_ = 0;
     earlier_us_.reset();
@@ -278,7 +276,7 @@ class Dater {
  private:
   static constexpr std::int64_t oldest_ns = 1'000'000'000, tolerance_ns = 2'000'000;
 
-  /// What host time - controller's time can be at most, of the samples of the last second or so.
+  /// Upper bound of host time - controller's time, from the samples of the last second.
   class Bound {
    public:
     void take(std::int64_t bound_ns, std::int64_t arrived_ns) {
@@ -290,7 +288,7 @@ class Dater {
         begun_ns_ = arrived_ns;
       }
     }
-    /// Not after a while without samples: then the answers alone count.
+    /// False after a time without samples: then only the responses are used.
     bool known(std::int64_t at_ns) const { return at_ns - begun_ns_ < patience_ns; }
     std::int64_t ns() const { return std::min(now_ns_, before_ns_); }
 

@@ -16,7 +16,7 @@ namespace {
 
 using boost::asio::ip::udp;
 
-constexpr unsigned short companion_port = 14520;  // where firmware in simulation sends to
+constexpr unsigned short companion_port = 14520;  // destination port of firmware in simulation
 
 struct Address {
   std::string remote;
@@ -48,7 +48,7 @@ Address parse(const std::string& where) {
   return out;
 }
 
-/// Numbers alone: asking for a name may take longer than anybody waits.
+/// Numeric addresses only: a name lookup may take too long.
 udp::endpoint endpoint(const Address& address, const std::string& where) {
   boost::system::error_code fault;
   const std::string number = address.remote == "localhost" ? "127.0.0.1" : address.remote;
@@ -62,7 +62,7 @@ udp::endpoint endpoint(const Address& address, const std::string& where) {
 UdpPort::UdpPort(boost::asio::io_context& io, const std::string& where) : socket_(io) {
   const Address address = parse(where);
   const udp::endpoint remote = endpoint(address, where);
-  // What comes from this machine is expected on it alone.
+  // For a remote on this machine the local socket is bound to the loopback interface.
   const udp::endpoint local(remote.address().is_loopback()
                                 ? remote.address()
                                 : boost::asio::ip::address(boost::asio::ip::address_v4::any()),
@@ -74,7 +74,7 @@ UdpPort::UdpPort(boost::asio::io_context& io, const std::string& where) : socket
   if (fault == boost::asio::error::address_in_use) {
     throw PortError(port_messages::udp_port_in_use(address.local_port, address.remote, address.remote_port));
   }
-  if (!fault) socket_.connect(remote, fault);  // then others are not heard
+  if (!fault) socket_.connect(remote, fault);  // packets of other senders are then ignored
   if (fault) throw PortError(port_messages::device_not_openable(where, fault.message()));
   descriptor_ = socket_.native_handle();
 }
@@ -83,12 +83,13 @@ std::size_t UdpPort::read(std::span<std::uint8_t> room, int timeout_ms) {
   pollfd one{descriptor_, POLLIN, 0};
   if (poll(&one, 1, timeout_ms) <= 0) return 0;
   const ssize_t n =
-      recv(descriptor_, room.data(), room.size(), MSG_DONTWAIT);  // a refused connection: nobody is there yet
+      // connection refused: the remote is not there yet
+      recv(descriptor_, room.data(), room.size(), MSG_DONTWAIT);
   return n > 0 ? static_cast<std::size_t>(n) : 0;
 }
 
 bool UdpPort::write(std::span<const std::uint8_t> bytes) noexcept {
-  for (int attempt = 0; attempt < 2; ++attempt) {  // the first may report that the one before found nobody
+  for (int attempt = 0; attempt < 2; ++attempt) {  // the first call may report the error of the one before
     if (send(descriptor_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL) >= 0) return true;
     if (errno != ECONNREFUSED) return false;
   }

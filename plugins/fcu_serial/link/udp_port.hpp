@@ -10,7 +10,7 @@ namespace fulmar::fcu {
 
 class UdpPort final : public Port {
  public:
-  /// `where` as Port::open takes it, "udp:" included.
+  /// `where` as in Port::open, "udp:" included.
   UdpPort(boost::asio::io_context& io, const std::string& where);
 
   std::size_t read(std::span<std::uint8_t> room, int timeout_ms) override;

@@ -18,14 +18,14 @@ class WatchList {
     for (const std::string& name : names) entries_.push_back({name, never, false});
   }
 
-  /// The controller may have another value of each.
+  /// Reads all values again.
   void restart() {
     for (Entry& e : entries_) e = {e.name, never, false};
   }
   void answered(std::string_view name) {
     for (Entry& e : entries_) e.answered |= e.name == name;
   }
-  /// The name to ask for now, the one that has waited longest; empty when there is none.
+  /// The name to request now, the one that has waited longest; empty for none.
   std::string_view next(std::int64_t now_ns) {
     Entry* longest = nullptr;
     int in_flight = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An airframe out of its YAML file, as the host reads it. The one part of the model that is not header-only:
-// it needs lib/libfulmar_sim.so, which the CMake target fulmar::sim links.
+// An airframe from its YAML file, as the host reads it. The only part of the model with a library:
+// lib/libfulmar_sim.so, which the CMake target fulmar::sim links.
 #pragma once
 #include <cstddef>
 #include <stdexcept>

@@ -12,7 +12,7 @@
 
 namespace fulmar::sim {
 
-/// A field of the airframe, "gear.contacts", and a sentence about it; both empty when all is well.
+/// Field of the airframe, "gear.contacts", and a sentence; both empty without a fault.
 struct AirframeFault {
   std::string field, sentence;
   explicit operator bool() const { return !sentence.empty(); }
@@ -32,8 +32,8 @@ inline std::string item(const char* list, std::size_t i, const char* field) {
   return std::string(list) + "[" + std::to_string(i) + "]." + field;
 }
 
-/// Whether the centre of gravity is between the contacts: some weights of at least 0 that sum to 1 balance
-/// it. It is not, when a line through it has all contacts on one side.
+/// True if the centre of gravity is outside the contacts. It is inside if some weights of at least 0 that sum
+/// to 1 balance it; outside, a line through it has all contacts on one side.
 inline bool beside_contacts(const Gear& gear) {
   for (const GearContact& edge : gear.contacts) {
     bool left = false, right = false;
@@ -48,7 +48,7 @@ inline bool beside_contacts(const Gear& gear) {
   return false;
 }
 
-/// Twice the largest area that three contacts span, seen from above.
+/// Twice the largest horizontal area between three contacts.
 inline double spanned(const Gear& gear) {
   double most = 0;
   for (const GearContact& a : gear.contacts)
@@ -59,7 +59,7 @@ inline double spanned(const Gear& gear) {
   return most;
 }
 
-/// Where all contacts are as seen from the centre of gravity, for a message.
+/// Position of all contacts relative to the centre of gravity, for a message.
 inline std::string where_contacts_are(const Gear& gear) {
   const auto all = [&](auto&& is) { return std::all_of(gear.contacts.begin(), gear.contacts.end(), is); };
   if (all([](const GearContact& c) { return c.at_m.x < 0; })) return "behind";
@@ -69,8 +69,8 @@ inline std::string where_contacts_are(const Gear& gear) {
   return "on one side of";
 }
 
-/// Contacts, where there are any: at least three, not on one line, around the centre of gravity, with shares
-/// that sum to 1.
+/// Contacts, if any: at least three, not on one line, around the centre of gravity, with shares that sum to
+/// 1.
 inline AirframeFault gear_fault(const Airframe& a) {
   const Gear& gear = a.gear;
   const std::size_t n = gear.contacts.size();
@@ -94,7 +94,7 @@ inline AirframeFault surface_fault(const char* name, const Surface& s) {
           sim_messages::servo_fixed(short_number(at.min), short_number(at.max))};
 }
 
-/// Propellers with a share of the rudder: beside the plane of symmetry, with a rudder that has a throw.
+/// Propellers with a share of the rudder: away from the plane of symmetry, with a rudder that has a throw.
 inline AirframeFault propeller_fault(const Airframe& a) {
   for (std::size_t i = 0; i < a.propulsion.propellers.size(); ++i) {
     const PropellerPlace& p = a.propulsion.propellers[i];
@@ -106,7 +106,7 @@ inline AirframeFault propeller_fault(const Airframe& a) {
   return {};
 }
 
-/// Voltages and discharge curve: lists of equal size, rising, that begin with the full battery.
+/// Voltages and discharge curve: lists of equal size, rising, from the full battery.
 inline AirframeFault battery_fault(const Propulsion& p) {
   const Battery& b = p.pack;
   const BatteryCurve& c = b.curve;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Many aircraft, stepped in one call by several threads. Arrays are row-major, one row an aircraft: actions N
-// x 4, rows N x 26 (simulation.hpp). Aircraft are independent, so the number of threads changes no bit of the
+// Many aircraft, stepped in one call by several threads. Arrays are row-major, one row per aircraft: actions
+// N x 4, rows N x 26 (simulation.hpp). Aircraft are independent: the number of threads changes no bit of the
 // result.
 #pragma once
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace fulmar::sim {
 /// Many simulations in one call. Throws std::invalid_argument for wrong sizes, actions or steps.
 class Batch {
  public:
-  /// Aircraft `i` has the seed mix_seed(seed, i). `threads` is one or more, the caller's own among them.
+  /// Aircraft `i` has the seed mix_seed(seed, i). `threads` is at least 1, and includes the calling thread.
   Batch(const Airframe& a, std::size_t count, const SimulationOptions& options = {}, std::uint64_t seed = 1,
         unsigned threads = 1) {
     if (count == 0) throw std::invalid_argument(sim_messages::batch_empty().line());
@@ -34,7 +34,7 @@ class Batch {
     for (std::size_t i = 0; i < count; ++i) all_.emplace_back(a, options, mix_seed(seed, i));
     try {
       for (unsigned t = 1; t < threads; ++t) helpers_.emplace_back([this, t] { help(t); });
-    } catch (...) {  // the system gives no more threads: those that run already have to end
+    } catch (...) {  // no more threads available: the running ones must end
       join();
       throw;
     }
@@ -47,7 +47,7 @@ class Batch {
   Simulation& operator[](std::size_t i) { return all_[i]; }
   const Simulation& operator[](std::size_t i) const { return all_[i]; }
 
-  /// `steps` steps of `dt_s` with these actions, then the rows. Nothing has moved when it throws.
+  /// `steps` steps of `dt_s` with these actions, then the rows. If it throws, no aircraft has moved.
   void step(std::span<const double> actions, double dt_s, unsigned steps, std::span<double> rows) {
     demand(actions.size(), action_columns, "actions");
     demand(rows.size(), row_columns, "rows");
@@ -97,7 +97,7 @@ class Batch {
           located(what, sim_messages::number_count_invalid(all_.size(), columns, found)).line());
   }
 
-  /// The part of thread `t`: one piece, so that two threads do not write into one cache line but at its ends.
+  /// The part of thread `t`: contiguous, so that two threads share a cache line only at its ends.
   void share(std::size_t t) {
     const std::size_t threads = helpers_.size() + 1, n = all_.size();
     for (std::size_t i = n * t / threads; i < n * (t + 1) / threads; ++i) {

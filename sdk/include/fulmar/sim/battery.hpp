@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A battery: its voltage without load falls with the charge that was taken, by a line or a curve. The loss
-// under load is in propulsion.hpp, where motor and battery are in balance.
+// A battery: its open-circuit voltage falls with the charge taken, by a line or a curve. The loss under load
+// is in propulsion.hpp, in the balance of motor and battery.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -9,18 +9,18 @@
 
 namespace fulmar::sim {
 
-/// Charge taken from a battery, and its voltage without load. It never drains without a capacity.
+/// Charge taken from a battery, and its open-circuit voltage. Without a capacity it never drains.
 class BatteryState {
  public:
   explicit BatteryState(const Propulsion& p) : full_volt_(p.battery_volt), battery_(p.pack) {}
 
-  /// Whether it has an end.
+  /// True if the capacity is limited.
   bool drains() const { return battery_.capacity_ah > 0; }
   void drain(double amp, double dt) { used_as_ += amp * dt; }
   double used_ah() const { return used_as_ / 3600; }
   bool empty() const { return drains() && used_ah() >= battery_.capacity_ah; }
 
-  /// Without load.
+  /// Open-circuit voltage, V.
   double open_volt() const {
     if (!drains()) return full_volt_;
     const double used = std::min(1.0, used_ah() / battery_.capacity_ah);

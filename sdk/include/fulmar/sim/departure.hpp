@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motions that are no flight of the model any more.
+// Motions beyond the validity of the model.
 #pragma once
 #include <Eigen/Core>
 #include <cmath>
@@ -13,25 +13,25 @@
 
 namespace fulmar::sim {
 
-/// Why the plant's state is no flight of this aircraft any more.
+/// Reason for a state beyond the model.
 enum class Departure : std::uint8_t {
   none,
-  diverged,      ///< not finite, or faster than anything that flies
+  diverged,      ///< not finite, or faster than any aircraft
   beyond_alpha,  ///< angle of attack beyond the airframe's tables
   beyond_beta,   ///< sideslip beyond the airframe's tables
 };
 
-/// Written so that NaN counts as diverged.
+/// True also for NaN.
 inline bool diverged(const RigidBody& x) {
   constexpr double fastest = 1e5, farthest = 1e8;  // m/s and rad/s; m
   return !(x.v_n.squaredNorm() + x.omega_b.squaredNorm() < fastest * fastest &&
            x.p_n.squaredNorm() < farthest * farthest);
 }
 
-/// Below this airspeed, m/s, the flow has no angles worth a table.
+/// Below this airspeed, m/s, flow angles are not compared with the tables.
 inline constexpr double min_table_speed = 3;
 
-/// Whether the flow `v_r` is beyond the tables of an aerodynamic model, if it has some.
+/// True if the flow `v_r` is beyond the tables of an aerodynamic model.
 template <class Model>
 Departure beyond_tables(const Model& model, const Eigen::Vector3d& v_r) {
   if constexpr (requires { model.alpha_range().holds(0.0) && model.beta_range().holds(0.0); }) {
@@ -45,7 +45,7 @@ Departure beyond_tables(const Model& model, const Eigen::Vector3d& v_r) {
   return Departure::none;
 }
 
-/// "which end at -10 and 20 deg", of the tables that a flow is beyond.
+/// "which end at -10 and 20 deg", for the tables that the flow exceeds.
 template <class Model>
 std::string table_ends(const Model& model, Departure d) {
   std::string text;

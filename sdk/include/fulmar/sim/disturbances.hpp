@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motion of the air beside the steady wind: Dryden turbulence, a discrete gust, thermals.
+// Motion of the air in addition to the steady wind: Dryden turbulence, a discrete gust, thermals.
 #pragma once
 #include <Eigen/Core>
 #include <cmath>
@@ -28,21 +28,21 @@ class Disturbances {
         rotates_(w.turbulence != Turbulence::none && w.gust_span_m > 0),
         by_height_(w.turbulence != Turbulence::none && w.turbulence_height == TurbulenceHeight::actual) {}
 
-  /// True when it depends on the place of the aircraft.
+  /// True if it depends on the place of the aircraft.
   bool of_place() const { return by_height_ || gust_.active() || updrafts_.any(); }
   void fire(const GustSpec& gust) { gust_.fire(gust); }
 
-  /// Velocity of the air in body axes, after `dt` more at airspeed `Va`, where the place does not count.
+  /// Velocity of the air in body axes, after another `dt` at airspeed `Va`, if the place has no effect.
   Eigen::Vector3d advance(double dt, double Va) { return dryden_.advance(dt, passing(Va)); }
 
-  /// Does the air turn as well?
+  /// True if the air also rotates.
   bool rotates() const { return rotates_; }
-  /// Its angular velocity in body axes, rad/s, after the `advance` of the same `dt` and `Va`.
+  /// Angular velocity of the air in body axes, rad/s, after the `advance` with the same `dt` and `Va`.
   [[gnu::noinline]] Eigen::Vector3d rotation(double dt, double Va) {
     return rotation_.advance(dt, passing(Va), dryden_.gust(), dryden_.scales());
   }
 
-  /// Where it does: at `x` as seen from the ground below, `height_m` above it.
+  /// The same if the place has an effect: at `x` relative to the ground below, `height_m` above it.
   [[gnu::noinline]] Eigen::Vector3d advance_at(double dt, double Va, const RigidBody& x, double height_m,
                                                const Eigen::Vector3d& steady_wind_n) {
     if (by_height_) follow(height_m);
@@ -54,7 +54,7 @@ class Disturbances {
 
  private:
   static constexpr std::uint64_t rotation_stream =
-      0x726f7461746573;  ///< gusts along the axes stay as they are
+      0x726f7461746573;  ///< separate seed: gusts along the axes stay unchanged
 
   static DrydenScales fixed_scales(const Weather& w) {
     return w.fixed_height_m > 0 ? dryden_scales_at(w.turbulence, w.fixed_height_m, w.wind_20ft_mps)
@@ -62,8 +62,8 @@ class Disturbances {
   }
   double passing(double Va) const { return gust_airspeed_mps_ > 0 ? gust_airspeed_mps_ : Va; }
 
-  /// Lengths and standard deviations follow the height in steps of 1 %: to discretise the filters costs more
-  /// than to advance them.
+  /// Lengths and standard deviations follow the height in steps of 1 %, because the discretisation of the
+  /// filters costs more than their step.
   void follow(double height_m) {
     constexpr double lowest_m = mil8785c::lowest_ft * mil8785c::foot;
     const double h = std::max(height_m, lowest_m);

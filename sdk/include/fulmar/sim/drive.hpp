@@ -30,13 +30,13 @@ class Drive {
   void trail_at(double angle) { trailing_ = angle; }
 
  private:
-  /// A function of its own, so that a surface without fault does not pay for it.
+  /// A separate function, so that a surface without a fault has no additional cost.
   [[gnu::noinline]] void fail(double command, double dt) {
     switch (kind_) {
       case FaultKind::stuck: return;
       case FaultKind::hardover_positive: return servo_.advance(servo_.max(), dt);
       case FaultKind::hardover_negative: return servo_.advance(servo_.min(), dt);
-      case FaultKind::slow: return servo_.advance(command, speed_ * dt);  // slower time
+      case FaultKind::slow: return servo_.advance(command, speed_ * dt);  // slows down time
       case FaultKind::free: return servo_.advance(trailing_, dt);
       default: servo_.advance(command, dt);
     }
@@ -47,13 +47,13 @@ class Drive {
   double speed_ = 1, trailing_ = 0;
 };
 
-/// Where surfaces float that nothing holds: no hinge moment, Ch_alpha alpha + Ch_delta delta = 0, so each
-/// trails its local flow by Ch_alpha / Ch_delta of its angle (Etkin & Reid, Dynamics of Flight, 3rd edition,
-/// 2.5, 2.6: the free elevator). 0.5, a plain flap without balance, is an assumption. Tail and fin are taken
-/// to be in the flow of the centre of gravity; the ailerons, which are linked, are moved by rolling alone.
+/// Free floating surfaces, rad: zero hinge moment, Ch_alpha alpha + Ch_delta delta = 0, so each trails its
+/// local flow by Ch_alpha / Ch_delta of its angle (Etkin & Reid, Dynamics of Flight, 3rd edition, 2.5, 2.6:
+/// the free elevator). 0.5, a plain flap without balance, is an assumption. Assumption: tail and fin have the
+/// flow of the centre of gravity; the ailerons, which are linked, react to rolling alone.
 inline Deflections trailing(const Eigen::Vector3d& v_r, const Eigen::Vector3d& omega_b, double span_m) {
   constexpr double Ch_ratio = 0.5;
-  constexpr double aileron_place = 0.35;  ///< of the span from the middle
+  constexpr double aileron_place = 0.35;  ///< of the span, from the middle
   const AirData air(v_r);
   if (air.Va < 1) return {};
   return {Ch_ratio * aileron_place * span_m * omega_b.x() / air.Va, -Ch_ratio * air.alpha,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The legs of an aircraft: from its size, or its contact points; and how it stands on them.
+// The legs of an aircraft, from its size or its contact points, and its attitude at rest on them.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,12 +17,12 @@ namespace fulmar::sim {
 
 /// One leg: a spring and damper at its foot, body axes, m from the centre of gravity.
 struct Leg {
-  Eigen::Vector3d r_b = Eigen::Vector3d::Zero();  ///< of its foot, unloaded
-  double k = 0, c = 0;                            ///< N/m, N s/m: vertical
-  double k_t = 0, c_t = 0;                        ///< along the ground, while it does not slip
-  double rolling = 0;                             ///< friction along its heading
-  bool skid = false;                              ///< `rolling` is its friction in every direction
-  const char* part = "";                          ///< its name in reports
+  Eigen::Vector3d r_b = Eigen::Vector3d::Zero();  ///< foot, unloaded
+  double k = 0, c = 0;                            ///< stiffness and damping, vertical, N/m, N s/m
+  double k_t = 0, c_t = 0;                        ///< the same along the ground, while sticking
+  double rolling = 0;                             ///< friction along the heading
+  bool skid = false;                              ///< true: `rolling` is the friction in every direction
+  const char* part = "";                          ///< name in reports
   Eigen::Vector2d bristle = Eigen::Vector2d::Zero();
   bool down = false;
 };
@@ -38,7 +38,7 @@ inline const char* leg_part(const Eigen::Vector3d& r_b, bool skid) {
   return front ? "right front skid" : "right rear skid";
 }
 
-/// The same of a point of the hull.
+/// Name of a point of the hull at `r_b`.
 inline const char* hull_part(const Eigen::Vector3d& r_b, double span_m) {
   const double y = r_b.y() / span_m;
   if (std::abs(y) > 0.35) return y < 0 ? "left wing tip" : "right wing tip";
@@ -47,14 +47,14 @@ inline const char* hull_part(const Eigen::Vector3d& r_b, double span_m) {
   return r_b.z() < 0 ? "back" : "belly";
 }
 
-/// On flat ground at rest: height of the centre of gravity and attitude without heading.
+/// Rest on flat ground: height of the centre of gravity, and attitude without heading.
 struct Standing {
   bool found = false;
   double height_m = 0;
   Eigen::Quaterniond tilt = Eigen::Quaterniond::Identity();
 };
 
-/// Legs and hull points of an airframe, and how it stands on them. Body axes, m.
+/// Legs and hull points of an airframe, and its attitude at rest. Body axes, m.
 class Legs {
  public:
   /// `friction`: factor on the airframe's friction.
@@ -70,26 +70,26 @@ class Legs {
 
   std::span<Leg> legs() { return {legs_.data(), legs_count_}; }
   std::span<const Leg> legs() const { return {legs_.data(), legs_count_}; }
-  /// Where it touches, it breaks.
+  /// Points that break on contact.
   std::span<const Eigen::Vector3d> hull() const { return {hull_.data(), hull_count_}; }
   const char* hull_part(std::size_t i) const { return sim::hull_part(hull_[i], span_); }
   double reach() const { return reach_; }
   const Standing& standing() const { return standing_; }
 
  private:
-  static constexpr double sag = 0.01;         ///< m: of the gear under the weight; sets the stiffness
-  static constexpr double damping = 0.7;      ///< of the aircraft bouncing on its gear, part of critical
-  static constexpr double nose_share = 0.15;  ///< of the weight on the nose wheel
+  static constexpr double sag = 0.01;     ///< m, deflection of the gear under the weight; sets the stiffness
+  static constexpr double damping = 0.7;  ///< damping ratio of the bounce on the gear
+  static constexpr double nose_share = 0.15;         ///< share of the weight on the nose wheel
   static constexpr double tail_strike_pitch = 0.28;  ///< rad
   static constexpr double tip_rise =
-      0.05;  ///< height of the wing tips above the centre of gravity, of the span
+      0.05;  ///< height of the wing tips above the centre of gravity, share of the span
 
   /// Nose wheel, main wheels, tail skid.
   void derive(const Airframe& a) {
     const double rolling = a.gear.rolling_friction_ratio, sliding = a.gear.side_friction_ratio;
     const double L = a.gear.length_m, h = a.gear.height_m + sag, y = a.gear.track_m / 2;
     const double tail_z = h - (1 - nose_share) * L * std::tan(tail_strike_pitch);
-    // A nose wheel that carries little lets the elevator lift it before the wing carries all.
+    // With a small load on the nose wheel, the elevator lifts it before the wing carries the weight.
     add({(1 - nose_share) * L, 0, h}, nose_share * weight_, rolling);
     add({-nose_share * L, -y, h}, (1 - nose_share) / 2 * weight_, rolling);
     add({-nose_share * L, y, h}, (1 - nose_share) / 2 * weight_, rolling);
@@ -115,7 +115,7 @@ class Legs {
     for (const Vec3<Body>& r : a.gear.hull_m) hull_[hull_count_++] = eigen(r);
   }
 
-  /// Wing tips, nose, top.
+  /// Wing tips, nose and top as points that break.
   void break_at_tips(const Airframe& a, double nose) {
     const double tip_z = -tip_rise * a.wing.span_m;
     hull_ = {Eigen::Vector3d(0, -a.wing.span_m / 2, tip_z), Eigen::Vector3d(0, a.wing.span_m / 2, tip_z),
@@ -134,7 +134,7 @@ class Legs {
     l.rolling = friction_ * rolling;
   }
 
-  /// Least energy of weight and springs over height, pitch and roll, by Newton's method with Levenberg's
+  /// Minimum energy of weight and springs over height, pitch and roll, by Newton's method with Levenberg's
   /// damping.
   Standing find_standing() const;
   struct Slopes {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flat ground and the gear on it: nose wheel, two main wheels, tail skid, or the airframe's contact points.
-// Each is a spring and damper along the vertical; friction is a bristle that stretches before it slips
-// (Dahl/LuGre without the Stribeck part), so an aircraft at rest does not creep.
+// Flat ground and the gear: nose wheel, two main wheels, tail skid, or the contact points of the airframe.
+// Each is a vertical spring and damper. Friction is a bristle that stretches before it slips (Dahl/LuGre
+// without the Stribeck part), so that an aircraft at rest does not creep.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -23,7 +23,7 @@ class Ground {
   explicit Ground(const Airframe& a, double friction = 1)
       : legs_(a, friction), sliding_(friction * a.gear.side_friction_ratio) {}
 
-  /// Too high for anything to touch.
+  /// True if the aircraft is too high for any contact.
   bool clear(const RigidBody& x) const { return -x.p_n.z() > legs_.reach(); }
 
   /// Adds the load of the gear at state `x`.
@@ -45,14 +45,14 @@ class Ground {
     }
   }
 
-  /// Set down on its wheels, at rest.
+  /// Sets the aircraft on its wheels, at rest.
   void stand() {
     touching_ = true;
     air_s_ = 0;
     for (auto& l : legs_.legs()) l.down = true;
   }
 
-  /// After each step: bristles follow, touch-downs are judged.
+  /// Call after each step: updates bristles, and detects touch-downs.
   void advance(const RigidBody& x, double dt) {
     air_s_ = touching_ ? 0 : air_s_ + dt;
     touching_ = false;
@@ -83,11 +83,11 @@ class Ground {
     break_hull(x, R);
   }
 
-  /// At rest on it.
+  /// Attitude at rest.
   const Standing& standing() const { return legs_.standing(); }
   bool touching() const { return touching_; }
   bool crashed() const { return crashed_; }
-  /// Number of touch-downs, the contact that broke included, and the part that touched last.
+  /// Number of touch-downs, including the contact that broke, and the part with the last one.
   std::uint32_t touches() const { return touches_; }
   const char* touched_part() const { return part_; }
 
@@ -98,7 +98,7 @@ class Ground {
   struct Contact {
     double depth = 0, sink = 0, normal = 0;
     Eigen::Vector2d velocity =
-        Eigen::Vector2d::Zero();  ///< over the ground, along the heading and to its right
+        Eigen::Vector2d::Zero();  ///< velocity over the ground, along the heading and to its right
   };
 
   void note(const char* part) {
@@ -119,7 +119,7 @@ class Ground {
     }
   }
 
-  /// Limits a force, or the bristle behind it, by friction. A skid has no heading.
+  /// Limits a force, or its bristle, by friction. A skid has no heading.
   static void hold(const Leg& l, double max_along, double max_across, double& along, double& across) {
     if (!l.skid) {
       along = std::clamp(along, -max_along, max_along);
@@ -150,7 +150,7 @@ class Ground {
   Legs legs_;
   double sliding_;
   bool touching_ = false, crashed_ = false;
-  double air_s_ = shortest_flight;  ///< since something touched
+  double air_s_ = shortest_flight;  ///< time since the last contact
   std::uint32_t touches_ = 0;
   const char* part_ = "";
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motors at speeds of their own, because some have a share of the rudder's command. With a sagging battery
+// Motors with different speeds, because some have a share of the rudder command. With a battery under load,
 // each has the loss that it would have if all had its throttle.
 #pragma once
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace fulmar::sim {
 /// Speeds of all motors, rad/s, over one step of the plant.
 class Motors {
  public:
-  /// In balance.
+  /// Sets the speeds in balance.
   void set(const Propellers& places, const Propeller& p, const Trim& trim, double Va, double rho) {
     command(places, p, 1, trim.throttle_frac, trim.deflections.rudder, Va, rho);
     for (Speeds& s : speeds_) s = steady_;
@@ -23,7 +23,7 @@ class Motors {
     for (Speeds& s : speeds_) s.fill(radps);
   }
 
-  /// For the step to come. `power` is the part of the voltage that reaches the motors.
+  /// Commands for the next step. `power` is the fraction of the voltage at the motors.
   void command(const Propellers& places, const Propeller& p, double power, double throttle, double rudder,
                double Va, double rho) {
     before_ = speeds_[1];
@@ -32,7 +32,7 @@ class Motors {
       steady_[i] = p.steady_speed(throttle_[i], Va, rho);
     }
   }
-  /// To the middle of the step, and from there to its end. `decay` is that of the motors' lag.
+  /// Advances to the middle of the step, and from there to its end. `decay` is that of the motors' lag.
   void advance(const Propellers& places, std::size_t stage, double decay) {
     const Speeds& from = speeds_[1 - stage];
     for (std::size_t i = 0; i < places.count(); ++i)
@@ -45,7 +45,7 @@ class Motors {
       places.add_one<double>(i, p.thrust(Omega, Va, rho), p.torque(Omega, Va, rho), load);
     }
   }
-  /// Out of the battery, A.
+  /// Battery current, A.
   double current(const Propellers& places, const Propeller& p) const {
     double sum = 0;
     for (std::size_t i = 0; i < places.count(); ++i)
@@ -54,11 +54,11 @@ class Motors {
   }
   double speed(std::size_t i) const { return speeds_[1][i]; }
 
-  /// Sum of the speeds about the axes, rad/s: of the middle of the step, or its end.
+  /// Sum of the speeds about the axes, rad/s: in the middle of the step, or at its end.
   Eigen::Vector3d spin(const Propellers& places, std::size_t stage) const {
     return sum(places, [&](std::size_t i) { return speeds_[stage][i]; });
   }
-  /// Its rate there, by the motors' lag `tau`; without lag evenly over the step. rad/s2.
+  /// Rate of that sum, rad/s2, by the motors' lag `tau`; without a lag constant over the step.
   Eigen::Vector3d gain(const Propellers& places, std::size_t stage, double tau, double dt) const {
     return rate(places, speeds_[stage], tau, dt);
   }

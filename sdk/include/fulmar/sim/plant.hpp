@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The aircraft in its air: servos, motor, aerodynamics, turbulence and ground around a rigid body. Beard &
+// The simulated aircraft: servos, motor, aerodynamics, turbulence and ground around a rigid body. Beard &
 // McLain, chapters 3 and 4.
 #pragma once
 #include <Eigen/Core>
@@ -29,20 +29,20 @@ namespace fulmar::sim {
 /// Earth model: flat ground and constant gravity, flat ground and gravity by latitude and height, or the
 /// rotating ellipsoid.
 enum class EarthModel : std::uint8_t { flat, gravity, wgs84 };
-/// The ground at the aircraft's feet, not with the turning ellipsoid.
+/// Ground below the aircraft; not for the rotating ellipsoid.
 struct Terrain {
-  double slope_rad = 0, rises_towards_rad = 0;  ///< of the plane through the origin
-  double friction_ratio = 1;                    ///< of gear and ground, times the airframe's
-  bool ground_effect = false;                   ///< less induced drag close to it
+  double slope_rad = 0, rises_towards_rad = 0;  ///< slope of the plane through the origin
+  double friction_ratio = 1;                    ///< factor on the friction of the airframe
+  bool ground_effect = false;                   ///< reduced induced drag near the ground
 };
 struct Earth {  ///< the Earth below the aircraft
   EarthModel model = EarthModel::flat;
-  double lat_rad = 0, lon_rad = 0;  ///< of the origin
+  double lat_rad = 0, lon_rad = 0;  ///< position of the origin
   Terrain terrain{};
 };
 
-/// The last touch-down, or the contact that broke the aircraft: the part, and the state at that moment,
-/// velocity and attitude relative to the ground, the position in the frame of the origin.
+/// The last touch-down, or the contact that broke the aircraft: the part, and the state at that time.
+/// Velocity and attitude are relative to the ground, the position is in the frame of the origin.
 struct Touch {
   std::uint32_t count = 0;  ///< 0: none yet
   const char* part = "";
@@ -73,10 +73,10 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     stand(0, 0, 0);
   }
 
-  /// At rest on the ground.
+  /// Sets the aircraft at rest on the ground.
   void stand(double north_m, double east_m, double heading_rad) {
     x_ = RigidBody{};
-    begin_anew();
+    clear_events();
     const Standing& at = ground_.standing();
     x_.p_n = {north_m, east_m, -at.height_m};
     x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ());
@@ -87,7 +87,7 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     refresh();
   }
 
-  /// In steady level flight through the steady wind. False when the aircraft cannot fly at this speed.
+  /// Sets steady level flight in the steady wind. Returns false if the aircraft cannot fly at this speed.
   /// `p_n.z()` is minus the height.
   bool fly(const Eigen::Vector3d& p_n, double heading_rad, double Va) {
     const double altitude_m = origin_altitude_m_ - p_n.z();
@@ -95,7 +95,7 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
         trimmed_flight(airframe_, Va, air_at(altitude_m).density_kgm3, 0, gravity_at(altitude_m));
     if (!trim.found) return false;
     trim_ = trim;
-    begin_anew();
+    clear_events();
     x_ = RigidBody{};
     x_.p_n = p_n;
     x_.q_nb = Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *
@@ -114,10 +114,10 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     return true;
   }
 
-  /// Of the last `fly`.
+  /// Trim of the last `fly`.
   const Trim& trim() const { return trim_; }
 
-  /// One step. `power` is the share of the battery's full voltage at full throttle: 0 stops the motor at any
+  /// One step. `power` is the available fraction of the full battery voltage; 0 stops the motor at any
   /// throttle.
   [[gnu::flatten]] void advance(const Actuators& command, double power, double dt) {
     throttle_ = power * std::clamp(command.throttle_frac, 0.0, 1.0);
@@ -150,15 +150,15 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     else
       ground_.advance(turns() ? level_.seen(x_) : x_, dt);
     note_touch();
-    if (ground_.crashed()) rest();  // it stays where it hit
+    if (ground_.crashed()) rest();  // stays at the place of the crash
     disturb(dt);
     if (battery_.drains()) drain(dt);
     refresh();
     if (departure_ == Departure::none) departure_ = judged();
   }
 
-  /// Carried along without forces: before arming, an aircraft that starts in the air keeps its steady flight,
-  /// one on the ground is held.
+  /// Moves without forces. Before arming, an aircraft in the air keeps its steady flight, and one on the
+  /// ground stands.
   void carry(double dt) {
     x_.p_n += dt * x_.v_n;
     disturb(dt);
@@ -175,15 +175,15 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     load_.force_b.x() += mass_.mass * mps2;
   }
 
-  /// Back (or on) along the present velocity.
+  /// Moves along the present velocity by this time, forwards or backwards.
   void shift(double seconds) { x_.p_n += seconds * x_.v_n; }
-  /// Whatever has crashed or left the model flies again.
+  /// Sets the state; clears a crash and a departure.
   void set_state(const RigidBody& x) {
     x_ = x;
-    if (ground_.crashed() || departure_ != Departure::none) begin_anew();
+    if (ground_.crashed() || departure_ != Departure::none) clear_events();
     refresh();
   }
-  /// Where servos and propeller are, before `set_state`.
+  /// Sets servos and propeller; call it before `set_state`.
   void set_drives(const Deflections& d, double propeller_radps) {
     surfaces_.set(d);
     flap_.set(d.flap);
@@ -191,27 +191,27 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     Omega_ = propeller_radps;
   }
   void set_wind(const Eigen::Vector3d& wind_n) { weather_.wind_n = wind_n; }
-  /// With a mixer the fault is that of the servo in the place (mixer.hpp).
+  /// Sets faults of the servos. With a mixer, the argument is the servo in that place (mixer.hpp).
   void suffer(const Fault& aileron, const Fault& elevator, const Fault& rudder) {
     surfaces_.suffer(aileron, elevator, rudder);
   }
-  /// With ice on it, or changed by hand; mass and trim stay.
+  /// Sets aerodynamics with ice, or changed by the user; mass and trim stay.
   void set_aerodynamics(const Airframe& a) {
     aero_ = Aerodynamic(a);
     has_flaps_ = has_flaps(a.aero);
     aero_.set_speed_of_sound(air_.speed_of_sound_mps());
     feel_ground();
   }
-  /// Where the flaps are to go, rad; they get there by their servo.
+  /// Flap command, rad; the servo follows it.
   void set_flap(double rad) { flap_command_ = rad; }
-  /// A discrete gust begins here.
+  /// Starts a discrete gust.
   void fire(const GustSpec& gust) { disturbances_.fire(gust); }
 
-  /// In the frame of the origin; the body rate is that of a gyro, relative to inertial space where the Earth
-  /// turns.
+  /// State in the frame of the origin. The body rate is that of a gyro: relative to inertial space on the
+  /// rotating Earth.
   const RigidBody& state() const { return x_; }
-  /// As the ground below sees it: velocity and attitude by north, east and down at the aircraft's own place,
-  /// the body rate relative to the Earth, `p_n.z()` minus the height. On flat ground the same as `state`.
+  /// State relative to the ground below: velocity and attitude by north, east and down at the aircraft, body
+  /// rate relative to the Earth, `p_n.z()` minus the height. On flat ground equal to `state`.
   const RigidBody& seen() const { return turns() ? seen_ : x_; }
   const Air& air() const { return air_; }
   /// Specific force at the centre of gravity, as an accelerometer measures it.
@@ -219,33 +219,33 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     if (ground_.crashed()) return -(x_.q_nb.conjugate() * g_n_);
     return load_.force_b / mass_.mass;
   }
-  /// Of the body relative to inertial space, rad/s2, where the present loads are: Euler's equation.
+  /// Angular acceleration relative to inertial space, rad/s2, with the present loads: Euler's equation.
   Eigen::Vector3d angular_acceleration() const {
     if (ground_.crashed()) return Eigen::Vector3d::Zero();
     return mass_.J_inverse * (load_.moment_b - x_.omega_b.cross(mass_.J * x_.omega_b));
   }
   Eigen::Vector3d air_velocity_b() const { return relative(seen()); }
-  /// By north, east and down at the aircraft's own place.
+  /// Velocity of the air by north, east and down at the place of the aircraft.
   Eigen::Vector3d wind_n() const { return steady_wind(seen()) + seen().q_nb * gust_b_; }
   Deflections deflections() const {
     Deflections d = surfaces_.deflections();
     d.flap = flap_.angle();
     return d;
   }
-  /// Of the surfaces themselves, in the places of `mixer.hpp`.
+  /// Servo angles, in the fields of mixer.hpp.
   Deflections servos() const { return surfaces_.servos(); }
-  /// Of those without a share of the rudder, which all turn alike.
+  /// Speed of the propellers without a share of the rudder.
   double propeller_radps() const { return Omega_; }
   double propeller_radps(std::size_t i) const {
     return propellers_.differential() ? motors_.speed(i) : Omega_;
   }
-  /// Out of the battery, to all motors.
+  /// Battery current for all motors, A.
   double battery_amp() const {
     if (propellers_.differential()) return motors_.current(propellers_, propeller_);
     return static_cast<double>(propellers_.count()) *
            std::max(0.0, throttle_ * propeller_.current(throttle_, Omega_));
   }
-  /// At its terminals, as it is without a fault of its own.
+  /// Voltage at the terminals, without a fault of the battery.
   double battery_volt() const {
     return battery_.open_volt() - airframe_.propulsion.pack.resistance_ohm * battery_amp();
   }
@@ -262,7 +262,7 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     Deflections deflections;
     double Omega = 0;
     Eigen::Vector3d spin_up_nm =
-        Eigen::Vector3d::Zero();  ///< reaction of the airframe to the propellers' spin-up
+        Eigen::Vector3d::Zero();  ///< reaction of the airframe to the propellers' acceleration
   };
 
   static Eigen::Matrix3d inertia(const Airframe& a) {
@@ -272,8 +272,8 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     return J;
   }
 
-  /// Nothing touches the ground, nothing has broken.
-  void begin_anew() {
+  /// Clears contacts, damage and departure.
+  void clear_events() {
     ground_ = Ground(airframe_, earth_.terrain.friction_ratio);
     touch_ = {};
     departure_ = Departure::none;
@@ -288,14 +288,14 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     return motor_decay_;
   }
 
-  /// An aircraft on the ground may have flow from any direction.
+  /// On the ground any flow direction is valid.
   Departure judged() const {
     if (diverged(x_)) return Departure::diverged;
     return ground_.touching() || ground_.crashed() ? Departure::none : beyond_tables(aero_, relative(seen()));
   }
 
-  /// The lag's own rate at the beginning, the middle and the end of the step. A propeller without lag gains
-  /// its speed evenly over the step.
+  /// Propeller acceleration by the lag at the start, the middle and the end of the step. Without a lag the
+  /// speed changes evenly over the step.
   [[gnu::noinline]] void spin_up(double Omega_before, double Omega_steady, double dt) {
     const double I = propeller_.inertia_kgm2(), tau = propeller_.time_constant_s();
     if (propellers_.differential()) {
@@ -311,8 +311,8 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     load_.moment_b -= moment(Omega_before);
   }
 
-  /// -omega x h - h', with the angular momentum h = I sum(Omega_i a_i) of the propellers. Euler's equation of
-  /// the aircraft and its propellers.
+  /// Moment -omega x h - h', with the angular momentum h = I sum(Omega_i a_i) of the propellers. Euler's
+  /// equation of the aircraft with its propellers.
   [[gnu::noinline]] void add_spin(const Stage& s, std::size_t i, const Eigen::Vector3d& omega_b,
                                   Load& load) const {
     const Eigen::Vector3d spin = propellers_.differential() ? motors_.spin(propellers_, i)
@@ -341,7 +341,7 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
       aero_.near_ground(induced_drag_near_ground(height_above_ground(), airframe_.wing.span_m));
   }
 
-  /// The state, so far as seen from the ground at its place, becomes one in the frame of the origin.
+  /// Converts the state from relative to the ground below into the frame of the origin.
   void put_in_frame() {
     if (!turns()) return;
     level_ = LocalLevel(turning_, x_.p_n);
@@ -369,7 +369,7 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     return earth_.model == EarthModel::flat ? isa::g0 : normal_gravity(earth_.lat_rad, altitude_m);
   }
 
-  /// Here `x` is as seen from the ground, and in `relative`.
+  /// `x` is relative to the ground below; also in `relative`.
   Eigen::Vector3d steady_wind(const RigidBody& x) const {
     if (weather_.shear.profile == WindProfile::constant) return weather_.wind_n;
     return weather_.shear.at(-x.p_n.z()) * weather_.wind_n;
@@ -393,7 +393,7 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     propeller_.set_voltage(battery_.open_volt());
   }
 
-  /// At the first or second of the stages.
+  /// Load at the first or second stage.
   Load load(const RigidBody& x, const Stage& s, std::size_t i) const {
     return turns() ? load_seen(level_.seen(x), s, i) : load_seen(x, s, i);
   }
@@ -421,8 +421,8 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
     ground_.add_load(slope_.seen(x), load);
   }
 
-  /// The load at the present state: the first stage of the next step, and the present specific force. Air and
-  /// gravity are those of the present place for the whole next step.
+  /// Load at the present state: the first stage of the next step, and the present specific force. Air and
+  /// gravity stay constant over the next step.
   void refresh() {
     if (turns()) {
       level_ = LocalLevel(turning_, x_.p_n);
@@ -457,11 +457,11 @@ class Plant {  ///< the simulated aircraft; SI units, NED from the origin, body 
   double origin_altitude_m_;
   Earth earth_;
   RotatingEarth turning_;
-  LocalLevel level_;  ///< at the place at which the present step began
+  LocalLevel level_;  ///< at the place of the aircraft at the start of the step
 
   Trim trim_;
   RigidBody x_, seen_;
-  Eigen::Vector3d g_n_ = Eigen::Vector3d::Zero();  ///< of what is free
+  Eigen::Vector3d g_n_ = Eigen::Vector3d::Zero();  ///< gravity of free motion
   Air air_;
   Load load_;
   std::array<Stage, 2> stage_;

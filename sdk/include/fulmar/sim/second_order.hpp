@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// x'' = omega^2 (aim - x) - 2 zeta omega x' with |x'| bounded, solved exactly for an aim that is constant
-// over a step: in closed form while the rate is free, along a line while it is at its bound. E.g. Ogata,
-// Modern Control Engineering, section 5.3.
+// x'' = omega^2 (aim - x) - 2 zeta omega x' with bounded |x'|, solved exactly for a constant aim over a step:
+// in closed form below the rate limit, along a line at the limit. E.g. Ogata, Modern Control Engineering,
+// section 5.3.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -11,16 +11,16 @@ namespace fulmar::sim {
 /// Second-order servo: position in any unit, `omega` in rad/s, damping ratio `zeta`.
 class SecondOrder {
  public:
-  /// `omega` 0: none.
+  /// `omega` 0: no second-order servo.
   SecondOrder(double omega, double zeta) : omega_(omega), zeta_(zeta) {}
 
   bool given() const { return omega_ > 0; }
   double rate() const { return v_; }
   void rest() { v_ = 0; }
 
-  /// From `x` towards `aim` for `dt`; returns the new x.
+  /// Moves from `x` towards `aim` for `dt`; returns the new x.
   double advance(double x, double aim, double max_rate, double dt) {
-    // pieces so short that the rate has one extremum at most in each
+    // short enough for at most one extremum of the rate in each
     const int pieces = std::max(1, static_cast<int>(std::ceil(omega_ * dt)));
     const Piece piece = piece_of(dt / pieces);
     double e = x - aim;
@@ -41,7 +41,7 @@ class SecondOrder {
 
   Piece free_motion(double h) const {
     const double sigma = zeta_ * omega_, square = omega_ * omega_ * (zeta_ * zeta_ - 1), s = square * h * h;
-    // cosh and sinh(w h) / w of w^2 = square, or cos and sin where that is negative
+    // cosh and sinh(w h) / w of w^2 = square, or cos and sin for a negative square
     double c = 1, sh = h;
     if (s > 1e-12) {
       const double w = std::sqrt(square);
@@ -63,7 +63,7 @@ class SecondOrder {
     for (int turn = 0; turn < 8 && left > 0; ++turn) {
       if (std::abs(v_) >= most && acceleration(e, v_) * v_ > 0) {
         v_ = std::copysign(most, v_);
-        const double leaves = -2 * zeta_ * v_ / omega_;  // the place where it would slow down by itself
+        const double leaves = -2 * zeta_ * v_ / omega_;  // position of the free deceleration
         const double time = acceleration(e, v_) * v_ > 0 ? (leaves - e) / v_ : 0;
         if (time > 0) {
           e += v_ * std::min(left, time);
@@ -82,7 +82,7 @@ class SecondOrder {
     }
   }
 
-  /// How much of the piece passes before the rate comes to its bound; all of it when it does not.
+  /// Time until the rate reaches its limit, within the piece; the whole piece if it does not.
   double time_to_bound(double e, double most, const Piece& whole) const {
     const auto rate = [&](double t) {
       const Piece p = free_motion(t);
@@ -92,7 +92,7 @@ class SecondOrder {
       const Piece p = free_motion(t);
       return acceleration(p.ee * e + p.ev * v_, p.ve * e + p.vv * v_);
     };
-    most *= 1 + 1e-9;  // the rate at the bound itself is not beyond it, whatever its last bit
+    most *= 1 + 1e-9;  // tolerance for rounding at the limit
     const double a0 = acceleration(e, v_), v1 = whole.ve * e + whole.vv * v_;
     const double a1 = acceleration(whole.ee * e + whole.ev * v_, v1);
     double until = whole.h;
@@ -104,7 +104,7 @@ class SecondOrder {
     return root(0, until, [&](double t) { return most - std::abs(rate(t)); });
   }
 
-  /// Where f, positive before, becomes negative.
+  /// Root of f, which is positive before and negative after it.
   template <class F>
   static double root(double low, double high, F&& f) {
     for (int i = 0; i < 50; ++i) {

@@ -9,8 +9,8 @@
 
 namespace fulmar::sim {
 
-/// A servo: first-order lag, or second order, limited in rate and by its stops. Solved exactly for a command
-/// that is constant over a step.
+/// A servo: first-order lag, or second order, with rate limit and stops. Solved exactly for a constant
+/// command over a step.
 class Servo {
  public:
   explicit Servo(const Surface& s)
@@ -30,7 +30,7 @@ class Servo {
   double angle() const { return angle_; }
   double min() const { return min_; }
   double max() const { return max_; }
-  /// At rest there.
+  /// Sets the angle, at rest.
   void set(double angle) {
     angle_ = aim_ = std::clamp(angle, min_, max_);
     second_.rest();
@@ -38,7 +38,7 @@ class Servo {
 
  private:
   void follow(double command, double dt) {
-    const double error = command - angle_, lag = rate_ * tau_;  // beyond `lag` the rate limit rules
+    const double error = command - angle_, lag = rate_ * tau_;  // beyond `lag` the rate limit applies
     if (std::abs(error) > lag) {
       const double time_to_lag = (std::abs(error) - lag) / rate_;
       angle_ += std::copysign(rate_ * std::min(dt, time_to_lag), error);
@@ -48,8 +48,8 @@ class Servo {
     angle_ = tau_ > 0 ? command + (angle_ - command) * decay(dt) : command;
   }
 
-  /// A function of its own, so that a plain servo does not pay for it. The dead band is a play: the target
-  /// rests while the command is within half of the band.
+  /// A separate function, so that a plain servo has no additional cost. The dead band is a backlash: the
+  /// target is constant while the command is within half of the band.
   [[gnu::noinline]] void advance_other(double command, double dt) {
     aim_ = std::clamp(aim_, command - play_, command + play_);
     if (!second_.given()) return follow(aim_, dt);

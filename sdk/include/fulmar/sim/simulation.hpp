@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One simulated aircraft without host, mission and sensors: the one of `sim_aero`, for model-based control,
+// One simulated aircraft without host, mission and sensors: the model of `sim_aero`, for model-based control,
 // learning and tests.
 //
 //   Simulation sim(read_airframe("fulmar:airframes/anaconda.yaml"), {.origin_altitude_m = 1387}, 7);
@@ -10,10 +10,10 @@
 //   sim.step(command, 0.0025);
 //   sim.body().v_n;
 //
-// A value: no pointer, no thread, no allocation in a step. The same seed, start and commands give the same
-// flight to the bit. Only `step` and `set` throw, std::invalid_argument, and then change nothing. An aircraft
-// that has crashed or left the model (departure.hpp) stays so until `reset`, `stand`, `fly` or `set`.
-// Suffixes of frames (_n, _b): fulmar/flight/math/attitude.hpp.
+// A value type: no pointer, no thread, no allocation in a step. Equal seeds, starts and commands give equal
+// flights to the bit. Only `step` and `set` throw (std::invalid_argument), and then change nothing. An
+// aircraft that has crashed or left the model (departure.hpp) stays so until `reset`, `stand`, `fly` or
+// `set`. Suffixes of frames (_n, _b): fulmar/flight/math/attitude.hpp.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@
 
 namespace fulmar::sim {
 
-/// A number in a sentence.
+/// A number in a message.
 inline std::string shown(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.10g", value);
@@ -39,12 +39,12 @@ inline std::string shown(double value) {
 
 /// Surroundings of the aircraft; defaults are still standard air over flat ground at sea level.
 struct SimulationOptions {
-  double origin_altitude_m = 0;  ///< above mean sea level, of height 0
+  double origin_altitude_m = 0;  ///< altitude of height 0 above mean sea level
   Weather weather{};
   Earth earth{};
 };
 
-/// All that a roll-out begins with, but for gusts and the springs of the gear: those go with a copy.
+/// Initial state of a roll-out, without gusts and gear springs: only a copy keeps those.
 struct FlightState {
   RigidBody body;
   Deflections deflections;
@@ -54,13 +54,13 @@ struct FlightState {
 /// One aircraft, see above. Positions and velocities in NED from the origin, SI units.
 class Simulation {
  public:
-  static constexpr double max_s = 0.1;  ///< beyond it the short period of small aircraft is not resolved
+  static constexpr double max_s = 0.1;  ///< limit for the short period of small aircraft
 
   /// At rest on the ground, heading north.
   explicit Simulation(const Airframe& a, const SimulationOptions& options = {}, std::uint64_t seed = 1)
       : airframe_(a), options_(options), plant_(made(seed)) {}
 
-  /// Back to the initial state with this seed.
+  /// Restores the initial state, with this seed.
   void reset(std::uint64_t seed) {
     plant_ = made(seed);
     time_s_ = 0;
@@ -68,13 +68,13 @@ class Simulation {
   void stand(double north_m, double east_m, double heading_rad) {
     plant_.stand(north_m, east_m, heading_rad);
   }
-  /// Into steady level flight. `p_n` is north, east, minus the height. False where there is none at this
-  /// airspeed; it then stays where it is.
+  /// Sets steady level flight. `p_n` is north, east, minus the height. Returns false without such a flight at
+  /// this airspeed; then the state stays.
   bool fly(const Eigen::Vector3d& p_n, double heading_rad, double Va) {
     return plant_.fly(p_n, heading_rad, Va);
   }
 
-  /// The command that keeps it in the steady flight of the last `fly`.
+  /// Command of the steady flight of the last `fly`.
   Actuators trim() const {
     const Trim& t = plant_.trim();
     return {t.throttle_frac, t.deflections.aileron, t.deflections.elevator, t.deflections.rudder};
@@ -87,7 +87,7 @@ class Simulation {
     plant_.set_state(s.body);
   }
 
-  /// One step of the plant. Deflections and throttle beyond their range are limited, as servos do.
+  /// One step of the plant. Deflections and throttle are limited to their range, as servos do.
   void step(const Actuators& command, double dt_s) {
     if (const std::string wrong = validation_error(command); !wrong.empty())
       throw std::invalid_argument(wrong);
@@ -103,7 +103,7 @@ class Simulation {
   Plant& plant() { return plant_; }  ///< wind, faults, icing
   const Airframe& airframe() const { return airframe_; }
 
-  /// Error of a command or a state; "" when it is valid.
+  /// Error of a command or a state; "" if it is valid.
   static std::string validation_error(const Actuators& c) {
     const std::array<std::pair<const char*, double>, 4> all{{{"throttle_frac", c.throttle_frac},
                                                              {"aileron_rad", c.aileron_rad},
@@ -123,7 +123,7 @@ class Simulation {
     return "";
   }
 
-  /// Throws when no step can be so long.
+  /// Throws if a step of this length is not permitted.
   static void demand_step(double dt_s) {
     if (!(dt_s > 0 && dt_s <= max_s))
       throw std::invalid_argument(sim_messages::step_invalid(shown(dt_s)).line());
@@ -184,7 +184,7 @@ inline void write_row(const Simulation& sim, double* row) {
   std::copy(all.begin(), all.end(), row);
 }
 
-/// The inverse of `write_row` for a FlightState: the first 13 columns, surfaces and propeller.
+/// The inverse of `write_row`, for a FlightState: the first 13 columns, surfaces and propeller.
 inline FlightState state_of_row(const double* row) {
   FlightState s;
   s.body.p_n = {row[0], row[1], row[2]};

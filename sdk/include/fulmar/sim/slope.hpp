@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ground that slopes: a plane through the origin. The gear works in axes that lie in the plane, where the
-// ground is flat again; forces and moments in body axes are the same in both.
+// Sloping ground: a plane through the origin. The gear computes in axes of the plane, where the ground is
+// flat; forces and moments in body axes are equal in both.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -20,18 +20,18 @@ class Slope {
         q_(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d(-std::sin(towards_rad), std::cos(towards_rad), 0))) {}
 
   bool some() const { return some_; }
-  /// Away from the ground, NED.
+  /// Normal of the plane, away from the ground, NED.
   Eigen::Vector3d up() const { return q_ * -Eigen::Vector3d::UnitZ(); }
-  /// Distance from the plane: above it is positive.
+  /// Distance from the plane; positive above it.
   double height(const Eigen::Vector3d& p_n) const { return some_ ? p_n.dot(up()) : -p_n.z(); }
 
-  /// In the axes of the plane.
+  /// State in the axes of the plane.
   RigidBody seen(const RigidBody& x) const {
     const Eigen::Quaterniond back = q_.conjugate();
     return {back * x.p_n, back * x.v_n, back * x.q_nb, x.omega_b};
   }
 
-  /// At rest on the plane, the wheels' centre `height_m` above the ground at this place.
+  /// State at rest on the plane, with the wheels' centre `height_m` above the ground at this place.
   RigidBody standing(double north_m, double east_m, double heading_rad, double height_m) const {
     const Eigen::Vector3d n = up();
     const auto on_plane = [&](double north, double east) {

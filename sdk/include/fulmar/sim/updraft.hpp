@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thermals: Gaussian across, over the height the updraft of a convective layer, w / w* = (z/zi)^(1/3) (1 -
-// 1.1 z/zi). Sources: D. H. Lenschow, P. L. Stephens, Boundary-Layer Meteorology 19 (1980) 509-532, as in
-// M. J. Allen, Updraft Model for Development of Autonomous Soaring Uninhabited Air Vehicles, AIAA 2006-1510.
+// Thermals: Gaussian over the radius; over the height the updraft of a convective layer, w / w* =
+// (z/zi)^(1/3) (1 - 1.1 z/zi). Sources: D. H. Lenschow, P. L. Stephens, Boundary-Layer Meteorology 19 (1980)
+// 509-532, as in M. J. Allen, Updraft Model for Development of Autonomous Soaring Uninhabited Air Vehicles,
+// AIAA 2006-1510.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -13,8 +14,8 @@
 
 namespace fulmar::sim {
 
-/// Part of the strongest updraft at a height that is `z` of the layer's depth: 1 at z = 1 / 4.4, nothing at
-/// the ground and from 1 / 1.1 on.
+/// Fraction of the strongest updraft at the height `z`, a fraction of the layer: 1 at z = 1 / 4.4, 0 at the
+/// ground and from 1 / 1.1 on.
 inline double updraft_over_height(double z) {
   constexpr double strongest = 1 / 4.4;
   if (z <= 0 || z >= 1 / 1.1) return 0;
@@ -29,7 +30,7 @@ class Updrafts {
   explicit Updrafts(const Thermals& t) : thermals_(t) {}
   bool any() const { return thermals_.thermals.count > 0; }
 
-  /// The axes at `time_s` of flight.
+  /// Moves the axes by `dt`.
   void drift(double dt, const Eigen::Vector3d& steady_wind_n) {
     for (std::uint32_t i = 0; i < thermals_.thermals.count; ++i) {
       Thermal& t = thermals_.thermals.items[i];
@@ -39,7 +40,7 @@ class Updrafts {
     }
   }
 
-  /// m/s, up, at a place by north, east and down.
+  /// Updraft, m/s, at a place by north, east and down.
   double at(const Eigen::Vector3d& p_n) const {
     double up = 0;
     for (std::uint32_t i = 0; i < thermals_.thermals.count; ++i) {

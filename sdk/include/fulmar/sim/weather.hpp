@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The weather: how the day differs from the standard one, the steady wind and how it grows with height.
+// The weather: offset of the day from the standard, steady wind, and its profile over the height.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -12,13 +12,12 @@
 
 namespace fulmar::sim {
 
-/// How the steady wind grows with height.
+/// Profile of the steady wind over the height.
 enum class WindProfile : std::uint8_t { constant, power, log };
 
-/// Part of the steady wind that blows at a height above the ground: 1 at the reference height, no more than
-/// at 1000 ft, where MIL-F-8785C 3.7.3 ends its shear. Power law: E. W. Peterson, J. P. Hennessey, Journal of
-/// Applied Meteorology 17 (1978) 390-394. Logarithmic law: MIL-F-8785C 3.7.3, which has 0.15 ft and 2 ft of
-/// roughness.
+/// Fraction of the steady wind at a height above the ground: 1 at the reference height, constant above 1000
+/// ft, where MIL-F-8785C 3.7.3 ends its shear. Power law: E. W. Peterson, J. P. Hennessey, Journal of Applied
+/// Meteorology 17 (1978) 390-394. Logarithmic law: MIL-F-8785C 3.7.3, with a roughness of 0.15 ft and 2 ft.
 struct WindShear {
   static constexpr double top_m = 304.8;
   WindProfile profile = WindProfile::constant;
@@ -34,22 +33,22 @@ struct WindShear {
   }
 };
 
-/// The turbulence of 50 m at every height, or that of the aircraft's own height.
+/// Height of the turbulence: 50 m at every height, or the height of the aircraft.
 enum class TurbulenceHeight : std::uint8_t { fixed, actual };
 
 /// Wind, turbulence, thermals and the offset of the day.
 struct Weather {
-  Eigen::Vector3d wind_n = Eigen::Vector3d::Zero();  ///< steady velocity of the air, at the reference height
+  Eigen::Vector3d wind_n = Eigen::Vector3d::Zero();  ///< steady wind at the reference height
   Turbulence turbulence = Turbulence::none;
   WindShear shear{};
   AirOffset offset{};
   TurbulenceHeight turbulence_height = TurbulenceHeight::fixed;
-  double wind_20ft_mps = 0;  ///< above 0: rules `actual` turbulence below 1000 ft
+  double wind_20ft_mps = 0;  ///< above 0: sets `actual` turbulence below 1000 ft
   Thermals thermals{};
-  /// Above 0: `fixed` turbulence is that of this height above the ground (dryden_height.hpp), m.
+  /// Above 0: height above the ground of `fixed` turbulence (dryden_height.hpp), m.
   double fixed_height_m = 0;
-  double gust_airspeed_mps = 0;  ///< above 0: gusts come at this airspeed, whatever that of the aircraft
-  double gust_span_m = 0;        ///< above 0: turbulence also turns, over a wing of this span
+  double gust_airspeed_mps = 0;  ///< above 0: airspeed of the gust filters, in place of that of the aircraft
+  double gust_span_m = 0;        ///< above 0: turbulence also rotates, over a wing of this span
 };
 
 }  // namespace fulmar::sim

@@ -15,7 +15,7 @@ struct [[gnu::visibility("hidden")]] NamedAlarm {
   bool SafetyState::*flag;
   Cause cause;
   const MessageText<0>* message;
-  bool SafetyState::*worse = nullptr;  ///< includes this one
+  bool SafetyState::*worse = nullptr;  ///< worse alarm that includes this one
 
   const char* words() const { return message->c_str(); }
 };
@@ -38,14 +38,14 @@ inline constexpr std::array<NamedAlarm, 13> alarms{{
     {&SafetyState::fence, Cause::fence, &flight_messages::fence},
 }};
 
-/// The entry of `alarms` with this flag; the last entry when no alarm has it.
+/// Entry of `alarms` with this flag; the last entry if no alarm has it.
 constexpr const NamedAlarm& alarm(bool SafetyState::*flag) {
   for (const NamedAlarm& a : alarms)
     if (a.flag == flag) return a;
   return alarms.back();
 }
 
-/// True when the flag is set and no worse alarm includes it.
+/// True if the flag is set and no worse alarm includes it.
 constexpr bool is_raised(const NamedAlarm& a, const SafetyState& s) {
   return s.*a.flag && !(a.worse && s.*a.worse);
 }

@@ -9,8 +9,8 @@
 
 namespace fulmar {
 
-/// Acceleration along the air velocity from accelerometer and attitude: less delay than a differentiated
-/// airspeed, and less noise. The change of the wind is not included.
+/// Acceleration along the air velocity from accelerometer and attitude, m/s2. It has less delay and less
+/// noise than a differentiated airspeed. The change of the wind is not included.
 inline double airspeed_rate(const VehicleState& state) {
   const double ca = std::cos(state.alpha_rad), sa = std::sin(state.alpha_rad), cb = std::cos(state.beta_rad),
                sb = std::sin(state.beta_rad);
@@ -21,9 +21,9 @@ inline double airspeed_rate(const VehicleState& state) {
   return ca * cb * a_b.x + sb * a_b.y + sa * cb * a_b.z;
 }
 
-/// Airspeed without its gusts, m/s: integrates the acceleration of the body and is drawn to the measured
-/// airspeed. A change that the aircraft makes has no lag, one that the air makes is averaged. Complementary
-/// filter, as in Lambregts (1983).
+/// Airspeed without gusts, m/s: integrates the acceleration of the body and converges to the measured
+/// airspeed. A change by the aircraft has no lag; a change by the air is averaged. Complementary filter, as
+/// in Lambregts (1983).
 class SteadyAirspeed {
  public:
   double step(double airspeed_mps, double airspeed_rate_mps2, double time_constant_s, double dt_s) {
@@ -48,7 +48,7 @@ struct EnergyRates {
   double potential = 0;  ///< g hdot
   double kinetic = 0;    ///< V Vdot
   double total() const { return potential + kinetic; }
-  /// Gain of height minus gain of speed, each with its weight in [0, 1].
+  /// Rate of height minus rate of speed, each with its weight in [0, 1].
   double balance(double height_weight, double speed_weight) const {
     return height_weight * potential - speed_weight * kinetic;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stall protection and recovery of an outer law: minimum airspeed by load factor, mass and angle of attack;
-// maximum bank by airspeed; maximum pitch by angle of attack. At cruise airspeed only the bank is limited: no
-// airspeed above cruise is demanded, and pitch is free. Lift of a turn: Anderson, Introduction to Flight,
-// turning flight. Recovery - less angle of attack, wings level, full power - as in FAA, Airplane Flying
+// maximum bank by airspeed; maximum pitch by angle of attack. At cruise airspeed it limits the bank alone: it
+// demands no airspeed above cruise, and pitch is free. Lift of a turn: Anderson, Introduction to Flight,
+// turning flight. Recovery with less angle of attack, wings level and full power: FAA, Airplane Flying
 // Handbook, chapter 5.
 #pragma once
 #include <algorithm>
@@ -16,13 +16,13 @@
 
 namespace fulmar {
 
-/// Lift over the angle of attack, of an airframe's own model: a line from no lift up to the most.
+/// Lift over angle of attack by the model of the airframe: a line from zero to maximum lift.
 struct WingEnvelope {
   double mass_kg = 0, area_m2 = 1;
-  double max_lift = 0;                ///< CL, trimmed; 0: the airframe has no model of its lift
-  double stall_alpha_rad = 0.2618;    ///< of the most lift
-  double zero_alpha_rad = -0.05;      ///< of no lift
-  double share_per_rad = 1 / 0.3118;  ///< of the most lift
+  double max_lift = 0;                ///< CL, trimmed; 0: the airframe has no lift model
+  double stall_alpha_rad = 0.2618;    ///< angle of attack at maximum lift
+  double zero_alpha_rad = -0.05;      ///< angle of attack at zero lift
+  double share_per_rad = 1 / 0.3118;  ///< share of the maximum lift per rad
 
   WingEnvelope() = default;
   explicit WingEnvelope(const Airframe& a) : mass_kg(a.mass_kg), area_m2(a.wing.area_m2) {
@@ -37,15 +37,17 @@ struct WingEnvelope {
     share_per_rad = slope / max_lift;
   }
 
-  /// Of the most lift. Beyond the stall it goes on: how far the angle of attack is too large.
+  /// Share of the maximum lift. Beyond the stall it grows further, as a measure of the excess of the angle of
+  /// attack.
   double share(double alpha_rad) const { return share_per_rad * (alpha_rad - zero_alpha_rad); }
   double alpha_of(double share) const { return zero_alpha_rad + share / share_per_rad; }
 
-  /// Slowest level flight: by the model, and no slower than the limits' minimum over 1.2.
+  /// Slowest level flight, m/s: by the model, but at least the minimum airspeed of the limits over 1.2.
   double stall_mps(const FlightLimits& limits, double density_kgm3) const {
     return std::max(by_limits_mps(limits), by_model_mps(density_kgm3));
   }
-  /// The same for the bank: a twentieth above the model's stall is enough, a tenth above that of the limits.
+  /// The same for the bank: 5 % above the stall speed of the model, but at least 10 % above that of the
+  /// limits.
   double bank_stall_mps(const FlightLimits& limits, double density_kgm3) const {
     constexpr double share = 1.05 / 1.1;
     return std::max(by_limits_mps(limits), share * by_model_mps(density_kgm3));
@@ -61,8 +63,8 @@ struct WingEnvelope {
 
 inline constexpr double min_bank_rad = 0.26;
 
-/// Bank, rad, to which the wing carries a level turn at airspeed `Va` with a tenth of speed left above the
-/// stall: its lift has to be 1 / cos(bank) of the weight. Slower than that some bank is left, to steer with.
+/// Bank limit, rad, of a level turn at airspeed `Va`: lift of 1 / cos(bank) times the weight, at 10 % above
+/// the stall speed. Below that speed some bank remains for steering.
 inline double bank_carried(double Va, double stall_mps) {
   constexpr double above_stall_ratio = 1.1;
   const double slowest = above_stall_ratio * stall_mps;
@@ -72,15 +74,16 @@ inline double bank_carried(double Va, double stall_mps) {
 
 /// Limits of a law's commands in this step.
 struct Envelope {
-  double airspeed_min_mps = 0;  ///< least airspeed to ask for
-  double slowest_mps = 0;       ///< below it airspeed comes before height: no angle of attack is in it
-  double pitch_max_rad = 1.57;  ///< near the stall
+  double airspeed_min_mps = 0;  ///< minimum airspeed command
+  double slowest_mps =
+      0;  ///< below it airspeed has priority over height; without the margin for the angle of attack
+  double pitch_max_rad = 1.57;  ///< pitch limit near the stall
 
-  /// The airspeed to hold for one that is commanded.
+  /// Airspeed to hold for a commanded airspeed.
   double airspeed(double commanded_mps, const FlightLimits& limits) const {
     return std::clamp(commanded_mps, airspeed_min_mps, limits.airspeed_max_mps);
   }
-  /// 0 at the slowest airspeed and above, 1 at `band`, a share of it, below.
+  /// 0 at the slowest airspeed and above; 1 at the fraction `band` below it.
   double underspeed(double airspeed_mps, double band) const {
     const double full = slowest_mps * (1 - band);
     return std::clamp((slowest_mps - airspeed_mps) / (slowest_mps - full), 0.0, 1.0);
@@ -97,7 +100,7 @@ class EnvelopeGuard {
   }
   bool configured() const { return configured_; }
 
-  /// At a switch of components, a reset of the state, or flight on the ground: clears all memory.
+  /// After a switch of components, a reset of the state, or on the ground: clears all memory.
   void reset() {
     lift_.reset();
     gust_.reset();
@@ -112,7 +115,8 @@ class EnvelopeGuard {
     return bank_carried(Va, wing_.bank_stall_mps(limits, density_kgm3));
   }
 
-  /// `bank_rad` is commanded, `climb_rate_mps` asked for. Not `guarded`: a flare, whose speed is to go.
+  /// `bank_rad` and `climb_rate_mps` are commands. `guarded` is false in a flare, which reduces the speed on
+  /// purpose.
   Envelope step(const VehicleState& state, const FlightLimits& limits, double density_kgm3, double bank_rad,
                 double climb_rate_mps, bool guarded, double dt_s) {
     Envelope e;
@@ -123,7 +127,7 @@ class EnvelopeGuard {
     climb_rad_ = std::asin(std::clamp(state.climb_rate_mps / V_, -1.0, 1.0));
     alpha_ = alpha(state);
     lift(state, density_kgm3, dt_s);
-    // The path of a flight at cruise comes before a margin that its turns leave the airframe without.
+    // At cruise airspeed, the path has priority over the stall margin in turns.
     const double most = std::min(std::max(least, limits.airspeed_cruise_mps), limits.airspeed_max_mps);
     e.slowest_mps = std::min(least * std::sqrt(load), most);
     e.airspeed_min_mps = e.slowest_mps;
@@ -146,27 +150,27 @@ class EnvelopeGuard {
 
   bool stalled() const { return stalled_; }
   double alpha_rad() const { return alpha_; }
-  /// Of the recovery: six tenths of the most lift above the present flight path.
+  /// Pitch command of the recovery: six tenths of the maximum lift above the present flight path.
   double recovery_pitch(const FlightLimits& limits) const {
     constexpr double share = 0.6;
     return std::clamp(climb_rad_ + wing_.alpha_of(share), limits.pitch_min_rad, limits.pitch_max_rad);
   }
 
-  /// After a stall, or where it fell though nothing asked it to: the law is to rest until the height that is
-  /// commanded is near. Airspeed is held by pitch, at full power.
+  /// True after a stall, or after an uncommanded loss of height, until the height command is near. Meanwhile
+  /// pitch holds the airspeed, at full power.
   bool regains(const VehicleState& s, double height_error_m, double climb_rate_mps, double dt_s) {
     constexpr double fall_mps = 3, falls_s = 0.5, held_mps = 1, below_m = 5, ahead_s = 2;
     const double sink = std::min(climb_rate_mps, 0.0) - s.climb_rate_mps;
     const double left_m = height_error_m - ahead_s * std::max(s.climb_rate_mps, 0.0);
     if (!s.height_valid || (!stalled_ && sink < held_mps && left_m < below_m)) regains_ = false;
-    // A sink at a switch ends by itself.
+    // A sink at a switch ends without help.
     falls_s_ = sink > fall_mps && height_error_m > below_m ? falls_s_ + dt_s : 0;
     if (stalled_ || falls_s_ > falls_s) regains_ = s.height_valid;
     return regains_ && s.airspeed_valid && s.velocity_valid;
   }
-  /// Airspeed that is too much becomes height, airspeed that is missing comes from height. Between them the
-  /// wing's own lift holds, as the accelerometer measures it: no more than nine tenths of it, and not so
-  /// little that the aircraft falls. `pitch_rad` was commanded last.
+  /// Pitch command while regaining height: excess airspeed becomes height, missing airspeed comes from
+  /// height. The lift from the accelerometer limits it: at most nine tenths of the maximum lift, and not so
+  /// little that the aircraft falls. `pitch_rad` is the last command.
   double regaining_pitch(const VehicleState& s, const Envelope& e, double pitch_rad, double dt_s) const {
     constexpr double above_slowest = 1.1, max_share = 0.9, min_share = 0.3;
     constexpr double error_gain = 0.05, rate_gain = 0.1;  // 0.7 rad/s, damping 0.7
@@ -183,36 +187,36 @@ class EnvelopeGuard {
   static bool sees_alpha(const VehicleState& s) {
     return s.airspeed_valid && s.wind_valid && s.velocity_valid && !s.airspeed_from_model;
   }
-  /// The estimate where wind and airspeed are valid, else pitch minus flight path angle.
+  /// Angle of attack: the estimate if wind and airspeed are valid, otherwise pitch minus flight path angle.
   double alpha(const VehicleState& s) const {
     if (!s.velocity_valid) return wing_.zero_alpha_rad;
     if (sees_alpha(s)) return s.alpha_rad;
     return (s.pitch_rad - climb_rad_) / std::max(std::cos(s.roll_rad), 0.5);
   }
 
-  /// Share of the maximum lift, from the accelerometer: the lift of the wing, independent of vertical air.
+  /// Share of the maximum lift, from the accelerometer: it does not depend on vertical air.
   void lift(const VehicleState& s, double density_kgm3, double dt_s) {
     constexpr double smoothed_s = 0.1, remembered_s = 0.3;
     const double most = 0.5 * density_kgm3 * V_ * V_ * wing_.area_m2 * wing_.max_lift;
     lift_.step(most > 0 ? -s.specific_force_mps2.z * wing_.mass_kg / most : 1, smoothed_s, dt_s);
     peak_ = std::max(lift_.value(), decay_.of(dt_s / remembered_s) * peak_);
   }
-  /// Of the most lift, as far as the flight path and the accelerometer agree: in air that sinks the angle
-  /// over the flight path is large, and that of the wing is not. Beyond the stall lift is small as well: the
-  /// largest of the last moment counts. The mass may be a fifth more than it should.
+  /// Share of the maximum lift on which flight path and accelerometer agree. In sinking air the angle over
+  /// the flight path is large, but not that of the wing. Beyond the stall the lift is small too: the largest
+  /// recent value counts. The mass may be 20 % above that of the airframe.
   double used() const { return std::min(wing_.share(alpha_), 1.2 * peak_); }
 
-  /// Gusts take airspeed faster than an engine gives it: the faster part of them, times four, above the
-  /// stall.
+  /// Minimum airspeed in gusts, which reduce the airspeed faster than an engine increases it: near the stall
+  /// speed plus four times the standard deviation of the gusts.
   double for_gusts(const VehicleState& s, double stall_mps, double dt_s) {
     constexpr double follows_s = 3, averaged_s = 20, times = 4, of_stall = 0.95;
     const double gust = s.airspeed_mps - gust_.step(s.airspeed_mps, airspeed_rate(s), follows_s, dt_s);
     return of_stall * stall_mps + times * std::sqrt(gusty_.step(gust * gust, averaged_s, dt_s));
   }
 
-  /// V^2 CL / (n CL_max) is the square of the slowest level flight at the present weight, of which mass,
-  /// centre of gravity and ice are known to nothing else. Vertical air is in the angle of attack: it counts
-  /// only where the aircraft is slow, and is forgotten where it is not.
+  /// Minimum airspeed from the angle of attack. V^2 CL / (n CL_max) is the square of the slowest level flight
+  /// at the present weight: it includes unknown mass, centre of gravity and ice. Vertical air changes the
+  /// angle of attack: the estimate is updated only in slow flight, and decays otherwise.
   double for_alpha(const Envelope& e, double load, double stall_mps, const FlightLimits& limits,
                    double dt_s) {
     constexpr double learns_s = 1.5, forgets_s = 10, near_ratio = 1.25, max_ratio = 1.4;
@@ -229,9 +233,9 @@ class EnvelopeGuard {
     return std::max(e.slowest_mps, std::min(above_stall * std::sqrt(squared), most));
   }
 
-  /// No more than nine tenths of the lift above the flight path, where the lift that is used nears that and
-  /// the aircraft is slower than cruise or falls. No lower than the pitch limit, and half of it where the
-  /// aircraft is fast: the flight path may be the air's.
+  /// At most nine tenths of the maximum lift above the flight path, if the lift in use is near that, and the
+  /// aircraft is slower than cruise or falls. At least the lower pitch limit, and half of it in fast flight:
+  /// the flight path may be that of the air.
   double pitch_max(const VehicleState& s, const FlightLimits& limits, double slowest_mps) const {
     constexpr double share = 0.9, free_rad = 0.6, free_share = 0.65, full_share = 0.85, slow_ratio = 0.9;
     constexpr double held_mps = 2, fall_mps = 4;
@@ -244,10 +248,10 @@ class EnvelopeGuard {
     return std::max(lowest, climb_rad_ + wing_.alpha_of(share) * std::cos(s.roll_rad) + slack);
   }
 
-  /// A stall: the angle of attack is beyond that of the most lift, the aircraft is slow, and sinks though
-  /// nothing asked it to, though the wing pushes up: in a downdraft it does not. Without wind or airspeed the
-  /// angle is known less well: more of it, for longer. Well above the stalling speed it is mostly the air
-  /// that sinks: longer, too. Where the nose goes down and takes all lift away, it was no stall.
+  /// Stall detection: angle of attack beyond that of the maximum lift, slow flight, and an uncommanded sink
+  /// with upward lift, unlike in a downdraft. Without wind or airspeed the angle is less accurate, which
+  /// needs a larger angle for longer. Well above the stall speed, sinking air is the likely cause, which
+  /// needs longer too. If the nose drops and removes all lift, it is no stall.
   void look(const VehicleState& s, double slowest_mps, double stall_mps, double climb_rate_mps, bool seen,
             double dt_s) {
     constexpr double left_share = 0.8, left_s = 0.2, unloaded_s = 0.1, fast_ratio = 1.35, sink_mps = 1,

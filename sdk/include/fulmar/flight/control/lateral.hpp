@@ -18,8 +18,8 @@ struct CourseTuning {
   double kp = 2, ki = 0;  ///< at the cruise speed; ki per second
   double cruise_mps = 15;
   double roll_max_rad = 0.785;
-  double roll_rate_max_radps = 1;  ///< of the command, within the bandwidth of the roll loop
-  double smoothing_s = 0.1;        ///< of the command
+  double roll_rate_max_radps = 1;  ///< limit of the command, within the bandwidth of the roll loop
+  double smoothing_s = 0.1;        ///< time constant of the command
 };
 
 /// Course hold, B&M section 6.3.2. Output: roll command in rad, right positive, limited, smoothed and
@@ -41,8 +41,8 @@ class CourseHold {
     return shape(pid_.step({tuning.kp * speed_ratio, tuning.ki * speed_ratio, 0}, in, dt_s), tuning, dt_s);
   }
 
-  /// Roll command of a level acceleration to the right, whatever the course: that of a coordinated turn,
-  /// B&M (9.14) times the speed. The course's integral is forgotten meanwhile.
+  /// Roll command of a level acceleration to the right, for any course: that of a coordinated turn, B&M
+  /// (9.14) times the speed. It resets the integral of the course.
   double accelerate(double acceleration_mps2, const CourseTuning& tuning, double dt_s) {
     constexpr double g = 9.80665;
     const double roll = std::atan(acceleration_mps2 / g);
@@ -52,14 +52,14 @@ class CourseHold {
     return shape(roll, tuning, dt_s);
   }
 
-  /// Any other roll target, through the same smoothing and limits.
+  /// Any other roll target, with the same smoothing and limits.
   double shape(double target_rad, const CourseTuning& tuning, double dt_s) {
     const double bounded = std::clamp(target_rad, -tuning.roll_max_rad, tuning.roll_max_rad);
     const double pole = tuning.smoothing_s > 0 ? decay_.of(dt_s / tuning.smoothing_s) : 0;
     return limiter_.step(bounded + pole * (limiter_.value() - bounded), tuning.roll_rate_max_radps, dt_s);
   }
 
-  /// Goes on from a roll command that was in force.
+  /// Continues from a roll command in force.
   void reset_to(double roll_rad) {
     pid_.reset();
     beyond_ = false;
@@ -73,7 +73,7 @@ class CourseHold {
   RateLimiter limiter_;
   Decay decay_;
   double error_ = 0;
-  bool beyond_ = false;  // an acceleration that the roll limit does not allow
+  bool beyond_ = false;  // acceleration beyond the roll limit
 };
 
 }  // namespace fulmar

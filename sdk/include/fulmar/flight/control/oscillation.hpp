@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A loop whose gain is too high oscillates where its phase is gone: at a frequency of its own, with an
-// amplitude that does not die. Recognised by the swings of its output - a limit cycle, Åström & Hägglund,
-// Advanced PID Control (2006), section 7.3 - and quietened by less gain.
+// A loop with too much gain oscillates at the frequency where it has no phase margin, with a constant
+// amplitude. The swings of its output show the limit cycle: Åström & Hägglund, Advanced PID Control (2006),
+// section 7.3. A lower gain ends it.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -10,16 +10,16 @@
 
 namespace fulmar {
 
-/// Counts swings: half waves of a signal, each beyond a threshold, none much smaller than the one before,
-/// each as long as a half wave of 8 to 63 rad/s. Gusts and manoeuvres make two or three in a row. The part
-/// that the command causes is no oscillation of the loop: where it swings half as far, nothing counts.
+/// Counts swings: half waves of a signal beyond a threshold, none much smaller than the one before, each as
+/// long as a half wave of 8 to 63 rad/s. Gusts and manoeuvres make two or three in a row. The part from the
+/// command is no oscillation of the loop: while it swings half as far, no swing counts.
 class Swings {
  public:
-  /// Swings in a row that are an oscillation.
+  /// Number of swings in a row that are an oscillation.
   static constexpr int many = 5;
 
-  /// True once `many` have been counted; then the count restarts. `caused`: the part of `signal` that comes
-  /// from the command, through gains and feed-forward.
+  /// True after `many` swings; then the count restarts. `caused`: part of `signal` from the command, through
+  /// gains and feed-forward.
   bool step(double signal, double caused, double threshold, double dt_s) {
     const double y = fast_.step(signal, wash_out_radps, dt_s),
                  c = std::abs(commanded_.step(caused, wash_out_radps, dt_s));
@@ -50,19 +50,19 @@ class Swings {
   bool positive_ = false, large_ = false;
 };
 
-/// Factor on the gains of a loop: multiplied by `share` with each oscillation, down to `least`, and kept
-/// until `restore()`.
+/// Factor on the gains of a loop: multiplied by `share` at each oscillation, at least `least`, until
+/// `restore()`.
 class Quietening {
  public:
   static constexpr double share = 0.4, least = 0.1;
 
-  /// True when the gains were cut in this step. The rest as in Swings.
+  /// True if the gains were reduced in this step. Arguments as in Swings.
   bool step(double signal, double caused, double threshold, double dt_s) {
     if (!swings_.step(signal, caused, threshold, dt_s) || gain_ <= least) return false;
     gain_ = std::max(share * gain_, least);
     return true;
   }
-  /// Clears the count: after a switch, on the ground. The gain stays.
+  /// Clears the count after a switch or on the ground. The gain stays.
   void begin() { swings_.reset(); }
   void restore() { *this = {}; }
   double gain() const { return gain_; }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of an outer loop that does not depend on how height and speed are held: course hold, take-off law,
-// waiting on the ground, and commands that go on without a step when the law, the phase or the controller
-// changes.
+// The part of an outer loop that is independent of height and speed control: course hold, take-off law,
+// waiting on the ground, and bumpless commands at a change of law, phase or controller.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -22,7 +21,7 @@ struct OuterTuning {
   double throttle_rate_max_hz = 2;  ///< full range per second
 };
 
-/// Fast enough for surfaces to work and for errors to mean something.
+/// Fast enough for effective surfaces and significant errors.
 inline bool flying(const VehicleState& state, const FlightLimits& limits) {
   return !standing(state) && (!state.airspeed_valid || state.airspeed_mps > 0.6 * limits.airspeed_min_mps);
 }
@@ -48,10 +47,10 @@ class OuterCommands {
     if (law == OuterLaw::takeoff) run_.begin(state);
   }
 
-  /// The same after a switch. `last` is null when no command was applied: the pilot flew, or the host started
-  /// in the air. Then it begins with the attitude of the aircraft within the law's limits, and with cruise
-  /// throttle. Zeros are a valid command: a glide, wings level. Returns true when integrals have a command to
-  /// take up.
+  /// The same after a switch. `last` is null if no command was applied: the pilot flew, or the host started
+  /// in the air. Then the commands start at the attitude of the aircraft, within the limits of the law, and
+  /// at cruise throttle. Zeros are a valid command: a glide with wings level. Returns true if integrals have
+  /// a command to take up.
   bool take_over(OuterLaw law, const VehicleState& state, const AttitudeCommand* last,
                  const OuterTuning& tuning, const FlightLimits& limits) {
     AttitudeCommand from = last ? *last : AttitudeCommand{};
@@ -68,8 +67,8 @@ class OuterCommands {
     return last != nullptr;
   }
 
-  /// Action of this step; restarts the law when it was changed without a switch. Without `sense`, the command
-  /// is not finite: level.
+  /// Action of this step; restarts the law after a change without a switch. `sense` false: the command is not
+  /// finite, and the action is level.
   OuterAction begin(OuterLaw law, const VehicleState& state, bool sense = true) {
     if (!started_) {  // no component flew before: no command to continue from
       law_ = law;
@@ -81,7 +80,7 @@ class OuterCommands {
     if (law == OuterLaw::roll_out) return OuterAction::roll_out;
     if (standing(state)) return OuterAction::wait;
     if (!state.attitude_valid || !state.height_valid || !sense) return OuterAction::level;
-    if (levelling_) {  // known again: go on from the attitude that it has, so that no surface steps
+    if (levelling_) {  // valid again: continue from the present attitude, so that no surface steps
       levelling_ = false;
       start(law, state, {state.roll_rad, state.pitch_rad, last_.throttle_frac});
     }
@@ -91,7 +90,7 @@ class OuterCommands {
   AttitudeCommand take_off(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits,
                            double dt_s) {
     const AttitudeCommand wanted = run_.step(state, tuning.takeoff, limits, dt_s);
-    // Hand launch: the motor stops at once, even when the last command had power.
+    // Hand launch: the motor stops at once, also after a command with power.
     if (tuning.takeoff.launch_mps2 > 0 && !run_.launched()) throttle_.reset_to(0);
     return finish(course_.shape(wanted.roll_rad, tuning.course, dt_s), wanted.pitch_rad, wanted.throttle_frac,
                   tuning, dt_s);
@@ -104,11 +103,11 @@ class OuterCommands {
     return last_;
   }
 
-  /// On the ground after a landing: engine off, wings level. The pitch that the wheels give is the command: a
-  /// pitch loop that works against the ground drives the elevator to its stop and the nose into the ground.
+  /// On the ground after a landing: engine off, wings level. The command is the pitch on the wheels: a pitch
+  /// loop against the ground would saturate the elevator, and press the nose into the ground.
   AttitudeCommand roll_out(const VehicleState& state, const OuterTuning& tuning, const FlightLimits& limits,
                            double dt_s) {
-    constexpr double press_rad = 0.02;  // as long as it is fast enough to fly again
+    constexpr double press_rad = 0.02;  // while fast enough to lift off again
     const double fast = state.airspeed_valid ? smoothly(state.airspeed_mps, 0.8 * limits.airspeed_min_mps,
                                                         1.1 * limits.airspeed_min_mps)
                                              : 0;
@@ -117,7 +116,7 @@ class OuterCommands {
     return finish(course_.shape(0, tuning.course, dt_s), pitch_rad, 0, tuning, dt_s);
   }
 
-  /// The state is not known in flight: wings level, trim of level flight at cruise speed.
+  /// Invalid state in flight: wings level, trim of level flight at cruise speed.
   AttitudeCommand level(double pitch_rad, double throttle_frac, const OuterTuning& tuning, double dt_s) {
     levelling_ = true;
     return finish(course_.shape(0, tuning.course, dt_s), pitch_rad, throttle_frac, tuning, dt_s);
@@ -133,8 +132,8 @@ class OuterCommands {
 
   double wings_level(const OuterTuning& tuning, double dt_s) { return course_.shape(0, tuning.course, dt_s); }
 
-  /// Roll command of course hold, or of a lateral acceleration, shaped. Without a velocity there is no
-  /// course: wings level.
+  /// Roll command of course hold, or of a lateral acceleration, shaped. Without a valid velocity: wings
+  /// level.
   double roll(const VehicleState& state, const GuidanceCommand& command, const OuterTuning& tuning,
               double dt_s) {
     if (command.lateral == LateralMode::acceleration)
@@ -143,7 +142,7 @@ class OuterCommands {
     return course_.step(state, command.course_rad, command.roll_feedforward_rad, tuning.course, dt_s);
   }
 
-  /// Pitch and throttle through their rate limits; `roll_rad` is shaped already.
+  /// Pitch and throttle with their rate limits; `roll_rad` is already shaped.
   AttitudeCommand finish(double roll_rad, double pitch_rad, double throttle_frac, const OuterTuning& tuning,
                          double dt_s) {
     taking_up_ = false;
@@ -154,7 +153,7 @@ class OuterCommands {
     return last_;
   }
 
-  /// True when the next `hold` is the first after a switch: integrals then take up `last()`.
+  /// True if the next `hold` is the first after a switch: integrals then take up `last()`.
   bool taking_up() const { return taking_up_; }
   const AttitudeCommand& last() const { return last_; }
   OuterLaw law() const { return law_; }
@@ -170,7 +169,7 @@ class OuterCommands {
   bool started_ = false, taking_up_ = false, levelling_ = false;
 };
 
-/// Pitch limits in force: the airframe's, the user's, and the ceiling near the stall.
+/// Pitch limits in force: of the airframe, of the user, and near the stall.
 struct PitchLimits {
   PitchLimits(const Envelope& within, const FlightLimits& limits, double pitch_limit_rad)
       : max(std::min({limits.pitch_max_rad, pitch_limit_rad, within.pitch_max_rad})),
@@ -178,13 +177,13 @@ struct PitchLimits {
   double max, min;
 };
 
-/// Airspeed for the laws' divisions: measured, but not below half the minimum; cruise when it is not known.
+/// Airspeed for divisions: the measured one, but at least half the minimum; cruise if invalid.
 inline double scheduling_airspeed(const VehicleState& state, const FlightLimits& limits) {
   return state.airspeed_valid ? std::max(state.airspeed_mps, 0.5 * limits.airspeed_min_mps)
                               : limits.airspeed_cruise_mps;
 }
 
-/// True when all inputs of an outer law are valid; otherwise it flies degraded.
+/// True if all inputs of an outer law are valid; otherwise it is degraded.
 inline bool enough_known(const VehicleState& state) {
   return state.attitude_valid && state.velocity_valid && state.height_valid && state.airspeed_valid;
 }

@@ -90,9 +90,9 @@ inline OuterTuning tuning(const OuterParams& p) {
 /// The commanded level turn, and the share `turn_kff` of its demands beyond level flight at the same
 /// airspeed, by the airframe's model (turn_trim.hpp).
 struct LevelTurn {
-  double Va_mps;       ///< true airspeed for divisions, smoothed: never near 0 (scheduling_airspeed)
-  double pitch_rad;    ///< trim, the turn's share included
-  double drag_newton;  ///< beyond that of level flight
+  double Va_mps;       ///< true airspeed for divisions, smoothed, never near 0 (scheduling_airspeed)
+  double pitch_rad;    ///< trim, including the share of the turn
+  double drag_newton;  ///< drag beyond that of level flight
   Envelope within;     ///< limits of the commands
 };
 /// Result of a law's `hold`: pitch command in rad, throttle 0 to 1.
@@ -121,24 +121,26 @@ inline LevelTurn level_turn(double roll_rad, double Va, const VehicleState& stat
   return level_turn(roll_rad, Va, air_density(state), p);
 }
 
-/// An outer law but for height and speed. Its component publishes `attitude` and `internals`.
+/// An outer law without its height and speed control. Its component publishes `attitude` and `internals`.
 struct OuterLoop {
   OuterCommands commands;
   EnvelopeGuard guard;
   HeightWatch height;
   EnvelopeReports reports;
-  LowPass airspeed;          ///< m/s, for trims
-  NearbyDensity density;     ///< kg/m3, of the standard atmosphere
-  std::uint32_t resets = 0;  ///< of the state, seen so far
-  /// Set at a switch until the first step. Nothing is faded, unlike in the inner law: the rate limits, which
+  LowPass airspeed;          ///< airspeed for trims, m/s
+  NearbyDensity density;     ///< density of the standard atmosphere, kg/m3
+  std::uint32_t resets = 0;  ///< resets of the state so far
+  /// True from a switch to the first step. No command fades, unlike in the inner law: the rate limits, which
   /// always apply, start at the last commands (OuterCommands::start).
   bool took_over = false;
-  bool flares = false;  ///< of the law, which sets it: speed is to go, and no stall is to be left
+  bool flares =
+      false;  ///< set by the law: in a flare the speed decreases on purpose, without stall protection
 
-  /// Computes the lift limits. Where a law has no `configure`, the first step does.
+  /// Computes the lift limits. For a law without `configure`, the first step does so.
   void configure(const OuterParams& p) { guard.configure(*p.airframe); }
 
-  /// Continues from the outputs applied last. False: no component flew, and integrals start empty.
+  /// Continues from the outputs applied last. Returns false without a previous component: integrals start at
+  /// 0.
   template <class Outputs>
   bool activate(const VehicleState& state, const OuterParams& p, const Applied<Outputs>& last) {
     airspeed.reset_to(scheduling_airspeed(state, p.airframe->limits));
@@ -149,27 +151,28 @@ struct OuterLoop {
     return commands.take_over(p.law, state, attitude, tuning(p), p.airframe->limits);
   }
 
-  /// One step. `rest()` is called when nothing is held - standing, take-off, state not known - and empties
-  /// the law's integrals; `hold(LevelTurn, dt_s)` when height and speed are, and returns their PitchThrottle.
+  /// One step. `rest()` is called when the law controls nothing (standing, take-off, invalid state), and
+  /// clears its integrals. `hold(LevelTurn, dt_s)` is called when it holds height and speed, and returns a
+  /// PitchThrottle.
   template <class Outputs, class Rest, class Hold>
   Status step(const Tick& tick, const VehicleState& state, const GuidanceCommand& command,
               const OuterParams& p, Outputs& out, Rest&& rest, Hold&& hold) {
-    // A gap must not move the integrators far. In the tick of a switch the component before has stepped
-    // already; a second step would exceed the rate limits.
+    // A gap must not move the integrators far. In the tick of a switch the previous component has already
+    // stepped, and a second step would exceed the rate limits.
     const double dt = took_over ? 0 : std::clamp(tick.dt_s(), 0.0, 0.1);
     took_over = false;
     if (!guard.configured()) configure(p);
     OuterTuning t = tuning(p);
     const FlightLimits& limits = p.airframe->limits;
     const double Va = scheduling_airspeed(state, limits);
-    // The host lets no such command pass; a law that is flown without it is not poisoned by one either.
+    // The host stops commands that are not finite; without a host the law must not store them either.
     const bool sense = finite(command);
     const OuterAction action = commands.begin(p.law, state, sense);
     out.internals = {};
     const bool holds = action == OuterAction::hold;
     if (!holds) rest();
     if (!holds || state.reset_count != resets) guard.reset();
-    // A reset of the state changes the airspeed: the smoothing starts again.
+    // A reset of the state changes the airspeed: the smoothing restarts.
     if (!holds || state.reset_count != resets) airspeed.reset_to(Va);
     resets = state.reset_count;
     switch (action) {
@@ -197,7 +200,7 @@ struct OuterLoop {
                          c.roll_feedforward_rad + c.lateral_acceleration_mps2);
   }
 
-  /// Height and speed by the law, or the way out of a stall and up again.
+  /// Height and speed by the law, or stall recovery and the climb after it.
   template <class Rest, class Hold>
   AttitudeCommand held(const VehicleState& state, const GuidanceCommand& command, const OuterParams& p,
                        const OuterTuning& t, double steady_mps, double rho, double dt,
@@ -228,7 +231,7 @@ struct OuterLoop {
     const double pitch = guard.regaining_pitch(state, within, commands.last().pitch_rad, dt);
     return std::clamp(pitch, limits.pitch_min_rad, limits.pitch_max_rad);
   }
-  /// All of it; in a spiral dive none that makes it faster than the largest airspeed.
+  /// Full power, but none in a spiral dive above the maximum airspeed.
   static double power(const VehicleState& state, const FlightLimits& limits) {
     constexpr double banked_rad = 1;
     const bool spirals = state.airspeed_valid && std::abs(state.roll_rad) > banked_rad;
@@ -250,7 +253,7 @@ struct OuterLoop {
     return flying && !enough_known(state) ? Status::degraded : Status::ok;
   }
 
-  /// Attitude or height is not known: the trim of level flight at cruise speed.
+  /// Invalid attitude or height: trim of level flight at cruise speed.
   AttitudeCommand level(const VehicleState& state, const OuterParams& p, const OuterTuning& t, double dt_s) {
     const FlightLimits& limits = p.airframe->limits;
     const double alpha = turn_trim(*p.airframe, 0, limits.airspeed_cruise_mps, air_density(state)).alpha_rad;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Trim of a steady coordinated turn, from an airframe's linear lift and pitching moment: the feed-forward of
-// a law that keeps height in a bank. Beard & McLain, Small Unmanned Aircraft (2012), sections 5.3 and 9.2.
+// Trim of a steady coordinated turn, from linear lift and pitching moment of an airframe: feed-forward of a
+// law that holds height in a bank. Beard & McLain, Small Unmanned Aircraft (2012), sections 5.3 and 9.2.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -14,15 +14,16 @@ struct TurnRates {
   double p_radps = 0, q_radps = 0, r_radps = 0;
 };
 
-/// The steepest bank that is fed forward, rad: beyond it tan and 1 / cos are those of this one.
+/// Steepest bank for the feed-forward, rad; beyond it tan and 1 / cos are constant.
 inline constexpr double steepest_turn_rad = 1.2, steepest_turn_tan = 2.5721516221263188,
                         steepest_turn_load = 2.759703601332406;
 
-/// TurnRates at bank, pitch and true airspeed. The tangent is that of at most `steepest_turn_rad`, the
-/// airspeed at least 1 m/s.
+/// TurnRates at bank, pitch and true airspeed. The bank is limited to `steepest_turn_rad` in the tangent, the
+/// airspeed to at least 1 m/s.
 inline TurnRates turn_rates(double roll_rad, double pitch_rad, double airspeed_mps,
                             double gravity_mps2 = 9.80665) {
-  const double s = std::sin(roll_rad), c = std::cos(roll_rad);  // both at once, which a tangent is not
+  const double s = std::sin(roll_rad),
+               c = std::cos(roll_rad);  // the compiler computes sine and cosine together, but not a tangent
   const double tan =
       std::abs(roll_rad) <= steepest_turn_rad ? s / c : std::copysign(steepest_turn_tan, roll_rad);
   const double psi_dot = gravity_mps2 * tan / std::max(airspeed_mps, 1.0);
@@ -30,7 +31,7 @@ inline TurnRates turn_rates(double roll_rad, double pitch_rad, double airspeed_m
           psi_dot * c * std::cos(pitch_rad)};
 }
 
-/// Lift over weight of a level turn, bounded: at 1.2 rad it is 2.8.
+/// Lift over weight of a level turn, limited to 2.8, its value at 1.2 rad.
 inline double load_factor(double roll_rad) {
   return std::abs(roll_rad) <= steepest_turn_rad ? 1 / std::cos(roll_rad) : steepest_turn_load;
 }
@@ -43,7 +44,7 @@ struct TurnTrim {
 };
 
 /// Trims of level turns of one airframe at one airspeed and density: solves CL = n W / (q S), Cm = 0 with the
-/// pitch rate of the turn. All zeros for an airframe whose elevator moves nothing (none given).
+/// pitch rate of the turn. All zeros for an airframe without elevator effect.
 class TurnTrims {
  public:
   TurnTrims(const Airframe& airframe, double airspeed_mps, double density_kgpm3,
@@ -55,7 +56,7 @@ class TurnTrims {
     const double determinant = L.alpha_ratio * M.elevator_ratio - L.elevator_ratio * M.alpha_ratio;
     if (std::abs(determinant) < 1e-9 || qS_ < 1e-9) return;
     solvable_ = true;
-    // Divisions dominate the cost of a trim, and a law needs two in each step.
+    // Divisions dominate the cost of a trim, and a law needs two trims in each step.
     per_determinant_ = 1 / determinant;
     level_lift_ = a_.mass_kg * g_ / qS_;
     half_chord_time_ = 0.5 * a_.wing.chord_m / Va_;
@@ -84,7 +85,7 @@ class TurnTrims {
   bool solvable_ = false;
 };
 
-/// One of them.
+/// One of these trims.
 inline TurnTrim turn_trim(const Airframe& airframe, double roll_rad, double airspeed_mps,
                           double density_kgpm3, double gravity_mps2 = 9.80665) {
   return TurnTrims(airframe, airspeed_mps, density_kgpm3, gravity_mps2).at(roll_rad);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Dryden turbulence in body axes. Source: MIL-F-8785C / MIL-HDBK-1797; forming filters and figures of Beard &
-// McLain (4.24) and table 4.1. The filters are discretised exactly: their output is a sample of the
-// continuous process at any step and any changing airspeed.
+// McLain (4.24) and table 4.1. The discretisation is exact: the output is a sample of the continuous process
+// for any step and any varying airspeed.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -22,8 +22,8 @@ struct DrydenScales {
   Eigen::Vector3d sigma{0, 0, 0};
 };
 
-/// At 50 m: Beard & McLain, table 4.1, low altitude. Severe is three times light, as the wind at 20 ft that
-/// defines them (15, 30, 45 knots).
+/// Scales at 50 m: Beard & McLain, table 4.1, low altitude. Severe is three times light, as the wind at 20 ft
+/// that defines them (15, 30, 45 knots).
 inline DrydenScales dryden_scales(Turbulence turbulence) {
   const double k = turbulence == Turbulence::light      ? 1
                    : turbulence == Turbulence::moderate ? 2
@@ -32,11 +32,11 @@ inline DrydenScales dryden_scales(Turbulence turbulence) {
   return {{200, 200, 50}, k * Eigen::Vector3d(1.06, 1.06, 0.7)};
 }
 
-/// Gust velocity along the body axes, m/s. The same seed and steps give the same gusts.
+/// Gust velocity along the body axes, m/s. Equal seeds and steps give equal gusts.
 class Dryden {
  public:
   Dryden(const DrydenScales& scales, std::uint64_t seed) : scales_(scales), random_(seed) {
-    // The state has this covariance whatever the airspeed: [1/2 1/4; 1/4 1/4], for u only the first element.
+    // Covariance of the state at any airspeed: [1/2 1/4; 1/4 1/4], for u only the first element.
     u_ = std::sqrt(0.5) * random_.normal();
     for (auto* s : {&v_, &w_}) {
       (*s)(0) = std::sqrt(0.5) * random_.normal();
@@ -44,8 +44,8 @@ class Dryden {
     }
   }
 
-  /// New lengths and standard deviations from here on. The state has no unit: gusts grow or shrink with the
-  /// standard deviations and do not jump.
+  /// Sets new lengths and standard deviations. The state has no unit: gusts scale with the standard
+  /// deviations, without a step.
   void set_scales(const DrydenScales& scales) {
     scales_ = scales;
     dt_ = 0;
@@ -53,7 +53,7 @@ class Dryden {
 
   const DrydenScales& scales() const { return scales_; }
 
-  /// Gust velocity, body axes, after a further `dt` at airspeed `Va`.
+  /// Gust velocity, body axes, after another `dt` at airspeed `Va`.
   Eigen::Vector3d advance(double dt, double Va) {
     if (scales_.sigma.isZero(0)) return Eigen::Vector3d::Zero();
     const double speed = std::max(Va, slowest);
@@ -73,7 +73,7 @@ class Dryden {
   }
 
  private:
-  static constexpr double slowest = 5;  ///< m/s: air is carried past an aircraft that stands still, too
+  static constexpr double slowest = 5;  ///< m/s: air also passes an aircraft at rest
 
   struct Step {
     double decay = 0, coupling = 0;    ///< x1 <- decay x1; x2 <- decay x2 + coupling x1
@@ -84,7 +84,7 @@ class Dryden {
     Step s;
     s.decay = std::exp(-b_dt);
     s.coupling = s.decay * b_dt;
-    // The state is stationary with covariance P, so the noise is P - F P F^T.
+    // The state is stationary with covariance P, so the noise has P - F P F^T.
     const double Q11 = -0.5 * std::expm1(-2 * b_dt);
     const double Q21 = 0.25 - s.decay * (0.5 * s.coupling + 0.25 * s.decay);
     const double Q22 =

@@ -18,7 +18,7 @@ inline constexpr double knot = 1852.0 / 3600;  ///< m/s
 inline constexpr double lowest_ft = 10, low_top_ft = 1000, medium_base_ft = 2000;
 inline constexpr double high_length_ft = 1750;  ///< 3.7.2.1, Dryden form
 
-/// Wind at 20 ft that stands for each strength, 3.7.3.4: 15, 30 and 45 knots.
+/// Wind at 20 ft of each strength, 3.7.3.4: 15, 30 and 45 knots.
 constexpr double wind_20ft(Turbulence strength) { return 15 * knot * static_cast<double>(strength); }
 
 /// Root mean square over altitude, figure 7, ft/s: exceeded with a probability of 1e-2 (light), 1e-3
@@ -27,7 +27,7 @@ inline constexpr std::array<double, 6> altitude_ft{500, 1750, 3750, 7500, 15000,
 inline constexpr std::array<std::array<double, 6>, 3> sigma_fps{
     {{6.6, 6.9, 7.4, 6.7, 4.6, 2.7}, {8.6, 9.6, 10.6, 10.1, 8.0, 6.6}, {15.6, 17.6, 23.0, 23.6, 22.1, 20.0}}};
 
-/// m/s; linear between the points of the figure, held beyond them.
+/// Standard deviation, m/s; linear between the points of the figure, constant beyond them.
 inline double high_sigma(Turbulence strength, double h_ft) {
   const auto& s = sigma_fps[static_cast<std::size_t>(strength) - 1];
   const double h = std::clamp(h_ft, altitude_ft.front(), altitude_ft.back());
@@ -37,7 +37,8 @@ inline double high_sigma(Turbulence strength, double h_ft) {
   return foot * (s[i - 1] + part * (s[i] - s[i - 1]));
 }
 
-/// Up to 1000 ft. Lengths: figure 10; standard deviations: figure 11, sigma_w = 0.1 of the wind at 20 ft.
+/// Scales up to 1000 ft. Lengths: figure 10; standard deviations: figure 11, sigma_w = 0.1 of the wind at 20
+/// ft.
 inline DrydenScales low_altitude(double h_ft, double wind_20ft_mps) {
   const double h = std::clamp(h_ft, lowest_ft, low_top_ft), k = 0.177 + 0.000823 * h;
   const double L = foot * h / std::pow(k, 1.2);
@@ -46,9 +47,9 @@ inline DrydenScales low_altitude(double h_ft, double wind_20ft_mps) {
 }
 }  // namespace mil8785c
 
-/// At `height_m` above the ground: the low-altitude model below 1000 ft, the one of medium altitude from 2000
-/// ft on, linear in between. `wind_20ft_mps` above 0 rules the low-altitude part in place of 15, 30 or 45
-/// knots.
+/// Scales at `height_m` above the ground: the low-altitude model below 1000 ft, the medium-altitude model
+/// from 2000 ft on, linear in between. `wind_20ft_mps` above 0 replaces 15, 30 or 45 knots in the
+/// low-altitude part.
 inline DrydenScales dryden_scales_at(Turbulence strength, double height_m, double wind_20ft_mps = 0) {
   using namespace mil8785c;
   DrydenScales scales;

@@ -20,13 +20,13 @@ namespace fulmar {
 /// Angular velocity of turbulent air about the body axes, rad/s, for one wing span.
 class DrydenRotation {
  public:
-  /// `span_m`: of the wing, above 0.
+  /// `span_m`: wing span, above 0.
   DrydenRotation(double span_m, std::uint64_t seed) : b_(span_m), random_(seed) { p_ = random_.normal(); }
 
-  /// Angular velocity of the air, rad/s, body axes, after a further `dt` at airspeed `Va`; `gust_b`, m/s, is
-  /// the gust of `Dryden` with these scales at the same moment.
+  /// Angular velocity of the air, rad/s, body axes, after another `dt` at airspeed `Va`. `gust_b`, m/s, is
+  /// the gust of `Dryden` with these scales at the same time.
   Eigen::Vector3d advance(double dt, double Va, const Eigen::Vector3d& gust_b, const DrydenScales& scales) {
-    const double V = std::max(Va, 5.0);  // as Dryden: air is carried past what stands still, too
+    const double V = std::max(Va, 5.0);  // as in Dryden: air also passes an aircraft at rest
     const double pole = std::numbers::pi * V / (4 * b_), pole_r = std::numbers::pi * V / (3 * b_);
     const double decay = std::exp(-pole * dt);
     p_ = decay * p_ + std::sqrt(1 - decay * decay) * random_.normal();
@@ -35,8 +35,8 @@ class DrydenRotation {
             pole_r / V * v_.step(gust_b.y(), pole_r, dt)};
   }
 
-  /// Standard deviation of the rolling gusts, rad/s: the root of the integral of Phi_p over all frequencies
-  /// above 0.
+  /// Standard deviation of the rolling gusts, rad/s: root of the integral of Phi_p over all frequencies above
+  /// 0.
   static double deviation_p(const DrydenScales& scales, double span_m) {
     constexpr double pi = std::numbers::pi;
     const double L = scales.length.z(), b = span_m;
@@ -46,7 +46,7 @@ class DrydenRotation {
  private:
   double b_;
   Random random_;
-  double p_ = 0;  ///< standard deviation 1
+  double p_ = 0;  ///< unit standard deviation
   WashOut v_, w_;
 };
 

@@ -8,11 +8,11 @@
 
 namespace fulmar {
 
-/// A plane touching the WGS-84 ellipsoid at the origin. The frame does not follow the Earth's curvature: a
-/// point at the origin's altitude, 5 km away, lies 2 m below the plane (`down` = +2 m). Altitudes above mean
-/// sea level are used as if they were heights above the ellipsoid: the geoid's separation is nearly constant
-/// over a flight and cancels in the difference; what remains is the scale error separation / Earth radius
-/// (100 m of separation: 16 mm per kilometre).
+/// A plane that touches the WGS-84 ellipsoid at the origin. It does not follow the curvature of the Earth: a
+/// point at the altitude of the origin, 5 km away, lies 2 m below the plane (`down` = +2 m). Altitudes above
+/// mean sea level are used as heights above the ellipsoid. The separation of the geoid is nearly constant
+/// over a flight, and cancels in the difference. A scale error of separation / Earth radius remains (100 m of
+/// separation: 16 mm per kilometre).
 class LocalFrame {
  public:
   struct Geodetic {
@@ -22,7 +22,7 @@ class LocalFrame {
   LocalFrame() = default;
   LocalFrame(double lat_deg, double lon_deg, double alt_m) : enu_(lat_deg, lon_deg, alt_m) {}
 
-  /// Degrees, degrees, metres -> metres north, east, down of the origin.
+  /// Degrees, degrees, metres -> metres north, east, down from the origin.
   Eigen::Vector3d to_ned(double lat_deg, double lon_deg, double alt_m) const {
     double e = 0, n = 0, u = 0;
     enu_.Forward(lat_deg, lon_deg, alt_m, e, n, u);

@@ -43,7 +43,7 @@ inline constexpr std::array<Coefficient, 90> coefficients{{
 }};
 // clang-format on
 
-/// Place of degree `n` and order `m` in `coefficients`: 1 <= n <= 12, 0 <= m <= n.
+/// Index of degree `n` and order `m` in `coefficients`: 1 <= n <= 12, 0 <= m <= n.
 inline constexpr std::size_t index(int n, int m) { return static_cast<std::size_t>(n * (n + 1) / 2 + m - 1); }
 
 /// Schmidt semi-normalised associated Legendre functions of sin(phi') and their derivative by phi', n and m
@@ -91,7 +91,7 @@ struct Geocentric {
 
 }  // namespace wmm
 
-/// Years with fraction, as the magnetic model wants them: 2026-07-02T12:00Z is 2026.5.
+/// Decimal year for the magnetic model: 2026-07-02T12:00Z is 2026.5.
 inline double decimal_year(std::int64_t unix_ns) {
   constexpr std::int64_t day_ns = 86'400'000'000'000;
   const auto leap = [](std::int64_t y) { return (y % 4 == 0 && y % 100 != 0) || y % 400 == 0; };
@@ -100,7 +100,7 @@ inline double decimal_year(std::int64_t unix_ns) {
     rest_ns += day_ns;
     --days;
   }
-  // Civil calendar by counting 400-year cycles of 146097 days, then whole years.
+  // Civil calendar: 400-year cycles of 146097 days, then whole years.
   std::int64_t year = 1970;
   const std::int64_t cycles = days >= 0 ? days / 146097 : (days - 146096) / 146097;
   year += 400 * cycles;
@@ -114,8 +114,8 @@ inline double decimal_year(std::int64_t unix_ns) {
          (static_cast<double>(days) + static_cast<double>(rest_ns) / static_cast<double>(day_ns)) / length;
 }
 
-/// Magnetic field of the Earth's main field, north, east, down, tesla. Height above the WGS-84 ellipsoid;
-/// mean sea level will do (30 m are 1 nT). Any point of the Earth; at a pole `north` is along the meridian
+/// Main magnetic field of the Earth, north, east, down, tesla. Height above the WGS-84 ellipsoid; mean sea
+/// level is accurate enough (30 m are 1 nT). Valid at any point; at a pole `north` is along the meridian
 /// `lon_deg`. Outside 2025-2030 the model is extrapolated.
 inline Eigen::Vector3d magnetic_field_ned(double lat_deg, double lon_deg, double height_m, double year) {
   constexpr double rad = std::numbers::pi / 180, reference_radius_m = 6371200.0;

@@ -10,12 +10,12 @@
 
 namespace fulmar {
 
-/// Heading and ground speed on a course. When the wind leaves no solution, `feasible` is false and the nose
-/// points as far against the cross wind as it can without flying backwards.
+/// Heading and ground speed on a course. Without a solution in this wind, `feasible` is false, and the
+/// heading compensates as much cross wind as possible without flying backwards.
 struct WindTriangle {
   double heading_rad = 0;       ///< direction of the air velocity
-  double ground_speed_mps = 0;  ///< along the course; negative: blown backwards
-  bool feasible = true;         ///< the course can be made good, with a ground speed above 0
+  double ground_speed_mps = 0;  ///< along the course; negative: backwards
+  bool feasible = true;         ///< true if the course can be held with a ground speed above 0
 };
 
 /// `airspeed_mps` is the horizontal part of the true airspeed: Va cos(gamma_a).
@@ -25,7 +25,7 @@ inline WindTriangle fly_course(double course_rad, double airspeed_mps, double wi
   const double along = c * wind_north_mps + s * wind_east_mps;
   const double across = -s * wind_north_mps + c * wind_east_mps;  // from the left
   if (airspeed_mps <= 0) return {course_rad, along, false};
-  const double sine = -across / airspeed_mps;  // of the crab angle
+  const double sine = -across / airspeed_mps;  // sine of the crab angle
   WindTriangle triangle;
   triangle.heading_rad = wrap_pi(course_rad + std::asin(std::clamp(sine, -1.0, 1.0)));
   const double forward = airspeed_mps * std::sqrt(std::max(1 - sine * sine, 0.0));
@@ -44,7 +44,7 @@ inline Vec3<Ned> air_velocity(const Vec3<Ned>& ground_mps, const Vec3<Ned>& wind
   return ground_mps - wind_mps;
 }
 
-/// Least airspeed that makes good `ground_speed_mps` on a course.
+/// Minimum airspeed for `ground_speed_mps` on a course.
 inline double airspeed_for_ground_speed(double course_rad, double ground_speed_mps,
                                         const Vec3<Ned>& wind_mps) {
   const double north = ground_speed_mps * std::cos(course_rad) - wind_mps.north;
@@ -52,7 +52,7 @@ inline double airspeed_for_ground_speed(double course_rad, double ground_speed_m
   return std::hypot(north, east);
 }
 
-/// Bank of a coordinated level turn of signed curvature (1/m, right positive) flown over the ground. Beard &
+/// Bank of a coordinated level turn over the ground, of signed curvature (1/m, right positive). Beard &
 /// McLain, chapter 10: the centripetal acceleration is that of the ground path, V_g^2 kappa, and lift tilts
 /// about the air velocity: tan(phi) = V_g^2 kappa / (g cos(chi - psi)).
 inline double bank_for_curvature(double curvature_ratio, double ground_speed_mps, double crab_rad,

@@ -33,22 +33,22 @@ inline Eigen::Quaterniond quaternion_from(const Euler& e) {  // B&M (B.6)
                             Eigen::AngleAxisd(e.roll_rad, Eigen::Vector3d::UnitX()));
 }
 
-/// Roll and yaw in +-pi, pitch in +-pi/2. With the nose straight up or down only roll and yaw together are
-/// defined: roll is 0 then.
+/// Roll and yaw in +-pi, pitch in +-pi/2. With the nose straight up or down only the sum of roll and yaw is
+/// defined: then roll is 0.
 inline Euler euler_from(const Eigen::Matrix3d& R_nb) {
   const double s = std::clamp(-R_nb(2, 0), -1.0, 1.0);
   if (std::abs(s) > 1 - 1e-12)
     return {0, std::copysign(std::numbers::pi / 2, s), std::atan2(-R_nb(0, 1), R_nb(1, 1))};
   return {std::atan2(R_nb(2, 1), R_nb(2, 2)), std::asin(s), std::atan2(R_nb(1, 0), R_nb(0, 0))};
 }
-/// The same of a unit quaternion.
+/// The same for a unit quaternion.
 inline Euler euler_from(const Eigen::Quaterniond& q_nb) { return euler_from(q_nb.toRotationMatrix()); }
 
 /// Quaternion of a rotation vector (axis times angle).
 inline Eigen::Quaterniond exp_map(const Eigen::Vector3d& rotation_rad) {
   const Eigen::Vector3d half = 0.5 * rotation_rad;
   const double x = half.squaredNorm();
-  if (x < 2.5e-3) {  // up to 0.1 rad: the series, to 1e-13, without a sine
+  if (x < 2.5e-3) {  // up to 0.1 rad: series, accurate to 1e-13, without a sine
     const double k = 1 - x / 6 * (1 - x / 20 * (1 - x / 42));
     return {1 - x / 2 * (1 - x / 12 * (1 - x / 30)), k * half.x(), k * half.y(), k * half.z()};
   }
@@ -64,7 +64,7 @@ inline Eigen::Vector3d log_map(const Eigen::Quaterniond& q) {
   return sign * k * q.vec();
 }
 
-/// Attitude that maps the direction `first_b` exactly to `first_n`, and `second_b` as near as that allows to
+/// Attitude that maps the direction `first_b` exactly to `first_n`, and `second_b` as close as possible to
 /// `second_n` (TRIAD). The two directions must not be parallel.
 inline Eigen::Quaterniond attitude_from_directions(const Eigen::Vector3d& first_b,
                                                    const Eigen::Vector3d& first_n,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that carry their derivatives along, for models that are written once and differentiated exactly:
-// forward-mode automatic differentiation. Source: Griewank & Walther, Evaluating Derivatives (2008), chapter
-// 3.
+// Numbers with their derivatives, for models that are written once and differentiated exactly: forward-mode
+// automatic differentiation. Source: Griewank & Walther, Evaluating Derivatives (2008), chapter 3.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -11,7 +10,7 @@
 namespace fulmar {
 
 /// v + sum of d[i] epsilon[i], where the product of two epsilons is 0: f(v + d epsilon) = f(v) + f'(v) d
-/// epsilon. Compares by its value, so that a branch is the one which the value takes.
+/// epsilon. Comparisons use the value, so that a branch is the one of the value.
 template <int N>
 struct Dual {
   using Gradient = std::array<double, std::size_t(N)>;
@@ -19,7 +18,7 @@ struct Dual {
   Gradient d{};
 
   Dual() = default;
-  Dual(double value) : v(value) {}  // NOLINT(google-explicit-constructor): a constant, as models have them
+  Dual(double value) : v(value) {}  // implicit: a model has constants
   /// The variable `i` at its value.
   static Dual variable(double value, int i) {
     Dual x(value);
@@ -59,7 +58,7 @@ struct Dual {
 
   friend Dual sqrt(const Dual& a) {
     const double root = std::sqrt(a.v);
-    return root > 0 ? chain(root, 0.5 / root, a) : Dual(root);  // at 0 it has no derivative
+    return root > 0 ? chain(root, 0.5 / root, a) : Dual(root);  // no derivative at 0
   }
   friend Dual exp(const Dual& a) {
     const double e = std::exp(a.v);
@@ -85,7 +84,7 @@ struct Dual {
 
 namespace Eigen {
 
-/// Lets Dual be the scalar of Eigen's matrices.
+/// Makes Dual a scalar of Eigen's matrices.
 template <int N>
 struct NumTraits<fulmar::Dual<N>> : GenericNumTraits<fulmar::Dual<N>> {
   using Real = fulmar::Dual<N>;

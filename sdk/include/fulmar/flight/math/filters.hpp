@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Filters for a varying step: the discretisation is exact (the pole is exp(-dt / tau) whatever dt is).
-// Each starts at its first input, so none begins with a transient from zero.
+// Filters for a variable step. The discretisation is exact: the pole is exp(-dt / tau) for any dt. Each
+// filter starts at its first input, without a transient from zero.
 #pragma once
 #include <algorithm>
 #include <cmath>
 
 namespace fulmar {
 
-/// exp(-x), recomputed when x changes: most steps have one length.
+/// exp(-x), recomputed when x changes: most steps have equal length.
 class Decay {
  public:
   double of(double x) {
@@ -46,8 +46,8 @@ class LowPass {
   bool started_ = false;
 };
 
-/// Wash-out: y = s / (s + pole) u. Passes changes, forgets what stays. Exact for an input that is linear over
-/// the step.
+/// Wash-out: y = s / (s + pole) u. It passes changes, and a constant input decays. Exact for an input that is
+/// linear over the step.
 class WashOut {
  public:
   double step(double u, double pole_radps, double dt_s) {
@@ -64,7 +64,7 @@ class WashOut {
     started_ = true;
     u_ = u;
     return y_ = 0;
-  }  ///< `u` counts as having stayed for ever
+  }  ///< `u` counts as constant in the past
   void reset() {
     started_ = false;
     u_ = 0;
@@ -78,8 +78,8 @@ class WashOut {
   bool started_ = false;
 };
 
-/// y'' = w^2 (u - y) - 2 z w y', for an input that is constant over the step. Gives the filtered derivative
-/// as well. Exact for the damping 1 and below; more counts as 1: it belongs into two first-order filters.
+/// y'' = w^2 (u - y) - 2 z w y', for an input that is constant over the step. It also gives the filtered
+/// derivative. Exact up to the damping 1; a larger value counts as 1, since it needs two first-order filters.
 class SecondOrder {
  public:
   double step(double u, double natural_frequency_radps, double damping_ratio, double dt_s) {
@@ -124,7 +124,7 @@ class Differentiator {
   WashOut filter_;
 };
 
-/// Follows its input no faster than `rate` per second, either way.
+/// Follows its input at most at `rate` per second, in both directions.
 class RateLimiter {
  public:
   double step(double u, double rate, double dt_s) { return step(u, -rate, rate, dt_s); }

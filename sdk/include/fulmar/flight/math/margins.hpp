@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability margins of a loop from samples of its frequency response. The loop closes by 1 + L: L is the
-// response around it, with the sign of negative feedback. Åström & Murray, Feedback Systems (2008), section
-// 9.3. They apply to a loop that is stable when closed, which unstable_poles() checks.
+// Stability margins of a loop from samples of its frequency response. The closed loop is 1 + L: L is the loop
+// response with the sign of negative feedback. Åström & Murray, Feedback Systems (2008), section 9.3. They
+// hold for a stable closed loop, which unstable_poles() checks.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -18,21 +18,21 @@ struct LoopSample {
   std::complex<double> gain;  ///< L(j omega)
 };
 
-/// Infinite where nothing that large makes the loop unstable.
+/// Margins; infinite where no value makes the loop unstable.
 struct Margins {
   static constexpr double none = std::numeric_limits<double>::infinity();
-  double gain_db = none;       ///< by which the gain may grow
-  double reduction_db = none;  ///< by which it may fall: finite where the loop is what keeps it stable
-  double phase_rad = none;     ///< the least over all crossovers, whether lag or lead
-  double delay_s = none;       ///< that may come in addition
-  double crossover_radps = 0;  ///< the highest frequency at which |L| is 1; 0: it never is
+  double gain_db = none;       ///< upward gain margin
+  double reduction_db = none;  ///< downward gain margin: finite if only the loop stabilises
+  double phase_rad = none;     ///< least phase margin over all crossovers, for lag or lead
+  double delay_s = none;       ///< additional delay
+  double crossover_radps = 0;  ///< highest frequency at which |L| is 1; 0: none
 
   double min_gain_db() const { return std::min(gain_db, reduction_db); }
 };
 
 namespace detail {
 
-/// Between two samples: the real axis is crossed left of 0.
+/// Crossing of the real axis left of 0 between two samples.
 inline void add_axis(Margins& m, const LoopSample& a, const LoopSample& b) {
   const double x = a.gain.imag(), y = b.gain.imag();
   if ((x < 0) == (y < 0) || x == y) return;
@@ -45,7 +45,7 @@ inline void add_axis(Margins& m, const LoopSample& a, const LoopSample& b) {
     m.reduction_db = std::min(m.reduction_db, -db);
 }
 
-/// Between two samples: the unit circle is crossed.
+/// Crossing of the unit circle between two samples.
 inline void add_circle(Margins& m, const LoopSample& a, const LoopSample& b) {
   const double x = std::log(std::abs(a.gain)), y = std::log(std::abs(b.gain));
   if ((x < 0) == (y < 0) || !std::isfinite(x) || !std::isfinite(y)) return;
@@ -60,7 +60,7 @@ inline void add_circle(Margins& m, const LoopSample& a, const LoopSample& b) {
 
 }  // namespace detail
 
-/// `loop`: at rising frequencies, close enough that L turns by well below 90 deg from one to the next.
+/// `loop`: at rising frequencies, with a rotation of L well below 90 deg between two samples.
 inline Margins margins_of(std::span<const LoopSample> loop) {
   Margins m;
   for (std::size_t i = 1; i < loop.size(); ++i) {
@@ -70,10 +70,10 @@ inline Margins margins_of(std::span<const LoopSample> loop) {
   return m;
 }
 
-/// Poles of the closed loop right of the line Re s = `line`, by the argument principle (Nyquist): those of
-/// the open loop there, less the turns of `difference`(s), det(1 + L) or any function that has the closed
-/// loop's poles for zeros, the open loop's for poles, and a constant value, not 0, at high frequency
-/// (`last_radps`). Delays need no approximation.
+/// Number of poles of the closed loop right of the line Re s = `line`, by the argument principle (Nyquist):
+/// those of the open loop there, less the turns of `difference`(s). This is det(1 + L), or any function with
+/// the poles of the closed loop as zeros, those of the open loop as poles, and a constant value, not 0, at
+/// high frequency (`last_radps`). Delays need no approximation.
 template <class Difference>
 int unstable_poles(Difference&& difference, int open_loop, double line, double last_radps) {
   using Complex = std::complex<double>;
@@ -91,7 +91,7 @@ int unstable_poles(Difference&& difference, int open_loop, double line, double l
     w = next;
     here = there;
     if (std::abs(turn) < 0.1) step *= 1.6;
-    step = std::min(step, 0.05 * w + 0.25 * line);  // no resonance is stepped over
+    step = std::min(step, 0.05 * w + 0.25 * line);  // small enough for sharp resonances
   }
   return open_loop - static_cast<int>(std::lround(turned / std::numbers::pi));  // both halves of the line
 }

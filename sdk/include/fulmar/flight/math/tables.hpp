@@ -14,14 +14,14 @@
 
 namespace fulmar {
 
-/// The values that tables are over, each at the place of its variable; the first one is of none.
+/// Variables of tables, at the index of their TableVariable; the first one is unused.
 template <class S>
 using TablePoint = std::array<S, 7>;
 
 namespace detail {
 
-/// Where x lies between two points of an axis: the lower one, and the part of the way to the next. Beyond the
-/// ends the end, without a slope.
+/// Segment of x between two points of an axis: index of the lower point, and the fraction to the next. Beyond
+/// the ends: the end, with zero slope.
 template <class S>
 struct Between {
   std::size_t low = 0;
@@ -44,8 +44,8 @@ S straight(const S& part, double from, double to) {
 
 }  // namespace detail
 
-/// Linear or bilinear. The derivative is that of the segment in which the point lies, of the upper one at a
-/// point of the table.
+/// Linear or bilinear value. The derivative is that of the segment of the point; at a point of the table, of
+/// the upper segment.
 template <class S>
 S value_of(const CoefficientTable& t, const TablePoint<S>& point) {
   const auto row = detail::between(t.at_ratio, point[std::size_t(t.over)]);
@@ -62,12 +62,12 @@ S value_of(const CoefficientTable& t, const TablePoint<S>& point) {
   return here + row.part * (along(first + next_row) - here);
 }
 
-/// From where to where tables reach; infinite where none is over the variable.
+/// Range of tables; infinite without a table over the variable.
 struct TableRange {
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   bool holds(double x) const { return x >= min && x <= max; }
 };
-/// The widest of the tables over this variable.
+/// The widest range of all tables over this variable.
 inline TableRange table_range(const Aerodynamics& aero, TableVariable of) {
   TableRange range;
   bool any = false;
@@ -84,7 +84,7 @@ inline TableRange table_range(const Aerodynamics& aero, TableVariable of) {
   return range;
 }
 
-/// Error of the points of a table, in the parameter `path`; "" when they are valid.
+/// Error in the points of a table, at the path `path`; "" if they are valid.
 template <class Points>
 std::string table_points_fault(const std::string& path, TableVariable over, const Points& at) {
   for (std::size_t i = 1; i < at.size(); ++i)
@@ -96,7 +96,7 @@ std::string table_points_fault(const std::string& path, TableVariable over, cons
   return "";
 }
 
-/// Error of a table that is read: "values: ...", or "" when it is valid.
+/// Error in a table: "values: ...", or "" if it is valid.
 inline std::string table_fault(const CoefficientTable& t) {
   if (t.over == TableVariable::none) return located("over", flight_messages::table_variable_missing());
   if (t.at_ratio.empty()) return located("at", flight_messages::table_points_missing());

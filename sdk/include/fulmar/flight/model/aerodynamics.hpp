@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Aerodynamic force and moment of a fixed-wing aircraft. Source: Beard & McLain, Small Unmanned Aircraft,
-// chapter 4: (4.6)-(4.16), with the stall blending (4.9), (4.10). Smooth down to no airspeed: rates enter as
-// rho Va S c q / 4, never as c q / 2 Va.
+// chapter 4: (4.6)-(4.16), with the stall blending (4.9), (4.10). Smooth down to zero airspeed: rates enter
+// as rho Va S c q / 4, never as c q / 2 Va.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -29,15 +29,15 @@ class Aerodynamic {
         beta_range_(table_range(a.aero, TableVariable::beta)),
         over_mach_(std::isfinite(table_range(a.aero, TableVariable::mach).max)) {}
 
-  /// From here on the induced drag is `part` of that in free air.
+  /// Sets the induced drag to `part` of that in free air.
   void near_ground(double part) { induced_ = part * induced_free_; }
 
   /// Share of separated flow, 0 to 1. (4.10)
   double stall(double alpha) const { return separated(alpha); }
 
-  /// At air-relative velocity `v_r` and body rate `omega` in air of density `rho`. (4.18), (4.19), (4.20)
-  /// The wing works with the flow in the plane of symmetry, Va cos(beta): the book's equations at small
-  /// sideslip, and no jump at 90 degrees.
+  /// Load at air-relative velocity `v_r` and body rate `omega` in air of density `rho`. (4.18), (4.19),
+  /// (4.20) The wing uses the flow in the plane of symmetry, Va cos(beta): equal to the book at small
+  /// sideslip, and continuous at 90 degrees.
   Load load(const Eigen::Vector3d& v_r, const Eigen::Vector3d& omega, const Deflections& d,
             double rho) const {
     return load_of<double>(v_r, omega, d, rho);
@@ -48,8 +48,8 @@ class Aerodynamic {
                     const S& rho) const {
     const AirDataOf<S> air(v_r);
     const S sigma = separated(air.alpha);
-    const S alpha = (1 - sigma) * air.alpha +
-                    sigma * air.sin_alpha;  // of the linear terms: bounded and without a jump at pi
+    const S alpha =
+        (1 - sigma) * air.alpha + sigma * air.sin_alpha;  // linear terms: bounded and continuous at pi
     const S half_rho_S = 0.5 * rho * wing_.area_m2;
     const S qS = half_rho_S * air.Va * air.Va, plane_qS = half_rho_S * air.in_plane * air.in_plane;
     const S rates = 0.5 * half_rho_S * air.Va;  // (rho Va^2 S / 2) / (2 Va)
@@ -77,7 +77,7 @@ class Aerodynamic {
 
   /// Adds the effect of elevator and rudder in the slipstream of a propeller with this thrust, N. Far behind
   /// it V^2 = Va^2 + 2 T / (rho A): Froude's momentum theory (Glauert, The Elements of Aerofoil and Airscrew
-  /// Theory, chapter XV). A braking propeller takes no more than the available flow.
+  /// Theory, chapter XV). A braking propeller removes at most the available flow.
   template <class S>
   void add_wash(const Eigen::Vector3<S>& v_r, const DeflectionsOf<S>& d, const S& thrust, const S& rho,
                 LoadOf<S>& load) const {
@@ -94,11 +94,11 @@ class Aerodynamic {
   }
   bool washed() const { return aero_.wash_frac != 0; }
 
-  /// Whether tables depend on the Mach number; then it needs the speed of sound.
+  /// True if tables depend on the Mach number; then the load needs the speed of sound.
   bool over_mach() const { return over_mach_; }
   void set_speed_of_sound(double mps) { sound_mps_ = mps; }
 
-  /// Where the airframe's tables end; infinite without tables.
+  /// Range of the airframe's tables; infinite without tables.
   const TableRange& alpha_range() const { return alpha_range_; }
   const TableRange& beta_range() const { return beta_range_; }
   bool beyond_tables(double alpha, double beta) const {
@@ -106,7 +106,7 @@ class Aerodynamic {
   }
 
  private:
-  /// Adds coefficients `of`(derivatives, which): those of the plane of symmetry by `plane_qS`.
+  /// Adds the coefficients `of`(derivatives, index); those of the plane of symmetry times `plane_qS`.
   template <class S, class Of>
   void add_forces(const AirDataOf<S>& air, const S& plane_qS, const S& qS, Of&& of, LoadOf<S>& out) const {
     using C = Coefficient;
@@ -119,7 +119,7 @@ class Aerodynamic {
     out.moment_b.z() += wing_.span_m * qS * of(aero_.yaw, C::yaw);
   }
 
-  /// Terms of few airframes, in a function of their own so that other airframes do not pay for them.
+  /// Optional terms, in a separate function so that airframes without them have no cost.
   template <class S>
   [[gnu::noinline]] void add_more(const AirDataOf<S>& air, const S& sigma, const DeflectionsOf<S>& d,
                                   const S& half_rho_S, LoadOf<S>& out) const {
@@ -170,14 +170,14 @@ class Aerodynamic {
   Aerodynamics aero_;
   double induced_free_;  ///< 1 / (pi e AR)
   double induced_;
-  bool more_;       ///< than the derivative set
-  double disc_m2_;  ///< of the propeller
+  bool more_;       ///< true for terms beyond the derivative set
+  double disc_m2_;  ///< disc area of the propeller
   TableRange alpha_range_, beta_range_;
   bool over_mach_;
-  double sound_mps_ = 340.29;  ///< at sea level
+  double sound_mps_ = 340.29;  ///< speed of sound, at sea level
 };
 
-/// Part of the induced drag that is left `height_m` above the ground. McCormick, Aerodynamics, Aeronautics
+/// Part of the induced drag that remains `height_m` above the ground. McCormick, Aerodynamics, Aeronautics
 /// and Flight Mechanics (1979), chapter 7: phi = (16 h/b)^2 / (1 + (16 h/b)^2).
 inline double induced_drag_near_ground(double height_m, double span_m) {
   const double x = 16 * std::max(height_m, 0.0) / span_m;

@@ -9,7 +9,7 @@
 
 namespace fulmar {
 
-/// Deflections as they are, in radians: signs as in `Actuators`, flaps as in `Flaps`.
+/// Deflections, rad: signs as in `Actuators`, flaps as in `Flaps`.
 template <class S>
 struct DeflectionsOf {
   S aileron = 0, elevator = 0, rudder = 0, flap = 0;

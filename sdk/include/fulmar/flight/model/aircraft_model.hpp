@@ -28,7 +28,7 @@ template <class S>
 using InputVector = Eigen::Matrix<S, inputs, 1>;
 }  // namespace model
 
-/// Its element xz is the negative of the product of inertia, as in Beard & McLain, section 3.3.
+/// The element xz is the negative of the product of inertia, as in Beard & McLain, section 3.3.
 inline Eigen::Matrix3d inertia_matrix(const Inertia& i) {
   Eigen::Matrix3d J;
   J << i.xx_kgm2, 0, -i.xz_kgm2, 0, i.yy_kgm2, 0, -i.xz_kgm2, 0, i.zz_kgm2;
@@ -45,8 +45,8 @@ Eigen::Vector3<S> air_velocity(double Va, const S& alpha, const S& beta) {
 /// The model of one airframe in still standard air. `S` is double, or Dual for derivatives.
 class AircraftModel {
  public:
-  /// `altitude_m`: above mean sea level, where the state `down` is 0; geopotential, where that is another
-  /// one.
+  /// `altitude_m`: altitude above mean sea level of the state `down` = 0; geopotential, if the difference
+  /// matters.
   explicit AircraftModel(const Airframe& a, double altitude_m, const AirOffset& offset = {},
                          double gravity_mps2 = isa::g0)
       : airframe_(a),
@@ -64,12 +64,12 @@ class AircraftModel {
   const Aerodynamic& aerodynamic() const { return aero_; }
   const Propeller& propeller() const { return propeller_; }
   const Propellers& propellers() const { return propellers_; }
-  /// Flaps are no input: they stay where they are set.
+  /// Flaps are no input: they keep this deflection.
   void set_flap(double rad) { flap_rad_ = rad; }
   double flap_rad() const { return flap_rad_; }
   double altitude_m() const { return altitude_m_; }
 
-  /// Force without gravity and moment, at propeller speed `Omega`.
+  /// Force without gravity, and moment, at propeller speed `Omega`.
   template <class S>
   LoadOf<S> load(const Eigen::Vector3<S>& v_b, const Eigen::Vector3<S>& omega_b, const DeflectionsOf<S>& d,
                  const S& Omega, const S& rho) const {

@@ -17,7 +17,7 @@ struct LinearModel {
   Eigen::Matrix<double, model::states, model::inputs> B;
 };
 
-/// A part of the model, of states and inputs that concern each other.
+/// A part of the model with these states and inputs.
 template <std::size_t N, std::size_t M>
 struct LinearBlock {
   Eigen::Matrix<double, int(N), int(N)> A;
@@ -27,7 +27,8 @@ struct LinearBlock {
 namespace model {
 inline constexpr std::array<int, 4> longitudinal_states{u, w, q, pitch}, lateral_states{v, p, r, roll};
 inline constexpr std::array<int, 2> longitudinal_inputs{elevator, throttle}, lateral_inputs{aileron, rudder};
-/// All on which the motion depends: neither place nor heading. The density's change with height is left out.
+/// States of the motion, which does not depend on place and heading. The change of density with height is
+/// neglected.
 inline constexpr std::array<int, 8> motion_states{u, w, q, pitch, v, p, r, roll};
 inline constexpr std::array<int, 4> all_inputs{aileron, elevator, rudder, throttle};
 }  // namespace model
@@ -51,7 +52,7 @@ LinearModel linear_model(const Model& m, const model::StateVector<double>& x,
   return out;
 }
 
-/// The rows and columns of these states and inputs; couplings to others are left out.
+/// Rows and columns of these states and inputs; couplings to others are neglected.
 template <std::size_t N, std::size_t M>
 LinearBlock<N, M> block_of(const LinearModel& all, const std::array<int, N>& states,
                            const std::array<int, M>& inputs) {

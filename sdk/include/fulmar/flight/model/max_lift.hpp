@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lift that a trimmed wing carries, by the airframe's own model: derivatives, stall blending and tables.
+// Maximum lift of a trimmed wing by the model of the airframe: derivatives, stall blending and tables.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace fulmar {
 
-/// Part of the pitching moment coefficient from tables at an angle of attack, all other arguments 0.
+/// Pitching moment coefficient of the tables at an angle of attack, with all other arguments 0.
 inline double tables_at(const Airframe& a, double alpha) {
   double sum = 0;
   for (const CoefficientTable& t : a.aero.tables)
@@ -16,7 +16,7 @@ inline double tables_at(const Airframe& a, double alpha) {
   return sum;
 }
 
-/// CL at an angle of attack, with the elevator holding the pitching moment as far as its throw goes.
+/// CL at an angle of attack, with the elevator balancing the pitching moment within its throw.
 inline double trimmed_lift(const Aerodynamic& aero, const Airframe& a, double alpha) {
   const Derivatives &M = a.aero.pitch, &L = a.aero.lift;
   const Load load =
@@ -30,11 +30,11 @@ inline double trimmed_lift(const Aerodynamic& aero, const Airframe& a, double al
          L.elevator_ratio * elevator;
 }
 
-/// The most that the wing carries, with the elevator holding the pitching moment: CL and its angle of attack.
+/// Maximum lift, with the elevator balancing the pitching moment: CL and its angle of attack.
 struct MostLift {
   double coefficient = 0, alpha_rad = 0;
 };
-/// Searched in steps of 1e-3 rad from 0 to 0.1 rad beyond the stall angle, at most 1 rad.
+/// Search in steps of 1e-3 rad from 0 to 0.1 rad beyond the stall angle, at most 1 rad.
 inline MostLift max_lift(const Airframe& a) {
   const Aerodynamic aero(a);
   MostLift most;

@@ -11,12 +11,12 @@
 
 namespace fulmar {
 
-/// Where a surface's servo stops.
+/// Stops of the servo of a surface.
 struct Stops {
   double min = 0, max = 0;
   bool reach(double angle) const { return angle >= min && angle <= max; }
 };
-/// Stops in rad: `min_rad` and `max_rad` where the airframe gives them, else -limit and +limit.
+/// Stops in rad: `min_rad` and `max_rad` if the airframe has them, otherwise -limit and +limit.
 inline Stops stops(const Surface& s) {
   constexpr double unsaid = 9;  // rad
   return {s.min_rad < -unsaid ? -s.limit_rad : s.min_rad, s.max_rad > unsaid ? s.limit_rad : s.max_rad};
@@ -50,9 +50,9 @@ inline Deflections from_servos(Mixer mixer, Deflections servos) {
   return servos;
 }
 
-/// Which of the three servos would have to go beyond its stops: none when all reach.
+/// Servo beyond its stops; none if all are within.
 enum class Beyond : unsigned char { none, aileron, elevator, rudder };
-/// The first of elevator, aileron and rudder servo that these deflections, rad, drive beyond its stops.
+/// The first of the elevator, aileron and rudder servos that these deflections, rad, drive beyond its stops.
 inline Beyond beyond_stops(const Airframe& a, const Deflections& d) {
   const Deflections servos = to_servos(a.mixer, d);
   if (!stops(a.elevator).reach(servos.elevator)) return Beyond::elevator;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Modes of motion of a linear model, distinguished by the states that take part in them, never by their order
-// or size. Participation factors: Perez-Arriaga, Verghese & Schweppe, "Selective modal analysis", IEEE Trans.
-// PAS-101 (1982): |left eigenvector times right eigenvector|, which does not depend on units. Modes: Etkin &
-// Reid, Dynamics of Flight (1996), chapter 6.
+// Modes of motion of a linear model, identified by the states that participate in them, not by order or size.
+// Participation factors: Perez-Arriaga, Verghese & Schweppe, "Selective modal analysis", IEEE Trans. PAS-101
+// (1982): |left eigenvector times right eigenvector|, which does not depend on units. Modes: Etkin & Reid,
+// Dynamics of Flight (1996), chapter 6.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
@@ -21,22 +21,22 @@
 
 namespace fulmar {
 
-/// Where two modes of a kind are real, the faster one has its name first.
+/// If two modes of a kind are real, the faster one is first.
 enum class ModeKind : std::uint8_t { short_period, phugoid, dutch_roll, roll, spiral, roll_spiral };
 
 /// One mode of motion: an eigenvalue of A, or a pair, with the participation of each state.
 struct Mode {
   ModeKind kind = ModeKind::short_period;
-  std::complex<double> eigenvalue;        ///< of a pair the one above the real axis, 1/s
+  std::complex<double> eigenvalue;        ///< 1/s; of a pair the one above the real axis
   std::array<double, 8> participation{};  ///< of model::motion_states; sum 1
 
   bool oscillates() const { return eigenvalue.imag() > 0; }
   bool stable() const { return eigenvalue.real() < 0; }
   double natural_radps() const { return std::abs(eigenvalue); }
   double damping_ratio() const { return -eigenvalue.real() / std::abs(eigenvalue); }
-  /// Time to fall to 1/e, or to grow to e.
+  /// Time of a decay to 1/e, or of a growth to e.
   double time_constant_s() const { return 1 / std::abs(eigenvalue.real()); }
-  /// Time to half, or, when it is not stable, to double.
+  /// Time to half, or, for an unstable mode, to double.
   double half_or_double_s() const { return std::numbers::ln2 / std::abs(eigenvalue.real()); }
   double period_s() const { return 2 * std::numbers::pi / eigenvalue.imag(); }
 };
@@ -45,7 +45,7 @@ namespace detail {
 
 using MotionMatrix = Eigen::Matrix<double, 8, 8>;
 
-/// Eigenvalues with their participations; a pair counts once.
+/// Eigenvalues with their participations; one entry for a pair.
 template <std::same_as<MotionMatrix> Matrix>
 std::vector<Mode> modes_without_names(const Matrix& A) {
   const Eigen::EigenSolver<Matrix> solver(A);
@@ -68,7 +68,7 @@ std::vector<Mode> modes_without_names(const Matrix& A) {
   return modes;
 }
 
-/// Of the modes `from` those of `order` eigenvalues together in which the states `in` take part most; the
+/// Takes from `from` the modes, `order` eigenvalues together, in which the states `in` participate most. The
 /// rest stays. In the order of `from`.
 inline std::vector<Mode> take(std::vector<Mode>& from, int order, const std::vector<std::size_t>& in) {
   double most = -1;
@@ -105,12 +105,12 @@ inline void name_modes(std::vector<Mode> modes, ModeKind kind, std::vector<Mode>
 
 }  // namespace detail
 
-/// The modes, in the order of `ModeKind`. Each kind but roll and spiral is a pair, or two real ones when it
-/// does not oscillate; roll and spiral may have become one pair (`roll_spiral`). A template, so that only its
-/// users compile eigenvectors, which takes longer than most files.
+/// The modes, in the order of `ModeKind`. Each kind but roll and spiral is a pair, or two real modes without
+/// oscillation. Roll and spiral may be one pair (`roll_spiral`). A template, so that only its users compile
+/// the eigenvectors, which takes longer than most files.
 template <std::same_as<LinearModel> Model>
 std::vector<Mode> modes_of(const Model& all) {
-  // places in model::motion_states
+  // indices in model::motion_states
   constexpr std::size_t u = 0, w = 1, q = 2, pitch = 3, v = 4, p = 5, r = 6;
   const detail::MotionMatrix A = all.A(model::motion_states, model::motion_states);
   std::vector<Mode> lateral = detail::modes_without_names(A), out;

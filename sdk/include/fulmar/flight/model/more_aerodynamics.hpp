@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Optional terms of an airframe beside its derivatives: drag over squares, the pitching moment of separated
+// Optional terms of an airframe besides its derivatives: drag over squares, pitching moment of separated
 // flow, tables, flaps.
 #pragma once
 #include <cmath>
@@ -11,21 +11,21 @@
 
 namespace fulmar {
 
-/// True when a coefficient depends on the flaps.
+/// True if a coefficient depends on the flaps.
 inline bool has_flaps(const Aerodynamics& a) {
   for (const Derivatives* c : {&a.lift, &a.drag, &a.side, &a.roll, &a.pitch, &a.yaw})
     if (c->flap_ratio != 0) return true;
   return false;
 }
 
-/// True when the airframe has any of the terms of this header.
+/// True if the airframe has any of the terms of this header.
 inline bool has_more(const Aerodynamics& a) {
   const DragSquared& d = a.drag_squared;
   return d.beta_ratio != 0 || d.aileron_ratio != 0 || d.elevator_ratio != 0 || d.rudder_ratio != 0 ||
          a.pitch_stalled_ratio != 0 || !a.tables.empty() || has_flaps(a);
 }
 
-/// Area that a propeller sweeps, m2.
+/// Area of the propeller disc, m2.
 inline double propeller_disc(const Propulsion& p) {
   const double D = p.propeller_diameter_m;
   return p.disc.area_m2 > 0 ? p.disc.area_m2 : std::numbers::pi / 4 * D * D;
@@ -44,9 +44,9 @@ S squared_drag(const DragSquared& of, const S& beta, const DeflectionsOf<S>& d) 
          of.elevator_ratio * d.elevator * d.elevator + of.rudder_ratio * d.rudder * d.rudder;
 }
 
-/// Added to the derivatives' Cm0 + Cm_alpha ((1 - sigma) alpha + sigma sin(alpha)), it gives (1 - sigma) (Cm0
-/// + Cm_alpha alpha) + sigma Cm_fp sign(alpha) sin^2(alpha): the blending of Beard & McLain (4.9) for the
-/// moment, as in Gryte, Hann, Alam, Rohac, Johansen & Fossen, "Aerodynamic modeling of the Skywalker X8
+/// The sum with the derivatives' Cm0 + Cm_alpha ((1 - sigma) alpha + sigma sin(alpha)) is (1 - sigma) (Cm0 +
+/// Cm_alpha alpha) + sigma Cm_fp sign(alpha) sin^2(alpha): the blending of Beard & McLain (4.9) for the
+/// moment. Source: Gryte, Hann, Alam, Rohac, Johansen & Fossen, "Aerodynamic modeling of the Skywalker X8
 /// Fixed-Wing Unmanned Aerial Vehicle", ICUAS 2018.
 template <class S>
 S stalled_pitch(const Aerodynamics& a, const AirDataOf<S>& air, const S& sigma) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Propellers at their places: thrust and torque on the airframe. Each is the one of propulsion.hpp, at the
-// airspeed of the centre of gravity. Rigid-body statics: M = r x T a - s Q a with the unit vector a of its
-// axis, s = 1 where it turns right.
+// Propellers at their places: thrust and torque on the airframe. Each follows propulsion.hpp, at the airspeed
+// of the centre of gravity. Rigid-body statics: M = r x T a - s Q a with the unit vector a of its axis, s = 1
+// for right rotation.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@
 
 namespace fulmar {
 
-/// Along the propeller's axis, in the sense of its thrust.
+/// Axis of the propeller, in the direction of its thrust.
 inline Eigen::Vector3d axis_of(const PropellerPlace& p) {
   return {std::cos(p.tilt_rad) * std::cos(p.toe_rad), std::cos(p.tilt_rad) * std::sin(p.toe_rad),
           -std::sin(p.tilt_rad)};
@@ -34,7 +34,7 @@ class Propellers {
       place.axis = axis;
       place.arm = eigen(p.at_m).cross(axis);
       place.spin = p.turns == Turns::right ? axis : Eigen::Vector3d(-axis);
-      // nose left, positive rudder, is more thrust on the right
+      // nose left, positive rudder: more thrust on the right
       place.per_rudder = std::copysign(p.differential_frac, p.at_m.y) / std::max(a.rudder.limit_rad, 1e-9);
       differential_ = differential_ || p.differential_frac > 0;
       all_.axis += place.axis;
@@ -47,24 +47,24 @@ class Propellers {
   }
 
   std::size_t count() const { return count_; }
-  /// One, on the x axis through the centre of gravity.
+  /// True for one propeller on the x axis through the centre of gravity.
   bool alone() const { return alone_; }
-  /// Whether they turn at speeds of their own.
+  /// True if propellers have different speeds.
   bool differential() const { return differential_; }
-  /// Thrust of all of them forward, per thrust of one.
+  /// Forward thrust of all propellers, per thrust of one.
   double along() const { return all_.axis.x(); }
-  /// Of all together at one speed, per angular momentum of one.
+  /// Angular momentum of all propellers at one speed, per angular momentum of one.
   const Eigen::Vector3d& spin() const { return all_.spin; }
   const Eigen::Vector3d& spin(std::size_t i) const { return places_[i].spin; }
 
-  /// Throttle of one of them.
+  /// Throttle of one propeller.
   template <class S>
   S throttle(std::size_t i, const S& of_all, const S& rudder) const {
     using std::max, std::min;
     return max(S(0.0), min(S(1.0), S(of_all + places_[i].per_rudder * rudder)));
   }
 
-  /// Adds the load of all of them at one speed.
+  /// Adds the load of all propellers at one speed.
   template <class S>
   void add(const S& thrust, const S& torque, LoadOf<S>& load) const {
     if (alone_) {
@@ -74,14 +74,14 @@ class Propellers {
       add(all_, thrust, torque, load);
     }
   }
-  /// Adds the load of one of them.
+  /// Adds the load of one propeller.
   template <class S>
   void add_one(std::size_t i, const S& thrust, const S& torque, LoadOf<S>& load) const {
     add(places_[i], thrust, torque, load);
   }
 
-  /// In balance with their motors: at speed `Omega`, those with a share of the rudder at the speeds of their
-  /// own that the same throttle and that rudder give.
+  /// Adds the load in balance with the motors: at speed `Omega`. Propellers with a share of the rudder have
+  /// the speeds of their own throttle.
   template <class S>
   LoadOf<S> steady_load(const Propeller& p, const S& Omega, const S& rudder, const S& Va,
                         const S& rho) const {
@@ -120,10 +120,10 @@ class Propellers {
 
  private:
   struct Place {
-    Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< of the thrust
+    Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< axis of the thrust
     Eigen::Vector3d arm = Eigen::Vector3d::Zero();   ///< r x axis
-    Eigen::Vector3d spin = Eigen::Vector3d::Zero();  ///< axis about which it turns right-handed
-    double per_rudder = 0;                           ///< throttle per rad
+    Eigen::Vector3d spin = Eigen::Vector3d::Zero();  ///< axis of right-handed rotation
+    double per_rudder = 0;                           ///< change of throttle per rad of rudder
   };
 
   template <class S>

@@ -11,7 +11,7 @@
 namespace fulmar {
 
 /// Position and velocity of the centre of gravity in NED, attitude (body to NED), body rate. `S` is double,
-/// or Dual where the model is differentiated.
+/// or Dual for derivatives.
 template <class S>
 struct RigidBodyOf {
   Eigen::Vector3<S> p_n = Eigen::Vector3<S>::Zero();
@@ -37,9 +37,9 @@ struct MassProperties {
   Eigen::Matrix3d J, J_inverse;
 };
 
-/// The algebra of a step, coefficient by coefficient: Eigen's own takes two doubles at a time through memory,
-/// where each pair waits for the single ones before it, which took half of a step. The order of the sums is
-/// the one that Eigen has with two doubles a register, so that flights of before are the same to the bit.
+/// Algebra of a step, coefficient by coefficient. Eigen loads two doubles at once, which wait for the single
+/// stores before them, and took half of a step. The order of the sums is that of Eigen with two doubles a
+/// register, so that older flights are reproduced to the bit.
 namespace plain {
 
 /// a x b.
@@ -127,10 +127,10 @@ inline RigidBody advanced(const RigidBody& x, const RigidBodyRate& d, double dt)
   return y;
 }
 
-/// One step. `first` is the load at the present state; `load_at(state, part)` gives it at a later stage,
-/// `part` of the step on: 0.5 or 1. Quaternions of the stages are not normalised: the error is of the
-/// method's order; the result is. `g_n` is the acceleration of gravity, or another argument of `rate_of`,
-/// such as the rotating Earth of round_earth.hpp.
+/// One step. `first` is the load at the present state; `load_at(state, part)` returns it at a later stage, at
+/// the fraction `part` of the step: 0.5 or 1. Quaternions of the stages are not normalised, with an error of
+/// the order of the method; the result is. `g_n` is the acceleration of gravity, or another argument of
+/// `rate_of`, such as the rotating Earth of round_earth.hpp.
 template <class Gravity = Eigen::Vector3d, class LoadAt>
 RigidBody runge_kutta(const RigidBody& x, const Load& first, double dt, const MassProperties& body,
                       const Gravity& g_n, LoadAt&& load_at) {

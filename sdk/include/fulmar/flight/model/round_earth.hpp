@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Earth as an ellipsoid that turns: WGS-84 with gravitation to J2, geodetic coordinates, and the motion
-// of a rigid body in the north-east-down frame of an origin, the one of geodesy.hpp: Cartesian, turning with
-// the Earth, not following its curvature. Sources: NIMA TR8350.2, third edition (2000); Montenbruck & Gill,
-// Satellite Orbits (2000), 3.2; Stevens, Lewis & Johnson, Aircraft Control and Simulation (2016), 1.7.
+// The Earth as a rotating ellipsoid: WGS-84 with gravitation to J2, geodetic coordinates, and the motion of a
+// rigid body in the north-east-down frame of an origin. This frame is that of geodesy.hpp: Cartesian, fixed
+// to the Earth, not following its curvature. Sources: NIMA TR8350.2, third edition (2000); Montenbruck &
+// Gill, Satellite Orbits (2000), 3.2; Stevens, Lewis & Johnson, Aircraft Control and Simulation (2016), 1.7.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -25,7 +25,7 @@ inline constexpr double somigliana = 0.00193185265241;                 ///< k = 
 inline constexpr double m = omega * omega * a * a * a * (1 - f) / GM;  ///< centrifugal to gravitational
 }  // namespace wgs84
 
-/// Gravity, centrifugal part included, on the ellipsoid (Somigliana) and at a height above it to second
+/// Gravity including the centrifugal part, on the ellipsoid (Somigliana) and at a height above it to second
 /// order. TR8350.2 (4-1), (4-3).
 inline double normal_gravity(double lat_rad, double height_m) {
   const double s2 = std::sin(lat_rad) * std::sin(lat_rad), h = height_m / wgs84::a;
@@ -33,12 +33,12 @@ inline double normal_gravity(double lat_rad, double height_m) {
   return g * (1 - 2 * (1 + wgs84::f + wgs84::m - 2 * wgs84::f * s2) * h + 3 * h * h);
 }
 
-/// On the ellipsoid and above it.
+/// Latitude and longitude on the ellipsoid, and height above it.
 struct Geodetic {
   double lat_rad = 0, lon_rad = 0, alt_m = 0;
 };
 
-/// Earth-centred, Earth-fixed. TR8350.2 (4-14).
+/// Earth-centred, Earth-fixed position. TR8350.2 (4-14).
 inline Eigen::Vector3d ecef_from(const Geodetic& g) {
   const double s = std::sin(g.lat_rad), c = std::cos(g.lat_rad);
   const double N = wgs84::a / std::sqrt(1 - wgs84::e2 * s * s);
@@ -46,9 +46,9 @@ inline Eigen::Vector3d ecef_from(const Geodetic& g) {
           (N * (1 - wgs84::e2) + g.alt_m) * s};
 }
 
-/// The inverse in closed form, good to rounding further than 43 km from the Earth's centre. H. Vermeille,
-/// Journal of Geodesy 76 (2002) 451-454; the height not by his formula, but by one in which an error of the
-/// latitude counts to second order only.
+/// The inverse in closed form, accurate to rounding more than 43 km from the centre of the Earth. H.
+/// Vermeille, Journal of Geodesy 76 (2002) 451-454. The height is not by his formula, but by one in which an
+/// error of the latitude has second order only.
 inline Geodetic geodetic_from(const Eigen::Vector3d& p_e) {
   constexpr double a = wgs84::a, e2 = wgs84::e2, e4 = e2 * e2;
   const double rho = std::hypot(p_e.x(), p_e.y());
@@ -73,7 +73,7 @@ inline Eigen::Matrix3d ned_in_ecef(double lat_rad, double lon_rad) {
   return R_en;
 }
 
-/// The turning ellipsoid, seen from the north-east-down frame of an origin: every vector is in that frame.
+/// The rotating ellipsoid in the north-east-down frame of an origin: all vectors are in that frame.
 class RotatingEarth {
  public:
   explicit RotatingEarth(const Geodetic& origin)
@@ -88,25 +88,25 @@ class RotatingEarth {
   Eigen::Vector3d rotation() const { return wgs84::omega * axis_n_; }
   Geodetic geodetic(const Eigen::Vector3d& p_n) const { return geodetic_from(r0_e_ + R_en_ * p_n); }
 
-  /// Attraction alone, to J2. Montenbruck & Gill 3.2, written without coordinates.
+  /// Gravitation alone, to J2. Montenbruck & Gill 3.2, in vector form.
   Eigen::Vector3d gravitation(const Eigen::Vector3d& p_n) const {
     const Eigen::Vector3d r = r0_n_ + p_n;
     const double d = r.norm(), s = r.dot(axis_n_) / d, j = 1.5 * wgs84::J2 * std::pow(wgs84::a / d, 2);
     return -wgs84::GM / (d * d) * ((1 + j * (1 - 5 * s * s)) / d * r + 2 * j * s * axis_n_);
   }
 
-  /// Gravity: attraction and the centrifugal part.
+  /// Gravity: gravitation plus the centrifugal part.
   Eigen::Vector3d gravity(const Eigen::Vector3d& p_n) const {
     const Eigen::Vector3d r = r0_n_ + p_n;
     return gravitation(p_n) + wgs84::omega * wgs84::omega * (r - r.dot(axis_n_) * axis_n_);
   }
 
-  /// Of a body without forces, relative to the frame: the Coriolis part is in it.
+  /// Acceleration of a body without forces, relative to the frame, including the Coriolis part.
   Eigen::Vector3d free_acceleration(const Eigen::Vector3d& p_n, const Eigen::Vector3d& v_n) const {
     return gravity(p_n) - 2 * rotation().cross(v_n);
   }
 
-  /// Body rate relative to the Earth, of a body whose `omega_b` is relative to inertial space.
+  /// Body rate relative to the Earth, of a body with `omega_b` relative to inertial space.
   Eigen::Vector3d relative_rate(const RigidBody& x) const {
     return x.omega_b - x.q_nb.conjugate() * rotation();
   }
@@ -118,9 +118,9 @@ class RotatingEarth {
   Eigen::Vector3d r0_n_, axis_n_;
 };
 
-/// Equations of motion on the turning Earth, for `runge_kutta` in the place of constant gravity. Velocity and
-/// attitude are relative to the frame; `omega_b` is relative to inertial space, as in Euler's equation and as
-/// a gyro measures it.
+/// Equations of motion on the rotating Earth, for `runge_kutta` in place of constant gravity. Velocity and
+/// attitude are relative to the frame; `omega_b` is relative to inertial space, as in Euler's equation and in
+/// a gyro.
 inline RigidBodyRate rate_of(const RigidBody& x, const Load& load, const MassProperties& body,
                              const RotatingEarth& earth) {
   RigidBodyRate d = rate_of(x, load, body, earth.free_acceleration(x.p_n, x.v_n));
@@ -129,8 +129,8 @@ inline RigidBodyRate rate_of(const RigidBody& x, const Load& load, const MassPro
   return d;
 }
 
-/// North, east and down at the vehicle's own place, for wind, gravity, heading and altitude. Valid for the
-/// metres of one step: at 100 m the altitude is wrong by 1 mm.
+/// North, east and down at the place of the vehicle, for wind, gravity, heading and altitude. Valid for the
+/// distance of one step: at 100 m the altitude error is 1 mm.
 class LocalLevel {
  public:
   LocalLevel(const RotatingEarth& earth, const Eigen::Vector3d& p_n)
@@ -144,8 +144,8 @@ class LocalLevel {
   const Geodetic& place() const { return place_; }
   double altitude(const Eigen::Vector3d& p_n) const { return place_.alt_m - R_nl_.col(2).dot(p_n - p_n_); }
 
-  /// The state as seen from the ground below: velocity and attitude in the axes of this place, the body rate
-  /// relative to the Earth, `p_n.z()` minus the height above the origin's altitude.
+  /// The state relative to the ground below: velocity and attitude in the axes of this place, body rate
+  /// relative to the Earth, `p_n.z()` minus the height above the altitude of the origin.
   RigidBody seen(const RigidBody& x) const {
     RigidBody y;
     y.p_n = {x.p_n.x(), x.p_n.y(), origin_alt_m_ - altitude(x.p_n)};
@@ -155,8 +155,8 @@ class LocalLevel {
     return y;
   }
 
-  /// The inverse of `seen`, but for the position: that is the one above or below this place that has the
-  /// height.
+  /// The inverse of `seen` for all but the position, which is the point of that height above or below this
+  /// place.
   RigidBody in_frame(const RigidBody& seen) const {
     RigidBody x;
     x.p_n = p_n_ + (seen.p_n.z() - (origin_alt_m_ - place_.alt_m)) * R_nl_.col(2);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Steady flight: straight or turning, level, climbing or descending. Newton's method on the equations of
-// motion, with the exact Jacobian of the model that flies in the simulator. Sources: Beard & McLain, Small
-// Unmanned Aircraft (2012), section 5.3; Stevens, Lewis & Johnson, Aircraft Control and Simulation (2016),
-// section 3.6.
+// motion, with the exact Jacobian of the simulator's model. Sources: Beard & McLain, Small Unmanned Aircraft
+// (2012), section 5.3; Stevens, Lewis & Johnson, Aircraft Control and Simulation (2016), section 3.6.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -20,32 +19,31 @@
 
 namespace fulmar {
 
-/// How a SteadyCondition states its turn.
+/// Unit in which a SteadyCondition has its turn.
 enum class Turn : std::uint8_t { none, bank, radius };
 
-/// The flight that is asked for; true airspeed.
+/// The requested flight; true airspeed.
 struct SteadyCondition {
   double airspeed_mps = 0;
   double climb_rad = 0;  ///< flight path angle, up
   Turn turn = Turn::none;
-  double turn_by = 0;  ///< rad of bank or m of radius, of the horizontal track; to the right
-  /// Straight flight has its wings level, a turn no side force (the ball is in the middle); with this both
-  /// have no sideslip instead.
+  double turn_by = 0;  ///< rad of bank or m of radius of the horizontal track, right positive
+  /// False: straight flight has wings level, and a turn no side force. True: both have no sideslip.
   bool no_sideslip = false;
 };
 
 /// Limit that prevents a steady flight.
 enum class TrimLimit : std::uint8_t {
   none,
-  no_aileron,  ///< it moves nothing
+  no_aileron,  ///< no aileron effect
   no_elevator,
-  no_thrust,  ///< the propeller has none at any speed
-  stall,      ///< the wing cannot carry that much
+  no_thrust,  ///< no thrust at any speed
+  stall,      ///< weight beyond the maximum lift
   elevator,   ///< beyond its throw
   aileron,
   rudder,
   throttle_high,  ///< more than full
-  throttle_low,   ///< the propeller would have to brake more than it does without throttle
+  throttle_low,   ///< more drag needed than that of the propeller at zero throttle
   not_found,
 };
 
@@ -72,7 +70,7 @@ class SteadyEquations {
   enum Unknown : int { alpha, beta, aileron, elevator, rudder, propeller, bank, turn, unknowns };
   template <class S>
   using Vector = Eigen::Matrix<S, unknowns, 1>;
-  static constexpr double propeller_scale = 1000;  // rad/s: the unknowns are all about 1
+  static constexpr double propeller_scale = 1000;  // rad/s: scales all unknowns to about 1
 
   SteadyEquations(const AircraftModel& m, const SteadyCondition& c)
       : model_(m), condition_(c), has_rudder_(rudder_acts(m.airframe())) {}
@@ -80,8 +78,7 @@ class SteadyEquations {
   template <class S>
   model::StateVector<S> state(const Vector<S>& z) const {
     using std::atan2, std::cos, std::sin, std::sqrt;
-    // the pitch angle that gives the flight path its angle: Stevens, Lewis & Johnson, rate-of-climb
-    // constraint
+    // pitch angle for the flight path angle: Stevens, Lewis & Johnson, rate-of-climb constraint
     const S a = cos(z(alpha)) * cos(z(beta));
     const S b = sin(z(bank)) * sin(z(beta)) + cos(z(bank)) * sin(z(alpha)) * cos(z(beta));
     const double s = std::sin(condition_.climb_rad);
@@ -91,7 +88,7 @@ class SteadyEquations {
     x.template segment<3>(model::u) = air_velocity<S>(condition_.airspeed_mps, z(alpha), z(beta));
     x(model::roll) = z(bank);
     x(model::pitch) = theta;
-    x(model::p) = -z(turn) * sin(theta);  // the rates of a constant psi dot: B&M (3.2)
+    x(model::p) = -z(turn) * sin(theta);  // rates at a constant psi dot: B&M (3.2)
     x(model::q) = z(turn) * sin(z(bank)) * cos(theta);
     x(model::r) = z(turn) * cos(z(bank)) * cos(theta);
     return x;
@@ -164,7 +161,7 @@ inline double density_of(const AircraftModel& m) {
   return m.density<double>(model::StateVector<double>::Zero());
 }
 
-/// A first guess: lift carries the weight of the turn, the elevator holds the moment.
+/// Initial guess: lift carries the weight of the turn, the elevator balances the moment.
 inline SteadyEquations::Vector<double> steady_guess(const AircraftModel& m, const SteadyCondition& c) {
   using E = SteadyEquations;
   const Airframe& a = m.airframe();
@@ -186,7 +183,7 @@ inline SteadyEquations::Vector<double> steady_guess(const AircraftModel& m, cons
   return z;
 }
 
-/// Thrust needed, N: drag of the wing at a lift, and the component of the weight along the flight path.
+/// Thrust needed, N: drag at a lift coefficient, plus the component of the weight along the flight path.
 inline double thrust_needed(const AircraftModel& m, const SteadyCondition& c, double CL, double rho) {
   const Airframe& a = m.airframe();
   const double Va = c.airspeed_mps;
@@ -197,7 +194,7 @@ inline double thrust_needed(const AircraftModel& m, const SteadyCondition& c, do
   return (drag + a.mass_kg * isa::g0 * std::sin(c.climb_rad)) / std::cos(alpha);
 }
 
-/// Limit that explains why Newton's method failed, from a balance of lift and thrust.
+/// Limit that explains the failure of Newton's method, from a balance of lift and thrust.
 inline TrimLimit reason_of_none(const AircraftModel& m, const SteadyFlight& f) {
   const double Va = f.condition.airspeed_mps, rho = f.density_kgm3;
   const double load_factor = std::cos(f.condition.climb_rad) / std::cos(f.x(model::roll));
@@ -256,8 +253,9 @@ inline SteadyFlight filled(const AircraftModel& m, const SteadyCondition& c,
 
 }  // namespace detail
 
-/// The steady flight, or the best approximation with the limit that prevents it. Several are possible beyond
-/// the stall; the one of attached flow is found. A template, so that only its users compile its derivatives.
+/// The steady flight, or the best approximation with the limit that prevents it. Beyond the stall several
+/// solutions exist; this is the one with attached flow. A template, so that only its users compile its
+/// derivatives.
 template <std::same_as<AircraftModel> Model>
 SteadyFlight steady_flight(const Model& m, const SteadyCondition& c) {
   using E = detail::SteadyEquations;

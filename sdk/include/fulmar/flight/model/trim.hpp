@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steady straight flight: the angles, deflections and propeller speed at which nothing accelerates. Newton's
-// method on the six equations of motion, wings level. Source of the idea: Beard & McLain, chapter 5.3.
+// Steady straight flight: angles, deflections and propeller speed without acceleration. Newton's method on
+// the six equations of motion, wings level. Source of the method: Beard & McLain, section 5.3.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -19,13 +19,13 @@ namespace fulmar {
 /// Result of `trimmed_flight`.
 struct Trim {
   double alpha_rad = 0, beta_rad = 0, pitch_rad = 0;
-  double roll_rad = 0;  ///< wings are level where a rudder holds the heading
+  double roll_rad = 0;  ///< 0 if a rudder holds the heading
   Deflections deflections;
   double propeller_radps = 0, throttle_frac = 0;
   bool found = false;  ///< false: no such flight, or deflections or throttle beyond their limits
 };
 
-/// Whether the rudder has an effect. Without one, sideslip and bank are free unknowns.
+/// True if the rudder has an effect. Without one, sideslip and bank are unknowns.
 inline bool rudder_acts(const Airframe& a) {
   return std::abs(a.aero.yaw.rudder_ratio) > 1e-9 || std::abs(a.aero.side.rudder_ratio) > 1e-9 ||
          Propellers(a).differential();
@@ -51,8 +51,8 @@ class StraightFlight {
 
   Deflections deflections(const Vector6& x) const { return {x(2), x(3), rudder_ ? x(4) : 0}; }
   double bank(const Vector6& x) const { return rudder_ ? 0 : x(4); }
-  /// Wings level it is alpha + gamma; banked: Stevens, Lewis & Johnson, Aircraft Control and Simulation, 3.6,
-  /// the rate-of-climb constraint.
+  /// Pitch angle, rad: with wings level alpha + gamma; banked: Stevens, Lewis & Johnson, Aircraft Control and
+  /// Simulation, 3.6, the rate-of-climb constraint.
   double pitch(const Vector6& x) const {
     if (rudder_) return x(0) + gamma_;
     const double a = std::cos(x(0)) * std::cos(x(1)), s = std::sin(gamma_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A cubic Bezier curve as a piece of path, seen from above, with heights. Every cubic spline - Hermite,
+// A cubic Bezier curve as a piece of a path, horizontal with heights. Every cubic spline - Hermite,
 // Catmull-Rom, B-spline - is a chain of these. Source: Farin, Curves and Surfaces for CAGD (2002), chapters 4
 // and 5.
 #pragma once
@@ -15,13 +15,13 @@ namespace fulmar {
 struct Curve {
   std::array<Vec3<Ned>, 4> p;  ///< begin, two handles, end, in metres
 
-  /// Through `from` to `to`, with the derivatives by u (metres per unit of u) there.
+  /// Curve from `from` to `to`, with these derivatives by u at its ends, metres per unit of u.
   static Curve hermite(const Vec3<Ned>& from, const Vec3<Ned>& slope, const Vec3<Ned>& to,
                        const Vec3<Ned>& slope_to) {
     return {{from, from + (1.0 / 3) * slope, to - (1.0 / 3) * slope_to, to}};
   }
 
-  /// u from 0 to 1.
+  /// Point at u, from 0 to 1, NED, m.
   Vec3<Ned> point(double u) const {
     const double v = 1 - u;
     return v * v * v * p[0] + 3 * v * v * u * p[1] + 3 * v * u * u * p[2] + u * u * u * p[3];
@@ -33,7 +33,7 @@ struct Curve {
   Vec3<Ned> bend(double u) const {  // d2p/du2
     return 6 * (1 - u) * (p[2] - 2 * p[1] + p[0]) + 6 * u * (p[3] - 2 * p[2] + p[1]);
   }
-  /// Horizontal metres per unit of u. Where a handle lies on its end there is none.
+  /// Horizontal speed, metres per unit of u. It is 0 where a handle lies on its end.
   double speed(double u) const {
     const Vec3<Ned> d = slope(u);
     return std::hypot(d.north, d.east);
@@ -44,19 +44,19 @@ struct Curve {
     if (std::hypot(d.north, d.east) < 1e-6) d = p[3] - p[0];
     return std::atan2(d.east, d.north);
   }
-  /// 1/m, right positive, within +-1.
+  /// Curvature, 1/m, right positive, limited to +-1.
   double curvature(double u) const {
     const Vec3<Ned> d = slope(u), b = bend(u);
     const double v = std::hypot(d.north, d.east);
     if (v < 1e-6) return 0;
     return std::clamp((d.north * b.east - d.east * b.north) / (v * v * v), -1.0, 1.0);
   }
-  /// Metres up per metre along.
+  /// Climb, metres up per metre along.
   double climb_ratio(double u) const {
     const double v = speed(u);
     return v < 1e-6 ? 0 : std::clamp(-slope(u).down / v, -1.0, 1.0);
   }
-  /// Horizontal length between two u. Gauss-Legendre, five points in each of eight parts.
+  /// Horizontal length between two u, m. Gauss-Legendre, five points in each of eight parts.
   double length_m(double from = 0, double to = 1) const {
     constexpr std::array<double, 5> at{0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
                                        -0.9061798459386640},
@@ -70,8 +70,8 @@ struct Curve {
         sum += half * weight[k] * speed(from + half * (2 * i + 1 + at[k]));
     return sum;
   }
-  /// u of the point that is closest, seen from above: the best of 33 places, then bisected between its
-  /// neighbours to less than a millionth of the curve.
+  /// u of the closest point, horizontally: the best of 33 points, then bisection between its neighbours to
+  /// less than a millionth of the curve.
   double closest(double north_m, double east_m) const {
     constexpr int places = 32;
     const auto square = [&](double u) {
@@ -103,8 +103,8 @@ struct Curve {
 /// The curve of a path whose `is_curve` is set.
 inline Curve curve_of(const Path& path) { return {path.control_m}; }
 
-/// Publishes a curve, for an aircraft that is closest to `u` on it; also as the osculating line or orbit at
-/// that point, for readers without curves.
+/// Publishes a curve for an aircraft whose closest point is `u`. Readers without curves get the osculating
+/// line or orbit at that point.
 inline void set_curve(Path& path, const Curve& curve, double u) {
   const Vec3<Ned> at = curve.point(u);
   const double chi = curve.course_rad(u), kappa = curve.curvature(u), climb = curve.climb_ratio(u);
@@ -123,7 +123,7 @@ inline void set_curve(Path& path, const Curve& curve, double u) {
   path.kind = PathKind::orbit;
   path.turn = kappa > 0 ? Turn::right : Turn::left;
   path.radius_m = R;
-  path.start_rad = std::atan2(-side * std::cos(chi), side * std::sin(chi));  // square to the course
+  path.start_rad = std::atan2(-side * std::cos(chi), side * std::sin(chi));  // normal to the course
   path.origin_m = {at.north - R * std::cos(path.start_rad), at.east - R * std::sin(path.start_rad), at.down};
   path.climb_ratio = climb;
 }

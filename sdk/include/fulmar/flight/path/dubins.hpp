@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dubins paths: the shortest path of bounded curvature between two poses, all six words.
-// Sources: Dubins (1957); Shkel & Lumelsky, "Classification of the Dubins set" (2001); Beard & McLain,
-// section 11.2 for the centres.
+// Dubins paths: the shortest path of bounded curvature between two poses, for all six words. Sources: Dubins
+// (1957); Shkel & Lumelsky, "Classification of the Dubins set" (2001); Beard & McLain, section 11.2 for the
+// centres.
 #pragma once
 #include <array>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace fulmar {
 
-/// Where and which way, seen from above. Course is clockwise from north, so that a right turn is positive.
+/// Horizontal position and course. Course is clockwise from north, so that a right turn is positive.
 struct Pose {
   double north_m = 0, east_m = 0, course_rad = 0;
 };
@@ -35,8 +35,8 @@ constexpr int dubins_turn(DubinsWord word, int part) {
   return turns[static_cast<std::size_t>(word)][static_cast<std::size_t>(part)];
 }
 
-/// Angle in [0, 2 pi). A value within rounding of a full turn is 0: else a straight path would begin with a
-/// loop.
+/// Angle in [0, 2 pi). A value within rounding of a full turn is 0: otherwise a straight path would start
+/// with a loop.
 inline double positive_angle(double angle_rad) {
   constexpr double full = 2 * std::numbers::pi;
   const double a = angle_rad - full * std::floor(angle_rad / full);
@@ -59,8 +59,10 @@ inline DubinsPath dubins_word(DubinsWord word, double alpha, double beta, double
     const double theta = l > 1e-9 ? std::atan2(e, n) : alpha;
     const double gamma = std::acos(l / 4);
     const double course_1 =
-        theta + first * (gamma + std::numbers::pi / 2);  // where the first circle touches the middle one
-    const double middle = std::numbers::pi + 2 * gamma;  // the long way round: the short one is never optimal
+        theta +
+        first * (gamma + std::numbers::pi / 2);  // point where the first circle touches the middle one
+    const double middle =
+        std::numbers::pi + 2 * gamma;  // the longer direction: the shorter one is never optimal
     path.parts = {positive_angle(first * (course_1 - alpha)), middle,
                   positive_angle(first * (beta - course_1) + middle)};
     return path;
@@ -78,8 +80,8 @@ inline DubinsPath dubins_word(DubinsWord word, double alpha, double beta, double
   return path;
 }
 
-/// The shortest of the six words. One always exists. Of words that are equal within rounding the first listed
-/// is taken.
+/// The shortest of the six words; one always exists. Of words with equal length within rounding, the first
+/// one.
 inline DubinsPath dubins(const Pose& from, const Pose& to, double radius_m) {
   const double n = to.north_m - from.north_m, e = to.east_m - from.east_m;
   const double theta = std::atan2(e, n);

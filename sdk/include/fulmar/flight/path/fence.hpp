@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fence: a polygon on the ground with a floor and a ceiling; places to return to and to land at. Files of
+// A geofence: a horizontal polygon with a floor and a ceiling; places to return to and to land at. Files of
 // both, for plugins/safety and path/Landing.
 #pragma once
 #include <algorithm>
@@ -19,26 +19,26 @@ namespace fulmar::safety {
 
 inline constexpr double not_given = 1e9, same_place_m = 1;
 
-/// Either north, east of the origin, or latitude, longitude.
+/// Corner, in local or geodetic coordinates.
 struct FencePoint {
   double north_m = not_given, east_m = not_given;   ///< local position, from the origin
   double lat_deg = not_given, lon_deg = not_given;  ///< geodetic position, WGS-84
 };
 
-/// A file. Corners in order, either way round; the last one is joined to the first.
+/// A file. Corners in order, in either direction; the last one is joined to the first.
 struct Fence {
   Text<64> name;
   List<FencePoint, 64> corners;
   double floor_m = -not_given, ceiling_m = not_given;  ///< floor and ceiling, above the origin
 };
 
-/// A landing place. `up`: height of the ground there, above the origin.
+/// A landing place. `up`: height of the ground at it, above the origin.
 struct Place {
   double north_m = not_given, east_m = not_given, up_m = 0;  ///< local position, from the origin
   double lat_deg = not_given, lon_deg = not_given;           ///< geodetic position, WGS-84
 };
 
-/// A file. The first is home.
+/// A file. The first place is home.
 struct Places {
   Text<64> name;
   List<Place, 16> places;
@@ -49,7 +49,7 @@ struct Spot {
   double north_m = 0, east_m = 0, up_m = 0;
 };
 
-/// North and east of the origin; throws std::runtime_error, in which `what` names the point.
+/// Local position of a point, m. Throws std::runtime_error that names the point by `what`.
 template <class P>
 Spot spot_of(const P& p, const Origin& origin, const std::string& what) {
   const bool local = p.north_m < not_given && p.east_m < not_given;
@@ -65,7 +65,7 @@ Spot spot_of(const P& p, const Origin& origin, const std::string& what) {
   return {at.x(), at.y(), 0};
 }
 
-/// Throws std::runtime_error for two places within 1 m.
+/// Local positions of all places. Throws std::runtime_error for two places within 1 m.
 inline std::vector<Spot> places_of(const Places& file, const Origin& origin) {
   std::vector<Spot> spots;
   for (std::size_t i = 0; i < file.places.size(); ++i) {
@@ -79,12 +79,12 @@ inline std::vector<Spot> places_of(const Places& file, const Origin& origin) {
   return spots;
 }
 
-/// Twice the signed area of a, b, c: positive when c is to the right of a -> b, seen from above.
+/// Twice the signed area of a, b, c: positive if c is to the right of a -> b.
 inline double side_of(const Spot& a, const Spot& b, const Spot& c) {
   return (b.north_m - a.north_m) * (c.east_m - a.east_m) - (b.east_m - a.east_m) * (c.north_m - a.north_m);
 }
 
-/// True when the segments a b and c d have a common point.
+/// True if the segments a b and c d have a common point.
 inline bool meet(const Spot& a, const Spot& b, const Spot& c, const Spot& d) {
   const auto within = [](const Spot& p, const Spot& q, const Spot& r) {
     return std::min(p.north_m, q.north_m) <= r.north_m && r.north_m <= std::max(p.north_m, q.north_m) &&
@@ -96,13 +96,13 @@ inline bool meet(const Spot& a, const Spot& b, const Spot& c, const Spot& d) {
          (s4 == 0 && within(c, d, b));
 }
 
-/// The polygon alone.
+/// The polygon of the geofence, horizontal.
 class Polygon {
  public:
   bool given() const { return !corners_.empty(); }
   const std::vector<Spot>& corners() const { return corners_; }
 
-  /// Throws std::runtime_error for an invalid fence.
+  /// Throws std::runtime_error for an invalid geofence.
   void set(const Fence& fence, const Origin& origin) {
     corners_.clear();
     for (std::size_t i = 0; i < fence.corners.size(); ++i)
@@ -118,7 +118,7 @@ class Polygon {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = i + 1; k < n; ++k) {
         const bool next = k == i + 1, last = i == 0 && k == n - 1;
-        if (next || last) {  // neighbours share a corner, and nothing else
+        if (next || last) {  // neighbours share one corner alone
           const Spot &before = corner(next ? i : k), &at = corner(next ? k : i),
                      &after = corner(next ? k + 1 : i + 1);
           const double back = (before.north_m - at.north_m) * (after.north_m - at.north_m) +

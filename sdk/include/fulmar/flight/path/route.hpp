@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The route that a plan describes: legs of straight lines and arcs, joined without a kink, each leg computed
-// on its own from its neighbourhood. Sources: Beard & McLain, Small Unmanned Aircraft (2012), sections 11.1
-// (fillets) and 11.2 (Dubins paths).
+// The route of a plan: legs of straight lines and arcs, joined without a kink. Each leg is computed from the
+// waypoints near it alone. Sources: Beard & McLain, Small Unmanned Aircraft (2012), sections 11.1 (fillets)
+// and 11.2 (Dubins paths).
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -13,42 +13,45 @@
 
 namespace fulmar {
 
-/// How the route passes one waypoint: along a fillet, or through the point itself.
+/// Passage of the route at one waypoint: along a fillet, or through the point itself.
 struct Passage {
-  Pose entry, middle, exit;  ///< all the same when it passes through the point
-  double turn_rad = 0;       ///< of the fillet, right positive
-  double radius_m = 0;       ///< of the fillet
+  Pose entry, middle, exit;  ///< all equal for a passage through the point
+  double turn_rad = 0;       ///< turn of the fillet, right positive
+  double radius_m = 0;       ///< radius of the fillet
 };
 
-/// A corner whose fillet is flown wider than the plan asks for. By the id of its waypoint; 0: none.
+/// A corner with a wider fillet than the plan has, by the id of its waypoint; 0: none.
 struct WideCorner {
   std::uint32_t id = 0;
   double radius_m = 0;
 };
 
-/// A circle to stay on.
+/// A circle at the end of a route.
 struct RouteOrbit {
   double north_m = 0, east_m = 0, height_m = 0, radius_m = 50;
   Turn turn = Turn::right;
 };
 
-/// The direction of a circle that needs the least turning from a pose: of two tangents when outside, of two
-/// headings when inside.
+/// Direction of the circle with the least turn from a pose: outside, of two tangents; inside, of two
+/// headings.
 inline Turn min_turning(const Pose& from, double north_m, double east_m, double radius_m) {
   const double n = north_m - from.north_m, e = east_m - from.east_m, d = std::hypot(n, e);
   const double bearing = d > 1e-9 ? std::atan2(e, n) : from.course_rad;
-  // outside, a right turn around the centre passes to the left of it; inside, it goes square to the bearing
+  // outside, a right turn passes to the left of the centre; inside, it goes normal to the bearing
   const double offset = d > radius_m ? std::asin(radius_m / d) : std::numbers::pi / 2;
   const double right = std::abs(wrap_pi(bearing - offset - from.course_rad)),
                left = std::abs(wrap_pi(bearing + offset - from.course_rad));
   return right <= left + 1e-9 ? Turn::right : Turn::left;
 }
 
-/// A plan, seen as a route. Nothing is stored: every question is answered from the waypoints nearby.
-/// Rules: a corner is rounded by a fillet of the plan's radius if both its tangents fit on their legs beside
-/// those of the neighbouring corners. A waypoint with a course is passed through in that course. A corner
-/// that is too tight is passed through too, in the direction of its longer leg. Poses are joined by Dubins
-/// paths, so that every piece can be flown. Points less than a metre apart are one.
+/// A plan as a route. The class stores no geometry, and computes each answer from the waypoints near it.
+/// Rules:
+/// - A fillet of the plan's radius rounds a corner if its tangents fit on the legs, next to those of the
+/// adjacent corners.
+/// - The route passes a waypoint with a course in that course.
+/// - A corner too tight for a fillet is passed too, in the direction of its longer leg.
+/// - Dubins paths join the poses, so that every piece can be flown.
+/// - Points less than a metre apart are one.
 class Route {
  public:
   explicit Route(const Plan& plan, std::span<const WideCorner> wide = {})
@@ -57,7 +60,7 @@ class Route {
   std::uint32_t size() const { return n_; }
   bool closed() const { return plan_.end == PlanEnd::circuit; }
   double radius_m() const { return std::max(plan_.turn_radius_m, 1.0); }
-  /// Of the fillet at waypoint `i`, if there is one.
+  /// Radius of the fillet at waypoint `i`.
   double fillet_radius_m(std::uint32_t i) const {
     for (const WideCorner& corner : wide_)
       if (corner.id != 0 && corner.id == id(i)) return corner.radius_m;
@@ -70,7 +73,7 @@ class Route {
     return Va > 0 ? Va : plan_.airspeed_mps;
   }
 
-  /// All waypoints are in one place: there is nothing to fly along, only an orbit.
+  /// True if all waypoints are at one place: the route is an orbit alone.
   bool is_point() const {
     for (std::uint32_t i = 1; i < n_; ++i) {
       if (!same_place(i - 1, i)) return false;
@@ -78,32 +81,32 @@ class Route {
     return true;
   }
 
-  /// The circle around the last waypoint, for a plan that ends in one. The turn is the lesser one, coming
-  /// from the waypoint before.
+  /// The circle around the last waypoint, for a plan that ends in an orbit. Its direction needs the smaller
+  /// turn from the waypoint before.
   RouteOrbit final_orbit() const;
   Passage passage(std::uint32_t i) const;
-  /// Largest radius of a fillet at waypoint `i` that fits on its legs beside those of the neighbours; 0 where
-  /// the route has no fillet.
+  /// Largest radius of a fillet at waypoint `i` that fits on its legs, next to the fillets of its neighbours;
+  /// 0 without a fillet.
   double widest_fillet_m(std::uint32_t i) const;
-  /// From the waypoint before (of a circuit: cyclically) to waypoint `i`. Not for waypoint 0 of a plan that
+  /// Leg to waypoint `i` from the one before it (in a circuit: cyclically). Not for waypoint 0 of a plan that
   /// ends in an orbit.
   RouteLeg leg(std::uint32_t i) const;
-  /// From anywhere to waypoint `i`, arriving as the route passes it. Climbs at once, descends evenly.
+  /// Leg from any pose to waypoint `i`, in the course of the route there. Climbs at once, descends evenly.
   RouteLeg join(const Pose& from, double height_m, std::uint32_t i) const;
 
-  /// The waypoint before and after; the same one at the ends of an open plan.
+  /// Index of the waypoint before and after; at the ends of an open plan the same one.
   std::uint32_t before(std::uint32_t i) const { return i > 0 ? i - 1 : (closed() ? n_ - 1 : 0); }
   std::uint32_t after(std::uint32_t i) const { return i + 1 < n_ ? i + 1 : (closed() ? 0 : i); }
 
  private:
   static constexpr double same_place_m = 1;
   static constexpr double fillet_max_rad =
-      2.62;  // 150 deg: beyond, a fillet stays three radii away from its waypoint
+      2.62;  // 150 deg: beyond it a fillet is more than three radii away from its waypoint
   struct Corner {
     double in_rad = 0, out_rad = 0;  // courses of the legs
-    double in_m = 0, out_m = 0;      // their lengths
-    double tangent_m = 0;            // from the waypoint to where its fillet would begin
-    bool wanted = false;             // a fillet, which fits on both legs if the neighbours need nothing
+    double in_m = 0, out_m = 0;      // lengths of the legs
+    double tangent_m = 0;            // from the waypoint to the start of its fillet
+    bool wanted = false;             // a fillet that fits on both legs if the neighbours have none
   };
 
   const Vec3<Ned>& point(std::uint32_t i) const { return plan_.waypoints[i].position_m; }
@@ -115,11 +118,11 @@ class Route {
   std::uint32_t first_of_place(std::uint32_t i) const;
   std::uint32_t last_of_place(std::uint32_t i) const;
   Pose orbit_entry() const;
-  Pose place(
-      std::uint32_t i) const;  // where the route passes, course not set but for the entry of the final orbit
+  Pose place(std::uint32_t i)
+      const;  // pose of the route at a waypoint; course set only for the entry of the final orbit
   Corner corner(std::uint32_t i) const;
   bool has_fillet(std::uint32_t i, const Corner& c) const;
-  /// Half a fillet, to its middle or from there; nothing where there is none.
+  /// Adds half of a fillet, up to or from its middle; nothing without a fillet.
   static void add_half(detail::LegBuilder& leg, const Passage& passage) {
     if (passage.turn_rad != 0)
       leg.add((passage.turn_rad > 0 ? 1 : -1) / passage.radius_m,
@@ -162,8 +165,8 @@ inline RouteOrbit Route::final_orbit() const {
   return orbit;
 }
 
-/// Where the last leg touches the final orbit. From within the circle: where it is reached square to the way
-/// to the centre.
+/// Tangent point of the last leg on the final orbit. From inside the circle: the point normal to the
+/// direction of the centre.
 inline Pose Route::orbit_entry() const {
   const RouteOrbit orbit = final_orbit();
   const std::uint32_t q = n_ > 1 ? first_of_place(n_ - 2) : 0;

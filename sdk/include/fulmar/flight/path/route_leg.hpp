@@ -14,7 +14,7 @@
 
 namespace fulmar {
 
-/// 1 for a right turn, -1 for a left one.
+/// 1 for a right turn, -1 for a left turn.
 constexpr double sign_of(Turn turn) { return turn == Turn::right ? 1 : -1; }
 
 /// The pose after `length_m` along a path of constant curvature (right positive).
@@ -26,21 +26,21 @@ inline Pose advance(const Pose& from, double curvature, double length_m) {
           from.course_rad + 2 * half};
 }
 
-/// A line or an arc, seen from above, with the height along it.
+/// A line or an arc, horizontal, with the height along it.
 struct RoutePiece {
   PathKind kind = PathKind::line;
   Turn turn = Turn::right;
-  double north_m = 0, east_m = 0;                    ///< line: where it begins; arc: its centre
+  double north_m = 0, east_m = 0;                    ///< line: start; arc: centre
   double unit_north_ratio = 1, unit_east_ratio = 0;  ///< line: along it; arc: from the centre to its middle
-  double radius_m = 0, start_rad = 0;                ///< arc; azimuth, from the centre, where it begins
-  double half_cos_ratio = -1;  ///< arc: cosine of half its angle, -1 when it is a full circle or more
+  double radius_m = 0, start_rad = 0;                ///< arc; azimuth of its start from the centre
+  double half_cos_ratio = -1;  ///< arc: cosine of half its angle, -1 for a full circle or more
   double length_m = 0;
-  double height_m = 0, climb_ratio = 0;  ///< at its beginning; metres up per metre along
+  double height_m = 0, climb_ratio = 0;  ///< height at its start; metres up per metre along
 
   double curvature() const { return kind == PathKind::line ? 0 : sign_of(turn) / radius_m; }
   double height_at(double along_m) const { return height_m + climb_ratio * along_m; }
 
-  /// Metres from the beginning to the projection of a point. On an arc in [-pi, pi] radii; callers unwrap
+  /// Distance from the start to the projection of a point, m. On an arc in [-pi, pi] radii; callers unwrap
   /// longer arcs.
   double along(double north, double east) const {
     const double n = north - north_m, e = east - east_m;
@@ -61,23 +61,23 @@ struct RoutePiece {
 /// Closest point of a route to a given one.
 struct RoutePoint {
   double north_m = 0, east_m = 0, height_m = 0;
-  double distance_m = unknown_std;  ///< horizontal
+  double distance_m = unknown_std;  ///< horizontal distance
 };
 
-/// The way from one waypoint to the next: from the middle of one corner to the middle of the other.
+/// The route from one waypoint to the next: from the middle of one corner to the middle of the other.
 struct RouteLeg {
   std::array<RoutePiece, 6> pieces{};
   std::uint32_t count = 0;
   double length_m = 0;
   double airspeed_mps = 15;
-  Pose end;  ///< the path's point of the waypoint that the leg leads to
+  Pose end;  ///< pose at the waypoint of the leg
 
   const RoutePiece& operator[](std::size_t i) const { return pieces[i]; }
 };
 
 namespace detail {
 
-/// Builds a leg piece by piece, each beginning where the one before ends.
+/// Builds a leg piece by piece; each piece starts at the end of the one before.
 struct LegBuilder {
   RouteLeg leg;
   Pose at;
@@ -115,10 +115,9 @@ struct LegBuilder {
     at = to;
   }
 
-  /// One slope over the whole leg. A steeper one than 45 degrees is not drawn: the leg then begins at another
-  /// height.
+  /// Sets one slope over the whole leg. It is limited to 45 degrees: then the leg starts at another height.
   void finish(double from_height_m, double to_height_m) {
-    if (leg.count == 0) {  // the leg of a duplicate point
+    if (leg.count == 0) {  // leg of a duplicate point
       leg.count = 1;
       leg.pieces[0] = {};
       leg.pieces[0].north_m = at.north_m;
@@ -140,7 +139,7 @@ struct LegBuilder {
 
 }  // namespace detail
 
-/// Looks for the point of one or several legs that is closest to a given one: exact, ends included.
+/// Search for the closest point of one or several legs: exact, ends included.
 class NearestSearch {
  public:
   NearestSearch(double north_m, double east_m) : north_(north_m), east_(east_m) {}
@@ -154,7 +153,7 @@ class NearestSearch {
     RoutePoint point{best_north_, best_east_, 0, best_};
     if (!of_) return point;
     double s = of_->along(best_north_, best_east_);
-    // an arc of more than half a turn: its far end is measured backwards from its beginning
+    // an arc of more than half a turn: its far end has a negative distance from the start
     if (s < -1e-6 * of_->radius_m && of_->kind == PathKind::orbit) s += 2 * std::numbers::pi * of_->radius_m;
     point.height_m = of_->height_at(std::clamp(s, 0.0, of_->length_m));
     return point;
@@ -171,12 +170,12 @@ class NearestSearch {
     const double n = north_ - piece.north_m, e = east_ - piece.east_m, square = n * n + e * e;
     const double outer = piece.radius_m + best_, inner = piece.radius_m - best_;
     if (square > outer * outer || (inner > 0 && square < inner * inner))
-      return;  // even the full circle is farther than the best
+      return;  // even the full circle is farther than the best point
     const double d = std::sqrt(square);
     const double dot = n * piece.unit_north_ratio + e * piece.unit_east_ratio;
     double unit_n = d > 0 ? n / d : piece.unit_north_ratio, unit_e = d > 0 ? e / d : piece.unit_east_ratio;
-    if (dot < piece.half_cos_ratio *
-                  d) {  // beyond an end: turn the middle's direction by half the arc, to the point's side
+    if (dot < piece.half_cos_ratio * d) {  // beyond an end: rotate the direction of the middle by half the
+                                           // arc, to the side of the point
       const double side = n * piece.unit_east_ratio - e * piece.unit_north_ratio > 0 ? -1 : 1;
       const double c = piece.half_cos_ratio, s = side * std::sqrt(std::max(0.0, 1 - c * c));
       unit_n = c * piece.unit_north_ratio - s * piece.unit_east_ratio;
@@ -185,7 +184,7 @@ class NearestSearch {
     take(piece, piece.radius_m * unit_n, piece.radius_m * unit_e);
   }
 
-  /// A point of a piece, relative to the piece's own.
+  /// Point of a piece, relative to the reference point of the piece.
   void take(const RoutePiece& piece, double n, double e) {
     const double dn = north_ - piece.north_m - n, de = east_ - piece.east_m - e, square = dn * dn + de * de;
     if (square >= best_square_) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts that somebody, or a disk, has altered: for tests of what comes from outside.
+// Randomly altered texts, for tests of input from outside.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace fulmar::core::test {
 
-/// Small generator of its own, so that the test does not depend on anything else (Marsaglia's xorshift64).
+/// Small random generator, independent of the standard library (Marsaglia's xorshift64).
 struct Dice {
   std::uint64_t state = 88172645463325252ull;
   std::size_t below(std::size_t n) {
@@ -27,12 +27,12 @@ inline void mutate(std::string& text, Dice& dice) {
     case 0: text[at] = static_cast<char>(dice.below(256)); break;
     case 1: text.insert(at, bits[dice.below(std::size(bits))]); break;
     case 2: text.erase(at, 1 + dice.below(8)); break;
-    case 3: {  // a word is replaced by another word of the file
+    case 3: {  // replace a word by another word of the file
       const std::size_t from = dice.below(text.size()), size = 1 + dice.below(12);
       text.replace(at, size, text.substr(from, size));
       break;
     }
-    default: {  // a line goes somewhere else
+    default: {  // move a line
       const std::size_t begin = text.rfind('\n', at) + 1, end = text.find('\n', at);
       const std::string line = text.substr(begin, end == std::string::npos ? end : end - begin + 1);
       text.erase(begin, line.size());
@@ -41,7 +41,7 @@ inline void mutate(std::string& text, Dice& dice) {
   }
 }
 
-/// A piece of the text a great many times, or an anchor of a long text with a great many aliases.
+/// Repeats a piece of the text many times, or adds an anchor of a long text with many aliases.
 inline void swell(std::string& text, Dice& dice) {
   const std::size_t at = dice.below(text.size()), size = 1 + dice.below(40);
   std::string many;

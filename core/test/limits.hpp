@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For tests of what comes from outside: work in a process of its own that has a gigabyte and five seconds.
+// Runs a test of input from outside in a child process that has a gigabyte and five seconds.
 #pragma once
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -12,13 +12,13 @@
 
 namespace fulmar::core::test {
 
-/// Of each kind.
-#ifdef FULMAR_SANITIZED  // ten times as slow
+/// Number of altered inputs of each kind.
+#ifdef FULMAR_SANITIZED  // a sanitized build is ten times as slow
 constexpr int mutants = 50, few_mutants = 10;
 #else
 constexpr int mutants = 500, few_mutants = 50;
 #endif
-/// Where 500 take more than ten seconds of a processor: fewer, without FULMAR_LONG.
+/// Number of inputs where 500 take more than ten seconds of CPU time: fewer, without FULMAR_LONG.
 inline int costly_mutants() { return std::getenv("FULMAR_LONG") != nullptr ? 500 : few_mutants; }
 
 /// Whether `work` returns within the limits, without a crash and without an exception.

@@ -6,7 +6,7 @@
 
 namespace fulmar::core::test {
 
-/// The sentence with which `call` is refused; "" when it is not.
+/// The message with which `call` is rejected; "" when it is accepted.
 template <class Call>
 std::string refusal(Call&& call) {
   try {

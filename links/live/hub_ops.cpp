@@ -162,8 +162,7 @@ void Hub::set_parameters(Client& client, const json& message) {
   pending->id = request_id(message);
   std::set<std::string> names;
   for (const json& parameter : list) {
-    const auto name = parameter.at("name").get<std::string>();  // either all names are valid or nothing is
-                                                                // set
+    const auto name = parameter.at("name").get<std::string>();  // a missing name throws before any is set
     if (names.insert(name).second) pending->names.push_back(name);
   }
   // one more for this function, so that no answer is the last before all requests are made

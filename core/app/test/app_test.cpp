@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program as its users meet it: exit codes, JSON keys, words, bad input, interruption, a full disk.
+// The program for its users: exit codes, JSON keys, options, bad input, interruption, a full disk.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -10,7 +10,7 @@ namespace app_test {
 
 using nlohmann::json;
 
-TEST_CASE("the JSON of a flight has the keys that scripts rely on, and null for what there is not") {
+TEST_CASE("the JSON of a flight has the keys that scripts need, and null for missing figures") {
   const Result r = fulmar("run " + hourglass + " --json --no-log --duration 150");
   REQUIRE(r.code == 0);
   const json j = json::parse(r.out);
@@ -53,7 +53,7 @@ TEST_CASE("the JSON of a flight has the keys that scripts rely on, and null for 
   CHECK(early["tracking_rmse"].is_null());
 }
 
-TEST_CASE("the figure of a course that nobody asked for is null, and the others are numbers") {
+TEST_CASE("the figure of a course without a command is null, and the others are numbers") {
   const Result r = fulmar(
       "run " +
       mission(plan + "  judge: {use: score/Score, in: {state: nav.state, attitude: outer.attitude}}\n" +
@@ -98,7 +98,7 @@ TEST_CASE("wrong usage exits 2") {
   CHECK(fulmar("run --help").code == 0);
 }
 
-TEST_CASE("bad input is refused with its place, and exits 4") {
+TEST_CASE("bad input is rejected with its place, and exits 4") {
   const Result missing = fulmar("run nowhere.yaml");
   CHECK(missing.code == 4);
   CHECK(missing.err.find("nowhere.yaml") != std::string::npos);
@@ -122,7 +122,7 @@ TEST_CASE("bad input is refused with its place, and exits 4") {
 
 TEST_CASE("an interrupted flight closes its log and exits 130") {
   const std::string log = (folder() / "interrupted.mcap").string();
-  const auto interrupted = [](const std::string& file) {  // once it flies, however long that takes
+  const auto interrupted = [](const std::string& file) {  // the signal is sent once the flight has begun
     return " & until [ -e " + file + ".part ]; do sleep 0.1; done; sleep 0.5; kill -INT $!; wait $!; echo ";
   };
   const Result r = shell(program + "run " + hourglass + " --speed real --json --log " + log +
@@ -138,7 +138,7 @@ TEST_CASE("an interrupted flight closes its log and exits 130") {
 }
 
 TEST_CASE("a crash names the component, a second signal ends a hanging one") {
-  if (!FULMAR_CRASH_TESTS) return;  // a sanitizer reports crashes in its own way
+  if (!FULMAR_CRASH_TESTS) return;  // a sanitizer reports crashes in a different form
   const std::string lab = folder() / "lab.yaml";
   std::ofstream(lab) << "mission: lab\nroles:\n  vehicle: {in: {command: law.command}, out: {signal: "
                         "Signal}}\n  law: {in: {signal: vehicle.signal}, out: "
@@ -159,12 +159,12 @@ TEST_CASE("a crash names the component, a second signal ends a hanging one") {
   CHECK(hang.err.find("fulmar: app.ended_by_second_signal_in(step, one)") != std::string::npos);
 }
 
-TEST_CASE("a real-time flight takes its time") {
+TEST_CASE("a real-time flight takes real time") {
   const json j = json::parse(fulmar("run " + hourglass + " --json --no-log --duration 5 --speed 20").out);
   CHECK(j["wall_time_s"].get<double>() >= 0.499);
 }
 
-TEST_CASE("on a full disk the flight goes on and the loss is told") {
+TEST_CASE("on a full disk the flight continues and the loss is reported") {
   // no file may grow beyond 1024 blocks of 512 bytes
   const std::string log = (folder() / "full.mcap").string();
   const Result r =
@@ -175,8 +175,8 @@ TEST_CASE("on a full disk the flight goes on and the loss is told") {
   CHECK(j["log_dropped"].get<std::uint64_t>() > 1000);
   CHECK(j["log_error"].is_string());
   const std::string why = "log.operation_failed(write, " + log + ".part, File too large)";
-  // The loop says it, in flight; how far it has come by then is a matter of two threads and of what else the
-  // machine does.
+  // The loop reports it in flight. Its progress at that time depends on two threads and on the load of the
+  // machine.
   const std::size_t reported = r.err.find("run.log_failed(" + why),
                     summed_up = r.err.find("app.log_incomplete(" + why + ", " +
                                            std::to_string(j["log_dropped"].get<std::uint64_t>()) + ", ");
@@ -188,7 +188,7 @@ TEST_CASE("on a full disk the flight goes on and the loss is told") {
   CHECK(fulmar("replay " + log + ".part").out.find("replay.log_cut_off(") != std::string::npos);
 }
 
-TEST_CASE("a log that is not whole is a failure, however the flight ended") {
+TEST_CASE("an incomplete log is a failure, for every end of the flight") {
   const std::string log = (folder() / "cut.mcap").string(), words = (folder() / "cut.txt").string();
   const Result r = shell("ulimit -f 64; " + program + "run " + hourglass + " --speed real --log " + log +
                          " >/dev/null 2>" + words + " & until grep -q 'run.log_failed(' " + words +
@@ -196,7 +196,7 @@ TEST_CASE("a log that is not whole is a failure, however the flight ended") {
   CHECK(r.out == "1\n");
 }
 
-TEST_CASE("inspect and graph speak to people") {
+TEST_CASE("inspect and graph print text for users") {
   const Result inspect = fulmar("inspect " FULMAR_PLUGIN_DIR "/control_slc.so");
   CHECK(inspect.code == 0);
   CHECK(inspect.out.find("Outer") != std::string::npos);
@@ -226,7 +226,7 @@ TEST_CASE(
 
 namespace {
 
-/// Runs the program in the background; what it has said so far.
+/// Runs the program in the background; collects its output.
 struct Background {
   fs::path out = folder() / "background.txt";
   std::string pid;
@@ -239,7 +239,7 @@ struct Background {
     std::ifstream file(out);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  /// False after a generous time.
+  /// Waits for `words` in the output; returns false after a generous time.
   bool says(const std::string& words, std::size_t times = 1) const {
     for (int i = 0; i < 1200; ++i) {
       const std::string text = said();
@@ -282,7 +282,7 @@ TEST_CASE(
   CHECK(watch.says("waiting for a change", 3));
 }
 
-TEST_CASE("--watch --build builds when a source has changed, and tells when that fails") {
+TEST_CASE("--watch --build builds when a source has changed, and reports a failure") {
   const fs::path place = folder() / "project";
   fs::create_directories(place);
   put(fs::path(FULMAR_PLUGIN_DIR) / "control_slc.so", place / "next.so");
@@ -304,7 +304,7 @@ TEST_CASE("--watch --build builds when a source has changed, and tells when that
   CHECK(fulmar("run " + hourglass + " --build true").code == 2);
 }
 
-TEST_CASE("a motion that leaves the model ends the flight with its cause and a whole log") {
+TEST_CASE("a motion outside the model ends the flight with its cause and a complete log") {
   const std::string log = (folder() / "away.mcap").string();
   const auto fails = [&](const std::string& changes, const std::string& cause) {
     fs::remove(log);
@@ -341,7 +341,7 @@ TEST_CASE("an interrupt during a build ends the build and the program") {
   CHECK(shell("pgrep -f '^sleep 4321$'").code == 1);
 }
 
-TEST_CASE("the hourglass is flown over each Earth, as well as over the flat one" *
+TEST_CASE("the hourglass is flown over each Earth model and over flat ground" *
           doctest::test_suite("amounts")) {
   for (const char* earth : {"gravity", "wgs84"}) {
     const Result r = fulmar("run " + hourglass + " --json --no-log --strict --set sim.earth=" + earth);
@@ -349,7 +349,7 @@ TEST_CASE("the hourglass is flown over each Earth, as well as over the flat one"
     const json j = json::parse(r.out);
     CHECK(j["result"] == "flown");
     CHECK(j["guards"].empty());
-    CHECK(j["tracking_true_rmse"]["altitude_m"].get<double>() < 1.19);  // the bar of bench_missions
+    CHECK(j["tracking_true_rmse"]["altitude_m"].get<double>() < 1.19);  // the limit of bench_missions
     CHECK(j["tracking_true_rmse"]["north_m"].get<double>() < 3.05);
     CHECK(j["tracking_true_rmse"]["east_m"].get<double>() < 3.29);
   }
@@ -363,7 +363,7 @@ TEST_CASE(
     const Background flight("run " + hourglass + " --speed real --log " + (logs / "a.mcap").string());
     const fs::path part = logs / "a.mcap.part";
     for (int i = 0; i < 1200 && !fs::exists(part); ++i) usleep(50'000);
-    REQUIRE(flight.says(" m  airspeed"));  // it flies
+    REQUIRE(flight.says(" m  airspeed"));  // the flight has begun
     if (removed)
       fs::remove_all(logs);
     else
@@ -378,7 +378,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("check speaks on standard error without stamps; standard output is the one line") {
+TEST_CASE("check prints on standard error without time stamps; standard output is one line") {
   const fs::path file = mission(plan + "  follow: {in: {path: {from: manage.path, max_age: off}}}\n");
   const Result r = fulmar("check " + file.string());
   CHECK(r.code == 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals to a program that flies hardware (core/run/test/craft.cpp): an armed aircraft is not left by
-// accident.
+// Signals to a program that flies hardware (core/run/test/craft.cpp): a single signal must not end the flight
+// of an armed aircraft.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -23,7 +23,7 @@ const fs::path folder = fs::temp_directory_path() / ("fulmar-armed-test-" + std:
 
 void pause_s(double s) { std::this_thread::sleep_for(std::chrono::duration<double>(s)); }
 
-/// `fulmar run` on a mission of hardware; ended with the test, whatever happens.
+/// `fulmar run` on a hardware mission; killed at the end of the test.
 struct Program {
   pid_t pid = -1;
   fs::path err = folder / "err.txt";
@@ -71,7 +71,7 @@ struct Program {
   }
   void send(int signal) const { kill(pid, signal); }
   bool runs() const { return waitpid(pid, nullptr, WNOHANG) == 0; }
-  /// Its exit code; -1 when it does not end, -2 when a signal has ended it.
+  /// Exit code; -1 when it does not end, -2 when a signal has ended it.
   int code() {
     int status = 0;
     for (int i = 0; i < 200; ++i, pause_s(0.05)) {
@@ -83,7 +83,7 @@ struct Program {
   }
 };
 
-TEST_CASE("on hardware it is said before arming whether, and where, the flight is written down") {
+TEST_CASE("on hardware the place of the log is reported before arming") {
   {
     Program program("craft.arm_at=100");
     REQUIRE(program.says("run.phase_entered(second)"));
@@ -112,7 +112,7 @@ TEST_CASE(
   REQUIRE(program.says("run.phase_entered(second)"));
   program.send(SIGTERM);
   REQUIRE(program.says("run.signal_refused"));
-  program.send(SIGINT);  // too soon after it: timeout(1) sends two at once
+  program.send(SIGINT);  // too early: timeout(1) sends two at once
   program.send(SIGHUP);
   program.send(SIGALRM);
   pause_s(0.6);
@@ -168,7 +168,7 @@ TEST_CASE(
   {
     Program first("craft.arm_at=0", record);
     REQUIRE(first.says("run.phase_entered(second)"));
-    pause_s(2.5);  // the log is whole up to the last second
+    pause_s(2.5);  // the log is complete up to the last second
     first.send(SIGKILL);
     CHECK(first.code() == -2);
   }

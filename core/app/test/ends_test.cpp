@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program `fulmar` when a flight does not end by itself: who is named, where the log is said to lie, and
-// that the vehicle's device gets the last frame, whichever thread it is that crashes and whatever ends it.
+// The program `fulmar` when a flight does not end by itself: it reports the component and the place of the
+// log, and sends the last frame to the vehicle's device, for each crashing thread and each kind of end.
 #include <fcntl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -22,7 +22,7 @@ namespace {
 fs::path device() { return folder().path / "device"; }
 fs::path log_file() { return folder().path / "end.mcap"; }
 
-/// The program flying the laboratory's mission, and what it said.
+/// The program with the laboratory's mission, and its output.
 class Program {
  public:
   explicit Program(const std::string& tail, std::vector<std::string> words = {},
@@ -53,7 +53,7 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// As a shell has it: the exit code, or 128 and the signal.
+  /// The exit code, or 128 plus the signal, as in a shell.
   int wait() {
     int status = 0;
     waitpid(pid_, &status, 0);
@@ -63,13 +63,13 @@ class Program {
   std::string said() const { return text(said_); }
   pid_t pid() const { return pid_; }
 
-  /// Waits until the log is begun.
+  /// Waits until the log has begun.
   bool logs() const {
     for (int i = 0; i < 2000 && !fs::exists(log_file().string() + ".part"); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return thread("fulmar-log") > 0;
   }
-  /// Thread by name; waits until it is there.
+  /// Thread by name; waits until it exists.
   pid_t thread(const std::string& name) const {
     for (int i = 0; i < 2000; ++i) {
       for (const auto& [id, found] : threads())
@@ -88,7 +88,7 @@ class Program {
     }
     return all;
   }
-  /// Signals that a thread does not take.
+  /// Signals that a thread blocks.
   std::uint64_t blocked(pid_t thread) const {
     std::istringstream lines(
         text("/proc/" + std::to_string(pid_) + "/task/" + std::to_string(thread) + "/status"));
@@ -125,7 +125,7 @@ std::string law(const std::string& fault, const std::string& mode = "") {
          with_fallback;
 }
 
-/// Much of what a host can have beside the loop.
+/// Most of the threads that a host can have beside the loop.
 const std::string everything =
     "  think: {use: lab/Thinker, run: async, latency: 20 ms, in: {signal: vehicle.signal}}\n"
     "  ticker: {use: lab/Ticker, run: driver}\n"
@@ -135,7 +135,7 @@ const std::string everything =
 
 }  // namespace
 
-TEST_CASE("a component that takes the host with it is named, and the device gets the last frame") {
+TEST_CASE("a component that ends the host is reported, and the device gets the last frame") {
   struct End {
     const char *fault, *mode, *reported;
     int code;
@@ -168,7 +168,7 @@ TEST_CASE("a component that takes the host with it is named, and the device gets
   }
 }
 
-TEST_CASE("of threads that end the program at one time one says why, whole and once") {
+TEST_CASE("when several threads end the program, one reason is reported, complete and once") {
   if (!FULMAR_CRASH_TESTS) return;
   for (int i = 0; i < 3; ++i) {
     Program program(law("threads_terminate", ""));
@@ -182,7 +182,7 @@ TEST_CASE("of threads that end the program at one time one says why, whole and o
   }
 }
 
-TEST_CASE("a signal that a component raises is heard, beside the loop as in it") {
+TEST_CASE("a signal that a component raises is handled, beside the loop as in it") {
   const std::string async = "run: async, latency: 10 ms, ";
   for (const std::string& mode : {std::string(), async}) {
     CAPTURE(mode);
@@ -197,7 +197,7 @@ TEST_CASE("a signal that a component raises is heard, beside the loop as in it")
   }
 }
 
-TEST_CASE("a log is said to lie where it lies: by its whole name, and not where it was moved from") {
+TEST_CASE("the report of a log gives its present place: the complete name, not the one before a move") {
   if (FULMAR_CRASH_TESTS) {
     Program program(law("crashes"), {}, "end.mcap");
     CHECK(program.wait() == 128 + SIGSEGV);
@@ -225,7 +225,7 @@ TEST_CASE("a fork of the host that exits is not the host") {
   CHECK(last_frame() == 0);
 }
 
-TEST_CASE("a copy of the host that comes back from a step ends, and the host flies on alone") {
+TEST_CASE("a copy of the host that returns from a step ends, and the host flies on alone") {
   for (const std::string& mode : {""s, "run: async, latency: 10 ms, "s}) {
     CAPTURE(mode);
     Program program(law("clones_on", mode), {"--duration", "0.3"});
@@ -237,7 +237,7 @@ TEST_CASE("a copy of the host that comes back from a step ends, and the host fli
   }
 }
 
-TEST_CASE("a copy of the host that a signal ends acts as no host: no last frame, no words") {
+TEST_CASE("a copy of the host that a signal ends does not act as the host: no last frame, no report") {
   if (!FULMAR_CRASH_TESTS) return;
   Program program(law("clones_end"), {"--duration", "0.15"});
   CHECK(program.wait() == 0);
@@ -248,7 +248,7 @@ TEST_CASE("a copy of the host that a signal ends acts as no host: no last frame,
   CHECK(last_frame() == 0);
 }
 
-TEST_CASE("no thread of the host but the main one takes a signal, and all take those of a crash") {
+TEST_CASE("only the main thread of the host takes a signal, and all threads take those of a crash") {
   Program program(everything + std::string(one_phase), {"--speed", "real"});
   for (const char* const name : {"fulmar-log", "fulmar-live", "fulmar-async", "fulmar-driver", "fulmar-words",
                                  "fulmar-dds-out", "fulmar-dds-in"}) {
@@ -262,7 +262,7 @@ TEST_CASE("no thread of the host but the main one takes a signal, and all take t
   for (const auto& thread : program.threads()) {
     CAPTURE(thread.second);
     std::uint64_t blocked = program.blocked(thread.first);
-    // while a thread is being created, or creates one, it takes none
+    // a thread blocks all signals while it is created, or creates one
     for (int i = 0; i < 1000 && (blocked & crashes) != 0; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       blocked = program.blocked(thread.first);
@@ -272,7 +272,7 @@ TEST_CASE("no thread of the host but the main one takes a signal, and all take t
   }
 }
 
-TEST_CASE("a crash of any thread of the host is told, and its device gets the last frame") {
+TEST_CASE("a crash of any thread of the host is reported, and its device gets the last frame") {
   if (!FULMAR_CRASH_TESTS) return;
   for (const char* const name : {"fulmar-log", "fulmar-live", "fulmar-dds-out", "fulmar-words"}) {
     CAPTURE(name);
@@ -310,9 +310,9 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a paced flight that stood still says so, at once and in its result") {
+TEST_CASE("a paced flight that stood still reports it, at once and in its result") {
   Program program(one_phase, {"--speed", "real", "--duration", "3"});
-  // The first event comes before the clock runs; the line of progress comes after.
+  // The first event comes before the clock runs; the line of progress comes after it.
   for (int i = 0; i < 2000 && program.said().find("s  fly") == std::string::npos; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(program.pid(), SIGSTOP);
@@ -324,7 +324,7 @@ TEST_CASE("a paced flight that stood still says so, at once and in its result") 
   CHECK_MESSAGE(said.find("  up to 1.") != std::string::npos, said);
 }
 
-TEST_CASE("a crash after the flight names the plugin and does not point to a log that is not there") {
+TEST_CASE("a crash after the flight names the plugin and does not point to a missing log") {
   if (!FULMAR_CRASH_TESTS) return;
   Program program(law("parts"), {"--duration", "0.3"});
   CHECK(program.wait() == 128 + SIGSEGV);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Commands that are programs of their own: found beside the host and in PATH, started with the remaining
-// words, named when they are missing.
+// Subcommands that are separate programs: found beside the host and in PATH, started with the remaining
+// words, reported when they are missing.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@ using namespace fulmar::test;
 
 namespace {
 
-/// A home of its own for a copy of the host, and a folder for PATH.
+/// A home folder for a copy of the host, and a folder for PATH.
 struct Home {
   fs::path folder = fs::temp_directory_path() / ("fulmar-extern-test-" + std::to_string(getpid()));
   Home() {
@@ -38,7 +38,7 @@ struct Home {
   }
 };
 
-/// Tells which program it is and what it was given, one word a line.
+/// A program that prints its name and its arguments, one per line.
 std::string reporter(const std::string& name, int code) {
   return "#!/bin/sh\necho " + name + "\nfor word in \"$@\"; do echo \"[$word]\"; done\nexit " +
          std::to_string(code) + "\n";
@@ -75,7 +75,7 @@ TEST_CASE("help lists the programs beside the host") {
   CHECK(holds(help.out, "app.programs_beside(aero, zeta, aero)"));
 }
 
-TEST_CASE("a command that exists nowhere is told with what there is, and a built-in one is not replaced") {
+TEST_CASE("an unknown subcommand is reported with the valid ones, and a built-in one is not replaced") {
   const Home home;
   home.program("bin/fulmar-aero", reporter("aero", 0));
   home.program("bin/fulmar-check", reporter("check", 0));
@@ -96,7 +96,7 @@ TEST_CASE("a command that exists nowhere is told with what there is, and a built
   }
 }
 
-TEST_CASE("what is wrong with the command line is told without what a terminal obeys") {
+TEST_CASE("a fault of the command line is printed without control characters") {
   const Home home;
   for (const char* const word : {"a\\033[2J", "a\\302\\2332J"})
     for (const char* const before : {"", "run --", "run x ", "run x --set ", "completion "}) {
@@ -109,7 +109,7 @@ TEST_CASE("what is wrong with the command line is told without what a terminal o
     }
 }
 
-TEST_CASE("a program of ours that was not built is told with how to build it") {
+TEST_CASE("a program that was not built is reported with the way to build it") {
   const Home home;
   for (const std::string word : {"fcu", "ros2"}) {
     const Said missing = home.fulmar(word + " status");
@@ -119,7 +119,7 @@ TEST_CASE("a program of ours that was not built is told with how to build it") {
   CHECK_FALSE(holds(home.fulmar("fca").out, "app.program_not_built"));
 }
 
-TEST_CASE("a word of the host's own whose program is missing beside it is told which one") {
+TEST_CASE("a subcommand of the host whose program is missing is reported with the program's name") {
   const Home home;
   const std::map<std::string, std::string> program_of = {
       {"check", "fulmar-inspect"}, {"graph", "fulmar-inspect"}, {"log", "fulmar-log"},
@@ -137,7 +137,7 @@ TEST_CASE("a word of the host's own whose program is missing beside it is told w
   }
 }
 
-TEST_CASE("the host's help names every word of the programs beside it, as their own help does") {
+TEST_CASE("the host's help lists every subcommand of the programs beside it, as their own help does") {
   const auto words_of = [](const std::string& program) {
     FILE* pipe = popen((FULMAR_BIN_DIR "/" + program + " --help 2>&1").c_str(), "r");
     REQUIRE(pipe != nullptr);
@@ -167,7 +167,7 @@ TEST_CASE("the host's help names every word of the programs beside it, as their 
   CHECK(elsewhere + 1 == host.size());
 }
 
-TEST_CASE("what runs does not depend on the present folder: relative folders of PATH are passed over") {
+TEST_CASE("the program does not depend on the present folder: relative folders of PATH are skipped") {
   const Home home;
   fs::create_directories(home.folder / "elsewhere" / "path");
   home.program("elsewhere/path/fulmar-near", reporter("near", 0));
@@ -176,7 +176,7 @@ TEST_CASE("what runs does not depend on the present folder: relative folders of 
   CHECK(holds(r.out, "fulmar: app.command_unknown(near, "));
 }
 
-TEST_CASE("a program that cannot be started is named") {
+TEST_CASE("a program that cannot be started is named in the message") {
   const Home home;
   home.program("bin/fulmar-broken", "#!/no/such/interpreter\n");
   const Said r = home.fulmar("broken");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped autopilot flies one circuit of the hourglass, and on its first straight something of the
-// simulated aircraft fails for good: all failures that it has, and what is measured of such a flight.
+// The shipped autopilot flies one circuit of the hourglass, and on its first straight a part of the simulated
+// aircraft fails permanently: all available failures, and the measured figures of such a flight.
 #pragma once
 #include <unistd.h>
 
@@ -23,7 +23,7 @@ namespace fulmar::core::failures {
 namespace fs = std::filesystem;
 
 struct Failure {
-  std::string what, how, set;  ///< set: of the phase in which it fails
+  std::string what, how, set;  ///< set: by the phase of the failure
 };
 
 inline std::vector<Failure> all_failures() {
@@ -49,7 +49,7 @@ inline const Failure& failure(const std::string& what, const std::string& how) {
   throw std::runtime_error("no failure " + what + " " + how);
 }
 
-/// The mission as a file in `folder`: the hourglass with a phase more.
+/// Writes the mission to `folder`: the hourglass with an additional phase.
 inline fs::path mission_of(const Failure& f, const fs::path& folder) {
   const fs::path file = folder / (f.what + "_" + f.how + ".yaml");
   std::ofstream(file) << "mission: failing\nextends: " FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml\n"
@@ -62,14 +62,14 @@ inline fs::path mission_of(const Failure& f, const fs::path& folder) {
 }
 
 struct After {
-  bool flown = false, down = false;  ///< neither: still in the air, its circuit not flown
-  double plan_m = 0;                 ///< farthest from the plan, level, while it flew
+  bool flown = false, down = false;  ///< neither: still in the air, its circuit not complete
+  double plan_m = 0;                 ///< largest horizontal distance from the plan while it flew
   double lowest_m = 1e9;
-  double height_error_m = 0;  ///< of the estimate, at most
+  double height_error_m = 0;  ///< of the estimate, largest
   double position_error_m = 0;
   double down_s = -1;     ///< from the failure to the ground
-  bool reported = false;  ///< something was said after it
-  bool admitted = false;  ///< the estimate called something of itself invalid
+  bool reported = false;  ///< a message came after the failure
+  bool admitted = false;  ///< the estimate marked a value of itself as invalid
   std::size_t guards = 0;
   std::string outcome;
 };
@@ -91,7 +91,7 @@ class FailingFlight {
       look_at();
       const auto* const contact = at<fulmar::ContactTruth>(contact_);
       if (contact && contact->touching && touched_s < 0) touched_s = now_s_;
-      if (touched_s >= 0 && now_s_ - touched_s > 1) break;  // it has landed, somehow
+      if (touched_s >= 0 && now_s_ - touched_s > 1) break;  // it is on the ground
     }
     const FlightResult result = flight_.finish();
     after_.guards = result.guards.size();

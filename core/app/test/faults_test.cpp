@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Something of the simulated aircraft fails while the shipped autopilot flies: a handful of what bench_faults
-// flies, a failure that a phase brings and another one takes away, and their replays.
+// A part of the simulated aircraft fails while the shipped autopilot flies: some cases of bench_faults, a
+// failure that one phase starts and another one ends, and their replays.
 #include <doctest/doctest.h>
 
 #include "core/app/test/fault_campaign.hpp"
@@ -55,7 +55,7 @@ std::string recovers() {
          "  again:   {}\n";
 }
 
-TEST_CASE("a sensor that fails and recovers is believed again: the estimate is back where it was") {
+TEST_CASE("a sensor that fails and recovers is accepted again: the estimate returns to its error of before") {
   const test::OwnStore folder;
   const fs::path file = folder.path / "recovers.yaml";
   std::ofstream(file) << recovers();
@@ -86,7 +86,8 @@ TEST_CASE("a sensor that fails and recovers is believed again: the estimate is b
   CHECK(after_m < 3);
 }
 
-/// The barometer sticks until the navigation filter has told so, and the mission goes on when it does again.
+/// The barometer sticks until the navigation filter reports it, and the mission continues when the filter
+/// accepts it again.
 std::string looks_at_health() {
   return "mission: looks_at_health\nextends: " FULMAR_SOURCE_DIR
          "/configs/missions/hourglass.yaml\nlive: off\n"
@@ -98,7 +99,7 @@ std::string looks_at_health() {
          "  again:   {}\n";
 }
 
-TEST_CASE("a mission looks at what the navigation filter makes of a sensor") {
+TEST_CASE("a mission reads the navigation filter's health of a sensor") {
   const test::OwnStore folder;
   const fs::path file = folder.path / "looks_at_health.yaml";
   std::ofstream(file) << looks_at_health();
@@ -129,7 +130,7 @@ std::string scheduled() {
          "  noisy:  {vehicle: {set: {pitot_fault: noisy, gyro_fault: jumping, fault_time: 0.5 s}}}\n";
 }
 
-TEST_CASE("a failure comes and goes with the phases, and each log flies again, byte for byte") {
+TEST_CASE("a failure starts and ends with the phases, and each log replays byte for byte") {
   const test::OwnStore folder;
   const fs::path file = folder.path / "scheduled.yaml";
   std::ofstream(file) << scheduled();
@@ -162,7 +163,7 @@ TEST_CASE("a failure comes and goes with the phases, and each log flies again, b
   CHECK(sha[0] == sha[1]);
 }
 
-TEST_CASE("a failure that is requested in flight is answered, logged behind all other topics, and replayed") {
+TEST_CASE("a failure that is requested in flight is answered, logged after all other topics, and replayed") {
   const test::OwnStore folder;
   Overrides overrides;
   overrides.set = {{"sim.start_height", "70 m"}};
@@ -185,8 +186,8 @@ TEST_CASE("a failure that is requested in flight is answered, logged behind all 
   REQUIRE(answers.size() == 2);
   CHECK(answers[0] == "");
   CHECK(answers[1] == "sim_aero.fault_unknown(pitot, lost, none, off, stuck, wrong, slow, noisy, jumping)");
-  // The hashes of the ticks are made with the numbers of the topics: those that there have always been keep
-  // theirs. Events for viewers are in no hash, and last.
+  // The hashes of the ticks use the numbers of the topics, so existing topics keep their numbers. Events for
+  // viewers are in no hash, and last.
   const WholeLog file = read_mcap(o.log_file);
   const auto last = file.channel("/rosout");
   CHECK(last > file.channel("/sim/fault"));

@@ -27,7 +27,7 @@ struct FaultParams {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Something in the outputs that is not finite.
+/// Sets a value in the outputs that is not finite.
 template <class Outputs>
 void spoil(Outputs& out) {
   if constexpr (requires { out.attitude.roll_rad; }) out.attitude.roll_rad = nan;

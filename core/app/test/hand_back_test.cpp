@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass, whose pilot flies for a while and gives back: controllers that did not obey have not wound
+// The hourglass, whose pilot takes over for a while and gives back: controllers without effect must not wind
 // up.
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -86,9 +86,9 @@ TEST_CASE(
     trial.fly_until(60);
     trial.pilot(0.006, trim_stick, 0.62);
     trial.fly_until(80);
-    CHECK(trial.truth("roll_rad") < -0.5);  // a spiral, far from what the mission wants
+    CHECK(trial.truth("roll_rad") < -0.5);  // a spiral, far from the mission's command
     trial.give_back();
-    trial.fly_until(80.0025);  // the first command that the aircraft obeys
+    trial.fly_until(80.0025);  // the first command that the aircraft follows
     kick[held] = std::abs(trial.elevator() + trim_stick * throw_rad);
     lowest[held] = 1e9;
     for (double t = 80; t < 100; t += 0.1) {
@@ -100,5 +100,5 @@ TEST_CASE(
                               << lowest[false] << " m, " << lowest[true] << " m");
   CHECK(kick[false] > 0.5);
   CHECK(kick[true] < 0.15);
-  CHECK(lowest[true] > 60);  // of 70 m wanted
+  CHECK(lowest[true] > 60);  // commanded: 70 m
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hardware in the loop without hardware: the host and the program fcu_peer as two processes, with a
-// pseudo-terminal in between.
+// Hardware in the loop without hardware: the host and the program fcu_peer as two processes, connected by a
+// pseudo-terminal.
 #pragma once
 #include <fcntl.h>
 #include <sched.h>
@@ -100,7 +100,7 @@ inline bool realtime_allowed() {
   return allowed;
 }
 
-/// The number behind "key" after "block" in a JSON text; NaN when there is none.
+/// The number of "key" after "block" in a JSON text; NaN without one.
 inline double number(const std::string& json, const std::string& block, const std::string& key) {
   const auto at = json.find('"' + block + '"');
   const auto found = at == std::string::npos ? at : json.find('"' + key + "\":", at);
@@ -130,7 +130,8 @@ inline std::vector<Row> rows(const fs::path& file) {
   return all;
 }
 
-/// A folder for one flight, and the hourglass until this is so. The log has every sample of what is flown by.
+/// A folder for one flight, and the hourglass with the end condition `done`. The log has every sample of the
+/// flown ports.
 struct Scratch {
   fs::path folder;
   explicit Scratch(const char* name)
@@ -159,20 +160,19 @@ struct Flown {
   std::string json, said, peer;
   std::vector<Row> truth;
   double wall = 0;
-  bool measured = true;  ///< false: the machine did not let it be flown
-  double stood_still =
-      0;  ///< s on the wall: how late the peer or a thread of its own on any CPU was, at worst
+  bool measured = true;    ///< false: the machine was too slow for the flight
+  double stood_still = 0;  ///< wall time, s: largest delay of the peer or of a test thread on any CPU
   double tracking(const char* key) const { return number(json, "tracking_rmse", key); }
 };
 
-/// How a flight ends, in how much of a hurry it is, and how long it may take on the wall.
+/// End of a flight, its speed over real time, and its time limit on the wall clock.
 struct Plan {
   std::string done;     ///< of the mission
   double duration = 0;  ///< s from arming on; 0: until it is done
   double scale = 1, limit_s = 0;
 };
 
-/// The pilot disarms when the host says that it is done.
+/// The pilot disarms when the host reports `done`.
 inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std::string>& peer_words,
                       bool log) {
   fs::remove(s.log());
@@ -182,7 +182,7 @@ inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std:
       FULMAR_BIN_DIR "/fcu_peer", "--link", port, "--scale", factor, "--mission-seed", "7", "--truth",
       file("truth.csv").string()};
   words.insert(words.end(), peer_words.begin(), peer_words.end());
-  const bool realtime = realtime_allowed();  // what else the machine does is no matter then
+  const bool realtime = realtime_allowed();  // then the load of the machine has no effect
   if (realtime) words.emplace_back("--realtime");
   Process peer(words, file("peer.out"), file("peer.err"));
   for (int k = 0; k < 250 && !fs::exists(port); ++k) nap(0.02);
@@ -217,12 +217,12 @@ inline Flown fly_peer(const Scratch& s, const Plan& plan, const std::vector<std:
   return f;
 }
 
-/// A flight during which the machine did not stand still: one in which it did says nothing, and is flown
-/// again.
+/// A flight during which the machine did not stand still; a flight with a standstill is not judged and is
+/// repeated.
 inline Flown fly_undisturbed(const Scratch& s, const Plan& plan,
                              const std::vector<std::string>& peer_words = {}, bool log = false) {
-  static std::atomic<int> left = 8;  // of the flights that may be in vain, in all tests together
-  // The controller forgets a command after 100 ms of its time.
+  static std::atomic<int> left = 8;  // number of flights that may be repeated, in all tests together
+  // The controller drops a command after 100 ms of its time.
   const double most_s = 0.075 / plan.scale;
   std::string held_up;
   for (int k = 1; k == 1 || (k <= 4 && left > 0); ++k) {
@@ -239,7 +239,7 @@ inline Flown fly_undisturbed(const Scratch& s, const Plan& plan,
   return none;
 }
 
-/// The same mission in the simulator, with what stands between a command and the servos there.
+/// The same mission in the simulator, with the delays between a command and the servos of that flight.
 inline Flown fly_sim(const Scratch& s, const Plan& plan) {
   Flown f;
   std::vector<std::string> words{FULMAR_BIN_DIR "/fulmar",

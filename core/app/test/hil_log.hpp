@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a host has written into its log, as messages; and where in it the inertial samples are missing.
+// Messages from a host's log, and the gaps of its inertial samples.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace fulmar::fcu::testing {
 
 template <class T>
 struct Logged {
-  double t = 0, valid_t = 0;  ///< flight time, s: of the tick, and of validity
+  double t = 0, valid_t = 0;  ///< flight time, s: of the tick; of validity
   T value;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass through the serial protocol: the host, a flight controller in software that behaves as
-// ROSflight's, and sim_aero's aircraft. FULMAR_LONG=1 flies two circuits in real time; otherwise the first
-// turn and half a leg, five times faster.
+// The hourglass through the serial protocol: the host, a flight controller in software that behaves like
+// ROSflight's, and the aircraft of sim_aero. FULMAR_LONG=1 flies two circuits in real time; otherwise the
+// first turn and half a leg, five times faster.
 #include "core/app/test/hil.hpp"
 
 #include <doctest/doctest.h>
@@ -25,7 +25,7 @@ const double scale = in_full ? 1 : 5;
 const Plan circuits = in_full ? Plan{"manage.progress.circuits >= 2", 0, scale, 500}
                               : Plan{"manage.progress.circuits >= 1", 93, scale, 100};
 
-/// Least horizontal distance to where an undisturbed flight was.
+/// Least horizontal distance to the track of an undisturbed flight.
 double off_track(const Row& r, const std::vector<Row>& track) {
   double least = 1e9;
   for (std::size_t k = 0; k < track.size(); k += 5)
@@ -33,7 +33,7 @@ double off_track(const Row& r, const std::vector<Row>& track) {
   return least;
 }
 
-/// The largest change of a command within 10 ms, as long as commands come: after a hole it is the change of a
+/// The largest change of a command within 10 ms, while commands come: after a gap the change belongs to a
 /// longer time.
 double largest_step(const std::vector<Row>& truth, double from, double to, std::size_t channel) {
   double most = 0;
@@ -44,7 +44,7 @@ double largest_step(const std::vector<Row>& truth, double from, double to, std::
   return most;
 }
 
-/// False: the machine stood still in every flight, which a long campaign does not forgive.
+/// False: the machine stood still in every flight, which fails a long campaign.
 bool flown(const Flown& f) {
   const std::string said = f.said + f.peer;
   if (!f.measured && !in_full) MESSAGE("NOT MEASURED: " << said);
@@ -52,7 +52,6 @@ bool flown(const Flown& f) {
   return f.measured;
 }
 
-/// A flight, and its log.
 struct Disturbed {
   Flown flown;
   fulmar::core::WholeLog log;
@@ -63,7 +62,7 @@ Flown fly_plain() {
   return fly_undisturbed(s, circuits);
 }
 
-/// One flight with all that may go wrong. The first turn is from 41 to 49 s, then a straight leg until 109 s.
+/// One flight with all disturbances. The first turn is from 41 to 49 s, then a straight leg until 109 s.
 Disturbed fly_disturbed() {
   const Scratch s("disturbed");
   const Plan plan{"manage.progress.circuits >= 1", 92, scale, 200};
@@ -77,7 +76,7 @@ Disturbed fly_disturbed() {
   return made;
 }
 
-/// Both are in the air at once: each keeps to its own clock and needs a fifth of a processor.
+/// Both flights run at once: each follows its own clock and needs a fifth of a processor.
 struct Flights {
   Flown plain;
   Disturbed disturbed;
@@ -95,7 +94,7 @@ const Flights& flights() {
 const Flown& undisturbed() { return flights().plain; }
 const Disturbed& disturbed() { return flights().disturbed; }
 
-TEST_CASE("sensors that are not there are said before arming, by name") {
+TEST_CASE("missing sensors are reported before arming, by name") {
   struct Lack {
     std::vector<std::string> words;
     const char* reported;
@@ -116,7 +115,7 @@ TEST_CASE("sensors that are not there are said before arming, by name") {
 
 }  // namespace
 
-TEST_CASE("the hourglass through the serial protocol tracks as the simulator with the same delays does") {
+TEST_CASE("the hourglass through the serial protocol tracks like the simulator with the same delays") {
   const Flown& fcu = undisturbed();
   if (!flown(fcu)) return;
   const Scratch s("sim");
@@ -127,8 +126,7 @@ TEST_CASE("the hourglass through the serial protocol tracks as the simulator wit
   };
   MESSAGE("position " << horizontal(fcu) << " m, simulated " << horizontal(sim) << " m; " << fcu.wall
                       << " s on the wall");
-  // One circuit in a hurry holds few turns to average over, and every delay of this computer counts five
-  // times.
+  // One fast circuit has few turns for an average, and every delay of this computer counts five times.
   const double alike = in_full ? 0.2 : 0.4;
   CHECK(horizontal(fcu) == doctest::Approx(horizontal(sim)).epsilon(alike));
   for (const char* key : {"airspeed_mps", "altitude_m", "course_deg", "pitch_deg", "roll_deg"}) {
@@ -137,7 +135,7 @@ TEST_CASE("the hourglass through the serial protocol tracks as the simulator wit
   }
 }
 
-/// Where an undisturbed flight was, how far a disturbed one is from it, and how much its commands change.
+/// Distance of a disturbed flight from an undisturbed one, and the changes of its commands.
 struct Deviation {
   const std::vector<Row>& plain;
   const Flown& f;
@@ -153,7 +151,7 @@ struct Deviation {
       if (r.t > from && r.t < to) least = std::min(least, r.height);
     return least;
   }
-  /// No surface is told to jump by more than a fifth of its throw between two samples of the controllers.
+  /// No surface command steps by more than a fifth of the throw between two samples of the controllers.
   void no_step(const char* when, double from, double to) const {
     for (const std::size_t channel : {1u, 2u, 3u}) {
       const double here = largest_step(f.truth, from, to, channel),
@@ -186,7 +184,7 @@ TEST_CASE(
                     << " m, commands again after " << back - 48 << " s, " << d.worst(60, 64)
                     << " m off from 12 s on");
   CHECK(back > 48);
-  CHECK(back < 48 + 2 * scale);  // two seconds on the wall
+  CHECK(back < 48 + 2 * scale);  // two seconds of wall time
   CHECK(d.lowest(43, 60) > 30);
   CHECK(d.worst(43, 60) < 60);
   CHECK(d.worst(60, 64) < 5);
@@ -254,7 +252,7 @@ TEST_CASE(
   CHECK(failed);
 }
 
-TEST_CASE("the log of 100 ms of silence: the state stays valid, the gap is flagged, no surface steps") {
+TEST_CASE("the log of 100 ms without data: the state stays valid, the gap is flagged, no surface steps") {
   const Disturbed& d = disturbed();
   if (!flown(d.flown)) return;
   const auto imu = logged<fulmar::Imu>(d.log, "/vehicle/imu");
@@ -273,7 +271,7 @@ TEST_CASE("the log of 100 ms of silence: the state stays valid, the gap is flagg
     CHECK(s.value.position_valid);
   }
   for (const auto& s : in) widest = std::max(widest, s.value.attitude_std_rad.north);
-  CHECK(widest > 1.2 * known);  // what is carried on is less certain
+  CHECK(widest > 1.2 * known);  // the extrapolated state is less certain
   bool degraded = false, recovered = false;
   for (const auto& s :
        between(logged<fulmar::VehicleStatus>(d.log, "/vehicle/status"), gap.from, gap.to + 0.5)) {
@@ -295,8 +293,7 @@ TEST_CASE("the log of 100 ms of silence: the state stays valid, the gap is flagg
                          << " -> " << widest << " rad; largest steps " << aileron << ", " << elevator << ", "
                          << rudder << " rad");
   CHECK(commands.size() > 50);
-  // In gusts the pitch rate is another one after 100 ms, and the damper answers it at once; throws are 0.7
-  // rad.
+  // In gusts the pitch rate changes within 100 ms, and the damper reacts at once; throws are 0.7 rad.
   CHECK(aileron < 0.07);
   CHECK(elevator < 0.175);
   CHECK(rudder < 0.07);

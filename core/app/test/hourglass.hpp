@@ -11,7 +11,7 @@ namespace fulmar::core::test {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-/// The hourglass at another height; its fillets as the planner flies them.
+/// The hourglass at another height, with the fillets of the planner.
 class Hourglass {
  public:
   Hourglass() {
@@ -37,7 +37,7 @@ class Hourglass {
   using Point = std::array<double, 2>;
   static constexpr double radius_m = 50;
   struct Corner {
-    Point in, out, centre;  ///< where the arc begins and ends
+    Point in, out, centre;  ///< start and end of the arc
   };
   static Corner fillet(const Point& a, const Point& b, const Point& c) {
     const auto towards = [&b](const Point& p) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From runway to runway: the shipped mission in several winds, judged by the simulated truth.
+// From take-off to landing: the shipped mission in several winds, judged by the simulated truth.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ Touch landed(double wind_mps, double from_deg, std::uint64_t seed, const std::st
 
 }  // namespace
 
-TEST_CASE("it takes off, flies its circuit and lands on the runway, with wind from ahead and from the side") {
+TEST_CASE("it takes off, flies its circuit and lands on the runway, with headwind and crosswind") {
   const struct {
     double wind_mps, from_deg;
     const char* sensors;
@@ -71,16 +71,16 @@ TEST_CASE("it takes off, flies its circuit and lands on the runway, with wind fr
     const Touch t = landed(w.wind_mps, w.from_deg, ++seed, w.sensors);
     CHECK(t.stopped);
     CHECK(t.sink_mps < 1.5);
-    CHECK(std::abs(t.cross_m) < 5 + 3);  // 5 m and what the receiver is off
+    CHECK(std::abs(t.cross_m) < 5 + 3);  // 5 m and the error of the receiver
     CHECK(t.along_m > -30);
     CHECK(t.along_m < 200);
-    CHECK(t.nose_rad < 0.12);          // of 0.3 rad that it crabs at most
+    CHECK(t.nose_rad < 0.12);          // of a crab angle of 0.3 rad at most
     CHECK(t.slowest_mps > 11);         // 1.1 times the stall
     if (!counts_allocations()) break;  // under the sanitizers a flight takes twenty times as long
   }
 }
 
-TEST_CASE("an approach that the wind refuses for three minutes is flown all the same, with a warning") {
+TEST_CASE("an approach that the wind limits reject for three minutes is flown anyway, with a warning") {
   Overrides overrides;
   overrides.set = {{"sim.wind_ned", "[6.36, 6.36, 0]"}};  // 9 m/s across the runway
   const Graph graph = load_mission(FULMAR_SOURCE_DIR "/configs/missions/runway_to_runway.yaml", overrides);
@@ -100,7 +100,7 @@ namespace {
 
 struct Thrown {
   bool stopped = false, crashed = false;
-  double lowest_m = 1e9, motor_s = 1e9, max_bank_rad = 0;  ///< motor_s: after it was let go
+  double lowest_m = 1e9, motor_s = 1e9, max_bank_rad = 0;  ///< motor_s: after the release
   bool motor_at_end = false;
 };
 
@@ -143,7 +143,7 @@ TEST_CASE(
   using Set = std::vector<std::pair<std::string, std::string>>;
   const std::vector<Set> launches = {
       Set{{"sim.launch_speed", "9"}, {"sim.wind_ned", "[0, 0, 0]"}},
-      Set{{"sim.wind_ned", "[5.66, -5.66, 0]"}},  // 8 m/s from ahead
+      Set{{"sim.wind_ned", "[5.66, -5.66, 0]"}},  // 8 m/s headwind
       Set{{"sim.launch", "catapult"}, {"slc.launch_delay", "0.6"}, {"sim.launch_speed", "16"}},
       Set{{"sim.launch_after", "240"}}};
   for (const auto& set : launches) {
@@ -151,7 +151,7 @@ TEST_CASE(
     const Thrown t = thrown(set, 500);
     CHECK(t.stopped);
     CHECK_FALSE(t.crashed);
-    CHECK(t.lowest_m > 0.7);  // let go at 2 m, in a calm below its stall
+    CHECK(t.lowest_m > 0.7);  // released at 2 m, in calm air below its stall speed
     CHECK(t.motor_s > 0.2);
     CHECK(t.motor_s < 1);
     CHECK(t.max_bank_rad < 0.2);
@@ -159,7 +159,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("thrown with a dead motor it comes down ahead, whole, and stops asking for power") {
+TEST_CASE("launched by hand with a dead motor it lands ahead, undamaged, and stops the motor") {
   for (const char* speed : {"9", "11", "14"}) {
     CAPTURE(speed);
     const Thrown t = thrown({{"sim.motor", "false"}, {"sim.launch_speed", speed}}, 30);
@@ -169,7 +169,7 @@ TEST_CASE("thrown with a dead motor it comes down ahead, whole, and stops asking
   }
 }
 
-TEST_CASE("a landing without a runway, in it or in its plan, and a short one are refused by file and line") {
+TEST_CASE("a landing without a runway, in it or in its plan, and a short one are rejected by file and line") {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("landing_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);

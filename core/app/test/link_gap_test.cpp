@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass, whose vehicle falls silent in the middle of a turn, as when its cable falls out: no sensor
-// for a while, then all of them again. The flight goes on.
+// The hourglass, whose vehicle sends nothing for a while in the middle of a turn, as with a loose cable: no
+// sensor data, then all again. The flight continues.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -43,7 +43,7 @@ Graph mission(const std::string& outer, const std::string& sensors) {
   return graph;
 }
 
-/// One field of one component's output, looked at between ticks.
+/// One field of one component's output, read between ticks.
 class Look {
  public:
   Look(const Graph& graph, const char* component, const char* output, const char* field) {
@@ -112,7 +112,7 @@ double middle_of_a_turn(const Flown& whole) {
 
 namespace {
 
-/// What a gap did to the flight. Steps are those of one tick, in degrees: in the gap, in two seconds after
+/// Effect of a gap on the flight. Steps are those of one tick, in degrees: in the gap, in two seconds after
 /// it, and without a gap.
 struct Effect {
   double lowest_m = 1e9, highest_m = 0, off_track_m = 0, valid_after_s = -1, first_roll_error_deg = 0;
@@ -196,7 +196,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the progress line shows no figure that is not known now") {
+TEST_CASE("the progress line shows no invalid figure") {
   const Graph graph = mission("slc", "rosflight");
   FlightOptions o;
   o.log = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The range of a live parameter holds what an aircraft survives: those of estimator, laws and guidance, flown
-// at both ends on three aircraft. A draw of them here; all of them with --no-skip.
+// An aircraft survives the whole range of each live parameter: those of estimator, laws and guidance, flown
+// at both ends on three aircraft. A random sample of them here; all of them with --no-skip.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -28,7 +28,7 @@ constexpr Craft crafts[] = {
 struct Case {
   Craft craft;
   std::string param, value;
-  std::string outer = "slc";  ///< the law that flies
+  std::string outer = "slc";  ///< the active law
 };
 
 class Folder {
@@ -101,7 +101,7 @@ void survives_some(const Folder& folder, const std::vector<Case>& list, int coun
 
 }  // namespace
 
-TEST_CASE("an aircraft survives both ends of the ranges of the live parameters: a draw") {
+TEST_CASE("an aircraft survives both ends of the ranges of the live parameters: a random sample") {
   const Folder folder;
   const std::vector<Case> estimator = of_estimator(folder), laws = of_laws(folder);
   CHECK(estimator.size() > 200);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The names of logs that the host chooses itself.
+// Names of logs that the host chooses.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder in which flights of the hourglass mission are begun; gone afterwards.
+/// A folder in which flights of the hourglass mission begin; removed afterwards.
 struct Folder {
   fs::path path = fs::temp_directory_path() / ("fulmar-log-name-test-" + std::to_string(getpid()));
   const std::string run = FULMAR_BIN_DIR "/fulmar run " FULMAR_SOURCE_DIR "/configs/missions/hourglass.yaml ";
@@ -31,7 +31,7 @@ struct Folder {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(Folder, "flights that begin at once in one folder all fly, each with a log of its own") {
+TEST_CASE_FIXTURE(Folder, "flights that begin at once in one folder all fly, each with a separate log") {
   const std::string twenty =
       "for i in $(seq 20); do " + run +
       "--duration 1 --seed $i >out.txt 2>&1 || touch refused & done; wait; [ ! -e refused ]";
@@ -46,7 +46,7 @@ TEST_CASE_FIXTURE(Folder, "a flight that cannot begin leaves no file") {
   CHECK(files(".mcap") + files(".part") == 0);
 }
 
-TEST_CASE_FIXTURE(Folder, "a report is refused before the flight where none can be, in one sentence") {
+TEST_CASE_FIXTURE(Folder, "a report that cannot be made is rejected before the flight, in one sentence") {
   const auto refused = [&](const std::string& options, const std::string& words) {
     INFO(options);
     CHECK_FALSE(shell(run + "--duration 1 " + options + " >out.txt 2>&1"));

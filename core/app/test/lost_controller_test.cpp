@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass, whose outer law fails in the middle of a turn: the fallback completes the flight, and the
-// aircraft hardly leaves its path.
+// The hourglass, whose outer law fails in the middle of a turn: the fallback completes the flight with a
+// small deviation.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -69,7 +69,7 @@ Flown fly(const Graph& graph, double speed) {
   return flown;
 }
 
-/// Largest distance at equal times, as long as both flew.
+/// Largest distance at equal times, while both flew.
 double deviation_m(const std::vector<Position>& a, const std::vector<Position>& b) {
   double most = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
@@ -82,7 +82,7 @@ double deviation_m(const std::vector<Position>& a, const std::vector<Position>& 
 
 }  // namespace
 
-TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") {
+TEST_CASE("a controller that is lost in the middle of a turn costs less than 5 m") {
   const Flown whole = fly(mission("params: {}"), 0);
   REQUIRE(whole.result.outcome == Outcome::flown);
   const auto turn = std::find_if(whole.truth.begin(), whole.truth.end(),
@@ -108,7 +108,7 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
   };
   for (const Row& row : rows) {
     if (row.crash && !counts_allocations())
-      continue;  // a sanitized child reports crashes in its own way, and has no count of its heap
+      continue;  // a sanitized child reports crashes in a different form, and does not count its heap
     CAPTURE(std::string(row.fault));
     CAPTURE(std::string(row.how));
     const Flown flown = fly(mission(std::string(row.how) + "params: {fault: " + row.fault + when), row.speed);
@@ -121,6 +121,6 @@ TEST_CASE("a controller that goes in the middle of a turn costs less than 5 m") 
     MESSAGE(std::string(row.fault) << std::string(row.how[0] == 'r' ? ", in a child" : ", in the loop")
                                    << ": at most " << deviation << " m from the flight without a fault");
     CHECK(deviation < 5);
-    CHECK(deviation > 0);  // something did change hands
+    CHECK(deviation > 0);  // the fallback did take over
   }
 }

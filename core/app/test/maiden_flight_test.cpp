@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The maiden flight of docs/hardware.md, step by step, with the commands that the page prints, on the
-// software flight controller in virtual time. Its pilot takes off, hands over for a while, and takes back.
+// The maiden flight of docs/hardware.md, step by step, with the commands of that page, on the software flight
+// controller in virtual time. The pilot takes off, hands over for a while, and takes back.
 #include <doctest/doctest.h>
 
 #include <map>
@@ -36,7 +36,7 @@ std::map<int, std::string> commands() {
   return list;
 }
 
-/// The words of a command; quotes hold one together.
+/// The words of a command; quotes join words.
 std::vector<std::string> words(const std::string& command) {
   std::vector<std::string> list(1);
   bool quoted = false;
@@ -71,7 +71,7 @@ Graph mission_of(const std::string& command, const fs::path& folder, double pilo
   return load_mission(file.string(), overrides);
 }
 
-/// One flight of the page. The pilot has the aircraft until it is handed over.
+/// One flight of the page. The pilot has control until the hand-over.
 class Maiden {
  public:
   Maiden(int step, const fs::path& folder, double pilot_height_m = 80)
@@ -87,12 +87,12 @@ class Maiden {
     f_.set("pilot_until", 1e9);
   }
   void hand_over() { f_.set("pilot_until", -100); }
-  /// The pilot takes off and climbs, and flies straight for a while.
+  /// The pilot takes off and climbs, then flies straight for a while.
   bool pilot_climbs() {
     return f_.fly_while([](const Row& r) { return r.height_m < 75 && r.t_s < 120; }) && wait(10) &&
            f_.row().height_m > 70 && !f_.row().host;
   }
-  /// Handed over for so long; what was flown then.
+  /// Rows of a hand-over of this duration.
   std::vector<Row> given(double seconds) {
     hand_over();
     wait(0.5);  // until the next frame of the radio, and the hand-over
@@ -117,12 +117,12 @@ double max_bank_deg(const std::vector<Row>& rows) {
   return most;
 }
 
-TEST_CASE("the page prints a command for each step that the computer flies in") {
+TEST_CASE("the page prints a command for each step in which the computer flies") {
   const auto list = commands();
   for (const int step : {2, 3, 4, 5, 6}) CHECK_MESSAGE(list.count(step) == 1, step);
 }
 
-TEST_CASE("step 2: the computer looks on, and the aircraft is the pilot's all the time") {
+TEST_CASE("step 2: the computer observes, and the pilot has control all the time") {
   const test::OwnStore folder;
   Maiden m(2, folder.path);
   REQUIRE(m.pilot_climbs());

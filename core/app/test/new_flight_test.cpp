@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar restart`: a simulation ends, and its mission is flown anew by the same host.
+// `fulmar restart`: a simulation ends, and the same host flies its mission again.
 #include <string>
 
 #include "core/app/test/shell.hpp"
@@ -30,14 +30,14 @@ TEST_CASE(
   const Result r = shell(script(
       "mission ''; echo mine >one-2.mcap\n"
       "fly --speed real --duration 20 --log one.mcap\n"
-      "\"$F\" pause && \"$F\" param set slc.course_kp 1.1\n"  // of this flight alone
+      "\"$F\" pause && \"$F\" param set slc.course_kp 1.1\n"  // applies to this flight alone
       "mission 'components: {slc: {params: {roll_limit: 31 deg}}}'\n"
       "\"$F\" restart --seed 11 >/dev/null && echo accepted\n"  // once the new flight listens
       "\"$F\" param get slc.roll_limit slc.course_kp\n"
       "\"$F\" list --json | grep -o '\"origin\":{[^}]*}'; \"$F\" list --json | grep -o "
       "'\"seed\":\"[0-9]*\"'\n"
       "sed -i 's/31 deg/31 kg/' m.yaml\n"
-      "\"$F\" restart\n"  // cannot be flown: what flew before flies
+      "\"$F\" restart\n"  // cannot be flown: the previous mission flies
       "\"$F\" speed max; landed\n"
       "sed -i 's/31 kg/31 deg/' m.yaml\n"
       "\"$F\" run m.yaml --duration 20 --seed 11 --log fresh.mcap >/dev/null 2>&1\n"
@@ -57,7 +57,7 @@ TEST_CASE(
   CHECK_FALSE(holds("       change\n"));
 }
 
-TEST_CASE("a flight that is one of several refuses, and so does one whose seed is none") {
+TEST_CASE("one of several flights rejects a restart, and so does an invalid seed") {
   const Result r =
       shell(script("mission ''; fly --speed real --repeat 2 --duration 20 --no-log\n"
                    "\"$F\" restart 2>&1; echo $?; \"$F\" restart --seed -1 2>&1; echo $?\n"

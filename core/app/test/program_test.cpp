@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What programs of the command line say of what was thrown, and how they say it.
+// Messages of command-line programs for exceptions, and their output.
 #include "core/app/program.hpp"
 
 #include <doctest/doctest.h>
@@ -37,7 +37,7 @@ std::string reported(const std::function<void()>& fault) {
   return "nothing was thrown";
 }
 
-/// What comes out at standard error meanwhile.
+/// Output on standard error during `words`.
 std::string heard(const std::function<void()>& words) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("fulmar-program-test-" + std::to_string(getpid()));
@@ -56,7 +56,7 @@ std::string heard(const std::function<void()>& words) {
 
 }  // namespace
 
-TEST_CASE("what the language's library throws becomes a sentence for people") {
+TEST_CASE("an exception of the standard library becomes a sentence for users") {
   const std::string inside = "app.internal_error(";
   CHECK(reported([] { std::vector<int>().reserve(std::vector<int>().max_size() + 1); }) ==
         inside + "std::length_error, app.length_excessive)");
@@ -75,7 +75,7 @@ TEST_CASE("what the language's library throws becomes a sentence for people") {
         inside + "std::bad_function_call, app.callable_empty)");
 }
 
-TEST_CASE("what has words for people keeps them") {
+TEST_CASE("an exception with a text for users keeps it") {
   CHECK(reported([] { throw Error("mission.yaml:3: no"); }) == "mission.yaml:3: no");
   CHECK(reported([] {
           throw std::system_error(std::make_error_code(std::errc::no_space_on_device), "basic_filebuf");
@@ -87,7 +87,7 @@ TEST_CASE("what has words for people keeps them") {
         "app.internal_error(std::runtime_error, the ellipsoid is flat)");
 }
 
-TEST_CASE("what the host says aloud holds nothing that a terminal obeys, and no time stamp") {
+TEST_CASE("messages of the host contain no control characters and no time stamp") {
   const std::string text = heard([] {
     speak_on_standard_error();
     say_aloud(

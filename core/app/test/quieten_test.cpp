@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass on servos so slow that three times the gain of an axis oscillates: it is quietened within 2
-// s, and told. With the gains as they are nothing is ever quietened, in moderate turbulence either.
+// The hourglass on servos so slow that three times the gain of an axis oscillates: the gain is reduced within
+// 2 s, and reported. With the normal gains it is never reduced, not even in moderate turbulence.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -24,8 +24,8 @@ struct Case {
   std::string airframe, nav, surface, gains;
 };
 
-/// 60 s in, all gains of one axis are three times as high. The sides of the Aerosonde's plan are for its
-/// speed.
+/// 60 s into the flight, all gains of one axis are three times as high. The sides of the Aerosonde's plan fit
+/// its speed.
 Graph mission(const Case& c, bool quieten) {
   const fs::path file = fs::temp_directory_path() / ("fulmar-quieten-" + std::to_string(getpid()) + ".yaml");
   std::ofstream out(file);
@@ -55,7 +55,7 @@ Graph mission(const Case& c, bool quieten) {
 struct Flown {
   bool flown = false;
   double from_s = -1,
-         last_s = -1;  ///< of the time that the surface moves faster than 2 rad/s, root mean square of 0.3 s
+         last_s = -1;  ///< time at which the surface moves faster than 2 rad/s, root mean square over 0.3 s
   double reported_s = -1;
   std::string reported;
 };
@@ -88,7 +88,7 @@ Flown fly(const Graph& graph, const std::string& surface) {
     if (!message || now_s < 50) continue;
     double u = 0;
     std::memcpy(&u, message + at, sizeof u);
-    const double rate = (u - before) * 400;  // steps of 100 Hz, looked at 400 times a second
+    const double rate = (u - before) * 400;  // steps of 100 Hz, sampled 400 times a second
     before = u;
     squares.push_back(rate * rate / 4);
     sum += squares.back();
@@ -106,7 +106,7 @@ Flown fly(const Graph& graph, const std::string& surface) {
 
 }  // namespace
 
-TEST_CASE("three times the gain on slow servos oscillates; it is quiet within 2 s of that, and told") {
+TEST_CASE("three times the gain on slow servos oscillates; it is quiet within 2 s of that, and reported") {
   const std::string roll = "roll_kp: 3.6, roll_ki: 0.3, roll_kd: 0.06";
   for (const std::string nav : {"truth", "ekf"})
     for (const Case& c :
@@ -119,7 +119,7 @@ TEST_CASE("three times the gain on slow servos oscillates; it is quiet within 2 
       CAPTURE(c.surface);
       const Flown loud = fly(mission(c, false), c.surface), quiet = fly(mission(c, true), c.surface);
       CHECK(loud.from_s > 60);
-      CHECK(loud.last_s > 95);  // for ever
+      CHECK(loud.last_s > 95);  // to the end
       CHECK(loud.reported == "");
       CHECK(quiet.flown);
       CHECK(quiet.from_s > 60);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Missions by chance, out of the shipped components, in which one of them fails by chance (frail.cpp):
-// whoever is stopped, within 0.3 s somebody flies on live inputs or failsafe is announced; a flight that left
-// its plan is not called flown; and each log flies again, byte for byte.
+// Random missions from the shipped components, in which a random one fails (frail.cpp). Within 0.3 s of each
+// stop, a component with live inputs is active or failsafe is announced. A flight that left its plan is not
+// reported as flown. Each log replays byte for byte.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -22,10 +22,10 @@ namespace fs = std::filesystem;
 
 namespace random_missions_test {
 
-constexpr std::int64_t patience_ns = 300'000'000;  // until somebody flies, or failsafe
+constexpr std::int64_t patience_ns = 300'000'000;  // until a component is active, or failsafe
 constexpr double astray_m = 300;
 
-/// A mission and what is to go wrong in it, by chance.
+/// A random mission and its random faults.
 class Draw {
  public:
   explicit Draw(unsigned seed) : random_(seed) {
@@ -62,7 +62,7 @@ class Draw {
              (all.empty() ? "" : ", params: {" + all + "}") + "}\n";
   }
 
-  /// A wire; now and then that of the tick before.
+  /// A wire; sometimes that of the previous tick.
   std::string from(const std::string& port) {
     return chance(0.2) ? "{from: " + port + ", delayed: true}" : port;
   }
@@ -156,7 +156,7 @@ Graph mission(const fs::path& folder, unsigned seed) {
   return load_mission(file.string());
 }
 
-/// From the nearest leg of the hourglass; over the ground, corners as they are.
+/// Distance from the nearest leg of the hourglass; over the ground, with sharp corners.
 double from_plan_m(double north, double east) {
   constexpr double corner[4][2] = {{400, -250}, {-400, -50}, {-400, -250}, {400, -50}};
   double least = 1e9;
@@ -173,7 +173,7 @@ struct Flown {
   FlightResult result;
   std::string word;
   double farthest_m = 0;
-  std::vector<std::pair<std::int64_t, std::string>> failsafe;  // said, and when
+  std::vector<std::pair<std::int64_t, std::string>> failsafe;  // failsafe events and their times
 };
 
 Flown fly(const Graph& graph, const fs::path& log) {
@@ -203,13 +203,13 @@ Flown fly(const Graph& graph, const fs::path& log) {
   return flown;
 }
 
-/// Who flies at a time, by what the flight tells at its end: walks from the vehicle up to its sensors.
+/// Active components at a time, from the result of the flight: walks from the vehicle up to its sensors.
 class Chain {
  public:
   Chain(const Graph& graph, const FlightResult& result, std::int64_t at_ns)
       : graph_(graph), result_(result), at_ns_(at_ns) {}
 
-  /// What is fed by somebody who was stopped, or by nobody; "": all is alive.
+  /// The input that is fed by a stopped component, or by none; "": all are alive.
   std::string broken() { return broken(graph_.vehicle); }
 
  private:
@@ -258,7 +258,7 @@ class Chain {
 void check_guards(const Graph& graph, const Flown& flown) {
   for (const GuardEvent& guard : flown.result.guards) {
     const std::int64_t later_ns = guard.at_ns + patience_ns;
-    if (later_ns > flown.result.last_ns) continue;  // it was over by then
+    if (later_ns > flown.result.last_ns) continue;  // the flight was over by then
     const bool announced = std::any_of(flown.failsafe.begin(), flown.failsafe.end(),
                                        [&](const auto& said) { return said.first <= later_ns; });
     const std::string broken = Chain(graph, flown.result, later_ns).broken();
@@ -300,7 +300,7 @@ TEST_CASE(
   }
   MESSAGE(flights() << " flights: a guard fired in " << guarded << ", " << flown_on
                     << " were flown on by others, " << failsafes << " ended in failsafe");
-  // chance has covered both ways
+  // the random cases cover both outcomes
   if (flights() < 50) return;
   CHECK(flown_on >= flights() / 10);
   CHECK(failsafes >= flights() / 10);

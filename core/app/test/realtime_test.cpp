@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real-time priority: who has it while a flight goes on, and what is said when it is not permitted.
+// Real-time priority: the threads that have it in a flight, and the message when it is not permitted.
 #include "core/run/component/realtime.hpp"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,7 @@ using namespace fulmar::core;
 
 namespace {
 
-/// Runs `work` in a child and returns what it says: nothing of it stays in this process.
+/// Runs `work` in a child and returns its output: this process stays unchanged.
 template <class Work>
 std::string in_child(Work&& work) {
   int ends[2];
@@ -51,7 +51,7 @@ std::string in_child(Work&& work) {
   return words;
 }
 
-/// What somebody without rights and limits is told.
+/// The message for a user without rights and limits.
 std::string as_nobody(rlim_t priorities, rlim_t memory) {
   return in_child([&]() -> std::string {
     if (getuid() == 0 && (setgroups(0, nullptr) != 0 || setgid(65534) != 0 || setuid(65534) != 0))
@@ -124,16 +124,16 @@ bool permitted() {
 
 }  // namespace
 
-TEST_CASE("without permission one sentence says what is missing and how to allow it") {
+TEST_CASE("without permission one sentence names the missing right and its remedy") {
   const std::string nothing = as_nobody(0, 64 * 1024);
-  // The sentence itself, by this program started again.
+  // This program started again prints the sentence itself.
   if (getenv("FULMAR_TEST_SENTENCE") != nullptr) {
     std::printf("<%s>", nothing.c_str());
     return;
   }
   CHECK(nothing.find("run.realtime_not_permitted(to lock its memory (limit 64 kB), ") == 0);
   const std::string memory_alone = as_nobody(0, RLIM_INFINITY);
-  if (memory_alone != "cannot lower a limit")  // a hard limit that this machine sets for everybody
+  if (memory_alone != "cannot lower a limit")  // a hard limit of this machine for every user
     CHECK(memory_alone.find("run.realtime_not_permitted(to run with priority 70 (limit 0), ") == 0);
   std::FILE* const again = popen(
       "FULMAR_TEST_SENTENCE=1 FULMAR_MESSAGES=sentences /proc/$PPID/exe -tc='without permission*'", "r");
@@ -151,7 +151,7 @@ TEST_CASE("without permission one sentence says what is missing and how to allow
   CHECK(sentence.find('\n') == std::string::npos);
 }
 
-TEST_CASE("memory that would not suffice later is not called enough") {
+TEST_CASE("memory that would not suffice later is not reported as enough") {
   rlimit here{};
   REQUIRE(getrlimit(RLIMIT_MEMLOCK, &here) == 0);
   const rlim_t gigabyte = std::min<rlim_t>(
@@ -161,7 +161,7 @@ TEST_CASE("memory that would not suffice later is not called enough") {
                   " kB)") != std::string::npos);
 }
 
-TEST_CASE("the thread that takes it has it, and what it starts afterwards has not") {
+TEST_CASE("the thread that requests priority gets it, and threads that it starts later do not") {
   if (!permitted()) {
     MESSAGE("not permitted here: not tried");
     return;
@@ -199,7 +199,7 @@ TEST_CASE("in flight the loop has it, its isolated component has one less, the l
           "--realtime=75", nullptr);
     _exit(127);
   }
-  // it flies as soon as its log's thread is there
+  // the flight has begun once its log's thread exists
   std::map<std::string, std::string> threads;
   for (int i = 0; i < 3000 && threads.count("fulmar-log") == 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program refuses before anything flies: values, aircraft and names.
+// Input that the program rejects before a flight: values, aircraft and names.
 #include "shell.hpp"
 
 namespace app_test {
 
-TEST_CASE("what cannot be is refused before anything flies") {
+TEST_CASE("impossible values are rejected before the flight") {
   const Result command = fulmar("runn " + hourglass);
   CHECK(command.code == 2);
   CHECK(command.err.find("fulmar: app.command_unknown(runn,  [run] run, check, graph, inspect, new") == 0);
@@ -77,7 +77,7 @@ TEST_CASE("a value that no aircraft has is refused, with its range" * doctest::t
   }
 }
 
-TEST_CASE("a refused waypoint, and a refused value of a plan, have their line in the plan file") {
+TEST_CASE("a rejected waypoint, and a rejected value of a plan, have their line in the plan file") {
   const fs::path file = folder() / "refused_plan.yaml";
   const fs::path m = mission("components:\n  plan: {params: {plan: " + file.string() + "}}\n");
   const auto refused = [&](const std::string& text, const std::string& reported) {
@@ -96,7 +96,7 @@ TEST_CASE("a refused waypoint, and a refused value of a plan, have their line in
 
 namespace {
 
-/// A shipped airframe with `from` replaced, in a file of its own; and the line that the replacement is in.
+/// A copy of a shipped airframe with `from` replaced; and the line of the replacement.
 std::pair<std::string, int> changed_airframe(const std::string& from, const std::string& to) {
   std::ifstream in(FULMAR_SOURCE_DIR "/configs/airframes/anaconda.yaml");
   std::string text((std::istreambuf_iterator<char>(in)), {});
@@ -111,7 +111,7 @@ std::pair<std::string, int> changed_airframe(const std::string& from, const std:
 
 }  // namespace
 
-TEST_CASE("an aircraft that cannot fly is refused with the line that says so, before anything moves") {
+TEST_CASE("an aircraft that cannot fly is rejected with the line of the fault, before the flight") {
   const auto refused = [](const std::string& from, const std::string& to, const std::string& field,
                           const std::string& why) {
     const auto [file, line] = changed_airframe(from, to);
@@ -145,7 +145,7 @@ TEST_CASE("an aircraft that cannot fly is refused with the line that says so, be
                 inertia.err);
 }
 
-TEST_CASE("a name that no file can have, or that speaks to a terminal, is refused") {
+TEST_CASE("an invalid file name, or one with control characters, is rejected") {
   const fs::path file = folder() / "names.yaml";
   for (const char* const text :
        {"mission: \"a\\0b\"\n", "mission: \"\\e[2J\"\n", "record: {file: \"x\\0y.mcap\"}\n"}) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a flight is called at its end, who flew it, and the exit code: in a laboratory
-// (core/run/test/lab.cpp).
+// Outcome of a flight, its active components, and the exit code: in a laboratory (core/run/test/lab.cpp).
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -32,7 +31,7 @@ Ended shell(const std::string& command) {
   return r;
 }
 
-/// cart -> filter -> law; `filter` is what the filter says of itself, `law` what the first of two laws does.
+/// cart -> filter -> law; `filter` is the behaviour of the filter, `law` that of the first of two laws.
 Ended fly(const std::string& options, const std::string& law = "{id: 1}", const std::string& filter = "{}",
           const std::string& flies = "{law: {use: one, fallback: two}}") {
   const fs::path file =
@@ -54,7 +53,7 @@ Ended fly(const std::string& options, const std::string& law = "{id: 1}", const 
 
 const std::string broken = "{id: 1, fault: nan, fault_at: 1}";
 
-TEST_CASE("--seeds flies once with each seed, each flight as it would be by itself") {
+TEST_CASE("--seeds flies once with each seed, each flight equal to a single one") {
   const Ended r = fly("--seeds 3,11..12 --json");
   CHECK(r.code == 0);
   const json j = json::parse(r.out);
@@ -72,7 +71,7 @@ TEST_CASE("--seeds flies once with each seed, each flight as it would be by itse
   CHECK(fly("--seeds 4..1").code == 2);
 }
 
-TEST_CASE("a flight without a word from a guard is flown, and one component flew each role") {
+TEST_CASE("a flight without a guard event is flown, and one component was active in each role") {
   const Ended r = fly("--json --strict");
   CHECK(r.code == 0);
   const json j = json::parse(r.out);
@@ -82,7 +81,7 @@ TEST_CASE("a flight without a word from a guard is flown, and one component flew
   CHECK(fly("").out.find("who flew") == std::string::npos);
 }
 
-TEST_CASE("a flight in which a guard fired says so, and who flew when; strict scripts hear it") {
+TEST_CASE("a flight with a guard event reports it and each active component; --strict has its own code") {
   const Ended r = fly("--json", broken);
   CHECK(r.code == 0);
   const json j = json::parse(r.out);
@@ -100,12 +99,12 @@ TEST_CASE("a flight in which a guard fired says so, and who flew when; strict sc
   CHECK(table.find("who flew\n" + first + second) != std::string::npos);
 }
 
-TEST_CASE("who was stopped does not fly until the failsafe is over") {
+TEST_CASE("a component that was stopped stays inactive until the failsafe is over") {
   const Ended r = fly("--json", broken, "{}", "{law: one}");
   const json flew = json::parse(r.out)["who_flew"];
   REQUIRE(flew["law"].size() == 1);
   CHECK(flew["law"][0] == json{{"component", "one"}, {"from_s", -1.0}, {"to_s", 1.0}});
-  CHECK(flew["sense"][0]["to_s"].get<double>() > 1);  // it goes on
+  CHECK(flew["sense"][0]["to_s"].get<double>() > 1);  // the flight continues
 }
 
 TEST_CASE("a flight that failed is failed, strict or not") {
@@ -114,7 +113,7 @@ TEST_CASE("a flight that failed is failed, strict or not") {
   CHECK(json::parse(r.out)["result"] == "failed");
 }
 
-TEST_CASE("where nothing came from a role and nothing left the ground, the flight has not begun") {
+TEST_CASE("when no role had an output and the vehicle did not lift off, the flight has not begun") {
   const Ended r = fly("--json", "{id: 1}", "{mute_at: -10}");
   CHECK(r.code == 1);
   const json j = json::parse(r.out);
@@ -124,7 +123,7 @@ TEST_CASE("where nothing came from a role and nothing left the ground, the fligh
         std::string::npos);
 }
 
-TEST_CASE("what is refused before the flight has an exit code of its own, wrong usage another") {
+TEST_CASE("input that is rejected before the flight has its own exit code, wrong usage another") {
   CHECK(fly("--set one.gain=1").code == 4);
   CHECK(fly("--sepeed 3").code == 2);
   CHECK(shell(FULMAR_BIN_DIR "/fulmar check nowhere.yaml 2>/dev/null").code == 4);

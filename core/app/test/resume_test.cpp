@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass, whose host is gone after a minute and starts again in the air: it goes on, and not from the
-// beginning.
+// The hourglass, whose host ends after a minute and starts again in the air: it resumes, and does not start
+// from the beginning.
 #include "core/run/state/resume.hpp"
 
 #include <doctest/doctest.h>
@@ -31,7 +31,7 @@ struct Folder {
   ~Folder() { fs::remove_all(path); }
 };
 
-/// The hourglass, beside it, with this `record:`.
+/// A mission beside the hourglass that extends it with this `record:`.
 fs::path recorded_hourglass(const fs::path& folder, const std::string& record) {
   std::ifstream in(hourglass);
   std::ofstream out(folder / "turn.yaml");
@@ -45,7 +45,7 @@ fs::path recorded_hourglass(const fs::path& folder, const std::string& record) {
   return folder / "turn.yaml";
 }
 
-/// When a topic said something last: the log holds it at a rate of its own.
+/// Time of the last message of a topic: the log holds it at a lower rate.
 std::uint64_t last_reported_ns(const WholeLog& log, const std::string& topic) {
   const std::uint16_t channel = log.channel(topic);
   const auto last = std::find_if(log.messages.rbegin(), log.messages.rend(),
@@ -70,7 +70,7 @@ fulmar::test::Said shell(const std::string& command) { return fulmar::test::shel
 
 }  // namespace
 
-TEST_CASE("a host that starts again in the air goes on in the same phase with the same waypoint") {
+TEST_CASE("a host that starts again in the air resumes in the same phase with the same waypoint") {
   const Folder folder;
   FlightOptions first;
   first.log_file = folder.path / "first.mcap";
@@ -108,7 +108,7 @@ TEST_CASE("a host that starts again in the air goes on in the same phase with th
   }
 }
 
-TEST_CASE("what only a vehicle of another io has is resumed with that io alone") {
+TEST_CASE("state that only a vehicle of another io has is resumed with that io alone") {
   Overrides hardware;
   hardware.io = "fcu";
   const auto rules = [](const Graph& graph) {
@@ -121,7 +121,7 @@ TEST_CASE("what only a vehicle of another io has is resumed with that io alone")
         "manage.first_item <- manage.progress.item\nfcu.pitot_zeroed <- fcu.link.pitot_zeroed\n");
 }
 
-TEST_CASE("a flight resumes from a log, whole or cut off, with the phase and waypoint of that time") {
+TEST_CASE("a flight resumes from a log, complete or truncated, with the phase and waypoint of that time") {
   const Folder folder;
   const Graph graph = load_mission(
       recorded_hourglass(folder.path, "{file: " + (folder.path / "a.mcap").string() + "}").string());
@@ -145,7 +145,7 @@ TEST_CASE("a flight resumes from a log, whole or cut off, with the phase and way
     fs::copy_file(graph.record_file, cut, fs::copy_options::overwrite_existing);
     fs::resize_file(cut, static_cast<std::uintmax_t>(left * static_cast<double>(fs::file_size(cut))));
     const WholeLog log = read_mcap(cut);
-    const auto at = [&](std::uint64_t log_ns) {  // what was flown then
+    const auto at = [&](std::uint64_t log_ns) {  // state of the flight at that time
       const std::int64_t now_ns = static_cast<std::int64_t>(log_ns) - graph.epoch_ns;
       const auto found =
           std::find_if(flown.begin(), flown.end(), [&](const Then& t) { return t.now_ns >= now_ns; });
@@ -162,7 +162,7 @@ TEST_CASE("a flight resumes from a log, whole or cut off, with the phase and way
   }
   CHECK(flown.front().item != flown.back().item);
 
-  // The newest that tells anything: one that had just been begun does not.
+  // The newest log with content: one that had only begun does not count.
   fs::remove(folder.path / "cut.mcap.part");
   std::ofstream(folder.path / "a-2.mcap.part") << "";
   fs::copy_file(folder.path / "a.mcap", folder.path / "a-3.mcap.part");
@@ -188,7 +188,7 @@ TEST_CASE(
     CHECK(out.find("run.phase_entered(takeoff)") == std::string::npos);
   }
   const auto plain =
-      shell(here + run + " --no-log --duration 1");  // simulation begins at the beginning unless asked
+      shell(here + run + " --no-log --duration 1");  // a simulation starts from the beginning by default
   CHECK(plain.out.find("resume") == std::string::npos);
   const auto other = shell(here + run + " --no-log --resume " + hourglass);
   CHECK(other.code == 4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every shipped scheme hands over to every other one that fills its role, in a climbing and in a sinking
-// turn: what a surface moves in that moment is what docs/loop.md says.
+// turn. The steps of the surfaces are within the limits of docs/loop.md.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -26,7 +26,7 @@ namespace schemes_test {
 namespace {
 
 struct Scheme {
-  const char *name, *phase;  ///< what the phase says of the roles
+  const char *name, *phase;  ///< roles of the phase
 };
 const std::vector<Scheme> outer{{"slc", "outer: slc"},       {"tecs", "outer: tecs"},
                                 {"errors", "outer: errors"}, {"held", "outer: held"},
@@ -43,7 +43,7 @@ const std::vector<Scheme> inner{
      "outer: slc, inner: {use: stick, set: {aileron: attitude, elevator: attitude, throttle: automatic}}"},
     {"whole", "outer: lqr, inner: lqr"}};
 
-/// A helix to `height_m`, in the wind and light turbulence; every scheme a phase.
+/// A helix to `height_m`, in the wind and light turbulence; one phase per scheme.
 Graph mission(const std::vector<Scheme>& schemes, const char* turn, double height_m, double airspeed_mps,
               double stick) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs/", test = FULMAR_TEST_PLUGIN_DIR;
@@ -143,12 +143,12 @@ std::vector<std::size_t> all_pairs(std::size_t n) {
   return way;
 }
 
-// Of docs/loop.md; the second where the attitude that is asked for stays.
+// Limits of docs/loop.md; the second where the attitude command stays the same.
 constexpr double most_rad = 0.08, same_attitude_rad = 0.02, max_throttle_frac = 0.05;
 
 bool attitude_of_slc(const Scheme& s) { return std::string(s.phase).find("outer: slc") == 0; }
 
-/// The worst of a flight in which each scheme hands over to each other one.
+/// The largest steps of a flight in which each scheme hands over to each other one.
 Moved flown(const std::vector<Scheme>& schemes, const Graph& graph) {
   Moved worst;
   Trial trial(graph);

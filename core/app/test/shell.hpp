@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program `fulmar` as its users call it, for tests.
+// The program `fulmar` for tests, as users call it.
 #pragma once
 #include <doctest/doctest.h>
 #include <sys/wait.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight in real time with everything leaving it at full rate: log, live clients, DDS. Then each of them in
-// trouble: it alone loses.
+// A flight in real time with all outputs at full rate: log, live clients, DDS. Then each of them is
+// disturbed: it alone loses data.
 #include <arpa/inet.h>
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -46,8 +46,7 @@ namespace {
 
 constexpr std::int64_t tick_ns = 2'500'000;
 constexpr double settled_s = 5, flown_s = 8;  // on the ground before flight time 0, and after it
-constexpr double stall_s =
-    2.5;  // a busy machine keeps a thread waiting for a while; each trouble lasts longer than this
+constexpr double stall_s = 2.5;  // a busy machine may delay a thread; each disturbance lasts longer than this
 
 std::uint16_t free_port() {
   const int fd = socket(AF_INET, SOCK_STREAM, 0);
@@ -95,7 +94,7 @@ class Running {
   fs::path marker() const { return folder_ / "hang"; }
   fs::path log() const { return folder_ / "log.mcap"; }
 
-  /// The result, once it has ended.
+  /// The result, after its end.
   json result() {
     int status = 0;
     waitpid(std::exchange(pid_, 0), &status, 0);
@@ -129,7 +128,7 @@ class Running {
   pid_t pid_ = -1;
 };
 
-/// The flight listens a while after its process has begun.
+/// The flight listens some time after its process has begun.
 template <class Make>
 auto patiently(const Make& make) {
   for (const auto end = steady_clock::now() + seconds(20);;) {
@@ -142,8 +141,8 @@ auto patiently(const Make& make) {
   }
 }
 
-/// Subscribes to everything, reads until the flight has ended, and remembers when what of the inertial unit
-/// came.
+/// Subscribes to all channels, reads until the flight has ended, and stores the arrival times of the inertial
+/// samples.
 class Onlooker {
  public:
   explicit Onlooker(const LiveAddress& target)
@@ -160,7 +159,7 @@ class Onlooker {
     while (!over_) std::this_thread::sleep_for(milliseconds(10));
     return times_ns_;
   }
-  /// How much later than the earliest the latest sample came, by its own time.
+  /// Largest delay of a sample relative to the earliest one, by its own time.
   double worst_delay_s() const { return 1e-9 * static_cast<double>(worst_ns_ - best_ns_); }
   double standstill_s() const { return standstill_.worst_s(); }
   bool hears() const { return heard_ > 0; }
@@ -204,7 +203,7 @@ std::vector<std::int64_t> logged_times_ns(const WholeLog& log, const std::string
   return times;
 }
 
-/// Nothing is missing in the log, and nothing in what the onlooker has seen from its first sample on.
+/// The log has no gap, and neither has the client's data from its first sample on.
 void check_whole(const json& result, const fs::path& file, Onlooker& onlooker) {
   CHECK(result.at("log_dropped") == 0);
   const WholeLog log = read_mcap(file);
@@ -231,7 +230,7 @@ void check_others_whole(const json& result, bool live, bool dds) {
   if (dds) CHECK(result.at("dds").at("lost") == 0);
 }
 
-/// A program of the other side of DDS.
+/// A remote DDS program.
 class Peer {
  public:
   Peer(const std::string& what, const std::string& words)
@@ -256,7 +255,7 @@ class Peer {
 
 const std::string state_words = "rt/nav/state fulmar_msgs::msg::dds_::VehicleState_ ";
 
-/// An edit that the planner refuses: nothing of the flight changes.
+/// An edit that the planner rejects: the flight stays unchanged.
 std::string edit_in_hex() {
   fulmar::PlanEdit edit;
   edit.kind = fulmar::PlanEditKind::remove;
@@ -267,7 +266,7 @@ std::string edit_in_hex() {
   return test::hex(bytes);
 }
 
-/// A client by hand, with hardly any room in its socket: subscribes to everything and never reads again.
+/// A raw client with a very small socket buffer: subscribes to all channels and never reads again.
 class StuckClient {
  public:
   StuckClient(const LiveAddress& target, std::size_t channels) : fd_(socket(AF_INET, SOCK_STREAM, 0)) {
@@ -340,7 +339,7 @@ TEST_CASE(
   check_others_whole(result, false, true);
 }
 
-TEST_CASE("a flood from DDS is cut and counted; the log, the client and the loop do not feel it") {
+TEST_CASE("a flood from DDS is cut and counted; it does not affect the log, the client or the loop") {
   Running flight;
   Onlooker reading(flight.target());
   wait_until_heard(reading);
@@ -354,7 +353,7 @@ TEST_CASE("a flood from DDS is cut and counted; the log, the client and the loop
   CHECK(import.at("received") > 1000);
   CHECK(import.at("lost") > 0);
   CHECK(import.at("refused") == 0);
-  // the log has what the loop has taken, and the loop took all but what was on its way at the end
+  // the log has all samples that the loop has taken; the loop took all but those in transit at the end
   const std::size_t taken = logged_times_ns(read_mcap(flight.log()), "/plan/edits").size();
   CHECK(taken <= import.at("received").get<std::size_t>());
   CHECK(taken + 1024 >= import.at("received").get<std::size_t>());
@@ -373,9 +372,9 @@ TEST_CASE(
   std::this_thread::sleep_for(milliseconds(200));
   const auto before = size();
   std::this_thread::sleep_for(seconds(5));
-  CHECK(size() == before);  // it did hang
+  CHECK(size() == before);  // the disk did hang
   fs::remove(flight.marker());
   const json result = flight.result();
-  check_whole(result, flight.log(), reading);  // the ring holds what five seconds bring
+  check_whole(result, flight.log(), reading);  // the ring holds the data of five seconds
   check_others_whole(result, true, true);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plugins that behave where they are tried, and end the program where it uses them: whichever word loads
-// them, somebody is told which file it was, and nobody takes the end for a success.
+// Plugins that pass their probe and end the program when it uses them: every subcommand that loads one
+// reports the file, and the exit code is not success.
 #include <sys/wait.h>
 
 #include <chrono>
@@ -25,7 +25,7 @@ std::string text(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// As a shell has it: the exit code, or 128 and the signal.
+/// The exit code, or 128 plus the signal, as in a shell.
 Result fulmar(const std::string& words) {
   const fs::path out = folder().path / "out", err = folder().path / "err";
   const int status = std::system(
@@ -36,7 +36,7 @@ Result fulmar(const std::string& words) {
 
 std::string plugin(const std::string& name) { return FULMAR_TEST_PLUGIN_DIR "/" + name + ".so"; }
 
-/// The laboratory's mission with such a component in it, which this process does not load itself.
+/// The laboratory's mission with such a component, which this process does not load itself.
 std::string sly_mission(const std::string& name) {
   mission("  sly: {use: " + plugin("sly_setsid") + "}\n" + one_phase);
   std::string with = text(folder().path / "lab.yaml");
@@ -62,7 +62,7 @@ bool tried(const Sly& sly) {  // a sanitized build handles crashes by itself
 
 }  // namespace
 
-TEST_CASE("a plugin that ends the program where it is used is named by every word that loads it") {
+TEST_CASE("a plugin that ends the program is reported by every subcommand that loads it") {
   for (const Sly& sly : all) {
     if (!tried(sly)) continue;
     CAPTURE(sly.name);
@@ -78,7 +78,7 @@ TEST_CASE("a plugin that ends the program where it is used is named by every wor
   }
 }
 
-TEST_CASE("a signal that comes while a flight is set up ends it as one in flight does") {
+TEST_CASE("a signal during the set-up of a flight ends it as in flight") {
   const Result r = fulmar("run " + sly_mission("sly_hup") + " --no-log --json");
   CHECK(r.code == 130);
   CHECK(r.out.find("\"result\": \"interrupted\"") != std::string::npos);
@@ -119,7 +119,7 @@ TEST_CASE("a plugin that ends a running host in a swap is named, with the place 
     if (text(said).find(sly.name) == std::string::npos) kill(process, SIGKILL);
     CHECK(std::fscanf(pipe, "%d", &code) == 1);
     pclose(pipe);
-    // in a flight: it was begun, and failed
+    // in a flight: it had begun, and failed
     CHECK(code == (sly.code == 4 ? 1 : sly.code));
     CHECK_MESSAGE(text(said).find(std::string(sly.reported) + " app.log_until_end(" + log + ".part)") !=
                       std::string::npos,

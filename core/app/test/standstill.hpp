@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the machine stood still: a thread on each CPU that wants to wake up every millisecond, and how late
-// it was at worst.
+// Detects a standstill of the machine: a thread on each CPU wakes every millisecond and measures its largest
+// delay.
 #pragma once
 #include <pthread.h>
 #include <sched.h>
@@ -15,7 +15,7 @@ namespace fulmar::fcu::testing {
 
 class Standstill {
  public:
-  /// `realtime`: before everything else, so that only what stops everything is seen.
+  /// `realtime`: above all other threads, so that only a standstill of the CPU is measured.
   explicit Standstill(bool realtime) {
     cpu_set_t allowed;
     if (::sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;

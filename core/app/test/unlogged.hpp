@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flights that leave nothing behind: no log, and the copies of their plugins in a folder that goes with them.
+// Flights without a log, with the copies of their plugins in a temporary folder.
 #pragma once
 #include <unistd.h>
 

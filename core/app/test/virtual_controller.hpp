@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Flights of the shipped autopilot through the software flight controller in virtual time (fcu_virtual), in
-// which the link falls silent or the receiver loses its fix; and what is measured of them.
+// which the link is interrupted or the receiver loses its fix; and the measured figures of them.
 #pragma once
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ namespace fulmar::core::through_controller {
 using test::Hourglass;
 using test::pi;
 
-/// The hourglass at `height_m` with fcu_serial on its software controller. `folder` holds what it reads.
+/// The hourglass at `height_m` with fcu_serial on its software controller. `folder` holds its input files.
 inline Graph mission(const std::filesystem::path& folder, double height_m, unsigned seed,
                      const std::vector<std::pair<std::string, std::string>>& set = {}) {
   const std::string configs = FULMAR_SOURCE_DIR "/configs/";
@@ -47,11 +47,11 @@ inline Graph mission(const std::filesystem::path& folder, double height_m, unsig
 struct Row {
   double t_s = 0, script_s = 0;
   double north_m = 0, east_m = 0, height_m = 0, roll_rad = 0, course_rad = 0;  ///< truth
-  double off_estimate_m = 0, std_m = 0;  ///< the estimate, and how sure it is
+  double off_estimate_m = 0, std_m = 0;  ///< the estimate and its reported standard deviation
   bool attitude_valid = false, host = false, circles = false;
 };
 
-/// A flight that is looked at tick by tick.
+/// A flight that is observed tick by tick.
 class Flown {
  public:
   Flown(const Graph& graph, const FlightOptions& options) : flight_(graph, watched(options)) {
@@ -68,7 +68,7 @@ class Flown {
     now_s_ = 1e-9 * static_cast<double>(flight_.now_ns());
     return goes_on;
   }
-  /// As long as `wanted` holds of the present row; false: the flight ended before.
+  /// Flies while `wanted` holds for the present row; false: the flight ended before.
   template <class Wanted>
   bool fly_while(Wanted wanted) {
     while (wanted(row())) {
@@ -104,7 +104,7 @@ class Flown {
   }
   const fulmar::VehicleState* state() const { return at<fulmar::VehicleState>(state_); }
   double blind() const { return probe(blind_); }    ///< commands without a valid attitude
-  double sticks() const { return probe(sticks_); }  ///< how far the outputs were off them
+  double sticks() const { return probe(sticks_); }  ///< distance of the outputs from the pilot's sticks
   const std::string& phase() const { return flight_.phase(); }
   FlightResult finish() { return flight_.finish(); }
   /// Time of the first message with this code since `from_s`; -1: none. Needs FULMAR_MESSAGES=codes.
@@ -155,7 +155,7 @@ struct AfterGap {
   bool crashed = false;  ///< or the flight ended
   double blind = 0, sticks = 0;
   double lost_m = 0;       ///< below plan and take-over, while the host commands
-  double lowest_m = 1e9;   ///< whoever flies
+  double lowest_m = 1e9;   ///< for the host and the pilot
   double back_s = -1;      ///< after the gap: the host commands again, before the fix returns
   double returned_s = -1;  ///< after the fix: the host commands
   bool reported_blind = false, reported_known = false;
@@ -205,7 +205,7 @@ inline AfterGap fly(const Gap& gap, const std::filesystem::path& folder, const F
   return a;
 }
 
-/// What a gap must not do; "": it has done none of it.
+/// First violated limit of a gap; "": none.
 inline std::string missed(const Gap& gap, const AfterGap& a) {
   const bool his = !gap.gnss && gap.length_s > 2;
   if (a.crashed) return "crashed";
@@ -219,20 +219,20 @@ inline std::string missed(const Gap& gap, const AfterGap& a) {
   return "";
 }
 
-/// The receiver has no fix for a while, in cruise; with an even seed it says nothing at all.
+/// The receiver has no fix for a while, in cruise; with an even seed it sends no data at all.
 struct Outage {
   double length_s = 100;
   unsigned seed = 1;
-  double max_std_m = 50;  ///< up to which the plan goes on
+  double max_std_m = 50;  ///< the plan is followed up to this
 };
 
 struct AfterOutage {
   bool crashed = false;
-  double plan_m = 0;  ///< from the plan at the end of the outage, 100 s after its begin, or where it circles
-  double reckoned_m = 0;        ///< the estimate's error there
-  double std_m = 0;             ///< and what it says of itself
-  double circle_s = -1;         ///< after the loss: the circle begins
-  double turned_deg = 0;        ///< to the right, in the circle
+  double plan_m = 0;      ///< from the plan at the end of the outage, 100 s after its begin, or at the circle
+  double reckoned_m = 0;  ///< the estimate's error there
+  double std_m = 0;       ///< reported standard deviation of the estimate
+  double circle_s = -1;   ///< after the loss: the circle begins
+  double turned_deg = 0;  ///< to the right, in the circle
   double reported_lost_s = -1;  ///< after the loss
   double reported_back_s = -1;  ///< after the return
   double resumed_s = -1;        ///< after the return: back on the plan, within 10 m
@@ -280,7 +280,7 @@ inline AfterOutage fly(const Outage& outage, const std::filesystem::path& folder
   return a;
 }
 
-/// What no outage must do. How far it leads off the plan is a matter of chance.
+/// First violated limit of an outage. Its drift from the plan is random.
 inline std::string missed(const Outage& outage, const AfterOutage& a) {
   constexpr double circle_s = 120, slack_s = 1;
   if (a.crashed) return "crashed";
@@ -288,7 +288,7 @@ inline std::string missed(const Outage& outage, const AfterOutage& a) {
   if (a.reported_back_s < 0 || a.reported_back_s > 1) return "the return was not told within 1 s";
   if (a.circle_s > circle_s + slack_s || (a.circle_s < 0 && outage.length_s > circle_s + slack_s))
     return "no circle after " + std::to_string(circle_s) + " s";
-  // It may begin in a turn to the other side, which takes 4 s to end.
+  // The circle may begin in a turn to the other side, which takes 4 s to end.
   if (a.circle_s >= 0 && a.turned_deg < 5 * (outage.length_s - a.circle_s) - 20)
     return "a circle of " + std::to_string(a.turned_deg) + " deg";
   if (a.resumed_s < 0) return "not back on the plan";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A paced flight and the reader of its standard error: one that is slow or stands still delays nothing, one
-// that reads gets every word.
+// A paced flight and the reader of its standard error: a slow or stopped reader delays nothing, and an active
+// one gets the whole text.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The program with a pipe for standard error; its standard output goes nowhere.
+/// The program with a pipe for standard error; its standard output is discarded.
 struct Host {
   int ends[2] = {-1, -1};
   pid_t process = -1;
@@ -45,7 +45,7 @@ struct Host {
     }
     close(ends[0]);
   }
-  /// A reader that has stopped before the first word.
+  /// Fills the pipe, as for a reader that has stopped before the first byte.
   void fill() {
     const std::string page(4096, '.');
     fcntl(ends[1], F_SETPIPE_SZ, 4096);
@@ -60,7 +60,7 @@ struct Host {
       text.append(buffer, static_cast<std::size_t>(n));
     return text;
   }
-  /// The exit code, or -1 when it has not ended after so long.
+  /// The exit code, or -1 when it has not ended in time.
   int wait(std::chrono::seconds limit) {
     int status = 0;
     for (const auto end = std::chrono::steady_clock::now() + limit; std::chrono::steady_clock::now() < end;) {
@@ -78,12 +78,12 @@ const std::string hourglass = FULMAR_SOURCE_DIR "/configs/missions/hourglass.yam
 
 }  // namespace
 
-TEST_CASE("a reader of standard error who stands still does not stop a paced flight") {
+TEST_CASE("a stopped reader of standard error does not stop a paced flight") {
   Host host({"run", hourglass, "--no-log", "--speed", "20", "--duration", "20"}, true);
-  CHECK(host.wait(60s) == 0);  // flown, with nobody having read a byte
+  CHECK(host.wait(60s) == 0);  // flown, without a byte read
 }
 
-TEST_CASE("a reader gets every word of a paced flight, the first and the last") {
+TEST_CASE("a reader gets the whole text of a paced flight, from the first byte to the last") {
   Host host({"run", hourglass, "--no-log", "--speed", "50", "--duration", "20"});
   const std::string text = host.read_all();
   CHECK(host.wait(60s) == 0);
@@ -97,7 +97,7 @@ TEST_CASE("a reader gets every word of a paced flight, the first and the last") 
   }
 }
 
-TEST_CASE("the last words of a program that ends at once come after those that were on their way") {
+TEST_CASE("the last message of a program that ends at once comes after the buffered ones") {
   if (!FULMAR_CRASH_TESTS) {
     MESSAGE("skipped: the sanitizers report crashes by themselves");
     return;

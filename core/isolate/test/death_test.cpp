@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every way to die costs the component one call, and the host nothing.
+// Each kind of death of a child costs the component one call, and the host nothing.
 #include <csignal>
 
 #include "core/error.hpp"
@@ -25,7 +25,7 @@ std::string fault_of_setup(const std::string& component, std::int64_t setup_ns =
 
 }  // namespace
 
-TEST_CASE("a fork in a step is refused and fails the step") {
+TEST_CASE("a fork in a step is rejected and fails the step") {
   Rig rig("Faulty");
   rig.there();
   rig.choose("fault", forks);
@@ -36,7 +36,7 @@ TEST_CASE("a fork in a step is refused and fails the step") {
   CHECK(rig.child->alive());
 }
 
-TEST_CASE("a copy of the child does not answer for it, neither when it comes back nor when it crashes") {
+TEST_CASE("a copy of the child does not answer for it, neither when it returns nor when it crashes") {
   for (const Fault fault : {clones, clone_crashes}) {
     CAPTURE(fault);
     Rig rig("Faulty");
@@ -52,7 +52,7 @@ TEST_CASE("a copy of the child does not answer for it, neither when it comes bac
   }
 }
 
-TEST_CASE("every way to die in a step is one failed step with its name, and the proxy stays dead") {
+TEST_CASE("each kind of death in a step is one failed step with its name, and the proxy stays dead") {
   struct Case {
     Fault fault;
     const char* death;
@@ -82,14 +82,14 @@ TEST_CASE("every way to die in a step is one failed step with its name, and the 
     CHECK(rig.text() == c.death);
     CHECK(rig.child->death() == std::string(c.death));
     CHECK_FALSE(rig.child->alive());
-    CHECK(rig.first_output().y_m == 4);  // nothing half-written comes out
+    CHECK(rig.first_output().y_m == 4);  // no partial output is copied
     const std::int64_t again = monotonic_ns();
     CHECK(rig.step() == FULMAR_FAILED);
     CHECK(rig.retune() == FULMAR_FAILED);
     CHECK(rig.activate() == FULMAR_FAILED);
     CHECK(rig.configure() == FULMAR_FAILED);
     rig.table->deactivate(rig.instance);
-    CHECK(monotonic_ns() - again < 1'500'000'000);  // nobody is waited for
+    CHECK(monotonic_ns() - again < 1'500'000'000);  // no further wait
     CHECK(rig.text() == c.death);
     rig.instance = nullptr;
     rig.child.reset();
@@ -97,7 +97,7 @@ TEST_CASE("every way to die in a step is one failed step with its name, and the 
   }
 }
 
-TEST_CASE("a child killed between two steps is found out in the next") {
+TEST_CASE("a child killed between two steps is detected in the next") {
   Rig rig("Faulty");
   rig.there();
   REQUIRE(rig.configure() == FULMAR_OK);
@@ -106,7 +106,7 @@ TEST_CASE("a child killed between two steps is found out in the next") {
   REQUIRE(rig.child->check());
   REQUIRE(::kill(rig.child->pid(), SIGKILL) == 0);
   CHECK(soon(2000, zombie_or_gone, rig.child->pid()));
-  SUBCASE("or when somebody looks") {
+  SUBCASE("or in a check") {
     CHECK(rig.child->alive());
     CHECK_FALSE(rig.child->check());
     CHECK_FALSE(rig.child->alive());
@@ -116,7 +116,7 @@ TEST_CASE("a child killed between two steps is found out in the next") {
   CHECK(rig.text() == "isolate.child_killed(9)");
 }
 
-TEST_CASE("dying in configure, activate and retune is told in the same way") {
+TEST_CASE("death in configure, activate and retune is reported in the same way") {
   for (const char* where : {"in_configure", "in_activate", "in_retune"}) {
     CAPTURE(where);
     Rig rig("Faulty");
@@ -133,7 +133,7 @@ TEST_CASE("dying in configure, activate and retune is told in the same way") {
   }
 }
 
-TEST_CASE("a component that cannot be created is refused in a sentence") {
+TEST_CASE("a component that cannot be created is rejected with a sentence") {
   CHECK(fault_of_setup("CrashBorn") ==
         "mine: isolate.child_stopped(isolate_lab.so, isolate.segmentation_fault, created)");
   CHECK(fault_of_setup("ExitBorn") ==
@@ -143,7 +143,7 @@ TEST_CASE("a component that cannot be created is refused in a sentence") {
         "mine: isolate.child_stopped(isolate_lab.so, isolate.child_hung(2000), created)");
 }
 
-TEST_CASE("a component that cannot be destroyed says so and is gone all the same") {
+TEST_CASE("a component that cannot be destroyed reports it and ends anyway") {
   for (const char* component : {"CrashEnd", "HangEnd"}) {
     IsolatedOptions options = options_for(component);
     options.setup_ns = 2'000'000'000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a component of the laboratory does wrong: its parameter, which the tests set by number.
+// Faults of a laboratory component: its parameter, which the tests set by number.
 #pragma once
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component in a child computes what it computes in the host.
+// A component in a child computes the same results as in the host.
 #include "core/isolate/isolated.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace workshop;
 
 namespace {
 
-// Inputs of every kind, by chance, the same for all rigs that get the same numbers.
+// Random inputs of every kind, equal for all rigs with the same seed.
 void give_anything(Rig& rig, std::uint64_t number) {
   std::mt19937_64 random(number);
   const auto real = [&] { return static_cast<double>(random() % 20001) * 1e-3 - 10; };
@@ -54,7 +54,7 @@ void give_anything(Rig& rig, std::uint64_t number) {
   }
 }
 
-/// What a message says: the bytes between its fields are nobody's.
+/// Compares two messages without the padding between their fields.
 bool same_message(const Type* type, const std::byte* a, const std::byte* b) {
   if (!type) return std::memcmp(a, b, sizeof(double)) == 0;
   const CdrEncoder encoder(*type);
@@ -89,7 +89,7 @@ bool same_answers(const Rig& a, const Rig& b) {
 
 }  // namespace
 
-TEST_CASE("a component in a child computes the same bytes as in the host, whatever crosses") {
+TEST_CASE("a component in a child computes the same bytes as in the host, for every kind of port") {
   Rig here("Everything"), there("Everything");
   here.here();
   SUBCASE("sleeping") {
@@ -145,13 +145,13 @@ TEST_CASE("a component in a child computes the same bytes as in the host, whatev
       refused += here.answers[3][k].verdict == FULMAR_REFUSED;
   }
   CHECK(wrong == 0);
-  CHECK(refused > 600);  // every way is taken
+  CHECK(refused > 600);  // every case occurs
   CHECK(silent > 1000);
   CHECK(full > 100);
   CHECK(there.child->alive());
 }
 
-TEST_CASE("a second configure brings new files, and what the first brought is not needed any more") {
+TEST_CASE("a second configure brings new files, and those of the first are not needed any more") {
   Rig here("Everything"), there("Everything");
   here.here();
   there.there();
@@ -170,7 +170,7 @@ TEST_CASE("a second configure brings new files, and what the first brought is no
   }
 }
 
-TEST_CASE("an exception arrives as its text and a failed step as its status, and the child lives on") {
+TEST_CASE("an exception arrives as its text and a failed step as its status, and the child continues") {
   Rig rig("Faulty");
   rig.there();
   rig.choose("fault", throws);
@@ -190,7 +190,7 @@ TEST_CASE("an exception arrives as its text and a failed step as its status, and
   CHECK(rig.child->alive());
 }
 
-TEST_CASE("what is not a number comes through for the host's guard") {
+TEST_CASE("a value that is not a number passes through to the host's guard") {
   Rig rig("Faulty");
   rig.there();
   rig.choose("fault", not_a_number);
@@ -201,7 +201,7 @@ TEST_CASE("what is not a number comes through for the host's guard") {
   CHECK(rig.first_output().x_m == 1);
 }
 
-TEST_CASE("the heap of a child is counted and weighed") {
+TEST_CASE("the heap calls and the heap size of a child are counted") {
   Rig rig("Faulty");
   rig.there();
   REQUIRE(rig.configure() == FULMAR_OK);
@@ -212,7 +212,7 @@ TEST_CASE("the heap of a child is counted and weighed") {
   rig.choose("fault", allocates);
   REQUIRE(rig.retune() == FULMAR_OK);
   for (int i = 0; i < 100; ++i) REQUIRE(rig.step() == FULMAR_OK);
-  CHECK(rig.child->allocations() == 100);  // taken and given back
+  CHECK(rig.child->allocations() == 100);  // allocated and freed
   CHECK(rig.child->heap_growth() == 0);
   rig.choose("fault", leaks);
   REQUIRE(rig.retune() == FULMAR_OK);
@@ -222,7 +222,7 @@ TEST_CASE("the heap of a child is counted and weighed") {
   CHECK(rig.child->heap_growth() < 110'000);
 }
 
-TEST_CASE("two children live side by side, and the death of one is nothing to the other") {
+TEST_CASE("two children run in parallel, and the death of one does not affect the other") {
   Rig one("Faulty"), two("Faulty");
   one.there();
   two.there();
@@ -245,7 +245,7 @@ TEST_CASE("two children live side by side, and the death of one is nothing to th
   CHECK(two.first_output().y_m == 8);
 }
 
-TEST_CASE("the proxy takes nothing from the host's heap in flight") {
+TEST_CASE("the proxy does not allocate in flight") {
   if (!counts_allocations()) {
     MESSAGE("skipped: this build does not count");
     return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A laboratory for isolation: a component with every kind of port and parameter, and components that do
-// everything wrong.
+// A laboratory for isolation: a component with every kind of port and parameter, and components with every
+// fault.
 #include "fulmar/plugin.hpp"
 
 #include <sys/syscall.h>
@@ -54,7 +54,7 @@ std::uint64_t mix(std::uint64_t h, const T& x) {
   return mix(h, &x, sizeof x);
 }
 
-/// Its outputs depend on all that crosses.
+/// Its outputs depend on all of its inputs and parameters.
 struct Everything {
   struct Inputs {
     In<Signal> signal;
@@ -166,10 +166,10 @@ void leak(std::size_t bytes) {
   asm volatile("" ::"r"(lost) : "memory");
 }
 
-/// A copy of the process by the kernel's own call, which no function of the C library sees.
+/// Copies the process by a direct system call, without a function of the C library.
 pid_t clone_process() { return static_cast<pid_t>(syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0)); }
 
-/// Does what `fault` says, in each call from `at` on.
+/// Commits `fault` in each call from `at` on.
 struct Faulty {
   struct Inputs {
     In<Signal> signal;
@@ -232,7 +232,7 @@ struct Faulty {
   }
 };
 
-/// Does something wrong where it has no parameters yet, or none any more.
+/// Commits a fault where it has no parameters yet, or none any more.
 template <Fault born, Fault ended>
 struct Mortal {
   struct Inputs {};
@@ -253,7 +253,7 @@ struct HangBorn : Mortal<Fault::hangs, Fault::none> {};
 struct CrashEnd : Mortal<Fault::none, Fault::segfault> {};
 struct HangEnd : Mortal<Fault::none, Fault::hangs> {};
 
-/// Tells what its process looks like.
+/// Reports properties of its process.
 struct Look {
   struct Inputs {};
   struct Outputs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The child as a process: what it inherits, what it leaves, and when it ends.
+// The child as a process: inheritance, leftovers, and its end.
 #include <fcntl.h>
 #include <sys/resource.h>
 
@@ -33,7 +33,7 @@ std::size_t shared_mappings() {
 
 }  // namespace
 
-TEST_CASE("the memory may have the number in the host that it has in the child") {
+TEST_CASE("the memory may have the same descriptor in the host as in the child") {
   const IsolatedOptions options = options_for("Faulty");
   const ComponentInfo info = lab()->info().components[options.index];
   const int kept = ::fcntl(shared_descriptor, F_DUPFD_CLOEXEC, 100);
@@ -49,7 +49,7 @@ TEST_CASE("the memory may have the number in the host that it has in the child")
   }
 }
 
-TEST_CASE("a child that finds another component than its host knows is refused") {
+TEST_CASE("a child that finds another component than its host expects is rejected") {
   IsolatedOptions options = options_for("Faulty");
   ComponentInfo info = lab()->info().components[options.index];
   CHECK_THROWS_WITH_AS(Isolated(lab()->info().components[0], options),
@@ -78,7 +78,7 @@ TEST_CASE("a child that finds another component than its host knows is refused")
   CHECK(no_children());
 }
 
-TEST_CASE("a child inherits nothing but what it needs") {
+TEST_CASE("a child inherits only the descriptors that it needs") {
   const int file = ::open("/dev/zero", O_RDONLY);  // without close-on-exec
   REQUIRE(file >= 0);
   Rig rig("Look");
@@ -94,7 +94,7 @@ TEST_CASE("a child inherits nothing but what it needs") {
   ::close(file);
 }
 
-TEST_CASE("what a component prints goes to the host's standard error, not into its output") {
+TEST_CASE("the output of a component goes to the host's standard error, not to its standard output") {
   int ends[2];
   REQUIRE(::pipe(ends) == 0);
   const int error = ::dup(STDERR_FILENO);
@@ -132,7 +132,7 @@ TEST_CASE("two hundred children leave no zombie, descriptor or memory") {
   CHECK(no_children());
 }
 
-TEST_CASE("a child ends with its host, be it asleep or in a step that never ends") {
+TEST_CASE("a child ends with its host, asleep or in a step that never ends") {
   for (const bool busy : {false, true}) {
     int ends[2];
     REQUIRE(::pipe(ends) == 0);
@@ -160,7 +160,7 @@ TEST_CASE("a child ends with its host, be it asleep or in a step that never ends
   }
 }
 
-TEST_CASE("a child leaves a core file only where somebody asked for one") {
+TEST_CASE("a child leaves a core file only on request") {
   rlimit own{}, seen{};
   REQUIRE(::getrlimit(RLIMIT_CORE, &own) == 0);
   for (const bool wanted : {false, true}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drives a component of isolate_lab through its function table, in this process or in a child, and remembers
-// what came out.
+// Drives a component of isolate_lab through its function table, in this process or in a child, and stores the
+// outputs.
 #pragma once
 #include <doctest/doctest.h>
 #include <sys/wait.h>
@@ -23,7 +23,7 @@ namespace workshop {
 using namespace fulmar::core;
 using namespace isolate_lab;
 
-struct Signal {  // as plugin.cpp has them
+struct Signal {  // as in plugin.cpp
   double x_m = 0, y_m = 0;
   std::uint32_t turn = 0;
 };
@@ -58,7 +58,7 @@ inline IsolatedOptions options_for(const std::string& component) {
   return o;
 }
 
-/// Room for the ports of a component, as the loop has it.
+/// Memory of the ports of a component, as in the loop.
 class Rig {
  public:
   explicit Rig(const std::string& component) : info(lab()->info().components[place_of(component)]) {
@@ -164,7 +164,7 @@ inline bool zombie_or_gone(pid_t pid) {
   std::ifstream in("/proc/" + std::to_string(pid) + "/stat");
   std::string word, state;
   if (!(in >> word)) return true;
-  while (in >> state && state.size() != 1) continue;  // the name in parentheses may hold blanks
+  while (in >> state && state.size() != 1) continue;  // the name in parentheses may contain blanks
   return state == "Z" || state == "X";
 }
 

@@ -14,7 +14,7 @@ using namespace tables;
 
 namespace {
 
-// The reader's message from an earlier version: other order, other room, some fields only.
+// The reader's message from an earlier version: other order, other capacities, some fields only.
 struct OldWaypoint {
   double airspeed_mps;
   Vec position_m;
@@ -63,7 +63,7 @@ std::string verdict(const std::vector<fulmar_field>& reader, const std::vector<f
 
 }  // namespace
 
-TEST_CASE("equal tables are copied whole") {
+TEST_CASE("equal tables are copied at once") {
   const TypePtr a = copy_type(route), b = copy_type(route);
   CHECK(incompatibility(*a, *b) == "");
   const CopyPlan plan = copy_plan(*a, *b);
@@ -75,7 +75,7 @@ TEST_CASE("equal tables are copied whole") {
   CHECK(std::memcmp(&from, &to, sizeof from) == 0);
 }
 
-TEST_CASE("a reader that knows less, in another order, gets its fields") {
+TEST_CASE("a reader with fewer fields, in another order, gets its fields") {
   const CopyPlan plan = copy_plan(*copy_type(route), *old_route());
   CHECK_FALSE(plan.whole);
   const Route from = sample();
@@ -111,8 +111,8 @@ TEST_CASE("a field appended by the writer leaves one move for the rest") {
   CHECK(plan.moves[0].bytes == 32);
 }
 
-TEST_CASE("a field that the reader knows as appended may be missing, and is then zero whoever wrote before") {
-  // 4 bytes of padding in the writer lie where the reader has its new field: they are not taken for it
+TEST_CASE("an appended field of the reader may be missing, and is then zero for every previous content") {
+  // 4 bytes of padding in the writer have the offset of the reader's new field: they must not be copied
   std::vector<fulmar_field> older{real("a_m", "m", 0), field("flag", "", FULMAR_U32, 8, 4),
                                   real("b_m", "m", 16)};
   std::vector<fulmar_field> newer = older;
@@ -142,7 +142,7 @@ TEST_CASE("a field that the reader knows as appended may be missing, and is then
   CHECK(verdict(newer, older) == "types.writer_field_missing(, id)");
 }
 
-TEST_CASE("items of a list that have grown are filled one by one") {
+TEST_CASE("items of a longer list are filled one by one") {
   struct Item {
     double x = 0;
     std::uint32_t id = 0;
@@ -176,7 +176,7 @@ TEST_CASE("a wider range or one more label changes no byte") {
   CHECK(copy_plan(*copy_type(type("W", writer, 16)), *copy_type(type("R", reader, 16))).whole);
 }
 
-TEST_CASE("what does not fit is refused, naming the first field that differs") {
+TEST_CASE("an incompatible type is rejected, naming the first field that differs") {
   const fulmar_type body = type("Vec3", vec_fields, sizeof(Vec), 8, "body");
   static const char* const others[] = {"idle", "climb", "glide"};
   CHECK(verdict({real("airspeed_mps", "m/s", 0)}, {real("airspeed_mps", "km/h", 0)}) ==
@@ -201,7 +201,7 @@ TEST_CASE("what does not fit is refused, naming the first field that differs") {
         "mode: types.reader_differs(labels , idle, climb, glide, idle, glide, climb)");
 }
 
-TEST_CASE("a difference inside a nested struct is named with its path") {
+TEST_CASE("a difference inside a nested struct is reported with its path") {
   auto fields = waypoint_fields;
   fields[1].unit = "km/h";
   const fulmar_type other = type("Waypoint", fields, sizeof(Waypoint));
@@ -213,7 +213,7 @@ TEST_CASE("a difference inside a nested struct is named with its path") {
         "types.writer_field_missing(next., airspeed_mps)");
 }
 
-TEST_CASE("no plan is made for tables that do not fit") {
+TEST_CASE("no plan is made for incompatible tables") {
   CHECK_THROWS_WITH_AS(copy_plan(*old_route(), *copy_type(route)),
                        "types.writer_field_missing(, throttle_frac)", Error);
 }

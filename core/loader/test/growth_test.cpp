@@ -15,7 +15,7 @@ namespace growth_test {
 using namespace fulmar::core;
 using namespace workshop;
 
-// A struct of which ABI 1.0 knew the first two members.
+// A struct that had the first two members in ABI 1.0.
 struct Grown {
   std::uint32_t name, kind;
   std::uint64_t added;
@@ -29,7 +29,7 @@ inline constexpr std::uint32_t fulmar::core::size_in_1_0<growth_test::Grown> =
 
 namespace growth_test {
 
-TEST_CASE("the sizes of ABI 1.0 stay what they were, whatever is appended") {
+TEST_CASE("the sizes of ABI 1.0 stay the same, whatever is appended") {
   if (sizeof(void*) != 8) return;
   // measured with the header of 1.0
   CHECK(size_in_1_0<fulmar_field> == 80);
@@ -60,7 +60,7 @@ TEST_CASE(
                     "loader.table_stride_invalid(the elements, 20, 8)");
 }
 
-TEST_CASE("a plugin whose tables are longer than this host's is read and does its work") {
+TEST_CASE("a plugin whose tables are longer than this host's is read and works") {
   for (const char* name : {"longer_tables", "older_minor"}) {
     const auto library = Library::open(plugin(name));
     const PluginInfo& info = library->info();
@@ -87,8 +87,8 @@ TEST_CASE("a plugin whose tables are longer than this host's is read and does it
   }
 }
 
-TEST_CASE("of an entry of ABI 1.0 no more is read than ABI 1.0 had") {
-  const auto good = Library::open(plugin("good"));  // lends its component
+TEST_CASE("of an entry of ABI 1.0 only the members of ABI 1.0 are read") {
+  const auto good = Library::open(plugin("good"));  // provides its component
   static char page_text[] = "1.0.0";
   constexpr std::size_t page = 65536, size = offsetof(fulmar_plugin, open_script);
   auto* memory = static_cast<std::byte*>(

@@ -27,7 +27,7 @@ Route good() {
   return r;
 }
 
-// Changes a good message and gives the guard's words: "" when it passes.
+// Changes a good message and returns the guard's message: "" when it passes.
 template <class Change>
 std::string words(const Change& change) {
   static const Guard guard(*copy_type(route));
@@ -48,7 +48,7 @@ TEST_CASE("a good message passes, extreme but finite numbers too") {
   CHECK(words([](Route& r) { r.serial = std::numeric_limits<std::uint64_t>::max(); }) == "");
 }
 
-TEST_CASE("each bad value is named") {
+TEST_CASE("each invalid value is named") {
   CHECK(words([](Route& r) { r.airspeed_mps = not_a_number; }) ==
         "types.value_not_finite(airspeed_mps, nan)");
   CHECK(words([](Route& r) { r.airspeed_mps = -not_a_number; }) ==
@@ -77,7 +77,7 @@ TEST_CASE("each bad value is named") {
         "types.value_not_finite(corners_m[1].north, nan)");
 }
 
-TEST_CASE("list items beyond the count do not matter") {
+TEST_CASE("list items beyond the count have no effect") {
   CHECK(words([](Route& r) { r.waypoints.items[3].airspeed_mps = not_a_number; }) == "");
   CHECK(words([](Route& r) {
           r.waypoints.count = 0;
@@ -85,14 +85,14 @@ TEST_CASE("list items beyond the count do not matter") {
         }) == "");
 }
 
-TEST_CASE("padding is not looked at") {
+TEST_CASE("padding is not checked") {
   const Guard guard(*copy_type(waypoint));
   Waypoint message{};
   std::memset(reinterpret_cast<char*>(&message) + offsetof(Waypoint, hold) + 1, 0xff, 7);
   CHECK(guard.check(bytes(message)));
 }
 
-TEST_CASE("any bit pattern in a run of doubles is judged as the mathematics library judges it") {
+TEST_CASE("any bit pattern in a run of doubles is judged like the mathematics library does") {
   constexpr std::size_t n = 23;  // not a multiple of the unrolled loop
   const std::vector<fulmar_field> rows{array(real("x_m", "m", 0), n)};
   const Guard guard(*copy_type(type("Run", rows, n * 8)));

@@ -21,12 +21,12 @@ namespace library_test {
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__ 1  // clang's way to say it
+#define __SANITIZE_ADDRESS__ 1  // as clang defines it
 #endif
 #endif
 #ifdef __SANITIZE_ADDRESS__
 extern "C" std::size_t
-__sanitizer_get_current_allocated_bytes();  // the header of that name is not in every package
+__sanitizer_get_current_allocated_bytes();  // not every package has the header of that name
 #endif
 
 using namespace fulmar::core;
@@ -34,12 +34,12 @@ using namespace workshop;
 
 namespace {
 
-struct Sample {  // as good.c has it
+struct Sample {  // as in good.c
   double airspeed_mps = 0, north = 0, east = 0, down = 0;
   std::uint8_t mode = 0, valid = 0;
 };
 
-// One step of component 0: what becomes of 10 m/s.
+// One step of component 0: its output for 10 m/s.
 double scaled(const Library& library) {
   const fulmar_component& c = library.functions(0);
   fulmar_error error{};
@@ -72,7 +72,7 @@ Maps maps() {
   return result;
 }
 
-// What the heap has given out and not got back.
+// Bytes that are allocated on the heap.
 std::size_t heap_bytes() {
 #ifdef __SANITIZE_ADDRESS__
   return __sanitizer_get_current_allocated_bytes();
@@ -90,7 +90,7 @@ std::string unload_fault(std::shared_ptr<Library>&& library) {
   }
 }
 
-// What binutils read. "" when the linker wrote none, or there is no readelf.
+// The build id from binutils. "" when the linker wrote none, or without readelf.
 std::string build_id_by_readelf(const fs::path& file) {
   std::FILE* pipe = ::popen(("readelf -n " + file.string() + " | sed -n 's/.*Build ID: //p'").c_str(), "r");
   REQUIRE(pipe != nullptr);
@@ -102,7 +102,7 @@ std::string build_id_by_readelf(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("a good plugin is loaded with all that it says of itself") {
+TEST_CASE("a good plugin is loaded with its whole description") {
   const auto library = Library::open(plugin("good"));
   const PluginInfo& info = library->info();
   CHECK(info.file == "good.so");
@@ -128,7 +128,7 @@ TEST_CASE("a good plugin is loaded with all that it says of itself") {
   CHECK(scaler.inputs[0].type->hash == scaler.outputs[0].type->hash);
 }
 
-TEST_CASE("parameters come with default, range, unit and kind") {
+TEST_CASE("parameters have default, range, unit and kind") {
   const auto library = Library::open(plugin("good"));
   const ComponentInfo& scaler = library->info().components[0];
   REQUIRE(scaler.params.size() == 8);
@@ -150,11 +150,11 @@ TEST_CASE("parameters come with default, range, unit and kind") {
 
 TEST_CASE("a loaded component does its work") { CHECK(scaled(*Library::open(plugin("good"))) == 20); }
 
-TEST_CASE("more exported symbols than needed do no harm") {
+TEST_CASE("additional exported symbols do no harm") {
   CHECK(scaled(*Library::open(plugin("good_open"))) == 20);
 }
 
-TEST_CASE("the version script leaves exactly the entry symbol visible") {
+TEST_CASE("the version script exports exactly the entry symbol") {
   const auto defined = [](const std::string& name) {
     std::FILE* nm = ::popen(("nm -D --defined-only " + plugin(name).string()).c_str(), "r");
     REQUIRE(nm != nullptr);
@@ -169,7 +169,7 @@ TEST_CASE("the version script leaves exactly the entry symbol visible") {
   CHECK(defined("good_open").find("an_extra_symbol") != std::string::npos);
 }
 
-TEST_CASE("the same content is one library, wherever it lies") {
+TEST_CASE("the same content is one library, in every folder") {
   const auto first = Library::open(plugin("good"));
   const auto second = Library::open(write("twin.so", read(plugin("good"))));
   CHECK(first == second);
@@ -198,10 +198,10 @@ TEST_CASE(
   CHECK(maps().plugins == 0);
 }
 
-TEST_CASE("loading and unloading again and again leaves nothing behind") {
+TEST_CASE("loading and unloading many times leaves nothing behind") {
   const bool all = std::getenv("FULMAR_LONG") != nullptr;
 #ifdef __SANITIZE_ADDRESS__
-  const int cycles = all ? 10'000 : 100;  // each takes a hundred times as long
+  const int cycles = all ? 10'000 : 100;  // a sanitized cycle takes a hundred times as long
 #else
   const int cycles = all ? 10'000 : 2000;
 #endif
@@ -222,7 +222,7 @@ TEST_CASE("loading and unloading again and again leaves nothing behind") {
   CHECK(heap_bytes() < heap_before + static_cast<std::size_t>(cycles));  // less than a byte per cycle
 }
 
-TEST_CASE("a plugin that stays resident is told so") {
+TEST_CASE("a plugin that stays resident is reported") {
   CHECK(unload_fault(Library::open(plugin("resident"))) == "loader.plugin_still_resident(resident.so)");
   CHECK(unload_fault(Library::open(plugin("resident_thread"))) ==
         "loader.plugin_still_resident(resident_thread.so)");
@@ -245,7 +245,7 @@ TEST_CASE("loading leaves the floating-point mode as it was") {
 
 namespace {
 
-// Copies of the good plugin, each with one byte changed, and no other.
+// Copies of the good plugin, each with a different byte changed.
 std::vector<std::string> flipped_copies(int count) {
   std::mt19937 random(20260101);
   std::vector<std::string> copies(static_cast<std::size_t>(count), read(plugin("good")));
@@ -258,9 +258,9 @@ std::vector<std::string> flipped_copies(int count) {
 
 }  // namespace
 
-// An altered instruction in what runs at loading or unloading may spare the probe and hit the host, which has
-// another memory: rare, and why a mission can list what it loads by SHA-256.
-TEST_CASE("copies with a flipped byte hardly ever bring the host down") {
+// An altered instruction in the code that runs at loading or unloading may pass the probe and crash the host,
+// whose memory differs. This is rare; a mission can list the SHA-256 of its files against it.
+TEST_CASE("copies with a flipped byte rarely crash the host") {
   const int flips = std::getenv("FULMAR_LONG") != nullptr ? 1000 : 200;
   const Environment limit("FULMAR_PROBE_SECONDS", "2");
   enum : int { accepted, refused, misnamed, brought_down };
@@ -288,7 +288,7 @@ TEST_CASE("copies with a flipped byte hardly ever bring the host down") {
   CHECK(seen[brought_down] * 200 <= flips);  // 46 of 1000 without a probe
 }
 
-TEST_CASE("the description of a plugin lines up") {
+TEST_CASE("the description of a plugin is aligned") {
   PluginInfo info = Library::open(plugin("good"))->info();
   info.sha256 = std::string(64, 'a');
   info.build_id = "0123abcd";
@@ -327,7 +327,7 @@ Scaler  Multiplies an airspeed.
 )");
 }
 
-TEST_CASE("the field tables tell kind, unit, frame and place") {
+TEST_CASE("the field tables show kind, unit, frame and place") {
   const std::string text = describe_plugin(Library::open(plugin("good"))->info(), true);
   for (const char* row :
        {"  position_m        Vec3  m     ned    8\n", "  position_m.north  f64   m            8\n",
@@ -335,7 +335,7 @@ TEST_CASE("the field tables tell kind, unit, frame and place") {
     CHECK_MESSAGE(text.find(row) != std::string::npos, row);
 }
 
-TEST_CASE("notes are read with their padding, and bent ones give nothing") {
+TEST_CASE("notes are read with their padding, and damaged ones give nothing") {
   // two notes, the first of another owner with 3 bytes of content: the second begins at the next multiple of
   // 4
   const unsigned char notes[] = {4, 0, 0, 0, 3, 0, 0, 0, 9, 0, 0, 0, 'X', 'Y', 'Z', 0,   1, 2,    3,

@@ -9,7 +9,7 @@ namespace memory_file_test {
 
 using namespace fulmar::core;
 
-TEST_CASE("a child reads a text from its beginning, and what it writes is read whole") {
+TEST_CASE("a child reads a text from its beginning, and its own text is read completely") {
   const std::string text = std::string(100'000, 'a') + '\0' + "end";
   const MemoryFile in(text), out;
   ChildFiles files;

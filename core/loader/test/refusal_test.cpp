@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every kind of bad file, and the exact sentence that a user reads.
+// Every kind of bad file, and the exact message to the user.
 #include <doctest/doctest.h>
 #include <elf.h>
 #include <sys/resource.h>
@@ -41,7 +41,7 @@ std::string host() {
 
 }  // namespace
 
-TEST_CASE("a file that is missing, a folder, or not a shared object is refused") {
+TEST_CASE("a file that is missing, a folder, or not a shared object is rejected") {
   CHECK(refusal(folder() / "no_such.so") ==
         "loader.plugin_missing(no_such.so, " + (folder() / "no_such.so").string() + ")");
   CHECK(refusal(FULMAR_TEST_PLUGIN_DIR "/stub") == "loader.plugin_not_regular(stub, " FULMAR_TEST_PLUGIN_DIR
@@ -54,7 +54,7 @@ TEST_CASE("a file that is missing, a folder, or not a shared object is refused")
         "loader.file_fault(object.so, loader.elf_not_shared)");
 }
 
-TEST_CASE("a file that is cut off is refused before anything maps it") {
+TEST_CASE("a truncated file is rejected before it is mapped") {
   const std::string whole = read(plugin("good"));
   CHECK(refusal(write("short.so", whole.substr(0, whole.size() - 1))) ==
         "loader.file_fault(short.so, loader.plugin_truncated(" + std::to_string(whole.size()) + ", " +
@@ -65,7 +65,7 @@ TEST_CASE("a file that is cut off is refused before anything maps it") {
         "loader.file_fault(far.so, loader.program_headers_damaged)");
 }
 
-TEST_CASE("a file for another machine is refused") {
+TEST_CASE("a file for another machine is rejected") {
   CHECK(refusal(with_header("alien.so", [](Elf64_Ehdr& h) { h.e_machine = EM_S390; })) ==
         "loader.file_fault(alien.so, loader.machine_differs(s390, " + host() + "))");
   CHECK(refusal(with_header("odd.so", [](Elf64_Ehdr& h) { h.e_machine = 9999; })) ==
@@ -76,20 +76,20 @@ TEST_CASE("a file for another machine is refused") {
             (other == EM_AARCH64 ? "aarch64" : "x86_64") + ", " + host() + "))");
 }
 
-TEST_CASE("a shared object that is no plugin, or of another ABI, is refused") {
+TEST_CASE("a shared object that is no plugin, or of another ABI, is rejected") {
   CHECK(refusal(plugin("no_entry")) == "loader.entry_symbol_missing(no_entry.so, fulmar_plugin_entry)");
   CHECK(refusal(plugin("wrong_abi")) == "loader.plugin_abi_differs(wrong_abi.so, 2.0, 1.2)");
   CHECK(refusal(plugin("newer_minor")) == "accepted");
 }
 
-TEST_CASE("a plugin whose needs are not met is refused") {
+TEST_CASE("a plugin with a missing dependency is rejected") {
   CHECK(refusal(plugin("missing_library")) ==
         "loader.required_library_missing(missing_library.so, libfulmar_test_stub.so)");
   CHECK(refusal(plugin("missing_symbol")) ==
         "loader.required_symbol_missing(missing_symbol.so, fulmar_test_nowhere)");
 }
 
-TEST_CASE("what the system's loader says becomes a sentence") {
+TEST_CASE("a text of the system's loader becomes a sentence") {
   using fulmar::core::load_fault;
   const std::pair<const char*, const char*> cases[] = {
       {"libfoo.so.1: cannot open shared object file: No such file or directory",
@@ -104,7 +104,7 @@ TEST_CASE("what the system's loader says becomes a sentence") {
   CHECK(load_fault("x.so", nullptr) == "loader.plugin_not_loadable(x.so, no reason given)");
 }
 
-TEST_CASE("tables that the host does not understand are refused by name") {
+TEST_CASE("tables that the host does not understand are rejected by name") {
   CHECK(refusal(plugin("unknown_port")) ==
         "unknown_port.so: loader.port_kind_unknown(port 'place' of component 'Point', 99)");
   CHECK(refusal(plugin("misplaced_port")) ==
@@ -115,7 +115,7 @@ TEST_CASE("tables that the host does not understand are refused by name") {
         "unknown_field.so: loader.port_kind_unknown(type 'Point': field 'x_m', 97)");
 }
 
-TEST_CASE("tables that contradict themselves are refused by name") {
+TEST_CASE("tables that contradict themselves are rejected by name") {
   CHECK(refusal(plugin("overlap")) == "overlap.so: type 'Point': loader.fields_overlap(x_m, y_m)");
   CHECK(refusal(plugin("misaligned")) ==
         "misaligned.so: loader.field_not_aligned(type 'Point': field 'y_m')");
@@ -132,7 +132,7 @@ TEST_CASE("tables that contradict themselves are refused by name") {
   CHECK(refusal(plugin("no_read")) == "no_read.so: loader.function_missing(component 'Point', read)");
 }
 
-TEST_CASE("files that would share static data are not loaded side by side") {
+TEST_CASE("files that would share static data are not loaded together") {
   if (!fs::exists(plugin("resident_unique"))) return;  // clang makes no such symbols
   const auto first = fulmar::core::Library::open(plugin("resident_unique"));
   const std::string second = refusal(plugin("resident_unique_too"));
@@ -142,7 +142,7 @@ TEST_CASE("files that would share static data are not loaded side by side") {
   CHECK(refusal(plugin("unique_alone")) == "accepted");
 }
 
-TEST_CASE("the last words of a plugin that cannot be loaded are in its refusal, without control characters") {
+TEST_CASE("the last output of a plugin that cannot be loaded is in the error, without control characters") {
   CHECK(refusal(plugin("words_throws")) ==
         "loader.plugin_crashed(words_throws.so, loaded, 6, : what():  the licence server is not reached)");
   CHECK(refusal(plugin("words_exits")) ==
@@ -154,18 +154,18 @@ TEST_CASE("the last words of a plugin that cannot be loaded are in its refusal, 
   CHECK(aborted.find_first_of("\x1b\x07\n") == std::string::npos);
 }
 
-TEST_CASE("what a plugin does while it is loaded happens to a child") {
+TEST_CASE("a plugin's code at loading affects only a child") {
   CHECK(refusal(plugin("crash")) == "loader.plugin_crashed(crash.so, loaded, 11, )");
   CHECK(refusal(plugin("crash_unload")) == "loader.plugin_crashed(crash_unload.so, unloaded, 6, )");
   CHECK(refusal(plugin("exits")) == "loader.plugin_ended_process(exits.so, loaded, 0, )");
   const Environment limit("FULMAR_PROBE_SECONDS", "0.4");
   CHECK(refusal(plugin("hang")) == "loader.probe_timed_out(hang.so, loading, 1.6 s)");
-  const std::string busy = refusal(plugin("busy"));  // on a busy machine the clock on the wall may be first
+  const std::string busy = refusal(plugin("busy"));  // on a busy machine the wall-clock limit may come first
   CHECK((busy == "loader.probe_timed_out(busy.so, loading, 0.4 s of the CPU)" ||
          busy == "loader.probe_timed_out(busy.so, loading, 1.6 s)"));
 }
 
-TEST_CASE("what a plugin has started where it is tried ends with the trial, wherever it went") {
+TEST_CASE("every process that a plugin starts in its probe ends with the probe") {
   const fs::path file = folder() / "started";
   const Environment named("SLY_FILE", file.string()), limit("FULMAR_PROBE_SECONDS", "1");
   struct Deed {
@@ -188,10 +188,10 @@ TEST_CASE("what a plugin has started where it is tried ends with the trial, wher
 
 TEST_CASE("a good plugin on a busy machine gets the time that it needs") {
   const Environment limit("FULMAR_PROBE_SECONDS", "0.8");
-  CHECK(refusal(plugin("slow")) == "accepted");  // 0.9 s by the clock on the wall, next to none of the CPU
+  CHECK(refusal(plugin("slow")) == "accepted");  // 0.9 s of wall time, almost no CPU time
 }
 
-TEST_CASE("a process that may open few files can try a plugin all the same") {
+TEST_CASE("a process with few free descriptors can probe a plugin") {
   rlimit before{};
   REQUIRE(::getrlimit(RLIMIT_NOFILE, &before) == 0);
   const rlimit few{64, before.rlim_max};
@@ -201,7 +201,7 @@ TEST_CASE("a process that may open few files can try a plugin all the same") {
   CHECK(said == "accepted");
 }
 
-TEST_CASE("a plugin that changes the floating-point mode is refused") {
+TEST_CASE("a plugin that changes the floating-point mode is rejected") {
   CHECK(refusal(plugin("rounding")) == "loader.plugin_changes_float_mode(rounding.so)");
   if (!fs::exists(plugin("fast_math"))) {
     MESSAGE("this compiler has no crtfastmath.o: denormals not tried");
@@ -210,7 +210,7 @@ TEST_CASE("a plugin that changes the floating-point mode is refused") {
   CHECK(refusal(plugin("fast_math")) == "loader.plugin_changes_float_mode(fast_math.so)");
 }
 
-TEST_CASE("a refused plugin leaves no copy in the store") {
+TEST_CASE("a rejected plugin leaves no copy in the store") {
   refusal(plugin("crash"));
   CHECK_FALSE(fs::exists(folder() / "store" / (fulmar::core::sha256_file(plugin("crash")) + ".so")));
 }
@@ -221,7 +221,7 @@ TEST_CASE("without the probing program nothing is loaded") {
         "loader.program_not_started(/nowhere/fulmar-probe, No such file or directory)");
 }
 
-TEST_CASE("a store that others can write to is refused") {
+TEST_CASE("a store that other users can write to is rejected") {
   const fs::path open = folder() / "open store";
   fs::create_directory(open);
   ::chmod(open.c_str(), 0777);
@@ -229,7 +229,7 @@ TEST_CASE("a store that others can write to is refused") {
   CHECK(refusal(plugin("good_open")) == "loader.store_not_private(" + open.string() + ")");
 }
 
-TEST_CASE("a copy in the store that was tampered with is replaced") {
+TEST_CASE("a copy in the store that was altered is replaced") {
   const std::string text = "the true content";
   const auto keep = [&] {
     return fulmar::core::keep_copy(std::as_bytes(std::span(text)),
@@ -238,12 +238,12 @@ TEST_CASE("a copy in the store that was tampered with is replaced") {
   folder();
   const fs::path copy = keep();
   fs::permissions(copy, fs::perms::owner_write, fs::perm_options::add);
-  std::ofstream(copy) << "the bent content";  // as long as the true one
+  std::ofstream(copy) << "the bent content";  // same length as the original
   CHECK(keep() == copy);
   CHECK(read(copy) == text);
 }
 
-TEST_CASE("what flew is found again by its SHA-256, libraries and scripts alike, and nothing else is") {
+TEST_CASE("a flown file is found again by its SHA-256, libraries and scripts alike, and no other is") {
   folder();
   const std::string law = "print(1)", gone = "never kept";
   const std::string law_sha = fulmar::core::sha256_hex(law.data(), law.size()),
@@ -256,10 +256,10 @@ TEST_CASE("what flew is found again by its SHA-256, libraries and scripts alike,
   CHECK_FALSE(fulmar::core::find_in_store("../" + law_sha));
   fs::permissions(copy, fs::perms::owner_write, fs::perm_options::add);
   std::ofstream(copy) << "print(2)";
-  CHECK_FALSE(fulmar::core::find_in_store(law_sha));  // bent since
+  CHECK_FALSE(fulmar::core::find_in_store(law_sha));  // altered since
 }
 
-TEST_CASE("a version that is no longer there is named") {
+TEST_CASE("a missing version is named") {
   const std::string sha(64, 'e');
   std::string said;
   try {
@@ -271,7 +271,7 @@ TEST_CASE("a version that is no longer there is named") {
         "loader.stored_plugin_missing(my_law.so, 1.4.0, " + sha + ", " + (folder() / "store").string() + ")");
 }
 
-TEST_CASE("the store keeps the 128 copies that were used last") {
+TEST_CASE("the store keeps the 128 most recently used copies") {
   const Environment store("FULMAR_STORE", (folder() / "full store").string());
   std::vector<std::string> kept;
   const auto keep = [&](int i) {
@@ -279,11 +279,11 @@ TEST_CASE("the store keeps the 128 copies that were used last") {
     kept.push_back(fulmar::core::sha256_hex(text.data(), text.size()));
     const fs::path copy =
         fulmar::core::keep_copy(std::as_bytes(std::span(text)), kept.back(), i % 2 == 0 ? ".so" : ".py");
-    // so that "last" does not hang on the clock's resolution
+    // so that the order does not depend on the clock's resolution
     fs::last_write_time(copy, fs::file_time_type::clock::now() - std::chrono::hours(200 - i));
   };
   for (int i = 0; i < 128; ++i) keep(i);
-  CHECK(fulmar::core::find_in_store(kept[0]).has_value());  // and is thereby the youngest
+  CHECK(fulmar::core::find_in_store(kept[0]).has_value());  // and is thereby the most recent
   keep(128);
   CHECK(fulmar::core::find_in_store(kept[0]).has_value());
   CHECK_FALSE(fulmar::core::find_in_store(kept[1]).has_value());

@@ -36,7 +36,7 @@ std::uint64_t route_hash_with(void (*change)(fulmar_field&)) {
 
 }  // namespace
 
-TEST_CASE("a table is copied with everything in it") {
+TEST_CASE("a table is copied completely") {
   const TypePtr copy = copy_type(route);
   CHECK(copy->name == "Route");
   CHECK(copy->size == sizeof(Route));
@@ -52,10 +52,10 @@ TEST_CASE("a table is copied with everything in it") {
   CHECK(copy->find("nothing") == nullptr);
 }
 
-TEST_CASE("the hash tells any two tables apart that differ anywhere but in a range") {
+TEST_CASE("the hash distinguishes any two tables that differ anywhere but in a range") {
   const std::uint64_t same = route_hash_with([](fulmar_field&) {});
   CHECK(copy_type(route)->hash == same);
-  CHECK(route_hash_with([](fulmar_field& f) { f.max = 1.5; }) == same);  // a rule for it, no other make
+  CHECK(route_hash_with([](fulmar_field& f) { f.max = 1.5; }) == same);  // a range does not change the layout
   CHECK(route_hash_with([](fulmar_field& f) { f.unit = "m"; }) != same);
   CHECK(route_hash_with([](fulmar_field& f) { f.name = "throttle_ratio"; }) != same);
   CHECK(route_hash_with([](fulmar_field& f) { f.kind = FULMAR_I64; }) != same);
@@ -66,7 +66,7 @@ TEST_CASE("the hash tells any two tables apart that differ anywhere but in a ran
   CHECK(copy_type(type("Rout", route_table, sizeof(Route)))->hash != same);
 }
 
-TEST_CASE("tables that contradict themselves are refused by name") {
+TEST_CASE("tables that contradict themselves are rejected by name") {
   CHECK(fault_with({real("a", "", 0), real("b", "", 8)}, 16) == "accepted");
   CHECK(fault_with({real("a", "", 0), real("b", "", 0)}, 16) == "type 'T': loader.fields_overlap(a, b)");
   CHECK(fault_with({real("a", "", 0), real("b", "", 4)}, 16) ==
@@ -91,7 +91,7 @@ TEST_CASE("tables that contradict themselves are refused by name") {
   CHECK(fault_with({field("a", "", FULMAR_STRUCT, 0, 8)}, 8) == "loader.type_missing(type 'T': field 'a')");
 }
 
-TEST_CASE("pointers into nowhere are refused, not followed") {
+TEST_CASE("invalid pointers are rejected, not followed") {
   const auto* nowhere = reinterpret_cast<const char*>(std::uintptr_t{16});
   CHECK(fault_with({real(nowhere, "", 0)}, 8) == "loader.text_outside_memory(type 'T': the name of a field)");
   fulmar_type wild = type("T", vec_fields, 24);
@@ -103,7 +103,7 @@ TEST_CASE("pointers into nowhere are refused, not followed") {
                               std::to_string(size_in_1_0<fulmar_field>) + ")");
 }
 
-TEST_CASE("a type that contains itself is refused") {
+TEST_CASE("a type that contains itself is rejected") {
   std::vector<fulmar_field> fields{field("inside", "", FULMAR_STRUCT, 0, 8)};
   const fulmar_type loop = type("Loop", fields, 8);
   fields[0].type = &loop;
@@ -171,7 +171,7 @@ TEST_CASE("the number of a field is read from the message") {
   CHECK(resolve_field(*t, "lap").present(bytes(message)));
 }
 
-TEST_CASE("a name that is not there is answered with the valid ones") {
+TEST_CASE("an unknown name is reported with the valid ones") {
   const TypePtr t = copy_type(route);
   const auto fault = [&](const char* name) -> std::string {
     try {

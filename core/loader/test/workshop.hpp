@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A folder of the test's own, with its own plugin store, and what the tests do with plugin files there.
+// A temporary folder with its own plugin store, and helpers for plugin files in it.
 #pragma once
 #include <unistd.h>
 
@@ -50,7 +50,7 @@ inline fs::path write(const std::string& name, const std::string& bytes) {
   return file;
 }
 
-/// The sentence with which the host refuses a file.
+/// The message with which the host rejects a file.
 inline std::string refusal(const fs::path& file) {
   try {
     fulmar::core::Library::open(file);
@@ -60,7 +60,7 @@ inline std::string refusal(const fs::path& file) {
   }
 }
 
-struct Environment {  // sets a variable for the length of a scope
+struct Environment {  // sets a variable for its lifetime
   std::string name, before;
   Environment(const char* variable, const std::string& value) : name(variable) {
     if (const char* old = std::getenv(variable)) before = old;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs for tests of what reads logs, written message by message.
+// Logs for tests of log readers, written message by message.
 #pragma once
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ namespace fulmar::core::test {
 
 constexpr std::int64_t epoch_ns = 1'767'225'600'000'000'000;  // 2026-01-01
 
-/// A folder of its own that goes with the test.
+/// A temporary folder, removed at the end of the test.
 struct Folder {
   std::filesystem::path path;
   Folder() {
@@ -46,7 +46,7 @@ struct Number {
 };
 inline TypePtr number_type() { return make_type("Number", 8, 8, {number("value_ratio", 0)}); }
 
-/// A writer with channels of described types, attachments and metadata like a flight's.
+/// A writer with channels of described types, and attachments and metadata like those of a flight.
 struct Sample {
   McapWriter writer;
   std::vector<CdrEncoder> encoders;
@@ -76,7 +76,7 @@ inline Mixed mixed_at(int i) {
   return m;
 }
 
-/// `ticks` of 2.5 ms from -1 s on: /mixed in each, /number in every fourth. `change` may spoil a message.
+/// `ticks` of 2.5 ms from -1 s on: /mixed in each, /number in every fourth. `change` may alter a message.
 inline McapWriter::Result write_sample(McapWriter::Options options, int ticks,
                                        const std::function<void(int, Mixed&)>& change = {}) {
   options.max_message_bytes = 4096;

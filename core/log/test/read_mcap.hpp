@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log as a whole, for tests.
+// A whole log, for tests.
 #pragma once
 #include <deque>
 #include <vector>
@@ -10,10 +10,10 @@ namespace fulmar::core {
 
 struct WholeLog : McapFile {
   std::vector<Message> messages;              // in file order
-  std::deque<std::vector<std::byte>> memory;  // that the messages point into; moving keeps it in place
+  std::deque<std::vector<std::byte>> memory;  // content of the messages; moving keeps it in place
 };
 
-/// Throws Error when it cannot be read at all or is no MCAP file.
+/// Throws Error when the file cannot be read or is no MCAP file.
 inline WholeLog read_mcap(const std::filesystem::path& file) {
   McapStream stream(file);
   WholeLog log;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tap under stress: what a cursor gives out is what went in, in order; what it was too slow for is
-// counted to the message.
+// The tap under stress: a cursor returns the written samples in order, and counts each sample that it loses.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -49,7 +48,7 @@ Block block(std::uint64_t i) {
   return b;
 }
 
-/// Message i is a block, but every third a small one.
+/// Message i is a block; every third is small.
 void write(Tap& tap, std::uint64_t i) {
   const Block b = block(i);
   tap.write(i % 3 == 2 ? 1 : 0, static_cast<std::int64_t>(i), -static_cast<std::int64_t>(i),
@@ -79,7 +78,7 @@ TEST_CASE(
   std::thread log([&] {
     while (kept < many) {
       const Tap::Sample* s = binding.next();
-      if (!s) {  // the one that writes may be waiting for this processor
+      if (!s) {  // the writer may be waiting for this processor
         std::this_thread::yield();
         continue;
       }
@@ -115,7 +114,7 @@ TEST_CASE(
   CHECK(in_order);
   CHECK(seen_good == seen);
   CHECK(last == many - 1);
-  CHECK(seen + lost <= many);  // it may have begun after the first
+  CHECK(seen + lost <= many);  // the cursor may have begun after the first
 }
 
 TEST_CASE(
@@ -135,7 +134,7 @@ TEST_CASE(
   CHECK(tap.take_wait_ns() == 0);
 }
 
-TEST_CASE("the log's sequence counts the samples that are for the log, of each channel by itself") {
+TEST_CASE("the log's sequence counts the samples for the log, separately for each channel") {
   Tap tap(channels(), 1u << 20);
   Tap::Cursor cursor(tap);
   for (std::uint64_t i = 0; i < 600; ++i) write(tap, i);
@@ -148,7 +147,7 @@ TEST_CASE("the log's sequence counts the samples that are for the log, of each c
   CHECK(next[1] == 100);
 }
 
-TEST_CASE("the loop gives what any sink wants, at the shortest of the periods they ask for") {
+TEST_CASE("the loop writes a sample for each sink's request, at the shortest requested period") {
   Tap tap(channels(), 1u << 20);
   CHECK_FALSE(tap.wanted(0, 0));
   Tap::Cursor one(tap);

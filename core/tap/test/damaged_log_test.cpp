@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is left of a log when the process or the disk fails, or somebody has his hands on the file.
+// State of a log after the process or the disk fails, or another program changes the file.
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Runs `body` in a child process; returns what waitpid says.
+/// Runs `body` in a child process; returns the status of waitpid.
 int in_child(const std::function<int()>& body) {
   const pid_t child = ::fork();
   if (child == 0) ::_exit(body());
@@ -37,7 +37,7 @@ int in_child(const std::function<int()>& body) {
 
 }  // namespace
 
-TEST_CASE("a run killed in flight leaves a file whose whole chunks, mission included, can be read") {
+TEST_CASE("a run killed in flight leaves a file whose complete chunks, mission included, can be read") {
   const Folder folder;
   const fs::path file = folder.path / "a.mcap";
   int pipe_ends[2];
@@ -47,7 +47,7 @@ TEST_CASE("a run killed in flight leaves a file whose whole chunks, mission incl
     TapedLog log({.file = file, .epoch_ns = epoch_ns}, two_channels());
     log.attach("mission.yaml", "application/yaml", "mission: test\n");
     fly(log, 4000);
-    // 10 s of flight: all but the last chunk, which is open, will get there
+    // 10 s of flight: all but the open last chunk reach the file
     while (read_mcap(file.string() + ".part").messages.size() < 4400)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     const char ready = 'r';
@@ -132,7 +132,7 @@ TEST_CASE(
   CHECK(WEXITSTATUS(status) == 0);
 }
 
-TEST_CASE("a log that fails is told of while the flight lasts") {
+TEST_CASE("a log that fails is reported during the flight") {
   const Folder folder;
   const int status = in_child([&] {
     const rlimit limit{20'000, 20'000};
@@ -153,7 +153,7 @@ TEST_CASE("a log that fails is told of while the flight lasts") {
   CHECK(WEXITSTATUS(status) == 0);
 }
 
-TEST_CASE("a file that is being written is known as such until its writer ends") {
+TEST_CASE("a file that is being written is detected as such until its writer ends") {
   const Folder folder;
   const fs::path part = folder.path / "a.mcap.part";
   {
@@ -175,7 +175,7 @@ TEST_CASE("a file that is being written is known as such until its writer ends")
   CHECK_FALSE(OutFile::grows(folder.path / "b.mcap.part"));
 }
 
-TEST_CASE("a log whose file is removed in flight says so and counts its messages as lost") {
+TEST_CASE("a log whose file is removed in flight reports it and counts its messages as lost") {
   const Folder folder;
   TapedLog log({.file = folder.path / "a.mcap", .epoch_ns = epoch_ns}, two_channels());
   fly(log, 1000);
@@ -215,7 +215,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a log whose folder is removed, or in whose place another file lies, is not pointed to") {
+TEST_CASE("a log whose folder is removed, or whose name another file has taken, is not named in the result") {
   for (const bool another : {false, true}) {
     const Folder folder;
     const fs::path logs = folder.path / "logs";
@@ -235,7 +235,7 @@ TEST_CASE("a log whose folder is removed, or in whose place another file lies, i
   }
 }
 
-TEST_CASE("a log that somebody has cut or lengthened in flight is not called whole") {
+TEST_CASE("a log that was truncated or extended in flight is not reported as complete") {
   for (const bool longer : {false, true}) {
     const Folder folder;
     const fs::path part = folder.path / "a.mcap.part";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Logs of a made-up flight, and whether what is in a file is that flight.
+// Logs of a synthetic flight, and a check that a file holds this flight.
 #pragma once
 #include <algorithm>
 
@@ -48,7 +48,7 @@ inline LogResult write_log(const std::filesystem::path& file, int ticks, double 
   return log.close();
 }
 
-/// Each message is the next one of its channel as `fly` wrote it.
+/// Each message is the next one of its channel in the order of `fly`.
 inline bool is_flight(const WholeLog& log) {
   const CdrEncoder encoder(*mixed_type());
   int mixed = 0, numbers = 0;

@@ -17,7 +17,7 @@ using namespace fulmar::core;
 using namespace fulmar::core::test;
 namespace fs = std::filesystem;
 
-TEST_CASE("a log holds every message, attachment and metadata that went in") {
+TEST_CASE("a log holds every message, attachment and metadata that was written") {
   const Folder folder;
   const LogResult result = write_log(folder.path / "a.mcap", 4000);
   CHECK(result.error == "");
@@ -56,7 +56,7 @@ TEST_CASE("a log holds every message, attachment and metadata that went in") {
   CHECK_THROWS_WITH_AS(log.channel("/mixd"), doctest::Contains("/mixed"), Error);
 }
 
-TEST_CASE("a log without messages is whole") {
+TEST_CASE("a log without messages is complete") {
   const Folder folder;
   const LogResult result = write_log(folder.path / "a.mcap", 0);
   const WholeLog log = read_mcap(result.file);
@@ -77,7 +77,7 @@ TEST_CASE(
   CHECK(a.sha256 != c.sha256);
 }
 
-TEST_CASE("a log never overwrites a file, finished or not, nor one that appears while it is written") {
+TEST_CASE("a log never overwrites a file, complete or not, nor one that appears during the write") {
   const Folder folder;
   const fs::path file = folder.path / "a.mcap";
   std::ofstream(file) << "precious";
@@ -132,7 +132,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a file that is no log is refused") {
+TEST_CASE("a file that is no log is rejected") {
   const Folder folder;
   std::ofstream(folder.path / "a.mcap") << "hello";
   CHECK_THROWS_AS(read_mcap(folder.path / "a.mcap"), Error);

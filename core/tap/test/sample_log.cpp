@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tap_sample_log FILE: writes a log with known values and prints, as one JSON object, what any reader must
-// find in it. Topic by topic: the messages in order, each {log_ns, publish_ns, sequence, value}; times as
-// text, for readers without 64-bit integers.
+// tap_sample_log FILE: writes a log with known values and prints its expected content as one JSON object.
+// Topic by topic: the messages in order, each {log_ns, publish_ns, sequence, value}; times as text, for
+// readers without 64-bit integers.
 #include <exception>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -56,7 +56,7 @@ void fly(TapedLog& log) {
   }
 }
 
-/// Read back with our own reader and decoder.
+/// Content as read by Fulmar's own reader and decoder.
 nlohmann::json found(const WholeLog& file, const std::vector<TapChannel>& list) {
   nlohmann::json topics;
   for (const McapFile::Message& m : file.messages) {

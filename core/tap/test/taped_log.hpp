@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log and the tap that it hangs on, for tests that write as the loop does.
+// A log and its tap, for tests that write like the loop.
 #pragma once
 #include <utility>
 #include <vector>

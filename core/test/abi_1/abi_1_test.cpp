@@ -26,7 +26,7 @@ std::shared_ptr<Library> plugin(const std::string& name) {
   return Library::open(ABI_1_PLUGINS "/" + name + ".so");
 }
 
-/// One component of a plugin, called as the host calls it: fields are found in its tables, by their names.
+/// One component of a plugin, called like in the host: fields are found by name in its tables.
 struct Rig {
   explicit Rig(std::shared_ptr<Library> plugin)
       : library(std::move(plugin)), info(library->info().components.at(0)), table(library->functions(0)) {
@@ -71,7 +71,7 @@ struct Rig {
   std::uint32_t count(const std::string& port) const {
     return outputs[static_cast<std::size_t>(info.output(port))].count;
   }
-  /// What was applied last in the role: one field of an output, the others zero.
+  /// Sets the last applied output of the role: one field, the others zero.
   void apply(const std::string& port, const std::string& field, double number) {
     const auto i = static_cast<std::size_t>(info.output(port));
     std::memcpy(&last_data[i][info.outputs[i].type->find(field)->offset], &number, sizeof number);
@@ -107,7 +107,7 @@ struct Rig {
   std::vector<fulmar_output> outputs;
 };
 
-/// Just east of south, to go just west of it; 5 m too low and 2 m/s too slow.
+/// Course just east of south, command just west of it; 5 m too low and 2 m/s too slow.
 void set_scene(Rig& rig) {
   rig.set("state", "height_m", 60), rig.set("state", "course_rad", 3.1), rig.set("state", "airspeed_mps", 15);
   rig.set("command", "height_m", 65), rig.set("command", "course_rad", -3.1);
@@ -122,7 +122,7 @@ std::vector<std::string> names_of(const std::vector<ParamInfo>& params) {
 
 }  // namespace
 
-TEST_CASE("a law in C of then: its tables, and the numbers of its equations") {
+TEST_CASE("an old law in C: its tables, and the numbers of its equations") {
   const auto library = plugin("abi_1_c_law");
   CHECK(library->info().abi_major == 1);
   CHECK(library->info().abi_minor == 2);
@@ -142,7 +142,7 @@ TEST_CASE("a law in C of then: its tables, and the numbers of its equations") {
   CHECK(rig.count("height_error_m") == 1);
 }
 
-// The same source twice: as it was built then, and built anew with the present SDK.
+// The same source twice: as built then, and built again with the present SDK.
 TEST_CASE(
     "a law in C++ of then, and its source built today: tables, parameters, hand-over, requests and steps") {
   for (const char* name : {"abi_1_cpp_law", "abi_1_cpp_law_rebuilt"}) {
@@ -186,7 +186,7 @@ TEST_CASE(
     CHECK(std::abs(rig.get("throttle_integral_frac") - 0.125 - first) < 1e-9);
     const fulmar_answer refused = rig.ask("restart", 0.75);
     CHECK(refused.verdict == FULMAR_REFUSED);
-    const std::string reason = "an integral is at most 0.5";  // of the plugin, which stays as it was built
+    const std::string reason = "an integral is at most 0.5";  // of the plugin, which is the old build
     CHECK(std::string(refused.reason) == reason);
 
     rig.value("feedforward").integer = 0, rig.value("height").integer = 1,
@@ -198,13 +198,13 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("messages of then have the make of today's: a law of then takes over from a law of today") {
+TEST_CASE("old messages have the form of the present ones: an old law takes over from a present one") {
   const auto today = Library::open(FULMAR_PLUGIN_DIR "/control_slc.so");
   const ComponentInfo& outer = today->info().components.at(0);
   for (const char* name : {"abi_1_cpp_law", "abi_1_cpp_law_rebuilt"}) {
     const auto library = plugin(name);
     const ComponentInfo& law = library->info().components.at(0);
-    for (const char* port : {"state", "command"}) {  // fields that were appended since are no hindrance
+    for (const char* port : {"state", "command"}) {  // appended fields do not prevent it
       const auto then = static_cast<std::size_t>(law.input(port)),
                  now = static_cast<std::size_t>(outer.input(port));
       CHECK(incompatibility(*law.inputs[then].type, *outer.inputs[now].type) == "");
@@ -216,7 +216,7 @@ TEST_CASE("messages of then have the make of today's: a law of then takes over f
 
 namespace {
 
-/// Flies a mission of this folder with a plugin of then beside it; its result.
+/// Flies a mission of this folder with an old plugin beside it; returns its result.
 nlohmann::json flown(const std::string& mission, const std::string& law) {
   const fs::path folder = fs::temp_directory_path() / ("fulmar-abi-1-test-" + std::to_string(::getpid()));
   const fs::path home = folder / "core" / "test" / "abi_1";
@@ -233,17 +233,17 @@ nlohmann::json flown(const std::string& mission, const std::string& law) {
 
 }  // namespace
 
-TEST_CASE("a law of then flies a mission of today to its end, and no guard fires") {
+TEST_CASE("an old law flies a present mission to its end, and no guard fires") {
   const auto result = flown("mission.yaml", "abi_1_cpp_law.so");
   CHECK(result["result"] == "flown");
   CHECK(result["guards"].empty());
   double cruised = 0;
   for (const auto& phase : result["phases"])
     if (phase["name"] == "cruise") cruised = phase["to_s"].get<double>() - phase["from_s"].get<double>();
-  CHECK(cruised > 30);  // it was this law that flew
+  CHECK(cruised > 30);  // this law was active
 }
 
-TEST_CASE("a guide of then is followed by the laws of today, which know more of its message than it does") {
+TEST_CASE("the present laws follow an old guide, whose message has fewer fields") {
   const auto result = flown("guided.yaml", "abi_1_guide.so");
   CHECK(result["result"] == "flown");
   CHECK(result["guards"].empty());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A static of a template is a unique symbol (STB_GNU_UNIQUE) on gcc: one object in the whole process, and a
-// library that never goes.
+// library that is never unloaded.
 template <class T>
 struct Shared {
   static inline int calls = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A plugin that needs something of its own before anything else, and does not get it.
+// A plugin that needs a resource at its start, and does not get it.
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>

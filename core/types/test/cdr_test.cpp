@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Expected bytes are written by hand from the XCDR1 rules; random types are checked against a second encoder
-// that does nothing clever.
+// Expected bytes are written by hand from the XCDR1 rules; random types are checked against a second, simple
+// encoder.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -21,7 +21,7 @@ namespace {
 
 using Blob = std::vector<std::byte>;
 
-/// "01 02 | 03": hex digits, the rest is for the eye.
+/// "01 02 | 03": hex digits; other characters are for readability.
 Blob hex(const std::string& text) {
   Blob bytes;
   std::string digits;
@@ -45,7 +45,7 @@ const std::string one = "00000000 0000F03F ", two = "00000000 00000040 ", half =
 
 }  // namespace
 
-TEST_CASE("a message of every kind has the bytes that XCDR1 asks for") {
+TEST_CASE("a message of every kind has the bytes of XCDR1") {
   Mixed m;
   std::memset(&m, 0xAA, sizeof m);  // padding of the struct must not reach the wire
   const Mixed value = mixed_value();
@@ -97,7 +97,7 @@ TEST_CASE("a message of every kind has the bytes that XCDR1 asks for") {
   CHECK(encoded(*mixed_type(), bytes_of(m)) == expected);
 }
 
-TEST_CASE("after an empty sequence nothing is aligned for the elements that are not there") {
+TEST_CASE("after an empty sequence nothing is aligned for the missing elements") {
   struct S {
     Items<double, 2> list;
     bool tail;
@@ -108,7 +108,7 @@ TEST_CASE("after an empty sequence nothing is aligned for the elements that are 
   CHECK(encoded(*type, bytes_of(s)) == hex("00010000 00000000 01"));
 }
 
-TEST_CASE("a list that counts beyond its capacity is cut, not read beyond its end") {
+TEST_CASE("a list whose count exceeds its capacity is clamped") {
   struct S {
     Items<std::uint8_t, 2> list;
   };
@@ -131,7 +131,7 @@ TEST_CASE(
   CHECK(encoded(*type, bytes_of(s)) == hex("00010000 04000000 61626300 01000000 00 00"));
 }
 
-TEST_CASE("a decoded message is the message that was encoded") {
+TEST_CASE("a decoded message equals the encoded one") {
   const TypePtr type = mixed_type();
   const Mixed before = mixed_value();
   const Blob bytes = encoded(*type, bytes_of(before));
@@ -139,10 +139,10 @@ TEST_CASE("a decoded message is the message that was encoded") {
   std::memset(&after, 0x55, sizeof after);
   cdr_decode(*type, bytes.data(), bytes.size(), bytes_of(after));
   CHECK(to_json(*type, bytes_of(after), false) == to_json(*type, bytes_of(before), false));
-  CHECK(after.legs.items[2].position_m.down == 0);  // what the bytes do not say is zero
+  CHECK(after.legs.items[2].position_m.down == 0);  // fields without bytes are zero
 }
 
-TEST_CASE("bytes that are cut off, too many, or not CDR are refused") {
+TEST_CASE("bytes that are truncated, too many, or not CDR are rejected") {
   const TypePtr type = mixed_type();
   const Mixed m = mixed_value();
   Blob bytes = encoded(*type, bytes_of(m));
@@ -162,7 +162,7 @@ TEST_CASE("bytes that are cut off, too many, or not CDR are refused") {
 
 namespace {
 
-/// A second encoder, by the book: element after element, no merging.
+/// A second encoder, by the specification: element after element, without merging.
 struct Plain {
   Blob out;
   void align(std::size_t a) {
@@ -201,7 +201,7 @@ struct Plain {
   }
 };
 
-/// Random structs, laid out as a C++ compiler does.
+/// Random structs, with the layout of a C++ compiler.
 struct Maker {
   std::mt19937 random{4711};
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random() % n); }
@@ -247,7 +247,7 @@ struct Maker {
     return f.stride = sizes[static_cast<std::size_t>(f.kind - 1)];
   }
 
-  /// Counts within the capacities, everything else at random, unused bytes included.
+  /// Counts within the capacities, all other bytes random, unused ones included.
   void fill(const Type& t, std::byte* data) {
     for (std::uint32_t i = 0; i < t.size; ++i) data[i] = static_cast<std::byte>(random());
     counts(t, data);
@@ -284,7 +284,7 @@ TEST_CASE(
     REQUIRE(bytes.size() <= CdrEncoder(*type).max_size());
     with_bytes += bytes.size() > 100;
 
-    bool text_fits = true;  // text that fills its room has no place for the NUL in the struct
+    bool text_fits = true;  // a text that fills its room has no NUL in the struct
     const std::function<void(const Type&)> look = [&](const Type& t) {
       for (const Field& f : t.fields) {
         text_fits = text_fits && f.kind != FULMAR_TEXT;

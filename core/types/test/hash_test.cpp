@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hash of a message sees each byte that the wire form carries, and no other: held against the wire form
-// itself.
+// The hash of a message covers exactly the bytes of the wire form: compared with the wire form itself.
 #include "core/types/hash.hpp"
 
 #include <doctest/doctest.h>
@@ -45,8 +44,7 @@ TEST_CASE("a changed byte changes the hash if, and only if, it changes the wire 
 
 TEST_CASE("a million neighbouring numbers have a million hashes") {
   constexpr std::uint64_t n = 1'000'000, room = 1u << 22;
-  std::vector<std::uint64_t> found(
-      room);  // open addressing: the next free place from where a hash points to; 0 is a free one
+  std::vector<std::uint64_t> found(room);  // open addressing: the next free slot after the hash; 0 is free
   std::uint64_t different = 0;
   for (std::uint64_t i = 0; i < n; ++i) {
     const std::uint64_t hash = hash_bytes(0, reinterpret_cast<const std::byte*>(&i), sizeof i);

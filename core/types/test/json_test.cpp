@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// JSON of messages, as people read it.
+// JSON of messages for users.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -16,7 +16,7 @@ using namespace fulmar::core;
 using namespace fulmar::core::test;
 using nlohmann::json;
 
-TEST_CASE("a message shows its fields by name, enums by label, lists by what is in them") {
+TEST_CASE("a message has its fields by name, enums by label, lists by their items") {
   const Mixed m = mixed_value();
   CHECK(to_json(*mixed_type(), bytes_of(m), false) == json::parse(R"({
     "armed": true, "speed_mps": 1.5, "count": 7, "gains_ratio": [1.0, 2.0, -2.0], "name": "ab", "samples_volt": [0.5, 1.0], "mode": "hold",
@@ -35,7 +35,7 @@ TEST_CASE("radians become degrees with their key, inside nested structs too, and
   CHECK(shown["speed_mps"] == 1.5);
 }
 
-TEST_CASE("people see fields in the message's order, and rates in degrees as well as angles") {
+TEST_CASE("shown JSON has the message's order, and rates in degrees as well as angles") {
   struct Value {
     double z_m = 1;
     std::array<double, 2> rates_radps{0.5, -1};
@@ -56,7 +56,7 @@ TEST_CASE("people see fields in the message's order, and rates in degrees as wel
   CHECK(shown["bank_deg"].get<double>() == doctest::Approx(114.59155902616465).epsilon(1e-15));
   CHECK(shown["a_degps2"].get<double>() == doctest::Approx(171.88733853924697).epsilon(1e-15));
   CHECK(shown["load_ratio"] == 4.0);
-  CHECK(to_json(*type, bytes_of(value), true).contains("a_radps2"));  // results keep their rates
+  CHECK(to_json(*type, bytes_of(value), true).contains("a_radps2"));  // results keep rates in radians
 }
 
 TEST_CASE(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of kinds against the C++ types that messages are made of.
+// The table of kinds against the C++ types of message fields.
 #include "core/types/kinds.hpp"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@ namespace kinds_test {
 
 using namespace fulmar::core;
 
-TEST_CASE("the row of a kind has the size, sign and words of the C++ type that an element of it has") {
+TEST_CASE("the row of a kind has the size, sign and names of its C++ type") {
   const std::array<std::byte, 8> zero{};
   for (const KindRow& row : kind_rows) {
     CAPTURE(row.word);
@@ -31,7 +31,7 @@ TEST_CASE("the row of a kind has the size, sign and words of the C++ type that a
   }
 }
 
-TEST_CASE("the number of what is no number is nan") {
+TEST_CASE("an element that is no number gives nan") {
   const std::array<std::byte, 8> zero{};
   for (const fulmar_kind kind : {FULMAR_TEXT, FULMAR_STRUCT}) {
     CHECK(primitive_size(kind) == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Message text exactly; type hashes against those that ROS 2 publishes for its own interfaces.
+// Message text exactly; type hashes against the published ones of ROS 2 interfaces.
 #include <doctest/doctest.h>
 
 #include "core/types/test/types.hpp"
@@ -10,7 +10,7 @@ namespace ros_test {
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
-TEST_CASE("a type of ours is in the package fulmar_msgs, a foreign one keeps its name") {
+TEST_CASE("a Fulmar type is in the package fulmar_msgs, a foreign one keeps its name") {
   CHECK(ros_name(*mixed_type()) == "fulmar_msgs/msg/Mixed");
   CHECK(ros_name(*make_type("Imu", 8, 8, {}, "", "sensor_msgs/msg/Imu")) == "sensor_msgs/msg/Imu");
   CHECK(ros_name(*make_type("Imu", 8, 8, {}, "", "sensor_msgs/Imu")) == "sensor_msgs/msg/Imu");
@@ -42,7 +42,7 @@ TEST_CASE("the message text names every field with its unit and frame, and neste
   CHECK(ros_definition(*mixed_type()) == definition);
 }
 
-TEST_CASE("constants of several enums in one message carry the name of their field") {
+TEST_CASE("constants of several enums in one message have the name of their field") {
   const TypePtr type =
       make_type("T", 2, 1, {label("roll_law", {"none", "hold"}, 0), label("pitch_law", {"none"}, 1)});
   CHECK(ros_message_text(*type) ==
@@ -72,7 +72,7 @@ TypePtr quaternion() {
 
 }  // namespace
 
-TEST_CASE("type hashes are those that ROS 2 has published for its own messages") {
+TEST_CASE("type hashes equal those that ROS 2 has published for its own messages") {
   CHECK(ros_type_hash(*ros_type("std_msgs/msg/String", {text("data")})) ==
         "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18");
   CHECK(ros_type_hash(*vector3()) ==

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Type tables written by hand: the tap knows no message of the SDK.
+// Type tables written by hand: the tap does not depend on messages of the SDK.
 #pragma once
 #include <array>
 #include <cstddef>

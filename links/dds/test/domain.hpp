@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A DDS domain that no other test of this computer uses, for as long as the process lives.
+// Reserves a DDS domain that no other test on this computer uses, for the life of the process.
 #pragma once
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -9,9 +9,9 @@
 
 namespace fulmar::core::test {
 
-/// Two tests in one domain answer each other's services and fill each other's queues. The lock is a TCP port
-/// among those of the domain (RTPS 2.5, 9.6.2.3: 7400 + 250 domain) that no participant takes; domains above
-/// 100 have theirs among those that the kernel hands out to anybody.
+/// Two tests in one domain would answer each other's services and fill each other's queues. The lock is a TCP
+/// port among those of the domain (RTPS 2.5, 9.6.2.3: 7400 + 250 domain) that no participant takes. Domains
+/// above 100 have theirs in the ephemeral range of the kernel.
 inline int own_domain() {
   static const int domain = [] {
     constexpr int domains = 100;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight that only remembers what comes in. Answers come from a thread of its own, as those of a real one
-// do.
+// A flight that only stores its input. Answers come from a separate thread, as in a real flight.
 #pragma once
 #include <chrono>
 #include <condition_variable>

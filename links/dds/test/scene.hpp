@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bridge in a domain of its own, the flight that it is at, and programs that speak to it as ROS 2 does.
+// A bridge in a separate domain, its flight, and programs that use it like ROS 2.
 #pragma once
 #include <unistd.h>
 
@@ -24,11 +24,10 @@
 namespace fulmar::core::test {
 
 inline const std::string bin = FULMAR_BIN_DIR;
-inline const std::string limit =
-    "timeout 300 ";  // a peer that hangs is a failure, not the end of the whole check
+inline const std::string limit = "timeout 300 ";  // a peer that hangs fails the test and not the whole check
 inline const std::string mixed_dds = "fulmar_msgs::msg::dds_::Mixed_";
 
-/// Output of a program that runs beside the test.
+/// Output of a program that runs in parallel with the test.
 class Program {
  public:
   explicit Program(const std::string& command)

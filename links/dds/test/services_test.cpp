@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ROS 2 asks the bridge's node: services, parameters, who is there; and the sockets that it has for it.
+// Requests of ROS 2 to the bridge's node: services, parameters, the graph; and the sockets of the bridge.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -17,7 +17,7 @@ using namespace fulmar::core::test;
 
 namespace {
 
-/// Addresses that the UDP sockets of this process are bound to, as the kernel prints them.
+/// Addresses of this process's UDP sockets, in the form of the kernel.
 std::set<std::string> udp_addresses() {
   std::set<std::string> inodes, addresses;
   for (const auto& fd : std::filesystem::directory_iterator("/proc/self/fd")) {
@@ -41,7 +41,7 @@ std::set<std::string> udp_addresses() {
   }
   return addresses;
 }
-/// Members of the group that DDS discovers with, 239.255.0.1, on this computer.
+/// Members on this computer of the DDS discovery group, 239.255.0.1.
 int multicast_members() {
   std::ifstream table("/proc/net/igmp");
   std::string word;
@@ -75,13 +75,13 @@ TEST_CASE(
                     sizeof leg.position_m) == 0);
   scene.control.refuse_requests("no");
   CHECK(call() == "00000000030000006e6f0000\n");
-  bytes[4] = std::byte{7};                              // a label that is not there
+  bytes[4] = std::byte{7};                              // an invalid label
   CHECK(call().find("6b696e64") != std::string::npos);  // "kind ..."
   CHECK(scene.control.requested().size() == 2);
   CHECK(scene.bridge->stats().requests == 3);
 }
 
-TEST_CASE("the text of a service has the request's fields, and what comes back") {
+TEST_CASE("the text of a service has the request's fields and the response's") {
   CHECK(srv_text(*leg_type()) == ros_message_text(*leg_type()) + "---\nbool accepted\nstring reason\n");
   CHECK(srv_name(*leg_type()) == "fulmar_msgs/srv/Leg");
   CHECK(srv_name(*make_type("Add", 1, 1, {}, "", "rosplane_msgs/srv/AddWaypoint_Request")) ==
@@ -89,7 +89,7 @@ TEST_CASE("the text of a service has the request's fields, and what comes back")
   CHECK(ros_name(*srv_response(*leg_type())) == "fulmar_msgs/srv/Leg_Response");
 }
 
-TEST_CASE("parameters are those of one ROS 2 node: listed, read, described, set, refused with the reason") {
+TEST_CASE("parameters belong to one ROS 2 node: listed, read, described, set, rejected with the reason") {
   Scene scene;
   scene.open();
   auto param = [&](const std::string& arguments) {
@@ -114,7 +114,7 @@ TEST_CASE("parameters are those of one ROS 2 node: listed, read, described, set,
   CHECK(param("set_many slc.roll_kp 1 slc.law 0") == "refused: dds.several_parameters\n");
 }
 
-TEST_CASE("a change of a parameter is told on /parameter_events") {
+TEST_CASE("a change of a parameter is published on /parameter_events") {
   Scene scene;
   scene.open();
   Program events(peer("read", "rt/parameter_events rcl_interfaces::msg::dds_::ParameterEvent_ 1"));
@@ -157,7 +157,7 @@ TEST_CASE("the node is described for ROS 2 tools, its ids 16 bytes long, 24 for 
   CHECK(sizes[true] == sizes[false] + 5 * 8);
 }
 
-TEST_CASE("every socket of the bridge is bound to the loopback address, and nobody joins a multicast group") {
+TEST_CASE("every socket of the bridge is bound to the loopback address, and none joins a multicast group") {
   const std::set<std::string> before = udp_addresses();
   const int members = multicast_members();
   Scene scene;
@@ -172,9 +172,9 @@ TEST_CASE("every socket of the bridge is bound to the loopback address, and nobo
   CHECK(reader.finish() == 0);
 }
 
-TEST_CASE("an address that is none, or not this computer's, and a domain that does not exist are refused") {
+TEST_CASE("an invalid address, a foreign address, and a domain that does not exist are rejected") {
   Scene scene;
-  scene.options.interfaces = {"192.0.2.1"};  // of RFC 5737: nobody's
+  scene.options.interfaces = {"192.0.2.1"};  // of RFC 5737: for documentation
   scene.options.interfaces_where = {"m.yaml", 4};
   CHECK_THROWS_WITH_AS(
       scene.open(), doctest::Contains("dds.interface_unknown(m.yaml:4: , 192.0.2.1, 127.0.0.1, 192.0.2.2)"),

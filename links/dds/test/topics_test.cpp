@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Topics of the bridge, against other programs: one that speaks as rmw_fastrtps does, and one of another
-// vendor's DDS. Processes find each other by unicast on the loopback address, each test in a domain of its
-// own.
+// Topics of the bridge, against other programs: one that behaves like rmw_fastrtps, and one with another
+// vendor's DDS. Processes find each other by unicast on the loopback address, each test in a separate domain.
 #include <doctest/doctest.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
@@ -36,7 +35,7 @@ TEST_CASE("another vendor's DDS reads an exported port, each value exact" * doct
   Scene scene;
   scene.open();
   scene.fly(std::chrono::milliseconds(
-      10));  // the writer keeps 10: a reader that a busy machine holds up for 100 ms still gets all
+      10));  // the writer keeps 10: a reader that a busy machine delays by 100 ms still gets all
   Program reader(cyclone("read", "rt/nav/state 60"));
   std::istringstream lines(reader.rest());
   CHECK(reader.finish() == 0);
@@ -48,7 +47,7 @@ TEST_CASE("another vendor's DDS reads an exported port, each value exact" * doct
     CHECK(speed >= 1000);
     CAPTURE(n);
     if (n >= 20)
-      CHECK(speed == previous + 1);  // before, the two are still finding each other, and the writer keeps 10
+      CHECK(speed == previous + 1);  // before that, discovery is not complete, and the writer keeps 10
     previous = speed;
     char expected[512];
     std::snprintf(expected, sizeof expected,
@@ -65,10 +64,10 @@ TEST_CASE("an export with a period is thinned by flight time, under the vehicle'
   Scene scene;
   scene.options.name_space = "uav1";
   scene.options.exports[0].period_ns = 20'000'000;
-  scene.options.exports[0].topic = "nav/state";  // with a '/' before it it would stand as it is
+  scene.options.exports[0].topic = "nav/state";  // with a leading '/' it would be absolute
   scene.open();
   Tap::Cursor other(scene.tap);
-  other.want(0, 0);  // somebody else wants every sample
+  other.want(0, 0);  // another sink requests every sample
   scene.fly();
   Program reader(peer("read", "rt/uav1/nav/state " + mixed_dds + " 5"));
   std::istringstream lines(reader.rest());
@@ -102,7 +101,7 @@ TEST_CASE(
   Program late(peer("read", "rt/nav/state " + mixed_dds + " 1 transient"));
   CHECK(late.rest() == hex(cdr(m)) + "\n");
   CHECK(late.finish() == 0);
-  CHECK(scene.bridge->stats().sent == 0);  // nobody was there when they were written
+  CHECK(scene.bridge->stats().sent == 0);  // there was no reader when they were written
   if (has_cyclone()) {
     Program other(cyclone("read_late", "rt/nav/state 1"));
     CHECK(other.rest().rfind("1 3 7 ", 0) == 0);
@@ -125,7 +124,7 @@ TEST_CASE(
   CHECK(fresh.size() == 2 * cdr(m).size() + 1);
 }
 
-TEST_CASE("an export of a port that is not there is refused, with the choices") {
+TEST_CASE("an export of an unknown port is rejected, with the choices") {
   Scene scene;
   scene.options.exports[0].port = "nav.stat";
   scene.options.exports[0].where = {"m.yaml", 7};
@@ -207,7 +206,7 @@ TEST_CASE("2000 samples with random bytes in them do no harm") {
   CHECK(scene.bridge->stats().refused > 0);
 }
 
-TEST_CASE("a writer with best effort reaches an imported port, and a reliable one beside it is heard once") {
+TEST_CASE("a best-effort writer reaches an imported port, and a sample of a reliable one arrives once") {
   Scene scene;
   scene.open();
   const std::string good = hex(cdr(mixed_value()));
@@ -223,7 +222,7 @@ TEST_CASE("a writer with best effort reaches an imported port, and a reliable on
   CHECK(scene.published() == before + 20);
 }
 
-TEST_CASE("a flood of 20000 samples per second is cut, counted, and the loop's ring goes on") {
+TEST_CASE("a flood of 20000 samples per second is cut, counted, and the loop's ring continues") {
   Scene scene;
   scene.open();
   scene.fly();
@@ -243,7 +242,7 @@ TEST_CASE("a flood of 20000 samples per second is cut, counted, and the loop's r
   CHECK(stats.refused == 0);
 }
 
-TEST_CASE("what does not meet by the rules of DDS is told once, in a sentence") {
+TEST_CASE("endpoints that do not match by the rules of DDS are reported once, in a sentence") {
   std::ostringstream said;
   const auto usual = spdlog::default_logger();
   spdlog::set_default_logger(

@@ -44,7 +44,7 @@ TEST_CASE_FIXTURE(Fixture,
   CHECK(control.heard().empty());
 }
 
-TEST_CASE_FIXTURE(Fixture, "requests that do not hold what they should are answered, and reach nobody") {
+TEST_CASE_FIXTURE(Fixture, "invalid requests are answered, and do not reach the flight") {
   for (const char* payload : {"{", "[]", "5", "nonsense"})
     CHECK(call_json("/plan/add_leg", payload)["reason"] == "live.request_not_object");
   CHECK(call_json("/plan/add_leg", std::string(100'000, '['))["reason"] == "live.request_too_deep");
@@ -60,7 +60,7 @@ TEST_CASE_FIXTURE(Fixture, "requests that do not hold what they should are answe
   CHECK(control.heard().empty());
 }
 
-TEST_CASE_FIXTURE(Fixture, "the host's own services") {
+TEST_CASE_FIXTURE(Fixture, "the services of the host") {
   CHECK(call_json("/fulmar/set_parameter",
                   R"({"component": "slc", "name": "roll_kp", "text": "0.8"})")["accepted"] == true);
   CHECK(call_json("/fulmar/set_parameter",
@@ -113,7 +113,7 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services") {
   CHECK(view["components"][1]["inputs"][1]["imported"] == true);
 }
 
-TEST_CASE_FIXTURE(Fixture, "the host's own services are called in CDR, too") {
+TEST_CASE_FIXTURE(Fixture, "the services of the host are called in CDR, too") {
   const auto text = [](const std::string& s) {  // padded to 4
     std::string out = le(static_cast<std::uint32_t>(s.size() + 1)) + s + std::string(1, '\0');
     return out + std::string((4 - out.size() % 4) % 4, '\0');
@@ -135,7 +135,7 @@ TEST_CASE_FIXTURE(Fixture, "the host's own services are called in CDR, too") {
   CHECK(control.heard().size() == 1);
 }
 
-TEST_CASE_FIXTURE(Fixture, "calls of services that are not there fail") {
+TEST_CASE_FIXTURE(Fixture, "calls of unknown services fail") {
   hub.binary(id, "\2" + le(99) + le(5) + le(4) + "json{}");
   CHECK(*peer.last("serviceCallFailure") == json({{"op", "serviceCallFailure"},
                                                   {"serviceId", 99},
@@ -175,7 +175,7 @@ TEST_CASE_FIXTURE(Fixture, "a client publishes into an imported input, in CDR an
   CHECK(control.heard().size() == 2);
 }
 
-TEST_CASE_FIXTURE(Fixture, "only what the mission imports can be published on") {
+TEST_CASE_FIXTURE(Fixture, "only imports of the mission accept client samples") {
   const auto refusal = [&](const char* topic, const char* encoding, const char* schema) {
     say({{"op", "advertise"},
          {"channels", {{{"id", 1}, {"topic", topic}, {"encoding", encoding}, {"schemaName", schema}}}}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a client sends is noise: nothing crashes, and it costs little.
+// Random input from a client: nothing crashes, and its cost is bounded.
 #include <doctest/doctest.h>
 #include <unistd.h>
 

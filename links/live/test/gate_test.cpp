@@ -23,7 +23,7 @@ unsigned status(const LiveOptions& options, const Caller& caller) { return admit
 
 }  // namespace
 
-TEST_CASE("names that this computer has for itself are answered, others are not") {
+TEST_CASE("names of this computer are answered, others are not") {
   const LiveOptions options = listening("127.0.0.1");
   for (const char* host : {"localhost", "LocalHost:8765", "127.0.0.1:8765", "[::1]:8765", "localhost:9999"})
     CHECK(status(options, {"/", host, "", ""}) == 200);
@@ -35,7 +35,7 @@ TEST_CASE("names that this computer has for itself are answered, others are not"
     CHECK(status(options, {"/", host, "", ""}) == 400);
 }
 
-TEST_CASE("pages of other sites may not speak to a flight") {
+TEST_CASE("pages of other sites are rejected") {
   const LiveOptions options = listening("127.0.0.1");
   for (const char* origin :
        {"http://localhost:8765", "http://127.0.0.1:3000", "https://localhost", "http://[::1]:1"})
@@ -46,7 +46,7 @@ TEST_CASE("pages of other sites may not speak to a flight") {
     CHECK(status(options, {"/", "localhost:8765", origin, ""}) == 403);
 }
 
-TEST_CASE("with a token only who shows it gets in, under whatever name") {
+TEST_CASE("with a token only a request that has it is accepted, under every host name") {
   const LiveOptions options = listening("0.0.0.0", "a b&c");
   CHECK(status(options, {"/", "plane.example:8765", "https://app.example", ""}) == 401);
   CHECK(status(options, {"/?token=a%20b%26c", "plane.example:8765", "https://app.example", ""}) == 200);
@@ -58,7 +58,7 @@ TEST_CASE("with a token only who shows it gets in, under whatever name") {
   CHECK(status(options, {"/?token=%", "localhost", "", "bearer "}) == 401);
 }
 
-TEST_CASE("who guesses tokens has ten at once and one per second, and keeps nobody else from his") {
+TEST_CASE("a guesser of tokens has ten at once and one per second, and other addresses are not affected") {
   Guesses guesses;
   auto now = Guesses::Clock::time_point{} + std::chrono::hours(1);
   int looked_at = 0;
@@ -80,7 +80,7 @@ TEST_CASE("who guesses tokens has ten at once and one per second, and keeps nobo
   CHECK(guesser("::ffff:192.0.2.1") != guesser("::ffff:192.0.2.2"));
 }
 
-TEST_CASE("secrets are the same only when every character is") {
+TEST_CASE("secrets are equal only when every character is") {
   CHECK(same_secret("abc", "abc"));
   CHECK_FALSE(same_secret("abcabc", "abc"));
   CHECK_FALSE(same_secret("ab", "abc"));
@@ -95,7 +95,7 @@ TEST_CASE("a path ends where its query begins") {
   CHECK(path_of("?x").empty());
 }
 
-TEST_CASE("who sends more than the bucket holds waits until it has run dry by as much") {
+TEST_CASE("a client that sends more than the bucket holds waits until it has refilled") {
   const Bucket::Clock::time_point t0{};
   Bucket bucket(100, 5, t0);
   for (int i = 0; i < 5; ++i) CHECK(bucket.take(1, t0).count() == 0);

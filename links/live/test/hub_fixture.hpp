@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hub with a client that writes down what it gets.
+// A hub with a client that stores its messages.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -87,7 +87,7 @@ struct Fixture {
   ~Fixture() { hub.close(); }
 
   void say(const json& message) { hub.text(id, message.dump()); }
-  /// Turns until something is so; the mock answers from a thread.
+  /// Runs turns until a condition holds; the mock answers from a thread.
   template <class So>
   bool until(const So& so) {
     for (int i = 0; i < 5000 && !so(); ++i) {
@@ -107,7 +107,7 @@ struct Fixture {
     hub.binary(id, "\2" + le(service(name)) + le(call_id) + le(static_cast<std::uint32_t>(encoding.size())) +
                        encoding + payload);
   }
-  /// The answer to this call; those to calls made before may still come in between.
+  /// The answer to this call; answers to earlier calls may still come first.
   json call_json(const std::string& name, const std::string& payload) {
     const std::uint32_t asked = service(name);
     std::size_t next = peer.binaries.size();

@@ -14,7 +14,7 @@ using namespace fulmar::core::live::test;
 
 namespace {
 
-/// A hub without a client; /slc/leg may stay silent.
+/// A hub without a client; /slc/leg need not publish in every step.
 struct SilentPort {
   Tap tap{channels()};
   MockControl control;
@@ -33,7 +33,7 @@ struct SilentPort {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(Fixture, "a client is told who serves, which channels there are and which services") {
+TEST_CASE_FIXTURE(Fixture, "a client gets the server's info, the channels and the services") {
   REQUIRE(peer.texts.size() == 3);
   const json& info = peer.texts[0];
   CHECK(info["op"] == "serverInfo");
@@ -79,16 +79,16 @@ TEST_CASE_FIXTURE(
   CHECK(counters.sent == 100);
 
   say({{"op", "unsubscribe"}, {"subscriptionIds", {77}}});
-  CHECK(tap.wanted(1, 1'000'000'000'000));  // now and then, for who comes later
+  CHECK(tap.wanted(1, 1'000'000'000'000));  // at a low rate, for later clients
   CHECK_FALSE(tap.wanted(1, 1'000'099'000'000));
   CHECK(counters.refused == 0);
 }
 
-TEST_CASE_FIXTURE(Fixture, "the loop is asked for a channel as long as somebody subscribes to it") {
+TEST_CASE_FIXTURE(Fixture, "the loop writes a channel for the live view while a client subscribes to it") {
   CHECK(tap.wanted(0, 0));
-  CHECK_FALSE(tap.wanted(0, 99'000'000));  // ten a second, for who subscribes later
+  CHECK_FALSE(tap.wanted(0, 99'000'000));  // ten per second, for later subscribers
   CHECK(tap.wanted(0, 100'000'000));
-  CHECK(tap.wanted(3, 0));  // time, as long as there are clients
+  CHECK(tap.wanted(3, 0));  // the clock, while there are clients
   TestPeer other;
   const Hub::ClientId second = hub.add(other);
   const std::string text =
@@ -113,7 +113,7 @@ TEST_CASE_FIXTURE(
     tap.write(1, now_ns, now_ns, bytes_of(leg), false);
   };
   publish(2'500'000, 0.25);
-  publish(5'000'000, 0.5);  // before there is any client
+  publish(5'000'000, 0.5);  // before the first client
   const auto subscriber = [&](TestPeer& peer) {
     const Hub::ClientId id = hub.add(peer);
     hub.text(
@@ -179,7 +179,7 @@ TEST_CASE(
       R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 2}, {"id": 8, "channelId": 1}]})";
   TestPeer early, peer;
   hub.text(hub.add(early), subscribe);
-  CHECK(early.binaries.empty());  // the next one comes soon
+  CHECK(early.binaries.empty());  // the next sample comes soon
   control.paused = true;
   hub.text(hub.add(peer), subscribe);
   REQUIRE(peer.binaries.size() == 1);
@@ -197,7 +197,7 @@ TEST_CASE_FIXTURE(Fixture,
   Tap::Cursor log(tap);
   log.want(0, 500'000'000);
   mock_tick(tap, 0);
-  mock_tick(tap, 200);  // one of many that the log wants
+  mock_tick(tap, 200);  // one of many for the log
   hub.text(id, R"({"op": "subscribe", "subscriptions": [{"id": 7, "channelId": 1}]})");
   for (int i = 201; i < 220; ++i) mock_tick(tap, i);
   hub.tick();
@@ -209,7 +209,7 @@ TEST_CASE_FIXTURE(Fixture,
   for (std::size_t k = 0; k < ticks.size(); ++k) CHECK(ticks[k] == 201 + k);
 }
 
-TEST_CASE("who subscribes late gets as many of the last samples as a channel keeps, in their order") {
+TEST_CASE("a late subscriber gets as many of the last samples as a channel keeps, in their order") {
   std::vector<TapChannel> channels = mock_channels();
   channels[1].past = 3;
   Tap tap(channels);
@@ -217,7 +217,7 @@ TEST_CASE("who subscribes late gets as many of the last samples as a channel kee
   Counters counters;
   Hub hub(tap, control, counters);
   hub.begin([] {});
-  for (int i = 0; i < 1000; ++i) {  // however fast they come
+  for (int i = 0; i < 1000; ++i) {  // at any rate
     REQUIRE(tap.wanted(1, i * 1'000'000LL));
     const Leg leg{1, true, i * 0.001, {1, 2, 3}};
     tap.write(1, i * 1'000'000LL, 0, bytes_of(leg), false);
@@ -234,7 +234,7 @@ TEST_CASE("who subscribes late gets as many of the last samples as a channel kee
   }
 }
 
-TEST_CASE_FIXTURE(Fixture, "a slow client goes without, is told so, and delays nobody") {
+TEST_CASE_FIXTURE(Fixture, "a slow client loses samples, is notified, and delays no other") {
   TestPeer quick;
   const Hub::ClientId second = hub.add(quick);
   const std::string text =
@@ -245,14 +245,14 @@ TEST_CASE_FIXTURE(Fixture, "a slow client goes without, is told so, and delays n
   for (int i = 0; i < 50; ++i) mock_tick(tap, i);
   hub.tick();
   CHECK(peer.binaries.size() == 10);
-  CHECK(quick.binaries.size() == 51);  // and the time
+  CHECK(quick.binaries.size() == 51);  // and the clock
   CHECK(counters.dropped == 40);
   CHECK(peer.last("status")->at("level") == 1);
   CHECK(peer.last_status() == "live.client_too_slow(40)");
   CHECK(quick.last("status") == nullptr);
 }
 
-TEST_CASE("a slow client gets each sample of what is published seldom, and goes without a burst") {
+TEST_CASE("a slow client gets each sample of a rare channel, and loses a burst") {
   std::vector<TapChannel> channels = mock_channels();
   channels[1].may_stay_silent = true;
   Tap tap(channels);
@@ -277,7 +277,7 @@ TEST_CASE("a slow client gets each sample of what is published seldom, and goes 
   CHECK(counters.sent == 120);
 }
 
-TEST_CASE_FIXTURE(Fixture, "subscriptions that contradict each other are refused one by one") {
+TEST_CASE_FIXTURE(Fixture, "contradictory subscriptions are rejected one by one") {
   say({{"op", "subscribe"},
        {"subscriptions",
         {{{"id", 1}, {"channelId", 1}},
@@ -294,7 +294,7 @@ TEST_CASE_FIXTURE(Fixture, "subscriptions that contradict each other are refused
   CHECK(peer.closed == 0);
 }
 
-TEST_CASE_FIXTURE(Fixture, "parameters are read as what they are") {
+TEST_CASE_FIXTURE(Fixture, "parameters are read with their types") {
   say({{"op", "getParameters"}, {"parameterNames", json::array()}, {"id", "a"}});
   const json& reply = *peer.last("parameterValues");
   CHECK(reply["id"] == "a");
@@ -329,7 +329,7 @@ TEST_CASE_FIXTURE(Fixture,
   CHECK(peer.last_status() == "live.parameter_overlaid(slc.law, cruise)");
 }
 
-TEST_CASE_FIXTURE(Fixture, "a parameter that cannot be set says why, and what it still is") {
+TEST_CASE_FIXTURE(Fixture, "a parameter that cannot be set reports the reason, and its present value") {
   say({{"op", "setParameters"},
        {"id", "s"},
        {"parameters",
@@ -348,10 +348,10 @@ TEST_CASE_FIXTURE(Fixture, "a parameter that cannot be set says why, and what it
   CHECK(std::any_of(said.begin(), said.end(), [](const std::string& t) {
     return t.find("scl.roll_kp: mock.component_unknown(scl,  [slc] slc, plan)") == 0;
   }));
-  CHECK(counters.refused == 0);  // the rules of the protocol were kept
+  CHECK(counters.refused == 0);  // no rule of the protocol was violated
 }
 
-TEST_CASE_FIXTURE(Fixture, "who watches a parameter is told when anybody sets it") {
+TEST_CASE_FIXTURE(Fixture, "a client that watches a parameter gets every change") {
   TestPeer watcher;
   const Hub::ClientId second = hub.add(watcher);
   hub.text(second,
@@ -362,7 +362,7 @@ TEST_CASE_FIXTURE(Fixture, "who watches a parameter is told when anybody sets it
   REQUIRE(until([&] { return watcher.last("parameterValues") != nullptr; }));
   CHECK(watcher.last("parameterValues")->at("parameters") ==
         json::parse(R"([{"name": "slc.roll_kp", "value": 0.25, "type": "float64"}])"));
-  CHECK(peer.last("parameterValues") == nullptr);  // it has not asked
+  CHECK(peer.last("parameterValues") == nullptr);  // it has not subscribed
   hub.text(second, R"({"op": "unsubscribeParameterUpdates", "parameterNames": []})");
   say({{"op", "setParameters"}, {"id", "x"}, {"parameters", {{{"name", "slc.roll_kp"}, {"value", 0.5}}}}});
   REQUIRE(until([&] { return peer.last("parameterValues") != nullptr; }));
@@ -382,7 +382,7 @@ TEST_CASE_FIXTURE(Fixture,
   CHECK(peer.last("parameterValues")->at("parameters").back()["value"] == 0.9999);
 }
 
-TEST_CASE_FIXTURE(Fixture, "of a message with many faults ten are told, and it takes no longer for that") {
+TEST_CASE_FIXTURE(Fixture, "of a message with many faults ten are reported, without a loss of time") {
   json names = json::array(), sets = json::array(), channels = json::array();
   for (int i = 0; i < 40'000; ++i) {
     const std::string name = "a_name_of_a_parameter_" + std::to_string(i);
@@ -411,7 +411,7 @@ TEST_CASE_FIXTURE(Fixture, "of a message with many faults ten are told, and it t
   CHECK(statuses({{"op", "getParameters"}, {"parameterNames", {"slc.roll_kb"}}}) == 1);
 }
 
-TEST_CASE_FIXTURE(Fixture, "the connection graph says who publishes, who reads and who serves") {
+TEST_CASE_FIXTURE(Fixture, "the connection graph shows publishers, subscribers and services") {
   say({{"op", "subscribeConnectionGraph"}});
   const json& graph = *peer.last("connectionGraphUpdate");
   CHECK(
@@ -474,7 +474,7 @@ TEST_CASE_FIXTURE(
   CHECK(control.heard().empty());
 }
 
-TEST_CASE_FIXTURE(Fixture, "answers for a client that has gone reach nobody") {
+TEST_CASE_FIXTURE(Fixture, "answers for a client that has left are dropped") {
   say({{"op", "setParameters"}, {"id", "s"}, {"parameters", {{{"name", "slc.roll_kp"}, {"value", 1}}}}});
   call("/plan/add_leg", "json", "{}");
   hub.remove(id);

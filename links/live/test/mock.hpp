@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight for tests: two components, a ring, a control that remembers what it was told and answers in a
-// thread of its own.
+// A flight for tests: two components, a ring, a control that stores its input and answers in a separate
+// thread.
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -21,8 +21,8 @@
 
 namespace fulmar::core::test {
 
-/// Parameters are texts of numbers between 0 and 2, but for slc.law (a choice), slc.note (a text) and
-/// slc.wind (a vector).
+/// Parameters are texts of numbers between 0 and 2, except slc.law (a choice), slc.note (a text) and slc.wind
+/// (a vector).
 class MockControl : public Control {
  public:
   MockControl() : thread_([this] { answer(); }) {}

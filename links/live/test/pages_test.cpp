@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page that a browser gets: which files of its folder, with what policy, to whom.
+// The page for a browser: its files, its policy, and the access to it.
 #include "links/live/pages.hpp"
 
 #include <unistd.h>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder of a page, gone with this.
+/// A folder of a page, removed at the end.
 struct Folder {
   fs::path path = fs::temp_directory_path() / ("fulmar-pages-" + std::to_string(::getpid()));
   Folder() {
@@ -67,7 +67,7 @@ TEST_CASE_FIXTURE(Paged, "a browser gets the page, its files by their names, and
   CHECK(get("/page.js", {}, http::verb::post).status == 405);
 }
 
-TEST_CASE_FIXTURE(Paged, "nothing but the files of the folder itself can be asked for") {
+TEST_CASE_FIXTURE(Paged, "only the files of the folder itself are served") {
   serve();
   for (const char* path : {"/notes.txt", "/page.js.gz", "/deeper/more.js", "/more.js", "/index.html",
                            "/../pages/page.js", "/%2e%2e/page.js", "//page.js", "/page.j"})
@@ -76,7 +76,7 @@ TEST_CASE_FIXTURE(Paged, "nothing but the files of the folder itself can be aske
   CHECK(get("/page.js").body == "let x;");
 }
 
-TEST_CASE_FIXTURE(Paged, "scripts are the page's own files alone, and no text becomes HTML") {
+TEST_CASE_FIXTURE(Paged, "only the page's own files are scripts, and no text becomes HTML") {
   serve();
   const std::string head = head_of("/");
   for (const char* rule :
@@ -89,7 +89,7 @@ TEST_CASE_FIXTURE(Paged, "scripts are the page's own files alone, and no text be
   CHECK(has(head_of("/page.js"), "script-src 'self'"));
 }
 
-TEST_CASE_FIXTURE(Paged, "images may come from where the mission's tiles are, and from nowhere else") {
+TEST_CASE_FIXTURE(Paged, "images may come from the origin of the mission's tiles, and from no other") {
   options.tiles = "https://tile.example.org:8443/a/{z}/{x}/{y}.png?k=1";
   serve();
   const std::string rule = "; img-src 'self' data: https://tile.example.org:8443; base-uri 'none'; ";
@@ -97,12 +97,13 @@ TEST_CASE_FIXTURE(Paged, "images may come from where the mission's tiles are, an
   CHECK(origin_of("") == "");
 }
 
-TEST_CASE_FIXTURE(Paged, "what is compressed goes to who takes it") {
+TEST_CASE_FIXTURE(Paged, "compressed files go to clients that accept them") {
   serve();
   const std::string small = head_of("/page.js", "Accept-Encoding: gzip, deflate, br\r\n");
   CHECK(has(small, "Content-Encoding: gzip\r\n"));
   CHECK(has(small, "Content-Length: 8"));
-  CHECK(has(head_of("/page.css", "Accept-Encoding: gzip\r\n"), "Content-Length: 3"));  // has none
+  CHECK(
+      has(head_of("/page.css", "Accept-Encoding: gzip\r\n"), "Content-Length: 3"));  // has no compressed form
   CHECK_FALSE(has(head_of("/page.js"), "Content-Encoding"));
   using fulmar::core::live::takes_gzip;
   CHECK(takes_gzip("deflate , gzip"));
@@ -121,17 +122,17 @@ TEST_CASE_FIXTURE(
   CHECK(get("/topics").status == 401);
   CHECK(get("/page.js").body == "let x;");
   CHECK(get("/page.js?token=abd").status == 401);
-  CHECK_THROWS(Client(*this, "foxglove.sdk.v1", "/page.js"));  // nobody joins the flight by it
+  CHECK_THROWS(Client(*this, "foxglove.sdk.v1", "/page.js"));  // it does not join the flight
   CHECK(Client(*this, "foxglove.sdk.v1", "/?token=abc").next("serverInfo")["op"] == "serverInfo");
 }
 
-TEST_CASE_FIXTURE(Paged, "names that lead here, and pages of other sites, do not get its files either") {
+TEST_CASE_FIXTURE(Paged, "foreign host names, and pages of other sites, do not get its files either") {
   serve();
   CHECK(get("/page.js", {{"Host", "evil.example"}}).status == 403);
   CHECK(get("/page.js", {{"Origin", "http://evil.example"}}).status == 403);
 }
 
-TEST_CASE("a folder without index.html, or that is not there, is no page") {
+TEST_CASE("a folder without index.html, or one that does not exist, is no page") {
   using fulmar::core::live::Pages;
   const Folder folder;
   CHECK(Pages(folder.path).find("/page.js") != nullptr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may have files written, and what a client is answered when the program that writes them fails.
+// Permission to write files, and the answer to a client when fulmar-save fails.
 #include "links/live/saving.hpp"
 
 #include <unistd.h>
@@ -20,7 +20,7 @@ using namespace fulmar::core::live::test;
 
 namespace {
 
-/// Stands in for fulmar-save, as a script, while this lives.
+/// Replaces fulmar-save by a script for its lifetime.
 struct Program {
   fs::path file = fs::temp_directory_path() / ("fulmar-save-" + std::to_string(::getpid()));
   FlightView view = MockControl().view();
@@ -41,7 +41,7 @@ struct Program {
 
 }  // namespace
 
-TEST_CASE("the program gets what flies in JSON, and a client its answer") {
+TEST_CASE("the program gets the current parameters in JSON, and a client its answer") {
   const Program program(
       "cat > \"$0.in\"; echo '{\"accepted\":true,\"reason\":\"r\",\"lines\":\"l\",\"mark\":\"m\"}'");
   const SaveAnswer answer = program.answer();
@@ -62,7 +62,7 @@ TEST_CASE("the program gets what flies in JSON, and a client its answer") {
   CHECK(params[0]["value"] == 0.55);
 }
 
-TEST_CASE("a program that fails is one sentence: it crashes, ends, answers something else, or nothing") {
+TEST_CASE("a fault of the program is one sentence: it crashes, ends, answers something else, or nothing") {
   const Program killed("kill -SEGV $$");
   CHECK(killed.answer().reason == "live.save_program_killed(" + killed.file.string() + ", 11)");
   const Program failed("exit 3");
@@ -82,24 +82,24 @@ TEST_CASE("a program that fails is one sentence: it crashes, ends, answers somet
   CHECK(gone.answer().reason == "loader.program_not_started(" + gone.file.string() + ", " + fault + ")");
 }
 
-TEST_CASE("answers where there is no such program" * doctest::skip()) {
+TEST_CASE("answers without such a program" * doctest::skip()) {
   FlightView view = MockControl().view();
   view.file = "/nowhere/m.yaml";
   CHECK(save(view, "", "").reason == "live.save_program_missing");
 }
 
-TEST_CASE("a host without fulmar-save beside it answers which program is missing, and how it is built") {
+TEST_CASE("a host without fulmar-save beside it reports the missing program and the way to build it") {
   const fs::path home = fs::path(FULMAR_BIN_DIR).parent_path() / ("alone-" + std::to_string(::getpid()));
   const fs::path self = home / "bin" / "live_test";
   fs::create_directories(self.parent_path());
   fs::create_hard_link(fs::canonical("/proc/self/exe"),
-                       self);  // programs are looked for beside the one that runs
+                       self);  // programs are searched beside the running one
   const std::string command = self.string() + " -ns -tc='answers where there is no such program' >/dev/null";
   CHECK(std::system(command.c_str()) == 0);
   fs::remove_all(home);
 }
 
-TEST_CASE("nothing is started where no file may be written, or none is known") {
+TEST_CASE("no program is started when files may not be written, or none exists") {
   Program program("echo started > \"$0.in\"");
   program.view.no_save = "graph.save_off";
   CHECK(program.answer().reason == "live.save_not_allowed(graph.save_off)");
@@ -109,7 +109,7 @@ TEST_CASE("nothing is started where no file may be written, or none is known") {
   CHECK_FALSE(fs::exists(program.file.string() + ".in"));
 }
 
-TEST_CASE_FIXTURE(Fixture, "the service answers from beside the hub, in JSON and in CDR") {
+TEST_CASE_FIXTURE(Fixture, "the service answers from another thread than the hub's, in JSON and in CDR") {
   const json refused = call_json("/fulmar/save", R"({"component": "slc", "mark": ""})");
   CHECK(refused["accepted"] == false);
   CHECK(refused["reason"] == "live.mission_file_missing");
@@ -124,7 +124,7 @@ TEST_CASE_FIXTURE(Fixture, "the service answers from beside the hub, in JSON and
   CHECK(answer[20] == 0);  // not accepted
   CHECK(answer.find("live.mission_file_missing") != std::string::npos);
   const std::size_t then = peer.binaries.size();
-  call("/fulmar/save", "cdr", "");  // what is no request is answered in the same form
+  call("/fulmar/save", "cdr", "");  // an invalid request is answered in the same form
   REQUIRE(until([&] { return peer.binaries.size() > then; }));
   CHECK(peer.binaries.back().ends_with(le(1) + std::string(4, '\0') + le(1) + std::string(1, '\0')));
 }

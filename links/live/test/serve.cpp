@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tap_live_server [TOKEN]: serves a mock flight at 400 Hz on a port that is free, prints the port, ends when
-// its input does. At the end it prints one JSON object: what the server counts.
+// tap_live_server [TOKEN]: serves a mock flight at 400 Hz on a free port, prints the port, ends with its
+// input. At the end it prints one JSON object: the counters of the server.
 #include <algorithm>
 #include <chrono>
 #include <iostream>

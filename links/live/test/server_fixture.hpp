@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A live view over real sockets, and clients that block.
+// A live view over real sockets, and blocking clients.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -78,12 +78,12 @@ struct Fixture {
     return {response.get().result_int(), response.get().body(), std::string(type.data(), type.size())};
   }
 
-  /// What the server says to bytes that are sent as they are, up to the end of the connection.
+  /// Sends raw bytes and returns the answer up to the end of the connection.
   std::string raw(const std::string& bytes) const {
     net::io_context io;
     net::ip::tcp::socket socket = connect(io);
     boost::system::error_code ec;
-    net::write(socket, net::buffer(bytes), ec);  // the server may have had enough before the end
+    net::write(socket, net::buffer(bytes), ec);  // the server may close before the end
     std::string answer;
     net::read(socket, net::dynamic_buffer(answer), ec);
     return answer;
@@ -96,7 +96,7 @@ struct Fixture {
   }
 };
 
-/// A client that blocks.
+/// A blocking client.
 struct Client {
   net::io_context io;
   websocket::stream<net::ip::tcp::socket> ws;
@@ -133,7 +133,7 @@ struct Client {
       if (parsed["op"] == op) return parsed;
     }
   }
-  /// Reads until the server closes: with which code.
+  /// Reads until the server closes; returns the close code.
   int closed() {
     boost::system::error_code ec;
     while (!ec) {

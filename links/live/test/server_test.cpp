@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Over real sockets: handshakes, limits, a client that does not read, raw frames that break the rules.
+// Over real sockets: handshakes, limits, a client that does not read, raw frames that violate the rules.
 #include "core/error.hpp"
 #include "core/types/wire.hpp"
 #include "links/live/test/server_fixture.hpp"
@@ -19,7 +19,7 @@ std::string handshake(const std::string& extra = "") {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(Fixture, "a port that is taken is refused with what to do") {
+TEST_CASE_FIXTURE(Fixture, "a port in use is reported with a remedy") {
   serve();
   LiveOptions same = options;
   same.port = server->port();
@@ -34,7 +34,7 @@ TEST_CASE_FIXTURE(Fixture, "a port that is taken is refused with what to do") {
   CHECK_THROWS_WITH_AS(LiveServer(tap, control, same), doctest::Contains("graph.live_token_missing(0.0.0.0)"),
                        Error);
   same = options;
-  same.host = "192.0.2.1";  // no host has it
+  same.host = "192.0.2.1";  // an address for documentation
   const std::string foreign = std::make_error_code(std::errc::address_not_available).message();
   same.token = "x";
   CHECK_THROWS_WITH_AS(LiveServer(tap, control, same),
@@ -42,7 +42,7 @@ TEST_CASE_FIXTURE(Fixture, "a port that is taken is refused with what to do") {
                        Error);
 }
 
-TEST_CASE_FIXTURE(Fixture, "a browser gets a page that asks for nothing else") {
+TEST_CASE_FIXTURE(Fixture, "a browser gets a page that loads nothing else") {
   serve();
   const Answer page = get("/");
   CHECK(page.status == 200);
@@ -55,7 +55,7 @@ TEST_CASE_FIXTURE(Fixture, "a browser gets a page that asks for nothing else") {
   CHECK(server->stats().refused == 0);
 }
 
-TEST_CASE_FIXTURE(Fixture, "requests against the rules are refused and counted") {
+TEST_CASE_FIXTURE(Fixture, "requests against the rules are rejected and counted") {
   serve();
   CHECK(get("/etc/passwd").status == 404);
   CHECK(get("/", {}, http::verb::post).status == 405);
@@ -71,7 +71,7 @@ TEST_CASE_FIXTURE(Fixture, "requests against the rules are refused and counted")
   CHECK(get("/").status == 200);
 }
 
-TEST_CASE_FIXTURE(Fixture, "with a token the page and the protocol are for who shows it") {
+TEST_CASE_FIXTURE(Fixture, "with a token the page and the protocol are for clients that have it") {
   serve("abc", "0.0.0.0");
   CHECK(get("/").status == 401);
   CHECK(get("/?token=abd").status == 401);
@@ -83,7 +83,7 @@ TEST_CASE_FIXTURE(Fixture, "with a token the page and the protocol are for who s
             .size() == 4);
 }
 
-TEST_CASE_FIXTURE(Fixture, "who guesses tokens is held up, and counted") {
+TEST_CASE_FIXTURE(Fixture, "a guesser of tokens is delayed, and counted") {
   serve("abc", "0.0.0.0");
   for (int i = 0; i < 30; ++i) get("/?token=" + std::to_string(i));
   CHECK(get("/?token=abc").status == 429);
@@ -92,16 +92,16 @@ TEST_CASE_FIXTURE(Fixture, "who guesses tokens is held up, and counted") {
   CHECK(until([&] { return get("/?token=abc").status == 200; }));
 }
 
-TEST_CASE_FIXTURE(Fixture, "connections that say nothing keep nobody out") {
+TEST_CASE_FIXTURE(Fixture, "idle connections do not block a client") {
   serve();
   net::io_context io;
   std::vector<net::ip::tcp::socket> idle;
   for (int i = 0; i < 200; ++i) idle.push_back(connect(io));
-  CHECK(get("/").status == 200);  // within the five seconds that each of those has
+  CHECK(get("/").status == 200);  // within their time-out of five seconds
   CHECK(Client(*this).next("serverInfo")["name"] == "Fulmar: mock <1>");
 }
 
-TEST_CASE_FIXTURE(Fixture, "both names of the protocol are spoken, others are refused") {
+TEST_CASE_FIXTURE(Fixture, "both names of the protocol are accepted, others are rejected") {
   serve();
   CHECK(Client(*this, "foxglove.sdk.v1").protocol == "foxglove.sdk.v1");
   CHECK(Client(*this, "foxglove.websocket.v1").protocol == "foxglove.websocket.v1");
@@ -112,11 +112,11 @@ TEST_CASE_FIXTURE(Fixture, "both names of the protocol are spoken, others are re
   CHECK(server->stats().refused == 3);
 }
 
-TEST_CASE_FIXTURE(Fixture, "two clients get every sample of what they subscribe to") {
+TEST_CASE_FIXTURE(Fixture, "two clients get every sample of their subscriptions") {
   serve();
   Client a(*this), b(*this);
   for (Client* c : {&a, &b}) c->say(R"({"op": "subscribe", "subscriptions": [{"id": 3, "channelId": 2}]})");
-  const auto subscribed = [&](Client& c) {  // an answer to what comes after it
+  const auto subscribed = [&](Client& c) {  // the answer to a later message
     c.say(R"({"op": "getParameters", "parameterNames": ["slc.on"]})");
     c.next("parameterValues");
   };
@@ -166,7 +166,7 @@ TEST_CASE(
   CHECK(message.substr(13) == std::string(reinterpret_cast<const char*>(expected.data()), expected.size()));
 }
 
-TEST_CASE_FIXTURE(Fixture, "a client that does not read loses samples and takes none from the others") {
+TEST_CASE_FIXTURE(Fixture, "a client that does not read loses samples and does not affect the others") {
   serve();
   Client stuck(*this), quick(*this);
   for (Client* c : {&stuck, &quick}) {
@@ -176,7 +176,7 @@ TEST_CASE_FIXTURE(Fixture, "a client that does not read loses samples and takes 
   }
   std::uint64_t got = 0;
   int tick = 0;
-  while (server->stats().dropped == 0 && tick < 1'000'000) {  // some MB: the queue and what the kernel holds
+  while (server->stats().dropped == 0 && tick < 1'000'000) {  // some MB: the queue and the kernel's buffer
     for (const int end = tick + 200; tick < end; ++tick) mock_tick(tap, tick);
     while (got < static_cast<std::uint64_t>(tick)) {
       const std::string message = quick.next();
@@ -185,12 +185,12 @@ TEST_CASE_FIXTURE(Fixture, "a client that does not read loses samples and takes 
   }
   CHECK(server->stats().dropped > 0);
   CHECK(got == static_cast<std::uint64_t>(tick));
-  const json reported = stuck.next("status");  // it reads at last
+  const json reported = stuck.next("status");  // now it reads
   CHECK(reported["level"] == 1);
   CHECK(reported["message"].get<std::string>().find("live.client_too_slow(") != std::string::npos);
 }
 
-TEST_CASE_FIXTURE(Fixture, "messages against the protocol close the connection with the code for it") {
+TEST_CASE_FIXTURE(Fixture, "messages that violate the protocol close the connection with their code") {
   serve();
   const auto code = [&](const std::string& text, bool binary) {
     Client client(*this);
@@ -204,7 +204,7 @@ TEST_CASE_FIXTURE(Fixture, "messages against the protocol close the connection w
   CHECK(until([&] { return server->stats().refused == 3 && server->stats().clients == 0; }));
 }
 
-TEST_CASE_FIXTURE(Fixture, "frames that break the rules end the connection and are counted") {
+TEST_CASE_FIXTURE(Fixture, "frames that violate the rules end the connection and are counted") {
   serve();
   const std::string mask("\1\2\3\4", 4);
   const std::vector<std::string> frames = {
@@ -231,7 +231,7 @@ TEST_CASE_FIXTURE(Fixture, "frames that break the rules end the connection and a
   CHECK(until([&] { return server->stats().refused == frames.size() && server->stats().clients == 0; }));
 }
 
-TEST_CASE_FIXTURE(Fixture, "the seventeenth client is sent away, and has its place when another goes") {
+TEST_CASE_FIXTURE(Fixture, "the seventeenth client is rejected, and accepted when another one leaves") {
   serve();
   std::vector<std::unique_ptr<Client>> clients;
   for (int i = 0; i < 16; ++i) clients.push_back(std::make_unique<Client>(*this));
@@ -242,7 +242,7 @@ TEST_CASE_FIXTURE(Fixture, "the seventeenth client is sent away, and has its pla
   CHECK(Client(*this).next("serverInfo")["op"] == "serverInfo");
 }
 
-TEST_CASE_FIXTURE(Fixture, "thousands of sets one by one are all answered") {
+TEST_CASE_FIXTURE(Fixture, "thousands of single sets are all answered") {
   serve();
   Client script(*this);
   for (int i = 0; i < 5000; ++i)
@@ -254,7 +254,7 @@ TEST_CASE_FIXTURE(Fixture, "thousands of sets one by one are all answered") {
   CHECK(script.next("parameterValues")["parameters"][0]["value"] == 0.4999);
 }
 
-TEST_CASE_FIXTURE(Fixture, "clients are told when the flight ends") {
+TEST_CASE_FIXTURE(Fixture, "clients are notified at the end of the flight") {
   serve();
   Client client(*this);
   client.next("advertiseServices");
@@ -272,11 +272,11 @@ TEST_CASE_FIXTURE(Fixture, "clients are told when the flight ends") {
     data += !client.ws.got_text() && *static_cast<const char*>(buffer.data().data()) == 1;
   }
   end.join();
-  CHECK(data == 100);  // what was on its way comes first
+  CHECK(data == 100);  // pending data comes first
   CHECK(client.ws.reason().code == 1001);
 }
 
-TEST_CASE_FIXTURE(Fixture, "a server with a stuck client and half a handshake ends all the same") {
+TEST_CASE_FIXTURE(Fixture, "a server with a stuck client and an incomplete handshake still ends") {
   serve();
   Client stuck(*this);
   net::io_context io;

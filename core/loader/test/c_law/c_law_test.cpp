@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The law in C: its numbers by hand, and a flight to the end of its mission.
+// The law in C: its numbers computed by hand, and a flight to the end of its mission.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -38,7 +38,7 @@ std::string output_of(const std::string& command) {
 
 }  // namespace
 
-TEST_CASE("the law in C computes what its equations say") {
+TEST_CASE("the law in C computes the result of its equations") {
   const auto library = Library::open(C_LAW_FOLDER "/c_law.so");
   const ComponentInfo& info = library->info().components.at(0);
   const fulmar_component& law = library->functions(0);
@@ -80,5 +80,5 @@ TEST_CASE("the mission of the law in C is flown to its end, and no guard fires")
   double cruised = 0;
   for (const auto& phase : result["phases"])
     if (phase["name"] == "cruise") cruised = phase["to_s"].get<double>() - phase["from_s"].get<double>();
-  CHECK(cruised > 30);  // it was this law that flew
+  CHECK(cruised > 30);  // this law was active
 }

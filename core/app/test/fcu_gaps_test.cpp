@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped autopilot through a flight controller's port whose link falls silent in a turn, or whose
-// receiver loses its fix, in virtual time: some of what bench_link_gaps flies.
+// The shipped autopilot through a flight controller's port whose link is interrupted in a turn, or whose
+// receiver loses its fix, in virtual time: some cases of bench_link_gaps.
 #include <doctest/doctest.h>
 
 #include "core/app/test/unlogged.hpp"
@@ -23,7 +23,7 @@ void check(const Gap& gap, const fs::path& folder) {
   CAPTURE(gap.height_m);
   const AfterGap a = fly(gap, folder, test::unlogged());
   CHECK(missed(gap, a) == "");
-  CHECK(a.reported_blind == (gap.length_s > 0.3));  // the estimator carries on for so long
+  CHECK(a.reported_blind == (gap.length_s > 0.3));  // the estimator bridges this time
 }
 
 TEST_CASE(
@@ -44,7 +44,8 @@ TEST_CASE(
   if (quick()) check({3, false, 30, 2}, folder.path);
 }
 
-TEST_CASE("no fix in cruise: told, the plan goes on by dead reckoning, and after 120 s a circle is flown") {
+TEST_CASE(
+    "no fix in cruise: reported, dead reckoning follows the plan, and after 120 s the aircraft circles") {
   const test::OwnStore folder;
   for (const Outage outage : {Outage{100, 1, 500}, Outage{150, 2, 500}}) {
     if (!quick() && outage.length_s > 100) return;
@@ -57,7 +58,7 @@ TEST_CASE("no fix in cruise: told, the plan goes on by dead reckoning, and after
   }
 }
 
-TEST_CASE("no fix in cruise: a circle is flown before 120 s when the stated deviation is reached") {
+TEST_CASE("no fix in cruise: the limit of the standard deviation starts the circle before 120 s") {
   if (!quick()) return;
   const test::OwnStore folder;
   const Outage outage{90, 1, 15};
@@ -89,7 +90,7 @@ TEST_CASE(
   CHECK(f.row().height_m > 60);
 }
 
-TEST_CASE("a sensor that is not there is told before arming; without a heading no command goes out") {
+TEST_CASE("a missing sensor is reported before arming; without a heading no command is sent") {
   const test::OwnStore folder;
   struct Missing {
     const char *param, *reported;
@@ -107,7 +108,7 @@ TEST_CASE("a sensor that is not there is told before arming; without a heading n
   }
 }
 
-/// A flight with everything on the way, up to `until_s`.
+/// A flight with all disturbances up to `until_s`.
 FlightResult trouble(const fs::path& folder, const fs::path& log, double until_s) {
   const Graph graph = mission(folder, 70, 1);
   FlightOptions o;
@@ -129,7 +130,7 @@ FlightResult trouble(const fs::path& folder, const fs::path& log, double until_s
   return f.finish();
 }
 
-TEST_CASE("a flight with a gap, without a fix and with a pilot is the same again, and its log replays") {
+TEST_CASE("a flight with a gap, without a fix and with a pilot is reproducible, and its log replays") {
   const test::OwnStore folder;
   const fs::path first = folder.path / "1.mcap", second = folder.path / "2.mcap";
   const FlightResult result = trouble(folder.path, first, 55);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several hosts on one computer that take part in each other's flights over DDS, on loopback: three aircraft
-// in formation, and a planner on the ground for a fourth. What came in is in each log, so that each flies
-// again alone.
+// Several hosts on one computer that exchange data over DDS, on loopback: three aircraft in formation, and a
+// planner on the ground for a fourth. Each log holds the imported samples, so that each flight replays alone.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -22,11 +21,12 @@ using namespace fulmar::fcu::testing;
 
 namespace {
 
-constexpr double speed = 5;         // of flight to wall: three simulations and DDS take a third of one CPU
-constexpr double duration_s = 105;  // of flight: take-off, joining, two corners
+constexpr double speed = 5;         // flight time over wall time: three simulations and DDS take a third of
+                                    // one CPU
+constexpr double duration_s = 105;  // flight time: take-off, joining, two corners
 constexpr double rate_hz = 20;      // of the exports
 constexpr int max_flights =
-    4;  // until the machine has not held one up; the second also for the sake of a quiet one
+    4;  // repetitions until the machine delays no host; the second also for a quiet machine
 
 /// Copies of the examples `formation` and `slow_planner` in one folder, in a DDS domain that other tests do
 /// not use.
@@ -42,7 +42,7 @@ struct Hosts {
 
   fs::path log(const std::string& name) const { return folder / (name + ".mcap"); }
   fs::path mission(const std::string& name) const { return folder / (name + ".yaml"); }
-  /// With every sample of these ports in the log.
+  /// Logs every sample of these ports.
   void adapt(const std::string& name, const std::string& ports) const {
     std::string text = Process::text(mission(name));
     const auto dds = text.find("\ndds:\n");
@@ -68,7 +68,7 @@ struct Hosts {
     words.insert(words.end(), more.begin(), more.end());
     return std::make_unique<Process>(words, folder / (name + ".json"), folder / (name + ".err"));
   }
-  /// Alone: what the others said is in the log.
+  /// Replays one host alone: its log holds the imported samples.
   void replays_to_equal_bytes(const std::string& name) const {
     Process replay({FULMAR_BIN_DIR "/fulmar", "replay", log(name).string(), "--json"}, folder / "replay.json",
                    folder / "replay.err");
@@ -79,7 +79,7 @@ struct Hosts {
 
 using States = std::vector<Logged<VehicleState>>;
 
-/// The last one of a time, or before it.
+/// The last sample at or before a time.
 const VehicleState& at(const States& all, double t) {
   const auto after =
       std::upper_bound(all.begin(), all.end(), t, [](double time, const auto& l) { return time < l.t; });
@@ -97,16 +97,16 @@ struct Flight {
   double import(const std::string& port, const char* key) const { return number(json, port, key); }
 };
 
-/// What has been heard of another one, by when that one has said it.
+/// Samples received from another host, with the times at which that host published them.
 struct Link {
-  double share = 0;    ///< of what was heard that the other has said
-  double shift_s = 0;  ///< from the other's time to one's own: both keep pace with the clock on the wall,
-                       ///< whatever holds up a sample
-  std::vector<std::pair<double, double>> words;  ///< when each was heard, and when it was said
+  double share = 0;    ///< share of the received samples that the other host's log contains
+  double shift_s = 0;  ///< from the other's time to the own time: both follow the wall clock, independent of
+                       // delayed samples
+  std::vector<std::pair<double, double>> words;  ///< reception time and publication time of each sample
 };
 
 Link link(const Flight& own, const std::string& name, const Flight& other) {
-  std::map<std::pair<double, double>, double> said;  // place -> when
+  std::map<std::pair<double, double>, double> said;  // place -> time
   for (const auto& l : other.nav) said[{l.value.position_m.north, l.value.position_m.east}] = l.t;
   Link link;
   std::vector<double> shifts;
@@ -125,7 +125,7 @@ Link link(const Flight& own, const std::string& name, const Flight& other) {
   return link;
 }
 
-/// Distance of an aircraft from its slot, both as their own estimators have it.
+/// Distance of an aircraft from its slot, by their own estimators.
 double slot_rms(const Flight& f, const Flight& leader, const Eigen::Vector3d& offset, double from,
                 double to) {
   const double shift_s = link(f, "leader", leader).shift_s;
@@ -147,10 +147,10 @@ bool both_fly(const VehicleState& own, const VehicleState& other) {
   return own.height_m > 5 && other.height_m > 5;
 }
 
-/// When a wingman in the air did not know where the other one was: the last word was old, or its own time was
-/// apart from the other's. Seen from the logs alone.
+/// Times at which a wingman in the air had no valid position of the other one: the last sample was old, or
+/// its own time differed from the other's. Computed from the logs alone.
 std::vector<double> out_of_touch(const Flight& own, const std::string& name, const Flight& other) {
-  constexpr double old_s = 0.5;  // of flight: ten samples
+  constexpr double old_s = 0.5;  // flight time: ten samples
   const Link heard = link(own, name, other);
   std::vector<double> times;
   std::size_t n = 0;
@@ -164,13 +164,12 @@ std::vector<double> out_of_touch(const Flight& own, const std::string& name, con
 
 struct Separation {
   double least_m = 1e9;
-  double share = 0;  ///< of the time with both in the air that has been looked at
+  double share = 0;  ///< share of the time with both in the air that was checked
 };
 
-/// Of where two aircraft really were while both were in the air. Nobody keeps clear of what it cannot know:
-/// while a host stands still the others fly on, 20 m a second, and its own aircraft hangs in the air; so
-/// these times are left out, with those in which they part again. All other times count, whatever the machine
-/// did.
+/// True distance of two aircraft while both were in the air. A host that is delayed by the machine leaves its
+/// aircraft in place while the others fly on at 20 m/s, and they cannot detect it. So these times are left
+/// out, with the recovery after them. All other times count.
 Separation separation(const Flight& own, const Flight& other, double shift_s,
                       const std::vector<double>& own_lost, const std::vector<double>& other_lost) {
   constexpr double parting_s = 10;
@@ -229,11 +228,11 @@ struct Fleet {
   Hosts hosts;
   Flight leader, right, left, far, laptop;
   std::size_t plans = 0;     // that came from the laptop
-  double stood_still_s = 9;  // the machine, on the wall: samples were late by that
+  double stood_still_s = 9;  // wall time: largest delay of a sample by the machine
   bool quiet() const { return stood_still_s < 0.1; }
   bool held_up() const {
     return stood_still_s >= 0.4;
-  }  // two seconds of flight: no wingman is where it should be after that
+  }  // two seconds of flight: no wingman is in its slot after that
 };
 
 Flight read(const Hosts& hosts, const std::string& name, Process& process,
@@ -252,7 +251,7 @@ Flight read(const Hosts& hosts, const std::string& name, Process& process,
 }
 
 void fly_all(Fleet& f) {
-  // A machine that stands still for a third of a second stands still for two of the flight.
+  // A delay of the machine of a third of a second is two seconds of flight.
   const std::vector<std::string> patience{"--set", "leader.timeout=8",    "--set", "other.timeout=8",
                                           "--set", "formation.timeout=10"};
   const Standstill machine(false);
@@ -288,7 +287,7 @@ const Fleet& fleet() {
 
 }  // namespace
 
-TEST_CASE("three hosts on one computer fly in formation by what they tell each other over DDS") {
+TEST_CASE("three hosts on one computer fly in formation by their exports over DDS") {
   const Fleet& f = fleet();
   for (const Flight* flight : {&f.leader, &f.right, &f.left})
     REQUIRE_MESSAGE(flight->code == 0, flight->said);
@@ -299,7 +298,7 @@ TEST_CASE("three hosts on one computer fly in formation by what they tell each o
     const double end = flight->nav.back().t, rms = slot_rms(*flight, f.leader, offset, end * 2 / 3, end);
     MESSAGE("distance from the slot in the last third: " << rms << " m rms");
     // 1 to 1.5 m. A third of a second without the leader is 1.5 s of flight, in which a wingman can be 10 m
-    // off; of more nothing is said.
+    // off. A longer delay is not judged.
     if (!f.held_up()) CHECK(rms < (f.quiet() ? 3 : 10));
   }
   if (f.held_up())
@@ -308,7 +307,7 @@ TEST_CASE("three hosts on one computer fly in formation by what they tell each o
                << " flights: how well they keep their slots is not known; it has too much else to do");
 }
 
-TEST_CASE("no two of the formation come nearer than their separation, in truth") {
+TEST_CASE("no two aircraft of the formation come nearer than their separation, in truth") {
   const Fleet& f = fleet();
   for (const Flight* flight : {&f.leader, &f.right, &f.left}) REQUIRE(flight->code == 0);
   const std::array<std::tuple<const Flight*, const char*, const Flight*>, 4> pairs{
@@ -332,7 +331,8 @@ TEST_CASE("no two of the formation come nearer than their separation, in truth")
   }
 }
 
-TEST_CASE("what one exports the others import, at its rate, with the latency in their results") {
+TEST_CASE(
+    "exports of one host arrive as imports of the others, at their rate, with the latency in the results") {
   const Fleet& f = fleet();
   for (const Flight* flight : {&f.right, &f.left}) {
     REQUIRE(flight->code == 0);
@@ -350,7 +350,7 @@ TEST_CASE("what one exports the others import, at its rate, with the latency in 
       CHECK(flight->import(port, "refused") == 0);
       CHECK(flight->import(port, "received") ==
             doctest::Approx(static_cast<double>(heard.size())).epsilon(0.01));
-      CHECK(mean > 10e-6);  // no thread is woken in less
+      CHECK(mean > 10e-6);  // no thread wakes in less
       CHECK(mean < (f.quiet() ? 0.02 : 0.5));
       CHECK(most >= mean);
     }
@@ -378,7 +378,7 @@ TEST_CASE("a planner in another host leads an aircraft round a no-fly zone") {
   CHECK(f.laptop.import("detour.state", "latency_mean_s") > 10e-6);
 }
 
-TEST_CASE("each of them flies again alone, byte for byte") {
+TEST_CASE("each of them replays alone, byte for byte") {
   const Fleet& f = fleet();
   for (const char* name : {"fleet_leader", "fleet_right", "fleet_left", "far", "laptop"})
     f.hosts.replays_to_equal_bytes(name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// By the clock on the wall: how long others wait while one client sends messages of a megabyte.
+// Wall-clock time that other clients wait while one client sends messages of a megabyte.
 #include <algorithm>
 #include <atomic>
 #include <thread>
@@ -14,7 +14,7 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr double limit_s = 0.1;
-constexpr double ci_slowdown = 10;  // other programs have both processors as well
+constexpr double ci_slowdown = 10;  // other programs use both processors as well
 
 double seconds_of(const std::function<void()>& what) {
   const auto begin = Clock::now();
@@ -22,8 +22,8 @@ double seconds_of(const std::function<void()>& what) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Messages of nearly a megabyte, the most that is taken: of each kind of question one with names that are
-/// not there, one with names that are.
+/// Messages of almost a megabyte, the largest size: of each kind one with unknown names and one with valid
+/// names.
 std::vector<std::pair<std::string, std::string>> large_messages() {
   constexpr std::size_t size = 1'000'000;
   const auto filled = [](const std::string& begin, const auto& item, const std::string& end) {
@@ -60,7 +60,7 @@ std::vector<std::pair<std::string, std::string>> large_messages() {
       {"one long name", R"({"op":"getParameters","parameterNames":[")" + std::string(900'000, 'x') + "\"]}"}};
 }
 
-/// Sends a message, and reads what is answered, until told to stop.
+/// Sends a message and reads the answers, until it is stopped.
 struct Talker {
   Talker(const Fixture& f, const std::string& message)
       : thread_([this, &f, message] {
@@ -72,7 +72,7 @@ struct Talker {
               client.say(R"({"op": "getParameters", "parameterNames": ["slc.on"], "id": "last"})");
               while (client.next("parameterValues").value("id", "") != "last") {
               }
-            } catch (const std::exception&) {  // sent away: it comes again
+            } catch (const std::exception&) {  // closed by the server: it connects again
             }
           }
         }) {}
@@ -90,7 +90,8 @@ struct Talker {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(Fixture, "while one client sends messages of a megabyte, another is answered, and let in") {
+TEST_CASE_FIXTURE(Fixture,
+                  "while one client sends messages of a megabyte, another is answered, and accepted") {
   serve();
   for (const auto& [what, message] : large_messages()) {
     CAPTURE(what);

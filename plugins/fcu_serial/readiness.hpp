@@ -72,9 +72,8 @@ class FixWatch {
  private:
   using Severity = fulmar::Severity;
   static constexpr std::int64_t min_ns = 700'000'000;
-  std::int64_t last_ns_ = never_ns,
-               // until two fixes have shown the interval: that of the slowest receiver
-      period_ns_ = 2'000'000'000;
+  // Until two fixes have shown the interval, it is that of the slowest receiver.
+  std::int64_t last_ns_ = never_ns, period_ns_ = 2'000'000'000;
   bool lost_ = false, reported_ = false;
   Hold hold_;
 };

@@ -82,9 +82,8 @@ UdpPort::UdpPort(boost::asio::io_context& io, const std::string& where) : socket
 std::size_t UdpPort::read(std::span<std::uint8_t> room, int timeout_ms) {
   pollfd one{descriptor_, POLLIN, 0};
   if (poll(&one, 1, timeout_ms) <= 0) return 0;
-  const ssize_t n =
-      // connection refused: the remote is not there yet
-      recv(descriptor_, room.data(), room.size(), MSG_DONTWAIT);
+  // connection refused: the remote is not there yet
+  const ssize_t n = recv(descriptor_, room.data(), room.size(), MSG_DONTWAIT);
   return n > 0 ? static_cast<std::size_t>(n) : 0;
 }
 

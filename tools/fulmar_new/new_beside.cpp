@@ -42,7 +42,7 @@ PortName port_name(const std::string& text) {
   return {text.substr(0, dot), text.substr(dot + 1)};
 }
 
-/// Every port that a wire can come from and that carries a message.
+/// Every port that can be the source of a wire and carries a message.
 std::vector<std::string> sources(const Graph& graph) {
   std::vector<std::string> names;
   for (const Role& role : graph.roles)
@@ -53,7 +53,7 @@ std::vector<std::string> sources(const Graph& graph) {
   return names;
 }
 
-/// The type as the mission's plugins have it; else one by its name alone: the SDK's, or one to be written.
+/// The type as the mission's plugins define it; else a type by its name alone: the SDK's, or a new one.
 TypePtr type_named(const Graph& graph, const std::string& name) {
   for (const Component& component : graph.components)
     for (const auto* ports : {&component.info().inputs, &component.info().outputs})
@@ -65,7 +65,7 @@ TypePtr type_named(const Graph& graph, const std::string& name) {
   return type;
 }
 
-/// A role's output that nobody has in this run: the mission names its message.
+/// Type of a role's output that no component writes in this run, from the message that the mission names.
 TypePtr promised_type(const MissionView& mission, const PortName& from) {
   const RoleText* role = mission.text.role(from.owner);
   const RoleOutText* port = role ? find_named(role->out, from.port) : nullptr;
@@ -80,7 +80,7 @@ ContractInput input_of(const MissionView& mission, const Asked& asked) {
                                              choices_text(asked.what, sources(mission.graph))));
   input.type = sent.type ? sent.type : promised_type(mission, input.from);
   if (!input.type) throw Error(new_messages::input_type_unknown(asked.name, asked.what, asked.what));
-  // A value input would see only the last of what a queue brings.
+  // A value input would see only the last item of a queue.
   if (asked.queue || sent.kind == FULMAR_OUT_QUEUE) input.kind = FULMAR_IN_QUEUE;
   return input;
 }
@@ -102,7 +102,7 @@ void check_new(const List& list, const std::string& name) {
   if (find_named(list, name)) throw Error(new_messages::port_duplicate(name));
 }
 
-/// The rest of the template's line that begins so; "" when there is none.
+/// The rest of the template's line with this begin; "" for none.
 std::string line_of(const std::string& source, const std::string& key) {
   const std::size_t at = source.find("// " + key + ": ");
   if (at == std::string::npos) return "";

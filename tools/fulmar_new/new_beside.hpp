@@ -13,12 +13,13 @@ namespace fulmar::core {
 Contract ports_contract(const MissionView& mission, const std::vector<std::string>& in,
                         const std::vector<std::string>& out);
 
-/// Of a template's source, whose first lines say "// wired: state vehicle.truth nav.state" (the first that
-/// the mission has), "// rate: 20 Hz" and "// feeds: edits plan.edits"; `in` names other wires. Throws Error.
+/// Contract of a template. The first lines of its source give "// wired: state vehicle.truth nav.state" (the
+/// first that the mission has), "// rate: 20 Hz" and "// feeds: edits plan.edits"; `in` gives other wires.
+/// Throws Error.
 Contract template_contract(const MissionView& mission, const std::string& name, const std::string& source,
                            const std::vector<std::string>& in);
 
-/// Without the lines that are for template_contract and for the choice of a template.
+/// Without the lines for template_contract and for the choice of a template.
 std::string without_template_lines(std::string source);
 
 }  // namespace fulmar::core

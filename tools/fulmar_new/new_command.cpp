@@ -63,7 +63,7 @@ void check_free(const MissionView& mission, const std::string& name) {
   if (what) throw Error(new_messages::name_in_use(mission.graph.mission, what, name, name));
 }
 
-/// The mission that --mission names: a file, or a shipped one by its name.
+/// The mission of --mission: a file, or the name of a shipped one.
 fs::path mission_file(const NewOptions& options, const Places& places) {
   const std::string name = options.mission.empty() ? "hourglass" : options.mission;
   std::error_code code;
@@ -79,7 +79,7 @@ fs::path mission_file(const NewOptions& options, const Places& places) {
   throw Error(new_messages::mission_unknown(name, choices_text(name, names)));
 }
 
-/// The struct's name: not one that the SDK has, or `In<Path>` in it would mean two things.
+/// Name of the struct. A name of the SDK is excluded: `In<Path>` inside the struct would mean the struct.
 std::string type_name(const std::string& name, const fs::path& include) {
   const std::string type = pascal_case(name);
   std::error_code code;
@@ -93,8 +93,8 @@ std::string type_name(const std::string& name, const fs::path& include) {
   return type;
 }
 
-/// Templates say in their first lines which ports they are for: "// ports in: state VehicleState, ..." and
-/// "// ports out: ...".
+/// The first lines of a template name its ports: "// ports in: state VehicleState, ..." and "// ports out:
+/// ...".
 std::string ports_line(const std::string& source, const std::string& which) {
   const std::string key = "// ports " + which + ": ";
   const std::size_t at = source.find(key);
@@ -112,7 +112,7 @@ bool fits(const std::string& source, const Contract& contract) {
   const auto given =
       std::count_if(contract.inputs.begin(), contract.inputs.end(),
                     [&](const ContractInput& input) { return there(in, input.name, input.type->name); });
-  // a wire that the mission's role brings beside them would be left out without a word
+  // otherwise a further wire of the mission's role would be left out without a report
   const bool all =
       std::all_of(contract.inputs.begin(), contract.inputs.end(), [&](const ContractInput& input) {
         return input.kind == FULMAR_IN_REQUEST || there(in, input.name, input.type->name);
@@ -141,7 +141,7 @@ struct Project {
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
-/// A role may have several: "vehicle", and "vehicle_point_mass" for --template point_mass.
+/// A role may have several templates: "vehicle", and "vehicle_point_mass" for --template point_mass.
 fs::path role_template(const NewOptions& options, const Places& places, const std::string& role) {
   const fs::path folder = places.templates / "roles";
   if (options.from_template.empty()) return folder / role;
@@ -152,7 +152,7 @@ fs::path role_template(const NewOptions& options, const Places& places, const st
                                                   role == "vehicle" ? " Valid: point_mass." : ""));
 }
 
-/// The SDK's template for what is asked, if it has one: header and test.
+/// The SDK's template for the request, if there is one: header and test.
 std::optional<NewSource> template_source(const NewOptions& options, const Places& places,
                                          const Contract& contract, const Words& names) {
   fs::path file;
@@ -171,7 +171,7 @@ std::optional<NewSource> template_source(const NewOptions& options, const Places
                    replaced(read_text(file.string() + "_test.cpp"), names)};
 }
 
-/// One sentence each: what it is in the mission, and when it flies.
+/// One sentence each: the place of the component in the mission, and the phases in which it is active.
 std::string what_text(const Contract& contract) {
   if (contract.roles.empty()) return new_messages::roles_not_filled().line();
   return new_messages::roles_filled(contract.roles.size() > 1 ? "s " : " ", contract.role_words()).line();
@@ -223,7 +223,7 @@ Project make_project(const NewOptions& options, const Places& places, const Miss
   return project;
 }
 
-/// Nothing is ever overwritten.
+/// Existing files are never overwritten.
 void write_project(const Project& project) {
   std::error_code code;
   if (fs::exists(project.folder, code) && !fs::is_directory(project.folder, code))
@@ -263,7 +263,7 @@ void report(const Project& project, const Contract& contract, const std::string&
       shell_word(project.folder.string()).c_str(), program_word().c_str());
 }
 
-/// The contract of what is asked for: of roles, of a template, or of ports.
+/// The requested contract: of roles, of a template, or of ports.
 Contract asked_contract(const NewOptions& options, const Places& places, const MissionView& mission) {
   if (!options.roles.empty()) {
     if (!options.in.empty() || !options.out.empty()) throw Error(new_messages::role_with_ports());

@@ -9,14 +9,14 @@ namespace fulmar::core {
 
 struct NewOptions {
   std::string name;                  // of the plugin: "my_law"
-  std::vector<std::string> roles;    // that it fills: "outer"; none: it stands beside them
-  std::vector<std::string> in, out;  // then its ports: "state=nav.state", "range=Range"
-  std::string from_template;         // or what it is like: "sensor"
-  std::string mission;               // whose role; "" : the shipped hourglass
+  std::vector<std::string> roles;    // roles that it fills: "outer"; empty: a component without a role
+  std::vector<std::string> in, out;  // ports of a component without a role: "state=nav.state", "range=Range"
+  std::string from_template;         // or the template: "sensor"
+  std::string mission;               // mission of the role; "": the shipped hourglass
   std::string folder;                // "" : ./NAME
 };
 
-/// Writes the project and says what to do next. Throws Error. Returns the exit code.
+/// Writes the project and prints the next steps. Throws Error. Returns the exit code.
 int new_command(const NewOptions& options);
 
 }  // namespace fulmar::core

@@ -14,7 +14,7 @@ void read_inputs(const MissionView& mission, const RoleText& role, const Contrac
                  Contract& contract) {
   const ComponentInfo& shipped = filled.shipped;
   for (const WireText& wire : role.in) {
-    if (find_named(contract.roles, wire.from.owner)) continue;  // its own output
+    if (find_named(contract.roles, wire.from.owner)) continue;  // an output of the component itself
     if (const ContractInput* same = find_named(contract.inputs, wire.name)) {
       if (same->from.text() == wire.from.text()) continue;
       throw Error(located(wire.where, new_messages::role_inputs_conflict(
@@ -47,7 +47,8 @@ void read_outputs(const Role& role, const RoleText& text, std::size_t index, Con
     output.type_name = text.out[i].type;
     output.optional = role.outputs[i].optional;
     output.role = index;
-    // Notices and the like: whoever wants them writes them. What a vehicle may have stands in its frame.
+    // Optional outputs such as notices are left to the author. The frame of a vehicle lists its optional
+    // ones.
     if (output.optional && !contract.vehicle()) continue;
     if (const ContractOutput* same = find_named(contract.outputs, output.name))
       throw Error(
@@ -79,7 +80,8 @@ Sent sent_by(const Graph& graph, const PortName& from) {
     if (const RolePort* port = find_named(graph.roles[static_cast<std::size_t>(role)].outputs, from.port))
       sent = {port->type, FULMAR_OUT_VALUE, true};
   for (const Component& component : graph.components) {
-    const bool fills = sent.known && role >= 0 && component.fills(role);  // how it comes, fillers know
+    // components that fill the role write it in this way
+    const bool fills = sent.known && role >= 0 && component.fills(role);
     if (component.name != from.owner && !fills) continue;
     const int output = component.info().output(from.port);
     if (output < 0) continue;

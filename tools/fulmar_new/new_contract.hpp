@@ -21,7 +21,7 @@ struct ContractInput {
 
 struct ContractOutput {
   std::string name;
-  TypePtr type;  // empty: an optional output that nobody has
+  TypePtr type;  // empty: an optional output without a writer
   std::string type_name;
   fulmar_port_kind kind = FULMAR_OUT_VALUE;
   std::uint32_t capacity = 1;
@@ -31,13 +31,14 @@ struct ContractOutput {
 
 struct ContractRole {
   std::string name;
-  const ComponentText* shipped_text = nullptr;  // who fills it there today; part of MissionView::text
-  std::string shipped_use;                      // "control_slc/Outer", or a file
+  // component that fills the role now; part of MissionView::text
+  const ComponentText* shipped_text = nullptr;
+  std::string shipped_use;  // "control_slc/Outer", or a file
   ComponentInfo shipped;
-  Node shipped_set;  // what that phase sets
+  Node shipped_set;  // settings of that phase
 };
 
-/// An output that the mission is to hand on: "edits" -> "plan.edits".
+/// An output that the mission passes on: "edits" -> "plan.edits".
 struct ContractFeed {
   std::string output;
   PortName to;
@@ -45,21 +46,20 @@ struct ContractFeed {
 
 struct Contract {
   std::string mission;
-  std::vector<ContractRole> roles;  // none: the component stands beside them
+  std::vector<ContractRole> roles;  // empty: a component without a role
   std::vector<ContractInput> inputs;
   std::vector<ContractOutput> outputs;
   std::vector<ContractFeed> feeds;
-  std::string phase;   // where the new component flies; "" for a vehicle, which flies in all of them
+  std::string phase;   // phase in which the new component is active; "" for a vehicle, which is active in all
   double rate_hz = 0;  // 0: every tick
   bool vehicle() const { return roles.size() == 1 && roles[0].name == "vehicle"; }
   /// "outer", "outer and inner"
   std::string role_words() const;
-  /// Who flew there: "slc", "slc and attitude"
+  /// Components that filled the roles before: "slc", "slc and attitude"
   std::string shipped_words() const;
 };
 
-/// A mission three ways: its own keys, what they mean with the file that it extends, and the graph that
-/// follows.
+/// Three views of a mission: its own keys, the keys merged with the file that it extends, and the graph.
 struct MissionView {
   std::filesystem::path file;  // absolute
   Node root;
@@ -67,17 +67,17 @@ struct MissionView {
   Graph graph;
 };
 
-/// Throws Error with every fault of the mission.
+/// Throws Error with all faults of the mission.
 MissionView view_mission(const std::filesystem::path& file);
 
 /// Throws Error naming the valid roles.
 Contract read_contract(const MissionView& mission, const std::vector<std::string>& roles);
 
-/// What a port carries, as its writer has it, and how it writes it. `type` is empty when nobody says.
+/// Message of a port as its writer defines it, and how it is written. `type` is empty when it is unknown.
 struct Sent {
   TypePtr type;
   fulmar_port_kind kind = FULMAR_OUT_VALUE;
-  bool known = false;  // there is such a port
+  bool known = false;  // the port exists
 };
 Sent sent_by(const Graph& graph, const PortName& from);
 

@@ -23,7 +23,7 @@ class Writer {
   const std::string& text() const { return text_; }
 
  private:
-  /// Types that the SDK's own headers have.
+  /// Types from the SDK's headers.
   static bool known(const Type& type) {
     return type.name == "Vec3Ned" || type.name == "Vec3Body" || type.name == "Quat";
   }
@@ -39,7 +39,7 @@ class Writer {
     return field.type->name;
   }
 
-  /// The table has the labels of an enum and not its name.
+  /// The table has the labels of an enum but not its name.
   std::string enumeration(const Type& type, const Field& field) {
     const std::string name = type.name + pascal_case(field.name);
     text_ += "enum class " + name + " : std::uint8_t { ";

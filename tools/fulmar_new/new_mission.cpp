@@ -25,13 +25,13 @@ Node map_of(const std::vector<std::pair<std::string, Node>>& entries) {
   return node;
 }
 
-/// A file of this name from anywhere.
+/// A file name that is valid in any folder.
 std::string file_name(const fs::path& file) {
   const std::string shipped = shipped_name(file);
   return shipped.empty() ? file.string() : shipped;
 }
 
-/// A file name in `node`, said relative to the folder of the file in which it stands, made one from anywhere.
+/// Converts a file name in `node`, relative to the folder of its file, to one that is valid in any folder.
 std::string file_word(const Node& node) {
   if (!node.file || node.file->path.empty() || node.text.empty()) return node.text;
   std::error_code code;
@@ -87,8 +87,8 @@ Node wire(const WireText& from) {
 
 std::string rate_text(double rate_hz) { return number_text(rate_hz) + " Hz"; }
 
-/// A plugin that lies beside the given mission is not beside the new one: its absolute name, or "" when it is
-/// found without.
+/// A plugin next to the given mission is not next to the new one: returns its absolute name, or "" when it is
+/// found by its name.
 std::string plugin_beside(const MissionView& mission, const std::string& use) {
   auto [plugin, component] = split_use(use);
   std::error_code code;
@@ -97,8 +97,8 @@ std::string plugin_beside(const MissionView& mission, const std::string& use) {
   return file.lexically_normal().string() + (component.empty() ? "" : "/" + component);
 }
 
-/// The shipped component once more, without a role: its wires are those of the role and its own. What another
-/// new role would feed comes from the second instance there.
+/// A second instance of the shipped component, without a role: its wires are those of the role and its own.
+/// It supplies outputs for which another new role is the source.
 Node reference(const MissionView& mission, const Contract& contract, const NewComponent& component,
                const ContractRole& role) {
   const ComponentText& shipped = *role.shipped_text;
@@ -149,7 +149,8 @@ Node new_component(const MissionView& mission, const Contract& contract, const N
   return map_of(keys);
 }
 
-/// What becomes of the given mission's component: it is found from the new folder, makes room, or is fed.
+/// Changes of a component of the given mission: its plugin is found from the new folder, it is replaced, or
+/// it gets a wire.
 Node changed(const MissionView& mission, const Contract& contract, const NewComponent& component,
              const ComponentText& text) {
   const std::string beside = plugin_beside(mission, text.use.text);
@@ -158,17 +159,17 @@ Node changed(const MissionView& mission, const Contract& contract, const NewComp
   const bool named_so = text.only && text.name == io_word(*text.only);
   const bool sits_there = contract.vehicle() && text.fills_role("vehicle") &&
                           (!text.only || (named_so && *text.only == mission.text.io));
-  if (sits_there)  // makes room: there is one vehicle
+  if (sits_there)  // replaced: there is one vehicle
     keys.emplace_back("only", scalar(io_word(mission.text.io == Io::sim ? Io::fcu : Io::sim)));
   for (const ContractFeed& feed : contract.feeds)
-    if (feed.to.owner == text.name)  // delayed: what is fed most often leads back to the new component
+    if (feed.to.owner == text.name)  // delayed: usually the wire closes a loop through the new component
       keys.emplace_back("in",
                         map_of({{feed.to.port, map_of({{"from", scalar(component.name + "." + feed.output)},
                                                        {"delayed", scalar("true")}})}}));
   return map_of(keys);
 }
 
-/// What the new mission says of components and phases, to be laid over the given one.
+/// Components and phases of the new mission that are merged into the given one.
 Node additions(const MissionView& mission, const Contract& contract, const NewComponent& component) {
   Node components = map_of({});
   for (const ComponentText& text : mission.text.components) {

@@ -9,19 +9,19 @@
 
 namespace fulmar::core {
 
-/// What a mission is to say of the new component.
+/// Entry of the new component in the mission.
 struct NewComponent {
   std::string name;  // of component and plugin
   std::vector<std::string>
-      references;  // outputs that it passes on from a second instance of the shipped component; usually none
+      references;  // outputs that come from a second instance of the shipped component; usually none
 };
 
-/// Name of the second instance of who fills `role`: one that the mission does not use yet.
+/// Name of the second instance of the component that fills `role`: one that the mission does not use.
 std::string reference_name(const MissionView& mission, const Contract& contract, const std::string& name,
                            std::size_t role);
 
-/// The text of mission.yaml. File names in it begin with fulmar: where they are of the installation, and are
-/// absolute elsewhere, but for that of the new plugin.
+/// Text of mission.yaml. File names of the installation begin with fulmar:, others are absolute, except that
+/// of the new plugin.
 std::string write_mission(const MissionView& mission, const Contract& contract,
                           const NewComponent& component);
 

@@ -47,7 +47,7 @@ std::string shell_word(const std::string& text) {
 
 std::string program_word() {
   const fs::path host =
-      this_program().parent_path() / "fulmar";  // which people call, and which starts this program
+      this_program().parent_path() / "fulmar";  // the launcher that users call, which starts this program
   std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
   std::error_code code;
   for (std::string folder; std::getline(folders, folder, ':');) {

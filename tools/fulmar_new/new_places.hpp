@@ -9,16 +9,16 @@ namespace fulmar::core {
 
 struct Places {
   std::filesystem::path missions, templates, include;
-  std::filesystem::path prefix;  // for CMAKE_PREFIX_PATH: where find_package(fulmar_sdk) looks
+  std::filesystem::path prefix;  // for CMAKE_PREFIX_PATH: folder in which find_package(fulmar_sdk) searches
 };
 
-/// `program` is the running executable. Throws Error when nothing is found around it.
+/// `program` is the running executable. Throws Error when no installation is found around it.
 Places find_places(const std::filesystem::path& program);
 
 /// The running executable.
 std::filesystem::path this_program();
 
-/// How people call it here: its bare name when the shell finds this very file under it, else the whole path.
+/// Name to call it: its bare name when the shell finds this file under it, else the whole path.
 std::string program_word();
 
 /// A path as a word of a shell command.

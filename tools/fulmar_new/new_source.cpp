@@ -17,12 +17,12 @@ bool has_header(const Type& type, const fs::path& include) {
   return text.str().find("struct " + type.name + " {") != std::string::npos;
 }
 
-/// Of one of the SDK's headers.
+/// Include line of one of the SDK's headers.
 std::string include_line(const std::string& header) {
   return "#include <" + ("fulmar/" + header) + ".hpp>\n";
 }
 
-/// Writes the parts of one component. "messages::" stands before the types that the header itself declares.
+/// Writes the parts of one component. The prefix "messages::" marks types that the header itself declares.
 class SourceWriter {
  public:
   SourceWriter(const Contract& contract, std::string name, std::string type, const fs::path& include)
@@ -66,7 +66,7 @@ class SourceWriter {
       headers_.insert(snake_case(type->name));
     } else {
       own_types_.insert(type->name);
-      std::istringstream structs(message_source(*type));  // a nested struct may have been written already
+      std::istringstream structs(message_source(*type));  // a nested struct may exist already
       std::string part, line;
       while (std::getline(structs, line)) {
         part += line + "\n";
@@ -159,7 +159,7 @@ class SourceWriter {
     return text + "    return Status::ok;\n  }\n";
   }
 
-  /// A component that knows nothing yet stays silent.
+  /// Without a law yet the component publishes nothing.
   std::string body_beside() const {
     std::string text =
         "  Status step(const Tick& tick, const Inputs& in, const Params&, Outputs& out) {\n    // Your law "
@@ -201,7 +201,7 @@ class SourceWriter {
            "    return Status::ok;\n  }\n\n private:\n  std::int64_t period_ns_ = 2500000, now_ns_ = 0;\n";
   }
 
-  /// The contract, whatever the law: an author's own does not fail it.
+  /// Test of the contract alone, which any law passes.
   std::string contract_test() const {
     std::string set;
     for (const ContractInput& input : c_.inputs)

@@ -14,8 +14,8 @@ struct NewSource {
   std::string header, test;
 };
 
-/// `type` is the component's struct. `include` is the SDK's folder of headers: what it has no message for is
-/// written into the header.
+/// `type` is the component's struct. `include` is the folder of the SDK's headers: the header declares
+/// messages that are missing there.
 NewSource write_source(const Contract& contract, const std::string& name, const std::string& type,
                        const std::filesystem::path& include);
 
@@ -23,7 +23,7 @@ NewSource write_source(const Contract& contract, const std::string& name, const 
 std::string pascal_case(const std::string& name);
 std::string snake_case(const std::string& name);
 
-/// The C++ struct of a message, with those that it is made of before it.
+/// The C++ struct of a message, after the structs of its fields.
 std::string message_source(const Type& type);
 
 }  // namespace fulmar::core

@@ -26,7 +26,7 @@ struct fulmar_sim {
   sim::Batch batch;
   double dt_s;
   std::vector<Eigen::Vector3d> wind_n;
-  bool alone;  // no thread but the caller's
+  bool alone;  // no other thread than the caller's
   std::mutex mutex{};
   pid_t maker = getpid();
 
@@ -53,7 +53,7 @@ int guarded(Call call) noexcept {
   return 1;
 }
 
-/// The same with a simulation, one call at a time.
+/// The same for a simulation, one call at a time.
 template <class Call>
 int guarded(fulmar_sim* all, Call call) noexcept {
   return guarded([&] {
@@ -198,7 +198,7 @@ int fulmar_sim_rows(fulmar_sim* all, double* rows) {
 /// Sets position, velocity, attitude, body rate, deflections and propeller speed from `rows`, count x 26.
 int fulmar_sim_set_rows(fulmar_sim* all, const bool* only, const double* rows) {
   return guarded(all, [&](fulmar_sim& s) {
-    for (const bool set : {false, true})  // look at all of them first
+    for (const bool set : {false, true})  // check all rows first
       for (std::size_t i = 0; i < s.batch.size(); ++i) {
         if (!is_meant(only, i)) continue;
         const sim::FlightState state = sim::state_of_row(rows + i * sim::row_columns);

@@ -17,9 +17,9 @@ namespace fulmar::module {
 using namespace core;
 namespace {
 
-constexpr int ticks_between_signals = 400;  // Ctrl-C is looked at so often
+constexpr int ticks_between_signals = 400;  // interval of the check for Ctrl-C
 
-/// Python's own way to write JSON, which YAML contains: from values to what a mission file would say.
+/// Converts values to the text of a mission file: Python writes JSON, which is a subset of YAML.
 Node as_yaml(const py::handle& value, const std::string& name, Report& report) {
   const py::module_ json = py::module_::import("json");
   const py::object plain =
@@ -29,7 +29,7 @@ Node as_yaml(const py::handle& value, const std::string& name, Report& report) {
   return parse_yaml(make_source(text, name), report);
 }
 
-/// The choices for a name: those of its owner, or the owners when there is no such owner.
+/// Valid names of its owner, or all owners when the owner is unknown.
 std::string choices_of(const std::string& owner, const std::string& rest,
                        const std::vector<std::string>& names) {
   std::vector<std::string> own, owners;
@@ -178,7 +178,7 @@ py::object Sim::parameter(const std::string& name) const {
   }
 }
 
-/// Before the first tick any parameter may change; then those that are live.
+/// Before the first tick any parameter may change; later only live ones.
 void Sim::set_parameter(const std::string& name, const py::handle& value) {
   const auto [i, k] = find_parameter(name);
   const ParamInfo& info = graph_.components[i].info().params[k];
@@ -192,7 +192,7 @@ void Sim::set_parameter(const std::string& name, const py::handle& value) {
     command.value = changed;
     flight().apply(std::move(command));
   } else if (!begun_) {
-    flight_.reset();  // made anew with it
+    flight_.reset();  // the next flight is created with it
   }
   graph_.components[i].params[k] = changed;
 }

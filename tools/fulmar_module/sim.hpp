@@ -14,7 +14,7 @@ namespace fulmar::module {
 
 namespace py = pybind11;
 
-/// How a request was answered. The answer comes with the step that sees it.
+/// Response to a request. It comes with the step that reads the request.
 struct Answer {
   bool answered = false, accepted = false;
   std::string reason;
@@ -24,11 +24,11 @@ class Sim {
  public:
   Sim(const std::string& mission, const core::Overrides& overrides, const core::FlightOptions& options);
 
-  /// `n` ticks, or fewer when the flight is over. True while it is not.
+  /// `n` ticks, or fewer when the flight ends. Returns false after its end.
   bool step(std::int64_t n);
-  /// To the end, or until that flight time. The result when the flight is over, else None.
+  /// Runs to the end or to that flight time. Returns the result at the end of the flight, else None.
   py::object run(std::optional<double> until_s);
-  /// A new flight of the same mission, with the parameters as they are now.
+  /// A new flight of the same mission with the present parameters.
   void reset(std::optional<std::uint64_t> seed);
 
   double now_s() const;
@@ -40,7 +40,7 @@ class Sim {
   double tick_s() const { return 1e-9 * static_cast<double>(graph_.tick_ns); }
   const std::vector<std::string>& events() const { return events_; }
 
-  /// "nav.state" -> a copy of the sample, "nav.state.height_m" -> a number; None while there is none.
+  /// "nav.state" -> a copy of the sample, "nav.state.height_m" -> a number; None without a sample.
   py::object sample(const std::string& name);
   /// Names of all ports: of roles, then of components.
   std::vector<std::string> ports() const;

@@ -63,7 +63,7 @@ py::object field_dtype(const Field& field) {
 
 py::object dtype_of(const Type& type) {
   static auto* const known =
-      new std::map<std::uint64_t, py::object>;  // never destroyed: the interpreter may be gone by then
+      new std::map<std::uint64_t, py::object>;  // never destroyed: at exit the interpreter may end first
   if (const auto it = known->find(type.hash); it != known->end()) return it->second;
   py::list names, formats, offsets;
   for (const Field& field : type.fields) {

@@ -45,8 +45,8 @@ std::string topic_named(const StateLog& log, const std::string& name, const std:
       located(quoted(log), log_tool_messages::topic_unknown(topic, core::choices_text(topic, valid))));
 }
 
-/// Where a component tells what it believes of its errors: beside its state, or, when that is a role's, under
-/// its own name.
+/// Topic with a component's reported standard deviations: next to its state or, when that is a role's, under
+/// the component's name.
 std::string check_of(const StateLog& log, const std::string& topic) {
   const auto beside = [&](const std::string& owner) {
     for (const StateLog::Topic& check : log.checks)
@@ -70,7 +70,7 @@ Side side_of(const StateLog& log, const std::string& topic, const CompareArgumen
   if (!words.fixes.empty())
     side.fixes = topic_named(log, words.fixes, "Gnss", core::names_of(log.fixes));
   else if (side.truth.empty() && !log.fixes.empty()) {
-    // a receiver that is not the aircraft's own is a reference
+    // a receiver that does not belong to the aircraft is a reference
     const auto own = [](const StateLog::Topic& t) { return t.name.starts_with("/vehicle/"); };
     const auto other = std::find_if_not(log.fixes.begin(), log.fixes.end(), own);
     side.fixes = (other == log.fixes.end() ? log.fixes.front() : *other).name;
@@ -81,7 +81,7 @@ Side side_of(const StateLog& log, const std::string& topic, const CompareArgumen
 
 using Topics = std::vector<std::pair<std::string, std::string>>;
 
-/// Of one log, or of two.
+/// The topics of one log, or of two.
 Topics chosen(const StateLog& a, const StateLog& b, const std::vector<std::string>& names) {
   const bool one_log = &a == &b;
   if (names.size() > 2) throw Error(log_tool_messages::too_many_states(core::join(names)));

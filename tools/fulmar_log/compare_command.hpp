@@ -11,17 +11,17 @@ namespace fulmar::states {
 
 struct CompareArguments {
   std::string log;
-  std::vector<std::string> rest;       // another log, if it is a file; then the names of states
-  std::string truth, fixes, names;     // topics; "before,now"; "" where nothing is said
+  std::vector<std::string> rest;       // another log, if it is a file; then names of states
+  std::string truth, fixes, names;     // topics; "before,now"; "" for the default
   std::optional<double> from_s, to_s;  // of flight time
-  bool changed = false;                // nothing of what is equal
+  bool changed = false;                // leaves out equal topics
   bool json = false;
 };
 
-/// An estimate and what it is judged with unless somebody says otherwise: the log's truth, else fixes.
+/// Default estimate and its reference: the truth of the log, else fixes.
 Side usual_side(const StateLog& log, const std::string& topic);
 
-/// 0: compared, or with `changed` nothing was to be; 1: at no time were both there. Throws core::Error.
+/// Returns 0: compared, or with `changed` without a difference; 1: no common times. Throws core::Error.
 int compare_command(const CompareArguments& words);
 
 }  // namespace fulmar::states

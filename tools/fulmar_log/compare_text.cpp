@@ -54,7 +54,7 @@ std::string difference_rows(const Pair& p) {
   return out;
 }
 
-/// The columns of one estimate; those of claims where the two have any.
+/// The columns of one estimate; those of reported standard deviations where either has any.
 std::string error_cells(const Errors& e, std::size_t row, bool claims) {
   const consistency::Channel& c = e.claimed[row];
   std::string out = e.all[row].n > 0 ? fmt::format("{:9.4f}", e.all[row].rms()) : fmt::format("{:>9}", "-");

@@ -10,7 +10,7 @@ namespace fulmar::states {
 
 struct Pair {
   Side first, second;
-  std::string first_name, second_name;  // as people call them
+  std::string first_name, second_name;  // displayed names
   Comparison made;
 };
 

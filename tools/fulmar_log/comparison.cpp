@@ -21,7 +21,7 @@ using TakeState = std::function<void(std::int64_t valid_ns, const VehicleState&)
 constexpr std::int64_t at_the_end = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t oldest_check_ns = 2'000'000'000;
 
-/// What a log says that has no such flags or deviations.
+/// Initial state for fields that a log lacks.
 VehicleState lacking(double std) {
   VehicleState s;
   s.origin_valid = s.attitude_valid = s.velocity_valid = s.position_valid = s.height_valid =
@@ -38,17 +38,17 @@ Errors no_errors() {
   return e;
 }
 
-/// As it was looked for.
+/// The searched topic.
 const StateLog::Topic& of(const Side& side, const std::string& topic) { return *side.log->find(topic); }
 
-/// Who says when: the one with the lower rate; of equal ones that with more samples, so that the other's
-/// silence counts.
+/// True when the first side sets the times: the one with the lower rate, or at equal rates the one with more
+/// samples, so that gaps of the other count.
 bool first_says_when(const StateLog::Topic& a, const StateLog::Topic& b) {
   if (a.sparser_than(b) || b.sparser_than(a)) return a.sparser_than(b);
   return a.messages >= b.messages;
 }
 
-/// One log on its way: the estimate, and what it is judged with.
+/// One side while the log is read: the estimate and its reference.
 class OneSide {
  public:
   OneSide(const Side& side, const Span& span, Judged& out)
@@ -193,7 +193,7 @@ class OneSide {
   std::optional<std::int64_t> check_ns_;
 };
 
-/// Of two streams, one of each side: who has fewer samples says when.
+/// Two streams, one of each side; the one with fewer samples sets the times.
 class TwoSides {
  public:
   explicit TwoSides(bool first_says_when) : first_says_when_(first_says_when) {}

@@ -30,39 +30,40 @@ struct Moments {
   double rms() const { return std::sqrt(over_n(squares)); }
 };
 
-/// Where an estimate stands, and with what it is judged.
+/// Source of an estimate and of its reference.
 struct Side {
   const StateLog* log = nullptr;
   std::string topic;
-  std::string truth, fixes, check;  // topics of the same log, or ""; `truth` before `fixes`
+  std::string truth, fixes, check;  // topics of the same log, or ""; `truth` has priority over `fixes`
 };
 
-/// Of one estimate against the truth or the fixes. A row per quantity, as everywhere.
+/// Errors of one estimate against the truth or the fixes, one row per quantity.
 struct Errors {
   std::vector<Moments> all;
-  std::vector<consistency::Channel> claimed;  // of those errors for which there was a claim
+  std::vector<consistency::Channel> claimed;  // of the errors with a reported standard deviation
   consistency::Nees nees;
   std::uint64_t nees_n = 0;
-  bool correlated = false;  // in `nees` the correlations that the filter tells
+  bool correlated = false;  // `nees` includes the correlations that the filter reports
   std::uint64_t pairs = 0;
 };
 
 struct Judged {
   std::uint64_t samples = 0;
-  std::int64_t first_ns = 0, last_ns = 0;     // flight time of validity
-  std::uint64_t not_finite = 0, not_new = 0;  // samples with what is no number; not later than the one before
+  std::int64_t first_ns = 0, last_ns = 0;  // flight time of validity
+  // samples with a value that is not finite; not later than the one before
+  std::uint64_t not_finite = 0, not_new = 0;
   Errors errors;
 };
 
 struct Comparison {
   std::vector<Moments> difference;     // second minus first
-  std::uint64_t pairs = 0, times = 0;  // times at which both were there, of those of the sparser one
+  std::uint64_t pairs = 0, times = 0;  // times at which both have a value; times of the sparser one
   Judged first, second;
-  std::optional<double> truths_apart_m;  // at most; of two logs whose truths are not the same
-  bool equal = false;                    // the same samples, as far as they are compared
+  std::optional<double> truths_apart_m;  // largest distance between the truths of two logs, if they differ
+  bool equal = false;                    // the same samples in the compared quantities
 };
 
-/// Flight time of validity, of states.
+/// Flight time of validity of states.
 struct Span {
   std::int64_t from_ns = std::numeric_limits<std::int64_t>::min();
   std::int64_t to_ns = std::numeric_limits<std::int64_t>::max();
@@ -72,11 +73,11 @@ struct Span {
 /// Throws core::Error.
 Comparison compare(const Side& first, const Side& second, const Span& span = {});
 
-/// An error of quantities()[quantity], in its unit, and the deviation that is claimed for it; NaN: none is.
+/// An error of quantities()[quantity] in its unit, and its reported standard deviation; NaN: none.
 using TakeError =
     std::function<void(std::int64_t valid_ns, std::size_t quantity, double error, double claim)>;
 
-/// One estimate against its truth or fixes; `take` gets each error. Throws core::Error.
+/// Compares one estimate with its truth or fixes; `take` gets each error. Throws core::Error.
 Judged judge(const Side& side, const TakeError& take, const Span& span = {});
 
 }  // namespace fulmar::states

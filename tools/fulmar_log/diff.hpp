@@ -12,7 +12,7 @@ struct LogDiff : MessageDiff {
   bool equal() const { return messages_equal() && metadata.empty() && attachments.empty(); }
 };
 
-/// Throws Error for what is no log.
+/// Throws Error for a file that is no log.
 LogDiff diff_logs(const std::filesystem::path& a, const std::filesystem::path& b,
                   const DiffOptions& options = {});
 

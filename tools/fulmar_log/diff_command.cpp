@@ -20,7 +20,7 @@ using nlohmann::json;
 
 constexpr Sides sides{"figures", "first", "second"};
 
-/// For a terminal: names and texts come out of files that may hold any bytes.
+/// For a terminal: names and texts of a file may hold any bytes.
 std::string table(FigureChanges changes) {
   for (FigureChanges::Change& c : changes.changed) {
     c.name = printable(c.name);
@@ -120,7 +120,7 @@ void print_diff(const Compared& c) {
   if (!d.fault_b.empty()) std::printf("  the second log is cut off: %s\n", printable(d.fault_b).c_str());
 }
 
-/// Figures alone: at least one of the two is a result of `fulmar run --json`.
+/// Compares figures only: at least one of the two is a result of `fulmar run --json`.
 int diff_results(const json& a, const json& b, bool as_json) {
   const FigureChanges changes = figure_changes(a, b);
   if (changes.changed.empty() && changes.equal == 0) throw Error(log_tool_messages::common_figure_missing());

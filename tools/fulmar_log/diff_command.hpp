@@ -5,7 +5,8 @@
 
 namespace fulmar::core {
 
-/// Of two logs, of two results of `fulmar run --json`, or of one of each. 0: equal, 1: not. Throws Error.
+/// Compares two logs, two results of `fulmar run --json`, or one of each. Returns 0: equal, 1: different.
+/// Throws Error.
 int diff_command(const std::string& a, const std::string& b, bool as_json, bool messages_only);
 
 }  // namespace fulmar::core

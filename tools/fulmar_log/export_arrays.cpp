@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t batch_bytes = 200u << 20;
 constexpr std::int64_t max_labels = 256;
 
-/// Whole numbers in lists are doubles: only these have a nan for what is missing.
+/// Integers in lists become doubles: only these have a nan for a missing element.
 fulmar_kind array_kind(const Column& c) {
   const bool as_it_is = !c.in_list || is_real(c.field->kind) || c.field->kind == FULMAR_TEXT;
   return as_it_is ? c.field->kind : FULMAR_F64;
@@ -59,7 +59,7 @@ void add(Array& to, const Cell& cell) {
     put(to, number_of_cell(cell));
   } else if (to.kind == FULMAR_F32) {
     put(to, cell.kind == Cell::Kind::single ? cell.single : std::numeric_limits<float>::quiet_NaN());
-  } else {  // little-endian: the low bytes are the number
+  } else {  // little-endian: the low bytes are first
     const std::size_t before = to.data.size(), size = primitive_size(to.kind);
     to.data.resize(before + size);
     std::memcpy(to.data.data() + before, &cell.natural, size);

@@ -18,8 +18,8 @@ struct Array {
   std::vector<std::string> labels{};  // of the numbers 0, 1, ...; empty: none
 };
 
-/// Table after table, those that have rows. As many are in memory at a time as fit into some 200 MB, and at
-/// least one.
+/// Calls for each table that has rows. Tables of some 200 MB together, and at least one, are in memory at a
+/// time.
 void for_each_table(const Tables& tables,
                     const std::function<void(const Table&, const std::vector<Array>&)>& take);
 

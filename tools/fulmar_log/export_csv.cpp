@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t buffer_bytes = 1u << 18;
-constexpr std::size_t max_open = 200;  // files at a time; more topics are written in further readings
+constexpr std::size_t max_open = 200;  // files at a time; more topics need further readings
 
 std::string csv_text(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);

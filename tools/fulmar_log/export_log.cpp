@@ -26,7 +26,7 @@ std::string seconds_text(std::int64_t ns) {
 
 namespace {
 
-/// What an export that failed has begun. Files that were whole before it failed stay.
+/// Removes partial files of a failed export. Files that were complete stay.
 void remove_parts(const Tables& tables, ExportForm form, const fs::path& out, bool own_folder) {
   std::error_code ignored;
   fs::remove(out.string() + ".part", ignored);

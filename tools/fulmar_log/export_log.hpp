@@ -24,11 +24,11 @@ struct ExportResult {
   };
   std::vector<Topic> topics;
   std::vector<std::string> left_out;  // "/image: its messages are encoded as ..."
-  std::string fault;                  // "" or why the log ends before its end
+  std::string fault;                  // "" or the reason why the log is cut off
 };
 
-/// `out` empty: beside the log's name in the current directory. `topics` empty: all. Throws Error, and for a
-/// file that is there already.
+/// `out` empty: the log's name in the current directory. `topics` empty: all. Throws Error, also when the
+/// file exists.
 ExportResult export_log(const std::filesystem::path& log, ExportForm form, std::filesystem::path out,
                         const std::vector<std::string>& topics);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t max_table_fields = 20'000;  // nested ones counted each time
 
-/// A field as a table has it, with all that is in it.
+/// A field for a table, with its nested fields.
 RosField table_field(const Field& f, std::size_t& count) {
   if (++count > max_table_fields) throw Error(log_tool_messages::too_many_fields());
   RosField made{f.name, f.kind == FULMAR_ENUM ? FULMAR_U8 : f.kind, f.shape, f.count, f.constants};

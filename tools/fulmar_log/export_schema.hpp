@@ -16,7 +16,7 @@
 
 namespace fulmar::core {
 
-/// A field of one message type, and what is in it; a struct that stands in several places is in the tree
+/// A field of one message type with its nested fields; a struct that is used several times is in the tree
 /// several times.
 struct RosField {
   std::string name;
@@ -27,11 +27,11 @@ struct RosField {
   std::vector<RosField> fields{};                              // of a structure
   std::uint32_t longest = 0;  // of a list, among the messages that were measured
   std::size_t width = 1;      // cells of one element; set by `lay_out`
-  std::string unit{};         // what stands behind it in the definition
+  std::string unit{};         // comment behind it in the definition
 };
 
-/// `name`: "fulmar_msgs/msg/Mixed"; `text`: of a schema with encoding ros2msg. The result is a nameless
-/// structure. Throws Error on what is no such definition.
+/// `name`: "fulmar_msgs/msg/Mixed"; `text`: of a schema with encoding ros2msg. The result is a structure
+/// without a name. Throws Error on an invalid definition.
 RosField parse_ros2msg(const std::string& name, const std::string& text);
 
 struct Cell {
@@ -58,15 +58,15 @@ struct Column {
   bool in_list = false;
 };
 
-/// Takes a message's list lengths into account. Throws Error when its bytes do not fit the definition; so
+/// Updates the lengths of lists. Throws Error when the bytes of the message do not fit the definition; so
 /// does `decode`.
 void measure(RosField& root, std::span<const std::byte> message);
-/// The columns of all messages that were measured. Throws Error when there are more than `most`.
+/// The columns of all measured messages. Throws Error when there are more than `most`.
 std::vector<Column> lay_out(RosField& root, std::size_t most);
 /// One cell per column of `lay_out`.
 void decode(const RosField& root, std::span<const std::byte> message, std::vector<Cell>& row);
 
-/// "12", "0.1" (the shortest that reads back the same), "nan", text as it is.
+/// "12", "0.1" (the shortest that reads back the same), "nan"; a text unchanged.
 std::string cell_text(const Cell& cell);
 /// "" when the field has no label for the value.
 std::string_view cell_label(const RosField& field, const Cell& cell);

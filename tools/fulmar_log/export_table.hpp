@@ -16,9 +16,9 @@ namespace fulmar::core {
 
 struct Table {
   std::string topic;  // "/nav/state"
-  std::string name;   // "nav.state"; no two alike
+  std::string name;   // "nav.state"; unique
   RosField root;
-  std::vector<Column> columns;  // beside the times
+  std::vector<Column> columns;  // in addition to the times
   std::uint64_t rows = 0;
 };
 
@@ -30,13 +30,13 @@ class Tables {
     const std::vector<Cell>* cells = nullptr;
   };
 
-  /// First reading. No topics: all. Throws Error for a topic that is not there, or is named and cannot be
-  /// decoded; one that is not named is left out, and `left_out` says why.
+  /// First reading. No topics: all. Throws Error for a requested topic that does not exist or cannot be
+  /// decoded. Without a request it is left out, and `left_out` has the reason.
   Tables(const std::filesystem::path& log, const std::vector<std::string>& topics);
 
   const std::vector<Table>& list() const { return tables_; }
   const std::vector<std::string>& left_out() const { return left_out_; }
-  /// "" or why the log ends before its end.
+  /// "" or the reason why the log is cut off.
   const std::string& fault() const { return fault_; }
   /// Second reading: all rows of the tables for which `wanted`, in file order.
   void rows(const std::function<bool(std::size_t)>& wanted,
@@ -45,7 +45,7 @@ class Tables {
  private:
   struct Source {
     int table = -1;   // -1: not exported
-    std::string why;  // it cannot be
+    std::string why;  // reason why it cannot be exported
   };
   Source add(const McapFile& log, std::uint16_t channel);
   void lay_out_all();

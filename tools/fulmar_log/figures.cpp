@@ -22,9 +22,9 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr std::size_t most_bytes = 1 << 20;  // of a message: a log may claim anything
+constexpr std::size_t most_bytes = 1 << 20;  // limit for a message, as a damaged log may state any size
 
-/// The mission as it was flown; nothing when the log has none that can be read.
+/// The mission of the flight; no value when the log has no readable one.
 std::optional<MissionText> mission_of(const McapFile& log) try {
   std::vector<std::pair<std::string, std::string>> files;
   for (const McapFile::Attachment& a : log.attachments)
@@ -38,7 +38,7 @@ std::optional<MissionText> mission_of(const McapFile& log) try {
       if (key.starts_with("role ")) overrides.roles.emplace_back(key.substr(5), value);
     }
   overrides.files = std::make_shared<const StoredFiles>(std::move(files));
-  Report faults;  // of a mission of another version: what can be read of it is enough
+  Report faults;  // of a mission of another version: the readable part is enough
   MissionText mission = parse_mission(name, overrides, faults);
   for (const auto& given : overrides.roles)
     for (PhaseText& phase : mission.phases) {
@@ -60,7 +60,7 @@ void take_assignments(const MissionText& mission, LogFigures& out) {
     for (const AssignmentText& a : phase.roles) out.assigned[phase.name][a.role] = a.use.text;
 }
 
-/// One pass over the log: who flew when, and the last message of each topic.
+/// One pass over the log: active components over time, and the last message of each topic.
 struct FlightReading {
   McapStream stream;
   std::map<std::uint16_t, Bytes> last;
@@ -91,10 +91,10 @@ struct FlightReading {
         out.changes.push_back({time_ns, false, e.component.data(), e.name.data()});
       if (e.code == Code::guard_reset) out.changes.push_back({time_ns, false, e.component.data(), ""});
     }
-  } catch (const Error&) {  // damaged: who flew is then a guess from the mission alone
+  } catch (const Error&) {  // damaged: the active component is then estimated from the mission
   }
 
-  /// As `fulmar run --json` has it; null when it was not recorded.
+  /// As in `fulmar run --json`; null when it was not recorded.
   nlohmann::json shown(const std::string& port) const try {
     std::string topic = "/" + port;
     std::replace(topic.begin(), topic.end(), '.', '/');

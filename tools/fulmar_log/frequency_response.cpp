@@ -28,7 +28,7 @@ std::string seconds(double s) {
   return text;
 }
 
-/// The usual time between two samples.
+/// Typical time between two samples.
 double interval(const Series& s, const char* what) {
   if (s.t_s.size() < 10) throw Error(log_tool_messages::too_few_samples(what, s.t_s.size()));
   std::vector<double> steps;
@@ -44,7 +44,7 @@ void check_whole(const Series& s, double dt, const char* what) {
       throw Error(log_tool_messages::sample_gap(what, seconds(s.t_s[i - 1]), seconds(s.t_s[i])));
 }
 
-/// At n times from begin_s on, linear between the samples.
+/// Values at n times from begin_s on, by linear interpolation.
 std::vector<double> even(const Series& s, double begin_s, double dt, std::size_t n) {
   std::vector<double> x;
   x.reserve(n);
@@ -58,7 +58,7 @@ std::vector<double> even(const Series& s, double begin_s, double dt, std::size_t
   return x;
 }
 
-/// Sums over the segments, by frequency. Their common factor falls out of every quotient.
+/// Sums over the segments, by frequency. Their common factor cancels in every quotient.
 struct Spectra {
   std::vector<double> xx, yy;
   std::vector<Complex> xy;
@@ -111,7 +111,7 @@ FrequencyResponse frequency_response(const Series& input, const Series& output, 
   FrequencyResponse out{1 / dt, static_cast<double>(length) * dt, s.segments, {}};
   const auto last = static_cast<std::size_t>(0.4 * static_cast<double>(length));
   const double most = *std::max_element(s.xx.begin() + 2, s.xx.end());
-  const double averages = static_cast<double>(n / length);  // of those that share no sample
+  const double averages = static_cast<double>(n / length);  // number of independent segments
   for (std::size_t k = 2; k < std::min(last + 1, s.xx.size()); ++k) {
     if (!(s.xx[k] > min_power * most)) continue;
     const Complex H = s.xy[k] / s.xx[k];

@@ -20,12 +20,12 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t sample_bytes = 128u << 10;  // of a topic, compressed in one go
+constexpr std::size_t sample_bytes = 128u << 10;  // of a topic, compressed together
 constexpr std::size_t index_bytes = 16;           // of a message in its chunk's index
 constexpr std::size_t max_events = 100'000;
 constexpr std::array severities{"info", "warning", "error", "critical"};
 
-/// How well the bytes of one topic compress.
+/// Measures how well the messages of one topic compress.
 struct Weight {
   LogInfo::Topic topic;
   std::vector<std::byte> open;
@@ -146,8 +146,8 @@ struct Reading {
     return;
   }
 
-  /// Events of another version or of another program: `text` says what happened, and in Fulmar's logs before
-  /// there were codes a phase has its name behind a word.
+  /// Events of another version or program: `text` describes the event. In logs of Fulmar before event codes,
+  /// a phase has its name after a keyword.
   void read_other_events(const McapFile& log, std::uint64_t epoch) {
     constexpr std::string_view phase_word = "phase ";
     const auto schema =

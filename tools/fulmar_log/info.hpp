@@ -14,19 +14,20 @@ struct LogInfo {
   struct Topic {
     std::string topic, type;
     std::uint64_t messages = 0;
-    std::uint64_t bytes = 0;  // of the messages as they are, with their heads
-    double stored_bytes = 0;  // its part of the file: compressed alone, and scaled so that all topics
-                              // together fill the file; its index
+    std::uint64_t bytes = 0;  // of the messages without compression, with their headers
+    // its share of the file: compressed alone, scaled so that all topics together fill the file; with its
+    // index
+    double stored_bytes = 0;
     std::int64_t first_ns = 0, last_ns = 0;  // flight time
   };
   struct Event {
     std::int64_t time_ns = 0;
-    std::string kind, component, text, severity;  // the last one "" in logs that say none
+    std::string kind, component, text, severity;  // severity "" in logs without severities
   };
   struct Phase {
     std::string name;
     std::int64_t begin_ns = 0, end_ns = 0;
-    std::string because;  // the condition that led to it
+    std::string because;  // condition that caused it
   };
   struct Verdict {
     std::string words, severity;
@@ -37,14 +38,14 @@ struct LogInfo {
   std::vector<Topic> topics;              // in order of name
   std::vector<Event> events;              // of /fulmar/event
   std::vector<Phase> phases;
-  Verdict verdict;  // of the flight; "" when the log ends before it
+  Verdict verdict;  // of the flight; "" for a log that is cut off before its end
 
   double minutes() const { return static_cast<double>(end_ns - begin_ns) / 60e9; }
-  /// Of the metadata; "" when there is none.
+  /// Value from the metadata; "" for none.
   std::string value(const std::string& metadata, const std::string& key) const;
 };
 
-/// Throws Error for what is no log.
+/// Throws Error for a file that is no log.
 LogInfo read_info(const std::filesystem::path& log);
 
 }  // namespace fulmar::core

@@ -29,14 +29,14 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t shown = 20;  // lines of a list, unless all is asked for
+constexpr std::size_t shown = 20;  // lines of a list, unless all are requested
 
 double rate_hz(const LogInfo::Topic& t) {
   return t.messages > 1 && t.last_ns > t.first_ns
              ? static_cast<double>(t.messages - 1) / seconds(t.last_ns - t.first_ns)
              : 0;
 }
-/// 0 for a log too short to tell.
+/// 0 for a log that is too short.
 double per_minute(const LogInfo& info, double bytes) {
   return info.minutes() > 0 ? bytes / 1e6 / info.minutes() : 0;
 }
@@ -107,7 +107,7 @@ json info_json(const LogInfo& info) {
   return o;
 }
 
-/// Which plugins flew, one line for each: its pairs are "slc.file", "slc.version", ...
+/// The plugins of the flight, one line each, from the pairs "slc.file", "slc.version", ...
 std::vector<std::pair<std::string, std::string>> shown_pairs(const McapFile::Metadata& m) {
   if (m.name != "plugins") return m.pairs;
   std::vector<std::pair<std::string, std::string>> list;
@@ -189,7 +189,7 @@ std::string recovered_name(const fs::path& file) {
 
 int recover_command(const std::string& file, std::string out) {
   if (out.empty()) out = recovered_name(file);
-  // The writer would refuse it: its own name is OUT.part. So the result gets a name beside it first.
+  // OUT.part is also the writer's temporary name: the result then gets another name first.
   const bool own_part = fs::path(out + ".part") == fs::path(file);
   if (own_part && fs::exists(out)) throw Error(log_tool_messages::log_exists(out));
   const std::string first = own_part ? out + ".recovered" : out;

@@ -12,11 +12,11 @@ namespace fulmar::core {
 
 class LogCommand {
  public:
-  /// Adds the command `log` to the program's.
+  /// Adds the command `log` to the program.
   explicit LogCommand(CLI::App& app);
   ~LogCommand();
   bool parsed() const;
-  /// The program's exit code. Throws Error.
+  /// Returns the exit code. Throws Error.
   int run() const;
 
  private:

@@ -48,13 +48,13 @@ const RosField* field_named(const RosField& structure, const std::string& name) 
   return nullptr;
 }
 
-/// "nav.state"; a probe stands behind its component's name alone.
+/// "nav.state"; a probe follows the name of its component alone.
 std::string port_of_topic(const std::string& topic) {
   const std::string port = dotted_topic(topic);
   return port.ends_with(probes) ? port.substr(0, port.size() - probes.size()) : port;
 }
 
-/// Whether "[2]" names one of so many.
+/// True when "[2]" is a valid index.
 bool is_element(const std::string& index, std::uint32_t count) {
   std::uint32_t i = 0;
   const char* const end = index.data() + index.size();
@@ -105,7 +105,7 @@ const UnitName* unit_in_name(const std::string& name) {
   return nullptr;
 }
 
-/// What a definition says behind a field is its unit in logs of ours; in others it may be a whole sentence.
+/// In logs of Fulmar the comment behind a field is its unit; in others it may be a sentence.
 bool reads_as_unit(const std::string& note) {
   return !note.empty() && note.size() <= 12 && note.find_first_of(" ,;:") == std::string::npos;
 }

@@ -18,27 +18,27 @@ struct LogPlace {
 /// "/nav/state" -> "nav.state"
 std::string dotted_topic(std::string topic);
 
-/// Throws Error with the ports that the log has. `log`: its name, for the sentence.
+/// Throws Error with the ports of the log. `log`: its name for the message.
 LogPlace place_in_log(const LogInfo& info, const std::string& log, const std::string& field);
 
-/// NaN for what is none.
+/// NaN for a cell without a number.
 double number_of_cell(const Cell& cell);
 
-/// A number as it is drawn.
+/// A number in the form in which it is drawn.
 struct LogNumber {
   std::size_t table = 0, column = 0;
   std::string name;         // with degrees for radians: "nav.state.roll_deg"
   std::string words, unit;  // "roll", "deg"; a unit may be ""
   double factor = 1;        // to that unit
-  bool angle = false;       // it may jump by a turn
-  bool held = false;        // a choice, a flag, a count: there is nothing between two of them
+  bool angle = false;       // may jump by a turn
+  bool held = false;        // a choice, a flag, a count: no interpolation between samples
 };
 
-/// Throws Error with what there is: for a field that is not there, and for one that is no number.
+/// Throws Error with the choices: for an unknown field, and for one that is no number.
 LogNumber number_in_log(const Tables& tables, const LogPlace& place, const std::string& log);
 
-/// For completion: the ports of a log, each with a dot behind it, and of a port that is typed the numbers, as
-/// far as they begin with `prefix`. Throws Error.
+/// For completion: the ports of a log, each with a dot, and the numbers of a complete port, if they begin
+/// with `prefix`. Throws Error.
 std::vector<std::string> numbers_beginning(const std::string& log, const std::string& prefix);
 
 }  // namespace fulmar::core

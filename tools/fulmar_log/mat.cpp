@@ -91,7 +91,7 @@ std::string flags_and_dims(std::uint32_t shape, std::size_t rows, std::size_t co
                      u32(static_cast<std::uint32_t>(rows)) + u32(static_cast<std::uint32_t>(columns)));
 }
 
-/// What is no code point of one character becomes '?': character arrays count in characters, not in bytes.
+/// Code points that are not one character become '?': character arrays count characters, not bytes.
 std::string plain(const std::string& text) {
   std::string s = text;
   for (char& c : s)

@@ -13,27 +13,27 @@
 
 namespace fulmar::core {
 
-/// A value, in the bytes of the format.
+/// A value in the bytes of the format.
 class MatValue {
  public:
   /// A column of numbers.
   static MatValue numbers(fulmar_kind kind, std::size_t count, std::span<const std::byte> data);
   /// A column of cells, each a text.
   static MatValue texts(const std::vector<std::string>& texts);
-  /// A struct of 1 x 1. Names are cut to 63 letters, digits and underscores, and made different.
+  /// A struct of 1 x 1. Names are cut to 63 letters, digits and underscores, and made unique.
   static MatValue structure(const std::vector<std::pair<std::string, MatValue>>& fields);
 
  private:
   friend class MatWriter;
   std::string flags_dims_;  // before the name
-  std::string body_;        // behind it
+  std::string body_;        // after the name
   std::string named(const std::string& name) const;
 };
 
 class MatWriter {
  public:
-  /// Throws Error when the file is there already or cannot be written; so do the others when the disk
-  /// refuses. FILE.part until `finish`.
+  /// Throws Error when the file exists or cannot be written; the other functions throw for a failed write.
+  /// The file is FILE.part until `finish`.
   explicit MatWriter(const std::filesystem::path& file);
   void add(const std::string& name, const MatValue& value);
   void finish();

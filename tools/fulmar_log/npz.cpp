@@ -17,10 +17,10 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::uint64_t largest_32 =
-    std::numeric_limits<std::uint32_t>::max();            // of what has 32 bits in the format
+    std::numeric_limits<std::uint32_t>::max();            // limit of the 32-bit fields of the format
 constexpr std::uint16_t version = 20, first_date = 0x21;  // 2.0; 1980-01-01
 constexpr std::uint16_t utf8_names = 1u << 11, deflated = 8;
-constexpr int level = 1;  // noise does not shrink, whatever is spent on it
+constexpr int level = 1;  // a higher level does not compress noise better
 
 template <class... Numbers>
 std::string little_endian(Numbers... numbers) {
@@ -29,7 +29,7 @@ std::string little_endian(Numbers... numbers) {
   return bytes;
 }
 
-/// A raw deflate stream of two pieces.
+/// A raw deflate stream of two parts.
 std::string deflate_both(const std::string& first, std::span<const std::byte> second) {
   z_stream z{};
   if (::deflateInit2(&z, level, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK)
@@ -63,7 +63,7 @@ std::string npy_header(const std::string& type, std::size_t count) {
   return std::string("\x93NUMPY\x01\0", 8) + little_endian(static_cast<std::uint16_t>(text.size())) + text;
 }
 
-/// UTF-8 as code points; a byte that is none becomes U+FFFD.
+/// UTF-8 as code points; an invalid byte becomes U+FFFD.
 std::u32string code_points(const std::string& text) {
   std::u32string points;
   for (std::size_t i = 0; i < text.size();) {

@@ -14,10 +14,10 @@ namespace fulmar::core {
 
 class NpzWriter {
  public:
-  /// Throws Error when the file is there already or cannot be written; so do the others when the disk
-  /// refuses. FILE.part until `finish`.
+  /// Throws Error when the file exists or cannot be written; the other functions throw for a failed write.
+  /// The file is FILE.part until `finish`.
   explicit NpzWriter(const std::filesystem::path& file);
-  /// `type` as NumPy writes it: "<f8", "|u1", "|b1".
+  /// `type` in NumPy's notation: "<f8", "|u1", "|b1".
   void add(const std::string& name, const std::string& type, std::size_t count,
            std::span<const std::byte> data);
   /// An array of text.

@@ -12,14 +12,14 @@
 
 namespace fulmar::states {
 
-/// Between two states; angles go the short way, what is valid is so in both.
+/// Interpolates between two states; angles take the short way; a value is valid if it is so in both.
 VehicleState between(const VehicleState& a, const VehicleState& b, double t);
 
 template <class Sparse>
 class Pairing {
  public:
-  static constexpr std::int64_t max_gap_ns = 250'000'000;     // between two states that are interpolated
-  static constexpr std::int64_t patience_ns = 5'000'000'000;  // with fixes that come late
+  static constexpr std::int64_t max_gap_ns = 250'000'000;     // largest gap for an interpolation
+  static constexpr std::int64_t patience_ns = 5'000'000'000;  // for late fixes
 
   void add_sparse(std::int64_t valid_ns, const Sparse& sample) { sparse_.emplace_back(valid_ns, sample); }
   void add_dense(std::int64_t valid_ns, const VehicleState& state) {
@@ -27,7 +27,7 @@ class Pairing {
     dense_.emplace_back(valid_ns, state);
   }
 
-  /// `take` gets what can be paired by now.
+  /// `take` gets the pairs that are complete.
   template <class Take>
   void settle(std::int64_t now_ns, const Take& take) {
     while (!sparse_.empty() && (is_covered() || sparse_.front().first < now_ns - patience_ns)) {
@@ -36,12 +36,12 @@ class Pairing {
     }
     while (dense_.size() > 1 && dense_[1].first < now_ns - patience_ns) dense_.pop_front();
   }
-  /// All the rest.
+  /// Takes all remaining pairs.
   template <class Take>
   void end(const Take& take) {
     for (; !sparse_.empty(); sparse_.pop_front()) decide(take);
   }
-  /// For which the pair that is taken now is valid.
+  /// Time of validity of the present pair.
   std::int64_t pair_ns() const { return pair_ns_; }
   std::uint64_t paired() const { return paired_; }
   std::uint64_t alone() const { return alone_; }

@@ -57,7 +57,7 @@ void convert(const fs::path& svg, const fs::path& out, const std::string& form) 
     throw Error(log_tool_messages::figure_conversion_failed(program.string(), out.string()));
 }
 
-/// A file that goes with this object.
+/// A file that this object deletes at its end.
 struct Scratch {
   fs::path file;
   ~Scratch() {

@@ -25,7 +25,7 @@ using core::Error;
 namespace fs = std::filesystem;
 
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t seen_ns = 100'000'000;  // of what begins a phase
+constexpr std::int64_t seen_ns = 100'000'000;  // tolerance at the begin of a phase
 
 /// A field in one log.
 struct Samples {
@@ -34,9 +34,9 @@ struct Samples {
 };
 
 struct OpenLog {
-  std::string file, name;  // as it was given; in the legend
+  std::string file, name;  // as given; in the legend
   core::LogInfo info;
-  std::vector<Samples> fields;  // those that were asked for, in their order
+  std::vector<Samples> fields;  // the requested ones in their order
   std::vector<Samples> over;    // x of each of them; of all; or none, for time
   const Samples* x_of(std::size_t field) const {
     return over.empty() ? nullptr : &over[std::min(field, over.size() - 1)];
@@ -44,10 +44,10 @@ struct OpenLog {
 };
 
 struct Asked {
-  std::vector<std::string> logs, fields;         // no field twice
-  std::vector<std::string> labels;               // of --labels: of each field, or none
-  std::vector<std::vector<std::size_t>> panels;  // of --panel: places in `fields`
-  std::size_t in_order = 0;                      // so many fields, the first ones, go to panels by their unit
+  std::vector<std::string> logs, fields;         // each field once
+  std::vector<std::string> labels;               // of --labels: one for each field, or none
+  std::vector<std::vector<std::size_t>> panels;  // of --panel: indices into `fields`
+  std::size_t in_order = 0;                      // the first ones, which go to panels by their unit
 };
 
 std::vector<std::string> split(const std::string& text) {
@@ -112,7 +112,7 @@ std::vector<std::string> log_names(const Asked& asked, const std::string& given)
   return names;
 }
 
-/// What came late is put in its place; equal times stay in their order.
+/// Sorts late samples by time; equal times keep their order.
 void sort_by_time(Samples& s) {
   if (std::is_sorted(s.t_s.begin(), s.t_s.end())) return;
   std::vector<std::size_t> order(s.t_s.size());
@@ -142,7 +142,7 @@ std::string no_number_words(const OpenLog& log, const Interval& time) {
       .line();
 }
 
-/// What is not in a log that was cut off may have been behind its end.
+/// In a log that was cut off a missing port may have been in the lost part.
 core::LogPlace place_of(const OpenLog& log, const std::string& field) try {
   return core::place_in_log(log.info, log.file, field);
 } catch (const Error& e) {
@@ -150,7 +150,7 @@ core::LogPlace place_of(const OpenLog& log, const std::string& field) try {
   throw Error(fault.empty() ? e.diagnostic : log_tool_messages::log_cut_off(e.diagnostic, fault));
 }
 
-/// Where the fields are, and behind them what is x: of each, or of all.
+/// Places of the fields, then of x: one for each, or one for all.
 std::vector<core::LogPlace> places_in(const OpenLog& log, const Asked& asked, const std::string& over) {
   std::vector<core::LogPlace> places;
   for (const std::string& field : asked.fields) places.push_back(place_of(log, field));
@@ -196,7 +196,7 @@ OpenLog read_log(const std::string& file, const std::string& name, const Asked& 
   return log;
 }
 
-/// A value between the samples of x, at the time of a sample of y.
+/// A value interpolated between the samples of x, at the time of a sample of y.
 double value_at_time(const Samples& x, double t_s) {
   const auto after = std::lower_bound(x.t_s.begin(), x.t_s.end(), t_s);
   const auto i = static_cast<std::size_t>(after - x.t_s.begin());
@@ -207,7 +207,7 @@ double value_at_time(const Samples& x, double t_s) {
   return x.value[i - 1] + (x.value[i] - x.value[i - 1]) * (t_s - x.t_s[i - 1]) / (x.t_s[i] - x.t_s[i - 1]);
 }
 
-/// An angle that jumps by a turn is parted there.
+/// A curve is split where an angle jumps by a turn.
 std::vector<ChartPoint> points_of(const Samples& y, const Samples* over) {
   std::vector<ChartPoint> points;
   const bool rows = over && over->number.table == y.number.table;
@@ -268,7 +268,7 @@ class FigureMaker {
                   std::all_of(logs_[0].fields.begin(), logs_[0].fields.end(), in_metres);
   }
 
-  /// Behind a track over the ground, that of the first log.
+  /// For a track over the ground: the plan of the first log.
   void add_plan() {
     const bool ground =
         figure.even && figure.x == "position east [m]" && figure.panels[0].y == "position north [m]";
@@ -276,7 +276,7 @@ class FigureMaker {
     if (!route.empty()) figure.panels[0].curves.push_back({"plan", route, false, true});
   }
 
-  /// What was asked for, as far as there was a flight.
+  /// Limits the requested interval to the flight.
   void show(const Interval& time) {
     chart::AxisRange flights;
     for (const OpenLog& log : logs_)
@@ -285,7 +285,7 @@ class FigureMaker {
       if (end_s >= flights.min && end_s <= flights.max) figure.shown.take(end_s);
   }
 
-  /// Those of the first log.
+  /// Phases of the first log.
   void set_phases() {
     for (const core::LogInfo::Phase& p : logs_[0].info.phases)
       figure.bands.push_back({p.name, 1e-9 * double(p.begin_ns), 1e-9 * double(p.end_ns)});
@@ -309,7 +309,7 @@ class FigureMaker {
   std::vector<std::string>& notes_;
 };
 
-/// A log may hold any bytes; a figure is UTF-8.
+/// A log may hold any bytes, but a figure is UTF-8.
 void clean_texts(chart::Figure& figure) {
   const auto clean = [](std::string& text) { core::make_printable(text.data()); };
   clean(figure.title);

@@ -22,14 +22,14 @@ bool height(S s) { return s.height_valid; }
 bool airspeed(S s) { return s.airspeed_valid; }
 bool wind(S s) { return s.wind_valid; }
 
-/// Deviation of the small rotation about a level axis; `rad` is where that points, from north.
+/// Standard deviation of the small rotation about a level axis; `rad` is its direction, from north.
 double level_std(S s, double rad) {
   return std::hypot(std::cos(rad) * s.attitude_std_rad.north, std::sin(rad) * s.attitude_std_rad.east);
 }
-// What a small rotation phi about the NED axes does to the angles of the 3-2-1 sequence, to first order:
+// Effect of a small rotation phi about the NED axes on the angles of the 3-2-1 sequence, to first order:
 // d roll = (cos psi phi_n + sin psi phi_e) / cos theta, d pitch = -sin psi phi_n + cos psi phi_e,
-// d yaw = phi_d + sin theta d roll. From B&M (3.3), with the rate in the axes of the ground. What the errors
-// about two axes have in common is not known here.
+// d yaw = phi_d + sin theta d roll. From B&M (3.3), with the rate in the axes of the ground.
+// The correlation of the errors about two axes is neglected.
 double roll_std(S s) { return level_std(s, s.yaw_rad) / std::max(std::cos(s.pitch_rad), 1e-6); }
 double pitch_std(S s) { return level_std(s, s.yaw_rad + std::numbers::pi / 2); }
 double yaw_std(S s) { return std::hypot(s.attitude_std_rad.down, std::sin(s.pitch_rad) * roll_std(s)); }
@@ -48,7 +48,7 @@ Vec3<Frame> mix(const Vec3<Frame>& a, const Vec3<Frame>& b, double t) {
 double mix(double a, double b, double t) { return a + t * (b - a); }
 double turn(double a, double b, double t) { return wrap_pi(a + t * angle_difference(b, a)); }
 
-/// Of two attitudes near to each other.
+/// Interpolates between two attitudes that are close to each other.
 Quat mix(const Quat& a, const Quat& b, double t) {
   const double sign = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0 ? -1 : 1;
   Quat q{mix(a.w, sign * b.w, t), mix(a.x, sign * b.x, t), mix(a.y, sign * b.y, t), mix(a.z, sign * b.z, t)};
@@ -127,7 +127,7 @@ bool drop_not_finite(VehicleState& s) {
 }
 
 VehicleState between(const VehicleState& a, const VehicleState& b, double t) {
-  VehicleState s = a;  // what is not compared stays as it was
+  VehicleState s = a;  // fields that are not compared stay unchanged
   s.position_m = mix(a.position_m, b.position_m, t);
   s.velocity_mps = mix(a.velocity_mps, b.velocity_mps, t);
   s.attitude = mix(a.attitude, b.attitude, t);

@@ -15,7 +15,7 @@ struct Quantity {
   double scale = 1;                // to that unit
   bool angle = false;
   double (*value)(const VehicleState&) = nullptr;
-  double (*std)(const VehicleState&) = nullptr;  // claimed; nullptr: no state has one
+  double (*std)(const VehicleState&) = nullptr;  // reported standard deviation; nullptr: states have none
   bool (*valid)(const VehicleState&) = nullptr;
 
   /// Of two states in one frame, in the quantity's unit.
@@ -27,15 +27,15 @@ struct Quantity {
 
 const std::vector<Quantity>& quantities();
 
-/// Clears the flags of what is no number; false when there was such.
+/// Clears the validity flags of values that are not finite; returns false when there was one.
 bool drop_not_finite(VehicleState& state);
 
-/// The positions of states and fixes from one origin, however their own ones are.
+/// Transforms the positions of states and fixes to a common origin.
 class CommonFrame {
  public:
-  /// `state` as seen from the origin of `base`; the axes of two frames are taken for parallel.
+  /// `state` relative to the origin of `base`; the axes of the two frames are assumed to be parallel.
   VehicleState seen_from(const VehicleState& state, const VehicleState& base);
-  /// A fix as a state: what the receiver does not say is not valid.
+  /// A fix as a state: fields that the receiver does not measure are invalid.
   VehicleState seen_from(const Gnss& fix, const VehicleState& base);
 
  private:

@@ -67,7 +67,7 @@ Recovery recover_log(McapStream& first, McapStream& second, const std::filesyste
   while (const McapFile::Message* m = second.next()) {
     const auto channel = channels.find(m->channel);
     grows = channel == channels.end() ||
-            m->data.size() > largest;  // the first reading has not met it: there is no room for it
+            m->data.size() > largest;  // new since the first reading: no room is reserved for it
     if (grows) break;
     std::byte* room = out.begin_message(channel->second, m->sequence, m->log_ns, m->publish_ns);
     if (!m->data.empty()) std::memcpy(room, m->data.data(), m->data.size());

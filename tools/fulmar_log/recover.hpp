@@ -14,22 +14,21 @@ namespace fulmar::core {
 struct Recovery {
   McapWriter::Result written;
   LeftOut left_out;
-  std::string fault;       // "" or why the reading ended
-  bool was_whole = false;  // there was nothing to recover
+  std::string fault;       // "" or the reason why the reading ended
+  bool was_whole = false;  // the log is complete
 
-  std::string left_out_text() const;  // "2 damaged chunks, 1 damaged attachment"; "": nothing
+  std::string left_out_text() const;  // "2 damaged chunks, 1 damaged attachment"; "": none
 };
 
-/// Reads `from` without what is damaged, and writes what is there to the new file `to`, or nothing when there
-/// is nothing. Throws Error as McapStream and McapWriter do, when nothing is left, and for a file that is
-/// still being written.
+/// Copies the undamaged parts of `from` to the new file `to`; a complete log is not copied. Throws Error as
+/// McapStream and McapWriter do, without any undamaged part, and for a file that is still being written.
 Recovery recover_log(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// The same of a file that is opened twice, and may have grown in between: the first message that the first
-/// reading did not foresee ends it.
+/// The same for a file that is opened twice and may have grown in between: the copy ends at the first message
+/// that is new.
 Recovery recover_log(McapStream& first, McapStream& second, const std::filesystem::path& to);
 
-/// The same; what was written.
+/// The same; returns the result of the writer.
 McapWriter::Result recover_mcap(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace fulmar::core

@@ -93,7 +93,7 @@ std::string frequency_text(const FrequencyResponse& r) {
   std::string out = fmt::format(
       "\n{} segments of {:.2f} s at {:.4g} Hz\n{:>12} {:>11} {:>9} {:>9} {:>11} {:>10}\n", r.segments,
       r.segment_s, r.rate_hz, "frequency Hz", "gain", "dB", "+- %", "phase deg", "coherence");
-  // equal steps of their logarithm, when there are more than a screen has room for
+  // equal steps of the logarithm, when there are more frequencies than rows
   double next_hz = 0;
   for (const Frequency& f : r.at) {
     if (r.at.size() > max_rows && f.hz < next_hz && &f != &r.at.back()) continue;
@@ -104,7 +104,7 @@ std::string frequency_text(const FrequencyResponse& r) {
   return out;
 }
 
-/// What could be told, or why not.
+/// The result, or the reason why there is none.
 template <class Make>
 auto attempt(bool wanted, std::string& why, const Make& make) -> std::optional<decltype(make())> try {
   if (!wanted) return std::nullopt;

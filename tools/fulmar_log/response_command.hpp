@@ -11,11 +11,11 @@ namespace fulmar::response {
 
 class ResponseCommand {
  public:
-  /// Adds the command `response` to the program's.
+  /// Adds the command `response` to the program.
   explicit ResponseCommand(CLI::App& app);
   ~ResponseCommand();
   bool parsed() const;
-  /// 0: at least one of what was asked for could be told; else it throws core::Error.
+  /// Returns 0 when at least one requested result exists; else throws core::Error.
   int run() const;
 
  private:

@@ -19,7 +19,7 @@ using mcap::crc_of, mcap::Cursor, mcap::Data, mcap::require;
 
 Salvage::Salvage(const std::filesystem::path& file) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) return;  // McapStream says so
+  if (!std::filesystem::is_regular_file(file, ignored)) return;  // McapStream reports it
   in_.open(file, std::ios::binary | std::ios::ate);
   if (!in_) return;
   holes_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -31,8 +31,8 @@ Salvage::~Salvage() {
   if (holes_ >= 0) ::close(holes_);
 }
 
-/// The next byte at `at` or behind that the file system has stored; the file's size when there is none. A
-/// file that lost its end in a power failure can have gigabytes that were never written.
+/// The next byte at or after `at` that the file system has stored; the size of the file for none. After a
+/// power failure a file may end in gigabytes that were never written.
 std::uint64_t Salvage::next_stored(std::uint64_t at) const {
   const off_t stored = holes_ < 0 ? -1 : ::lseek(holes_, static_cast<off_t>(at), SEEK_DATA);
   if (stored >= 0) return static_cast<std::uint64_t>(stored);
@@ -52,8 +52,8 @@ void Salvage::read(std::byte* to, std::uint64_t bytes) {
   place_ += bytes;
 }
 
-/// From the end of a file that was closed: the schemas and channels, and where chunks, attachments and
-/// metadata are. Nothing when it is not as it should be.
+/// Reads the end of a closed file: the schemas and channels, and the places of chunks, attachments and
+/// metadata. Ignores an invalid one.
 void Salvage::read_summary() {
   constexpr std::uint64_t tail = mcap::footer_record + mcap::magic.size(),
                           data_end_record = mcap::record_head + 4;
@@ -95,7 +95,7 @@ void Salvage::name_place(std::uint8_t code, Cursor of) {
   if (code == mcap::metadata_index) named_[of.number<std::uint64_t>()] = mcap::metadata;
 }
 
-/// What has no checksum of its own, and what would swallow the next record.
+/// Checks records without a checksum and lengths that exceed the next record.
 void Salvage::check_head(std::uint64_t place, std::uint8_t code, std::uint64_t length) {
   const auto here = named_.find(place), next = named_.upper_bound(place);
   require(here == named_.end() || here->second == code, log_tool_messages::record_kind_differs);
@@ -152,7 +152,7 @@ std::uint64_t Salvage::next_place(std::uint64_t place) {
   return 0;
 }
 
-/// Whether a chunk, an attachment or metadata begins there: its length is the sum of the lengths in it.
+/// True when a chunk, an attachment or metadata begins there: its length is the sum of the lengths in it.
 bool Salvage::begins_record(Data head, std::uint64_t at) {
   const auto code = static_cast<std::uint8_t>(head[0]);
   if (code != mcap::chunk && code != mcap::attachment && code != mcap::metadata) return false;
@@ -182,7 +182,7 @@ std::uint64_t Salvage::pass_text() {
 }
 
 std::uint64_t Salvage::length_within(std::uint8_t code) {
-  if (code == mcap::metadata) return pass_text() + pass_text();  // one expression each: both are read
+  if (code == mcap::metadata) return pass_text() + pass_text();  // one expression each, so that both are read
   if (code == mcap::message_index) {
     seek(place_ + 2);
     return 2 + pass_text();

@@ -12,14 +12,14 @@
 
 namespace fulmar::core {
 
-/// What a salvage has left out.
+/// Parts that a salvage has left out.
 struct LeftOut {
-  std::uint32_t chunks = 0, attachments = 0, metadata = 0;  // that are damaged
-  std::uint32_t others = 0;                                 // of which nobody can tell what they were
-  std::uint64_t messages = 0;                               // whose channel only a damaged chunk told
+  std::uint32_t chunks = 0, attachments = 0, metadata = 0;  // damaged ones
+  std::uint32_t others = 0;                                 // records of unknown type
+  std::uint64_t messages = 0;  // messages of a channel that only a damaged chunk defines
 };
 
-/// Of one reading of one file.
+/// State of one reading of one file.
 class Salvage : public McapSalvage {
  public:
   explicit Salvage(const std::filesystem::path& file);
@@ -46,9 +46,9 @@ class Salvage : public McapSalvage {
   void read(std::byte* to, std::uint64_t bytes);
 
   std::ifstream in_;
-  int holes_ = -1;  // the same file, to ask where it has holes
+  int holes_ = -1;  // the same file, for queries of its holes
   std::uint64_t size_ = 0, place_ = 0;
-  std::map<std::uint64_t, std::uint8_t> named_;  // places that the summary names, and what is there
+  std::map<std::uint64_t, std::uint8_t> named_;  // places in the summary, and their record types
   LeftOut left_out_;
 };
 

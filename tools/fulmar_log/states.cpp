@@ -22,14 +22,14 @@ using core::McapFile;
 using core::Type;
 using core::TypePtr;
 
-constexpr std::uint32_t largest_message = 1u << 20;  // a log may claim anything
+constexpr std::uint32_t largest_message = 1u << 20;  // limit, as a damaged log may state any size
 
-/// What a vehicle publishes of its own state is the truth: no real one knows it.
+/// A state that a vehicle publishes is the truth: only a simulated vehicle has one.
 bool is_truth(const std::string& topic) {
   return topic.starts_with("/vehicle/") || topic.ends_with("/truth");
 }
 
-/// "fulmar_msgs/msg/VehicleState" -> "VehicleState"; of messages of others the whole name.
+/// "fulmar_msgs/msg/VehicleState" -> "VehicleState"; the whole name for messages of other packages.
 std::string type_word(const McapFile& log, const McapFile::Channel& channel) {
   const auto schema = log.schemas.find(channel.schema);
   if (schema == log.schemas.end()) return log_tool_messages::message_type_missing().line();
@@ -38,7 +38,7 @@ std::string type_word(const McapFile& log, const McapFile::Channel& channel) {
   return name.starts_with(ours) ? name.substr(ours.size()) : name;
 }
 
-/// A reader who is content with whatever fields there are.
+/// Type for a reader that accepts any subset of the fields.
 TypePtr all_optional(const Type& type) {
   Type copy = type;
   copy.hash = 0;
@@ -103,7 +103,7 @@ NamedFields::NamedFields(const McapFile& log, std::uint16_t channel, const TypeP
   } catch (const Error& fault) {
     throw Error(located(topic_, fault.diagnostic));
   }
-  plan_.gaps.clear();  // what the log lacks keeps what the caller has put there
+  plan_.gaps.clear();  // fields that the log lacks keep the caller's values
   room_.resize(theirs_->size);
 }
 

@@ -18,7 +18,7 @@
 
 namespace fulmar::states {
 
-/// The topics of a log that are about states, each kind in order of name.
+/// The topics of a log with states, each kind in order of name.
 struct StateLog {
   struct Topic {
     std::string name;  // "/nav/state"
@@ -27,29 +27,29 @@ struct StateLog {
     double period_ns() const {
       return messages > 1 ? static_cast<double>(last_ns - first_ns) / static_cast<double>(messages - 1) : 0;
     }
-    /// Whether its samples are farther apart than the other's.
+    /// True when its samples are farther apart than those of the other topic.
     bool sparser_than(const Topic& other) const { return period_ns() > 1.01 * other.period_ns(); }
   };
   std::filesystem::path file;
   std::vector<Topic> estimates, truths, fixes, checks;
   std::map<std::string, std::string> types;  // of all topics: "/plan/plan" -> "Plan"
   std::uint64_t epoch_ns = 0;
-  std::string fault;  // "" or why the log ends before its end
+  std::string fault;  // "" or the reason why the log is cut off
 
   const Topic* find(const std::string& topic) const;  // among estimates and truths
   /// Names of estimates and truths.
   std::vector<std::string> states() const;
 };
 
-/// Reads it once. Throws core::Error for what is no log.
+/// Reads the log once. Throws core::Error for a file that is no log.
 StateLog look_for_states(const std::filesystem::path& log);
 
-/// Messages of a topic, where what the log says of them fits the table of ours as far as it goes.
+/// Reads messages of a topic field by field, as far as the definition in the log matches the present one.
 class NamedFields {
  public:
-  /// Throws core::Error that names the topic when a field of that name is something else there.
+  /// Throws core::Error that names the topic when a field of that name has another type in the log.
   NamedFields(const core::McapFile& log, std::uint16_t channel, const core::TypePtr& ours);
-  /// Fills in what the log has; what it lacks stays as it is. Throws core::Error.
+  /// Sets the fields of the log; missing ones stay unchanged. Throws core::Error.
   void read(std::span<const std::byte> bytes, std::byte* message) const;
 
  private:
@@ -62,7 +62,7 @@ class NamedFields {
 template <class Message>
 class MessageReader {
  public:
-  /// `lacking`: what fields hold that the log does not have.
+  /// `lacking`: values of the fields that the log does not have.
   MessageReader(const core::McapFile& log, std::uint16_t channel, const Message& lacking = {})
       : lacking_(lacking), fields_(log, channel, core::copy_type(describe<Message>())) {}
   Message read(std::span<const std::byte> bytes) const {

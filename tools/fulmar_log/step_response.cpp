@@ -20,7 +20,7 @@ std::string rounded(double x) {
   return text;
 }
 
-/// Of the samples from a to b; of the nearest one before a when there is none.
+/// Mean of the samples from a to b; the nearest one before a when there is none.
 double mean(const Series& s, double a_s, double b_s) {
   double sum = 0;
   std::size_t n = 0;
@@ -41,19 +41,19 @@ struct Jump {
 
 double jump(const Series& s, std::size_t i) { return s.x[i] - s.x[i - 1]; }
 
-/// The first that is as large as any; it makes up half of all that the input does.
+/// The first of the largest jumps; it must be half of the whole range of the input.
 Jump first_jump(const Series& input) {
   double largest = 0;
   for (std::size_t i = 1; i < input.x.size(); ++i) largest = std::max(largest, std::abs(jump(input, i)));
   const auto [low, high] = std::minmax_element(input.x.begin(), input.x.end());
-  const double range = *high - *low;  // nothing in it is a step when it is 0
+  const double range = *high - *low;  // 0: the input has no step
   if (largest == 0 || largest < 0.5 * range)
     throw Error(log_tool_messages::input_step_missing(rounded(range), rounded(largest)));
   for (std::size_t i = 1;; ++i)
     if (std::abs(jump(input, i)) > 0.999 * largest) return {i, jump(input, i)};
 }
 
-/// When the output, from `from` on, first passes `level` of the way; linear between samples.
+/// Time, from `from` on, at which the output first passes `level` of the way; linear between samples.
 std::optional<double> passes(const Series& y, const std::vector<double>& way, std::size_t from,
                              double level) {
   for (std::size_t i = from; i < way.size(); ++i) {
@@ -65,7 +65,7 @@ std::optional<double> passes(const Series& y, const std::vector<double>& way, st
   return std::nullopt;
 }
 
-/// When it last enters the band; empty when that is within the last fifth, from which the band is known.
+/// Time at which it last enters the band; empty when that is within the last fifth, which defines the band.
 std::optional<double> settles(const Series& y, const std::vector<double>& way, double begin_s, double end_s,
                               double band) {
   std::size_t last = way.size();
@@ -102,7 +102,7 @@ StepFigures step_figures(const Series& input, const Series& output, double band)
   const auto begin = static_cast<std::size_t>(after);
   if (y.x.size() - begin < 10 || begin == 0)
     throw Error(log_tool_messages::step_samples_too_few(begin, y.x.size() - begin));
-  const double before_s = input.t_s[step.to - 1];  // the last time at which nothing had happened
+  const double before_s = input.t_s[step.to - 1];  // the last time before the step
   f.input_change = mean(input, f.at_s, f.until_s) - mean(input, before_s - 1, before_s);
   f.output_before = mean(y, y.t_s.front(), f.at_s);
   f.output_after = mean(y, f.until_s - 0.2 * (f.until_s - f.at_s), f.until_s);

@@ -10,7 +10,7 @@ namespace fulmar::core {
 
 inline double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
-// A log may hold any bytes; a terminal must not get them as they are.
+// A log may hold any bytes; control characters must not reach a terminal.
 inline std::string printable(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';

@@ -8,8 +8,8 @@
 
 namespace fulmar::core {
 
-/// What `fulmar log compare` prints of two logs' estimates that are not the same; "" when it cannot, which is
-/// told. `stop` ends it.
+/// Output of `fulmar log compare` for estimates that differ between two logs; "" after a fault, which is
+/// reported. `stop` ends it.
 std::string compared_estimates(const std::filesystem::path& before, const std::filesystem::path& now,
                                bool json, const std::atomic<bool>& stop);
 

@@ -12,8 +12,8 @@ struct FlownPlugin {
   std::string component, file, version, sha256;
 };
 
-/// Of the metadata "plugins", whose keys are "slc.file", "slc.version", ... Throws Error when it is not
-/// there, or a component's is not whole.
+/// Plugins from the metadata "plugins", with keys "slc.file", "slc.version", ... Throws Error when the
+/// metadata are missing or incomplete.
 std::vector<FlownPlugin> flown_plugins(const McapFile& log);
 
 }  // namespace fulmar::core

@@ -14,7 +14,8 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t max_ahead_bytes = 64u << 20;  // a flight has less than one by the tick, for 40 ticks
+// a flight reads less than one such amount ahead, for 40 ticks
+constexpr std::size_t max_ahead_bytes = 64u << 20;
 
 }  // namespace
 
@@ -50,7 +51,7 @@ std::optional<double> Playback::duration_s() const {
   return 1e-9 * static_cast<double>(flight_ns(*survey_.ended_ns));
 }
 
-// ---- the log, as the flight goes on
+// ---- reading of the log during the flight
 
 void Playback::route(std::uint16_t channel, Take take) {
   check_order(survey_, channel);
@@ -58,7 +59,7 @@ void Playback::route(std::uint16_t channel, Take take) {
   reading_.takes[channel].push_back(std::move(take));
 }
 
-/// One message; false at the end.
+/// Reads one message; false at the end.
 bool Playback::read() {
   const McapFile::Message* const m = reading_.stream.next();
   if (!m) return false;
@@ -83,7 +84,7 @@ void Playback::begin_tick() {
   vehicle_->begin_tick(now_ns_);
 }
 
-/// What entered between two ticks bears the time of the first of them.
+/// A command between two ticks has the time of the first of them.
 std::optional<Command> Playback::entry() {
   if (entries_.empty()) return std::nullopt;
   Entry& next = entries_.front();
@@ -93,7 +94,7 @@ std::optional<Command> Playback::entry() {
   return command;
 }
 
-// ---- the host
+// ---- interface of the host
 
 namespace {
 
@@ -111,7 +112,7 @@ bool Playback::ran_over(const std::string& component, std::int64_t now_ns) const
   return reported != survey_.reported.end() && holds_time(reported->second.over_budget, log_ns(now_ns));
 }
 
-// ---- in place of vehicle and drivers
+// ---- replacement of vehicle and drivers
 
 void Playback::prepare_vehicle(const Graph& graph) {
   vehicle_ = std::make_shared<VehicleTrack>(survey_, graph);
@@ -130,8 +131,8 @@ bool Playback::changed(const std::string& component) const {
 
 void Playback::stand_in(const Graph& graph, const Component& component, UnitOptions& options) {
   constexpr std::int64_t patience_ns = 10'000'000'000;
-  options.hang_ns =
-      std::max(options.hang_ns, patience_ns);  // what died by the clock dies as it is told below
+  // components that timed out in the log are stopped by the log below
+  options.hang_ns = std::max(options.hang_ns, patience_ns);
   options.wait_for_async = true;
   if (component.info().vehicle) options.runner = std::make_unique<RecordedVehicle>(vehicle_);
   static const Reported nothing;
@@ -150,7 +151,7 @@ void Playback::stand_in(const Graph& graph, const Component& component, UnitOpti
   options.samples = std::make_unique<RecordedSamples>(driver(graph, component), std::move(faults));
 }
 
-/// One track for each, whoever takes its samples: a driver that is put in the place of another goes on there.
+/// One track for each port, independent of the driver: a driver that replaces another continues it.
 std::shared_ptr<SampleTrack> Playback::driver(const Graph& graph, const Component& component) {
   std::shared_ptr<SampleTrack>& track = drivers_[component.name];
   if (track) return track;
@@ -160,7 +161,8 @@ std::shared_ptr<SampleTrack> Playback::driver(const Graph& graph, const Componen
     const std::string topic =
         component.info().outputs[i].type ? topic_in(survey_.log, graph, component, i) : "";
     probes = probes || topic.empty();
-    const bool there = has_topic(survey_.log, topic);  // one that was silent in the whole flight has none
+    // an output without a sample in the whole flight has no topic
+    const bool there = has_topic(survey_.log, topic);
     topics.push_back(there ? topic : "");
   }
   track = std::make_shared<SampleTrack>(survey_.log, component.info(), topics,
@@ -171,7 +173,7 @@ std::shared_ptr<SampleTrack> Playback::driver(const Graph& graph, const Componen
   return track;
 }
 
-// ---- what was asked of the flight
+// ---- inputs of the flight
 
 namespace {
 
@@ -197,8 +199,7 @@ std::map<std::uint16_t, InputPort> input_channels(const McapFile& file, const Gr
   return inputs;
 }
 
-/// Of a parameter that this mission does not have the value stays unread: whoever applies the command says
-/// so.
+/// The value of a parameter that this mission does not have stays unread: applying the command reports it.
 Command logged_command(const CommandNote& note, const Graph& graph) {
   Command command = command_of(note.kind, note.component.data(), note.name.data());
   command.note = note;
@@ -240,7 +241,7 @@ void Playback::prepare_entries(const Graph& graph) {
   }
 }
 
-/// Where the flight went on, and the parameters with which it did.
+/// Reads the point at which a resumed flight began, and its parameters.
 void Playback::prepare_resume(const Graph& graph) {
   if (!survey_.resumed) return;
   resume_.emplace();

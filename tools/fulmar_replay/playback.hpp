@@ -29,29 +29,29 @@ class VehicleTrack;
 
 class Playback final : public Circumstances {
  public:
-  /// `log` is what `survey` tells of; both and `graph` must outlive it. `changed`: components of an
-  /// experiment, which do not die as they did. Throws Error when a topic is missing or has other fields than
-  /// the graph's.
+  /// `log` is the file of `survey`; both and `graph` must outlive it. `changed`: components of an experiment,
+  /// whose logged stops do not apply. Throws Error when a topic is missing or has other fields than the
+  /// graph's.
   Playback(const std::filesystem::path& log, const Survey& survey, const Graph& graph,
            std::vector<std::string> changed = {});
   ~Playback() override;
 
-  /// What the log lacks of what entered, one sentence per topic: a replay cannot be equal then.
+  /// Inputs that the log lacks, one sentence per topic: with a gap a replay cannot be equal.
   const std::vector<std::string>& gaps() const { return gaps_; }
-  /// When the owner of a hardware flight had it end while the aircraft was armed, seconds of flight.
+  /// Flight time, s, at which a hardware flight was ended while the aircraft was armed.
   std::optional<double> duration_s() const;
-  /// Where the flight went on, when it was the second of one.
+  /// Start of a resumed flight.
   const std::optional<Resume>& resume() const { return resume_; }
-  /// The flight ended with a fault of its vehicle, after the last tick.
+  /// True when the flight ended with a fault of its vehicle, after the last tick.
   bool vehicle_failed() const { return vehicle_failed_; }
 
-  /// Reads on until all is there that entered up to the end of the next tick. Throws Error.
+  /// Reads all inputs up to the end of the next tick. Throws Error.
   void begin_tick();
-  /// Behind the last tick.
+  /// Called after the last tick.
   void end() { over_ = true; }
-  /// What enters now, one after the other. Of a swap `note` tells which plugin.
+  /// The next input of this tick. For a swap `note` names the plugin.
   std::optional<Command> entry();
-  /// Whether a signal to the host took effect at the end of this tick.
+  /// True when a signal to the host took effect at the end of this tick.
   bool signalled() const;
   bool ran_over(const std::string& component, std::int64_t now_ns) const override;
   const Event* conclusion() const override { return survey_.conclusion ? &*survey_.conclusion : nullptr; }
@@ -86,12 +86,12 @@ class Playback final : public Circumstances {
 
   struct Reading {
     McapStream stream;
-    std::int64_t now_ns;                   // of the message read last
+    std::int64_t now_ns;                   // of the last message read
     std::uint64_t place = 0;               // of the next message
     std::vector<std::vector<Take>> takes;  // by channel
     std::size_t ahead_bytes = 0;           // read since the last message of ticks
   } reading_;
-  std::deque<std::int64_t> ticks_;  // read, and not flown yet
+  std::deque<std::int64_t> ticks_;  // read and not yet run
   std::deque<Entry> entries_;
   std::int64_t now_ns_;
   bool over_ = false;

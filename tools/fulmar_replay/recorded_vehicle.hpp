@@ -17,7 +17,7 @@
 
 namespace fulmar::core {
 
-/// What a vehicle published, between its reading out of the log and its tick.
+/// Samples of a vehicle from the log that wait for their tick.
 class VehicleTrack {
  public:
   /// Throws Error when a topic is missing or has other fields than the graph's.
@@ -25,14 +25,14 @@ class VehicleTrack {
 
   /// Channel -> output, or `all_probes`.
   const std::map<std::uint16_t, std::uint32_t>& outputs() const { return outputs_; }
-  /// What a vehicle that failed said, after the last tick.
+  /// Sets the message of a vehicle that failed after the last tick.
   void set_last_words(const std::string& words) { last_words_ = words; }
 
-  /// The next message of one of these channels. Throws Error.
+  /// Takes the next message of one of these channels. Throws Error.
   void take(std::uint32_t output, const McapFile::Message& message);
-  /// The tick that is read next. Throws Error when samples lie before it that no tick has read.
+  /// Begins the tick that is read next. Throws Error when earlier samples belong to no tick.
   void begin_tick(std::int64_t now_ns);
-  /// [tick] Throws Error, its last words when there is no further tick.
+  /// [tick] Throws Error, with the message of the vehicle, when there is no further tick.
   void read(fulmar_tick& tick, std::vector<fulmar_output>& out);
 
  private:

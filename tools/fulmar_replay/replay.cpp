@@ -40,7 +40,7 @@ struct TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 };
 
-/// Nobody listens to a replay, nor speaks to it.
+/// A replay has no connections to other programs.
 Graph alone(Graph graph) {
   graph.live.on = graph.dds.on = false;
   return graph;
@@ -98,7 +98,7 @@ Overrides Recording::by_component(const Overrides& changes) const {
   return named;
 }
 
-/// The store names its files by content: a link gives the name back, which messages and logs show.
+/// Files of the store are named by content: a link restores the name, which messages and logs show.
 fs::path Recording::plugin(const FlownPlugin& flown) const {
   const fs::path copy = version_that_flew(flown.file, flown.version, flown.sha256);
   if (folder_.empty()) folder_ = private_folder();
@@ -139,7 +139,7 @@ Graph Recording::mission(const Overrides& changes, const Say& say) const {
             !names_component(changes.with, c.name))
           wanted.push_back(&flown);
     if (wanted.empty()) return alone(std::move(graph));
-  } catch (const Error&) {  // a plugin that lay beside the mission, or has changed since
+  } catch (const Error&) {  // the plugin was next to the mission, or has changed
     for (const FlownPlugin& flown : flown_) wanted.push_back(&flown);
   }
   use_copies(overrides, wanted, changes, say);
@@ -221,7 +221,7 @@ std::unique_ptr<Flight> Player::fly(const std::atomic<bool>* stop) {
   return std::move(flight_);
 }
 
-/// Fills in what differs between the log and the replay's own, up to the last tick of the log.
+/// Finds the differences between the log and that of the replay, up to the last tick of the log.
 void find_differences(const fs::path& was, const fs::path& is, std::int64_t epoch_ns, ReplayResult& result) {
   const auto last_ns = static_cast<std::uint64_t>(result.last_ns + epoch_ns);
   const MessageDiff diff = diff_messages(was, is, {.last_ns = last_ns, .whole_topics = true});
@@ -262,7 +262,7 @@ std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recordi
     throw Error(replay_messages::replay_log_failed(result.flight.log.error));
   if (options.look) options.look(result.flight.log.file);
   if (!options.compare) return {std::move(flight), std::move(result)};
-  // a log that was cut off may be gigabytes of holes: the sum of its bytes is for one of the same size alone
+  // A log that was cut off may have gigabytes of holes, so files are compared only when the sizes are equal.
   std::error_code fault;
   result.same_file = fs::file_size(recording.path(), fault) == result.flight.log.bytes && !fault &&
                      result.flight.log.sha256 == sha256_file(recording.path());

@@ -18,12 +18,12 @@
 
 namespace fulmar::core {
 
-/// A log that can be flown again.
+/// A log that can be replayed.
 class Recording {
  public:
   using Say = std::function<void(const std::string&, bool warning)>;
 
-  /// Throws Error when it cannot be read or is no log of a flight.
+  /// Throws Error for a file that cannot be read or is no log of a flight.
   explicit Recording(const std::filesystem::path& log);
   ~Recording();
   Recording(const Recording&) = delete;
@@ -31,16 +31,16 @@ class Recording {
 
   const std::filesystem::path& path() const { return path_; }
   const Survey& survey() const { return survey_; }
-  /// What the command line of the flight said, so far as it changed the mission.
+  /// Options of the flight's command line that changed the mission.
   const Overrides& overrides() const { return overrides_; }
 
-  /// The mission as the log holds it, with the plugin files that flew: those of the installation when they
-  /// have the same content, else the copies of the store. What is to be had no more is replaced by what there
-  /// is, with a warning. `changes`: --with and --set of an experiment, and --record. Throws Error.
+  /// The mission of the log with its plugin files: those of the installation when the content is the same,
+  /// else the copies in the store. A missing file is replaced by the present one, with a warning.
+  /// `changes`: --with and --set of an experiment, and --record. Throws Error.
   Graph mission(const Overrides& changes, const Say& say) const;
-  /// `changes` that name components, where they have a role with another file. Throws Error.
+  /// Converts `changes` that name components to the role that has another file. Throws Error.
   Overrides by_component(const Overrides& changes) const;
-  /// A file of that content, under its own name. Throws Error when there is none.
+  /// A file with that content and its own name. Throws Error when there is none.
   std::filesystem::path plugin(const FlownPlugin& flown) const;
 
  private:
@@ -59,10 +59,11 @@ class Recording {
 struct ReplayOptions {
   Overrides changes;          // --with, --set
   std::filesystem::path out;  // the replay's own log
-  bool compare = true;        // false: it is flown for its log alone
+  bool compare = true;        // false: the replay is only for its log
   std::function<void(const Flight&)> progress;
-  std::function<void(const std::filesystem::path& log)> look;  // at the replay's own log, before it may go
-  const std::atomic<bool>* stop = nullptr;                     // asks for the end: Error "interrupted"
+  // called with the log of the replay before it is deleted
+  std::function<void(const std::filesystem::path& log)> look;
+  const std::atomic<bool>* stop = nullptr;  // requests the end: Error "interrupted"
 };
 
 struct Difference {
@@ -76,16 +77,16 @@ struct ReplayResult {
   std::int64_t first_ns = 0, last_ns = 0;              // of the log
   std::uint64_t messages = 0, differing_messages = 0;  // of those that the log holds
   std::uint64_t differing_bytes = 0;
-  std::optional<std::uint64_t> first_tick;  // whose outputs differ
+  std::optional<std::uint64_t> first_tick;  // first tick with different outputs
   std::int64_t first_tick_ns = 0;
-  std::optional<Difference> first;  // that can be seen in the log
-  bool same_file = false;           // both logs are equal from end to end
-  bool cut_off = false;             // the log has no end: compared up to its last whole tick
-  std::vector<std::string> notes;   // why it cannot be equal
+  std::optional<Difference> first;  // first difference that the log shows
+  bool same_file = false;           // both logs are equal byte by byte
+  bool cut_off = false;             // the log has no end: compared up to its last complete tick
+  std::vector<std::string> notes;   // reasons why the replay cannot be equal
   bool equal() const { return !first_tick && differing_messages == 0 && ticks == recorded_ticks; }
 };
 
-/// Flies it. `graph` is recording.mission(...). The flight is handed over for its figures.
+/// Runs the replay. `graph` is recording.mission(...). The flight is returned for its figures.
 std::pair<std::unique_ptr<Flight>, ReplayResult> replay(const Recording& recording, const Graph& graph,
                                                         const ReplayOptions& options);
 

@@ -29,7 +29,7 @@ void stop_replay(int) { stop.store(true); }
 
 double flight_seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
-/// A flight of the log, and the figures that come of it.
+/// A replay and its figures.
 struct Replayed {
   Graph graph;
   ReplayResult result;
@@ -38,7 +38,7 @@ struct Replayed {
 
 using Look = std::function<void(const std::filesystem::path& log)>;
 
-/// `compare` false: for its log alone, which holds more than the one that it is flown from.
+/// `compare` false: only for its log, which holds more than the original one.
 Replayed fly(const Recording& recording, const Overrides& changes, const std::string& out,
              bool compare = true, const Look& look = {}) {
   const auto say = [](const std::string& text, bool warning) {
@@ -124,7 +124,7 @@ void print(const Replayed& again) {
   std::fputs(out.c_str(), stdout);
 }
 
-/// What a change cannot reach is refused: the samples of the vehicle and of drivers come out of the log.
+/// A change without effect is rejected: the samples of the vehicle and of drivers come from the log.
 void refuse_idle(const Graph& graph, const Overrides& changes) {
   const auto check = [&](const std::string& words, const std::string& component) {
     for (std::size_t i = 0; i < graph.components.size(); ++i) {
@@ -139,7 +139,7 @@ void refuse_idle(const Graph& graph, const Overrides& changes) {
   for (const auto& [component, file] : changes.with) check("--with " + component, component);
 }
 
-/// What is recorded more is in the replay's own log alone: there is nothing to compare it with.
+/// Additional topics are only in the replay's log: there is no comparison.
 void fly_for_log(const Recording& recording, const ReplayArguments& words) {
   if (words.changes.record.empty()) return;
   const Replayed more = fly(recording, words.changes, words.out, false);
@@ -154,7 +154,7 @@ Overrides without_record(Overrides changes) {
   return changes;
 }
 
-/// The log as it was and as it would have been, side by side.
+/// Compares the log with that of the experiment.
 int experiment(const Recording& recording, const ReplayArguments& words, json& out) {
   refuse_idle(recording.mission(words.changes, {}), words.changes);
   const Replayed was = fly(recording, {}, "");
@@ -183,12 +183,12 @@ int experiment(const Recording& recording, const ReplayArguments& words, json& o
 
 int run(ReplayArguments words, json& out) {
   check_log_file(words.log);
-  if (!words.out.empty()) OutFile::refuse(words.out);  // before anything flies
+  if (!words.out.empty()) OutFile::refuse(words.out);  // before the replay begins
   const Recording recording(words.log);
   words.changes = recording.by_component(words.changes);
   if (!words.changes.record.empty()) {
     if (words.out.empty()) throw Error(replay_messages::record_without_log());
-    recording.mission(words.changes, {});  // whether there are such ports, before anything flies
+    recording.mission(words.changes, {});  // checks that the ports exist, before the replay begins
   }
   if (!words.changes.with.empty() || !words.changes.set.empty()) return experiment(recording, words, out);
   const Replayed again = fly(recording, {}, words.changes.record.empty() ? words.out : "");
@@ -202,7 +202,7 @@ int carry_out(const ReplayArguments& words) {
   struct sigaction action {};
   action.sa_handler = stop_replay;
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-  const int own = words.json ? dup(STDOUT_FILENO) : -1;  // what components print goes to standard error
+  const int own = words.json ? dup(STDOUT_FILENO) : -1;  // output of components goes to standard error
   if (own >= 0) dup2(STDERR_FILENO, STDOUT_FILENO);
   json result;
   int code = 1;

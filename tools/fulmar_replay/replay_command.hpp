@@ -12,7 +12,7 @@ namespace fulmar::core {
 struct ReplayArguments {
   std::string log;
   Overrides changes;  // --with and --set: an experiment; --record
-  std::string out;    // where the replay's own log goes; "": nowhere
+  std::string out;    // file for the replay's log; "": none
   bool json = false;
 };
 
@@ -20,9 +20,8 @@ class ReplayCommand {
  public:
   explicit ReplayCommand(CLI::App& app);
 
-  /// After the parsing: flies the log again and reports what differs. Returns the exit code: 0 equal, 1
-  /// different; 0 for an experiment that could be flown. Throws Error, and CLI::ValidationError (wrong
-  /// usage).
+  /// Call after the parsing: replays the log and reports differences. Exit code: 0 equal, 1 different; 0 for
+  /// a completed experiment. Throws Error, and CLI::ValidationError (wrong usage).
   int run();
 
  private:

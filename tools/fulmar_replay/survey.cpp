@@ -23,7 +23,7 @@ struct Survey::Reading {
   std::uint64_t latest_ns = 0;
   std::size_t reported_bytes = 0;
   bool in_order = true;
-  std::optional<CommandNote> set{};  // the parameter that was set last
+  std::optional<CommandNote> set{};  // the last set parameter
   std::uint64_t set_at = 0;
 
   void run() {
@@ -47,7 +47,7 @@ struct Survey::Reading {
     latest_ns = std::max(latest_ns, m.log_ns);
   }
 
-  /// A table stands in the log before the first message that it describes.
+  /// A table is in the log before the first message that it describes.
   void open(const std::string& topic) {
     if (!ticks && topic == Ticks::topic) ticks.emplace(stream.log());
     if (!events && topic == Event::topic) events.emplace(stream.log());
@@ -90,8 +90,8 @@ struct Survey::Reading {
     to.event_fault = fault.what();
   }
 
-  /// What only the host's events tell: the wall clock, signals, devices that failed, and an end that the
-  /// flight's owner had set.
+  /// Facts that only the host's events show: wall-clock time-outs, signals, failed devices, and an end that
+  /// was requested.
   void note(const Event& e, std::uint64_t log_ns) {
     switch (e.code) {
       case Code::vehicle_failed:
@@ -144,7 +144,7 @@ struct Survey::Reading {
   void take_parameter(const McapFile::Message& m) try {
     set = parameters->read(m.data);
     set_at = to.messages;
-  } catch (const Error&) {  // told when it is to enter the replay
+  } catch (const Error&) {  // reported when the plugin enters the replay
   }
 
   /// Each parameter was set just before its event.
@@ -155,7 +155,7 @@ struct Survey::Reading {
       to.resumed->begun = to.begun_at < to.messages;
       return;
     }
-    if (e.code == Code::not_resumed || !to.resumed || !set) return;  // of a parameter: it was not set
+    if (e.code == Code::not_resumed || !to.resumed || !set) return;  // of a parameter that was not set
     const bool same = std::string_view(set->component.data()) == e.component.data() &&
                       std::string_view(set->name.data()) == e.name.data();
     if (!same) return;

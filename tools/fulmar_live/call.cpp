@@ -18,8 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-/// YAML as people write it -> JSON. What is no number, flag or null is text: "80 m" is for the flight to
-/// read.
+/// Converts YAML to JSON. A value other than a number, flag or null is text: the flight parses "80 m".
 json to_json(const Node& node) {
   if (node.is(Node::Kind::map)) {
     json object = json::object();
@@ -84,7 +83,7 @@ std::string request_service(const json& view, const std::string& name) {
   throw Error(remote_messages::request_unknown(name, choices_text(name, names)));
 }
 
-/// All fields 0 is hardly what anybody means: a waypoint at 0, 0, 0, or not armed.
+/// Rejects a message with all fields 0, which is probably an error: a waypoint at 0, 0, 0, or not armed.
 void require_no_fields(Session& session, const std::string& service, const std::string& name) {
   if (!session.channels().contains(service)) return;
   std::vector<std::string> fields;
@@ -92,8 +91,8 @@ void require_no_fields(Session& session, const std::string& service, const std::
   if (!fields.empty()) throw WrongUsage(remote_messages::field_missing(name, fields.front(), join(fields)));
 }
 
-/// A plugin's file here, "my_law.so" or "my_law.so/Law", as the host has a current directory of its own.
-/// Anything else is for the host to read: "control_slc/Outer".
+/// Absolute path of a plugin file, "my_law.so" or "my_law.so/Law", because the host has another current
+/// directory. Other words are passed on: "control_slc/Outer".
 std::string swap_file(const std::string& word) {
   const auto [file, part] = split_use(word);
   std::error_code fault;
@@ -119,7 +118,7 @@ int call_command(const LiveAddress& target, const std::string& request,
   const std::string service = request_service(view, name);
   if (message.empty()) require_no_fields(session, service, name);
   const bool paused = view.value("paused", false);
-  if (paused) session.be_patient(std::chrono::milliseconds(1000));  // what is wrong is told at once
+  if (paused) session.be_patient(std::chrono::milliseconds(1000));  // faults are reported at once
   try {
     return report(session.order(service, message), name);
   } catch (const Session::NoAnswer&) {

@@ -12,7 +12,7 @@
 namespace fulmar::core {
 namespace {
 
-// Colours of the terminal that are told apart on black and on white: cyan, yellow, magenta, green, red, blue.
+// Colours of the terminal that are distinct on black and on white: cyan, yellow, magenta, green, red, blue.
 constexpr std::array<int, 6> colours{36, 33, 35, 32, 31, 34};
 std::string coloured(const std::string& text, std::size_t series, bool on) {
   return on ? "\x1b[" + std::to_string(colours[series % colours.size()]) + "m" + text + "\x1b[0m" : text;
@@ -130,7 +130,7 @@ std::string legend(const std::vector<Series>& series, const PlotSize& size) {
   return text;
 }
 
-/// Times under the axis, at round seconds.
+/// Times below the axis, at round seconds.
 std::string time_line(double from, double seconds, std::size_t margin, int columns) {
   std::string line(margin + static_cast<std::size_t>(columns) + 2, ' ');
   for (const double t : ticks(from, from + seconds, columns / 12)) {

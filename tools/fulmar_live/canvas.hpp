@@ -11,7 +11,7 @@ namespace fulmar::core {
 struct Series {
   std::string label;  // "nav.state.height_m"
   std::string unit;
-  std::deque<std::pair<double, double>> points;  // time_s, value; times grow
+  std::deque<std::pair<double, double>> points;  // time_s, value; times increase
 };
 
 struct PlotSize {
@@ -19,7 +19,7 @@ struct PlotSize {
   bool colours = false;
 };
 
-/// The last `seconds` before `end_s`. Values that are not finite leave a gap.
+/// Draws the last `seconds` before `end_s`. Values that are not finite leave a gap.
 std::string draw_plot(const std::vector<Series>& series, double end_s, double seconds, const PlotSize& size);
 
 /// Round numbers for an axis: from at or below `low` to at or above `high`, 1, 2 or 5 times a power of ten

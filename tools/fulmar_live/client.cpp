@@ -22,7 +22,7 @@ namespace websocket = beast::websocket;
 using boost::system::error_code;
 using net::ip::tcp;
 using Clock = std::chrono::steady_clock;
-// What is called back has always the same type, so that each of Beast's operations is compiled once.
+// All handlers have the same type, so that each of Beast's operations is compiled once.
 using OnFault = std::function<void(error_code)>;
 using OnBytes = std::function<void(error_code, std::size_t)>;
 
@@ -58,7 +58,7 @@ LiveAddress parse_target(const std::string& at, const std::string& token) {
   return target;
 }
 
-// Blocking calls of Beast's know no time limit, so the asynchronous ones are run here.
+// Blocking calls of Beast have no time limit, so the asynchronous ones are run here.
 struct Client::Impl {
   LiveAddress target;
   std::chrono::milliseconds patience;
@@ -75,7 +75,7 @@ struct Client::Impl {
     stream.next_layer().shutdown(tcp::socket::shutdown_both, fault);
     close();
     context.restart();
-    context.run_for(std::chrono::milliseconds(100));  // the handlers that are left refer to this
+    context.run_for(std::chrono::milliseconds(100));  // the remaining handlers refer to this object
   }
 
   void close() {
@@ -83,7 +83,7 @@ struct Client::Impl {
     stream.next_layer().close(ignored);
   }
 
-  /// Runs what has begun; it says through `done` that it is over. False when the time was up.
+  /// Runs the started operation until it sets `done`. Returns false after the time limit.
   bool run_until(const bool& done, Clock::time_point end) {
     while (!done) {
       const auto left = end - Clock::now();
@@ -97,7 +97,7 @@ struct Client::Impl {
     return true;
   }
 
-  /// The fault of the operation that `start` begins; timed_out when it took too long.
+  /// Fault of the operation that `start` begins; timed_out after the time limit.
   template <class Start>
   error_code wait(Clock::time_point end, Start start) {
     bool done = false;
@@ -107,7 +107,7 @@ struct Client::Impl {
       fault = code;
     });
     if (run_until(done, end)) return fault;
-    close();  // its handler still refers to what lies here
+    close();  // its handler refers to local variables
     while (!done && context.run_one_for(std::chrono::seconds(1)) > 0) {
     }
     return net::error::timed_out;

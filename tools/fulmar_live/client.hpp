@@ -12,7 +12,7 @@
 
 namespace fulmar::core {
 
-/// Where a flight listens.
+/// Address of a flight's server.
 struct LiveAddress {
   std::string host = "127.0.0.1";
   std::uint16_t port = 8765;
@@ -30,7 +30,7 @@ struct FlightEnded : Error {
 
 class Client {
  public:
-  /// Throws Error that says what to do: nobody listens, a token is missing, something else listens there.
+  /// Throws Error with the remedy: no server, a missing token, or another program at that address.
   explicit Client(const LiveAddress& target, std::chrono::milliseconds patience = std::chrono::seconds(5));
   ~Client();
   Client(const Client&) = delete;
@@ -40,7 +40,7 @@ class Client {
     bool binary = false;
     std::string data;
   };
-  /// Nothing when there is no message in that time. Throws FlightEnded.
+  /// No value when no message arrives in that time. Throws FlightEnded.
   std::optional<Message> receive(std::chrono::milliseconds limit);
   void send(const std::string& text);
   void send_binary(const std::string& bytes);

@@ -14,7 +14,7 @@ struct LogPlotArguments;
 
 namespace fulmar::core {
 
-/// What was typed cannot be meant: exit code 2.
+/// An invalid command line: exit code 2.
 struct WrongUsage : Error {
   using Error::Error;
 };
@@ -31,10 +31,10 @@ int echo_command(const LiveAddress& target, const EchoOptions& options);
 
 struct PlotOptions {
   std::vector<std::string> fields;
-  double seconds = 10;  // of flight that are shown
+  double seconds = 10;  // of flight in the picture
 };
 int plot_command(const LiveAddress& target, const PlotOptions& options);
-/// Of logs, over time: a picture per panel.
+/// Picture of logs over time, one per panel.
 int picture_command(const plot::LogPlotArguments& words);
 
 /// At a terminal until interrupted; otherwise once.
@@ -42,7 +42,7 @@ int watch_command(const LiveAddress& target);
 
 int param_list_command(const LiveAddress& target, const std::string& pattern, bool json);
 int param_get_command(const LiveAddress& target, const std::vector<std::string>& names, bool json);
-/// NAME VALUE [NAME VALUE ...]: one after another, up to the first that is refused.
+/// NAME VALUE [NAME VALUE ...]: sets one after another, until one is rejected.
 int param_set_command(const LiveAddress& target, const std::vector<std::string>& words);
 struct SaveOptions {
   std::string component, mission;
@@ -60,10 +60,10 @@ int reset_command(const LiveAddress& target);
 // pace.cpp
 int pause_command(const LiveAddress& target);
 int resume_command(const LiveAddress& target);
-/// Ends when the last of the ticks has been flown.
+/// Ends after the last of the ticks.
 int step_command(const LiveAddress& target, const std::string& ticks);
 int speed_command(const LiveAddress& target, const std::string& speed);
-/// Ends when the new flight is there. `seed`: "" is that of the flight that ends.
+/// Ends when the new flight has begun. `seed`: "" is that of the old flight.
 int restart_command(const LiveAddress& target, const std::string& seed);
 
 }  // namespace fulmar::core

@@ -23,7 +23,7 @@ using nlohmann::json;
 
 // ---- scripts
 
-/// What stands where after a command; the last `repeat` of them come again and again.
+/// Kinds of the words after a command; the last `repeat` of them repeat.
 struct Places {
   const char* kinds;
   int repeat;
@@ -54,7 +54,7 @@ const std::map<std::string, std::string> option_kinds{
     {"--mission", "mission"}, {"--with", "file"},        {"--out", "file"},
     {"--over", "drawn"},      {"--panel", "drawn"}};
 
-/// What a program beside this one prints of its commands. Throws Error.
+/// Output of a program of this installation that lists its commands. Throws Error.
 std::string rows_of(const char* name) {
   const std::string program = own_program(name).string();
   if (program.empty()) throw Error(remote_messages::program_missing(name));
@@ -69,7 +69,7 @@ std::string rows_of(const char* name) {
   return text;
 }
 
-/// Programs beside the host that a build may leave out, and whose words are completed when they are there.
+/// Programs that a build may leave out; their commands are completed when they exist.
 struct OptionalProgram {
   const char *name, *word;
 };
@@ -82,10 +82,10 @@ void add_rows(const char* program, const std::string& word, const std::string& m
   std::string command, options, valued, subcommands;
   while (std::getline(rows, command, '\t') && std::getline(rows, options, '\t') &&
          std::getline(rows, valued, '\t') && std::getline(rows, subcommands)) {
-    if (!word.empty())  // it does not know the word that starts it
+    if (!word.empty())  // the program does not know the word that starts it
       command = word + (command.empty() ? "" : " " + command);
     else if (command.empty() && !is_host)
-      continue;  // only the host knows all commands
+      continue;  // only the host lists all commands
     if (command.empty()) subcommands += more_words;
     const auto place = places.find(command);
     const bool placed = place != places.end();
@@ -119,7 +119,7 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
   return text;
 }
 
-// Words come from the line itself: bash takes HOST:PORT apart.
+// Words are taken from the line itself: bash splits HOST:PORT.
 constexpr const char* bash_script = R"bash(# Completion of fulmar in bash: source <(fulmar completion bash)
 _fulmar_command() {  # sets options, valued, subcommands, kinds, repeat of a command
   options= valued= subcommands= kinds= repeat=0

@@ -9,17 +9,16 @@ namespace fulmar::core {
 
 class Session;
 
-/// `shell`: "bash" or "zsh". The commands are those that the programs beside this one tell of themselves.
-/// Throws Error.
+/// `shell`: "bash" or "zsh". The installed programs list their commands. Throws Error.
 std::string completion_script(const std::string& shell);
 
 /// The words of a kind (port, field, param, component, request, phase) that begin with `prefix`.
 std::vector<std::string> completions(Session& session, const std::string& kind, const std::string& prefix);
 
-/// Prints them, one per line. Silent when there is no flight; never takes long.
+/// Prints them, one per line. Prints nothing without a flight; always ends quickly.
 int complete_command(const std::string& at, const std::string& token, const std::string& kind,
                      const std::string& prefix);
-/// The same of the numbers of a log.
+/// The same for the numbers of a log.
 int complete_from_log(const std::string& log, const std::string& prefix);
 
 }  // namespace fulmar::core

@@ -18,7 +18,7 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::size_t name_width = 10, cell_width = 26, max_events = 100, min_events = 3;
-constexpr double stale_s = 2;  // of flight: what is older is not shown as what is
+constexpr double stale_s = 2;  // of flight: older values are not shown as present ones
 const char* const event_topic = "/fulmar/event";
 const char* const none = "-";
 
@@ -44,7 +44,7 @@ std::string clock_text(double seconds) {
   return buffer;
 }
 
-/// On one line, and nothing that a terminal obeys.
+/// A text in one line without control characters.
 std::string one_line(const std::string& text) {
   std::string line = for_terminal(text);
   for (char& c : line)
@@ -57,7 +57,7 @@ std::string text_at(const ordered_json& object, const std::string& key) {
   return found != object.end() && found->is_string() ? one_line(found->get<std::string>()) : "";
 }
 
-/// The first so many characters of UTF-8.
+/// The first characters of UTF-8.
 std::string first_of(const std::string& text, std::size_t width) {
   std::size_t at = 0;
   for (std::size_t count = 0; at < text.size(); ++at)
@@ -96,7 +96,7 @@ std::vector<std::string> split(const std::string& list) {  // "guide, outer"
 
 }  // namespace
 
-// ---- what comes
+// ---- input
 
 void Dashboard::take_view(json view) { view_ = std::move(view); }
 
@@ -142,7 +142,7 @@ void Dashboard::take(const std::string& topic, double time_s, const ordered_json
   Happened event{clock_text(time_s) + (severity == "info" ? "   " : " ! ") + said,
                  code == "parameter_set" ? component + "." + name : "",
                  severity == "info" ? Look::plain : Look::bad};
-  // a slider or a stick sets a parameter many times: its last value is enough
+  // a slider or a stick changes a parameter many times: only its last value is shown
   if (!event.of.empty() && !events_.empty() && events_.front().of == event.of) events_.pop_front();
   events_.push_front(std::move(event));
   if (events_.size() > max_events) events_.pop_back();
@@ -153,7 +153,7 @@ bool Dashboard::whole() const {
                      [](const auto& entry) { return !entry.second.message.empty(); });
 }
 
-/// Empty when there is none, or an old one.
+/// Empty without a message, or with one that is too old.
 const ordered_json& Dashboard::message(const std::string& type) const {
   static const ordered_json nothing = ordered_json::object();
   const auto found = newest_.find(type);
@@ -179,9 +179,9 @@ std::string Dashboard::word(const std::string& type, const std::string& field) c
   return text_at(message(type), field);
 }
 
-// ---- what is shown
+// ---- output
 
-/// "70.2 → 75.0 m": what is, and what is asked for.
+/// "70.2 → 75.0 m": present and commanded value.
 std::string Dashboard::asked_for(const std::string& type, const std::string& valid, const std::string& path,
                                  const std::string& asked_type, const std::string& asked_path, int decimals,
                                  const std::string& unit) const {
@@ -329,7 +329,7 @@ Dashboard::Cell Dashboard::roles() const {
   return {"roles", one_line(words), bad ? Look::bad : Look::plain};
 }
 
-/// Whose steps take longest, and whose longest was over its budget.
+/// Component with the longest steps, and the one whose longest step exceeded its budget.
 Dashboard::Cell Dashboard::steps() const {
   struct Step {
     std::string name;
@@ -400,7 +400,7 @@ std::string Dashboard::text(const PlotSize& size, const std::string& lost) const
   for (const std::string& line : wrapped(lost.empty() ? head() : one_line("! " + lost), width))
     lines.push_back(painted(line, Look::head));
 
-  // A cell that needs more room than one takes that of the next one, too.
+  // A cell that is too wide also takes the next column.
   std::size_t column = 0;
   for (const Cell& cell : cells()) {
     const std::size_t needs = name_width + width_of(cell.words) + 1,

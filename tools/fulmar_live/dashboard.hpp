@@ -14,18 +14,19 @@ namespace fulmar::core {
 class Dashboard {
  public:
   using json = nlohmann::json;
-  /// As /fulmar/view answers.
+  /// `view`: the response of /fulmar/view.
   void take_view(json view);
-  /// `topics`: each with its type, "VehicleState". The topics of them that are shown, by the type of their
-  /// messages, since a mission may name its roles as it likes; of several that of a role. After take_view.
+  /// `topics`: each with its type, "VehicleState". Returns the topics to show, selected by the type of their
+  /// messages because a mission may name its roles freely; of several the one of a role. Call after
+  /// take_view.
   std::vector<std::string> choose(const std::map<std::string, std::string>& topics);
   /// `message`: from shown_json. `time_s`: of flight.
   void take(const std::string& topic, double time_s, const nlohmann::ordered_json& message);
-  /// Whether every chosen topic has come.
+  /// True when every chosen topic has a message.
   bool whole() const;
 
-  /// Lines of text, none wider than the size says, and no more of them. `lost`: in place of the flight's name
-  /// and time, when what is shown is old. Control characters that the flight has sent are not in it.
+  /// Lines of text within the given size. `lost`: replaces the name and time of the flight when the data are
+  /// old. Control characters from the flight are removed.
   std::string text(const PlotSize& size, const std::string& lost = "") const;
 
  private:
@@ -44,7 +45,7 @@ class Dashboard {
     Look look = Look::plain;
   };
   struct Happened {
-    std::string words, of;  // `of`: of what parameter, if it tells of one
+    std::string words, of;  // `of`: name of the parameter, for a change of one
     Look look = Look::plain;
   };
 
@@ -68,7 +69,7 @@ class Dashboard {
 
   json view_ = json::object();
   std::map<std::string, Newest> newest_;  // by type
-  std::deque<Happened> events_;           // the newest first
+  std::deque<Happened> events_;           // newest first
   double now_s_ = -1e9;
 };
 

@@ -31,7 +31,7 @@ class Echo {
     for (const PortField& p : ports_) session.subscribe(p.topic);
   }
 
-  /// Until so many samples have been printed.
+  /// Runs until the requested number of samples has been printed.
   void run() {
     if (options_.csv) print_header();
     while (options_.count == 0 || printed_ < options_.count) {
@@ -48,7 +48,7 @@ class Echo {
   }
 
  private:
-  /// Once: a port may be published seldom, or never.
+  /// Reports once: a port may publish rarely or never.
   void report_silent() {
     if (reported_ || std::chrono::steady_clock::now() - begin_ < std::chrono::seconds(2)) return;
     reported_ = true;

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-/// Samples per second of wall time of every topic, counted for a second.
+/// Samples per second of real time of every topic, counted for a second.
 std::map<std::string, double> measure(Session& session) {
   std::map<std::string, double> counts;
   for (const auto& [topic, channel] : session.channels()) {
@@ -41,7 +41,7 @@ std::string rate_text(double hz) {
   return buffer;
 }
 
-/// Nothing of a flight that flies in real time.
+/// Empty for a flight in real time.
 std::string pace_of(const json& view) {
   const double speed = view.value("speed", 1.0);
   return (view.value("paused", false) ? ", paused" : "") + (speed == 1 ? "" : ", speed " + speed_text(speed));

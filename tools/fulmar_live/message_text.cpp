@@ -54,8 +54,8 @@ std::vector<std::string> columns(const Type& type, const std::string& prefix) {
   return names;
 }
 
-// The inner fields of a struct whose name ends in _rad are numbers in degrees already: shown_json has turned
-// them, under their own names.
+// The inner fields of a struct whose name ends in _rad are already in degrees: shown_json has converted them
+// and kept their names.
 std::vector<std::string> cells(const Type& type, const ordered_json& message) {
   std::vector<std::string> list;
   for (const Field& f : type.fields) {

@@ -27,7 +27,7 @@ int order(Session& session, const std::string& service, const nlohmann::json& re
   return 0;
 }
 
-/// What cannot be meant is wrong usage, whether there is a flight or not.
+/// An invalid value is wrong usage, with or without a flight.
 void check(const auto& parse, const std::string& text) {
   try {
     parse(text);
@@ -36,14 +36,14 @@ void check(const auto& parse, const std::string& text) {
   }
 }
 
-/// Whether another flight than `old` listens there within the time that a mission takes to be set up.
+/// True when another flight than `old` starts there within the time of the set-up of a mission.
 bool another_comes(const LiveAddress& target, const std::string& old) {
   constexpr auto patience = std::chrono::seconds(20);
   for (const auto end = std::chrono::steady_clock::now() + patience; std::chrono::steady_clock::now() < end;
        std::this_thread::sleep_for(std::chrono::milliseconds(50))) {
     try {
       if (Session(target).id() != old) return true;
-    } catch (const Error&) {  // nobody listens in between
+    } catch (const Error&) {  // no server in between
     }
   }
   return false;

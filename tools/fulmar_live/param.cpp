@@ -30,7 +30,7 @@ json param_json(const NamedParam& p, const json& view) {
   return nullptr;
 }
 
-/// "slc" means all of slc; a word without a star, too, when it begins a name.
+/// "slc" selects all of slc; so does a word without a star that begins a name.
 bool asked_for(const NamedParam& p, const std::string& pattern) {
   return pattern.empty() || p.component == pattern || port_matches(p.name, pattern);
 }
@@ -76,8 +76,8 @@ int param_get_command(const LiveAddress& target, const std::vector<std::string>&
 
 namespace {
 
-/// The reason without the parameter's name, which the sentence has already: "slc.roll_limit: roll_limit: 100
-/// deg is outside".
+/// The reason without the name of the parameter, which the message already has: "slc.roll_limit: roll_limit:
+/// 100 deg is outside".
 std::string without_name(std::string reason, const NamedParam& p) {
   for (const std::string& name : {p.name + ": ", p.info.name + ": "})
     if (reason.starts_with(name)) reason.erase(0, name.size());
@@ -99,7 +99,7 @@ int param_set_command(const LiveAddress& target, const std::vector<std::string>&
   Session session(target);
   const std::vector<NamedParam> params = params_of(session.view());
   for (std::size_t i = 0; i < words.size(); i += 2)
-    find_param(params, words[i]);  // all names before the first change
+    find_param(params, words[i]);  // check all names before the first change
   for (std::size_t i = 0; i < words.size(); i += 2) {
     const NamedParam& p = find_param(params, words[i]);
     const auto [accepted, reason] = session.order(

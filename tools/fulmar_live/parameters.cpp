@@ -12,7 +12,7 @@
 namespace fulmar::core {
 namespace {
 
-/// What people read angles in, and what turns the number into it.
+/// Displayed unit of angles and its conversion factor.
 std::string shown_unit(const std::string& unit) {
   return unit == "rad" ? "deg" : unit == "rad/s" ? "deg/s" : unit == "rad/s2" ? "deg/s2" : unit;
 }

@@ -8,8 +8,8 @@
 
 namespace fulmar::core {
 
-/// For people: angles in degrees, "40 deg"; and "2.9 .. 68.8 deg", "none light severe", "" when everything
-/// goes.
+/// Displayed text: angles in degrees, "40 deg"; and the range "2.9 .. 68.8 deg", "none light severe", ""
+/// without a limit.
 std::string shown_value(const ParamInfo& info, const ParamValue& value);
 std::string shown_range(const ParamInfo& info);
 

@@ -26,7 +26,7 @@ struct Curve {
   double factor = 1;  // radians are shown in degrees
 };
 
-/// Whether a name in a path like "rates_radps.roll" or "angles_rad[2]" ends so.
+/// True when a name in a path like "rates_radps.roll" or "angles_rad[2]" has this ending.
 bool a_name_ends(const std::string& path, const std::string& ending) {
   for (std::size_t at = path.find(ending); at != std::string::npos; at = path.find(ending, at + 1)) {
     const std::size_t behind = at + ending.size();
@@ -35,7 +35,7 @@ bool a_name_ends(const std::string& path, const std::string& ending) {
   return false;
 }
 
-/// "deg/s" of "rates_radps.roll"; "" when no part of the name is of radians.
+/// "deg/s" of "rates_radps.roll"; "" when no part of the name is in radians.
 std::string degrees_unit(const std::string& field) {
   for (const auto& [ending, unit] :
        {std::pair{"_rad", "deg"}, std::pair{"_radps", "deg/s"}, std::pair{"_radps2", "deg/s2"}})
@@ -77,7 +77,7 @@ class Plot {
     for (const Curve& curve : curves_) session.subscribe(curve.port.topic);
   }
 
-  /// At a terminal until interrupted; otherwise until so many seconds have been seen.
+  /// Runs at a terminal until interrupted; otherwise for the requested time.
   void run() {
     std::optional<Screen> screen;
     if (live_) screen.emplace();
@@ -101,7 +101,7 @@ class Plot {
  private:
   void take(const Session::Sample& sample) {
     const double time_s = static_cast<double>(sample.time_ns - epoch_ns_) * 1e-9;
-    if (!begun_ || time_s < last_s_ - 1) {  // a host that flies again begins at 0
+    if (!begun_ || time_s < last_s_ - 1) {  // a restarted host begins at 0
       for (Series& s : series_) s.points.clear();
       first_s_ = time_s;
       begun_ = true;

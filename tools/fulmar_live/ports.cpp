@@ -42,7 +42,7 @@ std::vector<PathWord> path_words(const std::string& field) {
   return words;
 }
 
-/// By its own name or the shown one.
+/// By its own name or the displayed one.
 const Field* find_field(const Type& type, const std::string& name) {
   if (const Field* found = type.find(name)) return found;
   for (const Field& f : type.fields)
@@ -50,7 +50,7 @@ const Field* find_field(const Type& type, const std::string& name) {
   return nullptr;
 }
 
-/// The field's name with all words as the message has them, and as people read them.
+/// The name of the field in the message, and the displayed one.
 struct Names {
   std::string own, shown;
 };
@@ -81,7 +81,7 @@ Names check_field(const Type& type, const std::string& field, const std::string&
 
 std::string owner_of(const std::string& port) { return port.substr(0, port.find('.')); }
 
-/// Topic of an output that a component has under another name than its role.
+/// Topic of an output by the name of its component, where the topic has that of the role.
 std::string topic_by_component(const json& view, const std::string& component, const std::string& port) {
   for (const json& c : view.value("components", json::array())) {
     if (c.value("name", "") != component) continue;

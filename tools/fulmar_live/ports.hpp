@@ -20,7 +20,7 @@ struct PortField {
   TypePtr type;
   std::string field;  // "position_m.north"; "" for the whole message. Angles are named as they are in the
                       // message: roll_rad
-  std::string label;  // as people read it: "nav.state.roll_deg"
+  std::string label;  // displayed name: "nav.state.roll_deg"
 };
 
 /// Finds the port by topic, by component ("ekf.state" where the topic is that of the role) or as a probe.
@@ -29,7 +29,7 @@ struct PortField {
 /// the choices.
 PortField find_port(Session& session, const std::string& name);
 
-/// Ports that can be echoed, as people name them, sorted.
+/// Names of the ports that can be echoed, sorted.
 std::vector<std::string> port_names(Session& session);
 
 /// The part of a message that `field` names, from shown_json; null when the list is shorter.

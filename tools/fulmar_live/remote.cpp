@@ -20,7 +20,7 @@
 namespace fulmar::core {
 namespace {
 
-/// CLI11's own check prints the largest number there is.
+/// CLI11's own check prints the largest possible number.
 CLI::Validator number_check(const char* what, bool whole) {
   return CLI::Validator(
       [what, whole](const std::string& text) {
@@ -32,7 +32,7 @@ CLI::Validator number_check(const char* what, bool whole) {
       },
       "");
 }
-/// Names words in the usage that CLI11 does not know of.
+/// Adds positional words to the usage that CLI11 does not list.
 struct RestFormatter : CLI::Formatter {
   std::string rest;
   explicit RestFormatter(std::string r) : rest(std::move(r)) {}
@@ -62,12 +62,12 @@ struct RemoteCommands::Impl {
   bool json = false, rates = false;
   std::vector<std::pair<CLI::App*, std::function<int()>>> actions;
 
-  std::vector<std::string> programs;  // commands that are programs beside this one
+  std::vector<std::string> programs;  // commands in separate programs
 
   Impl(CLI::App& a, std::vector<std::string> p) : app(a), programs(std::move(p)) {}
 
-  // Not CLI11's envname: it sets the options of commands that are not given, too, and so wins over the
-  // command line.
+  // Not CLI11's envname: it also sets options of commands that are not used, and so overrides the command
+  // line.
   static std::string given(const std::string& word, const char* variable) {
     const char* value = std::getenv(variable);
     return word.empty() && value ? value : word;
@@ -126,7 +126,7 @@ struct RemoteCommands::Impl {
     add_plot();
   }
 
-  /// Of a running flight, or of logs when the first word is one.
+  /// Plots a running flight, or logs when the first word is one.
   void add_plot() {
     CLI::App* draw =
         add(app, "plot", "plot fields of a running flight or of logs",

@@ -14,13 +14,12 @@ namespace fulmar::core {
 class RemoteCommands {
  public:
   /// Adds list, watch, echo, plot, view, param, call, phase, swap, reset, pause, resume, step, speed, restart
-  /// and completion.
-  /// `programs`: further commands, which are programs of their own; for shells.
+  /// and completion. `programs`: further commands, in separate programs, for shells.
   RemoteCommands(CLI::App& app, std::vector<std::string> programs);
   ~RemoteCommands();
   RemoteCommands(const RemoteCommands&) = delete;
   RemoteCommands& operator=(const RemoteCommands&) = delete;
-  /// The exit code of the command that was parsed.
+  /// Runs the parsed command and returns its exit code.
   int run() const;
 
  private:

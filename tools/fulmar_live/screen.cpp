@@ -27,7 +27,7 @@ PlotSize terminal_size() {
   return size;
 }
 
-Screen::Screen() { std::fputs("\x1b[?1049h\x1b[?25l\x1b[?7l", stdout); }  // no lines that go on in the next
+Screen::Screen() { std::fputs("\x1b[?1049h\x1b[?25l\x1b[?7l", stdout); }  // disables the wrap of long lines
 
 Screen::~Screen() {
   std::fputs("\x1b[?7h\x1b[?25h\x1b[?1049l", stdout);
@@ -35,7 +35,7 @@ Screen::~Screen() {
 }
 
 void Screen::show(std::string text) {
-  if (text.ends_with('\n')) text.pop_back();  // the last line's end would move the screen up
+  if (text.ends_with('\n')) text.pop_back();  // a final newline would scroll the screen
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 4)
     text.insert(at, "\x1b[K");
   std::printf("\x1b[H%s\x1b[K\x1b[J", text.c_str());

@@ -8,22 +8,21 @@
 
 namespace fulmar::core {
 
-/// Rows and columns, 80 x 24 where nobody says; no colours where NO_COLOR is set or nobody sees them.
+/// Rows and columns, 80 x 24 when unknown; no colours with NO_COLOR or without a terminal.
 PlotSize terminal_size();
 
 /// Set by SIGINT, SIGTERM and SIGHUP, once `catch_interrupts` was called.
 extern volatile std::sig_atomic_t interrupted;
 void catch_interrupts();
 
-/// A screen of its own, without cursor, as long as it lives; then the terminal is as it was before.
+/// The alternate screen without a cursor; the destructor restores the terminal.
 class Screen {
  public:
   Screen();
   ~Screen();
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
-  /// In place of what is there. `text`: lines, no more and no wider than the terminal has; what is wider is
-  /// cut by it.
+  /// Replaces the content. `text`: lines within the size of the terminal; longer lines are cut.
   void show(std::string text);
 };
 

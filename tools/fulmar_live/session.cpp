@@ -30,7 +30,7 @@ void append_u32(std::string& bytes, std::uint32_t value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// What the other side says is shown on a terminal, word by word: none of it may command the terminal.
+/// Removes control characters from texts of the flight, which are shown on a terminal.
 json tamed(const std::string& text) {
   json value = json_too_deep(text) ? json(json::value_t::discarded) : json::parse(text, nullptr, false);
   const std::function<void(json&)> tame = [&](json& part) {
@@ -67,7 +67,7 @@ Session::Session(const LiveAddress& target, Milliseconds patience)
     : client_(target, patience), at_(target.text()), patience_(patience) {}
 Session::~Session() = default;
 
-// ---- what the flight says
+// ---- properties of the flight
 
 void Session::handle_text(const std::string& text) {
   const json message = tamed(text);

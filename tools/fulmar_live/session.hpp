@@ -21,35 +21,35 @@ class Session {
  public:
   using json = nlohmann::json;
   using Milliseconds = std::chrono::milliseconds;
-  /// Nothing has come within the time of patience.
+  /// No answer within the time-out.
   struct NoAnswer : Error {
     using Error::Error;
   };
 
   explicit Session(const LiveAddress& target, Milliseconds patience = std::chrono::seconds(5));
   ~Session();
-  /// From now on answers may take so long.
+  /// Sets the time-out of answers.
   void be_patient(Milliseconds patience) { patience_ = patience; }
 
   struct Channel {
     std::uint32_t id = 0;
     std::string topic, schema_name, schema, encoding;
   };
-  /// By topic. Those that the flight has told of so far: the first call waits for them.
+  /// By topic. Those advertised so far: the first call waits for them.
   const std::map<std::string, Channel>& channels();
   /// The type of a channel's messages, read from its schema. Throws Error.
   TypePtr type(const std::string& topic);
 
-  /// What the flight is, as /fulmar/view answers.
+  /// Properties of the flight: the response of /fulmar/view.
   json view();
-  /// Which flight it is: another one on the same port has another.
+  /// Identity of the flight: another one on the same port has another id.
   const std::string& id();
-  /// Of the view: the time that samples are stamped with, at the begin of the flight.
+  /// From the view: time of the stamps at the begin of the flight.
   std::int64_t epoch_ns();
-  /// Calls a service and returns its answer. Throws Error when there is no such service or the flight refuses
-  /// to hear of it.
+  /// Calls a service and returns its response. Throws Error when there is no such service or the flight
+  /// rejects the call.
   json call(const std::string& service, const json& request);
-  /// Whether accepted; the reason when not.
+  /// Accepted, or the reason of the rejection.
   struct Verdict {
     bool accepted = false;
     std::string reason;
@@ -59,12 +59,12 @@ class Session {
   void subscribe(const std::string& topic);
   struct Sample {
     std::string topic;
-    std::int64_t time_ns = 0;      // as the flight stamps it: its epoch and flight time
+    std::int64_t time_ns = 0;      // time stamp of the flight: its epoch plus flight time
     std::vector<std::byte> bytes;  // CDR
   };
-  /// The next sample of what is subscribed; nothing when none comes in that time.
+  /// The next sample of a subscription; no value when none arrives in that time.
   std::optional<Sample> next(Milliseconds limit);
-  /// When the flight last said anything.
+  /// Time of the last data from the flight.
   std::chrono::steady_clock::time_point heard() const { return heard_; }
 
  private:

@@ -6,7 +6,7 @@
 
 namespace fulmar::core {
 
-/// Rows as lines, columns as wide as their widest word and two blanks apart; `indent` before each line.
+/// Rows as lines, columns as wide as their widest text and two blanks apart; `indent` before each line.
 std::string table_text(const std::vector<std::vector<std::string>>& rows, const std::string& indent = "");
 
 /// Characters, not bytes, of UTF-8.

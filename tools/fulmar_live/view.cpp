@@ -41,7 +41,7 @@ std::string query(const LiveAddress& target) {
   return target.token.empty() ? "" : "?token=" + percent_encoded(target.token);
 }
 
-/// Of Lichtblick and Foxglove: whatever follows `ds.url` is one value.
+/// Of Lichtblick and Foxglove: the whole text after `ds.url` is one value.
 std::string live_link(const std::string& scheme, const LiveAddress& target) {
   return scheme + "://open?ds=foxglove-websocket&ds.url=" +
          percent_encoded("ws://" + target.text() + "/" + query(target));
@@ -69,7 +69,7 @@ bool has_display() {
   return set("DISPLAY") || set("WAYLAND_DISPLAY");
 }
 
-/// The viewer goes on when this program has ended, whatever becomes of its terminal.
+/// The viewer continues after the end of this program and of its terminal.
 void start(const std::string& program, const std::vector<std::string>& words) {
   std::vector<std::string> copies = words;
   std::vector<char*> arguments;
@@ -101,7 +101,7 @@ std::string whole_log(const std::string& name) {
   return fs::absolute(file).lexically_normal().string();
 }
 
-/// The page of a log, beside it. One that is there is of this log as long as it is the younger of the two.
+/// The page of a log, next to it. An existing page is used if it is newer than the log.
 void make_page(const std::string& log, const std::string& file) {
   if (!fs::exists(file)) return make_report(log, file, "");
   if (fs::last_write_time(file) < fs::last_write_time(log))
@@ -181,11 +181,12 @@ Opening opening_of(const std::string& viewer, const std::string& log, const Live
 int view_command(const LiveAddress& target, const ViewOptions& options) {
   const bool running = options.what.empty() || options.what == "running";
   const std::string viewer = !options.in.empty() ? options.in : running ? "page" : "lichtblick";
-  if (!running && viewer != "page") std::ignore = opening_of(viewer, "x", target);  // its name first
+  // starts it under its first name
+  if (!running && viewer != "page") std::ignore = opening_of(viewer, "x", target);
   const std::string log = running ? "" : whole_log(options.what);
   const Opening opening = opening_of(viewer, log, target);
   if (running && !options.print)
-    Client(target, std::chrono::seconds(5));  // says what is wrong if nobody flies
+    Client(target, std::chrono::seconds(5));  // reports the fault without a flight
   if (!opening.report.empty()) make_page(log, opening.report);
   std::string line;
   for (const std::string& word : opening.words) line += (line.empty() ? "" : " ") + shell_quoted(word);

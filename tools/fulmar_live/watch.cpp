@@ -21,11 +21,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// A flight that is not heard for `quiet` is asked, and is lost when it has not answered for `patience`: told
+// A flight without data for `quiet` gets a request, and is lost without a response for `patience`: reported
 // within a second.
 constexpr milliseconds quiet{300}, patience{450}, view_period{1000}, draw_period{200}, again{1000};
 
-/// A connected flight, and what is shown of it.
+/// A connected flight, and its displayed data.
 class Watched {
  public:
   explicit Watched(const LiveAddress& target, milliseconds limit = patience) : session_(target, limit) {
@@ -36,7 +36,7 @@ class Watched {
     for (const std::string& topic : board_.choose(types)) session_.subscribe(topic);
   }
 
-  /// Takes what comes in that time. Throws when the flight is lost.
+  /// Receives data for that time. Throws when the flight is lost.
   void hear(milliseconds limit) {
     const auto end = Clock::now() + limit;
     for (auto now = Clock::now(); now < end; now = Clock::now()) {
@@ -70,7 +70,7 @@ class Watched {
   std::vector<std::byte> message_;
 };
 
-/// What is there, once.
+/// Prints the present state once.
 int print_once(const LiveAddress& target) {
   Watched flight(target, std::chrono::seconds(5));
   const auto end = Clock::now() + std::chrono::seconds(1);
@@ -87,7 +87,7 @@ int print_once(const LiveAddress& target) {
 
 int watch_command(const LiveAddress& target) {
   if (isatty(STDOUT_FILENO) == 0) return print_once(target);
-  auto flight = std::make_unique<Watched>(target);  // there has to be one, to begin with
+  auto flight = std::make_unique<Watched>(target);  // the first connection must succeed
   catch_interrupts();
   Screen screen;
   Dashboard shown;

@@ -20,7 +20,7 @@ struct Answer {
   std::string reason, lines, mark;
 };
 
-/// Throws Error where the file is not the mission that flies.
+/// Throws Error when the file is not the active mission.
 SavePlan plan_of(const json& request) {
   const std::string file = request.at("file"), component = request.at("component");
   std::vector<std::string> names;
@@ -32,7 +32,7 @@ SavePlan plan_of(const json& request) {
   return plan_save(file, saved_params(request, component), flown_plugins(request));
 }
 
-/// What a later look would have to find the same.
+/// Mark of the plan: a later plan must have the same one.
 std::string mark_of(const SavePlan& plan) {
   std::string all;
   for (const FileEdit& file : plan.files)
@@ -83,7 +83,8 @@ std::vector<SavedParam> saved_params(const json& view, const std::string& compon
   std::vector<SavedParam> list;
   for (const NamedParam& p : params_of(view)) {
     if (!component.empty() && component != p.component) continue;
-    const bool key = p.vehicle && (p.info.name == "rate" || p.info.name == "epoch");  // the mission's own
+    // keys of the mission itself
+    const bool key = p.vehicle && (p.info.name == "rate" || p.info.name == "epoch");
     if (!key) list.push_back({p.component, p.use, p.info, p.value});
   }
   return list;

@@ -10,12 +10,12 @@
 
 namespace fulmar::core {
 
-/// The parameters of a view that a file can have; of one component, unless it is "".
+/// The parameters of a view that a file can hold; of one component, unless it is "".
 std::vector<SavedParam> saved_params(const nlohmann::json& view, const std::string& component);
 std::vector<std::string> flown_plugins(const nlohmann::json& view);
 
-/// {component, mark, set, file, mission, components: as in a view} -> {accepted, reason, lines, mark}, as
-/// links/live/saving.hpp has them. A fault is a reason.
+/// {component, mark, set, file, mission, components: as in a view} -> {accepted, reason, lines, mark}, as in
+/// links/live/saving.hpp. A fault becomes a reason.
 nlohmann::json save_answer(const nlohmann::json& request);
 
 }  // namespace fulmar::core

@@ -42,7 +42,7 @@ bool write_all(int file, std::string_view text) {
 
 }  // namespace
 
-// Changes touch single lines or add some; so the next equal line behind a difference ends it.
+// Changes replace or add single lines, so the next equal line ends a difference.
 std::string diff_text(const FileEdit& edit) {
   const std::vector<std::string> old = lines_of(edit.before), now = lines_of(edit.after);
   std::string text;
@@ -70,15 +70,15 @@ void write_edit(const FileEdit& edit) {
   const fs::path target = fs::canonical(edit.path, fault);
   const auto mode = static_cast<mode_t>(fs::status(target, fault).permissions());
   std::string fresh = (target.parent_path() / ("." + target.filename().string() + ".XXXXXX"))
-                          .string();  // a name that no file has
+                          .string();  // a name that does not exist
   const auto failed = [&](int code) {
     throw Error(save_messages::file_not_writable(edit.path.string(), std::strerror(code)));
   };
   if (fault) failed(fault.value());
-  if ((mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0) failed(EACCES);  // the administrator could
+  if ((mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0) failed(EACCES);  // root could still write it
   const int file = ::mkostemp(fresh.data(), O_CLOEXEC);
   if (file < 0) failed(errno);
-  // On the disk before it takes the name: else a loss of power could leave an empty file under it.
+  // The data are synchronised to disk before the rename: otherwise a power failure could leave an empty file.
   int code = write_all(file, edit.after) && ::fchmod(file, mode) == 0 && ::fsync(file) == 0 ? 0 : errno;
   if (::close(file) != 0 && code == 0) code = errno;
   if (code == 0 && ::rename(fresh.c_str(), target.c_str()) != 0) code = errno;

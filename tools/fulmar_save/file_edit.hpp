@@ -8,14 +8,14 @@ namespace fulmar::core {
 
 struct FileEdit {
   std::filesystem::path path;
-  std::string name;  // for people
+  std::string name;  // displayed name
   std::string before, after;
 };
 
-/// The lines that change, with those that replace them: "anaconda.yaml:54" and "-", "+".
+/// The changed lines: "anaconda.yaml:54", then old lines with "-" and new ones with "+".
 std::string diff_text(const FileEdit& edit);
 
-/// All of the file or nothing. Throws Error, also when the file has changed since it was read.
+/// Writes the complete file or nothing. Throws Error, also when the file has changed since it was read.
 void write_edit(const FileEdit& edit);
 
 }  // namespace fulmar::core

@@ -24,7 +24,7 @@ double number_or(const json& object, const char* key, double otherwise) {
   return it != object.end() && it->is_number() ? it->get<double>() : otherwise;
 }
 
-/// The names of a vector's elements, where the view has them.
+/// The names of a vector's elements, if the view has them.
 TypePtr vector_type(const json& names) {
   if (!names.is_array() || names.size() != 3) return nullptr;
   Type type;
@@ -49,7 +49,7 @@ ParamInfo param_info(const json& param) {
   info.choices = param.value("choices", std::vector<std::string>());
   info.min = number_or(param, "min", -inf);
   info.max = number_or(param, "max", inf);
-  info.capacity = std::numeric_limits<std::uint32_t>::max();  // the flight knows
+  info.capacity = std::numeric_limits<std::uint32_t>::max();  // the flight checks the capacity
   info.type = vector_type(param.value("fields", json()));
   const ParamValue initial = param_value(info, param.value("initial", json()));
   std::copy(std::begin(initial.number), std::end(initial.number), std::begin(info.initial));

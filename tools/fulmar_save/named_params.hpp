@@ -9,8 +9,8 @@
 
 namespace fulmar::core {
 
-/// {"name": "roll_kp", "kind": "number", ...} of the view -> what a host knows of the parameter. Throws
-/// Error.
+/// Converts {"name": "roll_kp", "kind": "number", ...} of the view to the host's description of the
+/// parameter. Throws Error.
 ParamInfo param_info(const nlohmann::json& param);
 ParamValue param_value(const ParamInfo& info, const nlohmann::json& value);
 

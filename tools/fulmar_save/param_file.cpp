@@ -50,7 +50,7 @@ std::string number_in(double value, const std::string& unit, const std::string& 
   return text;
 }
 
-/// A number where none is written yet: angles in degrees when that is short.
+/// Text of a new number: angles in degrees when that is short.
 std::string new_number(double value, const std::string& declared) {
   constexpr std::size_t brief = 8;
   if (declared.empty() || declared == "frac" || declared == "ratio") return number_text(value);
@@ -74,7 +74,7 @@ std::string number_like(const std::string& old, double value, const std::string&
     const Quantity quantity = parse_quantity(unquoted(old));
     if (quantity.unit.empty() || same_dimension(quantity.unit, declared))
       return quoted_like(old, number_in(value, quantity.unit, declared));
-  } catch (const Error&) {  // an alias, say
+  } catch (const Error&) {  // for example an alias
   }
   return new_number(value, declared);
 }
@@ -122,7 +122,7 @@ const Node* at_path(const Node& root, const YamlPath& path) {
   return node;
 }
 
-/// Every value with its path, as text that cannot be mistaken.
+/// Every value with its path, as unambiguous text.
 void flatten(const Node& node, const std::string& path, std::map<std::string, std::string>& out) {
   if (node.is(Node::Kind::map) || node.is(Node::Kind::sequence))
     out[path] = node.is(Node::Kind::map) ? "{" : "[";
@@ -143,7 +143,8 @@ class Saver {
  public:
   Saver(const fs::path& mission, const std::vector<std::string>& flown) : flown_(flown) {
     open(mission, mission.string(), true);
-    constexpr std::size_t most = 32;  // a mission that flies has no circle, but a file may have changed since
+    // the mission of a flight has no cycle, but a file may have changed since
+    constexpr std::size_t most = 32;
     for (const Node* base = nullptr;
          (base = roots_.back().find("extends")) && base->is(Node::Kind::scalar) && files_.size() < most;)
       open_named(files_.size() - 1, base->text);
@@ -193,7 +194,7 @@ class Saver {
   }
 
  private:
-  /// A file that the nth one names. What came with the installation is read, and never written.
+  /// Reads a file that the nth one names. Files of the installation are never written.
   void open_named(std::size_t nth, const std::string& name) {
     open(named_file(files_[nth].path.parent_path(), name), name, ours_[nth] && !is_shipped_name(name));
   }
@@ -225,8 +226,7 @@ class Saver {
     return std::nullopt;
   }
 
-  /// Who speaks to a flight from outside does not know the elements' names: they are those of the frame that
-  /// the file speaks of.
+  /// A request does not hold the names of the elements: they are those of the frame in the file.
   static TypePtr names_of(const Node& map) {
     Type type;
     type.fields.resize(3);
@@ -236,7 +236,7 @@ class Saver {
     return std::make_shared<const Type>(std::move(type));
   }
 
-  /// Whether the file says what the flight has.
+  /// True when the file has the value of the flight.
   static bool says(const SavedParam& p, const Node& node) {
     Report report;
     FileStore none(report);
@@ -289,8 +289,8 @@ class Saver {
     return text;
   }
 
-  /// Whether `path` is the same parameter of the airframe for another plugin, "control_slc/Autotune", that
-  /// does not fly: then its name.
+  /// When `path` is the same parameter of the airframe for an inactive plugin, such as
+  /// "control_slc/Autotune": the name of that plugin.
   std::string idle_section(const std::string& path, const FilePlace& where) const {
     if (!airframe_ || where.file != airframe_->file || where.path.size() != airframe_->path.size() + 2)
       return "";
@@ -310,8 +310,8 @@ class Saver {
     return section;
   }
 
-  /// The file after the change says what the flight has, and of everything else what it said before; but for
-  /// the plugins that are returned.
+  /// Checks the changed file: it must have the values of the flight and no other change, except for the
+  /// returned plugins.
   std::vector<std::string> check(const std::string& before, const std::string& after, const FilePlace& where,
                                  const SavedParam& p) const {
     const Node root = parsed(after, "");
@@ -338,10 +338,10 @@ class Saver {
     return also;
   }
 
-  std::vector<FileEdit> files_;  // mission, what it extends and what that does, airframe
-  std::size_t missions_ = 0;     // of those
+  std::vector<FileEdit> files_;  // mission, the files that it extends, airframe
+  std::size_t missions_ = 0;     // number of missions among them
   std::vector<Node> roots_;
-  std::vector<bool> ours_;  // per file: whether it may be written
+  std::vector<bool> ours_;  // per file: true when it may be written
   std::optional<FilePlace> airframe_;
   std::vector<std::string> flown_;
   SavePlan plan_;
@@ -357,7 +357,7 @@ SavePlan plan_save(const fs::path& mission, const std::vector<SavedParam>& param
 }
 
 void check_mission_name(const std::string& file, const std::string& flies) {
-  Report report;  // faults are told when it is written
+  Report report;  // faults are reported when the file is written
   const std::string name = parse_mission(file, {}, report).mission;
   if (name != flies) throw Error(save_messages::mission_name_mismatch(file, name, flies));
 }

@@ -11,7 +11,7 @@
 
 namespace fulmar::core {
 
-/// A parameter as a flight has it.
+/// A parameter of a flight.
 struct SavedParam {
   std::string component, use;  // "slc", "control_slc/Outer"
   ParamInfo info;
@@ -21,20 +21,21 @@ struct SavedParam {
 struct SavePlan {
   std::vector<FileEdit> files;       // those that change
   std::vector<std::string> changed;  // "slc.roll_kp"
-  std::vector<std::string> refused;  // sentences: what has to be written by hand, and why
-  std::vector<std::string> also;     // sentences: what else the same text says
+  std::vector<std::string> refused;  // sentences: parameters that must be edited by hand, with the reason
+  std::vector<std::string> also;     // sentences: other parameters that the same text sets
 };
 
-/// Where a value stands decides where it is written: `params:` of the mission, that of a file it extends,
-/// the airframe's; the mission when it stands nowhere, or in a file of the installation (`fulmar:`). Values
-/// keep the unit and the quotes that they are written in. A change that would alter anything else, through an
-/// anchor say, is refused, but when that is the same parameter of the airframe for a plugin that does not
-/// fly: it is told. `flown`: the plugins that do, "control_slc/Outer". Records and blobs are left out. Throws
-/// Error when a file cannot be read.
+/// Plans the edits. The place of a value decides the file: `params:` of the mission, of a file that it
+/// extends, or of the airframe. A value without a place, or in a file of the installation (`fulmar:`), goes
+/// to the mission. Values keep their unit and quotes.
+/// A change with another effect, for example through an anchor, is rejected. An exception is the same
+/// parameter of the airframe for an inactive plugin, which is reported.
+/// `flown`: the active plugins, "control_slc/Outer". Records and blobs are left out. Throws Error when a file
+/// cannot be read.
 SavePlan plan_save(const std::filesystem::path& mission, const std::vector<SavedParam>& params,
                    const std::vector<std::string>& flown);
 
-/// Throws Error when the file is another mission than the one that flies.
+/// Throws Error when the file is not the active mission.
 void check_mission_name(const std::string& file, const std::string& flies);
 
 }  // namespace fulmar::core

@@ -18,7 +18,7 @@ bool word_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// As yaml.cpp has it: {truth?: T} is more than yaml-cpp 0.7 reads. Nothing moves.
+/// As in yaml.cpp: yaml-cpp 0.7 cannot read {truth?: T}. The replacement keeps all positions.
 YAML::Node load(std::string text) {
   for (std::size_t at = text.find("?:"); at != std::string::npos; at = text.find("?:", at + 1))
     if (at > 0 && word_letter(text[at - 1])) text[at] = '_';
@@ -71,7 +71,7 @@ std::size_t end_of_plain(const std::string& text, std::size_t at, bool flow) {
   return at;
 }
 
-/// Behind the bracket that closes the one at `at`.
+/// Position after the bracket that closes the one at `at`.
 std::size_t end_of_flow(const std::string& text, std::size_t at) {
   int depth = 0;
   while (at < text.size()) {
@@ -90,7 +90,7 @@ std::size_t end_of_flow(const std::string& text, std::size_t at) {
   throw Error(save_messages::bracket_unclosed());
 }
 
-/// The value that begins at or behind `at`; its anchor and tag are passed over.
+/// The value that begins at or after `at`, without its anchor and tag.
 std::optional<YamlSpan> value_at(const std::string& text, std::size_t at, bool flow) {
   using Form = YamlSpan::Form;
   at = skip_blanks(text, at);
@@ -126,7 +126,7 @@ struct Found {
   std::size_t depth = 0;
 };
 
-/// As far down the path as it goes.
+/// Follows the path as far as it exists.
 Found walk(const YAML::Node& root, const YamlPath& path) {
   Found found{root, YAML::Mark::null_mark(), false, 0};
   for (const std::string& word : path) {
@@ -144,7 +144,7 @@ Found walk(const YAML::Node& root, const YamlPath& path) {
   return found;
 }
 
-/// Behind the last line of a map whose keys stand at `indent`, from the line of its last key on.
+/// End of the last line of a map whose keys are indented by `indent`, from the line of its last key on.
 std::size_t end_of_block(const std::string& text, std::size_t last_key, std::size_t indent) {
   std::size_t end = std::min(text.find('\n', last_key), text.size() - 1) + 1;
   for (std::size_t line = end; line < text.size();) {
@@ -161,7 +161,7 @@ std::size_t end_of_block(const std::string& text, std::size_t last_key, std::siz
 }
 
 std::string into_flow(const std::string& text, const YamlSpan& map, const std::string& entry) {
-  std::size_t last = map.begin + 1;  // behind the last thing that counts
+  std::size_t last = map.begin + 1;  // after the last line with content
   for (std::size_t at = skip_blanks(text, last); at < map.end - 1; at = skip_blanks(text, at)) {
     const char c = text[at];
     at = c == '"' || c == '\''  ? end_of_quoted(text, at)

@@ -9,14 +9,14 @@
 
 namespace fulmar::core {
 
-using Advice = std::vector<std::string>;  // sentences, each begins with file and line
+using Advice = std::vector<std::string>;  // sentences that begin with file and line
 
-// bypassed.cpp: components that another one has replaced and that are still read
+// bypassed.cpp: components that another one replaces but that other components still read
 void add_bypassed(const Graph& graph, const MissionText& text, Advice& advice);
-// unread.cpp: an output without a reader and an input without a source that fit each other
+// unread.cpp: an output without a reader and an input without a source, of the same type
 void add_unread(const Graph& graph, Advice& advice);
 
-/// `text`: of the mission that the graph was built of.
+/// `text`: the mission of the graph.
 inline Advice advice_on(const Graph& graph, const MissionText& text) {
   Advice advice;
   add_bypassed(graph, text, advice);

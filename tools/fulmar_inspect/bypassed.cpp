@@ -15,11 +15,11 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// Whether the component is created in `io`.
+/// True when the component is created in `io`.
 bool exists(const ComponentText& c, Io io) { return !c.only || *c.only == io; }
 
-/// Components of a layer whose outputs lead to what the role `vehicle` takes. What a vehicle has under wires
-/// of its own it looks at, and does not obey.
+/// Components of a layer whose outputs lead to the inputs of the role `vehicle`. Further wires of a vehicle
+/// are only observed by it and do not count.
 Names who_steers(const MissionText& text, Io io) {
   std::vector<std::string> todo;
   Names steer, seen;
@@ -43,7 +43,7 @@ Names who_steers(const MissionText& text, Io io) {
   return steer;
 }
 
-/// The same of the built graph, which knows who has which input.
+/// The same for the built graph, which has the source of each input.
 Names who_steers(const Graph& graph, const MissionText& text) {
   Names steer;
   for (const int i : steering_components(graph, text)) steer.insert(nth(graph.components, i).name);
@@ -61,7 +61,7 @@ bool names(const std::string& text, const std::string& component) {
 
 /// A component that steers in a layer and not in the mission.
 struct Replaced {
-  std::string name, mission;  // where it steers
+  std::string name, mission;  // place where it steers
   std::string successors;
 };
 using Bypassed = std::vector<Replaced>;
@@ -77,7 +77,7 @@ Bypassed bypassed(const Graph& graph, const MissionText& text, const Names& stee
     std::vector<std::string> newcomers;
     for (const std::string& name : steer)
       if (!layer.component(name)) newcomers.push_back(name);
-    if (newcomers.empty()) continue;  // who steers is chosen, not replaced
+    if (newcomers.empty()) continue;  // a choice among components, no replacement
     for (const std::string& name : before) {
       const Component* const c = find_named(graph.components, name);
       if (!c || !c->roles.empty() || steer.count(name) > 0 || is_listed(list, name)) continue;
@@ -87,7 +87,7 @@ Bypassed bypassed(const Graph& graph, const MissionText& text, const Names& stee
   return list;
 }
 
-/// What a mission says that looks at `component`.
+/// Entries of a mission that read `component`.
 std::vector<std::pair<Where, std::string>> onlookers(const MissionText& text, const std::string& component) {
   std::vector<std::pair<Where, std::string>> list;
   const auto look = [&](const Word& word, const std::string& reader) {

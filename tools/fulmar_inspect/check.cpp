@@ -13,9 +13,9 @@
 namespace fulmar::core {
 namespace {
 
-/// The faults that components report when they are configured, a sentence each. Each component is configured
-/// alone and in a process of its own. Left out are those that would open a device: drivers, and the vehicle
-/// on hardware.
+/// Faults that components report in their configuration, one sentence each. Each component is configured
+/// alone and in a separate process. Components that would open a device are left out: drivers, and the
+/// vehicle on hardware.
 std::vector<std::string> refused_set_ups(const Graph& graph) {
   std::vector<std::string> refused;
   for (const Component& named : graph.components) {
@@ -40,7 +40,7 @@ std::vector<std::string> refused_set_ups(const Graph& graph) {
 int check_mission(const std::string& mission, const Overrides& overrides) {
   const Graph graph = load_mission(mission, overrides);
   for (const std::string& warning : graph.source.warnings) warn(warning);
-  Report unused;  // the mission is in order
+  Report unused;  // the mission is valid
   for (const std::string& sentence : advice_on(graph, parse_mission(mission, overrides, unused)))
     warn(sentence);
   std::string refused;

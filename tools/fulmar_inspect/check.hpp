@@ -7,7 +7,7 @@
 
 namespace fulmar::core {
 
-/// Prints what should be known of a mission; 0. Throws Error with every fault, one a line.
+/// Prints advice about a mission and returns 0. Throws Error with every fault, one a line.
 int check_mission(const std::string& mission, const Overrides& overrides);
 
 }  // namespace fulmar::core

@@ -12,8 +12,7 @@ namespace {
 
 using namespace inspect_text;
 
-// Rows of words in columns as wide as their longest word, two blanks between. Columns that are empty
-// everywhere vanish.
+// Rows of texts in aligned columns, two blanks apart. Empty columns are left out.
 class Columns {
  public:
   explicit Columns(std::size_t indent) : indent_(indent) {}

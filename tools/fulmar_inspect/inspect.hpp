@@ -11,7 +11,7 @@ namespace fulmar::core {
 /// message.
 std::string describe_plugin(const PluginInfo& plugin, bool fields = false);
 
-/// The same, whole, as a page of Markdown.
+/// The complete description as a Markdown page.
 std::string describe_plugin_markdown(const PluginInfo& plugin);
 
 }  // namespace fulmar::core

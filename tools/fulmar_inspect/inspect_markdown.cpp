@@ -15,10 +15,9 @@ namespace {
 using namespace inspect_text;
 
 constexpr double unknown =
-    1e9;  // what the SDK calls unknown_std: a deviation that nobody knows, a field that a file may leave out
+    1e9;  // unknown_std of the SDK: an unknown standard deviation, a field that a file may leave out
 
-/// Text of a table's cell: nothing in it is mark-up but pairs of back-ticks. A bar ends a cell even between
-/// back-ticks.
+/// Text of a table cell: its only mark-up are pairs of back-ticks. A bar ends a cell even between back-ticks.
 std::string cell(const std::string& text) {
   const bool paired = std::count(text.begin(), text.end(), '`') % 2 == 0;
   bool code = false;
@@ -41,7 +40,7 @@ std::string cell(const std::string& text) {
 
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
 
-/// A table; columns that are empty in every row are left out.
+/// A table; columns without content are left out.
 class Table {
  public:
   explicit Table(std::vector<std::string> head) : head_(std::move(head)), used_(head_.size(), false) {
@@ -79,7 +78,7 @@ std::string link_to(const std::string& heading) {
   return "[" + heading + "](#" + anchor + ")";
 }
 
-/// " (45 deg)" behind an angle in radians: people read degrees.
+/// " (45 deg)" after an angle in radians.
 std::string in_degrees(const ParamInfo& param) {
   const bool angle = param.unit == "rad" || param.unit == "rad/s" || param.unit == "rad/s2";
   if (param.kind != FULMAR_NUMBER || !angle || param.initial[0] == 0) return "";
@@ -110,7 +109,7 @@ std::string parameters(const std::vector<ParamInfo>& all) {
   return "### Parameters\n\n" + table.text();
 }
 
-/// As it stands in a mission, with every input that must be wired.
+/// Example for a mission, with every input that must be connected.
 std::string use_text(const std::string& plugin, const ComponentInfo& component) {
   std::vector<std::string> wires;
   for (const Port& port : component.inputs)
@@ -130,7 +129,7 @@ std::string component_page(const std::string& plugin, const ComponentInfo& compo
          parameters(component.params);
 }
 
-/// What a field of a record is when the file does not name it. "" for what a file must list item by item.
+/// Initial value of a record's field; "" for a field that a file must list item by item.
 std::string initial_of(const Field& field, const std::byte* at) {
   if (at == nullptr || field.shape != FULMAR_SCALAR) return "";
   if (field.kind == FULMAR_TEXT) return reinterpret_cast<const char*>(at);
@@ -149,8 +148,7 @@ std::string vector_initial(const Field& field, const std::byte* at) {
   return "[" + join(parts) + "]";
 }
 
-/// One row per field; the fields of a struct in a struct follow with their path, those of a vector stand in
-/// its row.
+/// One row per field. The fields of a nested struct follow with their path; those of a vector share a row.
 void table_rows(const Type& type, const std::string& path, const std::byte* data, Table& table) {
   for (const Field& field : type.fields) {
     const std::byte* at = data == nullptr ? nullptr : data + field.offset;

@@ -7,7 +7,7 @@
 
 namespace fulmar::core {
 
-/// Components, wires, order, phases. Formats: "text", "dot", "mermaid". Throws Error for another one.
+/// Components, wires, order, phases. Formats: "text", "dot", "mermaid". Throws Error for any other.
 std::string print_graph(const Graph& graph, const std::string& format);
 
 }  // namespace fulmar::core

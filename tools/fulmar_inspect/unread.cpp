@@ -34,7 +34,7 @@ bool is_read(const Graph& graph, const Component& writer, int output) {
                      [&](const DdsOptions::Export& e) { return e.port == name; });
 }
 
-/// The only output of that type, when there is but one.
+/// The only output of that type; no value when there are several.
 Open only_writer(const Graph& graph, const Port& input, const Component& reader) {
   Open found;
   for (const Component& c : graph.components)

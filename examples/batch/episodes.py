@@ -19,7 +19,7 @@ ended = {"crashed": 0, "departed": 0, "flown": 0}
 for _ in range(1500):
     actions = sim.trim
     noise = 0.98 * noise + rng.normal(0, 0.004, (n, 2))
-    actions[:, 1:3] += noise  # # replace by the policy of a learner
+    actions[:, 1:3] += noise  # replace by the policy of a learner
     rows = sim.step(actions, steps=8)
     age_s += period_s
     crashed, departed = rows[:, names["crashed"]] > 0, rows[:, names["departed"]] > 0

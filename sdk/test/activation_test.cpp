@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a component gets when it takes over, from the host and from the bench.
+// Arguments of `activate`, from the host and from the bench.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -13,7 +13,7 @@ using plugin_test::Everything;
 
 namespace {
 
-/// Takes over: sees whether a component flew before it, and its outputs.
+/// Records at a switch if a component flew before, and its outputs.
 struct Successor {
   struct Inputs {};
   struct Outputs {
@@ -104,7 +104,7 @@ TEST_CASE(
   CHECK(component.aileron_rad == 0.25);
   last = std::vector<fulmar_input>(c.output_count);
   CHECK(c.activate(instance, &tick, nullptr, last.data(), &error) ==
-        FULMAR_DEGRADED);  // nothing of the time before is left
+        FULMAR_DEGRADED);  // no memory of the time before
   CHECK_FALSE(component.had_actuators);
   CHECK(component.aileron_rad == 0);
   c.destroy(instance);
@@ -128,7 +128,7 @@ TEST_CASE("the bench activates after no component, after one, and after one that
   CHECK_FALSE(component.had_actuators);
   CHECK_FALSE(component.had_spare);
 
-  Bench<Everything> old;  // takes the outputs alone: unchanged
+  Bench<Everything> old;  // has the older signature, with outputs alone: unchanged
   Everything::Outputs outputs;
   outputs.actuators.aileron_rad = 0.5;
   REQUIRE(old.activate(outputs) == Status::ok);
@@ -147,7 +147,7 @@ TEST_CASE("what was applied reads as the outputs themselves") {
   const Successor::Outputs& plain = last;
   CHECK(plain.spare.rudder_rad == 0.125);
   CHECK(last->spare.rudder_rad == 0.125);
-  CHECK_FALSE(last.has(outputs.spare));  // another struct's
+  CHECK_FALSE(last.has(outputs.spare));  // member of another struct
 }
 
 }  // namespace activation_test

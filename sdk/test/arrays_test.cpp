@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Arrays and matrices of parameters: each element is a parameter of its own, with the indices in its name.
+// Arrays and matrices of parameters: each element is a parameter, with its indices in the name.
 #include <doctest/doctest.h>
 
 #include <string>

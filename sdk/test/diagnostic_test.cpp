@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Messages: a code with arguments, a sentence of a catalogue, a place. The tests of the project run with
-// FULMAR_MESSAGES=codes; the sentence itself is read in a program of its own without it.
+// FULMAR_MESSAGES=codes; a separate program without it tests the sentence itself.
 #include "fulmar/diagnostic.hpp"
 
 #include <doctest/doctest.h>

@@ -20,7 +20,7 @@ struct Gains {
   double roll_ratio = 1;
 };
 
-/// As two laws share them; one holds another.
+/// Two laws share these; one of them contains another group.
 struct Limits {
   Param roll_max{0.5, "rad", 0, 1, "bank"};
   Param pitch_max{0.25, "rad", 0, 1, "pitch", setup};
@@ -53,7 +53,7 @@ struct Grouped {
   }
   Params seen;
 };
-/// The same group alone, with its own defaults.
+/// The same group alone, with other defaults.
 struct Other {
   struct Inputs {};
   struct Outputs {};
@@ -71,7 +71,7 @@ TEST_CASE("a group's parameters stand in its place in the table, under their own
   for (std::uint32_t i = 0; i < c.param_count; ++i) names.emplace_back(c.params[i].name);
   CHECK(names == std::vector<std::string>{"law", "course_kp", "roll_max", "pitch_max", "coordinated", "n",
                                           "gains", "word", "last"});
-  CHECK(c.params[1].initial[0] == 3);  // this law's own, the rest of the group as it is by default
+  CHECK(c.params[1].initial[0] == 3);  // default of this law; the rest of the group has its own defaults
   CHECK(c.params[1].max == 9);
   CHECK(std::string(c.params[1].doc) == "this law's own");
   CHECK(c.params[2].initial[0] == 0.5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component as the host sees it: tables, thunks, exceptions, parameters; and the bench that authors test
-// with.
+// A component through the interface of the host: tables, thunks, exceptions, parameters; and the bench for
+// authors.
 #include <doctest/doctest.h>
 
 #include <stdexcept>
@@ -125,7 +125,8 @@ TEST_CASE("a step reads inputs, answers requests and publishes") {
   CHECK(bench.answer(bench.in.edit, 1) == "there is no waypoint 9");
   CHECK(bench.component().last_dt == doctest::Approx(0.01));
 
-  REQUIRE(bench.step(0.02) == Status::ok);  // nothing new: the event stays silent, queues are empty
+  REQUIRE(bench.step(0.02) ==
+          Status::ok);  // without new samples the event stays silent, and queues are empty
   CHECK_FALSE(bench.out.wish.written);
   CHECK(bench.out.made.count == 0);
   CHECK(bench.component().last_dt == doctest::Approx(0.02));
@@ -187,7 +188,7 @@ enum class Place { nowhere, constructor, configure, activate, step };
 Place thrown_in = Place::nowhere;
 int kind_thrown = 0;
 
-/// Throws where it shall what has no words.
+/// Throws an exception without a message at the place `thrown_in`.
 struct Odd {
   struct Inputs {};
   struct Outputs {
@@ -207,7 +208,7 @@ struct Odd {
   }
 };
 
-/// The first of its calls that fails, and the text that comes with it.
+/// The first call that fails, and its text.
 std::pair<Place, std::string> first_failure() {
   const fulmar_component c = detail::component_entry<Odd>();
   fulmar_error error{};
@@ -286,7 +287,7 @@ TEST_CASE("values of every kind cross into Params") {
   CHECK(p.gains.given());
   CHECK(p.table.size == 3);
   CHECK(p.mass == 5);
-  v[6].data = nullptr;  // retune leaves records as they are
+  v[6].data = nullptr;  // retune does not change records
   REQUIRE(c.retune(instance, v.data(), &error) == FULMAR_OK);
   CHECK(p.gains->roll_ratio == 6);
   CHECK(p.gains.given());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The examples of sdk/README.md, compiled as they stand there.
+// The examples of sdk/README.md, compiled as printed.
 #include <doctest/doctest.h>
 
 #include "fulmar/msg/vehicle_state.hpp"
@@ -21,10 +21,10 @@ TEST_CASE("the example of a queue: samples come oldest first, with their time of
   bench.push(bench.in.distance, {40, true}, 0.05);
   bench.push(bench.in.distance, {0, false}, 0.01);
   REQUIRE(bench.step(0.05) == Status::ok);
-  CHECK(bench.out.late_s.value == doctest::Approx(0.1));  // 0.05 s old when it came, 0.05 s later
+  CHECK(bench.out.late_s.value == doctest::Approx(0.1));  // 0.05 s old on arrival, 0.05 s later
   CHECK(bench.out.height_m.value == doctest::Approx(40.2));
   REQUIRE(bench.step(0.05) == Status::ok);
-  CHECK_FALSE(bench.out.height_m.written);  // each comes once
+  CHECK_FALSE(bench.out.height_m.written);  // each is published once
 }
 
 TEST_CASE("the example of a matrix") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must not compile, one case per number. CASE 0 is the control: all of it without the fault compiles.
+// Compile errors, one case per number. CASE 0 is the control: everything without an error compiles.
 #include <string>
 #include <vector>
 
@@ -74,7 +74,7 @@ inline auto mixed(const Vec3<Ned>& a, const Vec3<Body>& b) { return a + b; }
 #endif
 #if CASE == 15
 inline double far(const Vec3<Ned>& v) { return eigen(v).norm(); }
-#elif CASE == 16  // an author who includes Eigen, here even after the SDK, needs nothing else
+#elif CASE == 16  // an author who includes Eigen, even after the SDK, needs nothing else
 #include <Eigen/Dense>
 inline double far(const Vec3<Ned>& v, const Quat& q) {
   const Eigen::Vector3d turned = eigen(q) * eigen(v);

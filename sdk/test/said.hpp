@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a command in a shell says, for tests.
+// Output and exit code of shell commands, for tests.
 #pragma once
 #include <doctest/doctest.h>
 #include <sys/wait.h>
@@ -9,17 +9,17 @@
 
 namespace fulmar::test {
 
-/// Whether `part` stands in a text.
+/// True if `text` contains `part`.
 inline bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
 struct Said {
-  int code = -1;    ///< of the exit; 128 and the signal, as shells have it
-  std::string out;  ///< whatever goes to the standard output; with 2>&1 in the command the errors, too
+  int code = -1;    ///< exit code; 128 plus the signal, as in a shell
+  std::string out;  ///< standard output; with 2>&1 in the command also the errors
 };
 
-/// `each` gets the lines as they come.
+/// Calls `each` with every line at its arrival.
 template <class Each>
 Said shell(const std::string& command, Each&& each) {
   Said said;
@@ -38,7 +38,7 @@ inline Said shell(const std::string& command) {
   return shell(command, [](const std::string&) {});
 }
 
-/// A word of fulmar, as somebody types it at a terminal: with all that it says.
+/// Runs `fulmar` with these arguments, with standard output and errors.
 inline Said typed(const std::string& words) { return shell(FULMAR_BIN_DIR "/fulmar " + words + " 2>&1"); }
 
 }  // namespace fulmar::test

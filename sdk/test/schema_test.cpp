@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables that a struct yields by itself, against what the compiler says (offsetof, sizeof) and what
-// people wrote.
+// The tables generated from a struct, against the compiler (offsetof, sizeof) and against expected names.
 #include "fulmar/schema.hpp"
 
 #include <doctest/doctest.h>
@@ -179,7 +178,7 @@ struct Widest {
   bool last;
 };
 struct Nested {
-  Pair<std::array<List<Quat, 2>, 3>, 4> not_a_message;  // members are counted and named whatever they are
+  Pair<std::array<List<Quat, 2>, 3>, 4> not_a_message;  // members are counted and named for any type
   Text<2> t;
   Gap gap;
 };

@@ -21,7 +21,7 @@ double in_si(const std::string& text) {
   return unit.find("deg") != std::string::npos ? number * std::numbers::pi / 180 : number;
 }
 
-/// `limit` is limit_rad: the unit may be left out.
+/// The unit is optional: `limit` is limit_rad.
 const fulmar_field& field_of(const fulmar_type& type, const std::string& key) {
   for (std::uint32_t i = 0; i < type.field_count; ++i) {
     const std::string name = type.fields[i].name;
@@ -66,7 +66,7 @@ void set_field(char* at, const fulmar_field& field, const YAML::Node& node) {
     set_value(at + field.items + static_cast<std::size_t>(i) * field.stride, field, node[i]);
 }
 
-/// A vector may be written [x, y, z].
+/// A vector also has the form [x, y, z].
 void set_struct(char* at, const fulmar_type& type, const YAML::Node& node) {
   if (node.IsSequence()) {
     if (node.size() != type.field_count) throw std::runtime_error(std::string("not a ") + type.name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Airframes for tests and benches, by a reader that is not the host's.
+// Airframes for tests and benchmarks, by a reader that is independent of the host.
 #pragma once
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace fulmar::test {
 
-/// configs/airframes/NAME.yaml without its `params`. Throws on a key that the struct does not have.
+/// configs/airframes/NAME.yaml without its `params`. Throws on an unknown key.
 Airframe airframe_file(const std::string& name);
 /// The same from the text of a file.
 Airframe airframe_text(const std::string& yaml);

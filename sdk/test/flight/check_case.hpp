@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads a column of one of NASA's six-degree-of-freedom check cases (NASA/TM-2015-218675), where they are
-// there.
+// Reads a column of one of NASA's six-degree-of-freedom check cases (NASA/TM-2015-218675), if available.
 #pragma once
 #include <fstream>
 #include <optional>
@@ -13,7 +12,7 @@ namespace fulmar::test {
 
 class CheckCase {
  public:
-  /// Nothing when the folder is not there.
+  /// Returns nothing without the folder.
   static std::optional<CheckCase> open(const std::string& file) {
     std::ifstream in(std::string(FULMAR_REFERENCE_DATA) + "/six_dof/" + file);
     if (!in) return std::nullopt;

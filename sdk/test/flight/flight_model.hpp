@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An aircraft for closed-loop tests of control laws: the nonlinear six degrees of freedom of flight/, servos
-// and motor with a lag, perfect state. The figures are those of the Anaconda (4.5 kg, 2.08 m).
+// and motor with a lag, ideal state. The parameters are those of the Anaconda (4.5 kg, 2.08 m).
 #pragma once
 #include <fulmar/flight/earth/atmosphere.hpp>
 #include <fulmar/flight/earth/dryden.hpp>
@@ -67,7 +67,7 @@ inline Airframe anaconda() {
 }
 
 struct FlightModel {
-  static constexpr double field_m = 1387;  ///< above mean sea level, of the origin
+  static constexpr double field_m = 1387;  ///< altitude of the origin above mean sea level
   Airframe airframe;
   Aerodynamic aero;
   Propeller propeller;
@@ -128,7 +128,7 @@ struct FlightModel {
     x = runge_kutta(x, first, dt, mass, Eigen::Vector3d(0, 0, isa::g0), load_at);
   }
 
-  /// What a perfect estimator would say.
+  /// State of an ideal estimator.
   VehicleState state() const {
     const Euler e = euler_from(x.q_nb);
     const AirData air(air_velocity(x));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same flight in another world: mirrored, turned about the vertical, moved. What flies by no side and no
-// direction of its own has to do there what it does here: signs and axes that are swapped differ.
+// The same flight in another world: mirrored, rotated about the vertical, moved. A law without a preferred
+// side and direction must give the same result there; swapped signs and axes differ.
 #pragma once
 #include <doctest/doctest.h>
 
@@ -18,7 +18,7 @@
 namespace fulmar::test {
 
 struct World {
-  bool mirrored = false;  ///< east is west; before it is turned
+  bool mirrored = false;  ///< east becomes west, before the rotation
   double turned_rad = 0, north_m = 0, east_m = 0;
 
   double side() const { return mirrored ? -1 : 1; }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A battery that sags and drains: the balance of motor, propeller and battery by their own laws, and the
-// charge.
+// A battery under load: the balance of motor, propeller and battery by their own equations, and the charge.
 #include "fulmar/sim/battery.hpp"
 
 #include <doctest/doctest.h>
@@ -28,7 +27,7 @@ Airframe with(double resistance_ohm, double capacity_ah = 0, double empty_volt =
   return a;
 }
 
-/// Held in its flight for so long.
+/// Steps the plant in its flight for this time.
 void blow(Plant& plant, double throttle, double seconds, double rudder = 0) {
   const RigidBody held = plant.state();
   for (int i = 0; i < std::lround(seconds / dt); ++i) {
@@ -62,7 +61,7 @@ TEST_CASE("under load motor, propeller and battery are in balance: Ohm's law in 
       const double amp = plant.battery_amp(), volt = plant.battery_volt(), Omega = plant.propeller_radps();
       REQUIRE(amp > 0.5);
       CHECK((p.battery_volt - volt) / (0.08 * amp) == Approx(1).epsilon(1e-9));
-      const double i = amp / (motors * throttle);  // in one motor: the controller deals out voltage
+      const double i = amp / (motors * throttle);  // in one motor: the controller splits the voltage
       CHECK(throttle * volt / (i * p.resistance_ohm + p.torque_constant_ratio * Omega) ==
             Approx(1).epsilon(1e-6));
       const double torque = Propeller(p).torque(Omega, Va, plant.air().density_kgm3);
@@ -121,7 +120,7 @@ TEST_CASE("an empty battery stops the motor for good; one without capacity never
   Plant small = flying(with(0, 0.01)), endless = flying(with(0));
   blow(small, 0.8, 1);
   CHECK(small.battery_amp() > 1);
-  CHECK(small.battery_volt() == anaconda().propulsion.battery_volt);  // no voltage of an empty one is said
+  CHECK(small.battery_volt() == anaconda().propulsion.battery_volt);  // no voltage of the empty battery given
   blow(small, 0.8, 10);
   CHECK(small.battery_amp() == 0);
   CHECK(small.propeller_radps() < 60);
@@ -140,7 +139,7 @@ TEST_CASE("a curve is followed between its points and held beyond them") {
     p.pack.curve.open_volt.push_back(volt);
   }
   BatteryState b(p);
-  const auto after = [&](double part) {  // of the capacity, 2 Ah
+  const auto after = [&](double part) {  // used part of the capacity, 2 Ah
     b.drain(3600 * (2 * part - b.used_ah()), 1);
     return b.open_volt();
   };

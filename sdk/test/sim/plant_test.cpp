@@ -118,7 +118,7 @@ TEST_CASE("it slides sideways no further than friction lets it") {
   x.v_n = {0, 1, 0};
   p.set_state(x);
   run(p, 3);
-  // v^2 / (2 mu g), and a little rolling on the springs
+  // v^2 / (2 mu g), and a small roll on the springs
   CHECK(p.state().p_n.y() == Approx(1 / (2 * 0.6 * 9.80665)).epsilon(0.2).scale(0));
   CHECK(p.state().v_n.norm() < 1e-3);
   CHECK_FALSE(p.crashed());
@@ -271,7 +271,7 @@ TEST_CASE("a wheel that has left the ground has forgotten what pulled at it") {
     return load.force_b.y();
   };
   CHECK(side() < -1);
-  for (const double up : {0.05, 5.0}) {  // a hop, and out of reach
+  for (const double up : {0.05, 5.0}) {  // a hop, and out of contact
     x.p_n.z() = -a.gear.height_m - up;
     ground.advance(x, 0.0025);
     x.p_n.z() = -a.gear.height_m;

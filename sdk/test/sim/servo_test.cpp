@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Servos of second order, their stops and dead band, against closed solutions and small Euler steps.
+// Second-order servos, their stops and dead band, against closed solutions and small Euler steps.
 #include "fulmar/sim/servo.hpp"
 
 #include <doctest/doctest.h>
@@ -35,7 +35,7 @@ double overdamped(double omega, double zeta, double t) {
   const double root = std::sqrt(zeta * zeta - 1), p1 = omega * (zeta - root), p2 = omega * (zeta + root);
   return 1 - (p2 * std::exp(-p1 * t) - p1 * std::exp(-p2 * t)) / (p2 - p1);
 }
-/// And of the underdamped one: Ogata, Modern Control Engineering, (5-12).
+/// The same for the underdamped servo: Ogata, Modern Control Engineering, (5-12).
 double underdamped(double omega, double zeta, double t) {
   const double root = std::sqrt(1 - zeta * zeta), wd = omega * root;
   return 1 - std::exp(-zeta * omega * t) * (std::cos(wd * t) + zeta / root * std::sin(wd * t));
@@ -51,7 +51,7 @@ Surface free_servo(double omega, double zeta) {
   return s;
 }
 
-/// By Euler steps of a microsecond.
+/// Reference solution by Euler steps of a microsecond.
 struct Euler {
   double x = 0, v = 0;
   void advance(const Surface& s, double command, double seconds) {
@@ -117,7 +117,7 @@ TEST_CASE("its rate stays below the limit, and the way is that of small Euler st
 
 TEST_CASE("an elevon moves from -30 to 35 degrees, and no command or swing moves it further") {
   Surface s = x8();
-  s.damping_ratio = 0.1;  // would swing far over
+  s.damping_ratio = 0.1;  // large overshoot without the stop
   s.rate_limit_radps = 100;
   for (const double command : {0.6, 5.0, -0.5, -5.0}) {
     Servo servo(s);
@@ -142,7 +142,7 @@ TEST_CASE("stops that are not said are the throw; one alone can be said") {
   down.min_rad = 0;
   CHECK(stops(down).min == 0);
   CHECK(stops(down).max == 0.4);
-  Servo servo(down);  // of first order
+  Servo servo(down);  // first order
   for (int i = 0; i < 400; ++i) servo.advance(-0.3, dt);
   CHECK(servo.angle() == 0);
   for (int i = 0; i < 400; ++i) servo.advance(0.3, dt);
@@ -166,7 +166,7 @@ TEST_CASE("a dead band is a play of its width: it rests within, and turns back l
     CHECK(settle(0.261) / 0.28 == Approx(1).epsilon(1e-9));
     CHECK(settle(0.2) / 0.22 == Approx(1).epsilon(1e-9));
     CHECK(settle(-0.2) / -0.18 == Approx(1).epsilon(1e-9));
-    servo.set(0.1);  // held there, it is where it aims
+    servo.set(0.1);  // at rest at its target
     CHECK(settle(0.115) == 0.1);
   }
 }

@@ -37,7 +37,7 @@ SimulationOptions windy() {
   return options;
 }
 
-/// Other surfaces each half second.
+/// Different surfaces each half second.
 Actuators weaving(int step, double phase = 0) {
   const double s = (step / 200) % 2 ? 0.03 : -0.03;
   return {0.57 + s, s * (1 + phase), 0.12 + 0.5 * s, -s};
@@ -138,7 +138,7 @@ TEST_CASE("what has crashed stays there until it is put elsewhere") {
 TEST_CASE("what has left the model says so and stays as it is until it is put elsewhere") {
   Simulation sim = flying(7);
   FlightState s = sim.state();
-  s.body.omega_b.y() = 9e4;  // within what may be set, and no step of 2.5 ms resolves it
+  s.body.omega_b.y() = 9e4;  // within the valid range, but too fast for a step of 2.5 ms
   sim.set(s);
   sim.step({0.5, 0, 0, 0}, dt);
   REQUIRE(sim.plant().departure() == Departure::diverged);
@@ -259,8 +259,8 @@ TEST_CASE(
     sim->step(sim->trim(), dt);
   }
   CHECK(one.plant().wind_n() == other.plant().wind_n());
-  CHECK(one.body().omega_b == other.body().omega_b);  // the air begins to turn at the end of the step
-  // Angular acceleration by the air's rotation p, q, r: that of a body that turns the other way.
+  CHECK(one.body().omega_b == other.body().omega_b);  // the rotation of the air starts at the end of the step
+  // Angular acceleration by air rotation p, q, r: that of a body with the opposite rotation.
   Disturbances air(turning.weather, 7);
   air.advance(dt, 18);
   REQUIRE(air.rotates());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gusts, thermals, sloping ground, ground effect, the propeller's angular momentum, and motions that have
-// left the model.
+// Gusts, thermals, sloping ground, ground effect, angular momentum of the propeller, and departures from the
+// model.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -38,7 +38,7 @@ void run(Plant& p, double seconds, const Actuators& a = {}) {
   for (int i = 0; i < std::lround(seconds / dt); ++i) p.advance(a, true, dt);
 }
 
-/// No air forces, no thrust: what is left is a rigid body with a motor.
+/// No air forces, no thrust: a rigid body with a motor.
 Airframe bare(double propeller_inertia) {
   Airframe a = anaconda();
   a.aero = {};
@@ -128,7 +128,7 @@ TEST_CASE("a thermal's air is the wind of the truth and carries the aircraft up"
       2.5 * updraft_over_height(-p.state().p_n.z() / 880) * std::exp(-(n * n + e * e) / 25e6);
   CHECK(p.wind_n().z() == Approx(-expected).epsilon(1e-3));
   CHECK(p.wind_n().x() == Approx(4).epsilon(1e-6));
-  CHECK(still.state().p_n.z() - p.state().p_n.z() > 10);  // of 20 m that the air rose
+  CHECK(still.state().p_n.z() - p.state().p_n.z() > 10);  // of the 20 m that the air rises
   CHECK(still.state().p_n.z() - p.state().p_n.z() < 21);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The textbook figures of the law that `fulmar new` writes. Its own test states the contract alone.
+// Textbook figures of the generated law of `fulmar new`. Its own test states the contract alone.
 #include <doctest/doctest.h>
 
 #include <fulmar/testing.hpp>

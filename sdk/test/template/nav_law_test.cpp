@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The textbook figures of the law that `fulmar new` writes. Its own test states the contract alone.
+// Textbook figures of the generated law of `fulmar new`. Its own test states the contract alone.
 #include <doctest/doctest.h>
 
 #include <fulmar/eigen.hpp>
@@ -11,7 +11,7 @@
 
 namespace {
 
-/// What the sensors say on the ground at the equator, level, nose to magnetic north.
+/// Sensor samples at rest on the ground at the equator, level, nose to magnetic north.
 void stand(Bench<NavTemplate>& bench, const Vec3<Body>& rate_radps) {
   Imu imu;
   imu.specific_force_mps2 = {0, 0, -9.80665};

@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Armed, at full throttle for `seconds`, with these surfaces.
+/// Armed flight at full throttle for `seconds`, with these surfaces.
 void fly(Bench<PointMassTemplate>& bench, double seconds, double aileron_rad, double elevator_rad) {
   for (int i = 0; i < seconds * 400; ++i) {
     REQUIRE(bench.read() == Status::ok);
@@ -30,7 +30,7 @@ TEST_CASE("standing and level the accelerometer shows gravity, upwards") {
 
 TEST_CASE("with the elevator up it takes off, with the aileron right it turns right") {
   Bench<PointMassTemplate> bench;
-  fly(bench, 5, 0, 0);  // stands until flight time 0
+  fly(bench, 5, 0, 0);  // at rest until flight time 0
   fly(bench, 12, 0, -0.05);
   fly(bench, 1, 0.1, 0);
   fly(bench, 2, 0, 0);
@@ -38,7 +38,7 @@ TEST_CASE("with the elevator up it takes off, with the aileron right it turns ri
   CHECK(truth.height_m > 10);
   CHECK(truth.roll_rad > 0.1);
   CHECK(truth.yaw_rad > 0.1);
-  // what the GNSS says is what the book's turn rate gives: chi_dot = g tan(phi) / Va
+  // the GNSS course follows the turn rate of the book: chi_dot = g tan(phi) / Va
   const double before = truth.course_rad;
   fly(bench, 1, 0, 0);
   CHECK(bench.out.truth.value.course_rad - before ==

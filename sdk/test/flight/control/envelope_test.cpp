@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What keeps an outer law off the stall: least airspeed, most bank, most pitch, and the stall itself. The
-// expected values come from the lift equation, written out here.
+// Stall protection of an outer law: minimum airspeed, maximum bank, maximum pitch, and stall recovery. The
+// expected values come from the lift equation, computed here.
 #include <doctest/doctest.h>
 
 #include <fulmar/flight/control/envelope.hpp>
@@ -38,13 +38,13 @@ struct Guarded {
   }
 };
 
-/// Along the velocity, which is level: what the accelerometer has of it beside gravity.
+/// Acceleration along the level velocity: the accelerometer reading without gravity.
 void own_acceleration(VehicleState& s, double mps2) {
   s.specific_force_mps2.x = mps2 * std::cos(s.alpha_rad) + g * std::sin(s.pitch_rad);
   s.specific_force_mps2.z = mps2 * std::sin(s.alpha_rad) - g * std::cos(s.pitch_rad);
 }
 
-/// Nose 20 degrees up, on the way down: the angle of attack is the sum of both.
+/// Nose 20 degrees up with a sink: the angle of attack is the sum of both.
 VehicleState mushing(double sink_mps, double airspeed_mps = 13) {
   VehicleState s = level(airspeed_mps);
   s.pitch_rad = 0.35;
@@ -59,8 +59,8 @@ TEST_CASE("the wing's own model says where lift ends: as far as the stall blendi
   const WingEnvelope w(test::anaconda());
   CHECK(w.max_lift == doctest::Approx(1.515).epsilon(0.005));
   CHECK(w.stall_alpha_rad == doctest::Approx(0.209).epsilon(0.01));
-  // Slope with the elevator that holds the moment: 5.61 - 0.13 * 2.74 / 0.99; no lift at -(0.506 + ..) over
-  // it.
+  // Slope with the elevator that balances the moment: 5.61 - 0.13 * 2.74 / 0.99; zero lift at -(0.506 + ..)
+  // over it.
   const double slope = 5.61 - 0.13 * 2.74 / 0.99, zero = -(0.506 + 0.13 * 0.135 / 0.99) / slope;
   CHECK(w.zero_alpha_rad == doctest::Approx(zero).epsilon(0.01));
   CHECK(w.share(zero + 0.1) == doctest::Approx(0.1 * slope / w.max_lift).epsilon(0.01));
@@ -76,7 +76,7 @@ TEST_CASE("the stalling speed is that of the weight and the density, and not bel
         doctest::Approx(slowest * std::sqrt(1.15)).epsilon(0.003));
   a.limits.airspeed_min_mps = 18;
   CHECK(WingEnvelope(a).stall_mps(a.limits, rho) == doctest::Approx(15));
-  a = {};  // without a model of its lift
+  a = {};  // without a lift model
   a.limits.airspeed_min_mps = 12;
   CHECK(WingEnvelope(a).stall_mps(a.limits, rho) == doctest::Approx(10));
 }
@@ -88,7 +88,7 @@ TEST_CASE("the least airspeed grows with the root of the load factor, to both si
     f.fly(level(17), 1, bank);
     CHECK(f.now.airspeed_min_mps == doctest::Approx(12 / std::sqrt(std::cos(bank))).epsilon(1e-6));
     CHECK(f.now.slowest_mps == f.now.airspeed_min_mps);
-    CHECK(f.now.pitch_max_rad >= f.airframe.limits.pitch_max_rad);  // far from the stall it limits nothing
+    CHECK(f.now.pitch_max_rad >= f.airframe.limits.pitch_max_rad);  // no limit far from the stall
   }
   Guarded heavy;
   heavy.airframe.mass_kg *= 1.15;
@@ -110,7 +110,7 @@ TEST_CASE("an angle of attack that is too large for the airspeed raises the leas
   f.fly(s, 10);
   CHECK(f.now.airspeed_min_mps > 12.5);
   CHECK(f.now.airspeed_min_mps < 14);
-  CHECK(f.now.slowest_mps == doctest::Approx(12));  // what decides about priorities is not moved by it
+  CHECK(f.now.slowest_mps == doctest::Approx(12));  // the limit for priorities does not change
   s.wind_valid = false;
   f.fly(s, 1);
   CHECK(f.now.airspeed_min_mps == doctest::Approx(12));
@@ -270,13 +270,13 @@ TEST_CASE("after a fall height is regained: not for a descent that is asked for,
   s.climb_rate_mps = -4;
   CHECK_FALSE(f.guard.regains(s, 20, -3, 0.6));  // a descent
   CHECK_FALSE(f.guard.regains(s, 4, 0, 0.6));
-  CHECK_FALSE(f.guard.regains(s, 6, 0, 0.4));  // as after a hand-over
+  CHECK_FALSE(f.guard.regains(s, 6, 0, 0.4));  // as after a switch
   CHECK(f.guard.regains(s, 6, 0, 0.4));
   CHECK(f.guard.bank_max(30, f.airframe.limits, rho) == doctest::Approx(0.26));
   s.climb_rate_mps = 3;
   CHECK(f.guard.regains(s, 12, 0, 0.6));
   s.airspeed_valid = false;
-  CHECK_FALSE(f.guard.regains(s, 12, 0, 0.6));  // the law flies, until it is known again
+  CHECK_FALSE(f.guard.regains(s, 12, 0, 0.6));  // the law flies until the airspeed is valid again
   s.airspeed_valid = true;
   CHECK(f.guard.regains(s, 12, 0, 0.6));
   CHECK_FALSE(f.guard.regains(s, 10.9, 0, 0.6));  // two seconds of climb and 5 m
@@ -289,7 +289,7 @@ TEST_CASE("on the way up airspeed that is too much raises the nose, as far as th
   f.fly(s, 2);
   const WingEnvelope w(f.airframe);
   const double lift = 4.5 * g / (0.5 * rho * 25 * 25 * 0.52 * w.max_lift);
-  // 25 m/s against 1.1 times the least; the flight is level, and pitch points 0.05 rad above it.
+  // 25 m/s against 1.1 times the slowest airspeed; the flight is level, and pitch is 0.05 rad above it.
   const double rate = 0.05 * (25 - 1.1 * f.now.slowest_mps) + 0.1 * airspeed_rate(s);
   CHECK(f.guard.regaining_pitch(s, f.now, 0.1, 0.01) == doctest::Approx(0.1 + 0.01 * rate).epsilon(1e-3));
   const double used = std::min(w.share(0.05), 1.2 * lift);
@@ -309,7 +309,7 @@ TEST_CASE("near the stall pitch is no more than nine tenths of the lift above th
   s.climb_rate_mps = -2;
   f.fly(s, 1);
   CHECK(f.now.pitch_max_rad == doctest::Approx(alpha - std::asin(2.0 / 12)).epsilon(0.02));
-  s.climb_rate_mps = -11;  // air that falls: no lower than the limit
+  s.climb_rate_mps = -11;  // sinking air: not below the limit
   f.fly(s, 1);
   CHECK(f.now.pitch_max_rad == f.airframe.limits.pitch_min_rad);
   f.guarded = false;
@@ -322,13 +322,13 @@ TEST_CASE(
   using Finding = HeightWatch::Finding;
   VehicleState s = level(13);
   s.climb_rate_mps = -2;
-  ControllerInternals said;
-  said.height_error_m = 15;
-  said.pitch_saturated = true;
+  ControllerInternals internals;
+  internals.height_error_m = 15;
+  internals.pitch_saturated = true;
   const auto after = [&](double seconds, const AttitudeCommand& asked) {
     HeightWatch watch;
     Finding found = Finding::held;
-    for (int i = 0; i < static_cast<int>(100 * seconds); ++i) found = watch.step(s, asked, said, 0.01);
+    for (int i = 0; i < static_cast<int>(100 * seconds); ++i) found = watch.step(s, asked, internals, 0.01);
     return found;
   };
   const AttitudeCommand power{0, 0.3, 1}, idle{0, 0.3, 0};
@@ -336,13 +336,13 @@ TEST_CASE(
   CHECK(after(5.5, power) == Finding::lost);
   CHECK(after(3.5, idle) == Finding::held);
   CHECK(after(4.5, idle) == Finding::contradiction);
-  CHECK(after(60, power) == Finding::lost);  // a motor that is dead is no fault of the law
-  said.pitch_saturated = false;
+  CHECK(after(60, power) == Finding::lost);  // a dead motor is no fault of the law
+  internals.pitch_saturated = false;
   CHECK(after(60, idle) == Finding::held);
-  said.pitch_saturated = true;
-  said.height_error_m = 5;
+  internals.pitch_saturated = true;
+  internals.height_error_m = 5;
   CHECK(after(60, idle) == Finding::held);
-  said.height_error_m = 15;
+  internals.height_error_m = 15;
   s.climb_rate_mps = 0.5;
   CHECK(after(60, idle) == Finding::held);
 }

@@ -21,7 +21,7 @@ VehicleState at(double airspeed, double ground_speed, double height, bool airspe
 TEST_CASE("standing needs a slow ground speed and a slow airspeed, or the ground when there is no airspeed") {
   CHECK(standing(at(0.5, 0.2, 0)));
   CHECK_FALSE(standing(at(15, 0.2, 70)));        // hovers in the wind
-  CHECK_FALSE(standing(at(0, 0.2, 70, false)));  // may well do the same
+  CHECK_FALSE(standing(at(0, 0.2, 70, false)));  // may hover too: the airspeed is unknown
   CHECK(standing(at(0, 0.2, 0.3, false)));
   CHECK_FALSE(standing(at(1, 12, 0)));
   VehicleState falling = at(1, 1, 50);
@@ -46,7 +46,7 @@ TEST_CASE("the shaped roll command approaches its target as a first-order lag wi
   const CourseTuning tuning{
       .kp = 2, .ki = 0, .cruise_mps = 15, .roll_max_rad = 0.8, .roll_rate_max_radps = 1, .smoothing_s = 0.2};
   hold.reset_to(0);
-  // 0.6 rad away: at the limit until the lag asks for less than 1 rad/s, 0.2 rad before the target, then
+  // 0.6 rad away: at the rate limit until the lag commands less than 1 rad/s, 0.2 rad before the target, then
   // exp(-t / 0.2).
   for (int i = 0; i < 40; ++i) hold.shape(0.6, tuning, 0.01);
   CHECK(hold.shape(0.6, tuning, 0) == doctest::Approx(0.4).epsilon(0.01).scale(0));
@@ -141,7 +141,7 @@ TEST_CASE("the motor waits for a throw, its delay after it, and the course is th
   FlightLimits limits;
   limits.airspeed_min_mps = 10;
   TakeoffRun run;
-  VehicleState s = at(14, 0, 1.5);  // 14 m/s of wind in the hand
+  VehicleState s = at(14, 0, 1.5);  // 14 m/s of wind while held in the hand
   s.velocity_valid = true;
   s.yaw_rad = 0.7;
   run.begin(s);
@@ -152,7 +152,7 @@ TEST_CASE("the motor waits for a throw, its delay after it, and the course is th
   };
   CHECK(fly(600).throttle_frac == 0);
   CHECK(!run.rotated());
-  s.yaw_rad = s.course_rad = -0.4;  // the launcher has turned
+  s.yaw_rad = s.course_rad = -0.4;  // the throw has turned the aircraft
   s.specific_force_mps2.x = 15.5;
   s.ground_speed_mps = 5;
   CHECK(fly(0.09).throttle_frac == 0);
@@ -169,7 +169,7 @@ TEST_CASE("the motor waits for a throw, its delay after it, and the course is th
   s.airspeed_mps = 10;
   CHECK(fly(0.01).pitch_rad == 0);
   CHECK(fly(0.01).roll_rad == 0);
-  // The motor was dead: it lies on the ground, and the next throw is waited for.
+  // The motor was dead: the aircraft lies on the ground, and waits for the next throw.
   s.ground_speed_mps = 0.5;
   CHECK(fly(1.9).throttle_frac == 1);
   CHECK(fly(0.2).throttle_frac == 0);
@@ -184,7 +184,7 @@ TEST_CASE("what flew before the launch leaves no power to a propeller in the han
   commands.start(OuterLaw::hold, s, {0, 0.05, 0.6});
   REQUIRE(commands.begin(OuterLaw::takeoff, s) == OuterAction::take_off);
   CHECK(commands.take_off(s, tuning, {}, 0.01).throttle_frac == 0);
-  tuning.takeoff.launch_mps2 = 0;  // on a runway it runs on
+  tuning.takeoff.launch_mps2 = 0;  // take-off on wheels: the run continues
   OuterCommands rolling;
   rolling.start(OuterLaw::hold, s, {0, 0.05, 0.6});
   rolling.begin(OuterLaw::takeoff, s);
@@ -211,7 +211,7 @@ TEST_CASE(
   CHECK(c.pitch_rad == doctest::Approx(0.12));
   CHECK(c.throttle_frac == 0);
   CHECK(std::abs(c.roll_rad) < 1e-6);
-  roll(12);  // fast enough to fly again: pressed onto the wheels by a degree
+  roll(12);  // fast enough to lift off again: pitch is a degree below that of the wheels
   CHECK(c.pitch_rad == doctest::Approx(0.10));
   s.attitude_valid = false;
   roll(7);
@@ -254,7 +254,7 @@ TEST_CASE("what the take-off law asked for is not taken up as trim, what another
   commands.start(OuterLaw::hold, s, {0, 0.2, 1});
   CHECK_FALSE(commands.taking_up());
   CHECK(commands.finish(0, 0, 0, {}, 0.01).throttle_frac ==
-        doctest::Approx(0.98));  // but the command goes on from it
+        doctest::Approx(0.98));  // but the command continues from it
 }
 
 TEST_CASE(
@@ -292,7 +292,7 @@ TEST_CASE(
   s.attitude_valid = false;
   CHECK(begins(s, nullptr).roll_rad == 0);
   CHECK(commands.last().throttle_frac == 0.5);
-  CHECK(begins(s, &turn).roll_rad == 0.2);  // somebody's: taken as it is
+  CHECK(begins(s, &turn).roll_rad == 0.2);  // of a previous component: taken up unchanged
   CHECK(commands.last().throttle_frac == 0);
   for (const double wind : {0.0, 5.0}) {  // on the ground the engine stays off
     VehicleState ground = at(wind, 0, 0.2);

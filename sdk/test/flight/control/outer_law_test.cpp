@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the outer laws share: their parameters, the course of a step, and what a turn costs.
+// Common part of the outer laws: parameters, sequence of a step, and the demands of a turn.
 #include <doctest/doctest.h>
 
 #include <fulmar/flight/control/outer_law.hpp>
@@ -27,7 +27,7 @@ VehicleState flying() {
   return s;
 }
 
-/// A law that counts what it is asked for.
+/// A law that counts its calls.
 struct Counting {
   OuterLoop loop;
   OuterParams params;
@@ -104,7 +104,7 @@ TEST_CASE(
     p.turn_kff.value = share;
     const LevelTurn needs = level_turn(phi, 17, air_density(s), p);
     CHECK(needs.Va_mps == 17);
-    // Of the angle of attack that the turn needs only its vertical part is pitch.
+    // Only the vertical part of the additional angle of attack in a turn is pitch.
     const double pitch = level.alpha_rad + share * (turn.alpha_rad * std::cos(phi) - level.alpha_rad);
     CHECK(std::abs(needs.pitch_rad - pitch) < 1e-12);
     CHECK(std::abs(needs.drag_newton - share * (turn.drag_newton - level.drag_newton)) < 1e-12);
@@ -116,8 +116,8 @@ TEST_CASE("near the stall the bank is what the wing carries, to both sides; at c
   CHECK(bank_carried(22, 10) == doctest::Approx(std::acos(0.25)));
   CHECK(bank_carried(12, 10) == doctest::Approx(std::acos(121.0 / 144)));
   for (const double slow : {11.0, 8.0, 0.0, -3.0}) CHECK(bank_carried(slow, 10) == 0.26);
-  // The law's is that of the limits, 12 / 1.2 m/s, whose tenth is above a twentieth of the model's: 4.5 kg on
-  // 0.52 m2 with a CL of 1.515 in the density there.
+  // The stall speed of the law is that of the limits, 12 / 1.2 m/s: 10 % above it is more than 5 % above that
+  // of the model. Model: 4.5 kg on 0.52 m2 with a CL of 1.515 in the density there.
   const double stall_squared = 2 * 4.5 * 9.80665 / (standard_air(1387 + 70).density_kgm3 * 0.52 * 1.515);
   REQUIRE(1.05 * 1.05 * stall_squared < 121);
   const double bank_12 = std::acos(121.0 / 144);
@@ -187,7 +187,7 @@ TEST_CASE("only when height and speed are held is the law asked; else it rests")
   CHECK(law.out.internals.law == OuterLaw::hold);
 
   law.step(flying(), command, 5);
-  CHECK(law.dt_s == 0.1);  // a gap does not throw integrators
+  CHECK(law.dt_s == 0.1);  // a gap moves the integrators only a little
   VehicleState lost = flying();
   lost.height_valid = false;
   for (int i = 0; i < 300; ++i) CHECK_EQ(law.step(lost, command), Status::degraded);
@@ -201,7 +201,7 @@ TEST_CASE("only when height and speed are held is the law asked; else it rests")
 
   VehicleState slow_air = flying();
   slow_air.airspeed_valid = false;
-  CHECK(law.step(slow_air, command) == Status::degraded);  // held, but not all that is asked for
+  CHECK(law.step(slow_air, command) == Status::degraded);  // controlled, but below the demand
   CHECK(law.holds == 302);
 }
 
@@ -227,7 +227,7 @@ TEST_CASE("trims follow the airspeed with its time constant, from where it was a
   law.params.airspeed_smoothing.value = 0.5;
   law.loop.activate(s, law.params, Applied<Outputs>::all(applied));
   law.step(s, {});
-  CHECK(law.turn.Va_mps == doctest::Approx(15).epsilon(1e-9));  // and not 18 from the last time
+  CHECK(law.turn.Va_mps == doctest::Approx(15).epsilon(1e-9));  // and not 18 from before
   law.params.law.value = OuterLaw::takeoff;
   s.airspeed_mps = 13;
   law.step(s, {});
@@ -245,7 +245,7 @@ TEST_CASE("a law goes on from what was applied in its role, and begins anew afte
   CHECK(loop.commands.last().throttle_frac == 0.7);
   CHECK(loop.commands.taking_up());
   auto others = Applied<Outputs>::all(outputs);
-  others.made_bits = 0b10;  // somebody flew, but he made no attitude command
+  others.made_bits = 0b10;  // a component flew, but without an attitude command
   CHECK_FALSE(loop.activate(flying(), p, others));
   CHECK(loop.commands.last().throttle_frac == p.airframe->limits.throttle_cruise_frac);
   CHECK_FALSE(loop.commands.taking_up());
@@ -316,7 +316,7 @@ TEST_CASE("after a fall the loop climbs at full power and little bank, then the 
   REQUIRE(law.out.attitude.roll_rad > 0.5);
   s.climb_rate_mps = -4;
   for (int i = 0; i < 40; ++i) law.step(s, command);
-  CHECK_EQ(law.holds, 240);  // a sink that a hand-over brings along ends by itself
+  CHECK_EQ(law.holds, 240);  // a sink at a switch ends without help
   for (int i = 0; i < 20; ++i) law.step(s, command);
   const int held = law.holds;
   for (int i = 0; i < 100; ++i) law.step(s, command);

@@ -32,13 +32,13 @@ TEST_CASE("a saturated integrator does not wind up and unwinds at once when the 
   CHECK(pid.saturated());
   CHECK(pid.integral() <= 1);
   // A large, opposite proportional term must not freeze the integral either: it saturates the other way, but
-  // the integral may come back.
+  // the integral may unwind.
   pid.reset_to(0.9);
   pid.step(gains, {.error = -10}, 0.01);
   CHECK(pid.saturated());
   const double before = pid.integral();
   pid.step(gains, {.error = 10, .rate = 0, .feedforward = -20},
-           0.01);  // still pressed against the lower limit, error now positive
+           0.01);  // still saturated at the lower limit, error now positive
   CHECK(pid.integral() > before);
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("what is missing of a limited demand counts after five seconds, down t
   CHECK(after(5.3, -1, 0.2, -0.1) == 0);
   CHECK(after(5.3, 1, 0.2, -0.01) == doctest::Approx(0.8));
   CHECK(after(5.3, 1, 0.2, 0) == 0);
-  // gusts: late for two thirds of the time, and for one third
+  // gusts: too late for two thirds of the time, and for one third
   for (const int part : {1, 2}) {
     LateDemand late;
     double most = 0;

@@ -52,9 +52,10 @@ TEST_CASE(
       const double lift = load.force_b.x() * sa - load.force_b.z() * ca,
                    drag = -load.force_b.x() * ca - load.force_b.z() * sa;
       CHECK(lift == doctest::Approx(load_factor(phi) * a.mass_kg * 9.80665).epsilon(5e-3));
-      CHECK(std::abs(load.moment_b.y()) < 0.02);  // N m: a thousandth of what the elevator can do
-      CHECK(trim.drag_newton == doctest::Approx(drag).epsilon(
-                                    0.06));  // the model's induced drag knows no lift of tail and pitch rate
+      CHECK(std::abs(load.moment_b.y()) < 0.02);  // N m: a thousandth of the maximum by the elevator
+      CHECK(trim.drag_newton ==
+            doctest::Approx(drag).epsilon(
+                0.06));  // the induced drag of the model has no lift of tail and pitch rate
     }
   }
 }
@@ -67,7 +68,7 @@ TEST_CASE(
   CHECK(turn.elevator_rad < level.elevator_rad);
   CHECK(turn.drag_newton > level.drag_newton);
   CHECK(level.elevator_rad ==
-        doctest::Approx(0.121).epsilon(0.05).scale(0));  // the airframe file's trim, found by a simulation
+        doctest::Approx(0.121).epsilon(0.05).scale(0));  // trim of the airframe file, found by a simulation
   const TurnTrim none = turn_trim(Airframe{}, 0.5, 15, 1.2);
   CHECK(none.alpha_rad == 0);
   CHECK(none.elevator_rad == 0);

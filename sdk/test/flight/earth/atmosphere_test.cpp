@@ -89,7 +89,7 @@ TEST_CASE("the density nearby is that of the altitude within 1e-4, wherever the 
   for (const double altitude : {2990.0, 10.0, 9.5, 4000.0, 10.0})
     worst = std::max(worst, std::abs(density.at(altitude) / standard_air(altitude).density_kgm3 - 1));
   CHECK(worst < 1.1e-4);
-  CHECK(worst > 1e-6);  // it is not computed at each step
+  CHECK(worst > 1e-6);  // not recomputed at each step
 }
 
 }  // namespace atmosphere_test

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double Va = 17, ft = 0.3048;
 
-/// In place, radix 2.
+/// Fast Fourier transform in place, radix 2.
 void fourier(std::vector<std::complex<double>>& x) {
   const std::size_t n = x.size();
   if (n == 1) return;
@@ -64,8 +64,8 @@ std::array<std::vector<double>, 3> welch(Dryden& dryden, double dt, std::size_t 
   return density;
 }
 
-/// MIL-F-8785C 3.7.1.2, per rad/m, one-sided; here per Hz. What is sampled at `dt` has the density of all its
-/// aliases.
+/// MIL-F-8785C 3.7.1.2, per rad/m, one-sided; here per Hz. A signal sampled at `dt` has the density of all
+/// its aliases.
 double book(int axis, double L, double sigma, double f, double dt) {
   double sum = 0;
   for (int alias = -20; alias <= 20; ++alias) {
@@ -76,9 +76,9 @@ double book(int axis, double L, double sigma, double f, double dt) {
   return sum * 2 * std::numbers::pi / Va;
 }
 
-/// What Welch's method makes of a process of this density, leakage and aliases included: the transform of its
-/// autocorrelation times the window's. The autocorrelation is the Fourier transform of `book`: sigma^2 e^-x
-/// along, sigma^2 e^-x (1 - x / 2) across, with x = Va tau / L.
+/// Expected result of Welch's method for a process of this density, leakage and aliases included: the
+/// transform of its autocorrelation times that of the window. The autocorrelation is the Fourier transform of
+/// `book`: sigma^2 e^-x along, sigma^2 e^-x (1 - x / 2) across, with x = Va tau / L.
 std::vector<double> expected_of_welch(int axis, double L, double sigma, double dt, std::size_t n) {
   std::vector<double> window(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -143,7 +143,7 @@ TEST_CASE("turbulence over the height has no step, and ends at 10 ft and at the 
     CHECK(dryden_scales_at(t, -5).length == dryden_scales_at(t, 3).length);
     CHECK(dryden_scales_at(t, 3.048).length.z() == Approx(3.048));
     CHECK(dryden_scales_at(t, 9000).sigma == dryden_scales_at(t, 7620).sigma);
-    // 1000 ft: all lengths are 1000 ft, and so is no deviation larger than another
+    // 1000 ft: all lengths are 1000 ft, and all standard deviations are equal
     const DrydenScales top = dryden_scales_at(t, 1000 * ft);
     CHECK(top.length.isApprox(Vector3d::Constant(1000 * ft), 1e-9));
     CHECK(top.sigma.isApprox(Vector3d::Constant(top.sigma.z()), 1e-9));
@@ -171,7 +171,7 @@ TEST_CASE("spectra and deviations at three heights are those of MIL-F-8785C" *
       for (int axis = 0; axis < 3; ++axis) {
         const double L = axis < 2 ? h.L_u : h.L_w, sigma = axis < 2 ? h.sigma_u : h.sigma_w;
         const std::vector<double> of_welch = expected_of_welch(axis, L, sigma, dt, n);
-        // far above the corner little leaks: there the method shows the density as it is
+        // far above the corner the leakage is small, and the method gives the density itself
         CHECK(of_welch[300] / book(axis, L, sigma, 300 / (n * dt), dt) == Approx(1).epsilon(0.005));
         for (const auto& [from, to] : {std::pair{4, 12}, {12, 40}, {40, 120}, {120, 400}}) {
           double measured = 0, expected = 0;

@@ -48,16 +48,16 @@ TEST_CASE("the rolling gust is a process of that deviation and of the time 4 b/(
 }
 
 TEST_CASE("pitching and yawing gusts are the gradients of the gusts along the axes, with their signs") {
-  // A ramp of a sideways or downward gust: after the time of the wing it turns at a/V.
+  // A ramp of a sideways or downward gust: after the time of the wing the rate is a/V.
   DrydenRotation air(span, 1);
   const double dt = 0.005, a = 2;
   Eigen::Vector3d rate;
   for (int i = 0; i <= 400; ++i)
     rate = air.advance(dt, Va, {0, a * i * dt, -0.5 * a * i * dt}, DrydenScales{});
   CHECK(rate.x() == 0);
-  CHECK(rate.y() == Approx(0.5 * a / Va));  // more and more upward ahead: the air turns nose up
+  CHECK(rate.y() == Approx(0.5 * a / Va));  // upward gust increases ahead: the air rotates nose up
   CHECK(rate.z() == Approx(a / Va));
-  // A step of 1 m/s passes: what is left of it after one time constant.
+  // A step of 1 m/s decays: value after one time constant.
   DrydenRotation step(span, 1);
   const double time_q = 4 * span / (pi * Va), h = time_q / 1000;
   step.advance(h, Va, {0, 0, 0}, DrydenScales{});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Local frame against the textbook: WGS-84 radii of curvature and a geocentric rotation done by hand.
+// Local frame against the textbook: WGS-84 radii of curvature, and a geocentric rotation by hand.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -91,7 +91,7 @@ TEST_CASE("a year passes from one to the next, leap or not") {
   CHECK(decimal_year(1782993600 * s) == doctest::Approx(2026.5).epsilon(1e-12));  // 2026-07-02T12:00Z
   CHECK(decimal_year(1709164800 * s) == doctest::Approx(2024 + 59.0 / 366));      // 2024-02-29
   CHECK(decimal_year(951782400 * s) ==
-        doctest::Approx(2000 + 59.0 / 366));  // 2000-02-29: a century that is leap
+        doctest::Approx(2000 + 59.0 / 366));  // 2000-02-29: a leap year at the turn of a century
   CHECK(decimal_year(-1 * s) == doctest::Approx(1970).epsilon(1e-9));
   CHECK(decimal_year(-1 * s) < 1970);
 }

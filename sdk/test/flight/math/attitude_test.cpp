@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Euler angles against the rotation matrix of the book, rotation vectors against Eigen, attitude from two
-// directions against the truth.
+// directions against the true attitude.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -11,8 +11,7 @@ using namespace fulmar;
 using Complex = std::complex<double>;
 
 namespace {
-/// Gain and phase of a filter at one frequency, by correlation over whole periods after the start has died
-/// out.
+/// Gain and phase of a filter at one frequency, by correlation over whole periods after the transient.
 template <class Step>
 Complex response(double omega, double dt, double settle_s, Step step) {
   const double period = 2 * std::numbers::pi / omega;

@@ -44,7 +44,7 @@ TEST_CASE("three equal lags: the gain may grow to 8") {
 }
 
 TEST_CASE("what the loop keeps stable asks for gain: it may fall by so much only") {
-  // an unstable pair, held by rate feedback: s^2 - 0.4 s + 1 + k s, stable from k = 0.4 on
+  // an unstable pair with rate feedback: s^2 - 0.4 s + 1 + k s, stable from k = 0.4 on
   const Margins pair = of([](Complex s) { return 1.2 * s / (s * s - 0.4 * s + 1.0); });
   CHECK(pair.reduction_db == Approx(20 * std::log10(3.0)).epsilon(2e-3).scale(0));
   CHECK(pair.gain_db == Margins::none);
@@ -52,7 +52,7 @@ TEST_CASE("what the loop keeps stable asks for gain: it may fall by so much only
 }
 
 TEST_CASE("the phase margin is the least of all crossovers, whether by lag or by lead") {
-  // a resonance behind the crossover: |L| is 1 three times
+  // a resonance above the crossover: |L| is 1 three times
   const auto loop = [](Complex s) {
     return 1.0 / s + 0.3 * s / (s * s + 0.2 * s + 25.0) * 5.0 * std::exp(-s * 0.5);
   };
@@ -94,7 +94,7 @@ TEST_CASE("poles of the closed loop are counted, delays included") {
   };
   CHECK(held(0.9) == 1);
   CHECK(held(1.1) == 0);
-  // a sharp resonance that grows: s^2 - 0.002 s + 9
+  // an unstable sharp resonance: s^2 - 0.002 s + 9
   CHECK(unstable_poles([](Complex s) { return 1.0 + 0.02 * s / (s * s - 0.01 * s + 9.0); }, 2, 1e-3, 1e3) ==
         0);
   CHECK(unstable_poles([](Complex s) { return 1.0 + 0.002 * s / (s * s - 0.01 * s + 9.0); }, 2, 1e-3, 1e3) ==

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// An aircraft in which every derivative is there and no two are equal.
+/// An aircraft with all derivatives, no two of them equal.
 Airframe full() {
   Airframe a = test::airframe_file("anaconda");
   double value = 0.11;
@@ -37,7 +37,7 @@ struct Point {
 
 constexpr double Va = 17, rho = 1.1;
 
-/// CL, CD, CY, Cl, Cm, Cn at a point, from the force and moment.
+/// CL, CD, CY, Cl, Cm, Cn at a point, from force and moment.
 std::array<double, 6> coefficients(const Airframe& a, const Point& at) {
   const Vector3d v(Va * std::cos(at.alpha) * std::cos(at.beta), Va * std::sin(at.beta),
                    Va * std::sin(at.alpha) * std::cos(at.beta));
@@ -63,7 +63,7 @@ TEST_CASE("finite differences of force and moment give back every derivative of 
   struct Axis {
     Access of;
     double Derivatives::*derivative;
-    double scale;  // of the variable to the dimensionless one
+    double scale;  // factor from the variable to the dimensionless one
   };
   const double b = a.wing.span_m / (2 * Va), c = a.wing.chord_m / (2 * Va);
   const std::array<Axis, 8> axes{
@@ -110,7 +110,7 @@ TEST_CASE("the stall blending is the book's: nothing below, half at the stall an
   CHECK(aero.stall(stall) == Approx(0.5).epsilon(1e-3));
   CHECK(aero.stall(-stall) == Approx(0.5).epsilon(1e-3));
   CHECK(aero.stall(stall + 0.2) > 0.999);
-  // Beard & McLain (4.10) typed in again, at an angle in between
+  // Beard & McLain (4.10), written out independently, at an angle in between
   const double M = 50, x = 0.22, e1 = std::exp(-M * (x - stall)), e2 = std::exp(M * (x + stall));
   CHECK(aero.stall(x) == Approx((1 + e1 + e2) / ((1 + e1) * (1 + e2))));
 }
@@ -171,8 +171,9 @@ TEST_CASE("force and moment do not jump as the air comes round from all sides") 
 TEST_CASE("force and moment do not jump as the air comes round over the wing tip") {
   const Airframe a = test::airframe_file("anaconda");
   const Aerodynamic aero(a);
-  for (double tilt : {0.0, 0.3, 1.2}) {  // the plane in which the wind turns contains the wing; through 90
-                                         // degrees of sideslip alpha leaps by pi
+  for (double tilt :
+       {0.0, 0.3, 1.2}) {  // the plane of the rotating wind contains the wing; through 90 degrees of sideslip
+                           // alpha jumps by pi degrees of sideslip alpha leaps by pi
     const Vector3d ahead(std::cos(tilt), 0, std::sin(tilt));
     const auto load = [&](int i) {
       return aero.load(Va * (std::cos(0.001 * i) * ahead + std::sin(0.001 * i) * Vector3d::UnitY()),

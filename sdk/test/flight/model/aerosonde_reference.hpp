@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Aerosonde of Beard & McLain's second edition at 25 m/s, trimmed and linearised by another program,
-// where that is there.
+// The Aerosonde of Beard & McLain's second edition at 25 m/s, trimmed and linearised by another program, if
+// its file is available.
 #pragma once
 #include <fstream>
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace fulmar::test {
 
-/// Numbers behind a label of the file, in its order; brackets and signs of imaginary parts are passed over.
+/// Numbers after a label of the file, in order; brackets and signs of imaginary parts are skipped.
 class AerosondeReference {
  public:
   static std::optional<AerosondeReference> open() {
@@ -42,7 +42,7 @@ class AerosondeReference {
   std::string text_;
 };
 
-/// What mavsim's parameters have that the airframe file, which follows ROSflight's, has not.
+/// Parameters of mavsim that the airframe file, which follows ROSflight's, does not have.
 inline Airframe book_aerosonde() {
   Airframe a = airframe_file("aerosonde");
   a.inertia.xx_kgm2 = 0.8244;

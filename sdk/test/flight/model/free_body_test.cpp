@@ -21,7 +21,8 @@ struct Jacobi {
   double sn, cn, dn;
 };
 
-/// By the arithmetic-geometric mean. Abramowitz & Stegun 16.4. `m` is the modulus, squared.
+/// Jacobi elliptic functions by the arithmetic-geometric mean. Abramowitz & Stegun 16.4. `m` is the squared
+/// modulus.
 Jacobi jacobi(double u, double m) {
   std::array<double, 12> a{}, c{};
   a[0] = 1;
@@ -43,7 +44,7 @@ Jacobi jacobi(double u, double m) {
 const Vector3d J(0.21, 0.38, 0.56);
 const MassProperties body(4.5, J.asDiagonal());
 
-/// Begins with no rate about the middle axis.
+/// Exact motion that starts without a rate about the middle axis.
 struct Exact {
   Vector3d amplitude;
   double L = 0, rate = 0, m = 0;
@@ -63,15 +64,14 @@ struct Exact {
     return amplitude.cwiseProduct(Vector3d(f.cn, f.sn, f.dn));
   }
 
-  /// About the angular momentum, which lies along the third axis of space. (37.17), from the angles of
-  /// (37.14).
+  /// Rate about the angular momentum, which is the third axis of space. (37.17), from the angles of (37.14).
   double precession_rate(double t) const {
     const Vector3d w = omega(t);
     const double a = J.x() * w.x(), b = J.y() * w.y();
     return L * (a * w.x() + b * w.y()) / (a * a + b * b);
   }
 
-  /// The integral of the rate by Simpson's rule in steps of 5 ms: to 1e-11 rad.
+  /// Attitude by the integral of the rate, with Simpson's rule in steps of 5 ms: accurate to 1e-11 rad.
   Eigen::Quaterniond attitude(double t) const {
     const int n = 2 + 2 * static_cast<int>(t / 0.01);
     double phi = 0;

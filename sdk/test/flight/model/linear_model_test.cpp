@@ -31,7 +31,7 @@ Linearised linearised(const Airframe& a, const SteadyCondition& c, double altitu
   return l;
 }
 
-/// Altitude of a density, in the standard air.
+/// Altitude of a density in the standard air.
 double altitude_of(double density_kgm3) {
   double low = -1000, high = 11000;
   for (int i = 0; i < 100; ++i) {
@@ -41,7 +41,7 @@ double altitude_of(double density_kgm3) {
   return low;
 }
 
-/// Coefficients of det(lambda I - A), highest first: Faddeev and Le Verrier, without any eigenvector.
+/// Coefficients of det(lambda I - A), highest first: Faddeev and Le Verrier, without eigenvectors.
 std::array<double, 5> polynomial(const Eigen::Matrix4d& A) {
   std::array<double, 5> c{1};
   Eigen::Matrix4d M = Eigen::Matrix4d::Zero();
@@ -52,7 +52,7 @@ std::array<double, 5> polynomial(const Eigen::Matrix4d& A) {
   return c;
 }
 
-/// How far a number is from a root of the polynomial, by one step of Newton's method, as a part of its size.
+/// Relative distance of a number to a root of the polynomial, by one step of Newton's method.
 double off_the_root(const std::array<double, 5>& c, std::complex<double> x) {
   std::complex<double> f = 0, slope = 0;
   for (const double coefficient : c) {
@@ -90,7 +90,7 @@ TEST_CASE("A and B are the central differences of the model that flies, at three
     for (const SteadyCondition& c : conditions) {
       const AircraftModel m(a, 1457);
       const Linearised l = linearised(a, c, 1457);
-      // A number is judged by the largest of its row: where it is nothing beside the others, so is its error.
+      // The error is relative to the largest number of its row: small numbers have small absolute errors.
       for (int k = 0; k < model::states + model::inputs; ++k) {
         const bool input = k >= model::states;
         const Eigen::VectorXd column = slope(
@@ -121,7 +121,7 @@ TEST_CASE("what is there of A and B is what the equations of motion have") {
   CHECK(l.model.A(model::pitch, model::q) == 1);
   CHECK(l.model.A.col(model::north).norm() == 0);
   CHECK(l.model.A.col(model::east).norm() == 0);
-  // lift follows the density, which goes with the power 4.2559 of the temperature
+  // lift is proportional to the density, which has the power 4.2559 of the temperature
   CHECK(l.model.A(model::w, model::down) ==
         Approx(-g * std::cos(theta) * 4.2559 * 0.0065 / (288.15 - 0.0065 * 1457)).epsilon(1e-4).scale(0));
   CHECK(l.model.B.topRows(3).norm() == 0);
@@ -189,7 +189,7 @@ TEST_CASE("a steep turn asks for the lift, the rates and the load that mechanics
   const Load load = AircraftModel(a, 0).load<double>(f.x.segment<3>(model::u), f.x.segment<3>(model::p),
                                                      f.deflections(), f.propeller_radps, f.density_kgm3);
   CHECK(-load.force_b.z() / (4.5 * 9.80665) == Approx(2).epsilon(0.05));
-  CHECK(std::abs(load.force_b.y()) < 1e-9);  // the ball is in the middle
+  CHECK(std::abs(load.force_b.y()) < 1e-9);  // the ball is in the middle: no side force
 }
 
 TEST_CASE("what stands against a steady flight is told") {
@@ -209,7 +209,7 @@ TEST_CASE("what stands against a steady flight is told") {
   CHECK(with([](Airframe& o) { o.aero.pitch.zero_ratio = 1.2; }) == TrimLimit::elevator);
   CHECK(with([](Airframe& o) { o.aero.roll.zero_ratio = 0.2; }) == TrimLimit::aileron);
   CHECK(with([](Airframe& o) { o.aero.yaw.zero_ratio = 0.05; }) == TrimLimit::rudder);
-  const auto soft_stall = [](Airframe& o) {  // there is a balance, beyond the stall
+  const auto soft_stall = [](Airframe& o) {  // a balance exists, but beyond the stall
     o.wing.stall_alpha_rad = 0.02;
     o.wing.stall_sharpness_ratio = 5;
   };
@@ -241,9 +241,9 @@ TEST_CASE("the Aerosonde's trim, A, B and eigenvalues are those of another progr
     return;
   }
   SteadyCondition c{25};
-  c.no_sideslip = true;  // as that program has it
+  c.no_sideslip = true;  // the condition of that program
   const Linearised l = linearised(test::book_aerosonde(), c, altitude_of(1.2682));
-  // It takes 9.81 m/s2, 0.034 % more than ours, and prints five decimals.
+  // That program uses 9.81 m/s2, 0.034 % more, and prints five decimals.
   const auto near = [](double ours, double theirs, double part, double least) {
     INFO(ours, " and ", theirs);
     CHECK(std::abs(ours - theirs) <= part * std::abs(theirs) + least);
@@ -289,7 +289,7 @@ TEST_CASE("the eigenvalues are roots of the blocks' characteristic polynomials")
       Linearised l = linearised(a, c, 1457);
       const auto lon = polynomial(longitudinal(l.model).A), lat = polynomial(lateral(l.model).A);
       const std::vector<Mode> modes = modes_of(l.model);
-      // The blocks leave out what a bank and the propeller's torque couple.
+      // The blocks omit the couplings by bank and by the torque of the propeller.
       for (const ModeKind kind : {ModeKind::short_period, ModeKind::phugoid})
         CHECK(off_the_root(lon, mode(modes, kind).eigenvalue) < 2e-4);
       for (const ModeKind kind : {ModeKind::dutch_roll, ModeKind::roll, ModeKind::spiral})

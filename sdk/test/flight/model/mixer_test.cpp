@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elevons and ruddervators: the algebra by hand, and what stops and faults of a physical surface do.
+// Elevons and ruddervators: the algebra by hand, and the effect of stops and faults of one physical surface.
 #include "fulmar/flight/model/mixer.hpp"
 
 #include <doctest/doctest.h>
@@ -45,7 +45,7 @@ struct Held {  ///< in its trimmed flight: only surfaces and motor move
     a.growth = e.growth = r.growth = 1;
     plant.suffer(a, e, r);
   }
-  /// What it turns to in a tenth of a second, after that.
+  /// Change of the body rate within a tenth of a second.
   Vector3d turns(const Actuators& command) {
     for (int i = 0; i < 40; ++i) plant.advance(command, 1, dt);
     return plant.state().omega_b;
@@ -144,7 +144,7 @@ TEST_CASE("a lost elevon rolls the aircraft to the side that the other one leave
     Held whole(mixed(Mixer::elevons)), broken(mixed(Mixer::elevons));
     broken.fail(left ? FaultKind::lost : none, left ? none : FaultKind::lost, none);
     const double rolls = broken.turns(neutral).x() - whole.turns(neutral).x();
-    CHECK((left ? -rolls : rolls) > 0.1);  // the right one, down, lifts its side
+    CHECK((left ? -rolls : rolls) > 0.1);  // the working right elevon, down, lifts its side
   }
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("a trim that an elevon does not reach is none, though each command is 
   Plant plant(a, {}, 1387, 1);
   REQUIRE(plant.fly({0, 0, -300}, 0, Va));
   const double left = plant.servos().aileron;
-  CHECK(left > plant.deflections().elevator);  // some aileron is in it
+  CHECK(left > plant.deflections().elevator);  // includes some aileron
   a.aileron.max_rad = left - 1e-4;
   CHECK_FALSE(Plant(a, {}, 1387, 1).fly({0, 0, -300}, 0, Va));
   a.aileron.max_rad = left + 1e-4;

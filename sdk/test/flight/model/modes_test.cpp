@@ -30,8 +30,8 @@ std::vector<Mode> of_kind(const std::vector<Mode>& modes, ModeKind kind) {
   return found;
 }
 
-/// Longitudinal and lateral motion with these eigenvalues; the first two of each are the short period's and
-/// the Dutch roll's, by construction.
+/// Longitudinal and lateral motion with these eigenvalues. By construction the first two of each belong to
+/// the short period and to the Dutch roll.
 struct Made {
   std::complex<double> short_period, phugoid, dutch_roll;
   double roll, spiral;
@@ -49,7 +49,7 @@ LinearModel made(const Made& of) {
   pair(m::v, m::r, of.dutch_roll);
   out.A(m::p, m::p) = of.roll;
   out.A(m::roll, m::roll) = of.spiral;
-  // what the parts do to each other moves no eigenvalue as long as it goes one way
+  // one-way couplings between the parts move no eigenvalue
   out.A(m::u, m::w) = 0.3;
   out.A(m::pitch, m::q) = 1;
   out.A(m::roll, m::p) = 1;
@@ -61,10 +61,11 @@ LinearModel made(const Made& of) {
 }  // namespace
 
 TEST_CASE("modes are known by what moves, whatever their order and size") {
-  const std::array<Made, 4> cases{{{{-5, 9}, {-0.1, 0.5}, {-1, 5}, -20, 0.05},
-                                   {{-0.1, 0.4}, {-3, 8}, {-0.01, 0.2}, -0.3, -9},  // the slow one is fast
-                                   {{2, 3}, {0.5, 0.1}, {-30, 2}, 4, -0.001},       // unstable
-                                   {{-1, 5}, {-1, 4.9}, {-1, 5.1}, -1.1, -1.2}}};   // all alike
+  const std::array<Made, 4> cases{
+      {{{-5, 9}, {-0.1, 0.5}, {-1, 5}, -20, 0.05},
+       {{-0.1, 0.4}, {-3, 8}, {-0.01, 0.2}, -0.3, -9},  // short period slower than the phugoid
+       {{2, 3}, {0.5, 0.1}, {-30, 2}, 4, -0.001},       // unstable
+       {{-1, 5}, {-1, 4.9}, {-1, 5.1}, -1.1, -1.2}}};   // close eigenvalues
   for (const Made& c : cases) {
     const std::vector<Mode> modes = modes_of(made(c));
     REQUIRE(modes.size() == 5);
@@ -135,7 +136,7 @@ TEST_CASE("the modes are about those of the handbook's approximations") {
     CHECK(of_kind(modes, ModeKind::phugoid).at(0).natural_radps() ==
           Approx(std::sqrt(2) * 9.80665 / Va).epsilon(0.25));
     CHECK(of_kind(modes, ModeKind::roll).at(0).eigenvalue.real() == Approx(A(m::p, m::p)).epsilon(0.05));
-    // omega^2 = Yv Nr - Nv Yr, which leaves out all rolling
+    // omega^2 = Yv Nr - Nv Yr, without rolling
     CHECK(of_kind(modes, ModeKind::dutch_roll).at(0).natural_radps() ==
           Approx(std::sqrt(A(m::v, m::v) * A(m::r, m::r) - A(m::r, m::v) * A(m::v, m::r)))
               .epsilon(0.25)
@@ -170,7 +171,7 @@ TEST_CASE("every speed and bank has all modes, also where they no longer oscilla
           CHECK(sum == Approx(motion.trace()).epsilon(1e-9).scale(0));
           counts.insert(modes.size());
         }
-  CHECK(counts.size() > 1);  // some did become real
+  CHECK(counts.size() > 1);  // some pairs became real
 }
 
 }  // namespace modes_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an airframe may have beside its derivatives. Expected values are written out by hand.
+// Optional terms of an airframe besides its derivatives. Expected values are computed by hand.
 #include "fulmar/flight/model/more_aerodynamics.hpp"
 
 #include <doctest/doctest.h>
@@ -30,7 +30,7 @@ Vector3d velocity(double alpha, double beta) { return air_velocity<double>(Va, a
 struct Six {
   double lift, drag, side, roll, pitch, yaw;
 };
-/// CL, CD, CY, Cl, Cm, Cn that `a` has more than the plain aircraft, by the full dynamic pressure.
+/// CL, CD, CY, Cl, Cm, Cn of `a` minus those of the plain aircraft, with the full dynamic pressure.
 Six more(const Airframe& a, double alpha, double beta, const Deflections& d) {
   const Vector3d v = velocity(alpha, beta);
   const Load with = Aerodynamic(a).load(v, {0.3, -0.2, 0.1}, d, rho);
@@ -78,7 +78,8 @@ TEST_CASE("drag over squares is the same to either side") {
   CHECK_FALSE(has_more(plain().aero));
   CHECK(has_more(a.aero));
   for (const double sign : {-1.0, 1.0}) {
-    const double in_plane = std::cos(0.2) * std::cos(0.2);  // drag goes by the flow in the plane of symmetry
+    const double in_plane =
+        std::cos(0.2) * std::cos(0.2);  // drag acts with the flow in the plane of symmetry
     CHECK(more(a, 0.1, sign * 0.2, {}).drag == Approx(in_plane * 0.15 * 0.04).epsilon(1e-6).scale(0));
     CHECK(more(a, 0.1, 0, {sign * 0.3, 0, 0}).drag == Approx(0.5 * 0.09).epsilon(1e-6).scale(0));
     CHECK(more(a, 0.1, 0, {0, sign * 0.3, 0}).drag == Approx(0.06 * 0.09).epsilon(1e-6).scale(0));
@@ -247,7 +248,7 @@ TEST_CASE("elevator and rudder work in the slipstream's dynamic pressure, q + T 
     CHECK(with.force_b.y() - before.force_b.y() == Approx(more_q * S * a.aero.side.rudder_ratio * 0.15));
   }
   Load brake = Aerodynamic(a).load(v, Vector3d::Zero(), {0, 0.1, 0}, rho), still = brake;
-  Aerodynamic(a).add_wash<double>(v, {0, 0.1, 0}, -1e4, rho, brake);  // no more than all of the flow
+  Aerodynamic(a).add_wash<double>(v, {0, 0.1, 0}, -1e4, rho, brake);  // at most all of the flow
   CHECK(brake.moment_b.y() - still.moment_b.y() ==
         Approx(-0.6 * 0.5 * rho * Va * Va * a.wing.area_m2 * a.wing.chord_m * a.aero.pitch.elevator_ratio *
                0.1));
@@ -260,7 +261,7 @@ TEST_CASE("the disc motor: thrust, torque and speed by hand") {
   Propulsion p;
   p.disc = {0.1, 0.25, 37, 1.2e-6, 800};
   const Propeller disc(p);
-  // half throttle at 17 m/s: air leaves at 17 + 0.5 20 = 27; 1.1/2 0.1 0.25 27 10 N
+  // half throttle at 17 m/s: the exit speed is 17 + 0.5 20 = 27; 1.1/2 0.1 0.25 27 10 N
   CHECK(disc.steady_speed(0.5, 17, 1.1) == Approx(400));
   CHECK(disc.thrust(400, 17, 1.1) == Approx(3.7125));
   CHECK(disc.thrust(400, 47, 1.1) == Approx(-0.5 * 1.1 * 0.1 * 0.25 * 42 * 5));
@@ -287,7 +288,7 @@ TEST_CASE("without a rudder both trims agree, with a bank that holds the heading
       CHECK(std::abs(t.roll_rad - f.x(model::roll)) < 1e-8);
       CHECK(std::abs(t.pitch_rad - f.x(model::pitch)) < 1e-8);
       CHECK(std::abs(t.throttle_frac - f.input(model::throttle)) < 1e-8);
-      CHECK(std::abs(t.roll_rad) > 1e-5);  // the propeller's torque is held by sideslip and aileron
+      CHECK(std::abs(t.roll_rad) > 1e-5);  // sideslip and aileron balance the torque of the propeller
       CHECK(t.deflections.rudder == 0);
     }
 }

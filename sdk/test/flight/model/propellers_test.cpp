@@ -30,14 +30,14 @@ PropellerPlace at(double x, double y, double z, Turns turns = Turns::right) {
   return p;
 }
 
-/// The Anaconda with these propellers, each of half its power.
+/// The Anaconda with these propellers, each with half its power.
 Airframe with(std::initializer_list<PropellerPlace> places) {
   Airframe a = anaconda();
   for (const PropellerPlace& p : places) a.propulsion.propellers.push_back(p);
   return a;
 }
 
-/// Left and right, turning against each other.
+/// Left and right propeller with opposite rotation.
 Airframe twin(double differential = 0) {
   PropellerPlace left = at(0.2, -0.5, 0, Turns::right), right = at(0.2, 0.5, 0, Turns::left);
   left.differential_frac = right.differential_frac = differential;
@@ -45,11 +45,11 @@ Airframe twin(double differential = 0) {
 }
 
 struct Pushed {
-  Vector3d force, moment;  ///< less those of the aircraft whose propeller does nothing
+  Vector3d force, moment;  ///< minus those of the aircraft with an idle propeller
   double thrust, torque;   ///< of one propeller
 };
 
-/// In still air at `Va` with the propellers at the speed of `throttle`.
+/// Load in still air at `Va` with the propellers at the speed of `throttle`.
 Pushed pushed(const Airframe& a, double throttle) {
   const auto felt = [&](const Airframe& airframe, double& Omega) {
     Plant plant(airframe, {}, 1387, 1);
@@ -200,11 +200,11 @@ TEST_CASE("a share of the rudder is that of the command: a rudder that is stuck 
 TEST_CASE("a twin trims on its propellers alone, and flies on level with what the trim says") {
   Airframe a = twin(0.3);
   for (Derivatives* d : {&a.aero.yaw, &a.aero.roll, &a.aero.side}) d->rudder_ratio = 0;
-  a.aero.yaw.zero_ratio = 0.002;  // something to hold against
+  a.aero.yaw.zero_ratio = 0.002;  // a yawing moment to balance
   const AircraftModel model(a, 1387 + 300);
   const SteadyFlight f = steady_flight(model, {.airspeed_mps = Va});
   REQUIRE(f.found());
-  CHECK(f.input(model::rudder) > 0.005);  // holds the nose left
+  CHECK(f.input(model::rudder) > 0.005);  // balances the moment to the left
   CHECK(std::abs(f.x(model::roll)) < 1e-9);
   Plant plant(a, {}, 1387, 1);
   REQUIRE(plant.fly({0, 0, -300}, 0.3, Va));
@@ -239,7 +239,7 @@ TEST_CASE("the linear model knows where the propellers stand: its columns are fi
     const SteadyFlight g = steady_flight(plain, {.airspeed_mps = Va});
     return linear_model(plain, g.x, g.input).B(model::r, model::rudder);
   }();
-  CHECK(linear.B(model::r, model::rudder) < 1.1 * rudder_alone);  // both nose left, together more
+  CHECK(linear.B(model::r, model::rudder) < 1.1 * rudder_alone);  // both nose left, with a larger sum
 }
 
 }  // namespace propellers_test

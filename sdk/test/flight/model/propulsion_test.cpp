@@ -44,7 +44,7 @@ TEST_CASE("thrust and torque are the polynomials of the advance ratio") {
 
 TEST_CASE("the propeller's speed stays finite and never turns backwards, whatever the airspeed") {
   Propulsion p = test::airframe_file("anaconda").propulsion;
-  p.cq2_ratio = 0.5;  // makes the discriminant negative
+  p.cq2_ratio = 0.5;  // gives a negative discriminant
   const Propeller propeller(p);
   for (double Va : {0.0, 20.0, 60.0, 200.0})
     for (double throttle : {0.0, 0.01, 1.0}) {

@@ -55,8 +55,8 @@ double distance(const RigidBody& a, const RigidBody& b) {
          a.q_nb.angularDistance(b.q_nb);
 }
 
-/// Gravity less the centrifugal part at the equator, from WGS-84 with J2: what a body that moves with the
-/// Earth falls with.
+/// Gravity minus the centrifugal part at the equator, from WGS-84 with J2: the acceleration of a falling body
+/// that moves with the Earth.
 double equatorial_gravity(double height_m) {
   const double a = 6378137, r = a + height_m, GM = 3.986004418e14, J2 = 1.0826267e-3;
   return GM / (r * r) * (1 + 1.5 * J2 * a * a / (r * r)) - earth_rate * earth_rate * r;
@@ -83,7 +83,7 @@ TEST_CASE("a freely tumbling body keeps its energy, its angular momentum in spac
   CHECK((x.q_nb * (body.J * x.omega_b) - momentum).norm() < 1e-7 * momentum.norm());
   CHECK(std::abs(x.q_nb.norm() - 1) < 1e-14);
   CHECK((x.p_n - begin.p_n - 100 * begin.v_n).norm() < 1e-8);
-  CHECK((x.omega_b - begin.omega_b).norm() > 0.1);  // it does tumble
+  CHECK((x.omega_b - begin.omega_b).norm() > 0.1);  // the body does tumble
 }
 
 TEST_CASE("an axisymmetric body precesses at the rate of Euler's solution") {
@@ -122,7 +122,7 @@ TEST_CASE("NASA check case 1: the dropped sphere") {
   x.p_n.z() = -nasa->at(0, "altitudeMsl_ft") * foot;
   for (int i = 0; i < 3000; ++i) x = runge_kutta(x, weight(x, 0), 0.01, body, Vector3d::Zero(), weight);
   const std::size_t end = nasa->row_at(30);
-  // what flat ground without Coriolis acceleration costs in 30 s: 0.02 ft and 0.003 ft/s
+  // error of flat ground without Coriolis acceleration in 30 s: 0.02 ft and 0.003 ft/s
   CHECK(std::abs(-x.p_n.z() / foot - nasa->at(end, "altitudeMsl_ft")) < 0.05);
   CHECK(std::abs(x.v_n.z() / foot - nasa->at(end, "feVelocity_ft_s_Z")) < 0.006);
 }
@@ -136,7 +136,7 @@ TEST_CASE("NASA check case 2: the tumbling brick") {
   const double slug_foot2 = 1.3558179483;
   const MassProperties body(0.155404754 * 14.59390294,
                             slug_foot2 * Vector3d(0.00189422, 0.006211019, 0.007194665).asDiagonal());
-  RigidBody x;  // here with respect to inertial space
+  RigidBody x;  // relative to inertial space here
   x.omega_b = degree * Vector3d(10, 20, 30);
   double worst_rate = 0, worst_angle = 0;
   for (int i = 1; i <= 3000; ++i) {
@@ -151,7 +151,7 @@ TEST_CASE("NASA check case 2: the tumbling brick") {
         Eigen::AngleAxisd(nasa->at(row, "eulerAngle_deg_Yaw") * degree, Vector3d::UnitZ()) *
         Eigen::AngleAxisd(nasa->at(row, "eulerAngle_deg_Pitch") * degree, Vector3d::UnitY()) *
         Eigen::AngleAxisd(nasa->at(row, "eulerAngle_deg_Roll") * degree, Vector3d::UnitX());
-    // at the equator the Earth turns about north
+    // at the equator the axis of the Earth points north
     const Eigen::Quaterniond ours = Eigen::AngleAxisd(-earth_rate * 0.01 * i, Vector3d::UnitX()) * x.q_nb;
     worst_angle = std::max(worst_angle, ours.angularDistance(theirs) / degree);
   }

@@ -35,7 +35,7 @@ RigidBody thrown(const RotatingEarth& earth, const Vector3d& p_n, const Vector3d
   return x;
 }
 
-/// Of the attraction, by radius and geocentric latitude: the textbook's form.
+/// Gravitational potential by radius and geocentric latitude, in textbook form.
 double potential(const Vector3d& r_e) {
   const double r = r_e.norm(), s = r_e.z() / r, ratio = 6378137 / r;
   return 3.986004418e14 / r * (1 - 1.08262982131e-3 * ratio * ratio * (1.5 * s * s - 0.5));
@@ -68,7 +68,7 @@ TEST_CASE("Earth-centred coordinates and back agree with GeographicLib to nanome
         const Geodetic g = geodetic_from(p);
         double lat_theirs = 0, lon_theirs = 0, alt_theirs = 0;
         reference.Reverse(p.x(), p.y(), p.z(), lat_theirs, lon_theirs, alt_theirs);
-        const double r = p.norm();  // angles as the metres that they are; 1.9e-9 m are two digits of 6378137
+        const double r = p.norm();  // angles as distances in metres; 1.9e-9 m are two digits of 6378137
         CHECK(std::abs(g.lat_rad - lat_theirs * degree) * r < 2e-9 * r / 6.4e6);
         CHECK(std::abs(std::remainder(g.lon_rad - lon_theirs * degree, 2 * std::numbers::pi)) *
                   p.head<2>().norm() <
@@ -116,7 +116,7 @@ TEST_CASE("attraction and centrifugal part are normal gravity, but for the fourt
       const RotatingEarth earth = earth_at(lat, 33, alt);
       const Vector3d centre = ecef_from({lat * degree, 33 * degree, alt});
       Vector3d g = earth.gravity(Vector3d::Zero());
-      CHECK(std::abs(g.z() - normal_gravity(lat * degree, alt)) < 1.3e-5 * 9.8);  // 5 |J4| and what follows
+      CHECK(std::abs(g.z() - normal_gravity(lat * degree, alt)) < 1.3e-5 * 9.8);  // 5 |J4| and higher terms
       for (int k = 0; k < 3; ++k) {
         const Vector3d d = earth.R_en() * Vector3d::Unit(k) * 1000;
         g(k) += (fourth(centre + d) - fourth(centre - d)) / 2000;
@@ -124,7 +124,7 @@ TEST_CASE("attraction and centrifugal part are normal gravity, but for the fourt
       CHECK(std::abs(g.z() - normal_gravity(lat * degree, alt)) < 1e-6);  // the sixth is 4e-7
       CHECK(g.head<2>().norm() < 1e-6 * alt / 1000 * 9.8 + 3e-7);
     }
-  // at rest, nothing else: a plumb line
+  // at rest: the direction of a plumb line alone
   CHECK(earth_at(40).free_acceleration({10, 20, 30}, Vector3d::Zero()) == earth_at(40).gravity({10, 20, 30}));
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("what moves turns to the right in the north and to the left in the sou
       const Vector3d v(20 * std::cos(heading), 20 * std::sin(heading), 0), right(-v.y(), v.x(), 0);
       const Vector3d a = earth.free_acceleration(Vector3d::Zero(), v) - Vector3d(g0, 0, 0);
       CHECK((a.head<2>() - f * right.head<2>()).norm() < 1e-9);
-      // and eastward flight is lighter, westward flight heavier: Eotvos
+      // eastward flight is lighter, westward flight heavier: Eotvos effect
       CHECK(a.z() - earth.gravity(Vector3d::Zero()).z() ==
             Approx(-2 * omega * v.y() * std::cos(lat * degree)).epsilon(1e-6));
     }
@@ -230,7 +230,7 @@ TEST_CASE("at the vehicle's own place down is where gravity points and the altit
     CHECK((back.v_n - x.v_n).norm() < 1e-15);
     CHECK(back.q_nb.angularDistance(x.q_nb) < 1e-7);
     CHECK((back.omega_b - x.omega_b).norm() < 1e-15);
-    // a step away the altitude is still right, and the axes are those of east and north
+    // after one step the altitude is still correct, and so are the axes
     const Vector3d step(3, -4, 2);
     CHECK(std::abs(level.altitude(p + step) - earth.geodetic(p + step).alt_m) < 3e-6);
     RigidBody higher = seen;

@@ -30,7 +30,7 @@ Actuators command_of(const SteadyFlight& f) {
           f.input(model::rudder)};
 }
 
-/// In that flight, with servos and motor where they are commanded: the body is held there until they are.
+/// A plant in that flight. The body is fixed until servos and motor reach their commands.
 sim::Plant plant_in(const Airframe& a, const SteadyFlight& f) {
   sim::Plant plant(a, {}, origin_m, 1);
   REQUIRE(plant.fly({0, 0, -height_m}, 0, a.limits.airspeed_cruise_mps));

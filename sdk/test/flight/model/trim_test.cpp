@@ -12,7 +12,7 @@ using doctest::Approx;
 
 TEST_CASE("the Anaconda's level flight at 15 m/s is what the balance of lift and weight says") {
   Airframe a = test::airframe_file("anaconda");
-  a.aero.lift.elevator_ratio = 0;  // the hand calculation neglects the tail's lift
+  a.aero.lift.elevator_ratio = 0;  // the hand calculation neglects the lift of the tail
   const Trim trim = trimmed_flight(a, 15, 1.2682);
   REQUIRE(trim.found);
   const double q = 0.5 * 1.2682 * 15 * 15, degree = std::numbers::pi / 180;

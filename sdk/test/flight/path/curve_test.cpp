@@ -103,7 +103,7 @@ TEST_CASE("a curve is published beside the circle that touches it, for those who
     CHECK(path.is_curve);
     REQUIRE(path.kind == PathKind::orbit);
     CHECK(path.turn == (mirror > 0 ? Turn::right : Turn::left));
-    for (const double v : {u - 0.002, u, u + 0.002}) {  // third order: it leaves the curve by a hair
+    for (const double v : {u - 0.002, u, u + 0.002}) {  // third order: a small deviation from the curve
       const auto at = c.point(v);
       CHECK(std::hypot(at.north - path.origin_m.north, at.east - path.origin_m.east) / path.radius_m ==
             Approx(1).epsilon(1e-6));

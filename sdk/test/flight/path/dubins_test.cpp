@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dubins paths against closed forms, against numerical integration, and against an independent
-// implementation's solutions if at hand.
+// Dubins paths against closed forms, against numerical integration, and against the solutions of an
+// independent implementation if available.
 #include "fulmar/flight/path/dubins.hpp"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Flies the word in small steps of the unicycle model; knows nothing of circles.
+/// Integrates the word in small steps of the unicycle model, independent of circle geometry.
 Pose integrate(Pose pose, const DubinsPath& path, double radius_m) {
   constexpr int steps = 4000;
   for (int part = 0; part < 3; ++part) {
@@ -139,7 +139,7 @@ TEST_CASE("all six words agree with 216 solutions of an independent implementati
     row >> name >> alpha >> beta >> d >> fault >> t >> p >> q >> total;
     REQUIRE(static_cast<bool>(row));
     ++rows;
-    // there a left turn is positive: the same word after a mirror
+    // a left turn is positive there: mirror the word
     for (const bool mirror : {false, true}) {
       const DubinsWord word = mirror ? word_of(name) : mirrored(word_of(name));
       const DubinsPath path =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Routes: fillets by their geometry, joints by continuity, the closest point by brute force, odd plans by
-// surviving them.
+// Routes: fillets by their geometry, joints by continuity, the closest point by brute force, and robustness
+// against unusual plans.
 #include "fulmar/flight/path/route.hpp"
 
 #include <doctest/doctest.h>
@@ -62,7 +62,7 @@ bool has_kind(const RouteLeg& leg, PathKind kind) {
   return false;
 }
 
-/// Each piece begins where and in the direction in which the one before ends, at its height.
+/// Each piece starts at the end of the one before, in its direction and at its height.
 void check_joints(const RouteLeg& leg) {
   for (std::size_t i = 0; i + 1 < leg.count; ++i) {
     const Pose end = leg[i].pose_at(leg[i].length_m), begin = leg[i + 1].pose_at(0);
@@ -96,7 +96,7 @@ TEST_CASE("a square corner is rounded by a quarter circle that touches both legs
 
 TEST_CASE("a lap of the hourglass is as long as its legs less the cut corners") {
   Plan plan = plan_of({point(400, -250), point(-400, -50), point(-400, -250), point(400, -50)});
-  const double turn = pi - std::atan2(800, 200), R = plan.turn_radius_m;  // each corner turns by as much
+  const double turn = pi - std::atan2(800, 200), R = plan.turn_radius_m;  // turn at each corner
   const double expected = 2 * std::hypot(800, 200) + 2 * 200 + 4 * (R * turn - 2 * R * std::tan(turn / 2));
   double length = 0;
   const Route route(plan);
@@ -109,7 +109,7 @@ TEST_CASE("a fillet is used exactly while its tangent, R tan(turn / 2), fits on 
   for (const double leg : {tangent * 0.99, tangent * 1.01}) {
     Plan plan = plan_of({point(-1000, 0), point(0, 0), point(leg * std::cos(turn), leg * std::sin(turn)),
                          point(-3000, 3000)});
-    plan.waypoints[2].has_course = true;  // needs no room on the leg
+    plan.waypoints[2].has_course = true;  // needs no length on the leg
     CHECK((Route(plan).passage(1).turn_rad != 0) == (leg > tangent));
   }
 }
@@ -237,12 +237,12 @@ TEST_CASE("a plan that ends in an orbit reaches it along a tangent, in the direc
   CHECK(distance(entry, plan.waypoints[2]) == doctest::Approx(50));
   const double radial = std::atan2(entry.east_m - 500, entry.north_m - 500);
   CHECK(std::abs(std::cos(radial - entry.course_rad)) < 1e-9);
-  CHECK(orbit.turn == Turn::right);  // it came round a right corner
+  CHECK(orbit.turn == Turn::right);  // after a right corner
   check_joints(route.leg(2));
 }
 
 TEST_CASE("the turn of the final orbit is that of the way to it, also when its last corner is there twice") {
-  // eastwards, and the centre is a little to the left of that
+  // eastwards, with the centre a little to the left
   const Plan once = plan_of({point(0, -300), point(0, 0), point(20, 300)}, PlanEnd::orbit),
              twice = plan_of({point(0, -300), point(0, 0), point(0, 0), point(20, 300)}, PlanEnd::orbit);
   CHECK(Route(once).final_orbit().turn == Turn::left);
@@ -255,7 +255,7 @@ TEST_CASE("the lesser turn onto a circle is the one whose tangent is closer in c
     const Pose from{rng.uniform(-500, 500), rng.uniform(-500, 500), rng.uniform(-7, 7)};
     const double d = std::hypot(from.north_m, from.east_m);
     if (d < 60) continue;
-    // the tangent points by Thales: at angle acos(R / d) to either side of the line to the aircraft, as seen
+    // tangent point by Thales' theorem: at the angle acos(R / d) to either side of the line to the aircraft,
     // from the centre
     const double towards = std::atan2(from.east_m, from.north_m), half = std::acos(50 / d);
     double turning[2];
@@ -263,7 +263,7 @@ TEST_CASE("the lesser turn onto a circle is the one whose tangent is closer in c
       const double azimuth = towards + (k == 0 ? half : -half), n = 50 * std::cos(azimuth),
                    e = 50 * std::sin(azimuth);
       const double course = std::atan2(e - from.east_m, n - from.north_m);
-      // moving that way round the centre: right when the azimuth grows
+      // in that direction around the centre: right for a growing azimuth
       const bool right = std::cos(course - (azimuth + pi / 2)) > 0;
       turning[right ? 0 : 1] = std::abs(wrap_pi(course - from.course_rad));
     }
@@ -288,7 +288,7 @@ TEST_CASE("waypoints within a metre are one place, and a plan in one place is a 
   CHECK(Route(plan_of({point(0, 0), point(0.5, 0), point(0.9, 0.1)})).is_point());
   const Plan plan = plan_of({point(0, 0), point(500, 0), point(500.4, 0.3), point(500, 500)});
   CHECK_FALSE(Route(plan).is_point());
-  CHECK(Route(plan).leg(2).length_m < 1e-6);  // no loop to fly half a metre sideways
+  CHECK(Route(plan).leg(2).length_m < 1e-6);  // no loop for half a metre sideways
 }
 
 TEST_CASE("a hairpin has no fillet however long its legs are: it would stay far from the waypoint") {

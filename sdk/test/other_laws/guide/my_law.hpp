@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Not the law that `fulmar new` writes: a lateral acceleration towards a point ahead, all of it as bank.
+// A law unlike the template of `fulmar new`: a lateral acceleration towards a point ahead, all of it as bank.
 // Source: Park, Deyst & How, A new nonlinear guidance logic for trajectory tracking, AIAA 2004-4900.
 #pragma once
 #include <algorithm>

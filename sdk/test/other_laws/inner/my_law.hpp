@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Not the law that `fulmar new` writes: an integral on both angles, gains by airspeed, no airframe.
+// A law unlike the template of `fulmar new`: an integral on both angles, gains by airspeed, no airframe.
 #pragma once
 #include <algorithm>
 #include <fulmar/msg/actuators.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Not the estimator that `fulmar new` writes: position and velocity are those of the receiver, height that of
-// the pressure; of the attitude it knows nothing and says so.
+// An estimator unlike the template of `fulmar new`: position and velocity of the receiver, height of the
+// barometer, and no valid attitude.
 #pragma once
 #include <cmath>
 #include <fulmar/msg/baro.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Not the law that `fulmar new` writes: course by a rate of turn, height and speed by integrals, no probes.
+// A law unlike the template of `fulmar new`: course by a turn rate, height and speed by integrals, no probes.
 #pragma once
 #include <algorithm>
 #include <cmath>

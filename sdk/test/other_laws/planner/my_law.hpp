@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Not the planner that `fulmar new` writes: it slows the plan down after the first circuit.
+// A planner unlike the template of `fulmar new`: it reduces the airspeed of the plan after the first circuit.
 #pragma once
 #include <fulmar/msg/plan_edit.hpp>
 #include <fulmar/msg/progress.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Not the sensor that `fulmar new` writes: without noise, twice a second, and silent at first.
+// A sensor unlike the template of `fulmar new`: without noise, twice a second, and silent at first.
 #pragma once
 #include <cmath>
 #include <fulmar/msg/vehicle_state.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the plugin that a mission's `use:` names. An interface, so that tests and tools can bring components
-// of their own.
+// Finds the plugin that a mission's `use:` names. An interface, so that tests and tools can provide their own
+// components.
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -21,10 +21,9 @@ struct FoundPlugin {
 
 struct Catalogue {
   virtual ~Catalogue() = default;
-  /// Called before a file is opened: throws Error when it may not be.
+  /// Called before a file is opened; throws Error to forbid it.
   std::function<void(const std::filesystem::path&)> admit;
-  /// `name` is a plugin ("control_slc") or a file ("my_law.so", "build/my_law.so"). Throws Error with a
-  /// sentence.
+  /// `name` is a plugin ("control_slc") or a file ("my_law.so", "build/my_law.so"). Throws Error.
   virtual FoundPlugin open(const std::string& name) = 0;
 };
 
@@ -32,10 +31,10 @@ struct Catalogue {
 class PluginCatalogue : public Catalogue {
  public:
   explicit PluginCatalogue(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
-  /// The folders that a mission's plugins are searched in.
+  /// The folders in which a mission's plugins are searched.
   static std::vector<std::filesystem::path> folders_for(const std::filesystem::path& mission_file);
   FoundPlugin open(const std::string& name) override;
-  /// Names of the plugins that are there.
+  /// Names of the available plugins.
   std::vector<std::string> names() const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Conditions of phases: comparisons of fields, or of the flight time, with numbers, units, enum labels or
 // other fields; and, or, not, parentheses. Compiled when the mission is read; evaluated in the tick without
-// allocation. False while a port it looks at has no sample or is stale.
+// allocation. False while a port that it reads has no sample or is stale.
 #pragma once
 #include <functional>
 #include <memory>
@@ -15,7 +15,7 @@ namespace fulmar::core {
 /// Finds the port "nav.state" and its type; throws Error with the valid choices.
 using FindPort = std::function<std::pair<Source, TypePtr>(const std::string& owner, const std::string& port)>;
 
-/// What a condition looks at. Must not allocate.
+/// Access of a condition to samples. Must not allocate.
 struct SampleReader {
   /// The present sample of a port, or nullptr when there is none or it is stale.
   virtual const std::byte* sample(const Source& source) const noexcept = 0;
@@ -31,12 +31,11 @@ Shown find_shown(const std::string& text, const FindPort& find);
 
 class Condition {
  public:
-  /// Throws Error with a sentence on bad syntax, unknown fields, units that do not fit, labels that do not
-  /// exist.
+  /// Throws Error on bad syntax, unknown fields, units that do not fit, or unknown labels.
   static std::shared_ptr<const Condition> compile(const std::string& text, const FindPort& find);
   bool holds(const SampleReader& reader) const noexcept;
   const std::string& text() const { return text_; }
-  /// Every port it looks at.
+  /// All ports that it reads.
   const std::vector<Source>& ports() const { return ports_; }
 
   struct Node;

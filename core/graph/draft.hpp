@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission on its way from text to graph: what the steps of the resolution share. Internal to core/graph.
+// A mission between text and graph: shared by the steps of the resolution. Internal to core/graph.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,11 +12,11 @@
 
 namespace fulmar::core {
 
-/// A component of the file that can exist in this run. Sources in its wires count candidates, and `roles` are
-/// what it can fill, until the graph is built.
+/// A component of the file that can exist in this run. Until the graph is built, sources in its wires are
+/// indexes of candidates, and `roles` are all roles that it can fill.
 struct Candidate : Component {
   const ComponentText* text = nullptr;
-  bool loaded = false;    // false: its plugin was refused; what depends on it is not reported again
+  bool loaded = false;    // false: its plugin was rejected; dependent faults are not reported again
   bool assigned = false;  // fills its role, or is a fallback, in some phase
   bool used = false;      // is created
   int component = -1;     // into Graph::components
@@ -26,11 +26,11 @@ struct RoleDraft {
   const RoleText* text;
   std::string name;
   std::vector<int> fillers;    // candidates, in file order
-  std::vector<TypePtr> types;  // one per output; empty when nobody provides it
-  bool unclear = false;        // a filler was refused: do not report what it may provide
+  std::vector<TypePtr> types;  // one per output; empty when no component provides it
+  bool unclear = false;        // a filler was rejected: do not report its missing outputs
 };
 
-/// What a port name means. `type` empty: a probe, or unknown because its component was refused.
+/// Meaning of a port name. `type` empty: a probe, or unknown because its component was rejected.
 struct Target {
   Source source;
   TypePtr type;
@@ -45,7 +45,7 @@ struct Draft {
   FileStore& files;
   std::vector<Candidate> candidates;
   std::vector<RoleDraft> roles;
-  std::vector<std::vector<Assignment>> assignments;  // [phase][role], components count candidates
+  std::vector<std::vector<Assignment>> assignments;  // [phase][role]; components are indexes of candidates
   Graph graph;
 
   int candidate(const std::string& name) const { return index_named(candidates, name); }
@@ -55,45 +55,46 @@ struct Draft {
 };
 
 // resolve.cpp
-/// Why a component of the file is not there: "fcu exists only with io: fcu", or that there is none of that
+/// Why a component of the file does not exist: "fcu exists only with io: fcu", or that the file has no such
 /// name.
 Diagnostic not_there(const Draft& draft, const std::string& name);
 
-/// Whether an output of a role is there: somebody who fills it in this run has it. Of the built graph.
+/// Whether a component that fills the role in this run has the output. For the built graph.
 bool provided(const Graph& graph, const Source& source);
 
-/// A role or component that is not there: taken away by a layer, perhaps.
+/// A role or component that does not exist; a layer may have removed it.
 struct NoOwner : Error {
   NoOwner(const std::string& name, Diagnostic message) : Error(std::move(message)), owner(name) {}
   std::string owner;
 };
-/// Whether a layer has taken that role or component away: it is told there, with all that still names it.
+/// Whether a layer has removed that role or component. Then one fault at that layer lists all places that
+/// still name it.
 bool taken_away(Draft& draft, const std::string& name, const Where& where, const std::string& path);
-/// A fault of its own, or one of those.
+/// Reports a NoOwner as above, and any other fault by itself.
 void report(Draft& draft, const Where& where, const std::string& path, const Error& fault);
 
 // role_contracts.cpp
 void resolve_roles(Draft& draft);
-/// Components that fill several roles: who fills which must stay clear.
+/// Components that fill several roles: the fillers must be unambiguous.
 void check_groups(Draft& draft);
 /// Exactly one vehicle: the only one that fills the role, or the only vehicle of a mission without that role.
-/// After it is known who is used.
+/// Call it after the used components are known.
 void choose_vehicle(Draft& draft);
 
 // wires.cpp
 Target find_target(const Draft& draft, const PortName& name);  // throws Error, NoOwner
 void resolve_wires(Draft& draft);
-/// After it is known who is used: inputs that nobody feeds.
+/// Reports inputs without a source. Call it after the used components are known.
 void check_fed(Draft& draft);
 void order_steps(Draft& draft);
 
 // ages.cpp: of the built graph
 void guard_wires(Draft& draft);
-/// Per component: whether what it publishes can move the aircraft.
+/// Per component: whether its outputs can move the aircraft.
 std::vector<bool> chain_to_vehicle(const Graph& graph);
 
 // hardware.cpp: of the built graph
-/// Steering components and conditions that read what only a simulator has: refused with io: fcu.
+/// Steering components and conditions that read ports of the simulator alone: rejected with io: fcu.
 void report_simulator_ports(Draft& draft, Catalogue& catalogue);
 
 // fences.cpp: of the built graph
@@ -104,23 +105,23 @@ void report_overlaid(Draft& draft);
 
 // tap_sections.cpp
 void mark_imports(Draft& draft);
-/// `ports`: the names under which outputs leave the flight.
+/// `ports`: the names under which outputs are published.
 void resolve_dds(Draft& draft, const std::vector<std::string>& ports);
 
 // phases.cpp
 std::string phase_path(const PhaseText& phase);
-/// Those of the mission, or the only one of a mission that has none.
+/// The phases of the mission, or a default one for a mission that has none.
 const std::vector<PhaseText>& phases_of(const MissionText& text);
 void assign_roles(Draft& draft);
 
 // named_ports.cpp
-/// Conditions, figures and transitions. Before the graph is built: checks them and marks the components that
-/// they name. Afterwards: compiles them for the graph.
+/// Conditions, figures and transitions. Before the graph is built, it checks them and marks the components
+/// that they name. Afterwards it compiles them for the graph.
 void name_ports(Draft& draft);
 void compile_phases(Draft& draft);
 
 // with.cpp
-/// What is to fly with another file, by component: a role stands for the one that fills it.
+/// Components that fly with another file: a role is replaced by the component that fills it.
 Overrides with_components(const MissionText& text, Overrides overrides, Report& report);
 
 // values.cpp

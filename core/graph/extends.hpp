@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission's layers: a file, the file that it extends, and so on, laid over each other.
+// Layers of a mission: a file, the file that it extends, and so on, merged.
 #pragma once
 #include <vector>
 
@@ -7,10 +7,9 @@
 
 namespace fulmar::core {
 
-/// The tree of `file` over that of the file it extends, to any depth. Every file that was read is added to
-/// `files`, the top one excepted. A layer that cannot be read is the only fault that is worth telling: the
-/// report then holds it, and the tree is missing. `below`: what each lower layer says with those under it,
-/// the lowest first.
+/// Merges the tree of `file` over that of the file it extends, to any depth. Adds every file that was read to
+/// `files`, except the top one. When a layer cannot be read, the report holds that single fault, and the tree
+/// is missing. `below`: each lower layer merged with those under it, the lowest first.
 Node layered_tree(const FilePtr& file, const StoredFiles* stored, std::vector<FilePtr>& files,
                   std::vector<Node>& below, Report& report);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission, resolved: which components, how they are wired, in which order they step, who fills which role
-// in which phase. Everything that can be wrong has been refused before one of these exists. The loop reads it
-// and never changes it.
+// A resolved mission: its components, their wires and order, and the fillers of the roles in each phase. All
+// faults of a mission are rejected before a Graph exists. The loop only reads it.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -18,17 +17,17 @@
 
 namespace fulmar::core {
 
-/// The value of one parameter, owned. Which members count depends on the kind, as in fulmar_value.
-/// A record or blob that the mission supplies has `integer` 1 and in `text` the name of its file.
+/// The value of one parameter, owned. The valid members depend on the kind, as in fulmar_value. A record or
+/// blob from the mission has `integer` 1 and in `text` the name of its file.
 struct ParamValue {
   double number[3] = {0, 0, 0};
   std::int64_t integer = 0;
   std::string text;
   std::vector<std::byte> data;
-  SaidPlacesPtr places{};  // where it is said; null: nowhere
+  SaidPlacesPtr places{};  // place in the mission; null: none
 };
 
-/// Where a wire begins: an output of one component, or of whoever fills a role.
+/// Start of a wire: an output of one component, or of the component that fills a role.
 struct Source {
   enum class Kind : std::uint8_t { none, component, role };
   Kind kind = Kind::none;
@@ -38,18 +37,19 @@ struct Source {
 };
 
 struct Wire {
-  Source from;                  // none: an optional input that nobody feeds
+  Source from;                  // none: an optional input without a source
   std::int64_t max_age_ns = 0;  // 0: any age
-  bool guarded = false;         // an older sample, or one of a writer that was stopped, stops the reader
-  bool by_steps = false;        // the age of an output that may stay silent is that of its writer's last step
+  bool guarded = false;         // an older sample, or a writer that was stopped, stops the reader
+  bool by_steps = false;        // the age of an output that need not publish in every step counts from its
+                                // writer's last step
   bool delayed = false;         // carries the value of the previous tick: breaks a cycle
   Where where;
   int import = -1;  // into DdsOptions::imports: fed from outside; `from` is none
 
-  static constexpr std::int64_t unsaid = -1;  // of max_age_ns, until the graph is built
+  static constexpr std::int64_t unsaid = -1;  // of max_age_ns, until the graph is built: not set
 };
 
-/// Which aircraft: a simulated one, or one behind a flight controller.
+/// Source of the aircraft: a simulation, or a flight controller.
 enum class Io : std::uint8_t { sim, fcu };
 inline const std::vector<std::string> io_words = {"sim", "fcu"};
 inline const std::string& io_word(Io io) { return io_words[static_cast<std::size_t>(io)]; }
@@ -60,22 +60,22 @@ struct VehicleFlag {
   std::uint32_t offset = 0;  // of the bool in that output's message
 };
 
-/// What the host must know of an aircraft that it is to protect.
+/// Flags that the host needs for the protection of an aircraft.
 struct VehicleFlags {
   VehicleFlag armed, on_ground, in_control;
 };
 
-/// How a component is run; design: tick in the loop's thread, process in a child, async with a latency,
-/// driver in a thread of its own.
+/// How a component runs: tick in the loop's thread, process in a child, async with a latency, driver in a
+/// separate thread.
 enum class RunMode : std::uint8_t { tick, process, async, driver };
 
-/// What a mission says of a component that stands by itself.
+/// Settings of a component that do not depend on others.
 struct ComponentSettings {
   std::string name;                         // "slc"
   std::int64_t budget_ns = 0;               // 0: none
   std::int64_t latency_ns = 0;              // async: from the step's inputs to its visible outputs
-  std::int64_t hang_ns = 0;                 // process: longest wait for one call; 0: unsaid
-  std::uint64_t memory_bytes = 64'000'000;  // growth of the heap in flight that is allowed
+  std::int64_t hang_ns = 0;                 // process: longest wait for one call; 0: not set
+  std::uint64_t memory_bytes = 64'000'000;  // allowed growth of the heap in flight
   Where where;
 };
 
@@ -84,7 +84,8 @@ struct Component : ComponentSettings {
   std::shared_ptr<const PluginInfo> plugin;  // the host's own copy: outlives the library
   std::shared_ptr<Library> library;          // empty when a test describes the component by hand
   std::size_t index_in_plugin = 0;
-  std::vector<int> roles;      // that it fills, all at once, in some phase; none: it steps in every phase
+  std::vector<int> roles;      // roles that it fills, all at once, in some phase; none: it steps in every
+                               // phase
   std::int64_t period_ns = 0;  // 0: every tick
   RunMode run = RunMode::tick;
   std::vector<Wire> wires;         // one per input
@@ -114,8 +115,8 @@ struct Overlay {
 };
 
 struct Assignment {
-  int component = -1;        // who fills the role
-  int fallback = -1;         // -1: nobody
+  int component = -1;        // component that fills the role
+  int fallback = -1;         // -1: none
   std::vector<Overlay> set;  // on the component's live parameters while the phase lasts
 };
 
@@ -144,7 +145,7 @@ struct Shown {
   TypePtr type;  // of the message; empty for a probe, whose sample is one double
 };
 
-/// A parameter that takes up, after a restart in the air, what a field was when the log ended.
+/// A parameter that gets the last value of a field from the log, for a restart in the air.
 struct ResumeRule {
   std::string param;  // "manage.first_item"
   Shown field;
@@ -153,18 +154,18 @@ struct ResumeRule {
 struct RecordRule {
   std::vector<std::string> ports;            // patterns "nav.*", "*"
   std::int64_t period_ns = 0;                // 0: every sample
-  static constexpr std::int64_t usual = -2;  // as in a mission that says nothing
+  static constexpr std::int64_t usual = -2;  // as in a mission without this key
 };
 
 /// `live:` of the mission.
 struct LiveOptions {
   bool on = false;
   std::string host = "127.0.0.1";
-  std::uint16_t port = 8765;  // 0: any that is free
-  std::string token;          // that a client has to show; needed for hosts other than loopback
-  std::string tiles;  // "https://tile.example.org/{z}/{x}/{y}.png", drawn beneath the page's map; "": none
-  std::optional<bool> save;  // whether clients may write files; unset: those of this computer alone may
-  std::string attribution;   // whose they are, as they want to be named
+  std::uint16_t port = 8765;  // 0: any free port
+  std::string token;          // token of a client; needed for hosts other than loopback
+  std::string tiles;  // "https://tile.example.org/{z}/{x}/{y}.png", background of the page's map; "": none
+  std::optional<bool> save;  // whether clients may write files; not set: only those of this computer
+  std::string attribution;   // attribution of the tiles, as their provider requires
   Where where;
 };
 
@@ -172,7 +173,7 @@ struct LiveOptions {
 struct DdsOptions {
   struct Export {
     std::string port;            // "nav.state"
-    std::string topic;           // "nav/state", behind the namespace; "/tf" stands as it is
+    std::string topic;           // "nav/state", behind the namespace; "/tf" is absolute
     std::int64_t period_ns = 0;  // 0: every sample
     bool best_effort = false;
     Where where;
@@ -185,41 +186,43 @@ struct DdsOptions {
   bool on = false;
   int domain = 0;
   std::string name_space;               // "uav1": before every topic and service
-  std::vector<std::string> interfaces;  // addresses to use; default loopback alone
+  std::vector<std::string> interfaces;  // own addresses; default loopback alone
   Where interfaces_where;
-  std::vector<std::string> peers;  // addresses to look for others at; default the interfaces
+  std::vector<std::string> peers;  // addresses of other participants; default the interfaces
   std::vector<Export> exports;
   std::vector<Import> imports;
   bool services = true, parameters = true;  // requests and parameters as ROS 2 services
-  bool humble = false;  // ROS 2 Humble's form of the node's description, which differs from that of all since
+  bool humble = false;  // form of the node's description in ROS 2 Humble, which differs from all later
+                        // releases
   Where where;          // of the section
 };
 
 class StoredFiles;
 
-/// What the command line changes.
+/// Changes from the command line.
 struct Overrides {
   std::optional<std::string> io;
   std::optional<std::uint64_t> seed;
   std::vector<std::pair<std::string, std::string>> roles;  // role=component
   std::vector<std::pair<std::string, std::string>> set;    // component.param=value (YAML text)
   std::vector<std::pair<std::string, std::string>>
-      with;           // component=plugin file, in place of the file that its `use` names; or role=plugin file
-  std::string swaps;  // component of `with` that is exchanged in flight: it has to have all that it had
-  std::shared_ptr<const StoredFiles> files;  // in place of the disk: of a mission that has flown
-  std::vector<std::string> flown;            // SHA-256 of the plugins that have flown in it
+      with;           // component=plugin file, in place of the file in its `use`; or role=plugin file
+  std::string swaps;  // component of `with` that is exchanged in flight: the new file must have all ports of
+                      // the old one
+  std::shared_ptr<const StoredFiles> files;  // in place of the disk: for a mission that has flown
+  std::vector<std::string> flown;            // SHA-256 of the plugins that flew
   std::optional<std::string> arm;            // auto, off
   std::vector<std::string> record;           // "all", "nav.*@100Hz"
 };
 
-/// A port that says in a word and in words how the flight went.
+/// A port with the verdict of the flight: a word and a sentence.
 struct VerdictPort {
   Source from;
   std::size_t word = 0, text = 0;  // offsets of the texts
   std::size_t word_size = 0, text_size = 0;
 };
 
-/// What a mission says that stands by itself, as it is written.
+/// Settings of a mission that do not depend on components.
 struct Settings {
   std::string mission;
   Io io = Io::sim;
@@ -227,7 +230,8 @@ struct Settings {
   std::uint64_t seed = 1;
   bool arm = false;                                                   // with Io::sim alone
   std::int64_t timeout_ns = 0;                                        // of flight time; 0: none
-  std::int64_t done_for_ns = 0, failed_for_ns = 0, flown_for_ns = 0;  // how long the conditions have to hold
+  std::int64_t done_for_ns = 0, failed_for_ns = 0, flown_for_ns = 0;  // time for which the conditions must
+                                                                      // hold
   std::int64_t failsafe_ns = 0;
   std::string record_file;  // "" : logs/<mission>-<UTC>.mcap
   bool record = true;
@@ -241,16 +245,16 @@ struct Graph : Settings {
   std::int64_t tick_ns = 2'500'000;
   std::vector<Component> components;  // only those that exist in this run
   std::vector<Role> roles;
-  std::vector<Phase> phases;  // the first is where the flight begins
+  std::vector<Phase> phases;  // the flight begins in the first
   std::vector<Transition> any;
-  std::vector<int> order;  // steps, the vehicle left out
+  std::vector<int> order;  // order of steps, without the vehicle
   int vehicle = -1;
-  VehicleFlags flags;  // of the vehicle; with Io::fcu it has all of them
+  VehicleFlags flags;  // of the vehicle; complete with Io::fcu
   struct {
     std::shared_ptr<const Condition> done, failed, flown;  // may be empty
-    std::optional<VerdictPort> verdict;                    // what a component says of the flight
+    std::optional<VerdictPort> verdict;                    // a component's verdict of the flight
     std::vector<std::pair<std::string, Source>> summary;   // key of the result -> port; none: left out
-    /// Keys that only report, of components that this flight does not have -> port.
+    /// Result keys of components that this flight does not have -> port.
     std::vector<std::pair<std::string, std::string>> left_out;
     std::vector<Shown> progress;
   } judge;                     // when the flight ends, and its figures
@@ -260,27 +264,27 @@ struct Graph : Settings {
   std::vector<std::vector<std::byte>> failsafe;  // one per vehicle input: the struct to send; empty: not sent
   struct {
     std::string file;
-    std::vector<std::filesystem::path> files;  // mission, what it extends, airframe, plans
+    std::vector<std::filesystem::path> files;  // mission, the files that it extends, airframe, plans
     /// Their contents as read: name without folders -> text.
     std::vector<std::pair<std::string, std::string>> attachments;
     Overrides overrides;
-    std::vector<std::string> warnings;  // what can be flown, but should be known
-  } source;                             // where all of this comes from, so that it can be read again
+    std::vector<std::string> warnings;  // faults that do not prevent the flight
+  } source;                             // sources of the mission, to read it again
 };
 
-/// Loads a mission file - fulmar:missions/orbit.yaml is one of the installation - and everything that it
-/// names. On faults throws Error whose text holds all of them, one per line.
+/// Loads a mission file and all files that it names. fulmar:missions/orbit.yaml is a file of the
+/// installation. Throws Error with all faults, one per line.
 Graph load_mission(const std::string& file, const Overrides& overrides = {});
 
-/// The same with components from elsewhere than plugin files.
+/// The same with components from another source than plugin files.
 struct Catalogue;
 Graph load_mission(const std::string& file, const Overrides& overrides, Catalogue& catalogue);
 
-/// The changes with components in place of roles in `with`: "nav" becomes "ekf". Throws Error for a role that
-/// not just one component fills.
+/// Replaces roles in `with` by components: "nav" becomes "ekf". Throws Error for a role that is not filled by
+/// exactly one component.
 Overrides with_components(const std::string& mission, const Overrides& overrides);
 
-/// "127.0.0.1:8765" or "off", of the command line. Throws Error.
+/// Parses "127.0.0.1:8765" or "off" of the command line. Throws Error.
 LiveOptions parse_live(const std::string& listen);
 
 /// Whether a port's name, "nav.state", matches a pattern of `record.ports`, "nav.*".

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission file as written: every key checked, every value in its type, nothing looked up in plugins yet.
+// A mission file as written: every key checked, every value in its type, no plugin opened yet.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -25,7 +25,7 @@ struct WireText {
   PortName from;
   std::optional<std::int64_t> max_age_ns;  // 0: off
   bool delayed = false;
-  bool cut = false;  // null: the wire that a role brings is not wanted
+  bool cut = false;  // null: removes the wire that a role brings
   Where where;
 };
 
@@ -46,11 +46,11 @@ struct RoleText {
 struct ComponentText : ComponentSettings {
   std::vector<Word> fills;  // roles: all of them at once
   Word use;
-  std::optional<Io> only;  // nothing: it exists with both
+  std::optional<Io> only;  // not set: it exists with both
   std::vector<WireText> in;
   Node params;
   double rate_hz = 0;                      // 0: every tick
-  std::optional<std::int64_t> max_age_ns;  // of wires that say nothing
+  std::optional<std::int64_t> max_age_ns;  // of wires without their own
   std::optional<RunMode> run;
   Where where_rate;
 
@@ -86,12 +86,12 @@ struct ImportText {
   Where where;
 };
 
-/// What the mission states of itself: whether an aircraft behind a flight controller may fly it.
+/// The mission's `hardware:` section: whether it may fly an aircraft behind a flight controller.
 struct HardwareText {
-  bool fit = true;   // also of a mission that does not say
-  std::string with;  // a role or component that the command line has to choose; "": none
+  bool fit = true;   // also for a mission without the key
+  std::string with;  // a role or component that the command line must choose; "": none
   std::string because;
-  Where where;  // line 0: not said
+  Where where;  // line 0: not set
 };
 
 struct MissionText : Settings {
@@ -118,8 +118,8 @@ struct MissionText : Settings {
     std::vector<Where> record;            // one per rule of `record:`
     std::vector<ImportText> dds_imports;  // into components that may not exist
   } tap;
-  std::vector<FilePtr> files;      // the mission and what it extends
-  std::vector<MissionText> below;  // each layer under it with those that it extends, the lowest first
+  std::vector<FilePtr> files;      // the mission and the files that it extends
+  std::vector<MissionText> below;  // each lower layer with those that it extends, the lowest first
 
   const RoleText* role(const std::string& name) const { return find_named(roles, name); }
   const ComponentText* component(const std::string& name) const { return find_named(components, name); }
@@ -135,17 +135,17 @@ void read_dds(const Keys& mission, MissionText& text, Report& report);
 
 // hardware.cpp: `hardware:`
 void read_hardware(const Keys& mission, MissionText& text, Report& report);
-/// With io: fcu: reports a mission that is not for hardware, and throws then.
+/// With io: fcu: reports and throws for a mission that is not for hardware.
 void check_hardware(const MissionText& text, const Overrides& overrides, Report& report);
 
-// recording.cpp: `record:`, and `--record`, whose rules come before the mission's own, so that they hold
+// recording.cpp: `record:`, and `--record`, whose rules come before the mission's and take precedence
 void read_recording(const Keys& mission, MissionText& text, Report& report);
 void add_record_options(MissionText& mission, const std::vector<std::string>& options, Report& report);
 /// "64 MB" -> 64e6. Reports a fault and returns 0.
 std::uint64_t parse_bytes(const std::string& text, const Where& where, const std::string& path,
                           Report& report);
 
-/// "nav.state"; nothing and a fault when it is not that.
+/// "nav.state"; nothing and a fault for any other form.
 std::optional<PortName> parse_port_name(const std::string& text, const Where& where, const std::string& path,
                                         Report& report);
 

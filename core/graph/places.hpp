@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where parameters are said: so that what a component refuses in its set-up gets a file and a line.
+// Places of parameters in files: a fault from a component's set-up gets a file and a line.
 #pragma once
 #include <map>
 #include <memory>
@@ -13,8 +13,8 @@ namespace fulmar::core {
 
 struct Component;
 
-/// Of a sentence that begins with a parameter or a part of one, "airframe.inertia.xz: ...": the place of it,
-/// or of the nearest thing around it that a file says. Nothing when no file says it.
+/// Place of the parameter, or of a part of it, with which a sentence begins, as in "airframe.inertia.xz:
+/// ...". Falls back to the nearest enclosing part that a file sets. Nothing when no file sets it.
 std::optional<Where> place_in(const Component& component, const std::string& sentence);
 
 }  // namespace fulmar::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers with units, as people write them in files: "20 deg", "17 m/s", "200 ms", "2 deg/(m/s)". SI inside.
+// Numbers with units in the form of files: "20 deg", "17 m/s", "200 ms", "2 deg/(m/s)". SI inside.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace fulmar::core {
 
-/// A unit: what it measures and how large it is in SI. The angle counts as a dimension, so that "5 deg" is
-/// not a plain number.
+/// A unit: its dimension and its factor to SI. The angle counts as a dimension, so that "5 deg" is not a
+/// plain number.
 struct PhysicalUnit {
   std::array<std::int8_t, 6> dimension{};  // powers of m, kg, s, A, K, rad
   double factor = 1;                       // SI value = number * factor + offset
@@ -26,8 +26,7 @@ std::optional<PhysicalUnit> parse_unit(std::string_view text);
 
 bool same_dimension(const std::string& unit_a, const std::string& unit_b);
 
-/// What multiplies a value in `from` to get one in `to`. 1 when either is unknown. Both must have the same
-/// dimension.
+/// Factor from a value in `from` to one in `to`. 1 when either is unknown. Both must have the same dimension.
 double unit_factor(const std::string& from, const std::string& to);
 
 enum class UnitRule {

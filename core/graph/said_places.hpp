@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a mission file says a parameter and its parts.
+// Places of a parameter and its parts in a mission file.
 #pragma once
 #include <map>
 #include <memory>
@@ -15,10 +15,10 @@ struct Node;
 using SaidPlaces = std::map<std::string, Where>;
 using SaidPlacesPtr = std::shared_ptr<const SaidPlaces>;
 
-/// Those of a whole record, in place of all before.
+/// Places of a whole record; they replace all previous ones.
 SaidPlacesPtr places_of(const Node& node);
 
-/// With those of `node`, a part of it.
+/// Adds the places of `node`, a part of the record.
 SaidPlacesPtr with_place(const SaidPlacesPtr& places, const std::string& field, const Node& node);
 
 /// "stall_alpha_rad" and "stall_alpha" are one place.

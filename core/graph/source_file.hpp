@@ -7,8 +7,8 @@
 namespace fulmar::core {
 
 struct SourceFile {
-  std::filesystem::path path;  // to open what the file names, relative to its folder
-  std::string name;            // as people wrote it: what faults say
+  std::filesystem::path path;  // for files that it names, relative to its folder
+  std::string name;            // as written by the user; used in faults
   std::string text;
 };
 using FilePtr = std::shared_ptr<const SourceFile>;

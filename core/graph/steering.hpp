@@ -8,10 +8,10 @@
 
 namespace fulmar::core {
 
-/// Components of the graph whose outputs lead to what the role `vehicle` takes. The vehicle is left out.
+/// Components of the graph whose outputs lead to an input of the role `vehicle`. Without the vehicle.
 std::vector<int> steering_components(const Graph& graph, const MissionText& text);
 
-/// Those, and the components whose outputs lead to a condition of a phase.
+/// These, and the components whose outputs lead to a condition of a phase.
 std::vector<int> deciding_components(const Graph& graph, const MissionText& text);
 
 }  // namespace fulmar::core

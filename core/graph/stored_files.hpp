@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files of a mission as a log holds them, in place of those on the disk: names without folders, in the
-// order of reading.
+// Files of a mission from a log, in place of those on the disk: names without folders, in the order of
+// reading.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -16,8 +16,8 @@ class StoredFiles {
  public:
   /// Name -> text, as in Graph::attachments.
   explicit StoredFiles(std::vector<std::pair<std::string, std::string>> files) : files_(std::move(files)) {}
-  /// As read_source. A mission reads its files in the same order whenever it is loaded: of two with one name
-  /// the first belongs to the path that is asked for first. One thread.
+  /// As read_source. A mission always reads its files in the same order: of two files with one name, the
+  /// first belongs to the path that is read first. One thread.
   FilePtr read(const std::filesystem::path& path, const std::string& name) const;
   /// The mission file.
   const std::string& first() const { return files_.front().first; }

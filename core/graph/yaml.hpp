@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// YAML files as a tree that remembers file and line of every node, and the report that collects all faults of
-// a set-up.
+// YAML files as a tree with file and line of every node, and the report that collects all faults of a set-up.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -15,22 +14,22 @@
 
 namespace fulmar::core {
 
-/// The faults of a set-up: each once, ordered by file (as the files were opened) and line; of very many the
-/// first hundred that were found.
+/// The faults of a set-up: each once, ordered by file (as the files were opened) and line. At most the first
+/// hundred are kept.
 class Report {
  public:
   void add(const Where& where, Diagnostic message);
   void opened(const std::string& file);
   bool empty() const;
-  /// Whether nothing more is kept: who has to search for the words of a fault can spare it.
+  /// Whether the report drops further faults: the caller can skip their texts.
   bool full() const;
-  /// A layer takes a name away: "components.manage". Whoever still names it is told in one fault, with that
+  /// Records a name that a layer removes: "components.manage". All later uses of it give one fault with that
   /// place.
   void taken_away(const std::string& name, const Where& where);
-  /// Whether one of `names` was taken away; `path` is then what still names it.
+  /// Whether one of `names` was removed; `path` is then added as a remaining use.
   bool still_named(const std::vector<std::string>& names, const Where& where, const std::string& path);
   bool is_taken_away(const std::string& name) const;
-  /// Whether one whose name begins so is still named.
+  /// Whether a removed name with this prefix is still in use.
   bool misses(const std::string& prefix) const;
   std::vector<Diagnostic> faults() const;
   /// One fault per line.
@@ -58,10 +57,10 @@ struct Node {
   enum class Kind : std::uint8_t { missing, null, scalar, sequence, map };
   struct Entry;
   Kind kind = Kind::missing;
-  bool quoted = false;  // a scalar in quotes is text, whatever it looks like
+  bool quoted = false;  // a quoted scalar is always text
   int line = 0;
   FilePtr file;
-  std::string text;            // of a scalar; of a null that is written, and not a mere gap, "null"
+  std::string text;            // of a scalar; "null" for a written null, unlike an omitted value
   std::vector<Node> items;     // of a sequence
   std::vector<Entry> entries;  // of a map, in file order, each key once
 
@@ -77,22 +76,22 @@ struct Node::Entry {
   Where where() const { return {value.file ? value.file->name : "", line}; }
 };
 
-/// What stands there, for a sentence: "nothing", "a list", "a map", "'text'".
+/// Description of a node for a message: "nothing", "a list", "a map", "'text'".
 std::string found_words(const Node& node);
 
 class StoredFiles;
-/// Reads a file. Throws Error when it cannot be read. `name` is what faults call it. `stored`: in place of
-/// the disk.
+/// Reads a file. Throws Error when it cannot be read. `name` is its name in faults. `stored`: in place of the
+/// disk.
 FilePtr read_source(const std::filesystem::path& path, const std::string& name,
                     const StoredFiles* stored = nullptr);
-/// Text that stands in no file, such as a value on the command line: faults name it without a line.
+/// Text without a file, such as a value on the command line: faults name it without a line.
 FilePtr make_source(const std::string& text, const std::string& name);
 
 /// Parses a file. Broken YAML and duplicate keys go to the report; broken YAML gives a missing node.
 Node parse_yaml(const FilePtr& file, Report& report);
 
-/// `top` laid over `base`: maps merge key by key down to `depth` levels, anything else is replaced; a null
-/// takes away what `base` has. What `base` has comes first.
+/// `top` merged over `base`: maps merge key by key down to `depth` levels, any other value is replaced; a
+/// null removes a value of `base`. Values of `base` come first.
 Node merged(const Node& base, const Node& top, int depth);
 
 /// A word of the file with its place: a port, a field, a condition.
@@ -104,7 +103,7 @@ struct Word {
 /// A map whose keys are known: reports unknown keys and wrong types, each with the valid choices.
 class Keys {
  public:
-  /// `path` is how faults name the map: "components.slc"; "" for the file itself.
+  /// `path` is the map's name in faults: "components.slc"; "" for the file itself.
   Keys(const Node& map, std::string path, std::vector<std::string> valid, Report& report);
 
   const Node* get(const std::string& key) const { return map_.find(key); }
@@ -119,8 +118,8 @@ class Keys {
   /// A number with a unit, converted to `unit`. Must be above 0 (`or_zero`: at least 0).
   std::optional<double> positive(const std::string& key, const std::string& unit, bool or_zero = false) const;
   std::optional<std::int64_t> duration_ns(const std::string& key) const;
-  /// What stands in a list or map under the key; nothing, and a fault unless the key is missing, when it is
-  /// something else. `expected` is the fault's word for it: "a list of ports such as [nav.state]".
+  /// Items of the list or map under the key. Another type gives nothing and a fault; a missing key gives
+  /// nothing. `expected` is the description in the fault: "a list of ports such as [nav.state]".
   const std::vector<Node>& items(const std::string& key, const std::string& expected) const;
   const std::vector<Node::Entry>& entries(const std::string& key, const std::string& expected) const;
   /// One of `words`; anything else is a fault.
@@ -132,14 +131,14 @@ class Keys {
   Report& report_;
 };
 
-/// Whether it is a list or map, or whatever else is expected; a fault when not.
+/// Whether it is a list, a map or another expected kind; a fault when not.
 bool is_a(Node::Kind kind, const Node& node, const std::string& path, const std::string& expected,
           Report& report);
 /// The text of a scalar, or nothing and a fault.
 std::optional<std::string> scalar_text(const Node& node, const std::string& path, const std::string& expected,
                                        Report& report);
 std::optional<bool> scalar_flag(const Node& node, const std::string& path, Report& report);
-/// The place of a word in `words`.
+/// Index of a word in `words`.
 std::optional<std::size_t> scalar_word(const Node& node, const std::string& path,
                                        const std::vector<std::string>& words, Report& report);
 /// Text that is shorter than `room` bytes.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Control of a flight. Commands are checked and prepared in the thread that gives them, cross into the
-// loop through a lock-free queue, take effect between two ticks, and go back through another one to be
-// answered and freed.
+// The Control of a flight. Commands are checked and prepared in the sender's thread, cross into the loop
+// through a lock-free queue, and take effect between two ticks. Another queue returns them to be answered and
+// freed.
 #pragma once
 #include <array>
 #include <atomic>
@@ -22,7 +22,7 @@ namespace fulmar::core {
 
 class Unit;
 
-/// One producer, one consumer, pointers; full: refused.
+/// One producer, one consumer, pointers; when full, a push is rejected.
 template <class T, std::size_t N>
 class PointerQueue {
  public:
@@ -52,19 +52,19 @@ class FlightControl final : public Control {
   explicit FlightControl(Flight::Impl& flight);
   ~FlightControl() override;
 
-  /// [tick] Between two ticks. So many commands at most: who sends thousands does not starve the loop. False
-  /// when there was work among them that is done on the ground alone and allocates: a swap, a reset.
+  /// [tick] Between two ticks. Applies a bounded number of commands, so that a flood does not delay the loop.
+  /// Returns false when one of them allocates and is allowed on the ground alone: a swap, a reset.
   bool apply() noexcept;
-  /// [tick] Paused: no tick may begin. `apply` is asked again and again meanwhile.
+  /// [tick] Paused: no tick may begin. `apply` is called repeatedly meanwhile.
   bool stands() const noexcept { return clock_.paused && clock_.left == 0; }
-  /// [tick] Paused, also while ticks are flown that it was asked for: nobody waits for the clock.
+  /// [tick] Paused, also during requested single ticks: nothing waits for the clock.
   bool paused() const noexcept { return clock_.paused; }
-  /// [tick] One more has been flown, and noted.
+  /// [tick] One more tick has been flown, and noted.
   void ticked() noexcept;
-  /// [tick] What `view` tells of the flight.
+  /// [tick] State of the flight for `view`.
   void note(int phase, std::int64_t now_ns, bool armed) noexcept;
   void note_unit(std::size_t component, const Unit& unit) noexcept;
-  /// The flight is over: nothing is taken any more, what waits is answered.
+  /// The flight is over: rejects new commands and answers all pending ones.
   void end();
 
   FlightView view() const override;
@@ -103,13 +103,13 @@ class FlightControl final : public Control {
     PointerQueue<Waiting, max_waiting> in, samples;  // samples do not delay a parameter
     PointerQueue<Waiting, 2 * max_waiting> out;
   };
-  /// The loop's: requests for which there was no room yet, in their order.
+  /// Loop only: requests without room yet, in their order.
   struct Held {
     std::array<Waiting*, max_waiting> list{};
     std::size_t count = 0;
-    bool grounded = false;  // something was done that is done on the ground alone
+    bool grounded = false;  // a command that is allowed on the ground alone was executed
   };
-  /// What the loop tells of the flight.
+  /// State of the flight, written by the loop.
   struct Seen {
     explicit Seen(std::size_t count) : components(std::make_unique<Component[]>(count)) {}
     std::atomic<int> phase{0};
@@ -123,16 +123,16 @@ class FlightControl final : public Control {
     };
     std::unique_ptr<Component[]> components;
   };
-  /// The loop's: whether time stands still.
+  /// Loop only: the pause of flight time.
   struct Clock {
     bool paused = false;
-    std::uint64_t left = 0;      // ticks to fly, though paused
-    Waiting* stepper = nullptr;  // who has asked for them
+    std::uint64_t left = 0;      // ticks to fly despite the pause
+    Waiting* stepper = nullptr;  // its sender
   };
-  /// All that waits to be applied or answered.
+  /// All commands that wait to be applied or answered.
   struct Account {
     std::map<Waiting*, std::unique_ptr<Waiting>> all;
-    std::size_t samples = 0;             // of them
+    std::size_t samples = 0;             // of the pending commands
     std::vector<std::size_t> of_import;  // samples per import
   };
 
@@ -144,9 +144,9 @@ class FlightControl final : public Control {
   std::atomic<bool> over_{false}, stop_{false};
   std::atomic<std::uint64_t> lost_samples_{0};
 
-  mutable std::mutex mutex_;  // never the loop's; guards what follows
+  mutable std::mutex mutex_;  // not used by the loop; guards the following members
   std::shared_ptr<const Directory> directory_;
-  std::vector<std::vector<ParamValue>> base_;  // what the loop has taken over
+  std::vector<std::vector<ParamValue>> base_;  // values that the loop has applied
   Account waiting_;
   std::vector<std::function<void(const std::string&, const std::string&)>> changed_;
   std::thread thread_;

@@ -10,7 +10,7 @@
 
 namespace fulmar::core {
 
-/// What there is to see and to command; changes with a swap alone.
+/// What can be read and commanded; only a swap changes it.
 struct FlightControl::Directory {
   FlightView view;
   std::shared_ptr<const CommandTable> commands;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One flight: creates the components of a graph, runs the loop, and tells how it went.
+// One flight: creates the components of a graph, runs the loop, and returns the result.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -23,28 +23,29 @@ class Flight {
 
   /// Flies until done, failed, interrupted or out of time. Call once.
   FlightResult run();
-  /// Or tick by tick: one tick, paced as the options say; false when the flight is over. Then `finish`, once.
+  /// Alternative, tick by tick: one tick, paced by the options; false when the flight is over. Then `finish`,
+  /// once.
   bool step();
   FlightResult finish();
 
-  /// Whether it ended to make room for another one of its mission.
+  /// Whether it ended for another flight of its mission.
   const std::optional<Restart>& restart() const;
 
-  // For those who look at a flight: between ticks, from the loop's thread.
+  // For observers of a flight: between ticks, from the loop's thread.
   std::int64_t now_ns() const;
   const std::string& phase() const;
   bool paused() const;
   /// The present sample of a port, or nullptr.
   const std::byte* sample(const Source& source) const;
 
-  /// What is asked of the flight from outside, between ticks. Throws Error with the valid choices; of a
-  /// request the component's answer comes through `answered`: "" when accepted, else the reason.
+  /// Applies a command from outside, between ticks. Throws Error with the valid choices. For a request the
+  /// component's answer comes through `answered`: "" when accepted, else the reason.
   void apply(struct Command command, std::function<void(const std::string&)> answered = {});
-  /// The inputs that a component saw last, nullptr when they are not kept.
+  /// The recorded last inputs of a component, nullptr when they are not kept.
   const class Tape* tape(const std::string& component) const;
-  /// What others may ask of a flight that has `live:` or `dds:` and is paced, from any thread; else nullptr.
+  /// Interface of a flight for other threads, when it has `live:` or `dds:` and is paced; else nullptr.
   class Control* control() const;
-  /// Where the flight can be watched: the port that was taken; 0: nowhere.
+  /// The port of the live view; 0: none.
   std::uint16_t live_port() const;
 
   struct Impl;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inside of a flight: its parts, from the bottom up, and the loop that goes through them. For core/run
-// alone.
+// The inside of a flight: its parts, from the bottom up, and the loop over them. For core/run alone.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -25,7 +24,7 @@ class DdsBridge;
 class FlightControl;
 class LiveView;
 
-/// Those who look at a flight and speak to it. What comes later ends before what it speaks to.
+/// Clients of a flight. A later member uses the earlier ones and is destroyed before them.
 struct Onlookers {
   std::unique_ptr<FlightControl> control;
   std::unique_ptr<LiveView> live;
@@ -37,7 +36,7 @@ struct Flight::Impl {
   ~Impl();
 
   // setup.cpp
-  void connect();  // as the graph says; whatever was connected before is not any more
+  void connect();  // connects by the graph; previous connections are removed
   void open_tap();
   void open_to_others();
   void request_arming();
@@ -53,12 +52,12 @@ struct Flight::Impl {
   void note_behind(double seconds);
 
   // pause.cpp
-  bool stand_still();  // between two ticks, as long as the flight is paused; false: it has ended meanwhile
+  bool stand_still();  // between two ticks, while the flight is paused; false: it has ended meanwhile
   void report_pace(const PaceOrder& order);
 
   // commands.cpp: what enters between two ticks, checked before; these throw
   enum class Taken : std::uint8_t { yes, full, idle };
-  /// Of a parameter `command` then holds the value that was in force.
+  /// For a parameter, `command` then holds the previous value.
   Taken take(Command& command, Reply answered);
   void apply_parameter(Command& command, Code reported);
   Taken apply_request(const Command& command, Reply answered);
@@ -76,7 +75,7 @@ struct Flight::Impl {
 
   // resume.cpp
   void resume_if_armed();
-  void resume_now(bool begun);  // `begun`: the flight is in its first phase already
+  void resume_now(bool begun);  // `begun`: the flight is already in its first phase
   void resume_parameter(const Resume::Param& param);
 
   FlightState state;
@@ -87,11 +86,12 @@ struct Flight::Impl {
   Stopwatch stopwatch;
   Stepper stepper;
   Roles roles;
-  std::shared_ptr<const CommandTable> commands;  // what the graph has to command
+  std::shared_ptr<const CommandTable> commands;  // possible commands of the graph
   Onlookers onlookers;
-  std::int64_t heard_ns = never_ns;    // the vehicle's first word, while it is open whether to resume
-  bool catching_up = false;            // with the clock on the wall, and that was said
-  std::map<int, std::string> swapped;  // by component: what its last swap did to its parameters
+  std::int64_t heard_ns = never_ns;    // time of the vehicle's first sample, while the decision to resume is
+                                       // open
+  bool catching_up = false;            // behind the wall clock, and this was reported
+  std::map<int, std::string> swapped;  // by component: changes of its parameters by its last swap
   const Flight& owner;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The libraries of the host's own (links/), each of which a flight opens when its mission has the section.
+// Libraries of the host (links/), which a flight opens when its mission has the section.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -11,9 +11,9 @@
 namespace fulmar::core {
 
 /// Opens lib/fulmar/host/fulmar_SECTION.so of the first of the folders that has one; it stays open. Returns
-/// its table `fulmar_SECTION_library`. `needs`: what else it takes, in a sentence, or ""; `where`: the place
-/// that asks for it. Throws Error when there is none, when it cannot be loaded, and when it comes from
-/// another build than this program.
+/// its table `fulmar_SECTION_library`. `needs`: further requirements, in a sentence, or ""; `where`: place of
+/// the section. Throws Error when there is none, when it cannot be loaded, and when it comes from another
+/// build than this program.
 const void* open_host_library(const std::string& section, const std::string& needs,
                               const std::vector<std::filesystem::path>& homes, const Where& where);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a flight is called at its end.
+// The outcome of a flight in words.
 #pragma once
 #include <string>
 
@@ -7,14 +7,14 @@
 
 namespace fulmar::core {
 
-/// Not begun: nothing has come from one of the roles, and the aircraft has never left the ground.
+/// Not begun: one of the roles has had no output, and the aircraft has never left the ground.
 bool has_begun(const FlightResult& result);
 /// flown, flown with guards, aborted, not begun, failed, interrupted
 const char* result_word(const FlightResult& result);
-/// What ended it, and which role stayed silent where it has not begun.
+/// Cause of the end; when it has not begun, the role without an output.
 std::string reason_of(const FlightResult& result);
-/// One line: "crashed: left wing tip touched ...". What the mission's `verdict:` says follows the result's
-/// word, and its own word takes the place of "failed".
+/// One line: "crashed: left wing tip touched ...". The text of the mission's `verdict:` follows the result's
+/// word, and its own word replaces "failed".
 std::string verdict_line(const Graph& graph, const Flight& flight, const std::string& result_word);
 std::string verdict_of(const Graph& graph, const Flight& flight, const FlightResult& result);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A command, from whoever gives it to where it takes effect: one struct for the queue of the live flight, the
-// loop, the log and a replay.
+// A command, from its sender to its effect: one struct for the queue of the live flight, the loop, the log
+// and a replay.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -17,24 +17,24 @@ struct Command {
   std::string component, name;     // name: parameter, port or phase; of a swap the file
   ParamValue value;                // of a parameter
   std::vector<std::byte> message;  // of a request or import: a struct of the port's type
-  // What CommandTable::prepare has found.
+  // Result of CommandTable::prepare.
   std::size_t at = 0, part = 0;                // component; its parameter or input; import; phase
   std::shared_ptr<const PluginInfo> made_for;  // the component's plugin
-  CommandNote note;                            // what the log will hold
+  CommandNote note;                            // content for the log
 };
 
 Command command_of(CommandKind kind, std::string component = {}, std::string name = {});
 
-/// For the log: the plugin that was swapped in. Throws Error when it has no room for its version.
+/// Log entry of a swapped plugin. Throws Error when its version is too long.
 CommandNote swap_note(const std::string& component, const PluginInfo& plugin);
 
-/// The value that a log tells, of a parameter of this kind. Throws Error for a choice that it does not have.
+/// The logged value of a parameter of this kind. Throws Error for an unknown choice.
 ParamValue value_of(const CommandNote& note, const ParamInfo& info);
 
-/// What there is to command, as of one moment: it changes with a swap alone. Any thread may read it.
+/// Possible commands at one moment: only a swap changes them. Any thread may read it.
 class CommandTable {
  public:
-  /// An input that others than components feed.
+  /// An input that is fed from outside the components.
   struct Entrance {
     std::string port;
     std::size_t input = 0;  // of the component
@@ -44,8 +44,8 @@ class CommandTable {
   };
   explicit CommandTable(const Graph& graph);
 
-  /// The one check of what is commanded: whether it is there, may change, and is in its range. Throws Error
-  /// with the valid choices.
+  /// The single check of a command: whether its target exists, may change, and accepts the value. Throws
+  /// Error with the valid choices.
   void prepare(Command& command) const;
 
   std::size_t component(const std::string& name) const;
@@ -68,7 +68,7 @@ class CommandTable {
   std::vector<std::string> phases_;
 };
 
-/// Throws Error for a parameter that is set before the flight, for good.
+/// Throws Error for a parameter that is fixed before the flight.
 void check_live(const std::string& component, const ParamInfo& info);
 
 }  // namespace fulmar::core

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `run: async`: a component is stepped in a thread of its own, on copies of its inputs; the loop takes each
-// result when its latency is over.
+// `run: async`: a component steps in a separate thread, on copies of its inputs; the loop takes each result
+// when its latency is over.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -15,11 +15,11 @@
 
 namespace fulmar::core {
 
-/// Room for what a component publishes in a thread of its own; `views` point to the rest.
+/// Room for the outputs of a component in a separate thread; `views` point to the rest.
 struct OutputRoom {
   explicit OutputRoom(const ComponentInfo& info);
   OutputRoom() = default;
-  /// [tick] Empty again, dated now.
+  /// [tick] Clears the outputs and sets their time to now.
   void prepare(std::int64_t now_ns) noexcept;
 
   std::vector<fulmar_output> views;
@@ -37,13 +37,13 @@ class Async {
     std::vector<std::vector<fulmar_answer>> answers;
     std::vector<std::vector<Reply>> replies;
   };
-  /// One call on its way: filled in by the loop, worked on by the thread, taken back by the loop.
+  /// One pending call: filled in by the loop, executed by the thread, taken back by the loop.
   struct Job {
     enum class Call : std::uint8_t { step, retune, activate };
     Call call = Call::step;
-    bool dropped = false;  // its component has stopped flying meanwhile: nobody waits for the result
+    bool dropped = false;  // its component has become inactive meanwhile: the result is not needed
     std::int64_t due_ns = 0;
-    std::int64_t held_until_ns = 0;  // in a replay: it was late, and taken then
+    std::int64_t held_until_ns = 0;  // in a replay: it was late, and was taken at this time
     fulmar_tick tick{};
     Inputs in, last;
     OutputRoom out;
@@ -54,23 +54,24 @@ class Async {
     bool missed = false;  // counted
   };
 
-  /// `depth`: steps that can be on their way at once.
+  /// `depth`: largest number of pending steps.
   Async(const std::string& name, const fulmar_component& functions, void* instance, const ComponentInfo& info,
         std::size_t depth);
-  ~Async();  // ends the thread, after the call that it is in
+  ~Async();  // ends the thread, after its present call
   Async(const Async&) = delete;
   Async& operator=(const Async&) = delete;
 
-  /// [tick] A free job to fill in, or nullptr; `submit` hands it over. Steps have room of their own: whether
-  /// there is some does not depend on how long a retune or an activate takes, which a replay does not know.
+  /// [tick] A free job to fill in, or nullptr; `submit` passes it to the thread. Steps have separate room, so
+  /// that its availability does not depend on the duration of a retune or an activate, which a replay does
+  /// not have.
   Job* room(Job::Call call) noexcept;
   void submit() noexcept;
-  /// [tick] The oldest call on its way, or nullptr; `release` when it has been taken.
+  /// [tick] The oldest pending call, or nullptr; call `release` after it has been taken.
   Job* oldest() noexcept;
   bool done() const noexcept { return finished_.load(std::memory_order_acquire) > taken_; }
   void wait() const noexcept;
   void release() noexcept;
-  /// [tick] Nobody wants the results of what is on its way.
+  /// [tick] Drops the results of all pending calls.
   void drop() noexcept;
 
   static void copy_inputs(const std::vector<fulmar_input>& from, const ComponentInfo& info,
@@ -85,9 +86,9 @@ class Async {
   const fulmar_component& functions_;
   void* instance_;
   std::vector<Job> jobs_;
-  std::uint64_t taken_ = 0;                  // the loop's
-  std::size_t max_steps_, steps_ = 0;        // on their way; the loop's
-  std::atomic<std::uint64_t> submitted_{0};  // counts for ever; the top bit asks the thread to end
+  std::uint64_t taken_ = 0;                  // loop only
+  std::size_t max_steps_, steps_ = 0;        // pending; loop only
+  std::atomic<std::uint64_t> submitted_{0};  // counter; its top bit asks the thread to end
   std::atomic<std::uint64_t> finished_{0};
   static constexpr std::uint64_t ending = std::uint64_t{1} << 63;
   std::thread thread_;

@@ -13,20 +13,20 @@
 
 namespace fulmar::core {
 
-/// Due times of asynchronous results that a flight took late, in order, and when it took each.
+/// Due times of asynchronous results that a flight took late, in order, and the time at which it took each.
 using LateResults = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
-/// `run: async`: a step sees the inputs of its tick, and its result is seen when its latency is over.
+/// `run: async`: a step gets the inputs of its tick, and its result becomes visible when its latency is over.
 class AsyncRunner final : public Direct {
  public:
-  /// `wait`: for a result that is late, as simulation does; else it is counted as missed, and taken when it
-  /// comes. `late`: those that a replay takes as late as the flight did.
+  /// `wait`: waits for a late result, as in simulation; else it is counted as missed, and taken when it
+  /// comes. `late`: results that a replay takes as late as the flight did.
   AsyncRunner(const Component& component, std::uint64_t seed, std::int64_t period_ns, bool wait,
               LateResults late, ComponentStats& stats);
 
   void rest() noexcept override { async_.reset(); }
   bool retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept override;
-  /// Whether it takes over is known when its first result is due.
+  /// The first due result shows whether it takes over.
   bool activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,
                 const std::vector<fulmar_input>& last, fulmar_error& problem) noexcept override;
   void deactivate() noexcept override;
@@ -45,10 +45,10 @@ class AsyncRunner final : public Direct {
   bool wait_;
   LateResults late_;
   std::int64_t collected_ns_ = never, before_ns_ = never;  // the last two ticks of `collect`
-  std::unique_ptr<Async> async_;                           // ends before the instance that it steps
+  std::unique_ptr<Async> async_;                           // destroyed before the instance that it steps
 };
 
-/// Samples that have arrived, as many at once as one publication holds.
+/// Arrived samples, at most as many as one publication holds.
 class Arrivals {
  public:
   Arrivals(std::unique_ptr<SampleSource> source, ComponentStats& stats)
@@ -63,7 +63,7 @@ class Arrivals {
   bool started_ = false;
 };
 
-/// `run: driver`: it steps itself, once its first samples have been asked for.
+/// `run: driver`: steps in its own thread, from the first request for samples on.
 class DriverRunner final : public Direct {
  public:
   DriverRunner(const Component& component, std::uint64_t seed, ComponentStats& stats);
@@ -81,7 +81,7 @@ class DriverRunner final : public Direct {
   Arrivals arrivals_;
 };
 
-/// In the place of a driver: what one said in another flight. There is no instance.
+/// Replaces a driver by its samples from another flight. There is no instance.
 class RecordedRunner final : public Runner {
  public:
   RecordedRunner(std::unique_ptr<SampleSource> source, ComponentStats& stats)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `run: driver`: a component that does input and output is stepped again and again in a thread of its own;
-// its samples wait in a ring until the next tick takes them.
+// `run: driver`: a component with input and output steps continuously in a separate thread; its samples wait
+// in a ring for the next tick.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -13,23 +13,23 @@
 
 namespace fulmar::core {
 
-/// What a driver has to say at a tick. One consumer: the loop, which also starts it.
+/// Samples of a driver for a tick. One consumer: the loop, which also starts it.
 struct SampleSource {
   struct Sample {
     std::uint32_t output = 0;  // of the component
     std::int64_t valid_at_ns = 0;
     const std::byte* data = nullptr;  // one message, or a double; valid until `release`
-    bool ends = false;                // what follows is published separately
+    bool ends = false;                // the following samples are published separately
   };
   virtual ~SampleSource() = default;
-  /// [tick] Once, before the first sample is asked for.
+  /// [tick] Call once, before the first `next`.
   virtual void start() {}
   /// [tick] The next sample that has arrived by now, or false.
   virtual bool next(std::int64_t now_ns, Sample& sample) noexcept = 0;
   virtual void release() noexcept = 0;
-  /// [tick] Why no more samples come: "" as long as they may.
+  /// [tick] Why no more samples come: "" while they may.
   virtual const char* fault() const noexcept = 0;
-  /// Samples that found no room in the ring.
+  /// Samples that were dropped because the ring was full.
   virtual std::uint64_t lost() const noexcept = 0;
 };
 

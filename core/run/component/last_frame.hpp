@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For the handler of a signal that ends the host: whose code a thread was in, and what its device still gets.
+// For the handler of a signal that ends the host: the component of a thread, and the last frame for its
+// device.
 #pragma once
 #include <atomic>
 
@@ -8,7 +9,7 @@
 
 namespace fulmar::core {
 
-/// The vehicle's last word, encoded beforehand; nullptr when it has none.
+/// The vehicle's last frame, encoded in advance; nullptr without one.
 inline std::atomic<const fulmar_last_frame*> last_frame{nullptr};
 
 }  // namespace fulmar::core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ports of a component in flight. Its inputs are views of other components' outputs, its outputs are
-// double buffers: a step writes into `staging`, and what passes the guards is published, so a bad step leaves
-// the last good output in place.
+// The ports of a component in flight. Its inputs are views of other components' outputs. Its outputs are
+// double buffers: a step writes into `staging`, and a result that passes the guards is published. So a bad
+// step keeps the last good output in place.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -21,23 +21,23 @@ namespace fulmar::core {
 
 struct Reader;
 
-/// What the ports ask of the component that publishes. Each one in a flight is a Unit.
+/// Properties of the component that publishes. In a flight each one is a Unit.
 struct Publisher {
   const Component* component = nullptr;
   const ComponentInfo* info = nullptr;
-  bool active = false;            // fills a role now, or fills none and always steps
+  bool active = false;            // fills a role now, or has none and always steps
   bool stopped = false;           // by a guard
-  std::int64_t completed_ns = 0;  // when it last came to the end of a step
+  std::int64_t completed_ns = 0;  // end of its last step
 };
 
-/// Where what is published goes in the tap, and how often the log takes it.
+/// Channel of the published samples in the tap, and their period in the log.
 struct LogPlace {
   std::size_t channel = 0;
   std::int64_t period_ns = -1;  // -1: never, 0: every time
   Due due;
 };
 
-/// One output of one component: the last published sample, and those that take every sample.
+/// One output of one component: the last published sample, and the inputs that take every sample.
 struct Slot {
   const Port* port = nullptr;
   Publisher* owner = nullptr;
@@ -50,18 +50,18 @@ struct Slot {
   std::vector<std::pair<Reader*, const CopyPlan*>> queues;  // inputs that take every sample
   struct RoleSlot* role = nullptr;                          // the role output that this one provides
   int filler = -1;                                          // of that role
-  std::unique_ptr<MessageHash> hash;                        // null: what it publishes is stored whole
+  std::unique_ptr<MessageHash> hash;                        // null: its samples are stored completely
   LogPlace log;
 };
 
-/// One output of a role: the slot of whoever published last while active.
+/// One output of a role: the slot of the component that published last while active.
 struct RoleSlot {
   TypePtr type;
-  const Publisher* filler = nullptr;  // publishes now; nullptr: no component has begun
+  const Publisher* filler = nullptr;  // publishes now; nullptr: none has begun
   const Slot* current = nullptr;
   std::uint64_t sequence = 0;
   std::vector<std::pair<Reader*, std::vector<CopyPlan>>> queues;  // plans: one per filler
-  // for those who know the role's own table: conditions, figures
+  // for readers of the role's own table: conditions, figures
   std::vector<CopyPlan> plans;  // one per filler
   mutable std::vector<std::byte> copy;
   const std::byte* message() const noexcept {
@@ -72,7 +72,7 @@ struct RoleSlot {
   }
 };
 
-/// What waits at a queue or request input for the next step.
+/// Samples at a queue or request input for the next step.
 struct Pending {
   std::vector<std::byte> items;
   std::vector<std::int64_t> stamps;
@@ -85,20 +85,20 @@ struct Pending {
 struct Reader {
   const Port* port = nullptr;
   const Wire* wire = nullptr;
-  bool delayed = false;  // it sees what was there at the end of the previous tick
+  bool delayed = false;  // gets the sample of the end of the previous tick
   const Slot* slot = nullptr;
   const RoleSlot* role = nullptr;
   std::vector<CopyPlan> plans;  // value inputs: of the slot, or one per filler of the role
-  std::vector<std::byte> copy;  // where the plan is not a whole copy
+  std::vector<std::byte> copy;  // used where the plan is not a whole copy
   std::uint64_t copied = 0, seen = 0;
   std::int64_t copied_valid_ns = 0;
   Pending pending;
-  int channel = -1;  // of the tap: what comes from outside is stored
+  int channel = -1;  // of the tap: input from outside is stored
 
-  /// Who is to publish on the wire; nullptr: nobody that could be stopped.
+  /// Component that is to publish on the wire; nullptr: none that a guard can stop.
   const Publisher* writer() const { return role ? role->filler : slot ? slot->owner : nullptr; }
   const Slot* source() const { return slot ? slot : role ? role->current : nullptr; }
-  /// Samples published on the wire so far, and of those the ones that a step may see.
+  /// Samples published on the wire so far, and the number of them that a step may read.
   std::uint64_t published() const { return slot ? slot->sequence : role ? role->sequence : 0; }
   std::uint64_t sequence() const { return delayed ? copied : published(); }
   void latch() noexcept;  // delayed wires, at the end of a tick
@@ -107,11 +107,11 @@ struct Reader {
   void push(const std::byte* message, std::int64_t valid_at_ns) noexcept;
 };
 
-/// The inputs of a component, as its functions take them.
+/// The inputs of a component, in the form of its functions.
 class Intake {
  public:
   enum class State : std::uint8_t { good, missing, stale };
-  /// A request that was refused in the last step, for the log.
+  /// A request that was rejected in the last step, for the log.
   struct Refusal {
     std::uint32_t input = 0;
     std::array<char, sizeof(fulmar_answer::reason)> reason{};
@@ -120,23 +120,24 @@ class Intake {
   explicit Intake(const Component& component);
   /// [tick] Whether every required input has a sample.
   bool ready() const noexcept;
-  /// [tick] Whether one of them will never have one, since its writer was stopped; `problem` says which.
+  /// [tick] Whether a required input will never have a sample, because its writer was stopped; `problem`
+  /// names it.
   bool in_vain(fulmar_error& problem) const noexcept;
-  /// [tick] Whether a value has come and is older than its wire allows, if it says how old; `problem` says
-  /// so.
+  /// [tick] Whether a value is older than its wire allows; `problem` names it. False without a value or a
+  /// limit.
   bool too_old(std::size_t input, std::int64_t now_ns, fulmar_error& problem) const noexcept;
   /// [tick] Whether there are required values, and each has come within this time.
   bool all_younger_than(std::int64_t limit_ns, std::int64_t now_ns) const noexcept;
-  /// [tick] Fills `views`. When an input is too old, `problem` says which.
+  /// [tick] Fills `views`. When an input is too old, `problem` names it.
   State prepare(std::int64_t now_ns, fulmar_error& problem) noexcept;
-  /// [tick] Says in `problem` which required input has no sample.
+  /// [tick] Names in `problem` the required input that has no sample.
   void report_missing(fulmar_error& problem) const noexcept;
-  /// [tick] After a step: what it has seen is not news any more, and its answers go to those who asked.
+  /// [tick] After a step: marks its samples as read, and passes its answers to the senders.
   void consume() noexcept;
   void answer(std::size_t input, Reply& reply, const fulmar_answer& a) noexcept;
-  /// [tick] What came in while another one flew is not news.
+  /// [tick] Drops the samples that arrived while another component was active.
   void forget_queues() noexcept;
-  /// [tick] Requests that will not be answered: whoever asked is told why.
+  /// [tick] Rejects pending requests: each sender gets the reason.
   void refuse_requests(const char* why) noexcept;
 
   std::vector<Reader> readers;
@@ -151,15 +152,15 @@ struct Probes {
   LogPlace log;
 };
 
-/// The outputs of a component, as its functions take them. Probes too.
+/// The outputs of a component, including probes, in the form of its functions.
 class Outlets {
  public:
   Outlets(const Component& component, Publisher& owner);
-  /// [tick] Room for what a step publishes, dated now unless it says otherwise.
+  /// [tick] Clears the outputs for a step; their default time is now.
   void prepare(std::int64_t now_ns) noexcept;
-  /// [tick] Whether what the step has written passes the guards; else `problem` says what does not.
+  /// [tick] Whether the outputs of the step pass the guards; else `problem` names the fault.
   bool good(std::int64_t now_ns, fulmar_error& problem) noexcept;
-  /// [tick] Publishes it; `each(slot)` for each sample.
+  /// [tick] Publishes the outputs; `each(slot)` for each sample.
   template <class F>
   void publish(F&& each);
 
@@ -168,13 +169,13 @@ class Outlets {
   Probes probes;
 
  private:
-  /// Whether a step has written there: of many outputs most say nothing in most steps, and looking at their
+  /// Whether a step has written the output. Most outputs are not written in most steps, and reading their
   /// slots would cost more than the step.
   bool written(std::size_t i) const noexcept {
     return views[i].count > 0 || views[i].lost > 0 || values_[i] != 0;
   }
 
-  std::vector<fulmar_output> blank_;  // as a step finds them
+  std::vector<fulmar_output> blank_;  // initial state for a step
   std::vector<std::uint8_t> values_;  // whether it is written in every step
 };
 

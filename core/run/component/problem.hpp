@@ -8,7 +8,7 @@
 
 namespace fulmar::core {
 
-/// Writes a message, cut to the room of `problem`. [tick]
+/// [tick] Writes a message, truncated to the room of `problem`.
 void put_problem(fulmar_error& problem, std::string_view text) noexcept;
 template <std::size_t N, class... Values>
 void put_problem(fulmar_error& problem, const MessageText<N>& text, const Values&... values) noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a component must leave as it is while it flies: the floating-point mode and the signal mask of the
-// thread, and what signals do. The host shares all of that.
+// State that a component must not change in flight: the floating-point mode and the signal mask of the
+// thread, and the signal handlers. The host shares all of it.
 #pragma once
 #include <cstdint>
 
@@ -10,18 +10,17 @@
 
 namespace fulmar::core {
 
-/// The call that was refused to the component whose code runs in this thread, as in "sigaction"; nullptr:
-/// none.
+/// The call that was rejected for the component in this thread, as in "sigaction"; nullptr: none.
 extern constinit thread_local const char* refused_call;
-/// Such calls are refused now: a component flies in this thread.
+/// True while a component flies in this thread: such calls are rejected.
 extern constinit thread_local bool refuses_calls;
-/// And those that start a process: the loop would wait until it runs.
+/// The same for calls that start a process: the loop would wait for its start.
 extern constinit thread_local bool refuses_processes;
 
-/// Signals that this thread has sent to itself and does not take are passed on to the whole process.
+/// Sends blocked signals that this thread has raised on to the whole process.
 void pass_on_signals() noexcept;
 
-/// The status of a call after a look at what it has left behind, which is put right; `problem` says what.
+/// Checks and restores the state after a call. Returns the status of the call; `problem` names the change.
 std::uint32_t put_right(fulmar_error& problem) noexcept;
 inline std::uint32_t judge(std::uint32_t status, fulmar_error& problem) noexcept {
   if (refused_call == nullptr && plain_arithmetic()) [[likely]]
@@ -31,8 +30,8 @@ inline std::uint32_t judge(std::uint32_t status, fulmar_error& problem) noexcept
 
 enum class Thread : unsigned char { loop, own };
 
-/// As long as it lives, the component's code runs in this thread, in flight. In a thread of its own a
-/// component may take its time, and a signal that it raises there is heard when the call has returned.
+/// The component's code runs in this thread, in flight, during the lifetime of the object. In a separate
+/// thread a component may take longer, and a signal that it raises is handled when the call has returned.
 class InFlight {
  public:
   InFlight(const std::string& component, const char* call, Thread thread = Thread::loop) noexcept

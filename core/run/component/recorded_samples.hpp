@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In the place of a driver: the samples of its queues from the log of another flight, at the ticks at which
-// they entered then.
+// Replaces a driver: the samples of its queues from the log of another flight, at the ticks at which they
+// entered it.
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -18,11 +18,11 @@
 
 namespace fulmar::core {
 
-/// Samples between their reading out of a log and the tick that takes them.
+/// Samples that were read from a log and wait for their tick.
 class SampleTrack {
  public:
-  /// `topics`: one per output, "" for a probe and for what was never published. `probes`: the topic of all
-  /// probes, "" for none. Throws Error when the log has none of them, or with other fields.
+  /// `topics`: one per output, "" for a probe and for an output that was never published. `probes`: the topic
+  /// of all probes, "" for none. Throws Error when the log has none of them, or with other fields.
   SampleTrack(const McapFile& log, const ComponentInfo& info, const std::vector<std::string>& topics,
               const std::string& probes, std::int64_t epoch_ns);
 
@@ -30,9 +30,9 @@ class SampleTrack {
   const std::map<std::uint16_t, std::uint32_t>& outputs() const { return outputs_; }
   static constexpr std::uint32_t all_probes = ~0u;
 
-  /// The next message of the log; those of other channels are left aside. Throws Error.
+  /// The next message of the log; ignores other channels. Throws Error.
   void take(const McapFile::Message& message);
-  /// [tick] As of a SampleSource; the sample is valid until the next call.
+  /// [tick] As in SampleSource; the sample is valid until the next call.
   bool next(std::int64_t now_ns, SampleSource::Sample& sample) noexcept;
   std::uint64_t lost() const noexcept { return lost_; }
 
@@ -54,18 +54,17 @@ class SampleTrack {
   std::deque<Stored> waiting_;
   std::size_t waiting_bytes_ = 0;
   Stored given_;
-  std::vector<std::byte> probes_;  // the values of before
+  std::vector<std::byte> probes_;  // the previous values
   std::uint64_t lost_ = 0;
 };
 
 class RecordedSamples final : public SampleSource {
  public:
-  /// Reads the log by itself. Throws Error as SampleTrack does, and when samples are not in the order of
-  /// time.
+  /// Reads the log itself. Throws Error as SampleTrack does, and when samples are not in the order of time.
   RecordedSamples(const std::filesystem::path& log, const ComponentInfo& info,
                   const std::vector<std::string>& topics, const std::string& probes, std::int64_t epoch_ns);
-  /// Of a track that somebody else fills; and when a guard stopped the driver, with what words, in the order
-  /// of time.
+  /// Uses a track that another object fills, and the texts with which a guard stopped the driver, in the
+  /// order of time.
   RecordedSamples(std::shared_ptr<SampleTrack> track,
                   std::vector<std::pair<std::int64_t, std::string>> faults);
   bool next(std::int64_t now_ns, Sample& sample) noexcept override;
@@ -78,9 +77,9 @@ class RecordedSamples final : public SampleSource {
 
   std::shared_ptr<SampleTrack> track_;
   std::vector<std::pair<std::int64_t, std::string>> faults_;
-  std::unique_ptr<McapStream> stream_;  // as long as there is more to read
+  std::unique_ptr<McapStream> stream_;  // while there is more to read
   std::int64_t epoch_ns_ = 0, read_ns_ = std::numeric_limits<std::int64_t>::min();
-  std::string unreadable_;  // why the reading ended
+  std::string unreadable_;  // reason for the early end of reading
   std::int64_t now_ns_ = 0;
 };
 

@@ -4,7 +4,7 @@
 
 namespace fulmar::core {
 
-/// Reports to the sender: "" when accepted, else why not. Called by the loop.
+/// Reports to the sender: "" when accepted, else the reason. Called by the loop.
 using Reply = std::function<void(const char* refusal)>;
 
 }  // namespace fulmar::core

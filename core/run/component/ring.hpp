@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lock-free ring of records of any size between one producer (the loop) and one consumer (a sink's thread).
 //
-// A record lies in one piece, 8-aligned; what is left at the end of the memory is skipped by a record without
-// channel. `head_` and `tail_` count bytes for ever; each thread keeps its own copy of the other's count and
-// looks again only when that one is used up.
+// A record is contiguous and 8-aligned; a record without channel fills the rest at the end of the memory.
+// `head_` and `tail_` count bytes and never wrap. Each thread keeps a copy of the other's count and reads it
+// again only when that copy is used up.
 #pragma once
 #include <atomic>
 #include <bit>
@@ -70,7 +70,7 @@ class Ring {
     return record->channel == skipped ? next() : record;
   }
 
-  /// Consumer. Gives the room of all records read back to the producer. Cheap to call after each record.
+  /// Consumer. Returns the room of all read records to the producer. Cheap enough for each record.
   void release() noexcept {
     if (read_ - released_ < capacity_ / 16 && read_ != seen_head_) return;
     released_ = read_;

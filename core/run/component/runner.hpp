@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a component is run: in the loop's thread, in a child, in a thread of its own, again and again in one
-// that does input and output, or out of a log. The loop speaks to all of them by the calls of the contract.
+// Runs a component: in the loop's thread, in a child, in a separate thread, continuously in a driver's
+// thread, or from a log. The loop uses the calls of the contract for all of them.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -15,13 +15,12 @@
 
 namespace fulmar::core {
 
-/// What a call came to.
+/// Result of a call.
 enum class StepResult : std::uint8_t { stepped, degraded, not_due, waiting, submitted, bad };
 /// Whether there is something to publish.
 constexpr bool has_stepped(StepResult result) noexcept { return result <= StepResult::degraded; }
 
-/// Where the results of a step come from: the step itself, or `collect`, as long as the loop steps it or by
-/// itself.
+/// Source of a step's results: the step itself, or `collect`, either after a step of the loop or without one.
 enum class Results : std::uint8_t { at_once, later, unasked };
 
 class Runner {
@@ -33,25 +32,26 @@ class Runner {
 
   /// [setup]
   virtual std::uint32_t configure(const fulmar_value*, fulmar_error&) { return FULMAR_OK; }
-  /// [setup] What does not return to the loop is ended; afterwards everything is called in this thread.
+  /// [setup] Ends calls that do not return to the loop; afterwards all calls run in this thread.
   virtual void rest() noexcept {}
-  /// [setup] The frame that the device is to get when the host dies; nullptr, and perhaps `problem`: none.
+  /// [setup] The last frame for the device after the host's death; nullptr, and perhaps `problem`: none.
   virtual const fulmar_last_frame* last_frame(const fulmar_input*, fulmar_error&) { return nullptr; }
 
-  /// [tick] False: refused, `problem` says why.
+  /// [tick] False: rejected, `problem` gives the reason.
   virtual bool retune(const std::vector<fulmar_value>&, fulmar_error&) noexcept { return true; }
-  /// [tick] `last`: what was applied last, per output.
+  /// [tick] `last`: the last applied value per output.
   virtual bool activate(const fulmar_tick&, const std::vector<fulmar_input>&,
                         const std::vector<fulmar_input>&, fulmar_error&) noexcept {
     return true;
   }
   virtual void deactivate() noexcept {}
-  /// [tick] Steps on the inputs prepared; what it publishes is then in `out`, but when its results come by
+  /// [tick] Steps on the prepared inputs. The outputs are then in `out`, unless the results come by
   /// `collect`.
   virtual StepResult step(const fulmar_tick&, Intake&, Outlets&, fulmar_error&) noexcept {
     return StepResult::waiting;
   }
-  /// [tick] The next of what has arrived from elsewhere. `not_due`: nothing more in this tick.
+  /// [tick] The next result that has arrived from another thread or a log. `not_due`: nothing more in this
+  /// tick.
   virtual StepResult collect(std::int64_t, Intake&, Outlets&, fulmar_error&) noexcept {
     return StepResult::not_due;
   }
@@ -62,24 +62,23 @@ class Runner {
   /// Whether its results come by `collect`, and whether the loop steps it.
   bool remote() const noexcept { return results_ != Results::at_once; }
   bool stepped_by_loop() const noexcept { return results_ != Results::unasked; }
-  /// Whether its process has died, and whether it did because it did not answer in time: for the wall clock
-  /// alone.
+  /// Whether its process has died, and whether the cause was a time-out: for wall-clock limits alone.
   virtual bool dead() noexcept { return false; }
   virtual bool hung() const noexcept { return false; }
   /// The call that did not return, "step"; "": none.
   virtual const char* died_in() const noexcept { return ""; }
-  /// What its calls have taken from the heap.
+  /// Heap use of its calls.
   HeapUse heap() const noexcept { return heap_; }
-  /// When a result was due that has not come; nothing when none is late.
+  /// Due time of a late result; nothing when none is late.
   virtual std::optional<std::int64_t> overdue_ns(std::int64_t) noexcept { return std::nullopt; }
-  /// When the results were due that the last `collect` took after a tick too late; room for some.
+  /// Due times of the results that the last `collect` took more than a tick late; room for some.
   std::vector<std::int64_t> late_due_ns;
 
  protected:
   HeapUse heap_;
 
  private:
-  const Results results_;  // asked in every step: no virtual function
+  const Results results_;  // read in every step: no virtual function
 };
 
 /// An instance of a component, called in the caller's thread.
@@ -109,8 +108,8 @@ class Direct : public Runner {
   void* instance_;
 };
 
-/// How a child died in a flight that is flown again: whatever killed it then, the clock on the wall or
-/// somebody outside, is not there now.
+/// Death of a child in a replayed flight: its cause, such as the wall clock or an external signal, does not
+/// exist in the replay.
 struct Death {
   std::int64_t at_ns = 0;
   std::string call, cause;
@@ -120,7 +119,7 @@ struct Death {
 /// The same in a child: a crash or a hang costs the component, not the flight.
 class Child final : public Direct {
  public:
-  /// [setup] Throws Error. A child that does not answer a call for `hang_ns` is given up.
+  /// [setup] Throws Error. A child that does not answer a call within `hang_ns` is killed.
   Child(const Component& component, std::uint64_t seed, std::int64_t hang_ns, std::vector<Death> deaths = {});
   bool retune(const std::vector<fulmar_value>& values, fulmar_error& problem) noexcept override;
   bool activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,
@@ -139,7 +138,7 @@ class Child final : public Direct {
   const char* died_in_ = "";
 };
 
-/// What a component that failed says when it says nothing.
+/// Default message of a component that failed without one.
 void put_if_silent(fulmar_error& problem, const char* text) noexcept;
 
 }  // namespace fulmar::core

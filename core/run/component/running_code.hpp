@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whose code a thread is in, for whoever has to tell of a crash or a hang. The handler of a signal that a
-// component raises runs in the component's own thread, so each thread has its own answer.
+// The component whose code a thread runs, for the report of a crash or a hang. The handler of a signal that a
+// component raises runs in the component's own thread, so the value is per thread.
 #pragma once
 #include <atomic>
 #include <string>
@@ -11,13 +11,13 @@ namespace fulmar::core {
 
 /// Name of the component whose code runs in this thread, or nullptr.
 inline constinit thread_local std::atomic<const char*> in_step{nullptr};
-inline constinit thread_local std::atomic<const char*> in_call{"step"};  // which of its functions
+inline constinit thread_local std::atomic<const char*> in_call{"step"};  // name of the function
 
-/// Ends a copy of the program that a component has forked and that comes back from its call.
+/// Ends a copy of the program that a component has forked and that returns from its call.
 [[noreturn]] void end_forked_copy() noexcept;
 
-/// As long as it lives, the component's code runs in this thread. The name has to live as long. A copy of the
-/// process that the code has forked ends here.
+/// The component's code runs in this thread during the lifetime of the object. The name must live as long. A
+/// copy of the process that the code has forked ends here.
 struct Inside {
   Inside(const std::string& component, const char* call) noexcept {
     in_call.store(call, std::memory_order_relaxed);

@@ -54,7 +54,7 @@ struct ComponentStats {
   std::string name;
   Histogram time;
   std::uint64_t steps = 0, degraded = 0, allocations = 0, overruns = 0;
-  std::uint64_t misses = 0;  // asynchronous results that were late; samples of a driver that were lost
+  std::uint64_t misses = 0;  // late asynchronous results; lost samples of a driver
 };
 
 }  // namespace fulmar::core

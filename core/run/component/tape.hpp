@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inputs of a component's last steps, kept so that a newcomer can be rehearsed on them. Fixed memory.
+// The inputs of a component's last steps, for the rehearsal of its successor. Fixed memory.
 #pragma once
 #include <vector>
 
@@ -21,12 +21,12 @@ class Tape {
   std::size_t size() const {
     return static_cast<std::size_t>(count_ < entries_.size() ? count_ : entries_.size());
   }
-  /// The i-th of the steps kept, oldest first. The pointers are the tape's.
+  /// The i-th of the stored steps, oldest first. The pointers belong to the tape.
   Step step(std::size_t i) const;
 
  private:
-  /// The samples of one input, each copied once, however many steps saw it. A big message that changes often
-  /// is kept for fewer steps: older ones then show a newer sample.
+  /// The samples of one input, each copied once for all steps that read it. A big message that changes often
+  /// is kept for fewer steps: older steps then have a newer sample.
   struct Samples {
     std::uint32_t item = 0, capacity = 1;
     std::vector<std::byte> data;

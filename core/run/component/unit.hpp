@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component in flight: its ports, its parameters, when it is due, and who runs it.
+// A component in flight: its ports, its parameters, its schedule, and its runner.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -19,11 +19,11 @@ namespace fulmar::core {
 struct UnitOptions {
   std::int64_t tick_ns = 2'500'000;
   std::uint64_t seed = 0;
-  std::int64_t hang_ns = 2'000'000'000;   // a child that does not answer a call for so long is given up
-  std::vector<Death> deaths;              // of the child, when this was flown before
-  bool wait_for_async = true;             // simulation: a result that is late is waited for; else counted
+  std::int64_t hang_ns = 2'000'000'000;   // a child that does not answer a call within this time is killed
+  std::vector<Death> deaths;              // of the child, in a replayed flight
+  bool wait_for_async = true;             // simulation: waits for a late result; else it is counted
   std::size_t tape_steps = 0;             // inputs to keep; 0: none
-  std::unique_ptr<Runner> runner;         // in place of what its `run:` says
+  std::unique_ptr<Runner> runner;         // in place of the one of its `run:`
   std::unique_ptr<SampleSource> samples;  // in place of a driver
   LateResults late;                       // of an asynchronous component
 };
@@ -35,7 +35,7 @@ class Unit : public Publisher {
   Unit(const Unit&) = delete;
   Unit& operator=(const Unit&) = delete;
 
-  /// [setup] Hands over all base parameters. Throws Error.
+  /// [setup] Passes all base parameters. Throws Error.
   void configure();
   /// [tick] Base parameters with `overlay` on top.
   bool retune(const std::vector<Overlay>* overlay) noexcept;
@@ -43,12 +43,12 @@ class Unit : public Publisher {
   bool due(std::int64_t now_ns) const noexcept { return schedule_.due.is(now_ns); }
   void call_now(std::int64_t now_ns) noexcept { schedule_.due.call(now_ns); }
 
-  /// [tick] Steps once if due and ready. On `bad`, `problem` says what.
+  /// [tick] Steps once if due and ready. On `bad`, `problem` gives the fault.
   StepResult step(std::int64_t now_ns, std::uint64_t index) noexcept;
-  /// [tick] What has arrived from elsewhere: a result of an asynchronous step, samples of a driver.
-  /// `not_due`: nothing more in this tick.
+  /// [tick] Collects a result of an asynchronous step, or samples of a driver. `not_due`: nothing more in
+  /// this tick.
   StepResult collect(std::int64_t now_ns) noexcept;
-  /// [tick] Of the vehicle. It moves the time on.
+  /// [tick] Of the vehicle. It advances the time.
   StepResult read(std::int64_t& now_ns, std::uint64_t index) noexcept;
   /// [tick] The vehicle gets its inputs, or the failsafe's values in their place, or none.
   StepResult write(std::int64_t now_ns, std::uint64_t index, Steering steering,
@@ -57,14 +57,14 @@ class Unit : public Publisher {
   bool activate(std::int64_t now_ns, std::uint64_t index, const std::vector<const Slot*>& last) noexcept;
   void deactivate() noexcept { runner_->deactivate(); }
 
-  /// [setup] Steps through what another one saw; false, and `problem`, at the first thing that a guard would
-  /// not let pass.
+  /// [setup] Steps through the inputs of its predecessor; false, and `problem`, at the first fault of a
+  /// guard.
   bool rehearse(const Tape& from) noexcept;
-  /// [setup] What a step would see now; nullptr when an input is missing.
+  /// [setup] The present inputs of a step; nullptr when an input is missing.
   std::unique_ptr<Tape> present_inputs(std::int64_t now_ns, std::uint64_t index);
-  /// [setup] Channels and periods in the log, of the one whose place it takes.
+  /// [setup] Channels and periods in the log, from the unit that it replaces.
   void keep_log_settings(const Unit& from);
-  /// [setup] Encodes the frame that the device is to get when the host dies, if the vehicle can.
+  /// [setup] Encodes the last frame for the device after the host's death, if the vehicle can.
   void prepare_last_frame(const std::vector<std::vector<std::byte>>& failsafe);
 
   Runner& runner() const noexcept { return *runner_; }
@@ -85,7 +85,7 @@ class Unit : public Publisher {
     std::int64_t tick_ns = 0, last_step_ns = never;
     Due due;
   };
-  struct Arguments {  // room for those of a call
+  struct Arguments {  // room for the arguments of a call
     std::vector<fulmar_input> last;
     std::vector<fulmar_value> values;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The end of a flight: what ending.hpp is asked in each tick, and what is told and done about its answers.
+// The end of a flight: collects the facts of each tick for ending.hpp, and carries out its answers.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -22,14 +22,15 @@ class FlightEnd {
         protection_(protection),
         ending_(state.graph.failsafe_ns) {}
 
-  /// [tick] At its end: whether that was the last one.
+  /// [tick] At its end: whether it was the last one.
   bool reached();
-  /// [tick] Nobody is left to fly.
+  /// [tick] A role has no usable component.
   void failsafe(const Event& why);
   /// At once.
   void end_by(Ending::Cue cue) { carry_out(ending_.take(cue, state_.now_ns)); }
 
-  /// [setup] A host that resumes a flight has not seen all of it: what the mission calls flown may have held.
+  /// [setup] A host that resumes a flight has not observed all of it: the mission's `flown` condition may
+  /// have held.
   void taken_up() noexcept { flown_ = true; }
   bool over() const noexcept { return ending_.over(); }
   bool in_failsafe() const noexcept { return ending_.in_failsafe(); }
@@ -50,8 +51,8 @@ class FlightEnd {
   const Protection& protection_;
   Ending ending_;
   std::int64_t done_since_ns_ = never_ns, failed_since_ns_ = never_ns, flown_since_ns_ = never_ns;
-  bool flown_ = false;                       // what the mission calls flown has held
-  decltype(Event::words) failsafe_words_{};  // why nobody can fly any more
+  bool flown_ = false;                       // the mission's `flown` condition has held
+  decltype(Event::words) failsafe_words_{};  // reason of the failsafe
 };
 
 }  // namespace fulmar::core

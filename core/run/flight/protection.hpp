@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the vehicle says of its aircraft, by the flags of its contract, and what follows for the host.
+// State of the aircraft from the flags of the vehicle's contract, and its consequences for the host.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -12,26 +12,26 @@ namespace fulmar::core {
 class Protection {
  public:
   explicit Protection(const FlightState& state) : state_(state) {}
-  /// [setup] Where the flags stand; anew when units were exchanged.
+  /// [setup] Finds the flags; call it again after an exchange of units.
   void connect(const Wiring& wiring) noexcept;
 
-  /// What counts of a vehicle that has no such flag, or has not published it yet: disarmed, on the ground, in
-  /// control. Nothing that the host does reaches a vehicle that is silent, and at its desk a host must end by
-  /// one signal.
+  /// Defaults for a vehicle without such a flag, or before its first sample: disarmed, on the ground, in
+  /// control. The host cannot reach a vehicle that sends nothing, and on the bench one signal must end the
+  /// host.
   bool armed() const noexcept { return armed_.says(false); }
   bool on_ground() const noexcept { return on_ground_.says(true); }
-  /// In the air for certain: it says so.
+  /// In the air for certain: the vehicle reports it.
   bool flies() const noexcept { return armed() && !on_ground_.says(false); }
   bool has_flown() const noexcept { return has_flown_; }
   bool has_spoken() const noexcept { return armed_.spoken(); }
-  /// An aircraft that the host does not leave.
+  /// An aircraft whose flight the host must not end.
   bool armed_hardware() const noexcept { return state_.on_hardware() && armed(); }
-  /// Why nothing can be swapped now, or "".
+  /// Reason why a swap is not possible now, or "".
   std::string in_use() const;
 
   /// [tick] After the vehicle was read. True when control has just returned.
   bool watch() noexcept;
-  /// [tick] The vehicle does not obey: nothing may wind up meanwhile.
+  /// [tick] The vehicle does not follow commands: controllers must not wind up meanwhile.
   bool out_of_control() const noexcept { return out_of_control_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who flies: the present phase, who fills which role in it, hand-over, guards and fallbacks.
+// Active components: the present phase, the component of each role in it, hand-over, guards and fallbacks.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -20,19 +20,19 @@ class Roles {
  public:
   Roles(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection, FlightEnd& end,
         Stepper& stepper);
-  /// [setup] Which roles feed the vehicle. Again when units were exchanged.
+  /// [setup] Finds the roles that feed the vehicle. Call it again after an exchange of units.
   void connect();
 
   int phase() const noexcept { return phase_; }
-  /// What the present phase lays over a component's parameters, or nullptr.
+  /// The present phase's overlay of a component's parameters, or nullptr.
   const std::vector<Overlay>* overlay_of(int component) const noexcept;
 
   // phases.cpp
-  /// [tick] In another phase than the first one. Before `begin`.
+  /// [tick] Starts in another phase than the first one. Before `begin`.
   void begin_in(int phase) noexcept { phase_ = phase; }
-  /// [tick] Before the vehicle is read for the first time: what the first phase says of it.
+  /// [tick] Before the first read of the vehicle: applies the first phase's settings of it.
   void prepare_vehicle();
-  /// [tick] In the first tick: nobody has flown before, so each component is activated when its inputs have
+  /// [tick] In the first tick: no component was active before, so each is activated when its inputs have
   /// arrived.
   void begin();
   void transitions();
@@ -41,17 +41,17 @@ class Roles {
   void enter(int phase, const std::string& because = {});
 
   // roles.cpp
-  /// [tick] Steps a component, and stops it when its step or its budget says so.
+  /// [tick] Steps a component, and stops it after a fault of its step or its budget.
   void step(int component);
-  /// [tick] The same for the time that the vehicle took.
+  /// [tick] The same for the time of the vehicle.
   void charge(Unit& unit);
-  /// [tick] A guard has fired: the last good output is held; the fallback takes over; when nobody is left,
-  /// failsafe.
+  /// [tick] A guard has fired: the last good output is held, the fallback takes over; without a usable
+  /// fallback, failsafe.
   void stop(int component, Code code = Code::guard);
-  /// Who flew when, up to now; and when nobody has ever commanded the vehicle, the first role that nothing
-  /// has come from.
+  /// Ends the list of active components. When the vehicle was never commanded, it finds the first role
+  /// without an output.
   void conclude();
-  /// A guard was reset: it fills its roles again.
+  /// A guard was reset: the component fills its roles again.
   void fly_again(int component);
   std::string idle_role() const;
 
@@ -91,8 +91,8 @@ class Roles {
   int phase_ = 0;
   std::vector<int> active_;                           // per role: the component that fills it now, or -1
   std::vector<bool> drives_vehicle_;                  // per role
-  std::vector<std::int64_t> any_since_, next_since_;  // since when a transition's condition holds
-  std::vector<const Slot*> hand_over_;                // room for what was last applied
+  std::vector<std::int64_t> any_since_, next_since_;  // times since which a transition's condition holds
+  std::vector<const Slot*> hand_over_;                // room for the last applied outputs
   Streams streams_;
 };
 

@@ -19,7 +19,8 @@ class Stepper {
   Stepper(FlightState& state, Wiring& wiring, Recorder& recorder, Protection& protection,
           Stopwatch& stopwatch);
 
-  /// [setup] Which roles are held while the vehicle does not obey. Again when units were exchanged.
+  /// [setup] Finds the roles that are held while the vehicle does not obey. Call it again after an exchange
+  /// of units.
   void connect();
 
   /// [tick] Steps a component if it is due, and publishes results that have arrived from other threads.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The clock on the wall: what a step takes of it, whether that is too much, and when the next tick may begin.
+// Wall-clock time: duration of a step, its budget, and the start time of the next tick.
 #pragma once
 #include <cstdint>
 
@@ -14,23 +14,23 @@ class Stopwatch {
 
   /// [tick] In the first one.
   void begin() noexcept;
-  /// [tick] At the begin of each. Where nothing is judged by the clock, one tick in eight is timed: to read
-  /// it after each step costs more than many a step.
+  /// [tick] At the start of each. Where no limit uses the clock, one tick in eight is timed: a reading after
+  /// each step costs more than many a step.
   void enter(std::uint64_t tick) noexcept;
-  /// [tick] Charges the time since the last reading to `unit`: one reading between two steps times both. True
-  /// when the unit has been over its budget for too long.
+  /// [tick] Charges the time since the last reading to `unit`: one reading between two steps serves both.
+  /// True when the unit has exceeded its budget for too long.
   bool charge(Unit& unit) noexcept;
-  /// [tick] The time since the last reading is nobody's.
+  /// [tick] Charges the time since the last reading to no unit.
   void skip() noexcept;
-  /// [tick] Flight time goes on from here, at a speed of its own: what it stood still is not caught up.
+  /// [tick] Flight time continues from here, at its present speed: a pause is not made up for.
   void go_on() noexcept;
-  /// [tick] Flight time has stood still since then.
+  /// [tick] Flight time has been paused since then.
   void note_stood(std::int64_t since_ns) noexcept;
-  /// [tick] Sleeps until the wall clock has caught up with flight time. Seconds that flight time is behind.
+  /// [tick] Sleeps until the wall clock has reached flight time. Returns the delay of flight time, s.
   double pace() noexcept;
   /// [tick] Every 200 ms.
   bool time_to_show() noexcept;
-  double elapsed_s() const noexcept;  // without what it stood still
+  double elapsed_s() const noexcept;  // without pauses
 
  private:
   std::int64_t measure(Unit& unit) noexcept;
@@ -39,7 +39,7 @@ class Stopwatch {
   Recorder& recorder_;
   bool timed_ = true;  // this tick
   std::int64_t wall_ns_ = 0, begin_ns_ = 0, shown_ns_ = 0, stood_ns_ = 0;
-  // where the flight's speed counts from; never: from the first tick
+  // start point of the flight's speed; never: from the first tick
   std::int64_t paced_wall_ns_ = 0, paced_flight_ns_ = never_ns;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The components of a flight and the wires between them: what is published, who reads it.
+// The components of a flight and the wires between them: published samples and their readers.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace fulmar::core {
 
 class Wiring final : public SampleReader {
  public:
-  /// An input that is fed from outside reads a slot that no component writes.
+  /// An input from outside reads a slot that no component writes.
   struct Import {
     Slot slot;
     Reader* reader = nullptr;
@@ -26,30 +26,28 @@ class Wiring final : public SampleReader {
   explicit Wiring(FlightState& state);
   /// [setup] A new unit of a component, unconnected. Throws Error.
   std::unique_ptr<Unit> make_unit(const Component& component) const;
-  /// [setup] As the graph says; whatever was connected before is not any more.
+  /// [setup] Connects all units by the graph; previous connections are removed.
   void connect();
 
   Unit& unit(int index) const noexcept { return *nth(units, index); }
   Unit& vehicle() const noexcept { return unit(state_.graph.vehicle); }
   int index_of(const Unit& unit) const noexcept;
 
-  /// [tick] What the last good step of a unit wrote goes to its readers and to the recorder.
+  /// [tick] Publishes the outputs of a unit's last good step to its readers and to the recorder.
   void publish(Unit& unit, Recorder& recorder);
-  /// [tick] A sample from outside.
+  /// [tick] Publishes a sample from outside.
   void publish_import(std::size_t import, const std::byte* message);
-  /// [tick] At its end: delayed wires.
+  /// [tick] At its end: updates delayed wires.
   void latch() noexcept;
 
-  /// [tick] A sample is stale for a condition, and nullptr, when whoever wrote it has been stopped.
+  /// [tick] A sample is stale for a condition, and nullptr, when its writer has been stopped.
   const std::byte* sample(const Source& source) const noexcept override;
   std::int64_t now_ns() const noexcept override { return state_.now_ns; }
-  /// [tick] Whether a condition has held for that long; `since_ns` remembers since when, between ticks.
+  /// [tick] Whether a condition has held for that long; `since_ns` stores its start between ticks.
   bool held_for(const Condition& condition, std::int64_t for_ns, std::int64_t& since_ns) const noexcept;
-  /// [tick] Whoever publishes there now, or nullptr; and the message, in the role's own table, once there is
-  /// one.
-  /// [tick] It fills its roles now: what comes from them is to come from there.
+  /// [tick] The unit fills its roles now: their samples are to come from it.
   void expect_from(Unit& unit) noexcept;
-  /// Whether anything has come from a role.
+  /// Whether a role has had any output.
   bool has_published(std::size_t role) const noexcept;
   const Slot* slot_of(const Source& source) const noexcept;
   const std::byte* message_of(const Source& source) const noexcept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What leaves a flight: messages, probes, events, commands, ticks and their hashes into the tap and its log,
-// words to people.
+// Output of a flight: messages, probes, events, commands, ticks and their hashes into the tap and its log,
+// texts to users.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -24,29 +24,29 @@ class Recorder {
 
   /// [setup] setup.cpp: makes the tap, and the log when there is to be one. Throws Error.
   void open(const Units& units, bool with_log);
-  /// [setup] Whose texts are told; anew when units were exchanged.
+  /// [setup] Selects the units whose texts are printed; call it again after an exchange of units.
   void listen(const Units& units);
-  /// [setup] Of a plugin that was swapped in.
+  /// [setup] Records a swapped plugin.
   void note_swap(const std::string& component, const PluginInfo& plugin);
   Tap* tap() const noexcept { return tap_.get(); }
 
-  /// [tick] What happened: for the log, and aloud for people.
+  /// [tick] Records an event in the log, and prints it when `aloud`.
   void note(const Event& event, bool aloud = true);
-  /// [tick] A sample that was just published; what it tells people.
+  /// [tick] Records a sample that was just published, and prints its texts.
   void put(Slot& slot);
   void put_probes(Unit& unit);
-  /// [tick] What came from outside.
+  /// [tick] Records a command from outside.
   void put_command(const CommandNote& note);
   void put_input(int channel, const std::byte* message);
-  /// [tick] Requests that a component has refused. Whoever asked has been told; this is for the log.
+  /// [tick] Records the requests that a component has rejected. The senders already have the answer.
   void note_refusals(Unit& unit) noexcept;
   /// [tick] At its end.
   void note_tick();
-  /// [tick] Once, when the log's disk has failed.
+  /// [tick] Reports once that the log's disk has failed.
   void check_log();
-  /// [tick] How long the loop has waited for the log since this was last asked.
+  /// [tick] Time that the loop has waited for the log since the last call.
   std::int64_t take_wait_ns() noexcept { return tap_ ? tap_->take_wait_ns() : 0; }
-  /// [tick] Whether the loop waits for the log from now on: as fast as the machine allows.
+  /// [tick] Whether the loop waits for the log from now on: for a flight as fast as the machine allows.
   void wait_for_log(bool on) noexcept {
     if (log_) tap_->hold_back(on);
   }
@@ -57,11 +57,11 @@ class Recorder {
   struct Channels {
     std::size_t event = 0, ticks = 0, parameter = 0, command = 0, lines = 0;
   };
-  /// A port whose texts are for people.
+  /// A port whose texts are printed for users.
   struct Reported {
     const Slot* slot = nullptr;
     const Field *text = nullptr, *severity = nullptr, *cause = nullptr;
-    std::vector<char> last;  // of a port that is written in every step: told when it changes
+    std::vector<char> last;  // of a port that is written in every step: printed when it changes
   };
   class ChannelList;
 
@@ -76,7 +76,7 @@ class Recorder {
   void put_ticks();
 
   FlightState& state_;
-  std::unique_ptr<Tap> tap_;  // before the log, which hangs on it
+  std::unique_ptr<Tap> tap_;  // before the log, which uses it
   std::unique_ptr<Log> log_;
   Channels channels_;
   Ticks ticks_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a flight ends, as one state machine. What is true at the end of a tick goes in, what the flight has to
-// do and to tell comes out. It knows no aircraft, no mission and no words, so its table is tested alone.
+// The end of a flight as one state machine. Its inputs are the facts at the end of a tick, its outputs are
+// actions and reports. It does not depend on aircraft, missions or texts, so its table is tested alone.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -11,36 +11,36 @@
 
 namespace fulmar::core {
 
-/// Aborted: `done` holds, but what the mission calls flown never did.
+/// Aborted: `done` holds, but the mission's `flown` condition never did.
 enum class Outcome : std::uint8_t { flown, aborted, failed, interrupted };
 
 class Ending {
  public:
   enum class State : std::uint8_t {
-    flying,     // nothing has been decided
-    concluded,  // how the flight will have ended is decided; an armed aircraft flies on under command
-    failsafe,   // nobody can fly: the vehicle gets the failsafe's values for their time, then nothing
-    giving_up,  // a signal has asked for the end: the vehicle gets nothing from now on, its pilot has it
-    silent,  // the vehicle has heard nothing for a while: the aircraft is its pilot's, if it is still armed
+    flying,     // no decision yet
+    concluded,  // the outcome is decided; an armed aircraft flies on under command
+    failsafe,   // a role has no usable component: the vehicle gets the failsafe's values for their time, then
+                // nothing
+    giving_up,  // a signal has requested the end: the vehicle gets nothing from now on, its pilot has control
+    silent,     // the vehicle has had no command for a while: its pilot has control, if it is still armed
     over,
   };
-  /// What can make a difference to a flight's end.
+  /// Inputs of the state machine.
   enum class Cue : std::uint8_t {
     done,            // the mission's condition holds
     failed,          // the same
-    duration,        // what the flight's owner has asked for has been flown
+    duration,        // the requested duration has been flown
     timeout,         // of a simulated flight
-    nobody,          // is left to fly
-    silence,         // follows a failsafe, and has lasted for a second
+    nobody,          // a role has no usable component
+    silence,         // the failsafe is over, and a second has passed since
     disarmed,        // there is no armed aircraft, and the end has been decided
     signal,          // to the host, and there is no armed aircraft
     first_signal,    // while the aircraft is armed
     second_signal,   // soon after a first one
-    vehicle_failed,  // time stands still without it
-    abandoned,       // by the flight's owner
+    vehicle_failed,  // it does not advance the time any more
+    abandoned,       // by the owner of the flight
   };
-  /// What the flight has to do about it. What is told is told of armed aircraft alone: of others the end says
-  /// all.
+  /// Actions of the flight. Reports are for armed aircraft alone: for others the result is enough.
   enum class Act : std::uint8_t {
     none,
     report_done,
@@ -75,13 +75,13 @@ class Ending {
   static Step step(State state, Cue cue) noexcept;
   static Outcome outcome(Reason reason) noexcept;
 
-  /// What is true at the end of a tick.
+  /// Facts at the end of a tick.
   struct Facts {
     std::int64_t now_ns = 0;
-    bool armed = false;  // on hardware: the host does not leave such an aircraft
+    bool armed = false;  // on hardware: the host must not end the flight of such an aircraft
     bool done = false, failed = false, duration = false, timeout = false, signal = false;
   };
-  /// What to do, in order.
+  /// Actions, in order.
   struct Acts {
     std::array<Act, 3> list{};
     std::size_t count = 0;
@@ -95,7 +95,7 @@ class Ending {
 
   /// [tick] At its end.
   Acts tick(const Facts& facts) noexcept;
-  /// [tick] At once: nobody, vehicle_failed, abandoned.
+  /// [tick] Takes effect immediately: nobody, vehicle_failed, abandoned.
   Act take(Cue cue, std::int64_t now_ns) noexcept;
 
   State state() const noexcept { return state_; }
@@ -110,8 +110,8 @@ class Ending {
   Steering steering(std::int64_t now_ns) const noexcept;
 
   static constexpr std::int64_t silence_ns =
-      1'000'000'000;  // after a failsafe, before the flight is called lost
-  static constexpr std::int64_t repeat_ns = 5'000'000'000;  // how long a refused signal can be repeated
+      1'000'000'000;  // after a failsafe, before the flight counts as lost
+  static constexpr std::int64_t repeat_ns = 5'000'000'000;  // time in which a rejected signal can be repeated
 
  private:
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::min();

@@ -34,7 +34,7 @@ std::vector<fs::path> source_files(const fs::path& folder) {
   return files;
 }
 
-/// In a group of its own: the terminal's interrupt is the host's, which then ends the whole build.
+/// In a separate process group: the terminal's interrupt reaches the host, which then ends the whole build.
 bool run_build(const std::string& command, const std::atomic<int>& interrupted) {
   pid_t child = -1;
   try {

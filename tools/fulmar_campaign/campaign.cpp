@@ -36,7 +36,7 @@ class Campaign {
           source_files(fs::absolute(session_.graph().source.file).parent_path()));
   }
 
-  /// The exit code.
+  /// Returns the exit code.
   int fly() {
     int worst = 0;
     const int flights = seeds_.empty() ? many_.repeat : static_cast<int>(seeds_.size());
@@ -72,11 +72,10 @@ class Campaign {
   const std::vector<std::uint64_t> seeds_;
   const bool json_;
   Session session_;
-  std::unique_ptr<FileStamps> sources_;  // beside the mission, with --build
+  std::unique_ptr<FileStamps> sources_;  // of the mission's folder, with --build
 };
 
-/// Waits until a file has changed that the mission uses and the mission can be flown with it. False:
-/// interrupted.
+/// Waits until a file of the mission has changed and the mission is valid. Returns false when interrupted.
 bool Campaign::wait_for_change() {
   say_aloud("\nwaiting for a change; Ctrl-C ends");
   std::string gone;
@@ -114,11 +113,11 @@ int fly_campaign(RunOptions options, const ManyOptions& many) {
                                    : "",
                   many.watch, !seeds.empty()};
   ResultFile output(options.json);
-  handle_signals(false, 10);  // also while it is set up
+  handle_signals(false, 10);  // also during the set-up
   Campaign campaign(options, many, seeds);
   const int worst = campaign.fly();
   if (!campaign.print(output)) return ExitCode::failed;
-#ifndef FULMAR_SANITIZED  // which looks for leaks at its exit, and takes its time
+#ifndef FULMAR_SANITIZED  // the sanitizer searches for leaks at the exit, which takes time
   expect_exit(worst);
 #endif
   return worst;

@@ -5,7 +5,7 @@
 
 namespace fulmar::core {
 
-/// Flies; prints each flight and what they have in common. Returns the exit code. Throws Error, and
+/// Runs the flights; prints each one and the statistics. Returns the exit code. Throws Error, and
 /// CLI::ValidationError (wrong usage).
 int fly_campaign(RunOptions options, const ManyOptions& many);
 

@@ -23,7 +23,7 @@ bool whole(const std::string& text, std::uint64_t& number) {
   return code == std::errc{} && end == text.data() + text.size() && !text.empty();
 }
 
-/// What of a result is no figure of how it flew.
+/// Keys of a result that are no figures of the flight.
 bool passed_by(const std::string& key) {
   static const std::set<std::string> keys{"allocations",  "behind_max_s", "dds",  "live",
                                           "log_dropped",  "misses",       "seed", "speedup",

@@ -11,11 +11,10 @@ namespace fulmar::core {
 /// "1..20", "3,5,8..10". Throws Error.
 std::vector<std::uint64_t> parse_seeds(const std::string& text);
 
-/// Of the figures of those results (as result_json makes them) that are flown: "mean", "deviation" (of the
-/// sample; null for one flight), "least", "most", each with the figures in their places, and "flown", how
-/// many.
+/// Statistics of the figures of those results (of result_json): "mean", "deviation" (of the sample; null for
+/// one flight), "least", "most", each with the figures in their places, and "flown", the number of flights.
 nlohmann::json spread(const std::vector<nlohmann::json>& results);
-/// For people. `results` as above.
+/// Table for a terminal. `results` as above.
 std::string spread_table(const std::vector<nlohmann::json>& results);
 
 }  // namespace fulmar::core

@@ -22,12 +22,12 @@ namespace fs = std::filesystem;
 using core::Error;
 
 constexpr const char* own_package = "fulmar_msgs";
-constexpr const char* mark = "package.fulmar";  // lists the files of a package that was written here
+constexpr const char* mark = "package.fulmar";  // lists the files of a package that this program wrote
 
 std::string package_of(const std::string& ros_name) { return ros_name.substr(0, ros_name.find('/')); }
 std::string last_of(const std::string& ros_name) { return ros_name.substr(ros_name.rfind('/') + 1); }
 
-/// What rosidl allows: lower case, digits, single underscores, a letter first; CamelCase for types.
+/// Names that rosidl accepts: lower case, digits, single underscores, a letter first; CamelCase for types.
 void check_names(const core::Type& type) {
   static const std::regex field_name("[a-z]([a-z0-9]|_[a-z0-9])*"), type_name("[A-Z][A-Za-z0-9]*");
   const std::string name = last_of(core::ros_name(type));
@@ -102,8 +102,8 @@ void write(const fs::path& file, const std::string& content) {
   if (!out) throw Error(ros2_messages::file_not_writable(file.string(), std::strerror(errno)));
 }
 
-/// Removes what an earlier run has written and this one does not. Only plain names below the folder are
-/// believed.
+/// Removes files that an earlier run has written and this one has not. Only plain names below the folder are
+/// accepted.
 void remove_old(const fs::path& folder, const Package& package) {
   std::istringstream list(read(folder / mark));
   for (std::string name; std::getline(list, name);) {
@@ -123,7 +123,7 @@ Collector::Collector() {
 
 void Collector::message(const core::TypePtr& type, const std::string& from) {
   const std::string name = core::ros_name(*type);
-  if (package_of(name) != own_package) {  // what is in it comes with its package
+  if (package_of(name) != own_package) {  // its nested types are in its package
     foreign_[package_of(name)] = true;
     return;
   }

@@ -14,13 +14,13 @@ namespace fulmar::ros2 {
 struct Package {
   std::map<std::string, std::string> files;
   std::map<std::string, std::string> hashes;  // "fulmar_msgs/msg/Plan" -> RIHS01_...
-  std::vector<std::string> depends;           // packages that foreign messages come from
+  std::vector<std::string> depends;           // packages of foreign messages
 };
 
-/// Collects types and writes them down. Two different messages of one name are an Error.
+/// Collects types and writes their definitions. Two different messages of one name are an Error.
 class Collector {
  public:
-  /// With what the host itself publishes.
+  /// Begins with the messages that the host publishes.
   Collector();
   /// Messages of all ports, and of the probes; requests as services.
   void add(const core::PluginInfo& plugin);
@@ -32,15 +32,15 @@ class Collector {
 
   struct Known {
     core::TypePtr type;
-    std::string from;  // the plugin that was first
+    std::string from;  // the first plugin with the message
   };
   std::map<std::string, Known> messages_;          // by ROS name, without the foreign ones
   std::map<std::string, core::TypePtr> requests_;  // by ROS name of the service
   std::map<std::string, bool> foreign_;            // packages
 };
 
-/// Writes the package. A folder that is there must be empty or hold a package that this function has written;
-/// files of an earlier one that are no longer in it are removed. Throws Error.
+/// Writes the package. An existing folder must be empty or hold a package of this function; files of an
+/// earlier package that are not in this one are removed. Throws Error.
 void write_package(const Package& package, const std::filesystem::path& folder);
 
 }  // namespace fulmar::ros2

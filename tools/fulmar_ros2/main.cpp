@@ -20,7 +20,7 @@ struct Options {
   std::vector<std::string> plugins;
 };
 
-/// The plugins that are named, or those of a mission; else all that are installed.
+/// The given plugins, or those of a mission; else all installed ones.
 void collect(const Options& options, ros2::Collector& collector) {
   if (!options.mission.empty()) {
     const core::Graph graph = core::load_mission(options.mission);
@@ -30,8 +30,7 @@ void collect(const Options& options, ros2::Collector& collector) {
   std::vector<std::string> names = options.plugins;
   if (names.empty() && options.mission.empty()) {
     for (const std::string& name : catalogue.names()) {
-      if (name.find('.') == std::string::npos)
-        names.push_back(name);  // plugins; scripts have no messages of their own
+      if (name.find('.') == std::string::npos) names.push_back(name);  // plugins; scripts define no messages
     }
   }
   for (const std::string& name : names) {

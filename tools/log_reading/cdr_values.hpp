@@ -13,8 +13,7 @@ namespace fulmar::core {
 /// A number, text or label in a message.
 struct CdrValue {
   std::string name;  // "legs[1].position_m.north"
-  std::string
-      text;  // of a number the shortest that reads back the same; the constant's name where it has one
+  std::string text;  // of a number the shortest that reads back the same, or the name of its constant
 };
 /// All values of a message whose type has no layout, in the order of its bytes. Throws Error when the bytes
 /// do not fit the type, or hold more than `most`.

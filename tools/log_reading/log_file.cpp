@@ -37,7 +37,7 @@ std::uint64_t log_epoch_ns(const McapFile& log, std::uint64_t first_ns) {
       const bool epoch = m.name == "fulmar" && key == "epoch_ns";
       if (epoch && std::from_chars(text.data(), text.data() + text.size(), ns).ec == std::errc{}) return ns;
     }
-  // The attachments of a Fulmar log bear the time of the epoch.
+  // The attachments of a Fulmar log have the time of the epoch.
   return log.library == "fulmar" && !log.attachments.empty() ? log.attachments[0].log_ns : first_ns;
 }
 

@@ -8,10 +8,10 @@
 
 namespace fulmar::core {
 
-/// Throws Error that says why what is named is no log: there is none, a directory, empty.
+/// Throws Error with the reason why the file is no log: missing, a directory, empty.
 void check_log_file(const std::string& file);
 
-/// When flight time 0 was, in log time: what a Fulmar log says, else the first message's time.
+/// Log time of flight time 0: from a Fulmar log's attachments, else the time of the first message.
 std::uint64_t log_epoch_ns(const McapFile& log, std::uint64_t first_ns);
 
 }  // namespace fulmar::core

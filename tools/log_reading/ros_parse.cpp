@@ -41,7 +41,7 @@ bool read_number(std::string_view text, T& value) {
   return code == std::errc{} && end == text.data() + text.size();
 }
 
-/// The first word, cut off from `s`.
+/// Removes the first word from `s` and returns it.
 std::string_view take_word(std::string_view& s) {
   s = trimmed(s);
   const std::string_view word = s.substr(0, s.find_first_of(" \t"));
@@ -49,7 +49,8 @@ std::string_view take_word(std::string_view& s) {
   return word;
 }
 
-/// "geometry_msgs/Point" and "geometry_msgs/msg/Point" are one; a bare name belongs to `package`.
+/// "geometry_msgs/Point" and "geometry_msgs/msg/Point" are the same; a name without a package belongs to
+/// `package`.
 std::string full_name(std::string_view name, const std::string& package) {
   const std::size_t slash = name.find('/');
   if (slash == std::string_view::npos) return package + "/msg/" + std::string(name);
@@ -121,7 +122,7 @@ class Parser {
       return;
     }
     Field field;
-    field.name = std::string(take_word(words));  // what may follow is a default value
+    field.name = std::string(take_word(words));  // a default value may follow
     if (field.name.empty()) fail(name, line, reading_messages::field_incomplete());
     if (field.name.size() > max_name) fail(name, line, reading_messages::field_name_too_long());
     if (++fields_ > max_fields) fail(name, line, reading_messages::too_many_fields());
@@ -144,12 +145,12 @@ class Parser {
 
   static void constant(std::string_view words, Constants& constants) {
     const std::size_t equals = words.find('=');
-    std::int64_t value = 0;  // what has another one names no value of a field
+    std::int64_t value = 0;  // a constant with another value is no label of a field
     if (read_number(trimmed(words.substr(equals + 1)), value))
       constants.emplace_back(value, lower(trimmed(words.substr(0, equals))));
   }
 
-  /// Cuts "[3]", "[<=8]", "[]" off.
+  /// Removes "[3]", "[<=8]", "[]" from the end.
   static bool shape(std::string_view& element, Field& field) {
     const std::size_t open = element.find('[');
     if (open == std::string_view::npos) {
@@ -202,8 +203,8 @@ class Parser {
     field.unit = comma == std::string::npos ? "" : field.unit.substr(0, comma);
   }
 
-  /// Without the field's name, where all of them begin with it. What ros_message_text makes of an enum are
-  /// the constants 0, 1, ... of a uint8.
+  /// Labels without the name of the field, if all begin with it. ros_message_text writes an enum as constants
+  /// 0, 1, ... of a uint8.
   static void take_constants(Constants& constants, Field& field) {
     const std::string prefix = lower(field.name) + "_";
     const bool prefixed = std::all_of(constants.begin(), constants.end(),
@@ -219,7 +220,7 @@ class Parser {
     for (const auto& [value, label] : field.constants) field.labels.push_back(label);
   }
 
-  /// What has no bound gets room here.
+  /// Gives unbounded texts and lists a fixed room.
   static void place(Field& field, const std::string& name, Type& made, std::uint64_t& end) {
     const std::uint32_t own = field.kind == FULMAR_STRUCT ? field.type->align
                               : field.kind == FULMAR_TEXT ? 1

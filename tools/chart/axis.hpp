@@ -17,21 +17,21 @@ struct AxisRange {
   double span() const { return max - min; }
   bool empty() const { return max < min; }
   void take(double x);
-  /// Some room at both ends; of one value alone, room on both sides of it.
+  /// Adds some room at both ends; for a single value, room on both sides.
   void widen();
   void grow_to(double wanted);
 };
 
-/// Between marks of an axis: 1, 2 or 5 times a power of ten, so that there are at most `most`.
+/// Interval of the marks of an axis: 1, 2 or 5 times a power of ten, with at most `most` marks.
 double step_of(double span, double most = 8);
 
-/// A mark's number, with the decimals that its step needs.
+/// Number of a mark, with the decimals of its step.
 std::string value_text(double x, double step);
 
-/// Both are numbers.
+/// True when both coordinates are finite.
 bool is_there(const ChartPoint& p);
 
-/// The path of a mark about (x, y), of one size to the eye: 6 units across times `size`.
+/// Path of a mark about (x, y) of equal visual size: 6 units across times `size`.
 std::string mark_path(Mark mark, double x, double y, double size, int decimals);
 
 }  // namespace fulmar::chart

@@ -9,7 +9,7 @@
 namespace fulmar::chart {
 namespace {
 
-/// Of the picture, in its own units.
+/// Size of the picture in its own units.
 constexpr double picture_wide = 460, picture_high = 300, left = 62, top = 12, inner_wide = 386,
                  inner_high = 234;
 

@@ -8,14 +8,14 @@
 
 namespace fulmar::chart {
 
-/// A curve, or marks alone. A point that is not finite parts it.
+/// A curve, or only marks. A point that is not finite interrupts it.
 struct ChartLine {
-  std::string name;  ///< in the legend; "": not there
+  std::string name;  ///< in the legend; "": not in it
   int style = 0;     ///< colour and dashes; no_style: those of the text
   std::vector<ChartPoint> points;
   Mark mark = Mark::none;  ///< at each point
-  bool joined = true;      ///< else the marks alone
-  bool closed = false;     ///< each part ends where it began
+  bool joined = true;      ///< false: only marks
+  bool closed = false;     ///< each part is closed
   bool thin = false;       ///< behind the others, pale
   bool growing = false;    ///< marks, from the first point to the last
   double size = 1;         ///< of marks
@@ -33,9 +33,9 @@ struct Chart {
   std::vector<ChartLine> lines;
   std::vector<ChartLine> keys;      ///< more for the legend
   bool even = false;                ///< both axes in one scale
-  bool unstable = false;            ///< what lies right of zero is shaded
-  bool with_zero = false;           ///< the axis of y shows 0
-  std::string empty = "no values";  ///< the sentence in its place when there is nothing to draw
+  bool unstable = false;            ///< shades the half plane right of zero
+  bool with_zero = false;           ///< the y axis includes 0
+  std::string empty = "no values";  ///< text in place of an empty chart
 };
 
 std::string chart_html(const Chart& chart);

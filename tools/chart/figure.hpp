@@ -12,17 +12,17 @@ namespace fulmar::chart {
 
 struct FigureCurve {
   std::string name;                ///< in the legend
-  std::vector<ChartPoint> points;  ///< one that is not finite parts the curve
-  bool held = false;               ///< a value stays until the next one: a choice, a flag
+  std::vector<ChartPoint> points;  ///< a point that is not finite interrupts the curve
+  bool held = false;               ///< a value is held until the next one: a choice, a flag
   bool behind = false;             ///< grey and broad, under the others
 };
 
 struct FigurePanel {
-  std::string y;  ///< what stands beside the axis, unit and all
+  std::string y;  ///< label of the axis with its unit
   std::vector<FigureCurve> curves;
 };
 
-/// Shaded, behind the curves.
+/// A shaded interval behind the curves.
 struct FigureBand {
   std::string name;
   double from = 0, to = 0;
@@ -30,26 +30,26 @@ struct FigureBand {
 
 struct Figure {
   double wide_mm = 160, high_mm = 90;
-  std::string title;   ///< for readers that do not see it
-  std::string x;       ///< what stands beside the axis, unit and all
-  bool track = false;  ///< x is no time: points are drawn in their order, and may go back
+  std::string title;   ///< for screen readers
+  std::string x;       ///< label of the axis with its unit
+  bool track = false;  ///< x is not time: points are drawn in their order, and may go back
   bool even = false;   ///< both axes in one scale
-  AxisRange shown;     ///< of x, beside what is drawn
+  AxisRange shown;     ///< further range of x, in addition to the data
   std::vector<FigurePanel> panels;
   std::vector<FigureBand> bands;
 };
 
-/// So many curves of one panel can be told apart.
+/// Largest number of distinct curves in one panel.
 constexpr std::size_t max_curves = 36;
 
-/// What there is to say when a figure of that size has no room for so many panels; "": it has.
+/// Message when a figure of that size has no room for so many panels; "" when it has.
 std::string too_small(const Figure& figure);
 
-/// Gives it the size in which one panel with one scale on both axes is filled.
+/// Sets the size for which one panel with equal scales is filled.
 void fit_even(Figure& figure);
 
-/// Curves hold what can be seen, no more: of the points within a tenth of a millimetre of an axis of time the
-/// first, the least, the largest and the last.
+/// Curves hold only visible points: of the points within a tenth of a millimetre of a time axis the first,
+/// the smallest, the largest and the last.
 std::string figure_svg(const Figure& figure);
 
 }  // namespace fulmar::chart

@@ -13,13 +13,13 @@ namespace fulmar::chart {
 namespace {
 
 // Millimetres.
-constexpr double column = 0.1;       // of what is seen along an axis of time
-constexpr double seen_apart = 0.03;  // points of a track
+constexpr double column = 0.1;       // visible width along a time axis
+constexpr double seen_apart = 0.03;  // distance of the points of a track
 constexpr double mark_apart = 14;
 constexpr double swing = 1.2, max_swings = 0.5;  // mm; in a mm
 
-// Colours of Okabe & Ito, Color Universal Design (2008), dark enough for white paper; dashes tell the lines
-// apart where there are no colours, marks where the dashes are used up.
+// Colours of Okabe & Ito, Color Universal Design (2008), dark enough for white paper. Dashes distinguish
+// lines without colours, and marks further lines.
 constexpr std::array<const char*, 6> colours{"#0072b2", "#c04f00", "#007a5a",
                                              "#b0558a", "#8f6600", "#333333"};
 constexpr std::array<const char*, 6> dashes{
@@ -33,7 +33,7 @@ const char* colour_of(const Look& look) { return colours[look.curve % colours.si
 
 using Points = std::vector<ChartPoint>;
 
-/// Of the points of one column those that show, in their order.
+/// The visible points of one column, in their order.
 void keep_column(const Points& from, std::size_t begin, std::size_t end, Points& kept) {
   const auto less = [](const ChartPoint& a, const ChartPoint& b) { return a.y < b.y; };
   const auto at = [&](std::size_t i) { return from.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -43,7 +43,7 @@ void keep_column(const Points& from, std::size_t begin, std::size_t end, Points&
     if (i == 0 || places[i] != places[i - 1]) kept.push_back(*places[i]);
 }
 
-/// One part of a curve, in millimetres of the figure: its visible part.
+/// The visible part of one part of a curve, in millimetres of the figure.
 Points seen_part(const Points& part, bool track) {
   Points kept;
   for (std::size_t i = 0, next = 0; i < part.size(); i = next) {
@@ -67,7 +67,7 @@ std::string path_of(const Points& part, bool held) {
     if (i > 0 && held && part[i].y != part[i - 1].y) d += "L" + mm(part[i].x) + " " + mm(part[i - 1].y);
     d += (i == 0 ? "M" : "L") + mm(part[i].x) + " " + mm(part[i].y);
   }
-  if (part.size() == 1) d += "h0.001";  // a point alone is a dot
+  if (part.size() == 1) d += "h0.001";  // a single point is a dot
   return d;
 }
 

@@ -21,7 +21,7 @@ struct Box {
   double right() const { return left + wide; }
 };
 
-/// How a curve is drawn. `solid`: no dashes, a mark tells it apart. `behind`: grey, alone of its kind.
+/// Style of a curve. `solid`: no dashes, distinguished by a mark. `behind`: grey, the only one of its kind.
 struct Look {
   std::size_t curve = 0;
   bool solid = false, behind = false;
@@ -29,10 +29,10 @@ struct Look {
   std::string stroke() const;
   std::string marks_svg(const std::string& d) const;
 };
-/// So many curves of a panel can be solid.
+/// Largest number of solid curves in a panel.
 constexpr std::size_t max_solid = 6;
 
-/// Whether it turns back so often, by more than can be overlooked, that dashes cannot be seen.
+/// True when it changes direction so often, by a visible amount, that dashes cannot be seen.
 bool is_noisy(const FigureCurve& curve, const Box& box);
 
 std::string curve_svg(const FigureCurve& curve, const Look& look, const Box& box, bool track);

@@ -20,7 +20,7 @@ constexpr double edge = 2, gap = 3.5, row_high = 4, band_high = 4.5, under_high 
 constexpr double min_plot = 8;      // of a panel's height and width
 constexpr double max_upright = 14;  // of a name above the first panel
 constexpr double even_plot = 130,
-                 min_even = 45;  // sides of a track: the longer one, the other one at least
+                 min_even = 45;  // sides of a track: minimum of the longer and of the other one
 
 double text_wide(const std::string& text) {
   const auto letters = std::count_if(text.begin(), text.end(),
@@ -28,7 +28,7 @@ double text_wide(const std::string& text) {
   return letter_wide * static_cast<double>(letters);
 }
 
-/// Where the text's room is less than it takes, its letters are smaller.
+/// A text that is wider than its room gets smaller letters.
 std::string text_at(const char* kind, double x, double y, const std::string& text, const char* anchor,
                     double room = 1e9, bool upright = false) {
   const double wide = text_wide(text);
@@ -38,7 +38,8 @@ std::string text_at(const char* kind, double x, double y, const std::string& tex
          "</text>\n";
 }
 
-/// Between marks of an axis: at most so many, but two at least, since one alone tells no scale.
+/// Interval of the marks of an axis: limits their number, but gives at least two, since a single one shows no
+/// scale.
 double step_in(const AxisRange& range, double most) {
   const auto marks_in = [&](double step) {
     return std::floor(range.max / step) - std::ceil(range.min / step) + 1;
@@ -48,7 +49,7 @@ double step_in(const AxisRange& range, double most) {
   return step;
 }
 
-/// Where each curve's name stands in the rows above a panel.
+/// Places of the names of curves in the rows above a panel.
 struct Legend {
   struct Place {
     double x = 0;
@@ -83,7 +84,7 @@ class Drawing {
   }
 
   double plot_high() const { return high_; }
-  /// Height by width of what is drawn in a panel, in the units of the axes.
+  /// Height over width of the data in a panel, in the units of the axes.
   double shape() const { return shape_; }
   double plot_wide() const { return boxes_.empty() ? min_plot : boxes_[0].wide; }
 
@@ -129,7 +130,7 @@ class Drawing {
     shape_ = boxes_.empty() ? 1 : boxes_[0].y.span() / all.span();
   }
 
-  /// Where dashes turn into fur, in a panel of few curves, marks are in their place.
+  /// In a panel of few curves marks replace dashes where these would be illegible.
   std::vector<Look> looks_of(std::size_t i) const {
     const auto& curves = figure_.panels[i].curves;
     const bool can_be_solid = !figure_.track && curves.size() > 1 && curves.size() <= max_solid;
@@ -139,7 +140,8 @@ class Drawing {
     return looks;
   }
 
-  /// Of a name above the first panel; 0: it lies. Its letters are as large as its band is wide.
+  /// Of a name above the first panel; 0: horizontal. The size of its letters is limited by the width of its
+  /// band.
   double upright_size(const FigureBand& band) const {
     const double wide = band_wide(band);
     return text_wide(band.name) < wide + 1 ? 0 : std::min(wide, type_size);
@@ -148,7 +150,7 @@ class Drawing {
     const Box& box = boxes_[0];
     return box.px(std::min(band.to, box.x.max)) - box.px(std::max(band.from, box.x.min));
   }
-  /// What the names of bands take above the first panel.
+  /// Height of the names of bands above the first panel.
   double names_high() const {
     double high = figure_.bands.empty() ? 0 : band_high;
     for (const FigureBand& band : figure_.bands)
@@ -211,8 +213,8 @@ class Drawing {
     return number("x", x) + number("y", y) + number("width", wide) + number("height", high);
   }
 
-  /// Every second one is shaded; a name is above the first panel, upright and smaller where it is too long,
-  /// and nowhere where it could not be read.
+  /// Shades every second band. A name is above the first panel, upright and smaller when it is too long, and
+  /// left out when it would be illegible.
   std::string bands_svg(const Box& box, bool with_names) const {
     std::string out;
     for (std::size_t i = 0; i < figure_.bands.size(); ++i) {
@@ -295,7 +297,7 @@ std::string too_small(const Figure& figure) {
 }
 
 void fit_even(Figure& figure) {
-  for (int i = 0; i < 2; ++i) {  // a legend that breaks takes another row
+  for (int i = 0; i < 2; ++i) {  // a wrapped legend takes another row
     const Drawing drawing(figure);
     const double wide = even_plot / std::max(1.0, drawing.shape()),
                  high = even_plot * std::min(1.0, drawing.shape());

@@ -7,7 +7,7 @@
 
 namespace fulmar::chart {
 
-/// No "-0.00".
+/// Without "-0.00".
 inline std::string fixed(double x, int decimals) {
   char text[64];
   const double least = 0.5 * std::pow(10.0, -decimals);

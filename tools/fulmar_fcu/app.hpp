@@ -55,20 +55,20 @@ int bench_command(Client& client, const Options& options, const BenchOptions& wh
 
 // mag_command.cpp
 int calibrate_mag(Client& client, const Options& options, const HardwareOptions& what);
-/// From a file, and nothing is set: needs no controller.
+/// Fits a file without setting anything: needs no controller.
 int try_mag_file(const Options& options, const HardwareOptions& what);
 
-/// Writes the parameters to flash and says so. Throws Error when that was not acknowledged.
+/// Writes the parameters to flash and reports it. Throws Error without an acknowledgement.
 void write_flash(Client& client);
 
 /// Asks "... [y/N]" on a terminal. Elsewhere throws Error "... add <flag>".
 bool confirmed(const std::string& question, bool yes, const std::string& flag);
 bool on_terminal();
-/// On a terminal: replaces the line that stands there. Elsewhere: nothing.
+/// On a terminal: replaces the present line. Elsewhere: no output.
 void show_progress(const std::string& text);
 
 void catch_interrupt();
-/// After SIGINT or SIGTERM.
+/// True after SIGINT or SIGTERM.
 bool interrupted();
 
 }  // namespace fulmar::fcu

@@ -12,7 +12,7 @@ namespace fulmar::fcu {
 
 namespace {
 
-/// What the packets of some seconds say.
+/// Statistics of the packets of some seconds.
 class Listener {
  public:
   explicit Listener(BoardReport& report) : r_(report) {
@@ -78,7 +78,7 @@ class Listener {
   }
 
  public:
-  /// Samples that the board took and that did not arrive: by the usual step of its clock.
+  /// Counts samples that the board took but that did not arrive, by the usual step of its clock.
   void finish() {
     if (clocks_us_.empty()) return;
     std::vector<std::uint64_t> sorted = clocks_us_;

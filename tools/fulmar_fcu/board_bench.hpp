@@ -12,7 +12,7 @@
 
 namespace fulmar::fcu {
 
-/// Mean and standard deviation of what comes one by one. Welford (1962).
+/// Running mean and standard deviation. Welford (1962).
 class Spread {
  public:
   void add(double value) {
@@ -51,7 +51,7 @@ struct Channel {
 };
 
 struct BoardReport {
-  std::string port, version, at;  ///< `at`: UTC, empty when it is not known
+  std::string port, version, at;  ///< `at`: UTC, empty when unknown
   double seconds = 0, bytes_per_s = 0;
   std::uint64_t frames = 0, missing = 0, bad = 0;
   std::vector<double> round_trips_s;  ///< sorted
@@ -62,9 +62,9 @@ struct BoardReport {
   std::vector<Channel> channels;
 };
 
-/// Listens for so long. The board has to stand still.
+/// Measures for that time. The board must not move.
 BoardReport measure_board(Client& client, double seconds, int questions = 100);
-/// Of sorted values: that below which the share lies. Nothing there: 0.
+/// Quantile of sorted values; 0 for none.
 double quantile(const std::vector<double>& sorted, double share);
 nlohmann::json board_json(const BoardReport& report);
 std::string board_markdown(const BoardReport& report);

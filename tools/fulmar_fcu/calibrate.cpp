@@ -80,7 +80,7 @@ bool says_one(const std::string& text, const std::vector<std::string>& parts) {
                      [&](const std::string& part) { return low.find(part) != std::string::npos; });
 }
 
-/// One run: what has been heard of its end so far.
+/// State of one calibration.
 class Run {
  public:
   Run(Client& client, const Calibration& what) : client_(client), what_(what), texts_(client.said().size()) {}
@@ -90,7 +90,8 @@ class Run {
   void start() {
     started_ns_ = client_.now_ns();
     if (what_.command != Command::rc_calibration) return client_.demand(what_.command, deed());
-    // It adds to what is there: asked twice it would count twice, so again only while nothing was added
+    // The firmware adds to the present value, so a second command would count twice: it is repeated only
+    // while nothing was added.
     for (int i = 0; i < 3; ++i) {
       const std::optional<bool> answer = client_.command(what_.command, 1, 700 * ms);
       if (answer && !*answer)
@@ -101,7 +102,7 @@ class Run {
     throw Error(fcu_messages::action_not_acknowledged(client_.name(), deed()));
   }
 
-  /// True when it is over. A failure is an Error.
+  /// Returns true at the end. A failure is an Error.
   bool over() {
     if (const Said* bad = said(what_.bad)) {
       last_failure_ = bad->text;
@@ -110,7 +111,7 @@ class Run {
     return said(what_.good) || changed_last();
   }
 
-  /// Reads the result; true when there is one.
+  /// Reads the result; returns true when there is one.
   bool read_back() {
     after = read_some(client_, what_.params);
     if (after.size() != what_.params.size()) return false;
@@ -123,8 +124,8 @@ class Run {
   bool complete() const { return after.size() == what_.params.size(); }
   bool said_good() { return said(what_.good) != nullptr; }
   double elapsed_s() const { return static_cast<double>(client_.now_ns() - started_ns_) * 1e-9; }
-  /// Puts the former values back after a failure, and says so; "" when they stand anyway. Not of one that
-  /// begins again by itself. Throws BiasesLost.
+  /// Restores the former values after a failure, and returns a report of it; "" when they are unchanged. Not
+  /// for a calibration that restarts by itself. Throws BiasesLost.
   std::string put_back(const std::string& why) {
     if (!what_.zeroes || what_.repeats) return "";
     bool changed = false;
@@ -132,14 +133,14 @@ class Run {
       after = read_some(client_, what_.params);
       if (complete() && !(changed = differs())) return "";
       client_.pump(std::max<std::int64_t>(0, started_ns_ + what_.usual_s * second + 500 * ms -
-                                                 client_.now_ns()));  // until nothing more comes of it
+                                                 client_.now_ns()));  // until no more of its messages arrive
       after = read_some(client_, what_.params);
       if (complete()) {
         changed = differs();
         for (std::size_t i = 0; i < after.size(); ++i) set_param(client_, after[i], before[i].bits);
         return fcu_messages::values_restored().line();
       }
-    } catch (const std::exception&) {  // no answer, no device: told here
+    } catch (const std::exception&) {  // no answer, no device: reported below
     }
     throw BiasesLost(
         changed ? fcu_messages::values_not_restored(why) : fcu_messages::restored_values_unknown(why),
@@ -157,7 +158,7 @@ class Run {
   std::string deed() const { return "the " + name() + " calibration"; }
 
   const Said* said(const std::vector<std::string>& parts) const {
-    // what is told sooner than it can be done is about another one, such as that of the boot
+    // An earlier report is about another calibration, such as that of the boot.
     const std::int64_t soonest_ns = started_ns_ + (what_.zeroes ? what_.usual_s * second * 3 / 10 : 0);
     const auto found = std::find_if(client_.said().begin() + static_cast<std::ptrdiff_t>(texts_),
                                     client_.said().end(), [&](const Said& text) {
@@ -172,7 +173,7 @@ class Run {
         if (p.name == q.name && p.bits != q.bits) return true;
     return false;
   }
-  /// What it sets last has been told, and is no zero from its start.
+  /// True when its last parameter is reported and is not the zero of its start.
   bool changed_last() const {
     return std::all_of(what_.params.begin(), what_.params.end(), [&](const std::string& n) {
       const auto it = client_.params().find(n);
@@ -187,14 +188,14 @@ class Run {
   std::string last_failure_;
 };
 
-/// Returns when it has succeeded; a failure is an Error.
+/// Returns at its success; a failure is an Error.
 void wait_for_end(Client& client, const Calibration& what, Run& run,
                   const std::function<void(double)>& progress) {
   const std::int64_t began = client.now_ns(), until = began + what.limit_s * second;
   while (client.now_ns() < until) {
     client.pump(100 * ms);
     if (progress) progress(run.elapsed_s());
-    // a lost text or a lost echo does not matter for long: the result is read when it is due
+    // A lost text or echo delays the end only: the result is read when it is due.
     const bool due = client.now_ns() - began > what.usual_s * second &&
                      static_cast<std::int64_t>(run.elapsed_s() * 10) % 10 == 0;
     if (!run.over() && !due) continue;

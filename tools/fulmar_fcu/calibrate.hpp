@@ -14,30 +14,30 @@ namespace fulmar::fcu {
 struct Calibration {
   const char* name;
   Command command;
-  const char* prepare;              ///< what the pilot sees to first
-  std::vector<std::string> params;  ///< what it sets
-  std::vector<std::string> about;   ///< a text about this one has one of these; none: any text
-  std::vector<std::string> good;    ///< parts of the texts that say it is done
-  std::vector<std::string> bad;     ///< ... that it failed
+  const char* prepare;              ///< preparation by the user
+  std::vector<std::string> params;  ///< parameters of the result
+  std::vector<std::string> about;   ///< a text about this calibration has one of these; none: any text
+  std::vector<std::string> good;    ///< parts of the texts of a success
+  std::vector<std::string> bad;     ///< ... of a failure
   int usual_s, limit_s;
-  bool zeroes;   ///< it begins by setting `params` to zero: nonzero ones are its result
-  bool repeats;  ///< after a failure it begins again by itself
+  bool zeroes;   ///< it begins with zero in `params`: other values are its result
+  bool repeats;  ///< after a failure it restarts by itself
 };
 
-/// imu, gyro, rc, baro, airspeed. nullptr: no such one.
+/// imu, gyro, rc, baro, airspeed. nullptr for other names.
 const Calibration* find_calibration(const std::string& name);
 
 struct Calibrated {
   std::vector<Param> before, after;
 };
-/// It failed, and what was set before could not be put back.
+/// The calibration failed, and the former values could not be restored.
 struct BiasesLost : Error {
   BiasesLost(const Diagnostic& text, std::vector<Param> what) : Error(text), former(std::move(what)) {}
   std::vector<Param> former;
 };
-/// Runs it to its end. Throws Error: armed, refused, failed (with the firmware's words), or no sign of its
-/// end within the limit. A failed calibration of gyroscope or accelerometer leaves biases of zero, and the
-/// mean of whatever was done to the aircraft: the former ones are put back, or thrown as BiasesLost.
+/// Runs a calibration to its end. Throws Error: armed, rejected, failed (with the text of the firmware), or
+/// no end within the limit. After a failure of gyroscope or accelerometer the firmware leaves biases of zero
+/// or a wrong mean: the former ones are restored, or reported in BiasesLost.
 Calibrated calibrate(Client& client, const Calibration& what,
                      const std::function<void(double elapsed_s)>& progress = {});
 

@@ -99,7 +99,7 @@ void Client::take(const Packet& packet) {
   last_[packet.id] = packet;
   heard_ns_[packet.id] = now_ns();
   ++count_[packet.id];
-  // other messages may carry the asker's id, 0 or anything
+  // other messages may have any system id
   if (packet.is<RosflightStatus>()) system_ = packet.system;
   if (packet.is<ParamValue>()) take_param(packet.as<ParamValue>());
   if (packet.is<RosflightCmdAck>()) {
@@ -108,7 +108,7 @@ void Client::take(const Packet& packet) {
   }
   if (packet.is<RosflightVersion>()) {
     version_ = printable(text(packet.as<RosflightVersion>().version));
-    if (version_.empty()) version_ = "without a version";  // an answer all the same
+    if (version_.empty()) version_ = "without a version";  // counts as an answer
   }
   if (packet.is<Statustext>()) {
     const auto message = packet.as<Statustext>();
@@ -129,7 +129,7 @@ void Client::take_param(const ParamValue& value) {
 void Client::send_frame(const Frame& frame) {
   for (int i = 0; i < 5; ++i) {
     if (port_->write(frame.view())) return;
-    // full: what comes in is read on, so that a controller that waits for us goes on
+    // output full: keep reading, so that the controller can continue
     std::array<std::uint8_t, 4096> room;
     const std::size_t n = port_->read(room, 5);
     bytes_ += n;
@@ -150,7 +150,7 @@ void Client::explain_silence() const {
 void Client::connect() {
   if (!wait(2 * second, [&] { return count<RosflightStatus>() > 0; })) explain_silence();
   ask_version();
-  pump(150 * ms);  // texts of its boot, kept back until the first heartbeat, are not taken for news
+  pump(150 * ms);  // texts of its boot, held until the first heartbeat, are dropped
 }
 
 void Client::ask_version() {
@@ -168,7 +168,8 @@ void Client::ask_version() {
 
 bool Client::armed() {
   if (age_s<RosflightStatus>() > 0.3) {
-    pump(150 * ms);  // what has waited on the line, as while a question stood on the terminal, is old
+    // data that waited on the line, for example during a question to the user, are out of date
+    pump(150 * ms);
     const std::uint64_t before = count<RosflightStatus>();
     if (!wait(2 * second, [&] { return count<RosflightStatus>() > before; }))
       throw Error(fcu_messages::status_lost(name()));

@@ -22,9 +22,9 @@ using core::Error;
 
 inline constexpr std::int64_t ms = 1'000'000, second = 1'000'000'000;
 
-/// A device and a clock, so that a test may bring its own.
+/// A device and a clock, which a test can replace.
 struct Endpoint {
-  std::string name;                             ///< as people wrote it
+  std::string name;                             ///< as given by the user
   std::function<std::unique_ptr<Port>()> open;  ///< throws PortError
   std::function<std::int64_t()> now_ns;         ///< monotonic
 };
@@ -40,7 +40,7 @@ struct Param {
   std::int32_t integer() const { return std::bit_cast<std::int32_t>(bits); }
   float real() const { return std::bit_cast<float>(bits); }
   double number() const { return whole ? integer() : static_cast<double>(real()); }
-  std::string text() const;  ///< shortest that reads back as the same bits
+  std::string text() const;  ///< the shortest that reads back as the same bits
 };
 
 struct Said {  ///< a STATUSTEXT
@@ -49,9 +49,9 @@ struct Said {  ///< a STATUSTEXT
   std::string text;
 };
 
-/// Somebody pressed Ctrl-C.
+/// The user pressed Ctrl-C.
 struct Interrupted : Error {
-  /// `more`: what was done about it, such as " The former values are back."
+  /// `more`: the consequence, such as " The former values are back."
   explicit Interrupted(const std::string& more = "") : Error("Interrupted." + more) {}
 };
 
@@ -60,16 +60,16 @@ class Client {
   /// Opens the device. Throws PortError.
   explicit Client(Endpoint endpoint);
 
-  /// Makes sure that a ROSflight controller of version 2 answers. Throws Error, one sentence, within 5 s.
+  /// Checks that a ROSflight controller of version 2 answers. Throws Error, one sentence, within 5 s.
   void connect();
-  /// Closes the device and opens it again, for at most so long.
+  /// Closes the device and opens it again, within that time.
   void reopen(std::int64_t limit_ns);
 
   std::int64_t now_ns() const { return endpoint_.now_ns(); }
   const std::string& name() const { return endpoint_.name; }
-  /// Reads for so long.
+  /// Reads for that time.
   void pump(std::int64_t ns);
-  /// Reads until `done()`. False when it took longer than `ns`.
+  /// Reads until `done()`. Returns false after `ns`.
   bool wait(std::int64_t ns, const std::function<bool()>& done);
 
   template <class M>
@@ -81,7 +81,7 @@ class Client {
     if (count_[M::id] == 0) return {};
     return last_[M::id].template as<M>();
   }
-  /// Since the last one came; 1e9 when none did.
+  /// Time since the last one; 1e9 without one.
   template <class M>
   double age_s() const {
     return count_[M::id] == 0 ? 1e9 : static_cast<double>(now_ns() - heard_ns_[M::id]) * 1e-9;
@@ -94,31 +94,29 @@ class Client {
   std::uint64_t bytes() const { return bytes_; }
   const Parser::Counts& counts() const { return parser_.counts(); }
   const std::vector<Said>& said() const { return said_; }
-  const std::string& version() const {
-    return version_;
-  }  ///< "" when it refuses to tell, as it does while armed
+  const std::string& version() const { return version_; }  ///< "" when it does not answer, as while armed
   std::uint8_t system() const { return system_; }
 
-  /// What the controller last said of each parameter, by name.
+  /// Last reported value of each parameter, by name.
   const std::map<std::string, Param>& params() const { return params_; }
   std::uint16_t param_count() const { return param_count_; }
   void forget_params() { params_.clear(); }
 
-  bool armed();  ///< as a fresh status says. Throws Error when none comes
-  /// Throws Error "... is armed" when it is. `deed`: "calibrating".
+  bool armed();  ///< from a fresh status. Throws Error without one
+  /// Throws Error "... is armed" for an armed controller. `deed`: "calibrating".
   void refuse_armed(const std::string& deed);
-  /// Sends a command until it is acknowledged, or once only. True: accepted; false: refused; nothing: no
-  /// answer in time.
+  /// Sends a command until it is acknowledged, or only once. Returns true: accepted; false: rejected; none:
+  /// no answer in time.
   std::optional<bool> command(Command c, int tries = 4, std::int64_t each_ns = 500 * ms);
-  /// The same, and throws Error, one sentence, unless accepted. `deed`: "writing the parameters";
-  /// `refusal` ends the sentence when it is refused: a refusal has no reason in the protocol, and a text that
-  /// comes meanwhile is about something else.
+  /// The same, but throws Error, one sentence, unless accepted. `deed`: "writing the parameters". `refusal`
+  /// ends the sentence after a rejection: the protocol gives no reason, and texts that arrive meanwhile are
+  /// about other things.
   void demand(Command c, const std::string& deed, const std::string& refusal = " and gave no reason.");
-  /// The least of some round trips, in ns; nothing when none came back.
+  /// The smallest of some round trips, in ns; none without an answer.
   std::optional<std::int64_t> round_trip_ns(int questions = 20);
-  /// Called for each packet, after it was kept.
+  /// Called for each packet, after it was stored.
   std::function<void(const Packet&)> on_packet;
-  /// Asked while it reads; true ends whatever is under way by Interrupted.
+  /// Called while reading; true ends any operation with Interrupted.
   std::function<bool()> cancelled;
 
  private:

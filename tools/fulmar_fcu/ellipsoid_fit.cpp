@@ -24,8 +24,8 @@ struct Shape {
   Eigen::Vector3d c = Eigen::Vector3d::Zero();
 };
 
-/// The inverse of a symmetric matrix without negative eigenvalues. False when rounding has left nothing of
-/// the smallest: then it is the inverse of the rest alone.
+/// Inverse of a symmetric matrix without negative eigenvalues. Returns false when the smallest one is below
+/// rounding: the result is then the inverse without it.
 bool invert(const Matrix9& A, Matrix9& out) {
   const Eigen::LDLT<Matrix9> ldlt(A);
   const Vector9 pivots = ldlt.vectorD();
@@ -34,8 +34,7 @@ bool invert(const Matrix9& A, Matrix9& out) {
 }
 
 /// x2 + y2 + z2 = p0 (x2 + y2 - 2 z2) + p1 (x2 - 2 y2 + z2) + 2 p2 xy + 2 p3 xz + 2 p4 yz + 2 p5 x + 2 p6 y +
-/// 2 p7 z + p8 By the normal equations: what they lose to rounding, the geometric fit that starts here gets
-/// back.
+/// 2 p7 z + p8, by the normal equations. The geometric fit that starts here corrects their rounding errors.
 bool quadric(const Points& points, Shape& out) {
   Matrix9 N = Matrix9::Zero(), inverse;
   Vector9 r = Vector9::Zero();
@@ -62,8 +61,8 @@ bool quadric(const Points& points, Shape& out) {
   return true;
 }
 
-/// One Gauss-Newton step on L (xx, yy, zz, xy, xz, yz) and c. Returns its size; `rms` and `covariance` (over
-/// the square of one sample's standard deviation) are those before it.
+/// One Gauss-Newton step on L (xx, yy, zz, xy, xz, yz) and c. Returns its size. `rms` and `covariance` (over
+/// the variance of one sample) are those before the step.
 double improve(const Points& points, Shape& s, double& rms, Matrix9& covariance) {
   Matrix9 H = Matrix9::Zero();
   Vector9 b = Vector9::Zero();
@@ -92,7 +91,7 @@ double improve(const Points& points, Shape& s, double& rms, Matrix9& covariance)
   return step.norm();
 }
 
-/// Which of 24 parts of the sphere: the face of a cube that it looks through, and the quarter of that face.
+/// Index of the 24 parts of the sphere: the face of a cube in this direction, and the quarter of that face.
 int part_of_sphere(const Eigen::Vector3d& v) {
   int axis = 0;
   v.cwiseAbs().maxCoeff(&axis);
@@ -114,7 +113,7 @@ bool refine(const Points& points, Shape& s, double& rms, Matrix9& covariance) {
   return false;
 }
 
-/// What the samples are measured from and in, so that all is well conditioned whatever their unit.
+/// Origin and unit of the samples, for good conditioning in any unit.
 struct Scale {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double size = 0;
@@ -171,7 +170,7 @@ EllipsoidFit fit_ellipsoid(const std::vector<Vector3>& samples) {
   out.residual_ratio = rms;
   out.stretch_ratio = lambda.maxCoeff() / lambda.minCoeff();
   out.coverage_ratio = coverage(points, s);
-  // perfect samples do not make a perfect fit: half a per cent is what a sensor does at best
+  // Perfect samples do not make a perfect fit: half a per cent is the best of a sensor.
   out.uncertainty_ratio = std::max(rms, 0.005) * uncertainty(s, covariance);
   if (!std::isfinite(out.uncertainty_ratio)) return failed("the samples do not tell the ellipsoid's shape");
   return out;

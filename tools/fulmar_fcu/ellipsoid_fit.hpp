@@ -10,7 +10,7 @@
 
 namespace fulmar::fcu {
 
-// Without Eigen, which ellipsoid_fit.cpp alone takes the time to compile.
+// Without Eigen, so that only ellipsoid_fit.cpp needs the time to compile it.
 using Vector3 = std::array<double, 3>;
 using Matrix3 = std::array<Vector3, 3>;  // rows
 
@@ -22,13 +22,14 @@ struct EllipsoidFit {
   double field = 0;              ///< geometric mean of the radii
   double residual_ratio = 0;     ///< rms of | |A (m - b)| - field | / field
   double uncertainty_ratio = 0;  ///< standard deviation of b, over field; of A likewise: the larger
-  double coverage_ratio = 0;     ///< of 24 parts of the sphere: those that hold a sample
+  double coverage_ratio = 0;     ///< share of the 24 parts of the sphere that hold a sample
   double stretch_ratio = 0;      ///< longest radius over shortest
-  std::string fault;             ///< why there is no fit; "" when there is one
+  std::string fault;             ///< reason why there is no fit; "" with one
   bool ok() const { return fault.empty(); }
 };
 
-/// The ellipsoid of at least 50 samples. Quality is the caller's to judge, but for a shape that is none.
+/// Fits an ellipsoid to at least 50 samples. Only a degenerate shape is rejected; the caller judges the
+/// quality.
 EllipsoidFit fit_ellipsoid(const std::vector<Vector3>& samples);
 
 }  // namespace fulmar::fcu

@@ -13,13 +13,13 @@ namespace fulmar::fcu {
 
 namespace {
 
-/// Its clock, from the newest inertial sample; it begins anew at each boot.
+/// Clock of the newest inertial sample; it restarts at each boot.
 std::uint64_t clock_us(const Client& client) {
   const auto imu = client.last<SmallImu>();
   return imu ? imu->time_boot_us : 0;
 }
 
-/// True once the clock has gone back. A device that vanishes meanwhile, as USB does, is opened again.
+/// True once the clock has gone back. A device that disappears meanwhile, as with USB, is opened again.
 bool came_back(Client& client, std::uint64_t before_us, std::int64_t limit_ns) {
   const auto back = [&] { return clock_us(client) + 10000 < before_us; };
   try {
@@ -30,7 +30,7 @@ bool came_back(Client& client, std::uint64_t before_us, std::int64_t limit_ns) {
   }
 }
 
-/// Shows how far it is; what is lost by a failure is listed in the form of `params set`.
+/// Shows the progress. Values that a failure loses are listed in the form of `params set`.
 Calibrated calibrated(Client& client, const Calibration& calibration) {
   const std::string name = calibration.name;
   try {

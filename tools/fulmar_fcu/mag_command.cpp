@@ -46,7 +46,7 @@ EllipsoidFit judged(const std::vector<Vector3>& samples) {
   return fit;
 }
 
-/// Listens until all six sides are done.
+/// Collects samples until all six sides are complete.
 std::vector<Vector3> collect(Client& client, const Correction& old) {
   MagGuide guide;
   std::int64_t progress_ns = client.now_ns();

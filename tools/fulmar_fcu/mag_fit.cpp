@@ -95,7 +95,7 @@ void MagGuide::turn(const Vector3& accel, const Vector3& gyro, double dt_s) {
     side_ = -1;
     return;
   }
-  // at rest the accelerometer shows what is up: +x nose up, +y right wing up, +z upside down
+  // at rest the accelerometer measures up: +x nose up, +y right wing up, +z upside down
   static constexpr std::array<std::array<int, 2>, 3> side_of{{{0, 1}, {2, 3}, {4, 5}}};
   side_ = side_of[axis][accel[axis] > 0 ? 1 : 0];
   if (dt_s > 0 && dt_s < 0.5) angle_rad_ += dot(gyro, accel) / g * dt_s;

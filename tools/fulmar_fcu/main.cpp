@@ -54,7 +54,7 @@ struct CommandLine {
                     const Deed& what_to_do) {
     CLI::App* sub = parent->add_subcommand(name, what);
     sub->fallthrough();
-    sub->footer("");  // the parent's
+    sub->footer("");  // that of the parent is used
     sub->footer([=] { return "Example: fulmar fcu" + example(*sub); });
     if (what_to_do) sub->callback([this, what_to_do] { deed = what_to_do; });
     return sub;
@@ -181,7 +181,8 @@ struct CommandLine {
   }
 };
 
-/// "fulmar fcu calibrate: there is no command 'foo'. ..." when that, or none, is what is wrong; "" otherwise.
+/// Message for an unknown or missing command, "fulmar fcu calibrate: there is no command 'foo'. ..."; ""
+/// otherwise.
 std::string unknown_command(const CLI::App& all) {
   const CLI::App* app = &all;
   while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
@@ -223,7 +224,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in order with what goes to stderr
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in order with the output to stderr
   try {
     return run(argc, argv);
   } catch (const Interrupted& e) {

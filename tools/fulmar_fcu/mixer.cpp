@@ -69,7 +69,7 @@ Mixer mixer_of(const std::vector<Param>& params) {
       m.secondary[at(i)][at(j)] = param_value(params, "SEC_MIXER_" + place);
     }
   }
-  // 255: no second one; the first is used for both
+  // 255: no secondary mixer; the primary one is used for both
   if (m.secondary_choice < 0 || m.secondary_choice > 11) m.secondary = m.primary;
   return m;
 }
@@ -94,7 +94,7 @@ std::vector<std::string> mixer_faults(const Mixer& m) {
 
 std::vector<std::string> mixer_remarks(const Mixer& m) {
   std::vector<std::string> out;
-  if (m.choice < 0 || m.choice > 11) return out;  // a fault: there is none
+  if (m.choice < 0 || m.choice > 11) return out;  // a fault: there is no mixer
   for (const Row& row : rows) {
     if (m.outputs_of(row.command).empty() && (row.command == row_rudder || row.command == row_aileron))
       out.push_back(fcu_messages::surface_without_output(row.name));

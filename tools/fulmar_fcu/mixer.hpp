@@ -20,7 +20,7 @@ struct Mixer {
   std::array<double, 10> rate_hz{};
   Matrix primary{}, secondary{};
 
-  /// Outputs that a command moves, by the secondary matrix: the one for commands of a computer.
+  /// Outputs that a command moves in the secondary matrix, which is for commands of a computer.
   std::vector<int> outputs_of(int command) const;
 };
 
@@ -28,9 +28,9 @@ inline constexpr int row_throttle = 0, row_aileron = 3, row_elevator = 4, row_ru
 
 /// From a full list of parameters.
 Mixer mixer_of(const std::vector<Param>& params);
-/// What is wrong with it for a fixed wing, each one sentence with what to do; empty when nothing is.
+/// Faults for a fixed wing, one sentence each with the remedy; empty for none.
 std::vector<std::string> mixer_faults(const Mixer& mixer);
-/// Worth a word, but it flies.
+/// Remarks that do not prevent a flight.
 std::vector<std::string> mixer_remarks(const Mixer& mixer);
 /// "aileron", "elevator and rudder", "motor", "not used".
 std::string output_words(const Mixer& mixer, int output);

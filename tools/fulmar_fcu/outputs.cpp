@@ -12,7 +12,7 @@ namespace fulmar::fcu {
 namespace {
 
 constexpr std::int64_t each = 20 * ms;  // far below OFFBOARD_TIMEOUT
-// the throttle is commanded 0, so that its override changes nothing
+// the throttle command is 0, so that its override has no effect
 constexpr std::uint16_t pilot_has_surfaces =
     override_attitude_switch | override_stick_x | override_stick_y | override_stick_z;
 
@@ -29,7 +29,7 @@ void watch(Client& client) {
   if (client.age_s<RcChannels>() > 0.5) throw Error(fcu_messages::radio_frames_missing());
 }
 
-/// Of the first half of the movement, to the positive side, or of the second one.
+/// Records the first half of the movement, to the positive side, or the second one.
 void note(const Client& client, bool positive, std::vector<Moved>& moved) {
   const auto raw = client.last<RosflightOutputRaw>();
   if (!raw || client.age_s<RosflightOutputRaw>() > 0.1) return;

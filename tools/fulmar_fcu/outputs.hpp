@@ -14,21 +14,21 @@ namespace fulmar::fcu {
 struct Surface {
   int command = row_aileron;
   const char* name = "";
-  const char* positive = "";  ///< what one sees at a positive command
+  const char* positive = "";  ///< visible effect of a positive command
 };
 const std::vector<Surface>& surfaces();
 
 struct Moved {
   int output = 0;
-  double rest = -1, first = -1, then = -1;  ///< as the controller reports them, 0 to 1; of each half the
-                                            ///< farthest from rest
+  // reported by the controller, 0 to 1; the farthest value from rest of each half
+  double rest = -1, first = -1, then = -1;
 };
 
-/// Takes the outputs with neutral commands. Throws Error when the pilot's side keeps them, or no radio frames
-/// come.
+/// Takes control of the outputs with neutral commands. Throws Error when the pilot keeps them, or without
+/// radio frames.
 void take_outputs(Client& client);
-/// To +size and -size and back within `period_ns`. Throws Error when it gets armed, when the pilot takes
-/// over, or an output does not follow.
+/// Moves a surface to +size and -size and back within `period_ns`. Throws Error when the controller is armed,
+/// when the pilot takes over, or when an output does not follow.
 std::vector<Moved> move_surface(Client& client, const Mixer& mixer, int command, double size,
                                 std::int64_t period_ns);
 

@@ -17,7 +17,7 @@ namespace {
 
 using core::Node;
 
-/// "6" and "9" as MAVLink numbers them.
+/// "6" and "9" are MAVLink's type numbers.
 std::optional<bool> type_of(const Node& type, core::Report& report) {
   if (type.is(Node::Kind::scalar) && type.text == "6") return true;
   if (type.is(Node::Kind::scalar) && type.text == "9") return false;
@@ -145,7 +145,7 @@ std::string changes_text(const std::vector<Change>& list) {
 
 std::vector<Change> load_params(Client& client, const std::vector<FileParam>& file, std::vector<Change> todo,
                                 const std::function<void(std::size_t, std::size_t)>& progress) {
-  // These rewrite others: a mixer fills its matrix, FIXED_WING copies the failsafe throttle
+  // These parameters change others: a mixer fills its matrix, FIXED_WING copies the failsafe throttle
   const auto first = [](const Change& c) {
     return c.now.name == "PRIMARY_MIXER" || c.now.name == "SECONDARY_MIXER" || c.now.name == "FIXED_WING" ||
            c.now.name == "USE_MOTOR_PARAM";
@@ -158,11 +158,11 @@ std::vector<Change> load_params(Client& client, const std::vector<FileParam>& fi
       try {
         set_param(client, change.now, change.bits);
       } catch (const Error&) {
-        // told below, from what the controller then has
+        // reported below, from the resulting values
       }
       if (progress) progress(++done, todo.size());
     }
-    client.pump(100 * ms);  // what follows from them
+    client.pump(100 * ms);  // time for their consequences
     todo = changes(file, read_params(client));
   }
   return todo;

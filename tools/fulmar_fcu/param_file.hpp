@@ -13,15 +13,15 @@ namespace fulmar::fcu {
 
 struct FileParam {
   std::string name, text;
-  std::optional<bool> whole;  ///< where the file says it
+  std::optional<bool> whole;  ///< if the file gives it
   core::Where where;
 };
 
-/// Throws Error with every fault, each with file:line.
+/// Throws Error with all faults, each with file:line.
 std::vector<FileParam> read_param_file(const std::string& path);
-/// The text of a file of ours, in the order of the parameters.
+/// Text of a parameter file, in the order of the parameters.
 std::string param_file_text(const std::vector<Param>& params, const std::string& version);
-/// Writes a whole file or none. Throws Error when there is one already, unless `replace`.
+/// Writes the complete file or nothing. Throws Error for an existing one, unless `replace`.
 void write_param_file(const std::string& path, const std::string& text, bool replace);
 
 struct Change {
@@ -31,13 +31,13 @@ struct Change {
   std::string wanted() const;
 };
 
-/// What the file would change. Throws Error with every fault: unknown names, values that the type does not
-/// hold.
+/// Changes that the file would make. Throws Error with all faults: unknown names, values that do not fit the
+/// type.
 std::vector<Change> changes(const std::vector<FileParam>& file, const std::vector<Param>& now);
-/// As a table: name, what the controller has, what the file has.
+/// A table: name, value of the controller, value of the file.
 std::string changes_text(const std::vector<Change>& list);
 
-/// Makes the controller have what the file says, reads everything back, and returns what did not take.
+/// Sets the parameters of the file, reads all back, and returns those that differ.
 std::vector<Change> load_params(Client& client, const std::vector<FileParam>& file, std::vector<Change> todo,
                                 const std::function<void(std::size_t done, std::size_t all)>& progress = {});
 

@@ -26,7 +26,7 @@ std::bitset<65536> indices(const Client& client) {
   return have;
 }
 
-/// Asks for the list until it flows, and reads on until nothing has come for a while.
+/// Requests the list until parameters arrive, then reads until none has arrived for a while.
 void ask_list(Client& client, const std::function<void()>& report) {
   std::uint64_t before = client.count<ParamValue>();
   for (int i = 0; i < 4 && client.count<ParamValue>() == before; ++i) {
@@ -40,7 +40,7 @@ void ask_list(Client& client, const std::function<void()>& report) {
   }
 }
 
-/// Asks for some of those that are missing.
+/// Requests some of the missing parameters.
 void ask_missing(Client& client) {
   constexpr int window = 24;  // far below the controller's fifo of 256 packets
   const auto have = indices(client);
@@ -131,7 +131,7 @@ Param read_param(Client& client, const std::string& name) {
     if (client.wait(250 * ms, [&] { return heard_since(client, wanted, since); }))
       return client.params().at(wanted);
   }
-  // a name that does not exist is answered by silence, as loss is
+  // an unknown name gets no answer, like a lost one
   std::vector<std::string> names;
   for (const Param& param : read_params(client)) {
     if (param.name == wanted) return param;
@@ -173,7 +173,7 @@ bool set_param(Client& client, const Param& now, std::uint32_t bits) {
   for (int i = 0; i < 6; ++i) {
     client.send(
         ParamSet{bits, client.system(), 0, field<16>(now.name), now.whole ? param_int32 : param_real32});
-    ask_one(client, now.name);  // an echo comes only when the value changes; an answer to this comes always
+    ask_one(client, now.name);  // an echo is sent only for a change; a request is always answered
     if (client.wait(250 * ms, taken)) return true;
   }
   if (!heard_since(client, now.name, since))

@@ -9,23 +9,22 @@
 
 namespace fulmar::fcu {
 
-/// All parameters, sorted by index; asks again for those that got lost. Throws Error when the list stays
-/// incomplete.
+/// Reads all parameters, sorted by index, with repeated requests for lost ones. Throws Error when the list
+/// stays incomplete.
 std::vector<Param> read_params(Client& client,
                                const std::function<void(std::size_t have, std::size_t all)>& progress = {});
 
-/// One parameter, freshly read. Throws Error with the nearest names when there is none of that name.
+/// Reads one parameter. Throws Error with the nearest names for an unknown one.
 Param read_param(Client& client, const std::string& name);
-/// Those of the names that exist, freshly read: `names` with the same lengths of patience. Missing ones are
-/// left out.
+/// Reads those of `names` that exist, with the same time-outs. Missing ones are left out.
 std::vector<Param> read_some(Client& client, const std::vector<std::string>& names);
 
-/// What a text says as a value of this parameter's type. Throws Error "...: FIXED_WING is a whole number, not
+/// Converts a text to a value of this parameter's type. Throws Error "...: FIXED_WING is a whole number, not
 /// '1.5'".
 std::uint32_t parse_value(const Param& param, const std::string& text);
 
-/// Sets a parameter and reads it back until it has these bits. Throws Error when it does not take. Nothing is
-/// sent when it has them already. False: it had them.
+/// Sets a parameter and reads it back until it has these bits. Throws Error when it does not. Returns false,
+/// without sending, when it has them already.
 bool set_param(Client& client, const Param& now, std::uint32_t bits);
 
 /// "RC_ARM_CHN" matches "arm", "RC_*", "*CHN".

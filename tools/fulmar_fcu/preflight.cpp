@@ -19,7 +19,7 @@ namespace fulmar::fcu {
 
 namespace {
 
-/// Facts, and the list as it grows.
+/// The facts and the growing list of results.
 struct Judge {
   const Facts& f;
   std::vector<Item> items;
@@ -62,7 +62,7 @@ void firmware(Judge& j) {
   if (j.f.status.num_errors > 0) j.warn("sensors", fcu_messages::sensors_not_started(j.f.status.num_errors));
 }
 
-/// At rest the means are gravity and no rotation: the biases belong to this unit, and to no other moment.
+/// At rest the means are gravity and zero rotation: the biases belong to this unit and are still valid.
 void rest(Judge& j, const Rest& r) {
   constexpr double deg = 180 / std::numbers::pi, gravity = 9.80665;
   const double off = std::fabs(r.gravity_mps2 - gravity);
@@ -85,7 +85,7 @@ void inertial(Judge& j) {
   const Diagnostic redo = fcu_messages::imu_not_calibrated();
   if ((no_accel && no_gyro) || (j.f.status.error_code & error_uncalibrated_imu) != 0)
     j.fail("IMU", redo);
-  else if (no_accel)  // as a calibration that failed leaves it
+  else if (no_accel)  // the state after a failed calibration
     j.fail("IMU",
            fulmar::located(fcu_messages::biases_zero("ACC_X_BIAS, ACC_Y_BIAS and ACC_Z_BIAS").text, redo));
   else if (no_gyro && j.whole("ARM_CAL_GYRO") == 0)
@@ -267,7 +267,7 @@ void judge_line(Judge& j) {
     j.ok("round trip", trip);
 }
 
-/// Means and scatter of inertial samples.
+/// Means and standard deviations of inertial samples.
 class RestMeter {
  public:
   void take(const SmallImu& m) {
@@ -321,7 +321,7 @@ Facts gather(Client& client, std::int64_t baud, std::int64_t listen_ns) {
   f.bytes_per_s = meter.bytes_per_s(client);
   f.loss_ratio = meter.loss_ratio(client);
   if (const auto ns = client.round_trip_ns()) f.round_trip_s = static_cast<double>(*ns) * 1e-9;
-  client.armed();  // a fresh status
+  client.armed();  // requests a fresh status
   f.status = *client.last<RosflightStatus>();
   f.rc = client.last<RcChannels>();
   if (client.age_s<RosflightGnss>() < 2) f.gnss = client.last<RosflightGnss>();

@@ -20,13 +20,13 @@ struct Item {
   std::string name, text;
 };
 
-/// What the inertial unit measured while it was listened to.
+/// Measurements of the inertial unit at rest.
 struct Rest {
   double gravity_mps2 = 0, turn_rps = 0;        ///< lengths of the means
-  double accel_rms_mps2 = 0, gyro_rms_rps = 0;  ///< around them: sensor noise, or somebody moves it
+  double accel_rms_mps2 = 0, gyro_rms_rps = 0;  ///< standard deviation: sensor noise, or motion
 };
 
-/// All that is judged.
+/// All facts that are checked.
 struct Facts {
   std::string version;
   std::vector<Param> params;  ///< all
@@ -41,16 +41,16 @@ struct Facts {
   double bytes_per_s = 0, loss_ratio = 0;
   double uptime_s = 0;
   std::optional<double> round_trip_s;
-  std::int64_t baud = 0;  ///< 0: no serial line
+  std::int64_t baud = 0;  ///< 0: not a serial line
   std::optional<Airframe> airframe;
 };
 
-/// Listens for so long.
+/// Collects facts for that time.
 Facts gather(Client& client, std::int64_t baud, std::int64_t listen_ns = 2 * second);
 std::vector<Item> judge(const Facts& facts);
 std::string items_text(const std::vector<Item>& items);
 
-/// Throws Error with every fault of the file.
+/// Throws Error with all faults of the file.
 Airframe read_airframe(const std::string& path);
 
 }  // namespace fulmar::fcu

@@ -24,7 +24,7 @@ struct RadioMap {
 
 RadioMap radio_map(const std::vector<Param>& params);
 std::vector<std::string> map_faults(const RadioMap& map);
-/// People count channels from 1.
+/// The displayed channels count from 1.
 std::string map_words(const RadioMap& map);
 std::array<std::uint16_t, 8> channels_us(const RcChannels& rc);
 

@@ -8,7 +8,7 @@
 
 namespace fulmar::fcu {
 
-/// Counts frames between two looks.
+/// Counts frames between two calls.
 class Meter {
  public:
   explicit Meter(const Client& client) { restart(client); }
@@ -17,7 +17,7 @@ class Meter {
   double rate(const Client& client, std::uint8_t id) const;
   double bytes_per_s(const Client& client) const;
   double span_s(const Client& client) const;
-  /// Of the frames that were sent, as far as their sequence numbers tell.
+  /// Share of the sent frames that were lost, by their sequence numbers.
   double loss_ratio(const Client& client) const;
 
  private:
@@ -27,10 +27,10 @@ class Meter {
   std::int64_t since_ns_ = 0;
 };
 
-/// The firmware's estimate can become no number, and then stays so until it boots.
+/// The firmware's estimate can become NaN, and then stays so until a reboot.
 bool finite(const AttitudeQuaternion& q);
 
-/// What keeps the computer's commands from the outputs; "nothing" when it is in control.
+/// Cause that keeps the computer's commands from the outputs; "nothing" when it is in control.
 std::string control_words(const RosflightStatus& status, double rc_age_s);
 
 /// Several lines, each "what   value".

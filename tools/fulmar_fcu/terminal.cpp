@@ -16,7 +16,8 @@ volatile std::sig_atomic_t stop_wanted = 0;
 
 void catch_interrupt() {
   struct sigaction action {};
-  action.sa_handler = [](int) { stop_wanted = 1; };  // no SA_RESTART: a question on the terminal ends, too
+  // no SA_RESTART, so that a question on the terminal ends, too
+  action.sa_handler = [](int) { stop_wanted = 1; };
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
 }

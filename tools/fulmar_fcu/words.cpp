@@ -51,7 +51,7 @@ std::vector<std::string> error_words(std::uint8_t bits) {
 }
 
 std::string fix_words(std::uint8_t fix_type) {
-  // u-blox UBX-NAV-PVT fixType; 6 and 7 are the board's own
+  // u-blox UBX-NAV-PVT fixType; 6 and 7 are added by the board
   static constexpr std::array<const char*, 8> words{
       "no fix",    "dead reckoning", "2D fix",   "3D fix", "3D fix and dead reckoning",
       "time only", "RTK float",      "RTK fixed"};

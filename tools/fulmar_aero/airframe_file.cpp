@@ -16,7 +16,7 @@
 namespace fulmar::aero {
 namespace {
 
-/// The item that "[2]" behind a list's name means; null when there is none.
+/// The item of a list for an index such as "[2]"; null for none.
 const core::Node* item_of(const core::Node& list, const std::string& step) {
   const std::size_t bracket = step.find('[');
   if (bracket == std::string::npos) return nullptr;
@@ -24,7 +24,7 @@ const core::Node* item_of(const core::Node& list, const std::string& step) {
   return i < list.items.size() ? &list.items[i] : nullptr;
 }
 
-/// The entry of a field's name, with or without its unit; nullptr when the file does not have it.
+/// The entry with a field's name, with or without its unit; nullptr when the file does not have it.
 const core::Node::Entry* entry_of(const core::Node& map, const std::string& field) {
   const auto split = core::split_suffix(field);
   for (const core::Node::Entry& entry : map.entries)

@@ -10,25 +10,25 @@
 namespace fulmar::aero {
 
 struct AirframeFile {
-  std::string name;  ///< as it was given
+  std::string name;  ///< as given
   Airframe airframe;
   core::Node root;
-  /// Of a text that was made from another file: where the value of a line is from. Empty: the file itself.
+  /// For a text that was made from another file: origin of the value of each line. Empty: the file itself.
   std::map<int, core::Where> origin;
 
-  /// Where a field stands, "aero.pitch.alpha_ratio"; where it is missing, the place of what it would be in.
+  /// Place of a field, "aero.pitch.alpha_ratio"; for a missing one the place of its parent.
   core::Where where(const std::string& field) const;
-  /// Whether the file says it itself, a field "limits.airspeed_max_mps" of a map; else its default counts.
+  /// True when the file gives a field, "limits.airspeed_max_mps" of a map; else its default is used.
   bool says(const std::string& field) const;
-  /// The aircraft's name, or the file's when it has none.
+  /// Name of the aircraft, or of the file without one.
   std::string title() const;
 };
 
-/// `name`: a file, or one that is shipped, as in fulmar:airframes/anaconda.yaml. Throws core::Error with
-/// file:line for every fault; one of them is a value of which no model can be made, such as a negative mass.
+/// `name`: a file, or a shipped one, as in fulmar:airframes/anaconda.yaml. Throws core::Error with file:line
+/// for all faults. A value without a valid model, such as a negative mass, is one.
 AirframeFile read_airframe_file(const std::string& name);
 
-/// The same of a text that is not in a file yet.
+/// The same for a text in memory.
 AirframeFile airframe_of_text(const std::string& text, const std::string& name);
 
 /// "aero.pitch.alpha_ratio" -> "aero.pitch.alpha"

@@ -13,7 +13,7 @@ int linearize_command(const FlightOptions& options, bool csv);
 /// `step` between speeds; `svg`: a file for the picture, or "".
 int modes_command(const FlightOptions& options, const std::string& step, const std::string& svg);
 int check_command(const FlightOptions& options);
-/// Texts of bandwidths and times; "" where nothing was said.
+/// Texts of bandwidths and times; "" for the default.
 struct TuneOptions {
   std::vector<std::string> bandwidths;  ///< "roll=8 rad/s"
   std::string step, delay;
@@ -21,25 +21,26 @@ struct TuneOptions {
 };
 int tune_command(const FlightOptions& options, const TuneOptions& tune_options);
 struct VlmCommand {
-  std::string geometry, out;  ///< `out`: where the airframe goes, or ""
+  std::string geometry, out;  ///< `out`: file of the airframe, or ""
   bool convergence = false, json = false;
 };
 int vlm_command(const VlmCommand& options);
-/// A page of airframes and drawings, `out`. 1: one of them has no level flight in cruise; the page tells why.
+/// Writes `out`, a page of airframes and drawings. Returns 1 when one has no level flight in cruise; the page
+/// has the reason.
 int see_command(const std::vector<std::string>& files, const FlightOptions& options, const std::string& out);
-/// Check, trim, modes, gains and a flight with them, up to the first that fails. `report`: a page of them, or
-/// "".
+/// Check, trim, modes, gains and a flight with them, up to the first failure. `report`: page of the results,
+/// or "".
 int fly_command(const FlightOptions& options, bool write, const std::string& report);
-/// Texts of the command line; "" where nothing was said.
+/// Texts of the command line; "" for the default.
 struct ImportArguments {
   std::vector<std::string> files;
   std::string out, mass, length_unit, cruise, parasite_drag, alpha, name, drag_from, controls_from;
   std::vector<double> inertia;
   bool json = false;
 };
-/// 1 when the check of what was imported finds a fault, or its eigenvalues are not those of the files.
+/// Returns 1 when the check of the result finds a fault, or its eigenvalues differ from those of the files.
 int import_command(const ImportArguments& words);
-/// A folder of ROSplane's files to airframe, plans and missions in the folder `out`.
+/// Converts a folder of ROSplane's files to airframe, plans and missions in the folder `out`.
 int rosplane_command(const std::string& folder, const std::string& out);
 
 }  // namespace fulmar::aero

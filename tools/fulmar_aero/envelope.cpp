@@ -11,9 +11,9 @@
 namespace fulmar::aero {
 namespace {
 
-/// Straight flight with the propeller as it turns at this throttle: Newton's method for angle of attack,
-/// elevator and flight path angle, which leave no acceleration along x and z and none in pitch. `fly` has the
-/// thrust as an unknown; a braking propeller has one thrust at two speeds, and only this one is flown.
+/// Straight flight with the propeller speed at this throttle. Newton's method finds angle of attack, elevator
+/// and flight path angle for zero acceleration along x, z and in pitch. `fly` has the thrust as an unknown;
+/// but a braking propeller has one thrust at two speeds, and only this one is possible.
 double rate_at_throttle(const AircraftModel& m, double airspeed, double throttle) {
   const Airframe& a = m.airframe();
   const double Omega = m.propeller().steady_speed(throttle, airspeed, detail::density_of(m));

@@ -19,15 +19,14 @@ struct Finding {
   std::string sentence;
 };
 
-/// A figure of the aircraft that is worth to be read: "static margin", "0.49 of the chord".
+/// A figure of the aircraft for the report: "static margin", "0.49 of the chord".
 struct Figure {
   std::string key;  ///< of JSON, with its unit
   double value = 0;
   std::string name, text;
 };
 
-/// The derivatives, with values and slopes of the tables where the wing carries the weight at cruise, at sea
-/// level.
+/// The derivatives with values and slopes of the tables at the trim of cruise at sea level.
 Aerodynamics with_table_slopes(const Airframe& airframe);
 
 class Findings {
@@ -35,7 +34,7 @@ class Findings {
   explicit Findings(const AirframeFile& file) : file_(file), aero_(with_table_slopes(file.airframe)) {}
 
   const AirframeFile& file() const { return file_; }
-  const Aerodynamics& aero() const { return aero_; }  ///< tables with them
+  const Aerodynamics& aero() const { return aero_; }  ///< with the tables
   void fault(const std::string& field, double value, const Diagnostic& sentence) {
     list_.push_back({Verdict::fault, field, file_.where(field), value, sentence});
   }
@@ -45,7 +44,7 @@ class Findings {
   void figure(const std::string& key, double value, const std::string& name, const std::string& text) {
     figures_.push_back({key, value, name, text});
   }
-  /// How many values were looked at.
+  /// Counts the checked values.
   void looked_at(int values = 1) { looked_at_ += values; }
 
   const std::vector<Finding>& list() const { return list_; }
@@ -70,19 +69,19 @@ class Findings {
   int looked_at_ = 0;
 };
 
-/// Oswald's factor is beyond all bounds where the drag over the angle of attack has the induced one in it:
-/// sets of JSBSim.
+/// Oswald's factor is infinite where the drag over the angle of attack includes the induced drag: sets of
+/// JSBSim.
 inline bool has_induced_drag(const Wing& wing) { return wing.oswald_ratio < 1e5; }
 
-// Each looks at one side of the airframe.
-void check_body(Findings& findings);                       ///< mass, inertia, wing
-void check_derivatives(Findings& findings);                ///< signs and sizes
-void check_symmetry(Findings& findings);                   ///< what a symmetric aircraft does not have; drag
-void check_angles(Findings& findings);                     ///< throws, limits: degrees for radians
-void check_parts(Findings& findings);                      ///< servos, propellers, battery, gear
-void check_stability(Findings& findings);                  ///< static margin, control power
+// Each checks one part of the airframe.
+void check_body(Findings& findings);         ///< mass, inertia, wing
+void check_derivatives(Findings& findings);  ///< signs and sizes
+void check_symmetry(Findings& findings);     ///< absent derivatives of a symmetric aircraft; drag
+void check_angles(Findings& findings);       ///< throws, limits: degrees for radians
+void check_parts(Findings& findings);        ///< servos, propellers, battery, gear
+void check_stability(Findings& findings);    ///< static margin, control power
 void check_flight(Findings& findings, double altitude_m);  ///< trim from the stall to the top speed, modes
-void check_class(Findings& findings);                      ///< beside other small aircraft
+void check_class(Findings& findings);                      ///< comparison with other small aircraft
 
 void check_all(Findings& findings, double altitude_m);
 std::string findings_text(const Findings& findings, double altitude_m);

@@ -13,13 +13,13 @@
 namespace fulmar::aero {
 namespace {
 
-/// The messages of one topic, thinned out.
+/// The messages of one topic, thinned.
 template <class Message>
 class Thinned {
  public:
   explicit Thinned(const char* topic) : topic_(topic), type_(core::copy_type(describe<Message>())) {}
 
-  /// Whether the message is the next one to keep; it is then in `value`.
+  /// True when the message is to be kept; `value` then holds it.
   bool takes(const core::McapFile& log, const core::McapFile::Message& m) {
     if (m.log_ns < next_ns_ || log.channels.at(m.channel).topic != topic_) return false;
     next_ns_ =

@@ -6,7 +6,7 @@
 
 namespace fulmar::aero {
 
-/// SI units, rad; from the mission's origin. `time_s`: flight time.
+/// SI units, rad; relative to the mission's origin. `time_s`: flight time.
 struct TrackPoint {
   double time_s = 0, north_m = 0, east_m = 0, height_m = 0, airspeed_mps = 0, roll_rad = 0, pitch_rad = 0,
          alpha_rad = 0;
@@ -18,7 +18,7 @@ struct AttitudePoint {
   double time_s = 0, roll_rad = 0, pitch_rad = 0;
 };
 
-/// Every `track_step_s` one of each.
+/// One point of each kind every `track_step_s`.
 struct FlightTrack {
   std::vector<TrackPoint> truth;
   std::vector<CommandPoint> commands;
@@ -26,8 +26,8 @@ struct FlightTrack {
 };
 inline constexpr double track_step_s = 0.25;
 
-/// Of a log that the host of this installation wrote: topics /vehicle/truth, /guide/command, /outer/attitude.
-/// A topic that is not there leaves its list empty. Throws core::Error when there is no log.
+/// Track from a log of this installation's host: topics /vehicle/truth, /guide/command, /outer/attitude. A
+/// missing topic leaves its list empty. Throws core::Error without a log.
 FlightTrack track_of(const std::filesystem::path& log);
 
 }  // namespace fulmar::aero

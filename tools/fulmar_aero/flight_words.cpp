@@ -7,7 +7,7 @@
 namespace fulmar::aero {
 namespace {
 
-/// CL that carries the weight of the flight.
+/// CL for the load factor of the flight.
 double lift_needed(const AircraftModel& model, const SteadyFlight& f) {
   const Airframe& a = model.airframe();
   const double Va = f.condition.airspeed_mps;

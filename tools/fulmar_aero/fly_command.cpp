@@ -11,7 +11,7 @@
 namespace fulmar::aero {
 namespace {
 
-/// Returns the exit code; `record` tells how far it came.
+/// Returns the exit code; `record` holds the completed steps.
 int steps_of_fly(const FlightOptions& options, bool write, FlyRecord& record) {
   const auto step = [&](const char* name, int code) {
     if (code == core::ExitCode::done) return true;
@@ -42,7 +42,7 @@ int steps_of_fly(const FlightOptions& options, bool write, FlyRecord& record) {
 
 int fly_command(const FlightOptions& options, bool write, const std::string& report) {
   refuse_as_page(report, {options.airframe});
-  // what is written below counts for the page too: gains change nothing of it but themselves
+  // Values written below are valid for the page too: gains change only the section of gains.
   const AirframeFile file = read_airframe_file(options.airframe);
   Findings findings(file);
   FlyRecord record{&file, &findings, options.altitude_m(), {}, ""};

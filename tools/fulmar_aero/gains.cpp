@@ -12,13 +12,13 @@
 namespace fulmar::aero {
 namespace {
 
-/// As it is printed, so that the file says the same number.
+/// The printed number, so that the file holds the same value.
 double rounded(double x) { return std::stod(figures(x, 2)); }
 
-/// Figures of the airframe and the relations of plugins/control_slc/README.md, "Gains from bandwidths".
+/// Figures of the airframe, and the relations of plugins/control_slc/README.md, "Gains from bandwidths".
 struct Relations {
   const Plant& plant;
-  double Va, scale;  ///< scale: what the inner law multiplies its gains by at this airspeed
+  double Va, scale;  ///< scale: factor of the gains in the inner law at this airspeed
 
   explicit Relations(const Plant& plant_)
       : plant(plant_),
@@ -31,7 +31,7 @@ struct Relations {
   void roll(double w, InnerLaw& p) const {
     constexpr double damping = 1;
     const double rate = (2 * damping * w - a1()) / a2();
-    // an airframe that damps more than that: its slower pole is at w
+    // an airframe with more damping: its slower pole is at w
     const double kp = rate >= 0 ? w * w / a2() : w * (a1() - w) / a2();
     p.roll_kp.value = kp / scale;
     p.roll_kd.value = std::max(rate, 0.0) / scale;
@@ -49,7 +49,7 @@ struct Relations {
   Eigen::Vector2d elevator() const {
     return {plant.linear.B(model::w, model::elevator), plant.linear.B(model::q, model::elevator)};
   }
-  /// `share` of the rate feedback that damps the short period fully.
+  /// `share`: share of the rate feedback that damps the short period fully.
   void pitch(double w, double share, InnerLaw& p) const {
     constexpr double damping = 1.0, most = 2.0;
     double kd = 0;
@@ -60,14 +60,14 @@ struct Relations {
     while (kd < most && !damped(kd)) kd += 0.005;
     kd *= share;
     p.pitch_kd.value = kd / scale;
-    const double turn = short_period(kd).fullPivLu().solve(elevator())(1);  // -q per elevator, settled
+    const double turn = short_period(kd).fullPivLu().solve(elevator())(1);  // steady -q per elevator
     p.pitch_kp.value = w / turn / scale;
     p.pitch_ki.value = p.pitch_kp.value * 0.1 * w;
   }
 
   void course(double w, OuterLawNumbers& p) const {
     const double Vc = plant.airframe.limits.airspeed_cruise_mps;
-    p.course_kp.value = w * Vc / isa::g0;  // at Vc; grows with the ground speed
+    p.course_kp.value = w * Vc / isa::g0;  // at Vc; proportional to the ground speed
   }
   void height(double w, SlcLaw& p) const {
     p.altitude_kp.value = w / Va;
@@ -86,7 +86,7 @@ struct Relations {
     p.thrust.value = T;
     p.altitude_gain.value = 0.8 * height;
     p.airspeed_gain.value = airspeed;
-    // with more thrust than weight airspeed is mostly the throttle's business
+    // with more thrust than weight the throttle controls the airspeed
     p.speed_weight.value = T > plant.airframe.mass_kg * isa::g0 ? 0.1 : 0.4;
   }
 };
@@ -97,13 +97,13 @@ const LoopFigures* find_loop(const LoopReport& report, const std::string& name) 
   return nullptr;
 }
 
-/// Whether more bandwidth than the margins wanted allow.
+/// True when the bandwidth leaves less than the wanted margins.
 bool too_fast(const LoopReport& report, const std::string& name) {
   const LoopFigures* f = find_loop(report, name);
   return f && !wanted_margins.kept(*f);
 }
 
-/// Two digits: nobody needs more, and people read them. What its range does not allow is told.
+/// Rounds to two digits. A value outside of the parameter's range is reported.
 template <class Law>
 void round_law(Law& law, const Law& was, std::vector<std::string>& beyond) {
   for (const Named<Law>& one : parameters_of(law)) {
@@ -120,7 +120,7 @@ void round_law(Law& law, const Law& was, std::vector<std::string>& beyond) {
 constexpr double slower = 0.94;
 constexpr int max_tries = 60;
 
-/// One design: bandwidths become gains, margins say which are to fall.
+/// One design: gains from bandwidths, which are reduced by the margins.
 class Design {
  public:
   Design(const Plant& plant, const Laws& start, const Bandwidths& given)
@@ -155,7 +155,7 @@ class Design {
   }
 
  private:
-  /// The laws rotate a little above the least airspeed; a file that says so already keeps it.
+  /// The laws rotate slightly above the least airspeed; a higher value in the file stays.
   void start_takeoff() {
     const FlightLimits& limits = plant_.airframe.limits;
     const double V = std::min(1.1 * limits.airspeed_min_mps, limits.airspeed_cruise_mps);
@@ -180,14 +180,14 @@ class Design {
     p.yaw_kd.value = gain / relations_.scale;
   }
 
-  /// Not without end: what is no better for it is not this loop's fault.
+  /// Limited: when a reduction does not help, another loop is the cause.
   static bool fall(double& w, double given, double first) {
     if (given > 0 || w < 0.3 * first) return false;
     w *= slower;
     return true;
   }
 
-  /// Of wanted margins: 1 or more when all loops of the report have them, below 0 when it is not stable.
+  /// Smallest ratio to the wanted margins: 1 or more when all loops have them, below 0 when unstable.
   static double merit(const LoopReport& report, std::initializer_list<const char*> names) {
     if (report.unstable > 0) return -1;
     double least = 1e9;
@@ -198,13 +198,13 @@ class Design {
     return least;
   }
 
-  /// Pitch and yaw damper come down from what was chosen. Roll may have to go up: a Dutch roll that grows by
-  /// itself is held by the ailerons, and they need gain for it.
+  /// Pitch and yaw damper are reduced from the chosen value. Roll may have to be raised: the ailerons
+  /// stabilise an unstable Dutch roll, which needs gain.
   void inner() {
     Bandwidths& w = out_.chosen;
     const double start = w.roll;
     double best = -2, best_roll = w.roll, best_damping = 0;
-    // Rate feedback beyond the relation's: where the relation asks for none, the Dutch roll may.
+    // Rate feedback beyond that of the relation: the relation may give none where the Dutch roll needs it.
     const auto at = [&](double roll) {
       for (const double more : {0.0, 0.02, 0.04, 0.07, 0.1, 0.15}) {
         set_roll(roll, more);
@@ -241,7 +241,7 @@ class Design {
       bool again = false;
       if (too_fast(now, "pitch")) {
         again |= fall(w.pitch, given_.pitch, first_.pitch);
-        // Late as it comes, the rate feedback alone may be too much.
+        // Because of the delay the rate feedback alone may be too high.
         if (w.pitch < 0.7 * first_.pitch || !again) again |= fall(damping_share_, 0, 0.3);
       }
       if (too_fast(now, "yaw damper")) {
@@ -286,7 +286,7 @@ class Design {
     }
   }
 
-  /// Of level flight, 1/(m/s).
+  /// In level flight, 1/(m/s).
   double throttle_per_speed() const {
     const AircraftModel m(plant_.airframe, plant_.altitude_m);
     const double V = plant_.flight.condition.airspeed_mps, h = 0.05 * V;
@@ -304,7 +304,7 @@ class Design {
   Bandwidths given_, first_;
   Tuning out_;
   double damping_share_ = 1;       ///< of pitch
-  bool roll_has_margins_ = false;  ///< with the course loop open
+  bool roll_has_margins_ = false;  ///< with an open course loop
 };
 
 }  // namespace

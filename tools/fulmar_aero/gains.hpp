@@ -8,13 +8,13 @@
 
 namespace fulmar::aero {
 
-/// rad/s; 0: as much as lags and margins allow.
+/// rad/s; 0: the largest that lags and margins allow.
 struct Bandwidths {
   double roll = 0, pitch = 0, course = 0, height = 0, airspeed = 0;
 };
 
-/// Margins that every loop has to keep (least), and that gains are chosen for (wanted). MIL-DTL-9490E asks
-/// for 6 dB and 45 deg.
+/// Margins that every loop must keep (least), and that the design aims at (wanted). MIL-DTL-9490E requires 6
+/// dB and 45 deg.
 struct MarginRule {
   double gain_db, phase_rad;
   bool kept(const LoopFigures& f) const {
@@ -26,16 +26,15 @@ inline constexpr MarginRule min_margins{6, 45 * margin_degree}, wanted_margins{8
 
 struct Tuning {
   Laws laws;
-  Bandwidths chosen;  ///< what the gains were computed from
+  Bandwidths chosen;  ///< the bandwidths of the gains
   bool yaw_damper = false;
-  std::vector<std::string> beyond;  ///< gains that their ranges do not allow, a sentence each
+  std::vector<std::string> beyond;  ///< gains outside of their ranges, a sentence each
 };
 
-/// The most bandwidth of a loop that acts through a lag, rad/s: beyond it the lag alone takes the phase that
-/// the margin needs.
+/// Largest bandwidth of a loop with a lag, rad/s: beyond it the lag alone uses up the phase margin.
 double max_bandwidth(double lag_s);
 
-/// `start`: what is not computed stays as it is there. Loops whose bandwidth is `given` keep it.
+/// `start`: parameters that are not computed stay. Loops with a `given` bandwidth keep it.
 Tuning tune(const Plant& plant, const Laws& start, const Bandwidths& given);
 
 }  // namespace fulmar::aero

@@ -39,7 +39,7 @@ void fill_law(Law& law, const core::Node& section, const std::string& path, core
   }
 }
 
-/// Lines of a text; the last one ends with a newline, too.
+/// Lines of a text; the last one also ends with a newline.
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
@@ -57,7 +57,7 @@ int last_line(const core::Node& node) {
 
 std::string indent_of(const std::string& line) { return line.substr(0, line.find_first_not_of(' ')); }
 
-/// Edits of a file, by line, made at once so that line numbers hold.
+/// Edits of a file, by line, applied together so that line numbers stay valid.
 class Edit {
  public:
   Edit(const AirframeFile& file, const std::string& text) : file_(file), lines_(lines_of(text)) {}
@@ -140,7 +140,7 @@ FileLaws laws_in(const AirframeFile& file) {
         fill_law(out.laws.tecs, entry.value, path, report);
       else if (entry.key == "control_slc/Airspeed" || entry.key == "control_slc/Autotune" ||
                entry.key == "control_tecs/ErrorLaw")
-        continue;  // loops that are not judged here
+        continue;  // loops that are not evaluated here
       else if (entry.key.rfind("control_slc", 0) == 0 || entry.key.rfind("control_tecs", 0) == 0)
         report.add(entry.where(),
                    aero_messages::component_unknown(entry.key, core::choices_text(entry.key, known)));

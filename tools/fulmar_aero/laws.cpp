@@ -24,11 +24,11 @@ struct Sampled {
     return gain * (1.0 - back) / (1.0 - decay * back);
   }
   Complex differentiator(double tau) const { return wash_out(1 / tau) / tau; }
-  /// The increment of a step counts in that step.
+  /// The input of a step counts in that step.
   Complex integral() const { return T / (1.0 - back); }
 };
 
-/// d/dVa of what a level flight needs: elevator and angle of attack, rad per m/s.
+/// d/dVa of the trim of level flight: elevator and angle of attack, rad per m/s.
 struct TrimSlope {
   double elevator, alpha;
 };
@@ -39,7 +39,7 @@ TrimSlope trim_slope(const Airframe& a, const LawPoint& at) {
   return {(fast.elevator_rad - slow.elevator_rad) / (2 * h), (fast.alpha_rad - slow.alpha_rad) / (2 * h)};
 }
 
-/// Course hold and the trim of pitch, which both outer laws have.
+/// Course hold and pitch trim, common to both outer laws.
 void add_common(const OuterLawNumbers& p, const LawPoint& at, const Sampled& f, OuterResponse& out) {
   const double speed_ratio =
       std::clamp(at.Va_mps / std::max(at.airframe->limits.airspeed_cruise_mps, 1.0), 0.5, 2.0);
@@ -51,7 +51,7 @@ void add_common(const OuterLawNumbers& p, const LawPoint& at, const Sampled& f, 
       trim_slope(*at.airframe, at).alpha * f.low_pass(p.airspeed_smoothing);
 }
 
-/// Of both outer laws; no loop depends on those without a number.
+/// Parameters of both outer laws; those without a number affect no loop.
 template <class Law>
 std::vector<Named<Law>> outer_parameters(std::vector<Named<Law>> own) {
   std::vector<Named<Law>> all{{"course_kp", &Law::course_kp},
@@ -154,7 +154,7 @@ OuterResponse response(const SlcLaw& p, const LawPoint& at, Complex z) {
   const double Va = at.Va_mps;
   OuterResponse out;
   add_common(p, at, f, out);
-  const double climb_rate = p.altitude_kp * Va;  // demanded, per height error
+  const double climb_rate = p.altitude_kp * Va;  // demand per height error
   const Complex per_height =
       climb_rate / Va + p.altitude_ki.value * f.integral() + p.altitude_kd * climb_rate;
   out.of_goals(command::pitch, goal::height) = per_height;
@@ -182,7 +182,8 @@ OuterResponse response(const TecsLaw& p, const LawPoint& at, Complex z) {
   const Complex pitch_pi = p.pitch_damping.value + p.pitch_integral.value * f.integral(),
                 throttle_pi = p.throttle_damping.value + p.throttle_integral.value * f.integral();
 
-  // pitch: [climb demanded - w_V steady acceleration demanded] (1 or w_h, and the PI) less what is there
+  // pitch: [demanded climb - w_V demanded steady acceleration] (1 or w_h, and the PI) minus the present
+  // values
   const Complex potential = g * p.altitude_gain * (1.0 + w_h * pitch_pi) / (g * Va);
   const Complex kinetic = w_V * Va * p.airspeed_gain * (1.0 + pitch_pi) / (g * Va);
   out.of_goals(command::pitch, goal::height) = potential;

@@ -14,17 +14,17 @@ namespace fulmar::aero {
 
 using Complex = std::complex<double>;
 
-/// What the laws measure: deviations from steady flight, rad, rad/s, m, m/s, m/s2, rad.
+/// Inputs of the laws: differences from steady flight, rad, rad/s, m, m/s, m/s2, rad.
 namespace sensor {
 enum : int { roll, pitch, p, q, r, course, height, climb, airspeed, acceleration, sideslip };
 inline constexpr int count = 11;
 }  // namespace sensor
-/// What the outer law commands of the inner one: rad, rad, a part of full throttle.
+/// Commands of the outer law to the inner one: rad, rad, share of full throttle.
 namespace command {
 enum : int { roll, pitch, throttle };
 inline constexpr int count = 3;
 }  // namespace command
-/// What guidance asks for: rad, m, m/s.
+/// Commands of guidance: rad, m, m/s.
 namespace goal {
 enum : int { course, height, airspeed };
 inline constexpr int count = 3;
@@ -40,7 +40,7 @@ struct Number {
 template <class Law>
 struct Named {
   const char* name;
-  Number Law::*number;  ///< nullptr: a parameter that no loop depends on
+  Number Law::*number;  ///< nullptr: a parameter that affects no loop
 };
 
 /// control_slc/Inner
@@ -53,7 +53,7 @@ struct InnerLaw {
   Number command_filter{0.04, "s", 0.005, 1}, airspeed_smoothing{0.5, "s", 0, 10},
       scale_limit{2.5, "ratio", 1, 10};
 };
-/// What both outer laws have.
+/// Parameters common to both outer laws.
 struct OuterLawNumbers {
   Number course_kp{2.0, "rad/rad", 0, 10}, course_ki{0.0, "rad/(rad s)", 0, 2},
       roll_smoothing{0.1, "s", 0, 2}, airspeed_smoothing{0.5, "s", 0, 10},
@@ -75,12 +75,12 @@ struct TecsLaw : OuterLawNumbers {
       pitch_damping{0.6, "ratio", 0, 5}, pitch_integral{0.2, "1/s", 0, 5},
       airspeed_kff{0.03, "1/(m/s)", 0, 0.2}, thrust{50.0, "N", 1, 10000};
 };
-/// All parameters by their names, as `fulmar inspect` lists them.
+/// All parameters by name, in the order of `fulmar inspect`.
 const std::vector<Named<InnerLaw>>& parameters_of(const InnerLaw&);
 const std::vector<Named<SlcLaw>>& parameters_of(const SlcLaw&);
 const std::vector<Named<TecsLaw>>& parameters_of(const TecsLaw&);
 
-/// Where the laws fly, and what.
+/// Flight condition of the laws.
 struct LawPoint {
   const Airframe* airframe = nullptr;
   double Va_mps = 0, density_kgpm3 = 0, pitch_rad = 0;

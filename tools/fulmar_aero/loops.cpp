@@ -20,7 +20,7 @@ double servo_lag_s(const Surface& surface) {
   return w > 0 ? 2 * surface.damping_ratio / w : surface.time_constant_s;
 }
 
-/// The surfaces that a mixer makes of two servos: what both have in common.
+/// The surfaces that a mixer makes of two servos: their common properties.
 std::array<std::array<const Surface*, 2>, 3> servos_of(const Airframe& a) {
   const Surface &x = a.aileron, &y = a.elevator, &z = a.rudder;
   if (a.mixer == Mixer::elevons) return {{{&x, &y}, {&x, &y}, {&z, &z}}};
@@ -28,7 +28,7 @@ std::array<std::array<const Surface*, 2>, 3> servos_of(const Airframe& a) {
   return {{{&x, &x}, {&y, &y}, {&z, &z}}};
 }
 
-/// A loop of the aircraft: where it is broken, and from which command it answers where.
+/// A loop: the place where it is broken, and its command and response.
 struct LoopPlace {
   const char *name, *actuator, *sensor;
   int at_actuator, at_sensor;
@@ -56,7 +56,7 @@ std::vector<LoopPlace> places(const Airframe& a, OuterScheme scheme) {
   return all;
 }
 
-/// What the goals of guidance make of the commands.
+/// Commands as a function of the goals of guidance.
 Eigen::Matrix<Complex, command::count, goal::count> of_goals(const Plant& plant, const Laws& laws,
                                                              OuterScheme scheme, Complex s) {
   const Complex z = std::exp(s * plant.step_s);
@@ -74,22 +74,22 @@ std::vector<double> frequencies(const Plant& plant) {
 
 LoopMatrix difference_inverse(const LoopMatrix& G) { return (LoopMatrix::Identity() - G).inverse(); }
 
-/// -3 dB of an answer, from what it is at low frequency.
+/// -3 dB of a response, relative to its value at low frequency.
 double bandwidth_of(const std::vector<double>& w, const std::vector<double>& T) {
   for (std::size_t i = 0; i < T.size(); ++i)
     if (T[i] < T.front() / std::numbers::sqrt2) return w[i];
   return w.back();
 }
 
-/// Of the second-order system whose answer L/(1 + L) has the same peak, |T|max = 1/(2 z sqrt(1 - z^2)):
-/// Åström & Murray, Feedback Systems (2008), section 6.3.
+/// Damping of the second-order system whose response L/(1 + L) has the same peak, |T|max = 1/(2 z sqrt(1 -
+/// z^2)): Åström & Murray, Feedback Systems (2008), section 6.3.
 double damping_of(const Samples& loop) {
   double M = 1;
   for (const LoopSample& one : loop) M = std::max(M, std::abs(one.gain / (1.0 + one.gain)));
   return std::sqrt(0.5 * (1 - std::sqrt(1 - 1 / (M * M))));
 }
 
-/// Right of the line. Place, heading and height add poles at 0.
+/// Poles right of the line. Position, heading and height add poles at 0.
 int open_loop_poles(const Plant& plant, double line) {
   int count = 0;
   for (const Mode& mode : modes_in(plant.linear))
@@ -196,7 +196,7 @@ LoopReport evaluate(const Plant& plant, const Laws& laws, OuterScheme scheme) {
     }
   }
   LoopReport report;
-  // Without an outer law a slow mode of height or speed may grow: it is no business of the inner one.
+  // Without an outer law a slow mode of height or speed may be unstable: the inner law does not control it.
   const double line = scheme == OuterScheme::none ? 0.1 : 2e-3;
   report.unstable = unstable_poles(
       [&](Complex s) { return (LoopMatrix::Identity() - loops(plant, laws, scheme, s)).determinant(); },

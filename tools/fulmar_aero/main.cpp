@@ -142,7 +142,7 @@ struct CommandLine {
     importer->footer("Example: fulmar aero import plane.st plane.mass -o plane.yaml");
   }
 
-  /// Of the first word, when it is no command: the sentence, else "".
+  /// Message for a first word that is no command, else "".
   std::string unknown(int argc, char** argv) const {
     std::vector<std::string> names;
     for (const CLI::App* one : {trim, linearize, modes, check, tune, vlm, see, fly, importer})

@@ -16,7 +16,7 @@ namespace {
 
 struct Sweep {
   std::vector<ModesAtSpeed> found;
-  std::vector<std::pair<double, std::string>> missing;  // airspeed, why
+  std::vector<std::pair<double, std::string>> missing;  // airspeed, reason
 };
 
 Sweep sweep_over(const AirframeFile& file, const FlightOptions& options, const std::string& step) {
@@ -34,7 +34,7 @@ Sweep sweep_over(const AirframeFile& file, const FlightOptions& options, const s
   return sweep;
 }
 
-/// Absent is null.
+/// Null for an absent value.
 nlohmann::json when(bool there, double value) { return there ? nlohmann::json(value) : nlohmann::json(); }
 
 nlohmann::json mode_json(const Mode& mode) {

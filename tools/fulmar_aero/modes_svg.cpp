@@ -10,14 +10,14 @@
 namespace fulmar::aero {
 namespace {
 
-// The palette of Okabe and Ito, which people with any colour vision can tell apart.
+// The palette of Okabe and Ito, distinct for any colour vision.
 constexpr std::array<const char*, 6> colours{"#0072b2", "#e69f00", "#009e73",
                                              "#d55e00", "#cc79a7", "#56b4e9"};
 
 struct Box {
   int number = 0;  ///< 0: all modes; 1: the slow ones
   double left = 0, top = 0, width = 0, height = 0;
-  double real_min = 0, real_max = 0, imag_max = 0;  ///< what it shows, 1/s; from the real axis up
+  double real_min = 0, real_max = 0, imag_max = 0;  ///< shown range, 1/s; from the real axis up
   double x(double real) const { return left + (real - real_min) / (real_max - real_min) * width; }
   double y(double imag) const { return top + height - imag / imag_max * height; }
 };
@@ -71,7 +71,7 @@ bool inside(const Box& box, const std::complex<double>& e) {
   return e.real() >= box.real_min && e.real() <= box.real_max && e.imag() <= box.imag_max;
 }
 
-/// At the first and the last airspeed; beside points that lead upwards, above those on the real axis.
+/// Label at the first and the last airspeed: next to points of a rising curve, above points on the real axis.
 std::string speed_label(const Mode& mode, std::size_t i, const std::vector<ModesAtSpeed>& sweep, double x,
                         double y) {
   if (i != 0 && i + 1 != sweep.size()) return "";
@@ -114,7 +114,7 @@ Box around(const std::vector<ModesAtSpeed>& sweep, Box box, double nearest) {
   return box;
 }
 
-/// The largest of all, or of what is slow: phugoid and spiral.
+/// Largest magnitude of all modes, or of the slow ones: phugoid and spiral.
 double largest(const std::vector<ModesAtSpeed>& sweep, bool slow) {
   double found = 0.1;
   for (const ModesAtSpeed& at : sweep)

@@ -13,8 +13,8 @@ struct ModesAtSpeed {
   std::vector<Mode> modes;
 };
 
-/// All modes on the left, those near the origin on the right; the upper half of the plane, which the lower
-/// one mirrors.
+/// All modes on the left, those near the origin on the right. Only the upper half plane: the lower one is its
+/// mirror image.
 std::string modes_svg(const std::string& title, const std::vector<ModesAtSpeed>& sweep);
 
 }  // namespace fulmar::aero

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t max_speeds = 500;
 
-/// A number in `unit`; a bare one is in that unit.
+/// A number in `unit`, which is the default unit.
 double in_unit(const char* option, const std::string& text, const std::string& unit) {
   try {
     return core::quantity_in(text, unit, core::UnitRule::optional);
@@ -20,7 +20,7 @@ double in_unit(const char* option, const std::string& text, const std::string& u
   }
 }
 
-/// Whether the text has a unit of that dimension. A bare number is none.
+/// True when the text has a unit of that dimension; a number without a unit has none.
 bool is_in(const char* option, const std::string& text, const std::string& unit) {
   try {
     const core::Quantity quantity = core::parse_quantity(text);
@@ -94,7 +94,7 @@ std::vector<double> FlightOptions::airspeeds(const Airframe& a, const std::strin
   const std::size_t dots = airspeed.find("..");
   if (dots == std::string::npos) return {condition(a).airspeed_mps};
   const std::string last = airspeed.substr(dots + 2), first = airspeed.substr(0, dots);
-  // "12..27 m/s": the unit stands once, behind both
+  // "12..27 m/s": the unit follows both numbers
   std::string unit;
   try {
     unit = core::parse_quantity(last).unit;

@@ -9,8 +9,8 @@
 
 namespace fulmar::aero {
 
-/// --airspeed, --climb, --turn, --altitude, --json and the airframe. Values have units; what cannot be read
-/// is a fault of the command line (CLI::ValidationError).
+/// --airspeed, --climb, --turn, --altitude, --json and the airframe. Values have units; an invalid one is a
+/// CLI::ValidationError.
 struct FlightOptions {
   std::string airframe, airspeed, climb, turn, altitude;
   bool json = false;
@@ -18,7 +18,7 @@ struct FlightOptions {
   void add(CLI::App* command, bool range_of_speeds = false);
   double altitude_m() const;
   SteadyCondition condition(const Airframe& a) const;
-  /// "12..27 m/s" in steps of `step`, or one speed; the airframe's cruise when nothing is said.
+  /// "12..27 m/s" in steps of `step`, or one speed; the default is the airframe's cruise speed.
   std::vector<double> airspeeds(const Airframe& a, const std::string& step) const;
 
  private:

@@ -22,7 +22,7 @@ TablePoint<Slope> point_at(double alpha, double mach) {
           Slope::variable(0, 4)};
 }
 
-/// Where the wing carries the weight, elevator at 0; up to the stall.
+/// Angle of attack at which the wing carries the weight, elevator at 0; up to the stall.
 double alpha_of(const Airframe& a, double CL, double mach) {
   double low = -0.2, high = a.wing.stall_alpha_rad;
   for (int i = 0; i < 50; ++i) {

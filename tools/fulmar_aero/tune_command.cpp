@@ -21,7 +21,7 @@ namespace {
 struct BandwidthName {
   const char *name, *actuator;
   double Bandwidths::*value;
-  int input;  ///< through whose lag it acts
+  int input;  ///< index of the lag
 };
 constexpr std::array<BandwidthName, 5> bandwidth_names{
     {{"roll", "aileron", &Bandwidths::roll, model::aileron},
@@ -63,7 +63,7 @@ Bandwidths bandwidths(const TuneOptions& options) {
 
 std::string milliseconds(double s) { return figures(1000 * s) + " ms"; }
 
-/// A bandwidth that the actuator's lag forbids, in a sentence; "" when there is none.
+/// Message for a bandwidth beyond the actuator's lag; "" for none.
 std::string beyond_actuators(const AirframeFile& file, const Plant& plant, const Bandwidths& given) {
   for (const BandwidthName& b : bandwidth_names) {
     const double w = given.*b.value, lag = plant.lag_s(b.input), most = max_bandwidth(lag);
@@ -110,7 +110,7 @@ void write_file(const AirframeFile& file, const std::string& text) {
   if (!out) throw core::Error(located(file.name, aero_messages::output_not_writable()));
 }
 
-/// The file's text with the gains, read once more: what is written says what was computed.
+/// The file's text with the gains, read again as a check.
 std::string text_with(const AirframeFile& file, const std::vector<Gain>& gains) {
   const std::string text = with_gains(file, file.root.file->text, gains);
   AirframeFile read = file;
@@ -177,7 +177,7 @@ TuneOutcome tune_outcome(const FlightOptions& options, const TuneOptions& tune_o
     print_text("\n" + gains_text(outcome.gains, outcome.shipped_gains));
     if (outcome.flown) print_text(flight_text(*outcome.flown));
   }
-  // gains that are not good enough are not written
+  // insufficient gains are not written
   if (!outcome.faults.empty())
     outcome.code = core::ExitCode::failed;
   else if (tune_options.write)

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of this run's own, gone with it.
+/// A temporary folder, deleted at the end.
 struct FlightFolder {
   fs::path path;
   FlightFolder() {
@@ -40,7 +40,7 @@ struct FlightFolder {
 };
 
 constexpr double shipped_speed_mps = 17;
-/// Whether the shipped plan is flown, which is made for 17 m/s.
+/// True near 17 m/s, for which the shipped plan is made.
 bool is_shipped_speed(double airspeed_mps) { return std::abs(airspeed_mps - shipped_speed_mps) <= 1.5; }
 /// North and east, m, of the shipped plan.
 constexpr std::array<std::array<double, 2>, 4> shipped_corners{
@@ -84,7 +84,7 @@ std::vector<FlownFigure> figures_of(const nlohmann::json& o, const Airframe& a) 
            true}};
 }
 
-/// Of what lies on skids no wheel lets it roll to its speed.
+/// An aircraft on skids cannot roll to its take-off speed.
 bool needs_launch(const Airframe& a) {
   const auto& contacts = a.gear.contacts;
   return !contacts.empty() && std::all_of(contacts.begin(), contacts.end(), [](const auto& contact) {

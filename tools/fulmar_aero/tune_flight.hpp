@@ -14,23 +14,22 @@ namespace fulmar::aero {
 struct FlownFigure {
   std::string name, unit;
   double value = 0, bound = 0;
-  bool least = false;  ///< the bound is the least, not the most
+  bool least = false;  ///< the bound is a minimum, not a maximum
   bool kept() const { return least ? value >= bound : value <= bound; }
 };
 struct TuneFlight {
-  std::string result;   ///< "flown", or what became of it
-  std::string stalled;  ///< when its wing stalled, in a sentence; empty when it did not
+  std::string result;   ///< "flown", or its end
+  std::string stalled;  ///< a sentence for a stall of the wing; else empty
   std::vector<FlownFigure> figures;
   FlightTrack track;
   std::vector<std::array<double, 2>> corners_m;  ///< of the plan: north, east
 };
 
-/// `text`: of the airframe's file, with the gains. The plan is the shipped one near its 17 m/s, else the same
-/// shape grown with the square of the airspeed, so that turns have the same bank.
+/// `text`: airframe file with the gains. Near 17 m/s the plan is the shipped one. Else the same shape is
+/// scaled with the square of the airspeed, so that turns have the same bank.
 TuneFlight fly_hourglass(const Airframe& airframe, const std::string& text, double airspeed_mps);
 
-/// When the wing stalled, in a sentence; empty when it did not. A wing that a gust takes beyond its most lift
-/// for a moment has not, nor one that is just thrown.
+/// A sentence for a stall of the wing; else empty. A short excess in a gust or after a throw is no stall.
 std::string stall_of(const FlightTrack& track, const Airframe& a);
 
 std::string flight_text(const TuneFlight& flight);

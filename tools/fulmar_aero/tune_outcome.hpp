@@ -14,13 +14,13 @@ namespace fulmar::aero {
 
 struct TuneOutcome {
   int code = core::ExitCode::done;
-  std::vector<std::string> faults;  ///< a sentence each; with one of them the code is not 0
+  std::vector<std::string> faults;  ///< a sentence each; with a fault the exit code is not 0
   std::vector<Gain> gains, shipped_gains;
   Judged computed;
-  std::optional<Judged> shipped;    ///< with the gains that the file has
+  std::optional<Judged> shipped;    ///< with the gains of the file
   std::optional<TuneFlight> flown;  ///< with --verify
 };
-/// Prints all but the faults, and writes the file when it is asked for and nothing is at fault.
+/// Prints all but the faults, and writes the file if requested and without faults.
 TuneOutcome tune_outcome(const FlightOptions& options, const TuneOptions& tune_options);
 
 }  // namespace fulmar::aero

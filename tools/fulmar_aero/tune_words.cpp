@@ -17,7 +17,7 @@ std::string margin_words(const Margins& m) {
 
 nlohmann::json finite(double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); }
 
-/// A loop that never reaches 0 dB has no crossover.
+/// A loop below 0 dB has no crossover.
 nlohmann::json more_than_none(double radps) {
   return radps > 0 ? nlohmann::json(radps) : nlohmann::json(nullptr);
 }

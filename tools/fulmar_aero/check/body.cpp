@@ -18,7 +18,7 @@ struct UnitOfInertia {
 constexpr std::array<UnitOfInertia, 5> inertia_units{
     {{"kg cm^2", 1e-4}, {"g cm^2", 1e-7}, {"kg mm^2", 1e-6}, {"lb in^2", 2.9264e-4}, {"slug ft^2", 1.35582}}};
 
-/// What the radius of gyration is of the span in aircraft that fly: 0.08 to 0.2; a rod's is 0.289.
+/// Radius of gyration over span: 0.08 to 0.2 in real aircraft; 0.289 for a rod.
 constexpr double min_gyration = 0.04, max_gyration = 0.26;
 
 bool plausible(double inertia, const Airframe& a) {

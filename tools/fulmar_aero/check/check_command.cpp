@@ -69,7 +69,7 @@ std::string findings_text(const Findings& findings, double altitude_m) {
 
 int check_command(const FlightOptions& options) {
   const double altitude_m = options.altitude_m();
-  // a file of another tool is looked at as it is
+  // a file of another tool is checked without changes
   const std::optional<imports::Imported> imported = imports::imported_for_check(options.airframe);
   const AirframeFile file = imported ? imported->file : read_airframe_file(options.airframe);
   Findings findings(file);

@@ -11,9 +11,9 @@
 namespace fulmar::aero {
 namespace {
 
-/// Observed in sets of small unmanned aircraft, computed with AVL, XFLR5 and VSPAERO or identified in flight:
+/// Ranges of sets of small unmanned aircraft, computed with AVL, XFLR5 and VSPAERO or identified in flight:
 /// Aerosonde, Anaconda, Skyhunter and Zagi (Beard & McLain; ROSflight's parameter files), UltraStick 25e in
-/// flight (University of Minnesota), AVL's own examples, and a 4.5 kg aircraft through all three tools.
+/// flight (University of Minnesota), AVL's examples, and a 4.5 kg aircraft with all three tools.
 struct ClassRange {
   const char* symbol;
   double Derivatives::*of;
@@ -35,7 +35,7 @@ constexpr std::array<ClassRange, 11> class_ranges{
      {"Cn_r", &ClassD::r_ratio, &ClassA::yaw, -0.35, -0.004},
      {"Cn_dr", &ClassD::rudder_ratio, &ClassA::yaw, -0.12, -0.03}}};
 
-/// 0 inside; else how many widths of the range the value lies outside of it.
+/// 0 inside; else the distance from the range in widths of the range.
 double distance_from(const ClassRange& range, double value) {
   const double width = range.high - range.low;
   return std::max({0.0, (range.low - value) / width, (value - range.high) / width});
@@ -64,7 +64,7 @@ void report_class(Findings& f) {
                (outside.empty() ? "" : ", outside: " + outside));
 }
 
-/// -CL_0/CL_alpha. Wings of small aircraft, camber and setting together, lift nothing at -6 to 2 deg.
+/// -CL_0/CL_alpha. Wings of small aircraft, camber and setting together, have zero lift at -6 to 2 deg.
 void check_zero_lift(Findings& f) {
   const Aerodynamics& aero = f.aero();
   if (aero.lift.alpha_ratio <= 0) return;
@@ -77,8 +77,8 @@ void check_zero_lift(Findings& f) {
                                        figures(aero.lift.zero_ratio - 3 * degree * aero.lift.alpha_ratio)));
 }
 
-/// Published sets that are copied most. Aerosonde: Beard & McLain (2012), appendix E, as rosflight_sim has
-/// it; Skyhunter: rosflight_ros_pkgs until August 2024.
+/// Published sets that are often copied. Aerosonde: Beard & McLain (2012), appendix E, as in rosflight_sim;
+/// Skyhunter: rosflight_ros_pkgs until August 2024.
 struct KnownAircraft {
   const char* name;
   double area_m2, span_m;

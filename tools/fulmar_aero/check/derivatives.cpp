@@ -19,8 +19,8 @@ struct Rule {
   double Derivatives::*of;
   Derivatives Aerodynamics::*table;
   double low, high;       ///< usual, signed
-  Verdict wrong_sign;     ///< what a value of the other sign is
-  const char* otherwise;  ///< what the aircraft does with the other sign, and the likely mistake
+  Verdict wrong_sign;     ///< verdict for a value of the other sign
+  const char* otherwise;  ///< effect of the other sign on the aircraft, and its likely cause
 };
 
 using D = Derivatives;
@@ -98,9 +98,9 @@ bool of_control(const Rule& rule) {
   return rule.of == &D::aileron_ratio || rule.of == &D::elevator_ratio || rule.of == &D::rudder_ratio;
 }
 
-/// Far from what any aircraft has: five times, or 1.5 times where a degree explains it. A stability
-/// derivative that is nothing but doubtful with the other sign may be as small as it likes: the dihedral
-/// effect of an Anaconda is -0.002.
+/// Far outside of the values of real aircraft: by a factor of five, or 1.5 when degrees explain it. A
+/// stability derivative whose other sign is only doubtful may be small: the dihedral effect of an Anaconda is
+/// -0.002.
 bool absurd(const Rule& rule, double value, bool explained) {
   const double most = std::max(std::abs(rule.low), std::abs(rule.high));
   const double least = rule.low * rule.high > 0 ? std::min(std::abs(rule.low), std::abs(rule.high)) : 0;

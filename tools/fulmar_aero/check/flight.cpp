@@ -34,7 +34,7 @@ void check_speeds(Findings& f, const AircraftModel& m) {
            fixed(level.fastest_mps, 1) + " m/s");
 }
 
-/// What a limit is that the file leaves out; "" of one that it has.
+/// Default of a limit that the file leaves out; "" for one in the file.
 std::string defaulted(const Findings& f, const char* field, const std::string& value) {
   return f.file().says(field) ? "" : aero_messages::limit_defaulted(value).line();
 }
@@ -95,7 +95,7 @@ void check_envelope(Findings& f, const AircraftModel& m) {
         {Va, 0, Turn::bank, l.roll_max_rad});
 }
 
-/// What is asked of a mode: the least damping of a pair, and how soon it may double.
+/// Requirements on a mode: the least damping of a pair, and the least time to double.
 struct ModeWanted {
   ModeKind kind;
   const char* field;

@@ -25,7 +25,7 @@ void check_margin(Findings& f) {
            aero_messages::static_margin_low(figures(margin)));
 }
 
-/// The helix angle p b/2V that full aileron holds; 0.07 is what MIL-F-8785 once asked of light aircraft.
+/// The helix angle p b/2V at full aileron; MIL-F-8785 required 0.07 of light aircraft.
 void check_roll_power(Findings& f) {
   f.looked_at();
   const Airframe& a = f.file().airframe;
@@ -40,7 +40,7 @@ void check_roll_power(Findings& f) {
            aero_messages::roll_power_low(figures(helix), fixed(rate / degree, 0)));
 }
 
-/// Whether the elevator reaches the angle of attack of the most lift.
+/// Checks that the elevator reaches the angle of attack of maximum lift.
 void check_pitch_power(Findings& f) {
   f.looked_at();
   const Airframe& a = f.file().airframe;

@@ -26,7 +26,7 @@ constexpr std::array<Term, 4> longitudinal_terms{{{"zero_ratio", &D::zero_ratio}
                                                   {"q_ratio", &D::q_ratio},
                                                   {"elevator_ratio", &D::elevator_ratio}}};
 
-/// Of lift, drag and pitch to the left or right; of side, roll and yaw to angle of attack and elevator.
+/// Lift, drag and pitch by lateral quantities; side force, roll and yaw by angle of attack and elevator.
 template <std::size_t N>
 void check_cross(Findings& f, const char* table, const D& of, const std::array<Term, N>& terms, double most,
                  const MessageText<1>& why) {
@@ -38,7 +38,7 @@ void check_cross(Findings& f, const char* table, const D& of, const std::array<T
   }
 }
 
-/// Drag over a square is given as such; a linear term beside it is what is left of a fit.
+/// A quadratic drag term makes a linear one a residue of a fit.
 void check_drag_of_sideslip(Findings& f) {
   f.looked_at(4);
   const Aerodynamics& aero = f.file().airframe.aero;
@@ -107,7 +107,7 @@ void check_symmetry(Findings& f) {
   check_cross(f, "lift", aero.lift, lateral_terms, 0.02 * std::max(1.0, aero.lift.alpha_ratio), cross);
   check_cross(f, "pitch", aero.pitch, lateral_terms, 0.02, cross);
   Derivatives drag = aero.drag;
-  if (aero.drag_squared.beta_ratio > 0) drag.beta_ratio = 0;  // told beside the square
+  if (aero.drag_squared.beta_ratio > 0) drag.beta_ratio = 0;  // reported with the square
   check_cross(f, "drag", drag, lateral_terms, 1e-3, aero_messages::drag_sided);
   for (const auto& [table, of] : {std::pair{"side", &aero.side}, {"roll", &aero.roll}, {"yaw", &aero.yaw}})
     check_cross(f, table, *of, longitudinal_terms, 0.01, aero_messages::turning_bias);

@@ -5,7 +5,7 @@
 
 namespace fulmar::aero::imports {
 
-/// What a coefficient is multiplied by, in the order of the airframe file.
+/// Factor of a coefficient, in the order of the airframe file.
 enum Term : std::uint8_t {
   t_zero,
   t_alpha,
@@ -22,17 +22,19 @@ enum Term : std::uint8_t {
 
 enum class Role : std::uint8_t { aileron, elevator, rudder, flap, mixed };
 
-/// What the caller says, beside the files.
+/// Values from the caller, in addition to the files.
 struct ImportOptions {
-  double mass_kg = 0, length_m = 0, cruise_mps = 0;  ///< 0: not said
-  std::array<double, 4> inertia{};                   ///< xx, yy, zz, xz; all 0: not said
-  double parasite_drag = 0;                          ///< 0: not said
-  double alpha_rad = -100;  ///< of a sweep take the analysis nearest to it; -100: not said
+  double mass_kg = 0, length_m = 0, cruise_mps = 0;  ///< 0: not given
+  std::array<double, 4> inertia{};                   ///< xx, yy, zz, xz; all 0: not given
+  double parasite_drag = 0;                          ///< 0: not given
+  double alpha_rad = -100;  ///< selects the nearest analysis of a sweep; -100: not given
   std::string name;
-  std::string drag_from, controls_from;  ///< files that win for drag, for the columns of the controls
+  // files with priority for drag, and for the columns of the controls
+  std::string drag_from, controls_from;
 };
 
-/// The usual part of the elliptic wing's span efficiency; the drag polar is CD_p + CL^2/(pi e AR).
+/// Typical ratio of the span efficiency to that of the elliptic wing; the drag polar is CD_p + CL^2/(pi e
+/// AR).
 constexpr double usual_oswald = 0.9;
 
 struct Aircraft {
@@ -43,21 +45,21 @@ struct Aircraft {
   Value stall_alpha, stall_sharpness;  ///< unknown: the defaults of the writer
   bool elevons = false, v_tail = false;
   std::vector<std::string> sources;   ///< one line per file
-  std::vector<std::string> notes;     ///< what was done or is doubtful
-  std::vector<std::string> warnings;  ///< what may make a wrong aircraft
+  std::vector<std::string> notes;     ///< conversions and doubts
+  std::vector<std::string> warnings;  ///< possible causes of a wrong aircraft
   PrintedModes modes;
   double cruise_mps = 0, density_kgm3 = 1.225;
-  double converted_parasite = 0;  ///< CD - CL^2/(pi e AR) of the analysis, before anything replaced it
-  std::string parts;              ///< YAML of propulsion and mixer, of a source that has them; "" else
-  std::string surfaces;           ///< then also "limit: 40 deg, ..." of every surface
+  double converted_parasite = 0;  ///< CD - CL^2/(pi e AR) of the analysis, before any replacement
+  std::string parts;              ///< YAML of propulsion and mixer, if the source has them; else ""
+  std::string surfaces;           ///< with `parts`: "limit: 40 deg, ..." of every surface
   std::string more_aero;          ///< lines of YAML within `aero`, such as drag_squared
 };
 
-/// Throws core::Error: contradictions, no derivatives, a control without a sense.
+/// Throws core::Error: contradictions, no derivatives, a control of unknown effect.
 Aircraft aircraft_of(const std::vector<Input>& inputs, const ImportOptions& options);
 
-/// The columns of aileron, elevator, rudder and flaps out of all controls, with signs by what they do:
-/// positive aileron rolls right, positive elevator takes the nose down, positive rudder takes it left.
+/// The columns of aileron, elevator, rudder and flaps from all controls, with signs by their effect: positive
+/// aileron rolls right, positive elevator takes the nose down, positive rudder takes it left.
 struct ControlColumns {
   std::array<Column, 4> of;  ///< by Role
   std::array<bool, 4> known{};
@@ -67,8 +69,8 @@ struct ControlColumns {
 ControlColumns control_columns(const std::vector<Control>& controls);
 Role role_of(const Control& control);
 
-/// Moments about a point `dx_m` further aft and `dz_m` further up, and rates about it. A rate at the new
-/// point is that rate, another angle of attack, sideslip and speed at the old one.
+/// Moves the reference of moments and rates to a point `dx_m` further aft and `dz_m` further up. A rate at
+/// the new point is that rate and another angle of attack, sideslip and speed at the old one.
 void move_reference(Analysis& analysis, double dx_m, double dz_m);
 
 }  // namespace fulmar::aero::imports

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double g0 = 9.80665, sea_level = 1.225;
 
-/// What follows from a trimmed flight.
+/// Results of a trimmed flight.
 struct Flown {
   double elevator = 0, aileron = 0, rudder = 0, throttle = 0.5;
   double slowest = 0, fastest = 0, climb = 2, sink = 1;
 };
 
-/// A comment is one line of plain characters, whatever stood in the files.
+/// A comment is one line of printable characters, for any text of the files.
 std::string comment(const std::string& text) {
   std::string out;
   for (const char c : text) out += c >= ' ' && c < 127 ? c : '?';
@@ -119,7 +119,7 @@ class Writer {
            " rad}\n";
   }
 
-  /// A disc (Beard & McLain, section 4.3) that gives the weight as thrust standing still.
+  /// A propeller disc (Beard & McLain, section 4.3) with a static thrust equal to the weight.
   std::string parts(const Flown& flown, double cruise) {
     if (!a_.parts.empty()) return a_.parts + trims(flown);
     const double exit = 2.5 * cruise, area = a_.mass_kg.x * g0 / (0.5 * sea_level * exit * exit);
@@ -139,7 +139,7 @@ class Writer {
     return out;
   }
 
-  /// Of surfaces that the source describes: `parts` ends in open lines "aileron: {limit: ...".
+  /// Surfaces of the source: `parts` ends in open lines "aileron: {limit: ...".
   std::string trims(const Flown& flown) const {
     return "aileron:  {" + a_.surfaces + ", trim: " + figures(flown.aileron, 4) + " rad}\nelevator: {" +
            a_.surfaces + ", trim: " + figures(flown.elevator, 4) + " rad}\n" +
@@ -194,8 +194,8 @@ double flow_speed(const Aircraft& a, double CL) {
   return std::sqrt(2 * a.mass_kg.x * g0 / (sea_level * a.area_m2.x * CL));
 }
 
-/// What was said; else what the files flew, when the wing carries the weight with it and CL is at most 0.5,
-/// some 1.6 times the stall; else that of CL 0.5.
+/// The given airspeed. Else that of the files, if the wing carries the weight with it and CL is at most 0.5,
+/// some 1.6 times the stall speed. Else that of CL 0.5.
 double cruise_of(const Aircraft& a, const ImportOptions& options) {
   if (options.cruise_mps > 0) return options.cruise_mps;
   const double usual = flow_speed(a, 0.5), fast = flow_speed(a, 0.15);

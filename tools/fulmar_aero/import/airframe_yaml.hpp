@@ -10,12 +10,12 @@ namespace fulmar::aero::imports {
 struct Imported {
   Aircraft aircraft;
   std::string text;                      ///< of the airframe file
-  std::vector<std::string> assumptions;  ///< "mass 4.1 kg: ...", what was in no file
+  std::vector<std::string> assumptions;  ///< "mass 4.1 kg: ...", values that no file has
   AirframeFile file;                     ///< `text`, read back
 };
 
-/// Completes the aircraft and trims it; `name` is what faults call the text. Throws core::Error when Fulmar
-/// refuses the outcome.
+/// Completes the aircraft and trims it; messages name the text `name`. Throws core::Error when the result is
+/// invalid.
 Imported written(Aircraft aircraft, const ImportOptions& options, const std::string& name);
 
 }  // namespace fulmar::aero::imports

@@ -6,7 +6,7 @@
 namespace fulmar::aero::imports {
 namespace {
 
-/// a ca + b cb, with where it is from.
+/// a ca + b cb, with its origin.
 Value turned(const Value& a, double ca, const Value& b, double cb) {
   constexpr const char* words = ", turned to body axes";
   Value sum = a;

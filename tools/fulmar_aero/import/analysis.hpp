@@ -12,7 +12,7 @@
 
 namespace fulmar::aero::imports {
 
-/// A number with where it stands: "merlin.st:40 CLa".
+/// A number with its origin: "merlin.st:40 CLa".
 struct Value {
   double x = 0;
   std::string from;
@@ -31,41 +31,41 @@ using Column = std::array<Value, forces>;
 
 /// One control of an analysis, per radian of its surfaces.
 struct Control {
-  std::string name;  ///< as the file has it; "" when it has none
+  std::string name;  ///< as in the file; "" without one
   Column of;
-  double at_rad = 0;  ///< where it stood in the analysis
+  double at_rad = 0;  ///< deflection in the analysis
   core::Where where;
 };
 
-/// Eigenvalues that the tool has printed, 1/s; of a pair the one above the real axis.
+/// Printed eigenvalues of the tool, 1/s; of a pair the one above the real axis.
 struct PrintedModes {
   std::vector<std::complex<double>> longitudinal, lateral, unsorted;
-  double airspeed_mps = 0;  ///< 0: not said
+  double airspeed_mps = 0;  ///< 0: not given
   double density_kgm3 = 1.225;
   std::string from;
-  bool apparent_mass = false;  ///< AVL counts it (amass.f): no close reference
+  bool apparent_mass = false;  ///< AVL includes it (amass.f): no exact reference
   bool empty() const { return longitudinal.empty() && lateral.empty() && unsorted.empty(); }
 };
 
-/// One point of a drag polar, for what a potential flow does not have.
+/// One point of a drag polar, for the friction that a potential flow lacks.
 struct PolarPoint {
   double alpha_rad = 0, CL = 0;
   Value CD;  ///< with friction
 };
 
-/// The forces of one analysed flow and how they change.
+/// The forces of one analysed flow and their derivatives.
 struct Analysis {
   Value area_m2, chord_m, span_m;
   std::array<double, 3> reference_m{};  ///< moments about it: x aft, y right, z up
   bool has_reference = false;
   Value alpha_rad;
-  double airspeed_mps = 0, density_kgm3 = 0;  ///< 0: not said
+  double airspeed_mps = 0, density_kgm3 = 0;  ///< 0: not given
   Column base;
   std::array<Column, bys> slope;
   std::vector<Control> controls;
-  /// Part of the drag that counts in the forces and has no moment: AVL's CDp.
+  /// Part of the drag that is in the forces and has no moment: AVL's CDp.
   double drag_without_moment = 0;
-  bool weak_lateral = false;  ///< XFLR5: Cl_beta, Cn_p, Cn_da and CY_p are only half believed
+  bool weak_lateral = false;  ///< XFLR5: Cl_beta, Cn_p, Cn_da and CY_p are unreliable
   bool rate_noise = false;    ///< VSPAERO 7 with its small steps
 };
 
@@ -76,28 +76,28 @@ struct Body {
   bool has_cg = false;
 };
 
-/// What one file says.
+/// Content of one file.
 struct Input {
   std::string file, what;  ///< "AVL stability derivatives (.st)"
-  std::string title;       ///< name of the aircraft, "" when there is none
+  std::string title;       ///< name of the aircraft, "" without one
   std::vector<Analysis> analyses;
   Body body;
   std::vector<PolarPoint> polar;
   PrintedModes modes;
   double airspeed_mps = 0;
-  std::vector<std::pair<std::string, double>> gains;  ///< of control groups, mean size of their surfaces'
-  std::vector<std::string> notes;                     ///< for people
-  std::vector<std::string> doubts;                    ///< what may make another aircraft
-  std::string unused;                                 ///< why nothing is taken from it, "" when something is
+  std::vector<std::pair<std::string, double>> gains;  ///< of control groups, mean gain of their surfaces
+  std::vector<std::string> notes;                     ///< for the user
+  std::vector<std::string> doubts;                    ///< possible causes of a wrong aircraft
+  std::string unused;                                 ///< reason why it is not used, "" when it is
 };
 
 const char* force_symbol(Force force);  ///< "Cl" for the rolling moment
 const char* by_symbol(By by);           ///< "alpha"
 
-/// The other conventions: column and row of stability axes at `alpha`, of Etkin & Reid, Dynamics of Flight
-/// (1996), appendix A: Cl = Cl' cos - Cn' sin, Cn = Cl' sin + Cn' cos.
+/// Conversion of a column and a row from stability axes at `alpha`, Etkin & Reid, Dynamics of Flight (1996),
+/// appendix A: Cl = Cl' cos - Cn' sin, Cn = Cl' sin + Cn' cos.
 void turn_moments(Column& column, double alpha);
-/// The same of the rates and of the columns p' and r' themselves.
+/// The same for the rates and the columns p' and r' themselves.
 void turn_rates(std::array<Column, bys>& slope, double alpha);
 
 }  // namespace fulmar::aero::imports

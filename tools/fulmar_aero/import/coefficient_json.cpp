@@ -75,7 +75,8 @@ Aircraft json_aircraft(const Lines& lines) {
     }
   a.parasite = set.value("C_D_p");
   a.converted_parasite = a.parasite.x;
-  // its simulator has q b/(2 Va) and multiplies by c: with the definition's chord the number is b/c as large
+  // its simulator has q b/(2 Va) and multiplies by c: with the chord of the definition the number is larger
+  // by b/c
   if (set.has("C_m_q")) {
     const double factor = a.span_m.x / a.chord_m.x;
     if (set.value("C_m_q").x > -4) {

@@ -11,7 +11,7 @@
 namespace fulmar::aero::imports {
 namespace {
 
-/// The height of the standard air with this density.
+/// Height of the standard atmosphere with this density.
 double height_of(double density) {
   double low = -2000, high = 15000;
   for (int i = 0; i < 60; ++i) {
@@ -26,7 +26,7 @@ bool lateral(ModeKind kind) {
          kind == ModeKind::roll_spiral;
 }
 
-/// The nearest of those that are left, by distance over size; pairs to pairs, real ones to real ones.
+/// The nearest remaining one, by distance over size; pairs to pairs, real ones to real ones.
 std::optional<std::complex<double>> take_nearest(std::vector<std::complex<double>>& from,
                                                  const std::complex<double>& to) {
   std::size_t best = from.size();
@@ -45,9 +45,8 @@ std::optional<std::complex<double>> take_nearest(std::vector<std::complex<double
   return value;
 }
 
-/// Acceptance of a log without friction, and of AVL with its apparent mass; 0: only shown, as a
-/// log's beside another tool's derivatives. The phugoid's
-/// damping is that of friction and thrust, which no log has.
+/// Tolerance for a log without friction, and for AVL with its apparent mass. 0: only shown, as for a log with
+/// another tool's derivatives. The damping of the phugoid depends on friction and thrust, which no log has.
 double allowed(ModeKind kind, bool apparent_mass, bool same_file) {
   if (kind == ModeKind::phugoid || (!apparent_mass && !same_file)) return 0;
   if (!apparent_mass) return 0.01;
@@ -67,7 +66,7 @@ ModeComparison compare_modes(const Imported& imported) {
     return out;
   }
   Airframe airframe = imported.file.airframe;
-  // the drag of the analysis, whatever was put in place of it: it is that flight which is compared
+  // the drag of the analysis before any replacement: the flight of the analysis is compared
   airframe.aero.parasite_drag_ratio = imported.aircraft.converted_parasite;
   const AircraftModel model(airframe, height_of(printed.density_kgm3));
   const SteadyFlight level = fly(model, {printed.airspeed_mps});
@@ -79,7 +78,7 @@ ModeComparison compare_modes(const Imported& imported) {
   std::vector<std::complex<double>> longitudinal = printed.longitudinal, sideways = printed.lateral,
                                     any = printed.unsorted;
   std::vector<Mode> modes = modes_in(model, level);
-  // the fast modes choose first
+  // the fast modes are matched first
   std::stable_sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) {
     return std::abs(a.eigenvalue) > std::abs(b.eigenvalue);
   });
@@ -95,7 +94,7 @@ ModeComparison compare_modes(const Imported& imported) {
                   allowed(mode.kind, printed.apparent_mass, same_file)};
     pair.off_ratio = printed.apparent_mass ? std::abs(std::abs(pair.own) / std::abs(pair.tool) - 1)
                                            : std::abs(pair.own - pair.tool) / std::abs(pair.tool);
-    // a spiral near 0 is a small difference of large numbers that are printed with five digits
+    // a spiral near 0 is a small difference of large numbers, printed with five digits
     if (mode.kind == ModeKind::spiral && std::abs(pair.own - pair.tool) < 0.003) pair.max_ratio = 0;
     out.pairs.push_back(pair);
   }

@@ -9,14 +9,14 @@ namespace fulmar::aero::imports {
 struct ModePair {
   std::string name;                ///< "short period"
   std::complex<double> tool, own;  ///< 1/s
-  double off_ratio = 0;  ///< |own - tool| / |tool|; of AVL's, which counts apparent mass, of the sizes
-  double max_ratio = 0;  ///< what is allowed; 0: nothing is, it is only shown
+  double off_ratio = 0;            ///< |own - tool| / |tool|; for AVL, with apparent mass, of the magnitudes
+  double max_ratio = 0;            ///< tolerance; 0: only shown
   bool agrees() const { return max_ratio <= 0 || off_ratio <= max_ratio; }
 };
 struct ModeComparison {
   std::vector<ModePair> pairs;
   double airspeed_mps = 0;
-  std::string fault;  ///< why there is none, "" when there is
+  std::string fault;  ///< reason why there is no comparison, "" for one
 };
 ModeComparison compare_modes(const Imported& imported);
 

@@ -17,7 +17,7 @@ const char* role_name(Role role) {
   return names[std::size_t(role)];
 }
 
-/// The response that a role is there for.
+/// The main response of a role.
 Force main_force(Role role) {
   return role == Role::elevator ? pitch : role == Role::rudder ? yaw : role == Role::flap ? lift : roll;
 }
@@ -33,8 +33,8 @@ std::optional<Role> role_by_name(const std::string& name) {
   return {};
 }
 
-/// By what it does, when its name says nothing. A symmetric surface has no moment to the side at all; what
-/// has both is one half of a pair.
+/// Role by the response, when the name gives none. A symmetric surface has no lateral moment; one with both
+/// is one half of a pair.
 Role role_by_response(const Control& control) {
   const double m = std::abs(control.of[pitch].x), l = std::abs(control.of[roll].x),
                n = std::abs(control.of[yaw].x);
@@ -63,7 +63,7 @@ std::string reported(const Control& control) {
                               : "'" + control.name + "'";
 }
 
-/// Turns the column as a whole, so that its main response has the book's sign.
+/// Sets the sign of the whole column so that its main response has the sign of the convention.
 void set_sign(Column& column, Role role, const std::string& who, std::vector<std::string>& notes) {
   const double main = column[main_force(role)].x;
   const bool right = role == Role::aileron || role == Role::flap ? main >= 0 : main <= 0;
@@ -84,7 +84,7 @@ struct Sorted {
   std::array<std::vector<const Control*>, 5> by_role;
 };
 
-/// Two halves of one pair: the sum in which the main response adds, and the difference.
+/// Two halves of a pair: the sum in which the main response adds, and the difference.
 void join_pair(const Control& a, const Control& b, Force main, Column& together, Column* apart) {
   const double sign = a.of[main].x * b.of[main].x < 0 ? -1 : 1;
   const std::string why = " and " + (b.name.empty() ? "the other half" : b.name);
@@ -150,7 +150,7 @@ ControlColumns control_columns(const std::vector<Control>& controls) {
     const std::size_t role = std::size_t(role_by_response(control));
     if (role == std::size_t(Role::mixed) || named.by_role[role].empty())
       sorted.by_role[role].push_back(&control);
-    else  // a slat, a brake: not one more elevator
+    else  // a slat or a brake: no further elevator
       out.notes.push_back(reported(control) + " is left out: another control is the " +
                           role_name(Role(role)) + " by its name");
   }
@@ -159,7 +159,7 @@ ControlColumns control_columns(const std::vector<Control>& controls) {
     take_pair(*mixed[0], *mixed[1], out);
     mixed.clear();
   } else if (mixed.size() == 1) {
-    // the one role that nobody has
+    // the only role that is still free
     Role missing = Role::mixed;
     int number = 0;
     for (const Role role : {Role::aileron, Role::elevator, Role::rudder})

@@ -26,7 +26,7 @@ double lift_wanted(const Analysis& a, double mass) {
   return mass > 0 && flow > 0 ? mass * 9.80665 / flow : 0;
 }
 
-/// Of a sweep: nearest to what was asked for, to level flight, or to no pitching moment.
+/// The point of a sweep: nearest to the requested one, to level flight, or to zero pitching moment.
 Analysis chosen_of(const Input& input, const ImportOptions& options, double mass,
                    std::vector<std::string>& notes) {
   if (input.analyses.size() == 1) return input.analyses[0];
@@ -45,7 +45,7 @@ Analysis chosen_of(const Input& input, const ImportOptions& options, double mass
   return *best;
 }
 
-/// To other reference lengths: forces by area, moments by length, rates by length.
+/// Converts to other reference lengths: forces by area, moments by length, rates by length.
 void rescale(Analysis& a, const Analysis& to) {
   const double S = a.area_m2.x / to.area_m2.x;
   const double b = a.span_m.x / to.span_m.x, c = a.chord_m.x / to.chord_m.x;
@@ -77,7 +77,7 @@ void refuse_another_aircraft(const Chosen& first, const Chosen& other) {
   far(first.analysis.chord_m, other.analysis.chord_m, "chord", " m");
 }
 
-/// Logs of several groups of controls are one flight seen several times.
+/// Logs of several groups of controls must be of the same flight.
 void refuse_another_trim(const Chosen& first, const Chosen& other) {
   if (!first.analysis.weak_lateral || !other.analysis.weak_lateral) return;
   const double da = std::abs(first.analysis.alpha_rad.x - other.analysis.alpha_rad.x);
@@ -109,7 +109,7 @@ void report_differences(const Chosen& first, const Chosen& other, std::vector<st
         aero_messages::derivatives_differ(short_name(*first.input), short_name(*other.input), differ));
 }
 
-/// Where a control of the same role was already found: of two files the first one counts.
+/// Adds controls unless their role exists: of two files the first one counts.
 void take_controls(const Chosen& from, std::vector<Control>& all, std::vector<const Input*>& owners,
                    std::vector<std::string>& notes) {
   const std::size_t before = all.size();
@@ -196,9 +196,9 @@ double parasite_of(double CD, double CL, const Aircraft& a) {
   return CD - CL * CL / (std::numbers::pi * a.oswald.x * AR);
 }
 
-/// What a potential flow has of parasite drag is what is left of the rounding.
+/// A potential flow's parasite drag is only rounding.
 constexpr double no_friction = 0.002, assumed_friction = 0.03;
-/// A smooth plate's two sides at a million of Reynolds number: no aircraft has less.
+/// Both sides of a smooth plate at a Reynolds number of a million: a lower bound.
 constexpr double min_friction = 0.008;
 
 constexpr double polar_reach = 3 * degree;
@@ -279,7 +279,7 @@ void set_controls(const ControlColumns& columns, Aircraft& out) {
   for (const std::string& note : columns.notes) out.notes.push_back(note);
 }
 
-/// From the analysed angle of attack, and surfaces that were deflected there, to 0.
+/// Extrapolates from the analysed angle of attack and deflections to 0.
 void set_zero(const Analysis& a, Aircraft& out) {
   for (const Force force : {lift, pitch}) {
     double zero = a.base[force].x - a.slope[alpha][force].x * a.alpha_rad.x;
@@ -298,7 +298,7 @@ void set_zero(const Analysis& a, Aircraft& out) {
                           "); a symmetric aircraft has 0, and 0 is taken");
 }
 
-/// What a symmetric aircraft does not have tells how well the analysis has converged.
+/// Coefficients that a symmetric aircraft does not have show the convergence of the analysis.
 void report_convergence(const Analysis& a, const Input& input, Aircraft& out) {
   double most = 0;
   std::string which;
@@ -322,7 +322,7 @@ void set_modes(const std::vector<Input>& inputs, Aircraft& out) {
     if (input.modes.empty() || !out.modes.empty()) continue;
     out.modes = input.modes;
   }
-  for (const Input& input : inputs) {  // .eig without a speed: that of the .run
+  for (const Input& input : inputs) {  // a .eig without a speed gets that of the .run
     if (out.modes.empty() || out.modes.airspeed_mps > 0 || input.modes.airspeed_mps <= 0) continue;
     out.modes.airspeed_mps = input.modes.airspeed_mps;
     out.modes.density_kgm3 = input.modes.density_kgm3;

@@ -30,7 +30,7 @@ Aircraft with_options(Aircraft a, const ImportOptions& options) {
 
 namespace {
 
-/// Lines of the airframe's text, to the lines of the one file that their comments name.
+/// Maps lines of the airframe's text to the lines of the one file that their comments name.
 Imported with_origins(Imported imported, const std::string& name) {
   const std::string base = std::filesystem::path(name).filename().string() + ":";
   const Lines text = lines_of(name, imported.text);
@@ -54,7 +54,7 @@ std::optional<Imported> imported_for_check(const std::string& name) {
   try {
     if (read_any(lines, {}).analyses.empty()) return {};
   } catch (const core::Error&) {
-    return {};  // an airframe file with its own faults, or nobody's
+    return {};  // an airframe file with faults, or an unknown file
   }
   return with_origins(imported_from({name}, {}, name), name);
 }
@@ -76,7 +76,7 @@ Imported imported_from(const std::vector<std::string>& files, const ImportOption
       return written(with_options(whole_aircraft(lines, true), options), options, name);
     }
   ReadOptions reading{options.length_m};
-  // AVL's mass table says what its geometry's unit is; a run case less surely
+  // AVL's mass table has the unit of its geometry; a run case is less reliable
   for (const char* key : {"Lunit", "X_cg"})
     for (const Lines& lines : all)
       if (reading.length_m <= 0 && lines.has(key)) reading.length_m = length_in(lines).value_or(0);

@@ -8,12 +8,12 @@
 
 namespace fulmar::aero::imports {
 
-/// Reads, converts, merges and completes; `name` is what the airframe file is called. Throws core::Error.
+/// Reads, converts, merges and completes; `name`: name of the airframe file. Throws core::Error.
 Imported imported_from(const std::vector<std::string>& files, const ImportOptions& options,
                        const std::string& name);
 
-/// A file of another tool, as it is: signs that cannot be right stay, for a check to find them. Nothing for
-/// an airframe file, or one that nobody knows.
+/// A file of another tool without corrections: wrong signs stay for the check. No value for an airframe file
+/// or an unknown one.
 std::optional<Imported> imported_for_check(const std::string& name);
 
 }  // namespace fulmar::aero::imports

@@ -88,7 +88,7 @@ std::string report_text(const Imported& imported, const ModeComparison& modes) {
   return text + modes_text(modes, a.modes);
 }
 
-/// Last, where they are seen: what may make it another aircraft.
+/// Possible causes of a wrong aircraft, printed last.
 std::string doubts_text(const Imported& imported) {
   std::string text;
   for (const std::string& warning : imported.aircraft.warnings) text += "DOUBTFUL " + warning + "\n";

@@ -22,7 +22,7 @@ double number_in(const Lines& lines, const Element& element) {
                    "<" + element.name + ">");
 }
 
-/// In SI; JSBSim's default units are US ones.
+/// In SI; JSBSim's default units are US customary ones.
 Value measured(const Lines& lines, const Element& parent, const std::string& name,
                const std::map<std::string, double>& units, const char* usual) {
   const Element& element = needed_child(lines, parent, name);
@@ -53,7 +53,7 @@ constexpr std::array<State, 12> states{{{"aero/alpha-rad", t_alpha},
                                         {"fcs/aileron-pos-rad", t_aileron},
                                         {"fcs/rudder-pos-rad", t_rudder}}};
 
-/// What a table may be over: Fulmar's name, and radians of one unit.
+/// Possible independent variable of a table: its name in Fulmar, and radians of one unit.
 struct Axis {
   const char *property, *name;
   double unit;
@@ -73,7 +73,7 @@ constexpr std::array<Axis, 12> axes_of_tables{{{"aero/alpha-rad", "alpha", 1},
                                                {"fcs/rudder-pos-deg", "rudder", table_degree_rad}}};
 constexpr std::size_t max_tables = 8, max_rows = 32, max_columns = 16, max_cells = 256;
 
-/// Over one state, or over two: values by rows.
+/// A table over one or two variables: values by rows.
 struct LookUp {
   const Axis *over = nullptr, *and_over = nullptr;
   std::vector<double> at, and_at, values;
@@ -224,12 +224,12 @@ std::string table_line(const LookUp& table, const char* coefficient, const std::
   return text + ", values: " + list_text(table.values) + "}  # " + from + "\n";
 }
 
-/// What of the drag has the induced one in it already.
+/// Drag terms that already include the induced drag.
 struct Drag {
   bool over_alpha = false, squared = false;
 };
 
-/// A table of a coefficient, in Fulmar's sense.
+/// A table of a coefficient, with Fulmar's sign.
 struct CoefficientLookUp {
   Force force = lift;
   LookUp table;
@@ -282,7 +282,7 @@ void take_function(const Lines& lines, const Element& function, Force force, Air
   to = {to.x + value, to.known ? to.from + " and " + function.attribute("name") : from};
 }
 
-/// An induced drag that cannot be told from 0.
+/// An induced drag below this is 0.
 constexpr double no_induced_drag = 1e6;
 
 void put_tables(const Tables& tables, Aircraft& a) {
@@ -298,8 +298,8 @@ void finish_drag(const Drag& of_drag, Aircraft& a) {
   a.oswald = {no_induced_drag, "none: the file's drag over alpha has the induced one in it"};
 }
 
-/// A lift or a pitching moment that is a table over the angle of attack alone: its straight line at 3 deg
-/// becomes zero and slope, which laws and trims are made from, and the table keeps what is left of it.
+/// For a lift or a pitching moment that is a table over the angle of attack alone: the tangent at 3 deg gives
+/// constant and slope, which laws and trims need. The table keeps the difference.
 void take_line(CoefficientLookUp& of, Aircraft& a) {
   LookUp& t = of.table;
   if ((of.force != lift && of.force != pitch) || a.c[of.force][t_alpha].known || t.and_over ||
@@ -319,14 +319,15 @@ void take_line(CoefficientLookUp& of, Aircraft& a) {
   of.from += ", less that line";
 }
 
-/// Where forces act, from the centre of gravity, m.
+/// Point of action of the forces, from the centre of gravity, m.
 struct Arm {
   double aft = 0, up = 0;
 };
 
-/// JSBSim lets the forces act at AERORP (reference manual, section 2.2.1; FGAerodynamics::Run): its moments
-/// get the forces' arms about the centre of gravity. Along the body's axes N = CL cos(alpha) + CD sin(alpha)
-/// and A = CD cos(alpha) - CL sin(alpha), so Cm -= (N aft - A up) / c, Cn -= CY aft / b, Cl += CY up / b.
+/// In JSBSim the forces act at AERORP (reference manual, section 2.2.1; FGAerodynamics::Run): its moments
+/// include the forces' arms about the centre of gravity. Along the body's axes N = CL cos(alpha) + CD
+/// sin(alpha) and A = CD cos(alpha) - CL sin(alpha), so Cm -= (N aft - A up) / c, Cn -= CY aft / b, Cl += CY
+/// up / b.
 class Mover {
  public:
   Mover(Aircraft& a, const Arm& arm) : a_(a), arm_(arm), c_(a.chord_m.x), b_(a.span_m.x) {}
@@ -343,10 +344,11 @@ class Mover {
     const double CD = a_.parasite.x + CL * CL / (std::numbers::pi * AR * a_.oswald.x);
     const double CD_alpha = 2 * CL * a_.c[lift][t_alpha].x / (std::numbers::pi * AR * a_.oswald.x);
     add(pitch, t_zero, pitching(0, CD));
-    add(pitch, t_alpha, pitching(CD, CD_alpha - CL));  // the airflow's axes turn with the angle of attack
+    // the axes of the airflow turn with the angle of attack
+    add(pitch, t_alpha, pitching(CD, CD_alpha - CL));
   }
 
-  /// What a table of a force does about the centre of gravity: tables of the moments.
+  /// Moment of a force table about the centre of gravity: tables of the moments.
   void table(const CoefficientLookUp& of, Tables& out) const {
     const auto moment = [&](Force force, auto factor) {
       CoefficientLookUp more = of;

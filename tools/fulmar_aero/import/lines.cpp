@@ -143,8 +143,7 @@ Pairs::Pairs(const Lines& lines, std::size_t first, std::size_t last) : lines_(l
       const std::string key = text.substr(begin, end - begin);
       if (key.empty() || all_.count(key)) continue;
       const std::size_t number = skip_blanks(text, equals + 1);
-      // a name such as "control = flap" is no pair of this kind; what looks broken is told when it is asked
-      // for
+      // a name such as "control = flap" is not a number; a malformed one is reported when it is requested
       if (!number_begins(text, number)) continue;
       Pair pair;
       pair.line = i;

@@ -12,7 +12,7 @@ namespace fulmar::aero::imports {
 
 /// A file's lines without their ends: LF, CRLF, a byte order mark and any 8-bit encoding are read.
 struct Lines {
-  std::string file;  ///< as it was given
+  std::string file;  ///< as given
   std::string text;
   std::vector<std::string> all;
 
@@ -23,20 +23,21 @@ struct Lines {
   bool has(const std::string& what) const { return text.find(what) != std::string::npos; }
 };
 
-/// Throws core::Error: it cannot be read, is a folder, is empty, is UTF-16 or holds bytes of no text.
+/// Throws core::Error for a file that cannot be read, a folder, an empty file, UTF-16 or bytes that are no
+/// text.
 Lines read_lines(const std::string& file);
 Lines lines_of(const std::string& file, const std::string& text);
 
 [[noreturn]] void refuse(const core::Where& where, const Diagnostic& sentence);
 
-/// The number that stands at `at` (blanks before it are skipped), and where it ends. Throws core::Error for
-/// what is none, is not finite, or has a decimal comma.
+/// The number at `at` (blanks before it are skipped), and its end. Throws core::Error for another text, a
+/// value that is not finite, or a decimal comma.
 double number_at(const Lines& lines, std::size_t line, std::size_t at, const std::string& what,
                  std::size_t* end = nullptr);
-/// All numbers of a line from `at` on, until something else stands there. Numbers may touch: "-1.5-2.5".
+/// All numbers of a line from `at` on, up to another text. Numbers may touch: "-1.5-2.5".
 std::vector<double> numbers_at(const Lines& lines, std::size_t line, std::size_t at);
 
-/// "key = number" pairs of Fortran's and Qt's tables: keys end at "=", whatever stands glued to it.
+/// "key = number" pairs of the tables of Fortran and Qt: a key ends at "=", with or without a blank.
 struct Pair {
   double value = 0;
   std::size_t line = 0;
@@ -57,8 +58,8 @@ class Pairs {
   std::map<std::string, Pair> all_;
 };
 
-/// In SI; nothing for a unit that is not known. The exponent of an area or an inertia may be any byte: files
-/// come in several encodings.
+/// Converts to SI; no value for an unknown unit. The exponent of an area or an inertia may be any byte: files
+/// have several encodings.
 std::optional<double> length_unit(const std::string& unit);  ///< "mm"
 std::optional<double> area_unit(const std::string& unit);
 std::optional<double> mass_unit(const std::string& unit);

@@ -31,7 +31,7 @@ class Move {
         b_(a.span_m.x),
         cs_(std::cos(a.alpha_rad.x)),
         sn_(std::sin(a.alpha_rad.x)) {
-    // what has no moment in the tool must not get one here
+    // a force without a moment in the tool gets none here
     CL_ = a.base[lift].x;
     CD_ = a.base[drag].x - a.drag_without_moment;
     CL_a_ = a.slope[alpha][lift].x;
@@ -42,13 +42,13 @@ class Move {
   }
 
   void rates(Analysis& a) {
-    // with q the old point meets the air at another angle and speed than the new one
+    // with q, angle of attack and speed of the old point differ from those of the new one
     const double by_alpha = -2 / c_ * (dx_ * cs_ + dz_ * sn_), by_speed = 4 / c_ * (dz_ * cs_ - dx_ * sn_);
     add_to(a.slope[q][lift], by_alpha * (CL_a_ + CD_) + by_speed * CL_);
-    CD_q_ = by_alpha * (CD_a_ - CL_) + by_speed * CD_;  // of what is not known, the change at least
+    CD_q_ = by_alpha * (CD_a_ - CL_) + by_speed * CD_;  // for unknown derivatives only the change
     add_to(a.slope[q][drag], CD_q_);
     add_to(a.slope[q][pitch], by_alpha * a.slope[alpha][pitch].x + by_speed * a.base[pitch].x);
-    // with p and r in another sideslip
+    // with p and r its sideslip differs
     for (const Force force : {side, roll, yaw}) {
       const double of_beta = force == side ? CY_b_ : a.slope[beta][force].x;
       add_to(a.slope[p][force], -2 * dz_ / b_ * of_beta);

@@ -39,7 +39,7 @@ std::vector<AvlControl> avl_controls(const Lines& lines, std::size_t first) {
   return {};
 }
 
-/// Whether the heading lists deflections: there are controls, and derivatives by them have to follow.
+/// True when the heading lists deflections: derivatives by the controls must follow.
 bool deflected(const Lines& lines) {
   const auto first = lines.find("CYff");
   for (std::size_t i = first ? *first + 1 : lines.all.size(); i < lines.all.size(); ++i) {
@@ -49,8 +49,8 @@ bool deflected(const Lines& lines) {
   return false;
 }
 
-/// +1, or -1 where AVL's geometric axes (x aft, z up) turn the sign of CX, CZ, Cl and Cn, and of u, w, p and
-/// r.
+/// +1, or -1 where AVL's geometric axes (x aft, z up) reverse the sign of CX, CZ, Cl and Cn, and of u, w, p
+/// and r.
 double avl_sign(const Lines& lines) {
   if (lines.has("Standard axis orientation")) return 1;
   if (lines.has("Geometric axis orientation")) return -1;

@@ -45,7 +45,7 @@ MassUnits units_of(const Lines& lines) {
 /// mass x y z Ixx Iyy Izz Ixy Ixz Iyz
 using MassRow = std::array<double, 10>;
 
-/// What a `*` or `+` line says: factors or summands of all rows below it.
+/// Factors or summands of a `*` or `+` line, for all rows below it.
 void change_rows(const std::vector<double>& values, MassRow& row, double otherwise) {
   row.fill(otherwise);
   for (std::size_t k = 0; k < values.size() && k < row.size(); ++k) row[k] = values[k];
@@ -96,7 +96,7 @@ Body sum_of(const std::vector<MassRow>& rows, const MassUnits& units, const std:
     xx += row[4] + row[0] * (dy * dy + dz * dz);
     yy += row[5] + row[0] * (dx * dx + dz * dz);
     zz += row[6] + row[0] * (dx * dx + dy * dy);
-    xz += row[8] + row[0] * dx * dz;  // x aft and z up: both turn, so that xz stays
+    xz += row[8] + row[0] * dx * dz;  // both axes change sign (x aft, z up), so xz stays
   }
   const double inertia = units.mass * units.length * units.length;
   Body body;
@@ -110,7 +110,7 @@ Body sum_of(const std::vector<MassRow>& rows, const MassUnits& units, const std:
   return body;
 }
 
-/// SI of "ft/s", "slug/ft^3", "slug-ft^2": what a .run writes behind its numbers.
+/// SI factor of "ft/s", "slug/ft^3", "slug-ft^2", the units behind the numbers of a .run.
 double run_factor(const Lines& lines, const Pair& pair, const std::string& key) {
   std::optional<double> factor;
   const std::size_t slash = pair.unit.find('/');

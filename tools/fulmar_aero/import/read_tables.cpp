@@ -23,7 +23,7 @@ std::size_t column_named(const Lines& lines, std::size_t heading, const std::vec
   return std::size_t(found - words.begin());
 }
 
-/// Columns by the names of the heading; more numbers than names are let be (version 6.2 has 21 under 20).
+/// Columns by the names of the heading; surplus numbers are ignored (version 6.2 has 21 under 20 names).
 std::vector<PolarPoint> polar_points(const Lines& lines, std::size_t heading, const char* angle,
                                      const char* CL, const char* CD, const char* sideslip,
                                      const char* friction, double& max_friction) {
@@ -55,7 +55,7 @@ Input started(const Lines& lines, const char* what) {
   return input;
 }
 
-/// All numbers of a line, whatever stands between them.
+/// All numbers of a line, with any text between them.
 std::vector<double> numbers_among(const Lines& lines, std::size_t i) {
   std::vector<double> out;
   std::string word;
@@ -72,7 +72,7 @@ std::vector<double> numbers_among(const Lines& lines, std::size_t i) {
   return out;
 }
 
-/// The numbers that stand with a label, on its line.
+/// The numbers of a label, on its line.
 std::vector<double> labelled(const Lines& lines, const char* label, std::size_t count) {
   const auto line = lines.find(label);
   if (!line) refuse({lines.file, int(lines.all.size())}, aero_messages::labelled_line_missing(label));
@@ -110,7 +110,7 @@ std::vector<double> triple(const Lines& lines, const std::string& name, std::str
   return values;
 }
 
-/// Point masses together; the wings' own mass has no text that says where it is.
+/// Sum of the point masses; no text gives the place of the wings' own mass.
 Body point_masses(const Lines& lines, double length, double mass_unit_kg) {
   double mass = 0, at[3] = {}, square[3] = {}, xz = 0;
   for (std::size_t from = lines.text.find("<Point_Mass>"); from != std::string::npos;
@@ -219,8 +219,8 @@ Input read_vspaero_flt(const Lines& lines) {
                  lines.place(*line, key));
   };
   input.polar.push_back({value("ALPHA_o:").x * table_degree, value("CLo:").x, value("CDo:")});
-  // up to 6.2 its CDo is the total, and the .stab is without friction; from 6.4 on it counts friction twice,
-  // and the .stab is the total: taken is it only where the .stab has none
+  // Up to 6.2 its CDo is the total, and the .stab is without friction. From 6.4 on it counts friction twice,
+  // and the .stab is the total: it is used only when the .stab has no friction.
   input.notes.push_back(
       "of a .flt only the drag counts, and only when the derivatives have no friction: from VSPAERO 6.4 on "
       "it has friction twice");
@@ -261,7 +261,7 @@ Input read_vspaero_history(const Lines& lines) {
       input.notes.push_back("in the last iteration of the wake CL still changed by " +
                             figures(all[n - 1] - all[n - 2]) + ": let it iterate more often (line " +
                             std::to_string(i + n + 1) + ")");
-    break;  // the first case is the flow that is analysed
+    break;  // the first case is the analysed flow
   }
   return input;
 }

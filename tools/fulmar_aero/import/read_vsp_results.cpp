@@ -97,7 +97,7 @@ Body body_of_result(const ResultReader& in, double length) {
 
 constexpr std::array<const char*, 8> plain_columns{"Total", "Alpha", "Beta", "p", "q", "r", "Mach", "U"};
 
-/// "CMl_<group>" for what is none of the plain columns: in the order of the alphabet, as the file has them.
+/// "CMl_<group>" for columns other than the plain ones, in alphabetical order as in the file.
 std::vector<std::string> groups_in(const ResultBlock& block, const std::string& row) {
   std::vector<std::string> groups;
   for (const auto& [key, cells] : block.rows) {

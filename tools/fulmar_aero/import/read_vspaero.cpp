@@ -54,7 +54,7 @@ struct CaseRow {
   std::size_t line = 0;
 };
 
-/// Where the numbers of a row begin, counted from the right: a group's name may hold blanks and numbers.
+/// Start of the numbers of a row, counted from the right: a group's name may hold blanks and numbers.
 std::optional<CaseRow> case_row(const Lines& lines, std::size_t i) {
   const std::vector<std::string> words = words_of(lines.all[i]);
   if (words.size() < 10 || words[0][0] == '#') return {};
@@ -68,7 +68,7 @@ std::optional<CaseRow> case_row(const Lines& lines, std::size_t i) {
   return row;
 }
 
-/// Names of the groups, in the order of the columns ConGrp_1, ConGrp_2, ...: of the rows behind "Mach".
+/// Names of the groups, in the order of the columns ConGrp_1, ConGrp_2, ...: from the rows after "Mach".
 std::vector<CaseRow> groups_of(const Lines& lines, const StabBlock& block) {
   std::vector<CaseRow> groups;
   bool behind = false;
@@ -163,7 +163,7 @@ Analysis analysis_in(const Lines& lines, const StabBlock& block, double length) 
   if (!angle) refuse(lines.where(block.first), aero_messages::heading_alpha_missing());
   a.alpha_rad = {angle->value * stab_degree, lines.place(angle->line, "AoA")};
   const double sideslip = head_value(lines, block, "Beta_");
-  if (std::abs(sideslip) > 0.01) a.airspeed_mps = -1;  // told by the caller
+  if (std::abs(sideslip) > 0.01) a.airspeed_mps = -1;  // reported by the caller
   if (a.airspeed_mps >= 0) a.airspeed_mps = head_value(lines, block, "Vinf_") * length;
   a.density_kgm3 = head_value(lines, block, "Rho_");
   a.base = column_of(lines, table, has_body, 0, "total");
@@ -183,7 +183,7 @@ Analysis analysis_in(const Lines& lines, const StabBlock& block, double length) 
   return a;
 }
 
-/// 0.01 deg, the step of version 7: what its solver has not converged grows by 5730 per radian.
+/// 0.01 deg, the step of version 7: an error of convergence grows by 5730 per radian.
 bool small_steps(const Lines& lines) {
   const auto line = lines.find("Alpha ");
   return line && lines.all[*line].find("+0.010 deg") != std::string::npos;

@@ -11,7 +11,7 @@
 namespace fulmar::aero::imports {
 namespace {
 
-constexpr double xflr5_gravity = 9.81;  // as its state matrices have it
+constexpr double xflr5_gravity = 9.81;  // the value in its state matrices
 
 /// One control position of one analysis: lines first..last-1.
 struct LogBlock {
@@ -40,7 +40,7 @@ bool has_derivatives(const Lines& lines, const LogBlock& block) {
   return at && *at < block.last;
 }
 
-/// The block whose surfaces are at rest: the derivatives of the aircraft as it is drawn.
+/// The block with zero deflections: the derivatives of the aircraft as drawn.
 LogBlock chosen(const Lines& lines, std::vector<std::string>& notes) {
   const std::vector<LogBlock> all = blocks_of(lines);
   std::optional<LogBlock> best;
@@ -220,7 +220,7 @@ Input read_xflr5_log(const Lines& lines) {
   if (!(speed.x > 0)) refuse(lines.where(block.first), aero_messages::log_airspeed_not_positive());
   a.density_kgm3 = head.density;
   const double rad = a.alpha_rad.x, flow = 0.5 * head.density * speed.x * head.area.x;
-  // the chord of q is the plane's, which is printed nowhere: Mw = Cma c rho V S / 2
+  // the chord of q is the plane's, which is not printed: Mw = Cma c rho V S / 2
   const Value Cma = pairs.value("Cma");
   if (Cma.x == 0) refuse(lines.where(pairs.pair("Cma").line), aero_messages::log_chord_unknown());
   a.chord_m = {pairs.value("Mw").x / (Cma.x * flow),

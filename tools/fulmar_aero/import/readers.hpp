@@ -8,13 +8,13 @@
 namespace fulmar::aero::imports {
 
 struct ReadOptions {
-  double length_m = 0;  ///< one unit of length of the files that do not say theirs; 0: a metre, unless known
+  double length_m = 0;  ///< unit of length for files that do not state theirs; 0: a metre, unless known
 };
 
 // Each throws core::Error with file and line.
 Input read_avl_derivatives(const Lines& lines, const ReadOptions& options);  ///< .st and .sb
 bool is_avl_mrf(const Lines& lines);
-Lines avl_plain_of_mrf(const Lines& lines);  ///< the same derivatives in the form for people
+Lines avl_plain_of_mrf(const Lines& lines);  ///< the same derivatives in the other printed form
 Input read_avl_masses(const Lines& lines);   ///< .mass
 Input read_avl_run(const Lines& lines);      ///< .run
 Input read_avl_modes(const Lines& lines);    ///< .eig
@@ -30,10 +30,10 @@ Input read_vsp_masses(const Lines& lines, const ReadOptions& options);
 Input read_vsp_drag(const Lines& lines);                                 ///< the parasite drag tool's CSV
 Input read_vsp_results(const Lines& lines, const ReadOptions& options);  ///< "Results_Name,..." blocks
 
-/// The length in m that `Lunit` of a .mass or the units of a .run say; nothing when it is no such file.
+/// The length in m of `Lunit` in a .mass or of the units in a .run; no value for another file.
 std::optional<double> length_in(const Lines& lines);
 
-/// What the file is; throws core::Error for one that nobody knows, with what is known.
+/// Recognises and reads a file; throws core::Error with the known kinds for an unknown one.
 Input read_any(const Lines& lines, const ReadOptions& options);
 
 }  // namespace fulmar::aero::imports

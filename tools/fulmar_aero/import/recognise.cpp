@@ -80,7 +80,7 @@ Input read_known(const Lines& lines, const ReadOptions& options) {
 
 Input read_any(const Lines& lines, const ReadOptions& options) {
   Input input = read_known(lines, options);
-  // every one of these tools ends its last line
+  // all of these tools end the last line
   if (!lines.text.empty() && lines.text.back() != '\n' && input.unused.empty())
     input.doubts.push_back("its last line has no end: is it cut off?");
   return input;

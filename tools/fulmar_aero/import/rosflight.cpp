@@ -45,7 +45,7 @@ void gather(const Lines& lines, const core::Node& map, const std::string& node, 
   }
 }
 
-/// "#Jx .27   #orig Jx: 0.24855": what only a comment says.
+/// "#Jx .27   #orig Jx: 0.24855": value in a comment.
 std::optional<Value> in_comment(const Lines& lines, const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < lines.all.size(); ++i) {
     const std::string text = trimmed(lines.all[i]);
@@ -87,13 +87,13 @@ constexpr std::array<const char*, forces> ros_names{"L", "D", "Y", "ell", "m", "
 constexpr std::array<const char*, 9> ros_terms{"O", "alpha",   "beta",    "p",      "q",
                                                "r", "delta_a", "delta_e", "delta_r"};
 
-/// What rosflight_sim reads and is not there counts as 0.
+/// Parameters that rosflight_sim reads and the file lacks count as 0.
 void report_missing(const Parameters& all, Aircraft& out) {
   std::string missing;
   for (const char* name : {"C_L_O", "C_L_alpha", "C_L_q", "C_L_delta_e", "C_m_O", "C_m_alpha", "C_m_q",
                            "C_m_delta_e", "C_Y_beta", "C_ell_beta", "C_ell_p", "C_ell_r", "C_ell_delta_a",
                            "C_n_beta", "C_n_p", "C_n_r", "C_n_delta_a", "C_n_delta_r", "C_Y_delta_r"}) {
-    std::string other = name;  // some write zero with a digit
+    std::string other = name;  // some files write zero with a digit
     if (other.back() == 'O') other.back() = '0';
     if (!find(all, name) && !find(all, other)) missing += std::string(missing.empty() ? "" : ", ") + name;
   }

@@ -11,8 +11,8 @@ bool is_rosflight(const Lines& lines);
 bool is_coefficient_json(const Lines& lines);
 bool is_jsbsim(const Lines& lines);
 
-/// `mend`: columns whose sign cannot be right are turned, each with a note; else they stay for a check to
-/// find. Throws core::Error.
+/// `mend`: columns with an impossible sign are reversed, each with a note; else they stay for the check.
+/// Throws core::Error.
 Aircraft rosflight_aircraft(const Lines& lines, bool mend);
 Aircraft json_aircraft(const Lines& lines);
 Aircraft jsbsim_aircraft(const Lines& lines);

@@ -17,7 +17,7 @@ namespace fulmar::aero::imports {
 namespace {
 
 constexpr std::size_t max_files = 500;
-constexpr double full_deflection = 40 * degree;  // rosflight_sim: of a command of 1
+constexpr double full_deflection = 40 * degree;  // rosflight_sim: deflection of a command of 1
 
 std::vector<Lines> yaml_files(const std::string& folder) {
   std::error_code fault;
@@ -59,7 +59,7 @@ std::map<std::string, Setting> settings(const Lines& lines) {
 struct GainRule {
   const char *theirs, *component, *ours;
   double factor;
-  bool surface;  ///< its sign depends on the sense of the surface
+  bool surface;  ///< its sign depends on the sign of the surface
 };
 constexpr std::array<GainRule, 15> gain_rules{
     {{"r_kp", "Inner", "roll_kp", full_deflection, true},
@@ -78,7 +78,7 @@ constexpr std::array<GainRule, 15> gain_rules{
      {"takeoff_airspeed", "Outer", "takeoff_airspeed", 1, false},
      {"cmd_takeoff_pitch", "Outer", "takeoff_pitch", degree, false}}};
 
-/// The section `params` of the airframe file, of one file of gains.
+/// The section `params` of the airframe file from one file of gains.
 std::string gains_text(const Lines& lines, RosplaneSet& out) {
   const std::map<std::string, Setting> all = settings(lines);
   std::map<std::string, std::string> sections;

@@ -11,7 +11,7 @@ struct OutFile {
 struct RosplaneSet {
   Imported airframe;
   std::vector<OutFile> files;      ///< airframe, plans and missions, to be written into one folder
-  std::vector<std::string> notes;  ///< what was read, changed or left out
+  std::vector<std::string> notes;  ///< parts that were read, changed or left out
   std::vector<std::string> doubts;
 };
 

@@ -28,7 +28,7 @@ std::vector<PolarPoint> polar_of(const AircraftModel& m) {
   return points;
 }
 
-/// Round numbers, some 25 of them, and both ends.
+/// Some 25 round numbers, and both ends.
 std::vector<double> speeds_between(double first, double last) {
   const double span = last - first, power = std::pow(10.0, std::floor(std::log10(span / 25)));
   double step = 10 * power;
@@ -49,7 +49,7 @@ std::optional<LevelPoint> level_at(const AircraftModel& m, double airspeed) {
   return p;
 }
 
-/// An airspeed of level flight, cruise when there it is one; 0: none.
+/// An airspeed with level flight, preferably cruise; 0: none.
 double some_level_speed(const AircraftModel& m) {
   const double cruise = m.airframe().limits.airspeed_cruise_mps;
   for (const double part : {1.0, 1.15, 0.85, 1.3, 0.7, 1.6, 2.0, 0.5})
@@ -59,7 +59,7 @@ double some_level_speed(const AircraftModel& m) {
 
 const ChartAxis airspeed_axis{"airspeed", "m/s"}, alpha_axis{"angle of attack", "deg"};
 
-/// A line of each set, from its points.
+/// One line for each set, from its points.
 template <class Points, class X, class Y>
 void add_line(Chart& chart, const AircraftCurves& set, int style, const Points& points, const X& x,
               const Y& y) {
@@ -68,8 +68,8 @@ void add_line(Chart& chart, const AircraftCurves& set, int style, const Points& 
   chart.lines.push_back(line);
 }
 
-/// One of the modes of a kind over the airspeed: of two that do not oscillate the slower or the faster one,
-/// of a pair that one.
+/// One mode of a kind over the airspeed: a pair, or of two that do not oscillate the slower or the faster
+/// one.
 ChartLine locus(const AircraftCurves& set, int style, ModeKind kind, bool faster) {
   ChartLine line{.name = "", .style = style, .points = {}, .mark = Mark(int(kind) + 1), .growing = true};
   bool two = false;
@@ -85,7 +85,7 @@ ChartLine locus(const AircraftCurves& set, int style, ModeKind kind, bool faster
     two = two || n > 1;
     line.points.push_back(at);
   }
-  if (faster && !two) line.points.clear();  // the other line is the same
+  if (faster && !two) line.points.clear();  // equal to the other line
   return line;
 }
 

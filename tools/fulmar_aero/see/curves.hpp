@@ -23,8 +23,7 @@ using chart::Mark;
 using chart::no_style;
 using chart::style_sample;
 
-/// Coefficients with all surfaces in the middle, no rates, at cruise airspeed; Cm about the centre of
-/// gravity.
+/// Coefficients with zero deflections and rates, at cruise airspeed; Cm about the centre of gravity.
 struct PolarPoint {
   double alpha_rad = 0, CL = 0, CD = 0, Cm = 0;
 };
@@ -37,7 +36,7 @@ struct LevelPoint {
   std::vector<Mode> modes;
 };
 
-/// m/s; NaN where there is none.
+/// m/s; NaN for none.
 struct EnvelopePoint {
   double airspeed_mps = 0, climb_mps = 0, glide_mps = 0;
 };
@@ -46,15 +45,15 @@ struct AircraftCurves {
   std::string title;
   double altitude_m = 0, stall_mps = 0;
   std::vector<PolarPoint> polar;
-  std::optional<LevelSpeeds> level;  ///< nothing: there is no level flight, see `none`
+  std::optional<LevelSpeeds> level;  ///< none: no level flight, see `none`
   std::vector<LevelPoint> points;    ///< from the slowest to the fastest level flight
   std::vector<EnvelopePoint> envelope;
   std::optional<LevelPoint> cruise;
-  std::string none;  ///< why there is no level flight in cruise
+  std::string none;  ///< reason why there is no level flight in cruise
 };
 AircraftCurves curves_of(const AirframeFile& file, double altitude_m);
 
-/// One line in each of the charts for each of the sets.
+/// One line for each set in each chart.
 std::vector<Chart> polar_charts(const std::vector<AircraftCurves>& sets);
 std::vector<Chart> trim_charts(const std::vector<AircraftCurves>& sets);
 Chart envelope_chart(const std::vector<AircraftCurves>& sets);

@@ -70,7 +70,7 @@ std::string margins_html(const std::string& title, const Judged& judged) {
          table_html(rows);
 }
 
-/// Commanded and flown over the time.
+/// Commanded and actual values over time.
 template <class Commands, class Of, class Flown>
 Chart over_time(const char* title, ChartAxis y, const FlightTrack& track, const Commands& commands,
                 const Of& of, const Flown& flown) {

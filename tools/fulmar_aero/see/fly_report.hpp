@@ -9,13 +9,13 @@
 
 namespace fulmar::aero {
 
-/// As far as it came.
+/// Results of the completed steps.
 struct FlyRecord {
   const AirframeFile* file = nullptr;
   const Findings* findings = nullptr;
   double altitude_m = 0;
   std::optional<TuneOutcome> tuned;
-  std::string verdict;  ///< "flown", or what it ended at
+  std::string verdict;  ///< "flown", or the step that failed
 };
 std::string fly_report_html(const FlyRecord& record);
 

@@ -16,8 +16,8 @@ using chart::in_html;
 
 namespace {
 
-// Colours of Okabe & Ito, Color Universal Design (2008), darker or lighter as the background asks; dashes
-// tell lines apart where colours do not.
+// Colours of Okabe & Ito, Color Universal Design (2008), adapted to the background; dashes distinguish lines
+// further.
 constexpr const char* style_sheet = R"(
 :root{color-scheme:light dark;--page:#fff;--text:#1c1c1c;--pale:#666;--grid:#e2e2e2;--zero:#9a9a9a;--bad:#fbeaea;
 --c0:#0072b2;--c1:#c04f00;--c2:#007a5a;--c3:#b0558a;--c4:#8f6600;--c5:#1f7fb8}
@@ -48,7 +48,7 @@ tbody th,thead th:first-child{text-align:left;font-weight:normal}thead th{vertic
 }  // namespace
 
 std::string page_html(const std::string& title, const std::string& body) {
-  // nothing is loaded and nothing runs, whatever stands in a name
+  // no scripts and no requests, for any text in a name
   return std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
          "'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"

@@ -9,12 +9,12 @@ namespace fulmar::aero {
 /// `body` is HTML.
 std::string page_html(const std::string& title, const std::string& body);
 
-/// Cells are texts. The first row is the head, the first column names the rows.
+/// Cells are plain texts. The first row is the head, the first column names the rows.
 std::string table_html(const std::vector<std::vector<std::string>>& rows);
 
 std::string sentence_html(const std::string& text);
 
-/// Throws core::Error when the page would replace one of the files that it is made from.
+/// Throws core::Error when the page would replace one of its sources.
 void refuse_as_page(const std::string& page, const std::vector<std::string>& inputs);
 
 /// Throws core::Error when the file cannot be written.

@@ -42,7 +42,7 @@ Seen look_at(const std::string& name, double altitude_m) {
     Drawn drawn{read_geometry_file(name), {}, {}};
     drawn.aircraft = aircraft_of(drawn.geometry);
     drawn.loads = span_loads(drawn.geometry, drawn.aircraft);
-    // through its text: what is shown is what `fulmar aero vlm -o` writes, figure by figure
+    // through the text, so that the page shows exactly the output of `fulmar aero vlm -o`
     seen.file = airframe_of_text(airframe_yaml(drawn.geometry, drawn.aircraft), name);
     seen.drawn = std::move(drawn);
   } else {
@@ -52,7 +52,7 @@ Seen look_at(const std::string& name, double altitude_m) {
   return seen;
 }
 
-/// Two of one name are told apart by their files.
+/// Two of the same name get the names of their files.
 void report_apart(std::vector<Seen>& all) {
   const auto same = [&](const Seen& one) {
     return std::count_if(all.begin(), all.end(),
@@ -78,7 +78,7 @@ std::string at_speed(double value, int decimals, double airspeed) {
   return fixed(value, decimals) + " at " + fixed(airspeed, 1) + " m/s";
 }
 
-/// The largest value over the points, and where.
+/// The largest value over the points, and its place.
 template <class Points, class Value>
 std::string max_of(const Points& points, int decimals, const Value& value) {
   double most = -1e300, at = 0;
@@ -234,7 +234,7 @@ Chart outline_chart(const std::vector<Seen>& all) {
   return chart;
 }
 
-/// How the lift is spread, and which section stalls first.
+/// Spanwise lift distribution, and the section that stalls first.
 std::vector<Chart> load_charts(const std::vector<Seen>& all) {
   Chart load{.title = "Lift over the span, in cruise",
              .x = {"right", "m"},

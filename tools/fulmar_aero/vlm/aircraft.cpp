@@ -13,17 +13,17 @@
 namespace fulmar::aero {
 namespace {
 
-/// Of a control's main moment, between a sixth of the panels and all: some two thirds of it are still missing
-/// with all, as the error goes with the panels' size.
+/// Limit for the change of a control's main moment from a sixth of the panels to all: some two thirds of it
+/// remain as an error, which is proportional to the size of the panels.
 constexpr double max_power_change = 0.15;
-constexpr double steepest = 25 * degree;  // beyond, nothing about a lattice is right
+constexpr double steepest = 25 * degree;  // beyond it the lattice is not valid
 
 double lift_needed(const Geometry& g, const MassSum& mass, const Stream& s) {
   return mass.mass_kg * isa::g0 /
          (0.5 * s.density_kgm3 * s.airspeed_mps * s.airspeed_mps * g.reference.area_m2);
 }
 
-/// Where the lattice lifts that much; NaN when it does not before it is no lattice's business.
+/// Angle of attack with that lift; NaN when it is beyond the range of the lattice.
 double alpha_for(const Vlm& vlm, double CL) {
   double low = -steepest, high = steepest;
   if (vlm.forces({.alpha = high}).CL < CL || vlm.forces({.alpha = low}).CL > CL) return std::nan("");
@@ -41,8 +41,8 @@ double cl_max_at(const Geometry& g, const Strip& s) {
   return (1 - s.share) * of(s.airfoil_in) + s.share * of(s.airfoil_out);
 }
 
-/// The critical section: the wing stalls where the first of its sections has its most lift. Phillips & Alley,
-/// Predicting Maximum Lift Coefficient for Twisted Wings Using Lifting-Line Theory (2007).
+/// The critical section: the wing stalls when the first of its sections reaches its maximum lift. Phillips &
+/// Alley, Predicting Maximum Lift Coefficient for Twisted Wings Using Lifting-Line Theory (2007).
 void find_stall(const Geometry& g, const Lattice& lattice, const Vlm& vlm, Aircraft& a) {
   for (double alpha = 0; alpha < steepest; alpha += 0.1 * degree) {
     const Eigen::VectorXd cl = vlm.strip_lift({.alpha = alpha});
@@ -57,7 +57,7 @@ void find_stall(const Geometry& g, const Lattice& lattice, const Vlm& vlm, Aircr
   a.airframe.wing.stall_alpha_rad = steepest;
 }
 
-/// CD = CD_p + CL^2 / (pi e AR) by least squares over the speeds that are flown.
+/// CD = CD_p + CL^2 / (pi e AR) by least squares over the speed range.
 void fit_polar(const Geometry& g, const Lattice& lattice, const Vlm& vlm, Aircraft& a) {
   const double AR = g.reference.span_m * g.reference.span_m / g.reference.area_m2;
   const double to = 0.85 * a.airframe.wing.stall_alpha_rad;
@@ -95,11 +95,11 @@ Derivatives column(const SixDerivatives& d, double Six::*c) {
   for (double* x :
        {&out.zero_ratio, &out.alpha_ratio, &out.beta_ratio, &out.p_ratio, &out.q_ratio, &out.r_ratio,
         &out.aileron_ratio, &out.elevator_ratio, &out.rudder_ratio, &out.flap_ratio})
-    if (std::abs(*x) < 5e-6) *x = 0;  // what rounding leaves of a symmetric aircraft
+    if (std::abs(*x) < 5e-6) *x = 0;  // rounding error in a symmetric aircraft
   return out;
 }
 
-/// Values at alpha 0, as the model has them: C(alpha) = C_0 + C_alpha alpha through the point of cruise.
+/// Values at alpha 0, as in the model: C(alpha) = C_0 + C_alpha alpha through the point of cruise.
 void put_coefficients(Aircraft& a) {
   Aerodynamics& out = a.airframe.aero;
   out.lift = column(a.whole, &Six::CL);
@@ -109,12 +109,12 @@ void put_coefficients(Aircraft& a) {
   out.yaw = column(a.whole, &Six::Cn);
   for (Derivatives* d : {&out.lift, &out.side, &out.roll, &out.pitch, &out.yaw})
     d->zero_ratio -= d->alpha_ratio * a.alpha_rad;
-  // of the drag the polar tells over alpha; a deflection's part is that of the lattice
+  // the polar gives the drag over alpha, the lattice that of a deflection
   out.drag.elevator_ratio = a.whole.control[to_elevator].CD;
   out.drag.flap_ratio = a.whole.control[to_flap].CD;
 }
 
-/// Signs by what controls do, as `import` has them: an elevator ahead of the centre of gravity goes up where
+/// Signs by the effect of a control, as in `import`: an elevator ahead of the centre of gravity goes up where
 /// one behind it goes down. With elevons and a V-tail a column is two surfaces, and stays.
 std::string turn_controls(const Geometry& g, SixDerivatives& whole) {
   struct Sense {
@@ -159,9 +159,9 @@ void refuse_what_is_missing(const GeometryFile& file, const MassSum& mass, const
     refuse("propellers", aero_messages::propeller_thrust_missing());
 }
 
-/// A vortex that passes close by a control point of another surface, or too few panels, show so. The power of
-/// a control converges with the size of its panels, the slowest of all: a panel that the hinge divides turns
-/// by the part behind it.
+/// Checks the convergence: a vortex close to a control point of another surface, or too few panels. The power
+/// of a control converges slowest, with the size of its panels: a panel that the hinge divides turns by the
+/// part behind it.
 void doubt(const SixDerivatives& few, Aircraft& a) {
   const SixDerivatives& all = a.lattice;
   const double lift = few.alpha.CL / all.alpha.CL,
@@ -207,7 +207,7 @@ Aircraft aircraft_of(const GeometryFile& file, double density) {
   refuse_what_is_missing(file, a.mass, lattice);
   a.stream = stream_at(g.limits.airspeed_cruise_mps, g.altitude_m);
   const double CL = lift_needed(g, a.mass, a.stream);
-  // the wake's angle from a few panels: it matters little, and then lies along the stream
+  // the wake's angle from a few panels: its effect is small, and it then lies along the stream
   const Vlm few(lattice_of(g, 0.4 * density), g.reference, a.mass.centre);
   const double wake = alpha_for(few, CL);
   if (std::isnan(wake)) lift_fault(file, CL, a, few);
@@ -245,7 +245,7 @@ Aircraft aircraft_of(const GeometryFile& file, double density) {
     a.propeller_radps = propeller_speed(g.propulsion, drag / number, a.stream);
   }
   a.whole = with_parts(g, a, a.lattice);
-  a.whole.beta.CY -= out.aero.parasite_drag_ratio;  // it pulls along the stream
+  a.whole.beta.CY -= out.aero.parasite_drag_ratio;  // it acts along the stream
   a.turned = turn_controls(g, a.whole);
   put_coefficients(a);
   return a;

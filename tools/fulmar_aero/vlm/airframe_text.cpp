@@ -11,7 +11,7 @@
 namespace fulmar::aero {
 namespace {
 
-/// A node of the drawing as it stands there, on one line.
+/// A node of the drawing, unchanged, on one line.
 std::string flow_text(const core::Node& node) {
   std::string out;
   if (node.is(core::Node::Kind::map)) {
@@ -33,7 +33,7 @@ bool says(const core::Node* map, const std::string& name) {
   return false;
 }
 
-/// With further entries behind those of the drawing.
+/// A section with further entries behind those of the drawing.
 std::string section(const core::Node& root, const char* key,
                     const std::vector<std::pair<std::string, std::string>>& more = {}) {
   const core::Node* const node = root.find(key);

@@ -17,27 +17,27 @@ inline constexpr double pi = std::numbers::pi;
 /// cd = cd_min (Re/reynolds)^-0.2 + cd_rise (cl - cl_at_cd_min)^2.
 struct Airfoil {
   Text<32> name;
-  Text<8> naca;                 ///< four digits
-  double alpha_zero_rad = 1e9;  ///< of a section that is known by its angle of no lift alone
+  Text<8> naca;                                   ///< four digits
+  double alpha_zero_rad = 1e9;                    ///< of a section with only a known angle of zero lift
   List<double, 64> camber_x_frac, camber_z_frac;  ///< the mean line over the chord
   double thickness_frac = 0.12;                   ///< of the chord
   double cd_min_ratio = 0;                        ///< 0: of a flat plate with that thickness
   double cl_at_cd_min_ratio = 0, cd_rise_ratio = 0.01;
-  double reynolds_ratio = 0;  ///< to which cd_min belongs; 0: at any
+  double reynolds_ratio = 0;  ///< Reynolds number of cd_min; 0: independent of it
   double cl_max_ratio = 1.2;
 };
 
-/// Where the leading edge is, and what stands behind it.
+/// Place of the leading edge, and the section.
 struct WingSection {
   double x_m = 0, y_m = 0, z_m = 0, chord_m = 0;
   double twist_rad = 0;  ///< nose up
-  Text<32> airfoil;      ///< else a flat plate
+  Text<32> airfoil;      ///< default: a flat plate
 };
 
 enum class Drives : std::uint8_t { aileron, elevator, rudder, flap, elevons, v_tail };
 
-/// A part of the trailing edge, between two places along the span: metres from the first section along the
-/// surface, so that a fin and a wing with dihedral are said alike.
+/// A part of the trailing edge, between two places along the span. They are metres from the first section
+/// along the surface, so that a fin and a wing with dihedral have the same form.
 struct ControlSurface {
   Drives drives = Drives::elevator;
   double from_m = 0, to_m = 0;
@@ -54,7 +54,7 @@ struct NamedControl {
 
 struct LiftingSurface {
   Text<32> name;
-  bool mirror = false;                        ///< its other half is on the left
+  bool mirror = false;                        ///< with a second half on the left
   double x_m = 0, z_m = 0;                    ///< added to all its sections
   double incidence_rad = 0;                   ///< added to all twists
   std::int32_t chordwise = 8, spanwise = 20;  ///< panels, of one half
@@ -64,14 +64,14 @@ struct LiftingSurface {
   List<ControlSurface, 16> controls;
 };
 
-/// A fuselage or nacelle: an ellipsoid as far as its moments go.
+/// A fuselage or nacelle: an ellipsoid with respect to its moments.
 struct Body {
   Text<32> name;
   double x_m = 0, y_m = 0, z_m = 0;  ///< of its nose
   double length_m = 0, width_m = 0, height_m = 0;
   double mass_kg = 0;       ///< of even density
   bool mirror = false;      ///< another one on the other side, of the same mass
-  double drag_area_m2 = 0;  ///< of what stands out of it, such as a gear: added to its skin's
+  double drag_area_m2 = 0;  ///< of parts outside the body, such as a gear: added to that of its skin
 };
 
 /// A point or a box, with its edges along the axes.
@@ -84,22 +84,22 @@ struct MassPart {
   Inertia own{0, 0, 0, 0};  ///< about its centre, in place of the box
 };
 
-/// A propeller in front of or behind the body: what it does in oblique flow.
+/// A propeller in front of or behind the body, for its forces in oblique flow.
 struct PropellerPart {
   double x_m = 0, y_m = 0, z_m = 0;
   std::int32_t blades = 2;
   double blade_chord_m = 0;  ///< at three quarters of the radius
 };
 
-/// To what the coefficients refer.
+/// Reference quantities of the coefficients.
 struct ReferenceQuantities {
   double area_m2 = 0, span_m = 0, chord_m = 0;
 };
 
 struct Geometry {
   Text<32> name;
-  double altitude_m = 0;  ///< of the standard air in cruise
-  Text<160> planform;     ///< an .avl or .xml file beside the drawing, in place of `surfaces`
+  double altitude_m = 0;  ///< of the standard atmosphere in cruise
+  Text<160> planform;     ///< an .avl or .xml file in the folder of the drawing, in place of `surfaces`
   ReferenceQuantities reference;
   List<Airfoil, 16> airfoils;
   List<LiftingSurface, 16> surfaces;
@@ -107,8 +107,8 @@ struct Geometry {
   List<Body, 8> bodies;
   List<MassPart, 64> masses;
   List<PropellerPart, 8> propellers;
-  double oswald_ratio = 0;  ///< in place of the one that is computed; 0: that
-  // of the airframe, as it is there
+  double oswald_ratio = 0;  ///< replaces the computed one; 0: computed
+  // as in the airframe
   Mixer mixer = Mixer::conventional;
   Propulsion propulsion;
   Surface aileron, elevator, rudder, flap;
@@ -117,20 +117,20 @@ struct Geometry {
 };
 
 struct GeometryFile {
-  std::string name;  ///< as it was given
+  std::string name;  ///< as given
   std::unique_ptr<Geometry> geometry;
   core::Node root;
 
-  /// Where the item of a list stands: where("surfaces", 2), where("surfaces", 2, "sections", 0).
+  /// Place of the item of a list: where("surfaces", 2), where("surfaces", 2, "sections", 0).
   core::Where where(const std::string& list, std::size_t i, const std::string& inner = "",
                     std::size_t k = 0) const;
 };
 
-/// Throws core::Error with file:line for every fault: what is missing, unknown, out of its range, and
-/// sections that cross, surfaces outside their wing, airfoils without a shape.
+/// Throws core::Error with file:line for all faults: missing, unknown or out of range, sections that cross,
+/// controls outside their wing, airfoils without a shape.
 GeometryFile read_geometry_file(const std::string& name);
 
-/// The mean line's slope dz/dx at x of the chord, and of alpha_zero its tangent. Camber of NACA four digits:
+/// Slope dz/dx of the mean line at x of the chord; for alpha_zero its tangent. Camber of NACA four digits:
 /// Abbott & von Doenhoff, Theory of Wing Sections (1959), (6.4).
 double camber_slope(const Airfoil& airfoil, double x_frac);
 

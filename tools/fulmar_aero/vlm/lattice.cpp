@@ -36,7 +36,7 @@ Chordwise chordwise(int n, Spacing spacing) {
   return out;
 }
 
-/// The parameter of spanwise spacing: strips are equal steps of it.
+/// Parameter of the spanwise spacing: strips are equal steps of it.
 double angle_of(double part, Spacing spacing) {
   part = std::clamp(part, 0.0, 1.0);
   if (spacing == Spacing::uniform) return part;
@@ -118,7 +118,7 @@ class SurfaceMesh {
     const auto at = [left](const Station& st, double part) {
       return Vector3d(st.lead.x() + part * st.chord, left ? -st.lead.y() : st.lead.y(), st.lead.z());
     };
-    // circulation runs from left to right, of a fin from below to above, so the left half is gone backwards
+    // positive circulation is from left to right, on a fin from below to above, so the left half is reversed
     const Station &first = left ? end : begin, &last = left ? begin : end;
     Strip strip;
     strip.a = at(first, 1);
@@ -153,14 +153,14 @@ class SurfaceMesh {
     }
   }
 
-  /// A panel that the hinge divides turns by its part behind it.
+  /// A panel that the hinge divides turns by the part behind the hinge.
   void turn(Lattice& lattice, Panel& p, const ControlSurface& c, std::size_t i, const Station& begin,
             const Station& end, bool left) const {
     const double from = chord_.border[i], to = chord_.border[i + 1];
     const double part = std::clamp((to - c.hinge_frac) / (to - from), 0.0, 1.0);
     Vector3d hinge = end.lead - begin.lead + Vector3d(c.hinge_frac * (end.chord - begin.chord), 0, 0);
-    if (left) hinge = Vector3d(-hinge.x(), hinge.y(), -hinge.z());  // mirrored and gone backwards
-    // the trailing edge goes to where -normal points
+    if (left) hinge = Vector3d(-hinge.x(), hinge.y(), -hinge.z());  // mirrored and reversed
+    // the trailing edge moves along -normal
     const Vector3d down = part * hinge.normalized().cross(p.normal);
     const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
     const double lowers = sign(p.normal.z()), to_left = sign(p.normal.y());

@@ -17,8 +17,8 @@ enum Control : std::size_t { to_aileron, to_elevator, to_rudder, to_flap, contro
 /// Geometry axes: x aft, y right, z up; metres.
 struct Panel {
   Eigen::Vector3d a, b;  ///< ends of the bound vortex; positive circulation from a to b lifts along `normal`
-  Eigen::Vector3d centre;                        ///< of the bound vortex, where the force acts
-  Eigen::Vector3d control;                       ///< where no air passes through
+  Eigen::Vector3d centre;                        ///< of the bound vortex, point of action of the force
+  Eigen::Vector3d control;                       ///< point with zero normal velocity
   Eigen::Vector3d normal;                        ///< with twist and camber; panels themselves lie along x
   std::array<Eigen::Vector3d, controls> turned;  ///< d normal / d control, 1/rad
   double edge_a = 0, edge_b = 0;                 ///< x of the trailing edge behind a and b
@@ -37,10 +37,10 @@ struct Strip {
 struct Lattice {
   std::vector<Panel> panels;
   std::vector<Strip> strips;
-  std::array<bool, controls> has{};  ///< which surfaces there are
+  std::array<bool, controls> has{};  ///< surfaces that exist
 };
 
-/// `density` multiplies the panels' numbers in both directions.
+/// `density`: factor of the number of panels in both directions.
 Lattice lattice_of(const Geometry& geometry, double density = 1);
 
 }  // namespace fulmar::aero

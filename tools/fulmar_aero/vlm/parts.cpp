@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A lump with its own second moments, the integrals of x^2, y^2, z^2 and x z about its centre.
+/// A body with its own second moments, the integrals of x^2, y^2, z^2 and x z about its centre.
 struct Lump {
   double mass;
   Vector3d at, square;
@@ -75,7 +75,7 @@ MassSum mass_of(const Geometry& geometry, const Lattice& lattice) {
   }
   if (sum.mass_kg > 0) sum.centre /= sum.mass_kg;
   Vector3d square = Vector3d::Zero();
-  double xz = 0;  // x aft and z up: both turn in body axes, the product stays
+  double xz = 0;  // both axes change sign in body axes (x aft, z up), so the product stays
   for (const Lump& one : all) {
     const Vector3d d = one.at - sum.centre;
     square += one.square + one.mass * d.cwiseAbs2();
@@ -138,7 +138,7 @@ void add_bodies(const Geometry& geometry, SixDerivatives& sum) {
   for (const Body& b : geometry.bodies) {
     const double width = std::sqrt(b.width_m * b.height_m),
                  volume = pi / 6 * b.length_m * b.width_m * b.height_m;
-    if (b.length_m <= 1.01 * width) continue;  // a ball is not turned
+    if (b.length_m <= 1.01 * width) continue;  // no moment on a sphere
     // apparent masses along and across of an ellipsoid of revolution: Lamb, Hydrodynamics (1932), section 114
     const double e2 = 1 - std::pow(width / b.length_m, 2), e = std::sqrt(e2),
                  log = std::log((1 + e) / (1 - e));
@@ -169,7 +169,7 @@ void add_propeller(const PropellerPart& propeller, double newton_per_rad, const 
   sum.alpha.Cm += k * c;
   sum.beta.CY -= k;
   sum.beta.Cn -= k * b;
-  // a propeller ahead meets less angle when the nose rises
+  // a propeller ahead has a smaller angle when the nose rises
   sum.q.CL -= 2 * k * c;
   sum.q.Cm -= 2 * k * c * c;
   sum.r.CY -= 2 * k * b;

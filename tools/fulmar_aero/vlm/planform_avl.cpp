@@ -63,7 +63,7 @@ class AvlFile {
     const int number = lines_.empty() ? 0 : lines_[std::min(at_, lines_.size() - 1)].number;
     throw core::Error(located(core::Where{name_, number}, sentence));
   }
-  /// The first four letters tell keywords apart, as in AVL.
+  /// Keywords differ in the first four letters, as in AVL.
   std::string keyword() const {
     std::string key = lines_[at_].text.substr(0, 4);
     for (char& c : key) c = char(std::toupper(static_cast<unsigned char>(c)));
@@ -134,7 +134,7 @@ class AvlFile {
       const auto d = numbers(3, "Xscale Yscale Zscale");
       scale_ = {d[0], d[1], d[2]};
     } else if (key == "COMP" || key == "INDE") {
-      numbers(1, "the component");  // decides on the core of vortices alone
+      numbers(1, "the component");  // only affects the core of vortices
     } else {
       --at_;
       fail(aero_messages::planform_keyword_unsupported(lines_[at_].text));
@@ -223,7 +223,7 @@ class AvlFile {
     throw core::Error(located(core::Where{name_, c.line}, aero_messages::control_name_unknown(c.name)));
   }
 
-  /// The control of that name at the next section or the one before.
+  /// The control of that name at an adjacent section.
   const AvlControl* partner(std::size_t i, int step, const AvlControl& c) const {
     const std::size_t at = i + std::size_t(step);  // before the first: beyond the last
     if (at >= sections_.size()) return nullptr;
@@ -277,7 +277,7 @@ void add_avl(const std::string& path, const std::string& name, Geometry& geometr
 
 Text<32> add_airfoil(Geometry& geometry, const Airfoil& airfoil, const std::string& where) {
   for (const Airfoil& one : geometry.airfoils)
-    if (one.name == airfoil.name) return one.name;  // the drawing's own of that name goes first
+    if (one.name == airfoil.name) return one.name;  // an airfoil of that name in the drawing has priority
   if (!geometry.airfoils.push_back(airfoil))
     throw core::Error(located(where, aero_messages::too_many_airfoils()));
   return airfoil.name;

@@ -19,7 +19,7 @@ namespace {
 std::string metres(double x) { return figures(x, 5) + " m"; }
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-/// What the types cannot say, each fault at its line.
+/// Rules beyond the types, each fault with its line.
 class GeometryRules {
  public:
   GeometryRules(const GeometryFile& file, core::Report& report)
@@ -137,7 +137,7 @@ class GeometryRules {
     }
   }
 
-  /// The lattice is a full matrix of the panels with one another, which takes memory and time.
+  /// The lattice is a full matrix of the panels, which needs memory and time.
   void panels() {
     constexpr std::int64_t most = 4000;
     std::int64_t sum = 0, largest = 0;
@@ -155,7 +155,8 @@ class GeometryRules {
         aero_messages::too_many_panels(sum, g_.surfaces[at].name.view(), largest, most));
   }
 
-  /// A slip of unit or of half and whole: coefficients would be right for an aircraft of another size.
+  /// Detects an error of a unit or of half and whole: coefficients would be those of an aircraft of another
+  /// size.
   void reference() {
     double area = 0, span = 0;
     for (const LiftingSurface& s : g_.surfaces) {
@@ -187,7 +188,7 @@ class GeometryRules {
   core::Report& report_;
 };
 
-/// Surfaces are drawn here or elsewhere, not both.
+/// Surfaces are in the drawing or in a planform file, not in both.
 void complete(GeometryFile& file, core::Report& report) {
   Geometry& g = *file.geometry;
   const std::string planform(g.planform.view());

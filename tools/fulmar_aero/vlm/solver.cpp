@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 enum Basic : int { stream_x, stream_y, stream_z, rate_p, rate_q, rate_r, first_control };
-/// Which quantity is changed: alpha, beta, p, q, r, then the controls.
+/// The changed quantity: alpha, beta, p, q, r, then the controls.
 enum Changed : int { by_alpha, by_beta, by_p, by_q, by_r, by_control };
 
 /// Velocity by a straight vortex of strength 4 pi from a to b, with d = point - a, e = point - b.
@@ -25,7 +25,7 @@ inline Vector3d segment(const Vector3d& d, const Vector3d& e) {
   return d.cross(e) * ((1 / D + 1 / E) / below);
 }
 
-/// The same for one that begins at a and goes on along the unit vector t.
+/// The same for a vortex from a to infinity along the unit vector t.
 inline Vector3d ray(const Vector3d& d, const Vector3d& t) {
   const double D = std::sqrt(d.squaredNorm()), below = D - d.dot(t);
   if (below < 1e-12 * D) return Vector3d::Zero();
@@ -108,7 +108,7 @@ Vlm::Basis Vlm::basis(const FlowState& s) const {
   return out;
 }
 
-/// d basis / d which.
+/// Derivative of the basis by `which`.
 Vlm::Basis Vlm::change(const FlowState& s, int which) const {
   Basis out{Eigen::VectorXd::Zero(circulation_.cols()), Vector3d::Zero(), Vector3d::Zero()};
   const double ca = std::cos(s.alpha), sa = std::sin(s.alpha), cb = std::cos(s.beta), sb = std::sin(s.beta);
@@ -127,7 +127,7 @@ Vlm::Basis Vlm::change(const FlowState& s, int which) const {
   return out;
 }
 
-/// With `change` its rate of change, else the value.
+/// With `change` the derivative, else the value.
 Six Vlm::coefficients(const Basis& now, const Basis* change, const FlowState& s, int which) const {
   const auto velocities = [&](const Basis& basis) {
     std::array<Eigen::VectorXd, 3> v;
@@ -165,7 +165,7 @@ Six Vlm::coefficients(const Basis& now, const Basis* change, const FlowState& s,
   for (std::size_t k = 0; k < lattice_.panels.size(); ++k) {
     const Panel& i = lattice_.panels[k];
     add(Eigen::Index(k), i.centre, i.b - i.a, true);
-    // its legs lie on the surface up to the trailing edge, and feel what comes across
+    // its legs are on the surface up to the trailing edge, where the cross flow acts on them
     const Vector3d edge_a(i.edge_a, i.a.y(), i.a.z()), edge_b(i.edge_b, i.b.y(), i.b.z());
     add(Eigen::Index(k), 0.5 * (i.a + edge_a), i.a - edge_a, false);
     add(Eigen::Index(k), 0.5 * (i.b + edge_b), edge_b - i.b, false);
@@ -213,7 +213,7 @@ Vlm::FarField Vlm::far_field(const FlowState& state) const {
   std::vector<double> strip(lattice_.strips.size(), 0.0);
   for (std::size_t k = 0; k < lattice_.panels.size(); ++k)
     strip[std::size_t(lattice_.panels[k].strip)] += gamma[Eigen::Index(k)];
-  // in the plane across the wake: y, and the height above the wake's own slope
+  // in the plane across the wake: y, and the height above the sloped wake
   const double ca = std::cos(wake_alpha_), sa = std::sin(wake_alpha_);
   const auto across = [&](const Vector3d& p) { return Eigen::Vector2d(p.y(), ca * p.z() - sa * p.x()); };
   FarField out;

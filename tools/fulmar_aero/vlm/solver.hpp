@@ -26,8 +26,8 @@ struct SixDerivatives {
 
 class Vlm {
  public:
-  /// `about`: where moments and rates are taken. `wake_alpha`: angle of the wake to x, rad; behind the
-  /// trailing edge it goes straight on. Throws core::Error when no flow is found.
+  /// `about`: reference of moments and rates. `wake_alpha`: angle of the wake to x, rad; behind the trailing
+  /// edge the wake is straight. Throws core::Error when no flow is found.
   Vlm(const Lattice& lattice, const ReferenceQuantities& reference, const Eigen::Vector3d& about,
       double wake_alpha = 0);
 

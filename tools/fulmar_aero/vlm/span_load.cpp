@@ -9,14 +9,14 @@ namespace {
 
 bool is_fin(const Strip& s) { return std::abs(s.b.y() - s.a.y()) < 0.3 * s.width; }
 
-/// The section's lift coefficient at most, between those of its two airfoils; that of a flat plate without
-/// one.
+/// Maximum lift coefficient of the section, interpolated between its two airfoils; that of a flat plate
+/// without one.
 double section_cl_max(const Geometry& g, const Strip& s) {
   const auto of = [&](int i) { return i < 0 ? 0.8 : g.airfoils[std::size_t(i)].cl_max_ratio; };
   return (1 - s.share) * of(s.airfoil_in) + s.share * of(s.airfoil_out);
 }
 
-/// Length of the chord at an edge of a strip, from the sections about it.
+/// Length of the chord at an edge of a strip, from the adjacent sections.
 double chord_at(const LiftingSurface& surface, const Eigen::Vector3d& edge) {
   const double y = std::abs(edge.y()), z = edge.z() - surface.z_m;
   double best = 1e300, chord = 0;

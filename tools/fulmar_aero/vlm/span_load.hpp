@@ -22,8 +22,8 @@ struct SurfaceLoad {
 };
 std::vector<SurfaceLoad> span_loads(const GeometryFile& file, const Aircraft& aircraft);
 
-/// Lines of the drawing from above, each as places (x aft, y right, m): outlines of surfaces, or of the
-/// lattice the bound vortices and the strips' sides.
+/// Lines of the drawing from above, each as points (x aft, y right, m): outlines of surfaces, or of the
+/// lattice the bound vortices and the sides of the strips.
 struct PlaneLine {
   std::vector<Eigen::Vector2d> places;
 };

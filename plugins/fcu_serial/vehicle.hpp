@@ -16,6 +16,7 @@
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"
 #include "greeting.hpp"
+#include "link/port.hpp"
 #include "link_report.hpp"
 #include "overload.hpp"
 #include "pace.hpp"
@@ -89,7 +90,11 @@ class Vehicle {
     options.baud = p.baud;
     options.time_scale = p.time_scale;
     options.watched.assign(watched_parameters.begin(), watched_parameters.end());
-    link_ = std::make_unique<AnyLink>(options);
+    try {
+      link_ = std::make_unique<AnyLink>(options);
+    } catch (const PortError& fault) {
+      throw PortError(fulmar::located("port", fault.diagnostic));
+    }
     greet(port, p.baud, *p.airframe);
   }
 

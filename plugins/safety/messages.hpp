@@ -64,10 +64,10 @@ inline constexpr MessageText glides{"safety.glides", "glides down"};
 inline constexpr MessageText goes_on{"safety.goes_on", "goes on"};
 inline constexpr MessageText heading_by_course{"safety.heading_by_course", "heading by GNSS course"};
 inline constexpr MessageText height_by_gnss{"safety.height_by_gnss", "height by GNSS"};
-inline constexpr MessageText home_near_fence{
-    "safety.home_near_fence",
-    {"north", "east"},
-    "home, {north} m north, {east} m east, lies nearer to the fence than fence_margin"};
+inline constexpr MessageText home_near_fence{"safety.home_near_fence",
+                                             {"north", "east", "distance", "margin"},
+                                             "home, at {north} m north, {east} m east, is {distance} m from "
+                                             "the fence; fence_margin requires {margin} m"};
 inline constexpr MessageText home_outside_fence{
     "safety.home_outside_fence",
     {"north", "east"},

@@ -113,10 +113,15 @@ inline void Monitor::configure(const Params& p) {
     floor_m_ = now_.floor_m = p.fence->floor_m;
     ceiling_m_ = now_.ceiling_m = p.fence->ceiling_m;
     const double room = polygon_.room_m(places_[0].north_m, places_[0].east_m);
-    const auto& fault = room < 0 ? safety_messages::home_outside_fence : safety_messages::home_near_fence;
     const auto north = std::lround(places_[0].north_m), east = std::lround(places_[0].east_m);
+    if (room < 0)
+      throw std::runtime_error(
+          located("fence.corners", safety_messages::home_outside_fence(north, east)).line());
     if (room < p.fencing.fence_margin)
-      throw std::runtime_error(located("fence.corners", fault(north, east)).line());
+      throw std::runtime_error(
+          located("fence.corners",
+                  safety_messages::home_near_fence(north, east, Fixed{room, 1}, p.fencing.fence_margin.value))
+              .line());
   }
   const BatteryLimits& b = p.battery;
   if (b.battery_empty > b.battery_low || b.volt_empty > b.volt_low)

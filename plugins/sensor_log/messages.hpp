@@ -73,7 +73,11 @@ inline constexpr MessageText last_line_cut{
     "{place}: the file ends early: its last line is not ended; every row ends with a line break"};
 inline constexpr MessageText log_too_new{"sensor_log.log_too_new",
                                          "the log is of a later kind, which cannot be read"};
-inline constexpr MessageText message_cut{"sensor_log.message_cut", "the message ends early"};
+inline constexpr MessageText message_cut{
+    "sensor_log.message_cut",
+    {"count", "left"},
+    "a list of {count} items is longer than the message, which has {left} bytes left; the file is damaged, "
+    "or its message definition is wrong"};
 inline constexpr MessageText message_not_xcdr{"sensor_log.message_not_xcdr",
                                               "the message is no little-endian XCDR1"};
 inline constexpr MessageText number_missing{"sensor_log.number_missing", "no number"};
@@ -109,8 +113,8 @@ inline constexpr MessageText sensors_missing{"sensor_log.sensors_missing",
                                              "describes no sensor; there are imu, mag, baro, pitot, gnss"};
 inline constexpr MessageText times_apart{"sensor_log.times_apart",
                                          {"file", "from", "to", "other", "other_from", "other_to"},
-                                         "the times of {file}, {from} to {to}, and of {other}, {other_from} "
-                                         "to {other_to}, do not meet; `shift:` is added to a clock"};
+                                         "{file} covers {from} to {to}, but {other} covers {other_from} to "
+                                         "{other_to}. Set shift here to add a time offset to {file}."};
 inline constexpr MessageText topic_ambiguous{
     "sensor_log.topic_ambiguous", {"topic", "file"}, "'{topic}' has two channels in {file}; one can be read"};
 inline constexpr MessageText topic_empty{"sensor_log.topic_empty", {"file"}, "{file} has no message of it"};

@@ -176,7 +176,7 @@ class RosType {
         align(bytes, 4);
         count = bytes.number<std::uint32_t>();
       }
-      if (count > bytes.left()) bytes.fault(sensor_log_messages::message_cut());
+      if (count > bytes.left()) bytes.fault(sensor_log_messages::message_cut(count, bytes.left()));
       for (std::size_t i = 0; i < count; ++i) {
         if (f.prim == Prim::structure)
           walk(f.inside, bytes, wanted, f.sequence || f.array ? nullptr : table);

@@ -37,7 +37,9 @@ inline constexpr MessageText overrides_not_recorded{
     "replay.overrides_not_recorded",
     "the log does not state the command-line changes of its mission: it is older than the replay function"};
 inline constexpr MessageText plugin_not_recorded{
-    "replay.plugin_not_recorded", {"component"}, "the log does not state the plugin of '{component}'"};
+    "replay.plugin_not_recorded",
+    {"component"},
+    "the log does not name the plugin file and checksum of '{component}', so it cannot be replayed"};
 inline constexpr MessageText plugin_replaced{
     "replay.plugin_replaced",
     {"component", "plugin", "version", "sha256"},
@@ -46,8 +48,9 @@ inline constexpr MessageText plugins_not_recorded{"replay.plugins_not_recorded",
                                                   "the log does not state the plugins of the flight"};
 inline constexpr MessageText probes_mismatch{
     "replay.probes_mismatch",
-    {"vehicle"},
-    "the probes of {vehicle} in the log differ from those of the plugin"};
+    {"vehicle", "found", "expected", "plugin"},
+    "{vehicle}: the log has {found} probes, and the plugin {plugin} has {expected}. Replay the log with the "
+    "plugin that recorded it."};
 inline constexpr MessageText record_without_log{
     "replay.record_without_log", "--record requires --log FILE: it adds ports to the replay's own log"};
 inline constexpr MessageText replay_interrupted{"replay.replay_interrupted", "interrupted"};

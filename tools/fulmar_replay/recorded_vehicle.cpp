@@ -28,7 +28,8 @@ VehicleTrack::VehicleTrack(const Survey& survey, const Graph& graph)
 
 void VehicleTrack::take(std::uint32_t output, const McapFile::Message& m) {
   if (output == all_probes && m.data.size() != 4 + 8 * probes_.size())
-    throw Error(replay_messages::probes_mismatch(vehicle_.name));
+    throw Error(replay_messages::probes_mismatch(
+        vehicle_.name, m.data.size() < 4 ? 0 : (m.data.size() - 4) / 8, probes_.size(), vehicle_.use));
   waiting_.push_back({flight_ns(m.log_ns, epoch_ns_), flight_ns(m.publish_ns, epoch_ns_), m.channel, output,
                       std::vector<std::byte>(m.data.begin(), m.data.end())});
 }

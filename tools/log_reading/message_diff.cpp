@@ -20,12 +20,12 @@ namespace {
 
 constexpr std::size_t max_compared_values = 100'000;
 constexpr std::size_t max_at_once = 32u << 20;  // bytes of one log time
-constexpr std::size_t max_waiting = 100'000;    // ticks, where the other log has none
+constexpr std::size_t max_waiting = 100'000;    // ticks without a partner in the other log
 using MessageBytes = std::span<const std::byte>;
 
 struct Stored {
   std::size_t begin, size;  // in the bytes of its log time
-  std::uint64_t valid_ns;   // as the log has it: its publish time
+  std::uint64_t valid_ns;   // the publish time in the log
 };
 
 bool same_bytes(MessageBytes a, MessageBytes b) {
@@ -53,11 +53,11 @@ struct Side {
   const McapFile::Message* ahead;
   std::vector<std::byte> bytes;                    // of the messages of the present log time
   std::map<std::string, std::vector<Stored>> now;  // these, by topic
-  std::vector<std::string> order;                  // of the topics there, as they stand in the file
+  std::vector<std::string> order;                  // of these topics, in the order of the file
   std::map<std::string, std::uint16_t> channels;
   std::uint64_t first_ns = std::numeric_limits<std::uint64_t>::max();
 
-  std::deque<HashedTick> ticks;  // that wait for those of the other log
+  std::deque<HashedTick> ticks;  // ticks that wait for those of the other log
   std::optional<HostTopic<Ticks>> tick_topic;
 
   Side(const std::filesystem::path& file, std::uint64_t last) : stream(file), last_ns(last), ahead(next()) {
@@ -80,7 +80,8 @@ struct Side {
       const std::string& topic = stream.log().channels.at(ahead->channel).topic;
       channels.try_emplace(topic, ahead->channel);
       if ((taken += ahead->data.size() + sizeof(Stored)) > max_at_once)
-        throw Error(reading_messages::messages_too_large(max_at_once >> 20));
+        throw Error(reading_messages::messages_too_large(max_at_once >> 20,
+                                                         Fixed{1e-9 * static_cast<double>(ns), 3}));
       if (now[topic].empty()) order.push_back(topic);
       now[topic].push_back({bytes.size(), ahead->data.size(), ahead->publish_ns});
       bytes.insert(bytes.end(), ahead->data.begin(), ahead->data.end());
@@ -94,9 +95,9 @@ struct Side {
     each_tick(t, [&](std::uint32_t i, std::int64_t time_ns) {
       ticks.push_back({t.first + i, time_ns, t.hash[i]});
     });
-  } catch (const Error&) {  // no message of the host's: the bytes differ, and that is all
+  } catch (const Error&) {  // the message of another program: only its bytes are compared
   }
-  /// The i-th message of a topic, if there are so many.
+  /// The i-th message of a topic, if it exists.
   std::optional<LoggedSample> sample(const std::vector<Stored>& of_topic, std::size_t i) const {
     if (i >= of_topic.size()) return std::nullopt;
     return LoggedSample{MessageBytes(bytes).subspan(of_topic[i].begin, of_topic[i].size),
@@ -121,7 +122,7 @@ std::vector<CdrValue> values(const Side& side, const std::string& topic, Message
   return {};
 }
 
-/// The first field that is not the same, or else a byte; of samples that hold the same, when they are valid.
+/// The first different field, or else a byte; for samples with equal fields, their time of validity.
 MessageDiff::First first_field(const Side& a, const Side& b, const std::string& topic,
                                const LoggedSample& in_a, const LoggedSample& in_b, std::int64_t time_ns) {
   const MessageBytes left = in_a.data, right = in_b.data;
@@ -174,7 +175,8 @@ struct Comparison {
     }
     diff.first = first_pair;
     for (const auto& [topic, first] : first_absent) {
-      if (!whole_topics && !diff.topics.contains(topic)) continue;  // it is told by being in one alone
+      // a topic in only one log is reported as such
+      if (!whole_topics && !diff.topics.contains(topic)) continue;
       if (precedes(first.time_ns, diff.first)) diff.first = first;
     }
   }
@@ -196,7 +198,7 @@ struct Comparison {
         continue;
       }
       ++(!x ? counts.only_b : !y ? counts.only_a : counts.different);
-      if (of_ticks) continue;  // they tell that something differs, and not what
+      if (of_ticks) continue;  // the hashes of ticks show a difference, but not its place
       ++diff.differing_messages;
       diff.differing_bytes += count_differing(x ? x->data : MessageBytes{}, y ? y->data : MessageBytes{});
       const auto word = [](const std::optional<LoggedSample>& there) {

@@ -20,7 +20,9 @@ inline constexpr MessageText line_fault{"reading.line_fault", {"line", "reason"}
 inline constexpr MessageText list_length_invalid{"reading.list_length_invalid",
                                                  "the length of the list is not readable"};
 inline constexpr MessageText messages_too_large{
-    "reading.messages_too_large", {"limit"}, "the log has more than {limit} MB of messages at one time"};
+    "reading.messages_too_large",
+    {"limit", "time"},
+    "more than {limit} MB of messages have the log time {time} s; a comparison cannot hold them"};
 inline constexpr MessageText too_many_fields{"reading.too_many_fields", "the type has too many fields"};
 inline constexpr MessageText too_many_values{
     "reading.too_many_values", {"limit"}, "a message has more than {limit} values"};

@@ -40,7 +40,7 @@ inline constexpr MessageText ip_address_invalid{
 inline constexpr MessageText path_not_port{
     "port.path_not_port",
     {"path", "file_kind"},
-    "{path}{file_kind}, not a serial port: name a device, such as /dev/ttyACM0, or udp:ADDRESS:PORT"};
+    "{path}{file_kind}, not a serial port. Name a device such as /dev/ttyACM0, or udp:ADDRESS:PORT."};
 inline constexpr MessageText port_in_use{
     "port.port_in_use", {"port", "by"}, "{port} is in use by {by}: end it first, or give another port"};
 inline constexpr MessageText port_missing{

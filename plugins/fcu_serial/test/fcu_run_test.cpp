@@ -55,7 +55,10 @@ void refused(const Result& r, const std::string& code, const std::string& argume
 
 }  // namespace
 
-TEST_CASE("no device") { refused(fly("/dev/ttyFulmar9"), "port.device_missing(", "/dev/ttyFulmar9"); }
+TEST_CASE("no device") {
+  const std::string port = "/dev/ttyFulmar9";
+  refused(fly(port), "--set fcu.port=" + port + ": fcu: port: port.device_missing(", port);
+}
 
 TEST_CASE("a silent device") {
   Device device([](Pty&) { pause_us(10000); });

@@ -127,7 +127,7 @@ TEST_CASE("home has to lie within the fence, with room") {
     w.fence(south);
     CHECK(w.configure() == Status::failed);
     CHECK(w.error() == (south > 0 ? "fence.corners: safety.home_outside_fence(0, 0)"
-                                  : "fence.corners: safety.home_near_fence(0, 0)"));
+                                  : "fence.corners: safety.home_near_fence(0, 0, 10.0, 15)"));
   }
 }
 

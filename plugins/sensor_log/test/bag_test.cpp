@@ -286,7 +286,7 @@ TEST_CASE("a structure of nothing is one byte, and arrays of such have an end") 
     deep += "===\nMSG: pkg/A" + std::to_string(i) + "\npkg/A" + std::to_string(i + 1) + "[100] many\n";
   deep += "===\nMSG: pkg/A12\n";
   CHECK(refusal(d, file(deep, Cdr{}.put(6.25F).header(5, 6, "f").bytes() + std::string(300, '\0')))
-            .find("sensor_log.message_cut") != std::string::npos);
+            .find("sensor_log.message_cut(100, ") != std::string::npos);
 }
 
 TEST_CASE("every beginning of a bag, and every bag with one byte changed, is read or refused in words") {

@@ -88,8 +88,8 @@ inline constexpr MessageText control_sign_turned{
     "{role}: the sign of {control} is turned as a whole; a positive deflection now {effect}"};
 inline constexpr MessageText count_missing{
     "aero.count_missing", {"item"}, "expected the number of {item}; the file may be incomplete"};
-inline constexpr MessageText count_out_of_range{"aero.count_out_of_range",
-                                                "the count is out of range; valid: 0 to 100"};
+inline constexpr MessageText count_out_of_range{
+    "aero.count_out_of_range", {"found"}, "the count is {found}; expected a whole number from 0 to 100"};
 inline constexpr MessageText decimal_comma{
     "aero.decimal_comma", {"found"}, "'{found}...' has a decimal comma; save the file with decimal points"};
 inline constexpr MessageText density_unit_unknown{

@@ -50,8 +50,8 @@ class MrfText {
   std::size_t count_at(std::size_t i, const char* what) const {
     if (i >= in_.all.size()) refuse({in_.file, int(in_.all.size())}, aero_messages::count_missing(what));
     const double count = number_at(in_, i, 0, what);
-    if (!(count >= 0 && count <= 100))
-      refuse(in_.where(i), fulmar::located(std::string(what), aero_messages::count_out_of_range()));
+    if (!(count >= 0 && count <= 100 && count == std::floor(count)))
+      refuse(in_.where(i), fulmar::located(std::string(what), aero_messages::count_out_of_range(count)));
     if (i + std::size_t(count) >= in_.all.size() && count > 0)
       refuse({in_.file, int(in_.all.size())}, aero_messages::entries_missing(int(count), what));
     return std::size_t(count);

@@ -43,7 +43,12 @@ inline constexpr MessageText camber_count_mismatch{
     {"places", "heights"},
     "camber_x_frac has {places} places and camber_z_frac {heights} heights; the counts must be equal and at "
     "least 2"};
-inline constexpr MessageText chord_not_positive{"aero.chord_not_positive", "the chord is not above 0"};
+inline constexpr MessageText chord_missing{"aero.chord_missing",
+                                           "the section has no <Chord>; give a length above 0"};
+inline constexpr MessageText chord_not_positive{
+    "aero.chord_not_positive",
+    {"found"},
+    "the <Chord> of the section is {found} m; expected a length above 0"};
 inline constexpr MessageText control_gain_unsupported{
     "aero.control_gain_unsupported",
     {"control"},

@@ -13,7 +13,7 @@
 namespace fulmar::aero {
 namespace {
 
-/// An element of XFLR5's XML, which has no attributes that matter.
+/// An element of XFLR5's XML; its attributes are not used.
 struct Element {
   std::string tag, text;
   int line = 1;
@@ -30,7 +30,7 @@ class XmlReader {
  public:
   XmlReader(const std::string& text, const std::string& name) : text_(text), name_(name) {}
 
-  /// What stands up to the end tag of `out`.
+  /// Reads the content up to the end tag of `out`.
   void fill(Element& out, int depth = 0) {
     if (depth > 20) fail(aero_messages::plane_nesting_excessive());
     for (;;) {
@@ -150,7 +150,7 @@ class Xflr5Plane {
       s.mass_kg = kilogram_ * number(*inertia, "Volume_Mass", 0);
     const Element* const sections = e.find("Sections");
     if (!sections) fail(e, aero_messages::wing_sections_missing());
-    // y_position goes along the surface; the dihedral of a section is that up to the next
+    // y_position is along the surface; the dihedral of a section holds up to the next one
     double y = fin ? metre_ * at[1] : 0, z = 0, along = 0, dihedral = 0;
     int spanwise = 0;
     for (const Element& one : sections->inside) {
@@ -170,7 +170,8 @@ class Xflr5Plane {
       w.z_m = metre_ * at[2] + z;
       w.chord_m = metre_ * number(one, "Chord", std::nan(""));
       w.twist_rad = number(one, "Twist", 0) * degree;
-      if (!(w.chord_m > 0)) fail(one, aero_messages::chord_not_positive());
+      if (std::isnan(w.chord_m)) fail(one, aero_messages::chord_missing());
+      if (!(w.chord_m > 0)) fail(one, aero_messages::chord_not_positive(w.chord_m));
       w.airfoil = foil(one);
       if (!s.sections.push_back(w)) fail(one, aero_messages::too_many_sections());
       s.chordwise = std::clamp(int(number(one, "x_number_of_panels", 8)), 1, 40);
@@ -180,7 +181,7 @@ class Xflr5Plane {
     if (!geometry_.surfaces.push_back(s)) fail(e, aero_messages::too_many_surfaces());
   }
 
-  /// "NACA 2412" is known; any other shape is the drawing's, under the same name.
+  /// "NACA 2412" is known; any other shape must be in the drawing, under the same name.
   Text<32> foil(const Element& section) {
     const std::string name = word(section, "Right_Side_FoilName");
     if (name != word(section, "Left_Side_FoilName")) fail(section, aero_messages::airfoil_pair_unsupported());

@@ -282,7 +282,7 @@ void take_function(const Lines& lines, const Element& function, Force force, Air
   to = {to.x + value, to.known ? to.from + " and " + function.attribute("name") : from};
 }
 
-/// An induced drag below this is 0.
+/// Oswald factor of a drag polar without induced drag.
 constexpr double no_induced_drag = 1e6;
 
 void put_tables(const Tables& tables, Aircraft& a) {
@@ -324,10 +324,9 @@ struct Arm {
   double aft = 0, up = 0;
 };
 
-/// In JSBSim the forces act at AERORP (reference manual, section 2.2.1; FGAerodynamics::Run): its moments
-/// include the forces' arms about the centre of gravity. Along the body's axes N = CL cos(alpha) + CD
-/// sin(alpha) and A = CD cos(alpha) - CL sin(alpha), so Cm -= (N aft - A up) / c, Cn -= CY aft / b, Cl += CY
-/// up / b.
+/// JSBSim's forces act at AERORP (reference manual, section 2.2.1; FGAerodynamics::Run): moments include
+/// their arms about the centre of gravity. In body axes N = CL cos(alpha) + CD sin(alpha) and
+/// A = CD cos(alpha) - CL sin(alpha), so Cm -= (N aft - A up) / c, Cn -= CY aft / b, Cl += CY up / b.
 class Mover {
  public:
   Mover(Aircraft& a, const Arm& arm) : a_(a), arm_(arm), c_(a.chord_m.x), b_(a.span_m.x) {}
@@ -344,8 +343,7 @@ class Mover {
     const double CD = a_.parasite.x + CL * CL / (std::numbers::pi * AR * a_.oswald.x);
     const double CD_alpha = 2 * CL * a_.c[lift][t_alpha].x / (std::numbers::pi * AR * a_.oswald.x);
     add(pitch, t_zero, pitching(0, CD));
-    // the axes of the airflow turn with the angle of attack
-    add(pitch, t_alpha, pitching(CD, CD_alpha - CL));
+    add(pitch, t_alpha, pitching(CD, CD_alpha - CL));  // the axes of the airflow turn with alpha
   }
 
   /// Moment of a force table about the centre of gravity: tables of the moments.

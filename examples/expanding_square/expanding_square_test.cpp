@@ -166,7 +166,8 @@ TEST_CASE("corners are counted by their ids; after the last one all are taken ou
   CHECK(flight.edits.empty());
 }
 
-TEST_CASE("a refusal is told with its reason, and the plan is left alone; answers to others are not heard") {
+TEST_CASE(
+    "a rejection has its reason, and the plan stays unchanged; results for other components are ignored") {
   Flight flight;
   flight.begin();
   PlanEditResult others;

@@ -144,7 +144,7 @@ TEST_CASE("a step of the attitude is followed, both signs, slow and fast") {
     }
 }
 
-TEST_CASE("a moment that nobody told it of is found without an integral") {
+TEST_CASE("an external moment is compensated without an integral") {
   for (const double side : {1.0, -1.0}) {
     Flight flight;
     flight.run(1);

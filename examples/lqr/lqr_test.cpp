@@ -301,7 +301,7 @@ TEST_CASE("new weights are a new gain and no step of a surface, without memory")
   CHECK((lqr.u() - before).norm() < 1e-9);
 }
 
-TEST_CASE("whatever it is told, what it says is finite and within throws") {
+TEST_CASE("for any input the outputs are finite and within throws") {
   Flown lqr;
   for (int i = 0; i < 3000; ++i) {
     const auto wave = [&](double k) { return std::sin(k * i); };

@@ -269,7 +269,7 @@ TEST_CASE("the receiver is 2 m too high: with the radar the height is right, wit
   CHECK(with.status == Status::ok);
 }
 
-TEST_CASE("a radar that sticks is left alone after half a second, and heard again when it moves") {
+TEST_CASE("a stuck radar is ignored after half a second, and used again when it changes") {
   Flight flight;
   flight.take_over();
   flight.fly(8);
@@ -293,7 +293,7 @@ TEST_CASE("a radar that is 20 m off stays out; the first range that is right com
   CHECK(flight.fly(5) < 0.1);
 }
 
-TEST_CASE("the gate opens again: who was drawn away by a radar 5 m off follows it back when it is right") {
+TEST_CASE("the gate opens again: after a radar error of 5 m the estimate follows the correct radar back") {
   Flight flight;
   flight.take_over();
   flight.fly(8);

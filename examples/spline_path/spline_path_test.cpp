@@ -166,7 +166,7 @@ TEST_CASE(
   CHECK(flight.progress().joining);
 }
 
-TEST_CASE("without a position nothing is said at first, and nothing new later") {
+TEST_CASE("without a position no path is published at first, and no new one later") {
   Bench<SplineManager> manager;
   VehicleState lost;
   manager.set(manager.in.plan, hourglass());

@@ -232,7 +232,8 @@ std::pair<Place, std::string> first_failure() {
 
 }  // namespace
 
-TEST_CASE("an exception without words, or whose words throw, fails its call and is named by its type") {
+TEST_CASE(
+    "an exception without a message, or whose message throws, fails its call and is named by its type") {
   const std::terminate_handler before = std::get_terminate();
   const char* const types[] = {"Wordless", "Empty", "Failing"};
   for (const Place place : {Place::constructor, Place::configure, Place::activate, Place::step})

@@ -38,7 +38,7 @@ TEST_CASE("the example of a matrix") {
   CHECK(bench.out.aileron_rad.value == doctest::Approx(-0.8 * 0.5 + 0.2));
 }
 
-TEST_CASE("an input says its time of validity in seconds") {
+TEST_CASE("an input has its time of validity in seconds") {
   Bench<GroundHeight> bench;
   bench.tick.now_ns = 2'500'000'000;
   bench.set(bench.in.state, VehicleState{}, 0.5);

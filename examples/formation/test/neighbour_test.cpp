@@ -12,7 +12,7 @@ using namespace fulmar;
 using namespace fulmar::formation;
 using namespace fulmar::formation::testing;
 
-TEST_CASE("another aircraft is never heard, heard, silent, and heard again") {
+TEST_CASE("the link to another aircraft: never, heard, silent, and heard again") {
   Bench<Neighbour> bench;
   bench.params.timeout.value = 0.5;
   bench.set(bench.in.state, flying({0, 0, -70}, 0));
@@ -30,7 +30,7 @@ TEST_CASE("another aircraft is never heard, heard, silent, and heard again") {
   CHECK(bench.out.sight.hearing == Hearing::heard);
 }
 
-TEST_CASE("each state that is heard goes on once, stamped with when it was sent") {
+TEST_CASE("each received state is published once, with the time of sending") {
   Bench<Neighbour> bench;
   bench.params.latency.value = 0.03;
   bench.set(bench.in.state, flying({0, 0, -70}, 0));

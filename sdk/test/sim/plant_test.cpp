@@ -227,7 +227,7 @@ TEST_CASE("a servo follows as a first-order lag, within its rate and its throw")
   CHECK(fastest == Approx(2));
 }
 
-TEST_CASE("an unpowered motor stops driving, whatever the throttle says") {
+TEST_CASE("an unpowered motor has no torque at any throttle") {
   Plant p = plant();
   run(p, 1, {0.5, 0, 0, 0});
   CHECK(p.propeller_radps() > 300);

@@ -67,7 +67,7 @@ struct Euler {
 
 }  // namespace
 
-TEST_CASE("a servo of second order answers a step as its closed solution, whatever the step of time") {
+TEST_CASE("a second-order servo follows its closed step response for any time step") {
   struct Case {
     double omega, zeta;
     double (*solution)(double, double, double);
@@ -134,7 +134,7 @@ TEST_CASE("an elevon moves from -30 to 35 degrees, and no command or swing moves
   }
 }
 
-TEST_CASE("stops that are not said are the throw; one alone can be said") {
+TEST_CASE("stops that are not given are at the throw; one alone can be given") {
   CHECK(stops({.limit_rad = 0.4}).min == -0.4);
   CHECK(stops({.limit_rad = 0.4}).max == 0.4);
   Surface down;
@@ -192,7 +192,7 @@ TEST_CASE("a surface that is hard over goes to its own stop on that side; a slow
   }
 }
 
-TEST_CASE("reversal is the hardware's: a simulated servo knows its own sense") {
+TEST_CASE("reversal is for hardware: it does not change a simulated servo") {
   Surface s = x8();
   s.reversed = true;
   Servo reversed(s), right(x8());

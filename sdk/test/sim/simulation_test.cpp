@@ -135,7 +135,7 @@ TEST_CASE("what has crashed stays there until it is put elsewhere") {
   CHECK((sim.body().p_n - begin.body.p_n - dt * begin.body.v_n).norm() < 1e-3);
 }
 
-TEST_CASE("what has left the model says so and stays as it is until it is put elsewhere") {
+TEST_CASE("an aircraft beyond the model reports it, and stays until its state is set") {
   Simulation sim = flying(7);
   FlightState s = sim.state();
   s.body.omega_b.y() = 9e4;  // within the valid range, but too fast for a step of 2.5 ms
@@ -177,7 +177,7 @@ TEST_CASE("what is no command, step or state is refused, and nothing has moved")
   CHECK(same(row(sim), before));
 }
 
-TEST_CASE("a batch flies as each of its aircraft alone, whatever the number of threads") {
+TEST_CASE("a batch flies as each of its aircraft alone, for any number of threads") {
   constexpr std::size_t n = 65;
   std::vector<double> actions(n * action_columns), one(n * row_columns), three(n * row_columns);
   Batch a(anaconda(), n, windy(), 5, 1), b(anaconda(), n, windy(), 5, 3);
@@ -203,7 +203,7 @@ TEST_CASE("a batch flies as each of its aircraft alone, whatever the number of t
   CHECK(one[0] != one[row_columns]);
 }
 
-TEST_CASE("one member of a batch begins anew, the others fly on") {
+TEST_CASE("one member of a batch restarts, the others continue") {
   Batch batch(anaconda(), 2, windy());
   for (std::size_t i : {0u, 1u}) REQUIRE(batch[i].fly({0, 0, -300}, 0, 17));
   std::vector<double> actions{0.5, 0, 0.1, 0, 0.5, 0, 0.1, 0}, rows(2 * row_columns);
@@ -280,7 +280,7 @@ TEST_CASE(
   CHECK((J * gained - by_air).norm() / by_air.norm() < 1e-9);
 }
 
-TEST_CASE("air that is still does not turn, whatever the span") {
+TEST_CASE("still air does not rotate, for any span") {
   Weather w;
   w.gust_span_m = 2;
   CHECK(!Disturbances(w, 1).rotates());

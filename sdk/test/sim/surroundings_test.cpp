@@ -132,7 +132,7 @@ TEST_CASE("a thermal's air is the wind of the truth and carries the aircraft up"
   CHECK(still.state().p_n.z() - p.state().p_n.z() < 21);
 }
 
-TEST_CASE("on a slope it stands without creeping where friction holds, whatever way it points") {
+TEST_CASE("on a slope with enough friction it stands without creeping, for any heading") {
   for (const double towards : {0.0, 2.1, -1.0}) {
     const double heading = towards + pi / 2;  // across
     Plant p = plant(anaconda(), {}, sloping(0.15, towards));
@@ -156,7 +156,7 @@ TEST_CASE("on a slope it stands without creeping where friction holds, whatever 
   }
 }
 
-TEST_CASE("set down on a slope the nose points where the heading says, wheels on the plane") {
+TEST_CASE("set on a slope the nose has the given heading, with the wheels on the plane") {
   for (const double heading : {0.0, 0.7, 2.0, -2.5}) {
     Plant p = plant(anaconda(), {}, sloping(0.5, 1.0));
     p.stand(10, 5, heading);
@@ -184,7 +184,7 @@ TEST_CASE("turbulence goes with the height of the flight, up and down") {
   }
 }
 
-TEST_CASE("it rolls down as friction says, nose uphill and downhill") {
+TEST_CASE("it rolls down as friction permits, nose uphill and downhill") {
   Airframe a = bare(0);
   for (const double heading : {0.0, pi}) {
     Plant p = plant(a, {}, sloping(0.12, 0));  // rises to the north
@@ -232,7 +232,7 @@ TEST_CASE("a slope is the ground to fly into") {
   CHECK(t == Approx(30 / std::tan(0.3) / 17).epsilon(0.05));
 }
 
-TEST_CASE("close to the ground the induced drag is what McCormick says, and no more of it changes") {
+TEST_CASE("close to the ground the induced drag follows McCormick, and nothing else changes") {
   // (16 h/b)^2 / (1 + (16 h/b)^2) by hand: h/b = 0.1: 2.56 / 3.56
   CHECK(induced_drag_near_ground(0.2, 2) == Approx(0.719101).epsilon(1e-5));
   CHECK(induced_drag_near_ground(-1, 2) == 0);

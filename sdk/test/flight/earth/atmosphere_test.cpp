@@ -72,7 +72,7 @@ TEST_CASE("geopotential altitudes are those of the table of the U.S. Standard At
     CHECK(std::abs(geopotential_altitude(geometric) - geopotential) < 0.6);
 }
 
-TEST_CASE("indicated airspeed is what the pressure means at sea level, true airspeed what it means here") {
+TEST_CASE("indicated airspeed is that of the pressure at sea level, true airspeed that at this density") {
   const double rho = standard_air(1387).density_kgm3, Va = 17;
   const double indicated = indicated_airspeed(0.5 * rho * Va * Va);
   CHECK(indicated == Approx(Va * std::sqrt(rho / 1.225)));

@@ -28,7 +28,7 @@ Complex response(double omega, double dt, double settle_s, Step step) {
 }
 }  // namespace
 
-TEST_CASE("a low-pass reaches 1 - 1/e after one time constant, whatever the step") {
+TEST_CASE("a low-pass reaches 1 - 1/e after one time constant, for any step") {
   for (double dt : {0.001, 0.01, 0.125, 0.5}) {
     LowPass filter;
     filter.reset_to(0);

@@ -181,7 +181,7 @@ TEST_CASE("straight steady flight is the trim in which the simulator starts") {
   }
 }
 
-TEST_CASE("a steep turn asks for the lift, the rates and the load that mechanics says") {
+TEST_CASE("a steep turn has the lift, the rates and the load of mechanics") {
   const Airframe a = test::airframe_file("anaconda");
   const SteadyFlight f = steady_flight(AircraftModel(a, 0), {20, 0, Turn::bank, 60 * degree});
   REQUIRE(f.found());
@@ -192,7 +192,7 @@ TEST_CASE("a steep turn asks for the lift, the rates and the load that mechanics
   CHECK(std::abs(load.force_b.y()) < 1e-9);  // the ball is in the middle: no side force
 }
 
-TEST_CASE("what stands against a steady flight is told") {
+TEST_CASE("the limit that prevents a steady flight is reported") {
   const Airframe a = test::airframe_file("anaconda");
   const AircraftModel m(a, 1457);
   CHECK(steady_flight(m, {17}).limit == TrimLimit::none);

@@ -60,7 +60,7 @@ LinearModel made(const Made& of) {
 
 }  // namespace
 
-TEST_CASE("modes are known by what moves, whatever their order and size") {
+TEST_CASE("modes are identified by their states, for any order and size") {
   const std::array<Made, 4> cases{
       {{{-5, 9}, {-0.1, 0.5}, {-1, 5}, -20, 0.05},
        {{-0.1, 0.4}, {-3, 8}, {-0.01, 0.2}, -0.3, -9},  // short period slower than the phugoid

@@ -89,7 +89,7 @@ TEST_CASE("drag over squares is the same to either side") {
   }
 }
 
-TEST_CASE("beyond the stall the pitching moment is that of a plate, where the airframe says so") {
+TEST_CASE("beyond the stall the pitching moment is that of a plate, if the airframe selects it") {
   Airframe a = plain();
   a.aero.pitch_stalled_ratio = -0.2168;
   for (const double alpha : {-2.5, -1.2, -0.7, 0.7, 1.2, 2.5}) {  // separated flow: Cm_fp sign(a) sin^2(a)
@@ -191,7 +191,7 @@ TEST_CASE("the range of the tables is the widest over a variable, and infinite w
   CHECK_FALSE(both.beyond_tables(-0.2, -0.5));
 }
 
-TEST_CASE("a table that cannot be read says what is wrong") {
+TEST_CASE("an invalid table is reported with its error") {
   CHECK(table_fault(grid()).empty());
   CoefficientTable t = grid();
   t.values_ratio.count = 5;

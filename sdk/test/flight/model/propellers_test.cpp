@@ -82,7 +82,7 @@ Pushed pushed(const Airframe& a, double throttle) {
 
 }  // namespace
 
-TEST_CASE("one propeller on the x axis, said or not said, is the same aircraft") {
+TEST_CASE("one propeller on the x axis, given or not, is the same aircraft") {
   Plant said(with({at(0.3, 0, 0)}), {}, 1387, 1), unsaid(anaconda(), {}, 1387, 1);
   for (Plant* p : {&said, &unsaid}) {
     REQUIRE(p->fly({0, 0, -300}, 0, Va));
@@ -197,7 +197,7 @@ TEST_CASE("a share of the rudder is that of the command: a rudder that is stuck 
   CHECK(plant.battery_amp() == 0);
 }
 
-TEST_CASE("a twin trims on its propellers alone, and flies on level with what the trim says") {
+TEST_CASE("a twin trims on its propellers alone, and flies level with this trim") {
   Airframe a = twin(0.3);
   for (Derivatives* d : {&a.aero.yaw, &a.aero.roll, &a.aero.side}) d->rudder_ratio = 0;
   a.aero.yaw.zero_ratio = 0.002;  // a yawing moment to balance
@@ -217,7 +217,8 @@ TEST_CASE("a twin trims on its propellers alone, and flies on level with what th
   CHECK(plant.state().omega_b.norm() < 0.02);
 }
 
-TEST_CASE("the linear model knows where the propellers stand: its columns are finite differences of it") {
+TEST_CASE(
+    "the linear model includes the places of the propellers: its columns are finite differences of it") {
   Airframe a = twin(0.25);
   a.propulsion.propellers[0].at_m.z = a.propulsion.propellers[1].at_m.z = -0.2;
   a.propulsion.pack.resistance_ohm = 0.05;

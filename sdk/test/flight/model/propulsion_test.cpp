@@ -42,7 +42,7 @@ TEST_CASE("thrust and torque are the polynomials of the advance ratio") {
         Approx(rho * n * n * std::pow(D, 5) * (p.cq0_ratio + p.cq1_ratio * J + p.cq2_ratio * J * J)));
 }
 
-TEST_CASE("the propeller's speed stays finite and never turns backwards, whatever the airspeed") {
+TEST_CASE("the propeller's speed stays finite and never negative, for any airspeed") {
   Propulsion p = test::airframe_file("anaconda").propulsion;
   p.cq2_ratio = 0.5;  // gives a negative discriminant
   const Propeller propeller(p);

@@ -128,7 +128,7 @@ TEST_CASE("attraction and centrifugal part are normal gravity, but for the fourt
   CHECK(earth_at(40).free_acceleration({10, 20, 30}, Vector3d::Zero()) == earth_at(40).gravity({10, 20, 30}));
 }
 
-TEST_CASE("what falls is carried east, what is thrown up comes down in the west, as Coriolis' formula says") {
+TEST_CASE("a falling body drifts east, one thrown up lands in the west, by Coriolis' formula") {
   for (const double lat : {-40.0, 0.0, 40.0}) {
     const RotatingEarth earth = earth_at(lat);
     const double t = 10, g = normal_gravity(lat * degree, 0), cosine = std::cos(lat * degree);

@@ -10,7 +10,7 @@ namespace trim_test {
 using namespace fulmar;
 using doctest::Approx;
 
-TEST_CASE("the Anaconda's level flight at 15 m/s is what the balance of lift and weight says") {
+TEST_CASE("the Anaconda's level flight at 15 m/s follows the balance of lift and weight") {
   Airframe a = test::airframe_file("anaconda");
   a.aero.lift.elevator_ratio = 0;  // the hand calculation neglects the lift of the tail
   const Trim trim = trimmed_flight(a, 15, 1.2682);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The book of a sensor on both sides of each threshold, against first-order means and statistics in closed
-// form; and what a sensor is said to be when several things are wrong.
+// The statistics of a sensor on both sides of each threshold, against first-order means and statistics in
+// closed form; and its state when several faults are present.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Samples every `dt` that all differ, or all agree.
+/// Samples every `dt`, all different, or all equal.
 Arrivals arrivals(int n, double dt, bool same = false) {
   Arrivals a;
   for (int k = 0; k < n; ++k) a.sampled({same ? 7.0 : k, 3, -2}, 50 + k * dt);
@@ -27,7 +27,7 @@ bool near(double a, double b) { return std::abs(a - b) < 1e-9; }
 ekf::Fused let_in(double ratio = 0.5) { return {true, ratio}; }
 ekf::Fused refused(double ratio = 7) { return {false, ratio}; }
 
-/// A sensor of 10 Hz whose samples are all accepted for 2 s, from 0.
+/// A sensor of 10 Hz with 2 s of accepted samples, from 0.
 struct Sensor {
   Aid aid;
   double t = 0;
@@ -53,20 +53,20 @@ TEST_CASE("a sensor is silent after five of its intervals, and after 0.2 s at th
   CHECK(std::abs(silent_after_s(arrivals(2, 0.1), 50.1) - 0.5) < 0.002);
   CHECK(std::abs(silent_after_s(arrivals(20, 0.01), 50.19) - 0.2) < 0.002);
   CHECK(std::abs(silent_after_s(arrivals(2, 3), 53) - 5) <
-        0.002);  // 1 s is the longest that the first counts
+        0.002);  // the first interval counts for at most 1 s
   CHECK(Arrivals().silent(0));
   CHECK_FALSE(Arrivals().any());
   CHECK(arrivals(1, 1).any());
-  Arrivals slower = arrivals(2, 0.1);  // a tenth of the way each time
+  Arrivals slower = arrivals(2, 0.1);  // a tenth of the difference each time
   slower.sampled({9, 9, 9}, 50.25);
   CHECK(std::abs(silent_after_s(slower, 50.25) - 5 * 0.105) < 0.002);
-  Arrivals gap = arrivals(2, 0.1);  // of a gap three intervals count
+  Arrivals gap = arrivals(2, 0.1);  // a gap counts for three intervals
   gap.sampled({9, 9, 9}, 60);
   CHECK(std::abs(silent_after_s(gap, 60) - 5 * 0.12) < 0.002);
 }
 
 TEST_CASE("a sensor is stuck after four repetitions, and 0.45 s at the earliest") {
-  CHECK_FALSE(arrivals(4, 0.5, true).stuck());  // three times as the one before
+  CHECK_FALSE(arrivals(4, 0.5, true).stuck());  // three samples equal to the one before
   CHECK(arrivals(5, 0.5, true).stuck());
   CHECK_FALSE(arrivals(5, 0.11, true).stuck());
   CHECK(arrivals(5, 0.115, true).stuck());
@@ -81,7 +81,7 @@ TEST_CASE("a sensor is stuck after four repetitions, and 0.45 s at the earliest"
   CHECK_FALSE(again.stuck());  // 0.4 s
   again.sampled({8, 3, -2}, 55.5);
   CHECK(again.stuck());
-  for (const std::size_t one : {0U, 1U, 2U}) {  // each number counts
+  for (const std::size_t one : {0U, 1U, 2U}) {  // each number is compared
     Arrivals a;
     for (int k = 0; k < 10; ++k) {
       std::array<double, 3> values{1, 2, 3};
@@ -113,7 +113,7 @@ TEST_CASE("mean and deviation of innovations are first-order means over four and
   Innovations constant, alternating;
   constant.add({2.5}, 10);
   alternating.add({1.2}, 10);
-  CHECK(near(constant.mean(), 2.5 * 0.5 / 4.5));  // the first counts for half a second
+  CHECK(near(constant.mean(), 2.5 * 0.5 / 4.5));  // the first sample counts for half a second
   CHECK(near(constant.std(), 1));
   for (int k = 1; k <= 30; ++k) {
     constant.add({2.5}, 10 + 0.1 * k);
@@ -153,7 +153,7 @@ TEST_CASE("noisy is a deviation of two until it is below one and a half; biased 
     for (int k = 0; k < 800; ++k) i.add({mean + (k % 2 ? swing : -swing)}, t += 0.1);
   };
   Innovations noise, bias;
-  const double one = 1 / std::sqrt(2.0);  // +-0.71: differences of 1.41, a deviation of 1
+  const double one = 1 / std::sqrt(2.0);  // +-0.71: differences of 1.41, a standard deviation of 1
   for (int again = 0; again < 2; ++again) {
     after(noise, 1.97 * one, 0);
     CHECK_FALSE(noise.noisy());
@@ -183,7 +183,7 @@ TEST_CASE("what successive innovations share: mean products with the one before 
   const Eigen::Vector2d both(0.3, -0.4);
   for (int k = 0; k <= 200; ++k) {
     constant.add(both, 5 + 0.1 * k);
-    // 0.125 in k of the samples of 0.1 s, beside 3 s of nothing at the beginning; the second lags by one
+    // 0.125 in k samples of 0.1 s, after an initial 3 s of zero; the second lags by one
     const double mean = 0.125 * 0.1 * k / (3 + 0.1 * k);
     if (k > 1) CHECK(near(constant.std_mps(), std::sqrt(mean * std::min(k / (k - 1.0), 1.5))));
   }
@@ -191,12 +191,13 @@ TEST_CASE("what successive innovations share: mean products with the one before 
   SharedError alternating, pairs;
   for (int k = 0; k < 20000; ++k) {
     alternating.add((k % 2 ? 1 : -1) * both, 0.1 * k);
-    pairs.add(k % 4 < 2 ? both : Eigen::Vector2d(0, 0), 0.1 * k);  // with the second before nothing
+    pairs.add(k % 4 < 2 ? both : Eigen::Vector2d(0, 0),
+              0.1 * k);  // the second while the previous one was zero
   }
   CHECK(alternating.std_mps() == 0);
   CHECK(pairs.std_mps() == doctest::Approx(std::sqrt(0.125 / 4 * 1.5)).epsilon(0.01));
   const double before = pairs.std_mps();
-  for (int k = 0; k < 300; ++k) pairs.add({0, 0}, 2000 + 0.1 * k);  // half a minute of nothing
+  for (int k = 0; k < 300; ++k) pairs.add({0, 0}, 2000 + 0.1 * k);  // half a minute of zero
   CHECK(pairs.std_mps() / before == doctest::Approx(std::pow(30 / 30.1, 150)).epsilon(0.02));
   pairs.add({0, 0}, 3000);  // a gap counts for a second
   CHECK(pairs.std_mps() / before ==
@@ -263,7 +264,7 @@ TEST_CASE("a sensor is what is worst of it, and each ends by itself") {
   s.samples(60, let_in());
   CHECK(s.state() == SensorState::ok);
   for (int k = 0; k < 60; ++k) s.sample(refused(k % 2 ? 5 : -5));
-  CHECK(s.state() == SensorState::noisy);  // which says why
+  CHECK(s.state() == SensorState::noisy);  // the reason of the rejections
   s.samples(60, let_in());
   for (int k = 0; k < 100; ++k) s.sample(let_in(4));
   CHECK(s.state() == SensorState::biased);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The airspeed from throttle and forces while no tube says it: the model alone against a propeller and a
-// polar that it does not know, and the component in flights.
+// The airspeed from throttle and forces without a pitot: the model alone against a propeller and a polar of
+// other form, and the component in flights.
 #include "fulmar/flight/navigation/airspeed_model.hpp"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double g = 9.80665;
 
-/// The Anaconda's motor and propeller (configs/airframes/anaconda.yaml) and a wing with a parabolic polar.
+/// Motor and propeller of the Anaconda (configs/airframes/anaconda.yaml), and a wing with a parabolic polar.
 struct Aircraft {
   Propulsion engine = [] {
     Propulsion p;
@@ -38,7 +38,7 @@ struct Aircraft {
   }();
   double mass_kg = 4.6, wing_m2 = 0.52, rho = 1.225;
 
-  /// Of that throttle and airspeed at an angle of attack that makes `f_z`.
+  /// Block at this throttle and airspeed, at the angle of attack with `f_z`.
   Block at(double throttle, double V, double f_z) const {
     const Propeller propeller(engine);
     const double T = propeller.thrust(propeller.steady_speed(throttle, V, rho), V, rho);
@@ -59,8 +59,8 @@ struct Span {
   double from, to;
 };
 
-/// `blocks` flown in these ranges; the force is off by noise of `noise`, correlated by `r` from one to the
-/// next.
+/// Model after `blocks` in these ranges. The force has the noise `noise`, with the correlation `r` between
+/// blocks.
 AirspeedModel taught(Span throttle, Span V, Span f_z, std::uint64_t seed, int blocks = 300,
                      double noise = 0.1, double r = 0) {
   Random random(seed);
@@ -80,7 +80,7 @@ AirspeedModel taught(Span throttle, Span V, Span f_z, std::uint64_t seed, int bl
 
 AirspeedModel taught_well(std::uint64_t seed) { return taught({0.2, 0.9}, {14, 20}, {-14, -7}, seed); }
 
-/// What the model says where the truth is `V`, and another is believed.
+/// Result of the model at the true airspeed `V`, with the estimate `believed`.
 AirspeedModel::Said asked(const AirspeedModel& model, double throttle, double V, double believed,
                           double f_z = -g) {
   Block b = Aircraft{}.at(throttle, V, f_z);
@@ -136,11 +136,11 @@ TEST_CASE("errors of the airspeed are as large as claimed, also where those of t
     CAPTURE(r);
     CHECK(within_1 > 0.5 * n);
     CHECK(within_2 > 0.85 * n);
-    CHECK(within_1 < n);  // not by claiming nothing
+    CHECK(within_1 < n);  // not by a large standard deviation
   }
 }
 
-TEST_CASE("of a throttle that it has never seen the model says that it knows little") {
+TEST_CASE("for an unseen throttle the model has a large standard deviation") {
   const AirspeedModel cruise = taught({0.545, 0.555}, {16.5, 17.5}, {-10, -9.6}, 3), all = taught_well(3);
   const AirspeedModel::Said there = asked(cruise, 0.9, 17, 17), climb = asked(all, 0.9, 17, 17);
   CHECK(climb.known);
@@ -150,7 +150,7 @@ TEST_CASE("of a throttle that it has never seen the model says that it knows lit
   CHECK((!still.known || (still.model_std_mps < 1 && std::abs(still.Va_mps - 17) < 3 * still.model_std_mps)));
 }
 
-TEST_CASE("a steady airspeed teaches no slope, and nothing is said before some time of learning") {
+TEST_CASE("a steady airspeed teaches no slope, and there is no result before some time of learning") {
   CHECK_FALSE(asked(AirspeedModel{}, 0.55, 17, 17).known);
   CHECK_FALSE(asked(taught({0.3, 0.8}, {14, 20}, {-14, -7}, 1, 90), 0.55, 17, 17).known);
   CHECK(asked(taught({0.3, 0.8}, {14, 20}, {-14, -7}, 1, 120), 0.55, 17, 17).known);
@@ -166,7 +166,7 @@ TEST_CASE("what was learnt long ago is less sure, and no surer than nothing at l
   CHECK(later < 1.5);
   for (int i = 0; i < 100; ++i) model.wander(1e6);
   CHECK_FALSE(asked(model, 0.55, 17, 17).known);
-  CHECK(model.covariance().diagonal().maxCoeff() <= 400 + 1e-6);  // the prior's
+  CHECK(model.covariance().diagonal().maxCoeff() <= 400 + 1e-6);  // as the initial one
 }
 
 TEST_CASE("blocks whose errors follow each other count for fewer: (1 + r) / (1 - r) as one") {
@@ -180,7 +180,7 @@ TEST_CASE("blocks whose errors follow each other count for fewer: (1 + r) / (1 -
 
 namespace {
 
-/// Throttle that made this specific force by a law of its own: 14 m/s2 of thrust, drag, tilt of the lift.
+/// Throttle with this specific force by a simple law: 14 m/s2 of thrust, drag, tilt of the lift.
 double throttle_of(const Truth& x) {
   const double V = x.airspeed();
   return std::clamp((x.f_b.x() + 0.014 * V * V - 0.06 * x.f_b.z()) / 14, 0.0, 1.0);
@@ -188,7 +188,7 @@ double throttle_of(const Truth& x) {
 
 constexpr double lost_s = 110;
 
-/// Neither receiver nor tube from then on.
+/// Removes receiver and pitot from then on.
 void lose_both(const Truth& x, Samples& s) {
   if (x.t < lost_s) return;
   s.gnss.reset();
@@ -228,7 +228,7 @@ Seen flown(const Quality& quality, std::uint64_t seed, const std::function<doubl
 
 }  // namespace
 
-TEST_CASE("without receiver and tube the throttle says the airspeed for a minute, and a flag says so") {
+TEST_CASE("without receiver and pitot the throttle gives the airspeed for a minute, with a flag") {
   for (const Quality& quality : {rosflight, ublox}) {
     const Seen with = flown(quality, 4, throttle_of), without = flown(quality, 4, {});
     CHECK(with.early == 0);
@@ -298,7 +298,7 @@ TEST_CASE("a motor that gains or loses a third over seconds: what is claimed gro
       flight.run();
       CHECK(before == n);
       CHECK(after == 0);
-      CHECK(most < 5);  // it was 14 by what the filter alone claims
+      CHECK(most < 5);  // 14 with the standard deviation of the filter alone
       CHECK(max_valid_mps < 6);
     }
 }

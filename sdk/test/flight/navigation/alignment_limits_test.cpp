@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first attitude by its parts: rest on both sides of each threshold, attitudes that are not level,
-// windows that are too short, too long or without a direction, the field's drift; each a second time as the
-// first.
+// Parts of the alignment: rest on both sides of each threshold, tilted attitudes, windows that are too short,
+// too long or without a direction, the drift of the field. Each is tested twice, since the second run must
+// equal the first.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -21,7 +21,7 @@ namespace {
 constexpr double g = isa::g0;
 const Vector3d axes[3] = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
 
-/// A unit that reads anything while it rests.
+/// A unit at rest with arbitrary readings.
 struct Unit {
   Stillness still{};
   Vector3d omega{0.3, -0.2, 0.1}, f{-2, 3, -9};
@@ -33,7 +33,7 @@ struct Unit {
   void quiet(int count, double dt = 0.005) { samples(count, Vector3d::Zero(), Vector3d::Zero(), dt); }
 };
 
-/// A constant acceleration and rate, in any attitude.
+/// Constant acceleration and rate in any attitude.
 struct Motion {
   Quaterniond begin{Eigen::AngleAxisd(0.6, Vector3d(1, -2, 3).normalized())};
   Vector3d rate{0.3, -0.2, 0.4}, a{3, -2, 1}, v0{15, 6, -1};
@@ -50,7 +50,7 @@ const Vector3d field(2.1e-5, 6e-6, 4.2e-5);
 
 }  // namespace
 
-TEST_CASE("a unit rests whatever it reads, and says the mean of its last second") {
+TEST_CASE("a unit rests at any reading, and returns the mean of its last second") {
   Unit u;
   u.quiet(199);
   CHECK_FALSE(u.still.still());
@@ -149,7 +149,7 @@ TEST_CASE("an attitude in flight, its acceleration and the way since are those o
     CAPTURE(late_s);
     FlightAlignment alignment;
     const FlightAlignment::Known known{g, &field, nullptr, late_s};
-    m.feel(alignment, 0, 60);  // what was before counts for nothing
+    m.feel(alignment, 0, 60);  // earlier samples do not count
     alignment.mag(m.attitude(0.3).conjugate() * field);
     CHECK_FALSE(alignment.fix(m.v0 + (0.3 - late_s) * m.a, known));
     for (int k = 0; k < 10; ++k) {
@@ -220,7 +220,7 @@ TEST_CASE("a window lasts from 0.45 to 2.2 s, and each begins with the fix that 
   FlightAlignment alignment;
   (void)alignment.fix(m.v0, known);
   m.feel(alignment, 0, 60);
-  CHECK_FALSE(alignment.fix(Vector3d(99, 99, 99), known));  // too early: it does not begin a new one
+  CHECK_FALSE(alignment.fix(Vector3d(99, 99, 99), known));  // too early: it starts no new window
   m.feel(alignment, 0.3, 60);
   REQUIRE(alignment.fix(m.v0 + 0.6 * m.a, known));
   m.feel(alignment, 0.6, 100);
@@ -258,7 +258,7 @@ TEST_CASE("near free fall and with the field along the force there is no directi
     CHECK(one->by_field == by_field);
     if (!by_field) CHECK((one->second_n - (Vector3d(15, 6, -1) - (with_wind ? wind : level))).norm() < 1e-9);
   }
-  const Vector3d f = field_off(0.17);  // enough to be asked, and too little to say anything
+  const Vector3d f = field_off(0.17);  // enough for an evaluation, too little for a result
   CHECK_FALSE(found(level, &f, nullptr));
 }
 
@@ -315,7 +315,7 @@ TEST_CASE(
   CHECK(drift(4, 0.2, 1).bias(0.1, 0).bias_b.norm() > 0.01);
   CHECK(drift(15, 0.02, 1).bias(0.1, 0).bias_b.norm() == 0);
   CHECK(drift(17, 0.02, 1).bias(0.1, 0).bias_b.norm() > 0.01);
-  // Without a bias across the field there is none along it: 0.01 is left of what was expected.
+  // Without a bias across the field the bias along it keeps 0.01 of its expected value.
   const FieldDrift::Bias none = drift(200, 0.02, 0).bias(0.15, 0), some = drift(200, 0.02, 1).bias(0.15, 0);
   CHECK(none.bias_b.norm() < 1e-6);
   const auto most = [](const FieldDrift::Bias& b) {
@@ -323,7 +323,7 @@ TEST_CASE(
   };
   CHECK(most(none) < 0.0101);
   CHECK(most(some) > most(none));
-  const double turned = 0.05 * (rate + bias).norm();  // a deviation that turns with the aircraft
+  const double turned = 0.05 * (rate + bias).norm();  // a standard deviation that rotates with the aircraft
   const FieldDrift::Bias off = drift(200, 0.02, 1).bias(0.15, 0.05);
   const double least = std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3d>(off.covariance).eigenvalues()(0));
   CHECK(least > turned);
@@ -350,10 +350,10 @@ TEST_CASE("a gust north and one east follow the tube and the side as a Kalman fi
       CHECK(gusts.covariance()(axis, axis) == doctest::Approx(P * R / (P + R)));
       const double std = gusts.std_mps(p), phi = std::exp(-0.5 / gusts.time_s(p));
       const double g1 = gusts.gust_mps()(axis), P1 = gusts.covariance()(axis, axis);
-      // From the right the wing feels it: nose along this axis, the wing along the other one.
+      // Air from the right: nose along this axis, wing along the other one.
       Vector3d wing = Vector3d::Zero();
       wing(1 - axis) = 1;
-      u(1 - axis) = 0.7;  // blown by so much
+      u(1 - axis) = 0.7;  // gust of this size
       gusts.sideslip({u, v}, wing, 0.3, 10.5, p);
       CHECK(gusts.gust_mps()(axis) == doctest::Approx(g1 * phi).epsilon(1e-6));
       CHECK(gusts.covariance()(axis, axis) ==

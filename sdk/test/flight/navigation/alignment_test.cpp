@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the first attitude is found: when a unit rests, and what is taken for what in the air.
+// The first attitude: detection of rest, and the alignment in the air.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using namespace fulmar::navigation;
 namespace {
 constexpr double g = isa::g0, dt = 0.005;
 
-/// A steady turn through an air that moves: nose first into it.
+/// A steady turn in moving air, with the nose into the relative wind.
 struct Turning {
   double airspeed = 17, rate = 0.5;
   Vector3d wind = Vector3d::Zero();
@@ -128,7 +128,7 @@ TEST_CASE("a fix that comes late is met with the samples of its own time, howeve
   }
 }
 
-TEST_CASE("before the first sample the flight is taken to go on, and it is told how long that was") {
+TEST_CASE("before the first sample the flight is assumed to continue, and the time is counted") {
   const Turning flight;
   const FlightAlignment::Known known{g, nullptr, &flight.wind, 0.2};
   FlightAlignment alignment;
@@ -140,7 +140,7 @@ TEST_CASE("before the first sample the flight is taken to go on, and it is told 
   CHECK(degrees(found, flight.attitude(0.8)) < 1);
 }
 
-TEST_CASE("the field tells the biases of the gyros across it, and how little it knows along it") {
+TEST_CASE("the field measures gyro biases across it, and has a large uncertainty along it") {
   const Vector3d rate(0.2, -0.1, 0.3), bias(0.12, -0.08, 0.05), field(2e-5, 1e-6, 4.5e-5);
   FieldDrift drift;
   Quaterniond q = Quaterniond::Identity(), turned = q;
@@ -164,7 +164,7 @@ TEST_CASE("the field tells the biases of the gyros across it, and how little it 
 TEST_CASE("what is found of the attitude was as true in the past") {
   ErrorStateEkf filter;
   ekf::Nominal x;
-  x.q_nb = exp_map({0.1, 0, 0});  // it is level in truth: nothing accelerates it
+  x.q_nb = exp_map({0.1, 0, 0});  // truly level: without acceleration
   filter.reset(x, ekf::Vector::Ones(), 0);
   for (int i = 0; i < 60; ++i) filter.predict(Vector3d::Zero(), {0, 0, -filter.gravity_mps2}, 0.005);
   REQUIRE(filter.state().v_n.y() > 0.25);
@@ -178,7 +178,7 @@ TEST_CASE("what is found of the attitude was as true in the past") {
   }
 }
 
-TEST_CASE("started in a bank with a delay that is told wrong, no flag is up while the tilt is off by 5 deg") {
+TEST_CASE("started in a bank with a wrong delay, no flag is set while the tilt error is 5 deg") {
   using namespace synthetic;
   constexpr double reported_wrong = 0.05, deg = std::numbers::pi / 180;
   int starts = 0, soon = 0;
@@ -194,7 +194,7 @@ TEST_CASE("started in a bank with a delay that is told wrong, no flag is up whil
         double second = 1e9, valid = 1e9, worst = 0;
         int fixes = 0;
         f.alter = [&](const Truth& x, Samples& s) {
-          s.gnss_age_s = 0;  // stamped when it arrives
+          s.gnss_age_s = 0;  // stamped on arrival
           if (s.gnss && ++fixes == 2) second = x.t;
         };
         f.set = [&](Ekf::Params& p) {
@@ -221,7 +221,7 @@ TEST_CASE("started in a bank with a delay that is told wrong, no flag is up whil
         CHECK(valid < 15);
         soon += valid <= 1.5;
       }
-  CHECK(soon >= 0.4 * starts);  // all bank by 29 deg: there the field lies along the lift
+  CHECK(soon >= 0.4 * starts);  // banks of 29 deg, with the field along the lift
 }
 
 TEST_CASE("within two seconds the nose is no second witness: the same gust pushes it") {
@@ -239,8 +239,8 @@ TEST_CASE("within two seconds the nose is no second witness: the same gust pushe
       if (f.first_s && x.t - *f.first_s < after_s[i]) std_rad[i] = s.attitude_std_rad.down;
   };
   f.run();
-  CHECK(std_rad[1] > 0.85 * std_rad[0]);  // asked every 0.3 s: 0.7
-  CHECK(std_rad[2] < 0.95 * std_rad[1]);  // it has been asked again
+  CHECK(std_rad[1] > 0.85 * std_rad[0]);  // with an update each 0.3 s: 0.7
+  CHECK(std_rad[2] < 0.95 * std_rad[1]);  // a second update
 }
 
 TEST_CASE("the wind is no surer than the heading through which the airspeed is seen") {
@@ -252,7 +252,8 @@ TEST_CASE("the wind is no surer than the heading through which the airspeed is s
     double least = 1e9, widest = 0;
     f.watch = [&](const Truth& x, const VehicleState& s, Status) {
       if (!s.wind_valid) return;
-      const Vector3d ahead = x.airspeed() * (x.q_nb * Vector3d::UnitX());  // what a turn of the heading turns
+      const Vector3d ahead =
+          x.airspeed() * (x.q_nb * Vector3d::UnitX());  // direction of the error by a wrong heading
       const double turned = s.attitude_std_rad.down;
       widest = std::max(widest, turned);
       least = std::min({least, s.wind_std_mps.north / (turned * std::abs(ahead.y())),
@@ -265,7 +266,7 @@ TEST_CASE("the wind is no surer than the heading through which the airspeed is s
   }
 }
 
-TEST_CASE("fixes that contradict the first attitude in flight end it: it is looked for anew") {
+TEST_CASE("fixes that contradict the first attitude in flight end it: the alignment restarts") {
   Params p;
   Navigator n;
   n.start(p);

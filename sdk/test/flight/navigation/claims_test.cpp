@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is published against the filter that it comes from: each field by its definition, with fixes and
-// without, in an air that moves and turns that are not level.
+// The published state against its filter: each field by its definition, with fixes and without, in moving air
+// and in tilted turns.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using fulmar::navigation::Navigator;
 
 namespace {
 
-/// The shipped estimator, whose navigator can be seen.
+/// The shipped estimator, with access to its navigator.
 struct Seen {
   struct Inputs {
     navigation::Inputs sensors;
@@ -40,7 +40,7 @@ struct Flight {
   Quality quality = ublox;
   std::function<void(const Truth&, Samples&)> alter{};
   Bench<Seen> bench{};
-  /// `watch` sees each state with the navigator that it comes from.
+  /// Calls `watch` with each state and its navigator.
   void run(const std::function<void(const Truth&, const VehicleState&, const Navigator&)>& watch) {
     const std::vector<Truth> flight = fly(plan);
     Sensors sensors(quality, plan, 7);
@@ -122,7 +122,8 @@ TEST_CASE("each field of the state is the filter's by its definition") {
   CHECK(rolling > 50);
 }
 
-TEST_CASE("what is claimed is the filter's, widened by what it does not know, with fixes and without") {
+TEST_CASE(
+    "reported standard deviations are the filter's, widened by unmodelled errors, with fixes and without") {
   for (const double fixes_until_s : {1e9, 40.0}) {
     Flight f{.plan = windy(60)};
     f.alter = [&](const Truth& x, Samples& s) {
@@ -150,7 +151,7 @@ TEST_CASE("what is claimed is the filter's, widened by what it does not know, wi
                    v_east2 = P(ekf::vel + 1) + shared * shared + speed * speed, yaw2 = P(ekf::theta + 2);
       const Eigen::Matrix2d& G = n.gusts().covariance();
       const auto square = [](double a) { return a * a; };
-      ekf::Row H = ekf::Row::Zero();  // of the airspeed, by its definition
+      ekf::Row H = ekf::Row::Zero();  // of the airspeed, by definition
       H.segment<3>(ekf::vel) = u_n.normalized().transpose();
       H.segment<2>(ekf::wind) = -u_n.normalized().head<2>().transpose();
       H(ekf::gust) = 1;

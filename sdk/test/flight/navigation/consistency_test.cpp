@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the filter's covariance the covariance of its errors? Monte Carlo with the noise the filter was told of;
-// chi-square bounds after Bar-Shalom, Li & Kirubarajan, Estimation with Applications to Tracking and
+// Covariance of the filter against the covariance of its errors. Monte Carlo with the noise parameters of the
+// filter; chi-square bounds after Bar-Shalom, Li & Kirubarajan, Estimation with Applications to Tracking and
 // Navigation (2001), section 5.4.
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// States appended to the error-state filter: the whole covariance against a dense filter of all states, whose
-// transition is found by finite differences of the integration.
+// Appended states of the error-state filter: the whole covariance against a dense filter of all states, with
+// its transition by finite differences of the integration.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -21,14 +21,14 @@ constexpr int n = ekf::size, whole = n + 2;
 using Whole = Eigen::Matrix<double, whole, whole>;
 using WholeVector = Eigen::Matrix<double, whole, 1>;
 
-/// What the accelerometer of the body's x axis reads too much, as a share of what it reads.
+/// Error of the x accelerometer as a share of its reading.
 Eigen::Matrix<double, 9, 1> accel_scale(const ekf::Motion& m) {
   const Vector3d dv = -m.time_s * m.force_b.x() * m.R_nb.col(0);
   Eigen::Matrix<double, 9, 1> G;
   G << Vector3d::Zero(), dv, 0.5 * m.time_s * dv;
   return G;
 }
-/// The same of the gyro of the body's z axis.
+/// The same for the z gyro.
 Eigen::Matrix<double, 9, 1> gyro_scale(const ekf::Motion& m) {
   Eigen::Matrix<double, 9, 1> G = Eigen::Matrix<double, 9, 1>::Zero();
   G.head<3>() = -m.time_s * m.rate_b.z() * m.R_nb.col(2);
@@ -77,7 +77,7 @@ ekf::Scalar any_measurement(Random& r) {
   z.innovation = 0.01 * r.normal();
   return z;
 }
-/// So that everything is correlated with everything.
+/// Correlates all states.
 void mix(ErrorStateEkf& f, Random& r) {
   for (int i = 0; i < 12; ++i) {
     ekf::Scalar z = any_measurement(r);
@@ -103,12 +103,12 @@ TEST_CASE("an update of the filter with appended states is that of a dense filte
     const ekf::Scalar z = any_measurement(r);
     const WholeVector H = row_of(z), PHt = P * H;
     const double S = H.dot(PHt) + 0.3;
-    REQUIRE(P.bottomLeftCorner<2, n>().norm() > 1e-3);  // correlated before
+    REQUIRE(P.bottomLeftCorner<2, n>().norm() > 1e-3);  // with correlations before
     CHECK(f.expected_std(z, 0.3) == doctest::Approx(std::sqrt(S)).epsilon(1e-9));
     REQUIRE(f.fuse(z, 0.3, 1e9).accepted);
     Whole expected = P - PHt * PHt.transpose() / S;
     WholeVector dx = PHt * (z.innovation / S);
-    expected.block<2, 2>(ekf::gnss, ekf::gnss) = P.block<2, 2>(ekf::gnss, ekf::gnss);  // considered alone
+    expected.block<2, 2>(ekf::gnss, ekf::gnss) = P.block<2, 2>(ekf::gnss, ekf::gnss);  // a consider state
     dx.segment<2>(ekf::gnss).setZero();
     CHECK((covariance(f) - expected).norm() < 1e-9 * P.norm());
     CHECK((difference(f, before) - dx).norm() < 1e-5 * dx.norm() + 1e-9);
@@ -162,7 +162,7 @@ TEST_CASE("the whole covariance follows the motion: Phi P Phi' + Q, Phi by finit
     Phi.block<2, 2>(ekf::gnss, ekf::gnss) =
         std::exp(-0.01 / ekf::Noise{}.gnss_time) * Eigen::Matrix2d::Identity();
     Whole expected = Phi * P * Phi.transpose();
-    // In the filter that is mixed gust and heading hardly decay, as their times are 1e9 s there.
+    // In the mixed filter gust and heading hardly decay, since their time constants are 1e9 s.
     const Whole got = covariance(mixed);
     expected(n, n) += 0.02 * 0.02 * 0.01;
     expected(n + 1, n + 1) += 0.2 * 0.2 * -std::expm1(-2 * 0.01 / 0.5);
@@ -175,13 +175,13 @@ TEST_CASE("the whole covariance follows the motion: Phi P Phi' + Q, Phi by finit
     CHECK((got - expected).cwiseAbs().maxCoeff() < 5e-4 * expected.cwiseAbs().maxCoeff());
     CHECK((got - expected).bottomRows<2>().cwiseAbs().maxCoeff() <
           3e-3 * (got - P).bottomRows<2>().cwiseAbs().maxCoeff());
-    CHECK((got - got.transpose()).cwiseAbs().maxCoeff() == 0);  // to the last bit
+    CHECK((got - got.transpose()).cwiseAbs().maxCoeff() == 0);  // symmetric to the last bit
     CHECK(Phi(n + 1, n + 1) == doctest::Approx(std::exp(-0.01 / 0.5)));
-    CHECK((Phi.block<9, 2>(0, n).norm()) > 5e-3);  // they do drive the motion
+    CHECK((Phi.block<9, 2>(0, n).norm()) > 5e-3);  // with effect on the motion
   }
 }
 
-TEST_CASE("the scale of an accelerometer is learnt in flight, to what its deviation says, either sign") {
+TEST_CASE("the scale of an accelerometer is learnt in flight, within its standard deviation, either sign") {
   for (const double scale : {-0.06, 0.06}) {
     CAPTURE(scale);
     ErrorStateEkf f;
@@ -192,7 +192,7 @@ TEST_CASE("the scale of an accelerometer is learnt in flight, to what its deviat
     f.reset({}, std, 0);
     Random r(24);
     Vector3d v = Vector3d::Zero();
-    for (int k = 1; k <= 24000; ++k) {  // a minute of speeding up and slowing down, level
+    for (int k = 1; k <= 24000; ++k) {  // a minute of level accelerations and decelerations
       const double t = k / 400.0, a = 3 * std::sin(0.7 * t);
       v.x() += a / 400;
       f.predict(Vector3d::Zero(), {a * (1 + scale), 0, -f.gravity_mps2}, 1 / 400.0);
@@ -200,7 +200,7 @@ TEST_CASE("the scale of an accelerometer is learnt in flight, to what its deviat
       for (int i = 0; i < 3; ++i)
         f.fuse(ekf::velocity(f, f.at(f.time_s()), i, v(i) + 0.1 * r.normal()), 0.01, 5);
     }
-    // measured = (1 + scale) true, so of what it reads scale / (1 + scale) is too much
+    // measured = (1 + scale) true: the error is scale / (1 + scale) of the reading
     const double expected = scale / (1 + scale);
     CHECK(f.more().std(0) < 0.01);
     CHECK(f.more().value(0) == doctest::Approx(expected).epsilon(0.1));
@@ -220,7 +220,7 @@ TEST_CASE("a filter to which nothing was appended has room for four; what cannot
   CHECK(f.more().std(3) == doctest::Approx(4));
 }
 
-TEST_CASE("a filter begun anew keeps what the appended states are, without correlation") {
+TEST_CASE("a restarted filter keeps its appended states, without correlation") {
   Random r(25);
   ErrorStateEkf f = filter_at(any_state(r), 0.1, -0.1);
   mix(f, r);

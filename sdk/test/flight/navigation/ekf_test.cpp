@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The error-state filter: every derivative against finite differences, the update against the information
-// form, the memory against the motion.
+// form, the past states against the motion.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -81,7 +81,7 @@ TEST_CASE("the row of every measurement is the derivative of what it expects") {
     CHECK((heading(x).H - numeric(x, heading)).norm() < 1e-5 * heading(x).H.norm());
     CHECK((baro(x).H - numeric(x, baro)).norm() < 1e-6);
     CHECK((port(x).H - numeric(x, port)).norm() < 1e-5);
-    CHECK(ekf::late(rate(x), 3).H(ekf::delay) == -3);  // what grows by 3 per second was less a second ago
+    CHECK(ekf::late(rate(x), 3).H(ekf::delay) == -3);  // a rising value was smaller a second ago
     CHECK((rate(x).H - numeric(x, rate)).norm() < 1e-6);
     const ErrorStateEkf::Past now{x.p_n, x.v_n, 0, true};
     const ErrorStateEkf f = filter_at(x);
@@ -94,7 +94,7 @@ TEST_CASE("the row of every measurement is the derivative of what it expects") {
       };
       CHECK((ekf::velocity(f, now, axis, 3).H - numeric(x, velocity)).norm() < 1e-6);
       ekf::Row expected = numeric(x, position);
-      if (axis < 2) expected(ekf::gnss + axis) = 1;  // the receiver sees it further north, further east
+      if (axis < 2) expected(ekf::gnss + axis) = 1;  // the receiver reads further north and east
       CHECK((ekf::position(f, now, axis, 3).H - expected).norm() < 1e-6);
     }
   }
@@ -126,7 +126,7 @@ TEST_CASE("the covariance follows the motion: Phi P Phi' with Phi by finite diff
         std::exp(-0.01 / ekf::Noise{}.gnss_time) * Eigen::Matrix2d::Identity();
     const ekf::Covariance expected = Phi * P * Phi.transpose();
     CHECK((end.covariance() - expected).cwiseAbs().maxCoeff() < 2e-4 * expected.cwiseAbs().maxCoeff());
-    CHECK((end.covariance() - P).cwiseAbs().maxCoeff() > 0.01);  // something did happen
+    CHECK((end.covariance() - P).cwiseAbs().maxCoeff() > 0.01);  // with an effect
   }
 }
 
@@ -163,15 +163,15 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a correction made since is in the remembered past: the same late fix is not believed twice") {
+TEST_CASE("the stored past contains later corrections: the same late fix does not count twice") {
   ErrorStateEkf f;
   ekf::Nominal x;
   x.v_n = {17, 0, 0};
   ekf::Vector std = ekf::Vector::Zero();
-  std.segment<6>(ekf::vel).setOnes();  // no tilt has made the difference since
+  std.segment<6>(ekf::vel).setOnes();  // the tilt has caused no difference
   f.reset(x, std, 0);
   for (int k = 0; k < 80; ++k) f.predict(Vector3d::Zero(), Vector3d(0, 0, -f.gravity_mps2), 0.0025);
-  f.fuse(ekf::velocity(f, f.at(0.2), 0, 20), 1e-8, 1e3);  // it was 20 m/s all along
+  f.fuse(ekf::velocity(f, f.at(0.2), 0, 20), 1e-8, 1e3);  // 20 m/s over the whole time
   const ErrorStateEkf::Past past = f.at(0.1);
   CHECK(past.v_n.x() == doctest::Approx(20).epsilon(1e-3));
   CHECK(f.state().p_n.x() - past.p_n.x() == doctest::Approx(2).epsilon(2e-3));
@@ -192,7 +192,7 @@ TEST_CASE("one scalar update is the information filter's") {
     REQUIRE(f.fuse(z, variance, 1e9).accepted);
     ekf::Covariance expected = (P.inverse() + z.H.transpose() * z.H / variance).inverse();
     ekf::Vector dx = expected * z.H.transpose() * z.innovation / variance;
-    expected.block<2, 2>(ekf::gnss, ekf::gnss) = P.block<2, 2>(ekf::gnss, ekf::gnss);  // considered alone
+    expected.block<2, 2>(ekf::gnss, ekf::gnss) = P.block<2, 2>(ekf::gnss, ekf::gnss);  // a consider state
     dx.segment<2>(ekf::gnss).setZero();
     CHECK((f.covariance() - expected).norm() < 1e-9 * P.norm());
     CHECK((f.state().minus(before) - dx).norm() < 1e-6 * dx.norm() + 1e-9);
@@ -224,13 +224,13 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("an innovation beyond the gate changes nothing and is told") {
+TEST_CASE("an innovation beyond the gate changes nothing and is reported") {
   ErrorStateEkf f = filter_at({});
   ekf::Scalar z;
   z.H(ekf::pos) = 1;
   z.innovation = 10;
   const ekf::Covariance P = f.covariance();
-  const ekf::Fused fused = f.fuse(z, 0.99, 5);  // expected deviation 1
+  const ekf::Fused fused = f.fuse(z, 0.99, 5);  // expected standard deviation 1
   CHECK_FALSE(fused.accepted);
   CHECK(fused.ratio == doctest::Approx(10));
   CHECK(f.state().p_n.norm() == 0);
@@ -300,7 +300,7 @@ TEST_CASE("a needle that points to the declination gives the true heading in bot
       x.q_nb = quaternion_from({0.5, -0.2, 2.9});
       CHECK(std::abs(ekf::magnetic_heading(x, x.q_nb.conjugate() * field, declination).innovation) < 1e-12);
       ekf::Nominal turned = x;
-      turned.q_nb = exp_map({0, 0, -0.1}) * x.q_nb;  // the estimate is 0.1 rad short
+      turned.q_nb = exp_map({0, 0, -0.1}) * x.q_nb;  // the estimate is 0.1 rad too small
       CHECK(ekf::magnetic_heading(turned, x.q_nb.conjugate() * field, declination).innovation ==
             doctest::Approx(0.1));
     }
@@ -316,7 +316,7 @@ TEST_CASE("a static port that sees a share of the dynamic pressure makes the bar
     const Air air = standard_air(1387 + 120);
     const double dynamic_pa = 0.5 * air.density_kgm3 * (20 * 20 + 2 * 2);
     const ekf::Scalar z = ekf::baro_height_in_flight(x, air.pressure_pa + share * dynamic_pa, 1387);
-    CHECK(std::abs(z.innovation) < 0.01);  // of 2.1 m: what the density changes by over them
+    CHECK(std::abs(z.innovation) < 0.01);  // of 2.1 m: the change of density over them
     CHECK(ekf::baro_height(x, air.pressure_pa + share * dynamic_pa, 1387).innovation / share < -20);
   }
 }
@@ -332,7 +332,7 @@ TEST_CASE("gust, heading deviation and the receiver's error grow to their deviat
   f.noise.port_walk = 0.02;
   f.reset({}, ekf::Vector::Zero(), 0);
   for (int i = 0; i < 2000; ++i) f.predict(Vector3d::Zero(), {0, 0, -9.80665}, 0.005);
-  CHECK(f.std(ekf::port) / (0.02 * std::sqrt(10.0)) == doctest::Approx(1).epsilon(1e-6));  // and this walks
+  CHECK(f.std(ekf::port) / (0.02 * std::sqrt(10.0)) == doctest::Approx(1).epsilon(1e-6));  // random walk
   CHECK(f.std(ekf::gust) / 1.3 == doctest::Approx(1).epsilon(1e-6));
   CHECK(f.std(ekf::heading) / 0.04 == doctest::Approx(1).epsilon(1e-6));
   for (const int i : {0, 1}) CHECK(f.std(ekf::gnss + i) / 2.5 == doctest::Approx(1).epsilon(1e-6));
@@ -348,12 +348,12 @@ TEST_CASE(
   std.segment<2>(ekf::gnss).setConstant(1.5);
   f.reset({}, std, 0);
   for (int i = 0; i < 200; ++i) f.fuse(ekf::position(f, f.at(0), 0, 10), 0.3 * 0.3, 1e9);
-  CHECK(f.state().p_n.x() == doctest::Approx(10).epsilon(1e-3));  // all of it
-  CHECK(f.std(ekf::pos) == doctest::Approx(1.5).epsilon(0.01));   // however many
+  CHECK(f.state().p_n.x() == doctest::Approx(10).epsilon(1e-3));  // the whole difference
+  CHECK(f.std(ekf::pos) == doctest::Approx(1.5).epsilon(0.01));   // for any number
   CHECK(f.std(ekf::gnss) == doctest::Approx(1.5).epsilon(1e-9));
   const ekf::Covariance& P = f.covariance();
   CHECK(P(ekf::pos, ekf::gnss) / (f.std(ekf::pos) * f.std(ekf::gnss)) == doctest::Approx(-1).epsilon(0.01));
-  CHECK(P(ekf::pos, ekf::pos) + P(ekf::gnss, ekf::gnss) + 2 * P(ekf::pos, ekf::gnss) < 0.001);  // the sum
+  CHECK(P(ekf::pos, ekf::pos) + P(ekf::gnss, ekf::gnss) + 2 * P(ekf::pos, ekf::gnss) < 0.001);  // of the sum
   CHECK(f.std(ekf::pos + 1) == doctest::Approx(1e3));
 }
 
@@ -366,7 +366,7 @@ TEST_CASE(
     f.noise.wind_shear = 0.05;
     f.noise.accel = 0.02;
     f.noise.accel_scale = 0.05;
-    f.noise.gyro = f.noise.gyro_bias_walk = 0;  // else a tilt's share of the load
+    f.noise.gyro = f.noise.gyro_bias_walk = 0;  // otherwise a share of the load by the tilt
     ekf::Nominal x;
     x.v_n.z() = sink_mps;
     f.reset(x, ekf::Vector::Zero(), 0);
@@ -379,7 +379,7 @@ TEST_CASE(
   CHECK(after(0, 0.5).second > 5 * after(0, 1).second);
 }
 
-TEST_CASE("position follows a steady acceleration exactly, whatever the step") {
+TEST_CASE("position follows a steady acceleration exactly, for any step") {
   for (const double dt : {0.1, 0.01}) {
     ErrorStateEkf f;
     f.reset({}, ekf::Vector::Zero(), 0);

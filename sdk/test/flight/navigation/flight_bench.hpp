@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies the component through a synthetic flight: samples may be changed on the way in, states are judged on
-// the way out.
+// Runs the component through a synthetic flight: a test may change the input samples, and check the output
+// states.
 #pragma once
 #include <fulmar/testing.hpp>
 #include <functional>
@@ -18,7 +18,7 @@ struct Errors {
   int samples = 0;
 };
 
-/// One flight. `alter` sees the samples before the component does, `watch` what it publishes.
+/// One flight. `alter` changes the samples before the component, `watch` receives the outputs.
 struct Flown {
   Plan plan{};
   Quality quality = rosflight;
@@ -27,11 +27,11 @@ struct Flown {
   std::function<void(const Truth&, Samples&)> alter{};
   std::function<void(const Truth&, const VehicleState&, Status)> watch{};
   std::function<void(Ekf::Params&)> set{};
-  std::function<double(const Truth&)> throttle{};  ///< told to the component; nothing: not wired
-  std::optional<double> first_s{};                 ///< of the first state
+  std::function<double(const Truth&)> throttle{};  ///< input of the component; empty: not connected
+  std::optional<double> first_s{};                 ///< time of the first state
   VehicleState last{};
   Truth last_truth{};
-  double gnss_delay_s = 0;  ///< what was learnt of it
+  double gnss_delay_s = 0;  ///< estimated delay
 
   Errors run() {
     const std::vector<Truth> flight = fly(plan);
@@ -99,7 +99,7 @@ inline double attitude_error(const VehicleState& s, const Truth& x) {
   return eigen(s.attitude).angularDistance(x.q_nb);
 }
 
-/// Nothing that is published may be a NaN, whatever the inputs were.
+/// False if an output is not finite.
 inline bool all_finite(const VehicleState& s) {
   return eigen(s.position_m).allFinite() && eigen(s.velocity_mps).allFinite() &&
          eigen(s.attitude).coeffs().allFinite() && eigen(s.rate_radps).allFinite() &&

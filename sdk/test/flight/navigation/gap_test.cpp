@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The link to the sensors breaks and comes back: short gaps are coasted, long ones end in an alignment in the
-// air. Samples whose times are wrong, and a controller that has zeroed its pitot tube or its barometer in
-// flight.
+// Gaps of all sensors: short gaps are coasted, long ones end in an alignment in the air. Samples with wrong
+// times, and a controller that has zeroed its pitot or barometer in flight.
 #include <doctest/doctest.h>
 
 #include "flight_bench.hpp"
@@ -21,31 +20,32 @@ bool any_valid(const VehicleState& s) {
          s.wind_valid;
 }
 
-/// A flight with turns of 30 degrees and a gap of every sensor. In it the loop goes on every 10 ms, as it
-/// does when no inertial unit wakes it.
+/// A flight with turns of 30 degrees and a gap of all sensors. During the gap the loop runs each 10 ms, as
+/// without an inertial unit.
 struct Gap {
-  double from_s = 68, length_s = 0.1, after_s = 10;  ///< 68: in the middle of a turn to the right
+  double from_s = 68, length_s = 0.1, after_s = 10;  ///< 68: in the middle of a right turn
   Quality quality = rosflight;
   std::uint64_t seed = 1;
   std::function<void(const Truth&, Samples&)> alter{};
   std::function<void(Bench<Ekf>&, const Truth&, const Samples&, double dt)> feed = feed_all;
   std::function<void(const Truth&, const VehicleState&, Status, double since_s)>
-      watch{};  ///< time since the gap began
+      watch{};  ///< with the time since the start of the gap
 
-  VehicleState last{}, before{}, first{};  ///< before: of the gap; first: valid one after it
+  VehicleState last{}, before{}, first{};  ///< before: before the gap; first: first valid state after it
   Truth last_truth{};
   double valid_after_s = -1;                          ///< from the end of the gap to `first`
   double coasted_attitude = 0, coasted_position = 0;  ///< errors at the end of the gap
   Vector3d mean_wind = Vector3d::Zero(), mean_before = mean_wind, mean_first = mean_wind;  ///< without gusts
   double first_attitude = 0,
          step_attitude = 0;  ///< error of `first`; largest move of the error between two states after it
-  Vector3d position_jump = Vector3d::Zero();  ///< of the error, from before the gap to `first`
+  Vector3d position_jump =
+      Vector3d::Zero();  ///< error of `first`; largest step of the error between two states after it
   std::uint64_t allocated = 0;
 
   bool silent(double t) const { return t > from_s && t < from_s + length_s; }
   Gap& run();
 
-  /// Samples are valid at the time of the step to come.
+  /// Samples are valid at the time of the next step.
   static void feed_all(Bench<Ekf>& bench, const Truth& x, const Samples& s, double dt) {
     bench.set(bench.in.imu, s.imu, -dt);
     if (s.gnss) bench.set(bench.in.gnss, *s.gnss, s.gnss_age_s - dt);
@@ -60,7 +60,7 @@ struct Gap {
 
   void judge(const Truth& x);
   Vector3d offset = Vector3d::Zero();  ///< error of the position before the gap
-  double error = 0;                    ///< attitude, of the state before
+  double error = 0;                    ///< attitude error of the previous state
 };
 
 Gap& Gap::run() {
@@ -86,7 +86,7 @@ Gap& Gap::run() {
     allocated += allocations([&] { status = bench.step(waited); });
     waited = 0;
     if (!bench.out.state.written) {
-      CHECK_FALSE((silent(x.t) && x.t > from_s + 0.03));  // up to there it may be the rate of a slow unit
+      CHECK_FALSE((silent(x.t) && x.t > from_s + 0.03));  // up to 0.03 s it may be the rate of a slow unit
       continue;
     }
     last = bench.out.state.value;
@@ -123,7 +123,7 @@ void Gap::judge(const Truth& x) {
   }
 }
 
-/// Straight, rolling into a turn, in it, rolling out of it.
+/// Straight, roll-in, turn, roll-out.
 constexpr double places[] = {58, 64.6, 68, 74.5};
 }  // namespace
 
@@ -147,7 +147,7 @@ TEST_CASE("a gap of 0.1 s is coasted and flagged, in a turn as well, and nothing
     }
 }
 
-TEST_CASE("after the longest coast the state says that it is none, and its deviations grow") {
+TEST_CASE("after the longest coast the state is invalid, and its standard deviations grow") {
   Gap g{.length_s = 5};
   VehicleState previous;
   g.watch = [&](const Truth&, const VehicleState& s, Status status, double since) {
@@ -163,8 +163,7 @@ TEST_CASE("after the longest coast the state says that it is none, and its devia
         CHECK(s.position_std_m.down > previous.position_std_m.down);
         CHECK(s.airspeed_std_mps > previous.airspeed_std_mps);
       }
-      if (since > 0.33)
-        CHECK(eigen(s.position_m) == eigen(previous.position_m));  // a stand-in that goes nowhere
+      if (since > 0.33) CHECK(eigen(s.position_m) == eigen(previous.position_m));  // a constant stand-in
     }
     previous = s;
   };
@@ -214,7 +213,7 @@ TEST_CASE(
           Samples some = s;
           if (!receiver && x.t > from - 3) some.gnss.reset();
           Gap::feed_all(bench, x, some, dt);
-          // Its frame is any: here turned by 70 deg and tilted by 3.
+          // Its frame is arbitrary: here rotated by 70 deg and tilted by 3.
           const Eigen::Quaterniond frame = quaternion_from({3 * deg, 0, 70 * deg}) * x.q_nb;
           ControllerAttitude a;
           a.attitude = {frame.w(), frame.x(), frame.y(), frame.z()};
@@ -251,7 +250,7 @@ TEST_CASE("a gap of more than 2 s is not bridged: without a fix the attitude sta
   CHECK(g.valid_after_s == -1);
 }
 
-TEST_CASE("a second gap before the attitude is found again starts the search anew") {
+TEST_CASE("a second gap before the attitude is found restarts the alignment") {
   Gap g{.length_s = 2};
   g.feed = [](Bench<Ekf>& bench, const Truth& x, const Samples& s, double dt) {
     if (x.t < 70.3 || x.t > 71.3) Gap::feed_all(bench, x, s, dt);
@@ -266,7 +265,7 @@ TEST_CASE("a second gap before the attitude is found again starts the search ane
 }
 
 TEST_CASE("a gap on the ground, disarmed or armed, ends in an alignment at rest, and the flight is as good") {
-  for (const double from : {2.0, 4.5}) {  // armed at 4.8: the take-off run waits
+  for (const double from : {2.0, 4.5}) {  // armed at 4.8: the take-off run is delayed
     Gap g{.from_s = from, .length_s = 0.4, .after_s = 60};
     Vector3d worst = Vector3d::Zero();
     g.watch = [&](const Truth& x, const VehicleState& s, Status, double since) {
@@ -288,7 +287,7 @@ TEST_CASE(
     double zero_pa = 0, worst = 0;
     g.alter = [&](const Truth& x, Samples& s) {
       if (!s.pitot) return;
-      if (x.t < 68) zero_pa = s.pitot->pressure_pa;  // what the controller takes for no wind
+      if (x.t < 68) zero_pa = s.pitot->pressure_pa;  // zero of the controller
       if (x.t > 68) s.pitot->pressure_pa -= zero_pa;
     };
     g.watch = [&](const Truth& x, const VehicleState& s, Status, double since) {
@@ -318,7 +317,7 @@ TEST_CASE("a barometer that reads 500 Pa more after the gap does not move the he
   }
 }
 
-TEST_CASE("gyros whose bias has changed in the gap are learnt anew") {
+TEST_CASE("gyro biases that changed in the gap are learnt again") {
   Gap g{.length_s = 5, .after_s = 30};
   g.alter = [](const Truth& x, Samples& s) {
     if (x.t > 70) {
@@ -354,7 +353,7 @@ TEST_CASE("samples whose time repeats, jumps back or lies in the future are left
                   odd ? k % 40 == 0   ? 0
                         : k % 40 == 1 ? -3600
                                       : 3600
-                      : dt);  // repeats, an hour back, an hour ahead
+                      : dt);  // repeated, an hour back, an hour ahead
   };
   g.watch = [](const Truth& x, const VehicleState& s, Status, double since) {
     CHECK(all_finite(s));
@@ -389,7 +388,7 @@ TEST_CASE("when only the newest of several inertial samples is seen, attitude st
 }
 
 TEST_CASE("found again in a turn it has the velocity of now, not that of the late fix") {
-  double sum = 0;  // of ten seeds: the fix itself is off by some decimetres a second
+  double sum = 0;  // of ten seeds: the fix has an error of some decimetres per second
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Gap gap{.length_s = 3, .quality = ublox, .seed = seed};
     gap.quality.velocity = 0;
@@ -411,7 +410,7 @@ TEST_CASE("found again after a gap the gust of before it is over") {
   Gap gap{.length_s = 5};
   gap.alter = [&](const Truth& x, Samples& s) {
     if (x.t > 64 && s.pitot) s.pitot->pressure_pa *= 1 + 0.2 * std::min(x.t - 64, 1.0);  // a gust from ahead
-    if (x.t > gap.from_s) s.pitot.reset();  // nobody says what became of it
+    if (x.t > gap.from_s) s.pitot.reset();  // the change is not measured
   };
   gap.feed = [&](Bench<Ekf>& bench, const Truth& x, const Samples& s, double dt) {
     const bool known = bench.out.state.written && bench.out.state.value.attitude_valid;

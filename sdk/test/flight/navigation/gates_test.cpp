@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gates that open again, deviations that are as large as they say, and fixes that are late.
+// Gates that open again, standard deviations that match the errors, and late fixes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ TEST_CASE("an alignment in a turn takes in that the fix is late") {
   CHECK(found->q_nb.angularDistance(attitude(0.5)) * 180 / std::numbers::pi < 1);
 }
 
-TEST_CASE("velocities refused for long are believed in the end") {
+TEST_CASE("velocities rejected for long are accepted at last") {
   Flown f{};
   f.plan.seed = 1;
   double most = 0, tilt_std = 0;
@@ -52,10 +52,11 @@ TEST_CASE("velocities refused for long are believed in the end") {
   };
   f.run();
   CHECK(most > 10);
-  CHECK(tilt_std > 0.05);  // whatever made the velocity wrong may have made the attitude wrong
+  CHECK(tilt_std > 0.05);  // the cause of the velocity error may have changed the attitude too
 }
 
-TEST_CASE("the height is as sure as it says, with a receiver whose height error lasts a minute") {
+TEST_CASE(
+    "the height error matches its standard deviation, with a receiver whose height error lasts a minute") {
   double normalised = 0;
   int n = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -73,7 +74,7 @@ TEST_CASE("the height is as sure as it says, with a receiver whose height error 
   CHECK(normalised / n < 2);
 }
 
-TEST_CASE("heights refused for long are believed in the end") {
+TEST_CASE("heights rejected for long are accepted at last") {
   Flown f{};
   double most = 0;
   f.alter = [](const Truth& x, Samples& s) {
@@ -86,7 +87,7 @@ TEST_CASE("heights refused for long are believed in the end") {
   CHECK(most > 50);
 }
 
-TEST_CASE("a barometer refused for long is believed in the end, and then holds the height without GNSS") {
+TEST_CASE("a barometer rejected for long is accepted at last, and then holds the height without GNSS") {
   Flown f{};
   double worst = 0;
   f.alter = [](const Truth& x, Samples& s) {
@@ -106,7 +107,7 @@ TEST_CASE("more samples of a magnetometer are not more information: its errors l
     f.plan.duration_s = f.plan.rest_s;
     f.quality.mag_hz = hz;
     f.quality.accel_bias = 0;
-    f.set = [](Ekf::Params& p) {  // nothing else that makes the yaw unsure
+    f.set = [](Ekf::Params& p) {  // no other source of yaw uncertainty
       p.mag_deviation.value = 0;
       p.accel_bias_std.value = 1e-3;
     };
@@ -141,7 +142,7 @@ TEST_CASE("the error of a receiver's climb rate lasts: the vertical velocity is 
   CHECK(climb_std(5) > 1.5 * climb_std(0));
 }
 
-TEST_CASE("where the field is steep the needle knows less of the yaw") {
+TEST_CASE("in a steep field the yaw has a larger standard deviation") {
   const auto yaw_std = [](double lat, double lon) {
     Flown f{};
     f.plan.duration_s = f.plan.rest_s;
@@ -158,7 +159,7 @@ TEST_CASE("where the field is steep the needle knows less of the yaw") {
   CHECK(yaw_std(64.1, -21.9) > 2 * yaw_std(0.1, 36.8));  // Iceland, Kenya: dips of 75 and -22 degrees
 }
 
-TEST_CASE("how far the tube's speed is believed is the pilot's to say") {
+TEST_CASE("the weight of the pitot's speed is a parameter") {
   const auto airspeed_std = [](double std_mps) {
     Flown f{};
     f.plan.duration_s = 60;
@@ -186,7 +187,7 @@ TEST_CASE("one odd sample of the tube is no airspeed") {
 
 TEST_CASE("a pitot that is late by 95 ms is right in a throw, and the wind is not spoiled by it") {
   Flown f{};
-  f.plan.start_mps2 = 40;  // thrown by hand to 12 m/s
+  f.plan.start_mps2 = 40;  // hand launch to 12 m/s
   f.plan.start_radps = 30;
   f.plan.speed_mps = 12;
   f.plan.wind = {-4.6, -1.9, 0};  // against its course
@@ -227,7 +228,7 @@ TEST_CASE("without a barometer the tube's speed is that of the air at the estima
 TEST_CASE("once the air carries it, it does so until the airspeed is well below the least one") {
   Flown f{};
   f.plan.gust_mps = 0;
-  f.plan.wind = {3.5, 0, 0};  // 13.5 to 20.5 m/s of airspeed on the way round
+  f.plan.wind = {3.5, 0, 0};  // 13.5 to 20.5 m/s of airspeed around the circle
   f.plan.duration_s = 110;
   f.set = [](Ekf::Params& p) { p.min_airspeed.value = 18; };
   int carried = 0, dropped = 0;
@@ -255,7 +256,7 @@ TEST_CASE("a magnetometer that wakes up after the alignment turns the yaw at onc
     if (x.t < 3.999 || x.t < 4.05) most = std::max(most, std::abs(s.yaw_rad - euler_from(x.q_nb).yaw_rad));
   };
   f.run();
-  CHECK(before > 1);  // it took its nose to point north
+  CHECK(before > 1);  // alignment with the nose to the north
   CHECK(worst < 0.01);
 }
 

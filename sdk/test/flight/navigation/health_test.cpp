@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each sensor goes bad in the middle of a flight and comes back: what the port `health` says of it, and how
-// soon.
+// A fault of each sensor in the middle of a flight, and its end: the state on the port `health`, and its
+// delay.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -22,12 +22,12 @@ struct Spell {
   SensorState state = SensorState::silent;
   double length_s = 15;
   std::uint64_t seed = 1;
-  bool imu = true;  ///< false: in the spell there is no inertial sample
+  bool imu = true;  ///< false: no inertial sample during the fault
 
   static constexpr double from_s = 60;
-  double reported_s = -1, left_s = -1;  ///< after the begin and after the end of the spell
+  double reported_s = -1, left_s = -1;  ///< after the start and after the end of the fault
   NavigationHealth before{}, during{}, last{};
-  std::string otherwise{};  ///< other sensors of which something was said
+  std::string otherwise{};  ///< other sensors with a report
   std::uint64_t allocated = 0;
 
   Spell& run();
@@ -87,14 +87,14 @@ void Spell::judge(const NavigationHealth& health, double t) {
   const SensorState now = (health.*sensor).state;
   if (t > from_s && reported_s < 0 && now == state) reported_s = t - from_s;
   if (now != SensorState::ok && t > from_s + length_s) left_s = t - from_s - length_s;
-  if (t < 2) return;  // the first samples come
+  if (t < 2) return;  // the first samples arrive
   for (const auto& [name, other] : sensors)
     if (other != sensor && (health.*other).state != SensorState::ok &&
         otherwise.find(name) == std::string::npos)
       otherwise += std::string(name) + " ";
 }
 
-/// Repeats what it read first.
+/// Repeats the first reading.
 template <class T>
 Alter held(std::optional<T> Samples::*which) {
   return [which, first = std::optional<T>()](Samples& s, Random&) mutable {
@@ -111,7 +111,7 @@ Alter of_fix(std::function<void(Gnss&, Random&)> change) {
     if (s.gnss) change(*s.gnss, random);
   };
 }
-/// The spell is told within `told_s` and left within `left_s`, and nothing is said of the others.
+/// The fault is reported within `reported_s` and cleared within `left_s`, without a report of the others.
 void check(Spell& spell, double reported_s, double left_s) {
   spell.run();
   CHECK((spell.before.*spell.sensor).state == SensorState::ok);
@@ -124,7 +124,7 @@ void check(Spell& spell, double reported_s, double left_s) {
 
 }  // namespace
 
-TEST_CASE("of a flight in which nothing fails nothing is said") {
+TEST_CASE("a flight without a fault has no report") {
   for (const Quality& quality : {rosflight, ublox})
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
       Spell spell{.quality = quality, .state = SensorState::refused, .seed = seed};
@@ -142,7 +142,7 @@ TEST_CASE("of a flight in which nothing fails nothing is said") {
     }
 }
 
-TEST_CASE("a sensor that was never heard is called so, and the others are not") {
+TEST_CASE("a sensor without samples is reported as never, and the others are not") {
   Spell spell{};
   Bench<Ekf> bench;
   for (int i = 0; i < 100; ++i) {
@@ -159,7 +159,7 @@ TEST_CASE("a sensor that was never heard is called so, and the others are not") 
 }
 
 TEST_CASE(
-    "silent: no sample for five of its intervals, a fix that is none; told within 1.4 s, left at once") {
+    "silent: no sample for five of its intervals, an invalid fix; reported within 1.4 s, cleared at once") {
   for (const auto& [sensor, alter, reported_s] :
        {std::tuple{&NavigationHealth::baro, dropped(&Samples::baro), 0.6},
         std::tuple{&NavigationHealth::mag, dropped(&Samples::mag), 0.6},
@@ -189,14 +189,14 @@ TEST_CASE("a slow sensor is not silent between its samples, nor one that becomes
   CHECK(slower.during.baro.state == SensorState::ok);
 }
 
-TEST_CASE("silent: the inertial unit, of which nothing else is told than by this port") {
+TEST_CASE("silent: the inertial unit, reported by this port alone") {
   Spell spell{.sensor = &NavigationHealth::gyro, .state = SensorState::silent, .length_s = 3, .imu = false};
   check(spell, 0.6, 0.4);
   CHECK(spell.during.accel.state == SensorState::silent);
-  CHECK(spell.otherwise == "accel ");  // the others go on, and are heard
+  CHECK(spell.otherwise == "accel ");  // the other sensors continue with reports
 }
 
-TEST_CASE("stuck: the same bytes five times in flight; told within 1.4 s") {
+TEST_CASE("stuck: the same bytes five times in flight; reported within 1.4 s") {
   for (const auto& [sensor, alter, reported_s] :
        {std::tuple{&NavigationHealth::baro, held(&Samples::baro), 0.8},
         std::tuple{&NavigationHealth::mag, held(&Samples::mag), 0.8},
@@ -237,7 +237,7 @@ TEST_CASE("what reads the same while the aircraft stands is not stuck") {
   CHECK(worst == SensorState::ok);
 }
 
-TEST_CASE("noisy: ten times its noise; told within 2.5 s, left within 6 s") {
+TEST_CASE("noisy: ten times its noise; reported within 2.5 s, cleared within 6 s") {
   const auto baro = [](Samples& s, Random& random) {
     if (s.baro) s.baro->pressure_pa += 40 * random.normal();
   };
@@ -259,11 +259,11 @@ TEST_CASE("noisy: ten times its noise; told within 2.5 s, left within 6 s") {
   }
 }
 
-TEST_CASE("biased: off by four deviations, which the gate lets through; told within 9 s, left within 4 s") {
+TEST_CASE("biased: an error of 4 sigma within the gate; reported within 9 s, cleared within 4 s") {
   for (const double off_m : {8.0, -9.0}) {
     Spell spell{.sensor = &NavigationHealth::gnss_height, .state = SensorState::biased};
     spell.alter = of_fix([off_m](Gnss& g, Random&) { g.altitude_m += off_m; });
-    check(spell, 9, 4);  // how soon, what the receiver is off by itself decides
+    check(spell, 9, 4);  // the error of the receiver itself decides the delay
     CHECK(spell.during.gnss_height.refused == spell.before.gnss_height.refused);
     CHECK(spell.during.gnss_height.innovation_mean_ratio * off_m < -2);  // down
     CHECK(spell.during.gnss_height.state == SensorState::biased);
@@ -271,9 +271,9 @@ TEST_CASE("biased: off by four deviations, which the gate lets through; told wit
   }
 }
 
-TEST_CASE("refused: off by more than the gate; told 1 s after, left when it is believed or right again") {
+TEST_CASE("refused: an error beyond the gate; reported after 1 s, cleared when accepted or right again") {
   const auto baro = [k = 0](Samples& s, Random&) mutable {
-    if (s.baro) s.baro->pressure_pa += 240 + ++k;  // and farther and farther
+    if (s.baro) s.baro->pressure_pa += 240 + ++k;  // with a growing error
   };
   const auto pitot = [](Samples& s, Random&) {
     if (s.pitot) s.pitot->pressure_pa += 400;
@@ -314,7 +314,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("biased: a position that goes where the velocity does not; told within 2 s, and not followed") {
+TEST_CASE("biased: a position that drifts against the velocity; reported within 2 s, and not followed") {
   Spell spell{.sensor = &NavigationHealth::gnss_position, .state = SensorState::biased};
   spell.alter = [n = 0](Samples& s, Random&) mutable {
     if (s.gnss) s.gnss->latitude_deg += 3 / ublox.gnss_hz * ++n / 111e3;  // 3 m/s
@@ -331,7 +331,7 @@ TEST_CASE("a velocity that is wrong is not laid to the position's charge") {
   CHECK(spell.otherwise == "");
 }
 
-TEST_CASE("biased: a tube that steps by 50 Pa either way, within 0.4 s; and it is not used") {
+TEST_CASE("biased: a pitot that steps by 50 Pa either way, within 0.4 s; and it is not used") {
   for (const double off_pa : {50.0, -50.0}) {
     Spell spell{.sensor = &NavigationHealth::pitot, .state = SensorState::biased};
     spell.alter = [off_pa](Samples& s, Random&) {
@@ -343,7 +343,7 @@ TEST_CASE("biased: a tube that steps by 50 Pa either way, within 0.4 s; and it i
   }
 }
 
-TEST_CASE("biased: a tube that ices over in seconds, before it reads nothing") {
+TEST_CASE("biased: a pitot that ices over in seconds, before it reads nothing") {
   Spell spell{.sensor = &NavigationHealth::pitot, .state = SensorState::biased};
   spell.alter = [share = 1.0](Samples& s, Random&) mutable {
     if (s.pitot) s.pitot->pressure_pa *= share *= std::exp(-1 / ublox.pitot_hz);
@@ -352,7 +352,7 @@ TEST_CASE("biased: a tube that ices over in seconds, before it reads nothing") {
   CHECK(spell.otherwise == "");
 }
 
-TEST_CASE("a tube that stays off by a step is believed after half a minute") {
+TEST_CASE("a pitot with a constant step is accepted after half a minute") {
   Spell spell{.sensor = &NavigationHealth::pitot, .state = SensorState::biased, .length_s = 40};
   spell.alter = [](Samples& s, Random&) {
     if (s.pitot) s.pitot->pressure_pa += 50;
@@ -363,34 +363,34 @@ TEST_CASE("a tube that stays off by a step is believed after half a minute") {
   CHECK(spell.during.pitot.state == SensorState::ok);
 }
 
-TEST_CASE("a moment of agreement does not take a rejected tube back, six seconds of it do") {
+TEST_CASE("a moment of agreement does not restore a rejected pitot, six seconds do") {
   for (const double sign : {1.0, -1.0}) {
-    navigation::TubeSteps tube;
+    navigation::TubeSteps pitot;
     double t = 0, air = 16;
     const auto reads = [&](double excess, double std, double for_s) {
       for (const double until = t + for_s; t < until; t += 0.02)
-        tube.sampled(air + sign * excess, air, 0.1, std, t);
+        pitot.sampled(air + sign * excess, air, 0.1, std, t);
     };
     reads(0, 1, 10);
-    CHECK_FALSE(tube.off());
+    CHECK_FALSE(pitot.off());
     reads(5.5, 1, 2);
-    CHECK(tube.stepped());
-    // The wind that is estimated meanwhile becomes less certain, whatever the tube reads.
+    CHECK(pitot.stepped());
+    // The wind estimate becomes less certain for any pitot reading.
     reads(5.5, 3, 60);
-    CHECK((tube.stepped() || tube.off()));
+    CHECK((pitot.stepped() || pitot.off()));
     for (double excess = 5.5; excess > 2; excess -= 0.5) reads(excess, 3, 1);
     reads(2, 3, 3);
-    CHECK((tube.stepped() || tube.off()));
+    CHECK((pitot.stepped() || pitot.off()));
     reads(5.5, 3, 5);
-    CHECK((tube.stepped() || tube.off()));
+    CHECK((pitot.stepped() || pitot.off()));
     for (double excess = 5.5; excess > 0; excess -= 0.5) reads(excess, 3, 1);
     reads(0, 3, 30);
-    CHECK_FALSE(tube.stepped());
-    CHECK_FALSE(tube.off());
+    CHECK_FALSE(pitot.stepped());
+    CHECK_FALSE(pitot.off());
   }
 }
 
-TEST_CASE("a tube that stays off by more than gusts explain is not believed, however long it lasts") {
+TEST_CASE("a pitot with an error beyond gusts is never accepted, however long it lasts") {
   Spell spell{.sensor = &NavigationHealth::pitot, .state = SensorState::biased, .length_s = 60};
   spell.alter = [](Samples& s, Random&) {
     if (s.pitot) s.pitot->pressure_pa += 120;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The height where its two witnesses disagree: a static port that sees the dynamic pressure, a barometer that
-// is noisy under load, a receiver that is off for seconds or for good.
+// The height with two contradicting sensors: a static port with dynamic pressure, a barometer with noise
+// under load, a receiver with a temporary or a constant error.
 #include <doctest/doctest.h>
 
 #include "flight_bench.hpp"
@@ -11,8 +11,7 @@ using namespace synthetic;
 
 namespace {
 
-/// What the height does after `from_s`: largest step beyond what the vertical velocity explains, mean and RMS
-/// error.
+/// Height after `from_s`: largest step beyond the vertical velocity, mean and RMS error.
 struct Heights {
   double from_s = 0, step_m = 0, mean_m = 0, rms_m = 0, before_m = 0, before_s = -1;
   int n = 0;
@@ -33,7 +32,7 @@ struct Heights {
   }
 };
 
-/// The aircraft changes its speed; `share` of the dynamic pressure gets into the static port.
+/// The aircraft changes its speed; the static port has `share` of the dynamic pressure.
 Flown with_port(const std::function<double(double)>& share) {
   Flown f{};
   f.quality.height_walk_m = 0;
@@ -51,7 +50,7 @@ TEST_CASE("a static port that sees a share of the dynamic pressure is learnt, ei
   for (const double share : {0.15, -0.15}) {
     CAPTURE(share);
     Flown f = with_port([&](double) { return share; });
-    const double naive_m = std::abs(share) * 17 * 17 / (2 * 9.80665);  // 2.2: what the barometer is off
+    const double naive_m = std::abs(share) * 17 * 17 / (2 * 9.80665);  // 2.2 m: error of the barometer
     Heights h{40};
     f.watch = [&](const Truth& x, const VehicleState& s, Status) { h.see(x, s); };
     f.run();
@@ -62,7 +61,7 @@ TEST_CASE("a static port that sees a share of the dynamic pressure is learnt, ei
 }
 
 TEST_CASE("a static port whose share changes in flight is followed when a receiver is there to tell") {
-  Flown f = with_port([](double t) { return t < 60 ? 0.0 : 0.5; });  // 7.4 m from one sample to the next
+  Flown f = with_port([](double t) { return t < 60 ? 0.0 : 0.5; });  // 7.4 m between two samples
   f.plan.duration_s = 200;
   Heights h{140};
   f.watch = [&](const Truth& x, const VehicleState& s, Status) { h.see(x, s); };
@@ -146,7 +145,7 @@ TEST_CASE("under load a barometer counts for less") {
   CHECK(height_std(1) > 1.05 * height_std(0));
 }
 
-TEST_CASE("a receiver that is off by 20 m for good is believed in seconds, and the height takes no step") {
+TEST_CASE("a receiver with a constant error of 20 m is accepted in seconds, and the height has no step") {
   for (const double off_m : {20.0, -20.0}) {
     CAPTURE(off_m);
     Flown f{};
@@ -206,7 +205,7 @@ TEST_CASE("what is off by 80 m is refused for ten seconds and then set: no fligh
   CHECK(std::abs(after - 80) < 5);
 }
 
-TEST_CASE("a receiver that says that it does not know its height is not believed for being far off") {
+TEST_CASE("a receiver with a large reported height deviation is not accepted for being far off") {
   Flown f{};
   f.plan.duration_s = 110;
   f.quality.height_walk_m = 0;
@@ -224,7 +223,7 @@ TEST_CASE("a receiver that says that it does not know its height is not believed
 
 TEST_CASE(
     "a receiver whose climb contradicts by more than the doubt is followed, below it counts by its time") {
-  // How far the vertical velocity has moved two seconds after the receiver's has moved by `off_mps`.
+  // Change of the vertical velocity two seconds after a change of the receiver's by `off_mps`.
   const auto moved = [](double off_mps, double doubt) {
     Flown f{.quality = ublox};
     f.plan.duration_s = 63;

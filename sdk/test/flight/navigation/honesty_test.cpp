@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the estimator learns of its noises, and whether its deviations are those of its errors: against
-// processes whose parameters are known.
+// Noise parameters learnt by the estimator, and its standard deviations against its errors: with processes of
+// known parameters.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -20,8 +20,8 @@ namespace {
 struct Learnt {
   double std_mps = 0, time_s = 0;
 };
-/// What is learnt of gusts of `std`, `time_s` in `duration_s` on a wind that is wrong by `offset`; mean of
-/// the second half.
+/// Parameters learnt from gusts of `std`, `time_s` in `duration_s`, on a wind with the error `offset`; mean
+/// of the second half.
 Learnt learnt(double std, double time_s, double offset, std::uint64_t seed, double silent_from_s = 1e9) {
   const Params p;
   Random random(seed);
@@ -56,7 +56,7 @@ Learnt learnt_mean(double std, double time_s, double offset) {
 
 }  // namespace
 
-TEST_CASE("the strength of gusts and how long they last are learnt, whatever the wind is wrong by") {
+TEST_CASE("the strength and the time constant of gusts are learnt, for any error of the wind") {
   for (const double std : {0.5, 1.5, 3.0})
     for (const double time_s : {3.0, 6.0}) {
       CAPTURE(std);
@@ -72,16 +72,16 @@ TEST_CASE("the strength of gusts and how long they last are learnt, whatever the
 
 TEST_CASE("in calm air next to nothing is learnt, and a silence of the tube is no gust") {
   CHECK(learnt(0, 5, 3, 1).std_mps < 0.15);
-  CHECK(learnt(0.5, 5, 0, 1, 400).std_mps < 0.8);  // after the silence all reads 10 m/s more
+  CHECK(learnt(0.5, 5, 0, 1, 400).std_mps < 0.8);  // after the silence all readings are 10 m/s higher
 }
 
-TEST_CASE("the gust along the flight is as sure as it says, and its covariance stays one") {
+TEST_CASE("the gust along the flight matches its standard deviation, and its covariance stays valid") {
   const Params p;
   double normalised = 0;
   int n = 0, within = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Random random(seed);
-    Markov north{0.5, 5, 0}, east{0.5, 5, 0};  // linear: V is 34 times as much
+    Markov north{0.5, 5, 0}, east{0.5, 5, 0};  // linear: V is 34 times as large
     Gusts gusts;
     gusts.forget({{17, 0, 0}, {0.01, 0.01}}, 0, p);
     for (int k = 1; k < 20000; ++k) {
@@ -108,8 +108,8 @@ TEST_CASE("the gust along the flight is as sure as it says, and its covariance s
   CHECK(within / double(n) < 0.8);
 }
 
-TEST_CASE("a receiver whose error lasts minutes: the position is as sure as it says") {
-  double normalised = 0, claimed = 0;
+TEST_CASE("a receiver whose error lasts minutes: the position error matches its standard deviation") {
+  double normalised = 0, reported_std_m = 0;
   int n = 0;
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     Flown f{.quality = ublox};
@@ -125,14 +125,14 @@ TEST_CASE("a receiver whose error lasts minutes: the position is as sure as it s
       next += 25;
       const Vector3d e = eigen(s.position_m) - x.p_n;
       normalised += std::pow(e.x() / s.position_std_m.north, 2) + std::pow(e.y() / s.position_std_m.east, 2);
-      claimed += s.position_std_m.north;
+      reported_std_m += s.position_std_m.north;
       n += 2;
     };
     f.run();
   }
   CHECK(normalised / n > 0.5);
   CHECK(normalised / n < 1.8);
-  CHECK(2 * claimed / n > 1.0);  // no mean of fixes is better than what they have in common
+  CHECK(2 * reported_std_m / n > 1.0);  // a mean of fixes keeps their common error
 }
 
 TEST_CASE(
@@ -165,7 +165,7 @@ TEST_CASE(
 TEST_CASE(
     "a receiver whose velocity is off for seconds: the velocity is as sure as it says, and says more than "
     "before") {
-  double errors = 0, claims = 0;
+  double errors = 0, variances = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Flown f{.quality = ublox};
     f.plan.seed = seed;
@@ -181,16 +181,16 @@ TEST_CASE(
       if (x.t < 60) return;
       const Vector3d e = eigen(s.velocity_mps) - x.v_n;
       errors += e.head<2>().squaredNorm();
-      claims += std::pow(s.velocity_std_mps.north, 2) + std::pow(s.velocity_std_mps.east, 2);
+      variances += std::pow(s.velocity_std_mps.north, 2) + std::pow(s.velocity_std_mps.east, 2);
     };
     f.run();
   }
-  CHECK(std::sqrt(errors / claims) > 0.75);
-  CHECK(std::sqrt(errors / claims) < 1.25);
+  CHECK(std::sqrt(errors / variances) > 0.75);
+  CHECK(std::sqrt(errors / variances) < 1.25);
 }
 
 TEST_CASE("half a minute without GNSS in gusts: the claim grows, and the error stays within it") {
-  double errors = 0, claims = 0;
+  double errors = 0, variances = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Flown f{.quality = ublox};
     f.plan.seed = seed;
@@ -201,11 +201,11 @@ TEST_CASE("half a minute without GNSS in gusts: the claim grows, and the error s
     };
     f.run();
     errors += (eigen(f.last.position_m) - f.last_truth.p_n).head<2>().squaredNorm();
-    claims += std::pow(f.last.position_std_m.north, 2) + std::pow(f.last.position_std_m.east, 2);
+    variances += std::pow(f.last.position_std_m.north, 2) + std::pow(f.last.position_std_m.east, 2);
   }
-  CHECK(std::sqrt(errors / claims) < 1);  // how much less: recorded_flight_test.cpp
-  CHECK(std::sqrt(claims / 12) > 5);
-  CHECK(std::sqrt(claims / 12) < 50);
+  CHECK(std::sqrt(errors / variances) < 1);  // bound on recorded data: recorded_flight_test.cpp
+  CHECK(std::sqrt(variances / 12) > 5);
+  CHECK(std::sqrt(variances / 12) < 50);
 }
 
 TEST_CASE("wind with gusts is better known than the mean wind alone") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component of an author's that holds the estimator and fuses one sensor more: a height. Flown beside the
-// shipped one on the same samples.
+// A component of an author that contains the estimator, and fuses one more sensor: a height. It runs next to
+// the shipped one with the same samples.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -45,7 +45,7 @@ struct WithHeight {
       if (!in.height || !in.height.fresh()) return;
       const ErrorStateEkf& f = navigator.filter();
       ekf::Scalar z = ekf::position(f, f.at(f.time_s()), 2, -in.height->height_m);
-      if (bias >= 0) {  // by what it reads too high it reads too little down
+      if (bias >= 0) {  // a positive bias means too small a down position
         z.innovation += f.more().value(bias);
         z.more(bias) = -1;
         learnt = f.more();
@@ -59,8 +59,8 @@ struct WithHeight {
   navigation::Ekf ekf;
   navigation::Aid aid;
   double refused_for_s = 0;
-  int bias = -1;                 ///< index of the state: what it reads too high, m
-  ErrorStateEkf::More learnt{};  ///< as of the last height
+  int bias = -1;                 ///< index of the state: bias, m
+  ErrorStateEkf::More learnt{};  ///< at the last height
 };
 
 template <class S>
@@ -68,7 +68,8 @@ bool equal(const S& a, const S& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// The same samples for both; `height` of the truth is what ours is given at 20 Hz, nothing when it is empty.
+/// The same samples for both. `height` returns the 20 Hz sample of ours from the truth; no sample if it is
+/// empty.
 struct Both {
   Bench<Ekf> shipped;
   Bench<WithHeight> ours;
@@ -190,7 +191,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("an appended state learns what the sensor reads too high, and says how well") {
+TEST_CASE("an appended state learns the bias of the sensor, with its standard deviation") {
   for (const double high_m : {-3.0, 3.0}) {
     CAPTURE(high_m);
     Both both;
@@ -203,10 +204,10 @@ TEST_CASE("an appended state learns what the sensor reads too high, and says how
     CHECK(ours.aid.refused == 0);
     CHECK(bias_m / high_m == doctest::Approx(1).epsilon(0.25));
     CHECK(std::abs(bias_m - high_m) < 2 * std_m);
-    // It is known as well as the height itself, and no better: the two are one unknown.
+    // Its accuracy is that of the height: both are one unknown.
     const double height_std_m = both.ours.out.nav.state.value.position_std_m.down;
     CHECK(std_m / height_std_m == doctest::Approx(1).epsilon(0.1));
-    // What is off by a constant tells how the height changes, little of what it is.
+    // A sensor with a constant bias measures changes of the height, and little of the height itself.
     const double of_shipped = height_std_m / both.shipped.out.state.value.position_std_m.down;
     CHECK(of_shipped < 1.01);
     CHECK(of_shipped > 0.75);
@@ -214,7 +215,7 @@ TEST_CASE("an appended state learns what the sensor reads too high, and says how
   }
 }
 
-TEST_CASE("what was appended outlasts a gap, and begins anew where the estimator takes over or is set up") {
+TEST_CASE("appended states survive a gap, and restart at a switch or at set-up") {
   Both both;
   both.silent_from_s = 30;
   both.silent_s = 3;
@@ -229,7 +230,7 @@ TEST_CASE("what was appended outlasts a gap, and begins anew where the estimator
   CHECK(both.ours.component().learnt.value(0) == doctest::Approx(before.value(0)).epsilon(0.3));
   navigation::Ekf ekf;
   const navigation::Params p = both.shipped.params;
-  for (int i = 0; i < 3; ++i) {  // set up again and again: one state, not three
+  for (int i = 0; i < 3; ++i) {  // after repeated configurations: one state, not three
     ekf.configure(p);
     CHECK(ekf.append({.std = 2}) == 0);
   }
@@ -267,7 +268,7 @@ TEST_CASE("it takes over from the state that was applied last, as the shipped on
   after.set(after.in.sensors.imu, Imu{});
   Applied<WithHeight::Outputs> last;
   last.outputs.nav.state.value = flown;
-  last.made_bits = 0b10;  // behind the probe: the state
+  last.made_bits = 0b10;  // bit after the probe: the state
   REQUIRE(after.activate(last) == Status::ok);
   after.set(after.in.sensors.imu, Imu{{0, 0, -9.8}, {}}, -0.0025);
   after.step(0.0025);

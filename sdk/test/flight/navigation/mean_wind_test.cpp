@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What gusts make of the mean wind, under gains that are given.
+// Effect of gusts on the mean wind, with given gains.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace fulmar;
 
 TEST_CASE("what gusts make of a mean wind that follows them with a constant gain is as in the closed form") {
   navigation::Params p;
-  navigation::Gusts gusts;  // not learnt: 1 m/s and 12 s, of which 1.2 and 1.4 times count
+  navigation::Gusts gusts;  // defaults: 1 m/s and 12 s, used times 1.2 and 1.4
   for (const double side : {1.0, -1.0})
     for (const double gain : {0.02, 0.2}) {
       navigation::MeanWindError error;

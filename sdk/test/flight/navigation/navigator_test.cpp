@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The navigator by single samples: what each gate lets through, and what a taking over, a bridge and a gap
-// leave behind.
+// The navigator by single samples: the limits of each gate, and the state after a switch, a bridge and a gap.
 #include "fulmar/flight/navigation/navigator.hpp"
 
 #include <doctest/doctest.h>
@@ -59,7 +58,7 @@ VehicleStatus on_the_ground() {
   return s;
 }
 
-/// Stands without a magnetometer, until `until_s`.
+/// At rest without a magnetometer, until `until_s`.
 void stand(Navigator& n, const Params& p, double until_s, double hz = 200) {
   n.status(on_the_ground());
   while (n.time_s() < until_s) n.imu(still_omega, level_f, n.time_s() + 1 / hz, p);
@@ -108,7 +107,7 @@ TEST_CASE("a sample at the time of the last one is none") {
 TEST_CASE("a fix knows as much of the height as there are correlation times since the last one") {
   const Params p;
   Navigator n = resumed(flying());
-  double at_s = 10.0025, last_s = 0;  // after the longest time that counts, 10 s, and after 1 s
+  double at_s = 10.0025, last_s = 0;  // after the longest interval that counts, 10 s, and after 1 s
   for (const double since_s : {10.0, 1.0}) {
     if (last_s > 0)
       for (at_s = last_s; at_s < last_s + since_s - 0.001;) n.imu(still_omega, level_f, at_s += 0.0025, p);
@@ -117,7 +116,7 @@ TEST_CASE("a fix knows as much of the height as there are correlation times sinc
     const double before = std_of(n, ekf::pos + 2);
     Gnss g = fix();
     g.velocity_mps = {17, 0, n.filter().state().v_n.z()};
-    g.speed_std_mps = 1000;  // says nothing of the velocity
+    g.speed_std_mps = 1000;  // no information on the velocity
     g.altitude_m = alt - n.filter().state().p_n.z();
     n.gnss(g, at_s + p.gnss_delay, p);
     const double known = 1 / std::pow(std_of(n, ekf::pos + 2), 2) - 1 / (before * before);
@@ -146,7 +145,7 @@ TEST_CASE("over a bridge the air meets the aircraft as before, and the wind goes
                  wind(n.filter().state().wind.x(), n.filter().state().wind.y(), 0);
   REQUIRE(wind.norm() > 2);
   n.bridge(Quaterniond(Eigen::AngleAxisd(pi / 2, Vector3d::UnitZ())), p);
-  const Vector3d air = v - wind, turned(-air.y(), air.x(), air.z());  // a quarter to the right
+  const Vector3d air = v - wind, turned(-air.y(), air.x(), air.z());  // rotated by 90 deg to the right
   CHECK((n.filter().state().v_n - (turned + wind)).norm() < 1e-9);
 }
 
@@ -232,7 +231,7 @@ TEST_CASE("a fix that was slow long ago is no witness that the aircraft rests") 
     CAPTURE(goes_on);
     Navigator n;
     n.start(p);
-    for (int i = 1; i <= 1200; ++i) {  // 6 s, and nobody but the receiver could say that it stands
+    for (int i = 1; i <= 1200; ++i) {  // 6 s, in which only the receiver could measure rest
       n.imu(still_omega, level_f, 0.005 * i, p);
       if (i == 20 || (goes_on && i % 200 == 0)) n.gnss(fix(0), n.time_s(), p);
     }
@@ -250,7 +249,7 @@ TEST_CASE("an alignment in the air begins after the gap, not with a fix of befor
     while (t < until_s - 1e-9) n.imu(still_omega, level_f, t += 0.005, p);
   };
   run(0.1);
-  n.gnss(fix(0), t, p);  // not known to rest yet
+  n.gnss(fix(0), t, p);  // rest not known yet
   n.status(on_the_ground());
   for (const double until_s : {0.5, 0.8, 1.1, 1.4}) {
     run(until_s);
@@ -264,7 +263,7 @@ TEST_CASE("an alignment in the air begins after the gap, not with a fix of befor
   n.imu(still_omega, level_f, t += 0.06, p);
   REQUIRE_FALSE(n.aligned());
   run(t + 0.2);
-  n.gnss(fix(), t, p);  // the first since
+  n.gnss(fix(), t, p);  // the first one after it
   CHECK_FALSE(n.aligned());
   run(t + 0.6);
   n.gnss(fix(), t, p);
@@ -293,7 +292,7 @@ TEST_CASE("what is kept over a gap becomes unsure as a walk does: with the root 
 TEST_CASE("the magnetic field is that of the year which the receiver tells, also where the origin is given") {
   const Params p;
   constexpr double there_lat = 55,
-                   there_lon = -125;  // the declination goes west by a fifth of a degree a year
+                   there_lon = -125;  // the declination moves west by a fifth of a degree per year
   VehicleState s = flying();
   s.origin_latitude_deg = there_lat;
   s.origin_longitude_deg = there_lon;
@@ -328,7 +327,7 @@ using EkfBench = Bench<Ekf>;
 void imu(EkfBench& bench) {
   Imu sample;
   sample.specific_force_mps2 = {0, 0, -isa::g0};
-  bench.set(bench.in.imu, sample, -0.0025);  // valid in the step to come
+  bench.set(bench.in.imu, sample, -0.0025);  // valid at the next step
 }
 void take_over(EkfBench& bench, VehicleState s) {
   s.attitude_valid = s.velocity_valid = true;
@@ -337,7 +336,7 @@ void take_over(EkfBench& bench, VehicleState s) {
   Ekf::Outputs last;
   last.state.value = s;
   REQUIRE(bench.activate(last) == Status::ok);
-  bench.tick.now_ns += 2'500'000;  // the first sample after that of the hand-over
+  bench.tick.now_ns += 2'500'000;  // the first sample after the switch
 }
 void fly(EkfBench& bench, int steps) {
   for (int i = 0; i < steps; ++i) {

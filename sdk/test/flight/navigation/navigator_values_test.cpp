@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The navigator's numbers by single samples: values taken over, the shift by a fix of any deviation, how long
-// a refused sensor waits, attitudes neither level nor along north.
+// Values of the navigator by single samples: state taken over at a switch, shift by a fix of any standard
+// deviation, waiting time of a rejected sensor, tilted attitudes that do not point north.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double lat = 40.25, lon = -111.65, alt = 1387;
 
-/// Everything is something else, so that nothing can be taken for another.
+/// A state with a different value in each field, so that an exchange is detected.
 VehicleState odd() {
   VehicleState s;
   s.attitude = from_eigen(quaternion_from({0.2, -0.1, 2.4}));
@@ -44,7 +44,7 @@ Navigator resumed(const VehicleState& s, const Params& p = {}) {
 }
 double std_of(const Navigator& n, int i) { return n.filter().std(i); }
 
-/// Where the navigator thinks it is, moved by so much.
+/// Fix at the estimated position and velocity, with these errors.
 Gnss fix_at(const Navigator& n, const Vector3d& off_m, const Vector3d& off_mps) {
   const LocalFrame frame(lat, lon, alt);
   const auto at = frame.from_ned(n.filter().state().p_n + off_m);
@@ -59,7 +59,7 @@ Gnss fix_at(const Navigator& n, const Vector3d& off_m, const Vector3d& off_mps) 
   g.fix = FixType::fix_3d;
   return g;
 }
-/// Flies on without an acceleration, until `until_s`.
+/// Flies without acceleration until `until_s`.
 void fly(Navigator& n, const Params& p, double until_s) {
   const ekf::Nominal& x = n.filter().state();
   while (n.time_s() < until_s - 1e-9)
@@ -142,7 +142,7 @@ TEST_CASE("a fix moves the position by the share of its variance, north and east
   for (const double std_m : {3.0, 0.5, 8.0}) {
     Navigator n = resumed(odd());
     fly(n, p, 10.01);
-    // The receiver's slow error counts beside its white one.
+    // The slow error of the receiver adds to its white noise.
     const double P = std::pow(std_of(n, ekf::pos), 2), R = std_m * std_m,
                  B = std::pow(p.gnss_horizontal_std, 2);
     Gnss g = fix_at(n, {2, -3, 0}, Vector3d::Zero());
@@ -156,7 +156,7 @@ TEST_CASE("a fix moves the position by the share of its variance, north and east
   }
 }
 
-TEST_CASE("a velocity moves each axis by its share, and says so of the axis alone") {
+TEST_CASE("a velocity moves each axis by its share, and reports that axis alone") {
   const Params p;
   for (int axis = 0; axis < 2; ++axis) {
     Navigator n = resumed(odd());
@@ -203,7 +203,7 @@ TEST_CASE(
   const Params p;
   Navigator n = resumed(odd());
   const auto until_set = [&](const Vector3d& off) {
-    const Vector3d at = n.filter().state().p_n;  // flown on with the velocity of the filter
+    const Vector3d at = n.filter().state().p_n;  // propagated with the velocity of the filter
     const double begin = n.time_s();
     const std::uint32_t count = n.resets().count;
     while (n.resets().count == count && n.time_s() < begin + 20) {
@@ -225,7 +225,7 @@ TEST_CASE(
   CHECK(std::abs(n.resets().position_m.z()) < 1);
   CHECK(std::abs(until_set(-off) - 2) < 0.8);
   CHECK(n.resets().position_m.x() == Approx(-120).epsilon(0.02));
-  for (int k = 0; k < 330; ++k) {  // more than a minute in order
+  for (int k = 0; k < 330; ++k) {  // more than a minute of valid samples
     fly(n, p, n.time_s() + 0.2);
     n.gnss(fix_at(n, Vector3d::Zero(), Vector3d::Zero()), n.time_s(), p);
   }

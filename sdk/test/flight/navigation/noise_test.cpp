@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What samples and innovations tell of their own noise, and what gusts make of the mean wind: against
-// sequences whose statistics are known.
+// Noise estimates from samples and innovations, and the effect of gusts on the mean wind: with sequences of
+// known statistics.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Density that is learnt of a unit with noise of `std` a sample, that sways by +-`sway` at 2 Hz.
+/// Learnt density of a unit with noise of `std` per sample, and an oscillation of +-`sway` at 2 Hz.
 double learnt(double std, double rate_hz, double seconds, double reported, double sway = 0) {
   Random r(7);
   UnitNoise noise;
@@ -35,7 +35,7 @@ double learnt(double std, double rate_hz, double seconds, double reported, doubl
   return noise.density(reported);
 }
 
-/// Innovations at 10 Hz: white noise of `white` and a first-order process of `slow` and 2 s, for a minute.
+/// Innovations at 10 Hz for a minute: white noise of `white` and a first-order process of `slow` with 2 s.
 FixNoise receiver(double white, double slow, double reported) {
   Random r(3);
   FixNoise noise;
@@ -49,7 +49,7 @@ FixNoise receiver(double white, double slow, double reported) {
   return noise;
 }
 
-/// Deviation of the tilt after 20 s with this rate about x, from nothing; no noise but that of the scale.
+/// Standard deviation of the tilt after 20 s with this rate about x, from 0, with scale noise alone.
 double tilt_std(double rate_hz, double (*rate)(double t_s)) {
   ErrorStateEkf f;
   f.noise = {};
@@ -63,7 +63,8 @@ double tilt_std(double rate_hz, double (*rate)(double t_s)) {
 
 }  // namespace
 
-TEST_CASE("an inertial unit tells its own noise: that of both sets of sensors, five times as much, a fifth") {
+TEST_CASE(
+    "the noise of an inertial unit is learnt: that of both sets of sensors, five times as much, a fifth") {
   // plugins/sim_aero: 0.2 and 0.0139 m/s2, 2.26e-3 and 0.987e-3 rad/s a sample at 400 Hz
   for (const double times : {1.0, 5.0, 0.2})
     for (const double rate_hz : {100.0, 400.0}) {
@@ -82,7 +83,8 @@ TEST_CASE("an inertial unit tells its own noise: that of both sets of sensors, f
     }
 }
 
-TEST_CASE("motion is no noise, an unknown unit has what was told, a slow one too, and there are bounds") {
+TEST_CASE(
+    "motion is no noise, an unknown unit has the reported noise, a slow one too, and there are bounds") {
   CHECK(learnt(0.05, 400, 20, 0.02, 5) / std::hypot(0.05 / 20, 0.01) == doctest::Approx(1).epsilon(0.06));
   CHECK(learnt(0.05, 100, 20, 0.02, 2) / std::hypot(0.05 / 10, 0.01) == doctest::Approx(1).epsilon(0.08));
   CHECK(learnt(0.2, 400, 0.4, 0.02) == 0.02);
@@ -100,7 +102,7 @@ TEST_CASE("of what a receiver states, the part that is white counts once, and th
   CHECK(slow.climb(41) / (white + 41 * (reported - white)) == doctest::Approx(1).epsilon(0.02));
   CHECK(slow.beyond(0.2) / std::sqrt(0.04 - (reported - white)) == doctest::Approx(1).epsilon(0.02));
   CHECK(slow.beyond(0.1) == 0);
-  // One that says what it is, all of it white: a fix is a fix. One that scatters by more: not by less either.
+  // A receiver with correct white noise: each fix counts in full. One with more noise: not less either.
   for (const double std : {0.15, 0.5}) {
     const FixNoise honest = receiver(std, 0, 0.15);
     CHECK(honest.level(6) < (std > 0.15 ? 1.0001 : 1.8) * reported);
@@ -125,11 +127,11 @@ TEST_CASE("a scale error counts where a turn lasts, either way, and hardly where
   // (1e-3 0.5)^2 times the integral of 1 - exp(-t / 2) over 20 s
   CHECK(right / (5e-4 * std::sqrt(18.0)) == doctest::Approx(1).epsilon(0.01));
   CHECK(left / right == doctest::Approx(1));
-  // 1.5 Hz: what was lags a quarter behind what is, and is 1 / (2 pi 1.5 2) of it; their product's positive
-  // half
+  // 1.5 Hz: the past value lags by a quarter period, and has 1 / (2 pi 1.5 2) of the amplitude; positive half
+  // of their product
   const double sways = tilt_std(100, [](double t) { return 0.5 * std::sin(2 * pi * 1.5 * t); });
   CHECK(sways < 0.12 * right);
-  // A pull of 0.2 s: (1e-3 5)^2 times the integral of 1 - exp(-t / 2) over it, as a scale error makes of it
+  // A pull of 0.2 s: (1e-3 5)^2 times the integral of 1 - exp(-t / 2) over it, as a scale error gives
   const double pull = tilt_std(100, [](double t) { return t < 0.2001 ? 5.0 : 0.0; });
   CHECK(pull / (5e-3 * std::sqrt(0.2 - 2 * (1 - std::exp(-0.1)))) == doctest::Approx(1).epsilon(0.1));
 }

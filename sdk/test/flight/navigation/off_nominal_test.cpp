@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sensors that are late, wrong or not there, and courses through south.
+// Late, wrong or missing sensors, and courses through south.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Fixes of a receiver that goes north by `extra_mps` faster than its velocity says; when its wander is
-/// doubted, s after the first of them: from, to.
+/// Fixes of a receiver whose position moves north faster than its velocity by `extra_mps`; start and end of
+/// its reported drift, s after the first fix.
 struct Doubt {
   double from_s = -1, to_s = -1;
   bool wanders_at_the_end = false;
@@ -76,7 +76,7 @@ TEST_CASE("without a status and a fix a smooth flight is no rest when the tube f
     return n.filter().state().v_n.norm();
   };
   CHECK(speed_after(17) > 15);
-  CHECK(speed_after(1) < 2);  // a tube that feels none is a witness of rest
+  CHECK(speed_after(1) < 2);  // a pitot without pressure shows rest
 }
 
 TEST_CASE(

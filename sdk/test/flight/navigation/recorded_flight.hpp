@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A recorded flight (CSV files beside each other) as the component's messages in order of time.
+// A recorded flight (CSV files of one folder) as messages for the component in order of time.
 #pragma once
 #include <cstdlib>
 #include <fstream>

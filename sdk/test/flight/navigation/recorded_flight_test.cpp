@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A real flight: Skywalker X-8, 2013, aerobatics included. There is no attitude truth: agreement with the
-// estimate made on board is a sanity bound, GNSS velocity and the drift without GNSS are measurements.
+// on-board estimate is a sanity check; GNSS velocity and the drift without GNSS are measurements.
 #include "recorded_flight.hpp"
 
 #include <doctest/doctest.h>
@@ -92,9 +92,10 @@ Agreement agreement(const recorded::Flight& f, const std::vector<Estimate>& e, d
 }
 
 struct Outage {
-  double error_m, claimed_m;
+  double error_m, reported_m;
 };
-/// Horizontal distance to the last real fix before the end of the outage, and what was claimed of it.
+/// Horizontal distance to the last real fix before the end of the outage, and its reported standard
+/// deviation.
 Outage outage(const recorded::Flight& f, double t0, double duration) {
   const std::vector<Estimate> e = replay(f, {0, t0 + duration + 1, t0, t0 + duration});
   const recorded::Fix* last = nullptr;
@@ -129,7 +130,8 @@ TEST_CASE(
   CHECK(a.attitude.y() < 3.3 * deg);
   CHECK(a.attitude.z() < 5.1 * deg);
   CHECK(a.velocity.head<2>().maxCoeff() < 1.2);
-  CHECK(a.velocity.z() < 1.5);  // the receiver's own slow error is in it: the filter holds with the barometer
+  CHECK(a.velocity.z() <
+        1.5);  // includes the slow error of the receiver, against which the filter uses the barometer
   double north = 0, east = 0, mean = 0, squares = 0;  // the last two without gusts
   int n = 0;
   for (const Estimate& estimate : e) {
@@ -194,20 +196,20 @@ TEST_CASE("on a real flight ten and thirty seconds without GNSS stay within the 
   if (!f) return;
   for (const auto& [duration, median, worst] : {std::tuple{10.0, 9.0, 20.0}, std::tuple{30.0, 27.0, 42.0}}) {
     std::vector<double> errors;
-    double squares = 0, claimed = 0;
+    double squares = 0, reported = 0;
     for (double t0 = 280; t0 <= 520; t0 += 30) {
       const Outage o = outage(*f, t0, duration);
       errors.push_back(o.error_m);
       squares += o.error_m * o.error_m;
-      claimed += o.claimed_m * o.claimed_m;
+      reported += o.reported_m * o.reported_m;
     }
     std::sort(errors.begin(), errors.end());
     const double seconds = duration;
     CAPTURE(seconds);
     CHECK(errors[errors.size() / 2] < median);
     CHECK(errors.back() < worst);
-    CHECK(std::sqrt(squares / claimed) > 0.7);  // and it says so
-    CHECK(std::sqrt(squares / claimed) < 1.7);
+    CHECK(std::sqrt(squares / reported) > 0.7);  // as reported
+    CHECK(std::sqrt(squares / reported) < 1.7);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is set, and not moved by degrees, is counted and told by its size.
+// Steps of the state are counted and published with their size.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using fulmar::navigation::Params;
 
 namespace {
 
-/// A reset, and the states on its two sides.
+/// A reset, with the states before and after it.
 struct Reset {
   double t;
   VehicleState before, after;
@@ -34,7 +34,7 @@ std::vector<Reset> resets_of(Flown& f) {
   return resets;
 }
 
-/// What the state has moved by beyond its velocity.
+/// Change of the state beyond its velocity.
 Vector3d jump(const Reset& r, double dt) {
   return eigen(r.after.position_m) - eigen(r.before.position_m) - dt * eigen(r.after.velocity_mps);
 }
@@ -43,7 +43,7 @@ constexpr double dt = 1.0 / 400, metres_per_degree = 111000;
 
 }  // namespace
 
-TEST_CASE("a flight from the ground, and one from the air, sets nothing: no reset is told") {
+TEST_CASE("a flight from the ground, and one from the air, has no reset") {
   for (const Quality& quality : {rosflight, ublox})
     for (const double from : {0.0, 47.0, 62.0}) {
       Flown f{.quality = quality, .from_s = from};
@@ -64,7 +64,7 @@ TEST_CASE(
   const std::vector<Reset> resets = resets_of(f);
   REQUIRE(resets.size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
-    const Reset& r = resets[i];  // what was believed once is doubted after 2 s
+    const Reset& r = resets[i];  // a fix that was accepted once is down-weighted after 2 s
     CHECK(r.after.reset_count == i + 1);
     CHECK(r.t == doctest::Approx(i == 0 ? 64 : 77).epsilon(0.01));
     CHECK(r.after.reset_position_m.north == doctest::Approx(i == 0 ? 200 : -200).epsilon(0.03));
@@ -74,7 +74,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("velocities refused for long and believed in the end are a reset of the velocity") {
+TEST_CASE("velocities rejected for long and accepted at last are a reset of the velocity") {
   Flown f{};
   f.plan.duration_s = 72;
   f.alter = [](const Truth& x, Samples& s) {
@@ -110,7 +110,7 @@ TEST_CASE("found again after a gap is one reset, from the state that stood in fo
   REQUIRE(resets.size() == 1);
   const Reset& r = resets[0];
   CHECK(r.t > 61.5);
-  CHECK(eigen(r.after.reset_position_m).norm() > 15);  // it flew on at 17 m/s
+  CHECK(eigen(r.after.reset_position_m).norm() > 15);  // it moved at 17 m/s
   CHECK((eigen(r.after.position_m) - eigen(r.before.position_m) - eigen(r.after.reset_position_m)).norm() <
         0.1);
   CHECK((eigen(r.after.velocity_mps) - eigen(r.before.velocity_mps) - eigen(r.after.reset_velocity_mps))
@@ -129,7 +129,7 @@ TEST_CASE("without a magnetometer the course of the take-off run resets the yaw"
   CHECK(std::abs(wrap_pi(r.after.yaw_rad - f.plan.initial_course_rad)) < 0.1);
 }
 
-TEST_CASE("who takes over goes on with the count") {
+TEST_CASE("after a switch the count continues") {
   VehicleState s;
   s.attitude_valid = s.velocity_valid = s.position_valid = true;
   s.reset_count = 3;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The component on synthetic flights whose truth is known: accuracy, start, loss of each sensor, places on
-// the Earth, hand-over.
+// The component on synthetic flights with known truth: accuracy, start, loss of each sensor, places on the
+// Earth, switches.
 #define FULMAR_COUNT_ALLOCATIONS
 #include <doctest/doctest.h>
 
@@ -41,7 +41,7 @@ TEST_CASE(
 TEST_CASE("biases are found: gyros at rest, accelerometers in the turns") {
   Flown f{.plan = shorter(100)};
   f.run();
-  Sensors same(rosflight, f.plan, f.plan.seed + 100);  // draws the same biases
+  Sensors same(rosflight, f.plan, f.plan.seed + 100);  // with the same biases
   CHECK((eigen(f.last.gyro_bias_radps) - same.gyro_bias).norm() < 1e-3);
   CHECK((eigen(f.last.accel_bias_mps2) - same.accel_bias).norm() < 0.03);
 }
@@ -51,7 +51,7 @@ TEST_CASE("a receiver that is 0.15 s late is used at its time: velocity stays go
   const Errors e = late.run();
   CHECK(e.body_velocity.norm() < 0.2);
   CHECK(e.euler.norm() < 0.6 * deg);
-  // The same fixes taken for present ones: with the delay for granted, and learnt.
+  // The same fixes used as present ones: with the delay fixed, and learnt.
   for (const double known_s : {0.0, 0.05}) {
     CAPTURE(known_s);
     Flown ignored{.plan = shorter(150), .quality = ublox};
@@ -79,16 +79,16 @@ TEST_CASE(
     const Errors e = f.run();
     CHECK(e.body_velocity.norm() < 0.2);
     CHECK((eigen(f.last.position_m) - f.last_truth.p_n).head<2>().norm() < 12);
-    CHECK(std::abs(f.gnss_delay_s + wrong_s) < 0.03);  // told to be older than they are: less is added
+    CHECK(std::abs(f.gnss_delay_s + wrong_s) < 0.03);  // reported too old: the learnt delay is smaller
   }
 }
 
 TEST_CASE("a receiver that is later than any delay that is learnt is used all the same") {
   Flown f{.plan = shorter(150), .quality = ublox};
-  f.quality.latency_s = 0.6;  // told: nothing
+  f.quality.latency_s = 0.6;  // with no reported delay
   f.alter = [&](const Truth&, Samples& s) { s.gnss_age_s = 0; };
   f.run();
-  CHECK(f.gnss_delay_s < 0.21);  // four of its first deviations
+  CHECK(f.gnss_delay_s < 0.21);  // four initial standard deviations
   CHECK(f.last.position_valid);
   CHECK((eigen(f.last.position_m) - f.last_truth.p_n).head<2>().norm() < 25);
 }
@@ -130,7 +130,7 @@ TEST_CASE("what is published is consistent with itself") {
   f.run();
 }
 
-TEST_CASE("the errors are as large as the filter says") {
+TEST_CASE("the errors match the standard deviations of the filter") {
   Flown f{.plan = shorter(150)};
   double squares = 0;
   int n = 0;
@@ -142,8 +142,8 @@ TEST_CASE("the errors are as large as the filter says") {
     n += 6;
   };
   f.run();
-  CHECK(squares / n < 1.5);   // not too sure
-  CHECK(squares / n > 0.02);  // nor useless
+  CHECK(squares / n < 1.5);   // not too small a standard deviation
+  CHECK(squares / n > 0.02);  // not too large either
 }
 
 TEST_CASE("at any field elevation height is right to two per cent and airspeed to one") {
@@ -215,7 +215,7 @@ TEST_CASE(
   CHECK(f.last.attitude_valid);
 }
 
-TEST_CASE("a minute without GNSS is told, and the aircraft is still found within a hundred metres") {
+TEST_CASE("a minute without GNSS is reported, and the position error is below a hundred metres") {
   Flown f{.plan = shorter(150)};
   double worst = 0, worst_attitude = 0;
   f.alter = [](const Truth& x, Samples& s) {
@@ -240,11 +240,11 @@ TEST_CASE("a minute without GNSS is told, and the aircraft is still found within
   CHECK((eigen(f.last.position_m) - f.last_truth.p_n).norm() < 6);
 }
 
-TEST_CASE("without a pitot tube airspeed comes from ground velocity and wind, and says how sure it is") {
+TEST_CASE("without a pitot airspeed comes from ground velocity and wind, with its standard deviation") {
   Flown f{.plan = shorter(150)};
   f.alter = [](const Truth&, Samples& s) { s.pitot.reset(); };
   f.watch = [](const Truth& x, const VehicleState& s, Status) {
-    if (x.t < 4) CHECK_FALSE(s.airspeed_valid);  // no tube, no flight: nobody knows
+    if (x.t < 4) CHECK_FALSE(s.airspeed_valid);  // without pitot and flight the airspeed is unknown
     if (x.t > 80) {
       CHECK(s.airspeed_valid);
       CHECK(std::abs(s.airspeed_mps - x.airspeed()) < 5 * std::hypot(s.airspeed_std_mps, 0.3));
@@ -281,7 +281,7 @@ TEST_CASE("a GNSS position that jumps 20 m for five seconds moves the estimate b
   f.run();
 }
 
-TEST_CASE("fixes refused for long are believed in the end") {
+TEST_CASE("fixes rejected for long are accepted at last") {
   Flown f{.plan = shorter(120)};
   f.alter = [](const Truth& x, Samples& s) {
     if (s.gnss && x.t > 60) s.gnss->latitude_deg += 50 / 111e3;
@@ -291,7 +291,7 @@ TEST_CASE("fixes refused for long are believed in the end") {
   CHECK(f.last.position_valid);
 }
 
-TEST_CASE("a fix that only knows the time, a fix without solution and non-finite samples are not used") {
+TEST_CASE("a fix with time alone, a fix without solution and non-finite samples are not used") {
   Flown f{.plan = shorter(70)};
   f.alter = [](const Truth& x, Samples& s) {
     if (x.t < 40) return;
@@ -341,7 +341,7 @@ TEST_CASE("tuning does not depend on the rate of the inertial unit") {
     f.plan.rate_hz = hz;
     f.quality.accel *= std::sqrt(hz / 400);  // the same noise density
     f.quality.gyro *= std::sqrt(hz / 400);
-    f.plan.gust_mps = 0;  // how strong gusts are is learnt from those that come
+    f.plan.gust_mps = 0;  // the strength of gusts is learnt from gusts
     f.run();
     return std::pair{f.last, f.last_truth};
   };
@@ -394,7 +394,7 @@ TEST_CASE("it takes over from another estimate in flight without a step and with
       CHECK(attitude_error(bench.out.state.value, x) < 2 * deg);
       CHECK((eigen(bench.out.state.value.velocity_mps) - x.v_n).norm() < 0.5);
     }
-    if (x.t > *first + 0.01 && x.t < *first + 0.1) {  // what the other one has learnt is not learnt again
+    if (x.t > *first + 0.01 && x.t < *first + 0.1) {  // biases of the other component are kept
       CHECK((eigen(bench.out.state.value.accel_bias_mps2) - sensors.accel_bias).norm() < 0.1);
       CHECK((eigen(bench.out.state.value.wind_mps) - plan.wind).norm() < 1);
     }
@@ -419,7 +419,7 @@ TEST_CASE("a step allocates nothing, from the first sample through the whole fli
   }
   CHECK(count == 0);
   static int* volatile sink = nullptr;
-  CHECK(allocations([] { sink = new int; }) == 1);  // the counter counts
+  CHECK(allocations([] { sink = new int; }) == 1);  // check of the counter
   delete sink;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sensor that reads the same again and again for 40 s of flight, climb and turns included: nothing is
-// learnt from it, however long it goes on, and afterwards it is used again.
+// A sensor with constant readings for 40 s of flight, including climb and turns: the estimator learns nothing
+// from it, and uses it again afterwards.
 #include <doctest/doctest.h>
 
 #include "flight_bench.hpp"
@@ -28,7 +28,7 @@ struct Worst {
   }
 };
 
-/// Worst errors while it is stuck, and from ten seconds later on.
+/// Largest errors during the fault, and from ten seconds after it.
 std::pair<Worst, Worst> fly_with(const std::function<void(Samples& now, const Samples& first)>& hold,
                                  double from_s = 20) {
   Flown f{.quality = ublox};

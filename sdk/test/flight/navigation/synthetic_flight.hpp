@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight whose truth is known by kinematics alone: rest, take-off run, climb, straight legs and banked
-// turns both ways, in wind and gusts; and what sensors of two qualities would read on it.
+// A flight with a truth from kinematics alone: rest, take-off run, climb, straight legs and banked turns in
+// both directions, in wind and gusts; and the sensor readings of two qualities on it.
 #pragma once
 #include <fulmar/flight/earth/atmosphere.hpp>
 #include <fulmar/flight/earth/geodesy.hpp>
@@ -83,7 +83,7 @@ inline std::vector<Truth> fly(const Plan& plan) {
     const double phi = std::exp(-dt / plan.gust_time_s), kick = plan.gust_mps * std::sqrt(1 - phi * phi);
     gust = phi * gust + kick * Vector3d(random.normal(), random.normal(), 0.5 * random.normal());
     x.wind_n = plan.wind + gust;
-    const Vector3d u = x.v_n - plan.wind;  // the nose into the mean air, gusts from any side
+    const Vector3d u = x.v_n - plan.wind;  // the nose points into the mean air, gusts come from any side
     const double crab = wrap_pi(std::atan2(u.y(), u.x()) - course);
     const double alpha = lift.value * (0.03 + 0.08 * (1 / std::cos(bank.value) - 0.6));
     x.q_nb = quaternion_from({bank.value, gamma + alpha * std::cos(bank.value),
@@ -99,7 +99,7 @@ inline std::vector<Truth> fly(const Plan& plan) {
   return flight;
 }
 
-/// Exponentially correlated noise with deviation `std`.
+/// Exponentially correlated noise with the standard deviation `std`.
 struct Markov {
   double std = 0, time_s = 1, value = 0;
   double step(double dt, Random& random) {
@@ -115,7 +115,7 @@ struct Quality {
   double reported_horizontal, reported_vertical, reported_speed;
   bool pitot_along_x;
 };
-/// As the ROSflight simulator makes them; receiver of the u-blox class on a small airframe.
+/// Noise of the ROSflight simulator; receiver of the u-blox class on a small airframe.
 inline constexpr Quality rosflight{10,   50,  100,  100, 0.2,  0.6, 0.00226, 0.25, 0.0024, 0.14, 4,   500,
                                    1.15, 1.5, 1100, 3,   0.01, 0,   0,       0.21, 0.4,    0.01, true};
 inline constexpr Quality ublox{5, 50,  50, 50,  0.1,  0.15, 0.003, 0.01, 0.01, 5,    3,    300,

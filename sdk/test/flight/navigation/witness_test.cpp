@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The witnesses against a sensor on both sides of each threshold: when they begin, when they end, and that a
-// second fault is found as the first.
+// The fault detectors of a sensor on both sides of each threshold: start and end of a report, and detection
+// of a second fault as of the first.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -22,14 +22,14 @@ int count(int most, Step&& step, Done&& done) {
   return n;
 }
 
-/// A triad of which one axis alternates by +-`amplitude` about 9.
+/// A triad with one axis that alternates by +-`amplitude` about 9.
 Vector3d alternating(int axis, double amplitude, int k) {
   Vector3d v(9, 9, 9);
   v(axis) += k % 2 == 0 ? amplitude : -amplitude;
   return v;
 }
 
-/// Fixes at 5 Hz of a receiver whose position goes by `extra` m/s more than its velocity says.
+/// Fixes at 5 Hz of a receiver whose position moves by `extra` m/s faster than its velocity.
 struct Receiver {
   Wander wander;
   double std_m = 1, t = 0;
@@ -45,8 +45,8 @@ struct Receiver {
   }
 };
 
-/// The tube at 50 Hz beside an airspeed without it.
-struct Tube {
+/// The pitot at 50 Hz, and an airspeed without it.
+struct PitotSamples {
   double noise = 0.05, std = 1, t = 0, otherwise = 17;
   TubeSteps steps{};
   void sample(double excess, double dt = 0.02) {
@@ -72,14 +72,14 @@ TEST_CASE("white noise above a triad's limit is vibration, on any axis, by the m
     CHECK(louder.noisy());
     for (int k = 0; k < 2000; ++k) louder.sampled(alternating(axis, 1.6, k), 2);
     CHECK_FALSE(louder.noisy());
-    triad.sampled(alternating(axis, 0, 0), 1);  // what is there before says nothing
+    triad.sampled(alternating(axis, 0, 0), 1);  // earlier samples do not count
     CHECK_FALSE(triad.noisy());
     // half the mean square of the differences of +-a is 2 a^2: with a^2 = 3 / 2 1 of each axis
     const auto noisy = [&] { return triad.noisy(); };
     triad.sampled(alternating(axis, std::sqrt(3.0), 0), 1);
     const int n = count(
         500, [&](int k) { triad.sampled(alternating(axis, std::sqrt(3.0), k + 1), 1); }, noisy);
-    CHECK(n == 69);  // 2 (1 - 0.99^n) > 1, less half a step at the beginning
+    CHECK(n == 69);  // 2 (1 - 0.99^n) > 1, minus half a step at the start
     for (int k = 0; k < 2000; ++k) triad.sampled(alternating(axis, std::sqrt(3.0), k), 1);
     const auto calm = [&] { return !triad.noisy(); };
     const int m = count(
@@ -106,7 +106,7 @@ TEST_CASE("an axis at its stop is seen after five samples, one that is held else
         }
       };
       lively(24);
-      hold(2, 1 + 5);  // the 25th that differs, then the same
+      hold(2, 1 + 5);  // the 25th different one, then constant
       CHECK(triad.clipped());
       CHECK(triad.was_clipped());
       lively(99);
@@ -115,7 +115,7 @@ TEST_CASE("an axis at its stop is seen after five samples, one that is held else
       lively(1);
       CHECK_FALSE(triad.was_clipped());
       for (int again = 0; again < 2; ++again) {
-        hold(1.5, 1 + 24);  // below the most it has read
+        hold(1.5, 1 + 24);  // below its largest reading
         CHECK_FALSE(triad.clipped());
         hold(1.5, 1);
         CHECK(triad.clipped());
@@ -123,7 +123,7 @@ TEST_CASE("an axis at its stop is seen after five samples, one that is held else
       }
       hold(2, 1 + 4);
       CHECK_FALSE(triad.clipped());
-      hold(0, 50);  // a unit that reads nothing is another fault
+      hold(0, 50);  // a unit with zero readings is another fault
       CHECK_FALSE(triad.clipped());
     }
 }
@@ -149,7 +149,7 @@ TEST_CASE("a position wanders when it is off by 1.6 of its deviation within the 
     CHECK(n == 11);
     r.fixes(20, std_m);
     const double q = std::exp(-0.2 / 3), off = 0.2 * (1 - std::pow(q, 31)) / (1 - q);
-    // until it is below half of the limit: 0.8
+    // until below half of the limit: 0.8
     const int m = count(
         100, [&](int) { r.fix(0); }, [&] { return !r.wander.wanders(); });
     CHECK(m == static_cast<int>(std::ceil(std::log(off / 0.8) / (0.2 / 3))));
@@ -176,7 +176,7 @@ TEST_CASE("a jump, a gap and what follows a missed fix are no wander; a fast tur
   REQUIRE(r.wander.wanders());
   r.fix(0, 6);  // a jump ends it
   CHECK_FALSE(r.wander.wanders());
-  r.fix(0, 1.4);  // and what there was before
+  r.fix(0, 1.4);  // also of its previous excess
   CHECK_FALSE(r.wander.wanders());
   Vector2d v(17, 0), p(0, 0);
   Wander turning;
@@ -190,7 +190,7 @@ TEST_CASE("a jump, a gap and what follows a missed fix are no wander; a fast tur
 }
 
 TEST_CASE("what a receiver is off all the time raises the limit, over minutes, to 4.5 times as much") {
-  const double dt = 0.2, steady = 1.5 * (1 - std::exp(-dt / 3)) / dt;  // off by 1.5 for good
+  const double dt = 0.2, steady = 1.5 * (1 - std::exp(-dt / 3)) / dt;  // constant error of 1.5
   const auto wanders_by = [&](int seconds, double off) {
     Receiver r;
     r.fixes(seconds * 5, steady);
@@ -198,8 +198,8 @@ TEST_CASE("what a receiver is off all the time raises the limit, over minutes, t
     r.fix(steady, off - 1.5);
     return r.wander.wanders();
   };
-  // Its mean square goes to what is seen of it in 60 s, of which twice the usual counts, at least 0.4: 0.2
-  // after 17 s, then by half of itself in 20 s, 0.58 after a minute; 1.49 after five.
+  // Its mean square converges to the value of 60 s, of which twice the usual counts, at least 0.4: 0.2 after
+  // 17 s, then half of the difference in 20 s, 0.58 after a minute; 1.49 after five.
   CHECK_FALSE(wanders_by(20, 1.57));
   CHECK(wanders_by(20, 1.7));
   CHECK_FALSE(wanders_by(60, 2.35));
@@ -226,7 +226,7 @@ TEST_CASE(
       CHECK(step(side * 4.7 * std, std, 0.02).second == 0);
     }
   CHECK(step(3, 0.3, 0.19).second > 0);
-  CHECK(step(3, 0.3, 0.21).second == 0);  // the way there has no samples
+  CHECK(step(3, 0.3, 0.21).second == 0);  // no samples during the change
 }
 
 TEST_CASE("a step of the barometer that comes back within the two seconds is none, and the next one counts") {
@@ -246,32 +246,32 @@ TEST_CASE("a step of the barometer that comes back within the two seconds is non
     CHECK_FALSE(baro.may_be());
   }
   samples(30, 4, false);
-  CHECK_FALSE(samples(200, 6, false));  // it goes on: no step
+  CHECK_FALSE(samples(200, 6, false));  // it continues: no step
   CHECK_FALSE(baro.may_be());
   samples(10, 0, true);
-  const auto found = samples(110, -4, false);  // as if nothing had been before
+  const auto found = samples(110, -4, false);  // as without a history
   REQUIRE(found);
   CHECK(*found == doctest::Approx(-4));
   CHECK_FALSE(baro.may_be());
 }
 
-TEST_CASE("a tube steps by 1.2 m/s, by eight times its noise or by six times what a gust changes") {
+TEST_CASE("a pitot steps by 1.2 m/s, by eight times its noise or by six times what a gust changes") {
   for (const auto& [noise, std, limit] :
        {std::tuple{0.05, 1.0, 1.2}, {0.3, 1.0, 2.4}, {0.05, 4.0, 6 * 4 * std::sqrt(2 * 0.08 / 10)}})
     for (const double share : {0.96, 1.04, -0.96, -1.04}) {
       CAPTURE(limit);
       CAPTURE(share);
-      Tube tube{.noise = noise, .std = std};
-      tube.samples(20, 0.1);
-      tube.samples(2, 0.1 + share * limit);
-      CHECK_FALSE(tube.steps.stepped());
-      tube.sample(0.1 + share * limit);
-      CHECK(tube.steps.stepped() == (std::abs(share) > 1));
+      PitotSamples pitot{.noise = noise, .std = std};
+      pitot.samples(20, 0.1);
+      pitot.samples(2, 0.1 + share * limit);
+      CHECK_FALSE(pitot.steps.stepped());
+      pitot.sample(0.1 + share * limit);
+      CHECK(pitot.steps.stepped() == (std::abs(share) > 1));
     }
 }
 
-TEST_CASE("one odd sample, a ramp, a gap or a step of what the tube is compared with are no step of it") {
-  Tube odd;
+TEST_CASE("one odd sample, a ramp, a gap or a step of what the pitot is compared with are no step of it") {
+  PitotSamples odd;
   odd.samples(20, 0);
   odd.sample(5);
   odd.samples(20, 0);
@@ -279,47 +279,47 @@ TEST_CASE("one odd sample, a ramp, a gap or a step of what the tube is compared 
   odd.sample(-5);
   odd.sample(5);
   CHECK_FALSE(odd.steps.stepped());
-  Tube between;  // one sample on the way
+  PitotSamples between;  // one sample during the change
   between.samples(20, 0);
   between.sample(0.6);
   between.samples(2, 3);
   CHECK_FALSE(between.steps.stepped());
   between.sample(3);
   CHECK(between.steps.stepped());
-  Tube ramp;  // 0.25 m/s a sample: 1 m/s from group to group
+  PitotSamples ramp;  // 0.25 m/s a sample: 1 m/s from group to group
   for (int k = 0; k < 40; ++k) ramp.sample(0.25 * k);
   CHECK_FALSE(ramp.steps.stepped());
   for (const double gap_s : {0.14, 0.16}) {
-    Tube gap;
+    PitotSamples gap;
     gap.samples(20, 0);
     gap.sample(3, gap_s);
     gap.samples(2, 3);
     CHECK(gap.steps.stepped() == (gap_s < 0.15));
   }
-  Tube moved;
+  PitotSamples moved;
   moved.samples(20, 0);
   moved.otherwise += 3;
-  moved.samples(10, -3);  // the tube goes on as before
+  moved.samples(10, -3);  // the pitot continues as before
   CHECK_FALSE(moved.steps.stepped());
-  Tube both;
+  PitotSamples both;
   both.samples(20, 0);
   both.otherwise += 3;
   both.samples(10, 0);
   CHECK_FALSE(both.steps.stepped());
-  Tube few;
+  PitotSamples few;
   few.samples(3, 0);
   few.samples(3, 5);  // six samples have no group before
   CHECK_FALSE(few.steps.stepped());
 }
 
-TEST_CASE("a tube has stepped back when half of the step is left, and not before") {
+TEST_CASE("a pitot has stepped back when half of the step is left, and not before") {
   const auto after = [](double first, double second) {
-    Tube tube;
-    tube.samples(20, 0);
-    tube.samples(20, first);
-    CHECK(tube.steps.stepped());
-    tube.samples(20, first + second);
-    return tube.steps.stepped();
+    PitotSamples pitot;
+    pitot.samples(20, 0);
+    pitot.samples(20, first);
+    CHECK(pitot.steps.stepped());
+    pitot.samples(20, first + second);
+    return pitot.steps.stepped();
   };
   CHECK_FALSE(after(3, -3));
   CHECK_FALSE(after(3, -2.1));  // 0.9 of 2.1
@@ -327,7 +327,7 @@ TEST_CASE("a tube has stepped back when half of the step is left, and not before
   CHECK_FALSE(after(-3, 2.1));
   CHECK(after(-3, 1.9));
   CHECK(after(3, 3));
-  Tube twice;
+  PitotSamples twice;
   twice.samples(20, 0);
   twice.samples(20, 3);
   twice.samples(20, 0);
@@ -336,87 +336,87 @@ TEST_CASE("a tube has stepped back when half of the step is left, and not before
   CHECK(twice.steps.stepped());
 }
 
-TEST_CASE("a tube that has crept off and steps to where it agrees is in order at once") {
+TEST_CASE("a pitot that has crept off and steps to where it agrees is in order at once") {
   for (const double side : {1.0, -1.0})
     for (const double back_at : {2.3, 4.0}) {
-      Tube tube;
-      for (int k = 0; k <= 700; ++k) tube.sample(side * 0.02 * k);
-      REQUIRE(tube.steps.off());
-      tube.samples(3, side * back_at);
-      CHECK(tube.steps.stepped() == (back_at > 2.5));
-      tube.sample(side * back_at);
-      CHECK(tube.steps.off() == (back_at > 2.5));
+      PitotSamples pitot;
+      for (int k = 0; k <= 700; ++k) pitot.sample(side * 0.02 * k);
+      REQUIRE(pitot.steps.off());
+      pitot.samples(3, side * back_at);
+      CHECK(pitot.steps.stepped() == (back_at > 2.5));
+      pitot.sample(side * back_at);
+      CHECK(pitot.steps.off() == (back_at > 2.5));
     }
 }
 
-TEST_CASE("a step of the tube is forgotten after half a minute, if what is left of it can be borne") {
+TEST_CASE("a step of the pitot is forgotten after half a minute, if what is left of it can be borne") {
   for (const double step : {3.4, 3.6, -3.4, -3.6}) {
     CAPTURE(step);
-    Tube tube{.std = 2};
-    tube.samples(60, 0);
-    tube.samples(3, step);
-    REQUIRE(tube.steps.stepped());
-    tube.samples(1490, step);
-    CHECK(tube.steps.stepped());
-    tube.samples(20, step);
-    CHECK(tube.steps.stepped() == (std::abs(step) > 3.5));
+    PitotSamples pitot{.std = 2};
+    pitot.samples(60, 0);
+    pitot.samples(3, step);
+    REQUIRE(pitot.steps.stepped());
+    pitot.samples(1490, step);
+    CHECK(pitot.steps.stepped());
+    pitot.samples(20, step);
+    CHECK(pitot.steps.stepped() == (std::abs(step) > 3.5));
   }
 }
 
-TEST_CASE("a tube that creeps away is off beyond five deviations, and back after six seconds in agreement") {
+TEST_CASE("a pitot that creeps away is off beyond five deviations, and back after six seconds in agreement") {
   for (const double std : {1.0, 3.0})
     for (const double side : {1.0, -1.0}) {
       CAPTURE(std);
-      Tube tube{.std = std};
+      PitotSamples pitot{.std = std};
       const double limit = 5 * std::max(std, 2.0);
       double e = 0;
-      tube.samples(60, 0);
-      while (e < 40 && !tube.steps.off()) {
+      pitot.samples(60, 0);
+      while (e < 40 && !pitot.steps.off()) {
         e += 0.02;
-        tube.sample(side * e);  // 1 m/s2
+        pitot.sample(side * e);  // 1 m/s2
       }
-      CHECK(e == doctest::Approx(limit + 0.6).epsilon(0.01));  // the mean is 0.6 s behind
-      // Back for six seconds within two and a half deviations, and within what can be borne.
+      CHECK(e == doctest::Approx(limit + 0.6).epsilon(0.01));  // the mean lags by 0.6 s
+      // Back for six seconds within two and a half standard deviations, and within the tolerance.
       const double agreed = std::min(2.5 * std, 3.5);
       while (e > agreed + 0.2) {
         e -= 0.02;
-        tube.sample(side * e);
+        pitot.sample(side * e);
       }
-      tube.samples(1000, side * e);
-      CHECK(tube.steps.off());
+      pitot.samples(1000, side * e);
+      CHECK(pitot.steps.off());
       while (e > agreed - 0.2) {
         e -= 0.02;
-        tube.sample(side * e);
+        pitot.sample(side * e);
       }
       const int n = count(
-          1000, [&](int) { tube.sample(side * e); }, [&] { return !tube.steps.off(); });
-      CHECK(std::abs(0.02 * n - 6) < 0.7);  // the mean comes within in the first of them
+          1000, [&](int) { pitot.sample(side * e); }, [&] { return !pitot.steps.off(); });
+      CHECK(std::abs(0.02 * n - 6) < 0.7);  // the mean is within after the first of them
     }
 }
 
 TEST_CASE(
-    "a tube that goes off within a second by more than gusts do is off at once, but not one that comes "
+    "a pitot that goes off within a second by more than gusts do is off at once, but not one that comes "
     "back") {
   // six times the change of a gust of 2 m/s in 1 s of 10: 5.37; the mean of 0.6 s
   const auto off_after_s = [](double from, double to, int samples_before) {
-    Tube tube{.noise = 10};
-    tube.samples(samples_before, from);
+    PitotSamples pitot{.noise = 10};
+    pitot.samples(samples_before, from);
     const int n = count(
-        200, [&](int) { tube.sample(to); }, [&] { return tube.steps.off(); });
+        200, [&](int) { pitot.sample(to); }, [&] { return pitot.steps.off(); });
     return n < 200 ? 0.02 * n : -1;
   };
   CHECK(off_after_s(0, 8, 100) == doctest::Approx(-0.6 * std::log(1 - 5.367 / 8)).epsilon(0.03));
   CHECK(off_after_s(0, -8, 100) == doctest::Approx(-0.6 * std::log(1 - 5.367 / 8)).epsilon(0.03));
   CHECK(off_after_s(0, 5.2, 100) == -1);
   CHECK(off_after_s(8, 0, 3) == -1);
-  CHECK(off_after_s(0, 8, 3) > 0.9);  // there is no second to compare with yet
+  CHECK(off_after_s(0, 8, 3) > 0.9);  // no second sample to compare with yet
 }
 
 TEST_CASE("a field has changed beyond 15 %, is as before within 8 %, and what lasts is adopted in minutes") {
   struct Field {
     Strength strength;
     double t = 0;
-    int seconds(double s, double value) {  // until it changes its mind
+    int seconds(double s, double value) {  // until `changed` changes
       const bool before = strength.changed();
       const auto other = [&] { return strength.changed() != before; };
       return count(
@@ -426,7 +426,7 @@ TEST_CASE("a field has changed beyond 15 %, is as before within 8 %, and what la
   for (const double unit : {1.0, 5e-5}) {
     Field f;
     f.seconds(20, unit);
-    CHECK(f.seconds(1, 1.15 * unit) == 50);  // 0.145: its mean is 0.3 s behind
+    CHECK(f.seconds(1, 1.15 * unit) == 50);  // 0.145: its mean lags by 0.3 s
     CHECK_FALSE(f.strength.changed());
     Field more, less;
     more.seconds(20, unit);
@@ -439,7 +439,7 @@ TEST_CASE("a field has changed beyond 15 %, is as before within 8 %, and what la
     // adopted: 1.5 / (1 + 0.5 (1 - exp(-t / 120))) < 1.08 after 180 s
     CHECK(more.seconds(1, 1.5 * unit) < 20);
     CHECK(more.seconds(400, 1.5 * unit) * 0.02 == doctest::Approx(180).epsilon(0.05));
-    // What is no change is followed in half a minute.
+    // A small change is followed in half a minute.
     Field slow;
     slow.seconds(20, unit);
     slow.seconds(30, 1.14 * unit);

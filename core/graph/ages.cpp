@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How old a sample may be on each wire, and which wires stop their reader when it is older: all that lead, by
-// whatever way, to the vehicle's inputs.
+// Maximum age of a sample on each wire, and the wires that stop their reader when it is exceeded: all that
+// lead, directly or not, to the vehicle's inputs.
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
@@ -9,7 +9,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::int64_t min_age_ns = 1'000'000'000;  // of what a mission says nothing about
+constexpr std::int64_t min_age_ns = 1'000'000'000;  // default of a mission
 
 std::vector<int> writers_of(const Graph& graph, const Wire& wire) {
   if (wire.from.kind == Source::Kind::component) return {wire.from.index};
@@ -43,12 +43,12 @@ bool from_vehicle(const Graph& graph, const Wire& wire) {
   return std::find(writers.begin(), writers.end(), graph.vehicle) != writers.end();
 }
 
-/// Sensors come and go, and estimators know; what else feeds the chain must keep coming: three steps of its
-/// writer may pass, and a second at least.
+/// Sensors may pause, and estimators detect it. Other sources of the chain must keep publishing: three steps
+/// of the writer may pass, and at least a second.
 std::int64_t usual_age_ns(const Graph& graph, const Component& reader, const Wire& wire) {
   if (from_vehicle(graph, wire)) return 0;
   if (wire.import >= 0 && reader.roles.empty())
-    return 0;  // a plan from another host, say: it comes when it changes
+    return 0;  // for example a plan from another host, which is published on changes
   std::int64_t age_ns = min_age_ns;
   for (const int i : writers_of(graph, wire)) {
     const Component& writer = nth(graph.components, i);
@@ -80,8 +80,8 @@ void guard_wires(Draft& draft) {
       const bool fed = wire.from.kind != Source::Kind::none || wire.import >= 0;
       const bool watched = fed && input.kind == FULMAR_IN_VALUE && !input.optional &&
                            !reader.info().vehicle && (!reader.roles.empty() || in_chain[i]);
-      // A role's filler has a fallback, or failsafe, by itself; whoever else commands the vehicle is watched
-      // by the loop.
+      // A role's filler has a fallback, or failsafe; the loop observes other components that command the
+      // vehicle.
       const bool obeyed = fed && reader.info().vehicle && wire.from.kind == Source::Kind::component;
       const bool said = wire.max_age_ns != Wire::unsaid;
       if (!said) wire.max_age_ns = watched || obeyed ? usual_age_ns(graph, reader, wire) : 0;

@@ -26,7 +26,7 @@ std::pair<std::string, std::string> split_use(const std::string& use) {
 
 namespace {
 
-/// A script that is no plugin lies beside many a mission.
+/// Many missions have a script beside them that is no plugin.
 bool uses_sdk(const fs::path& script) {
   std::ifstream in(script);
   for (std::string line; std::getline(in, line);)
@@ -88,7 +88,7 @@ FoundPlugin PluginCatalogue::open(const std::string& name) {
   const auto it = opened_.find(key);
   if (it != opened_.end()) return it->second;
   if (admit) admit(file);
-  // a script runs inside the plugin that hosts its language, so that file is checked as well
+  // a script runs inside the plugin that hosts its language, so that file is also checked
   std::shared_ptr<Library> host;
   if (admit && !script_host(file).empty()) {
     admit(Library::host_of(file));
@@ -97,7 +97,7 @@ FoundPlugin PluginCatalogue::open(const std::string& name) {
   FoundPlugin found;
   found.library = Library::open(file);
   auto info = std::make_shared<PluginInfo>(found.library->info());
-  info->path = file.string();  // of two files with equal bytes one is loaded: each keeps its own name
+  info->path = file.string();  // of two files with equal bytes one is loaded, but each keeps its own name
   info->file = file.filename().string();
   found.info = std::move(info);
   opened_.emplace(key, found);

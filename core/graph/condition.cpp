@@ -20,7 +20,7 @@ struct Compare {
   std::string_view symbol, mirrored;  // "3 < x" is "x > 3"
   bool (*holds)(double a, double b) noexcept;
 };
-/// A symbol that begins with another one stands before it.
+/// A symbol that begins with another one precedes it.
 constexpr Compare compares[] = {{"<=", ">=", [](double a, double b) noexcept { return a <= b; }},
                                 {">=", "<=", [](double a, double b) noexcept { return a >= b; }},
                                 {"<", ">", [](double a, double b) noexcept { return a < b; }},
@@ -29,7 +29,7 @@ constexpr Compare compares[] = {{"<=", ">=", [](double a, double b) noexcept { r
                                 {"!=", "!=", [](double a, double b) noexcept { return a != b; }}};
 
 struct Condition::Node {
-  struct Side : Shown {  // from nowhere: a constant, or the flight time
+  struct Side : Shown {  // without a port: a constant, or the flight time
     bool is_time = false;
     double number = 0;  // of a constant
     double factor = 1;  // into the unit of the left side
@@ -94,7 +94,7 @@ class Lexer {
     return text_.substr(begin, at_ - begin);
   }
 
-  /// A number and, unless the next word is one of ours, its unit: "30 m", "-0.5 rad/s".
+  /// A number and, unless the next word is a keyword, its unit: "30 m", "-0.5 rad/s".
   std::string take_number() {
     const std::size_t begin = at_;
     ++at_;
@@ -223,7 +223,7 @@ class Compiler {
   }
 
   CNode compared(const Compare* compare, Operand a, Operand b) {
-    if (a.kind != Operand::Kind::field) {  // 3 m < height: turn it round
+    if (a.kind != Operand::Kind::field) {  // 3 m < height: swap the sides
       if (b.kind != Operand::Kind::field)
         throw Error(graph_messages::comparison_without_field(a.text, compare->symbol, b.text));
       compare = find_compare(compare->mirrored);
@@ -232,7 +232,7 @@ class Compiler {
     const bool ordered = compare->symbol != compare->mirrored;
     if ((a.is_enum() || a.is_bool() || b.is_enum() || b.is_bool()) && ordered)
       throw Error(graph_messages::operand_unordered((a.is_enum() || a.is_bool() ? a : b).text));
-    if (b.kind == Operand::Kind::label || (b.side.is_time && a.is_enum()))  // a word that is one of a field's
+    if (b.kind == Operand::Kind::label || (b.side.is_time && a.is_enum()))  // a label of the field
       b = label(a, b.text);
     else if (b.kind == Operand::Kind::number)
       b.side.number = plain_number(a, b);
@@ -333,7 +333,7 @@ class Compiler {
   int depth_ = 0;
 };
 
-/// False when there is no such number: a list that is shorter than the index.
+/// Returns false when there is no such number: a list that is shorter than the index.
 bool number_of(const CNode::Side& side, const SampleReader& reader, double& number) noexcept {
   if (side.is_time) {
     number = static_cast<double>(reader.now_ns()) / 1e9 * side.factor;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See extends.hpp.
 #include "core/graph/extends.hpp"
 
 #include <algorithm>
@@ -13,8 +12,8 @@
 namespace fulmar::core {
 namespace {
 
-/// Named things merge by name: a component's keys, its parameters and wires one by one, what a phase says of
-/// a role as a whole. What is not here is replaced as a whole.
+/// Depths of named maps that merge by name: a component's keys, its parameters and wires one by one, a
+/// phase's entry of a role as a whole. All other values are replaced as a whole.
 constexpr std::pair<std::string_view, int> depths[] = {{"components", 3}, {"roles", 3},  {"phases", 2},
                                                        {"summary", 1},    {"resume", 1}, {"failsafe", 1},
                                                        {"live", 1},       {"record", 1}, {"dds", 2}};
@@ -25,12 +24,12 @@ int depth_of(const std::string& key) {
   return 0;
 }
 
-/// What a layer takes away from the one below it.
+/// Keys that a layer removes from the one below it.
 class Takings {
  public:
   Takings(const std::string& below, Report& report) : below_(below), report_(report) {}
 
-  /// Tells of what is not there to be taken, and leaves it out. `levels` of maps merge.
+  /// Reports and drops removals of keys that do not exist. `levels` of maps merge.
   void check(const Node& base, Node& top, const std::string& path, int levels) {
     if (!base.is(Node::Kind::map) || !top.is(Node::Kind::map)) return;
     std::erase_if(top.entries, [&](const Node::Entry& entry) {
@@ -52,8 +51,8 @@ class Takings {
         report_.taken_away(name, entry.where());
       return true;
     }
-    if (is_wire(path)) return true;  // that of a role, perhaps: the mission's reader knows
-    if (path == "phases" && entry.value.text.empty()) return true;  // a new one, in which nobody changes
+    if (is_wire(path)) return true;  // may be a wire of a role, which the mission's reader checks
+    if (path == "phases" && entry.value.text.empty()) return true;  // an empty new phase
     if (report_.full()) return false;
     std::vector<std::string> there;
     for (const Node::Entry& other : base.entries) there.push_back(other.key);
@@ -89,7 +88,9 @@ class Layers {
 
   Node tree(const FilePtr& file) {
     Node top = parse_yaml(file, report_);
-    if (above_.empty() && !top.is(Node::Kind::map)) return top;  // its reader says what it expects
+    if (above_.empty() && !top.is(Node::Kind::map))
+      return top;  // the mission's reader reports the expected
+                   // type
     if (!is_a(Node::Kind::map, top, "extends", "a map with the keys of a mission", report_)) return {};
     const Node* const extends = top.find("extends");
     if (!extends) return top;
@@ -103,7 +104,7 @@ class Layers {
   }
 
  private:
-  /// Null and a fault when there is no such file, or it lies above this one already.
+  /// Null and a fault when there is no such file, or when it is already a layer above.
   FilePtr read(const Node& extends, const SourceFile& file) {
     const auto name = scalar_text(extends, "extends", "the name of a file", report_);
     if (!name) return nullptr;
@@ -116,7 +117,7 @@ class Layers {
       return nullptr;
     }
     try {
-      // as a reader of the mission would open it
+      // in the same way as a mission is opened
       const bool shipped = is_shipped_name(*name);
       const auto shown =
           shipped ? std::filesystem::path(*name) : std::filesystem::path(file.name).parent_path() / *name;
@@ -131,7 +132,7 @@ class Layers {
   std::vector<FilePtr>& files_;
   std::vector<Node>& below_;
   Report& report_;
-  std::vector<FilePtr> above_;  // the layers that lead to the one being read
+  std::vector<FilePtr> above_;  // the layers above the present one
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Components that keep inside a fence share one: of two that differ, the steering component decides.
+// Components that use a geofence share one: of two different ones, that of the steering component applies.
 #include <string>
 
 #include "core/graph/draft.hpp"
@@ -8,7 +8,7 @@
 namespace fulmar::core {
 namespace {
 
-/// A record of that name that is given; null: none.
+/// A supplied record of that name; null: none.
 const ParamValue* given_record(const Component& c, const std::string& name) {
   const auto& params = c.info().params;
   for (std::size_t i = 0; i < params.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a mission is for hardware: what it states itself under `hardware:`, and what its conditions and its
-// steering components read that no flight controller measures.
+// Whether a mission is for hardware: its own `hardware:` section, and the ports read by its conditions and
+// steering components that no flight controller measures.
 #include <algorithm>
 #include <cctype>
 #include <utility>
@@ -35,7 +35,7 @@ void check_hardware(const MissionText& text, const Overrides& overrides, Report&
   if (text.io != Io::fcu) return;
   if (!hardware.fit) {
     report.add(hardware.where, graph_messages::hardware_not_allowed(hardware.because));
-    report.throw_if_any();  // what else is wrong with it on hardware follows from that
+    report.throw_if_any();  // its other faults on hardware follow from that
   }
   const auto fills = [&](const std::string& name) {
     const ComponentText* const c = text.component(name);
@@ -51,12 +51,12 @@ void check_hardware(const MissionText& text, const Overrides& overrides, Report&
 
 namespace {
 
-/// A message with the field `contact_known` declares that its vehicle may not measure contact: these of its
-/// fields mean something where that one is true. A message without it measures what it has.
+/// A message with the field `contact_known` declares that its vehicle may not measure contact: these fields
+/// are valid only while that one is true. A message without it measures all its fields.
 constexpr std::string_view contact_fields[] = {"on_ground", "crashed"};
 constexpr const char* contact_known = "contact_known";
 
-/// Refused with io: fcu, warned of with io: sim.
+/// An error with io: fcu, a warning with io: sim.
 void object(Draft& draft, const Where& where, const Diagnostic& message) {
   if (draft.graph.io == Io::fcu) return draft.report.add(where, message);
   const std::string warning = located(where, message).line();
@@ -64,7 +64,7 @@ void object(Draft& draft, const Where& where, const Diagnostic& message) {
   if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
 }
 
-/// Every name such as vehicle.status.on_ground in a condition, split at its points.
+/// Every name such as vehicle.status.on_ground in a condition, split at its dots.
 std::vector<std::vector<std::string>> names_in(const std::string& condition) {
   std::vector<std::vector<std::string>> names;
   std::vector<std::string> parts(1);
@@ -83,7 +83,7 @@ std::vector<std::vector<std::string>> names_in(const std::string& condition) {
   return names;
 }
 
-/// The vehicle that flies this mission on hardware; null: none does.
+/// The vehicle of this mission on hardware; null: none.
 const ComponentText* hardware_vehicle(const MissionText& text) {
   for (const ComponentText& c : text.components)
     if (c.fills_role("vehicle") && c.only == Io::fcu) return &c;
@@ -107,8 +107,8 @@ class SimulatorPorts {
     return owner == "vehicle" || (c && c->fills_role("vehicle"));
   }
   static bool has(const ComponentInfo& info, const std::string& port) { return info.output(port) >= 0; }
-  /// What both vehicles have to have needs no look at the other one, and what this one lacks is no port of
-  /// the simulator.
+  /// A port of both vehicles needs no check of the other one, and a port that this one lacks is not from the
+  /// simulator.
   bool lacks(const std::string& port) {
     const ComponentInfo& flown = draft_.vehicle().info();
     if (draft_.graph.io == Io::fcu) return !has(flown, port);
@@ -118,7 +118,7 @@ class SimulatorPorts {
     const ComponentInfo* const real = real_vehicle();
     return real && !has(*real, port);
   }
-  /// Null when its plugin cannot be opened: then it cannot be said what it lacks.
+  /// Null when its plugin cannot be opened: its missing ports are then unknown.
   const ComponentInfo* real_vehicle() {
     if (!plugin_ && std::exchange(tried_, true)) return nullptr;
     if (!plugin_) try {
@@ -132,7 +132,7 @@ class SimulatorPorts {
       if (real_name_.empty() || info.name == real_name_) return &info;
     return nullptr;
   }
-  /// Whether a field of contact may be unknown, and the condition does not ask for that.
+  /// Whether a field of contact may be unknown, and the condition does not check `contact_known`.
   bool is_guess(const std::vector<std::string>& name,
                 const std::vector<std::vector<std::string>>& all) const {
     const ComponentInfo& flown = draft_.vehicle().info();
@@ -163,7 +163,7 @@ class SimulatorPorts {
     }
   }
 
-  /// A component that exists only with io: sim says so itself.
+  /// A component that exists only with io: sim is declared as such.
   void look(const Component& reader) {
     const Candidate& candidate = nth(draft_.candidates, draft_.candidate(reader.name));
     if (candidate.text->only == Io::sim) return;
@@ -175,7 +175,7 @@ class SimulatorPorts {
     }
   }
 
-  /// "truth" of a wire that begins at the vehicle, whoever it is; else "".
+  /// "truth" of a wire that begins at the vehicle, by role or by name; else "".
   std::string vehicle_port(const Source& from) const {
     if (from.kind == Source::Kind::role && nth(draft_.roles, from.index).name == "vehicle")
       return nth(nth(draft_.roles, from.index).text->out, from.output).name;
@@ -188,7 +188,7 @@ class SimulatorPorts {
   Catalogue& catalogue_;
   std::shared_ptr<const PluginInfo> plugin_;  // of the vehicle on hardware
   std::string real_name_;
-  bool tried_ = false;  ///< to open the plugin
+  bool tried_ = false;  ///< the plugin has been opened, or could not be
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the keys of a mission file. What they mean together is resolve.cpp's business.
+// Reads the keys of a mission file. resolve.cpp checks their combination.
 #include "core/graph/mission.hpp"
 
 #include <algorithm>
@@ -25,10 +25,10 @@ const std::vector<std::string> mission_keys = {
 const std::vector<std::string> component_keys = {"fills", "use",     "in",     "params",  "rate",   "only",
                                                  "run",   "latency", "budget", "max_age", "memory", "hang"};
 
-constexpr std::size_t max_names = 1000;  // of roles, components, phases: each is compared with the others
+constexpr std::size_t max_names = 1000;  // of roles, components, phases: each is compared with all others
 constexpr const char* default_epoch = "2026-01-01T00:00Z";
 
-/// Nothing for any other word.
+/// Nothing for an unknown word.
 std::optional<Io> io_of(const std::string& word) {
   const auto at = std::find(io_words.begin(), io_words.end(), word);
   if (at == io_words.end()) return std::nullopt;
@@ -154,7 +154,7 @@ class MissionReader {
     m_.failsafe_ns = Keys(own, "failsafe", {"for"}, report_).duration_ns("for").value_or(m_.failsafe_ns);
   }
 
-  /// "nav.state"; nothing and a fault when it is not that.
+  /// "nav.state"; nothing and a fault for any other form.
   std::optional<PortName> port_name(const Node& node, const std::string& path) {
     const auto text = scalar_text(node, path, "a port such as nav.state", report_);
     if (!text) return std::nullopt;
@@ -168,7 +168,7 @@ class MissionReader {
     return list;
   }
 
-  /// `from` is empty when it cannot be read: the input is wired all the same, and not reported again.
+  /// `from` is empty when it cannot be read: the input still counts as wired, without a second fault.
   WireText read_wire(const Node::Entry& entry, const std::string& path) {
     WireText wire;
     wire.name = entry.key;
@@ -190,7 +190,7 @@ class MissionReader {
     return wire;
   }
 
-  /// 0: `off`, a sample of any age is flown on.
+  /// 0: `off`, a sample of any age is accepted.
   static std::optional<std::int64_t> max_age_ns(const Keys& keys) {
     const Node* const node = keys.get("max_age");
     if (node && node->is(Node::Kind::scalar) && node->text == "off") return 0;
@@ -227,7 +227,7 @@ class MissionReader {
     m_.roles.push_back(std::move(role));
   }
 
-  /// What protects the aircraft: which of the vehicle's fields say it.
+  /// Protection of the aircraft: the vehicle's fields that hold its flags.
   void vehicle_flags(const Node& node, const std::string& path, RoleText& role) {
     const std::vector<std::string> names = {"armed", "on_ground", "in_control"};
     const Keys flags(node, path, names, report_);
@@ -258,7 +258,7 @@ class MissionReader {
     m_.components.push_back(std::move(c));
   }
 
-  /// A null takes a wire away that one of the roles brings. That of a lower layer is gone already.
+  /// A null removes a wire that one of the roles brings. A wire of a lower layer is already removed.
   void check_cuts(const std::string& path, const ComponentText& c) {
     std::vector<std::string> there;
     for (const WireText& wire : c.in)
@@ -427,12 +427,12 @@ MissionText parse_mission(const std::string& file, const Overrides& overrides, R
   const Node root = layered_tree(mission.file, overrides.files.get(), mission.files, below, report);
   MissionReader(mission, report).read(root);
   for (const Node& layer : below) {
-    Report unsaid;  // its faults are those of the whole
+    Report unsaid;  // its faults are also found in the whole mission
     MissionText& text = mission.below.emplace_back();
     text.file = layer.file;
     MissionReader(text, unsaid).read(layer);
   }
-  if (!root.is(Node::Kind::map)) report.throw_if_any();  // what follows from it is not worth telling
+  if (!root.is(Node::Kind::map)) report.throw_if_any();  // further faults would only follow from it
   if (overrides.io) {
     if (const auto io = io_of(*overrides.io))
       mission.io = *io;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ports that a mission names to show or to decide: conditions, figures, texts, and the transitions
+// The ports that a mission names for figures and decisions: conditions, figures, texts, and the transitions
 // between phases.
 #include <algorithm>
 
@@ -9,15 +9,15 @@
 namespace fulmar::core {
 namespace {
 
-/// Thrown when a port belongs to a component that was refused: nothing more to say.
+/// Thrown when a port belongs to a component that was rejected: no further fault.
 struct Unclear {};
 
-/// Thrown when nobody who fills a role in this run has one of its optional outputs.
+/// Thrown when no component that fills a role in this run has one of its optional outputs.
 struct NobodyProvides : Error {
   using Error::Error;
 };
 
-/// `built`: sources count the components of the graph, else candidates, which are then marked as used.
+/// `built`: sources are indexes of the graph's components, else of candidates, which are then marked as used.
 FindPort finder(Draft& draft, bool built) {
   return [&draft, built](const std::string& owner, const std::string& port) {
     Target target = find_target(draft, {owner, port});
@@ -49,8 +49,8 @@ void guarded(Draft& draft, const Where& where, const std::string& path, F run) {
   }
 }
 
-/// Whether a key that only reports has lost its component: a layer took it away, it is of the other io, or a
-/// layer gave it another plugin without such an output.
+/// Whether a key that only reports has lost its component: a layer removed it, it belongs to the other io, or
+/// a layer gave it another plugin without such an output.
 bool is_left_out(const Draft& draft, const Word& word) {
   const auto dot = word.text.find('.');
   const std::string owner = word.text.substr(0, dot);
@@ -67,7 +67,7 @@ bool is_left_out(const Draft& draft, const Word& word) {
   return replaced && index_named(nth(draft.candidates, i).info().outputs, word.text.substr(dot + 1)) < 0;
 }
 
-/// As guarded, of a key that only reports: it goes with its component. Whether it stays.
+/// Like `guarded`, for a key that only reports: it is dropped with its component. Returns whether it stays.
 template <class F>
 bool report_of(Draft& draft, const Word& word, const std::string& path, F run) {
   const bool gone = is_left_out(draft, word);
@@ -78,7 +78,7 @@ bool report_of(Draft& draft, const Word& word, const std::string& path, F run) {
   return !gone;
 }
 
-/// What every result has: a summary must not write over it.
+/// Keys of every result: a summary must not overwrite them.
 const std::vector<std::string> result_keys = {
     "allocations", "behind_max_s", "dds",     "flight_time_s",    "guards",
     "io",          "live",         "log",     "log_dropped",      "log_error",
@@ -109,7 +109,7 @@ void read_summary(Draft& draft, const FindPort& find) {
   }
 }
 
-/// Ports of texts for people. That a vehicle has nothing to tell is no fault.
+/// Ports of texts for users. A vehicle without such a text is no fault.
 void read_reported(Draft& draft, const FindPort& find) {
   draft.graph.report.clear();
   for (const Word& word : draft.text.report)
@@ -125,7 +125,7 @@ void read_reported(Draft& draft, const FindPort& find) {
     });
 }
 
-/// How the flight went, in a word and in words.
+/// The verdict of the flight: a word and a sentence.
 void read_verdict(Draft& draft, const FindPort& find) {
   draft.graph.judge.verdict.reset();
   if (!draft.text.judge.verdict) return;
@@ -168,7 +168,7 @@ void read_resume(Draft& draft, const FindPort& find) {
       const std::string name = param.substr(0, dot), of = param.substr(dot + 1);
       const int i = draft.candidate(name);
       const ComponentText* const text = draft.text.component(name);
-      if (text && draft.is_out(*text)) return;  // nothing of it goes on in this run
+      if (text && draft.is_out(*text)) return;  // the component does not exist in this run
       if (i < 0) throw NoOwner(name, not_there(draft, name));
       const Candidate& candidate = nth(draft.candidates, i);
       if (!candidate.loaded) throw Unclear{};
@@ -207,7 +207,7 @@ std::vector<Transition> transitions(Draft& draft, const std::vector<TransitionTe
   return list;
 }
 
-/// Everything that names ports, compiled into the graph.
+/// Compiles all that names ports into the graph.
 void compile_all(Draft& draft, bool built) {
   const FindPort find = finder(draft, built);
   Graph& graph = draft.graph;
@@ -227,7 +227,7 @@ void compile_all(Draft& draft, bool built) {
   graph.any = transitions(draft, draft.text.any, "phases.any.next", find);
 }
 
-/// Not where the way led through a phase that was taken away: that is told already.
+/// No check while a removed phase is still named: that fault is reported already.
 void check_reachable(Draft& draft) {
   const Graph& graph = draft.graph;
   if (draft.report.misses("phases.")) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the command line asks for and a phase does not let through: a value under a phase's own, a component
-// in a phase that was written for another one.
+// Changes of the command line without effect in a phase: a value that the phase sets itself, a component in a
+// phase that was written for another one.
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
@@ -9,7 +9,7 @@
 namespace fulmar::core {
 namespace {
 
-/// The phases that set this parameter of the component themselves.
+/// The phases that also set this parameter of the component.
 std::vector<std::string> phases_that_set(const Draft& draft, int candidate, int param) {
   std::vector<std::string> names;
   const auto& phases = phases_of(draft.text);
@@ -37,7 +37,7 @@ void report_hidden_values(Draft& draft) {
   }
 }
 
-/// What a phase sets of the component that the command line has replaced, and the other one does not have.
+/// Parameters that a phase sets on the replaced component and that the new one does not have.
 std::vector<std::string> lost_settings(const Draft& draft, const AssignmentText& text, int seated) {
   std::vector<std::string> names;
   const ComponentInfo& info = nth(draft.candidates, seated).info();

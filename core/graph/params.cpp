@@ -169,7 +169,7 @@ void read_param_field(const ParamInfo& param, const std::string& field, const No
   value.data.resize(param.type->size);
   value.places = with_place(value.places, field, node);
   fill_record_field(*param.type, field, node, value.data.data(), path, report);
-  if (value.integer == 0 && param.required) return;  // the rest of it is missing, and will be told
+  if (value.integer == 0 && param.required) return;  // the rest of it is missing, and will be reported
   mark_given(*param.type, value.data.data());
   if (value.integer == 0) value.text = node.file ? node.file->name : "";
   value.integer = 1;
@@ -188,7 +188,8 @@ void read_record(const ParamInfo& param, const Node& map, const std::string& pat
   fill_record(*param.type, map, value.data.data(), path, report, also);
   const std::vector<std::string> missing = missing_in_record(*param.type, map);
   if (!missing.empty() && map.is(Node::Kind::map)) {
-    const bool of_component = path.find('.') != std::string::npos;  // else nobody else's record is meant
+    const bool of_component = path.find('.') != std::string::npos;  // else the record of another component is
+                                                                    // not meant
     report.add(
         map.where(),
         graph_messages::record_incomplete(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Phases: who fills which role when, and what is laid over whose parameters.
+// Phases: the component of each role, and the overlays of parameters.
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
@@ -61,8 +61,7 @@ std::vector<int> chosen_by_command(Draft& draft) {
   return chosen;
 }
 
-/// `replaced`: --role has put the component in another one's place: it takes what it has a live parameter
-/// for.
+/// `replaced`: --role has replaced the component; the new one takes the values of its own live parameters.
 std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, const Node& set,
                                   const std::string& path, bool replaced) {
   std::vector<Overlay> overlay;
@@ -71,7 +70,7 @@ std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, cons
   for (const ParamInfo& param : candidate.info().params)
     if (param.live) live.push_back(param.name);
   for (const Node::Entry& entry : set.entries) {
-    if (draft.report.full()) break;  // each of the others costs its hint
+    if (draft.report.full()) break;  // each further fault costs a hint
     const int p = param_path(candidate.info(), entry.key).param;
     const ParamInfo* const param = p < 0 ? nullptr : &nth(candidate.info().params, p);
     if (param && param->live) {
@@ -89,7 +88,7 @@ std::vector<Overlay> read_overlay(Draft& draft, const Candidate& candidate, cons
   return overlay;
 }
 
-/// What a phase says of the vehicle: parameters of the one that flies, and of no other.
+/// A phase's settings of the vehicle: parameters of the vehicle in use, and of no other.
 void read_vehicle_overlay(Draft& draft, const AssignmentText& text, const std::string& path, int usual,
                           int seated, Assignment& assignment) {
   if (!text.use.text.empty() && taken_away(draft, text.use.text, text.use.where, path)) return;
@@ -102,8 +101,8 @@ void read_vehicle_overlay(Draft& draft, const AssignmentText& text, const std::s
         read_overlay(draft, nth(draft.candidates, component), text.set, path + ".set", component != named);
 }
 
-/// What a phase says of a role, checked also where --role then changes it. `usual`: who would fill it without
-/// --role, `seated`: who does.
+/// A phase's entry of a role, checked also where --role then changes it. `usual`: the filler without --role,
+/// `seated`: the actual one.
 void read_assignment(Draft& draft, const AssignmentText& text, const std::string& path, int usual, int seated,
                      Assignment& assignment) {
   const int role = draft.role(text.role);
@@ -125,8 +124,9 @@ void read_assignment(Draft& draft, const AssignmentText& text, const std::string
   if (assignment.component != use) assignment.set = overlay(assignment.component);
 }
 
-/// Who fills which role in a phase: whom the command line or the phase names, with all roles that he fills;
-/// then, for each role that is left, the first in file order whose roles are all free.
+/// Chooses the component of each role in a phase. First come those that the command line or the phase names,
+/// with all their roles. Each role that is left gets the first component in file order whose roles are all
+/// free.
 class Seating {
  public:
   Seating(Draft& draft, const PhaseText& phase, const std::vector<int>& command)
@@ -147,7 +147,7 @@ class Seating {
     for (const int r : roles_of(candidate)) nth(seats_, r) = candidate;
   }
 
-  /// Who sits in one of its roles already, or -1.
+  /// Component that already has one of its roles, or -1.
   int in_its_way(int candidate, const std::vector<int>& seats) const {
     for (const int r : roles_of(candidate))
       if (nth(seats, r) >= 0 && nth(seats, r) != candidate) return nth(seats, r);
@@ -165,7 +165,7 @@ class Seating {
 
   void seat_by_phase(const AssignmentText& text, const std::vector<int>& commanded) {
     const int role = draft_.role(text.role), wanted = draft_.candidate(text.use.text);
-    if (text.role == "vehicle") return;  // the same one in all phases
+    if (text.role == "vehicle") return;  // the vehicle is the same in all phases
     if (wanted < 0 || !nth(draft_.candidates, wanted).fills(role) || in_its_way(wanted, commanded) >= 0)
       return;
     const int other = in_its_way(wanted, seats_);
@@ -196,8 +196,8 @@ class Seating {
   std::vector<int> seats_;  // per role: a candidate, or -1
 };
 
-/// Of a component that fills several roles: what the phase sets holds in all of them, and when it has a
-/// fallback in one, the others have the one that the phase names, or the first that can fill them.
+/// For a component that fills several roles: the phase's settings apply in all of them. When it has a
+/// fallback in one, the others get the one that the phase names, or the first that can fill them.
 void complete_group(Draft& draft, const PhaseText& phase, int group, std::vector<Assignment>& roles) {
   const std::vector<int>& seats = nth(draft.candidates, group).roles;
   const std::vector<Overlay>* set = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may have written a plugin file.
+// Checks the possible writers of a plugin file.
 #include "core/graph/private_file.hpp"
 
 #include <sys/stat.h>
@@ -30,7 +30,7 @@ struct stat status_of(const fs::path& path) {
   return info;
 }
 
-// Root acts for the user who called sudo.
+// Root acts for the user of sudo.
 bool is_trusted_owner(uid_t owner) {
   if (owner == 0 || owner == ::geteuid()) return true;
   const char* caller = ::geteuid() == 0 ? std::getenv("SUDO_UID") : nullptr;

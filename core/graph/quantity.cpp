@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Units: a table of symbols and a small parser for products and quotients of them. Factors are the SI
-// brochure's and ISO 80000's.
+// Units: a table of symbols and a parser for products and quotients of them. Factors are those of the SI
+// brochure and ISO 80000.
 #include "core/graph/quantity.hpp"
 
 #include <charconv>
@@ -233,7 +233,7 @@ std::string dimension_name(const PhysicalUnit& unit) {
   return measure ? measure->name : "";
 }
 
-/// Is a bare number clear enough where a unit is required? Plain numbers, and latitude and longitude.
+/// Whether a bare number is clear where a unit is required: plain numbers, latitude and longitude.
 bool needs_no_unit(const PhysicalUnit& unit, const std::string& text) {
   return unit.dimension == none || text == "deg";
 }
@@ -243,7 +243,7 @@ std::string how_to_write(const PhysicalUnit& unit) {
   return entry ? graph_messages::unit_examples(entry->name, entry->examples).line() : "";
 }
 
-/// The unit that was written, as SI; "g" is the gram where a mass is wanted.
+/// The written unit, as SI; "g" is the gram where a mass is expected.
 PhysicalUnit written_unit(const Quantity& quantity, const std::string& unit,
                           const std::optional<PhysicalUnit>& wanted) {
   const auto written = quantity.unit == "g" && wanted && wanted->dimension == mass

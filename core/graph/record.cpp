@@ -28,13 +28,12 @@ std::string without_suffix(const std::string& field) {
   return split ? split->name : field;
 }
 
-/// Set by the host when a record is supplied: nobody writes it.
+/// Set by the host when a record is supplied; a file must not set it.
 bool is_given(const Field& field) {
   return field.name == "given" && field.kind == FULMAR_BOOL && field.shape == FULMAR_SCALAR;
 }
 
-/// How one value is written: the unit it inherits, whether the key left the unit out, and its name for
-/// faults.
+/// Form of one value: the unit it inherits, whether the key omits the unit, and its name in faults.
 struct RecordPlace {
   std::string path;
   std::string unit;
@@ -63,7 +62,7 @@ class Filler {
     }
   }
 
-  /// `rest`: what is left of a path such as "waypoints[2].up"; its first step is a field of `type`.
+  /// `rest`: the remaining path, such as "waypoints[2].up"; its first step is a field of `type`.
   void fill_path(const Type& type, const std::string& rest, const Node& node, std::byte* data,
                  const RecordPlace& place) {
     const std::size_t dot = rest.find('.');
@@ -109,7 +108,7 @@ class Filler {
  private:
   static constexpr double unread = std::numeric_limits<double>::quiet_NaN();  // of an item with a fault
 
-  /// An item of a list stands for itself: nothing around it says what it leaves out.
+  /// An item of a list must be complete: it has no defaults.
   void check_whole(const Type& type, const Node& item, const std::string& path) {
     if (!item.is(Node::Kind::map)) return;
     if (const std::vector<std::string> missing = missing_in_record(type, item); !missing.empty())
@@ -131,7 +130,7 @@ class Filler {
     }
   }
 
-  /// How a field is written under `key`: without its unit in the key, the value has one.
+  /// Form of a field under `key`: when the key omits the unit, the value has it.
   static RecordPlace place_of(const Field& field, const std::string& key, const std::string& path,
                               const RecordPlace& outside) {
     const bool own_unit = !field.unit.empty(), exact = key == field.name;
@@ -139,7 +138,7 @@ class Filler {
     return {path, own_unit ? field.unit : outside.unit, rule};
   }
 
-  /// The item that "[2]" names of a list; null and a fault when it has none such.
+  /// The item "[2]" of a list; null and a fault when the list is shorter.
   std::byte* item_at(const Field& field, const std::string& index, const Node& node, std::byte* at,
                      const std::string& path) {
     std::uint32_t i = 0, n = field.shape == FULMAR_SCALAR ? 0 : field.count;
@@ -162,7 +161,8 @@ class Filler {
     return (field.shape == FULMAR_LIST ? "at most " : "exactly ") + std::to_string(field.count);
   }
 
-  /// A vector or quaternion: plain numbers that take their unit from outside, so that a list says it all.
+  /// A vector or quaternion: plain numbers whose unit comes from the enclosing field, so that a list is
+  /// complete.
   static bool is_tuple(const Type& type) {
     return !type.frame.empty() && std::all_of(type.fields.begin(), type.fields.end(), [](const Field& field) {
       return field.kind == FULMAR_F64 && field.shape == FULMAR_SCALAR;
@@ -203,7 +203,7 @@ class Filler {
     return nullptr;
   }
 
-  /// A height has many names: all of them that there are.
+  /// A height has many names: suggests all of them that exist.
   static std::string near_words(const std::string& key, const std::vector<std::string>& fields) {
     static const std::vector<std::string> heights = {"alt", "altitude", "alt_msl", "height", "up"};
     const bool height = std::find(heights.begin(), heights.end(), key) != heights.end();
@@ -266,8 +266,7 @@ class Filler {
     try {
       const Quantity quantity = parse_quantity(node.text);
       double value = convert(quantity, place.unit, place.rule);
-      if (!quantity.unit.empty())
-        value = std::round(value * 1e3) / 1e3;  // 0.1 s is 1e8 ns, whatever the last bit says
+      if (!quantity.unit.empty()) value = std::round(value * 1e3) / 1e3;  // rounding: 0.1 s is exactly 1e8 ns
       check_range(quantity, value, place.unit, field.min, field.max);
       const bool scaled = !quantity.unit.empty();
       with_number(field.kind, at, [&](auto was) {
@@ -311,7 +310,7 @@ std::vector<std::string> missing_in_record(const Type& type, const Node& map) {
       return field_of_key(type, entry.key) == &field;
     });
     const bool there = said != map.entries.end();
-    if (there && !said->value.is(Node::Kind::map)) continue;  // whatever is wrong with it is told already
+    if (there && !said->value.is(Node::Kind::map)) continue;  // its fault is reported already
     const std::string name = without_suffix(field.name);
     const std::vector<std::string> inside = field.type
                                                 ? missing_in_record(*field.type, there ? said->value : Node{})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is recorded: the section `record:` of a mission, and `--record PORTS[@RATE]`, which the command line
-// wants beside it.
+// Recording rules: the section `record:` of a mission, and `--record PORTS[@RATE]`, which the command line
+// adds.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -118,7 +118,7 @@ void add_record_options(MissionText& mission, const std::vector<std::string>& op
     }
   }
   if (mission.record_rules.empty()) {
-    // the rest stays as it would have been
+    // the rest keeps its default
     rules.push_back({{"*"}, RecordRule::usual});
     places.push_back({"--record", 0});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mission text + plugins -> graph: which components exist, who fills which role, what is created.
+// Mission text + plugins -> graph: existing components, fillers of roles, created components.
 #include <algorithm>
 #include <cmath>
 
@@ -38,7 +38,7 @@ bool provided(const Graph& graph, const Source& source) {
 
 namespace {
 
-/// "build/my_law.so", against "control_slc/Outer" as `use` has it.
+/// "build/my_law.so", in contrast to "control_slc/Outer" as in `use`.
 bool is_file(const std::string& word) {
   std::error_code fault;
   return word.ends_with(".so") || !script_host(word).empty() || fs::is_regular_file(word + ".so", fault);
@@ -112,8 +112,8 @@ void collect_candidates(Draft& draft, Catalogue& catalogue) {
   }
 }
 
-/// Created are: components without a role, those that a condition names or some phase assigns, and whatever
-/// these are wired to by name.
+/// Components that are created: those without a role, those that a condition names or a phase assigns, and
+/// those that are wired to them by name.
 void mark_used(Draft& draft) {
   std::vector<Candidate*> todo;
   for (Candidate& candidate : draft.candidates) {
@@ -135,10 +135,10 @@ void mark_used(Draft& draft) {
 Source in_graph(const Draft& draft, Source source) {
   if (source.kind != Source::Kind::component) return source;
   source.index = nth(draft.candidates, source.index).component;
-  return source.index < 0 ? Source{} : source;  // its component was refused
+  return source.index < 0 ? Source{} : source;  // its component was rejected
 }
 
-/// Plugins that come with the host lie in its own folder.
+/// Plugins of the host are in its own folder.
 bool installed(const PluginInfo& plugin) {
   std::error_code code;
   const fs::path self = fs::read_symlink("/proc/self/exe", code);
@@ -147,8 +147,8 @@ bool installed(const PluginInfo& plugin) {
          fs::weakly_canonical(folder, code);
 }
 
-/// How a component is run, and what each way of running cannot do. On hardware, what did not come with the
-/// host flies in a child.
+/// Run mode of a component, and the limits of each mode. On hardware, a plugin from outside the installation
+/// runs in a child.
 void run_mode(Draft& draft, Candidate& candidate) {
   const ComponentText& text = *candidate.text;
   const ComponentInfo& info = candidate.info();
@@ -168,7 +168,7 @@ void run_mode(Draft& draft, Candidate& candidate) {
   }
 }
 
-/// Those that a command can name, and that the log therefore tells.
+/// Names that a command can use, and that the log therefore holds.
 void check_names(Draft& draft, const Candidate& candidate) {
   const auto check = [&](const char* what, const std::string& name) {
     if (name.size() < name_room) return;
@@ -191,8 +191,7 @@ void build_components(Draft& draft) {
     if (candidate.info().vehicle) draft.graph.vehicle = candidate.component;
     Component& component = draft.graph.components.emplace_back(candidate);
     if (!candidate.assigned) component.roles.clear();
-    if (component.run == RunMode::process)
-      component.library.reset();  // its code is the child's business alone
+    if (component.run == RunMode::process) component.library.reset();  // only the child needs the code
   }
 }
 
@@ -222,13 +221,13 @@ void build_wires(Draft& draft) {
     component.wires = candidate.wires;
     for (Wire& wire : component.wires) {
       wire.from = in_graph(draft, wire.from);
-      // an output of a role that none of its fillers in this run has feeds nobody
+      // an output of a role that no filler in this run has feeds nothing
       if (wire.from.kind == Source::Kind::role && !provided(draft.graph, wire.from)) wire.from = {};
     }
   }
 }
 
-/// Whether the output is a role's: it is then recorded under the role's name.
+/// Whether the output belongs to a role: it is then recorded under the role's name.
 bool provides(const Graph& graph, const Component& component, int output) {
   for (const int r : component.roles) {
     const Role& role = nth(graph.roles, r);
@@ -323,7 +322,7 @@ void resolve(Draft& draft, Catalogue& catalogue) {
   if (!draft.overrides.files) report_simulator_ports(draft, catalogue);
 }
 
-/// Whether `--with` names this very file: as it is searched, in a folder and perhaps without its ending.
+/// Whether `--with` names this file: by its search name, in a folder and perhaps without its ending.
 bool asked_for(const fs::path& file, const fs::path& plugin) {
   const std::string found = "/" + plugin.lexically_normal().string();
   const std::string asked = "/" + file.lexically_normal().string();
@@ -331,8 +330,8 @@ bool asked_for(const fs::path& file, const fs::path& plugin) {
   return found.ends_with(asked) || found.ends_with(asked + ".so");
 }
 
-/// A log is data, whoever wrote it: what runs comes from the installation, from the store of copies, or is
-/// asked for by name, and never from where the log says that it lay.
+/// A log is untrusted data. Plugins come from the installation, from the store of copies, or from `--with`;
+/// never from a path in the log.
 void admit_again(const fs::path& plugin, const Overrides& overrides) {
   const std::vector<fs::path> ours = plugin_folders();
   if (std::find(ours.begin(), ours.end(), plugin.parent_path()) != ours.end()) return;
@@ -355,7 +354,7 @@ Graph load_mission(const std::string& file, const Overrides& given, Catalogue& c
   for (const auto& [name, value] : given.set) report.opened("--set " + name + "=" + value);
   for (const std::string& ports : given.record) report.opened("--record " + ports);
   const MissionText text = parse_mission(file, given, report);
-  if (!given.files) check_hardware(text, given, report);  // a log was flown already
+  if (!given.files) check_hardware(text, given, report);  // a mission from a log was flown already
   const Overrides overrides = with_components(text, given, report);
   catalogue.admit = [&overrides](const fs::path& plugin) {
     check_private_file(plugin);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who can fill which role: the outputs that a role promises, and components that fill several of them.
+// Possible fillers of a role: the outputs of its contract, and components that fill several roles.
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
@@ -15,7 +15,7 @@ std::vector<std::string> output_words(const ComponentInfo& info) {
   return words;
 }
 
-/// Does a filler keep the contract of its role?
+/// Whether a filler has the outputs of its role.
 bool keeps_contract(Draft& draft, const RoleDraft& role, const Candidate& filler) {
   const std::string path = "components." + filler.name + ": ";
   const ComponentInfo& info = filler.info();

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view shipped_prefix = "fulmar:";
 
-/// Of an installation, or of the source tree that a program was built in. Empty when there is neither.
+/// Folder of the installation, or of the source tree of this build. Empty when there is neither.
 fs::path shipped_folder() {
   std::error_code code;
   for (const fs::path& home : home_folders()) {
@@ -36,7 +36,7 @@ std::vector<fs::path> yaml_files(const fs::path& folder) {
   return files;
 }
 
-/// ". Did you mean 'a.yaml'?": those that are called as the nearest one is, in whatever folder.
+/// ". Did you mean 'a.yaml'?": files with the nearest name, in any folder.
 template <class Called>
 std::string near_files(const std::string& stem, const std::vector<fs::path>& files, Called called) {
   std::vector<std::string> stems;

@@ -8,7 +8,7 @@
 namespace fulmar::core {
 namespace {
 
-/// Every component that leads to one of `ends`; the vehicle is left out.
+/// Every component that leads to one of `ends`, without the vehicle.
 std::vector<int> leading_to(const Graph& graph, std::vector<Source> ends) {
   std::vector<int> found;
   while (!ends.empty()) {
@@ -26,7 +26,7 @@ std::vector<int> leading_to(const Graph& graph, std::vector<Source> ends) {
   return found;
 }
 
-/// Sources of what the vehicle obeys.
+/// Sources of the vehicle's command inputs.
 std::vector<Source> commands(const Graph& graph, const MissionText& text) {
   std::vector<Source> ends;
   const RoleText* const role = text.role("vehicle");

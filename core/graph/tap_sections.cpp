@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sections of a mission that say who may look on and take part: `live:` and `dds:`.
+// The sections of a mission for clients and other hosts: `live:` and `dds:`.
 #include <arpa/inet.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 namespace fulmar::core {
 namespace {
 
-constexpr int max_domain = 232;         // of DDS: the ports of the next one would lie above 65535
-constexpr double slowest_hz = 1 / 9e9;  // the nanoseconds of a longer period are no 64-bit number
+constexpr int max_domain = 232;         // of DDS: the ports of a higher one would exceed 65535
+constexpr double slowest_hz = 1 / 9e9;  // a longer period in nanoseconds exceeds 64 bits
 
 bool is_ipv4(const std::string& text) {
   in_addr address{};
@@ -41,8 +41,8 @@ bool split_address(const std::string& text, LiveOptions& live) {
   return is_address(host);
 }
 
-/// The address becomes a part of a header, and a pattern: of the host only what no other part of the header
-/// could begin with, and each place of the pattern once.
+/// The address becomes a part of a header, and a pattern. So its host may only have characters that cannot
+/// begin another part of the header, and each placeholder occurs once.
 bool is_tiles(const std::string& url) {
   constexpr const char* of_host = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-.";
   const std::string origin = origin_of(url);
@@ -144,7 +144,7 @@ class DdsReader {
                    .value_or("");
     }
     if (e.port.empty() || !parse_port_name(e.port, e.where, "dds.export", report_)) return;
-    if (e.topic.empty()) e.topic = slashed(e.port);  // relative: behind the namespace
+    if (e.topic.empty()) e.topic = slashed(e.port);  // relative to the namespace
     if (topic(e.topic, e.where, "dds.export")) m_.dds.exports.push_back(std::move(e));
   }
 
@@ -166,7 +166,7 @@ class DdsReader {
   Report& report_;
 };
 
-/// nullptr when it is not there, or off.
+/// nullptr when it is missing, or off.
 const Node* section(const Keys& mission, const std::string& key, const std::string& expected,
                     Report& report) {
   const Node* node = mission.get(key);
@@ -208,7 +208,7 @@ void read_dds(const Keys& mission, MissionText& text, Report& report) {
     DdsReader(text, report).read(*node);
 }
 
-/// Inputs that are fed from outside. Before it is checked who feeds the others.
+/// Marks inputs that are fed from outside. Call it before the check of unfed inputs.
 void mark_imports(Draft& draft) {
   for (std::size_t n = 0; n < draft.text.tap.dds_imports.size(); ++n) {
     const ImportText& import = draft.text.tap.dds_imports[n];
@@ -217,7 +217,7 @@ void mark_imports(Draft& draft) {
     if (index < 0) {
       if (!draft.text.component(import.to.owner) && !taken_away(draft, import.to.owner, import.where, path))
         draft.report.add(import.where, located(path, not_there(draft, import.to.owner)));
-      continue;  // it exists with another io
+      continue;  // it exists with the other io
     }
     Candidate& candidate = nth(draft.candidates, index);
     if (!candidate.loaded) continue;
@@ -232,7 +232,8 @@ void mark_imports(Draft& draft) {
     Wire& wire = nth(candidate.wires, input);
     if (nth(candidate.info().inputs, input).kind == FULMAR_IN_REQUEST)
       draft.report.add(import.where, located(path, graph_messages::imported_input_invalid()));
-    // What the mission imports replaces a wire of the file that it extends: nothing else takes that one out.
+    // An import of the mission replaces a wire of the file that it extends; there is no other way to remove
+    // that wire.
     const bool replaces = import.where.file == draft.text.file->name && wire.where.file != import.where.file;
     if (wire.from.kind != Source::Kind::none && !replaces)
       draft.report.add(import.where,
@@ -248,7 +249,7 @@ namespace {
 
 const std::string& ros_or_name(const Type& type) { return type.ros.empty() ? type.name : type.ros; }
 
-/// Of a role's output or a component's; empty for a probe.
+/// Type of a role's output or a component's; empty for a probe.
 TypePtr type_of_port(const Graph& graph, const std::string& port) {
   const std::size_t dot = port.find('.');
   const std::string owner = port.substr(0, dot), output = port.substr(dot + 1);
@@ -261,7 +262,7 @@ TypePtr type_of_port(const Graph& graph, const std::string& port) {
 
 }  // namespace
 
-/// After the wires of the graph are built.
+/// Call it after the wires of the graph are built.
 void resolve_dds(Draft& draft, const std::vector<std::string>& ports) {
   Graph& graph = draft.graph;
   for (std::size_t c = 0; c < graph.components.size(); ++c)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters of every component: declared value <- airframe file <- what the mission as a whole says <-
-// `params:` <- --set. And the failsafe.
+// Parameters of every component, later sources win: declared value <- airframe file <- mission-wide keys <-
+// `params:` <- --set. And the failsafe values.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ namespace {
 /// The mission's airframe as a tree: a file, or a map in the mission itself.
 struct AirframeSource {
   const Node* tree = nullptr;
-  std::string name, path;  // for the parameter; for faults
+  std::string name, path;  // path of the parameter, in faults
 };
 
 AirframeSource airframe_source(Draft& draft) {
@@ -32,25 +32,25 @@ AirframeSource airframe_source(Draft& draft) {
   return {};
 }
 
-/// With the path that is meant when the key is a field of one of the records.
+/// Suggests the path when the key is a field of one of the records.
 Diagnostic no_parameter(const Candidate& candidate, const std::string& key, const std::string& path) {
   const ComponentInfo& info = candidate.info();
   const std::string first = key.substr(0, key.find_first_of(".["));
   for (const ParamInfo& param : info.params)
     if (param.kind == FULMAR_RECORD && field_of_key(*param.type, first)) {
-      const std::string owner = path == candidate.name ? candidate.name + "." : "";  // --set names it, too
+      const std::string owner = path == candidate.name ? candidate.name + "." : "";  // the form of --set
       return located(path, graph_messages::parameter_in_record(candidate.use, key,
                                                                owner + param.name + "." + key, param.name));
     }
   return located(path, has_no(candidate.use, "parameter", key, info.params));
 }
 
-/// A field of a record is set after the records, wherever it stands: a whole one would take it away again.
+/// Fields of a record are set after all records: a whole record would overwrite them.
 void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::string& path) {
   const ComponentInfo& info = candidate.info();
   std::vector<std::pair<const Node::Entry*, ParamPath>> fields;
   for (const Node::Entry& entry : map.entries) {
-    if (draft.report.full()) break;  // each of the others costs its hint
+    if (draft.report.full()) break;  // each further fault costs a hint
     const ParamPath at = param_path(info, entry.key);
     if (at.param < 0)
       draft.report.add(entry.where(), no_parameter(candidate, entry.key, path));
@@ -70,8 +70,8 @@ void set_params(Draft& draft, Candidate& candidate, const Node& map, const std::
   }
 }
 
-/// Section `params` of the airframe file: gains belong to the aircraft. Components that this mission does not
-/// use are passed over.
+/// Section `params` of the airframe file: gains belong to the aircraft. Skips components that this mission
+/// does not use.
 void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource& airframe) {
   const Node* sections = airframe.tree ? airframe.tree->find("params") : nullptr;
   const std::string prefix = airframe.path.empty() ? "params" : airframe.path + ".params";
@@ -93,7 +93,7 @@ void set_from_airframe(Draft& draft, Candidate& candidate, const AirframeSource&
   }
 }
 
-/// What the mission says once for everybody: airframe, origin, epoch, and the vehicle's rate.
+/// Values that the mission sets once for all components: airframe, origin, epoch, and the vehicle's rate.
 void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& airframe) {
   const ComponentInfo& info = candidate.info();
   for (std::size_t i = 0; i < info.params.size(); ++i) {
@@ -105,7 +105,7 @@ void set_from_mission(Draft& draft, Candidate& candidate, const AirframeSource& 
     if (param.kind == FULMAR_RECORD && param.name == "origin" && draft.text.node.origin.is(Node::Kind::map))
       read_record(param, draft.text.node.origin, "origin", draft.text.node.origin.file->name, value,
                   draft.report);
-    // whoever stamps its messages does it as the log does
+    // message stamps must have the epoch of the log
     if (param.kind == FULMAR_COUNT && param.name == "epoch")
       value.integer = std::clamp(draft.text.epoch_ns / 1'000'000'000, static_cast<std::int64_t>(param.min),
                                  static_cast<std::int64_t>(param.max));
@@ -151,7 +151,7 @@ void check_required(Draft& draft, const Candidate& candidate) {
     const Node* const whole = param.name == "airframe" ? &draft.text.node.airframe
                               : param.name == "origin" ? &draft.text.node.origin
                                                        : nullptr;
-    if (whole && !whole->is(Node::Kind::missing)) continue;  // it was refused: that is told already
+    if (whole && !whole->is(Node::Kind::missing)) continue;  // it was rejected: that is reported already
     draft.report.add(candidate.where,
                      graph_messages::parameter_missing(
                          candidate.name, param.name, param.doc.empty() ? "" : " (" + param.doc + ")",

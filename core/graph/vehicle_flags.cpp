@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What protects an aircraft: which fields of its vehicle say that it is armed, on the ground, and under the
-// host's control. The host knows no message, so the mission names them; unless it does, they are looked for
-// in the output 'status'.
+// Flags for the protection of an aircraft: the fields of its vehicle that mean armed, on the ground, and
+// under the host's control. The host does not depend on a message, so the mission names them. By default they
+// are searched in the output 'status'.
 #include <array>
 
 #include "core/graph/draft.hpp"
@@ -20,7 +20,7 @@ constexpr std::array<Wanted, 3> all_flags = {Wanted{"armed", &VehicleFlags::arme
                                              {"on_ground", &VehicleFlags::on_ground},
                                              {"in_control", &VehicleFlags::in_control}};
 
-/// All that could be named: "status.armed, status.in_control".
+/// All possible flags: "status.armed, status.in_control".
 std::vector<std::string> flag_names(const ComponentInfo& vehicle) {
   std::vector<std::string> names;
   for (const Port& port : vehicle.outputs)
@@ -57,7 +57,7 @@ VehicleFlag named_flag(const Graph& graph, const std::string& text) {
   return {{Source::Kind::component, graph.vehicle, output}, field.offset};
 }
 
-/// The flag of that name in the output 'status'; none when there is none.
+/// The flag of that name in the output 'status', or none.
 VehicleFlag usual_flag(const Graph& graph, const char* name) {
   const ComponentInfo& info = nth(graph.components, graph.vehicle).info();
   const int output = info.output(usual_port);
@@ -67,14 +67,14 @@ VehicleFlag usual_flag(const Graph& graph, const char* name) {
   return {{Source::Kind::component, graph.vehicle, output}, field->offset};
 }
 
-/// Of an optional output that this vehicle does not have, nothing can be said: it is there with the other io.
+/// An optional output that this vehicle lacks may exist with the other io, so it cannot be checked.
 bool not_in_this_run(const Draft& draft, const RoleText& role, const std::string& text) {
   const std::string port = text.substr(0, text.find('.'));
   const RoleOutText* const out = find_named(role.out, port);
   return draft.vehicle().info().output(port) < 0 && out && out->optional;
 }
 
-/// An aircraft of which the host does not know whether it is armed would be left in the air by a Ctrl-C.
+/// Without the flag `armed`, a Ctrl-C would abandon an aircraft in the air.
 void check_complete(Draft& draft, const std::vector<std::string>& missing) {
   const Component& vehicle = draft.vehicle();
   const RoleText* const role = draft.text.role("vehicle");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wires: what a port name means, whether the two ends fit, what is missing, and the order of the steps that
-// follows.
+// Wires: resolution of port names, type checks of both ends, missing wires, and the resulting order of steps.
 #include <algorithm>
 
 #include "core/graph/draft.hpp"
@@ -16,7 +15,7 @@ Target role_target(const Draft& draft, int index, const PortName& name) {
   target.source = {Source::Kind::role, index, output};
   target.type = nth(role.types, output);
   target.unclear = !target.type;
-  // a filler may keep silent or send several: the strictest of them all is asked by a request
+  // fillers may publish any number of samples: a request input is the strictest check
   target.kind = FULMAR_OUT_QUEUE;
   for (const int f : role.fillers) {
     const Candidate& filler = nth(draft.candidates, f);
@@ -59,7 +58,7 @@ std::string misfit(const std::string& owner, const Port& input, const PortName& 
   return "";
 }
 
-/// Another plugin by the command line: it takes of the wires what it has inputs for.
+/// Another plugin by the command line: it takes the wires for which it has inputs.
 bool is_exchanged(const Draft& draft, const std::string& component) {
   const auto& with = draft.overrides.with;
   return draft.overrides.swaps != component &&
@@ -95,7 +94,7 @@ void connect(Draft& draft, std::size_t index, const WireText& text, const std::s
   }
 }
 
-/// The wires that a role brings, but where the component has one of its own.
+/// The wires that a role brings, except where the component has its own.
 void connect_by_role(Draft& draft, std::size_t index, const RoleText& role) {
   const Candidate& candidate = draft.candidates[index];
   for (const WireText& wire : role.in) {
@@ -108,7 +107,7 @@ void connect_by_role(Draft& draft, std::size_t index, const RoleText& role) {
   }
 }
 
-/// The wires of a role are checked even where no filler uses them: a slip there is a slip.
+/// Checks the wires of a role even when no filler uses them, to find typing errors.
 void check_role_wires(Draft& draft, const RoleDraft& role) {
   for (const WireText& wire : role.text->in) {
     const std::string path = "roles." + role.name + ".in." + wire.name;
@@ -158,7 +157,7 @@ void resolve_wires(Draft& draft) {
 
 namespace {
 
-/// Outputs that would fit an input, as people would wire them: through roles where there are roles.
+/// Outputs that fit an input, as suggestions: by role where there are roles.
 std::vector<std::string> proposals(const Draft& draft, const Candidate& reader, const Port& input) {
   std::vector<std::string> names;
   const auto offer = [&](const PortName& from, const Target& target) {
@@ -228,7 +227,7 @@ struct Edge {
   Where where;
 };
 
-/// [component] -> the steps that must come before it. The vehicle is read first and written last: it makes no
+/// [component] -> the steps that must precede it. The vehicle is read first and written last: it makes no
 /// edge.
 std::vector<std::vector<Edge>> edges_of(const Graph& graph) {
   std::vector<std::vector<Edge>> before(graph.components.size());
@@ -245,7 +244,7 @@ std::vector<std::vector<Edge>> edges_of(const Graph& graph) {
   return before;
 }
 
-/// Among steps that wait for each other there is a cycle: walk back until a step comes twice.
+/// Steps that wait for each other contain a cycle: walk back until a step occurs twice.
 void report_cycle(Draft& draft, const std::vector<std::vector<Edge>>& before, const std::vector<bool>& done) {
   const auto open = [&](int i) { return !nth(done, i); };
   int at = 0;

@@ -12,7 +12,7 @@ bool is_in_run(const MissionText& text, const ComponentText& component) {
   return !component.only || *component.only == text.io;
 }
 
-/// Whom the command line or the phases name, else the first that fills it, as the phases are seated.
+/// Components that the command line or the phases name, else the first that fills it, as in phases.cpp.
 std::vector<std::string> who_fills(const MissionText& text, const Overrides& overrides,
                                    const std::string& role) {
   for (const auto& [name, component] : overrides.roles)

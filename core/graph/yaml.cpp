@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// YAML files as a tree with places: the report, and what is asked of the tree.
+// YAML files as a tree with places: the report, and access to the tree.
 #include "core/graph/yaml.hpp"
 
 #include <fcntl.h>
@@ -19,7 +19,8 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t max_faults = 100;  // more are not read, and each is compared with those before it
+constexpr std::size_t max_faults = 100;  // further faults are not useful, and each is compared with those
+                                         // before it
 
 }  // namespace
 
@@ -119,7 +120,7 @@ namespace {
 
 constexpr std::size_t largest_source = 16u << 20;  // bytes
 
-/// A file that is open to be read, and closes.
+/// A file that is open for reading, closed by the destructor.
 struct OpenFile {
   int fd;
   explicit OpenFile(const std::filesystem::path& path)
@@ -131,8 +132,8 @@ struct OpenFile {
   OpenFile& operator=(const OpenFile&) = delete;
 };
 
-/// To its end, whatever size it claims: a file of the kernel's claims none. What has no end, or nothing to
-/// give yet, is no file.
+/// Reads to the end, whatever the reported size: files of the kernel report none. An endless file, or one
+/// without data yet, is rejected.
 std::string contents_of(int fd, const std::string& name) {
   std::string text;
   for (std::string block(1u << 16, '\0'); text.size() <= largest_source;) {

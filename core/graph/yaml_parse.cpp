@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a YAML text to the tree. yaml-cpp reads the text event by event; the tree is built from the events, so
-// that a file that would become too large is refused before it has.
+// From a YAML text to the tree. yaml-cpp reads the text event by event. The tree is built from the events, so
+// that a file with a tree that is too large is rejected early.
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
@@ -17,9 +17,9 @@ namespace {
 
 constexpr int deepest = 60;
 constexpr std::size_t max_values = 500'000;
-constexpr std::size_t max_text = 32u << 20;  // twice the largest file: only aliases come here
+constexpr std::size_t max_text = 32u << 20;  // twice the largest file: only aliases can exceed that
 
-/// What a tree holds. Aliases copy, so a short text can become a large tree.
+/// Size of a tree. Aliases copy, so a short text can become a large tree.
 struct Size {
   std::size_t values = 1, text = 0;
   int depth = 0;
@@ -42,12 +42,11 @@ class Builder : public YAML::EventHandler {
  public:
   Builder(const FilePtr& file, Report& report) : file_(file), report_(report) {}
 
-  /// The first document is the tree. Of a second one the parser is told at its first value, and goes no
-  /// further.
+  /// The first document is the tree. Its exception stops the parser at the first value of a second one.
   struct SecondDocument {
     int line;
   };
-  /// The place of what was refused.
+  /// Place of a rejected value.
   struct Refused {
     int line;
     Diagnostic message;
@@ -60,7 +59,7 @@ class Builder : public YAML::EventHandler {
     Node node = begin(mark, Node::Kind::null);
     const auto at = static_cast<std::size_t>(mark.pos);
     if (at < file_->text.size() && std::string_view("nN~").find(file_->text[at]) != std::string_view::npos)
-      node.text = "null";  // else nothing stands there
+      node.text = "null";  // marks a written null, not an omitted value
     node.line = open_.empty() ? first_line() : open_.back().line();
     place(std::move(node), mark, anchor);
   }
@@ -93,15 +92,16 @@ class Builder : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  /// A list or map whose end has not come yet.
+  /// A list or map whose end has not been read.
   struct Open {
     Node node;
     YAML::Mark mark;
     YAML::anchor_t anchor;
-    std::map<std::string, int> lines;  // of the keys so far; a map, because no choice of keys makes it slow
-    std::string key;                   // of the value that comes next
+    std::map<std::string, int> lines;  // lines of the keys so far; a map, so that no choice of keys makes it
+                                       // slow
+    std::string key;                   // of the next value
     int key_line = 0;
-    bool has_key = false, dropped = false;  // dropped: the key was refused, and so is its value
+    bool has_key = false, dropped = false;  // dropped: the key was rejected, and so is its value
 
     int line() const { return has_key ? key_line : node.line; }
   };
@@ -111,7 +111,7 @@ class Builder : public YAML::EventHandler {
   };
 
   int first_line() const { return file_->path.empty() ? 0 : 1; }
-  /// A text that stands in no file has no lines.
+  /// A text without a file has no lines.
   int line_of(const YAML::Mark& mark) const { return file_->path.empty() ? 0 : mark.line + 1; }
   Refused too_deep(const YAML::Mark& mark) const {
     return {line_of(mark), graph_messages::yaml_too_deep(deepest)};
@@ -180,7 +180,7 @@ class Builder : public YAML::EventHandler {
     map.dropped = false;
   }
 
-  /// It would end the name of a file, or speak to the terminal of whoever reads it.
+  /// A control character could end a file name, or affect the terminal of a reader.
   void refuse_control(const std::string& text, int line) {
     for (std::size_t i = 0; i < text.size(); ++i) {
       if (!is_control(text, i) || text[i] == '\r') continue;
@@ -197,7 +197,7 @@ class Builder : public YAML::EventHandler {
   bool ended_ = false;
 };
 
-/// yaml-cpp speaks of its grammar; say what to look for instead.
+/// Replaces grammar terms of yaml-cpp by the probable fault.
 std::string plain_words(const std::string& said) {
   static const std::vector<std::pair<std::string, std::string>> known = {
       {"end of map not found", "the indentation does not fit what stands above, or a ':' is missing"},
@@ -227,12 +227,12 @@ bool begins_with_tab(const std::string& text, int line) {
   return first != std::string::npos && text[first] == '\t';
 }
 
-/// Optional ports are written {truth?: VehicleState}. YAML allows it; yaml-cpp 0.7 does not inside braces, so
-/// quote such keys for it.
+/// Optional ports are written {truth?: VehicleState}. YAML allows it, but yaml-cpp 0.7 rejects it inside
+/// braces, so such keys are quoted first.
 std::string quoted_optional_keys(const std::string& text) {
   std::string out;
   char quote =
-      0;  // the open one; a quote opens only where a value can begin, and closes at the latest with its line
+      0;  // the open quote; it opens only where a value can begin, and closes at the latest with its line
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i], before = i > 0 ? text[i - 1] : '\n';
     const bool begins = std::string_view(" \t\n{[,:").find(before) != std::string_view::npos;
@@ -256,7 +256,7 @@ std::string quoted_optional_keys(const std::string& text) {
   return out;
 }
 
-/// A text of no document gives nothing.
+/// An empty text gives a missing node.
 Node first_document(const FilePtr& file, Report& report) {
   Builder builder(file, report);
   std::istringstream text(quoted_optional_keys(file->text));

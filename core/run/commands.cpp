@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What enters a flight from outside, between ticks. There is one door for them, Flight::Impl::take: commands
-// have been checked and prepared by then, and each is in the log in the tick in which it takes effect.
+// Input of a flight from outside, between ticks. Flight::Impl::take is its single entry: commands are checked
+// and prepared before it, and each is in the log in the tick in which it takes effect.
 #include <utility>
 
 #include "core/run/flight_impl.hpp"
@@ -33,7 +33,7 @@ Flight::Impl::Taken Flight::Impl::apply_request(const Command& command, Reply an
   recorder.put_input(r.channel, command.message.data());
   Event e = event_of(Code::request_taken, unit.component->name, r.port->name);
   say(e, r.port->name);
-  recorder.note(e, false);  // not told aloud: a tool may send hundreds
+  recorder.note(e, false);  // not printed: a tool may send hundreds
   return Taken::yes;
 }
 
@@ -54,13 +54,13 @@ void Flight::Impl::apply_parameter(Command& command, Code reported) {
   const bool number = unit.info->params[command.part].kind == FULMAR_NUMBER;
   e.value = number ? taken.number[0] : static_cast<double>(taken.integer);
   say(e, run_messages::parameter_set, taken.name.data(), taken.text.data());
-  recorder.note(e, false);  // not told aloud: a script may set thousands
+  recorder.note(e, false);  // not printed: a script may set thousands
 }
 
 void Flight::Impl::apply_phase(const Command& command) {
   if (end.in_failsafe()) throw Error(run_messages::failsafe_active());
   recorder.put_command(command.note);
-  roles.enter(static_cast<int>(command.part));  // the present one, too: whoever it names takes over again
+  roles.enter(static_cast<int>(command.part));  // also the present one: its components take over again
 }
 
 void Flight::Impl::reset_guards(const Command& command) {
@@ -74,7 +74,7 @@ void Flight::Impl::reset_guards(const Command& command) {
   }
 }
 
-/// False: its process has ended, and this is no time to start another.
+/// Returns false when its process has ended: a new one cannot be started now.
 bool Flight::Impl::reset_guard(int component) {
   if (wiring.unit(component).runner().dead()) {
     if (const std::string why = protection.in_use(); !why.empty()) {

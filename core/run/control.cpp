@@ -20,9 +20,9 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t max_value = 4096;  // of a parameter's text
+constexpr std::size_t max_value = 4096;  // length of a parameter's text
 constexpr auto nap =
-    std::chrono::milliseconds(2);  // of the thread that answers; the loop never pays for waking it
+    std::chrono::milliseconds(2);  // sleep of the answering thread; the loop never has the cost of a wake-up
 
 }  // namespace
 
@@ -30,8 +30,8 @@ struct FlightControl::Waiting {
   Command command;
   std::optional<PaceOrder> pace;  // in place of a command
   Answer answer;
-  std::array<char, 256> refusal{};             // of a component, in its step
-  std::string fault;                           // of the host: all of it
+  std::array<char, 256> refusal{};             // reason of a component, written in its step
+  std::string fault;                           // fault found by the host, complete
   std::shared_ptr<const Directory> directory;  // after a swap
 };
 
@@ -67,7 +67,7 @@ void FlightControl::note_unit(std::size_t component, const Unit& unit) noexcept 
 
 void FlightControl::done(Waiting& waiting) noexcept {
   queues_.out.push(&waiting);
-}  // has room for all that can wait
+}  // the queue has room for all pending commands
 
 bool FlightControl::apply() noexcept {
   std::size_t applied = 0, left = 0;
@@ -83,7 +83,7 @@ bool FlightControl::apply() noexcept {
     if (!waiting) break;
     const bool paces = waiting->pace.has_value();
     if (!take(*waiting)) held_.list[held_.count++] = waiting;
-    if (paces) break;  // what was asked for afterwards has its turn afterwards
+    if (paces) break;  // later commands are executed later
   }
   for (std::size_t n = 0; n < max_per_tick; ++n) {
     Waiting* const sample = queues_.samples.pop();
@@ -99,7 +99,7 @@ bool FlightControl::take(Waiting& w) noexcept {
   } catch (const std::exception& fault) {
     try {
       w.fault = fault.what();
-    } catch (...) {  // no memory for it
+    } catch (...) {  // out of memory
     }
     return refuse(w, fault.what());
   }
@@ -112,7 +112,8 @@ bool FlightControl::refuse(Waiting& w, const char* why) noexcept {
   return true;
 }
 
-/// False: not now. A request has its turn when there is room for it, and is answered by its component.
+/// Returns false when it must wait. A request waits until there is room for it, and is answered by its
+/// component.
 bool FlightControl::apply(Waiting& w) {
   Command& c = w.command;
   if (c.made_for && c.made_for != flight_.wiring.units[c.at]->component->plugin)
@@ -132,14 +133,14 @@ bool FlightControl::apply(Waiting& w) {
 
 // ---- the loop's clock
 
-/// The flight goes on as fast as it may.
+/// The flight continues at full speed.
 void FlightControl::go_on() noexcept {
   end_steps();
   clock_.paused = false;
   flight_.stopwatch.go_on();
 }
 
-/// Whoever has asked for more ticks learns how many there were.
+/// Reports the number of flown ticks to the client that requested them.
 void FlightControl::end_steps() noexcept {
   if (!clock_.stepper) return;
   Waiting& w = *std::exchange(clock_.stepper, nullptr);
@@ -157,7 +158,7 @@ void FlightControl::ticked() noexcept {
 
 bool FlightControl::apply_pace(Waiting& w) {
   using What = PaceOrder::What;
-  held_.grounded = true;  // telling it allocates
+  held_.grounded = true;  // the report allocates
   const PaceOrder& order = *w.pace;
   switch (order.what) {
     case What::pause:
@@ -340,7 +341,7 @@ bool FlightControl::publish(const std::string& component, const std::string& por
   directory()->commands->prepare(c);
   Waiting* const w = waiting.get();
   const std::lock_guard lock(mutex_);
-  // So many of each: a flood of one import takes no other's place.
+  // A limit per import: a flood of one does not block the others.
   if (over_.load() || waiting_.of_import[c.part] >= max_of_import || !queues_.samples.push(w)) {
     lost_samples_.fetch_add(1, std::memory_order_relaxed);
     return false;

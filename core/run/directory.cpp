@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight in the words of those who look at it.
+// A description of the flight for clients.
 #include <cstring>
 #include <filesystem>
 
@@ -21,7 +21,7 @@ std::string source_name(const Graph& graph, const Wire& wire) {
   return c.name + "." + c.info().outputs[output].name;
 }
 
-/// As the components have it that the mission tells: whose parameter `origin` is given.
+/// The mission's origin, from a component whose parameter `origin` is given.
 std::optional<Geodetic> origin_of(const Graph& graph) {
   for (const Component& c : graph.components) {
     const auto& params = c.info().params;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flight, for those who embed one.
+// Interface of a flight for programs that embed one.
 #include <utility>
 
 #include "core/run/component/last_frame.hpp"
@@ -17,7 +17,7 @@ Flight::Flight(const Graph& graph, const FlightOptions& options)
 Flight::~Flight() {
   last_frame.store(nullptr, std::memory_order_release);
   if (impl_->onlookers.control)
-    impl_->onlookers.control->end();  // answers go to those who asked, as long as they are there
+    impl_->onlookers.control->end();  // answers reach their clients while these exist
 }
 
 FlightResult Flight::run() {

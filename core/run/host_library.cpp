@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A library has threads of its own, and answers may be under way when a flight ends: it is linked with
-// -z nodelete, so that it stays mapped when the object closes.
+// A library has its own threads, and answers may be pending when a flight ends. So it is linked with -z
+// nodelete and stays mapped when the object closes.
 const void* open(const std::string& section, const std::string& needs, const fs::path& path) {
   SharedObject file;
   try {

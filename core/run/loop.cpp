@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tick: vehicle read, steps in order, phase conditions, vehicle write. What is published goes to the tap
-// at once.
+// The tick: vehicle read, steps in order, phase conditions, vehicle write. Samples go to the tap at once.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -17,7 +16,7 @@
 
 namespace fulmar::core {
 
-/// The flight is over: time stands still without the vehicle.
+/// Ends the flight: time does not advance without the vehicle.
 bool Flight::Impl::vehicle_failed() {
   Unit& vehicle = wiring.vehicle();
   make_printable(vehicle.problem.text);
@@ -57,7 +56,7 @@ bool Flight::Impl::tick() {
 
   const StepResult written = vehicle.write(state.now_ns, state.index, end.steering(), state.graph.failsafe);
   if (written == StepResult::bad) return vehicle_failed();
-  vehicle.in.refusals.clear();  // not noted: in a replay there is nobody to refuse anything
+  vehicle.in.refusals.clear();  // not logged: a replay has no component that could reject them
   roles.charge(vehicle);
   wiring.latch();
   recorder.note_tick();
@@ -66,7 +65,7 @@ bool Flight::Impl::tick() {
   return !end.reached();
 }
 
-/// What onlookers are told of the flight as a whole. Of its components now and then.
+/// Reports the flight's state to clients; that of its components at a lower rate.
 void Flight::Impl::report_control() noexcept {
   constexpr std::uint64_t every = 16;
   if (!onlookers.control) return;
@@ -76,8 +75,8 @@ void Flight::Impl::report_control() noexcept {
   for (std::size_t i = 0; i < wiring.units.size(); ++i) onlookers.control->note_unit(i, *wiring.units[i]);
 }
 
-/// A program that stood still, as one that was stopped or a machine that slept, catches up: nobody shall take
-/// that for real time.
+/// After a standstill, as of a stopped program or a suspended machine, the flight catches up. It is reported,
+/// because this is not real time.
 void Flight::Impl::note_behind(double seconds) {
   constexpr double worth_saying_s = 0.5, caught_up_s = 0.05;
   state.result.wall.behind_max_s = std::max(state.result.wall.behind_max_s, seconds);
@@ -100,7 +99,7 @@ bool Flight::Impl::step() {
   const bool counted = !onlookers.control || first || onlookers.control->apply();
   const std::uint64_t entered = counted ? thread_allocations() - entering : 0;
   if (onlookers.control && onlookers.control->stands() && !stand_still()) return false;
-  if (end.over()) return false;  // to make room for another
+  if (end.over()) return false;  // for another flight
   if (first && state.on_hardware()) stay_on_one_cpu();
   if (first) stopwatch.begin();
   stopwatch.enter(state.index);
@@ -116,8 +115,8 @@ bool Flight::Impl::step() {
   return true;
 }
 
-/// The verdict, for the log and for those who look on. A replay stops where its log does, and takes the
-/// reason from there.
+/// The verdict, for the log and for clients. A replay stops at the end of its log, and takes the reason from
+/// there.
 void Flight::Impl::conclude() {
   const FlightResult& result = state.result;
   std::string word = result_word(result), reason = reason_of(result);

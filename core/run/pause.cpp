@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulation that is paused: flight time stands still between two ticks, and what is asked goes on being
-// answered. Nothing of that is in the log, whose time is the flight's.
+// Pause of a simulation: flight time stands still between two ticks, and commands are still answered. The log
+// does not contain the pause, because its time is flight time.
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -20,7 +20,7 @@ bool Flight::Impl::stand_still() {
   while (onlookers.control->stands() && !end.over()) {
     std::this_thread::sleep_for(interval);
     onlookers.control->apply();
-    stopwatch.skip();  // nobody's time
+    stopwatch.skip();  // not charged to a unit
     if (interrupt && interrupt->load(std::memory_order_relaxed) != 0) end.end_by(Ending::Cue::signal);
     if (state.options.progress && stopwatch.time_to_show()) state.options.progress(owner);
   }

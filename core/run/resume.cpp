@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of a flight that goes on where a log ended.
+// Resumes a flight at the end of a log.
 #include <algorithm>
 #include <utility>
 
@@ -10,7 +10,7 @@
 namespace fulmar::core {
 
 /// Before the first step, or when a vehicle turns out to be armed. The parameters are those of a log: one
-/// that cannot be set any more is told, and the flight goes on without it.
+/// that cannot be set any more is reported, and the flight continues without it.
 void Flight::Impl::resume_now(bool begun) {
   const Resume resume = std::move(*state.options.resume);
   state.options.resume.reset();

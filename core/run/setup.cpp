@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Set-up of a flight: its components are created, connected and configured, its log and its doors opened.
+// Set-up of a flight: its components are created, connected and configured, its log and its interfaces are
+// opened.
 #include <algorithm>
 
 #include "core/graph/live_options.hpp"
@@ -65,7 +66,7 @@ void Flight::Impl::connect() {
   roles.connect();
 }
 
-/// `arm: auto`: asks the vehicle's request port `arm`, in its first tick.
+/// `arm: auto`: sends a request to the vehicle's port `arm`, in its first tick.
 void Flight::Impl::request_arming() {
   Unit& vehicle = wiring.vehicle();
   const int port = vehicle.info->input("arm");
@@ -83,14 +84,14 @@ void Flight::Impl::open_tap() {
   const Graph& graph = state.graph;
   const bool logs = state.options.log && graph.record;
   const bool shown =
-      !state.unpaced() && (graph.live.on || graph.dds.on);  // as fast as possible is too fast for onlookers
+      !state.unpaced() && (graph.live.on || graph.dds.on);  // a flight at full speed is too fast for clients
   if (!logs && !shown) return;
   recorder.open(wiring.units, logs);
   if (shown) open_to_others();
 }
 
-/// Threads of onlookers are begun here, before the loop's thread is bound to a CPU and given its priority,
-/// which they must not inherit.
+/// Threads of clients start here, before the loop's thread is bound to a CPU and given its priority, which
+/// they must not inherit.
 void Flight::Impl::open_to_others() {
   const Graph& graph = state.graph;
   const LiveLibrary* const live = graph.live.on ? &live_library(graph.live) : nullptr;
@@ -101,7 +102,8 @@ void Flight::Impl::open_to_others() {
   if (live == nullptr) return;
   try {
     onlookers.live = live->open(*recorder.tap(), *onlookers.control, graph.live, page_folder());
-  } catch (const Error& fault) {  // another flight on this computer is no reason not to fly
+  } catch (const Error& fault) {  // a port that another flight on this computer uses must not prevent the
+                                  // flight
     if (state.options.say) state.options.say(run_messages::live_view_missing(fault.what()), true);
   }
 }

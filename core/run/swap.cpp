@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of a flight that replaces the file of a component between ticks, on the ground.
+// Replaces the file of a component between ticks, on the ground.
 #include "core/graph/params.hpp"
 #include "core/run/command/swap_checks.hpp"
 #include "core/run/flight_impl.hpp"
@@ -20,7 +20,7 @@ void Flight::Impl::swap(int at, const std::string& file) {
 
 namespace {
 
-/// The first output that one of the two has and the other has not, or not so.
+/// The first output that only one of the two has, or that differs.
 std::string what_differs(const Component& was, const Component& is) {
   for (const Port& port : is.info().outputs)
     if (was.info().output(port.name) < 0) return run_messages::output_added(port.name).line();
@@ -32,7 +32,7 @@ std::string what_differs(const Component& was, const Component& is) {
   return run_messages::outputs_changed().line();
 }
 
-/// The log of a flight has room for the ports that it began with.
+/// The log of a flight has channels only for the ports of its start.
 void check_ports(const Component& was, const Component& is) {
   for (const Port& port : was.info().outputs) {
     const int k = is.info().output(port.name);
@@ -47,8 +47,7 @@ void check_ports(const Component& was, const Component& is) {
 
 }  // namespace
 
-/// Reads the mission again with the new file; what is in the way is told by the same sentences as at the
-/// start.
+/// Reads the mission again with the new file; faults have the same messages as at the start.
 void Flight::Impl::replace(int at, const std::string& file) {
   const Graph& graph = state.graph;
   const Unit& old = wiring.unit(at);
@@ -69,7 +68,7 @@ void Flight::Impl::replace(int at, const std::string& file) {
   install(at, std::move(next), words);
 }
 
-/// On what its predecessor saw last, or, when nobody has stepped yet, on what it would see now.
+/// On the last inputs of its predecessor or, before the first step, on the present ones.
 void Flight::Impl::rehearse_newcomer(const Unit& old, const Component& newcomer) {
   std::unique_ptr<Tape> now;
   const Tape* tape = old.tape.get();
@@ -81,7 +80,7 @@ void Flight::Impl::rehearse_newcomer(const Unit& old, const Component& newcomer)
   rehearse(newcomer, state.graph.tick_ns, seed, same_inputs(*old.info, newcomer.info()) ? tape : nullptr);
 }
 
-/// A configured unit takes the place of another: what asked the old one is told `why`.
+/// A configured unit replaces another; pending requests of the old one are rejected with `why`.
 void Flight::Impl::put_in_place(int at, std::unique_ptr<Unit> fresh, const char* why) {
   std::unique_ptr<Unit>& place = nth(wiring.units, at);
   fresh->active = place->active;
@@ -92,7 +91,7 @@ void Flight::Impl::put_in_place(int at, std::unique_ptr<Unit> fresh, const char*
   if (const std::vector<Overlay>* overlay = roles.overlay_of(at); overlay) place->retune(overlay);
 }
 
-/// A new child for a component whose child has died; parameters are those of now.
+/// A new child for a component whose child has died, with the present parameters.
 void Flight::Impl::restart(int at) {
   const Unit& old = wiring.unit(at);
   std::unique_ptr<Unit> fresh = wiring.make_unit(*old.component);
@@ -101,8 +100,8 @@ void Flight::Impl::restart(int at) {
   put_in_place(at, std::move(fresh), "was started anew");
 }
 
-/// From here on nothing can fail but what ends the host: the newcomer has been created before the old one
-/// goes.
+/// From here on only an end of the host can interrupt the swap: the new unit exists before the old one is
+/// removed.
 void Flight::Impl::install(int at, Graph&& next, const std::string& words) {
   Graph& graph = state.graph;
   const auto i = static_cast<std::size_t>(at);

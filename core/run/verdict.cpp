@@ -19,7 +19,7 @@ std::string text_at(const std::byte* field, std::size_t room) {
   return line;
 }
 
-/// Which components report nothing, because this flight does not have them.
+/// Components that report nothing, because this flight does not have them.
 std::string without(const Graph& graph) {
   std::vector<std::string> owners;
   for (const auto& [key, port] : graph.judge.left_out) {

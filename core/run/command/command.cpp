@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See command.hpp.
 #include "core/run/command/command.hpp"
 
 #include <algorithm>
@@ -13,7 +12,7 @@
 namespace fulmar::core {
 namespace {
 
-/// A field of the log's, whole.
+/// Text of a log field, up to its room.
 template <std::size_t N>
 void put_whole(std::array<char, N>& to, const std::string& text, const char* what) {
   if (text.size() >= N) throw Error(run_messages::text_too_long(what, text, N - 1));
@@ -42,7 +41,7 @@ CommandNote swap_note(const std::string& component, const PluginInfo& plugin) {
 
 namespace {
 
-/// Whether `integer` is the value; `number` then says the same.
+/// Whether `integer` is the value; `number` is then equal.
 bool is_whole(const ParamInfo& info) {
   return info.kind == FULMAR_FLAG || info.kind == FULMAR_COUNT || info.kind == FULMAR_CHOICE;
 }
@@ -54,8 +53,7 @@ ParamValue value_of(const CommandNote& note, const ParamInfo& info) {
   std::copy(note.number.begin(), note.number.end(), std::begin(value.number));
   value.integer = note.integer;
   if (info.kind == FULMAR_STRING) value.text = note.text.data();
-  if (info.kind ==
-      FULMAR_CHOICE) {  // by its word: another version of the plugin may have them in another order
+  if (info.kind == FULMAR_CHOICE) {  // by its label: another version of the plugin may have another order
     const std::string word = note.text.data();
     const auto choice = std::find(info.choices.begin(), info.choices.end(), word);
     if (choice == info.choices.end())
@@ -156,7 +154,7 @@ void CommandTable::prepare(Command& c) const {
     case CommandKind::request:
     case CommandKind::import: prepare_message(c); break;
     case CommandKind::phase: c.part = phase(c.name); break;
-    case CommandKind::swap:  // told when it has been done
+    case CommandKind::swap:  // reported when it is done
     case CommandKind::reset: return;
   }
   put_whole(c.note.name, c.name, c.kind == CommandKind::phase ? "the phase" : "the name");

@@ -10,7 +10,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::size_t other_calls = 4;  // retune and activate, on their way beside the steps
+constexpr std::size_t other_calls = 4;  // pending retune and activate, in addition to the steps
 
 void prepare(Async::Job& job, const ComponentInfo& info) {
   const std::size_t in = info.inputs.size(), out = info.outputs.size();

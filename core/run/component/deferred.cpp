@@ -11,7 +11,7 @@
 namespace fulmar::core {
 namespace {
 
-/// Steps on their way at once.
+/// Largest number of pending steps.
 std::size_t depth_of(const Component& c, std::int64_t period_ns) {
   return static_cast<std::size_t>(c.latency_ns / period_ns) + 4;
 }
@@ -30,7 +30,7 @@ AsyncRunner::AsyncRunner(const Component& component, std::uint64_t seed, std::in
   late_due_ns.reserve(depth);
 }
 
-/// A free job. In simulation there is always one in the end: results are waited for.
+/// A free job. In simulation there is always one, because results are waited for.
 Async::Job* AsyncRunner::job(Async::Job::Call call, std::int64_t due_ns) noexcept {
   Async::Job* const j = async_->room(call);
   if (!j) return nullptr;
@@ -75,13 +75,13 @@ bool AsyncRunner::activate(const fulmar_tick& tick, const std::vector<fulmar_inp
 }
 
 void AsyncRunner::deactivate() noexcept {
-  if (async_) return async_->drop();  // another thread is in it
+  if (async_) return async_->drop();  // another thread is using the instance
   Direct::deactivate();
 }
 
 StepResult AsyncRunner::step(const fulmar_tick& tick, Intake& in, Outlets&, fulmar_error&) noexcept {
   Async::Job* const j = job(Async::Job::Call::step, tick.now_ns + component_.latency_ns);
-  if (!j) {  // hardware: the thread is far behind
+  if (!j) {  // hardware: the thread is too far behind
     ++stats_.misses;
     return StepResult::waiting;
   }
@@ -109,7 +109,7 @@ std::optional<std::int64_t> AsyncRunner::overdue_ns(std::int64_t now_ns) noexcep
   return j && j->due_ns <= now_ns ? std::optional(j->due_ns) : std::nullopt;
 }
 
-/// Whether the oldest call has returned, or has been waited for.
+/// Whether the oldest call has returned, if necessary after a wait.
 bool AsyncRunner::arrived(Async::Job& j) noexcept {
   if (async_->done()) return true;
   if (!wait_) {
@@ -147,7 +147,7 @@ void take_outputs(const Async::Job& j, Outlets& out) noexcept {
 
 StepResult AsyncRunner::collect(std::int64_t now_ns, Intake& in, Outlets& out,
                                 fulmar_error& problem) noexcept {
-  // at the first call of a tick: when the one before was
+  // the first call of a tick stores the time of the previous one
   if (now_ns != collected_ns_) before_ns_ = std::exchange(collected_ns_, now_ns);
   for (Async::Job* j = async_->oldest(); j && j->held_until_ns <= now_ns; j = async_->oldest()) {
     if (!arrived(*j)) break;
@@ -181,7 +181,7 @@ StepResult Arrivals::collect(std::int64_t now_ns, Outlets& out, fulmar_error& pr
     s.stamps[to.count++] = sample.valid_at_ns;
     source_->release();
     any = true;
-    if (to.count >= s.port->capacity || sample.ends) break;  // the rest in the same tick, by the next call
+    if (to.count >= s.port->capacity || sample.ends) break;  // the next call takes the rest in the same tick
   }
   stats_.misses = source_->lost();
   if (any) {
@@ -205,7 +205,8 @@ bool DriverRunner::retune(const std::vector<fulmar_value>& values, fulmar_error&
 
 bool DriverRunner::activate(const fulmar_tick& tick, const std::vector<fulmar_input>& inputs,
                             const std::vector<fulmar_input>& last, fulmar_error& problem) noexcept {
-  return arrivals_.started() || Direct::activate(tick, inputs, last, problem);  // another thread is in it
+  return arrivals_.started() || Direct::activate(tick, inputs, last, problem);  // another thread is using the
+                                                                                // instance
 }
 
 void DriverRunner::deactivate() noexcept {

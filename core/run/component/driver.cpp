@@ -26,7 +26,7 @@ std::size_t largest(const ComponentInfo& info) {
 }
 
 constexpr std::size_t ring_bytes = 256u << 10;
-constexpr int patience_ms = 2000;  // for the step that a driver is in when the flight ends
+constexpr int patience_ms = 2000;  // for the present step of a driver at the end of the flight
 
 }  // namespace
 
@@ -47,7 +47,7 @@ Driver::~Driver() {
   if (!ended_.load(std::memory_order_acquire)) {
     std::fprintf(stderr, "fulmar: the driver %s does not return from its step; the host ends without it\n",
                  info_.name.c_str());
-    for (;;) ::syscall(SYS_exit_group, 1);  // _Exit is taken for a plugin's
+    for (;;) ::syscall(SYS_exit_group, 1);  // _Exit would count as an exit by a plugin
   }
   thread_.join();
 }

@@ -62,7 +62,7 @@ bool lacks_sample(const Reader& r) noexcept {
   return !r.port->optional && r.port->kind == FULMAR_IN_VALUE && r.sequence() == 0;
 }
 
-/// Of a writer that was stopped nothing is ever young enough.
+/// Age of a sample whose writer was stopped: above every limit.
 constexpr std::int64_t lost_ns = std::numeric_limits<std::int64_t>::max();
 
 bool writer_lost(const Reader& r) noexcept {
@@ -70,7 +70,8 @@ bool writer_lost(const Reader& r) noexcept {
   return writer && writer->stopped;
 }
 
-/// What a limit looks at. An output that may stay silent is as old as the last step of its writer.
+/// Age for the limit of a wire. For an output that need not publish in every step it counts from the last
+/// step of its writer.
 std::int64_t judged_age_ns(const Reader& r, std::int64_t now_ns, std::int64_t age_ns) noexcept {
   const Slot& s = *r.source();
   if (!r.wire->by_steps || s.port->kind != FULMAR_OUT_EVENT || !s.owner || writer_lost(r)) return age_ns;
@@ -112,7 +113,7 @@ void report_stale(const Reader& r, std::int64_t now_ns, const fulmar_input& in,
 
 namespace {
 
-/// It has never had a sample, and will have none.
+/// It has no sample, and will not get one.
 bool waits_in_vain(const Reader& r) noexcept { return lacks_sample(r) && r.wire->guarded && writer_lost(r); }
 
 }  // namespace
@@ -138,7 +139,7 @@ bool Intake::too_old(std::size_t input, std::int64_t now_ns, fulmar_error& probl
 }
 
 bool Intake::all_younger_than(std::int64_t limit_ns, std::int64_t now_ns) const noexcept {
-  bool any = false;  // who reads queues alone may be waiting for them
+  bool any = false;  // a component that reads queues alone may wait for them
   for (const Reader& r : readers) {
     if (r.port->optional || r.port->kind != FULMAR_IN_VALUE) continue;
     if (lacks_sample(r) || writer_lost(r) || !r.source() || now_ns - r.source()->valid_at_ns > limit_ns)
@@ -201,7 +202,7 @@ void Intake::consume() noexcept {
   }
 }
 
-/// Tells whoever asked what came of a request.
+/// Passes the answer of a request to its sender.
 void Intake::answer(std::size_t input, Reply& reply, const fulmar_answer& a) noexcept {
   const char* const why = a.verdict == FULMAR_ACCEPTED  ? ""
                           : a.verdict == FULMAR_REFUSED ? a.reason
@@ -271,13 +272,13 @@ bool probe_good(const Slot& s, const fulmar_output& out, fulmar_error& problem) 
   return false;
 }
 
-/// How far ahead of its tick a sample may be dated. A vehicle dates by arrival, and the samples of a host
-/// that stood still have arrived before their ticks. Others pass on what they read.
+/// Largest time by which a sample may be ahead of its tick. A vehicle stamps samples on arrival, and after a
+/// pause of the host they are earlier than their ticks. Other components pass on the stamps that they read.
 constexpr std::uint64_t vehicle_ahead_ns = 60'000'000'000, max_ahead_ns = 1'000'000'000;
 constexpr std::int64_t earliest_ns = -7'200'000'000'000;  // before any flight
 
-/// Whether the time of validity is one of this flight; what came without one is of now. A sample of the
-/// future would never become too old.
+/// Whether the time of validity belongs to this flight; a sample without one gets the present time. A sample
+/// from the future would never become too old.
 bool well_dated(std::int64_t& valid_at_ns, std::int64_t now_ns, std::uint64_t ahead_ns) noexcept {
   if (valid_at_ns == FULMAR_ON_ARRIVAL) valid_at_ns = now_ns;
   if (valid_at_ns <= now_ns) return valid_at_ns >= earliest_ns;

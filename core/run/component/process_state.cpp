@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands in front of the C library's functions that change what is everybody's, for plugins and whatever they
-// link: the dynamic linker finds those of the program first. What does not come through them is not seen.
+// Replaces functions of the C library that change state of the whole process, for plugins and their
+// libraries: the dynamic linker finds those of the program first. Direct system calls are not detected.
 #include "core/run/component/process_state.hpp"
 
 #include <dlfcn.h>
@@ -66,8 +66,8 @@ namespace {
 
 const pid_t program = getpid();
 
-/// Whether the call is refused. `changes`: it asks for more than what is set. A process that the component
-/// has forked is not the host.
+/// Whether the call is rejected. `changes`: it asks for more than the present state. A process that the
+/// component has forked is not the host.
 bool refuse(const char* call, bool changes = true, const char* since = shared) noexcept {
   if (!changes || !refuses_calls || getpid() != program) return false;
   refused_call = call;

@@ -18,8 +18,8 @@
 namespace fulmar::core {
 namespace {
 
-cpu_set_t usual_cpus;     // before the loop stayed on one
-bool has_stayed = false;  // set before the threads that ask begin
+cpu_set_t usual_cpus;     // before the loop was bound to one CPU
+bool has_stayed = false;  // set before the reading threads begin
 
 rlim_t limit_of(auto resource) {
   rlimit limit{};
@@ -32,7 +32,7 @@ rlim_t limit_of(auto resource) {
   throw Error(run_messages::realtime_not_permitted(what, std::strerror(fault), priority, self));
 }
 
-/// The stack grows by page faults; a tick is to have none.
+/// Touches the stack in advance: a tick must not have page faults.
 [[gnu::noinline]] void take_stack() {
   constexpr std::size_t wanted = 512 * 1024;
   if (limit_of(RLIMIT_STACK) < 2 * wanted) return;
@@ -40,8 +40,8 @@ rlim_t limit_of(auto resource) {
   explicit_bzero(pages, sizeof pages);
 }
 
-/// A limit that holds what there is now would let an allocation fail later. Whoever may exceed it can reserve
-/// more than it.
+/// Whether all memory can be locked. A limit that is just enough now would make a later allocation fail. A
+/// process that may exceed the limit may also raise it.
 bool may_lock_all() {
   const rlim_t limit = limit_of(RLIMIT_MEMLOCK);
   if (limit == RLIM_INFINITY) return true;
@@ -70,9 +70,8 @@ void take_real_time(int priority) {
                std::to_string(limit_of(RLIMIT_RTPRIO)) + ")",
            fault);
   }
-  mallopt(
-      M_TRIM_THRESHOLD,
-      -1);  // what the heap has once is not given back, to be faulted in again: for components that allocate
+  mallopt(M_TRIM_THRESHOLD,
+          -1);  // keeps freed memory in the heap, without new page faults: for components that allocate
   mallopt(M_MMAP_MAX, 0);
   take_stack();
 }

@@ -29,8 +29,9 @@ void leave_cpu_of_loop() noexcept;
 
 /// Lets a child for whose answers the calling thread waits run one priority below that thread. Then an
 /// ordinary program cannot delay the loop through the child, and a hanging child does not keep the loop from
-/// detecting it. Threads and processes that it starts have ordinary scheduling again. The child may run on any CPU. Does
-/// nothing when the calling thread has no real-time priority; a child without permission stays as it is.
+/// detecting it. Threads and processes that the child starts have ordinary scheduling again. The child may
+/// run on any CPU. Does nothing when the calling thread has no real-time priority; a child without permission
+/// stays as it is.
 void wait_for_child(pid_t child) noexcept;
 
 }  // namespace fulmar::core

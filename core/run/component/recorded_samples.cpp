@@ -50,7 +50,7 @@ void SampleTrack::store(Stored sample) {
   waiting_.push_back(std::move(sample));
 }
 
-/// What is published together is in the order of the outputs.
+/// Samples of one publication are in the order of the outputs.
 void SampleTrack::add(std::uint32_t output, const McapFile::Message& m) {
   const Type& type = *types_[output];
   Stored s{static_cast<std::int64_t>(m.log_ns) - epoch_ns_,
@@ -61,8 +61,8 @@ void SampleTrack::add(std::uint32_t output, const McapFile::Message& m) {
   store(std::move(s));
 }
 
-/// Probes are stored at the end of each publication, all in one message of doubles, and in a publication one
-/// of them changes at most.
+/// Probes are stored at the end of each publication, all in one message of doubles; one publication changes
+/// at most one of them.
 void SampleTrack::add_probes(const McapFile::Message& m) {
   const std::int64_t log_ns = static_cast<std::int64_t>(m.log_ns) - epoch_ns_;
   const std::span<const std::byte> values = m.data.subspan(std::min<std::size_t>(4, m.data.size()));
@@ -123,7 +123,7 @@ RecordedSamples::RecordedSamples(std::shared_ptr<SampleTrack> track,
                                  std::vector<std::pair<std::int64_t, std::string>> faults)
     : track_(std::move(track)), faults_(std::move(faults)) {}
 
-/// Up to the first message of a later tick: what was published together is then known.
+/// Reads up to the first message of a later tick: then the publication is complete.
 void RecordedSamples::read_on(std::int64_t now_ns) noexcept try {
   while (stream_ && read_ns_ <= now_ns) {
     const McapFile::Message* const m = stream_->next();

@@ -132,7 +132,7 @@ Child::Child(const Component& c, std::uint64_t seed, std::int64_t hang_ns, std::
 Child::Child(const Component& c, std::unique_ptr<Isolated> child, std::vector<Death> deaths)
     : Direct(c, Isolated::functions(), child.get()), child_(std::move(child)), deaths_(std::move(deaths)) {}
 
-/// The call then says what it said when this was flown before.
+/// The call then has the recorded result of the first flight.
 void Child::die_again(const char* call, std::int64_t now_ns) noexcept {
   for (const Death& death : deaths_)
     if (death.at_ns == now_ns && death.call == call && child_->alive())

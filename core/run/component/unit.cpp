@@ -145,7 +145,7 @@ inline bool Unit::heap_good() noexcept {
   return false;
 }
 
-/// What a step came to after the guards.
+/// Result of a step after the guards.
 inline StepResult Unit::guarded(StepResult result, std::int64_t now_ns) noexcept {
   if (!has_stepped(result)) return result;
   if (!out.good(now_ns, problem) || !heap_good()) return StepResult::bad;
@@ -249,7 +249,7 @@ bool Unit::activate(std::int64_t now_ns, std::uint64_t index, const std::vector<
   if (inputs == Intake::State::missing) in.report_missing(problem);
   if (inputs != Intake::State::good) return false;
   fresh_start = false;
-  schedule_.last_step_ns = Schedule::never;  // dt of the first step is the nominal period, not the absence
+  schedule_.last_step_ns = Schedule::never;  // dt of the first step is the nominal period, not the pause
   fill_last(now_ns, last);
   problem.text[0] = '\0';
   return runner_->activate(tick(now_ns, index), in.views, arguments_.last, problem);

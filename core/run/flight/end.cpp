@@ -70,7 +70,7 @@ void FlightEnd::conclude() {
   result.reason += "; never held: " + state_.graph.judge.flown->text();
 }
 
-/// What the signal's handler does meanwhile is in run_command.cpp.
+/// run_command.cpp has the signal handler's part.
 void FlightEnd::refuse_signal() {
   state_.options.interrupt->store(0, std::memory_order_relaxed);
   Event e = event_of(Code::signal_refused);

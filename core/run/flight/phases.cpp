@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Phases: who fills which role when.
+// Phases: the component of each role.
 #include <utility>
 
 #include "core/run/flight/roles.hpp"
@@ -23,7 +23,7 @@ void Roles::prepare_vehicle() {
   if (const std::vector<Overlay>* set = overlay_of(vehicle)) lay_over(vehicle, set);
 }
 
-/// A vehicle that refuses what a phase says goes on as it is: to stop it would help nobody.
+/// A vehicle that rejects a phase's settings keeps its own: to stop it would not help.
 void Roles::lay_over(int component, const std::vector<Overlay>* set) {
   Unit& unit = wiring_.unit(component);
   if (unit.retune(set)) return;
@@ -45,7 +45,7 @@ void Roles::begin() {
     note_tenure(static_cast<int>(r));
     wiring_.expect_from(wiring_.unit(a.component));
     Unit& unit = wiring_.unit(a.component);
-    const bool again = std::exchange(unit.active, true);  // it fills several
+    const bool again = std::exchange(unit.active, true);  // it fills several roles
     if (!again && !a.set.empty()) lay_over(a.component, &a.set);
   }
   next_since_.assign(first.next.size(), never_ns);
@@ -79,7 +79,7 @@ void Roles::enter(int phase, const std::string& because) {
     if (unit->stopped) report_blind(entered.next, wiring_.index_of(*unit));
 }
 
-/// A component that the phase wants in another role and that brings this one with it, or -1.
+/// A component that the phase assigns to another role and that also fills this one, or -1.
 int Roles::group_wanted_in(int role) const {
   for (const Assignment& a : present().roles)
     for (const int wanted : {a.component, a.fallback}) {
@@ -91,8 +91,7 @@ int Roles::group_wanted_in(int role) const {
   return -1;
 }
 
-/// Who flies in a role from now on: the component that the phase names, else its fallback, else who flies
-/// already.
+/// Active component of a role from now on: the one of the phase, else its fallback, else the present one.
 void Roles::fill(int role, bool overlaid) {
   const Assignment& assignment = nth(present().roles, role);
   if (assignment.component < 0) return;
@@ -101,7 +100,8 @@ void Roles::fill(int role, bool overlaid) {
   for (const int wanted : {group, unless_group(assignment.component), unless_group(assignment.fallback)}) {
     if (wanted < 0 || wiring_.unit(wanted).stopped) continue;
     if (wanted != active(role)) {
-      const bool tried = wiring_.unit(wanted).component->roles.front() != role;  // in the first of its roles
+      const bool tried =
+          wiring_.unit(wanted).component->roles.front() != role;  // not in the first of its roles
       if (!tried && take_over(wanted, assignment)) return;
       continue;
     }

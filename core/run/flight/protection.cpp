@@ -19,7 +19,7 @@ std::string Protection::in_use() const {
   return on_ground() ? "" : run_messages::aircraft_in_air().line();
 }
 
-/// A simulated aircraft is armed at a known time: until then its controllers may do as they like.
+/// A simulated aircraft is armed at a known time: until then its controllers are not held.
 bool Protection::watch() noexcept {
   was_armed_ = was_armed_ || state_.on_hardware() || armed_.says(true) || in_control_.says(false);
   has_flown_ = has_flown_ || !on_ground_.says(true);

@@ -11,7 +11,7 @@
 namespace fulmar::core {
 namespace {
 
-/// What a component said of itself when a guard stopped it, or `code`.
+/// The component's message when a guard stopped it, or `code`.
 Event guard_event(Code code, Unit& unit, const char* problem) noexcept {
   const bool dead = unit.runner().dead();
   Event e = event_of(!dead                  ? code
@@ -96,8 +96,8 @@ void Roles::nobody_flies(const std::string& name, const std::string& what) {
   end_tenures([this](int, int role) { return nth(drives_vehicle_, role); });
 }
 
-/// What the vehicle obeys has stopped coming, though nobody in a role was stopped: a component without one
-/// gives it, or the mission says how old it may be.
+/// The vehicle's commands have stopped coming, although no filler of a role was stopped: they come from a
+/// component without a role, or the mission sets their maximum age.
 void Roles::watch_commands() {
   const std::vector<std::vector<std::byte>>& commands = state_.graph.failsafe;
   if (end_.in_failsafe()) return;
@@ -113,8 +113,8 @@ void Roles::watch_commands() {
   }
 }
 
-/// A law that says nothing to the vehicle, though all that it needs keeps coming, is as lost as one that says
-/// nonsense. Others may have a reason: an estimator without samples, a law without a path.
+/// A law without commands to the vehicle is as lost as one with invalid commands, when all its inputs keep
+/// coming. Other components may have a reason: an estimator without samples, a law without a path.
 void Roles::stop_if_mute(const Slot& slot) {
   Unit& unit = unit_of(slot);
   bool drives = false;
@@ -124,7 +124,7 @@ void Roles::stop_if_mute(const Slot& slot) {
   stop(wiring_.index_of(unit));
 }
 
-/// A condition on what was stopped does not hold any more, whatever happens: a geofence without its watchman.
+/// A condition on a stopped component never holds any more: a geofence without its watch is without effect.
 void Roles::report_blind(const char* what, const Condition* condition, int stopped) {
   if (!condition) return;
   const std::vector<Source>& ports = condition->ports();
@@ -144,8 +144,8 @@ void Roles::report_blind(const std::vector<Transition>& list, int stopped) {
     report_blind(nth(state_.graph.phases, t.to).name.c_str(), t.when.get(), stopped);
 }
 
-/// In each role that it has left: the present phase's fallback, if it can fly, in this same tick. Who feeds
-/// others comes first.
+/// In each role that it has left, the present phase's fallback takes over in the same tick, if it can.
+/// Components that feed others come first.
 void Roles::fall_back(int stopped, std::size_t guard) {
   std::string names;
   const std::string& name = wiring_.unit(stopped).component->name;
@@ -164,14 +164,14 @@ void Roles::fall_back(int stopped, std::size_t guard) {
     }
 }
 
-/// Whether it was what moved the aircraft, and still has that role.
+/// Whether it is still active in a role that leads to the vehicle.
 bool Roles::nobody_drives(int stopped) const noexcept {
   for (std::size_t r = 0; r < active_.size(); ++r)
     if (active_[r] == stopped && drives_vehicle_[r]) return true;
   return false;
 }
 
-/// The outputs last applied in the role, as far as the newcomer's messages are of the same make.
+/// The last applied outputs of the role, if the new component has the same message types.
 void Roles::fill_hand_over(const Unit& unit) {
   hand_over_.assign(unit.out.slots.size(), nullptr);
   for (std::size_t i = 0; i < unit.out.slots.size(); ++i) {
@@ -196,14 +196,14 @@ void Roles::rest(Unit& unit) noexcept {
   if (!unit.fresh_start) unit.deactivate();
 }
 
-/// From now on another one fills the role.
+/// Records the new component of the role.
 void Roles::note_tenure(int role) {
   end_tenures([role](int, int of) { return of == role; });
   state_.result.tenures.push_back({nth(state_.graph.roles, role).name,
                                    wiring_.unit(active(role)).component->name, state_.now_ns, never_ns});
 }
 
-/// Of those for whom `ends(component, role)`: who fills a role and was stopped does not fly any more.
+/// Ends the tenure of each role for which `ends(component, role)` holds: a stopped component is not active.
 template <class Ends>
 void Roles::end_tenures(const Ends& ends) {
   for (std::size_t r = 0; r < active_.size(); ++r) {
@@ -234,7 +234,7 @@ std::string Roles::idle_role() const {
   return commanded ? "" : first;
 }
 
-/// It fills all its roles from now on; who fills none any more rests.
+/// It fills all its roles from now on; a component without a role becomes inactive.
 void Roles::occupy(int component) {
   for (const int role : wiring_.unit(component).component->roles) {
     const int old = std::exchange(active(role), component);
@@ -248,8 +248,7 @@ void Roles::occupy(int component) {
 bool Roles::take_over(int component, const Assignment& assignment) {
   Unit& unit = wiring_.unit(component);
   const bool tuned = unit.retune(component == assignment.component ? &assignment.set : nullptr);
-  if (tuned && !unit.in.ready() &&
-      nobody_has_flown(*unit.component)) {  // it begins when its inputs are there
+  if (tuned && !unit.in.ready() && nobody_has_flown(*unit.component)) {  // it begins when its inputs exist
     unit.fresh_start = true;
     occupy(component);
     return true;
@@ -266,8 +265,8 @@ bool Roles::take_over(int component, const Assignment& assignment) {
   return true;
 }
 
-/// A component that fills several roles gives up all of them or none: where one of those who were to follow
-/// it could not take over, it goes on.
+/// A component that fills several roles leaves all of them or none. It continues when one of its successors
+/// could not take over.
 void Roles::keep_groups_whole() {
   for (const int component : state_.graph.order) {
     Unit& unit = wiring_.unit(component);

@@ -29,15 +29,15 @@ void Stopwatch::go_on() noexcept {
 void Stopwatch::note_stood(std::int64_t since_ns) noexcept { stood_ns_ += monotonic_ns() - since_ns; }
 
 void Stopwatch::enter(std::uint64_t tick) noexcept {
-  // By the golden ratio, which meets components of every period at all their ticks alike (Weyl).
+  // By the golden ratio, so that all ticks of components of every period are sampled equally (Weyl).
   constexpr std::uint64_t golden = 0x9e3779b97f4a7c15, eighth = std::uint64_t{1} << 61;
   const bool was_timed = std::exchange(timed_, !state_.unpaced() || tick * golden < eighth);
   if (!timed_ || was_timed) return;
-  recorder_.take_wait_ns();  // of ticks that are not timed
+  recorder_.take_wait_ns();  // waits in ticks that are not timed
   skip();
 }
 
-/// What the loop has waited for the log's thread is not the unit's.
+/// The time in which the loop waited for the log's thread is not charged to the unit.
 std::int64_t Stopwatch::measure(Unit& unit) noexcept {
   const std::int64_t now = monotonic_ns();
   const std::int64_t took = now - wall_ns_ - recorder_.take_wait_ns();
@@ -51,7 +51,7 @@ bool Stopwatch::charge(Unit& unit) noexcept {
   const auto& circumstances = state_.options.circumstances;
   if (circumstances && circumstances->ran_over(unit.component->name, state_.now_ns)) return true;
   if (unit.component->budget_ns == 0 || state_.unpaced())
-    return false;  // an unpaced simulation knows no deadline
+    return false;  // an unpaced simulation has no deadline
   if (took <= unit.component->budget_ns) {
     unit.overruns_in_a_row = 0;
     return false;

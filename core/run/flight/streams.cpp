@@ -10,8 +10,8 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::uint64_t habit = 20;  // samples make a stream
-constexpr std::int64_t pauses = 10;  // as long as its longest one make a silence
+constexpr std::uint64_t habit = 20;  // samples of a regular output
+constexpr std::int64_t pauses = 10;  // factor on its longest pause
 
 }  // namespace
 
@@ -89,7 +89,7 @@ const Slot* Streams::watch(bool held, FlightState& state, Recorder& recorder) no
     return nullptr;
   }
   if (unit.completed_ns == s.completed_ns) return nullptr;
-  // who stood still, with the whole host, has not been silent meanwhile
+  // a standstill of the whole host does not count as silence
   const std::int64_t stepped_ns = std::min(unit.completed_ns - s.completed_ns, s.limit_ns / 3);
   s.completed_ns = unit.completed_ns;
   const std::uint64_t news = s.slot->sequence - s.sequence;

@@ -14,7 +14,7 @@
 namespace fulmar::core {
 namespace {
 
-constexpr std::int64_t paced_hang_ns = 50'000'000;  // where wall time matters and the mission says nothing
+constexpr std::int64_t paced_hang_ns = 50'000'000;  // default in a paced flight
 constexpr std::size_t tape_steps = 256;  // of inputs kept per component, for the rehearsal of a swap
 
 }  // namespace
@@ -69,7 +69,7 @@ void Wiring::connect() {
     for (Reader& reader : unit->in.readers) connect_reader(reader);
 }
 
-/// What a role has published last stays its sample, if whoever published it is still there.
+/// The last sample of a role stays valid while its writer exists.
 void Wiring::connect_role(std::size_t r) {
   const Role& role = state_.graph.roles[r];
   roles_[r].resize(role.outputs.size());

@@ -10,7 +10,7 @@
 namespace fulmar::core {
 namespace {
 
-/// How bad what a component tells is, by the label that it gives it.
+/// Severity of a component's message, by its label.
 Severity severity_of(const Slot& slot, const Field* severity) noexcept {
   if (!severity) return Severity::info;
   const auto label = static_cast<std::size_t>(slot.published[severity->offset]);
@@ -22,7 +22,7 @@ Severity severity_of(const Slot& slot, const Field* severity) noexcept {
                               : Severity::info;
 }
 
-/// The word of the cause is the name of the event, so that those who look on need no words.
+/// The cause's label becomes the name of the event, so that clients need no text.
 void name_cause(Event& e, const Slot& slot, const Field& cause) noexcept {
   const auto label = static_cast<std::size_t>(slot.published[cause.offset]);
   if (label > 0 && label < cause.labels.size()) fulmar::core::put(e.name, cause.labels[label]);
@@ -55,7 +55,7 @@ void Recorder::note_refusals(Unit& unit) noexcept {
   unit.in.refusals.clear();
 }
 
-/// What a component has to tell people. Its words are its own: any bytes.
+/// Prints a component's message for users. Its text may hold any bytes.
 void Recorder::report(Reported& reported) {
   const auto* const text =
       reinterpret_cast<const char*>(reported.slot->published.data() + reported.text->offset);
@@ -115,7 +115,7 @@ void Recorder::note_tick() {
   if (!tap_) return;
   const std::int64_t since_last_ns = state_.index == 0 ? 0 : state_.now_ns - state_.result.last_ns;
   if (since_last_ns > std::int64_t{UINT32_MAX})
-    put_ticks();  // a period that has no room: the next message tells the time
+    put_ticks();  // the period does not fit its field: the next message holds the time
   if (ticks_.hashes == 0) {
     ticks_.first = state_.index;
     ticks_.time_ns = state_.now_ns;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which channels the tap has, what the log stores of them, and what is attached to it.
+// Channels of the tap, their periods in the log, and the attachments of the log.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -14,7 +14,7 @@ namespace fulmar::core {
 namespace {
 
 constexpr std::size_t events_for_latecomers = 100;
-constexpr std::int64_t default_period_ns = 100'000'000;  // 10 Hz for what a replay computes anew
+constexpr std::int64_t default_period_ns = 100'000'000;  // 10 Hz for outputs that a replay computes again
 
 }  // namespace
 
@@ -25,8 +25,8 @@ class Recorder::ChannelList {
     list.push_back({"/" + slashed(port), type});
     return list.size() - 1;
   }
-  /// Who fills a role publishes as the role: one topic, whoever flies. Under its own name when its message
-  /// has other fields than theirs.
+  /// A component of a role publishes under the role's name: one topic for all of them. It uses its own name
+  /// when its message has other fields.
   std::size_t add_shared(const std::string& name, const std::string& own, const TypePtr& type) {
     const auto there = std::find_if(list.begin(), list.end(),
                                     [&](const TapChannel& c) { return c.topic == "/" + slashed(name); });
@@ -79,9 +79,8 @@ void Recorder::add_channels(ChannelList& list, Unit& unit) {
   probes.log.channel = list.add(c.name + ".probes", probes_type(*c.plugin, c.info()));
 }
 
-/// Behind all others of components: the hashes of the ticks are made with the numbers of the channels, and a
-/// component that has got another request leaves those of the logs there are, and so their replays, as they
-/// were.
+/// After all other channels of components: the hashes of the ticks use the numbers of the channels. So a new
+/// request of a component does not change the channels, or the replays, of existing logs.
 void Recorder::add_further_requests(ChannelList& list, Unit& unit) {
   for (Reader& reader : unit.in.readers)
     if (reader.port->kind == FULMAR_IN_REQUEST && reader.channel < 0)
@@ -106,8 +105,8 @@ void Recorder::open_log(const Units& units) {
   o.held = state_.options.log_held;
   o.epoch_ns = graph.epoch_ns;
   o.wait = state_.unpaced();
-  // What the host says and what comes from outside, always. A role's topic when anybody who fills it is
-  // recorded.
+  // Events of the host and input from outside are always stored. A role's topic is stored when any of its
+  // components is recorded.
   o.channels.assign(tap_->channels().size(), true);
   const auto each = [&](auto&& set) {
     for (const auto& unit : units) {
@@ -150,7 +149,7 @@ std::string parameters_text(const Units& units) {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-/// What the command line changed, so that a replay can do the same.
+/// Changes of the command line, for a replay.
 Pairs overrides_text(const Overrides& o) {
   Pairs pairs;
   if (o.io) pairs.emplace_back("io", *o.io);
@@ -163,7 +162,7 @@ Pairs overrides_text(const Overrides& o) {
   return pairs;
 }
 
-/// What the metadata of a log hold of a plugin file; `fulmar-replay` reads them back.
+/// Metadata of a plugin file in a log; `fulmar-replay` reads them back.
 Pairs flown_pairs(const PluginInfo& p) {
   Pairs pairs = {{"file", p.file}, {"version", p.version}, {"sha256", p.sha256}};
   if (!p.build_id.empty()) pairs.emplace_back("build_id", p.build_id);

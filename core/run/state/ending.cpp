@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An armed aircraft on hardware is not left by the host: whatever the verdict, it flies or stays silent until
-// it is disarmed.
+// The host does not end the flight of an armed aircraft on hardware. After any verdict it continues, or sends
+// nothing, until the aircraft is disarmed.
 #include "core/run/state/ending.hpp"
 
 namespace fulmar::core {
@@ -43,7 +43,7 @@ constexpr Table transition_table = {{
       {State::giving_up, Act::give_up, Reason::none},
       ends(Reason::vehicle_failed),
       ends(Reason::abandoned)}},
-    // failsafe: never done; who had asked for a duration learns that it was not flown
+    // failsafe: never done; the owner of a duration gets the result that it was not flown
     {{stays(State::failsafe),
       {State::failsafe, Act::report_failed, Reason::failed},
       {State::failsafe, Act::report_duration, Reason::failsafe},
@@ -56,7 +56,7 @@ constexpr Table transition_table = {{
       {State::giving_up, Act::none, Reason::none},
       ends(Reason::vehicle_failed),
       ends(Reason::abandoned)}},
-    // giving_up: silent from its first tick, then the host goes
+    // giving_up: no output from its first tick on, then the host ends
     {{stays(State::giving_up),
       {State::giving_up, Act::report_failed, Reason::failed},
       {State::giving_up, Act::report_duration, Reason::failsafe},
@@ -118,14 +118,14 @@ Ending::Act Ending::take(Cue cue, std::int64_t now_ns) noexcept {
   if (step.act == Act::refuse_signal) refused_ns_ = now_ns;
   if (was_flown && in_failsafe()) {
     failsafe_since_ns_ = now_ns;
-    // what was flown up to here is lost now
+    // a result of flown is lost now
     if (reason_ != Reason::none && outcome(reason_) == Outcome::flown) reason_ = Reason::failsafe;
   }
-  if (gives_up) failsafe_since_ns_ = now_ns - failsafe_ns_;  // its values would keep the pilot waiting
+  if (gives_up) failsafe_since_ns_ = now_ns - failsafe_ns_;  // its values would delay the pilot's control
   return step.act;
 }
 
-/// The first of those that exclude each other.
+/// The first of the cues that exclude each other.
 Ending::Cue Ending::cue_of(const Facts& f, bool& any) const noexcept {
   any = true;
   if (f.done && asks_done()) return Cue::done;

@@ -30,10 +30,10 @@ std::string topic_of(const Graph& graph, const Source& source) {
   return "/" + slashed(role.name + "." + nth(role.outputs, source.output).name);
 }
 
-/// What a resumed flight asks a log for, out of one reading.
+/// Content of a log for a resumed flight, from one reading.
 struct EndOfLog {
-  McapFile log;                                          // what stands beside the messages
-  std::map<std::uint16_t, std::vector<std::byte>> last;  // message of each channel of the wanted topics
+  McapFile log;                                          // the log without its messages
+  std::map<std::uint16_t, std::vector<std::byte>> last;  // last message of each channel of the wanted topics
   std::string phase;
 };
 
@@ -55,7 +55,7 @@ EndOfLog read_end(const fs::path& log, const std::set<std::string>& topics) {
   return end;
 }
 
-/// The reason for what a log lacks: " The log ends early: ...", or "" of one that was read to its end.
+/// Reason for missing content of a log: " The log ends early: ...", or "" for a log that was read to its end.
 std::string early_end(const EndOfLog& end) {
   return end.log.fault.empty() ? "" : run_messages::log_ends_early(end.log.fault).text;
 }
@@ -80,7 +80,7 @@ std::vector<std::byte> last_message(const EndOfLog& end, const std::string& topi
   return message;
 }
 
-/// All that is asked for below.
+/// All topics that a resume needs.
 std::set<std::string> topics_of_interest(const Graph& graph) {
   std::set<std::string> topics;
   if (graph.flags.armed.from.kind != Source::Kind::none)
@@ -157,7 +157,7 @@ Resume read_resume(const Graph& graph, const fs::path& log) try {
 
 namespace {
 
-/// False for the log of a host that died as it began.
+/// False for the log of a host that died at its start.
 bool holds_message(const fs::path& log) {
   try {
     return McapStream(log).next() != nullptr;
@@ -175,7 +175,7 @@ UsualPlace usual_place(const Graph& graph) {
   return {usual.has_parent_path() ? usual.parent_path() : ".",
           graph.record_file.empty() ? usual.filename().string() : usual.stem().string()};
 }
-/// Of the last flights: one that died as it began has left nothing to resume from.
+/// Noted logs of the last flights: one that died at its start has no state to resume from.
 std::vector<std::string> noted_logs(const fs::path& note) {
   constexpr std::size_t most = 4;
   std::vector<std::string> logs;
@@ -192,7 +192,7 @@ struct Newest {
   fs::path log;
   fs::file_time_type time = fs::file_time_type::min();
 
-  /// `whole`: the stem is that of one flight, whose names go on with a number at most.
+  /// `whole`: the stem is that of one flight, whose names end with a number at most.
   void look(const UsualPlace& place, bool whole = false) {
     std::error_code code;
     for (const fs::directory_entry& entry : fs::directory_iterator(place.folder, code)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pilot within the autopilot: from surfaces to increments of course, height and airspeed, each axis by
-// itself.
+// Pilot commands within the autopilot: from surfaces to increments of course, height and airspeed, each axis
+// separately.
 #include "guide.hpp"
 #include "inner.hpp"
 #include "outer.hpp"

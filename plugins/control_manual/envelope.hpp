@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Attitudes and throttle that the pilot is kept to: bank and pitch of the airframe, a margin over the stall,
-// and the largest airspeed. The README gives the curves.
+// Limits of the pilot's attitude and throttle: bank and pitch of the airframe, a margin above the stall, and
+// the largest airspeed. The README gives the curves.
 #pragma once
 #include <algorithm>
 #include <cmath>

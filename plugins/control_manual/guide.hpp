@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Course, height and airspeed as the pilot moves them: sticks are rates of the command.
+// Course, height and airspeed from the sticks, which are rates of the command.
 #pragma once
 #include <algorithm>
 #include <cmath>

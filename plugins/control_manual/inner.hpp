@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces, body rates or attitude from the sticks, each axis by itself. The README gives every equation.
+// Surfaces, body rates or attitude from the sticks, each axis separately. The README gives the equations.
 #pragma once
 #include "envelope.hpp"
 #include "fulmar/flight/earth/atmosphere.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Roll, pitch and throttle as the pilot holds them, each axis by itself; the others come from an outer law.
+// Roll, pitch and throttle from the sticks, each axis separately; the other axes come from an outer law.
 #pragma once
 #include "envelope.hpp"
 #include "fulmar/flight/control/turn_trim.hpp"

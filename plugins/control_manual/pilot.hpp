@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the laws of this plugin know of the pilot: shaped sticks, and whether there is somebody at all.
+// Inputs from the pilot for the laws of this plugin: shaped sticks, and the presence of a transmitter.
 #pragma once
 #include <algorithm>
 #include <cmath>

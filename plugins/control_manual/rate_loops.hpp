@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a surface has to do for a body rate, from the airframe's derivatives at the present dynamic pressure:
-// so one set of bandwidths flies every airframe. Beard & McLain, Small Unmanned Aircraft (2012), (4.10) to
+// Deflection for a body rate, from the airframe's derivatives at the present dynamic pressure. One set of
+// bandwidths is therefore valid for every airframe. Beard & McLain, Small Unmanned Aircraft (2012), (4.10) to
 // (4.21).
 #pragma once
 #include <algorithm>

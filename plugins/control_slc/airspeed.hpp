@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Airspeed to throttle for an attitude that somebody else commands: a pilot, a test signal, a policy. It asks
-// for the thrust that the energy balance wants, m dV/dt = T - D - m g sin(gamma): Beard & McLain, Small
-// Unmanned Aircraft (2012), (5.36) and section 6.4.3.
+// Airspeed to throttle, for an attitude that another component commands: a pilot, a test signal, a policy.
+// The thrust comes from the energy balance, m dV/dt = T - D - m g sin(gamma): Beard & McLain, Small Unmanned
+// Aircraft (2012), (5.36) and section 6.4.3.
 #pragma once
 #include <fulmar/flight/control/outer_commands.hpp>
 #include <fulmar/flight/control/pid.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the inner loops do while the attitude is not known.
+// Behaviour of the inner loops while the attitude is unknown.
 #pragma once
 #include <fulmar/flight/control/turn_trim.hpp>
 #include <fulmar/msg/attitude_command.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inner loops, tuned in flight: excites one axis after another, chooses gains for given margins, excites
-// again, and keeps them when the margins measured then hold. README.md, "Autotune".
+// Tuning of the inner loops in flight: excites one axis after another, chooses gains for given margins, and
+// excites again. Gains are kept when the margins then measured are sufficient. README.md, "Autotune".
 #pragma once
 #include <fulmar/msg/autotune_report.hpp>
 #include <fulmar/msg/vehicle_status.hpp>

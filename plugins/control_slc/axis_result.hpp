@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an autotune finds of one axis.
+// Result of an autotune for one axis.
 #pragma once
 #include <algorithm>
 #include <cmath>

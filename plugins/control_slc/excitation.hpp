@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The excitation of one surface: it settles, fades in, is recorded for the time of a record, and fades out.
+// The excitation of one surface: settling time, fade-in, record, fade-out.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gains of one axis from a record of its loop. The law is linear in its gains: what other gains make of the
-// loop follows from what was measured, L' = L + dC Y/U, without a model of the aircraft.
+// Gains of one axis from a record of its loop. The law is linear in its gains, so the loop with other gains
+// follows from the measurement, L' = L + dC Y/U, without a model of the aircraft.
 #pragma once
 #include "loop_lines.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hand-over of the actuators without a step.
+// Bumpless transfer of the actuators.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The frequency response of a closed loop at the lines of a multisine. A periodic excitation e is added to
 // the surface: u = u_fb + e. At its lines L = -U_fb / U is the loop broken there, with all others closed, and
-// Y / U what the aircraft makes of the surface; between them is only what turbulence makes. Pintelon &
-// Schoukens, System Identification (2012), sections 2.4, 5.3 (multisines, noise between the lines).
+// Y / U is the response of the aircraft to the surface. Between the lines there is only turbulence. Pintelon
+// & Schoukens, System Identification (2012), sections 2.4, 5.3 (multisines, noise between the lines).
 #pragma once
 #include <algorithm>
 #include <array>

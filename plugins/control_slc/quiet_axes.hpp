@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Less gain for an axis that oscillates, and a notice that says so.
+// Reduces the gains of an axis that oscillates, with a notice.
 #pragma once
 #include <algorithm>
 #include <array>

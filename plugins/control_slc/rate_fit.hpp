@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What turbulence makes differs from line to line, and the aircraft does not: a low-order rate response with
-// delay, fitted to a record, takes most of it away. (b0 + b1 s) e^(-s tau) / (1 + a1 s + a2 s^2), by the
-// iteration of Sanathanan & Koerner, IEEE Trans. Automatic Control 8 (1963), for each of some delays.
+// Smooths a record by a model: the effect of turbulence differs from line to line, but the response of the
+// aircraft does not. A low-order rate response with delay, fitted to a record, removes most of the noise: (b0
+// + b1 s) e^(-s tau) / (1 + a1 s + a2 s^2), by the iteration of Sanathanan & Koerner, IEEE Trans. Automatic
+// Control 8 (1963), for several delays.
 #pragma once
 #include "gain_search.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rudder and aileron that hold the sideslip that a landing in cross wind asks for.
+// Rudder and aileron that hold the requested sideslip of a landing in cross wind.
 #pragma once
 #include <fulmar/msg/airframe.hpp>
 #include <fulmar/msg/sideslip_command.hpp>

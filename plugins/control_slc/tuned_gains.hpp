@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gains of the inner loops while they are tuned: those given, kept, in use, and on the way.
+// The gains of the inner loops during tuning: given, kept, in use, and changing.
 #pragma once
 #include <algorithm>
 #include <array>

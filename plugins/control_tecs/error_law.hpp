@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outer loops by the errors of the energies themselves: the error of the total energy moves the throttle,
-// that of the balance between height and speed moves pitch, each through a PI law. Beard & McLain, Small
-// Unmanned Aircraft, supplement to chapter 6, "Total energy control". Equations: README.
+// Outer loops by the errors of the energies. The error of the total energy moves the throttle, that of the
+// balance between height and speed moves pitch, each through a PI law. Beard & McLain, Small Unmanned
+// Aircraft, supplement to chapter 6, "Total energy control". Equations: README.
 #pragma once
 #include <fulmar/flight/control/energy.hpp>
 #include <fulmar/flight/control/outer_law.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Outer loops by total energy: throttle controls the rate of the total energy, pitch the rate at which it is
-// shared between height and speed. Lambregts, AIAA 83-2239 (1983); the arrangement of rate demands and limits
-// is that of the field's open autopilots. Equations: README.
+// Outer loops by total energy: throttle controls the rate of the total energy, pitch the rate of its exchange
+// between height and speed. Lambregts, AIAA 83-2239 (1983); rate demands and limits are arranged as in the
+// open autopilots of the field. Equations: README.
 #pragma once
 #include <fulmar/flight/control/energy.hpp>
 #include <fulmar/flight/control/outer_law.hpp>

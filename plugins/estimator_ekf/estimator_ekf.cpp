@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plugin of the estimator as the SDK has it; README.md has the equations.
+// Plugin of the SDK's estimator; README.md has the equations.
 #include <fulmar/flight/navigation/estimator.hpp>
 
 using fulmar::navigation::Ekf;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From radians to what the controller's mixer takes: mode 0, u[0] throttle, u[3] aileron, u[4] elevator, u[5]
-// rudder. ROSflight firmware 2.0, command manager and mixer: with the fixed-wing mixers and REV_* at 0, u = 1
-// is the full throw of a positive deflection as in Beard & McLain. `reversed` of the airframe turns a surface
-// round, here and nowhere else.
+// Conversion of radians to the inputs of the controller's mixer: mode 0, u[0] throttle, u[3] aileron, u[4]
+// elevator, u[5] rudder. ROSflight firmware 2.0, command manager and mixer: with the fixed-wing mixers and
+// REV_* at 0, u = 1 is the full throw of a positive deflection as in Beard & McLain. Only here `reversed` of
+// the airframe reverses a surface.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the flight controller is: its firmware, its number on the line, its parameters that matter here.
+// Properties of the flight controller: firmware, system id, and the parameters that the plugin needs.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flight time, which goes by the arrivals of inertial samples.
+// Flight time from the arrivals of inertial samples.
 #pragma once
 #include <algorithm>
 #include <cstdint>

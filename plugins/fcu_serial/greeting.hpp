@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first words with a device: is there a flight controller, of this make, new enough, and set up for a
-// fixed wing?
+// First checks of a device: a flight controller of this type, a supported version, and a set-up for a fixed
+// wing.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How regularly inertial samples come, and the figures of the link.
+// Regularity of the inertial samples, and the figures of the link.
 #pragma once
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an aircraft lacks before a flight. Short codes: a notice lists several in its 95 characters.
+// Conditions that are missing before a flight. Short codes: a notice lists several in its 95 characters.
 #pragma once
 #include "fulmar/diagnostic.hpp"
 

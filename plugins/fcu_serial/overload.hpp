@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A computer that is too slow for its laws: inertial samples that were too old to fly by when the loop came
-// to them. One that stands still once is told of by how long; this is one that never catches up.
+// Detects a computer that is too slow for its laws: inertial samples are too old when the loop takes them. A
+// single pause is reported elsewhere; this is a permanent overload.
 #pragma once
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When commands, auxiliary outputs and attitudes go out.
+// Send times of commands, auxiliary outputs and attitudes.
 #pragma once
 #include <array>
 #include <cstdint>

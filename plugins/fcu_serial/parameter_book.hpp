@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller's parameters, for the log: asked for one by one, so that the line stays free for samples,
-// and passed on when they are news. Nothing here allocates.
+// The controller's parameters for the log. They are requested one by one, so that the line stays free for
+// samples, and published when they change. No function allocates.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the pitot tube is used.
+// Decision on the use of the pitot.
 #pragma once
 #include <bit>
 #include <cmath>

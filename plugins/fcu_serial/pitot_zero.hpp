@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller's zero of its pitot tube, which it takes anew at each boot, whatever the air does.
+// The controller's zero of its pitot, which it takes at each boot, in any wind.
 #pragma once
 #include <string_view>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pilot's sticks and switches, by the controller's own map of channels. Source: ROSflight firmware 2.0,
+// The pilot's sticks and switches, by the channel map of the controller. Source: ROSflight firmware 2.0,
 // rc.cpp: a channel is (us - 1000) / 1000, a stick is 2 (v - 0.5), the throttle is v.
 #pragma once
 #include <algorithm>

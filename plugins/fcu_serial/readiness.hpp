@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether commands may go out: what is known of the aircraft, what is missing, and when its pilot is told.
+// Decision whether commands may be sent: state of the aircraft, missing conditions, and reports to the pilot.
 #pragma once
 #include <algorithm>
 #include <cstdint>

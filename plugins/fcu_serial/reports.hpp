@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What this vehicle alone has to say: messages that no simulated aircraft publishes.
+// Messages of this vehicle that no simulated aircraft publishes.
 #pragma once
 #include "fulmar/message.hpp"
 #include "fulmar/msg/controller_attitude.hpp"

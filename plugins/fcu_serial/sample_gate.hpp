@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of the samples that come are used: none twice, none after a reboot that belongs before it, and of
-// values that cannot be none.
+// Selection of samples: no duplicates, no late samples from before a reboot, no implausible values.
 #pragma once
 #include <cstdint>
 

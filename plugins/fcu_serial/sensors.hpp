@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the controller's messages to the shared ones. Nothing when a value is not finite or out of this world:
-// a broken sensor is silent. Units and scaling: ROSflight sends SI, temperatures in kelvin, the field in
-// tesla, indicated airspeed for 1.225 kg/m3.
+// Conversion of the controller's messages to the shared ones. No value when an input is not finite or not
+// plausible: a broken sensor is then silent. Units and scaling: ROSflight sends SI, temperatures in kelvin,
+// the field in tesla, indicated airspeed for 1.225 kg/m3.
 #pragma once
 #include <cmath>
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who flies: what the controller says of itself, how old that is, and whether the host's commands move the
-// aircraft. Each change is told once.
+// Source of the commands in force: the controller's status, its age, and whether the host's commands move the
+// aircraft. Each change is reported once.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicle that is a ROSflight flight controller: its sensors come in, commands go out, and what it says
-// of itself is told.
+// The vehicle on a ROSflight flight controller: receives sensors, sends commands, and reports the
+// controller's status.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -28,7 +28,7 @@
 
 namespace fulmar::fcu {
 
-/// `AnyLink` is Link, or in tests one that runs on a clock of its own.
+/// `AnyLink` is Link, or in tests a link with a simulated clock.
 template <class AnyLink>
 class Vehicle {
  public:
@@ -84,7 +84,7 @@ class Vehicle {
     run_.throws = Throws::of(*p.airframe);
     run_.pace = Pace(p.command_rate);
     run_.pitot = PitotUse(p.pitot_zero_limit);
-    link_.reset();  // a second flight: the port is held until then
+    link_.reset();  // for a second flight: the port is held until then
     LinkOptions options;
     options.port = port;
     options.baud = p.baud;
@@ -98,7 +98,7 @@ class Vehicle {
     greet(port, p.baud, *p.airframe);
   }
 
-  /// Wakes with each inertial sample, and after 10 ms without one.
+  /// Returns with each inertial sample, and after 10 ms without one.
   Status read(Tick& tick, const Params& p, Outputs& out) {
     if (!run_.clock.begun()) begin();
     if (p.pitot_zeroed != 0) run_.pitot.zeroed_in_the_air(run_.notices);
@@ -115,7 +115,7 @@ class Vehicle {
   Status write(const Tick& tick, const Inputs& in, const Params& p) {
     run_.met_state = run_.met_state || in.state;
     if (run_.met_state && !in.state && !in.actuators)
-      return Status::ok;  // the host is silent, and has said why
+      return Status::ok;  // the host was paused, and has reported it
     const bool locked = in.ground && in.ground->throttle_locked;
     if (may_command(tick.now_ns, in, p)) send_command(tick.now_ns, in.actuators, locked);
     send_aux(tick.now_ns, in.aux);
@@ -135,12 +135,11 @@ class Vehicle {
 
  private:
   static constexpr std::int64_t wait_ns = 10'000'000;
-  static constexpr std::int64_t backlog_ns =
-      50'000'000;  ///< older samples than this are not flown by any more
+  static constexpr std::int64_t backlog_ns = 50'000'000;  ///< older samples are not used
   static constexpr std::int64_t stood_still_ns =
-      300'000'000;  ///< between two ticks, which wait for 10 ms at most
+      300'000'000;  ///< between two ticks, which wait for at most 10 ms
   static constexpr std::int64_t missed_ns =
-      100'000'000;  ///< the same: what was silent meanwhile is not known
+      100'000'000;  ///< likewise: the silence during a longer pause is unknown
   static constexpr std::int64_t reboot_memory_ns = 1'000'000'000;
   enum Kind : std::uint32_t {
     kind_imu = 1,
@@ -153,7 +152,7 @@ class Vehicle {
     kind_aux = 128
   };
 
-  /// What belongs to one flight. Times are flight time.
+  /// State of one flight. Times are flight time.
   struct Run {
     Throws throws;
     Pace pace;
@@ -187,7 +186,7 @@ class Vehicle {
   void report_untried(std::string_view version);
   void report_reversals(const Greeting& greeting, const Airframe& airframe);
 
-  /// The first tick: what has waited since the greeting is old.
+  /// At the first tick: data from the time of the greeting are dropped.
   void begin() {
     Received r;
     while (link_->pop(r))
@@ -197,7 +196,7 @@ class Vehicle {
     run_.clock.begin(link_->now_ns());
   }
 
-  /// Until an inertial sample that can be flown by, or 10 ms. Its arrival in host time, or never.
+  /// Waits for a usable inertial sample, or 10 ms. Returns its arrival in host time, or never.
   std::int64_t wait(Outputs& out) {
     const std::int64_t until_ns = link_->now_ns() + wait_ns;
     while (true) {
@@ -207,7 +206,7 @@ class Vehicle {
     }
   }
 
-  /// Takes what has come, up to and with the next inertial sample. Its arrival in host time, or never.
+  /// Takes all events up to and with the next inertial sample. Returns its arrival in host time, or never.
   std::int64_t drain(Outputs& out) {
     Received r;
     while (link_->pop(r)) {
@@ -264,7 +263,7 @@ class Vehicle {
     return false;
   }
 
-  /// It may be another one. An armed controller refuses to say; then it is the same.
+  /// The controller may be another one. An armed controller does not answer; then it is the same.
   void ask_anew() {
     link_->send(RosflightCmd{static_cast<std::uint8_t>(Command::send_version)});
     run_.book.restart();
@@ -288,7 +287,7 @@ class Vehicle {
     const std::int64_t now_ns = run_.clock.now_ns();
     run_.heard.open = last_frame_.fd >= 0;
     VehicleStatus s = evaluate(run_.heard, now_ns);
-    s.in_control = s.in_control && !run_.readiness.refuses(s);  // a command of before is still obeyed
+    s.in_control = s.in_control && !run_.readiness.refuses(s);  // the last command is still in force
     run_.reporter.report(s, run_.heard, now_ns, run_.notices);
     run_.overload.report(now_ns, run_.notices);
     run_.fixes.report(run_.spoken.fix_ns, std::max(run_.heard.since_ns, run_.heard.resumed_ns),
@@ -310,7 +309,7 @@ class Vehicle {
     return (s.errors & own_error_link_down) != 0 ? Status::degraded : Status::ok;
   }
 
-  /// Without an estimate, given or demanded, whoever commands has to know.
+  /// Without a required estimate the gate stays closed.
   bool may_command(std::int64_t now_ns, const Inputs& in, const Params& p) {
     const Optional<VehicleState>& state = in.state;
     if (p.send_attitude && !state && now_ns > estimate_patience_ns * 20)
@@ -324,7 +323,7 @@ class Vehicle {
         now_ns, run_.notices);
   }
 
-  /// Nothing without a command, or with one that nobody has renewed: the controller then hands over to its
+  /// Sends nothing without a command or with one that is not renewed: the controller then hands over to its
   /// pilot.
   void send_command(std::int64_t now_ns, const Optional<Actuators>& actuators, bool throttle_locked) {
     if (!actuators || now_ns - actuators.valid_at_ns() > command_patience_ns ||

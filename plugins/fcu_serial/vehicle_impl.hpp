@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the vehicle meets its controller, and what it does with each packet.
+// Greeting of the controller, and processing of each packet.
 #pragma once
 #include "vehicle.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of the controller's bits; and notices that wait until the loop takes them. Nothing here allocates.
+// Messages of the controller's bits, and a queue of notices for the loop. No function allocates.
 #pragma once
 #include <algorithm>
 #include <array>

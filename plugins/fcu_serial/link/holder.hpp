@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who else has a device open: for the sentence that says why it cannot be had. Source: proc(5).
+// Programs that have a device open, for the message about a device in use. Source: proc(5).
 #pragma once
 #include <sys/stat.h>
 

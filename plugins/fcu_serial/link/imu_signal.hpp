@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wakes the loop when an inertial sample has come: a count that the waiter sleeps on. Source: futex(2).
+// Wakes the loop at the arrival of an inertial sample: the waiter sleeps on a counter. Source: futex(2).
 #pragma once
 #include <linux/futex.h>
 #include <sys/syscall.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The link to a flight controller as the loop sees it: packets come through a lock-free queue, dated in host
-// time; frames go out at once. A thread of its own reads, keeps the connection, asks for the time and for the
-// parameters that are watched, and sends the heartbeat.
+// The link to a flight controller, as used by the loop. Packets arrive through a lock-free queue, dated in
+// host time; frames are sent at once. A separate thread reads, keeps the connection, synchronises time,
+// requests the watched parameters, and sends the heartbeat.
 #pragma once
 #include <cstdint>
 #include <memory>

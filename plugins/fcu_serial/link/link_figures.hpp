@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the link's thread counts and the loop's thread reads.
+// Counters of the link's thread for the thread of the loop.
 #pragma once
 #include <algorithm>
 #include <atomic>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The 25 messages that a ROSflight flight controller and its companion exchange: MAVLink 1 with the dialect
-// of ROSflight 2. Members stand in the order of the wire, largest elements first, so that a payload is the
-// first bytes of its struct. Length and checksum seed of each message follow from the struct itself; at the
-// end they are compared with what the dialect's own generator makes of its XML. Sources: MAVLink
-// serialization guide; rosflight_firmware 2.0, comms/mavlink/v1.0/rosflight.xml.
+// The 25 messages between a ROSflight flight controller and its companion: MAVLink 1 with the dialect of
+// ROSflight 2. Members are in the order of transmission, largest elements first, so that a payload is the
+// first bytes of its struct. Length and checksum seed of each message are computed from the struct; at the
+// end they are compared with the output of the dialect's generator. Sources: MAVLink serialization guide;
+// rosflight_firmware 2.0, comms/mavlink/v1.0/rosflight.xml.
 #pragma once
 #include <array>
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way out, for two threads without a lock: the loop writes at once, or, while the link's thread is
-// writing, leaves its frame for that one.
+// Output of frames from two threads without a lock: the loop writes at once. While the link's thread is
+// writing, the loop leaves its frame to that thread.
 #pragma once
 #include <sched.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The device at the other end: a serial port (raw, 8 data bits, no parity, 1 stop bit, any rate) or a UDP
-// address.
+// The device: a serial port (raw, 8 data bits, no parity, 1 stop bit, any rate) or a UDP address.
 #pragma once
 #include <cstddef>
 #include <cstdint>

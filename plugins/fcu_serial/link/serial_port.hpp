@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A serial port, or a pseudo-terminal: raw, held alone, as quiet to the device as opening can be.
+// A serial port or a pseudo-terminal: raw, exclusive, opened without side effects on the device.
 #pragma once
 #include <array>
 #include <boost/asio/io_context.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In a file of its own: the kernel's termbits.h and the library's termios.h name the same things. Source:
+// A separate file: the kernel's termbits.h and the library's termios.h define the same names. Source:
 // ioctl_tty(2), termios(3) on BOTHER.
 #include <asm/ioctls.h>
 #include <asm/termbits.h>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller's clock in host time. Questions and answers give bounds: the answer was stamped after the
-// question left and before the answer came, so offset = host - controller lies in [asked - stamp, came -
-// stamp]. The messages that took least time, each way, bound it best: one line each through the bounds of the
-// last seconds, of one slope, each bound weighted by how far it is from the tightest. The offset is in the
-// middle, as if the quickest message took equal time both ways; by how much it does not cannot be told from
-// one end. Sources: RFC 5905 (NTP), section 10, clock filter; Paxson, On Calibrating Measurements of Packet
-// Transit Times (1998).
+// The controller's clock in host time. A response was stamped after its request left and before it arrived.
+// So offset = host - controller is in [asked - stamp, came - stamp]. The fastest messages of each direction
+// give the tightest bounds. One line for each direction goes through the bounds of the last seconds, with a
+// common slope, each bound weighted by its distance from the tightest. The offset is in the middle, as for
+// equal delays in both directions; an asymmetry cannot be measured from one end. Sources: RFC 5905 (NTP),
+// section 10, clock filter; Paxson, On Calibrating Measurements of Packet Transit Times (1998).
 #pragma once
 #include <algorithm>
 #include <array>

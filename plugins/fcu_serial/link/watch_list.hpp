@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which parameters of the controller have to be asked for, and when. An answer may get lost: the firmware
-// drops what finds no room.
+// Schedule of the requests for parameters of the controller. An answer may be lost: the firmware drops
+// messages when its queue is full.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records of the Linux joystick interface: from bytes to the state of axes and buttons. Source: the kernel's
-// Documentation/input/joydev/joystick-api and linux/joystick.h. Pure: no I/O, no allocation.
+// Documentation/input/joydev/joystick-api and linux/joystick.h. No I/O, no allocation.
 #pragma once
 #include <array>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pilot's hand: a joystick, or the keys of a terminal, as the transmitter of a simulated aircraft.
+// A joystick or the keys of a terminal as the transmitter of a simulated aircraft.
 #include "joystick.hpp"
 
 #include "keyboard.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A joystick, gamepad, or transmitter on USB. Runs in a thread of its own: `run: driver`.
+// A joystick, gamepad, or transmitter on USB. Runs in a separate thread: `run: driver`.
 #pragma once
 #include <array>
 #include <string>

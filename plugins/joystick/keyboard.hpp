@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The keys of a terminal as a transmitter. Runs in a thread of its own: `run: driver`.
+// The keys of a terminal as a transmitter. Runs in a separate thread: `run: driver`.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the pilot's bytes come from: a device or a pipe that may come and go. Source: POSIX.1-2017.
+// Source of the bytes: a device or a pipe that may appear and disappear. Source: POSIX.1-2017.
 #pragma once
 #include <fcntl.h>
 #include <poll.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What joystick and keyboard share: frames of a transmitter at 50 Hz, and what is told when it is lost.
+// Common parts of joystick and keyboard: frames of a transmitter at 50 Hz, and reports of its loss.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far the estimate is from the reference: a consumer of the role, for the summary of a flight.
+// Difference between the estimate and the reference, for the summary of a flight.
 #pragma once
 #include <array>
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the sentences of one epoch to one Gnss sample: each sentence tells a part of it, all with the same
-// time.
+// Combines the sentences of one epoch, which have the same time, to one Gnss sample.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sentences of a satellite receiver: from bytes to lines, from lines to numbers. Pure: no I/O, no allocation,
-// no exception. Source: NMEA 0183 as publicly described in the protocol manuals of receivers (u-blox M8,
-// Trimble, SiRF); units are turned into SI.
+// Sentences of a satellite receiver: from bytes to lines, from lines to numbers. No I/O, no allocation, no
+// exception. Source: NMEA 0183 as publicly described in the protocol manuals of receivers (u-blox M8,
+// Trimble, SiRF); units are converted to SI.
 #pragma once
 #include <array>
 #include <charconv>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A satellite receiver on a serial port of the companion computer. Runs in a thread of its own: `run:
-// driver`.
+// A satellite receiver on a serial port of the companion computer. Runs in a separate thread: `run: driver`.
 #pragma once
 #include <sys/stat.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A serial port that may come and go. Source: POSIX.1-2017, General Terminal Interface.
+// A serial port that may appear and disappear. Source: POSIX.1-2017, General Terminal Interface.
 #pragma once
 #include <fcntl.h>
 #include <poll.h>

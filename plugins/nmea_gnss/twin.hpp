@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulated twin of the receiver: the truth, with errors, late, in the same message. Fills the same role.
+// The simulated twin of the receiver: the truth with errors and latency, in the same message. Fills the same
+// role.
 #pragma once
 #include <array>
 #include <cmath>

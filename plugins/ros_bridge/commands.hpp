@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From standard messages of ROS 2 into the flight: a goal becomes a plan of one waypoint, a twist becomes a
-// course, a height, a speed.
+// Standard messages of ROS 2 as commands: a goal becomes a plan of one waypoint, a twist becomes course,
+// height and speed.
 #pragma once
 #include <algorithm>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Between Fulmar's frames (NED, FRD) and those of ROS (ENU, FLU: REP 103), and from flight time to stamps.
+// Conversion between Fulmar's frames (NED, FRD) and those of ROS (ENU, FLU: REP 103), and from flight time to
+// stamps.
 #pragma once
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Speaks the standard messages of ROS 2, and those of ROSplane and ROSflight.
+// Publishes and receives the standard messages of ROS 2, and those of ROSplane and ROSflight.
 #include "commands.hpp"
 #include "rosplane_in.hpp"
 #include "rosplane_out.hpp"

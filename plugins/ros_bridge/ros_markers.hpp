@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn beside poses and paths: visualization_msgs of ROS 2 (Jazzy), field for field. Lists and texts
-// have here the room that a scene of ours needs; on the wire they have no bound.
+// Markers of a scene: visualization_msgs of ROS 2 (Jazzy), field for field. Lists and texts have room for a
+// scene of this plugin; in the transmitted message they are unbounded.
 #pragma once
 #include "ros_messages.hpp"
 

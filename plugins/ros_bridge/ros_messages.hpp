@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Standard messages of ROS 2 as its packages define them: names, order and kinds of the fields are theirs
-// (common_interfaces, geometry2). The C++ names begin with Ros, so that `Imu` in a mission stays ours. A list
-// is a sequence without a bound on the wire.
+// Standard messages of ROS 2 with the names, order and kinds of fields of its packages (common_interfaces,
+// geometry2). The C++ names begin with Ros, so that `Imu` in a mission stays Fulmar's. A list is transmitted
+// as an unbounded sequence.
 #pragma once
 #include "fulmar/message.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes of ROSplane in the place of our components: each of these fills a role with what such a node
-// publishes. A node that falls silent fails, so that the phase's fallback takes over.
+// Nodes of ROSplane in the place of components: each component fills a role with the messages of such a node.
+// A node that falls silent fails, so that the phase's fallback takes over.
 #pragma once
 #include "fulmar/msg/plan_edit.hpp"
 #include "messages.hpp"

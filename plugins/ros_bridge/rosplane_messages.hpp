@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of ROSplane 2.0 and ROSflight 2.0, field for field as the packages rosplane_msgs and
-// rosflight_msgs define them. NED and FRD, SI; angles in radians but for latitude and longitude.
+// Messages of ROSplane 2.0 and ROSflight 2.0, field for field as in the packages rosplane_msgs and
+// rosflight_msgs. NED and FRD, SI; angles in radians except latitude and longitude.
 #pragma once
 #include "ros_messages.hpp"
 

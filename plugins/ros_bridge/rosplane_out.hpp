@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The flight in the messages of ROSplane 2.0 and ROSflight 2.0: NED and FRD, as theirs. Names of the ports
-// are those of their topics.
+// The flight in the messages of ROSplane 2.0 and ROSflight 2.0, which also use NED and FRD. Names of the
+// ports are those of their topics.
 #pragma once
 #include <algorithm>
 

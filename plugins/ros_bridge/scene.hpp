@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a 3-D panel and a map draw by themselves: where the aircraft is, in the world and on the Earth, the
-// way that its plan leads, and what stands in the scene. World ENU, body FLU (REP 103, 105).
+// Data for a 3-D panel and a map: the position of the aircraft, in the world and on the Earth, the route of
+// its plan, and the markers. World ENU, body FLU (REP 103, 105).
 #pragma once
 #include <cstring>
 

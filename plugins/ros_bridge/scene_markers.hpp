@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What does not move in its frame: the aircraft in that of the body, the waypoints in that of the world.
+// Markers that are fixed in their frame: the aircraft in that of the body, the waypoints in that of the
+// world.
 #pragma once
 #include <array>
 #include <charconv>

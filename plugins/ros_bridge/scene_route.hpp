@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way of a plan as poses along it: fillets, Dubins paths, the last orbit. Source:
-// fulmar/flight/path/route.hpp, which is what path/Manager flies.
+// The route of a plan as poses: fillets, Dubins paths, the last orbit. Source: fulmar/flight/path/route.hpp,
+// which path/Manager follows.
 #pragma once
 #include <algorithm>
 #include <cmath>

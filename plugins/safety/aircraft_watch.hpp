@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reports, in every mission, what fails of the aircraft and its air: a motor, a battery, a bank or pitch that
-// does not follow its command, wind beyond the limit.
+// Reports, in every mission, failures of the aircraft and its air data: a motor, a battery, a bank or pitch
+// that does not follow its command, wind beyond the limit.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -79,7 +79,8 @@ struct AircraftWatch {
     double error_rad() const { return error_rad_; }
     void reset() { *this = {}; }
     void step(double error_rad, double rate_radps, double most_rad, const Params& p, double dt) {
-      constexpr double closing_radps = 0.1, spun_rad = 1.75;  // spun_rad: no command changes by that much in a step
+      constexpr double closing_radps = 0.1,
+                       spun_rad = 1.75;  // spun_rad: no command changes by that much in a step
       error_rad_ = std::abs(error_rad);
       const bool off = error_rad_ > most_rad;
       const bool closes = error_rad * rate_radps > error_rad_ * closing_radps && error_rad_ < spun_rad;

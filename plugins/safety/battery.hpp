@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is left in the battery, by charge and voltage.
+// Remaining charge of the battery, by charge and voltage.
 #pragma once
 #include <algorithm>
 

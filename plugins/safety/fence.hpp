@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much room the turn back leaves to a fence.
+// Room between the turn back and a fence.
 #pragma once
 #include "fulmar/flight/path/fence.hpp"
 

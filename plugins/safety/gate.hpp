@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What speaks against a take-off.
+// Conditions that prevent a take-off.
 #pragma once
 #include <algorithm>
 #include <cmath>

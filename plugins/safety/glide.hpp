@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An outer law without motor: airspeed by pitch, and a flare. Beard & McLain, Small Unmanned Aircraft (2012),
-// section 6.4.3, with the glide of the airframe's model fed forward; the flare is the exponential one of
+// section 6.4.3, with the glide of the airframe's model as feed-forward; the flare is the exponential one of
 // Stevens, Lewis & Johnson, Aircraft Control and Simulation (2016), 4.6.
 #pragma once
 #include "fulmar/flight/control/energy.hpp"

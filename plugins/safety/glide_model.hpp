@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an airframe does without thrust, by its drag polar and by the drag of its stopped propeller, which is
-// most of it on a motor that is braked by its own windings.
+// Glide of an airframe by its drag polar and the drag of its stopped propeller. The propeller dominates on a
+// motor that is braked by its windings.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands, rolls or flies: estimated from the navigation state and the throttle, which every vehicle has. A
-// flight controller has no contact switch, so a simulated one is not read either.
+// Ground contact, standing, rolling or flying, estimated from the navigation state and the throttle, which
+// every vehicle has. A flight controller has no contact switch, so that of a simulated aircraft is not read
+// either.
 #pragma once
 #include "fulmar/msg/actuators.hpp"
 #include "fulmar/msg/airframe.hpp"

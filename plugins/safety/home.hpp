@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way back: home in a straight line, a circle there; or without motor to a place within reach and onto it
-// into the wind; or a circle where the position is not known.
+// The way back: home in a straight line and a circle there. Without motor: to a place within reach and onto
+// it into the wind. Without a position: a circle.
 #pragma once
 #include <numbers>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The monitor's parameters by cause. In a mission they stand side by side, without the groups.
+// The monitor's parameters by cause. In a mission they are in one list, without the groups.
 #pragma once
 #include "fulmar/plugin.hpp"
 

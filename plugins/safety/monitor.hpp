@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What has failed, with thresholds, delays and one answer. The README has the table.
+// Detects failures with thresholds and delays, and gives one answer. The README has the table.
 #pragma once
 #include "battery.hpp"
 #include "fence.hpp"
@@ -22,10 +22,10 @@ struct Monitor {
       "answer to them; the reasons against a take-off.";
   struct Inputs {
     In<VehicleState> state;
-    Optional<VehicleStatus> status;     // without it nothing is said of battery and link
-    Optional<NavigationHealth> health;  // without it, what the state says of itself
-    Optional<Rc> rc;                    // without it, what the status says of the radio
-    Optional<Actuators> actuators;      // the throttle; without it nothing is said of the motor
+    Optional<VehicleStatus> status;     // without it battery and link are not monitored
+    Optional<NavigationHealth> health;  // without it, the validity flags of the state
+    Optional<Rc> rc;                    // without it, the radio flag of the status
+    Optional<Actuators> actuators;      // its throttle; without it the motor is not monitored
     Optional<GroundState> ground;       // air or ground; without it, status and speed
   };
   struct Outputs {
@@ -77,7 +77,7 @@ struct Monitor {
   static bool gone(const SensorHealth& h) {
     return h.state == SensorState::silent || h.state == SensorState::stuck || h.state == SensorState::refused;
   }
-  /// Commands move the aircraft, as far as the vehicle says.
+  /// True when commands move the aircraft, according to the vehicle's report.
   bool obeyed(const Inputs& in) const { return !in.status || (in.status->in_control && !now_.link_lost); }
   struct Alarms {
     Alarm fence, gnss, pitot, radio, link, attitude, wind, drifting, estimator;
@@ -93,7 +93,7 @@ struct Monitor {
   Reckoned reckoned_;
   Reports reports_;
   SafetyState now_;
-  bool above_floor_ = false;  ///< it has been: before, a take-off
+  bool above_floor_ = false;  ///< the aircraft has been above it: before that it takes off
   bool kept_fence_ = false;
   bool radio_heard_ = false, airspeed_heard_ = false, position_heard_ = false;
   bool radio_there_ = false, drift_ends_wait_ = false;
@@ -128,8 +128,7 @@ inline void Monitor::configure(const Params& p) {
     throw std::runtime_error(safety_messages::battery_limits_crossed().line());
 }
 
-/// By the estimate of ground contact; without it, what the status says of the ground, and a speed that
-/// carries.
+/// From the estimate of ground contact; without it, from the status and a speed that carries the aircraft.
 inline bool Monitor::is_airborne(const Inputs& in, const Params& p) const {
   const double carries = 0.5 * p.airframe->limits.airspeed_min_mps;
   const VehicleState& s = *in.state;
@@ -143,7 +142,7 @@ inline bool Monitor::is_airborne(const Inputs& in, const Params& p) const {
   return (s.velocity_valid && s.ground_speed_mps > carries) || (s.airspeed_valid && s.airspeed_mps > carries);
 }
 
-/// A wheel that leaves the ground for a moment is no flight; each flight begins again.
+/// A short lift of a wheel is no flight. Each flight clears the alarms.
 inline void Monitor::take_off(bool airborne, const Params& p, double dt) {
   aloft_s_ = airborne ? aloft_s_ + dt : 0;
   const bool before = now_.airborne;
@@ -238,7 +237,7 @@ inline void Monitor::fence(const VehicleState& s, const Params& p, double dt) {
     t.reaction_s = f.fence_reaction;
     const WayBack way = way_back(polygon_, t, places_[0], f.fence_margin + f.fence_clear);
     now_.fence_margin_m = way.room_m;
-    // Where the course to home is about behind, the short way is soon the other one.
+    // When the course to home is nearly behind, the short side of the turn may change at any time.
     now_.turn = way.room_m > f.fence_margin + f.fence_clear ? SafetyTurn::either
                 : way.side > 0                              ? SafetyTurn::right
                                                             : SafetyTurn::left;
@@ -250,11 +249,11 @@ inline void Monitor::fence(const VehicleState& s, const Params& p, double dt) {
                                           ceiling_m_, f.fence_pull, f.fence_reaction);
   }
   if (!known && !s.height_valid) return;
-  // Height turns sooner than the track: a part of the margin will do, and no wind carries it out.
+  // A change of height is quicker than a turn: a part of the margin is enough, and wind has no effect.
   const double height = now_.height_margin_m, level = now_.fence_margin_m;
   const bool bad = level < f.fence_margin || height < 0;
   const bool good = level > f.fence_margin + f.fence_clear && height > 0.2 * f.fence_clear;
-  if (alarms_.attitude.raised()) return;  // its velocity is not that of a turn back
+  if (alarms_.attitude.raised()) return;  // its velocity is invalid for a turn back
   alarms_.fence.step(bad, good, 0, 2, dt);
 }
 
@@ -270,7 +269,7 @@ inline void Monitor::sensors(const Tick&, const Inputs& in, const Params& p, dou
   const bool tube = !in.health || in.health.stale() || in.health->pitot.state == SensorState::ok ||
                     in.health->pitot.state == SensorState::noisy;
   const bool measured = s.airspeed_valid && tube;
-  // A tube that was there on the ground counts, though it may have been blocked from before the take-off.
+  // A pitot that measured on the ground counts as present, even if it was blocked before the take-off.
   const bool fitted = in.health && in.health->pitot.state != SensorState::never;
   airspeed_heard_ = airspeed_heard_ || ((measured || fitted) && now_.airborne);
   if (now_.airborne)
@@ -305,7 +304,7 @@ inline void Monitor::battery(const Inputs& in, const Params& p, double dt) {
   if (in.status) battery_.step(*in.status, p.airframe->propulsion.battery_volt, p.battery, dt);
 }
 
-/// Commands that did not move the aircraft say nothing of its motor, nor does what it did meanwhile.
+/// While commands did not move the aircraft, its motion is no evidence about the motor.
 inline void Monitor::motor(const Inputs& in, const Params& p, double dt) {
   const VehicleState& s = *in.state;
   if (!obeyed(in)) return motor_.reset();
@@ -331,7 +330,7 @@ inline void Monitor::wind(const VehicleState& s, const Params& p, double dt) {
   if (!now_.airborne) ground_wind_.step(s, w.wind_smoothing, dt);
 }
 
-/// Whether the drift of the descent, by the last wind, takes it out of the fence: it cannot wait longer.
+/// True when the drift of the descent, by the last wind, leads out of the fence: the descent must begin now.
 inline bool Monitor::leaves_by_drift(const VehicleState& s, const Params& p) const {
   if (!polygon_.given() || !reckoned_.known() || !s.height_valid) return false;
   const Airframe& a = *p.airframe;
@@ -360,7 +359,7 @@ inline void Monitor::gate(const Inputs& in, const Params& p, double dt) {
   const double margin = p.fencing.fence_margin;
   n.estimator = !s.attitude_valid || !s.height_valid || !s.velocity_valid;
   n.position = !s.position_valid || (fresh && gone(in.health->gnss_position));
-  n.pitot = fresh && in.health->pitot.state >= SensorState::stuck;  // rejected: a tail wind does that
+  n.pitot = fresh && in.health->pitot.state >= SensorState::stuck;  // not `refused`: a tail wind causes it
   n.radio = p.radio.radio_required || radio_heard_ ? !radio_there_ : false;
   n.battery = now_.battery_low || now_.battery_empty;
   n.wind = windy || run_up_.tail_wind();
@@ -370,7 +369,7 @@ inline void Monitor::gate(const Inputs& in, const Params& p, double dt) {
   now_.ready = !any(n);
 }
 
-/// Near the ground a landing is finished: without a position, too, and in the flare without a motor.
+/// Near the ground a landing is finished, even without a position, and in the flare without a motor.
 inline SafetyAnswer Monitor::answer(const VehicleState& s, const Params& p, double dt) {
   const SafetyAnswer before = now_.answer, now = wanted(s, p, dt);
   const bool lands =

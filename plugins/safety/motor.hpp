@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the motor gives, by what the aircraft's energy does.
+// Thrust of the motor from the energy rate of the aircraft.
 #pragma once
 #include "alarm.hpp"
 #include "fulmar/flight/control/energy.hpp"

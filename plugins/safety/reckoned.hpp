@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the aircraft is without satellites: the estimator reckons on from air data; beyond its accuracy, by
-// the last wind.
+// Position without satellites: dead reckoning by the estimator from air data; beyond its accuracy, by the
+// last wind.
 #pragma once
 #include <algorithm>
 

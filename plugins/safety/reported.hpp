@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a fault is reported, and its end.
+// Times of the report of a fault and of its end.
 #pragma once
 
 namespace fulmar::safety {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What has failed, and the ways home that are left.
+// Failure detection, and the ways home that remain.
 #include "aircraft_watch.hpp"
 #include "glide.hpp"
 #include "ground.hpp"

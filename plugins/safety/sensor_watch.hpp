@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reports each sensor that fails in flight, and its return, in every mission: what is wrong, what the
-// aircraft does now, and what the pilot should do.
+// Reports each sensor that fails in flight, and its return, in every mission: fault, action of the aircraft,
+// and action for the pilot.
 #pragma once
 #include <array>
 

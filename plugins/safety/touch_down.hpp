@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A touch-down as one likelihood ratio that grows with time (CUSUM, Page 1954): each tick adds how much more
-// likely its measurements are on the ground than in the air. What is usual in the air is learnt there.
+// Detects a touch-down by one likelihood ratio that grows with time (CUSUM, Page 1954): each tick adds the
+// ratio of the likelihoods of its measurements on the ground and in the air. The densities in the air are
+// estimated in flight.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One line for each cause that comes or goes: what is wrong, what the aircraft does, what the pilot should
-// do.
+// One line for each begin and end of a cause: fault, action of the aircraft, and action for the pilot.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far the plan is flown, how closely to its waypoints, and how fast its circuits.
+// Progress of the plan, distance to its waypoints, and duration of its circuits.
 #pragma once
 #include <algorithm>
 #include <cstdint>

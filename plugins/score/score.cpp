@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Judges a flight while it is flown.
+// Evaluates a flight while it runs.
 #include "score.hpp"
 
 using namespace fulmar::score;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well the flight is flown: tracking, estimation and injected GNSS errors, touch-downs, a crash, and a
-// few figures. Takes no part in the flight.
+// Figures of a flight: tracking, estimation and injected GNSS errors, touch-downs, a crash, and a few others.
+// The component only observes.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the score publishes. All errors are root mean squares since the first waypoint was reached. A figure
+// Messages of the score. All errors are root mean squares since the first waypoint was reached. A figure
 // without data is unknown_std, which a result shows as null.
 #pragma once
 #include "fulmar/message.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What happened, in words: the crash, and what safety answered before.
+// Text of a crash, and of the answer of safety before it.
 #pragma once
 #include <algorithm>
 #include <array>

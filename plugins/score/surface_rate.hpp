@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast the commands move the surfaces.
+// Rate of the surface commands.
 #pragma once
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Touch-downs: recognised by the simulator's contact, the estimated ground state or the landing's stage,
-// whichever is wired and comes first.
+// Touch-downs: detected by the simulator's contact, the estimated ground state or the landing's stage, by the
+// first that is connected and reports one.
 #pragma once
 #include <algorithm>
 #include <cmath>

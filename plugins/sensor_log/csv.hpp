@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text with commas: a line of names, then a line per row. Lines that begin with # and empty ones count for
-// nothing.
+// CSV text: a line of names, then a line per row. Lines that begin with # and empty ones are ignored.
 #pragma once
 #include <algorithm>
 #include <charconv>

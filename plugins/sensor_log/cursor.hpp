@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Little-endian numbers one after the other, which never read behind the end.
+// Reads little-endian numbers in sequence, never beyond the end.
 #pragma once
 #include <array>
 #include <bit>

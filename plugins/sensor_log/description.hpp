@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file in configs/sensor_logs says: which columns of which files are the sensors of a recorded flight,
-// in which units, how late, how calibrated, and when they are withheld. Every fault in it is the host's to
-// tell.
+// Content of a file in configs/sensor_logs: the columns and files of the sensors of a recorded flight, their
+// units, delays, calibration, and times in which they are withheld. The host reports all faults in it.
 #pragma once
 #include "fulmar/message.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files of a recording. Their names say which reader reads them.
+// The files of a recording. The ending of the name selects the reader.
 #pragma once
 #include <fstream>
 #include <iterator>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages whose columns need not be written: sensor_msgs and rosflight_msgs of ROS 2, Fulmar's own, and
-// PX4's. A column that the description names stays; units that the message has go with its own columns alone.
-// Sources: the interface definitions of these packages.
+// Messages with default columns: sensor_msgs and rosflight_msgs of ROS 2, Fulmar's own, and PX4's. A column
+// in the description has priority; units of the message apply only to its default columns. Sources: the
+// interface definitions of these packages.
 #pragma once
 #include <utility>
 

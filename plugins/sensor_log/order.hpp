@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which stamps of a file are in order.
+// Selection of the stamps of a file that are in order.
 #pragma once
 #include <algorithm>
 #include <cstddef>

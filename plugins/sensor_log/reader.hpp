@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rows of one sensor: those that are in order and whose numbers are numbers, in the order of their
-// arrival.
+// The valid rows of one sensor, in the order of their arrival.
 #pragma once
 #include <array>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicle: what was sensed in a flight of the past, at the times of then. It obeys nobody.
+// The vehicle: samples of a recorded flight at their recorded times. Commands have no effect.
 #pragma once
 #include <fulmar/msg/actuators.hpp>
 #include <fulmar/msg/notice.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is wrong with a description, alone or beside its files, and what is told of rows that were left out.
-// The host has looked at keys, types, units and choices before.
+// Faults of a description, alone or with its files, and reports of skipped rows. The host has checked keys,
+// types, units and choices before.
 #pragma once
 #include <cstdio>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A ROS 2 message in its own words, as a bag holds them, and how its bytes (XCDR1, little-endian) are walked
-// for some of its fields. Sources: ROS 2 interface definition; OMG DDS-XTypes 1.3, 7.4.1.
+// A ROS 2 message by its definition in a bag, and a reader of some of its fields in XCDR1 bytes,
+// little-endian. Sources: ROS 2 interface definition; OMG DDS-XTypes 1.3, 7.4.1.
 #pragma once
 #include <map>
 #include <utility>
@@ -10,8 +10,8 @@
 
 namespace fulmar::sensor_log {
 
-/// When the recorder took a message, and when its sender sent it: ns since 1970, by their clocks. Columns of
-/// every topic that has no fields of these names.
+/// Time of recording and time of sending of a message, ns since 1970, by the clocks of recorder and sender.
+/// Every topic without fields of these names has these columns.
 struct Stamps {
   std::uint64_t logged = 0, published = 0;
 };
@@ -20,10 +20,10 @@ inline constexpr std::array<const char*, 2> stamp_names = {"log_time", "publish_
 struct RosField {
   Prim prim = Prim::u8;
   std::string name, type;  ///< type: of a structure, "pkg/Name"
-  bool sequence = false;   ///< its count is in the bytes
+  bool sequence = false;   ///< the bytes hold its count
   std::size_t count = 1;
   bool array = false;                            ///< of `count`
-  std::vector<std::vector<std::size_t>> wanted;  ///< per element: the columns that want it
+  std::vector<std::vector<std::size_t>> wanted;  ///< per element: the columns that use it
   std::vector<RosField> inside;
 };
 
@@ -64,7 +64,7 @@ class RosType {
     put_stamp(stamps.published, stamped_[1], wanted, table);
     const auto head = bytes.take(4);
     if (head[0] != 0 || head[1] != 1) bytes.fault(sensor_log_messages::message_not_xcdr());
-    bytes = bytes.part(bytes.left());  // positions, to which numbers are aligned, count from here
+    bytes = bytes.part(bytes.left());  // the alignment of numbers counts from here
     walk(fields_, bytes, wanted, &table);
   }
 
@@ -139,7 +139,7 @@ class RosType {
         f.wanted.resize(std::min<std::size_t>(f.count, 1024));
       }
     }
-    if (fields.empty()) fields.emplace_back();  // ROS 2 gives a structure of nothing a byte
+    if (fields.empty()) fields.emplace_back();  // in ROS 2 an empty structure has one byte
     return fields;
   }
 
@@ -167,7 +167,7 @@ class RosType {
 
   static void align(Cursor& bytes, std::size_t to) { bytes.take((to - bytes.at % to) % to); }
 
-  /// `table`: null where nobody wants anything.
+  /// `table`: null for a part that no column uses.
   static void walk(const std::vector<RosField>& fields, Cursor& bytes, const std::vector<Wanted>& wanted,
                    Table* table) {
     for (const RosField& f : fields) {
@@ -210,7 +210,7 @@ class RosType {
   std::map<std::string, std::vector<RosField>> types_;
   std::vector<RosField> fields_;
   std::vector<std::string> names_;
-  std::array<std::vector<std::size_t>, 2> stamped_;  ///< the columns that want a stamp
+  std::array<std::vector<std::size_t>, 2> stamped_;  ///< the columns that use a stamp
 };
 
 }  // namespace fulmar::sensor_log

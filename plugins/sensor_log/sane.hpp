@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a sensor can say, whatever a file says.
+// Plausible values of a sensor, for any file.
 #pragma once
 #include <cmath>
 #include <fulmar/msg/baro.hpp>

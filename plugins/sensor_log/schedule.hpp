@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a tick is, and which samples arrive with it.
+// Times of ticks, and the samples that arrive with each.
 #pragma once
 #include <tuple>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Units, axes and calibration: from the numbers of a row to a message.
+// Units, axes and calibration: converts the numbers of a row to a message.
 #pragma once
 #include <fulmar/flight/earth/atmosphere.hpp>
 #include <numbers>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a file becomes: the columns that somebody wants, row by row.
+// Content of a file: the requested columns, row by row.
 #pragma once
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PX4's log. Source: the ULog file format in PX4's user guide: a head, then records of a size, a kind and as
-// many bytes; formats name the fields of a message, which are packed.
+// PX4's log. Source: the ULog file format in PX4's user guide. After a head there are records of a size, a
+// kind and a payload; formats name the fields of a message, which are packed.
 #pragma once
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A signal on roll, pitch or throttle that an outer law asks for.
+// A signal on the roll, pitch or throttle of an outer law.
 #pragma once
 #include "excitation.hpp"
 #include "fulmar/msg/attitude_command.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the three components share: when a signal begins and ends, what aborts it, and what is told of it.
+// Common parts of the three components: begin and end of a signal, its abort, and the reports.
 #pragma once
 #include <array>
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A signal on course, height or airspeed that guidance asks for.
+// A signal on the course, height or airspeed of guidance.
 #pragma once
 #include "excitation.hpp"
 #include "fulmar/flight/math/angles.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the servos can follow what they are commanded: each is reckoned with its throw, its stops and its
-// rate.
+// Checks that the servos can follow their commands, by a model of throw, limits and rate.
 #pragma once
 #include <array>
 #include <string_view>
@@ -47,8 +46,8 @@ inline std::string_view servo_trouble(const Surface& s, const SignalParams& p, d
 
 class ServoWatch {
  public:
-  /// `asked`: commands before any limit is applied. Returns a report, once until all servos have followed for a
-  /// while.
+  /// `asked`: commands before any limit is applied. Returns a report, once until all servos have followed for
+  /// a while.
   std::string_view step(const Airframe& a, const Actuators& asked, double dt_s) {
     const std::array<const Surface*, 3> surfaces{&a.aileron, &a.elevator, &a.rudder};
     const std::array<double, 3> commands{asked.aileron_rad, asked.elevator_rad, asked.rudder_rad};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals for identification and for step and frequency responses, added to what somebody else commands.
+// Signals for identification and for step and frequency responses, added to the commands of another
+// component.
 #include "attitude.hpp"
 #include "guidance.hpp"
 #include "surfaces.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A signal on a surface or the throttle, on its way to the vehicle.
+// A signal on a surface or the throttle, between the law and the vehicle.
 #pragma once
 #include "excitation.hpp"
 #include "fulmar/msg/actuators.hpp"

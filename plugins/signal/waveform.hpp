@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What identification flights add to a command, as functions of time of size 1. The README gives every
-// equation.
+// Signals of identification flights, as functions of time of size 1. The README gives the equations.
 #pragma once
 #include <algorithm>
 #include <array>

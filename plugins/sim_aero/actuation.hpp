@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands between a command and the servos of a real aircraft: the way over the link, a flight controller
-// that takes commands over at frames of its radio only, and pulses of finite resolution. ROSflight
-// firmware 2.0: frames at 111 Hz, pulses of 1000 to 2000 us.
+// Path from a command to the servos of a real aircraft: the delay of the link, a flight controller that
+// accepts commands at frames of its radio only, and pulses of finite resolution. ROSflight firmware 2.0:
+// frames at 111 Hz, pulses of 1000 to 2000 us.
 #pragma once
 #include <array>
 #include <cmath>

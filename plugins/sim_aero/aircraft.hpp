@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulated vehicle: advances the plant by one period per tick and lets its sensors speak.
+// The simulated vehicle: advances the plant by one period per tick and publishes its sensors.
 #pragma once
 #include <cmath>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the motor may run.
+// Armed state of the motor.
 #pragma once
 #include <cstdint>
 

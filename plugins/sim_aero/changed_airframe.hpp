@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The airframe as it flies: the file's, with what the parameters add, and with ice.
+// The airframe in flight: that of the file with the additions of the parameters and ice.
 #pragma once
 #include "fulmar/msg/airframe.hpp"
 #include "icing.hpp"

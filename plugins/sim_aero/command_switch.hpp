@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who moves the aircraft: the computer, the pilot, or the failsafe of the firmware.
+// Selects the commands in force: computer, pilot, or failsafe of the firmware.
 #pragma once
 #include <cmath>
 #include <cstdint>

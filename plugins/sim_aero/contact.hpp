@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What touches the ground, for figures and reports: published when it changes.
+// Ground contact of the aircraft's parts, for figures and reports: published at each change.
 #pragma once
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The faults as live parameters: what fails and how, and the sizes of the faults. README.md has the table.
+// The faults as live parameters: kinds and sizes. README.md has the table.
 #pragma once
 #include <cstdint>
 

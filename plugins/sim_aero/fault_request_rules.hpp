@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What may be requested of a simulated aircraft, and what a request makes of the parameters' sizes. A part of
-// faults.hpp, which includes it at its end.
+// Valid requests for faults, and their effect on the sizes from the parameters. A part of faults.hpp, which
+// includes it at its end.
 #pragma once
 #include <cstdio>
 

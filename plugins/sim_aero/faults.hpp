@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which faults are in force: those of the parameters, and in place of them what was requested, until the
-// request's time is over or it is taken back.
+// The faults in force: those of the parameters. A requested fault replaces that of the parameters until its
+// time is over or it is withdrawn.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ice on wing and tail. The linear model of the University of Illinois: with ice of the severity eta a
+// Ice on wing and tail, by the linear model of the University of Illinois: with ice of the severity eta a
 // coefficient C is (1 + eta k_C) C (Bragg, Hutchison, Merret, Oltman & Pokhariyal, "Effect of Ice Accretion
-// on Aircraft Flight Dynamics", AIAA 2000-0360). README.md says what the parameters' defaults are.
+// on Aircraft Flight Dynamics", AIAA 2000-0360). README.md explains the defaults of the parameters.
 #pragma once
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A launch without a runway: somebody holds the aircraft, or it sits on a catapult, and some time after it
-// was armed it is pushed along its nose with an even acceleration until it has its speed, and let go.
+// A launch without a runway: the aircraft is held by hand or on a catapult. Some time after arming it is
+// pushed along its nose with a constant acceleration until the release speed.
 #pragma once
 #include <cstdint>
 

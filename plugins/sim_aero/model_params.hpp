@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The derivative set as live parameters: what is added to the airframe's, so that the model can be changed in
-// flight. All 0: the airframe as its file has it.
+// Additions to the airframe's derivatives as live parameters, to change the model in flight. All 0: the
+// airframe of the file.
 #pragma once
 #include <array>
 

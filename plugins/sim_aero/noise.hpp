@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is wrong with a sensor's channel: white noise, a constant bias, a random walk, a Gauss-Markov process.
-// All are stated per root of time or as stationary deviations and discretised exactly, so they do not depend
+// Errors of a sensor's channel: white noise, a constant bias, a random walk, a Gauss-Markov process. All are
+// given per root of time or as stationary standard deviations and discretised exactly, so they do not depend
 // on the rate.
 #pragma once
 #include <Eigen/Core>

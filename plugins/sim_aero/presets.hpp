@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Three sets of sensors: without fault; as the ROSflight simulator has them; and as data sheets and receivers
-// have them.
+// Three sets of sensors: without errors; as in the ROSflight simulator; and from data sheets and typical
+// receivers.
 #pragma once
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Aircraft that do not fly, each with what is wrong. A sentence begins with the parameter at fault: the host
-// then says in which line of which file it stands.
+// Reasons to reject an aircraft. A message begins with the parameter at fault: the host adds the line and the
+// file.
 #pragma once
 #include <cmath>
 #include <cstdio>

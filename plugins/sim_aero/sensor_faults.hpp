@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sensors say when they fail. A fault changes what one sensor says and nothing else: it draws from a
-// generator of its own, so that all other errors stay as they are.
+// Outputs of failed sensors. A fault changes the output of one sensor only: it has a separate random
+// generator, so that all other errors stay the same.
 #pragma once
 #include <Eigen/Core>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a sensor's samples are taken, and which of them arrive when.
+// Sampling times of a sensor, and arrival of its samples.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sensors of the aircraft, each sampled when it is due and published when its sample has arrived.
+// The sensors of the aircraft, each sampled when it is due and published when its sample arrives.
 #pragma once
 #include <cstdint>
 #include <optional>

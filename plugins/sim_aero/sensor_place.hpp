@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a sensor feels because of where it is: away from the centre of gravity, beside a motor, in the
-// pressure field of the aircraft.
+// Effects of a sensor's place: away from the centre of gravity, near a motor, in the pressure field of the
+// aircraft.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A set of sensors as one YAML file says it, configs/sensors/: what data sheets state, and what nobody's data
-// sheet does. What is left out is 0, and a sensor without errors. README.md tells what each key does.
+// A set of sensors in one YAML file, configs/sensors/: values of data sheets, and further errors that data
+// sheets do not give. A key that is left out is 0. README.md explains each key.
 #pragma once
 #include <array>
 #include <limits>

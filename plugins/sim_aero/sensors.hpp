@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the state of the aircraft to what its sensors say, each at its own rate. Beard & McLain, chapter 7.
+// Sensor outputs from the state of the aircraft, each at its own rate. Beard & McLain, chapter 7.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a data sheet says of a sensor beside its noise: turn-on bias, bias instability, scale, axes that are
-// askew or see each other, bandwidth, range, digits. Random numbers come from a generator of its own.
+// Errors of a data sheet in addition to noise: turn-on bias, bias instability, scale, misalignment and
+// cross-coupling of axes, bandwidth, range, resolution. They have a separate random generator.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the flight begins: on the ground, in the hand or on the catapult, or in trimmed level flight.
+// Start of the flight: on the ground, in the hand or on the catapult, or in trimmed level flight.
 #pragma once
 #include <cstdint>
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When the status of the vehicle is published, and what is said of it.
+// Publication of the vehicle's status, and its notices.
 #pragma once
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a file of sensors to what the simulator computes with: densities become deviations of samples.
+// Converts a file of sensors to the simulator's parameters: densities become standard deviations of samples.
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>

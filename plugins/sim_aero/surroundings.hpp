@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is around the aircraft beside the steady wind: turbulence by height, gusts, thermals, the slope of the
-// ground. README.md has the equations.
+// Environment in addition to the steady wind: turbulence by height, gusts, thermals, the slope of the ground.
+// README.md has the equations.
 #pragma once
 #include <cmath>
 #include <cstdint>

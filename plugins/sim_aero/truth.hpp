@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The true state of the aircraft, as an estimator would tell it.
+// The true state of the aircraft, in the form of an estimate.
 #pragma once
 #include <algorithm>
 #include <cmath>

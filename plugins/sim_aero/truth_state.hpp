@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Navigation without an estimator: the simulator's truth in place of an estimate.
+// Navigation without an estimator: publishes the simulator's truth as the state.
 #pragma once
 #include "fulmar/msg/vehicle_state.hpp"
 #include "fulmar/plugin.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parameters of the weather: the steady wind, its profile, the turbulence, and how the day differs from
-// the standard one.
+// The parameters of the weather: the steady wind, its profile, the turbulence, and the deviation from the
+// standard atmosphere.
 #pragma once
 #include <cmath>
 #include <numbers>

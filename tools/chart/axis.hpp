@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What all charts share: the range of an axis, its marks, and the shapes of points.
+// Common parts of all charts: the range of an axis, its marks, and the shapes of points.
 #pragma once
 #include <initializer_list>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures for print as SVG: panels above each other over one axis, line styles that tell curves apart without
+// Figures for print as SVG: panels above each other over one axis, with line styles that are distinct without
 // colours. The same numbers give the same bytes.
 #pragma once
 #include <cstddef>

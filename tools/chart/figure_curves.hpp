@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curves of a figure: how they look, and what of them can be seen.
+// Style of the curves of a figure, and their visible parts.
 #pragma once
 #include <string>
 

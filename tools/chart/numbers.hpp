@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers as text, for people.
+// Numbers as text.
 #pragma once
 #include <cmath>
 #include <cstdio>

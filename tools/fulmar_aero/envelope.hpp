@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where steady flight begins and ends.
+// Limits of steady flight.
 #pragma once
 #include "fulmar/flight/model/steady_flight.hpp"
 

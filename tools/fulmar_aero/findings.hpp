@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a check of an airframe has found.
+// Findings of a check of an airframe.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

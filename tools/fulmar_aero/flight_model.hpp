@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The SDK's flight mechanics, compiled once: its derivatives and eigenvectors take long.
+// The SDK's flight mechanics, compiled once: its derivatives and eigenvectors take long to compile.
 #pragma once
 #include <vector>
 

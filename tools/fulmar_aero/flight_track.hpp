@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a flight went and what it was commanded, from its log.
+// Track and commands of a flight, from its log.
 #pragma once
 #include <filesystem>
 #include <vector>

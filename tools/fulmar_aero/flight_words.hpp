@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A steady flight in words: what it is, and why there is none.
+// Texts of a steady flight: its description, and the reason when there is none.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

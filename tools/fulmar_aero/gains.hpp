@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gains of control_slc and control_tecs from bandwidths, and less bandwidth where margins ask for it.
+// Gains of control_slc and control_tecs from bandwidths, which the margins may reduce.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar import ...`, as the program fulmar-import: what people have of another autopilot.
+// `fulmar import ...`, as the program fulmar-import: imports files of other autopilots and tools.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

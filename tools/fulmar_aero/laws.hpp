@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped laws as linear systems, sampled: what a sine of each input makes of each output, near steady
+// The shipped laws as linear sampled systems: response of each output to a sine of each input, near steady
 // level flight. The discretisation is that of the code, step by step. test/laws_test.cpp compares with the
 // components themselves.
 #pragma once

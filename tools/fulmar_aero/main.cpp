@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // `fulmar aero ...`, as the program fulmar-aero. Exit codes: 0 done; 1 there is no such flight, or a check
-// has found a fault; 2 wrong usage; 4 the airframe file was refused.
+// has found a fault; 2 wrong usage; 4 the airframe file is invalid.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a flight is said on the command line.
+// Command-line options of a flight condition.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The hourglass, flown by `fulmar run` with gains that stand in no file yet.
+// The hourglass, run by `fulmar run` with gains that are in no file yet.
 #pragma once
 #include <array>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `fulmar aero tune` has found.
+// Results of `fulmar aero tune`.
 #pragma once
 #include <optional>
 #include <string>

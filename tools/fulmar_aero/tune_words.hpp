@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops and gains in words.
+// Texts of loops and gains.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

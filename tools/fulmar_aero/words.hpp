@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers for people: angles in degrees.
+// Displayed numbers: angles in degrees.
 #pragma once
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mass, inertia and wing: whether they are those of one aircraft, in SI units.
+// Mass, inertia and wing: consistency, in SI units.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The class of small aircraft: how far each derivative lies from what was found in sets of them; lift at zero
-// angle of attack that belongs to another angle; and coefficients that are another aircraft's to the digit.
+// Comparison with small aircraft: distance of each derivative from published sets; lift at zero angle of
+// attack that belongs to another angle; and coefficients that equal those of another aircraft.
 #include <array>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signs and sizes of the derivatives. The usual range of each is what was found in sets of small aircraft
-// that were computed (AVL, XFLR5, VSPAERO) or identified in flight, a little widened.
+// Signs and sizes of the derivatives. The usual range of each comes from sets of small aircraft, computed
+// (AVL, XFLR5, VSPAERO) or identified in flight, slightly widened.
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the aircraft flies: trim from the stall to the top speed, its limits, and its modes in cruise.
+// Flight of the aircraft: trim from the stall to the top speed, its limits, and its modes in cruise.
 #include <algorithm>
 #include <cmath>
 

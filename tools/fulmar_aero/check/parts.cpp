@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Servos, propellers, battery and gear: units that are suspected, and parts that do not fit together.
+// Servos, propellers, battery and gear: doubtful units, and parts that do not fit together.
 #include <cmath>
 
 #include "fulmar/flight/model/mixer.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Static margin and what the surfaces can do.
+// Static margin and control power.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a symmetric aircraft does not have, and what drag is counted how often.
+// Terms that a symmetric aircraft does not have, and drag that is counted twice.
 #include <array>
 #include <cmath>
 

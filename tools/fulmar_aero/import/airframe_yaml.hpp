@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The airframe file of an imported aircraft: every number with its source, and what the files did not have
-// with the default that was taken.
+// The airframe file of an imported aircraft: every number with its source, and every missing one with its
+// default.
 #pragma once
 #include "tools/fulmar_aero/airframe_file.hpp"
 #include "tools/fulmar_aero/import/aircraft.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the readers of other tools' files find, in one set of conventions: every reader turns axes, signs and
-// units of its tool into those of Beard & McLain (Small Unmanned Aircraft, 2012, chapter 4), at the angle of
-// attack that was analysed.
+// Results of the readers of other tools' files, in one set of conventions. Every reader converts axes, signs
+// and units of its tool to those of Beard & McLain (Small Unmanned Aircraft, 2012, chapter 4), at the
+// analysed angle of attack.
 #pragma once
 #include <array>
 #include <complex>

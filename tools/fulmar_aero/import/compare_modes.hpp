@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tool's own eigenvalues beside those of Fulmar's model with what was imported: an axis, a sign, a unit
-// or a reference length that was taken wrong shows here.
+// Comparison of the tool's eigenvalues with those of Fulmar's model of the imported aircraft. It shows errors
+// of an axis, a sign, a unit or a reference length.
 #pragma once
 #include "tools/fulmar_aero/import/airframe_yaml.hpp"
 

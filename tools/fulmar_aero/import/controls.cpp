@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which control is what, and which way is positive. Neither can be taken from a file: the sign depends on the
-// user's gains and on the hinge of each tool.
+// Role and sign of each control. A file has neither: the sign depends on the user's gains and on the hinge of
+// each tool.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several files, one aircraft: what wins, where files contradict each other, and what the model of the
-// simulator wants at angle of attack 0.
+// Merges several files to one aircraft: priorities, contradictions, and the values that the model of the
+// simulator needs at angle of attack 0.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// JSBSim's XML, as far as Fulmar's model has it: functions that are one product of numbers, the dynamic
+// JSBSim's XML, within the limits of Fulmar's model: functions that are one product of numbers, the dynamic
 // pressure, S, b or c, and at most one state or one table over states. Axes LIFT, DRAG, SIDE of the airflow,
 // ROLL, PITCH, YAW of the body; US units. Source: JSBSim reference manual, section 3.1 (aerodynamics). All
-// else is refused by its name.
+// else is rejected with its name.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

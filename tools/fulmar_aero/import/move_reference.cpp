@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moments about another point, and rates about it: rigid-body kinematics, exact for what a linear analysis
-// says. README.md has the equations.
+// Moments and rates about another point: rigid-body kinematics, exact for a linear analysis. README.md has
+// the equations.
 #include <cmath>
 #include <numbers>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // AVL's derivatives: stability (ST, .st), body (SB, .sb) and mixed axes (SM). Axes and signs: AVL 3.32 doc
-// and source (aoutput.f), with one exception of its own: the control columns Cld, Cnd of the .st are in body
-// axes although their row says x', z'; versions that number controls with two digits ("d01") turn them.
+// and source (aoutput.f). One exception: the control columns Cld, Cnd of the .st are in body axes although
+// their row says x', z'; versions that number controls with two digits ("d01") turn them.
 #include <cmath>
 #include <numbers>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// AVL's machine-readable form (MRF, since 3.40): "numbers | words : names". It is written anew as the form
-// for people, line by line, so that one reader reads both and lines are those of the file. Source: aoutmrf.f,
-// aoutput.f.
+// AVL's machine-readable form (MRF, since 3.40): "numbers | words : names". It is converted to the other
+// printed form, line by line, so that one reader reads both and line numbers are those of the file. Source:
+// aoutmrf.f, aoutput.f.
 #include "tools/fulmar_aero/import/messages.hpp"
 #include "tools/fulmar_aero/import/readers.hpp"
 

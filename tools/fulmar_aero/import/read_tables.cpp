@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands beside the derivatives: polars with their friction, VSPAERO's .flt, .history and .vspaero,
+// Files in addition to the derivatives: polars with friction, VSPAERO's .flt, .history and .vspaero,
 // OpenVSP's mass properties and parasite drag.
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One reader per kind of file. Each is told apart by what stands in it, never by its ending.
+// One reader per kind of file. The kind is recognised by the content, never by the ending.
 #pragma once
 #include <functional>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// rosflight_sim, fixedwing_forces_and_moments.cpp and standalone_dynamics.cpp: which of the file's parameters
-// are read, and how.
+// The parameters that rosflight_sim reads, and their use: fixedwing_forces_and_moments.cpp and
+// standalone_dynamics.cpp.
 #include "tools/fulmar_aero/import/rosflight.hpp"
 
 #include <algorithm>

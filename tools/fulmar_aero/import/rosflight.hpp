@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets that are already in the form of Beard & McLain: ROSflight's parameter files, the JSON of the
-// Skywalker X8 (C_L_0, C_l_p, ...), and JSBSim's XML as far as it is linear.
+// Sets that are already in the form of Beard & McLain: ROSflight's parameter files, the JSON of the Skywalker
+// X8 (C_L_0, C_l_p, ...), and the linear part of JSBSim's XML.
 #pragma once
 #include "tools/fulmar_aero/import/aircraft.hpp"
 #include "tools/fulmar_aero/import/lines.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elements, attributes, text and comments: what aircraft files have of XML.
+// Elements, attributes, text and comments: the parts of XML that aircraft files use.
 #pragma once
 #include <algorithm>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an aircraft does over angle of attack and airspeed, and the charts of it.
+// Curves of an aircraft over angle of attack and airspeed, and their charts.
 #pragma once
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `fulmar aero fly` has done, as a page.
+// The results of `fulmar aero fly` as a page.
 #pragma once
 #include <optional>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A page that needs nothing but itself: no script, no request; light and dark, and on paper.
+// A self-contained page: no script, no request; light and dark, and for paper.
 #pragma once
 #include <string>
 #include <vector>

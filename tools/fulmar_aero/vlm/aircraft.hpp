@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a drawing to the coefficients of an airframe.
+// Coefficients of an airframe from a drawing.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The airframe file that a drawing becomes.
+// The airframe file of a drawing.
 #include <cmath>
 
 #include "core/types/text.hpp"

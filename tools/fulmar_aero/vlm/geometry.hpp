@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An aircraft as it is drawn: surfaces of sections, bodies, masses. Axes of the drawing: x aft, y right, z
-// up, from any origin, metres.
+// A drawing of an aircraft: surfaces of sections, bodies, masses. Axes of the drawing: x aft, y right, z up,
+// from any origin, metres.
 #pragma once
 #include <memory>
 #include <numbers>

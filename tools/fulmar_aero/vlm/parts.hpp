@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a lattice does not know of an aircraft: mass, skin, fuselage, propeller.
+// Parts that are not in the lattice: mass, skin, fuselage, propeller.
 #pragma once
 #include <Eigen/Core>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces from files of other programs. What is not understood is refused with file:line, never left out.
+// Surfaces from files of other programs. Unknown content is rejected with file:line, never left out.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The flow about a lattice: circulations by one factorisation, forces by Kutta-Joukowski on the bound
-// vortices with all that is induced there, and their exact derivatives.
+// vortices with all induced velocities, and their exact derivatives.
 #pragma once
 #include <Eigen/Core>
 

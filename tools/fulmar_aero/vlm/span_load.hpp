@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lattice to look at: where its panels lie, and how the lift is spread over the span.
+// Views of the lattice: the places of its panels, and the lift distribution over the span.
 #pragma once
 #include <string>
 #include <vector>

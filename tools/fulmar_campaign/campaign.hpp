@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several flights of one mission: with other seeds, repeated, or with what has changed.
+// Several flights of one mission: with other seeds, repeated, or after a change.
 #pragma once
 #include "core/app/run_options.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Many flights of one mission: which seeds, and what their figures are on the whole.
+// Many flights of one mission: their seeds, and statistics of their figures.
 #pragma once
 #include <cstdint>
 #include <nlohmann/json.hpp>

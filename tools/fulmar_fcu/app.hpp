@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands of `fulmar fcu`. Each returns an exit code; what goes wrong is an Error, one sentence.
+// The commands of `fulmar fcu`. Each returns an exit code; a failure is an Error of one sentence.
 #pragma once
 #include <string>
 #include <vector>

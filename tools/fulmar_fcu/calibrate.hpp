@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller's own calibrations: started by a command, done some seconds later, told by a text and by
-// changed parameters. What the firmware does and says: rosflight_firmware 2.0, sensors.cpp and
-// controller.cpp.
+// Calibrations of the controller. A command starts them, they take some seconds, and a text and changed
+// parameters show their end. Firmware: rosflight_firmware 2.0, sensors.cpp and controller.cpp.
 #pragma once
 #include <functional>
 #include <string>

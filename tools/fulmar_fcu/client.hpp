@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One conversation with a ROSflight flight controller: keeps the heartbeat, remembers the last of every
-// message, and waits with deadlines. What the firmware answers and when: rosflight_firmware 2.0,
-// comm_manager.
+// A connection to a ROSflight flight controller: sends the heartbeat, stores the last of every message, and
+// waits with time-outs. Answers of the firmware: rosflight_firmware 2.0, comm_manager.
 #pragma once
 #include <array>
 #include <cstdint>

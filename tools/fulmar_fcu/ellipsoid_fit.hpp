@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ellipsoid through the readings of a magnetometer that was turned all ways: hard iron is its centre, soft
-// iron its shape. Start: linear least squares of a quadric with fixed trace. Then geometric: Gauss-Newton on
-// the distances | |L (m - b)| - 1 |, with Huber's weights against outliers (Huber, "Robust estimation of a
-// location parameter", 1964).
+// Ellipsoid through the readings of a magnetometer that was turned in all directions: hard iron is its
+// centre, soft iron its shape. Initial value: linear least squares of a quadric with fixed trace. Then a
+// geometric fit: Gauss-Newton on the distances | |L (m - b)| - 1 |, with Huber's weights against outliers
+// (Huber, "Robust estimation of a location parameter", 1964).
 #pragma once
 #include <array>
 #include <string>

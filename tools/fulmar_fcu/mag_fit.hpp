@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From samples to the twelve parameters of the controller's magnetometer, and whether they are good enough.
+// From samples to the twelve parameters of the controller's magnetometer, with a check of their quality.
 #pragma once
 #include <array>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller's mixer: ten commands to ten outputs, as its parameters have it. Rows u[0] throttle, u[3]
-// aileron, u[4] elevator, u[5] rudder on a fixed wing. rosflight_firmware 2.0, mixer.cpp: PRI_MIXER_i_j is
-// from command i to output j.
+// The controller's mixer from its parameters: ten commands to ten outputs. Rows u[0] throttle, u[3] aileron,
+// u[4] elevator, u[5] rudder on a fixed wing. rosflight_firmware 2.0, mixer.cpp: PRI_MIXER_i_j is from
+// command i to output j.
 #pragma once
 #include <array>
 #include <string>

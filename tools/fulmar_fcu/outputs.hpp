@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves one surface after the other, on the ground, as a computer in flight would: OFFBOARD_CONTROL, mode 0,
+// Moves one surface after the other, on the ground, with the commands of a flight: OFFBOARD_CONTROL, mode 0,
 // throttle always 0. Servos follow while disarmed, motors do not. The firmware passes commands on at frames
-// of the radio only, and the pilot's side may hold the outputs.
+// of the radio only, and the pilot may have control of the outputs.
 #pragma once
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters in files: ours, one "NAME: value" a line; and the list of {name, type, value} that ROSflight's
-// own tools write.
+// Parameters in files: one "NAME: value" a line; and the list of {name, type, value} that ROSflight's tools
+// write.
 #pragma once
 #include <functional>
 #include <optional>

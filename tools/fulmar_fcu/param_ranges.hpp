@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the firmware makes sense of, of parameters whose wrong value is taken without a word and costs an
+// Valid ranges of parameters whose wrong value the firmware accepts without a report, and which may cost an
 // aircraft. ROSflight firmware 2.0, param.cpp and rc.cpp: a channel that is not received counts as a lost
 // radio, SBUS has 16 of them; -1 maps a switch to none.
 #pragma once

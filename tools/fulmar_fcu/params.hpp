@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The controller's parameters: all of them under loss, one, and one set and read back.
+// The controller's parameters: reading all despite losses, reading one, setting one with a check.
 #pragma once
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The list before a flight: each line OK, WARN or FAIL, why, and what to do. What the parameters mean:
-// rosflight_firmware 2.0.
+// The list before a flight: each line is OK, WARN or FAIL, with the reason and the remedy. Meaning of the
+// parameters: rosflight_firmware 2.0.
 #pragma once
 #include <map>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which channel of the radio is what, by the controller's parameters. rosflight_firmware 2.0, rc.cpp: a
-// channel is (us - 1000) / 1000, a switch is on from 0.8, or below 0.2 when it is turned round; it counts
-// only on channels 4 to RC_NUM_CHN - 1, from 0.
+// Use of the radio's channels, by the controller's parameters. rosflight_firmware 2.0, rc.cpp: a channel is
+// (us - 1000) / 1000, a switch is on from 0.8, or below 0.2 when it is reversed; it counts only on channels 4
+// to RC_NUM_CHN - 1, from 0.
 #pragma once
 #include <array>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a controller says of itself, for people and as JSON.
+// Status of a controller, as text and as JSON.
 #pragma once
 #include <array>
 #include <string>

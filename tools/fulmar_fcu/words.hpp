@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bits and numbers of the controller in words.
+// Texts of bits and numbers of the controller.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Advice of `fulmar check`: a mission that can be flown and perhaps does not do what its author expects.
+// Advice of `fulmar check`: a valid mission that may not do what its author expects.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Components that were replaced and are still read. A mission that brings a path of its own, for example,
-// wires it to the follower. A scorer or `done` that still reads the former manager then judges a flight that
-// is not flown. The layers below state which components steered.
+// Components that were replaced and are still read. For example, a mission adds a path and connects it to the
+// follower. A scorer or `done` that still reads the former manager then evaluates an inactive path. The
+// layers below state which components steered.
 #include <algorithm>
 #include <cctype>
 #include <set>

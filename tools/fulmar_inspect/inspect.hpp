@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a plugin says of itself, for people: the text of `fulmar inspect`.
+// Description of a plugin: the text of `fulmar inspect`.
 #pragma once
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Words that the text and the page of `fulmar inspect` share.
+// Texts common to both forms of `fulmar inspect`.
 #pragma once
 #include <string>
 

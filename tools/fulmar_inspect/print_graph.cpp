@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The graph for people: plain text, Graphviz dot, Mermaid.
+// The graph as plain text, Graphviz dot, Mermaid.
 #include "tools/fulmar_inspect/print_graph.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission's graph for people and for tools that draw.
+// A mission's graph as text and for drawing tools.
 #pragma once
 #include <string>
 

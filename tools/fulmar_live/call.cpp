@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar call | phase | swap | reset`: what a flight can be asked for.
+// `fulmar call | phase | swap | reset`: requests to a flight.
 #include <cctype>
 #include <chrono>
 #include <cstdio>

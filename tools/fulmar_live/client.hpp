@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A WebSocket connection to the live view of a running flight. One thread; every call returns within its
-// time.
+// A WebSocket connection to the live view of a running flight. One thread; every call has a time limit.
 #pragma once
 #include <chrono>
 #include <cstdint>

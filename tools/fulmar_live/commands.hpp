@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words for a running flight. Each returns the exit code, and throws Error when there is no flight or no
-// such name.
+// The subcommands for a running flight. Each returns the exit code, and throws Error without a flight or for
+// an unknown name.
 #pragma once
 #include <cstdint>
 #include <string>

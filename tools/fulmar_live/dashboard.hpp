@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `fulmar watch` shows: a running flight on one screen of text, from the messages that have come so far.
+// Content of `fulmar watch`: a running flight on one screen of text, from the messages received so far.
 #pragma once
 #include <deque>
 #include <map>

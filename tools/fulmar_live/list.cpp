@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar list`: what flies, what it publishes, what it can be asked.
+// `fulmar list`: components, topics and requests.
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of a running flight, as the program fulmar-live: `fulmar echo nav.state` starts `fulmar-live echo
-// nav.state`. Exit codes: 0 done; 1 it failed; 2 wrong usage.
+// The subcommands of a running flight, as the program fulmar-live: `fulmar echo nav.state` starts
+// `fulmar-live echo nav.state`. Exit codes: 0 done; 1 it failed; 2 wrong usage.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

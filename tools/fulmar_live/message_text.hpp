@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages for people and for tables.
+// Messages as text and as tables.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>

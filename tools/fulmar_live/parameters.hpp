@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters of a running flight, as people read and name them.
+// Parameters of a running flight, with displayed values and names.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ports and fields as people name them, "nav.state.position_m.north", looked up among the topics of a running
+// Ports and fields by displayed names, "nav.state.position_m.north", looked up among the topics of a running
 // flight.
 #pragma once
 #include <nlohmann/json_fwd.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of a running flight, and the completion of the whole command line.
+// The subcommands of a running flight, and the completion of the whole command line.
 #pragma once
 #include <memory>
 #include <string>

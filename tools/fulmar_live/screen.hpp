@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The terminal that standard output is.
+// The terminal of the standard output.
 #pragma once
 #include <csignal>
 #include <string>

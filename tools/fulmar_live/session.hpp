@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A running flight as the command line sees it: the Foxglove WebSocket protocol over a Client. Source:
+// Access to a running flight for the command line: the Foxglove WebSocket protocol over a Client. Source:
 // foxglove/ws-protocol, docs/spec.md.
 #pragma once
 #include <chrono>

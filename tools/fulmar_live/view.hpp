@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What opens a log, or the flight that runs, in a viewer: the link or the command line, and the layout that
-// is shipped for it. Sources: Lichtblick's and Foxglove's pages on links and on their command lines; the
-// options of PlotJuggler and Rerun.
+// Opens a log or the running flight in a viewer: the link or the command line, and the shipped layout.
+// Sources: Lichtblick's and Foxglove's pages on links and on their command lines; the options of PlotJuggler
+// and Rerun.
 #pragma once
 #include <string>
 #include <vector>

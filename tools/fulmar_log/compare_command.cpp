@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See compare_command.hpp. Which states of which logs, and with what they are judged.
+// See compare_command.hpp. Selects the states, the logs, and the references.
 #include "tools/fulmar_log/compare_command.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A comparison of two estimates, for people and for programs.
+// A comparison of two estimates, as text and as JSON.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two estimates side by side: how they differ, and where the log has a truth or the fixes of a receiver, how
-// far each is off and whether it knows. Both logs are read once, in streams.
+// Comparison of two estimates: their difference, and with a truth or the fixes of a receiver in the log, the
+// error of each and the consistency of its standard deviation. Both logs are read once, as streams.
 #pragma once
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What differs between two logs: their messages, and what stands beside them.
+// Differences between two logs: messages, attachments and metadata.
 #pragma once
 #include "tools/log_reading/message_diff.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar log diff`: how two flights differ.
+// `fulmar log diff`: differences between two flights.
 #pragma once
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The columns of tables as arrays in memory: what files of arrays are made of.
+// The columns of tables as arrays in memory, for files of arrays.
 #pragma once
 #include <cstddef>
 #include <functional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One CSV file per topic. Source: RFC 4180, lines end in LF. Numbers read back as they were.
+// One CSV file per topic. Source: RFC 4180, lines end in LF. Numbers read back without a change.
 #include <algorithm>
 #include <fstream>
 #include <memory>

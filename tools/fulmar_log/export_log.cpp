@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See export_log.hpp. A file is written under the name FILE.part and renamed when it is whole.
+// See export_log.hpp. A file is written under the name FILE.part and renamed when it is complete.
 #include "tools/fulmar_log/export_log.hpp"
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log for those who compute: one CSV file per topic, one NPZ file, one MAT file (level 5). The machine's
-// view: every value exact, radians stay radians. Columns: time_s (flight time at which it was logged),
-// valid_s, then the fields: "legs[1].position_m.north". A list is as wide as its longest; what is missing is
-// nan. An enum is its number, and its label beside it.
+// A log for computation: one CSV file per topic, one NPZ file, one MAT file (level 5). Every value is exact,
+// and radians stay radians. Columns: time_s (flight time at which it was logged), valid_s, then the fields:
+// "legs[1].position_m.north". A list is as wide as its longest; a missing value is nan. An enum is its
+// number, with its label in a further column.
 #pragma once
 #include <cstdint>
 #include <filesystem>

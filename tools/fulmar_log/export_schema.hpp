@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of any ROS 2 log as rows of cells: the definition that stands in the log and XCDR1 bytes, nothing
-// from plugins. Lists of any length; what is wide in one message is wide in the table. Source: ROS 2 design
+// Messages of any ROS 2 log as rows of cells, from the definition in the log and XCDR1 bytes, without
+// plugins. Lists may have any length; the widest message sets the width of the table. Source: ROS 2 design
 // "interface definition"; OMG DDS-XTypes 1.3, 7.4.1.
 #pragma once
 #include <cstddef>

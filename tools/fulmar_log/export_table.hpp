@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A log as tables, one per topic: a row per message, a column per number, text or label. Read twice: once for
-// the widths, once for the rows, so that a long log needs no more memory than a chunk of it.
+// A log as tables, one per topic: a row per message, a column per number, text or label. It is read twice,
+// for the widths and for the rows, so that a long log needs no more memory than one of its chunks.
 #pragma once
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a flight was flown, out of its log: the figures of its mission's `summary:`, and who flew when.
+// Results of a flight from its log: the figures of its mission's `summary:`, and the active components over
+// time.
 #pragma once
 #include <cstdint>
 #include <filesystem>

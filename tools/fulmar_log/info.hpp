@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a log holds, and what of it costs how much.
+// Contents of a log, and the share of each topic in its size.
 #pragma once
 #include <cstdint>
 #include <filesystem>

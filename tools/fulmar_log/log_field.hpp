@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of a log by the names that people give them: "nav.state.roll_rad", "nav.state.roll_deg", or a probe
-// by its component, "attitude_signal.roll_excitation_rad".
+// Numbers of a log by displayed names: "nav.state.roll_rad", "nav.state.roll_deg", or a probe by its
+// component, "attitude_signal.roll_excitation_rad".
 #pragma once
 #include <cstddef>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See npz.hpp. The date of every entry is the first one that zip knows: equal arrays make equal files.
+// See npz.hpp. Every entry has the earliest date of zip: equal arrays give equal files.
 #include "tools/fulmar_log/npz.hpp"
 
 #include <zlib.h>

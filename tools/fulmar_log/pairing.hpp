@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two streams of samples with clocks of their own, compared at one time: the sparse one says when, the dense
-// one is interpolated between its neighbours. Both come in the order of their arrival, with the times for
-// which they are valid.
+// Two streams of samples with different clocks, compared at common times: the sparse one sets the times, the
+// dense one is interpolated. Both are in the order of their arrival, with their times of validity.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a figure goes: an SVG file, or what a program beside Fulmar makes of it.
+// Output of a figure: an SVG file, or its conversion by another program.
 #include <charconv>
 #include <chrono>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The route of a flight's plan, as its scene publishes it: poses in metres to the east and to the north.
+// The route of a flight's plan, as published by its scene: poses in metres to the east and to the north.
 #include <algorithm>
 #include <cmath>
 

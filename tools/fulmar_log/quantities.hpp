@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is compared of two states: a row of the table each.
+// The compared quantities of two states: one row of the table each.
 #pragma once
 #include <cstddef>
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// See recover.hpp. Read twice: attachments and metadata come first, then all messages in their order.
+// See recover.hpp. The log is read twice: attachments and metadata come first, then all messages in their
+// order.
 #include "tools/fulmar_log/recover.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes a whole log of what is left of one that was cut off or damaged.
+// Makes a complete log of the remains of one that was cut off or damaged.
 #pragma once
 #include <cstdint>
 #include <filesystem>

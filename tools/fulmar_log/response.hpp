@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How an output answers an input: figures of a step, and the frequency response. Of series in memory; nothing
-// here knows logs.
+// Response of an output to an input: figures of a step, and the frequency response. For series in memory,
+// independent of logs.
 #pragma once
 #include <optional>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar response`: how one field of a log answers another one.
+// `fulmar response`: response of one field of a log to another one.
 #pragma once
 #include <memory>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lets the reading of a damaged log go on: what is damaged is left out, and the next chunk, attachment or
-// metadata is found by the summary, else by sight.
+// Continues the reading of a damaged log: damaged parts are left out. The next chunk, attachment or metadata
+// is found by the summary, else by a search.
 #pragma once
 #include <cstdint>
 #include <filesystem>

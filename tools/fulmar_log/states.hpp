@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a log says of where the aircraft was: estimates and truth (VehicleState), fixes (Gnss) and what
-// filters believe of their errors (FilterCheck). Fields are found by name, so that logs of other layouts are
-// read.
+// States of the aircraft in a log: estimates and truth (VehicleState), fixes (Gnss) and the errors that
+// filters report (FilterCheck). Fields are found by name, so that logs of other layouts can be read.
 #pragma once
 #include <cstddef>
 #include <cstdint>

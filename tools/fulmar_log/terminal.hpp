@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the words of logs print.
+// Output of the log subcommands on a terminal.
 #pragma once
 #include <cstdint>
 #include <iostream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission that a Python program flies: tick by tick, or to its end, again and again.
+// A mission under control of a Python program: tick by tick, or to its end, repeatedly.
 #pragma once
 #include <pybind11/pybind11.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component without a role: its ports are what its author asks for, or those of a template of the SDK.
+// A component without a role: its ports come from the command line or from a template of the SDK.
 #pragma once
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `fulmar new`: writes the project of a plugin that fills roles of a mission or
-// stands beside them.
+// `fulmar new`: writes the project of a plugin that fills roles of a mission or has no role.
 #pragma once
 #include <string>
 #include <vector>

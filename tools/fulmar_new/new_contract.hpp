@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a component must be: wires in, messages out. Of one that fills roles of a mission they are read from
-// the mission and from who fills the roles there; of one without a role they are what its author asks for.
+// Contract of a component: inputs and outputs. For roles they are read from the mission and from the
+// components that fill the roles there; without a role they come from the author.
 #pragma once
 #include <filesystem>
 #include <string>

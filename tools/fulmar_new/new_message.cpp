@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a message's field table back to the C++ struct that has this table. sdk/include/fulmar/schema.hpp is
-// the other direction.
+// Converts a message's field table to a C++ struct with that table; the reverse of
+// sdk/include/fulmar/schema.hpp.
 #include <algorithm>
 
 #include "tools/fulmar_new/new_source.hpp"

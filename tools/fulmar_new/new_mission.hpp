@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mission of a new plugin: the given one, with the new component in its roles or beside them. Stays short
-// by extending what the given one extends.
+// The mission of a new plugin: the given one, with the new component in its roles or without a role. It is
+// short because it extends the same file as the given one.
 #pragma once
 #include <string>
 #include <vector>

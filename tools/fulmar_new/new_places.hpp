@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where this program's templates, missions and SDK are: in the prefix that it was installed to, or in the
-// tree that it was built from.
+// Places of templates, missions and SDK: in the prefix of the installation, or in the source tree.
 #pragma once
 #include <filesystem>
 #include <string>

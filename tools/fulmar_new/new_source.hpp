@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The source of a new component that no template fits: it passes on what the shipped one computes, until its
-// author knows better.
+// The source of a new component without a template: it passes on the output of the shipped one until the
+// author changes it.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The estimates of a flight and of its replay side by side. The host knows no state of an aircraft: who does
-// is `fulmar-log`, whose table this is.
+// Comparison of the estimates of a flight and of its replay. The host has no notion of a state: the table
+// comes from `fulmar-log`.
 #pragma once
 #include <atomic>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which plugin files flew, as the metadata of a log name them (core/run/record/setup.cpp writes these).
+// The plugin files of a flight, from the metadata of its log (written by core/run/record/setup.cpp).
 #pragma once
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a flight's samples lie in its log.
+// Places of a flight's samples in its log.
 #pragma once
 #include <cstdint>
 #include <string>

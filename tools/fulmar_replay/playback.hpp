@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What entered a flight from outside, out of its log: the outputs of the vehicle and of drivers, tick by
-// tick, in place of the devices; and what was asked of the flight between ticks. The log is read as the
-// flight goes on, some ticks ahead of it.
+// External inputs of a flight from its log. The outputs of the vehicle and of drivers replace the devices,
+// tick by tick; requests enter between ticks. The log is read during the replay, some ticks ahead.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -20,7 +20,8 @@ VehicleTrack::VehicleTrack(const Survey& survey, const Graph& graph)
       continue;
     }
     const std::string topic = topic_in(log_, graph, vehicle_, i);
-    const bool silent = port.kind != FULMAR_OUT_VALUE && !has_topic(log_, topic);  // in the whole flight
+    // without a sample in the whole flight
+    const bool silent = port.kind != FULMAR_OUT_VALUE && !has_topic(log_, topic);
     if (!silent) outputs_[channel_of(log_, topic, *port.type)] = i;
   }
   if (!probes_.empty()) outputs_[log_.channel("/" + vehicle_.name + "/probes")] = all_probes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In the place of a vehicle: what one published in another flight, tick by tick. Commands go nowhere.
+// Replaces a vehicle: publishes the samples of another flight, tick by tick. Commands have no effect.
 #pragma once
 #include <cstdint>
 #include <deque>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flies a log again: its mission, its plugins, what entered the flight; and compares what comes out.
+// Replays a log with its mission, plugins and inputs, and compares the outputs.
 #pragma once
 #include <atomic>
 #include <cstdint>

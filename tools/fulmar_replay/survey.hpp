@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What has to be known of a whole log before it is flown again: out of one reading, which keeps no sample.
+// Facts about a whole log that are needed before its replay, from one reading that stores no samples.
 #pragma once
 #include <cstdint>
 #include <filesystem>

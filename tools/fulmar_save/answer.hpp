@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a client of a flight asks for: first the lines that would change are shown, then those and no others
-// are written.
+// Response to a client of a flight: the first request shows the lines that would change, the second one
+// writes exactly those.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file before and after a change: shown as lines, and written whole.
+// A file before and after a change: shown as lines, and written completely.
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters as the view of a running flight has them.
+// Parameters in the form of the view of a running flight.
 #pragma once
 #include <nlohmann/json_fwd.hpp>
 #include <string>

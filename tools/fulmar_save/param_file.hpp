@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes the values that parameters have in a flight back into the files that they came from, and leaves
-// comments and layout as they are.
+// Writes the values of a flight's parameters back into their files, without a change of comments and layout.
 #pragma once
 #include <filesystem>
 #include <string>

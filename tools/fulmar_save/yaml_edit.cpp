@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// yaml-cpp says where keys stand; from there on the text itself is read, so that an alias is seen as what it
-// is.
+// yaml-cpp gives the places of keys. The values are read from the text itself, so that an alias is
+// recognised.
 #include "tools/fulmar_save/yaml_edit.hpp"
 
 #include <yaml-cpp/yaml.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes single values in the text of a YAML file and leaves everything else as it is: comments, layout,
-// quotes, order.
+// Changes single values in the text of a YAML file and leaves comments, layout, quotes and order unchanged.
 #pragma once
 #include <cstddef>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The values of a message, of whatever program, for what compares and prints logs.
+// The values of a message of any program, for comparison and output of logs.
 #pragma once
 #include <cstddef>
 #include <span>

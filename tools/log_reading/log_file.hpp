@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file that is named as a log, and its time.
+// Check of a log's file name, and its time.
 #pragma once
 #include <cstdint>
 #include <string>

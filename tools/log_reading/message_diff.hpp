@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What differs between the messages of two logs. Both are read once, side by side; messages of a topic are
-// compared at equal log times, what they hold and when it is valid.
+// Differences between the messages of two logs. Both are read once, in parallel; messages of a topic are
+// compared at equal log times, with their content and time of validity.
 #pragma once
 #include <cstdint>
 #include <filesystem>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the text of a ROS 2 message definition back to a type table: what reads logs and live views that were
-// written elsewhere.
+// Converts the text of a ROS 2 message definition to a type table, for logs and live views of other programs.
 #pragma once
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which plugins a user is offered.
+// The plugins that the host offers to a user.
 #include "core/graph/catalogue.hpp"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@ namespace catalogue_test {
 using namespace fulmar::core;
 namespace fs = std::filesystem;
 
-TEST_CASE("plugins alone are offered: a script that does not use the SDK is none") {
+TEST_CASE("only plugins are offered: a script that does not use the SDK is none") {
   const fs::path folder = fs::temp_directory_path() / ("fulmar-catalogue-" + std::to_string(getpid()));
   fs::create_directories(folder);
   std::ofstream(folder / "law.so") << "x";

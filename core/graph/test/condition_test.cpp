@@ -20,7 +20,7 @@ using namespace fulmar::core::test;
 
 namespace {
 
-/// Five ports with samples that a test sets; absent until then.
+/// Five ports with samples that a test sets; without a sample until then.
 struct World : SampleReader {
   VehicleState state;
   VehicleStatus status;
@@ -66,7 +66,7 @@ std::string refused(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the flight time is a number in seconds that a condition can look at") {
+TEST_CASE("the flight time is a number in seconds for a condition") {
   World world;
   world.time_ns = 60'000'000'000;
   CHECK(world("time >= 60 s"));
@@ -113,7 +113,7 @@ TEST_CASE("and, or and not follow their truth tables and their precedence") {
       }
 }
 
-TEST_CASE("comparisons compare, at the limit too") {
+TEST_CASE("comparisons are exact at their limits") {
   World world;
   world.state.height_m = 30;
   CHECK_FALSE(world("nav.state.height_m < 30 m"));
@@ -157,7 +157,7 @@ TEST_CASE("fields are compared with fields, elements of vectors and lists too") 
   CHECK_FALSE(world("law.roll_error_rad > 29 deg"));
 }
 
-TEST_CASE("words of an enum are compared by name") {
+TEST_CASE("labels of an enum are compared by name") {
   World world;
   world.path.kind = PathKind::orbit;
   CHECK(world("manage.path.kind == orbit"));
@@ -177,14 +177,14 @@ TEST_CASE("a condition is false while any of its ports has no sample, a negated 
   CHECK(world("vehicle.status.armed"));
 }
 
-TEST_CASE("a condition lists each port that it looks at once") {
+TEST_CASE("a condition lists each port that it reads once") {
   const auto condition = Condition::compile(
       "nav.state.height_m > 3 m and nav.state.roll_rad < 1 or vehicle.status.armed", World::find);
   CHECK(condition->ports().size() == 2);
   CHECK(condition->text() == "nav.state.height_m > 3 m and nav.state.roll_rad < 1 or vehicle.status.armed");
 }
 
-TEST_CASE("a wrong condition is refused with a sentence") {
+TEST_CASE("a wrong condition is rejected with a sentence") {
   CHECK(refused("") == "graph.condition_empty");
   CHECK(refused("nav.state.height_m <") == "graph.operand_missing");
   CHECK(refused("nav.state.height_m < and") == "graph.operand_expected(and)");
@@ -237,7 +237,7 @@ TEST_CASE("a wrong condition is refused with a sentence") {
   CHECK(refused(deep) == "graph.condition_too_deep(50)");
 }
 
-TEST_CASE("fields of two units are compared as what they are") {
+TEST_CASE("fields of two units are converted for a comparison") {
   World world;
   world.state.roll_rad = 0.8;
   world.state.origin_latitude_deg = 40;  // 0.698 rad

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Altered mission files: each is resolved or refused with a sentence, never more.
+// Altered mission files: each is resolved or rejected with a sentence.
 #include <doctest/doctest.h>
 
 #include "core/graph/test/shelf.hpp"
@@ -11,14 +11,14 @@ namespace fuzz_test {
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
-TEST_CASE("500 altered missions are resolved or refused with a sentence") {
+TEST_CASE("500 altered missions are resolved or rejected with a sentence") {
   Mission mission;
   Dice dice;
   int refused = 0;
   for (int i = 0; i < 500; ++i) {
     mission.text = hourglass;
     for (std::size_t n = 1 + dice.below(4); n > 0; --n) mutate(mission.text, dice);
-    const std::string faults = mission.faults();  // anything but Error ends the test
+    const std::string faults = mission.faults();  // any exception but Error ends the test
     refused += faults.empty() ? 0 : 1;
     if (!faults.empty()) CHECK(faults.find(".yaml") != std::string::npos);
   }
@@ -26,7 +26,7 @@ TEST_CASE("500 altered missions are resolved or refused with a sentence") {
   CHECK(refused < 500);
 }
 
-TEST_CASE("200 altered airframe and plan files are taken or refused with a sentence") {
+TEST_CASE("200 altered airframe and plan files are accepted or rejected with a sentence") {
   Mission mission;
   Dice dice;
   int refused = 0;

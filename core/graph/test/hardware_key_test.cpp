@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which missions are for hardware, and what a mission reads that only a simulator has.
+// Missions for hardware, and reads of ports that only a simulator has.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::string keyed(const std::string& key, const Overrides& o) {
   return mission.faults(o);
 }
 
-/// Warnings of the hourglass mission that speak of simulation only, `from` replaced by `to`.
+/// Warnings of the hourglass mission about simulation only, with `from` replaced by `to`.
 std::vector<std::string> warned(const std::string& from, const std::string& to,
                                 const std::string& io = "sim") {
   Mission mission;
@@ -49,14 +49,14 @@ std::vector<std::string> warned(const std::string& from, const std::string& to,
 
 }  // namespace
 
-TEST_CASE("a mission that is not for hardware is refused there with its reason and its line") {
+TEST_CASE("a mission that is not for hardware is rejected there with its reason and its line") {
   const std::string no = "{fit: no, because: \"its phases fly by the true state\"}";
   CHECK(keyed(no, on("sim")) == "");
   CHECK(keyed(no, on("fcu")) ==
         "hourglass.yaml:6: graph.hardware_not_allowed(its phases fly by the true state)");
   CHECK(keyed("yes", on("fcu")) == "");
   CHECK(keyed("{fit: yes}", on("fcu")) == "");
-  CHECK(Mission().faults(on("fcu")) == "");  // a mission that does not say may try
+  CHECK(Mission().faults(on("fcu")) == "");  // a mission without the key is allowed
 }
 
 TEST_CASE("a mission may need a role or a component that the command line chooses") {
@@ -71,7 +71,7 @@ TEST_CASE("a mission may need a role or a component that the command line choose
   CHECK(keyed(with, chosen) != "");
 }
 
-TEST_CASE("what stands under hardware is checked in simulation too") {
+TEST_CASE("the section hardware is checked in simulation too") {
   for (const char* io : {"sim", "fcu"}) {
     CHECK(keyed("perhaps", on(io)).find("hourglass.yaml:6: graph.hardware_value_invalid('perhaps')") == 0);
     CHECK(keyed("no", on(io)).find("hourglass.yaml:6: graph.hardware_value_invalid('no')") == 0);
@@ -94,7 +94,7 @@ TEST_CASE("the key is inherited, and a layer replaces it as a whole") {
   CHECK(mission.faults(on("fcu")) == "");
 }
 
-TEST_CASE("a condition that reads ground contact, a crash or the true state is told") {
+TEST_CASE("a condition that reads ground contact, a crash or the true state is reported") {
   const std::string when = "\"nav.state.height_m > 30 m\"";
   CHECK(warned(when, when).empty());
   CHECK(warned(when, "\"vehicle.status.armed\"").empty());
@@ -116,12 +116,12 @@ TEST_CASE("a condition that reads ground contact, a crash or the true state is t
   CHECK(warned("\"vehicle.status.override\"", "\"vehicle.status.on_ground\"").size() == 1);  // of `any`
 }
 
-TEST_CASE("a vehicle that measures contact, or whose contact_known is asked for, may be read for it") {
+TEST_CASE("a vehicle that measures contact, or a condition on contact_known, is not reported") {
   const std::string when = "\"nav.state.height_m > 30 m\"";
   CHECK(warned(when, "\"vehicle.status.contact_known and not vehicle.status.on_ground\"").empty());
   CHECK(warned(when, "\"sim.status.contact_known and vehicle.status.on_ground\"").size() == 1);
   for (const char* io : {"sim", "fcu"}) {
-    Mission mission;  // a message without contact_known is that of a switch, whatever its field is called
+    Mission mission;  // a message without contact_known has a switch, for any name of the field
     for (const char* plugin : {"sim_aero", "fcu_serial"})
       mission.shelf.plugins[plugin]->components[0].outputs.push_back(out<Wheels>("wheels"));
     mission.replace("status: VehicleStatus", "wheels: Wheels, status: VehicleStatus")
@@ -136,7 +136,7 @@ TEST_CASE("a verdict may read what only the simulator has") {
   CHECK(warned("\"manage.progress.circuits >= 2\"", "\"vehicle.status.on_ground\"").empty());
 }
 
-TEST_CASE("a component that steers by the true state is told, one that only measures is not") {
+TEST_CASE("a component that steers by the true state is reported, one that only measures is not") {
   const std::string manage = "use: path/Manager, in: {state: nav.state,";
   const auto list = warned(manage, "use: path/Manager, in: {state: vehicle.truth,");
   REQUIRE(list.size() == 1);
@@ -145,15 +145,15 @@ TEST_CASE("a component that steers by the true state is told, one that only meas
   CHECK(warned(manage, simulated).size() == 1);
   const std::string measures = "only: sim}\n  second: {use: sim_aero/TruthState, in: {truth: vehicle.truth}}";
   CHECK(warned("only: sim}", measures).empty());
-  // a component that only measures decides as soon as a phase looks at it
+  // a component that only measures takes part in a decision when a phase reads it
   const auto decided = warned("\"nav.state.height_m > 30 m\"", "\"score.tracking.circuits > 1\"");
   REQUIRE(decided.size() == 1);
   CHECK(decided[0].find("graph.simulated_input(score, truth, truth)") != std::string::npos);
-  Mission open;  // an optional input that hardware leaves open
+  Mission open;  // an optional input without a source on hardware
   CHECK(open.replace("\"nav.state.height_m > 30 m\"", "\"score.tracking.circuits > 1\"")
             .faults(on("fcu"))
             .find("graph.simulated_input(score, truth, truth)") != std::string::npos);
-  // who exists in simulation alone says so itself
+  // a component of the simulation alone is declared as such
   Mission mission;
   Overrides o = on("sim");
   o.roles = {{"nav", "truth"}};
@@ -162,7 +162,7 @@ TEST_CASE("a component that steers by the true state is told, one that only meas
                      [](const std::string& w) { return w.find("graph.simulated_") != std::string::npos; }));
 }
 
-TEST_CASE("a mission that is for simulation only, or has no other vehicle, is told nothing") {
+TEST_CASE("a mission for simulation only, or without another vehicle, gets no warning") {
   const std::string crashed = "\"vehicle.status.crashed\"", when = "\"nav.state.height_m > 30 m\"";
   Mission mission;
   mission.replace(when, crashed).replace("seed: 7", "hardware: {fit: no, because: \"it is a toy\"}");
@@ -173,7 +173,7 @@ TEST_CASE("a mission that is for simulation only, or has no other vehicle, is to
   CHECK(alone.load().source.warnings.empty());
 }
 
-TEST_CASE("each shipped mission says whether it is for hardware") {
+TEST_CASE("each shipped mission states whether it is for hardware") {
   const fs::path folder = named_file("", "fulmar:missions/common.yaml").parent_path();
   int missions = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Missions in layers, and what a mission or the command line changes in a part of something: a wire, a field
-// of a record.
+// Missions in layers, and changes of a part by a mission or the command line: a wire, a field of a record.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -56,7 +55,7 @@ TEST_CASE("a mission extends one that extends another one, to any depth, each re
         "hourglass.yaml, one.yaml, two.yaml, ground.yaml, anaconda.yaml, plans/hourglass.yaml");
 }
 
-TEST_CASE("a layer that is not there, is broken, or is its own ground is the only fault") {
+TEST_CASE("a layer that is missing, is broken, or extends itself is the only fault") {
   Layered mission("extends: one.yaml\nsed: 3\n");
   mission.folder.write("one.yaml", "extends: nowhere.yaml\n");
   CHECK(mission.faults() == "one.yaml:1: graph.extends_file_invalid(graph.file_missing(nowhere.yaml, ))");
@@ -71,7 +70,7 @@ TEST_CASE("a layer that is not there, is broken, or is its own ground is the onl
   CHECK(mission.faults() == "hourglass.yaml:1: graph.extends_cycle(hourglass.yaml -> , hourglass.yaml)");
 }
 
-TEST_CASE("null takes away a wire, a component, a phase, a parameter, a key") {
+TEST_CASE("null removes a wire, a component, a phase, a parameter, a key") {
   Layered mission(
       "extends: ground.yaml\ndone: null\nsummary: {tracking_rmse: null}\ncomponents:\n"
       "  mine: null\n  score: {in: {truth: null}}\n  sim: {params: {wind_ned: null}}\n"
@@ -89,13 +88,13 @@ TEST_CASE("null takes away a wire, a component, a phase, a parameter, a key") {
   CHECK(graph.judge.summary[0].first == "estimation_rmse");
 }
 
-TEST_CASE("what is taken away below can be there again above") {
+TEST_CASE("a key that a lower layer removed can be set again above") {
   Layered mission("extends: one.yaml\ncomponents: {score: {in: {truth: vehicle.truth}}}\n");
   mission.folder.write("one.yaml", "extends: ground.yaml\ncomponents: {score: {in: {truth: null}}}\n");
   CHECK(wire(mission.load(), "score", "truth").from.kind == Source::Kind::role);
 }
 
-TEST_CASE("null for what is not there below is a fault of its own place") {
+TEST_CASE("null for a key that does not exist below is a fault at its own place") {
   const auto reported = [](const std::string& text) {
     Layered mission("extends: ground.yaml\n" + text);
     return mission.faults();
@@ -120,7 +119,7 @@ TEST_CASE("null for what is not there below is a fault of its own place") {
   CHECK(reported(calm) == "");
 }
 
-TEST_CASE("null takes entries away of what else is a map") {
+TEST_CASE("null removes entries of other maps") {
   Layered mission(
       "extends: middle.yaml\nresume: {manage.first: null}\nfailsafe: {aileron: null}\nlive: {token: null}\n"
       "record: {rate: null}\ndds: {import: {plan.edits: null}, humble: null}\n");
@@ -140,7 +139,7 @@ TEST_CASE("null takes entries away of what else is a map") {
   CHECK_FALSE(graph.dds.humble);
 }
 
-TEST_CASE("null takes away the wire that a role brings, unless the input is required") {
+TEST_CASE("null removes the wire that a role brings, unless the input is required") {
   Layered mission(
       "extends: ground.yaml\nroles: {outer: {in: {rc: vehicle.rc}}}\ncomponents:\n"
       "  slc: {in: {rc: null}}\n");
@@ -150,7 +149,7 @@ TEST_CASE("null takes away the wire that a role brings, unless the input is requ
   CHECK(mission.faults() == "hourglass.yaml:5: graph.input_disconnected(components.ekf: the input 'gnss' )");
 }
 
-TEST_CASE("of what was taken away and is still named there is one fault, with all places") {
+TEST_CASE("a removed name that is still used is one fault, with all places") {
   Layered mission("extends: ground.yaml\ncomponents:\n  manage: null\n");
   CHECK(mission.faults() ==
         "hourglass.yaml:3: graph.still_named(components.manage, roles.guide.in.path (ground.yaml:16), "
@@ -172,7 +171,8 @@ TEST_CASE("of what was taken away and is still named there is one fault, with al
         "hourglass.yaml:2: graph.still_named(phases.takeoff, phases.hold.next.to (ground.yaml:36))");
 }
 
-TEST_CASE("figures, verdict and texts go with the component that a layer takes away, and are named") {
+TEST_CASE(
+    "figures, verdict and texts are dropped with the component that a layer removes, and are reported") {
   Layered mission("extends: ground.yaml\ncomponents:\n  score: null\n");
   mission.folder.write("ground.yaml", Mission().text + "\nverdict: score.verdict\ntell: [score.notices]\n");
   const Graph graph = mission.load();
@@ -186,12 +186,13 @@ TEST_CASE("figures, verdict and texts go with the component that a layer takes a
   REQUIRE(graph.source.warnings.size() == 1);
   CHECK(graph.source.warnings[0].find("graph.outputs_not_in_flight(verdict (score.verdict), ") !=
         std::string::npos);
-  mission.text += "done: \"score.tracking.circuits > 1\"\n";  // what decides does not go
+  mission.text += "done: \"score.tracking.circuits > 1\"\n";  // a condition is not dropped
   CHECK(mission.faults().find(
             "hourglass.yaml:3: graph.still_named(components.score, done (hourglass.yaml:4))") == 0);
 }
 
-TEST_CASE("figures go with a component of the other io, and with one that another plugin has replaced") {
+TEST_CASE(
+    "figures are dropped with a component of the other io, and with one that another plugin has replaced") {
   Layered other("extends: ground.yaml\ncomponents: {score: {only: fcu}}\n");
   CHECK(left_out(other.load()) ==
         "summary.tracking_rmse (score.tracking), summary.estimation_rmse (score.estimation)");
@@ -204,7 +205,7 @@ TEST_CASE("figures go with a component of the other io, and with one that anothe
       std::string::npos);
 }
 
-TEST_CASE("a map of a few fields is no record, for whoever reads it") {
+TEST_CASE("a map of a few fields is no record, for every component that reads it") {
   Mission mission;
   const std::string few = "{mass: 5 kg, aero: {lift: {alpha: 5}}}";
   const std::string missing =
@@ -221,13 +222,13 @@ TEST_CASE("a map of a few fields is no record, for whoever reads it") {
         std::string::npos);
   mission.folder.write("anaconda.yaml", "mass: 4 kg\n");
   CHECK(mission.faults().find("anaconda.yaml:1: graph.record_incomplete(, Airframe, ") == 0);
-  CHECK(mission.faults().find('\n') == std::string::npos);  // once, though several read it
+  CHECK(mission.faults().find('\n') == std::string::npos);  // once, although several read it
   Mission nowhere;
   nowhere.replace("lon: -111.6474138, ", "");
   CHECK(nowhere.faults() == "hourglass.yaml:4: graph.record_incomplete(origin: , Origin, lon, )");
 }
 
-TEST_CASE("a path leads into a record: the rest of the record stays") {
+TEST_CASE("a path sets one field of a record: the rest of the record stays") {
   Mission mission;
   const Graph graph = mission.load(set("sim.airframe.mass", "5 kg"));
   const auto changed = value<Airframe>(param(graph, "sim", "airframe"));
@@ -238,11 +239,11 @@ TEST_CASE("a path leads into a record: the rest of the record stays") {
   CHECK(wing.wing.chord_m == 0.21);
   CHECK(wing.wing.span_m == 2.9);
   CHECK(wing.mass_kg == 4.5);
-  // whoever else has the aircraft's data keeps them
+  // other components with the aircraft's data keep them
   CHECK(value<Origin>(param(graph, "sim", "origin")).alt_msl_m == 1387);
 }
 
-TEST_CASE("a path in the mission counts over the record, whichever stands first") {
+TEST_CASE("a path in the mission wins over the record, in any order") {
   Mission mission;
   mission.replace("wind_ned: [3, -4, 0]", "airframe.mass: 6 kg, airframe: anaconda.yaml");
   CHECK(value<Airframe>(param(mission.load(), "sim", "airframe")).mass_kg == 6);
@@ -250,7 +251,7 @@ TEST_CASE("a path in the mission counts over the record, whichever stands first"
         7);
 }
 
-TEST_CASE("a path of a layer counts over the record of the one below, and over a whole one of its own") {
+TEST_CASE("a path of a layer wins over the record of the one below, and over a whole one of the same layer") {
   Layered mission("extends: middle.yaml\ncomponents: {sim: {params: {airframe.mass: 6 kg}}}\n");
   mission.folder.write("middle.yaml",
                        "extends: ground.yaml\ncomponents: {sim: {params: {airframe: other.yaml, "
@@ -267,7 +268,7 @@ TEST_CASE("a path of a layer counts over the record of the one below, and over a
   CHECK(replaced.wing.span_m == 2);
 }
 
-TEST_CASE("a path that leads nowhere is told with the valid fields") {
+TEST_CASE("an unknown path is reported with the valid fields") {
   Mission mission;
   const auto reported = [&](const std::string& name, const std::string& value) {
     return mission.faults(set(name, value));
@@ -314,21 +315,21 @@ TEST_CASE("a path into a list counts its items from 0") {
             .find("graph.item_index_missing(plan.plan.waypoints)") != std::string::npos);
 }
 
-TEST_CASE("a field alone is no record: what was never given stays missing") {
+TEST_CASE("a single field is no record: missing fields stay missing") {
   Mission mission;
   mission.replace("airframe: anaconda.yaml\n", "");
   CHECK(mission.faults(set("sim.airframe.mass", "5 kg")).find("graph.parameter_missing(sim, airframe, ") !=
         std::string::npos);
 }
 
-TEST_CASE("an airframe file with gains is an airframe wherever one is wanted") {
+TEST_CASE("an airframe file with gains is valid for every key that takes an airframe") {
   Mission mission;
   const Graph graph = mission.load(set("sim.airframe", mission.folder.path / "anaconda.yaml"));
   CHECK(value<Airframe>(param(graph, "sim", "airframe")).mass_kg == 4.5);
   CHECK(param(graph, "attitude", "roll_kp").number[0] == 0.7);
 }
 
-TEST_CASE("the command line records more, in front of what the mission records") {
+TEST_CASE("the rules of --record come before those of the mission") {
   Mission mission;
   Overrides o;
   o.record = {"nav.*@100Hz", "attitude.probes"};
@@ -363,7 +364,7 @@ TEST_CASE("the command line records more, in front of what the mission records")
   CHECK(mission.faults(o) == "--record @5 Hz: graph.record_port_unknown(, )");
 }
 
-TEST_CASE("the command line arms, or leaves that to somebody") {
+TEST_CASE("the command line arms, or leaves that to the pilot") {
   Mission mission;
   Overrides o;
   CHECK(mission.load(o).arm);

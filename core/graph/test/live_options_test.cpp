@@ -20,7 +20,7 @@ LiveOptions listening(const std::string& host, const std::string& token = "") {
 
 }  // namespace
 
-TEST_CASE("an address that others can reach needs a token") {
+TEST_CASE("an address that is not loopback needs a token") {
   CHECK_THROWS_WITH_AS(check_live_options(listening("0.0.0.0")),
                        doctest::Contains("graph.live_token_missing(0.0.0.0)"), Error);
   CHECK_THROWS_AS(check_live_options(listening("192.168.1.5")), Error);
@@ -30,7 +30,7 @@ TEST_CASE("an address that others can reach needs a token") {
   CHECK_NOTHROW(check_live_options(listening("0.0.0.0", "secret")));
 }
 
-TEST_CASE("who may have files written: this computer, unless the mission says otherwise") {
+TEST_CASE("clients of this computer may have files written, others only by the mission") {
   LiveOptions options;
   CHECK(why_no_save(options) == "");
   options.host = "0.0.0.0";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a wrong mission is told, word by word.
+// Messages for a wrong mission.
 #include "core/graph/mission.hpp"
 
 #include <doctest/doctest.h>
@@ -58,7 +58,7 @@ TEST_CASE("keys of the file are known, given once and of the right type") {
         std::string::npos);
 }
 
-TEST_CASE("a name that the log has no room for is refused with its line, one that just fits is not") {
+TEST_CASE("a name that is too long for the log is rejected with its line, one of the maximum length is not") {
   const std::string c47(47, 'c'), c48(48, 'c'), p63(63, 'p'), p64(64, 'p');
   const auto said = [](const std::string& text) {
     return changed("\ncomponents:\n", "\ncomponents:\n  " + text + "\n");
@@ -88,7 +88,7 @@ TEST_CASE("a name that the log has no room for is refused with its line, one tha
   }
 }
 
-TEST_CASE("broken YAML is told in one sentence with its line") {
+TEST_CASE("broken YAML is reported in one sentence with its line") {
   CHECK(broken("a: [1, 2\nb: 3\n") ==
         "hourglass.yaml:2: graph.yaml_invalid(a '[' is not closed, or a ',' is missing)");
   CHECK(broken("a: {x: 1\nb: 2") ==
@@ -113,7 +113,7 @@ TEST_CASE("broken YAML is told in one sentence with its line") {
                        ("graph.file_is_folder(" + mission.folder.path.string() + ")").c_str(), Error);
 }
 
-TEST_CASE("what never ends, or has nothing to give yet, is no file and is not waited for") {
+TEST_CASE("an endless file, or one without data, is no file and is not waited for") {
   Mission mission;
   const auto reported = [&](const std::string& file) {
     try {
@@ -127,7 +127,7 @@ TEST_CASE("what never ends, or has nothing to give yet, is no file and is not wa
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(reported(pipe) == "graph.file_not_regular(" + pipe + ")");
   CHECK(reported("/dev/zero") == "graph.file_not_regular(/dev/zero)");
-  // a regular file of no size, with 8 bytes for each page of memory that there could be
+  // a regular file of size 0, with 8 bytes for each possible page of memory
   CHECK(reported("/proc/self/pagemap").find("graph.file_too_large(/proc/self/pagemap)") == 0);
   CHECK(reported("/proc/kmsg") != "");
   const std::filesystem::path loop = mission.folder.path / "loop.yaml";
@@ -138,7 +138,7 @@ TEST_CASE("what never ends, or has nothing to give yet, is no file and is not wa
   CHECK(mission.faults() == "hourglass.yaml:3: airframe: graph.file_not_regular(pipe.yaml)");
 }
 
-TEST_CASE("a plugin or component that is not there is told with its neighbours") {
+TEST_CASE("an unknown plugin or component is reported with similar names") {
   CHECK(changed("use: control_slc/Outer", "use: control_scl/Outer") ==
         "28: components.slc: graph.plugin_unknown(control_scl, shelf,  [control_slc] control_slc, "
         "control_tecs, estimator_ekf, fcu_serial, my_law, path, score, sim_aero)");
@@ -148,13 +148,13 @@ TEST_CASE("a plugin or component that is not there is told with its neighbours")
   CHECK(changed("use: control_slc/Outer,", "") == "28: components.slc: graph.use_missing");
 }
 
-TEST_CASE("an output of a role is there once, with '?' or without") {
+TEST_CASE("an output of a role exists once, with '?' or without") {
   const std::string twice = "out: {command: GuidanceCommand, command?: GuidanceCommand}";
   CHECK(changed("out: {command: GuidanceCommand}", twice) ==
         "16: graph.output_repeated(roles.guide, command)");
 }
 
-TEST_CASE("roles are filled by components that keep the contract") {
+TEST_CASE("roles are filled by components with the outputs of the contract") {
   CHECK(changed("fills: guide,", "fills: giude,") ==
         "16: graph.role_not_filled(guide, graph.role_filler_hint(guide))\n27: components.follow: "
         "types.name_unknown(role, giude,  [guide] vehicle, nav, guide, outer, inner)");
@@ -173,7 +173,7 @@ TEST_CASE("roles are filled by components that keep the contract") {
         "15: graph.role_name_taken(slc)\n15: graph.role_not_filled(slc, graph.role_filler_hint(slc))");
 }
 
-TEST_CASE("faults of a named file tell that file and its line") {
+TEST_CASE("faults of a named file have that file and its line") {
   Mission mission;
   mission.folder.write("plans/hourglass.yaml", "airspeed: 17 m/s\nwaypoints:\n  - {position_m: [1, 2]}\n");
   mission.folder.write(
@@ -190,7 +190,7 @@ TEST_CASE("faults of a named file tell that file and its line") {
         "down, 2)");
 }
 
-TEST_CASE("rates, budgets and run modes are those that this build has") {
+TEST_CASE("rates, budgets and run modes are those of this build") {
   CHECK(changed("rate: 100 Hz}\n  tecs", "rate: 1000 Hz, budget: 3}\n  tecs") ==
         "28: components.slc.budget: graph.unit_missing(3, graph.unit_examples(a time, s, ms, us, ns, min, "
         "h))\n28: graph.component_rate_too_high(slc, 1000, 400)");
@@ -204,7 +204,7 @@ TEST_CASE("rates, budgets and run modes are those that this build has") {
         "graph.latency_misplaced(components.slc)");
 }
 
-TEST_CASE("phases name phases, roles and fillers that exist, and all can be reached") {
+TEST_CASE("phases name existing phases, roles and fillers, and all can be reached") {
   CHECK(changed("to: takeoff", "to: take_off") ==
         "36: phases.hold.next.to: types.name_unknown(phase, take_off,  [takeoff] hold, takeoff, cruise, "
         "research)\n37: graph.phase_unreachable(takeoff, hold)");
@@ -247,7 +247,7 @@ TEST_CASE("phases name phases, roles and fillers that exist, and all can be reac
         "time, , a length))");
 }
 
-TEST_CASE("what is shown and decided names fields that exist") {
+TEST_CASE("figures and conditions name existing fields") {
   CHECK(changed("circuits >= 2", "circuits >= two") ==
         "8: done: graph.number_compared_to_label(manage.progress.circuits, two)");
   CHECK(changed("nav.state.airspeed_mps,", "nav.state.airspeed,")
@@ -335,7 +335,7 @@ TEST_CASE("the epoch is a time in UTC") {
     CHECK_THROWS_AS(parse_utc_ns(text), Error);
 }
 
-TEST_CASE("a phase may be reached from any other alone") {
+TEST_CASE("a phase may be reached by `any` alone") {
   Mission mission;
   mission.replace("to: research, when", "to: cruise, when");
   mission.replace("{to: hold, when: \"vehicle.status.override\"}",

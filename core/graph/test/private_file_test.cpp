@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who may have written a plugin file. The files are no plugins: what is refused is refused before anything
-// opens it.
+// Possible writers of a plugin file. The files are no plugins: a rejected file is never opened.
 #include "core/graph/private_file.hpp"
 
 #include <doctest/doctest.h>
@@ -34,7 +33,7 @@ struct Place {
     ::chmod((folder.path / name).c_str(), 0644);
     return folder.path / name;
   }
-  // What is said of a file; "" when it may be loaded.
+  // The message about a file; "" when it may be loaded.
   std::string said(const std::string& name) const {
     try {
       check_private_file(folder.path / name);
@@ -47,7 +46,7 @@ struct Place {
 
 }  // namespace
 
-TEST_CASE("what all may write is refused") {
+TEST_CASE("a file that all may write is rejected") {
   Place place;
   const fs::path real = fs::canonical(place.folder.path);
   ::chmod((real / "build/law.so").c_str(), 0646);
@@ -56,11 +55,11 @@ TEST_CASE("what all may write is refused") {
   place.put("open/x.so", "x");
   ::chmod((real / "open").c_str(), 0777);
   CHECK(place.said("open/x.so") == "graph.folder_not_private(x.so, " + (real / "open").string() + ")");
-  ::chmod((real / "open").c_str(), 01777);  // as /tmp: others cannot replace it
+  ::chmod((real / "open").c_str(), 01777);  // like /tmp: other users cannot replace it
   CHECK(place.said("open/x.so") == "");
 }
 
-TEST_CASE("a file of another user is refused") {
+TEST_CASE("a file of another user is rejected") {
   if (::geteuid() != 0) {
     MESSAGE("only root can give a file away: not tried");
     return;
@@ -75,7 +74,7 @@ TEST_CASE("a file of another user is refused") {
   unsetenv("SUDO_UID");
 }
 
-TEST_CASE("a mission asks before it opens a file, and says where the file is used") {
+TEST_CASE("a mission checks before it opens a file, and reports the place of its use") {
   Place place;
   const std::string file =
       place.folder.write("m.yaml", "mission: m\ncomponents:\n  mine: {use: build/law.so}\n");

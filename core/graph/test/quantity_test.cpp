@@ -78,13 +78,13 @@ TEST_CASE("quantities are converted into the declared unit") {
   CHECK(in(" .5 ", "") == 0.5);
 }
 
-TEST_CASE("an unusual declared unit is taken as written and as nothing else") {
+TEST_CASE("an unusual declared unit is accepted only as written") {
   CHECK(in("5 steps", "steps") == 5);
   CHECK(in("5", "steps") == 5);
   CHECK(refused("5 m", "steps") == "5 m: graph.unit_not_accepted(steps)");
 }
 
-TEST_CASE("a wrong quantity is refused with a sentence") {
+TEST_CASE("a wrong quantity is rejected with a sentence") {
   CHECK(refused("5 kg", "m") == "graph.dimension_differs(5 kg, a mass, , a length)");
   CHECK(refused("5 deg", "") == "graph.dimension_differs(5 deg, an angle, , a plain number)");
   CHECK(refused("5 m", "m/s") == "graph.dimension_differs(5 m, a length, , a speed)");
@@ -115,7 +115,7 @@ TEST_CASE(
   CHECK(quantity_in("40.25", "deg", UnitRule::required) == 40.25);
 }
 
-TEST_CASE("a range is told in the unit that was written") {
+TEST_CASE("a range is reported in the written unit") {
   const auto outside = [](const char* text, const char* unit, double min, double max) {
     return refusal([&] {
       const Quantity quantity = parse_quantity(text);
@@ -129,7 +129,7 @@ TEST_CASE("a range is told in the unit that was written") {
   CHECK(outside("-1 cm", "m", 0, inf) == "graph.value_too_small(-1 cm, 0,  cm, )");
   CHECK(outside("31 degC", "K", -inf, 303.15) == "graph.value_too_large(31 degC, 30,  degC, )");
   CHECK(outside("180 deg", "rad", -3.1416, 3.1416) == "");
-  CHECK(outside("2", "", 0, 2) == "");  // the ends belong to it
+  CHECK(outside("2", "", 0, 2) == "");  // the ends are valid
   CHECK(outside("0", "", 0, 2) == "");
 }
 

@@ -57,7 +57,7 @@ Read<T> read(const std::string& yaml) {
 
 }  // namespace
 
-TEST_CASE("an airframe file fills nested structs, and what it does not say stays") {
+TEST_CASE("an airframe file fills nested structs, and fields that it omits stay") {
   const auto read_ = read<Airframe>(
       "name: Anaconda\nmass: 4.5 kg\nwing: {area_m2: 0.55, span: 2900 mm, stall_alpha: 15 deg, oswald: 0.8}\n"
       "aileron: {limit_rad: 0.3, reversed: true}\naero:\n  lift: {alpha: 5.6}\n");
@@ -76,7 +76,7 @@ TEST_CASE("an airframe file fills nested structs, and what it does not say stays
   CHECK(airframe.aero.lift.alpha_ratio == 5.6);
 }
 
-TEST_CASE("a record that lacks what its type asks for is told with all that is missing") {
+TEST_CASE("an incomplete record is reported with all missing fields") {
   const auto missing = [](const std::string& yaml) {
     Report report;
     return join(missing_in_record(*type_of<Airframe>(), parse_yaml(make_source(yaml, "file"), report)));
@@ -88,7 +88,7 @@ TEST_CASE("a record that lacks what its type asks for is told with all that is m
         "aileron.limit, elevator.limit, rudder.limit");
   CHECK(missing("mass_kg: 5\ninertia: 3\nwing: []\naero:\npropulsion: {ct0_ratio: 1}\naileron: {limit_rad: 1}"
                 "\nelevator: {limit: 1}\nrudder: {limit: 1}\n") ==
-        "none");  // what is wrong is told elsewhere
+        "none");  // other faults are reported elsewhere
   const std::string but_motor =
       "mass: 5\ninertia: 3\nwing: []\naero:\naileron: {limit: 1}\nelevator: {limit: 1}"
       "\nrudder: {limit: 1}\npropulsion: ";
@@ -103,7 +103,7 @@ TEST_CASE("a record that lacks what its type asks for is told with all that is m
     CHECK(refused(yaml).find("graph.value_out_of_range(") != std::string::npos);
 }
 
-TEST_CASE("the points of a table rise, and an item of a list is whole") {
+TEST_CASE("the points of a table rise, and an item of a list is complete") {
   const auto table = [](const std::string& at) {
     return read<Airframe>("aero:\n  tables:\n    - {coefficient: pitch, over: alpha, at: " + at +
                           ", values: [1, 2, 3]}\n");
@@ -118,7 +118,7 @@ TEST_CASE("the points of a table rise, and an item of a list is whole") {
         "file.yaml:3: aero.tables[0].at[2]: graph.list_not_rising(0,  comes after 0.1)");
   CHECK(table("[0, 0, 0.1]").faults ==
         "file.yaml:3: aero.tables[0].at[1]: graph.list_not_rising(0,  is there twice)");
-  // an item that has a fault of its own is not compared with its neighbours
+  // an item with a fault is not compared with its neighbours
   for (const auto& [at, item] : {std::pair{"[-5 deg, 0, 1]", "at[0]"}, {"[0, 5 deg, 3]", "at[1]"}}) {
     const std::string faults = table(at).faults;
     CHECK(faults.starts_with("file.yaml:3: aero.tables[0]." + std::string(item) +
@@ -141,7 +141,7 @@ TEST_CASE("a plan's list is counted and vectors are lists or maps") {
   CHECK(plan.value.end == PlanEnd::circuit);
 }
 
-TEST_CASE("numbers of every kind arrive exactly") {
+TEST_CASE("numbers of every kind are exact") {
   const auto sample = read<Sample>(
       "time: 100 ms\nbig: 18446744073709551615\nsmall: -2147483648\nbyte: 255\nnarrow_m: 0.5\ngains: [4, "
       "5.5, 6e1]\nfew: [1 cm]\ntext: "
@@ -163,7 +163,7 @@ TEST_CASE("numbers of every kind arrive exactly") {
   CHECK(read<Sample>("narrow_m: -3e38\n").faults == "");
 }
 
-TEST_CASE("every fault of a record is told at once, with the line of its own file") {
+TEST_CASE("every fault of a record is reported at once, with the line of its own file") {
   CHECK(read<Sample>("big: -1\nsmall: 2147483648\nbyte: 1.5\nnarrow: 0.5\ngains: [1, 2]\nfew: [1 m, 2 m, 3 "
                      "m]\ntext: eight888\ncolour: "
                      "gren\nrange: 3 m\n"
@@ -183,7 +183,7 @@ TEST_CASE("every fault of a record is told at once, with the line of its own fil
         "'7')\nfile.yaml:12: time: graph.value_not_valid(a whole number, a list)");
 }
 
-TEST_CASE("faults inside nested things name the way to them") {
+TEST_CASE("faults in nested fields have their path") {
   CHECK(read<Airframe>(
             "wing:\n  span: 3 kg\n  are: 1 m^2\naileron: [1]\nelevator: {reversed: maybe}\nmass_kg: .nan\n")
             .faults ==
@@ -202,13 +202,13 @@ TEST_CASE("faults inside nested things name the way to them") {
         "waypoints[2]: graph.record_map_expected(Waypoint, '7')");
 }
 
-TEST_CASE("a fraction outside -1 .. 1 is refused") {
+TEST_CASE("a fraction outside -1 .. 1 is rejected") {
   CHECK(read<Actuators>("throttle: 150 %\n").faults ==
         "file.yaml:1: throttle: graph.value_out_of_range(150 %, -100, 100,  %, )");
   CHECK(read<Actuators>("throttle_frac: 0.5\n").value.throttle_frac == 0.5);
 }
 
-TEST_CASE("of very many faults a hundred are told, and that there are more") {
+TEST_CASE("of many faults a hundred are reported, and that there are more") {
   std::string yaml;
   for (int i = 0; i < 1000; ++i) yaml += "unknown_" + std::to_string(i) + ": 1\n";
   const std::string faults = read<Actuators>(yaml).faults;
@@ -218,13 +218,13 @@ TEST_CASE("of very many faults a hundred are told, and that there are more") {
   CHECK(faults.find("file.yaml:100: graph.field_unknown(, unknown_99, Actuators,  [] throttle_frac, "
                     "aileron_rad, elevator_rad, rudder_rad)") != std::string::npos);
   CHECK(faults.ends_with("\nfile.yaml: graph.more_faults(100)"));
-  Report again;  // the same fault is no further one
+  Report again;  // the same fault does not count twice
   for (int k = 0; k < 3; ++k)
     for (int i = 1; i <= 100; ++i) again.add({"file.yaml", i}, "no");
   CHECK(again.text().ends_with("\nfile.yaml:100: no"));
 }
 
-TEST_CASE("the time that a text takes grows as its length, whatever stands in it") {
+TEST_CASE("the time for a text grows with its length, for any content") {
   std::string keys, twice;
   for (int i = 0; i < 100'000; ++i) keys += (i > 0 ? ", k" : "{k") + std::to_string(i) + ": 1";
   for (int i = 0; i < 25'000; ++i) twice += (i > 0 ? ", k" : "{k") + std::to_string(i / 2) + ": 1";
@@ -235,6 +235,6 @@ TEST_CASE("the time that a text takes grows as its length, whatever stands in it
   CHECK(report.empty());
   CHECK(parse_yaml(make_source(twice + "}", "twice"), report).entries.size() == 12'500);
   CHECK(report.text().find("graph.key_repeated(k0, 0)") != std::string::npos);
-  // A second and a half of the CPU on a slow machine; when each is compared with all before it is a minute.
+  // 1.5 s of CPU time on a slow machine; a comparison of each with all before it takes a minute
   CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 10 * sanitizer_slowdown);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a right mission resolves to.
+// The graph of a correct mission.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using namespace fulmar::core::test;
 
 namespace {
 
-/// phase -> who fills `role`
+/// phase -> filler of `role`
 std::string filler(const Graph& graph, const std::string& phase, const std::string& role) {
   for (const Phase& p : graph.phases)
     for (std::size_t r = 0; r < graph.roles.size(); ++r)
@@ -40,7 +40,7 @@ TEST_CASE("the hourglass mission resolves into components, order, roles and phas
   CHECK(names(graph, graph.order) ==
         join({"ekf", "plan", "manage", "follow", "slc", "tecs", "mine", "attitude", "score"}));
   CHECK(index_of(graph, "fcu") == -1);
-  CHECK(index_of(graph, "truth") == -1);  // fills a role, and no phase wants it
+  CHECK(index_of(graph, "truth") == -1);  // fills a role, but no phase uses it
   CHECK(component(graph, "slc").use == "control_slc/Outer");
   CHECK(component(graph, "mine").use == "my_law/Outer");
   CHECK(component(graph, "slc").period_ns == 10'000'000);
@@ -67,7 +67,7 @@ TEST_CASE("the hourglass mission resolves into components, order, roles and phas
   CHECK(graph.judge.summary.size() == 2);
 }
 
-TEST_CASE("one word flies the mission on hardware: only the chosen vehicle exists") {
+TEST_CASE("one option flies the mission on hardware: only the chosen vehicle exists") {
   Mission mission;
   Overrides overrides;
   overrides.io = "fcu";
@@ -80,7 +80,7 @@ TEST_CASE("one word flies the mission on hardware: only the chosen vehicle exist
   CHECK(graph.roles[0].provides[0].back() == -1);
 }
 
-TEST_CASE("what protects the aircraft is in the vehicle's status, unless the mission names it") {
+TEST_CASE("the flags of the aircraft are in the vehicle's status, unless the mission names them") {
   Mission mission;
   Overrides overrides;
   overrides.io = "fcu";
@@ -98,10 +98,10 @@ TEST_CASE("what protects the aircraft is in the vehicle's status, unless the mis
   mission.replace("truth?: VehicleState}}", "truth?: VehicleState}, flags: {in_control: status.override}}");
   const Graph named = mission.load(overrides);
   CHECK(field(named, named.flags.in_control) == "fcu.status.override");
-  CHECK(field(named, named.flags.armed) == "fcu.status.armed");  // what is not named is as usual
+  CHECK(field(named, named.flags.armed) == "fcu.status.armed");  // other flags keep their default
 }
 
-TEST_CASE("only a vehicle called sim or fcu exists with that io alone without saying so") {
+TEST_CASE("only a vehicle called sim or fcu exists with that io alone by default") {
   Mission mission;
   mission.replace("  truth:  {fills: nav, use: sim_aero/TruthState, in: {truth: vehicle.truth}, only: sim}",
                   "  truth:  {fills: nav, use: sim_aero/TruthState, in: {truth: vehicle.truth}, only: sim}\n"
@@ -112,11 +112,11 @@ TEST_CASE("only a vehicle called sim or fcu exists with that io alone without sa
         std::string::npos);  // the first that fills the role
   Overrides overrides;
   overrides.io = "fcu";
-  const Graph graph = mission.load(overrides);  // only: has the last word
+  const Graph graph = mission.load(overrides);  // `only:` takes precedence
   CHECK(graph.components[static_cast<std::size_t>(graph.vehicle)].name == "other");
 }
 
-TEST_CASE("a required input that nobody feeds on hardware is told") {
+TEST_CASE("a required input without a source on hardware is reported") {
   Mission mission;
   mission.shelf.plugins["score"]->components[0].inputs[1].optional = false;
   CHECK(mission.faults() == "");
@@ -148,7 +148,7 @@ TEST_CASE(
   CHECK(warned(mission.load(other), "graph.phase_settings_lost(") == 0);  // it has that parameter
 }
 
-TEST_CASE("the command line changes who fills a role, seed and parameters") {
+TEST_CASE("the command line changes the fillers of roles, seed and parameters") {
   Mission mission;
   Overrides overrides;
   overrides.roles = {{"nav", "truth"}, {"outer", "tecs"}};
@@ -161,7 +161,7 @@ TEST_CASE("the command line changes who fills a role, seed and parameters") {
     CHECK(filler(graph, phase, "outer") == "tecs");
   }
   REQUIRE(graph.phases[1].roles[3].set.size() ==
-          1);  // the overlay goes with the phase, as far as the component knows its parameters
+          1);  // the phase's overlay applies to the parameters that the component has
   CHECK(graph.phases[1].roles[3].set[0].param == component(graph, "tecs").info().param("law"));
   CHECK(graph.phases[3].roles[3].fallback == -1);
   CHECK(index_of(graph, "ekf") == -1);
@@ -187,7 +187,7 @@ TEST_CASE(
   CHECK(value<Origin>(param(graph, "sim", "origin")).alt_msl_m == 0);  // replaced as a whole
   CHECK(graph.phases[0].name == "hold");                               // order of the base
   CHECK(filler(graph, "takeoff", "outer") == "tecs");
-  CHECK(graph.phases[1].roles[3].set.empty());  // what a phase says of a role is replaced
+  CHECK(graph.phases[1].roles[3].set.empty());  // a phase's entry of a role is replaced
   CHECK(graph.phases[1].next.size() == 1);      // its transitions stay
   std::vector<std::string> files;
   for (const auto& [name, text] : graph.source.attachments) files.push_back(name);
@@ -250,7 +250,7 @@ TEST_CASE("a mission without roles and phases is one phase in which everything s
   CHECK(graph.phases[0].name == "flight");
 }
 
-TEST_CASE("the graph is printed for people and for tools") {
+TEST_CASE("the graph is printed for users and for tools") {
   Mission mission;
   const Graph graph = mission.load();
   const std::string text = print_graph(graph, "text");
@@ -288,13 +288,13 @@ TEST_CASE("a flag that the mission names in an output of the other io is none, n
             "status.in_control, status.offboard, status.contact_known.)") != std::string::npos);
 }
 
-TEST_CASE("a component at the mission's own rate steps in every tick, and has no period of its own") {
+TEST_CASE("a component at the mission's own rate steps in every tick, and has no separate period") {
   Mission mission;
   mission.replace("control_slc/Outer, rate: 100 Hz", "control_slc/Outer, rate: 400 Hz");
   CHECK(component(mission.load(), "slc").period_ns == 0);
 }
 
-TEST_CASE("a rate that the vehicle cannot go at is refused, too slow as well as too fast") {
+TEST_CASE("a rate outside the vehicle's range is rejected, too slow as well as too fast") {
   Mission mission;
   mission.replace("rate: 400 Hz", "rate: 40 Hz");
   CHECK(mission.faults().starts_with(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission, its files and the components it uses, all made up: resolution is tested without a plugin file.
+// A synthetic mission with its files and components: resolution is tested without a plugin file.
 #pragma once
 #include <cstring>
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace fulmar::core::test {
 
-/// A catalogue of made-up plugins. `plugins` may be changed by a test.
+/// A catalogue of synthetic plugins. A test may change `plugins`.
 struct Shelf : Catalogue {
   std::map<std::string, std::shared_ptr<PluginInfo>> plugins;
 
@@ -24,7 +24,7 @@ struct Shelf : Catalogue {
   FoundPlugin open(const std::string& name) override;
 };
 
-/// A folder of its own for the files of one test; gone afterwards.
+/// A temporary folder for the files of one test.
 struct Folder {
   std::filesystem::path path;
   Folder();
@@ -35,11 +35,11 @@ struct Folder {
 };
 
 extern const char* const anaconda;
-extern const char* const all_but_mass;  // of what an airframe has to say
+extern const char* const all_but_mass;  // required fields of an airframe but one
 extern const char* const hourglass_plan;
 extern const char* const hourglass;
 
-/// The hourglass mission with its files, and what a test changes in it.
+/// The hourglass mission with its files, for changes by a test.
 struct Mission {
   Folder folder;
   Shelf shelf;
@@ -48,11 +48,11 @@ struct Mission {
   Mission();
   Mission& replace(const std::string& from, const std::string& to);
   Graph load(const Overrides& overrides = {});
-  /// What is said when it is refused; "" when it is not.
+  /// The faults when it is rejected; "" when it is accepted.
   std::string faults(const Overrides& overrides = {});
 };
 
-/// The made-up hourglass as the lowest layer of a mission that says `text`.
+/// The synthetic hourglass as the lowest layer of a mission with `text`.
 struct Layered : Mission {
   explicit Layered(const std::string& top) {
     folder.write("ground.yaml", text);
@@ -60,17 +60,17 @@ struct Layered : Mission {
   }
 };
 
-/// The faults of the hourglass mission with `from` replaced by `to`; "hourglass.yaml:" is left out.
+/// The faults of the hourglass mission with `from` replaced by `to`, without "hourglass.yaml:".
 std::string changed(const std::string& from, const std::string& to);
 
-int index_of(const Graph& graph, const std::string& name);  // -1: not there
+int index_of(const Graph& graph, const std::string& name);  // -1: missing
 const Component& component(const Graph& graph, const std::string& name);
 const ParamValue& param(const Graph& graph, const std::string& owner, const std::string& name);
 const Wire& wire(const Graph& graph, const std::string& owner, const std::string& input);
 /// "ekf, slc"
 std::string names(const Graph& graph, const std::vector<int>& indices);
 
-/// Of a record.
+/// Value of a record parameter.
 template <class T>
 T value(const ParamValue& param) {
   if (param.data.size() != sizeof(T)) throw Error("a record of another size");

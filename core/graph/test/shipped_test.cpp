@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of the installation, named from anywhere.
+// Files of the installation, named from any folder.
 #include "core/graph/shipped.hpp"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@ using namespace fulmar::core;
 using namespace fulmar::core::test;
 namespace fs = std::filesystem;
 
-TEST_CASE("a name is one of the folder, or of the installation wherever one stands") {
+TEST_CASE("a name means a file of the folder, or of the installation from any folder") {
   CHECK(named_file("some/where", "../a.yaml") == "some/a.yaml");
   CHECK(named_file("some/where", "/a.yaml") == "/a.yaml");
   const fs::path common = named_file("some/where", "fulmar:missions/common.yaml");
@@ -27,9 +27,9 @@ TEST_CASE("a name is one of the folder, or of the installation wherever one stan
   CHECK(shipped_name("not/there.yaml") == "");
 }
 
-TEST_CASE("a mission names shipped files, and what is not there is told with what is") {
+TEST_CASE("a mission names shipped files, and a missing one is reported with the existing ones") {
   Mission mission;
-  mission.folder.write("anaconda.yaml", "{}");  // not the one that is named
+  mission.folder.write("anaconda.yaml", "{}");  // similar, but not the named file
   mission.text = "extends: fulmar:missions/comon.yaml\n";
   const std::string said = mission.faults();
   CHECK(
@@ -50,7 +50,7 @@ TEST_CASE("a shipped mission is loaded by its name") {
   CHECK_THROWS_WITH_AS(load_mission("nothing-like-it"), "graph.file_missing(nothing-like-it, )", Error);
 }
 
-TEST_CASE("a file of another folder is proposed under the name that it has from here") {
+TEST_CASE("a file of another folder is suggested under its name from this folder") {
   Mission mission;
   mission.folder.write("common.yaml", "rate: 400 Hz\n");
   mission.text = "extends: comon.yaml\n";

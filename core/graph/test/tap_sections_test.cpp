@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sections `live:` and `dds:`: what is read, and what a slip in them is told.
+// The sections `live:` and `dds:`: their values, and the messages for faults in them.
 #include <doctest/doctest.h>
 
 #include "core/graph/live_options.hpp"
@@ -12,7 +12,7 @@ using namespace fulmar::core::test;
 
 namespace {
 
-/// The hourglass mission with one line more, its sixth.
+/// The hourglass mission with one more line, its sixth.
 std::string faults(const std::string& line) {
   Mission mission;
   return mission.replace("seed: 7", line).faults();
@@ -26,7 +26,7 @@ bool holds(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("a flight can be watched where the mission says, and nowhere when it says nothing") {
+TEST_CASE("a flight has a live view at the mission's address, and none by default") {
   Mission silent;
   CHECK_FALSE(silent.load().live.on);
   Mission mission;
@@ -48,7 +48,7 @@ TEST_CASE("a flight can be watched where the mission says, and nowhere when it s
   CHECK_THROWS_AS(parse_live("here"), Error);
 }
 
-TEST_CASE("a slip in live: is told with its line and what is wanted") {
+TEST_CASE("a fault in live: is reported with its line and the valid form") {
   CHECK(faults("live: on") ==
         "hourglass.yaml:6: live: graph.value_not_valid('off' or a map {listen, token, tiles, attribution, "
         "save}, 'on')");
@@ -65,7 +65,7 @@ TEST_CASE("a slip in live: is told with its line and what is wanted") {
         "6: graph.key_unknown(live: , port,  [] listen, token, tiles, attribution, save)");
 }
 
-TEST_CASE("tiles are named by an address that no header and no pattern can mistake") {
+TEST_CASE("the address of tiles is unambiguous in a header and in a pattern") {
   const auto said = [](const std::string& url) {
     return faults("live: {tiles: \"" + url + "\", attribution: Example}");
   };
@@ -122,7 +122,7 @@ TEST_CASE("ports are exported under ROS 2 names, inputs without a wire are fed b
         "6: graph.dds_port_unknown(follow.command,  [] vehicle.imu, vehicle.gnss, vehicle.mag, vehicle.baro, "
         "vehicle.pitot, vehicle.rc, vehicle.status, vehicle.truth, nav.state, guide.command, outer.attitude, "
         "inner.actuators, plan.plan, manage.path, manage.progress, attitude.probes, score.tracking, "
-        "score.estimation)");  // it leaves the flight as the role's
+        "score.estimation)");  // its name is that of the role
   Mission good;
   const Graph g =
       good.replace("seed: 7",
@@ -159,7 +159,7 @@ TEST_CASE(
   CHECK(g.dds.imports.empty());
 }
 
-TEST_CASE("an import takes the place of a wire in the file that is extended") {
+TEST_CASE("an import replaces a wire of the extended file") {
   Mission mission;
   mission.folder.write("base.yaml", hourglass);
   mission.text = "mission: far\nextends: base.yaml\ndds: {import: {manage.plan: /laptop/plan}}\n";
@@ -172,7 +172,7 @@ TEST_CASE("an import takes the place of a wire in the file that is extended") {
   holds(mission.faults(), "graph.imported_input_connected(hourglass.yaml:4)");
 }
 
-TEST_CASE("a slip in dds: is told with its line and what is wanted") {
+TEST_CASE("a fault in dds: is reported with its line and the valid form") {
   holds(faults("dds: {domain: 233}"), "6: graph.dds_domain_invalid(233, 232)");
   holds(faults("dds: {domain: 1.5}"), "6: graph.dds_domain_invalid(1.5, 232)");
   holds(faults("dds: {domain: 1e300}"), "6: graph.dds_domain_invalid(1e+300, 232)");
@@ -217,7 +217,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a mission takes DDS away that the file it extends has") {
+TEST_CASE("a mission removes the dds section of the file that it extends") {
   Mission mission;
   mission.folder.write(
       "base.yaml", mission.replace("seed: 7", "dds: {export: [nav.state], import: {plan.edits: /x}}").text);
@@ -229,7 +229,7 @@ TEST_CASE("a mission takes DDS away that the file it extends has") {
   CHECK(g.dds.imports.empty());
 }
 
-TEST_CASE("a log is one file: a mission that asks for more names an unknown key") {
+TEST_CASE("a log is one file: a mission with more names has an unknown key") {
   holds(faults("record: {rotate: 100 MB}"),
         "6: graph.key_unknown(record: , rotate,  [rate] file, ports, rate)");
 }

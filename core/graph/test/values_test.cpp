@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of parameters: where they come from, what fits, and what phases lay over them.
+// Values of parameters: their sources, their checks, and the overlays of phases.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -19,7 +19,7 @@ using namespace fulmar;
 using namespace fulmar::core;
 using namespace fulmar::core::test;
 
-TEST_CASE("two fences that differ are reported, one for all is not") {
+TEST_CASE("two geofences that differ are reported, one for all is not") {
   const auto warnings = [](const std::string& lat) {
     Mission mission;
     for (const char* plugin : {"estimator_ekf", "path"})
@@ -36,7 +36,7 @@ TEST_CASE("two fences that differ are reported, one for all is not") {
   CHECK(warnings("1.5")[0].find("graph.fences_differ(plan, ekf)") != std::string::npos);
 }
 
-TEST_CASE("an origin at a pole, where north turns within a flight, is refused by its line") {
+TEST_CASE("an origin at a pole, where north turns within a flight, is rejected by its line") {
   CHECK(changed("lat: 40.2463724", "lat: 89.5") == "");
   for (const char* const lat : {"lat: -90", "lat: 89.6"})
     CHECK(changed("lat: 40.2463724", lat).find("origin.lat: ") != std::string::npos);
@@ -89,7 +89,7 @@ TEST_CASE("parameters exist, fit and lie in their range") {
         "5: graph.mission_rate_invalid(sim, 4000, 50, 2000, sim_aero/Aircraft)");
 }
 
-TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes no vehicle") {
+TEST_CASE("a phase overlays live parameters of the vehicle in use, and changes no vehicle") {
   const auto with = [](const std::string& what, const Overrides& overrides = {}) {
     Mission mission;
     mission.replace("  cruise:   {outer: tecs", "  cruise:   {vehicle: " + what + ", outer: tecs");
@@ -104,7 +104,7 @@ TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes
     const Assignment& lost = graph.phases[2].roles[0];
     CHECK(nth(graph.components, lost.component).name == "sim");
     REQUIRE(lost.set.size() == 1);
-    CHECK(lost.set[0].value.number[0] == 3);  // the mission's base: what an overlay leaves out stays
+    CHECK(lost.set[0].value.number[0] == 3);  // the mission's base: fields that an overlay omits stay
     CHECK(lost.set[0].value.number[1] == 7);
   }
   const std::string wind = "set: {wind_ned: [0, 0, 0]}}";
@@ -122,12 +122,12 @@ TEST_CASE("a phase lays live parameters over the vehicle that flies, and changes
   CHECK(with("{use: sim, " + wind, hardware).first.find("graph.phase_vehicle_fixed") != std::string::npos);
   CHECK(with("{" + wind, hardware).first.find("graph.phase_parameter_unknown(fcu, wind_ned,  [] none)") !=
         std::string::npos);
-  Overrides spare;  // as with any role: it takes what it has
+  Overrides spare;  // as with any role: it takes the parameters that it has
   spare.roles = {{"vehicle", "spare"}};
   CHECK(with("{use: sim, " + wind, spare).second.phases[2].roles[0].set.size() == 1);
 }
 
-TEST_CASE("an overlay belongs to the phase and the component that it is written at") {
+TEST_CASE("an overlay belongs to the phase and the component of its place") {
   Mission mission;
   const Graph graph = mission.load();
   const Assignment& takeoff = graph.phases[1].roles[3];
@@ -152,7 +152,7 @@ TEST_CASE(
   CHECK(param(mission.load(overrides), "attitude", "roll_kp").number[0] == 0.9);
 }
 
-TEST_CASE("what the mission says once reaches everybody who has a parameter for it") {
+TEST_CASE("mission-wide values reach every component with a parameter for them") {
   Mission mission;
   mission.replace("seed: 7", "epoch: 2026-06-01T12:00Z");
   const Graph graph = mission.load();
@@ -174,7 +174,7 @@ TEST_CASE("what the mission says once reaches everybody who has a parameter for 
   CHECK(param(graph, "sim", "wind_ned").number[1] == -4);
 }
 
-TEST_CASE("without an origin the default is handed over and not called given") {
+TEST_CASE("without an origin the default is used and does not count as given") {
   Mission mission;
   mission.replace("origin: {", "#origin: {");
   const Graph graph = mission.load();
@@ -182,7 +182,7 @@ TEST_CASE("without an origin the default is handed over and not called given") {
   CHECK(param(graph, "sim", "origin").integer == 0);
 }
 
-TEST_CASE("records may stand in the mission itself") {
+TEST_CASE("records may be in the mission itself") {
   Mission mission;
   mission.replace("{plan: plans/hourglass.yaml}",
                   "{plan: {airspeed: 40 kt, waypoints: [{position_m: [1, 2, -3]}]}}");
@@ -191,7 +191,7 @@ TEST_CASE("records may stand in the mission itself") {
   CHECK(plan.waypoints[0].position_m.down == -3);
 }
 
-TEST_CASE("the failsafe is the struct that the vehicle is to be sent") {
+TEST_CASE("the failsafe is the struct that the vehicle gets") {
   Mission mission;
   mission.replace("throttle_frac: 0, for: 2 s", "throttle: 10 %, elevator: -5 deg, for: 3 s");
   const Graph graph = mission.load();
@@ -205,7 +205,7 @@ TEST_CASE("the failsafe is the struct that the vehicle is to be sent") {
   CHECK(actuators.aileron_rad == 0);
 }
 
-TEST_CASE("the values of parameters are printed as people write them") {
+TEST_CASE("the values of parameters are printed in the form of a mission file") {
   Mission mission;
   const Graph graph = mission.load();
   const auto text = [&](const char* owner, const char* name) {
@@ -231,7 +231,7 @@ TEST_CASE("an airframe's parameters of a plugin without a component are those of
   CHECK(param(graph, "tecs", "course_kp").number[0] == 0.9);
 }
 
-TEST_CASE("a count beyond what a double counts exactly is refused, where no range refuses it") {
+TEST_CASE("a count beyond the exact range of a double is rejected, even without a range") {
   Mission mission;
   mission.shelf.plugins["estimator_ekf"]->components[0].params[1].max = 1e300;
   mission.replace("use: estimator_ekf, ", "use: estimator_ekf, params: {skip: 9e15}, ");

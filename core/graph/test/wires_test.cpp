@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wires: what they may connect, what they say for themselves, and the order of steps that they make.
+// Wires: valid connections, their settings, and the resulting order of steps.
 #include <doctest/doctest.h>
 
 #include "core/graph/test/shelf.hpp"
@@ -61,7 +61,7 @@ TEST_CASE("a request is not fed by an output that is sent in every step") {
   CHECK(mission.faults() == "");
 }
 
-TEST_CASE("messages of one name and another table are told apart by their first difference") {
+TEST_CASE("messages of one name with different tables are distinguished by their first difference") {
   Mission mission;
   auto other = std::make_shared<Type>(*mission.shelf.plugins["path"]->components[1].inputs[1].type);
   other->fields[0].unit = "m";
@@ -72,7 +72,7 @@ TEST_CASE("messages of one name and another table are told apart by their first 
         "plan, revision: types.reader_differs(unit , m, none))");
 }
 
-TEST_CASE("a cycle is printed as a path, with the way out") {
+TEST_CASE("a cycle is printed as a path, with a remedy") {
   const std::string inputs = "in: {state: nav.state, path: manage.path", outputs = "}, out: {command";
   CHECK(changed(inputs + outputs, inputs + ", back: inner.actuators" + outputs) == "");
   Mission mission;
@@ -108,7 +108,7 @@ TEST_CASE("a component's own wire wins over that of its role") {
         "state");
 }
 
-TEST_CASE("ties of the order are broken by the file, wires by what they need") {
+TEST_CASE("ties of the order follow the file, wires follow their sources") {
   Mission mission;
   const auto at = mission.text.find("  score:  {use"), end = mission.text.find('\n', at) + 1;
   const std::string line = mission.text.substr(at, end - at);
@@ -122,7 +122,7 @@ TEST_CASE("ties of the order are broken by the file, wires by what they need") {
         join({"ekf", "plan", "manage", "follow", "slc", "tecs", "mine", "score", "attitude"}));
 }
 
-TEST_CASE("what is wired by name to a component that is there by name alone exists, too") {
+TEST_CASE("a component that is only wired by name exists, and so does its source") {
   Mission mission;
   mission.replace("score, in: {state: nav.state, truth: vehicle.truth",
                   "score, in: {state: nav.state, truth: truth.state");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --with names a component, or a role for the one that fills it.
+// --with names a component, or a role in place of the component that fills it.
 #include <doctest/doctest.h>
 
 #include "core/graph/test/shelf.hpp"
@@ -26,10 +26,10 @@ std::string use_of(const Graph& graph, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a role in --with stands for the component that fills it in this run") {
+TEST_CASE("a role in --with means the component that fills it in this run") {
   Mission mission;
   const Graph usual = mission.load(with({{"nav", "estimator_ekf"}}));
-  CHECK(usual.source.overrides.with == Pairs{{"ekf", "estimator_ekf"}});  // as a swap finds it
+  CHECK(usual.source.overrides.with == Pairs{{"ekf", "estimator_ekf"}});  // form for a swap
   Overrides chosen = with({{"nav", "sim_aero"}});
   chosen.roles = {{"nav", "truth"}};
   CHECK(mission.load(chosen).source.overrides.with == Pairs{{"truth", "sim_aero"}});
@@ -41,7 +41,7 @@ TEST_CASE("a role in --with stands for the component that fills it in this run")
         Pairs{{"ekf", "estimator_ekf"}});
 }
 
-TEST_CASE("a role that several fill in turn is refused, with their names; so is what is neither") {
+TEST_CASE("a role with several fillers is rejected, with their names; so is an unknown name") {
   Mission mission;
   CHECK(mission.faults(with({{"outer", "control_tecs"}})) ==
         "--with outer=control_tecs: graph.role_ambiguous(outer, slc, tecs, mine)");
@@ -55,7 +55,7 @@ TEST_CASE("a role that several fill in turn is refused, with their names; so is 
   CHECK(mission.faults(with({{"vehicle", "nothing"}})).starts_with("--with sim=nothing: components.sim: "));
 }
 
-TEST_CASE("a filter of one's own takes the place of the shipped one with the inputs that it has") {
+TEST_CASE("a user's filter replaces the shipped one with the inputs that it has") {
   Mission mission;
   mission.replace("use: estimator_ekf", "use: estimator_ekf/Ekf");
   const ComponentInfo& ekf = mission.shelf.plugins["estimator_ekf"]->components[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Texts that would become large trees: each is refused with a sentence, and quickly.
+// Texts that would become large trees: each is rejected with a sentence, and quickly.
 #include "core/graph/yaml.hpp"
 
 #include <doctest/doctest.h>
@@ -25,7 +25,7 @@ std::string repeated(const std::string& text, int times) {
 
 struct Read {
   std::string said;
-  double seconds = 0;  // of the CPU
+  double seconds = 0;  // CPU time
 };
 
 Read read(const std::string& text) {
@@ -45,7 +45,7 @@ Read resolve(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("aliases count as what they stand for, in bytes as well") {
+TEST_CASE("aliases count with the size of their content, in bytes as well") {
   const std::string long_text(100'000, 'x');
   const Read bytes = read("a: &a \"" + long_text + "\"\nb: [" + repeated("*a, ", 400'000) + "]\n");
   CHECK(bytes.said == "file.yaml:2: graph.yaml_text_too_large(32)");
@@ -61,7 +61,7 @@ TEST_CASE("aliases count as what they stand for, in bytes as well") {
   CHECK(read("a: &a {x: 1}\nb: [*a, *a]\n").said == "");
 }
 
-TEST_CASE("an alias brings its anchor's value, and its line") {
+TEST_CASE("an alias has its anchor's value and its line") {
   Report report;
   const Node node = parse_yaml(
       std::make_shared<SourceFile>(SourceFile{"f.yaml", "f.yaml", "a: &a {x: '1'}\nb:\n  - *a\n  - ~\n"}),
@@ -75,7 +75,7 @@ TEST_CASE("an alias brings its anchor's value, and its line") {
   CHECK(node.find("b")->line == 3);
 }
 
-TEST_CASE("millions of documents or values are refused before they are built" *
+TEST_CASE("millions of documents or values are rejected before the tree is built" *
           doctest::test_suite("amounts")) {
   const Read documents = read(repeated("---\n", 4'000'000));
   CHECK(documents.said.ends_with(": graph.document_repeated"));
@@ -85,7 +85,7 @@ TEST_CASE("millions of documents or values are refused before they are built" *
   CHECK(items.seconds < 10 * sanitizer_slowdown);
 }
 
-TEST_CASE("too deep is told as that") {
+TEST_CASE("too deep nesting is reported as such") {
   CHECK(read("a: " + repeated("[", 1000)).said == "file.yaml:1: graph.yaml_too_deep(60)");
   CHECK(read("a: " + repeated("{a: ", 100'000)).said == "file.yaml:1: graph.yaml_too_deep(60)");
   CHECK(read(repeated("- ", 1'000'000)).said == "file.yaml:1: graph.yaml_too_deep(60)");
@@ -96,7 +96,7 @@ TEST_CASE("too deep is told as that") {
   CHECK(read(chain).said == "file.yaml:61: graph.yaml_too_deep(60)");
 }
 
-TEST_CASE("control characters are refused, those of eight bits as well") {
+TEST_CASE("control characters are rejected, 8-bit ones as well") {
   CHECK(read("mission: \"a\\e[2J\"\n").said == "file.yaml:1: graph.control_character_found(27)");
   const std::string of_eight_bits = "mission: \"a\\u009b2J\"\n";
   CHECK(read(of_eight_bits).said == "file.yaml:1: graph.control_character_found(155)");
@@ -117,10 +117,10 @@ TEST_CASE("400000 unknown keys are told as the first hundred of them" * doctest:
 }
 
 struct Flood : Read {
-  double parsed_seconds = 0;  // the reading of the text alone
+  double parsed_seconds = 0;  // to read the text alone
 };
 
-/// The made-up mission with 50000 of `one` behind `at`; # stands for a number.
+/// The synthetic mission with 50000 of `one` behind `at`; # stands for a number.
 Flood flood(const std::string& at, const std::string& one) {
   Mission mission;
   std::string many;
@@ -132,14 +132,14 @@ Flood flood(const std::string& at, const std::string& one) {
   return {resolve(mission.text), read(mission.text).seconds};
 }
 
-TEST_CASE("50000 wrong names cost little more than the hundred that are told, wherever they stand" *
+TEST_CASE("50000 wrong names cost little more than the hundred that are reported, in any place" *
           doctest::test_suite("amounts")) {
   for (const auto& [at, one] : {std::pair{"params: {", "x#: 1, "}, std::pair{"set: {", "x#: 1, "},
                                 std::pair{"failsafe: {", "x#: 1, "}, std::pair{"origin: {", "x#: 1, "},
                                 std::pair{"progress: [", "nav.x#, "}, std::pair{"next: [", "{to: x#}, "}}) {
     const Flood wrong = flood(at, one);
     CHECK(wrong.said.ends_with("graph.more_faults(100)"));
-    CHECK(wrong.seconds < 10 * wrong.parsed_seconds);  // comparing each with each other takes 50
+    CHECK(wrong.seconds < 10 * wrong.parsed_seconds);  // a comparison of each with each takes 50
   }
 }
 

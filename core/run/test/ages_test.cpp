@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nobody flies on what a stopped writer left behind, whatever wire leads from it; who may stay silent may.
+// No component flies on the last output of a stopped writer, over any kind of wire; an output that need not
+// publish may pause.
 #include <doctest/doctest.h>
 
 #include "core/run/component/ports.hpp"
@@ -8,7 +9,8 @@
 
 namespace ages_test {
 
-/// cart -> plan (fills no role) -> law: what has no role stands between the sensors and the aircraft.
+/// cart -> plan (fills no role) -> law: a component without a role stands between the sensors and the
+/// aircraft.
 const char* const through_plan =
     "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
     "  one:  {fills: law, use: lab/Law, params: {id: 1, u: 0.1}, in: {signal: plan.signal}}\n";
@@ -21,12 +23,12 @@ TEST_CASE("a law is stopped in the tick in which the component that feeds it is,
   CHECK(r.guards[0].component == "plan");
   CHECK(r.guards[1].component == "one");
   CHECK(r.guards[1].what == "run.input_of_stopped(signal, plan)");
-  CHECK(r.guards[1].action == "two takes over");  // it has its signal from elsewhere
+  CHECK(r.guards[1].action == "two takes over");  // its signal comes from another source
   CHECK(r.guards[1].at_ns == 100'000'000);
   CHECK(value(g, flight, "two", "command", "seen_m") == value(g, flight, "sim", "signal", "x_m"));
 }
 
-TEST_CASE("the chain to the vehicle may be of components without a role alone") {
+TEST_CASE("the chain to the vehicle may consist of components without a role alone") {
   const Graph g = mission(
       "  plan:   {use: lab/Filter, in: {signal: vehicle.signal}}\n"
       "  manage: {use: lab/Filter, in: {signal: plan.signal}}\n"
@@ -43,7 +45,7 @@ TEST_CASE("the chain to the vehicle may be of components without a role alone") 
   CHECK(r.outcome == Outcome::failed);
 }
 
-TEST_CASE("a wire from an output that is no role's is watched like one that is") {
+TEST_CASE("a wire from an output without a role is watched like one with a role") {
   // the law's signal comes by the filter's own name; the filter is replaced, and steps no more
   const Graph g = mission(
       "  other: {fills: sense, use: lab/Filter}\n"
@@ -60,13 +62,13 @@ TEST_CASE("a wire from an output that is no role's is watched like one that is")
   CHECK(r.guards[0].at_ns == 1'202'500'000);  // a second after the filter's last step, at 0.2 s
 }
 
-TEST_CASE("an output that may stay silent is as old as the last step of its writer") {
+TEST_CASE("an output that need not publish has the age of its writer's last step") {
   const Graph silent = mission(std::string(through_plan) + one_phase, {{"plan.mute_at", "0.1"}});
   Flight flight(silent, options(5));
   const FlightResult reported = flight.run();
   REQUIRE(reported.guards.size() == 1);  // reported, and not stopped
   CHECK(reported.guards[0].action == "its last sample stays");
-  // where the mission names an age it is the sample's
+  // an age that the mission sets is that of the sample
   const Graph strict = mission(
       "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
       "  one:  {fills: law, use: lab/Law, in: {signal: {from: plan.signal, max_age: 300 ms}}}\n" +
@@ -87,7 +89,7 @@ TEST_CASE("a slow writer has three of its steps before its reader is stopped") {
     if (c.name == "one") CHECK(c.wires[0].max_age_ns == 6'000'000'000);
 }
 
-TEST_CASE("a sample of the tick before is lost with its writer, too") {
+TEST_CASE("a sample of the previous tick is lost with its writer, too") {
   const Graph g = mission(
       "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
       "  one:  {fills: law, use: lab/Law, in: {signal: {from: plan.signal, delayed: true}}}\n" +
@@ -99,7 +101,7 @@ TEST_CASE("a sample of the tick before is lost with its writer, too") {
   CHECK(r.guards[1].at_ns <= 102'500'000);
 }
 
-TEST_CASE("who says 'max_age: off' flies on, and is warned before") {
+TEST_CASE("a component with 'max_age: off' flies on, and the mission gets a warning") {
   const Graph g = mission(
       "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
       "  one:  {fills: law, use: lab/Law, in: {signal: {from: plan.signal, max_age: off}}}\n" +
@@ -115,7 +117,7 @@ TEST_CASE("who says 'max_age: off' flies on, and is warned before") {
   CHECK(mission(std::string(through_plan) + one_phase).source.warnings.empty());
 }
 
-TEST_CASE("who waits for the first sample of a writer that was stopped does not wait for ever") {
+TEST_CASE("a component that waits for the first sample of a stopped writer does not wait forever") {
   const Graph by_role = mission(with_fallback, {{"filter.stop_at", "-10"}});
   const FlightResult r = Flight(by_role, options(1)).run();
   CHECK(r.outcome == Outcome::failed);
@@ -131,7 +133,7 @@ TEST_CASE("who waits for the first sample of a writer that was stopped does not 
   CHECK(value(by_name, flight, "sim", "applied", "by") == 2);
 }
 
-TEST_CASE("a newcomer that fails in its first step leaves nothing of its predecessor behind") {
+TEST_CASE("a new component that fails in its first step leaves nothing of its predecessor's output") {
   const Graph g = mission(
       "  other: {fills: sense, use: lab/Filter, params: {stop_at: 0.1}}\n"
       "phases:\n"
@@ -144,7 +146,7 @@ TEST_CASE("a newcomer that fails in its first step leaves nothing of its predece
   CHECK(r.guards[1].at_ns <= 102'500'000);
 }
 
-TEST_CASE("what does not lead to the vehicle looks on, whoever was stopped") {
+TEST_CASE("a component that does not lead to the vehicle continues after any stop") {
   const Graph g = mission(
       "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
       "  seen: {use: lab/Filter, in: {signal: plan.signal}}\n" +
@@ -155,7 +157,7 @@ TEST_CASE("what does not lead to the vehicle looks on, whoever was stopped") {
   CHECK(r.guards.size() == 1);
 }
 
-TEST_CASE("a sample of the tick before is as old as it was then, and a tick") {
+TEST_CASE("the age of a sample of the previous tick counts from that tick") {
   const Graph g = mission(
       "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
       "  one:  {fills: law, use: lab/Law, in: {signal: {from: plan.signal, delayed: true, max_age: 300 "
@@ -164,7 +166,7 @@ TEST_CASE("a sample of the tick before is as old as it was then, and a tick") {
   CHECK(Flight(g, options(2)).run().guards.empty());
 }
 
-TEST_CASE("what a stopped component said last decides nothing") {
+TEST_CASE("the last output of a stopped component decides nothing") {
   const Graph g = mission(
       "  plan: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
       "phases:\n"
@@ -174,7 +176,7 @@ TEST_CASE("what a stopped component said last decides nothing") {
   CHECK(Flight(g, options(0.5)).run().phases.size() == 1);
 }
 
-TEST_CASE("what stands between the laws and the vehicle without a role is watched, too") {
+TEST_CASE("a component without a role between the laws and the vehicle is watched, too") {
   const auto relayed = [](const std::string& params, const std::string& wire, double until_s) {
     const Graph g = mission("  sim: {fills: vehicle, use: lab/Cart, in: {command: " + wire +
                             "}}\n  relay: {use: lab/Late, in: {never: law.command}, params: {" + params +
@@ -198,7 +200,7 @@ TEST_CASE("what stands between the laws and the vehicle without a role is watche
   CHECK(relayed("stop_at: 0.1 s", "{from: relay.echo, max_age: off}", 0.3).first.outcome == Outcome::flown);
 }
 
-/// What a flight of four seconds says as warnings, and its guards.
+/// Warnings and guard events of a flight of four seconds.
 struct Said {
   std::vector<std::string> lines;
   FlightResult result;
@@ -216,7 +218,7 @@ Said said_of(const std::string& tail, const std::vector<std::pair<std::string, s
   return said;
 }
 
-TEST_CASE("an output that has a habit of speaking and falls silent is told of, and that it speaks again") {
+TEST_CASE("a regular output that stops is reported, and so is its return") {
   // a filter in a role, as the lab has it
   CHECK(said_of(one_phase).lines.empty());
   const Said filter =
@@ -226,7 +228,7 @@ TEST_CASE("an output that has a habit of speaking and falls silent is told of, a
   CHECK(filter.lines[1] == "    2.50 s  filter: run.output_resumed(signal)");
   CHECK(filter.lines[2].find("3.80 s  filter: run.output_silent_event(run.output_silent(signal, ") !=
         std::string::npos);
-  // the result has it, once
+  // the result has it once
   REQUIRE(filter.result.guards.size() == 1);
   CHECK(filter.result.guards[0].component == "filter");
   CHECK(filter.result.guards[0].what == "run.output_silent(signal, 1.0)");
@@ -238,16 +240,16 @@ TEST_CASE("an output that has a habit of speaking and falls silent is told of, a
       "  relay: {use: lab/Late, in: {never: law.command}, params: {mute_at: 0.5 s}}\n";
   const Said relayed = said_of(relay + one_phase);
   REQUIRE(relayed.lines.size() == 1);
-  CHECK(relayed.lines[0].starts_with("    1.5"));  // each of them is looked at in turn
+  CHECK(relayed.lines[0].starts_with("    1.5"));  // the outputs are checked in turn
   CHECK(relayed.lines[0].find("relay: run.output_silent_event(run.output_silent(echo, 1.0))") !=
         std::string::npos);
-  // at a rate of its own, in whose ticks without a step nothing can be said
+  // at its own rate; ticks without a step do not count
   const std::string slow =
       "  filter: {fills: sense, use: lab/Filter, rate: 100 Hz, params: {mute_at: 0.1 s}}\n";
   CHECK(said_of(slow + one_phase).lines.size() == 1);
 }
 
-TEST_CASE("who speaks in every third step has a habit; who pauses has longer silences") {
+TEST_CASE("an output in every third step is regular; one with pauses has longer limits") {
   CHECK(said_of(one_phase, {{"filter.every", "3"}}).lines.empty());
   CHECK(said_of(one_phase, {{"filter.every", "3"}, {"filter.mute_at", "0.1"}}).lines.size() == 1);
   // 25 samples are enough, 15 are not
@@ -261,7 +263,8 @@ TEST_CASE("who speaks in every third step has a habit; who pauses has longer sil
   CHECK(pausing(7.2) == 1);
 }
 
-TEST_CASE("a watch that only a condition reads is told of when it falls silent, and when it is stopped") {
+TEST_CASE(
+    "a watch that only a condition reads is reported when it stops publishing, and when it is stopped") {
   const std::string fence = "  fence: {use: lab/Filter, in: {signal: vehicle.signal}}\n";
   const std::string filter_broken = "the filter is broken";  // of the laboratory's filter
   for (const std::string key : {"failed", "done"}) {
@@ -289,7 +292,7 @@ TEST_CASE("a watch that only a condition reads is told of when it falls silent, 
   CHECK(stopped.lines[1].find("run.condition_dead(second, fence.signal.x_m > 1e6 m)") != std::string::npos);
 }
 
-TEST_CASE("a phase that waits for what was stopped before says so when it begins") {
+TEST_CASE("a phase that waits for a stopped component reports it at its start") {
   const std::string phases =
       "  fence: {use: lab/Filter, in: {signal: vehicle.signal}}\n"
       "phases:\n"
@@ -302,7 +305,7 @@ TEST_CASE("a phase that waits for what was stopped before says so when it begins
   CHECK(stopped.result.phases.size() == 2);
 }
 
-TEST_CASE("a law that says nothing to the vehicle, though its inputs come, loses its role") {
+TEST_CASE("a law that sends nothing to the vehicle loses its role, when its inputs come") {
   const std::string law = "  one: {fills: law, use: lab/Mute}\n";
   CHECK(said_of(law + with_fallback).lines.empty());
   const Said fallen = said_of(law + with_fallback, {{"one.mute_at", "0.1"}});
@@ -311,7 +314,7 @@ TEST_CASE("a law that says nothing to the vehicle, though its inputs come, loses
   CHECK(fallen.result.guards[1].action == "two takes over");
   CHECK(std::abs(fallen.result.guards[1].at_ns - 1'100'000'000) < 10'000'000);
   CHECK(fallen.result.outcome == Outcome::flown);
-  // one that says that it is not well has told so itself
+  // one that reports a fault itself is not reported again
   CHECK(
       said_of(law + with_fallback, {{"one.mute_at", "0.1"}, {"one.explains", "true"}}).result.guards.empty());
   const Said lost = said_of(law + one_phase, {{"one.mute_at", "0.1"}});
@@ -319,7 +322,7 @@ TEST_CASE("a law that says nothing to the vehicle, though its inputs come, loses
   CHECK(lost.result.guards.at(1).action == "failsafe");
   const Graph g = mission("  device: {use: lab/Ticker, run: driver}\n"s + one_phase);
   CHECK_FALSE(Intake(*find_named(g.components, "device")).all_younger_than(1'000'000'000, 0));  // has none
-  // what it needs does not come: it has a reason, and speaks when that has passed
+  // its inputs do not come: it has a reason, and publishes when they return
   const Said waits = said_of(law + with_fallback, {{"one.mute_at", "0.1"}, {"filter.mute_at", "0.05"}});
   REQUIRE(waits.result.guards.size() == 2);
   CHECK(waits.result.guards[0].component == "filter");

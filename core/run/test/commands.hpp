@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What tests ask of a flight, by kind.
+// Commands of tests to a flight, by kind.
 #pragma once
 #include <cstddef>
 #include <functional>

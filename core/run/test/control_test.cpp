@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What others ask of a flight from threads of their own: when it takes effect, what is refused, what the loop
-// pays for a flood.
+// Commands from other threads to a flight: time of their effect, rejections, cost of a flood for the loop.
 #include "core/tap/control.hpp"
 
 #include <algorithm>
@@ -24,7 +23,7 @@ namespace {
 
 const std::string watched = "live: {listen: \"127.0.0.1:0\"}\n";
 
-/// Paced, so that onlookers are let in, and in no need to wait for the clock.
+/// Paced, so that clients are admitted, but too fast to wait for the clock.
 FlightOptions quick(double duration_s = 1000) {
   FlightOptions o = options(duration_s);
   o.speed = 1e6;
@@ -37,7 +36,7 @@ class Reply {
   Control::Answer take() {
     return [promise = promise_](const std::string& refusal) { promise->set_value(refusal); };
   }
-  /// The flight goes on until it is there.
+  /// Steps the flight until the answer has come.
   std::string wait(Flight& flight) {
     while (future_.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) flight.step();
     return future_.get();
@@ -66,7 +65,7 @@ double commanded(const Graph& g, const Flight& flight) {
 
 }  // namespace
 
-TEST_CASE("a parameter that is set reaches the controller at the next tick, and everybody who looks") {
+TEST_CASE("a set parameter reaches the controller at the next tick, and every client") {
   const Graph g = mission(watched + one_phase);
   Flight flight(g, quick());
   Control* const control = flight.control();
@@ -88,7 +87,8 @@ TEST_CASE("a parameter that is set reaches the controller at the next tick, and 
   CHECK(parameter(control->view(), "one", "u").base.number[0] == -0.25);
 }
 
-TEST_CASE("what cannot be is refused in the asker's thread, with what would be right, and changes nothing") {
+TEST_CASE(
+    "an invalid command is rejected in the sender's thread, with the valid choices, and changes nothing") {
   const Graph g = mission(watched + one_phase);
   Flight flight(g, quick());
   Control& control = *flight.control();
@@ -136,7 +136,7 @@ TEST_CASE("a component answers a request in its next step; the end of the flight
 
 TEST_CASE("thousands of parameters per second do not block the loop, and the last one stays") {
   Graph g = mission(watched + one_phase);
-  g.timeout_ns = 0;  // as long as the flood lasts
+  g.timeout_ns = 0;  // until the end of the flood
   Flight flight(g, quick(1e6));
   Control& control = *flight.control();
   REQUIRE(flight.step());
@@ -166,7 +166,7 @@ TEST_CASE("thousands of parameters per second do not block the loop, and the las
   CHECK(result.loop_allocations == 0);
 }
 
-TEST_CASE("what was asked of a component before it was swapped is not done to the one after it") {
+TEST_CASE("a command to a component is not executed on its successor after a swap") {
   const Graph g = mission(watched + one_phase);
   Flight flight(g, quick());
   Control& control = *flight.control();
@@ -181,7 +181,7 @@ TEST_CASE("what was asked of a component before it was swapped is not done to th
   CHECK(asked.wait(flight) == "");
 }
 
-TEST_CASE("a swap is refused in whole sentences, and tells what it did to the parameters") {
+TEST_CASE("a swap is rejected in whole sentences, and reports its changes of the parameters") {
   const Graph g = mission(watched + one_phase);
   Flight flight(g, quick());
   Control& control = *flight.control();
@@ -201,7 +201,7 @@ TEST_CASE("a swap is refused in whole sentences, and tells what it did to the pa
                             : ""));
 }
 
-TEST_CASE("a sentence without room ends in dots, behind a whole word and a whole letter") {
+TEST_CASE("a sentence that is too long ends in dots, after a whole word and a whole letter") {
   std::array<char, 24> text{};
   const auto cut = [&](const std::string& words) {
     std::snprintf(text.data(), text.size(), "%s", words.c_str());
@@ -217,7 +217,7 @@ TEST_CASE("a sentence without room ends in dots, behind a whole word and a whole
   CHECK(std::string(e.words.data()).ends_with("yyy..."));
 }
 
-TEST_CASE("requests wait for room in their order, hold up no parameter, and cost the loop no allocation") {
+TEST_CASE("requests wait for room in their order, delay no parameter, and cost the loop no allocation") {
   const Graph g = mission(watched + one_phase);
   Flight flight(g, quick());
   Control& control = *flight.control();
@@ -244,7 +244,7 @@ TEST_CASE("requests wait for room in their order, hold up no parameter, and cost
   CHECK(flight.finish().loop_allocations == 0);
 }
 
-TEST_CASE("a request to a component that does not fly is refused, not kept for the day when it does") {
+TEST_CASE("a request to an inactive component is rejected, not kept for later") {
   const Graph g = mission(watched + one_phase);
   Flight flight(g, quick());
   Control& control = *flight.control();
@@ -258,7 +258,7 @@ TEST_CASE("a request to a component that does not fly is refused, not kept for t
   CHECK(refusal([&] { request(flight, "watch", "ask", 0.0); }) == "run.component_not_active(watch)");
 }
 
-TEST_CASE("a request that its component has not come to when the flight ends is answered once") {
+TEST_CASE("a request without an answer at the end of the flight is answered once") {
   const Graph g = mission(
       "  watch: {use: lab/Watch, rate: 1 Hz, in: {burst: vehicle.burst, applied: vehicle.applied}}\n" +
       watched + one_phase);
@@ -276,7 +276,7 @@ TEST_CASE("a request that its component has not come to when the flight ends is 
   CHECK(answers == 1);
 }
 
-TEST_CASE("a law whose imported input falls silent is stopped like any other") {
+TEST_CASE("a law whose imported input stops is stopped like any other") {
   mission(watched + with_fallback);
   const fs::path file = folder().path / "fed-from-outside.yaml";  // takes the wire of lab.yaml out
   std::ofstream(file) << "extends: lab.yaml\ndds: {import: {one.signal: /lab/signal}}\n";
@@ -300,7 +300,7 @@ TEST_CASE("a law whose imported input falls silent is stopped like any other") {
   CHECK(holds(result.guards[0].what, "run.input_too_old(signal, "));
 }
 
-TEST_CASE("a flood of one import takes no room of another's, and what it loses is told") {
+TEST_CASE("a flood of one import takes no room of another's, and its losses are reported") {
   const Graph whole =
       mission("  ear: {use: lab/OldReader}\n  other: {use: lab/OldReader}\n" + watched + one_phase +
               "dds: {import: {ear.signal: /lab/flood, other.signal: /lab/calm}}\n");
@@ -318,16 +318,16 @@ TEST_CASE("a flood of one import takes no room of another's, and what it loses i
   Reply set;
   control.set_parameter("one", "u", "0.9", set.take());
   REQUIRE(flight.step());
-  CHECK(commanded(g, flight) == 0.9);  // no sample keeps a parameter waiting
+  CHECK(commanded(g, flight) == 0.9);  // samples do not delay a parameter
   for (int n = 0; n < 3; ++n) REQUIRE(flight.step());
   CHECK(value(g, flight, "other", "tally", "steps_ratio") >= 1);
-  Reply later;  // answered behind the samples
+  Reply later;  // answered after the samples
   control.set_parameter("one", "u", "0.8", later.take());
   CHECK(later.wait(flight) == "");
   CHECK(control.publish("ear", "signal", message));  // the flood has passed
 }
 
-TEST_CASE("onlookers see how often each component was stepped, and how long that took") {
+TEST_CASE("clients get the number of steps and the step time of each component") {
   const Graph g =
       mission("  two: {fills: law, use: lab/Law, budget: 5 s, params: {id: 2}}\n" + watched + with_fallback);
   Flight flight(g, quick());
@@ -336,7 +336,7 @@ TEST_CASE("onlookers see how often each component was stepped, and how long that
       if (c.name == name) return c;
     return ComponentView();
   };
-  for (int n = 0; n < 17; ++n) REQUIRE(flight.step());  // they are told with every 16th tick
+  for (int n = 0; n < 17; ++n) REQUIRE(flight.step());  // they are updated with every 16th tick
   CHECK(seen("one").steps >= 15);
   CHECK(seen("one").steps <= 17);
   CHECK(seen("one").step_us > 0);
@@ -349,7 +349,7 @@ TEST_CASE("onlookers see how often each component was stepped, and how long that
   CHECK_FALSE(seen("two").active);
 }
 
-TEST_CASE("a phase is entered between two ticks, and onlookers see it") {
+TEST_CASE("a phase is entered between two ticks, and clients get it") {
   const Graph g = mission(watched +
                           "phases:\n  fly: {law: one, next: [{to: rest, when: \"vehicle.signal.x_m < "
                           "0\"}]}\n  rest: {law: two}\n");
@@ -366,7 +366,7 @@ TEST_CASE("a phase is entered between two ticks, and onlookers see it") {
   CHECK(reply.wait() == "");
 }
 
-TEST_CASE("what a phase hides is told; the present phase can be entered anew, after a reset for one") {
+TEST_CASE("a parameter under an overlay is reported; the present phase can be entered again, after a reset") {
   const Graph g = mission(
       "  one:    {fills: law, use: lab/Law, params: {id: 1, u: 0.1, fault: fails, fault_at: 0.02 s}}\n" +
       watched + "phases:\n  fly: {law: {use: one, fallback: two, set: {u: 0.3}}}\n");
@@ -391,11 +391,11 @@ TEST_CASE("what a phase hides is told; the present phase can be entered anew, af
   CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.3);
 }
 
-TEST_CASE("a sample from outside is the input's at the next tick; a damaged one is refused") {
+TEST_CASE("a sample from outside is at the input in the next tick; a damaged one is rejected") {
   const Graph whole = mission("  ear: {use: lab/OldReader}\n" + watched + one_phase +
                               "dds: {import: {ear.signal: /lab/signal}}\n");
   Graph g = whole;
-  g.dds.on = false;  // by hand here
+  g.dds.on = false;  // the test publishes itself
   Flight flight(g, quick());
   Control& control = *flight.control();
   REQUIRE(flight.step());
@@ -433,7 +433,7 @@ TEST_CASE("an unpaced flight admits no client, and a reachable one requires a to
   CHECK_THROWS_WITH_AS(Flight(open, quick()), doctest::Contains("graph.live_token_missing(0.0.0.0)"), Error);
 }
 
-TEST_CASE("a port that is taken keeps nobody from flying") {
+TEST_CASE("a port that is in use does not prevent the flight") {
   const Graph g = mission(watched + one_phase);
   Flight first(g, quick());
   Graph same = g;
@@ -451,7 +451,7 @@ TEST_CASE("a port that is taken keeps nobody from flying") {
   CHECK(holds(said[0], std::to_string(same.live.port)));
 }
 
-TEST_CASE("who fills a role publishes as the role: one topic, whoever flies") {
+TEST_CASE("the filler of a role publishes as the role: one topic for all of them") {
   Flight flight(mission(watched + "phases:\n  fly: {law: one, next: [{to: rest, when: \"vehicle.signal.x_m < "
                                   "0\"}]}\n  rest: {law: two}\n"),
                 quick());

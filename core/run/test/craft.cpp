@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle as on hardware: its pilot arms, takes over and gives back at given times, and it has something to
-// say. And a law that hoards.
+// A vehicle like hardware: its pilot arms, takes over and gives back at given times, and it has messages. And
+// a law with an integrator.
 #include <time.h>
 
 #include <algorithm>
@@ -97,8 +97,7 @@ struct Gear {
   bool obeys = false;
 };
 
-/// The craft with flags under names of its own: it arms at once, takes off at 1 s, disarms at 3 s, in the
-/// air.
+/// The craft with flags of other names: it arms at once, takes off at 1 s, disarms at 3 s, in the air.
 struct Strange {
   struct Inputs {
     Optional<Command> command;
@@ -106,7 +105,7 @@ struct Strange {
   struct Outputs {
     Out<Received> applied;
     Out<Gear> gear;
-    Out<State> state;  ///< says nothing: not even whether it is armed
+    Out<State> state;  ///< without a flag for arming
   };
   struct Params {
     Param speak_at{0, "s", 0, 1e9, "says nothing before"};
@@ -127,7 +126,7 @@ struct Strange {
   std::int64_t n_ = 0;
 };
 
-/// A vehicle that does not go without a command.
+/// A vehicle that rejects a write without a command.
 struct Demanding {
   struct Inputs {
     In<Command> command;
@@ -153,7 +152,7 @@ struct Demanding {
   Received applied_;
 };
 
-/// Integrates 1 per second from whatever it was activated with: 0.
+/// Integrates 1 per second from its start value at activation: 0.
 struct Hoarder {
   struct Inputs {
     In<State> state;
@@ -189,7 +188,7 @@ struct Hoarder {
   double hoard_ = 0, activations_ = 0;
 };
 
-/// Says again what the vehicle says, and pauses once.
+/// Repeats the vehicle's output, and pauses once.
 struct Echo {
   struct Inputs {
     In<State> state;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flights on a vehicle that stands for hardware (craft.cpp).
+// Flights on a vehicle that represents hardware (craft.cpp).
 #pragma once
 #include <time.h>
 #include <unistd.h>
@@ -52,14 +52,14 @@ inline FlightOptions listening(Said& said) {
   return o;
 }
 
-/// Steps until flight time `t_s`; true when the flight goes on.
+/// Steps until flight time `t_s`; true when the flight continues.
 inline bool fly_until(Flight& flight, double t_s) {
   while (static_cast<double>(flight.now_ns()) < t_s * 1e9 - 1)
     if (!flight.step()) return false;
   return true;
 }
 
-/// Until no other thread of this program has anything to do.
+/// Waits until no other thread of this program is running.
 inline void let_others_sleep() {
   const std::string mine = std::to_string(::gettid());
   for (int n = 0, idle = 0; n < 10'000 && idle < 2; ++n) {
@@ -68,7 +68,7 @@ inline void let_others_sleep() {
       if (task.path().filename() == mine) continue;
       std::ifstream in(task.path() / "stat");
       std::string text((std::istreambuf_iterator<char>(in)), {});
-      const std::size_t name = text.rfind(") ");  // the name may hold blanks
+      const std::size_t name = text.rfind(") ");  // the name may contain blanks
       asleep = asleep && (name == std::string::npos || text.compare(name + 2, 1, "S") == 0);
     }
     idle = asleep ? idle + 1 : 0;

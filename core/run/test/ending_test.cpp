@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The end of a flight without a flight: every state with every cue, and what a tick makes of its facts.
+// The end of a flight without a flight: every state with every cue, and the actions for the facts of a tick.
 #include "core/run/state/ending.hpp"
 
 #include <doctest/doctest.h>
@@ -26,11 +26,11 @@ constexpr Cue cues[] = {Cue::done,         Cue::failed,        Cue::duration,   
 
 bool in_failsafe(State s) { return s == State::failsafe || s == State::giving_up || s == State::silent; }
 
-/// What each state makes of each cue, as the rules of docs/missions.md ("The end of a flight") and
-/// docs/safety.md ("Signals on hardware") say it, rule by rule.
+/// The transition of each state for each cue, by the rules of docs/missions.md ("The end of a flight") and
+/// docs/safety.md ("Signals on hardware").
 Ending::Step expected(State s, Cue c) {
   const Ending::Step nothing{s, Act::none, Reason::none};
-  if (s == State::over) return nothing;  // what has ended has ended
+  if (s == State::over) return nothing;  // no transition from the end
   switch (c) {
     case Cue::done:  // a flight in its failsafe is never done, and the first verdict stands
       return s == State::flying ? Ending::Step{State::concluded, Act::report_done, Reason::done} : nothing;
@@ -49,7 +49,7 @@ Ending::Step expected(State s, Cue c) {
       if (s == State::failsafe) return {State::silent, Act::report_silent, Reason::failsafe};
       if (s == State::giving_up) return {State::over, Act::end, Reason::gave_up};
       return nothing;
-    case Cue::disarmed:  // nothing has been decided yet of one that flies
+    case Cue::disarmed:  // no decision yet in flight
       return s == State::flying ? nothing : Ending::Step{State::over, Act::end, Reason::none};
     case Cue::signal: return {State::over, Act::end, Reason::signal};
     case Cue::first_signal:
@@ -68,7 +68,7 @@ constexpr std::int64_t second = 1'000'000'000;
 
 std::vector<Act> acts_of(const Ending::Acts& acts) { return {acts.begin(), acts.end()}; }
 
-/// At `t_s` on hardware, armed, with what `change` makes true.
+/// Facts at `t_s` on hardware, armed, with the change by `change`.
 template <class F>
 std::vector<Act> armed(Ending& e, double t_s, F change) {
   Facts f;
@@ -87,7 +87,7 @@ constexpr auto with_signal = [](Facts& f) { f.signal = true; };
 
 }  // namespace
 
-TEST_CASE("every state answers every cue as the rules say") {
+TEST_CASE("every state handles every cue by the rules") {
   for (const State s : states)
     for (const Cue c : cues) {
       CAPTURE(static_cast<int>(s));
@@ -96,7 +96,7 @@ TEST_CASE("every state answers every cue as the rules say") {
     }
 }
 
-TEST_CASE("whoever is over stays over, and every other state can be left") {
+TEST_CASE("the state over is final, and every other state can be left") {
   for (const Cue c : cues) CHECK(Ending::step(State::over, c).next == State::over);
   for (const State s : states)
     for (const Cue c : {Cue::signal, Cue::vehicle_failed, Cue::abandoned})
@@ -111,7 +111,7 @@ TEST_CASE("the outcome follows from the reason") {
     CHECK(Ending::outcome(r) == Outcome::interrupted);
 }
 
-TEST_CASE("without an armed aircraft a verdict ends the flight in its tick, and nothing is told") {
+TEST_CASE("without an armed aircraft a verdict ends the flight in its tick, without a report") {
   Ending e(2 * second);
   Facts f;
   f.done = true;
@@ -135,7 +135,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("an armed aircraft that is done flies on, told once, and ends when it is disarmed") {
+TEST_CASE("an armed aircraft that is done flies on, is reported once, and ends when it is disarmed") {
   Ending e(2 * second);
   const auto done = [](Facts& f) { f.done = true; };
   CHECK(armed(e, 1, done) == std::vector{Act::report_done});
@@ -146,7 +146,7 @@ TEST_CASE("an armed aircraft that is done flies on, told once, and ends when it 
   CHECK(e.reason() == Reason::done);
 }
 
-TEST_CASE("the failsafe's values are sent for their time, then nothing; a second later it is told") {
+TEST_CASE("the failsafe's values are sent for their time, then nothing; a second later it is reported") {
   Ending e(2 * second);
   e.take(Cue::nobody, 10 * second);
   CHECK(e.steering(10 * second) == Ending::Steering::failsafe);
@@ -163,7 +163,7 @@ TEST_CASE("the failsafe's values are sent for their time, then nothing; a second
   CHECK(without.steering(5) == Ending::Steering::nothing);
 }
 
-TEST_CASE("a failsafe that nobody is armed in ends a second after its values, failed") {
+TEST_CASE("a failsafe without an armed aircraft ends a second after its values, failed") {
   Ending e(2 * second);
   e.take(Cue::nobody, 0);
   CHECK(disarmed(e, 2.9).empty());
@@ -182,7 +182,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a failsafe does not begin anew, and a later verdict is told once") {
+TEST_CASE("a failsafe does not begin again, and a later verdict is reported once") {
   Ending e(2 * second);
   e.take(Cue::nobody, 0);
   e.take(Cue::nobody, 1 * second);
@@ -199,7 +199,7 @@ TEST_CASE(
   CHECK(armed(e, 1, with_signal) == std::vector{Act::refuse_signal});
   CHECK(armed(e, 6.1, with_signal) == std::vector{Act::refuse_signal});  // too late: a first one again
   CHECK(armed(e, 11, with_signal) == std::vector{Act::give_up});
-  CHECK(e.steering(11 * second) == Ending::Steering::nothing);  // no throttle 0: the sticks
+  CHECK(e.steering(11 * second) == Ending::Steering::nothing);  // no throttle 0: the pilot's sticks apply
   CHECK(armed(e, 11.1, with_signal).empty());
   CHECK(e.steering(11'100'000'000) == Ending::Steering::nothing);
   CHECK(armed(e, 11.9, with_signal).empty());
@@ -207,7 +207,7 @@ TEST_CASE(
   CHECK(e.reason() == Reason::gave_up);
 }
 
-TEST_CASE("a signal without an armed aircraft ends the flight, but for what had been decided before") {
+TEST_CASE("a signal without an armed aircraft ends the flight, unless the end was decided before") {
   Ending e(2 * second);
   CHECK(armed(e, 1, [](Facts& f) {
           f.signal = true;
@@ -232,7 +232,7 @@ TEST_CASE("in silence a repeated signal ends the host at once") {
   CHECK(e.reason() == Reason::failsafe);
 }
 
-TEST_CASE("who gives up in a failsafe ends it: silent at once, over after the silence") {
+TEST_CASE("giving up in a failsafe ends it: silent at once, over after the silence") {
   Ending e(2 * second);
   e.take(Cue::nobody, 0);
   CHECK(armed(e, 1, with_signal) == std::vector{Act::refuse_signal});

@@ -14,7 +14,7 @@
 
 namespace flight_test {
 
-TEST_CASE("what the vehicle reads is flown on in the same tick, and written in it") {
+TEST_CASE("a sample that the vehicle reads is used in the same tick, and its command is written in it") {
   const Graph g = mission(one_phase);
   Flight flight(g, options(0.5));
   const FlightResult r = flight.run();
@@ -23,13 +23,13 @@ TEST_CASE("what the vehicle reads is flown on in the same tick, and written in i
   CHECK(r.first_ns == -1'000'000'000);
   CHECK(r.last_ns == 500'000'000);
   CHECK(r.ticks == 601);
-  // `applied` is published by the next read: it tells of the tick before.
+  // `applied` is published by the next read: it belongs to the previous tick.
   CHECK(value(g, flight, "sim", "applied", "seen_m") == value(g, flight, "sim", "signal", "x_m") - 1);
   CHECK(value(g, flight, "sim", "applied", "present") == 1);
   CHECK(value(g, flight, "sim", "applied", "fresh") == 1);
 }
 
-TEST_CASE("a rate is kept by integer due times and told as dt") {
+TEST_CASE("a rate is kept by integer due times and passed as dt") {
   const Graph g = mission(std::string("  slow: {use: lab/Watch, rate: 70 Hz}\n") + one_phase);
   Flight flight(g, options(9));
   const FlightResult r = flight.run();
@@ -50,7 +50,7 @@ TEST_CASE("a queue brings every sample once") {
   CHECK(value(g, flight, "watch", "tally", "sum_m") == doctest::Approx(3 * n * (n - 1) / 2 + 0.3 * n));
 }
 
-TEST_CASE("what found no room in an output queue is told to the reader") {
+TEST_CASE("samples without room in an output queue are reported to the reader") {
   const Graph g = mission(one_phase, {{"sim.burst_size", "6"}});
   Flight flight(g, options(0));
   flight.run();
@@ -58,7 +58,7 @@ TEST_CASE("what found no room in an output queue is told to the reader") {
   CHECK(value(g, flight, "watch", "tally", "lost_ratio") == 2 * 401);
 }
 
-TEST_CASE("a slow reader of a queue is told what it lost") {
+TEST_CASE("a slow reader of a queue gets the number of lost samples") {
   const Graph g =
       mission(std::string("  slow: {use: lab/Watch, rate: 10 Hz, in: {burst: vehicle.burst}}\n") + one_phase);
   Flight flight(g, options(0));
@@ -79,7 +79,7 @@ TEST_CASE("a component is not stepped before each required input has had a sampl
   CHECK(flight.sample(port(g, "late", "tally")) == nullptr);
 }
 
-TEST_CASE("a delayed wire carries the sample of the previous tick, whoever steps first") {
+TEST_CASE("a delayed wire carries the sample of the previous tick, in any order of steps") {
   const Graph g = mission(
       std::string("  early: {use: lab/OldReader, in: {signal: {from: filter.signal, delayed: true}}}\n"
                   "  late: {use: lab/OldReader, in: {signal: {from: vehicle.signal, delayed: true}}}\n") +
@@ -91,7 +91,7 @@ TEST_CASE("a delayed wire carries the sample of the previous tick, whoever steps
   CHECK(value(g, flight, "late", "tally", "steps_ratio") == 400);
 }
 
-TEST_CASE("a reader that knows fewer fields than the writer is fed by a copy plan") {
+TEST_CASE("a copy plan feeds a reader that has fewer fields than the writer") {
   const Graph g =
       mission(std::string("  old: {use: lab/OldReader, in: {signal: vehicle.signal}}\n") + one_phase);
   Flight flight(g, options(0));
@@ -117,7 +117,7 @@ TEST_CASE("a phase hands over in the tick in which its condition has held for it
   CHECK(r.phases[1].from_ns == 100'000'000);
   CHECK(r.phases[2].from_ns == 300'000'000);
   CHECK(said[1] == "    0.10 s  run.phase_entered(second)");
-  // the newcomer got the outputs last applied in its role
+  // the new component got the last applied outputs of its role
   double taken = 0;
   std::memcpy(&taken, flight.sample(port(g, "two", "taken_over_frac")), sizeof taken);
   CHECK(taken == doctest::Approx(0.1));
@@ -141,7 +141,7 @@ TEST_CASE("an overlay holds while its phase lasts") {
   CHECK(value(g, after, "sim", "applied", "u_frac") == doctest::Approx(0.1));
 }
 
-TEST_CASE("a newcomer that refuses leaves the old one flying") {
+TEST_CASE("a new component that rejects its activation leaves the old one active") {
   const Graph g = mission(
       "phases:\n"
       "  first:  {law: one, next: [{to: second, when: \"vehicle.status.armed\"}]}\n"
@@ -182,7 +182,7 @@ TEST_CASE("every fault of a law is caught in its tick, the fallback flies in the
   }
 }
 
-TEST_CASE("when nobody is left the failsafe values are sent for their time, then nothing") {
+TEST_CASE("without a usable component the failsafe values are sent for their time, then nothing") {
   const Graph g = mission(one_phase, {{"one.fault", "nan"}, {"one.fault_at", "0.1"}});
   Flight in_time(g, options(0.3));
   const FlightResult r = in_time.run();
@@ -191,7 +191,8 @@ TEST_CASE("when nobody is left the failsafe values are sent for their time, then
   CHECK(r.guards[0].action == "failsafe");
   CHECK(value(g, in_time, "sim", "applied", "u_frac") == -0.25);
   CHECK(value(g, in_time, "sim", "applied", "present") == 1);
-  CHECK(value(g, in_time, "sim", "applied", "fresh") == 1);  // in every tick: no vehicle holds it for silence
+  CHECK(value(g, in_time, "sim", "applied", "fresh") == 1);  // in every tick: the vehicle must not detect
+                                                             // silence
   CHECK(value(g, in_time, "sim", "applied", "stale") == 0);
   Flight later(g, options(0.8));
   later.run();
@@ -202,7 +203,7 @@ TEST_CASE("when nobody is left the failsafe values are sent for their time, then
   CHECK(lost.run().last_ns == 1'600'000'000);  // fault at 0.1 s, values for 0.5 s, silence for 1 s
 }
 
-TEST_CASE("a law whose required input has gone stale is not flown on") {
+TEST_CASE("a law with a stale required input is stopped") {
   const Graph g = mission(with_fallback, {{"filter.stop_at", "0.1"}});
   Flight flight(g, options(3));
   const FlightResult r = flight.run();
@@ -212,7 +213,7 @@ TEST_CASE("a law whose required input has gone stale is not flown on") {
   CHECK(r.guards[0].action == "held");
   CHECK(r.guards[1].component == "one");
   CHECK(r.guards[1].what == "run.input_of_stopped(signal, filter)");
-  CHECK(r.guards[1].action == "failsafe");  // the fallback would fly on the same old signal
+  CHECK(r.guards[1].action == "failsafe");  // the fallback would use the same old signal
   for (const GuardEvent& guard : r.guards) CHECK(guard.at_ns == 100'000'000);
 }
 
@@ -229,7 +230,7 @@ TEST_CASE("a live parameter changes the base under an overlay, a set-up paramete
   CHECK(value(g, flight, "sim", "applied", "u_frac") == doctest::Approx(0.6));
 }
 
-TEST_CASE("a stopped component flies again after a reset") {
+TEST_CASE("a stopped component is active again after a reset") {
   const Graph g = mission(with_fallback, {{"one.fault", "nan"}, {"one.fault_at", "0.1"}});
   Flight flight(g, options(0.2));
   flight.run();
@@ -253,11 +254,11 @@ TEST_CASE("equal mission and seed give equal log bytes, another seed gives other
   const std::string a = fly(5, "a.mcap"), b = fly(5, "b.mcap"), c = fly(6, "c.mcap");
   CHECK(a == b);
   CHECK(a != c);
-  CHECK(component_seed(5, "watch") != component_seed(6, "watch"));  // not in the log's words alone
+  CHECK(component_seed(5, "watch") != component_seed(6, "watch"));  // not only in the texts of the log
   CHECK(component_seed(5, "watch") != component_seed(5, "other"));
 }
 
-TEST_CASE("the loop takes no memory, and a component that does is named") {
+TEST_CASE("the loop does not allocate, and a component that does is named") {
   if (!counts_allocations()) return;
   const Graph g = mission(one_phase);
   FlightOptions o = options(1);
@@ -273,7 +274,7 @@ TEST_CASE("the loop takes no memory, and a component that does is named") {
     if (c.name == "one") CHECK(c.allocations == 401);
 }
 
-TEST_CASE("where nobody waits for the clock one tick in eight is timed, of every component at any rate") {
+TEST_CASE("without a use of the clock one tick in eight is timed, for every component at any rate") {
   for (int period = 1; period <= 20; ++period) {
     Graph g = mission(one_phase);
     for (Component& c : g.components)
@@ -299,7 +300,7 @@ TEST_CASE("a paced flight stops a component that is over its budget five times i
   for (Component& c : budgeted.components)
     if (c.name == "one") c.budget_ns = 50'000;
   FlightOptions unpaced = options(0.1);
-  CHECK(Flight(budgeted, unpaced).run().guards.empty());  // an unpaced simulation knows no deadline
+  CHECK(Flight(budgeted, unpaced).run().guards.empty());  // an unpaced simulation has no deadline
   FlightOptions paced = options(0.1);
   paced.speed = 1000;
   const FlightResult r = Flight(budgeted, paced).run();
@@ -308,7 +309,7 @@ TEST_CASE("a paced flight stops a component that is over its budget five times i
   CHECK(r.guards[0].action == "two takes over");
 }
 
-TEST_CASE("a phase whose component and fallback are both stopped leaves flying who flies") {
+TEST_CASE("a phase whose component and fallback are both stopped keeps the active one") {
   const Graph g = mission(
       "  three: {fills: law, use: lab/Law, params: {id: 3, u: 0.3}}\n"
       "phases:\n"
@@ -326,7 +327,7 @@ TEST_CASE("a phase whose component and fallback are both stopped leaves flying w
   CHECK(said.back() == "    0.40 s  law: run.no_candidate(three)");
 }
 
-TEST_CASE("a newcomer whose required input has no sample does not take over") {
+TEST_CASE("a new component whose required input has no sample does not take over") {
   const Graph g = mission(
       "  hungry: {fills: law, use: lab/Hungry, in: {never: late.echo}}\n"
       "  late:   {use: lab/Late, in: {never: {from: late.echo, delayed: true}}}\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a flight says of itself, flown in a laboratory (lab.cpp): how it ends, its verdict, answers to
-// requests, the events in its log.
+// Texts of a flight, flown in a laboratory (lab.cpp): its end, its verdict, answers to requests, the events
+// in its log.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -49,7 +49,7 @@ TEST_CASE("done, failed and timeout end a flight, in words") {
 
 namespace {
 
-/// A flight without a log, and what it is called.
+/// A flight without a log, and its outcome.
 struct Called {
   FlightResult result;
   std::string verdict;
@@ -66,7 +66,7 @@ Called called(const std::string& tail, const std::vector<std::pair<std::string, 
 
 }  // namespace
 
-TEST_CASE("a flight that is done without what its mission calls flown is aborted") {
+TEST_CASE("a flight that is done without the mission's `flown` condition is aborted") {
   const std::string done = "done: \"vehicle.signal.tick_s > 0.2 s\"\n";
   const Called aborted = called(done + "flown: \"vehicle.signal.tick_s > 0.3 s\"\n");
   CHECK(aborted.result.outcome == Outcome::aborted);
@@ -82,18 +82,18 @@ TEST_CASE("a flight that is done without what its mission calls flown is aborted
         Outcome::failed);
 }
 
-TEST_CASE("the verdict of a flight is what a component says of it, in one line") {
+TEST_CASE("the verdict of a flight comes from a component, in one line") {
   const std::string said = "  herald: {use: lab/Herald}\nverdict: herald.said\n";
   const std::string failed = "failed: \"vehicle.signal.tick_s > 0.2 s\"\n";
   CHECK(called(said + failed).verdict == "crashed: the nose touched");
   CHECK(called(said + failed, {{"herald.names", "false"}}).verdict == "failed: the nose touched");
-  CHECK(called(said + failed, {{"herald.at", "9"}}).verdict == "failed");  // nothing was said
+  CHECK(called(said + failed, {{"herald.at", "9"}}).verdict == "failed");  // there was no text
   CHECK(called(said + "done: \"vehicle.signal.tick_s > 0.2 s\"\n").verdict == "flown: the nose touched");
   CHECK_THROWS_WITH_AS(called("  herald: {use: lab/Herald}\nverdict: herald.other\n"),
                        doctest::Contains("graph.event_fields_missing(herald.other, Tally)"), Error);
 }
 
-TEST_CASE("a flight whose verdict has no component flies, and names what it is without") {
+TEST_CASE("a flight whose verdict has no component flies, and names the missing one") {
   const Called c = called(
       "  herald: {use: lab/Herald, only: fcu}\nverdict: herald.said\n"
       "done: \"vehicle.signal.tick_s > 0.2 s\"\n");
@@ -113,7 +113,7 @@ TEST_CASE("a phase remembers the condition that led to it") {
   CHECK(r.phases[1].because == "vehicle.signal.tick_s > 0.1 s");
 }
 
-TEST_CASE("a request is answered by the step that sees it") {
+TEST_CASE("a request is answered by the step that reads it") {
   const Graph g = mission(std::string("done: \"vehicle.signal.tick_s > 0.2 s\"\n") + one_phase);
   FlightOptions o;
   o.log = false;
@@ -189,7 +189,7 @@ TEST_CASE("each event is a line for log panels as well, with its level and the t
   CHECK(line == reported.size());
   CHECK(line >= 2);
   CHECK(levels == 20 * line);
-  CHECK(reported.back().code == Code::concluded);  // the verdict is the last word
+  CHECK(reported.back().code == Code::concluded);  // the verdict is the last event
   CHECK(std::string(reported.back().name.data()) == "flown");
   CHECK(std::string(reported.back().words.data()) == "run.concluded(flown, duration reached)");
   Event bad = event_of(Code::failsafe);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The libraries of the host as another build would have made them.
+// Libraries of the host from another build.
 struct table {
   const char* build;
   void* open;

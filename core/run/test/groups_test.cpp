@@ -58,11 +58,11 @@ TEST_CASE("it takes over all its roles in one tick, and hands over all of them i
   double taken = 0;
   std::memcpy(&taken, after.sample(port(g, "two", "taken_over_frac")), sizeof taken);
   CHECK(taken == doctest::Approx(0.7));
-  // who does not fly does not step
+  // an inactive component does not step
   CHECK(value(g, after, "both", "steps_ratio", "") == 41);
 }
 
-TEST_CASE("when it is stopped each of its roles falls back in that tick, who feeds others first") {
+TEST_CASE("when it is stopped each of its roles falls back in that tick, sources first") {
   for (const char* const fallbacks :
        {"{law: {use: both, fallback: two}}", "{sense: {use: both, fallback: filter}}",
         "{sense: {use: both, fallback: filter}, law: {fallback: one}}"}) {
@@ -81,7 +81,7 @@ TEST_CASE("when it is stopped each of its roles falls back in that tick, who fee
   }
 }
 
-TEST_CASE("it falls back from single components, and brings its other role along") {
+TEST_CASE("it is the fallback of single components, and takes its other role as well") {
   const Graph g = mission(std::string(both) + "phases:\n  fly: {law: {use: one, fallback: both}}\n",
                           {{"one.fault", "nan"}, {"one.fault_at", "0.1"}});
   Flight flight(g, options(0.2));
@@ -90,10 +90,10 @@ TEST_CASE("it falls back from single components, and brings its other role along
   CHECK(r.guards[0].action == "both takes over");
   CHECK(value(g, flight, "sim", "applied", "by") == 7);
   const double filtered = value(g, flight, "filter", "signal", "tick_s");
-  CHECK(filtered == doctest::Approx(0.1));  // it rests: nobody needs it
+  CHECK(filtered == doctest::Approx(0.1));  // it rests: no role needs it
 }
 
-TEST_CASE("without a fallback that can fly there is failsafe, not half a group") {
+TEST_CASE("without a usable fallback there is failsafe, not half a group") {
   const Graph g = mission(std::string(both) + "phases:\n  fly: {law: both}\n", {{"both.fails_at", "0.1"}});
   Flight flight(g, options(0.3));
   const FlightResult r = flight.run();
@@ -102,7 +102,7 @@ TEST_CASE("without a fallback that can fly there is failsafe, not half a group")
   CHECK(value(g, flight, "sim", "applied", "u_frac") == -0.25);
 }
 
-TEST_CASE("one of its followers refuses: it keeps all its roles") {
+TEST_CASE("one of its successors rejects its activation: it keeps all its roles") {
   const Graph g =
       mission(std::string(both) +
                   "phases:\n"
@@ -115,11 +115,10 @@ TEST_CASE("one of its followers refuses: it keeps all its roles") {
   CHECK(r.guards[0].what == "run.cannot_take_over(refuses to take over)");
   CHECK(r.guards[0].action == "the old one stays");
   CHECK(value(g, flight, "sim", "applied", "by") == 7);
-  CHECK(value(g, flight, "filter", "signal", "tick_s") ==
-        doctest::Approx(0.1));  // the tick in which it had tried
+  CHECK(value(g, flight, "filter", "signal", "tick_s") == doctest::Approx(0.1));  // the tick of the attempt
 }
 
-TEST_CASE("it refuses: the pair goes on") {
+TEST_CASE("it rejects its activation: the pair continues") {
   const Graph g = mission(std::string(both) + there_and_back, {{"both.refuse", "true"}});
   Flight flight(g, options(0.15));
   const FlightResult r = flight.run();
@@ -128,7 +127,7 @@ TEST_CASE("it refuses: the pair goes on") {
   CHECK(value(g, flight, "sim", "applied", "by") == 1);
 }
 
-TEST_CASE("what a phase sets holds in all its roles, and is said once") {
+TEST_CASE("a phase's settings apply in all its roles, and are written once") {
   const std::string set = std::string(both) + "phases:\n  fly: {law: {use: both, set: {u: -0.4}}}\n";
   const Graph g = mission(set);
   Flight flight(g, options(0.1));
@@ -154,7 +153,7 @@ TEST_CASE("--role puts the group, or a single one, in its place in every phase")
                     "--role: graph.components_share_roles(two, law, both, sense and law)");
 }
 
-TEST_CASE("groups that cannot be are refused, with a sentence") {
+TEST_CASE("impossible groups are rejected, with a sentence") {
   const std::string flies = one_phase;
   struct Case {
     std::string mission;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a change of hands does beside the hand-over itself: who is asked, what is passed on, what is refused,
-// what the result tells of it.
+// Side effects of a hand-over: activation, passed values, rejections, the record in the result.
 #include "core/run/test/commands.hpp"
 #include "core/run/test/lab.hpp"
 
@@ -19,7 +18,7 @@ double probe(const Graph& g, const Flight& flight, const std::string& component,
 
 }  // namespace
 
-TEST_CASE("what was applied is passed on only to who has a message of the same make") {
+TEST_CASE("the last applied output is passed on only for an equal message type") {
   const Graph g =
       mission("  new: {fills: law, use: lab/NewLaw}\n"s +
               "phases:\n  first: {law: new, next: [{to: second, when: \"vehicle.status.armed\"}]}\n"
@@ -27,10 +26,10 @@ TEST_CASE("what was applied is passed on only to who has a message of the same m
   Flight flight(g, options(0.1));
   flight.run();
   CHECK(value(g, flight, "sim", "applied", "by") == 2);
-  CHECK(probe(g, flight, "two", "taken_over_frac") == 0);  // not -77, which stands first in the other's
+  CHECK(probe(g, flight, "two", "taken_over_frac") == 0);  // not -77, the first field of the other's
 }
 
-TEST_CASE("a newcomer of a low rate flies in the tick of the change, not in that of its period") {
+TEST_CASE("a new component of a low rate steps in the tick of the change, not in that of its period") {
   const Graph g = mission(
       "  two: {fills: law, use: lab/Law, rate: 50 Hz, params: {id: 2, u: 0.2}}\n"
       "phases:\n"
@@ -42,7 +41,7 @@ TEST_CASE("a newcomer of a low rate flies in the tick of the change, not in that
   CHECK(value(g, flight, "two", "command", "seen_m") == value(g, flight, "sim", "signal", "x_m"));
 }
 
-TEST_CASE("the result tells who flew from when to when, and how long each phase was") {
+TEST_CASE("the result has the times of each active component, and the duration of each phase") {
   const Graph g = mission(one_then_two);
   Flight flight(g, options(0.3));
   const FlightResult r = flight.run();
@@ -62,7 +61,7 @@ TEST_CASE("the result tells who flew from when to when, and how long each phase 
   CHECK(law[1].to_ns == 300'000'000);
 }
 
-TEST_CASE("a fallback that was stopped itself is not asked again") {
+TEST_CASE("a fallback that was stopped itself is not activated again") {
   const Graph g = mission(
       "phases:\n"
       "  a: {law: {use: two, fallback: one}, next: [{to: b, when: \"vehicle.signal.tick_s >= 0.2 s\"}]}\n"
@@ -75,8 +74,9 @@ TEST_CASE("a fallback that was stopped itself is not asked again") {
   CHECK(r.guards[1].action == "failsafe");
 }
 
-TEST_CASE("who has asked a component that is stopped then is told so") {
-  const Graph g = mission(  // it is asked between two of its steps, and what it threw is heard 10 ms later
+TEST_CASE("the sender of a request to a component that is then stopped gets an answer") {
+  const Graph g = mission(  // the request comes between two of its steps, and its exception arrives 10 ms
+                            // later
       "  watch: {use: lab/Watch, rate: 20 Hz, run: async, latency: 10 ms, params: {stop_at: 0.1 s}, in: "
       "{burst: "
       "vehicle.burst, applied: vehicle.applied}}\n"s +
@@ -89,21 +89,21 @@ TEST_CASE("who has asked a component that is stopped then is told so") {
   CHECK(answers == std::vector<std::string>{"was stopped"});
 }
 
-TEST_CASE("a request that nobody answers is not answered by the one before it") {
+TEST_CASE("a request without an answer does not get the previous one's") {
   const Graph g = mission(one_phase);
   Flight flight(g, options(0.2));
   std::vector<std::string> answers;
-  for (const double to : {1.0, 200.0}) {  // the second is passed over
+  for (const double to : {1.0, 200.0}) {  // the second is not answered
     request(flight, "watch", "ask", to, [&](const std::string& answer) { answers.push_back(answer); });
     REQUIRE(flight.step());
   }
   CHECK(answers == std::vector<std::string>{"", "was not answered"});
 }
 
-TEST_CASE("a sample is fresh once: in the tick after which it has been read it is not") {
+TEST_CASE("a sample is fresh once: not in the tick after the one that has read it") {
   const Graph g =
       mission("  one: {fills: law, use: lab/Law, rate: 50 Hz, params: {id: 1, u: 0.1}}\n"s + one_phase);
-  Flight stepped(g, options(0.1025));  // what is told of is the tick before
+  Flight stepped(g, options(0.1025));  // the report is about the previous tick
   stepped.run();
   CHECK(value(g, stepped, "sim", "applied", "fresh") == 1);
   Flight between(g, options(0.105));
@@ -112,7 +112,7 @@ TEST_CASE("a sample is fresh once: in the tick after which it has been read it i
   CHECK(value(g, between, "sim", "applied", "fresh") == 0);
 }
 
-TEST_CASE("each item of a queue is looked at, not the first alone") {
+TEST_CASE("each item of a queue is checked, not only the first") {
   const Graph g = mission(one_phase, {{"sim.bad_item", "1"}});
   Flight flight(g, options(0.1));
   const FlightResult r = flight.run();
@@ -120,7 +120,7 @@ TEST_CASE("each item of a queue is looked at, not the first alone") {
   CHECK(r.reason == "run.vehicle_failed(output 'burst': types.value_not_finite(x_m, nan))");
 }
 
-TEST_CASE("a component that goes on with its group was never put down") {
+TEST_CASE("a component that stays with its group is not deactivated") {
   const Graph g = mission(
       "  both: {fills: [sense, law], use: lab/Both, in: {signal: vehicle.signal}, params: {u: 0.7}}\n"
       "  mute: {use: lab/Filter, in: {signal: vehicle.signal}, params: {mute_at: -1e9 s}}\n"
@@ -136,7 +136,7 @@ TEST_CASE("a component that goes on with its group was never put down") {
   CHECK(probe(g, flight, "both", "steps_ratio") > 400);  // since the beginning
 }
 
-TEST_CASE("a flight in which nobody commanded was not begun, unless the aircraft has left the ground") {
+TEST_CASE("a flight without a command has not begun, unless the aircraft has left the ground") {
   const Graph g = mission(
       "  fcu: {fills: vehicle, use: lab/Cart}\n"
       "  hungry: {fills: law, use: lab/Hungry, run: tick, in: {never: late.echo}}\n"

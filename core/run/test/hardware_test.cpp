@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flights with io: fcu on a vehicle that stands for hardware (craft.cpp): who is in control, how such a
-// flight ends, what is told.
+// Flights with io: fcu on a vehicle that represents hardware (craft.cpp): control, the end of such a flight,
+// its reports.
 #include <atomic>
 
 #include "core/log/events.hpp"
@@ -10,7 +10,7 @@
 
 namespace hardware_test {
 
-TEST_CASE("as long as the vehicle does not obey, its controllers begin anew in every step") {
+TEST_CASE("while the vehicle does not obey, its controllers start again in every step") {
   const std::vector<std::pair<std::string, std::string>> set = {
       {"craft.arm_at", "1"}, {"craft.pilot_from", "2"}, {"craft.pilot_until", "4"}};
   for (const bool held : {true, false}) {
@@ -30,7 +30,7 @@ TEST_CASE("as long as the vehicle does not obey, its controllers begin anew in e
   }
 }
 
-TEST_CASE("in simulation the controllers own the time before arming, also without in_control") {
+TEST_CASE("in simulation the controllers are free before arming, also without in_control") {
   const Graph g = craft("control: [law]\n", {{"craft.arm_at", "1"}, {"craft.pilot_from", "2"}}, "sim");
   Said said;
   Flight flight(g, listening(said));
@@ -44,7 +44,7 @@ TEST_CASE("in simulation the controllers own the time before arming, also withou
   CHECK(other.run().outcome == Outcome::flown);
 }
 
-TEST_CASE("while the vehicle does not obey, or the computer stands still, nobody has to speak") {
+TEST_CASE("while the vehicle does not obey, or the computer stands still, no output is expected") {
   const auto count = [](const std::vector<std::pair<std::string, std::string>>& set, double until_s) {
     const Graph g = craft(
         "  echo: {use: craft/Echo, in: {state: vehicle.status}}\nphases:\n  fly: {law: law_a}\n"
@@ -62,7 +62,7 @@ TEST_CASE("while the vehicle does not obey, or the computer stands still, nobody
   CHECK(count({{"craft.jump_at", "2"}, {"echo.mute_from", "1.9"}, {"echo.mute_until", "12.3"}}, 13) == 0);
 }
 
-TEST_CASE("a controller that works in another thread begins anew once, when control returns") {
+TEST_CASE("a controller in another thread starts again once, when control returns") {
   const Graph g = craft(
       "  law_b: {fills: law, use: craft/Hoarder, run: async, latency: 10 ms}\nphases:\n  fly: {law: "
       "law_b}\ncontrol: [law]\n",
@@ -92,7 +92,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a mission that is done while armed flies on until the aircraft is disarmed, and says so once") {
+TEST_CASE("a mission that is done while armed flies on until the aircraft is disarmed, and reports it once") {
   const Graph g =
       craft("done: \"vehicle.status.tick_s > 1 s\"\ntimeout: 1.5 s\n", {{"craft.disarm_at", "3"}});
   Said said;
@@ -124,7 +124,7 @@ TEST_CASE("a mission that fails while armed continues until disarmed; disarmed i
   }
 }
 
-TEST_CASE("a duration does not take an armed aircraft out of the air") {
+TEST_CASE("a duration does not end the flight of an armed aircraft") {
   const Graph g = craft("", {{"craft.disarm_at", "2"}});
   Said said;
   FlightOptions o = listening(said);
@@ -177,9 +177,9 @@ TEST_CASE(
   CHECK(fly_until(flight, 11.9));
   interrupt = 15;
   CHECK(fly_until(flight, 11.91));
-  CHECK(interrupt == 15);  // the next one finds it unanswered
+  CHECK(interrupt == 15);  // the next one finds the first unanswered
   CHECK_FALSE(obeyed(g, flight));
-  CHECK(applied(g, flight) != -0.25);  // as the failsafe has it
+  CHECK(applied(g, flight) != -0.25);  // value of the failsafe
   CHECK(fly_until(flight, 12.5));
   CHECK_FALSE(obeyed(g, flight));
   CHECK(applied(g, flight) != -0.25);
@@ -234,7 +234,7 @@ TEST_CASE(
   CHECK(said.warnings == std::vector<bool>{false, false, true, false});
   const WholeLog file = read_mcap(o.log_file);
   const std::uint16_t channel = file.channel("/fulmar/event");
-  std::vector<std::string> causes;  // a word of the component, for those who read no sentences
+  std::vector<std::string> causes;  // a label of the component, for clients that do not use texts
   for (const auto& m : file.messages)
     if (m.channel == channel)
       if (const Event e = HostTopic<Event>(file).read(m.data); e.code == Code::notice)
@@ -278,7 +278,7 @@ TEST_CASE(
 
 namespace {
 
-/// The craft again, with flags under names of its own (craft.cpp: Strange).
+/// The craft again, with flags of other names (craft.cpp: Strange).
 Graph strange(const std::string& flags, const std::string& io = "fcu", const std::string& out = "gear: Gear",
               const std::string& tail = "") {
   const fs::path file = folder().path / "strange.yaml";
@@ -320,7 +320,7 @@ TEST_CASE("in the air 'failed' is a warning, and 'done' is none") {
   }
 }
 
-TEST_CASE("a vehicle that does not go without a command gets the failsafe's, even if none was ever given") {
+TEST_CASE("a vehicle that needs a command gets the failsafe's, even if none was ever given") {
   const fs::path file = folder().path / "demanding.yaml";
   std::ofstream(file) << "mission: demanding\nfailsafe: {u_frac: -0.25, for: 0.5 s}\nroles:\n"
                          "  vehicle: {in: {command: law.command}, out: {status: State, applied: Received}}\n"
@@ -343,7 +343,7 @@ TEST_CASE("a flag of any name protects the aircraft once the mission names it") 
   FlightOptions o = listening(said);
   o.interrupt = &interrupt;
   Flight flight(g, o);
-  CHECK(fly_until(flight, 1.5));  // done, and armed: it goes on
+  CHECK(fly_until(flight, 1.5));  // done, and armed: it continues
   CHECK(said.count("run.end_deferred(done: , vehicle.state.tick_s > 1 s)") == 1);
   interrupt = 2;
   CHECK(fly_until(flight, 2));
@@ -378,10 +378,10 @@ TEST_CASE(
             .find("graph.vehicle_flags_missing(craft, craft/Strange, on_ground, status, on_ground: "
                   "PORT.FIELD,  Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, "
                   "state.on_ground, state.in_control.)") != std::string::npos);
-  CHECK(refusal("", "sim") == "");  // what is simulated can be left alone
+  CHECK(refusal("", "sim") == "");  // a simulated aircraft needs no protection
 }
 
-TEST_CASE("a flag that cannot be one is refused with the choices, in simulation too") {
+TEST_CASE("an invalid flag is rejected with the choices, in simulation too") {
   const std::string all =
       " Its flags: applied.present, gear.motors_live, gear.obeys, state.armed, state.on_ground, "
       "state.in_control.";
@@ -428,7 +428,7 @@ TEST_CASE(
   CHECK(r.reason == "run.ended_by_signal");
 }
 
-TEST_CASE("in simulation control that was there and is lost is lost, though nothing said 'armed'") {
+TEST_CASE("in simulation a loss of control is detected, even without a flag armed") {
   const Graph g = strange(",\n    flags: {armed: state.armed, in_control: gear.obeys}", "sim", its_ports,
                           "control: [law]\n");
   Said said;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A laboratory for the loop: a cart that counts its ticks (lab_cart.hpp), a law that misbehaves on demand
-// (lab_law.hpp), and the components beside them.
+// A laboratory for the loop: a cart that counts its ticks (lab_cart.hpp), a law with configurable faults
+// (lab_law.hpp), and further components.
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -67,7 +67,7 @@ struct Watch {  ///< fills no role
     }
     if (in.applied) tally_.applied_seen_m = in.applied->seen_m;
     for (auto request : in.ask) {
-      if (request.value().to_m > 100) continue;  // passes it over
+      if (request.value().to_m > 100) continue;  // not answered
       if (request.value().to_m < 0)
         request.refuse("cannot go back");
       else
@@ -88,7 +88,7 @@ struct Said {
   Text<64> text;
 };
 
-struct Herald {  ///< says how the flight went
+struct Herald {  ///< publishes the verdict of the flight
   struct Inputs {};
   struct Outputs {
     Out<Said> said;
@@ -104,7 +104,7 @@ struct Herald {  ///< says how the flight went
   }
 };
 
-// The same message as Command, as another SDK knows it: a field more, in front.
+// The message Command of another SDK version: one more field, in front.
 namespace newer {
 struct Command {
   double extra_m = 0, u_frac = 0, seen_m = 0;
@@ -126,7 +126,7 @@ struct NewLaw {
   }
 };
 
-// The same message as Signal, as an older SDK knew it: one field less.
+// The message Signal of an older SDK: one field less.
 namespace older {
 struct Signal {
   double tick_s = 0;
@@ -148,8 +148,8 @@ struct OldReader {
   }
 };
 
-/// A device of its own: one sample per millisecond of the wall clock, at most `samples`; then it fails, or
-/// falls silent.
+/// A device: one sample per millisecond of the wall clock, at most `samples`; then it fails, or becomes
+/// silent.
 struct Ticker {
   struct Inputs {};
   struct Outputs {
@@ -175,7 +175,7 @@ struct Ticker {
   int n_ = 0;
 };
 
-/// Takes its time and its memory: what it publishes belongs to the tick in which it began.
+/// A slow component with a large heap: its outputs belong to the tick in which its step began.
 struct Thinker {
   struct Inputs {
     In<Signal> signal;
@@ -205,7 +205,7 @@ struct Thinker {
   double began_m_ = -1;
 };
 
-struct Late {  ///< hands on what comes; mostly that is never
+struct Late {  ///< passes its input on; usually there is none
   struct Inputs {
     In<Command> never;
   };
@@ -225,7 +225,7 @@ struct Late {  ///< hands on what comes; mostly that is never
   }
 };
 
-struct Mute {  ///< a law that may say nothing
+struct Mute {  ///< a law that may publish nothing
   struct Inputs {
     In<Signal> signal;
   };
@@ -253,7 +253,7 @@ struct Mute {  ///< a law that may say nothing
   }
 };
 
-struct Hungry {  ///< a law with an input that never comes, and no activate
+struct Hungry {  ///< a law with an input that never comes, without activate
   struct Inputs {
     In<Signal> signal;
     In<Command> never;
@@ -277,7 +277,7 @@ struct Both {
     Out<Signal> signal;
     Command command;
     Probe steps_ratio;      ///< since it took over
-    Probe taken_over_frac;  ///< what was applied then
+    Probe taken_over_frac;  ///< the last applied value at that time
     Probe taken_over_m;
   };
   struct Params {

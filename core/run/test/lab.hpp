@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flights in a laboratory (lab.cpp): a cart that counts its ticks, laws that misbehave on demand.
+// Flights in a laboratory (lab.cpp): a cart that counts its ticks, laws with configurable faults.
 #pragma once
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -35,7 +35,7 @@ inline Folder& folder() {
   return f;
 }
 
-/// The laboratory's plugin, built otherwise.
+/// Another build of the laboratory's plugin.
 inline std::string variant(const std::string& name) {
   return std::string(FULMAR_TEST_PLUGIN_DIR) + "/lab" + name + ".so";
 }
@@ -62,12 +62,12 @@ inline Graph mission(const std::string& tail,
                      const std::vector<std::pair<std::string, std::string>>& set = {},
                      std::uint64_t seed = 1) {
   const fs::path file = folder().path / "lab.yaml";
-  // a component that the tail describes takes the place of the one in the base
+  // a component of the tail replaces the one in the base
   std::istringstream lines{std::string(base)};
   std::ofstream out(file);
   for (std::string line; std::getline(lines, line);) {
     const std::string key = line.substr(0, line.find(':') + 1);
-    // on hardware a mission has to name what the cart's status does not say
+    // on hardware a mission must name the flags that the cart's status lacks
     if (key == "  vehicle:" && tail.find("io: fcu") != std::string::npos)
       line.insert(line.find("{in:") + 1, "flags: {on_ground: stance.stands, in_control: stance.obeys}, ");
     if (!line.starts_with("  ") || key.empty() || ("\n" + tail).find("\n" + key) == std::string::npos)

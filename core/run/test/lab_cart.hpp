@@ -20,7 +20,7 @@ struct Signal {
 struct Command {
   double u_frac = 0;
   double seen_m = 0;     ///< x of the signal that the command was computed from
-  std::uint32_t by = 0;  ///< who computed it
+  std::uint32_t by = 0;  ///< number of the component that computed it
 };
 
 struct Received {
@@ -51,8 +51,8 @@ struct Cart {
     Out<Received> applied;  ///< what write received in the tick before
     OutQueue<Signal, 4> burst;
     Out<Arm> status;
-    Out<Stance> stance;  ///< flags that only a mission can name
-    Probe distance_m;    ///< when it is asked for
+    Out<Stance> stance;  ///< flags that a mission must name
+    Probe distance_m;    ///< only on request
   };
   struct Params {
     Param rate{400, "Hz", 1, 10000, "tick rate", setup};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laboratory's law, which misbehaves on demand. Part of lab.cpp, compiled as several variants.
+// The laboratory's law with configurable faults. Part of lab.cpp, compiled as several variants.
 #pragma once
 #include <fcntl.h>
 #include <spawn.h>
@@ -63,7 +63,7 @@ enum class Fault : std::uint8_t {
   parts
 };
 
-/// A copy of the process by the kernel's own call, which no function of the C library sees.
+/// Copies the process by a direct system call, without a function of the C library.
 pid_t clone_process() { return static_cast<pid_t>(syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0)); }
 
 /// Whether a copy of the process ends by the signal that it raises.
@@ -77,7 +77,7 @@ bool copy_ends_by(int signal) {
   return waitpid(copy, &status, 0) == copy && WIFSIGNALED(status) && WTERMSIG(status) == signal;
 }
 
-// Recursion without an end that no compiler can turn into a loop.
+// Endless recursion that no compiler can turn into a loop.
 double overflow(double x) {
   volatile char room[4096];
   room[static_cast<std::size_t>(x) % sizeof room] = 1;
@@ -86,7 +86,7 @@ double overflow(double x) {
 
 void* volatile nowhere = nullptr;
 
-/// Threads that end the program at one time, by a handler that throws.
+/// Threads that end the program at the same time, by a handler that throws.
 inline void terminate_together() {
   constexpr int most = 6;
   static std::atomic<int> ready{0};
@@ -100,7 +100,7 @@ inline void terminate_together() {
   for (std::thread& thread : threads) thread.join();
 }
 
-struct Parting {  // crashes when its library goes
+struct Parting {  // crashes when its library is unloaded
   bool crashes = false;
   ~Parting() {
     if (crashes) *static_cast<volatile int*>(nowhere) = 1;
@@ -201,7 +201,8 @@ struct Law {
       case Fault::rounds: std::fesetround(FE_UPWARD); break;
       case Fault::narrows: {
 #if defined(__x86_64__)
-        const std::uint16_t double_precision = 0x027f;  // of the x87's numbers, which are long double
+        const std::uint16_t double_precision = 0x027f;  // precision of the x87's numbers, which are long
+                                                        // double
         asm volatile("fldcw %0" ::"m"(double_precision));
 #else
         std::fesetround(FE_UPWARD);
@@ -221,7 +222,7 @@ struct Law {
         sigaction(SIGSEGV, &action, nullptr);
         break;
       }
-      case Fault::fosters: {  // a process of its own, in which it may do as it likes
+      case Fault::fosters: {  // a separate process, which is unrestricted
         const pid_t child = clone_process();
         if (child == 0) {
           char name[] = "true";
@@ -253,7 +254,7 @@ struct Law {
       case Fault::forks:
         if (clone_process() == 0) std::exit(0);
         break;
-      case Fault::forks_on: std::ignore = fork(); break;  // and both go on
+      case Fault::forks_on: std::ignore = fork(); break;  // and both continue
       case Fault::vforks_on: std::ignore = vfork(); break;
       case Fault::clones_on:
         if (!std::exchange(cloned_, true)) clone_process();

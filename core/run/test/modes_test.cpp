@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Run modes: in a child, with a latency, in a thread of its own.
+// Run modes: in a child, with a latency, in a separate thread.
 #include <cmath>
 #include <cstdlib>
 
@@ -72,9 +72,9 @@ TEST_CASE(
   const double seen = value(g, flight, "think", "thought", "x_m");
   CHECK(now == 600);
   CHECK(seen <= now - 20);  // 20 ticks of 2.5 ms
-  CHECK(seen > now - 24);   // and the next one is on its way
+  CHECK(seen > now - 24);   // and the next one is pending
   CHECK(std::fmod(seen, 4) == 0);
-  // it was activated when its input was there for the first time
+  // it was activated when its input first existed
   CHECK(value(g, flight, "think", "thought", "tick_s") == 0);
   for (const ComponentStats& c : r.components)
     if (c.name == "think") CHECK(c.misses == 0);
@@ -118,7 +118,7 @@ TEST_CASE("live changes reach an asynchronous component in order") {
   CHECK(value(g, flight, "think", "thought", "x_m") < 0);
 }
 
-TEST_CASE("samples of a driver enter at the next tick, are recorded whole, and fly again from the log") {
+TEST_CASE("samples of a driver enter at the next tick, are recorded completely, and replay from the log") {
   const std::string tail =
       "  gauge: {use: lab/Ticker, run: driver, params: {samples: 30}}\n  count: {use: lab/Watch, in: {burst: gauge.reading}}\n"s +
       one_phase;
@@ -158,7 +158,7 @@ TEST_CASE("samples of a driver enter at the next tick, are recorded whole, and f
   CHECK(messages("again.mcap", "/gauge/probes") == messages("driven.mcap", "/gauge/probes"));
 }
 
-TEST_CASE("a driver that fails is stopped, and told of") {
+TEST_CASE("a driver that fails is stopped, and reported") {
   const Graph g =
       mission("  gauge: {use: lab/Ticker, run: driver, params: {samples: 3, fails: true}}\n"s + one_phase);
   FlightOptions o = options(0.5);
@@ -171,7 +171,7 @@ TEST_CASE("a driver that fails is stopped, and told of") {
   CHECK(r.guards[0].what == "says that it failed");
 }
 
-TEST_CASE("a driver's sample is valid when the driver says, else when it arrives") {
+TEST_CASE("a driver's sample is valid at the driver's stamp, else at its arrival") {
   for (const bool dated : {true, false}) {
     CAPTURE(dated);
     const Graph g =
@@ -197,7 +197,7 @@ TEST_CASE("a driver's sample is valid when the driver says, else when it arrives
   }
 }
 
-TEST_CASE("run modes that do not fit are refused") {
+TEST_CASE("run modes that do not fit are rejected") {
   const auto refused = [](const std::string& tail) {
     try {
       mission(tail + one_phase);
@@ -232,13 +232,13 @@ TEST_CASE(
     FAIL("no component " << name);
     return RunMode::tick;
   };
-  CHECK(mode("fcu") == RunMode::tick);  // a vehicle is the loop's own
+  CHECK(mode("fcu") == RunMode::tick);  // a vehicle runs in the loop
   CHECK(mode("one") == RunMode::process);
   CHECK(mode("two") == RunMode::tick);
   for (const Component& c : mission(with_fallback).components) CHECK(c.run == RunMode::tick);
 }
 
-TEST_CASE("results that were on their way when a component was put down are nobody's when it flies again") {
+TEST_CASE("pending results of a deactivated component are dropped when it is active again") {
   mission("");
   const fs::path file = folder().path / "muse.yaml";
   std::ofstream(file)
@@ -261,14 +261,14 @@ TEST_CASE("results that were on their way when a component was put down are nobo
     return value(g, flight, "think", "thought", field);
   };
   const double last = thought(0.1, "x_m");
-  CHECK(thought(0.2, "x_m") == last);  // up to there old ones would have come
+  CHECK(thought(0.2, "x_m") == last);  // until then old ones would have come
   CHECK(thought(0.25, "x_m") > last);
   CHECK(thought(0.25, "tick_s") == 448);  // it took over at 0.12 s, in tick 448
 }
 
 namespace {
 
-/// Fails always, and says why the first time.
+/// Always fails, with a message only the first time.
 std::uint32_t fail(void* times, const fulmar_tick*, const fulmar_input*, fulmar_output*,
                    fulmar_error* error) {
   if ((*static_cast<int*>(times))++ == 0) std::strcpy(error->text, "out of paper");
@@ -311,9 +311,9 @@ TEST_CASE(
   CHECK_FALSE(worker.submit(Call::step));
 }
 
-TEST_CASE("what a step in another thread said when it failed is not said by a later one that says nothing") {
+TEST_CASE("the message of a failed step in another thread is not repeated by a later one without a message") {
   const Worker worker(1);
-  for (int i = 0; i < 12; ++i) {  // in each place for a call more than once
+  for (int i = 0; i < 12; ++i) {  // more than once for each slot of a call
     REQUIRE(worker.submit(Async::Job::Call::step));
     worker.async->wait();
     CHECK(std::string(worker.async->oldest()->error.text) == (i == 0 ? "out of paper" : ""));

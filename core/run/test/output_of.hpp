@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a flight that is stepped by hand keeps what a component says.
+// Output with a component's messages, in a flight that is stepped by the test.
 #pragma once
 #include <stdexcept>
 #include <string>

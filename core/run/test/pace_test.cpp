@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A simulation that is paused, stepped, and made to fly faster or slower while it flies. Nothing here waits
-// for a time to be right, only for something to happen.
+// A simulation that is paused, stepped, and set to another speed in flight. No test depends on a duration;
+// each waits for an event.
 #include "core/tap/pace.hpp"
 
 #include <atomic>
@@ -27,7 +27,7 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 PaceOrder order(PaceOrder::What what) { return {what, 0, 0}; }
 constexpr auto pause = PaceOrder::What::pause, resume = PaceOrder::What::resume;
 
-/// A flight in a thread of its own, from where others speak to it.
+/// A flight in a separate thread, which other threads command.
 class Aloft {
  public:
   explicit Aloft(const std::string& tail = one_phase, double duration_s = 90, double speed = 1,
@@ -74,7 +74,7 @@ class Aloft {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
-  /// As the flight ends by itself.
+  /// Waits for the flight's own end.
   FlightResult wait() {
     thread_.join();
     return result_;
@@ -115,7 +115,7 @@ TEST_CASE("a paused flight stands still, answers, and takes parameters at once")
   CHECK(aloft.pace(order(pause)) == "run.flight_already_paused");
   CHECK(aloft.set("0.5") == "");
   for (int i = 0; i < 5; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // several periods: there would be ticks
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // several periods: ticks would occur
     CHECK(aloft.now_ns() == then);
   }
   CHECK(aloft.pace(order(resume)) == "");
@@ -126,7 +126,7 @@ TEST_CASE("a paused flight stands still, answers, and takes parameters at once")
   CHECK(value(aloft.graph(), aloft.flight(), "one", "command", "u_frac") == 0.5);
 }
 
-TEST_CASE("N ticks are flown, not one more or less, and whoever asked is answered behind the last") {
+TEST_CASE("exactly N ticks are flown, and the sender is answered after the last") {
   Aloft aloft;
   CHECK(aloft.step(3) == "run.step_without_pause");
   aloft.pace(order(pause));
@@ -140,7 +140,7 @@ TEST_CASE("N ticks are flown, not one more or less, and whoever asked is answere
   CHECK(aloft.now_ns() == then + 404 * tick_ns);
 }
 
-TEST_CASE("what is asked behind a step takes effect behind it, in the order in which it was asked") {
+TEST_CASE("commands after a step take effect after it, in their order") {
   Aloft aloft;
   aloft.pace(order(pause));
   std::promise<std::string> stepped, set;
@@ -150,7 +150,7 @@ TEST_CASE("what is asked behind a step takes effect behind it, in the order in w
   CHECK(set.get_future().get() == "");
   aloft.signal = 1;
   aloft.wait();
-  CHECK(value(aloft.graph(), aloft.flight(), "one", "command", "u_frac") == 0.1);  // of the tick before
+  CHECK(value(aloft.graph(), aloft.flight(), "one", "command", "u_frac") == 0.1);  // of the previous tick
 }
 
 TEST_CASE("a request to a paused flight is answered in the next tick") {
@@ -159,13 +159,14 @@ TEST_CASE("a request to a paused flight is answered in the next tick") {
   std::promise<std::string> promise;
   auto answer = promise.get_future();
   aloft.control().request("watch", "ask", ask(-1), [&](const std::string& why) { promise.set_value(why); });
-  CHECK(aloft.set("0.3") == "");  // was taken behind the request
+  CHECK(aloft.set("0.3") == "");  // was applied after the request
   CHECK(answer.wait_for(std::chrono::milliseconds(10)) == std::future_status::timeout);
   CHECK(aloft.step(1) == "");
   CHECK(answer.get() == "cannot go back");
 }
 
-TEST_CASE("many ticks can be cut short by a pause, by going on, and by the flight's end: how many is told") {
+TEST_CASE(
+    "many ticks can be ended by a pause, by continuing, and by the flight's end: their number is reported") {
   Aloft aloft("  one: {fills: law, use: lab/Law, params: {id: 1, u: 0.1, fault: slow, fault_at: -100 s}}\n" +
               std::string(one_phase));
   aloft.pace(order(pause));
@@ -194,7 +195,7 @@ TEST_CASE("many ticks can be cut short by a pause, by going on, and by the fligh
   CHECK(promise.get_future().get() == "run.flight_ended");
 }
 
-TEST_CASE("a paused flight ends by a signal, and its log is whole") {
+TEST_CASE("a paused flight ends by a signal, and its log is complete") {
   const fs::path log = folder().path / "paused.mcap";
   fs::remove(log);
   Aloft aloft(one_phase, 90, 1, log);
@@ -234,7 +235,7 @@ TEST_CASE(
   CHECK((a == b));
 }
 
-TEST_CASE("a pause is nobody's time, and is not caught up") {
+TEST_CASE("a pause is charged to no component, and is not made up for") {
   Aloft aloft("  one: {fills: law, use: lab/Law, budget: 200 ms, params: {id: 1, u: 0.1}}\n" +
               std::string(with_fallback));
   for (int i = 0; i < 6; ++i) {  // more than the overruns in a row that stop a component
@@ -251,7 +252,7 @@ TEST_CASE("a pause is nobody's time, and is not caught up") {
   CHECK(result.wall.took_s < 1e-9 * static_cast<double>(result.last_ns - result.first_ns) + 1.2);
 }
 
-TEST_CASE("a flight that is hurried flies on as fast as it can, and then in real time again") {
+TEST_CASE("a flight at full speed flies as fast as it can, and then in real time again") {
   Aloft aloft(one_phase, 1e6);
   CHECK(aloft.speed(0) == "");
   CHECK(aloft.view().pace.speed == 0);
@@ -262,7 +263,7 @@ TEST_CASE("a flight that is hurried flies on as fast as it can, and then in real
   CHECK(aloft.end().outcome == Outcome::interrupted);
 }
 
-TEST_CASE("on hardware nothing of that is possible, and each says so") {
+TEST_CASE("on hardware none of that is possible, and each command reports it") {
   const Graph g =
       mission("  fcu: {fills: vehicle, use: lab/Cart}\n" + std::string(one_phase) + watched + "io: fcu\n");
   FlightOptions o = options(1);
@@ -287,7 +288,7 @@ TEST_CASE("on hardware nothing of that is possible, and each says so") {
               "run.hardware_pace_fixed(an aircraft cannot be put back to where it began)"));
 }
 
-TEST_CASE("a flight makes room for another one as it ends otherwise: its log is whole, who asked is told") {
+TEST_CASE("a flight ends for another one in the usual way: its log is complete, the sender is answered") {
   for (const bool paused : {false, true}) {
     CAPTURE(paused);
     const fs::path log = folder().path / "room.mcap";
@@ -312,7 +313,7 @@ TEST_CASE("a flight makes room for another one as it ends otherwise: its log is 
   }
 }
 
-TEST_CASE("of two who ask for another flight at once one gets it, and the other is told") {
+TEST_CASE("of two requests for another flight at once one is accepted, and the other is answered") {
   Aloft aloft;
   std::promise<std::string> first, second;
   aloft.pace(order(pause));
@@ -330,7 +331,7 @@ TEST_CASE("of two who ask for another flight at once one gets it, and the other 
   CHECK(aloft.flight().restart()->seed == 3u);
 }
 
-TEST_CASE("a flight whose owner begins no other refuses to make room, and flies on") {
+TEST_CASE("a flight whose owner begins no other rejects the request, and continues") {
   const Graph g = mission(std::string(one_phase) + watched);
   FlightOptions o = options(1);
   o.speed = 1;
@@ -340,7 +341,7 @@ TEST_CASE("a flight whose owner begins no other refuses to make room, and flies 
   CHECK(flight.step());
 }
 
-TEST_CASE("a flight that is asked before its first tick makes room behind it") {
+TEST_CASE("a flight that gets the request before its first tick ends after it") {
   const Graph g = mission(std::string(one_phase) + watched);
   FlightOptions o = options(1);
   o.speed = 1;
@@ -352,7 +353,7 @@ TEST_CASE("a flight that is asked before its first tick makes room behind it") {
   CHECK((flight.restart() && !flight.restart()->seed));
 }
 
-TEST_CASE("ticks and speeds are read whole, and what is none is told with what would be") {
+TEST_CASE("ticks and speeds are read exactly, and an invalid one is reported with the valid ones") {
   CHECK(step_order("400").ticks == 400);
   CHECK(speed_order("real").speed == 1);
   CHECK(speed_order("max").speed == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When phases change, and what whoever begins in one of them begins with.
+// Changes of phases, and the initial state of components that begin in one.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace phases_test {
 
 namespace {
 
-/// The laboratory's mission with a role more, which two watches can fill.
+/// The laboratory's mission with one more role, which two watches can fill.
 Graph with_watches(const std::string& phases) {
   std::string text = base;
   const std::string vehicle = "  vehicle:";
@@ -39,7 +39,7 @@ TEST_CASE("a condition holds for its time without a break") {
   CHECK(r.phases[1].from_ns == 450'000'000);
 }
 
-TEST_CASE("a transition from anywhere that was made has to hold for its time again") {
+TEST_CASE("a transition from anywhere that was made must hold for its time again") {
   const Graph g = mission(
       "phases:\n"
       "  any: {next: [{to: b, when: \"vehicle.status.armed\", for: 0.1 s}]}\n"
@@ -52,7 +52,7 @@ TEST_CASE("a transition from anywhere that was made has to hold for its time aga
   CHECK(r.phases[3].from_ns >= 300'000'000);
 }
 
-TEST_CASE("how long a condition has held is counted from the beginning of its phase") {
+TEST_CASE("the time of a condition counts from the beginning of its phase") {
   const Graph g = mission(
       "phases:\n"
       "  any: {next: [{to: b, when: \"vehicle.signal.tick_s >= 0.2 s and vehicle.signal.tick_s < 0.205 "
@@ -66,7 +66,7 @@ TEST_CASE("how long a condition has held is counted from the beginning of its ph
   CHECK(r.phases[2].from_ns >= 500'000'000);
 }
 
-TEST_CASE("who begins has not lost what came to its queue while another one flew") {
+TEST_CASE("a component that begins has the samples that came to its queue while another was active") {
   const Graph g = with_watches(back_and_forth);
   Flight flight(g, options(0.2));
   flight.run();
@@ -75,7 +75,7 @@ TEST_CASE("who begins has not lost what came to its queue while another one flew
   CHECK(value(g, flight, "w2", "tally", "samples_ratio") == 3 * 40);
 }
 
-TEST_CASE("the first step after an absence is a tick long, not the absence") {
+TEST_CASE("dt of the first step after a pause is one period, not the pause") {
   const Graph g = with_watches(back_and_forth);
   Flight flight(g, options(0.4));
   double max_s = 0;
@@ -84,7 +84,7 @@ TEST_CASE("the first step after an absence is a tick long, not the absence") {
   CHECK(max_s == doctest::Approx(0.0025));
 }
 
-TEST_CASE("a phase lays its parameters over the vehicle's, from its first tick to its last") {
+TEST_CASE("a phase overlays the vehicle's parameters, from its first tick to its last") {
   const Graph g = mission(
       "phases:\n"
       "  first:  {law: one, vehicle: {set: {burst_size: 1}}, next: [{to: second, when: \"time >= 0.1 s\"}]}\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host that is started again while its aircraft flies: what it takes from the log of its predecessor.
+// A host that is started again while its aircraft flies: the state that it takes from its predecessor's log.
 #include "core/run/state/resume.hpp"
 #include "core/run/test/commands.hpp"
 #include "core/run/test/craft.hpp"
@@ -13,7 +13,7 @@ const std::string two_phases =
     "phases:\n  first: {next: [{to: second, when: \"vehicle.status.tick_s > 0.2 s\"}]}\n"
     "  second: {next: [{to: first, when: \"vehicle.status.tick_s > 1000 s\"}]}\n";
 
-/// The log of a host that was gone at `t_s` of the flight; what is in the file then, no more.
+/// The log of a host that ended at `t_s` of the flight: the content of the file at that time.
 fs::path cut_log(const Graph& g, double t_s) {
   const fs::path whole = folder().path / "whole.mcap", cut = folder().path / "cut.mcap.part";
   fs::remove(whole);
@@ -32,7 +32,7 @@ fs::path cut_log(const Graph& g, double t_s) {
 
 }  // namespace
 
-TEST_CASE("what a cut-off log says of phase, fields and arming is what the flight was then") {
+TEST_CASE("a truncated log gives the phase, fields and arming of its time") {
   const Graph g = craft(two_phases);
   const Resume r = read_resume(g, cut_log(g, 6));
   CHECK(r.phase == "second");
@@ -45,7 +45,7 @@ TEST_CASE("what a cut-off log says of phase, fields and arming is what the fligh
   CHECK_FALSE(read_resume(early, cut_log(early, 6)).armed);
 }
 
-TEST_CASE("a log that does not fit is refused with a sentence; a field that it does not hold is told") {
+TEST_CASE("a log that does not fit is rejected with a sentence; a missing field is reported") {
   const Graph g = craft(two_phases);
   const fs::path log = cut_log(g, 3);
   const auto fault = [&](const Graph& other) {
@@ -104,7 +104,7 @@ TEST_CASE(
 
 namespace {
 
-/// The flight goes on in the second phase, with a parameter that the first one lays another value over.
+/// The flight resumes in the second phase, with a parameter that the first one overlays with another value.
 Resume into_second(double heirloom) {
   Resume resume;
   resume.phase = "second";
@@ -119,7 +119,7 @@ const std::string overlaid_first =
 
 }  // namespace
 
-TEST_CASE("a flight that resumes flies with the overlay of the phase in which it goes on, not of the first") {
+TEST_CASE("a flight that resumes has the overlay of its present phase, not of the first") {
   const Graph g = craft(overlaid_first);
   Said said;
   FlightOptions o = listening(said);
@@ -130,7 +130,8 @@ TEST_CASE("a flight that resumes flies with the overlay of the phase in which it
   CHECK(applied(g, flight) == doctest::Approx(0.4));
 }
 
-TEST_CASE("a parameter of a log that cannot be set any more is told, and the flight goes on without it") {
+TEST_CASE(
+    "a parameter of a log that cannot be set any more is reported, and the flight continues without it") {
   const Graph g = craft(overlaid_first);
   Said said;
   FlightOptions o = listening(said);
@@ -140,12 +141,12 @@ TEST_CASE("a parameter of a log that cannot be set any more is told, and the fli
   CHECK(fly_until(flight, 1));
   CHECK(flight.phase() == "second");
   CHECK(said.count("run.phase_entered(") + said.count("run.resumed(phase ") ==
-        3);  // the first, what is resumed, and the second: all in the first tick
+        3);  // the first, the resumed one, and the second: all in the first tick
   CHECK(said.count("law_a: run.not_resumed(run.value_out_of_range(law_a, heirloom, 7, ") == 1);
   CHECK(applied(g, flight) == doctest::Approx(1).epsilon(0.01));
 }
 
-TEST_CASE("the newest log of a mission is found, cut off or whole, unless it is too old") {
+TEST_CASE("the newest log of a mission is found, truncated or complete, unless it is too old") {
   const fs::path place = folder().path / "newest";
   fs::create_directories(place);
   Graph g = craft(two_phases);
@@ -169,7 +170,7 @@ TEST_CASE("the newest log of a mission is found, cut off or whole, unless it is 
   CHECK(newest_log(g, 600).filename() == "run-3.mcap");
 }
 
-TEST_CASE("a log elsewhere is found when it is noted, and is taken before an older one in the usual place") {
+TEST_CASE("a noted log in another folder is found, and is preferred to an older one in the default folder") {
   const fs::path place = folder().path / "noted", elsewhere = folder().path / "elsewhere";
   fs::create_directories(place);
   fs::create_directories(elsewhere);
@@ -190,8 +191,8 @@ TEST_CASE("a log elsewhere is found when it is noted, and is taken before an old
   CHECK(newest_log(g, 600).filename() == "run-2.mcap");
 }
 
-TEST_CASE("the second in which an aircraft may turn out to fly begins when its vehicle speaks") {
-  for (const std::string lift_at : {"1.3", "1.9"}) {  // it speaks from 0.8 s on
+TEST_CASE("the second in which an aircraft may turn out to fly begins with its vehicle's first sample") {
+  for (const std::string lift_at : {"1.3", "1.9"}) {  // its first sample is at 0.8 s
     CAPTURE(lift_at);
     const fs::path file = folder().path / "late.yaml";
     std::ofstream(file)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ring under stress: what comes out is what went in, in order, whatever the sizes and wherever the memory
-// wraps.
+// The ring under stress: records come out as they were written, in order, for any size and any wrap of the
+// memory.
 #include "core/run/component/ring.hpp"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ using fulmar::core::Ring;
 
 namespace {
 
-/// Message i: a size and bytes that follow from i alone.
+/// Message i: its size and bytes follow from i alone.
 std::size_t size_of_message(std::uint64_t i) { return 1 + (i * 2654435761u) % 700; }
 std::byte byte_of_message(std::uint64_t i, std::size_t k) { return static_cast<std::byte>(i * 31 + k * 7); }
 
@@ -61,7 +61,7 @@ TEST_CASE("a ring hands over 100000 messages of mixed sizes while the producer w
   CHECK(good == n);
 }
 
-TEST_CASE("a full ring refuses, and takes again when the consumer has made room; nothing refused comes out") {
+TEST_CASE("a full ring rejects, and accepts again after a read; no rejected record comes out") {
   Ring ring(4096, 701);
   std::uint64_t pushed = 0, taken = 0;
   for (int round = 0; round < 1000; ++round) {
@@ -80,7 +80,7 @@ TEST_CASE("a full ring refuses, and takes again when the consumer has made room;
   CHECK(taken > 2000);
 }
 
-TEST_CASE("a ring asked to be too small for its messages grows until it holds four") {
+TEST_CASE("a ring that is too small for its messages grows until it holds four") {
   const Ring ring(64, 100'000);
   CHECK(ring.capacity() >= 400'000);
 }
@@ -95,7 +95,7 @@ TEST_CASE("of equal step times every quantile is that time, and the least of sev
   CHECK(several.quantile_us(1) == doctest::Approx(1));
 }
 
-TEST_CASE("a ring that has been read empty has all its room again") {
+TEST_CASE("a ring that has been read completely has all its room again") {
   Ring ring(4096, 64);
   const std::vector<std::byte> bytes(64 - sizeof(Ring::Record));
   REQUIRE(ring.push({}, bytes.data(), bytes.size()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rows of docs/safety.md, made to happen in flight: what a component does wrong, in the loop and in a
-// child, and what the host does.
+// The rows of docs/safety.md in flight: faults of a component, in the loop and in a child, and the action of
+// the host.
 #include <unistd.h>
 
 #include <cfenv>
@@ -16,7 +16,7 @@ namespace {
 
 struct Row {
   const char* fault;
-  const char* reported;  // in the guard's words
+  const char* reported;  // text of the guard event
   bool in_loop;          // the loop survives it without a child
   bool paced = false;
   bool own_affair = false;  // of a child
@@ -45,7 +45,7 @@ std::string law(const Row& row, bool isolated) {
          "params: {id: 1, u: 0.1, fault: " + row.fault + ", fault_at: 0.1 s}}\n" + with_fallback;
 }
 
-/// At the tick after the fault the cart has got a command of the fallback, and the flight goes on to its end.
+/// At the tick after the fault the cart has a command of the fallback, and the flight continues to its end.
 void check_fallback(const Row& row, bool isolated) {
   CAPTURE(row.fault);
   CAPTURE(isolated);
@@ -53,12 +53,12 @@ void check_fallback(const Row& row, bool isolated) {
   FlightOptions o = options(0.3);
   if (row.paced || std::string(row.fault) == "hangs") o.speed = 20;
   Flight flight(g, o);
-  const int first = static_cast<int>(1.1 * 400);  // the tick at which the law misbehaves
+  const int first = static_cast<int>(1.1 * 400);  // the tick of the law's fault
   for (int i = 0; i <= first; ++i) REQUIRE(flight.step());
   REQUIRE(flight.step());
   CHECK(value(g, flight, "sim", "applied", "present") == 1);
   CHECK(value(g, flight, "sim", "applied", "u_frac") == 0.2);
-  CHECK(value(g, flight, "sim", "applied", "seen_m") == first);  // of that very tick: nothing was missed
+  CHECK(value(g, flight, "sim", "applied", "seen_m") == first);  // of that tick: none was missed
   while (flight.step()) {
   }
   const FlightResult r = flight.finish();
@@ -79,7 +79,7 @@ auto handler_of(int signal) {
 
 }  // namespace
 
-TEST_CASE("in the loop: whatever a step says or throws, the fallback flies in the same tick") {
+TEST_CASE("in the loop: after any fault of a step the fallback flies in the same tick") {
   for (const Row& row : rows)
     if (row.in_loop) check_fallback(row, false);
 }
@@ -91,7 +91,7 @@ TEST_CASE(
     if ((FULMAR_CRASH_TESTS || row.in_loop) && !row.own_affair) check_fallback(row, true);
 }
 
-TEST_CASE("what a component tries to change for everybody stays as it was") {
+TEST_CASE("process-wide state that a component tries to change stays as it was") {
   sigset_t before, after;
   pthread_sigmask(SIG_SETMASK, nullptr, &before);
   for (const char* const fault : {"rounds", "narrows", "masks", "deafens", "listens"}) {
@@ -111,12 +111,12 @@ TEST_CASE("what a component tries to change for everybody stays as it was") {
   }
 }
 
-TEST_CASE("what a component has forked is not the host, and may do as it likes") {
+TEST_CASE("a process that a component has forked is not the host, and is unrestricted") {
   const Graph g = mission(law({"fosters", "", true}, false));
   CHECK(Flight(g, options(0.11)).run().guards.empty());
 }
 
-TEST_CASE("an output that is dated in the future, or before any flight, is a bad output") {
+TEST_CASE("an output with a stamp in the future, or before any flight, is an invalid output") {
   struct Stamp {
     const char* ahead;
     bool good;
@@ -151,7 +151,7 @@ TEST_CASE("a component that forks in flight is stopped, in the loop, beside it a
     }
 }
 
-TEST_CASE("a component beside the loop may start a process, as it may take its time") {
+TEST_CASE("a component beside the loop may start a process, because it may take longer") {
   const Graph g = mission(
       "  one: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {id: 1, u: 0.1, fault: spawns, "
       "fault_at: 0.1 s}}\n"s +
@@ -160,7 +160,7 @@ TEST_CASE("a component beside the loop may start a process, as it may take its t
   CHECK(flight.run().guards.empty());
 }
 
-TEST_CASE("a thread of its own in which a component changes the floating-point mode is judged alike") {
+TEST_CASE("a component that changes the floating-point mode in its own thread is judged alike") {
   const Graph g = mission(
       "  one: {fills: law, use: lab/Law, run: async, latency: 10 ms, params: {id: 1, u: 0.1, fault: rounds, "
       "fault_at: 0.1 s}}\n"s +
@@ -196,7 +196,8 @@ TEST_CASE("a step over its budget five times in a row, paced: the fallback takes
   for (const bool isolated : {false, true}) {
     CAPTURE(isolated);
     const Graph g = mission("  one: {fills: law, use: lab/Law, budget: 500 us, "s +
-                            (isolated ? "run: process, hang: 10 s, " : "") +  // a loaded machine is no hang
+                            (isolated ? "run: process, hang: 10 s, " : "") +  // a loaded machine must not
+                                                                              // count as a hang
                             "params: {fault: slow, fault_at: 0.1 s}}\n" + with_fallback);
     FlightOptions o = options(0.3);
     o.speed = 4;
@@ -209,7 +210,7 @@ TEST_CASE("a step over its budget five times in a row, paced: the fallback takes
   }
 }
 
-TEST_CASE("a step over its budget now and then is counted, and stops nobody") {
+TEST_CASE("a step over its budget now and then is counted, and stops no component") {
   const Graph g = mission(
       "  one: {fills: law, use: lab/Law, budget: 500 us, params: {fault: stutters}}\n"s + with_fallback,
       {{"one.fault_at", "0"}});
@@ -223,7 +224,7 @@ TEST_CASE("a step over its budget now and then is counted, and stops nobody") {
     if (c.name == "one") CHECK(c.overruns > 10);
 }
 
-TEST_CASE("a parameter that its component refuses leaves it with that of before") {
+TEST_CASE("a component that rejects a parameter keeps the previous value") {
   const Graph g = mission(one_phase);
   Flight flight(g, options(0.2));
   for (int i = 0; i < 10; ++i) REQUIRE(flight.step());

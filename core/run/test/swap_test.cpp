@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A component's file is swapped on the ground, in a host that goes on: parameters stay, a bad newcomer leaves
-// the old one flying-ready.
+// A component's file is swapped on the ground, in a host that continues: parameters stay, and after a failed
+// swap the old component can still fly.
 #include "core/log/test/read_mcap.hpp"
 #include "core/run/command/swap_checks.hpp"
 #include "core/run/test/commands.hpp"
@@ -11,7 +11,7 @@ namespace swap_test {
 
 namespace {
 
-// The cart arms itself at its first tick and says so from time 0 on: before that it stands on the ground.
+// The cart arms itself at its first tick and reports it from time 0 on: before that it stands on the ground.
 struct Ground {
   Graph graph;
   FlightOptions o = options(0.2);
@@ -41,7 +41,7 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 }  // namespace
 
-TEST_CASE("a swapped law flies with the parameters, overlays and live changes of before") {
+TEST_CASE("a swapped law flies with the previous parameters, overlays and live changes") {
   Ground ground(mission("phases:\n  wait: {law: {use: one, set: {id: 7}}, next: [{to: fly, when: "
                         "\"vehicle.status.armed\"}]}\n  fly: {law: one}\n"),
                 true);
@@ -52,7 +52,7 @@ TEST_CASE("a swapped law flies with the parameters, overlays and live changes of
   CHECK(ground.u() == 0.4);
   swap(*ground.flight, "one", variant("_better"));
   ground.flight->step();
-  CHECK(ground.u() == 0.2);  // the better law halves what it is told
+  CHECK(ground.u() == 0.2);  // the better law halves its input
   CHECK(value(ground.graph, *ground.flight, "one", "command", "by") == 7);
   while (ground.flight->step()) {
   }
@@ -69,7 +69,7 @@ TEST_CASE("a swapped law flies with the parameters, overlays and live changes of
   CHECK(reported);
 }
 
-TEST_CASE("a swap that cannot be is refused in a sentence, and the old law flies on") {
+TEST_CASE("an impossible swap is rejected in a sentence, and the old law flies on") {
   Ground ground(mission(one_phase));
   CHECK(has(ground.refused(variant("_wild")), "output 'command': types.value_not_finite(u_frac, nan)"));
   CHECK(has(ground.refused(variant("_throwing")), "no law today"));
@@ -97,7 +97,7 @@ TEST_CASE("a swap that cannot be is refused in a sentence, and the old law flies
   CHECK(r.outcome == Outcome::flown);
 }
 
-TEST_CASE("a swap tells which values it keeps, which parameters are new, and which are gone") {
+TEST_CASE("a swap reports the values that it keeps, the new parameters, and the removed ones") {
   Ground ground(mission(one_phase), true);
   swap(*ground.flight, "one", variant("_wider"));
   ground.flight->step();
@@ -113,7 +113,7 @@ TEST_CASE("a swap tells which values it keeps, which parameters are new, and whi
   CHECK(reported.ends_with(", ; , " + words + ")"));
 }
 
-TEST_CASE("what a swap did to the parameters: values that both have by default are not worth a word") {
+TEST_CASE("a swap does not report values that both have by default") {
   const auto number = [](const char* name, double initial) {
     ParamInfo p;
     p.name = name;
@@ -133,7 +133,7 @@ TEST_CASE("what a swap did to the parameters: values that both have by default a
   CHECK(parameter_words(old, values, fresh, into) ==
         "run.parameters_kept(run.parameter_default_changed(law_gain, 7 s, 5 s)); "
         "run.parameters_added(bank = 4 s); run.parameters_removed(lead)");
-  into[0].number[0] = 7;  // the mission says 7: nothing is kept that it would not have
+  into[0].number[0] = 7;  // the mission sets 7: nothing else is kept
   CHECK(parameter_words(old, values, fresh, into) ==
         "run.parameters_added(bank = 4 s); run.parameters_removed(lead)");
   CHECK(parameter_words(old, values, old, values) == "");
@@ -156,13 +156,13 @@ TEST_CASE("nothing is swapped while armed, and never the vehicle") {
   CHECK(ground.u() == 0.1);
 }
 
-TEST_CASE("what the mission says of a swapped component is found in the newcomer, wherever it has it") {
+TEST_CASE("ports that the mission names are found in the new component, at any index") {
   Ground ground(mission(
       "phases:\n"
       "  wait: {law: {use: one, set: {u: 0.9}}, next: [{to: fly, when: \"law.command.u_frac < 0\"}, "
       "{to: fly, when: \"vehicle.status.armed\"}]}\n"
       "  fly:  {law: {use: one, set: {u: 0.6}}, next: [{to: wait, when: \"law.command.by == 8\"}]}\n"));
-  swap(*ground.flight, "one", variant("_wider"));  // a parameter more, in front
+  swap(*ground.flight, "one", variant("_wider"));  // one more parameter, in front
   REQUIRE(ground.flight->step());
   CHECK(ground.u() == 0.9);
   CHECK(ground.flight->phase() == "wait");
@@ -171,7 +171,7 @@ TEST_CASE("what the mission says of a swapped component is found in the newcomer
   CHECK(ground.u() == 0.6);
 }
 
-TEST_CASE("each condition on the flight reads the newcomer's output, wherever it has it") {
+TEST_CASE("each condition on the flight reads the new component's output, at any index") {
   const std::string done = "done: \"vehicle.signal.tick_s > 0.1 s\"\n";
   for (const std::string key : {"flown", "failed"}) {
     CAPTURE(key);
@@ -183,7 +183,7 @@ TEST_CASE("each condition on the flight reads the newcomer's output, wherever it
   }
 }
 
-TEST_CASE("a choice is carried over while its words are the same, a number while it is in range") {
+TEST_CASE("a choice is kept while its labels are the same, a number while it is in range") {
   ComponentInfo old;
   ParamInfo choice{}, number{};
   choice.name = "law";
@@ -226,7 +226,7 @@ TEST_CASE("many swaps leave nothing behind") {
   }
 }
 
-TEST_CASE("a child that has died is started anew on the ground, and never in the air") {
+TEST_CASE("a child that has died is started again on the ground, and never in the air") {
   if (!FULMAR_CRASH_TESTS) return;
   const auto said_after_reset = [](const char* fault_at, std::int64_t until_ns) {
     const Graph g =
@@ -251,7 +251,7 @@ TEST_CASE("a child that has died is started anew on the ground, and never in the
     const bool on_ground = until_ns < 0;
     enter_phase(flight, "fly");
     for (int i = 0; i < 2; ++i) REQUIRE(flight.step());
-    if (on_ground) CHECK(value(g, flight, "one", "command", "u_frac") == 0.3);  // as set since
+    if (on_ground) CHECK(value(g, flight, "one", "command", "u_frac") == 0.3);  // as set since then
     return reported;
   };
   CHECK(has(said_after_reset("-0.5 s", -400'000'000), "one: run.guard_reset"));
@@ -269,7 +269,7 @@ TEST_CASE("after a swap elsewhere a role's filler that is stopped is lost in the
   CHECK(r.guards[1].at_ns == r.guards[0].at_ns);
 }
 
-TEST_CASE("after a swap nobody reads zeros where a wire carries the tick before") {
+TEST_CASE("after a swap no component reads zeros where a wire carries the previous tick") {
   Ground ground(
       mission("  ear: {use: lab/Filter, in: {signal: {from: sense.signal, delayed: true}}}\n"s + one_phase));
   const auto heard = [&] { return value(ground.graph, *ground.flight, "ear", "signal", "x_m"); };
@@ -283,11 +283,11 @@ TEST_CASE("after a swap nobody reads zeros where a wire carries the tick before"
   CHECK(heard() > before);
 }
 
-TEST_CASE("a second swap does not undo what the first one changed in the mission") {
+TEST_CASE("a second swap does not undo the first one's changes of the mission") {
   Ground ground(
       mission("phases:\n  wait: {law: {use: one, set: {u: 0.9}}, next: [{to: fly, when: "
               "\"vehicle.status.armed\"}]}\n  fly:  {law: {use: one, fallback: two, set: {u: 0.6}}}\n"));
-  swap(*ground.flight, "one", variant("_wider"));  // a parameter more, in front
+  swap(*ground.flight, "one", variant("_wider"));  // one more parameter, in front
   swap(*ground.flight, "two", variant("_better"));
   REQUIRE(ground.flight->step());
   CHECK(ground.u() == 0.9);
@@ -295,7 +295,7 @@ TEST_CASE("a second swap does not undo what the first one changed in the mission
   CHECK(ground.u() == 0.6);
 }
 
-TEST_CASE("what a swapped component is asked is in the log, as what the one before was asked") {
+TEST_CASE("requests to a swapped component are in the log, like those to its predecessor") {
   Ground ground(mission(one_phase), true);
   request(*ground.flight, "watch", "ask", 1.0);
   REQUIRE(ground.flight->step());
@@ -310,7 +310,7 @@ TEST_CASE("what a swapped component is asked is in the log, as what the one befo
                       [&](const McapFile::Message& m) { return m.channel == asked; }) == 2);
 }
 
-TEST_CASE("a tape keeps the stamps of a queue with its items, whatever comes into their place in the port") {
+TEST_CASE("a tape keeps the stamps of a queue with its items when the port's content changes") {
   const Graph g = mission(one_phase);
   const Component* const watch = find_named(g.components, "watch");
   REQUIRE(watch != nullptr);
